@@ -1,0 +1,216 @@
+//! How a built-in is declared.
+
+use super::types::{Base, Family};
+use crate::ast::Unit;
+
+/// An instruction or a function.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Kind {
+    /// Called as `name(arguments)`.
+    Function,
+    /// Written as `name label:value, ...`.
+    Instruction,
+}
+
+/// What an entry does to the program that uses it.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Effect {
+    /// A function of its arguments alone: the runtime's function takes no context.
+    Pure,
+    /// Looks at or changes the controller at once: the runtime's function takes the context and does not wait.
+    Acts,
+    /// Plans motion: waits only while the look-ahead is full.
+    Plans,
+    /// Waits until all earlier motion has ended, and maybe longer. Stops the look-ahead.
+    Waits,
+    /// Ends the program or starts it again.
+    Ends,
+}
+
+/// Whether an entry runs yet.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Status {
+    /// It runs.
+    Works,
+    /// It is declared and checked; using it is a compile error.
+    NotYet,
+}
+
+/// The values a parameter takes.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum ParamType {
+    /// A value of this type (or one that converts to it).
+    One(Base),
+    /// An array of this type, of any length and one dimension.
+    Array(Base),
+    /// A value of any of these types, without conversion.
+    AnyOf(&'static [Base]),
+    /// A value of any type but a handle: `tostr`, `typeof`, `print`.
+    Any,
+}
+
+/// How a parameter is passed.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Mode {
+    /// The value.
+    In,
+    /// A variable that is written (and maybe read).
+    Out,
+    /// An expression that is evaluated again and again: `waituntil`, `when:`.
+    Condition,
+    /// An expression that is evaluated when an event comes: `do:`.
+    Action,
+}
+
+/// Whether a parameter must be there.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Presence {
+    /// Once.
+    Required,
+    /// At most once; the runtime gets an `Option` (functions) or does not get the call (instructions).
+    Optional,
+    /// At most once; this ARL text stands in where it is missing.
+    Default(&'static str),
+    /// Any number of times, in order (`print`'s values); the number is the least count.
+    Repeat {
+        /// The least number of values.
+        min: u8,
+        /// The greatest number of values.
+        max: u8,
+    },
+}
+
+/// A parameter.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Param {
+    /// Its label in the manual's spelling.
+    pub name: &'static str,
+    /// Other labels that are accepted.
+    pub aliases: &'static [&'static str],
+    /// The name of the builder's method for it (instructions); the folded name as a rule.
+    pub rust: &'static str,
+    /// What it takes.
+    pub ty: ParamType,
+    /// How it is passed.
+    pub mode: Mode,
+    /// Whether it must be there.
+    pub presence: Presence,
+    /// Whether it may stand without its label.
+    pub bare: bool,
+    /// Units that may follow a number here; the value itself is in the first one.
+    pub units: &'static [Unit],
+    /// The least and greatest constant that make sense; values beyond are an error where known.
+    pub range: Option<(f64, f64)>,
+    /// What it means, with its unit and what happens without it.
+    pub doc: &'static str,
+}
+
+/// A built-in instruction or function. Overloads of a name stand one after the other.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Entry {
+    /// Its name in the manual's spelling.
+    pub name: &'static str,
+    /// Other spellings that are accepted.
+    pub aliases: &'static [&'static str],
+    /// Instruction or function.
+    pub kind: Kind,
+    /// The parameters in the order of the manual's format line.
+    pub params: &'static [Param],
+    /// Groups of parameters of which at most one may be given.
+    pub exclusive: &'static [&'static [&'static str]],
+    /// The type of the result.
+    pub result: Base,
+    /// The family, where it exists for one family only.
+    pub family: Option<Family>,
+    /// What it does to the program.
+    pub effect: Effect,
+    /// Whether the runtime's function returns a `Result` (an alarm is possible).
+    pub fails: bool,
+    /// Whether it may run in a background channel.
+    pub background: bool,
+    /// The runtime's function, below `arl_rt`: `math::sqrt`.
+    pub path: &'static str,
+    /// Whether it runs yet.
+    pub status: Status,
+    /// One sentence or two.
+    pub doc: &'static str,
+    /// Section of the manual.
+    pub section: &'static str,
+    /// A program fragment (statements of a `main`) that uses it.
+    pub example: &'static str,
+}
+
+/// Who may write a system variable.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Access {
+    /// Programs may.
+    ReadWrite,
+    /// The controller only: writing it is a compile error.
+    ReadOnly,
+}
+
+/// When a system variable goes back to its default.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Restore {
+    /// At a program reset (and at start-up): section 10.2.
+    Reset,
+    /// At start-up, to what `savesv` saved last: section 10.1.
+    Saved,
+    /// Never: every change is kept.
+    Permanent,
+    /// At start-up only.
+    Startup,
+}
+
+/// A system variable or constant, used as `$NAME`.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct SystemVariable {
+    /// Its name without `$`, in the manual's spelling.
+    pub name: &'static str,
+    /// Other spellings that are accepted.
+    pub aliases: &'static [&'static str],
+    /// The type of the elements.
+    pub ty: Base,
+    /// Array sizes; empty for a scalar.
+    pub dims: &'static [u32],
+    /// Who may write it.
+    pub access: Access,
+    /// The least and greatest value; beyond is an alarm.
+    pub range: Option<(f64, f64)>,
+    /// When it goes back to its default.
+    pub restore: Restore,
+    /// Its default, as ARL text.
+    pub default: &'static str,
+    /// The field of the runtime's system variables (`cx.system().field`).
+    pub field: &'static str,
+    /// Whether it works yet.
+    pub status: Status,
+    /// What it means, with its unit.
+    pub doc: &'static str,
+    /// Section of the manual.
+    pub section: &'static str,
+    /// A program fragment (statements of a `main`) that uses it.
+    pub example: &'static str,
+}
+
+/// A constant with a plain name: `PI`, `endl`.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Constant {
+    /// Its name.
+    pub name: &'static str,
+    /// Its value.
+    pub value: ConstantValue,
+    /// What it means.
+    pub doc: &'static str,
+    /// Section of the manual.
+    pub section: &'static str,
+}
+
+/// The value of a constant.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum ConstantValue {
+    /// A number.
+    Double(f64),
+    /// A text.
+    String(&'static str),
+}

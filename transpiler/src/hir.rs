@@ -1,0 +1,422 @@
+//! The checked program: names resolved, types known, conversions explicit, arguments bound, constants folded.
+//!
+//! Invariants that the emitter relies on:
+//! - every `Expr::ty` is what the value has; operands of an operator have the type that the operator works on
+//!   (shifts: the left operand's type and an `int` count), so an implicit conversion is always a `Convert` node;
+//! - `Assign` and `AssignOp` values have the type of their place; call arguments the type of their parameter;
+//! - conditions are `bool`;
+//! - indices are `int`, as many as the array has dimensions; constant ones are in range;
+//! - a built-in's arguments stand in source order, each parameter's presence is respected, defaults are filled in;
+//! - nothing marked "not supported yet" is left.
+
+use arl_lang::ast::{BinaryOp, Step, UnaryOp};
+use arl_lang::catalog::{Base, Entry, Enum, Family, Struct, SystemVariable};
+use arl_lang::span::Span;
+
+/// Index of a module in [`Program::modules`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct ModuleId(pub u32);
+
+/// Index of a global variable in [`Program::globals`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct GlobalId(pub u32);
+
+/// Index of a function in [`Program::funcs`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct FuncId(pub u32);
+
+/// Index of a local variable in [`Func::locals`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct LocalId(pub u32);
+
+/// Index of a label in [`Func::labels`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct LabelId(pub u32);
+
+/// Most dimensions an array may have.
+pub const MAX_DIMS: usize = 8;
+
+/// A type: a base type, or an array of one.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct Type {
+    /// The type of a scalar or of the elements.
+    pub base: Base,
+    count: u8,
+    sizes: [u16; MAX_DIMS],
+}
+
+impl Type {
+    /// A type without dimensions.
+    pub const fn scalar(base: Base) -> Self {
+        Self { base, count: 0, sizes: [0; MAX_DIMS] }
+    }
+
+    /// An array type; `None` beyond [`MAX_DIMS`] dimensions or sizes beyond 65535.
+    pub fn array(base: Base, dims: &[u32]) -> Option<Self> {
+        let mut ty = Self::scalar(base);
+        for size in dims {
+            *ty.sizes.get_mut(ty.count as usize)? = u16::try_from(*size).ok()?;
+            ty.count += 1;
+        }
+        Some(ty)
+    }
+
+    /// The sizes of the dimensions; empty for a scalar.
+    pub fn dims(&self) -> &[u16] {
+        self.sizes.get(..self.count as usize).unwrap_or(&[])
+    }
+
+    /// Whether it is an array.
+    pub const fn is_array(&self) -> bool {
+        self.count > 0
+    }
+
+    /// How many elements it has: 1 for a scalar.
+    pub fn len(&self) -> usize {
+        self.dims().iter().map(|size| *size as usize).product()
+    }
+
+    /// The type of one element.
+    pub const fn element(&self) -> Type {
+        Type::scalar(self.base)
+    }
+}
+
+/// A checked program: one file with a `main` and everything that it uses.
+#[derive(Debug)]
+pub struct Program {
+    /// The name of the main module.
+    pub name: String,
+    /// The robot family it was checked for.
+    pub family: Family,
+    /// The modules; the main module is the first.
+    pub modules: Vec<Module>,
+    /// All global variables, in the order in which they get their first values.
+    pub globals: Vec<Global>,
+    /// All functions.
+    pub funcs: Vec<Func>,
+    /// `main`; absent only in libraries and macro fragments.
+    pub main: Option<FuncId>,
+}
+
+/// One source file.
+#[derive(Debug)]
+pub struct Module {
+    /// The file name without `.arl`, folded: a Rust identifier unless it is a Rust keyword.
+    pub name: String,
+    /// The file as it is shown to users.
+    pub file: String,
+    /// The text.
+    pub source: String,
+    /// Whether it is a `_data.arl` file, whose literal values are read again at load.
+    pub data: bool,
+}
+
+/// A global variable.
+#[derive(Debug)]
+pub struct Global {
+    /// The name, folded.
+    pub name: String,
+    /// The module that declares it.
+    pub module: ModuleId,
+    /// Its type.
+    pub ty: Type,
+    /// Whether it is `const`.
+    pub constant: bool,
+    /// The value of a `const` scalar whose initialiser is constant.
+    pub value: Option<Value>,
+    /// The initialiser.
+    pub init: Option<Expr>,
+    /// For variables of a data module: whether the initialiser is made of literals only, so that it can be re-taught.
+    pub teachable: bool,
+    /// The name in its declaration.
+    pub span: Span,
+}
+
+/// A function.
+#[derive(Debug)]
+pub struct Func {
+    /// The name, folded.
+    pub name: String,
+    /// The module that defines it.
+    pub module: ModuleId,
+    /// The parameters: the first locals.
+    pub params: Vec<LocalId>,
+    /// All local variables, parameters first.
+    pub locals: Vec<Local>,
+    /// The labels that `goto` may name.
+    pub labels: Vec<Label>,
+    /// The type of the result.
+    pub result: Base,
+    /// The statements.
+    pub body: Block,
+    /// The header line.
+    pub span: Span,
+    /// The `endfunc` line.
+    pub end: Span,
+    /// What a call does; filled in by the effects pass.
+    pub effects: Effects,
+    /// Whether a `goto` is in it.
+    pub has_goto: bool,
+}
+
+/// What calling a function may do.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub struct Effects {
+    /// It may give the cycle back: emitted as `async fn`.
+    pub waits: bool,
+    /// It may end in an alarm, `exit` or `restart`: emitted with a `Done<T>` result.
+    pub fails: bool,
+    /// It needs the context `cx`.
+    pub context: bool,
+    /// It reads or writes global variables.
+    pub globals: bool,
+    /// It may call itself, directly or not: calls to an `async` one are boxed.
+    pub recursive: bool,
+}
+
+/// A local variable or parameter.
+#[derive(Debug)]
+pub struct Local {
+    /// The name, folded.
+    pub name: String,
+    /// Its type.
+    pub ty: Type,
+    /// Whether it is `const`.
+    pub constant: bool,
+    /// The value of a `const` scalar whose initialiser is constant.
+    pub value: Option<Value>,
+    /// Whether it is written after its declaration (or passed where a built-in writes).
+    pub mutated: bool,
+    /// Whether it is read anywhere.
+    pub read: bool,
+    /// The name in its declaration.
+    pub span: Span,
+}
+
+/// A label.
+#[derive(Debug)]
+pub struct Label {
+    /// The name, folded.
+    pub name: String,
+    /// Where it stands.
+    pub span: Span,
+    /// Whether a `goto` names it.
+    pub used: bool,
+}
+
+/// Statements in order. A block is a scope.
+pub type Block = Vec<Stmt>;
+
+/// A statement with its line (for block statements: the opening line).
+#[derive(Debug)]
+pub struct Stmt {
+    /// What it does.
+    pub kind: StmtKind,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// The kinds of statements.
+#[derive(Debug)]
+pub enum StmtKind {
+    /// A declaration; without initialiser the variable gets its start value each time.
+    Let(LocalId, Option<Expr>),
+    /// An expression for its effect: assignments, calls, instructions.
+    Eval(Expr),
+    /// `if`, `elseif`s, `else`. A compact `if` is the same.
+    If(Vec<(Expr, Block)>, Option<Block>),
+    /// `while`
+    While(Expr, Block, LoopInfo),
+    /// `repeat` ... `until`
+    Repeat(Block, Expr, LoopInfo),
+    /// `loop`
+    Loop(Block, LoopInfo),
+    /// `for`
+    For(Box<For>),
+    /// `switch`; a switch whose subject matches nothing goes to the arm without value, wherever that stands.
+    Switch(Expr, Vec<Arm>),
+    /// `break`: leaves the innermost loop (never a switch).
+    Break,
+    /// `continue`: next round of the innermost loop.
+    Continue,
+    /// `goto`
+    Goto(LabelId),
+    /// `label:`
+    Label(LabelId),
+    /// `return`, with a value of the function's result type.
+    Return(Option<Expr>),
+}
+
+/// What the effects pass found out about a loop.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub struct LoopInfo {
+    /// Whether a round may pass without waiting, so that the loop has to give the cycle back by itself.
+    pub spends: bool,
+}
+
+/// `for(init; condition; step)`
+#[derive(Debug)]
+pub struct For {
+    /// Declarations or one expression; the declared variables live in the loop.
+    pub init: Vec<Stmt>,
+    /// Missing means true.
+    pub condition: Option<Expr>,
+    /// Evaluated after each round, also after `continue`.
+    pub step: Option<Expr>,
+    /// The statements of a round.
+    pub body: Block,
+    /// What the effects pass found out.
+    pub info: LoopInfo,
+    /// Where the loop is `for(int i = a; i < b; i++)` with `i` written nowhere else and `b` constant, and does not wait.
+    pub counted: bool,
+}
+
+/// `case value:` or `default:`
+#[derive(Debug)]
+pub struct Arm {
+    /// The value, of the subject's type; `None` for `default`.
+    pub value: Option<Value>,
+    /// The statements.
+    pub body: Block,
+    /// The line of the case.
+    pub span: Span,
+}
+
+/// A typed expression.
+#[derive(Debug)]
+pub struct Expr {
+    /// The type of its value.
+    pub ty: Type,
+    /// What it is.
+    pub kind: ExprKind,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// The kinds of expressions.
+#[derive(Debug)]
+pub enum ExprKind {
+    /// A constant.
+    Const(Value),
+    /// The value of a variable, component or element.
+    Place(Box<Place>),
+    /// An implicit conversion to this expression's type: byte, int, uint, double or enum to a wider number or bool,
+    /// int to enum where constant.
+    Convert(Box<Expr>),
+    /// An operator with one operand.
+    Unary(UnaryOp, Box<Expr>),
+    /// An operator with two operands of one type (see the invariants). On strings: concatenation and comparison; on
+    /// joints: sum and difference; on frames and poses: composition, where the two types may differ.
+    Binary(BinaryOp, Box<(Expr, Expr)>),
+    /// `place = value`; the value of the expression is the new value.
+    Assign(Box<(Place, Expr)>),
+    /// `place op= value`
+    AssignOp(BinaryOp, Box<(Place, Expr)>),
+    /// `++`, `--`
+    Step(Step, Box<Place>),
+    /// A call of a user's function.
+    Call(FuncId, Vec<Expr>),
+    /// A built-in function or instruction.
+    Builtin(Box<Builtin>),
+    /// A structure from braces: one value per component, `None` keeps the start value.
+    Struct(Struct, Vec<Option<Expr>>),
+    /// An array from braces, flat; elements that are missing at the end have start values.
+    Array(Vec<Expr>),
+    /// A Rust value spliced in by the macro.
+    Splice(u32),
+}
+
+/// A bound use of a built-in.
+#[derive(Debug)]
+pub struct Builtin {
+    /// The catalog's entry, the overload that was chosen.
+    pub entry: &'static Entry,
+    /// The arguments in source order (defaults last).
+    pub args: Vec<Bound>,
+}
+
+/// An argument and the parameter that it is for.
+#[derive(Debug)]
+pub struct Bound {
+    /// Index into the entry's parameters.
+    pub param: usize,
+    /// What is passed.
+    pub value: Passed,
+}
+
+/// What is passed to a parameter.
+#[derive(Debug)]
+pub enum Passed {
+    /// A value (also conditions and actions, which are evaluated again and again).
+    Value(Expr),
+    /// A variable that is written.
+    Out(Place),
+}
+
+/// Something that can be read and written.
+#[derive(Debug)]
+pub struct Place {
+    /// The variable.
+    pub root: Root,
+    /// Components and elements, outermost first.
+    pub path: Vec<Projection>,
+    /// The type of what the path leads to.
+    pub ty: Type,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// A variable.
+#[derive(Clone, Copy, Debug)]
+pub enum Root {
+    /// A local variable of the function.
+    Local(LocalId),
+    /// A global variable.
+    Global(GlobalId),
+    /// A system variable.
+    System(&'static SystemVariable),
+}
+
+/// A step into a structure or an array.
+#[derive(Debug)]
+pub enum Projection {
+    /// The component with this index in the structure's definition.
+    Field(Struct, usize),
+    /// An element: one index per dimension of an array with these sizes.
+    Index(Vec<Expr>, Type),
+}
+
+/// A constant value.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Value {
+    /// int
+    Int(i32),
+    /// uint
+    Uint(u32),
+    /// byte
+    Byte(u8),
+    /// double
+    Double(f64),
+    /// bool
+    Bool(bool),
+    /// string
+    String(std::rc::Rc<str>),
+    /// The constant of an enumeration with this index.
+    Enum(Enum, u16),
+}
+
+impl Value {
+    /// The type of the value.
+    pub fn base(&self) -> Base {
+        match self {
+            Value::Int(_) => Base::Int,
+            Value::Uint(_) => Base::Uint,
+            Value::Byte(_) => Base::Byte,
+            Value::Double(_) => Base::Double,
+            Value::Bool(_) => Base::Bool,
+            Value::String(_) => Base::String,
+            Value::Enum(id, _) => Base::Enum(*id),
+        }
+    }
+}
