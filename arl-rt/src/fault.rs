@@ -1,0 +1,206 @@
+//! What goes wrong while a program runs: faults, and the alarms that they become.
+
+use std::fmt;
+
+/// A fault without its place; [`At::at`] makes an alarm of it.
+#[derive(Clone, PartialEq, Debug)]
+#[non_exhaustive]
+pub enum Fault {
+    /// `/` or `%` by an integer zero, `%` by a double zero.
+    DivideByZero,
+    /// A shift count outside the width.
+    ShiftCount {
+        /// The count.
+        count: i32,
+        /// The width of the value in bits.
+        width: u8,
+    },
+    /// An index outside its dimension.
+    Index {
+        /// The index.
+        index: i32,
+        /// The size of the dimension.
+        size: u32,
+    },
+    /// An argument outside what the function is defined for.
+    Domain {
+        /// The function or instruction.
+        function: &'static str,
+        /// What it got and what it takes, as a sentence part.
+        problem: Box<str>,
+    },
+    /// A text that is not of the wanted type.
+    Text {
+        /// The text.
+        text: Box<str>,
+        /// The type.
+        wanted: &'static str,
+    },
+    /// A value outside the range of a system variable.
+    Range {
+        /// The value.
+        value: f64,
+        /// The least allowed.
+        low: f64,
+        /// The greatest allowed.
+        high: f64,
+    },
+    /// Functions call each other too deep.
+    Depth,
+    /// `assert` of something false.
+    Assertion,
+    /// A file that is missing, not readable or not where programs may go.
+    File {
+        /// The path as the program wrote it.
+        path: Box<str>,
+        /// What went wrong.
+        problem: Box<str>,
+    },
+    /// `gettextstr`: no such file (manual 5.12.7).
+    NoSuchFile(Box<str>),
+    /// `gettextstr`: a line beyond the last (manual 5.12.7).
+    NoSuchLine {
+        /// The line that was asked for.
+        line: i32,
+        /// How many there are.
+        count: u32,
+    },
+    /// A channel of io that does not exist, or a reversed range of channels.
+    Channel(Box<str>),
+    /// A motion that cannot be planned or run.
+    Motion(Box<str>),
+    /// A `_data.arl` file that cannot be read back.
+    Data(Box<str>),
+    /// Anything else that has a number of its own.
+    Other {
+        /// The alarm's number.
+        number: u32,
+        /// Its text.
+        text: Box<str>,
+    },
+}
+
+impl Fault {
+    /// The alarm's number. 10064 and 10065 are the manual's; ours begin at 20000.
+    pub fn number(&self) -> u32 {
+        match self {
+            Fault::NoSuchFile(_) => 10064,
+            Fault::NoSuchLine { .. } => 10065,
+            Fault::DivideByZero => 20001,
+            Fault::ShiftCount { .. } => 20002,
+            Fault::Index { .. } => 20003,
+            Fault::Domain { .. } => 20004,
+            Fault::Text { .. } => 20005,
+            Fault::Range { .. } => 20006,
+            Fault::Depth => 20007,
+            Fault::Assertion => 20008,
+            Fault::File { .. } => 20009,
+            Fault::Channel(_) => 20010,
+            Fault::Motion(_) => 20020,
+            Fault::Data(_) => 20030,
+            Fault::Other { number, .. } => *number,
+        }
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Fault::DivideByZero => write!(f, "division by zero"),
+            Fault::ShiftCount { count, width } => {
+                write!(f, "shift by {count}: a value of {width} bits is shifted by 0 to {}", width - 1)
+            }
+            Fault::Index { index, size } => {
+                write!(f, "index {index} is outside the array: its size is {size}, so 0 to {} are valid", size - 1)
+            }
+            Fault::Domain { function, problem } => write!(f, "{function}: {problem}"),
+            Fault::Text { text, wanted } => write!(f, "\"{text}\" is not a value of type {wanted}"),
+            Fault::Range { value, low, high } => write!(f, "{value} is outside the allowed range {low} to {high}"),
+            Fault::Depth => write!(f, "functions call each other too deep"),
+            Fault::Assertion => write!(f, "assertion failed"),
+            Fault::File { path, problem } => write!(f, "file \"{path}\": {problem}"),
+            Fault::NoSuchFile(path) => write!(f, "the file \"{path}\" does not exist or is damaged"),
+            Fault::NoSuchLine { line, count } => {
+                write!(f, "line {line} was asked for, but the file has {count} lines")
+            }
+            Fault::Channel(text) | Fault::Motion(text) | Fault::Data(text) => write!(f, "{text}"),
+            Fault::Other { text, .. } => write!(f, "{text}"),
+        }
+    }
+}
+
+impl std::error::Error for Fault {}
+
+/// The name of a source file, as alarms show it.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub struct File(&'static str);
+
+impl File {
+    /// A file by its name.
+    pub const fn new(name: &'static str) -> Self {
+        Self(name)
+    }
+
+    /// The name.
+    pub const fn name(self) -> &'static str {
+        self.0
+    }
+}
+
+/// A fault at its place in the program.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Alarm {
+    /// What went wrong.
+    pub fault: Fault,
+    /// The source file.
+    pub file: File,
+    /// The line, from 1; 0 where no line is to blame.
+    pub line: u32,
+}
+
+impl fmt::Display for Alarm {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "alarm {}: {} ({}:{})", self.fault.number(), self.fault, self.file.name(), self.line)
+    }
+}
+
+impl std::error::Error for Alarm {}
+
+/// Why a program does not go on: an alarm, `exit`, or `restart`. One pointer wide.
+#[derive(Debug)]
+pub enum Stop {
+    /// An alarm.
+    Alarm(Box<Alarm>),
+    /// The `exit` instruction.
+    Exit,
+    /// The `restart` instruction.
+    Restart,
+}
+
+/// The result of whatever may stop the program.
+pub type Done<T> = Result<T, Stop>;
+
+/// Gives a fault its place.
+pub trait At<T> {
+    /// The same result, with the fault turned into an alarm at `line` of `file`.
+    ///
+    /// # Errors
+    /// The alarm, where there was a fault.
+    fn at(self, file: File, line: u32) -> Done<T>;
+}
+
+impl<T> At<T> for Result<T, Fault> {
+    #[inline]
+    fn at(self, file: File, line: u32) -> Done<T> {
+        match self {
+            Ok(value) => Ok(value),
+            Err(fault) => Err(raise(fault, file, line)),
+        }
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn raise(fault: Fault, file: File, line: u32) -> Stop {
+    Stop::Alarm(Box::new(Alarm { fault, file, line }))
+}
