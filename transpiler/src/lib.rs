@@ -1,1 +1,62 @@
-//! Under construction.
+//! Checks robot programs in ARL and turns them into Rust.
+//!
+//! The core does no file or process work: sources come in through [`Sources`], text and diagnostics go out. The doors
+//! (the command, `build.rs`, the macro) read files and show what the core has to say.
+
+pub mod diagnostics;
+pub mod hir;
+
+use arl_lang::catalog::Family;
+use diagnostics::{Diagnostic, Files, Severity};
+use std::path::Path;
+
+/// Where the compiler gets its source texts from.
+pub trait Sources {
+    /// The bytes of the file at `path`.
+    ///
+    /// # Errors
+    /// [`SourceError::Missing`] where there is no such file, [`SourceError::Unreadable`] with the reason otherwise.
+    fn read(&self, path: &Path) -> Result<Vec<u8>, SourceError>;
+}
+
+/// Why a source could not be read.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum SourceError {
+    /// There is no such file.
+    Missing,
+    /// There is one, but it cannot be read.
+    Unreadable(String),
+}
+
+/// How to check.
+#[derive(Clone, Debug, Default)]
+pub struct CheckOptions {
+    /// The kind of robot.
+    pub family: Family,
+    /// Warn where more is accepted than the controller would take.
+    pub strict: bool,
+    /// The folder that `/home/ae/script/` in an import means; the main file's folder if absent.
+    pub script_dir: Option<std::path::PathBuf>,
+    /// A file without `main` is fine: it is checked as a module.
+    pub library: bool,
+}
+
+/// What came out of a check.
+#[derive(Debug)]
+pub struct Checked {
+    /// The program, unless there was an error.
+    pub program: Option<hir::Program>,
+    /// Errors and warnings, by file and place.
+    pub diagnostics: Vec<Diagnostic>,
+    /// The files that were read.
+    pub files: Files,
+    /// The paths of the files that were read, in the order of `files`, and those that were looked for in vain.
+    pub read: Vec<std::path::PathBuf>,
+}
+
+impl Checked {
+    /// Whether the program is refused.
+    pub fn has_errors(&self) -> bool {
+        self.diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error)
+    }
+}

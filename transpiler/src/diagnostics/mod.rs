@@ -1,0 +1,117 @@
+//! What the compiler has to say about a program: codes, places, words.
+
+mod registry;
+
+pub use registry::{CodeInfo, info, registry};
+
+use arl_lang::span::{LineIndex, Span};
+
+/// Index of a file in [`Files`].
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct FileId(pub u32);
+
+/// A span in a file.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct Location {
+    /// The file.
+    pub file: FileId,
+    /// The bytes in it.
+    pub span: Span,
+}
+
+/// A source file of a compilation.
+#[derive(Debug)]
+pub struct SourceFile {
+    /// The path as it is shown: as the user gave it, or relative to the main file's folder.
+    pub name: String,
+    /// The decoded text.
+    pub text: String,
+    /// Where its lines begin.
+    pub lines: LineIndex,
+}
+
+/// All files of a compilation, in the order in which they were read; the main file is the first.
+#[derive(Default, Debug)]
+pub struct Files {
+    files: Vec<SourceFile>,
+}
+
+impl Files {
+    /// Adds a file.
+    pub fn add(&mut self, name: String, text: String) -> FileId {
+        let lines = LineIndex::new(&text);
+        self.files.push(SourceFile { name, text, lines });
+        FileId(self.files.len() as u32 - 1)
+    }
+
+    /// The file with this number.
+    pub fn get(&self, id: FileId) -> Option<&SourceFile> {
+        self.files.get(id.0 as usize)
+    }
+
+    /// All files with their numbers.
+    pub fn iter(&self) -> impl Iterator<Item = (FileId, &SourceFile)> {
+        self.files.iter().enumerate().map(|(at, file)| (FileId(at as u32), file))
+    }
+
+    /// The 1-based line of the start of a location.
+    pub fn line(&self, location: Location) -> u32 {
+        self.get(location.file).map_or(0, |file| file.lines.line(location.span.start))
+    }
+}
+
+/// How bad it is.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Severity {
+    /// The program runs, but not as its author may think.
+    Warning,
+    /// The program is refused.
+    Error,
+}
+
+/// The number of a kind of diagnostic, shown as `ARL0203`.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct Code(pub u16);
+
+impl std::fmt::Display for Code {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "ARL{:04}", self.0)
+    }
+}
+
+/// A place with a few words at it.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Label {
+    /// The place.
+    pub at: Location,
+    /// The words; may be empty.
+    pub text: String,
+}
+
+/// A change of the text that would mend the mistake.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Fix {
+    /// What to replace.
+    pub at: Location,
+    /// What to put there.
+    pub text: String,
+}
+
+/// One thing to say.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Diagnostic {
+    /// Its kind.
+    pub code: Code,
+    /// Error or warning.
+    pub severity: Severity,
+    /// What is wrong, in the program's terms.
+    pub message: String,
+    /// Where.
+    pub primary: Label,
+    /// Other places that explain it.
+    pub labels: Vec<Label>,
+    /// What would be right.
+    pub help: Option<String>,
+    /// A change that would mend it.
+    pub fix: Option<Fix>,
+}
