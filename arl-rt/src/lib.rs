@@ -1,1 +1,4 @@
 //! Under construction.
+
+pub mod kinematics;
+pub mod robot;

@@ -1,0 +1,112 @@
+//! Which of several joint vectors for one pose is meant: `cfg`, `turn`, axis limits, nearness.
+
+use super::frame::Frame;
+use super::{Axes, Kinematics, wrap_degrees};
+use crate::robot::Axis;
+
+/// Which solution of a pose is wanted.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Wanted {
+    /// The configuration; `None`: the one whose axes are nearest to the start.
+    pub cfg: Option<u8>,
+    /// -1: every axis as near to the start as its range allows. Else bit i asks axis i + 1 for an angle below 0 (set) or
+    /// from 0 on (clear), which matters where whole turns leave a choice.
+    pub turn: i32,
+}
+
+/// Why no joint vector for a pose was found.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Refusal {
+    /// The configuration is none of this robot's.
+    NoSuchCfg {
+        /// What was asked for.
+        cfg: u8,
+    },
+    /// The pose is out of reach.
+    Unreachable {
+        /// How far the arm falls short, in mm; 0 where it is the configuration or the tilt that does not fit.
+        beyond: f64,
+    },
+    /// The pose is reached with an axis outside its range only.
+    AxisLimit {
+        /// The axis, counted from 0.
+        axis: usize,
+        /// Where it would have to stand, in deg (mm).
+        value: f64,
+    },
+}
+
+impl Kinematics {
+    /// The joint vector for `flange` that is wanted, within the ranges of `axes`, the robot's own.
+    ///
+    /// # Errors
+    /// None is found; the reason is that of the configuration asked for, or that of the nearest one.
+    pub fn choose(&self, flange: &Frame, wanted: Wanted, axes: &[Axis], near: &Axes) -> Result<Axes, Refusal> {
+        let one = |cfg: u8| {
+            let solution = self
+                .inverse(flange, cfg, near)
+                .ok_or_else(|| Refusal::Unreachable { beyond: self.beyond_reach(flange) })?;
+            turn(&solution, wanted.turn, axes, near)
+        };
+        if let Some(cfg) = wanted.cfg {
+            return if self.configurations().contains(&cfg) { one(cfg) } else { Err(Refusal::NoSuchCfg { cfg }) };
+        }
+        let mut best: Option<(f64, Axes)> = None;
+        let mut refusal = None;
+        for cfg in self.configurations() {
+            match one(*cfg) {
+                Ok(found) => {
+                    let far = found.iter().zip(near).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                    if best.is_none_or(|(least, _)| far < least) {
+                        best = Some((far, found));
+                    }
+                }
+                // A limit tells more than a configuration that does not reach.
+                Err(found @ Refusal::AxisLimit { .. }) => refusal = Some(found),
+                Err(found) => {
+                    refusal.get_or_insert(found);
+                }
+            }
+        }
+        let beyond = || Refusal::Unreachable { beyond: self.beyond_reach(flange) };
+        best.map(|(_, axes)| axes).ok_or_else(|| refusal.unwrap_or_else(beyond))
+    }
+}
+
+/// Adds whole turns so that every axis is in its range, has the side that `turn` asks for where it can, and is near.
+fn turn(solution: &Axes, turn: i32, axes: &[Axis], near: &Axes) -> Result<Axes, Refusal> {
+    let mut chosen = *solution;
+    for (index, ((value, axis), near)) in chosen.iter_mut().zip(axes).zip(near).enumerate() {
+        let below = (turn >= 0).then_some((turn >> index) & 1 == 1);
+        match with_turns(*value, below, axis, *near) {
+            Some(found) => *value = found,
+            None => return Err(Refusal::AxisLimit { axis: index, value: *value }),
+        }
+    }
+    Ok(chosen)
+}
+
+/// Positions this little (deg, mm) outside a range are brought into it.
+pub(crate) const RANGE_SLACK: f64 = 1e-6;
+
+fn with_turns(value: f64, below: Option<bool>, axis: &Axis, near: f64) -> Option<f64> {
+    let fits = |value: f64| value >= axis.min - RANGE_SLACK && value <= axis.max + RANGE_SLACK;
+    if axis.linear {
+        return fits(value).then(|| value.clamp(axis.min, axis.max));
+    }
+    let first = wrap_degrees(value);
+    let lowest = ((axis.min - first) / 360.0).floor() as i64;
+    let highest = ((axis.max - first) / 360.0).ceil() as i64;
+    let cost = |value: f64| {
+        let wrong_side = below.is_some_and(|below| below != (value < -1e-9));
+        (wrong_side, (value - near).abs())
+    };
+    (lowest..=highest)
+        .map(|turns| first + 360.0 * turns as f64)
+        .filter(|value| fits(*value))
+        .map(|value| value.clamp(axis.min, axis.max))
+        .min_by(|a, b| {
+            let ((side_a, far_a), (side_b, far_b)) = (cost(*a), cost(*b));
+            side_a.cmp(&side_b).then(far_a.total_cmp(&far_b))
+        })
+}

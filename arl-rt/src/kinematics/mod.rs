@@ -1,0 +1,86 @@
+//! Kinematics: axes to pose and back, in closed form.
+//!
+//! Lengths are mm and angles deg at the border of this module; inside it computes in m and rad.
+
+mod choose;
+mod frame;
+mod opw;
+#[cfg(test)]
+pub(crate) mod random;
+mod rates;
+mod scara;
+#[cfg(test)]
+mod tests;
+mod wrist;
+
+pub use choose::{Refusal, Wanted};
+pub use frame::{Frame, frame, frame_components};
+pub use opw::{Opw, OpwParameters, Solutions};
+pub use rates::{Rates, Twist};
+pub use scara::Scara;
+
+/// The axes of a robot in deg (mm where linear); a SCARA leaves the last two at 0.
+pub type Axes = [f64; 6];
+
+/// A robot's geometry with its closed-form solutions.
+#[derive(Clone, PartialEq, Debug)]
+#[expect(clippy::large_enum_variant, reason = "there is one robot, and its kinematics run in every cycle")]
+pub enum Kinematics {
+    /// Six axes with a spherical wrist.
+    SixAxis(Opw),
+    /// Four axes.
+    Scara(Scara),
+}
+
+impl Kinematics {
+    /// The flange's frame in the robot's base, translation in mm.
+    pub fn forward(&self, axes: &Axes) -> Frame {
+        match self {
+            Kinematics::SixAxis(opw) => opw.forward(axes),
+            Kinematics::Scara(scara) => scara.forward(axes),
+        }
+    }
+
+    /// The `cfg` of a joint vector: 0 to 7 for six-axis robots, 0 or 4 for SCARA.
+    pub fn cfg(&self, axes: &Axes) -> u8 {
+        match self {
+            Kinematics::SixAxis(opw) => opw.cfg(axes),
+            Kinematics::Scara(scara) => scara.cfg(axes),
+        }
+    }
+
+    /// The axes that bring the flange to `flange` in configuration `cfg`, each within (-180, 180] deg; what the pose
+    /// leaves open at a singular point stays as in `near`. `None`: the pose is out of reach in this configuration.
+    pub fn inverse(&self, flange: &Frame, cfg: u8, near: &Axes) -> Option<Axes> {
+        match self {
+            Kinematics::SixAxis(opw) => opw.inverse(flange, cfg, near),
+            Kinematics::Scara(scara) => scara.inverse(flange, cfg),
+        }
+    }
+
+    /// The values that `cfg` can have.
+    pub fn configurations(&self) -> &'static [u8] {
+        match self {
+            Kinematics::SixAxis(_) => &[0, 1, 2, 3, 4, 5, 6, 7],
+            Kinematics::Scara(_) => &[0, 4],
+        }
+    }
+
+    /// How far, in mm, the pose is from what the arm can reach in any configuration; 0 where the length of the arm is
+    /// not what hinders.
+    pub fn beyond_reach(&self, flange: &Frame) -> f64 {
+        match self {
+            Kinematics::SixAxis(opw) => opw.beyond_reach(flange),
+            Kinematics::Scara(scara) => scara.beyond_reach(flange),
+        }
+    }
+}
+
+/// The angle in (-180, 180].
+pub(crate) fn wrap_degrees(angle: f64) -> f64 {
+    if angle > -180.0 && angle <= 180.0 {
+        return angle;
+    }
+    let wrapped = angle - 360.0 * (angle / 360.0).round();
+    if wrapped <= -180.0 { wrapped + 360.0 } else { wrapped }
+}

@@ -1,0 +1,270 @@
+//! Six axes with a spherical wrist, described by the seven OPW lengths.
+//!
+//! At zero of all inner angles the arm stands straight up and the flange frame points as the base. Axis 1 turns about z,
+//! axes 2 and 3 about y, the wrist about z, y, z. The wrist centre, seen in the plane that axis 1 turns, lies `a1` in
+//! front and `c1` above the base, then `c2` along the upper arm, then `c3` along and `a2` beside the forearm; the whole
+//! plane is `b` off axis 1. An axis angle is sign * (inner angle + offset).
+
+use std::f64::consts::PI;
+
+use nalgebra::{Matrix3, Quaternion, Translation3, UnitQuaternion, Vector3};
+
+use super::frame::Frame;
+use super::wrist::wrist_angles;
+use super::{Axes, wrap_degrees};
+
+/// The geometry of a six-axis robot: lengths in mm, offsets in deg.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct OpwParameters {
+    /// Axis 1 to axis 2, forwards.
+    pub a1: f64,
+    /// Axis 3 to the wrist centre, at right angles to the forearm; negative where the forearm is above axis 3.
+    pub a2: f64,
+    /// Sideways distance of the arm's plane from axis 1.
+    pub b: f64,
+    /// Base to axis 2, upwards.
+    pub c1: f64,
+    /// Axis 2 to axis 3.
+    pub c2: f64,
+    /// Axis 3 to the wrist centre, along the forearm.
+    pub c3: f64,
+    /// Wrist centre to flange.
+    pub c4: f64,
+    /// Angles of the axes where the inner angles are 0, times the sign.
+    pub offsets: [f64; 6],
+    /// 1, or -1 where an axis turns the other way.
+    pub signs: [f64; 6],
+}
+
+/// A six-axis robot's geometry, prepared for computing.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Opw {
+    parameters: OpwParameters,
+    // The lengths in m and the offsets in rad.
+    pub(super) a1: f64,
+    pub(super) a2: f64,
+    pub(super) b: f64,
+    pub(super) c1: f64,
+    pub(super) c2: f64,
+    pub(super) c3: f64,
+    pub(super) c4: f64,
+    offsets: [f64; 6],
+    /// Axis 3 to the wrist centre, straight.
+    k: f64,
+    /// Angle between that line and the forearm.
+    psi: f64,
+}
+
+/// The solutions of one pose, one for each `cfg` that reaches it.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Solutions {
+    axes: [Axes; 8],
+    found: u8,
+}
+
+impl Solutions {
+    /// The axes in deg, each within (-180, 180], in configuration `cfg` (0 to 7); `None` where it does not reach the pose.
+    pub fn get(&self, cfg: u8) -> Option<&Axes> {
+        if cfg < 8 && self.found & (1 << cfg) != 0 { self.axes.get(usize::from(cfg)) } else { None }
+    }
+
+    /// All that reach the pose, with their `cfg`.
+    pub fn iter(&self) -> impl Iterator<Item = (u8, &Axes)> {
+        (0..8).filter_map(|cfg| self.get(cfg).map(|axes| (cfg, axes)))
+    }
+}
+
+/// Where in the arm's plane the wrist centre is: the two halves of `cfg` above its lowest bit.
+#[derive(Clone, Copy)]
+struct Arm {
+    front: bool,
+    right: bool,
+}
+
+/// The arm of `cfg / 2`, by the table of configurations.
+const ARMS: [Arm; 4] = [
+    Arm { front: true, right: true },
+    Arm { front: true, right: false },
+    Arm { front: false, right: false },
+    Arm { front: false, right: true },
+];
+
+/// A sine or length (m) this little below zero still counts as zero.
+const ZERO: f64 = 1e-9;
+
+impl Opw {
+    /// Prepares a geometry; `c2` and `c3` must be above 0, the signs 1 or -1.
+    pub fn new(parameters: OpwParameters) -> Self {
+        let p = &parameters;
+        let m = |mm: f64| mm / 1000.0;
+        let (a2, c3) = (m(p.a2), m(p.c3));
+        Self {
+            a1: m(p.a1),
+            a2,
+            b: m(p.b),
+            c1: m(p.c1),
+            c2: m(p.c2),
+            c3,
+            c4: m(p.c4),
+            offsets: p.offsets.map(f64::to_radians),
+            k: a2.hypot(c3),
+            psi: a2.atan2(c3),
+            parameters,
+        }
+    }
+
+    /// The geometry as given.
+    pub fn parameters(&self) -> &OpwParameters {
+        &self.parameters
+    }
+
+    /// Inner angles in rad.
+    pub(super) fn inner(&self, axes: &Axes) -> [f64; 6] {
+        let mut inner = [0.0; 6];
+        for (((inner, axis), sign), offset) in inner.iter_mut().zip(axes).zip(&self.parameters.signs).zip(&self.offsets)
+        {
+            *inner = axis.to_radians() * sign - offset;
+        }
+        inner
+    }
+
+    fn outer(&self, inner: [f64; 6]) -> Axes {
+        let mut axes = [0.0; 6];
+        for (((axis, inner), sign), offset) in
+            axes.iter_mut().zip(inner).zip(&self.parameters.signs).zip(&self.parameters.offsets)
+        {
+            *axis = wrap_degrees((inner.to_degrees() + offset) * sign);
+        }
+        axes
+    }
+
+    /// The flange's frame in the base, translation in mm.
+    pub fn forward(&self, axes: &Axes) -> Frame {
+        let [t1, t2, t3, t4, t5, t6] = self.inner(axes);
+        let (s2, c2) = t2.sin_cos();
+        // Half angles give the rotation as a quaternion; the full ones follow from them.
+        let ((h1, g1), (h23, g23), (h5, g5)) =
+            ((t1 * 0.5).sin_cos(), ((t2 + t3) * 0.5).sin_cos(), (t5 * 0.5).sin_cos());
+        let ((h46, g46), (h64, g64)) = (((t4 + t6) * 0.5).sin_cos(), ((t6 - t4) * 0.5).sin_cos());
+        let (s1, c1) = (2.0 * h1 * g1, 1.0 - 2.0 * h1 * h1);
+        let (s23, c23) = (2.0 * h23 * g23, 1.0 - 2.0 * h23 * h23);
+
+        let arm = Quaternion::new(g1 * g23, -h1 * h23, g1 * h23, h1 * g23);
+        let wrist = Quaternion::new(g5 * g46, h5 * h64, h5 * g64, g5 * h46);
+        let q = arm * wrist;
+        let x = self.a1 + self.c2 * s2 + self.c3 * s23 + self.a2 * c23;
+        let z = self.c1 + self.c2 * c2 + self.c3 * c23 - self.a2 * s23;
+        let (reach, width) = (2.0 * self.c4, self.b);
+        let position = Vector3::new(
+            c1 * x - s1 * width + reach * (q.i * q.k + q.w * q.j),
+            s1 * x + c1 * width + reach * (q.j * q.k - q.w * q.i),
+            z + reach * (0.5 - q.i * q.i - q.j * q.j),
+        );
+        Frame::from_parts(Translation3::from(position * 1000.0), UnitQuaternion::new_unchecked(q))
+    }
+
+    /// The wrist centre in m.
+    fn wrist_centre(&self, flange: &Frame, rotation: &Matrix3<f64>) -> Vector3<f64> {
+        flange.translation.vector / 1000.0 - rotation.column(2) * self.c4
+    }
+
+    /// Inner angles of axes 1, 2, 3 that bring the wrist centre to `centre`.
+    fn arm(&self, centre: &Vector3<f64>, arm: Arm, near1: f64) -> Option<[f64; 3]> {
+        let across = centre.x.hypot(centre.y);
+        let depth = square_root(across * across - self.b * self.b)?;
+        let x = if arm.front { depth } else { -depth };
+        // On axis 1 any angle of it will do.
+        let t1 = if across < 1e-10 { near1 } else { centre.y.atan2(centre.x) - self.b.atan2(x) };
+        let (x, z) = (x - self.a1, centre.z - self.c1);
+        let cosine = (x * x + z * z - self.c2 * self.c2 - self.k * self.k) / (2.0 * self.c2 * self.k);
+        let sine = square_root(1.0 - cosine * cosine)?;
+        let sine = if arm.right { sine } else { -sine };
+        let t2 = x.atan2(z) - (self.k * sine).atan2(self.c2 + self.k * cosine);
+        Some([t1, t2, sine.atan2(cosine) - self.psi])
+    }
+
+    /// The lowest bit of `cfg` that the solution with a positive inner angle 5 has.
+    fn wrist_bit(&self) -> u8 {
+        let [_, _, _, _, sign5, _] = self.parameters.signs;
+        u8::from(sign5 < 0.0)
+    }
+
+    fn all_angles(&self, [t1, t2, t3]: [f64; 3], rotation: &Matrix3<f64>, near4: f64) -> ([f64; 6], [f64; 6]) {
+        let [t4, t5, t6] = wrist_angles(rotation, t1.sin_cos(), (t2 + t3).sin_cos(), near4);
+        ([t1, t2, t3, t4, t5, t6], [t1, t2, t3, t4 + PI, -t5, t6 + PI])
+    }
+
+    /// All solutions of a pose, up to eight; what the pose leaves open at a singular point stays as in `near`.
+    pub fn solutions(&self, flange: &Frame, near: &Axes) -> Solutions {
+        let rotation = flange.rotation.to_rotation_matrix().into_inner();
+        let centre = self.wrist_centre(flange, &rotation);
+        let [near1, _, _, near4, _, _] = self.inner(near);
+        let mut solutions = Solutions { axes: [[0.0; 6]; 8], found: 0 };
+        for (arm, pair) in ARMS.iter().zip(0_u8..) {
+            let Some(angles) = self.arm(&centre, *arm, near1) else { continue };
+            let (positive, negative) = self.all_angles(angles, &rotation, near4);
+            for (angles, bit) in [(positive, self.wrist_bit()), (negative, 1 - self.wrist_bit())] {
+                let cfg = 2 * pair + bit;
+                if let Some(axes) = solutions.axes.get_mut(usize::from(cfg)) {
+                    *axes = self.outer(angles);
+                    solutions.found |= 1 << cfg;
+                }
+            }
+        }
+        solutions
+    }
+
+    /// The one solution of configuration `cfg`; see [`super::Kinematics::inverse`].
+    pub fn inverse(&self, flange: &Frame, cfg: u8, near: &Axes) -> Option<Axes> {
+        let arm = ARMS.get(usize::from(cfg >> 1))?;
+        let rotation = flange.rotation.to_rotation_matrix().into_inner();
+        let centre = self.wrist_centre(flange, &rotation);
+        let [near1, _, _, near4, _, _] = self.inner(near);
+        let flipped = cfg & 1 != self.wrist_bit();
+        // The flipped solution's axis 4 stands half a turn on.
+        let near4 = if flipped { near4 - PI } else { near4 };
+        let angles = self.arm(&centre, *arm, near1)?;
+        let (positive, negative) = self.all_angles(angles, &rotation, near4);
+        Some(self.outer(if flipped { negative } else { positive }))
+    }
+
+    /// The configuration of a joint vector: 0 to 7.
+    pub fn cfg(&self, axes: &Axes) -> u8 {
+        let [_, t2, t3, _, t5, _] = self.inner(axes);
+        let (s23, c23) = (t2 + t3).sin_cos();
+        let front = self.a1 + self.c2 * t2.sin() + self.c3 * s23 + self.a2 * c23 >= -ZERO;
+        let right = (t3 + self.psi).sin() >= -ZERO;
+        let [_, _, _, _, sign5, _] = self.parameters.signs;
+        let negative = sign5 * t5.sin() < -ZERO;
+        let pair = (0_u8..).zip(&ARMS).find(|(_, arm)| arm.front == front && arm.right == right);
+        2 * pair.map_or(0, |(pair, _)| pair) + u8::from(negative)
+    }
+
+    /// How far, in mm, the wrist centre is from what the arm reaches in any configuration.
+    pub fn beyond_reach(&self, flange: &Frame) -> f64 {
+        let rotation = flange.rotation.to_rotation_matrix().into_inner();
+        let centre = self.wrist_centre(flange, &rotation);
+        let across = centre.x.hypot(centre.y);
+        let beside = self.b.abs() - across;
+        if beside > 0.0 {
+            return beside * 1000.0;
+        }
+        let depth = (across * across - self.b * self.b).max(0.0).sqrt();
+        let miss = |x: f64| {
+            let distance = (x - self.a1).hypot(centre.z - self.c1);
+            (distance - (self.c2 + self.k)).max((self.c2 - self.k).abs() - distance).max(0.0)
+        };
+        miss(depth).min(miss(-depth)) * 1000.0
+    }
+}
+
+/// The square root, where a value that rounding put below zero counts as zero.
+fn square_root(value: f64) -> Option<f64> {
+    if value >= 0.0 {
+        Some(value.sqrt())
+    } else if value > -1e-13 {
+        Some(0.0)
+    } else {
+        None
+    }
+}

@@ -1,0 +1,152 @@
+//! One table of a TOML file, read key by key, with errors that name line and column.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::RobotError;
+use super::near::nearest;
+
+/// The text that spans point into.
+#[derive(Clone, Copy)]
+pub(super) struct Source<'a> {
+    pub(super) file: &'a str,
+    pub(super) text: &'a str,
+}
+
+impl Source<'_> {
+    pub(super) fn error(&self, span: Range<usize>, message: impl Into<String>) -> RobotError {
+        RobotError::at(self.file, self.text, span, message.into())
+    }
+}
+
+/// A table with its place and the name it has in messages.
+#[derive(Clone, Copy)]
+pub(super) struct Section<'a> {
+    pub(super) source: Source<'a>,
+    pub(super) name: &'a str,
+    span_start: usize,
+    table: &'a DeTable<'a>,
+}
+
+type Value<'a> = Spanned<DeValue<'a>>;
+
+/// A number and its place.
+type Placed = (f64, Range<usize>);
+
+impl<'a> Section<'a> {
+    /// Takes the table under `span`; every key must be one of `known`.
+    pub(super) fn new(
+        source: Source<'a>,
+        name: &'a str,
+        span: Range<usize>,
+        table: &'a DeTable<'a>,
+        known: &[&str],
+    ) -> Result<Self, RobotError> {
+        for key in table.keys() {
+            let word: &str = key.get_ref().as_ref();
+            if !known.contains(&word) {
+                let hint = match nearest(word, known.iter().copied()) {
+                    Some(near) => format!("did you mean `{near}`?"),
+                    None => format!("known are: {}", known.join(", ")),
+                };
+                return Err(source.error(key.span(), format!("{name} has no key `{word}`; {hint}")));
+            }
+        }
+        Ok(Self { source, name, span_start: span.start, table })
+    }
+
+    /// The place of the section itself: its first character.
+    pub(super) fn place(&self) -> Range<usize> {
+        self.span_start..self.span_start
+    }
+
+    pub(super) fn find(&self, key: &str) -> Option<&'a Value<'a>> {
+        self.table.get(key)
+    }
+
+    pub(super) fn span_of(&self, key: &str) -> Range<usize> {
+        self.find(key).map_or(self.place(), Spanned::span)
+    }
+
+    fn need(&self, key: &str, what: &str) -> Result<&'a Value<'a>, RobotError> {
+        self.find(key)
+            .ok_or_else(|| self.source.error(self.place(), format!("{} lacks `{key}`: expected {what}", self.name)))
+    }
+
+    fn wrong(&self, key: &str, value: &Value<'_>, what: &str) -> RobotError {
+        let found = kind(value.get_ref());
+        self.source.error(value.span(), format!("`{key}` of {}: expected {what}, found {found}", self.name))
+    }
+
+    pub(super) fn text(&self, key: &str, what: &str) -> Result<&'a str, RobotError> {
+        let value = self.need(key, what)?;
+        value.get_ref().as_str().ok_or_else(|| self.wrong(key, value, what))
+    }
+
+    pub(super) fn flag(&self, key: &str) -> Result<Option<bool>, RobotError> {
+        let Some(value) = self.find(key) else { return Ok(None) };
+        value.get_ref().as_bool().map(Some).ok_or_else(|| self.wrong(key, value, "true or false"))
+    }
+
+    pub(super) fn number(&self, key: &str, what: &str) -> Result<f64, RobotError> {
+        let value = self.need(key, what)?;
+        number(value.get_ref()).ok_or_else(|| self.wrong(key, value, what))
+    }
+
+    /// A number above zero.
+    pub(super) fn positive(&self, key: &str, what: &str) -> Result<f64, RobotError> {
+        let value = self.number(key, what)?;
+        if value > 0.0 {
+            return Ok(value);
+        }
+        let message = format!("`{key}` of {} is {value}: expected {what}, above 0", self.name);
+        Err(self.source.error(self.span_of(key), message))
+    }
+
+    /// All numbers of an array, each with its place; an absent key gives nothing.
+    pub(super) fn numbers(&self, key: &str, what: &str) -> Result<Option<Vec<Placed>>, RobotError> {
+        let Some(value) = self.find(key) else { return Ok(None) };
+        let array = value.get_ref().as_array().ok_or_else(|| self.wrong(key, value, what))?;
+        let item = |item: &Value<'_>| number(item.get_ref()).map(|n| (n, item.span()));
+        array
+            .iter()
+            .map(|value| item(value).ok_or_else(|| self.wrong(key, value, what)))
+            .collect::<Result<_, _>>()
+            .map(Some)
+    }
+
+    /// An array of exactly `N` numbers.
+    pub(super) fn fixed<const N: usize>(&self, key: &str, what: &str) -> Result<[f64; N], RobotError> {
+        let value = self.need(key, what)?;
+        let numbers: Vec<f64> = self.numbers(key, what)?.unwrap_or_default().iter().map(|(n, _)| *n).collect();
+        let count = numbers.len();
+        numbers.try_into().map_err(|_| {
+            let message = format!("`{key}` of {}: expected {what}, found {count} of them", self.name);
+            self.source.error(value.span(), message)
+        })
+    }
+}
+
+fn number(value: &DeValue<'_>) -> Option<f64> {
+    let number = match value {
+        DeValue::Float(float) => float.as_str().parse().ok()?,
+        DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix()).ok()? as f64,
+        _ => return None,
+    };
+    f64::is_finite(number).then_some(number)
+}
+
+/// What a value is, in a reader's words.
+pub(super) fn kind(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::String(text) => format!("the text \"{text}\""),
+        DeValue::Integer(number) => format!("the number {}", number.as_str()),
+        DeValue::Float(number) => format!("the number {}", number.as_str()),
+        DeValue::Boolean(flag) => format!("{flag}"),
+        DeValue::Datetime(_) => "a date".to_owned(),
+        DeValue::Array(_) => "an array".to_owned(),
+        DeValue::Table(_) => "a table".to_owned(),
+    }
+}

@@ -1,0 +1,100 @@
+use super::*;
+
+fn error(text: &str) -> RobotError {
+    Robot::parse("arm.toml", text).unwrap_err()
+}
+
+/// The example file with one piece replaced.
+fn changed(from: &str, to: &str) -> String {
+    let text = Robot::text("six-10").unwrap();
+    assert!(text.contains(from), "{from} is not in the example");
+    text.replacen(from, to, 1)
+}
+
+#[test]
+fn every_builtin_robot_reads_and_says_its_own_name() {
+    for name in Robot::builtin_names() {
+        let robot = Robot::builtin(name).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(robot.name, name);
+        assert_eq!(robot.axes.len(), own_axes(robot.family));
+        for (axis, home) in robot.axes.iter().zip(&robot.home) {
+            assert!((axis.min..=axis.max).contains(home));
+        }
+    }
+    assert_eq!(Robot::builtin_names().next(), Some("kr10-r1420"));
+    assert_eq!(Robot::load("KR10-R1420").unwrap(), Robot::builtin("kr10-r1420").unwrap());
+}
+
+#[test]
+fn limits_of_the_default_robot_are_the_published_ones() {
+    let robot = Robot::builtin("kr10-r1420").unwrap();
+    let ranges: Vec<_> = robot.axes.iter().map(|axis| (axis.min, axis.max, axis.vel)).collect();
+    assert_eq!(ranges[1], (-185.0, 65.0, 210.0));
+    assert_eq!(ranges[5], (-350.0, 350.0, 492.0));
+    assert!(robot.axes.iter().all(|axis| axis.acc == 5.0 * axis.vel && axis.jerk == 60.0 * axis.vel));
+}
+
+#[test]
+fn an_unknown_key_names_its_place_and_a_near_name() {
+    let found = error(&changed("ori_vel", "ori_val"));
+    assert_eq!((found.line, found.column), (22, 1), "{found}");
+    assert!(found.message.contains("did you mean `ori_vel`"), "{found}");
+    let found = error(&changed("profile", "speed_profile_of_the_robot"));
+    assert!(found.message.contains("known are: name, family"), "{found}");
+}
+
+#[test]
+fn wrong_values_say_what_was_expected() {
+    for (from, to, line, words) in [
+        ("\"six-axis\"", "\"sixaxis\"", 4, "expected \"six-axis\" or \"scara\""),
+        ("acc = 8000.0", "acc = -1", 20, "above 0"),
+        ("acc = 8000.0", "acc = \"fast\"", 20, "found the text \"fast\""),
+        ("min = -170.0", "min = 171.0", 28, "less than its `max`, 170"),
+        ("signs = [1, 1,", "signs = [2, 1,", 16, "1 or -1"),
+        ("signs = [1, 1,", "signs = [1,", 16, "found 5 of them"),
+        ("\"j2\"", "\"j3\"", 35, "expected \"j2\""),
+        ("c2 = 705.0", "", 7, "lacks `c2`"),
+        ("c2 = 705.0", "c2 = nan", 12, "expected the length"),
+        ("profile = \"S\"", "home = [0, 0, 200, 0, 0, 0]", 5, "`home` of j3 is 200"),
+        ("profile = \"S\"", "home = [0]", 5, "expected 6 positions"),
+        ("profile = \"S\"", "profile = ", 5, "no TOML"),
+    ] {
+        let found = error(&changed(from, to));
+        assert_eq!(found.line, line, "{from} -> {to}: {found}");
+        assert!(found.message.contains(words), "{from} -> {to}: {found}");
+    }
+}
+
+#[test]
+fn home_and_external_axes_are_read() {
+    let text = changed("profile = \"S\"", "home = [1, 2, 3, 4, 5, 6, 700]")
+        + "[[axis]]\nname = \"ej1\"\nlinear = true\nmin = 500\nmax = 1000\nvel = 1\nacc = 1\njerk = 1\n";
+    let robot = Robot::parse("arm.toml", &text).unwrap();
+    assert_eq!(robot.home, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 700.0]);
+    assert_eq!(robot.external_axes().len(), 1);
+    assert!(robot.external_axes()[0].linear);
+    let text = text.replacen("home = [1, 2, 3, 4, 5, 6, 700]", "", 1);
+    assert_eq!(Robot::parse("arm.toml", &text).unwrap().home[6], 500.0, "0 is brought into the range");
+}
+
+#[test]
+fn links_are_all_or_none() {
+    let link =
+        "[[link]]\nmass = 10\ncom = [0, 0, 100]\ninertia = [1, 0, 0, 1, 0, 1]\ngear = 100\ntorque_constant = 0.5\n";
+    let text = Robot::text("six-10").unwrap().to_owned();
+    assert_eq!(Robot::parse("arm.toml", &(text.clone() + &link.repeat(6))).unwrap().links.len(), 6);
+    assert!(error(&(text + link)).message.contains("expected 6 [[link]]"));
+}
+
+#[test]
+fn unknown_robots_and_missing_files_are_told_apart() {
+    assert!(Robot::load("kr10-r1240").unwrap_err().message.contains("did you mean `kr10-r1420`"));
+    assert!(Robot::load("no/such/robot.toml").unwrap_err().message.contains("cannot read"));
+}
+
+#[test]
+fn any_text_is_refused_without_a_panic() {
+    for text in ["", "[", "axis = 3", "[[axis]]", "geometry = 1\nname=\"a\"\nfamily=\"scara\"", "\u{feff}", "a\u{0}b"] {
+        error(text);
+    }
+}
