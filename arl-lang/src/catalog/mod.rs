@@ -1,7 +1,39 @@
 //! Everything that ARL has built in, declared once: names, types, parameters, effects, texts and examples.
+//!
+//! One file per family holds its table, in the notation of `declare`. [`functions`] and its relatives find things by
+//! name, [`reference`] writes the pages of the book.
 
+mod auxiliary;
+mod bits;
+mod calibration;
+mod clock;
+mod constants;
+mod control;
+mod convert;
+mod declare;
+mod devicenet;
 mod entry;
+mod enums;
+mod handles;
+mod interrupt;
+mod io;
+mod lookup;
+mod math;
+mod melsec;
+mod modbus_rtu;
+mod modbus_tcp;
+mod motion;
+mod other;
+mod points;
+mod pose;
+mod serial;
+mod socket;
+mod strings;
+mod structs;
+mod system;
+mod trigger;
 mod types;
 
 pub use entry::*;
+pub use lookup::*;
 pub use types::*;

@@ -1,0 +1,288 @@
+//! Finding things by name. Names match without regard to case.
+
+use std::collections::HashMap;
+use std::hash::BuildHasherDefault;
+use std::ops::Range;
+use std::sync::LazyLock;
+
+use super::entry::{Constant, Entry, Kind, Param, SystemVariable};
+use super::types::Family;
+use super::types::{Base, Enum, EnumDef, Handle, Struct, StructDef};
+use crate::symbol::NameHasher;
+
+/// The tables of one chapter of the manual.
+#[derive(Clone, Copy, Debug)]
+pub struct Chapter {
+    /// What the entries have in common.
+    pub title: &'static str,
+    /// The entries in the order of the manual.
+    pub entries: &'static [Entry],
+}
+
+/// All entries, chapter by chapter in the order of the manual.
+pub const CHAPTERS: &[Chapter] = &[
+    Chapter { title: "Motion", entries: super::motion::MOTION },
+    Chapter { title: "Course of the program", entries: super::control::CONTROL },
+    Chapter { title: "Printing and settings", entries: super::auxiliary::AUXILIARY },
+    Chapter { title: "Mathematics", entries: super::math::MATH },
+    Chapter { title: "Bits", entries: super::bits::BITS },
+    Chapter { title: "Clocks", entries: super::clock::CLOCK },
+    Chapter { title: "Strings", entries: super::strings::STRINGS },
+    Chapter { title: "Inputs and outputs", entries: super::io::IO },
+    Chapter { title: "Sockets", entries: super::socket::SOCKET },
+    Chapter { title: "Serial lines", entries: super::serial::SERIAL },
+    Chapter { title: "DeviceNet", entries: super::devicenet::DEVICENET },
+    Chapter { title: "Modbus TCP", entries: super::modbus_tcp::MODBUS_TCP },
+    Chapter { title: "Melsec", entries: super::melsec::MELSEC },
+    Chapter { title: "Modbus RTU", entries: super::modbus_rtu::MODBUS_RTU },
+    Chapter { title: "Conversions", entries: super::convert::CONVERT },
+    Chapter { title: "Poses", entries: super::pose::POSE },
+    Chapter { title: "Calibration", entries: super::calibration::CALIBRATION },
+    Chapter { title: "Progress of the motion", entries: super::trigger::TRIGGER },
+    Chapter { title: "Points and programs", entries: super::points::POINTS },
+    Chapter { title: "Time, files, settings", entries: super::other::OTHER },
+    Chapter { title: "Interrupts, timers, triggers", entries: super::interrupt::INTERRUPT },
+];
+
+const VARIABLES: [&[SystemVariable]; 4] =
+    [super::system::DATA, super::system::FUNCTION, super::system::SOCKETS, super::system::EXTERNAL];
+
+/// Words that users cannot give to anything: Appendix A of the manual and the words of the control structures.
+const RESERVED: &str = "\
+    accset bool break byte case ccir cir clock compen const continue controlmode default double else elseif \
+    endcompen endfor endfunc endif endl endloop endswitch endweave endwhile exit false for frame func goto if \
+    import int interrupt joint jvel lin loop movej num_base parity pause pos pose print printto ptp repeat \
+    restart return scan slip speed startcompen startmove startweave stopbits stopmove stoptype string switch \
+    timer tool toolinertiapara toolload toolswitch trigger true uint until velset void waittime waituntil \
+    weavedata weaverotaxis weaveshape while wobj";
+
+/// Names that old programs and the manual's misprints use, and what is right.
+const RENAMED: &[(&str, &str)] = &[
+    ("dfspped", "$DFSPEED"),
+    ("weavedatalin", "weavedata"),
+    ("bitlcs1", "bitlcs"),
+    ("bitrcs1", "bitrcs"),
+    ("setpwmi", "setpwm"),
+    ("syncaov", "syncao"),
+    ("ctcforce", "ctcpforce"),
+];
+
+type Names<T> = HashMap<&'static str, T, BuildHasherDefault<NameHasher>>;
+
+/// What a map from folded names is made of.
+struct Index {
+    entries: Vec<Entry>,
+    functions: Names<Range<usize>>,
+    instructions: Names<Range<usize>>,
+    variables: Names<&'static SystemVariable>,
+    constants: Names<&'static Constant>,
+    enum_constants: Names<(Enum, u16)>,
+    types: Names<Base>,
+    reserved: Names<()>,
+    renamed: Names<&'static str>,
+}
+
+static INDEX: LazyLock<Index> = LazyLock::new(Index::build);
+
+impl Index {
+    fn build() -> Self {
+        let mut entries: Vec<Entry> = CHAPTERS.iter().flat_map(|chapter| chapter.entries).copied().collect();
+        entries.sort_by_cached_key(|entry| (entry.kind == Kind::Instruction, entry.name.to_ascii_lowercase()));
+        let mut functions = Names::default();
+        let mut instructions = Names::default();
+        let mut start = 0;
+        for group in entries.chunk_by(|a, b| a.kind == b.kind && a.name.eq_ignore_ascii_case(b.name)) {
+            let range = start..start + group.len();
+            start = range.end;
+            for entry in group {
+                let names = if entry.kind == Kind::Function { &mut functions } else { &mut instructions };
+                for name in std::iter::once(&entry.name).chain(entry.aliases) {
+                    names.insert(folded(name), range.clone());
+                }
+            }
+        }
+        let mut index = Self {
+            entries,
+            functions,
+            instructions,
+            variables: Names::default(),
+            constants: super::constants::CONSTANTS.iter().map(|constant| (folded(constant.name), constant)).collect(),
+            enum_constants: Names::default(),
+            types: Names::default(),
+            reserved: RESERVED.split_ascii_whitespace().map(|word| (word, ())).collect(),
+            renamed: RENAMED.iter().copied().collect(),
+        };
+        for variable in system_variables() {
+            for name in std::iter::once(&variable.name).chain(variable.aliases) {
+                index.variables.insert(folded(name), variable);
+            }
+        }
+        for id in Enum::ALL {
+            for (at, constant) in (0..).zip(id.def().constants) {
+                for name in std::iter::once(&constant.name).chain(constant.aliases) {
+                    index.enum_constants.insert(folded(name), (id, at));
+                }
+            }
+        }
+        for (name, base) in type_names() {
+            index.types.insert(folded(name), base);
+        }
+        index
+    }
+}
+
+/// All types with all their names; `$VEL_PROFILE` without its `$`.
+fn type_names() -> impl Iterator<Item = (&'static str, Base)> {
+    let basic = [
+        ("void", Base::Void),
+        ("int", Base::Int),
+        ("uint", Base::Uint),
+        ("byte", Base::Byte),
+        ("double", Base::Double),
+        ("bool", Base::Bool),
+        ("string", Base::String),
+    ];
+    let named = |name: &'static str, aliases: &'static [&'static str], base: Base| {
+        std::iter::once(name).chain(aliases.iter().copied()).map(move |name| (name.trim_start_matches('$'), base))
+    };
+    let structs = Struct::ALL.into_iter().flat_map(move |id| {
+        let def = id.def(Family::SixAxis);
+        named(def.name, def.aliases, Base::Struct(id))
+    });
+    let enums = Enum::ALL.into_iter().flat_map(move |id| named(id.def().name, id.def().aliases, Base::Enum(id)));
+    let handles = Handle::ALL.into_iter().flat_map(move |id| named(id.def().name, id.def().aliases, Base::Handle(id)));
+    basic.into_iter().chain(structs).chain(enums).chain(handles)
+}
+
+/// The folded spelling, kept for the life of the program; called while the index is built only.
+fn folded(name: &'static str) -> &'static str {
+    if name.bytes().any(|byte| byte.is_ascii_uppercase()) {
+        return Box::leak(name.to_ascii_lowercase().into_boxed_str());
+    }
+    name
+}
+
+/// Looks a name up that may have any case, without allocating. No built-in name is longer than the buffer.
+fn find<T: Clone>(names: &Names<T>, name: &str) -> Option<T> {
+    let mut buffer = [0; 32];
+    let bytes = buffer.get_mut(..name.len())?;
+    bytes.copy_from_slice(name.as_bytes());
+    bytes.make_ascii_lowercase();
+    names.get(str::from_utf8(bytes).ok()?).cloned()
+}
+
+fn group(names: &Names<Range<usize>>, name: &str) -> &'static [Entry] {
+    find(names, name).and_then(|range| INDEX.entries.get(range)).unwrap_or(&[])
+}
+
+/// All functions and instructions, sorted by name; overloads stand one after the other.
+pub fn all_entries() -> &'static [Entry] {
+    &INDEX.entries
+}
+
+/// The overloads of a function; empty where there is none of that name.
+pub fn functions(name: &str) -> &'static [Entry] {
+    group(&INDEX.functions, name)
+}
+
+/// The instruction of that name; empty where there is none.
+pub fn instructions(name: &str) -> &'static [Entry] {
+    group(&INDEX.instructions, name)
+}
+
+/// All system variables, chapter by chapter.
+pub fn system_variables() -> impl Iterator<Item = &'static SystemVariable> {
+    VARIABLES.into_iter().flatten()
+}
+
+/// The system variable of that name, which is given without `$`.
+pub fn system_variable(name: &str) -> Option<&'static SystemVariable> {
+    find(&INDEX.variables, name)
+}
+
+/// All constants with plain names.
+pub fn constants() -> &'static [Constant] {
+    super::constants::CONSTANTS
+}
+
+/// The constant of that name: `PI`, `endl`.
+pub fn constant(name: &str) -> Option<&'static Constant> {
+    find(&INDEX.constants, name)
+}
+
+/// The enumeration that has a constant of that name, and its number there. No name stands in two enumerations.
+pub fn enum_constant(name: &str) -> Option<(Enum, u16)> {
+    find(&INDEX.enum_constants, name)
+}
+
+/// The type of that name, `void` and other spellings included. `$VEL_PROFILE` is found under `vel_profile`; see
+/// [`Base::is_system`].
+pub fn base_type(name: &str) -> Option<Base> {
+    find(&INDEX.types, name)
+}
+
+/// Whether users cannot give this name to anything. Built-in functions can be hidden, so they are not reserved.
+pub fn reserved(name: &str) -> bool {
+    find(&INDEX.reserved, name).is_some()
+}
+
+/// What is right in place of an old or misprinted name, which may be given with or without `$`.
+pub fn renamed(name: &str) -> Option<&'static str> {
+    find(&INDEX.renamed, name.trim_start_matches('$'))
+}
+
+fn is_named(asked: &str, name: &str, aliases: &[&str]) -> bool {
+    name.eq_ignore_ascii_case(asked) || aliases.iter().any(|alias| alias.eq_ignore_ascii_case(asked))
+}
+
+impl Base {
+    /// The type's name in the manual's spelling.
+    pub fn name(self) -> &'static str {
+        match self {
+            Base::Void => "void",
+            Base::Int => "int",
+            Base::Uint => "uint",
+            Base::Byte => "byte",
+            Base::Double => "double",
+            Base::Bool => "bool",
+            Base::String => "string",
+            Base::Struct(id) => id.def(Family::SixAxis).name,
+            Base::Enum(id) => id.def().name,
+            Base::Handle(id) => id.def().name,
+        }
+    }
+
+    /// Whether the type's name is written with `$`.
+    pub fn is_system(self) -> bool {
+        self.name().starts_with('$')
+    }
+}
+
+impl Entry {
+    /// The number of the parameter with this label.
+    pub fn param(&self, label: &str) -> Option<usize> {
+        self.params.iter().position(|param| param.is_named(label))
+    }
+}
+
+impl Param {
+    /// Whether this is one of the parameter's labels.
+    pub fn is_named(&self, label: &str) -> bool {
+        is_named(label, self.name, self.aliases)
+    }
+}
+
+impl StructDef {
+    /// The number of the component with this name.
+    pub fn component(&self, name: &str) -> Option<usize> {
+        self.components.iter().position(|component| is_named(name, component.name, component.aliases))
+    }
+}
+
+impl EnumDef {
+    /// The number of the constant with this name.
+    pub fn constant(&self, name: &str) -> Option<u16> {
+        let at = self.constants.iter().position(|constant| is_named(name, constant.name, constant.aliases))?;
+        u16::try_from(at).ok()
+    }
+}

@@ -1,0 +1,53 @@
+//! 5.12: time, files, system variables.
+
+use super::declare::{base, entries, folded, kind, param_type};
+
+entries! { pub(super) OTHER =
+    /// Time of day as hh:mm:ss.
+    fn ctime() -> string
+        { "5.12.2", time::ctime, acts; "print strlen(ctime())" }
+    /// Date as YYYY-MM-DD.
+    fn cdate() -> string
+        { "5.12.3", time::cdate, acts; "print strlen(cdate())" }
+    /// Raises an alarm with file and line where a condition does not hold.
+    fn assert(x: bool "what must hold")
+        { "5.12.4", flow::assert, pure, fails; "int a = 6\nassert(a == 6)" }
+    /// Saves a system variable: its value is there again at the next start. A name that does not exist: alarm.
+    fn savesv(svname: string "the variable's name, without $")
+        { "5.12.5", system::savesv, acts, fails; "$TOOLS[0].t_frame.z = 120\nsavesv(\"TOOLS\")" }
+    /// Sets the system variables of chapter 10.2 to their defaults and those of 10.1 to what was saved last.
+    fn init()
+        { "5.12.6", system::init, acts; "$DFSPEED = {10,50,5,5,5}\ninit()\nprint $DFSPEED" }
+    /// A line of a text file. A file that is missing or damaged: alarm 10064; a line beyond the end: alarm 10065.
+    fn gettextstr(
+        file_path: string "the file",
+        line_no: int "the line, from 1",
+        external_file: bool [otherwise("false")] "false: below the script directory; true: below the USB directory",
+    ) -> string
+        { "5.12.7", files::gettextstr, waits, fails;
+          "print to:file,filepath:\"notes.txt\",\"first line\",endl\nprint to:hmi,gettextstr(\"notes.txt\",1)" }
+    /// Name of the file that the motion being executed stands in.
+    fn curmpfile(channel_index: int "the foreground channel, from 1") -> string
+        { "5.12.8", channel::curmpfile, acts, fails, notyet; "print curmpfile(1)" }
+    /// Line of the motion being executed.
+    fn curmpline(channel_index: int "the foreground channel, from 1") -> int
+        { "5.12.9", channel::curmpline, acts, fails, notyet; "print curmpline(1)" }
+    /// Name of the file that the program stands in.
+    fn curppfile(channel_index: int "the foreground channel, from 1") -> string
+        { "5.12.10", channel::curppfile, acts, fails, notyet; "print curppfile(1)" }
+    /// Line that the program stands on.
+    fn curppline(channel_index: int "the foreground channel, from 1") -> int
+        { "5.12.11", channel::curppline, acts, fails, notyet; "print curppline(1)" }
+    /// Size of a file in the script directory, bytes. A file that is missing: alarm.
+    fn filesize(file_name: string "the file") -> int
+        { "5.12.12", files::filesize, waits, fails;
+          "print to:file,filepath:\"size.txt\",\"ten bytes\",endl\nprint to:hmi,filesize(\"size.txt\") >= 10" }
+    /// Gives a file in the script directory another name; whether it worked.
+    fn renamefile(file_name: string "the file", new_file_name: string "its new name") -> bool
+        { "5.12.13", files::renamefile, waits, fails;
+          "print to:file,filepath:\"old.txt\",\"text\",endl\nprint to:hmi,renamefile(\"old.txt\",\"new.txt\")" }
+    /// Deletes a file in the script directory; whether it worked.
+    fn removefile(file_name: string "the file") -> bool
+        { "5.12.14", files::removefile, waits, fails;
+          "print to:file,filepath:\"gone.txt\",\"text\",endl\nprint to:hmi,removefile(\"gone.txt\")" }
+}

@@ -1,0 +1,100 @@
+//! 5.8: where the robot is and what it feels.
+
+use super::declare::{base, entries, folded, kind, param_type};
+
+entries! { pub(super) POSE =
+    /// Axis positions that the robot reports now; external axes that are not there stay unset.
+    fn cjoint() -> joint
+        { "5.8.1", pose::cjoint, acts, foreground; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nwaittime 0\nprint cjoint()" }
+    /// Pose of the TCP that the robot reports now.
+    fn cpose(
+        t: tool [otherwise("$DFTOOL")] "the tool; $DFTOOL without it",
+        w: wobj [otherwise("$DFWOBJ")] "the workpiece frame; $DFWOBJ without it",
+    ) -> pose
+        { "5.8.2", pose::cpose, acts; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nwaittime 0\nprint cpose($FLANGE,$WORLD)" }
+    /// Pose of the TCP for given axis positions. Unset axes: alarm.
+    fn getpose(j: joint "the axis positions", t: tool "the tool", w: wobj "the workpiece frame") -> pose
+        { "5.8.3", pose::getpose, acts, fails; "joint j = {0,-90,90,0,45,0}\nprint getpose(j,$FLANGE,$WORLD)" }
+    /// Axis positions for a pose of the TCP, in its arm configuration. A pose out of reach or not all set: alarm.
+    fn getjoint(p: pose "the pose", t: tool "the tool", w: wobj "the workpiece frame") -> joint
+        { "5.8.4", pose::getjoint, acts, fails;
+          "joint j = {0,-90,90,0,45,0}\npose p = getpose(j,$FLANGE,$WORLD)\nprint getjoint(p,$FLANGE,$WORLD)" }
+    /// The inverse: for the pose of a frame A seen from B, the pose of B seen from A.
+    fn poseinv(p: pose "the pose") -> pose
+        { "5.8.5", pose::poseinv, pure; "pose p = {x 1,y 2,z 3,a 0,b 0,c 0}\nprint poseinv(p)" }
+    /// Shifts and turns a target in its workpiece frame. The point stays where the shift puts it; the turn acts about the
+    /// point itself.
+    fn offset(
+        p: pose "the target",
+        dx: double "shift along x of the workpiece frame, mm",
+        dy: double "shift along y of the workpiece frame, mm",
+        dz: double "shift along z of the workpiece frame, mm",
+        rz: double "turn about z, deg, first",
+        ry: double "turn about the new y, deg",
+        rx: double "turn about the new x, deg",
+    ) -> pose
+        { "5.8.6", pose::offset, pure;
+          "pose p = {x 1500,y 500,z 500,a 0,b 0,c 0}\nprint offset(p,10,20,30,60,50,40)" }
+    /// Shifts and turns a target along the axes of its own tool frame.
+    fn reltool(
+        p: pose "the target",
+        dx: double "shift along x of the tool, mm",
+        dy: double "shift along y of the tool, mm",
+        dz: double "shift along z of the tool, mm",
+        rz: double "turn about z, deg, first",
+        ry: double "turn about the new y, deg",
+        rx: double "turn about the new x, deg",
+    ) -> pose
+        { "5.8.7", pose::reltool, pure;
+          "pose p = {x 1500,y 500,z 500,a 0,b 0,c 0}\nprint reltool(p,10,20,30,40,50,60)" }
+    /// Torques of the axes of a foreground channel, N*m.
+    fn cjttq(
+        chan_no: int "the channel, from 1",
+        ls_cmd: bool "true: as commanded, false: as measured",
+    ) -> jttq
+        { "5.8.8", channel::cjttq, acts, fails, notyet, alias(&["cjtq"]); "print cjttq(1,true)" }
+    /// Motor currents of the axes of a foreground channel, A.
+    fn cjtci(
+        chan_no: int "the channel, from 1",
+        ls_cmd: bool "true: as commanded, false: as measured",
+    ) -> jtci
+        { "5.8.9", channel::cjtci, acts, fails, notyet, alias(&["cjtcj", "cjtc"]); "print cjtci(1,true)" }
+    /// Axis positions of the target that a foreground channel moves to.
+    fn channeltojoint(chan_no: int "the channel, from 1") -> joint
+        { "5.8.10", channel::channeltojoint, acts, fails, notyet; "print channeltojoint(1)" }
+    /// Pose of the target that a foreground channel moves to.
+    fn channeltopose(chan_no: int "the channel, from 1", t: tool "the tool", w: wobj "the workpiece frame") -> pose
+        { "5.8.11", channel::channeltopose, acts, fails, notyet; "print channeltopose(1,$FLANGE,$WORLD)" }
+    /// Axis positions of a foreground channel now.
+    fn channeljoint(
+        chan_no: int "the channel, from 1",
+        ls_cmd: bool "true: as commanded, false: as measured",
+    ) -> joint
+        { "5.8.12", channel::channeljoint, acts, fails, notyet; "print channeljoint(1,true)" }
+    /// Pose of the TCP of a foreground channel now.
+    fn channelpose(
+        chan_no: int "the channel, from 1",
+        t: tool "the tool",
+        w: wobj "the workpiece frame",
+        ls_cmd: bool "true: as commanded, false: as measured",
+    ) -> pose
+        { "5.8.13", channel::channelpose, acts, fails, notyet; "print channelpose(1,$FLANGE,$WORLD,true)" }
+    /// Speeds of the axes of a foreground channel, rad/s.
+    fn channeljointvel(
+        chan_no: int "the channel, from 1",
+        ls_cmd: bool "true: as commanded, false: as measured",
+    ) -> jvel
+        { "5.8.14", channel::channeljointvel, acts, fails, notyet; "print channeljointvel(1,true)" }
+    /// Speed of the TCP of a foreground channel, mm/s.
+    fn channeltcpvel(
+        chan_no: int "the channel, from 1",
+        t: tool "the tool",
+        w: wobj "the workpiece frame",
+        ls_cmd: bool "true: as commanded, false: as measured",
+    ) -> double
+        { "5.8.15", channel::channeltcpvel, acts, fails, notyet; "print channeltcpvel(1,$FLANGE,$WORLD,true)" }
+    /// Force and torque that a foreground channel's robot exerts at its TCP, N and N*m.
+    fn ctcpforce(chan_no: int "the channel, from 1", t: tool "the tool", w: wobj "the workpiece frame") -> tcpforce
+        { "5.8.16", channel::ctcpforce, acts, fails, foreground, notyet, alias(&["tcpforce"]);
+          "print ctcpforce(1,$FLANGE,$WORLD)" }
+}
