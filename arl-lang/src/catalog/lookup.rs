@@ -132,7 +132,7 @@ impl Index {
 }
 
 /// All types with all their names; `$VEL_PROFILE` without its `$`.
-fn type_names() -> impl Iterator<Item = (&'static str, Base)> {
+pub fn type_names() -> impl Iterator<Item = (&'static str, Base)> {
     let basic = [
         ("void", Base::Void),
         ("int", Base::Int),

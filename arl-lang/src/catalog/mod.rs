@@ -26,11 +26,14 @@ mod motion;
 mod other;
 mod points;
 mod pose;
+pub mod reference;
 mod serial;
 mod socket;
 mod strings;
 mod structs;
 mod system;
+#[cfg(test)]
+mod tests;
 mod trigger;
 mod types;
 

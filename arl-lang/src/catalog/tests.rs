@@ -1,0 +1,315 @@
+//! Walks the tables.
+
+use std::collections::{HashMap, HashSet};
+
+use super::*;
+
+/// Every name of the manual's index but the basic types and the words of the grammar.
+const INDEX: &str = "\
+    accset ccir cir clock compen controlmode endcompen endweave exit frame interrupt joint jvel lin movej \
+    num_base parity pause pos pose print printto ptp restart scan slip speed startcompen startmove startweave \
+    stopbits stopmove stoptype timer tool ToolInertiaPara toolload toolswitch trigger velset waittime waituntil \
+    weavedata weaverotaxis weaveshape wobj spl jump control compendata startdetect enddetect Centroid_Pos \
+    Inertia_Tensor socket iodev modbus_dev melsec_dev jttq jtci tcpforce abs sin cos tan asin acos atan atan2 \
+    sinh cosh tanh exp pow pow10 log log10 sqrt floor ceil frexp ldexp fmod modf hypot rand norm trunc bitclear \
+    bitset bitcheck bitlcs bitrcs clkstart clkstop clkreset clkread strlen substr toascii setdo setdoimv syncdo \
+    pulsedo getdo getdi getai getnostopdi setao syncao getao getintdo getintdi setpwm setip getip connect accept \
+    write read readuntil clearbuff open close geterror dnwrite dnread readregisters writeregisters readcoils \
+    writecoils setcycle toint todouble tobytes tostr ftobytes tofloat cjoint cpose getpose getjoint poseinv \
+    offset reltool cjttq cjtcj channeltojoint channeltopose channeljoint channelpose channeljointvel \
+    channeltcpvel ctcpforce getwobj_3p getwobj_indi getwobj_flange gettooltcp_ref gettoolrot_world gettoolrot_3p \
+    gettool_3p getbase_3p StoEnd savearl savefilepose savefilejoint saveposenow savejointnow switcharl typeof \
+    ctime cdate assert savesv init gettextstr curmpfile curmpline curppfile curppline filesize renamefile \
+    removefile disableint enableint delint $EXT_CTL_ACT_DI $SERVO_ON_DI $SERVO_OFF_DI $START_PROG_DI \
+    $PAUSE_PROG_DI $RESET_PROG_DI $CLEAR_ALARM_DI $PGNO_TYPE $PGNO_LENGTH $PGNO_FBIT_DI $PGNO_PARITY_DI \
+    $PGNO_VALID_DI $EXT_CTL_ACT_CONF_DO $SERVO_ON_DO $PGNO_REQ_DO $AT_HOME_DO $AT_T1_DO $AT_T2_DO $AT_AUT_DO \
+    $PGNO_ACK_FBIT_DO $CHAN_STATE_DO $I $I_NAME $B $B_NAME $D $D_NAME $P $J $TOOLS $TOOLS_NAME $WOBJS \
+    $WOBJS_NAME $BASE $FLANGE $WORLD $WRIST $CONFIG_CHECK $DFSPEED $DFSLIP $DFTOOL $DFWOBJ $IGNORE_ORI \
+    $ORI_REF_PATH $VEL_PROFILE $TRAJ_ELAPSE_TIME $TRAJ_LEFT_TIME $TRAJ_ELAPSE_DIS $TRAJ_LEFT_DIS $CJOINT \
+    $RPP_ENABLE $AT_HOME $EXT_CTL_ACT $PGNO_REQ $PGNO $PI $CTL_MODE $WOBJ_OFFSET $TOOL_OFFSET $RESET_POS_TYPE \
+    $RESET_POS_THRESHOLD $TOOL_INERTIA $DETECT_SOCKET_CLOSE $ERR_SOCKET_CLOSED";
+
+/// What runs: functions and instructions.
+const WORKS: &str = "\
+    movej ptp lin velset waittime waituntil exit restart print scan assert setdo setdoimv syncdo pulsedo getdo getdi \
+    getnostopdi cjoint cpose getpose getjoint poseinv offset reltool abs sin cos tan asin acos atan atan2 sinh cosh tanh \
+    exp pow pow10 log log10 sqrt floor ceil frexp ldexp fmod modf hypot rand norm trunc bitclear bitset bitcheck bitlcs \
+    bitrcs clkstart clkstop clkreset clkread strlen substr toascii toint todouble tobytes tostr ftobytes tofloat typeof \
+    ctime cdate savesv init gettextstr filesize renamefile removefile";
+
+const RUST_WORDS: &str = "as async await break const continue crate do dyn else enum extern false final fn for gen if \
+    impl in let loop macro match mod move mut override priv pub ref return self static struct super trait true try type \
+    typeof unsafe unsized use virtual where while yield";
+
+fn is_rust_name(name: &str) -> bool {
+    let plain = name.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_');
+    plain && !name.is_empty() && !RUST_WORDS.split_whitespace().any(|word| word == name)
+}
+
+fn found(name: &str) -> bool {
+    match name.strip_prefix('$') {
+        Some(bare) => system_variable(bare).is_some(),
+        None => {
+            !functions(name).is_empty()
+                || !instructions(name).is_empty()
+                || base_type(name).is_some()
+                || constant(name).is_some()
+        }
+    }
+}
+
+#[test]
+fn every_name_of_the_index_is_found() {
+    let missing: Vec<&str> = INDEX.split_whitespace().filter(|name| !found(name)).collect();
+    assert!(missing.is_empty(), "{missing:?}");
+    assert!(INDEX.split_whitespace().count() > 240);
+    assert!(base_type("vel_profile").is_some_and(Base::is_system));
+}
+
+#[test]
+fn names_match_in_any_case_and_by_alias() {
+    assert_eq!(functions("SETDO"), functions("setdo"));
+    assert_eq!(functions("setdo").len(), 2);
+    assert_eq!(instructions("StartWeaveLin"), instructions("startweave"));
+    assert_eq!(functions("dhread"), functions("dnread"));
+    assert_eq!(system_variable("tool0"), system_variable("FLANGE"));
+    assert_eq!(system_variable("congfig_CHECK"), system_variable("Config_Check"));
+    assert_eq!(base_type("melsec"), Some(Base::Handle(Handle::MelsecDev)));
+    assert_eq!(base_type("modbus_parity"), Some(Base::Enum(Enum::Parity)));
+    assert_eq!(base_type("CENTROIDPOS"), base_type("centroid_pos"));
+    assert_eq!(enum_constant("s_type"), Some((Enum::VelProfile, 1)));
+    assert_eq!(enum_constant("t2"), Some((Enum::Controlmode, 2)));
+    assert_eq!(renamed("$DFSPPED"), Some("$DFSPEED"));
+    assert_eq!(renamed("weavedatalin"), Some("weavedata"));
+    assert!(functions("no such name that is rather long, longer than all").is_empty());
+    assert!(instructions("sin").is_empty() && functions("lin").is_empty() && functions("\u{e4}").is_empty());
+}
+
+#[test]
+fn types_are_reserved_and_functions_are_not() {
+    for word in ["WHILE", "ToolInertiaPara", "lin", "weavedata", "endl", "endswitch", "true"] {
+        assert!(reserved(word), "{word}");
+    }
+    for word in ["t", "s", "p", "abs", "socket", "setdo", "pi", "i"] {
+        assert!(!reserved(word), "{word}");
+    }
+}
+
+#[test]
+fn overloads_stand_together_and_differ() {
+    let mut seen = HashSet::new();
+    for group in all_entries().chunk_by(|a, b| a.kind == b.kind && a.name == b.name) {
+        let name = group[0].name;
+        assert!(seen.insert((group[0].kind, name.to_ascii_lowercase())), "{name} is in two places");
+        let signatures: HashSet<String> = group
+            .iter()
+            .map(|entry| format!("{:?}", entry.params.iter().map(|p| (p.ty, p.mode)).collect::<Vec<_>>()))
+            .collect();
+        assert_eq!(signatures.len(), group.len(), "{name} has two equal signatures");
+    }
+    let counted: usize = CHAPTERS.iter().map(|chapter| chapter.entries.len()).sum();
+    assert_eq!(counted, all_entries().len());
+}
+
+#[test]
+fn no_name_means_two_things_of_one_kind() {
+    let mut owners: HashMap<(Kind, String), &str> = HashMap::new();
+    for entry in all_entries() {
+        for name in std::iter::once(&entry.name).chain(entry.aliases) {
+            assert!(name.len() <= 32, "{name} does not fit the lookup's buffer");
+            let owner = owners.entry((entry.kind, name.to_ascii_lowercase())).or_insert(entry.name);
+            assert_eq!(*owner, entry.name, "{name}");
+        }
+    }
+    let mut variables = HashSet::new();
+    for variable in system_variables() {
+        for name in std::iter::once(&variable.name).chain(variable.aliases) {
+            assert!(name.len() <= 32 && variables.insert(name.to_ascii_lowercase()), "${name}");
+        }
+    }
+    let mut constants = HashSet::new();
+    for id in Enum::ALL {
+        for constant in id.def().constants {
+            for name in std::iter::once(&constant.name).chain(constant.aliases) {
+                assert!(constants.insert(name.to_ascii_lowercase()), "{name}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_entry_is_whole() {
+    let mut paths = HashSet::new();
+    for entry in all_entries() {
+        let name = entry.name;
+        assert!(entry.doc.ends_with('.') && !entry.section.is_empty(), "{name}");
+        let mentions = |name: &&str| entry.example.to_ascii_lowercase().contains(&name.to_ascii_lowercase());
+        assert!(mentions(&name), "{name}: its example is about something else");
+        assert!(paths.insert(entry.path), "{name}: {} is taken", entry.path);
+        let (module, function) = entry.path.split_once("::").expect("module::function");
+        assert!(is_rust_name(module) && is_rust_name(function), "{}", entry.path);
+        if entry.effect == Effect::Plans {
+            assert!(!entry.background && entry.kind == Kind::Instruction, "{name}");
+        }
+        if entry.kind == Kind::Instruction {
+            assert_eq!(entry.result, Base::Void, "{name}");
+        }
+    }
+}
+
+#[test]
+fn parameters_are_sound() {
+    for entry in all_entries() {
+        let name = entry.name;
+        let mut labels = HashSet::new();
+        let mut rust = HashSet::new();
+        let mut optional = false;
+        for param in entry.params {
+            for label in std::iter::once(&param.name).chain(param.aliases) {
+                assert!(labels.insert(label.to_ascii_lowercase()), "{name}: {label} twice");
+                assert_eq!(entry.param(label).map(|at| entry.params[at].name), Some(param.name));
+            }
+            assert!(is_rust_name(param.rust) && rust.insert(param.rust), "{name}: {}", param.rust);
+            assert!(!param.doc.is_empty() && !param.doc.ends_with('.'), "{name}: {}", param.name);
+            let required = param.presence == Presence::Required;
+            assert!(!required || !optional || entry.kind == Kind::Instruction, "{name}: {} comes too late", param.name);
+            optional |= !required;
+            match param.presence {
+                Presence::Default(text) => assert!(!text.is_empty()),
+                Presence::Repeat { min, max } => assert!(min <= max && max > 1),
+                Presence::Required | Presence::Optional => {}
+            }
+            assert!(param.range.is_none_or(|(low, high)| low < high), "{name}: {}", param.name);
+            if param.mode == Mode::Out {
+                let handle = matches!(param.ty, ParamType::One(Base::Handle(_)));
+                assert!(!handle && !matches!(param.presence, Presence::Default(_)), "{name}: {}", param.name);
+            }
+            if entry.kind == Kind::Function {
+                assert!(param.bare, "{name}: {}", param.name);
+            }
+        }
+        for group in entry.exclusive {
+            assert!(group.len() > 1, "{name}");
+            for label in *group {
+                let at = entry.param(label).unwrap_or_else(|| panic!("{name}: no parameter {label}"));
+                assert_eq!(entry.params[at].presence, Presence::Optional, "{name}: {label}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_should_run_runs() {
+    let expected: HashSet<&str> = WORKS.split_whitespace().collect();
+    let works: HashSet<&str> =
+        all_entries().iter().filter(|entry| entry.status == Status::Works).map(|entry| entry.name).collect();
+    assert_eq!(works, expected);
+    for name in ["DFSPEED", "DFSLIP", "DFTOOL", "DFWOBJ", "I", "TOOLS", "CJOINT", "CTL_MODE", "PI", "WORLD", "FLANGE"] {
+        assert_eq!(system_variable(name).map(|variable| variable.status), Some(Status::Works), "${name}");
+    }
+}
+
+#[test]
+fn system_variables_are_whole() {
+    let mut fields = HashSet::new();
+    for variable in system_variables() {
+        let name = variable.name;
+        assert!(!variable.default.is_empty() && variable.doc.ends_with('.'), "${name}");
+        assert!(is_rust_name(variable.field) && fields.insert(variable.field), "${name}: {}", variable.field);
+        assert!(variable.example.contains(&format!("${name}")), "${name}");
+        assert!(variable.dims.iter().all(|size| *size > 0), "${name}");
+        let computed = matches!(variable.ty, Base::Handle(_) | Base::Void);
+        assert!(!computed, "${name}");
+    }
+    for name in [
+        "AT_HOME",
+        "EXT_CTL_ACT",
+        "CTL_MODE",
+        "CJOINT",
+        "TRAJ_ELAPSE_TIME",
+        "TRAJ_LEFT_TIME",
+        "TRAJ_ELAPSE_DIS",
+        "TRAJ_LEFT_DIS",
+        "PI",
+        "FLANGE",
+        "WORLD",
+    ] {
+        assert_eq!(system_variable(name).map(|variable| variable.access), Some(Access::ReadOnly), "${name}");
+    }
+}
+
+#[test]
+fn structures_have_the_components_of_their_family() {
+    let count = |id: Struct, family| id.def(family).components.len();
+    assert_eq!((count(Struct::Joint, Family::SixAxis), count(Struct::Joint, Family::Scara)), (12, 10));
+    assert_eq!((count(Struct::Jvel, Family::SixAxis), count(Struct::Jvel, Family::Scara)), (12, 10));
+    assert_eq!((count(Struct::Slip, Family::SixAxis), count(Struct::Slip, Family::Scara)), (6, 5));
+    assert_eq!(count(Struct::Pose, Family::SixAxis), 14);
+    assert_eq!(count(Struct::Weavedata, Family::SixAxis), 12);
+    for id in Struct::ALL {
+        for family in [Family::SixAxis, Family::Scara] {
+            let def = id.def(family);
+            assert_eq!(def.id, id);
+            assert!(def.doc.ends_with('.') && !def.section.is_empty(), "{}", def.name);
+            let mut names = HashSet::new();
+            for component in def.components {
+                assert!(names.insert(component.name.to_ascii_lowercase()) && !component.doc.is_empty(), "{}", def.name);
+                assert!(is_rust_name(&component.name.to_ascii_lowercase()), "{}.{}", def.name, component.name);
+                assert!(component.start != Start::Unset || component.ty == Base::Double, "{}", def.name);
+            }
+        }
+    }
+    let slip = Struct::Slip.def(Family::SixAxis);
+    assert_eq!(slip.component("JDIS"), Some(5));
+    assert!(slip.components[..5].iter().all(|component| component.by_position) && !slip.components[5].by_position);
+    let tensor = Struct::InertiaTensor.def(Family::SixAxis);
+    assert_eq!(tensor.component("lyz"), tensor.component("Iyz"));
+    let pose = Struct::Pose.def(Family::Scara);
+    assert_eq!(pose.component("turn").map(|at| pose.components[at].start), Some(Start::Int(-1)));
+}
+
+#[test]
+fn enumerations_know_their_constants() {
+    for id in Enum::ALL {
+        let def = id.def();
+        assert_eq!(def.id, id);
+        for (at, constant) in (0..).zip(def.constants) {
+            assert_eq!(enum_constant(constant.name), Some((id, at)));
+            assert_eq!(def.constant(&constant.name.to_ascii_uppercase()), Some(at));
+            assert!(!constant.doc.is_empty(), "{}", constant.name);
+        }
+    }
+}
+
+#[test]
+fn pages_show_what_the_tables_say() {
+    let lin = reference::page("LIN").expect("lin has a page");
+    assert!(lin.contains("lin p:, [ v: | vl: | vp: ], [ s: | sl: | sp: ], [ t: ], [ w: ], [ dura: ]"), "{lin}");
+    assert!(lin.contains("mm/s") && lin.contains("Manual 3.2.3.") && lin.contains("lin p,vl:100mm/s"), "{lin}");
+    let bitlcs = reference::page("bitlcs").expect("bitlcs has a page");
+    assert!(
+        bitlcs.contains("byte bitlcs(byte data, [int n = 1])") && bitlcs.contains("int bitlcs(int data"),
+        "{bitlcs}"
+    );
+    let frexp = reference::page("frexp").expect("frexp has a page");
+    assert!(frexp.contains("double frexp(double val, int &exp)"), "{frexp}");
+    let speed = reference::page("$dfspeed").expect("$DFSPEED has a page");
+    assert!(speed.contains("`{5,50,400,5,5}`") && speed.contains("at each program reset"), "{speed}");
+    let joint = reference::page("joint").expect("joint has a page");
+    assert!(joint.contains("SCARA robots:") && joint.contains("`j6`"), "{joint}");
+    assert!(reference::page("S_type").is_some_and(|text| text.contains("`S_TYPE` | 1 |")));
+    let profile = reference::page("$VEL_PROFILE").expect("$VEL_PROFILE has a page");
+    assert!(profile.contains("(enumeration)") && profile.contains("(system variable)"), "{profile}");
+    assert!(reference::page("endl").is_some_and(|text| text.contains("`\"\\n\"`")));
+    assert!(reference::page("cir").is_some_and(|text| text.contains("Not supported yet")));
+    assert_eq!(reference::page("no_such_thing"), None);
+    for name in INDEX.split_whitespace() {
+        assert!(reference::page(name).is_some(), "{name}");
+    }
+    for chapter in CHAPTERS {
+        let text = reference::chapter(chapter);
+        for entry in chapter.entries {
+            assert!(text.contains(&reference::signature(entry)) && text.contains(entry.example), "{}", entry.name);
+        }
+    }
+}
