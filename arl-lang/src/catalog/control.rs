@@ -16,7 +16,7 @@ entries! { pub(super) CONTROL =
         { "3.4.2", flow::waituntil, waits, fails; "bool late\nwaituntil getdi(6),maxtime:0.5,timeoutflag:late\nprint late" }
     /// Pauses the program when all motion so far has run; the pendant or the external control continues it.
     instr pause()
-        { "3.4.3", flow::pause, waits, fails, notyet; "pause" }
+        { "3.4.3", flow::pause, waits; "pause" }
     /// Ends the program, from any function, when all motion so far has run.
     instr exit()
         { "3.4.4", flow::exit, ends; "if(getdi(6))\nexit\nendif" }
@@ -24,9 +24,9 @@ entries! { pub(super) CONTROL =
     instr restart()
         { "3.4.5", flow::restart, ends; "$I[0]++\nif($I[0] < 3) restart\nprint $I[0]" }
     /// Stops the motion on its path; as a rule in an interrupt's function, with startmove.
-    instr stopmove(type: {stoptype} [otherwise("general"), rust("stop")] "how it brakes; general without it")
+    instr stopmove(type: stoptype [otherwise("general"), rust("stop")] "how it brakes; general without it")
         { "3.4.6", event::stopmove, acts, fails, foreground, notyet; "stopmove fast\nstartmove" }
     /// Goes on with the motion that stopmove stopped: back to the place of the stop and on, or to a later target.
-    instr startmove(skip: {int, bool} [otherwise("0")] "how many motions are dropped, from the stopped one on; 0 without it")
+    instr startmove(skip: {int, bool} [optional] "how many motions are dropped, from the stopped one on; 0 without it")
         { "3.4.7", event::startmove, acts, fails, foreground, notyet; "stopmove\nstartmove 1" }
 }

@@ -6,11 +6,11 @@ entries! { pub(super) POSE =
     /// Axis positions that the robot reports now; external axes that are not there stay unset.
     fn cjoint() -> joint
         { "5.8.1", pose::cjoint, acts, foreground; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nwaittime 0\nprint cjoint()" }
+    /// Pose of the TCP that the robot reports now, with the tool $DFTOOL in the workpiece frame $DFWOBJ.
+    fn cpose() -> pose
+        { "5.8.2", pose::cpose_default, acts; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nwaittime 0\nprint cpose()" }
     /// Pose of the TCP that the robot reports now.
-    fn cpose(
-        t: tool [otherwise("$DFTOOL")] "the tool; $DFTOOL without it",
-        w: wobj [otherwise("$DFWOBJ")] "the workpiece frame; $DFWOBJ without it",
-    ) -> pose
+    fn cpose(t: tool "the tool", w: wobj "the workpiece frame") -> pose
         { "5.8.2", pose::cpose, acts; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nwaittime 0\nprint cpose($FLANGE,$WORLD)" }
     /// Pose of the TCP for given axis positions. Unset axes: alarm.
     fn getpose(j: joint "the axis positions", t: tool "the tool", w: wobj "the workpiece frame") -> pose

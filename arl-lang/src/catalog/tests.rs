@@ -31,7 +31,7 @@ const INDEX: &str = "\
 
 /// What runs: functions and instructions.
 const WORKS: &str = "\
-    movej ptp lin velset waittime waituntil exit restart print scan assert setdo setdoimv syncdo pulsedo getdo getdi \
+    movej ptp lin velset waittime waituntil pause exit restart print scan assert setdo setdoimv syncdo pulsedo getdo getdi \
     getnostopdi cjoint cpose getpose getjoint poseinv offset reltool abs sin cos tan asin acos atan atan2 sinh cosh tanh \
     exp pow pow10 log log10 sqrt floor ceil frexp ldexp fmod modf hypot rand norm trunc bitclear bitset bitcheck bitlcs \
     bitrcs clkstart clkstop clkreset clkread strlen substr toascii toint todouble tobytes tostr ftobytes tofloat typeof \
@@ -44,6 +44,18 @@ const RUST_WORDS: &str = "as async await break const continue crate do dyn else 
 fn is_rust_name(name: &str) -> bool {
     let plain = name.bytes().all(|byte| byte.is_ascii_lowercase() || byte.is_ascii_digit() || byte == b'_');
     plain && !name.is_empty() && !RUST_WORDS.split_whitespace().any(|word| word == name)
+}
+
+/// Whether `text` is a constant of a scalar type, as the checker fills it in.
+fn is_constant(text: &str, ty: ParamType) -> bool {
+    match ty {
+        ParamType::One(Base::Int) => text.parse::<i32>().is_ok(),
+        ParamType::One(Base::Double) => text.parse::<f64>().is_ok(),
+        ParamType::One(Base::Bool) => text.parse::<bool>().is_ok(),
+        ParamType::One(Base::String) => text.len() > 1 && text.starts_with('"') && text.ends_with('"'),
+        ParamType::One(Base::Enum(id)) => id.def().constant(text).is_some(),
+        _ => false,
+    }
 }
 
 fn found(name: &str) -> bool {
@@ -175,7 +187,7 @@ fn parameters_are_sound() {
             assert!(!required || !optional || entry.kind == Kind::Instruction, "{name}: {} comes too late", param.name);
             optional |= !required;
             match param.presence {
-                Presence::Default(text) => assert!(!text.is_empty()),
+                Presence::Default(text) => assert!(is_constant(text, param.ty), "{name}: {text}"),
                 Presence::Repeat { min, max } => assert!(min <= max && max > 1),
                 Presence::Required | Presence::Optional => {}
             }
