@@ -301,6 +301,8 @@ pub enum ExprKind {
     Const(Value),
     /// The value of a variable, component or element.
     Place(Box<Place>),
+    /// A component of a value that is not a variable: `cjoint().j1`.
+    FieldOf(Box<Expr>, Struct, usize),
     /// An implicit conversion to this expression's type: byte, int, uint, double or enum to a wider number or bool,
     /// int to enum where constant.
     Convert(Box<Expr>),
@@ -311,7 +313,7 @@ pub enum ExprKind {
     Binary(BinaryOp, Box<(Expr, Expr)>),
     /// `place = value`; the value of the expression is the new value.
     Assign(Box<(Place, Expr)>),
-    /// `place op= value`
+    /// `place op= value`; the value has the place's type, but for shifts (an int) and `pose *= frame`.
     AssignOp(BinaryOp, Box<(Place, Expr)>),
     /// `++`, `--`
     Step(Step, Box<Place>),
@@ -319,7 +321,7 @@ pub enum ExprKind {
     Call(FuncId, Vec<Expr>),
     /// A built-in function or instruction.
     Builtin(Box<Builtin>),
-    /// A structure from braces: one value per component, `None` keeps the start value.
+    /// A structure from braces: one value per component, `None` keeps the start value; an empty list is all start values.
     Struct(Struct, Vec<Option<Expr>>),
     /// An array from braces, flat; elements that are missing at the end have start values.
     Array(Vec<Expr>),

@@ -3,8 +3,13 @@
 //! The core does no file or process work: sources come in through [`Sources`], text and diagnostics go out. The doors
 //! (the command, `build.rs`, the macro) read files and show what the core has to say.
 
+mod check;
 pub mod diagnostics;
 pub mod hir;
+mod near;
+mod visit;
+
+pub use check::check;
 
 use arl_lang::catalog::Family;
 use diagnostics::{Diagnostic, Files, Severity};

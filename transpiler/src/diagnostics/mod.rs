@@ -1,6 +1,13 @@
 //! What the compiler has to say about a program: codes, places, words.
 
+pub(crate) mod arguments;
+pub(crate) mod constants;
+pub(crate) mod flow;
+pub(crate) mod modules;
+pub(crate) mod names;
 mod registry;
+pub(crate) mod support;
+pub(crate) mod types;
 
 pub use registry::{CodeInfo, info, registry};
 
@@ -114,4 +121,30 @@ pub struct Diagnostic {
     pub help: Option<String>,
     /// A change that would mend it.
     pub fix: Option<Fix>,
+}
+
+/// A typed problem: the data arises where the mistake is found, the words are here.
+pub(crate) trait Problem {
+    /// Its code; the registry knows the severity.
+    fn code(&self) -> Code;
+    /// What is wrong, in the program's terms.
+    fn message(&self) -> String;
+    /// A few words at the place; may be empty.
+    fn label(&self) -> String;
+    /// What would be right.
+    fn help(&self) -> Option<String>;
+
+    /// The diagnostic at a place.
+    fn at(&self, at: Location) -> Diagnostic {
+        let code = self.code();
+        Diagnostic {
+            code,
+            severity: info(code).map_or(Severity::Error, |info| info.severity),
+            message: self.message(),
+            primary: Label { at, text: self.label() },
+            labels: Vec::new(),
+            help: self.help(),
+            fix: None,
+        }
+    }
 }

@@ -1,0 +1,481 @@
+//! The one binder: gives the arguments of instructions, built-in functions and the user's functions to parameters.
+//!
+//! Labelled arguments take their parameter. Bare ones go, in a call, to the parameters in order; in an instruction
+//! to the first parameter of the format line that is free and takes their type.
+
+use super::context::{Body, Checker};
+use super::convert::{Typed, integer};
+use super::name::constant;
+use crate::diagnostics::arguments::ArgumentProblem;
+use crate::diagnostics::types::TypeProblem;
+use crate::hir::{Bound, Expr, ExprKind, FuncId, Passed, Type, Value};
+use arl_lang::ast::{self, Arg, Unit};
+use arl_lang::catalog::{Base, Entry, Kind, Mode, ParamType, Presence};
+use arl_lang::span::Span;
+
+/// Who gets the arguments.
+pub(crate) enum Callee {
+    /// A function of the program.
+    User(FuncId),
+    /// A built-in.
+    Builtin(&'static Entry),
+}
+
+/// A parameter, of whichever kind of callee.
+#[derive(Clone)]
+struct Parameter {
+    name: String,
+    aliases: &'static [&'static str],
+    /// `None` where the declaration is wrong and reported.
+    ty: Option<Wanted>,
+    mode: Mode,
+    presence: Presence,
+    bare: bool,
+    units: &'static [Unit],
+    range: Option<(f64, f64)>,
+}
+
+#[derive(Clone, Copy)]
+enum Wanted {
+    User(Type),
+    Builtin(ParamType),
+}
+
+/// An argument on its way to a parameter.
+struct Pair<'e> {
+    param: usize,
+    arg: &'e Arg,
+    /// Checked already, to find its parameter by type.
+    typed: Option<Typed>,
+}
+
+impl Checker<'_> {
+    /// Binds arguments. `None` where anything is wrong; everything wrong is reported.
+    pub(crate) fn bind(&mut self, body: &mut Body, callee: &Callee, args: &[Arg], span: Span) -> Option<Vec<Bound>> {
+        let name = self.callee_name(callee);
+        let params = self.parameters(callee);
+        let by_type = matches!(callee, Callee::Builtin(entry) if entry.kind == Kind::Instruction);
+        let shown = self.diagnostics.len();
+        let pairs = self.pair(body, callee, &name, &params, args, by_type);
+        let mut good = self.diagnostics.len() == shown;
+        let counts = counts(&params, &pairs);
+        for (param, count) in params.iter().zip(&counts) {
+            let least = match param.presence {
+                Presence::Required => 1,
+                Presence::Repeat { min, .. } => usize::from(min),
+                Presence::Optional | Presence::Default(_) => 0,
+            };
+            if *count < least && good {
+                let signature = self.callee_signature(callee);
+                let problem =
+                    ArgumentProblem::Missing { callee: name.clone(), parameter: param.name.clone(), signature };
+                self.report::<()>(body, span, problem);
+                good = false;
+            }
+        }
+        if let Callee::Builtin(entry) = callee {
+            good &= self.exclusions(body, entry, &pairs, args);
+        }
+        let mut bound = Vec::new();
+        for pair in pairs {
+            let Some(param) = params.get(pair.param) else { continue };
+            match self.pass(body, &name, param, pair.arg, pair.typed) {
+                Some(value) => bound.push(Bound { param: pair.param, value }),
+                None => good = false,
+            }
+        }
+        for (at, (param, count)) in params.iter().zip(&counts).enumerate() {
+            if let (Presence::Default(text), 0, Some(Wanted::Builtin(ParamType::One(base)))) =
+                (param.presence, *count, param.ty)
+            {
+                let value = default_value(text, base, span)?;
+                bound.push(Bound { param: at, value: Passed::Value(value) });
+            }
+        }
+        good.then_some(bound)
+    }
+
+    fn callee_name(&self, callee: &Callee) -> String {
+        match callee {
+            Callee::Builtin(entry) => entry.name.into(),
+            Callee::User(func) => {
+                self.funcs.get(func.0 as usize).map(|slot| self.text(slot.module, slot.ast.name.span).to_string()).unwrap_or_default()
+            }
+        }
+    }
+
+    fn callee_signature(&self, callee: &Callee) -> String {
+        match callee {
+            Callee::Builtin(entry) => self.signature(entry),
+            Callee::User(func) => {
+                let Some(slot) = self.funcs.get(func.0 as usize) else { return String::new() };
+                let params: Vec<&str> = slot.ast.params.iter().map(|param| self.text(slot.module, param.span)).collect();
+                format!("{}({})", self.text(slot.module, slot.ast.name.span), params.join(", "))
+            }
+        }
+    }
+
+    fn parameters(&self, callee: &Callee) -> Vec<Parameter> {
+        match callee {
+            Callee::Builtin(entry) => entry
+                .params
+                .iter()
+                .map(|param| Parameter {
+                    name: param.name.into(),
+                    aliases: param.aliases,
+                    ty: Some(Wanted::Builtin(param.ty)),
+                    mode: param.mode,
+                    presence: param.presence,
+                    bare: param.bare || entry.kind == Kind::Function,
+                    units: param.units,
+                    range: param.range,
+                })
+                .collect(),
+            Callee::User(func) => {
+                let Some(slot) = self.funcs.get(func.0 as usize) else { return Vec::new() };
+                let types = slot.params.iter();
+                types
+                    .zip(&slot.ast.params)
+                    .map(|(ty, param)| Parameter {
+                        name: self.text(slot.module, param.name.span).into(),
+                        aliases: &[],
+                        ty: ty.map(Wanted::User),
+                        mode: Mode::In,
+                        presence: Presence::Required,
+                        bare: true,
+                        units: &[],
+                        range: None,
+                    })
+                    .collect()
+            }
+        }
+    }
+
+    /// Finds the parameter of each argument.
+    fn pair<'e>(
+        &mut self,
+        body: &mut Body,
+        callee: &Callee,
+        name: &str,
+        params: &[Parameter],
+        args: &'e [Arg],
+        by_type: bool,
+    ) -> Vec<Pair<'e>> {
+        let mut taken = vec![0usize; params.len()];
+        let mut slots: Vec<Option<usize>> = Vec::with_capacity(args.len());
+        for arg in args {
+            let param = arg.label.and_then(|label| self.labelled(body, name, params, label, &taken));
+            if let Some(count) = param.and_then(|param| taken.get_mut(param)) {
+                *count += 1;
+            }
+            slots.push(param);
+        }
+        let mut pairs = Vec::new();
+        let mut position = 0;
+        for (arg, slot) in args.iter().zip(slots) {
+            if arg.label.is_some() {
+                pairs.extend(slot.map(|param| Pair { param, arg, typed: None }));
+                continue;
+            }
+            let found = if by_type {
+                self.by_type(body, name, params, arg, &taken)
+            } else {
+                self.by_position(body, callee, name, params, arg, &mut position, &taken)
+            };
+            if let Some((param, typed)) = found {
+                if let Some(count) = taken.get_mut(param) {
+                    *count += 1;
+                }
+                pairs.push(Pair { param, arg, typed });
+            }
+        }
+        pairs
+    }
+
+    fn labelled(
+        &mut self,
+        body: &Body,
+        callee: &str,
+        params: &[Parameter],
+        label: ast::Ident,
+        taken: &[usize],
+    ) -> Option<usize> {
+        let wanted = self.names.name(label.symbol);
+        let named = |param: &Parameter| {
+            param.name.eq_ignore_ascii_case(wanted) || param.aliases.iter().any(|alias| alias.eq_ignore_ascii_case(wanted))
+        };
+        let Some(at) = params.iter().position(named) else {
+            let labels: Vec<&str> = params.iter().map(|param| param.name.as_str()).collect();
+            let problem = ArgumentProblem::UnknownLabel {
+                callee: callee.into(),
+                label: self.text(body.module, label.span).into(),
+                near: crate::near::nearest(wanted, labels.iter().copied()).map(Into::into),
+                labels: labels.join(", "),
+            };
+            return self.report(body, label.span, problem);
+        };
+        let param = params.get(at)?;
+        self.strict_case(body, label.span, &param.name);
+        if taken.get(at).is_some_and(|count| *count >= most(param)) {
+            return self.report(body, label.span, ArgumentProblem::Twice { parameter: param.name.clone() });
+        }
+        Some(at)
+    }
+
+    #[expect(clippy::too_many_arguments, reason = "the state of one walk over the arguments")]
+    fn by_position(
+        &mut self,
+        body: &Body,
+        callee: &Callee,
+        name: &str,
+        params: &[Parameter],
+        arg: &Arg,
+        position: &mut usize,
+        taken: &[usize],
+    ) -> Option<(usize, Option<Typed>)> {
+        while let Some(param) = params.get(*position) {
+            let at = *position;
+            if taken.get(at).is_some_and(|count| *count < most(param)) {
+                if !matches!(param.presence, Presence::Repeat { .. }) {
+                    *position += 1;
+                }
+                return Some((at, None));
+            }
+            *position += 1;
+        }
+        let problem = ArgumentProblem::TooMany { callee: name.into(), most: params.len() };
+        let _ = callee;
+        self.report(body, arg.value.span, problem)
+    }
+
+    fn by_type(
+        &mut self,
+        body: &mut Body,
+        callee: &str,
+        params: &[Parameter],
+        arg: &Arg,
+        taken: &[usize],
+    ) -> Option<(usize, Option<Typed>)> {
+        let free = |at: usize, param: &Parameter| taken.get(at).is_some_and(|count| *count < most(param));
+        if let ast::ExprKind::Brace(_) = arg.value.kind {
+            let takes_braces = |param: &&Parameter| {
+                matches!(param.ty, Some(Wanted::Builtin(ParamType::One(Base::Struct(_)))))
+            };
+            let labels: Vec<String> = params.iter().filter(takes_braces).map(|param| format!("`{}:{{...}}`", param.name)).collect();
+            let problem = ArgumentProblem::BareBrace { callee: callee.into(), labels: labels.join(" or ") };
+            return self.report(body, arg.value.span, problem);
+        }
+        let typed = self.expr(body, &arg.value, None)?;
+        if typed.expr.ty.base == Base::Void {
+            return self.report_no_value(body, &typed.expr);
+        }
+        let takes = |param: &Parameter| match &param.ty {
+            Some(Wanted::Builtin(ty)) => self.param_cost(ty, param.mode, &typed).is_some(),
+            _ => false,
+        };
+        let found = params.iter().enumerate().position(|(at, param)| param.bare && free(at, param) && takes(param));
+        if let Some(at) = found {
+            return Some((at, Some(typed)));
+        }
+        let ty = self.type_name(typed.expr.ty);
+        let labelled: Vec<String> = params
+            .iter()
+            .enumerate()
+            .filter(|(at, param)| !param.bare && free(*at, param) && takes(param))
+            .map(|(_, param)| format!("`{}:`", param.name))
+            .collect();
+        if !labelled.is_empty() {
+            let problem = ArgumentProblem::LabelNeeded { callee: callee.into(), labels: labelled.join(", "), ty };
+            return self.report(body, arg.value.span, problem);
+        }
+        if params.is_empty() {
+            return self.report(body, arg.value.span, ArgumentProblem::TooMany { callee: callee.into(), most: 0 });
+        }
+        let labels: Vec<&str> =
+            params.iter().enumerate().filter(|(at, param)| free(*at, param)).map(|(_, param)| param.name.as_str()).collect();
+        let problem = ArgumentProblem::NoParameter { callee: callee.into(), ty, labels: labels.join(", ") };
+        self.report(body, arg.value.span, problem)
+    }
+
+    fn exclusions(&mut self, body: &Body, entry: &'static Entry, pairs: &[Pair<'_>], args: &[Arg]) -> bool {
+        let given = |name: &str| {
+            pairs.iter().find(|pair| entry.params.get(pair.param).is_some_and(|param| param.name == name))
+        };
+        let mut good = true;
+        for group in entry.exclusive {
+            let mut present = group.iter().filter_map(|name| Some((*name, given(name)?.arg.span())));
+            let (Some(first), Some(second)) = (present.next(), present.next()) else { continue };
+            let later = if first.1.start > second.1.start { first.1 } else { second.1 };
+            let problem = ArgumentProblem::Exclusive { first: first.0.into(), second: second.0.into() };
+            self.report::<()>(body, later, problem);
+            good = false;
+        }
+        let _ = args;
+        good
+    }
+
+    /// Checks one argument against its parameter.
+    fn pass(
+        &mut self,
+        body: &mut Body,
+        callee: &str,
+        param: &Parameter,
+        arg: &Arg,
+        typed: Option<Typed>,
+    ) -> Option<Passed> {
+        self.check_unit(body, param, arg)?;
+        let what = format!("`{}` of `{callee}`", param.name);
+        if param.mode == Mode::Out {
+            return self.pass_out(body, callee, param, arg);
+        }
+        let want = match param.ty {
+            Some(Wanted::User(ty)) => Some(ty),
+            Some(Wanted::Builtin(ParamType::One(base))) if param.mode != Mode::Action => Some(Type::scalar(base)),
+            _ => None,
+        };
+        let typed = match typed {
+            Some(typed) => typed,
+            None => self.expr(body, &arg.value, want)?,
+        };
+        if param.mode == Mode::Action {
+            return Some(Passed::Value(typed.expr));
+        }
+        let value = match (param.ty?, want) {
+            (Wanted::Builtin(ParamType::One(Base::Handle(_))), Some(want)) if typed.expr.ty == want => typed.expr,
+            (_, Some(want)) => self.coerce(body, typed, want, &what)?,
+            (Wanted::Builtin(ty), None) => self.unconverted(body, &what, &ty, param.mode, typed)?,
+            (Wanted::User(_), None) => return None,
+        };
+        self.check_range(body, param, &value)?;
+        Some(Passed::Value(value))
+    }
+
+    /// A value for a parameter that takes several types as they are.
+    fn unconverted(&mut self, body: &Body, what: &str, ty: &ParamType, mode: Mode, typed: Typed) -> Option<Expr> {
+        self.refuse_wide(body, &typed)?;
+        if typed.expr.ty.base == Base::Void {
+            return self.report_no_value(body, &typed.expr);
+        }
+        if self.param_cost(ty, mode, &typed).is_some() {
+            return Some(typed.expr);
+        }
+        let wanted = match ty {
+            ParamType::Any => "a value that can be printed".to_string(),
+            ParamType::Array(base) => format!("{}[]", self.base_name(*base)),
+            ParamType::AnyOf(bases) => bases.iter().map(|base| self.base_name(*base)).collect::<Vec<_>>().join(" or "),
+            ParamType::One(base) => self.base_name(*base).into(),
+        };
+        let found = self.type_name(typed.expr.ty);
+        let problem = TypeProblem::Mismatch { found, wanted, what: what.into(), use_instead: None };
+        self.report(body, typed.expr.span, problem)
+    }
+
+    fn pass_out(&mut self, body: &mut Body, callee: &str, param: &Parameter, arg: &Arg) -> Option<Passed> {
+        let is_place = matches!(
+            arg.value.kind,
+            ast::ExprKind::Name(_)
+                | ast::ExprKind::Path { .. }
+                | ast::ExprKind::System(_)
+                | ast::ExprKind::Index(_)
+                | ast::ExprKind::Field(..)
+        );
+        if !is_place {
+            let problem = ArgumentProblem::NotAVariable { callee: callee.into(), parameter: param.name.clone() };
+            return self.report(body, arg.value.span, problem);
+        }
+        let place = self.written_place(body, &arg.value, true)?;
+        let Some(Wanted::Builtin(ty)) = param.ty else { return None };
+        let fits = match ty {
+            ParamType::One(base) => place.ty == Type::scalar(base),
+            ParamType::Array(base) => place.ty.dims().len() == 1 && place.ty.base == base,
+            ParamType::AnyOf(bases) => !place.ty.is_array() && bases.contains(&place.ty.base),
+            ParamType::Any => true,
+        };
+        if fits {
+            return Some(Passed::Out(place));
+        }
+        let wanted = match ty {
+            ParamType::One(base) => self.base_name(base).to_string(),
+            ParamType::Array(base) => format!("{}[]", self.base_name(base)),
+            ParamType::AnyOf(bases) => bases.iter().map(|base| self.base_name(*base)).collect::<Vec<_>>().join(" or "),
+            ParamType::Any => "any".into(),
+        };
+        let found = self.type_name(place.ty);
+        let what = format!("`{}` of `{callee}`", param.name);
+        let problem = TypeProblem::Mismatch { found, wanted, what, use_instead: None };
+        self.report(body, arg.value.span, problem)
+    }
+
+    fn check_unit(&mut self, body: &Body, param: &Parameter, arg: &Arg) -> Option<()> {
+        let Some((unit, span)) = arg.unit else { return Some(()) };
+        let number = match &arg.value.kind {
+            ast::ExprKind::Unary(ast::UnaryOp::Negate, operand) => &operand.kind,
+            kind => kind,
+        };
+        if !matches!(number, ast::ExprKind::Int(..) | ast::ExprKind::Double(_)) {
+            return self.report(body, span, ArgumentProblem::UnitOfNoNumber);
+        }
+        if param.units.contains(&unit) {
+            return Some(());
+        }
+        let units: Vec<&str> = param.units.iter().map(|unit| unit.text()).collect();
+        let problem =
+            ArgumentProblem::WrongUnit { parameter: param.name.clone(), unit: unit.text(), units: units.join(" or ") };
+        self.report(body, span, problem)
+    }
+
+    fn check_range(&mut self, body: &Body, param: &Parameter, value: &Expr) -> Option<()> {
+        let (Some((low, high)), ExprKind::Const(constant)) = (param.range, &value.kind) else { return Some(()) };
+        let number = match (constant, integer(constant)) {
+            (Value::Double(number), _) => *number,
+            (_, Some(number)) => number as f64,
+            _ => return Some(()),
+        };
+        if (low..=high).contains(&number) {
+            return Some(());
+        }
+        let problem = ArgumentProblem::Range {
+            parameter: param.name.clone(),
+            value: self.text(body.module, value.span).into(),
+            low: low.to_string(),
+            high: high.to_string(),
+        };
+        self.report(body, value.span, problem)
+    }
+}
+
+/// How many arguments a parameter takes.
+fn most(param: &Parameter) -> usize {
+    match param.presence {
+        Presence::Repeat { max, .. } => usize::from(max),
+        _ => 1,
+    }
+}
+
+fn counts(params: &[Parameter], pairs: &[Pair<'_>]) -> Vec<usize> {
+    let mut counts = vec![0; params.len()];
+    for pair in pairs {
+        if let Some(count) = counts.get_mut(pair.param) {
+            *count += 1;
+        }
+    }
+    counts
+}
+
+/// A default of the catalog as a constant.
+fn default_value(text: &str, base: Base, span: Span) -> Option<Expr> {
+    let value = match base {
+        Base::Int => Value::Int(text.parse().ok()?),
+        Base::Uint => Value::Uint(text.parse().ok()?),
+        Base::Byte => Value::Byte(text.parse().ok()?),
+        Base::Double => Value::Double(text.parse().ok()?),
+        Base::Bool => Value::Bool(text.parse().ok()?),
+        Base::String => Value::String(text.trim_matches('"').into()),
+        Base::Enum(id) => {
+            let index = id.def().constants.iter().position(|constant| constant.name.eq_ignore_ascii_case(text))?;
+            Value::Enum(id, index as u16)
+        }
+        Base::Void | Base::Struct(_) | Base::Handle(_) => return None,
+    };
+    Some(constant(value, span).expr)
+}

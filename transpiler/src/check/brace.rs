@@ -1,0 +1,208 @@
+//! Values in braces: structures by position or by name, arrays flat or nested.
+
+use super::context::{Body, Checker};
+use crate::diagnostics::types::TypeProblem;
+use crate::hir::{Expr, ExprKind, Type, Value};
+use arl_lang::ast::{self, BinaryOp, BraceItem, UnaryOp};
+use arl_lang::catalog::{Base, Struct};
+use arl_lang::span::Span;
+
+impl Checker<'_> {
+    /// `{..}` as a value of type `want`.
+    pub(crate) fn brace(&mut self, body: &mut Body, items: &[BraceItem], want: Type, span: Span) -> Option<Expr> {
+        if want.is_array() {
+            let dims: Vec<u16> = want.dims().to_vec();
+            let mut elements = Vec::new();
+            self.array(body, items, want, &dims, &mut elements, span)?;
+            return Some(Expr { ty: want, kind: ExprKind::Array(elements), span });
+        }
+        match want.base {
+            Base::Struct(id) => self.structure(body, items, id, span),
+            _ => {
+                let problem = TypeProblem::Mismatch {
+                    found: "a list in braces".into(),
+                    wanted: self.type_name(want),
+                    what: "the value".into(),
+                    use_instead: Some("braces make structures and arrays".into()),
+                };
+                self.report(body, span, problem)
+            }
+        }
+    }
+
+    fn structure(&mut self, body: &mut Body, items: &[BraceItem], id: Struct, span: Span) -> Option<Expr> {
+        let components = id.def(self.family()).components;
+        let mut values: Vec<Option<Expr>> = components.iter().map(|_| None).collect();
+        let mut by_position = components.iter().enumerate().filter(|(_, component)| component.by_position);
+        let mut named: Option<bool> = None;
+        let mut good = true;
+        for item in items {
+            let difference = self.difference_item(item, id);
+            let (name, value) = match &difference {
+                Some(difference) => (None, difference),
+                None => (item.name, &item.value),
+            };
+            if named.is_some_and(|named| named != name.is_some()) {
+                self.report::<()>(body, value.span, TypeProblem::MixedBraces);
+                good = false;
+                break;
+            }
+            named = Some(name.is_some());
+            let index = match name {
+                Some(name) => self.component(body, id, name),
+                None => match by_position.next() {
+                    Some((index, _)) => Some(index),
+                    None => {
+                        let ty = format!("`{}`", id.def(self.family()).name);
+                        let wanted = components.iter().filter(|component| component.by_position).count();
+                        self.report(body, value.span, TypeProblem::TooManyValues { wanted, ty })
+                    }
+                },
+            };
+            let Some((index, component)) = index.and_then(|index| Some((index, components.get(index)?))) else {
+                good = false;
+                continue;
+            };
+            if values.get(index).is_some_and(Option::is_some) {
+                let name = component.name.to_string();
+                self.report::<()>(body, item.name.map_or(value.span, |name| name.span), TypeProblem::ComponentTwice { name });
+                good = false;
+                continue;
+            }
+            let what = format!("`{}`", component.name);
+            match self.expr_as(body, value, Type::scalar(component.ty), &what) {
+                Some(checked) => {
+                    if let Some(slot) = values.get_mut(index) {
+                        *slot = Some(checked);
+                    }
+                }
+                None => good = false,
+            }
+        }
+        good.then(|| Expr { ty: Type::scalar(Base::Struct(id)), kind: ExprKind::Struct(id, values), span })
+    }
+
+    /// A name before a value is a component where the structure has it; otherwise `{n -1}` is a difference.
+    fn difference_item(&self, item: &BraceItem, id: Struct) -> Option<ast::Expr> {
+        let is_component = item.name.is_some_and(|name| self.find_component(id, name.symbol).is_some());
+        if is_component { None } else { brace_difference(item) }
+    }
+
+    /// Fills `out` with the elements of an array of the given (remaining) dimensions.
+    fn array(
+        &mut self,
+        body: &mut Body,
+        items: &[BraceItem],
+        want: Type,
+        dims: &[u16],
+        out: &mut Vec<Expr>,
+        span: Span,
+    ) -> Option<()> {
+        let total: usize = dims.iter().map(|dim| *dim as usize).product();
+        let begin = out.len();
+        if dims.len() > 1 && self.is_nested(items, want.base) {
+            let rows = dims.first().map_or(0, |rows| *rows as usize);
+            let inner = dims.get(1..).unwrap_or(&[]);
+            let row_len: usize = inner.iter().map(|dim| *dim as usize).product();
+            for (row, item) in items.iter().enumerate() {
+                let ast::ExprKind::Brace(row_items) = &item.value.kind else {
+                    return self.report(body, item.value.span, TypeProblem::BraceShape { wanted: row_len });
+                };
+                if row >= rows {
+                    return self.report(body, item.value.span, TypeProblem::BraceShape { wanted: rows });
+                }
+                self.array(body, row_items, want, inner, out, item.value.span)?;
+                while out.len() < begin + (row + 1) * row_len {
+                    out.push(start_value(want.base, span));
+                }
+            }
+            return Some(());
+        }
+        let mut good = true;
+        for item in items {
+            if out.len() - begin == total {
+                let ty = format!("`{}`", self.type_name(want));
+                return self.report(body, item.value.span, TypeProblem::TooManyValues { wanted: total, ty });
+            }
+            let joined = brace_difference(item);
+            let value = joined.as_ref().unwrap_or(&item.value);
+            if let (Some(name), None) = (item.name, &joined) {
+                let ty = self.type_name(want);
+                self.report::<()>(body, name.span, TypeProblem::NotAStructure { ty });
+                good = false;
+                continue;
+            }
+            match self.expr_as(body, value, want.element(), "an element") {
+                Some(element) => out.push(element),
+                None => good = false,
+            }
+        }
+        good.then_some(())
+    }
+
+    /// Whether the braces of an array of several dimensions are rows of braces, not elements one after the other.
+    fn is_nested(&self, items: &[BraceItem], base: Base) -> bool {
+        let first_brace = |items: &[BraceItem]| match items.first().map(|item| &item.value.kind) {
+            Some(ast::ExprKind::Brace(inner)) => Some(inner.len()),
+            _ => None,
+        };
+        let Some(ast::ExprKind::Brace(inner)) = items.first().map(|item| &item.value.kind) else { return false };
+        // Elements that are structures have braces themselves: rows are braces of braces then.
+        !matches!(base, Base::Struct(_)) || first_brace(inner).is_some() && !self.opens_structure(inner, base)
+    }
+
+    /// Whether the items are those of one structure whose first component is a structure itself (`tool`, `wobj`).
+    fn opens_structure(&self, items: &[BraceItem], base: Base) -> bool {
+        let Base::Struct(id) = base else { return false };
+        let nested = id.def(self.family()).components.first().is_some_and(|first| matches!(first.ty, Base::Struct(_)));
+        let inner_is_brace = matches!(items.first().map(|item| &item.value.kind),
+            Some(ast::ExprKind::Brace(inner)) if matches!(inner.first().map(|item| &item.value.kind), Some(ast::ExprKind::Brace(_))));
+        nested && !inner_is_brace
+    }
+}
+
+/// In an array's braces `n -1` is a difference, not a component: the whole expression, where the item is one.
+fn brace_difference(item: &BraceItem) -> Option<ast::Expr> {
+    let name = item.name?;
+    let left = ast::Expr { kind: ast::ExprKind::Name(name.symbol), span: name.span };
+    subtract(left, &item.value)
+}
+
+/// `left` minus what the leftmost unary minus of `expr` negates; `None` where it does not begin with one.
+fn subtract(left: ast::Expr, expr: &ast::Expr) -> Option<ast::Expr> {
+    let span = left.span.to(expr.span);
+    let kind = match &expr.kind {
+        ast::ExprKind::Unary(UnaryOp::Negate, operand) => {
+            ast::ExprKind::Binary(BinaryOp::Subtract, Box::new((left, (**operand).clone())))
+        }
+        ast::ExprKind::Binary(op @ (BinaryOp::Multiply | BinaryOp::Divide | BinaryOp::Remainder), both) => {
+            let ast::ExprKind::Unary(UnaryOp::Negate, operand) = &both.0.kind else { return None };
+            let product = ast::Expr {
+                kind: ast::ExprKind::Binary(*op, Box::new(((**operand).clone(), both.1.clone()))),
+                span: operand.span.to(both.1.span),
+            };
+            ast::ExprKind::Binary(BinaryOp::Subtract, Box::new((left, product)))
+        }
+        ast::ExprKind::Binary(op, both) => {
+            let first = subtract(left, &both.0)?;
+            ast::ExprKind::Binary(*op, Box::new((first, both.1.clone())))
+        }
+        _ => return None,
+    };
+    Some(ast::Expr { kind, span })
+}
+
+/// The start value of a type as an expression.
+fn start_value(base: Base, span: Span) -> Expr {
+    let kind = match base {
+        Base::Int => ExprKind::Const(Value::Int(0)),
+        Base::Uint => ExprKind::Const(Value::Uint(0)),
+        Base::Byte => ExprKind::Const(Value::Byte(0)),
+        Base::Double => ExprKind::Const(Value::Double(0.0)),
+        Base::Bool => ExprKind::Const(Value::Bool(false)),
+        Base::String | Base::Void | Base::Handle(_) => ExprKind::Const(Value::String("".into())),
+        Base::Enum(id) => ExprKind::Const(Value::Enum(id, 0)),
+        Base::Struct(id) => ExprKind::Struct(id, Vec::new()),
+    };
+    Expr { ty: Type::scalar(base), kind, span }
+}

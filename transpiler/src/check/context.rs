@@ -1,0 +1,271 @@
+//! What the checker knows while it goes through a program.
+
+use super::load::LoadedModule;
+use crate::CheckOptions;
+use crate::diagnostics::constants::ConstantProblem;
+use crate::diagnostics::{Diagnostic, FileId, Files, Label, Location, Problem};
+use crate::hir::{self, FuncId, GlobalId, LabelId, LocalId, ModuleId, Type, Value};
+use arl_lang::ast;
+use arl_lang::catalog::{Base, Entry, Family};
+use arl_lang::span::Span;
+use arl_lang::symbol::{Interner, Symbol};
+use std::collections::{HashMap, HashSet};
+
+/// The whole check: modules in, a checked program and diagnostics out.
+pub(crate) struct Checker<'a> {
+    pub(crate) names: &'a Interner,
+    pub(crate) modules: &'a [LoadedModule],
+    pub(crate) files: &'a Files,
+    pub(crate) options: &'a CheckOptions,
+    pub(crate) scopes: Vec<ModuleScope>,
+    pub(crate) globals: Vec<GlobalSlot<'a>>,
+    pub(crate) funcs: Vec<FuncSlot<'a>>,
+    pub(crate) diagnostics: Vec<Diagnostic>,
+    /// (module, module that it uses)
+    pub(crate) used_modules: HashSet<(ModuleId, ModuleId)>,
+    /// The ARL types of spliced Rust values, where they are known.
+    pub(crate) splices: Vec<Option<Type>>,
+    /// Catalog functions by name, looked up once per name.
+    pub(crate) functions: HashMap<Symbol, &'static [Entry]>,
+}
+
+/// The names of one module.
+#[derive(Default)]
+pub(crate) struct ModuleScope {
+    pub(crate) globals: HashMap<Symbol, GlobalId>,
+    pub(crate) funcs: HashMap<Symbol, FuncId>,
+}
+
+/// How far a declaration has been checked.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum State {
+    Pending,
+    Busy,
+    Done,
+}
+
+/// A global variable and its declaration.
+pub(crate) struct GlobalSlot<'a> {
+    pub(crate) module: ModuleId,
+    pub(crate) decl: &'a ast::Decl,
+    pub(crate) var: &'a ast::Var,
+    /// Number of the item in its file.
+    pub(crate) item: u32,
+    pub(crate) state: State,
+    /// `None` until checked, and where the declaration is wrong.
+    pub(crate) ty: Option<Type>,
+    pub(crate) value: Option<Value>,
+    pub(crate) init: Option<hir::Expr>,
+}
+
+/// A function, its declaration and its signature.
+pub(crate) struct FuncSlot<'a> {
+    pub(crate) module: ModuleId,
+    pub(crate) ast: &'a ast::Func,
+    pub(crate) item: u32,
+    pub(crate) state: State,
+    pub(crate) params: Vec<Option<Type>>,
+    pub(crate) result: Option<Base>,
+    pub(crate) checked: Option<hir::Func>,
+}
+
+/// What is known inside one function (or one initialiser).
+pub(crate) struct Body {
+    pub(crate) module: ModuleId,
+    /// Number of the item in its file: what is declared above is known.
+    pub(crate) item: u32,
+    pub(crate) func: Option<FuncId>,
+    pub(crate) result: Base,
+    pub(crate) locals: Vec<hir::Local>,
+    /// Types of the locals; `None` where a declaration was wrong.
+    pub(crate) types: Vec<Option<Type>>,
+    pub(crate) labels: Vec<hir::Label>,
+    pub(crate) label_names: HashMap<Symbol, LabelId>,
+    pub(crate) loops: u32,
+    pub(crate) switches: u32,
+    pub(crate) has_goto: bool,
+    scope: HashMap<Symbol, LocalId>,
+    undo: Vec<(Symbol, Option<LocalId>)>,
+    /// Where the innermost scope begins in `undo`; it also tells scopes apart.
+    begin: usize,
+    /// For each local, `begin` of the scope that it was revealed in.
+    homes: Vec<usize>,
+}
+
+impl Body {
+    pub(crate) fn new(module: ModuleId, item: u32) -> Self {
+        Body {
+            module,
+            item,
+            func: None,
+            result: Base::Void,
+            locals: Vec::new(),
+            types: Vec::new(),
+            labels: Vec::new(),
+            label_names: HashMap::new(),
+            loops: 0,
+            switches: 0,
+            has_goto: false,
+            scope: HashMap::new(),
+            undo: Vec::new(),
+            begin: 0,
+            homes: Vec::new(),
+        }
+    }
+
+    /// Opens a scope; give the result back to [`Body::leave`].
+    pub(crate) fn enter(&mut self) -> usize {
+        std::mem::replace(&mut self.begin, self.undo.len())
+    }
+
+    /// Closes the innermost scope.
+    pub(crate) fn leave(&mut self, outer: usize) {
+        while self.undo.len() > self.begin {
+            match self.undo.pop() {
+                Some((symbol, Some(local))) => {
+                    self.scope.insert(symbol, local);
+                }
+                Some((symbol, None)) => {
+                    self.scope.remove(&symbol);
+                }
+                None => {}
+            }
+        }
+        self.begin = outer;
+    }
+
+    /// The variable that the name means here.
+    pub(crate) fn find(&self, symbol: Symbol) -> Option<LocalId> {
+        self.scope.get(&symbol).copied()
+    }
+
+    /// All names of locals that are known here.
+    pub(crate) fn visible(&self) -> impl Iterator<Item = Symbol> {
+        self.scope.keys().copied()
+    }
+
+    /// The variable of this name in the innermost scope.
+    pub(crate) fn find_innermost(&self, symbol: Symbol) -> Option<LocalId> {
+        self.find(symbol).filter(|local| self.homes.get(local.0 as usize) == Some(&self.begin))
+    }
+
+    /// Adds a variable; it is known from [`Body::reveal`] on.
+    pub(crate) fn add_local(&mut self, local: hir::Local, ty: Option<Type>) -> LocalId {
+        self.locals.push(local);
+        self.types.push(ty);
+        self.homes.push(usize::MAX);
+        LocalId(self.locals.len() as u32 - 1)
+    }
+
+    /// Makes a variable known under its name.
+    pub(crate) fn reveal(&mut self, symbol: Symbol, local: LocalId) {
+        let hidden = self.scope.insert(symbol, local);
+        self.undo.push((symbol, hidden));
+        if let Some(home) = self.homes.get_mut(local.0 as usize) {
+            *home = self.begin;
+        }
+    }
+
+    pub(crate) fn local(&mut self, id: LocalId) -> Option<&mut hir::Local> {
+        self.locals.get_mut(id.0 as usize)
+    }
+
+    pub(crate) fn local_type(&self, id: LocalId) -> Option<Type> {
+        self.types.get(id.0 as usize).copied().flatten()
+    }
+}
+
+impl<'a> Checker<'a> {
+    pub(crate) fn family(&self) -> Family {
+        self.options.family
+    }
+
+    pub(crate) fn module(&self, id: ModuleId) -> Option<&'a LoadedModule> {
+        self.modules.get(id.0 as usize)
+    }
+
+    pub(crate) fn file(&self, module: ModuleId) -> FileId {
+        self.module(module).map_or(FileId(0), |module| module.file)
+    }
+
+    pub(crate) fn location(&self, module: ModuleId, span: Span) -> Location {
+        Location { file: self.file(module), span }
+    }
+
+    /// The source under a span, as the programmer wrote it.
+    pub(crate) fn text(&self, module: ModuleId, span: Span) -> &'a str {
+        let files: &'a Files = self.files;
+        files.get(self.file(module)).map_or("", |file| span.text(&file.text))
+    }
+
+    /// Reports a problem. The result is always `None`, so that `return self.report(..)` gives up on an expression.
+    pub(crate) fn report<T>(&mut self, body: &Body, span: Span, problem: impl Problem) -> Option<T> {
+        self.report_in(body.module, span, problem, &[])
+    }
+
+    /// Reports a problem with other places that explain it.
+    pub(crate) fn report_in<T>(
+        &mut self,
+        module: ModuleId,
+        span: Span,
+        problem: impl Problem,
+        labels: &[(ModuleId, Span, &str)],
+    ) -> Option<T> {
+        let mut diagnostic = problem.at(self.location(module, span));
+        diagnostic.labels = labels
+            .iter()
+            .map(|(module, span, text)| Label { at: self.location(*module, *span), text: (*text).into() })
+            .collect();
+        self.diagnostics.push(diagnostic);
+        None
+    }
+
+    /// With `--strict`, warns where a name is written in another case than it was declared in.
+    pub(crate) fn strict_case(&mut self, body: &Body, span: Span, declared: &str) {
+        if !self.options.strict {
+            return;
+        }
+        let written = self.text(body.module, span);
+        if written != declared && written.eq_ignore_ascii_case(declared) {
+            let problem = ConstantProblem::OtherCase { declared: declared.to_string() };
+            self.report::<()>(body, span, problem);
+        }
+    }
+
+    /// With `--strict`, warns of a form that the manual does not have.
+    pub(crate) fn strict_form(&mut self, body: &Body, span: Span, what: &str) {
+        if self.options.strict {
+            self.report::<()>(body, span, ConstantProblem::Extended { what: what.into() });
+        }
+    }
+
+    /// The name of a type, as the manual spells it: `int`, `int[3]`, `Centroid_Pos`.
+    pub(crate) fn type_name(&self, ty: Type) -> String {
+        let mut name = self.base_name(ty.base).to_string();
+        for size in ty.dims() {
+            name.push_str(&format!("[{size}]"));
+        }
+        name
+    }
+
+    /// The name of a base type.
+    pub(crate) fn base_name(&self, base: Base) -> &'static str {
+        base_name(base, self.family())
+    }
+}
+
+/// The name of a base type in the manual's spelling.
+pub(crate) fn base_name(base: Base, family: Family) -> &'static str {
+    match base {
+        Base::Void => "void",
+        Base::Int => "int",
+        Base::Uint => "uint",
+        Base::Byte => "byte",
+        Base::Double => "double",
+        Base::Bool => "bool",
+        Base::String => "string",
+        Base::Struct(id) => id.def(family).name,
+        Base::Enum(id) => id.def().name,
+        Base::Handle(id) => id.def().name,
+    }
+}

@@ -1,0 +1,234 @@
+//! Which value fits where: constants by their value, everything else by Table 2-1 and its extensions.
+
+use super::context::{Body, Checker};
+use crate::diagnostics::constants::ConstantProblem;
+use crate::diagnostics::types::TypeProblem;
+use crate::hir::{Expr, ExprKind, Type, Value};
+use arl_lang::catalog::{Base, Enum};
+
+/// An expression with what matters of the way it was written.
+pub(crate) struct Typed {
+    pub(crate) expr: Expr,
+    pub(crate) literal: Literal,
+}
+
+/// How an integer constant was written.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Literal {
+    /// Nothing special.
+    None,
+    /// Binary or hexadecimal: 32 bits without a sign of their own.
+    Pattern,
+    /// `~` of a pattern: as wide as the place wants it.
+    Complement,
+    /// Decimal, 2^31 or more: for a uint only.
+    Wide,
+}
+
+impl Typed {
+    pub(crate) fn plain(expr: Expr) -> Self {
+        Typed { expr, literal: Literal::None }
+    }
+
+    /// The constant value, where it is one.
+    pub(crate) fn value(&self) -> Option<&Value> {
+        match &self.expr.kind {
+            ExprKind::Const(value) => Some(value),
+            _ => None,
+        }
+    }
+}
+
+/// How a type converts to another.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Conversion {
+    /// Nothing to do.
+    Same,
+    /// The manual's Table 2-1.
+    Implicit,
+    /// Beyond the manual.
+    Extended,
+}
+
+/// Whether values of one type convert to another by themselves.
+pub(crate) fn conversion(from: Base, to: Base) -> Option<Conversion> {
+    if from == to {
+        return Some(Conversion::Same);
+    }
+    match (from, to) {
+        (Base::Byte, Base::Int | Base::Double | Base::Bool) | (Base::Int, Base::Double | Base::Bool) => {
+            Some(Conversion::Implicit)
+        }
+        (Base::Enum(_), Base::Int) => Some(Conversion::Implicit),
+        (Base::Double, Base::Bool) | (Base::Uint, Base::Double | Base::Bool) | (Base::Byte, Base::Uint) => {
+            Some(Conversion::Extended)
+        }
+        _ => None,
+    }
+}
+
+/// The constant as a value of another type, where it has one there.
+pub(crate) fn fit(value: &Value, literal: Literal, to: Base) -> Option<Value> {
+    if value.base() == to {
+        return Some(value.clone());
+    }
+    let number = integer(value);
+    match (value, to) {
+        (Value::Enum(_, index), Base::Int) => Some(Value::Int(i32::from(*index))),
+        (Value::Int(number), Base::Enum(id)) => enum_constant(id, i64::from(*number)),
+        (Value::Double(number), Base::Bool) => Some(Value::Bool(*number != 0.0)),
+        (_, Base::Double) => number.map(|number| Value::Double(number as f64)),
+        (_, Base::Bool) => number.map(|number| Value::Bool(number != 0)),
+        (_, Base::Int) => i32::try_from(number?).ok().map(Value::Int),
+        (Value::Int(bits), Base::Uint) if matches!(literal, Literal::Pattern | Literal::Complement) => {
+            Some(Value::Uint(*bits as u32))
+        }
+        (_, Base::Uint) => u32::try_from(number?).ok().map(Value::Uint),
+        (Value::Int(bits), Base::Byte) if literal == Literal::Complement => {
+            let low = *bits as u8;
+            (*bits as u32 | 0xff == u32::MAX || *bits as u32 <= 0xff).then_some(Value::Byte(low))
+        }
+        (Value::Int(bits), Base::Byte) if literal == Literal::Pattern => u8::try_from(*bits as u32).ok().map(Value::Byte),
+        (_, Base::Byte) => u8::try_from(number?).ok().map(Value::Byte),
+        _ => None,
+    }
+}
+
+/// The value of an integer constant.
+pub(crate) fn integer(value: &Value) -> Option<i64> {
+    match value {
+        Value::Int(number) => Some(i64::from(*number)),
+        Value::Uint(number) => Some(i64::from(*number)),
+        Value::Byte(number) => Some(i64::from(*number)),
+        _ => None,
+    }
+}
+
+fn enum_constant(id: Enum, number: i64) -> Option<Value> {
+    let index = u16::try_from(number).ok()?;
+    id.def().constants.get(index as usize).map(|_| Value::Enum(id, index))
+}
+
+/// The function or way that does what no implicit conversion does.
+fn instead(from: Base, to: Base) -> Option<String> {
+    let words = match (from, to) {
+        (Base::Double, Base::Int | Base::Uint | Base::Byte) => {
+            "`toint(...)` cuts the fraction; `toint(trunc(..., 0, true))` rounds"
+        }
+        (Base::String, Base::Int) => "`toint(text, dec)` reads a number from a text",
+        (Base::String, Base::Double) => "`scan` reads numbers from a text",
+        (Base::Void | Base::Handle(_), _) => return None,
+        (_, Base::String) => "`tostr(...)` makes a text of any value",
+        (Base::Int, Base::Byte) => "only constants of 0 to 255 fit a byte; `tobytes(...)` takes an int apart",
+        (Base::Int, Base::Uint) => "only constants of 0 or more fit a uint",
+        (Base::Uint, Base::Int) => "a uint may be beyond int: keep it in a uint or a double",
+        (Base::Struct(_), Base::Struct(_)) => "`getpose` and `getjoint` convert between joints and poses",
+        _ => return None,
+    };
+    Some(words.into())
+}
+
+fn range(to: Base) -> &'static str {
+    match to {
+        Base::Byte => "a byte holds 0 to 255",
+        Base::Int => "an int holds -2147483648 to 2147483647",
+        Base::Uint => "a uint holds 0 to 4294967295",
+        _ => "",
+    }
+}
+
+impl Checker<'_> {
+    /// The expression as a value of type `to`. `what` names the place that wants it: "the condition", "`vp`".
+    pub(crate) fn coerce(&mut self, body: &Body, typed: Typed, to: Type, what: &str) -> Option<Expr> {
+        let Typed { expr, literal } = typed;
+        let from = expr.ty;
+        if literal == Literal::Wide && to != Type::scalar(Base::Uint) {
+            let text = self.text(body.module, expr.span).to_string();
+            return self.report(body, expr.span, TypeProblem::WideLiteral { text });
+        }
+        if from == to {
+            if let Base::Handle(_) = to.base {
+                let ty = self.type_name(to);
+                return self.report(body, expr.span, TypeProblem::HandleCopy { ty });
+            }
+            return Some(expr);
+        }
+        if from.base == Base::Void {
+            return self.report_no_value(body, &expr);
+        }
+        if from.is_array() || to.is_array() {
+            let (found, wanted) = (self.type_name(from), self.type_name(to));
+            return self.report(body, expr.span, TypeProblem::Dimensions { found, wanted });
+        }
+        if let ExprKind::Const(value) = &expr.kind {
+            if let Some(value) = fit(value, literal, to.base) {
+                self.warn_extended(body, &expr, to);
+                return Some(Expr { ty: to, kind: ExprKind::Const(value), span: expr.span });
+            }
+            if integer(value).is_some() && matches!(to.base, Base::Int | Base::Uint | Base::Byte) {
+                let value = self.text(body.module, expr.span).to_string();
+                let problem =
+                    TypeProblem::DoesNotFit { value, wanted: self.type_name(to), range: range(to.base).into() };
+                return self.report(body, expr.span, problem);
+            }
+        }
+        match conversion(from.base, to.base) {
+            Some(_) => {
+                self.warn_extended(body, &expr, to);
+                let span = expr.span;
+                Some(Expr { ty: to, kind: ExprKind::Convert(Box::new(expr)), span })
+            }
+            None => {
+                let problem = TypeProblem::Mismatch {
+                    found: self.type_name(from),
+                    wanted: self.type_name(to),
+                    what: what.into(),
+                    use_instead: instead(from.base, to.base),
+                };
+                self.report(body, expr.span, problem)
+            }
+        }
+    }
+
+    fn warn_extended(&mut self, body: &Body, expr: &Expr, to: Type) {
+        let constant = matches!(&expr.kind, ExprKind::Const(value) if integer(value).is_some());
+        let extended = match (expr.ty.base, to.base) {
+            (_, Base::Enum(_)) => true,
+            (from, to) => !constant && conversion(from, to) == Some(Conversion::Extended),
+        };
+        if extended && self.options.strict {
+            let (from, to) = (self.type_name(expr.ty), self.type_name(to));
+            self.report::<()>(body, expr.span, ConstantProblem::ExtendedConversion { from, to });
+        }
+    }
+
+    /// Reports that something without a value stands where one is wanted.
+    pub(crate) fn report_no_value<T>(&mut self, body: &Body, expr: &Expr) -> Option<T> {
+        let what = format!("`{}`", self.text(body.module, expr.span));
+        self.report(body, expr.span, TypeProblem::NoValue { what })
+    }
+
+    /// Whether a value converts to a type, without reporting anything. The less, the better it fits; `None`: not at all.
+    pub(crate) fn cost(&self, typed: &Typed, to: Type) -> Option<u32> {
+        let from = typed.expr.ty;
+        if from == to {
+            return Some(0);
+        }
+        if from.is_array() || to.is_array() {
+            return None;
+        }
+        let to = to.base;
+        if let Some(value) = typed.value() {
+            let fits = fit(value, typed.literal, to).is_some() && !matches!(to, Base::Enum(_));
+            if fits && integer(value).is_some() {
+                return Some(if matches!(to, Base::Double | Base::Bool) { 3 } else { 2 });
+            }
+        }
+        let distance = match to {
+            Base::Int | Base::Uint => 2,
+            Base::Double => 3,
+            _ => 4,
+        };
+        conversion(from.base, to).map(|_| distance)
+    }
+}

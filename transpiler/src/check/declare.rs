@@ -1,0 +1,307 @@
+//! Declarations: globals, signatures, locals.
+
+use super::call::family_name;
+use super::context::{Body, Checker, FuncSlot, GlobalSlot, ModuleScope, State};
+use crate::diagnostics::flow::FlowProblem;
+use crate::diagnostics::modules::ModuleProblem;
+use crate::diagnostics::names::NameProblem;
+use crate::diagnostics::support::SupportProblem;
+use crate::diagnostics::types::TypeProblem;
+use crate::hir::{self, Expr, ExprKind, FuncId, GlobalId, LocalId, MAX_DIMS, ModuleId, Stmt, StmtKind, Type, Value};
+use arl_lang::ast;
+use arl_lang::catalog::{self, Base};
+use arl_lang::span::Span;
+
+/// The most elements an array may have.
+const MAX_ELEMENTS: u64 = 10_000;
+
+impl<'a> Checker<'a> {
+    /// Makes slots for every global and function, in the given order of modules.
+    pub(crate) fn collect(&mut self, order: &[ModuleId]) {
+        self.scopes = self.modules.iter().map(|_| ModuleScope::default()).collect();
+        for module in order {
+            let Some(loaded) = self.module(*module) else { continue };
+            for (item, node) in loaded.ast.items.iter().enumerate() {
+                match node {
+                    ast::Item::Import(_) => {}
+                    ast::Item::Global(decl) => {
+                        decl.vars.iter().for_each(|var| self.collect_global(*module, item as u32, decl, var));
+                    }
+                    ast::Item::Func(func) => self.collect_func(*module, item as u32, func),
+                }
+            }
+        }
+    }
+
+    fn collect_global(&mut self, module: ModuleId, item: u32, decl: &'a ast::Decl, var: &'a ast::Var) {
+        let id = GlobalId(self.globals.len() as u32);
+        let Some(scope) = self.scopes.get_mut(module.0 as usize) else { return };
+        let earlier = scope.globals.get(&var.name.symbol).copied();
+        if let Some(earlier) = earlier {
+            let first = self.globals.get(earlier.0 as usize).map_or(var.name.span, |slot| slot.var.name.span);
+            let name = self.text(module, var.name.span).to_string();
+            let problem = NameProblem::Duplicate { name, what: "variable" };
+            self.report_in::<()>(module, var.name.span, problem, &[(module, first, "first declared here")]);
+        } else {
+            scope.globals.insert(var.name.symbol, id);
+        }
+        self.globals.push(GlobalSlot {
+            module,
+            decl,
+            var,
+            item,
+            state: State::Pending,
+            ty: None,
+            value: None,
+            init: None,
+        });
+    }
+
+    fn collect_func(&mut self, module: ModuleId, item: u32, func: &'a ast::Func) {
+        if self.module(module).is_some_and(|loaded| loaded.data) {
+            self.report_in::<()>(module, func.name.span, ModuleProblem::FunctionInData, &[]);
+        }
+        let id = FuncId(self.funcs.len() as u32);
+        let Some(scope) = self.scopes.get_mut(module.0 as usize) else { return };
+        if let Some(earlier) = scope.funcs.get(&func.name.symbol).copied() {
+            let first = self.funcs.get(earlier.0 as usize).map_or(func.name.span, |slot| slot.ast.name.span);
+            let name = self.text(module, func.name.span).to_string();
+            let labels = [(module, first, "first defined here")];
+            self.report_in::<()>(module, func.name.span, FlowProblem::FunctionTwice { name }, &labels);
+        } else {
+            scope.funcs.insert(func.name.symbol, id);
+        }
+        self.funcs.push(FuncSlot {
+            module,
+            ast: func,
+            item,
+            state: State::Pending,
+            params: Vec::new(),
+            result: None,
+            checked: None,
+        });
+    }
+
+    /// Checks a global's declaration, once; on demand, since sizes and constants may use each other.
+    pub(crate) fn check_global(&mut self, id: GlobalId) {
+        let Some(slot) = self.globals.get_mut(id.0 as usize) else { return };
+        let (module, decl, var, item) = (slot.module, slot.decl, slot.var, slot.item);
+        match slot.state {
+            State::Done => return,
+            State::Busy => {
+                let name = self.text(module, var.name.span).to_string();
+                self.report_circular(module, var.name.span, &name);
+                return;
+            }
+            State::Pending => slot.state = State::Busy,
+        }
+        let mut body = Body::new(module, item);
+        let ty = self.declared_type(&mut body, &decl.ty, &var.dims);
+        if let Some(slot) = self.globals.get_mut(id.0 as usize) {
+            slot.ty = ty;
+        }
+        let init = self.initialiser(&mut body, decl, var, ty);
+        let value = constant_value(decl, ty, init.as_ref());
+        if let Some(slot) = self.globals.get_mut(id.0 as usize) {
+            slot.state = State::Done;
+            slot.init = init;
+            slot.value = value;
+        }
+    }
+
+    /// Checks a function's parameters and result, once.
+    pub(crate) fn check_signature(&mut self, id: FuncId) {
+        let Some(slot) = self.funcs.get_mut(id.0 as usize) else { return };
+        if slot.state != State::Pending {
+            return;
+        }
+        slot.state = State::Busy;
+        let (module, func, item) = (slot.module, slot.ast, slot.item);
+        let mut body = Body::new(module, item);
+        let result = self.base_type(&body, &func.result);
+        let result = match result {
+            Some(base @ Base::Handle(_)) => {
+                let ty = self.base_name(base).to_string();
+                self.report(&body, func.result.span, TypeProblem::ResultType { ty })
+            }
+            other => other,
+        };
+        let mut params = Vec::new();
+        for param in &func.params {
+            let ty = self.declared_type(&mut body, &param.ty, &param.dims);
+            let ty = match ty {
+                Some(ty) if matches!(ty.base, Base::Handle(_)) => {
+                    let ty = self.type_name(ty);
+                    self.report(&body, param.span, TypeProblem::HandleCopy { ty })
+                }
+                other => other,
+            };
+            params.push(ty);
+        }
+        if let Some(slot) = self.funcs.get_mut(id.0 as usize) {
+            slot.state = State::Done;
+            slot.params = params;
+            slot.result = result;
+        }
+    }
+
+    /// The base type of this name, `void` included.
+    pub(crate) fn base_type(&mut self, body: &Body, name: &ast::TypeRef) -> Option<Base> {
+        let folded = self.names.name(name.name);
+        let Some(base) = catalog::base_type(folded).filter(|base| base.is_system() == name.system) else {
+            if let Some(now) = catalog::renamed(folded) {
+                let name_text = self.text(body.module, name.span).to_string();
+                return self.report(body, name.span, NameProblem::Renamed { name: name_text, now: now.into() });
+            }
+            let near = crate::near::nearest(folded, catalog::type_names().map(|(name, _)| name)).map(Into::into);
+            let text = self.text(body.module, name.span).to_string();
+            return self.report(body, name.span, NameProblem::UnknownType { name: text, near });
+        };
+        if let Base::Struct(id) = base
+            && let Some(only) = id.def(self.family()).family
+            && only != self.family()
+        {
+            let name_text = self.base_name(base).to_string();
+            let problem = TypeProblem::OtherFamily { name: name_text, family: family_name(only) };
+            return self.report(body, name.span, problem);
+        }
+        if let Base::Handle(id) = base
+            && id != catalog::Handle::Clock
+        {
+            let name_text = self.base_name(base).to_string();
+            return self.report(body, name.span, SupportProblem::NotYet { name: name_text });
+        }
+        let declared = self.base_name(base);
+        self.strict_case(body, name.span, declared);
+        Some(base)
+    }
+
+    /// A type with its array sizes, as a variable may have it.
+    fn declared_type(&mut self, body: &mut Body, name: &ast::TypeRef, dims: &[ast::Expr]) -> Option<Type> {
+        let base = self.base_type(body, name);
+        let sizes: Vec<Option<u32>> = dims.iter().map(|dim| self.array_size(body, dim)).collect();
+        let base = base?;
+        if base == Base::Void {
+            return self.report(body, name.span, TypeProblem::VoidVariable);
+        }
+        let sizes = sizes.into_iter().collect::<Option<Vec<u32>>>()?;
+        let whole = dims.first().zip(dims.last()).map_or(name.span, |(first, last)| first.span.to(last.span));
+        let len = sizes.iter().try_fold(1u64, |len, size| len.checked_mul(u64::from(*size))).unwrap_or(u64::MAX);
+        if len > MAX_ELEMENTS {
+            return self.report(body, whole, TypeProblem::ArrayTooLarge { len });
+        }
+        match Type::array(base, &sizes) {
+            Some(ty) => Some(ty),
+            None => self.report(body, whole, TypeProblem::TooManyDimensions { most: MAX_DIMS }),
+        }
+    }
+
+    fn array_size(&mut self, body: &mut Body, dim: &ast::Expr) -> Option<u32> {
+        let typed = self.expr(body, dim, Some(Type::scalar(Base::Int)))?;
+        let size = typed.value().and_then(super::convert::integer).and_then(|size| u32::try_from(size).ok());
+        match size {
+            Some(size) if size > 0 => Some(size),
+            _ => self.report(body, dim.span, TypeProblem::ArraySize),
+        }
+    }
+
+    /// The checked initialiser of a variable.
+    fn initialiser(&mut self, body: &mut Body, decl: &ast::Decl, var: &ast::Var, ty: Option<Type>) -> Option<Expr> {
+        let Some(init) = &var.init else {
+            if decl.constant.is_some() {
+                let name = self.text(body.module, var.name.span).to_string();
+                self.report::<()>(body, var.name.span, TypeProblem::ConstWithoutValue { name });
+            }
+            return None;
+        };
+        match ty {
+            Some(ty) => {
+                let what = format!("`{}`", self.text(body.module, var.name.span));
+                self.expr_as(body, init, ty, &what)
+            }
+            None => {
+                if !matches!(init.kind, ast::ExprKind::Brace(_)) {
+                    self.expr(body, init, None);
+                }
+                None
+            }
+        }
+    }
+
+    /// Declares local variables; one statement each.
+    pub(crate) fn local_decl(&mut self, body: &mut Body, decl: &ast::Decl, out: &mut Vec<Stmt>) {
+        for var in &decl.vars {
+            let ty = self.declared_type(body, &decl.ty, &var.dims);
+            let init = self.initialiser(body, decl, var, ty);
+            let value = constant_value(decl, ty, init.as_ref());
+            let local = self.declare_local(body, var.name, ty, decl.constant.is_some(), value);
+            if ty.is_some() {
+                out.push(Stmt { kind: StmtKind::Let(local, init), span: decl.span });
+            }
+        }
+    }
+
+    /// Makes a local variable known; one of the same name in the same scope is an error.
+    pub(crate) fn declare_local(
+        &mut self,
+        body: &mut Body,
+        name: ast::Ident,
+        ty: Option<Type>,
+        constant: bool,
+        value: Option<Value>,
+    ) -> LocalId {
+        if let Some(earlier) = body.find_innermost(name.symbol) {
+            let first = body.locals.get(earlier.0 as usize).map_or(name.span, |local| local.span);
+            let text = self.text(body.module, name.span).to_string();
+            let labels = [(body.module, first, "first declared here")];
+            let problem = NameProblem::Duplicate { name: text, what: "variable" };
+            self.report_in::<()>(body.module, name.span, problem, &labels);
+        }
+        let local = hir::Local {
+            name: self.names.name(name.symbol).to_string(),
+            ty: ty.unwrap_or(Type::scalar(Base::Int)),
+            constant,
+            value,
+            mutated: false,
+            read: false,
+            span: name.span,
+        };
+        let id = body.add_local(local, ty);
+        body.reveal(name.symbol, id);
+        id
+    }
+
+    /// Whether the initialiser of a data file's variable can be read again at load.
+    pub(crate) fn is_teachable(&self, slot: &GlobalSlot<'_>) -> bool {
+        self.module(slot.module).is_some_and(|module| module.data) && slot.var.init.as_ref().is_none_or(is_literal)
+    }
+
+    /// Where a module's name for the whole file stands, for problems of the file as such.
+    pub(crate) fn file_start(&self) -> Span {
+        Span::default()
+    }
+}
+
+/// The value of a `const` scalar.
+fn constant_value(decl: &ast::Decl, ty: Option<Type>, init: Option<&Expr>) -> Option<Value> {
+    decl.constant?;
+    match &init?.kind {
+        ExprKind::Const(value) if !ty?.is_array() => Some(value.clone()),
+        _ => None,
+    }
+}
+
+/// Whether an expression is made of literals and names only, without operators but a sign.
+fn is_literal(expr: &ast::Expr) -> bool {
+    match &expr.kind {
+        ast::ExprKind::Int(..)
+        | ast::ExprKind::Double(_)
+        | ast::ExprKind::String(_)
+        | ast::ExprKind::Bool(_)
+        | ast::ExprKind::Name(_)
+        | ast::ExprKind::Path { .. } => true,
+        ast::ExprKind::Unary(ast::UnaryOp::Negate, operand) => is_literal(operand),
+        ast::ExprKind::Brace(items) => items.iter().all(|item| is_literal(&item.value)),
+        _ => false,
+    }
+}

@@ -1,0 +1,275 @@
+//! Reads the files of a program: the main file, what it imports, what it names with `::`, and data files.
+
+use crate::diagnostics::modules::ModuleProblem;
+use crate::diagnostics::{Code, Diagnostic, FileId, Files, Label, Location, Problem, Severity};
+use crate::hir::ModuleId;
+use crate::{CheckOptions, SourceError, Sources};
+use arl_lang::ast;
+use arl_lang::catalog;
+use arl_lang::{ParseOptions, parse};
+use arl_lang::span::Span;
+use arl_lang::symbol::{Interner, Symbol};
+use std::collections::HashMap;
+use std::path::{Component, Path, PathBuf};
+
+/// The folder on the controller that programs live in.
+const SCRIPT_DIR: &str = "/home/ae/script/";
+
+/// One parsed file.
+pub(crate) struct LoadedModule {
+    /// The module's name: the file's name without `.arl`.
+    pub(crate) name: Symbol,
+    pub(crate) file: FileId,
+    pub(crate) path: PathBuf,
+    pub(crate) ast: ast::File,
+    /// Whether it is a `_data.arl` file.
+    pub(crate) data: bool,
+    /// Modules that `import` lines or `::` name.
+    pub(crate) imports: HashMap<Symbol, ModuleId>,
+    /// The `import` lines: where, and what they load.
+    pub(crate) import_lines: Vec<(Span, ModuleId)>,
+    /// The data file beside it.
+    pub(crate) data_module: Option<ModuleId>,
+}
+
+/// Everything that was read.
+#[derive(Default)]
+pub(crate) struct Loaded {
+    pub(crate) modules: Vec<LoadedModule>,
+    pub(crate) names: Interner,
+    pub(crate) files: Files,
+    pub(crate) read: Vec<PathBuf>,
+    pub(crate) diagnostics: Vec<Diagnostic>,
+    by_path: HashMap<PathBuf, ModuleId>,
+}
+
+/// Reads the program that begins at `main`.
+pub(crate) fn load(main: &Path, sources: &dyn Sources, options: &CheckOptions) -> Loaded {
+    let mut loaded = Loaded::default();
+    let main = clean(main);
+    loaded.read.push(main.clone());
+    match sources.read(&main) {
+        Ok(bytes) => {
+            loaded.add(&main, main.display().to_string(), &bytes, None);
+        }
+        Err(error) => {
+            let file = loaded.files.add(main.display().to_string(), String::new());
+            let problem = source_problem(main.display().to_string(), error);
+            loaded.diagnostics.push(problem.at(Location { file, span: Span::default() }));
+        }
+    }
+    let mut next = 0;
+    while next < loaded.modules.len() {
+        Follow { loaded: &mut loaded, sources, options, root: main.parent().unwrap_or(Path::new("")) }.module(next);
+        next += 1;
+    }
+    loaded
+}
+
+impl Loaded {
+    /// Decodes and parses a file; `None` where it cannot be decoded.
+    fn add(&mut self, path: &Path, shown: String, bytes: &[u8], from: Option<Location>) -> Option<ModuleId> {
+        let too_large = bytes.len() >= 1 << 30;
+        let text = match arl_lang::text::decode(bytes) {
+            Ok(text) if !too_large => text.into_owned(),
+            outcome => {
+                let problem = match outcome {
+                    Err(error) => ModuleProblem::Encoding { path: shown.clone(), offset: error.offset },
+                    Ok(_) => ModuleProblem::TooLarge { path: shown.clone() },
+                };
+                let file = self.files.add(shown, String::new());
+                let at = from.unwrap_or(Location { file, span: Span::default() });
+                self.diagnostics.push(problem.at(at));
+                return None;
+            }
+        };
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let parsed = parse(&text, &mut self.names, ParseOptions::default());
+        let file = self.files.add(shown, text);
+        for error in &parsed.errors {
+            self.diagnostics.push(syntax_diagnostic(error, file));
+        }
+        let id = ModuleId(self.modules.len() as u32);
+        self.modules.push(LoadedModule {
+            name: self.names.intern(&stem),
+            file,
+            path: path.to_path_buf(),
+            ast: parsed.file,
+            data: stem.to_ascii_lowercase().ends_with("_data"),
+            imports: HashMap::new(),
+            import_lines: Vec::new(),
+            data_module: None,
+        });
+        self.by_path.insert(path.to_path_buf(), id);
+        Some(id)
+    }
+}
+
+/// The diagnostic of a syntax error.
+pub(crate) fn syntax_diagnostic(error: &arl_lang::syntax_error::SyntaxError, file: FileId) -> Diagnostic {
+    let place = |span| Location { file, span };
+    Diagnostic {
+        code: Code(error.kind.number()),
+        severity: Severity::Error,
+        message: error.kind.message(),
+        primary: Label { at: place(error.span), text: error.kind.label() },
+        labels: error.related.iter().map(|(span, text)| Label { at: place(*span), text: text.clone() }).collect(),
+        help: error.kind.help(),
+        fix: None,
+    }
+}
+
+fn source_problem(path: String, error: SourceError) -> ModuleProblem {
+    match error {
+        SourceError::Missing => ModuleProblem::Missing { path },
+        SourceError::Unreadable(reason) => ModuleProblem::Unreadable { path, reason },
+    }
+}
+
+/// Follows what one module refers to.
+struct Follow<'a> {
+    loaded: &'a mut Loaded,
+    sources: &'a dyn Sources,
+    options: &'a CheckOptions,
+    /// The main file's folder; files below it are shown relative to it.
+    root: &'a Path,
+}
+
+impl Follow<'_> {
+    fn module(&mut self, at: usize) {
+        let Some(module) = self.loaded.modules.get(at) else { return };
+        let folder = module.path.parent().unwrap_or(Path::new("")).to_path_buf();
+        let file = module.file;
+        let (path, is_data) = (module.path.clone(), module.data);
+        let imports: Vec<(String, Span, Span)> = module
+            .ast
+            .items
+            .iter()
+            .filter_map(|item| match item {
+                ast::Item::Import(import) => Some((import.path.to_string(), import.span, import.path_span)),
+                _ => None,
+            })
+            .collect();
+        let scopes = match self.loaded.files.get(file) {
+            Some(source) if source.text.contains("::") => super::uses::scopes(&module.ast),
+            _ => Vec::new(),
+        };
+        if !is_data {
+            let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+            let data = self.open(&folder.join(format!("{stem}_data.arl")), None);
+            if let Some(module) = self.loaded.modules.get_mut(at) {
+                module.data_module = data;
+            }
+        }
+        for (written, line, span) in imports {
+            self.import(at, &folder, &written, line, Location { file, span });
+        }
+        for scope in scopes {
+            self.neighbour(at, &folder, file, scope);
+        }
+    }
+
+    fn import(&mut self, at: usize, folder: &Path, written: &str, line: Span, from: Location) {
+        let path = self.import_path(folder, written);
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        if !is_name(&stem) {
+            self.loaded.diagnostics.push(ModuleProblem::ModuleName { path: written.into() }.at(from));
+            return;
+        }
+        let Some(id) = self.open(&path, Some((written, from))) else { return };
+        let name = self.loaded.names.intern(&stem);
+        let earlier = self.loaded.modules.get(at).and_then(|module| module.imports.get(&name)).copied();
+        if let Some(earlier) = earlier.filter(|earlier| *earlier != id) {
+            let first = self.loaded.modules.get(earlier.0 as usize).map(|module| module.path.display().to_string());
+            let problem = ModuleProblem::SameName { name: stem, first: first.unwrap_or_default() };
+            self.loaded.diagnostics.push(problem.at(from));
+            return;
+        }
+        if let Some(module) = self.loaded.modules.get_mut(at) {
+            module.imports.insert(name, id);
+            module.import_lines.push((line, id));
+        }
+    }
+
+    /// A module named with `::` that no import brought in: a file in the same folder.
+    fn neighbour(&mut self, at: usize, folder: &Path, file: FileId, scope: ast::Ident) {
+        let known = self.loaded.modules.get(at).is_some_and(|module| module.imports.contains_key(&scope.symbol));
+        if known || catalog::base_type(self.loaded.names.name(scope.symbol)).is_some() {
+            return;
+        }
+        let source = self.loaded.files.get(file);
+        let spelled = source.map(|source| scope.span.text(&source.text).to_string()).unwrap_or_default();
+        let folded = self.loaded.names.name(scope.symbol).to_string();
+        let mut found = self.open(&folder.join(format!("{spelled}.arl")), None);
+        if found.is_none() && spelled != folded {
+            found = self.open(&folder.join(format!("{folded}.arl")), None);
+        }
+        if let (Some(id), Some(module)) = (found, self.loaded.modules.get_mut(at)) {
+            module.imports.insert(scope.symbol, id);
+        }
+    }
+
+    fn import_path(&self, folder: &Path, written: &str) -> PathBuf {
+        let mut path = match written.strip_prefix(SCRIPT_DIR) {
+            Some(rest) => self.options.script_dir.as_deref().unwrap_or(self.root).join(rest),
+            None => folder.join(written),
+        };
+        if path.extension().is_none() {
+            path.set_extension("arl");
+        }
+        clean(&path)
+    }
+
+    /// The module at `path`, read if it is new. A missing file is an error only where somebody asked for it by `import`.
+    fn open(&mut self, path: &Path, asked: Option<(&str, Location)>) -> Option<ModuleId> {
+        let path = clean(path);
+        if let Some(id) = self.loaded.by_path.get(&path) {
+            return Some(*id);
+        }
+        let first_look = !self.loaded.read.contains(&path);
+        if first_look {
+            self.loaded.read.push(path.clone());
+        }
+        let shown = path.strip_prefix(self.root).unwrap_or(&path).display().to_string();
+        match self.sources.read(&path) {
+            Ok(bytes) => self.loaded.add(&path, shown, &bytes, asked.map(|(_, at)| at)),
+            Err(error) => {
+                let silent = asked.is_none() && error == SourceError::Missing;
+                if !silent {
+                    let (written, at) = match asked {
+                        Some((written, at)) => (written.to_string(), at),
+                        None if !first_look => return None,
+                        None => {
+                            let file = self.loaded.files.add(shown.clone(), String::new());
+                            (shown, Location { file, span: Span::default() })
+                        }
+                    };
+                    self.loaded.diagnostics.push(source_problem(written, error).at(at));
+                }
+                None
+            }
+        }
+    }
+}
+
+/// Whether a file name can stand in front of `::`.
+fn is_name(stem: &str) -> bool {
+    let mut chars = stem.chars();
+    let first = chars.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_');
+    first && chars.all(|other| other.is_ascii_alphanumeric() || other == '_')
+}
+
+/// The path without `.` and inner `..`, so that one file has one path.
+fn clean(path: &Path) -> PathBuf {
+    let mut out = PathBuf::new();
+    for component in path.components() {
+        match component {
+            Component::CurDir => {}
+            Component::ParentDir if matches!(out.components().next_back(), Some(Component::Normal(_))) => {
+                out.pop();
+            }
+            other => out.push(other),
+        }
+    }
+    out
+}

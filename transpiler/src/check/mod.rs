@@ -1,0 +1,168 @@
+//! The checker: files in, a checked program and diagnostics out.
+//!
+//! One file per concern: `load` reads the files, `declare` globals and signatures, `statements` and `expr` (with
+//! `name`, `place`, `operators`, `brace`, `call`, `arguments`, `convert`, `fold`) what functions do, `flow` and
+//! `conditions` look at the finished functions.
+
+mod arguments;
+mod brace;
+mod call;
+mod conditions;
+mod context;
+mod convert;
+mod declare;
+mod expr;
+mod flow;
+mod fold;
+mod load;
+mod name;
+mod operators;
+mod place;
+mod statements;
+mod uses;
+
+use crate::diagnostics::flow::FlowProblem;
+use crate::diagnostics::{Files, Location, Severity};
+use crate::hir::{self, FuncId, GlobalId, ModuleId, Program};
+use crate::{CheckOptions, Checked, Sources};
+use arl_lang::catalog::Base;
+use arl_lang::span::Span;
+use context::Checker;
+use load::{Loaded, LoadedModule};
+use std::collections::{HashMap, HashSet};
+use std::path::Path;
+
+/// Checks the program that begins at the file `main`.
+pub fn check(main: &Path, sources: &dyn Sources, options: &CheckOptions) -> Checked {
+    let loaded = load::load(main, sources, options);
+    let Loaded { modules, names, files, read, diagnostics, .. } = loaded;
+    let mut checker = Checker {
+        names: &names,
+        modules: &modules,
+        files: &files,
+        options,
+        scopes: Vec::new(),
+        globals: Vec::new(),
+        funcs: Vec::new(),
+        diagnostics,
+        used_modules: HashSet::new(),
+        splices: Vec::new(),
+        functions: HashMap::new(),
+    };
+    checker.collect(&first_values_order(&modules));
+    (0..checker.globals.len()).for_each(|at| checker.check_global(GlobalId(at as u32)));
+    (0..checker.funcs.len()).for_each(|at| checker.check_func(FuncId(at as u32)));
+    let main_func = checker.find_main();
+    checker.unused_imports();
+    let refused = checker.diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error);
+    let (mut program, mut diagnostics) = (None, Vec::new());
+    if refused {
+        diagnostics = std::mem::take(&mut checker.diagnostics);
+    } else {
+        let built = checker.into_program(main_func, &mut diagnostics);
+        let locate = |module: ModuleId, span: Span| Location {
+            file: modules.get(module.0 as usize).map_or(crate::diagnostics::FileId(0), |module| module.file),
+            span,
+        };
+        let conditions = conditions::check(&built, &locate);
+        if conditions.is_empty() {
+            program = Some(built);
+        }
+        diagnostics.extend(conditions);
+    }
+    diagnostics.sort_by(|a, b| (a.primary.at, a.code).cmp(&(b.primary.at, b.code)));
+    diagnostics.dedup();
+    Checked { program, diagnostics, files, read }
+}
+
+/// The order in which modules get their first values: what is imported goes before what imports it.
+fn first_values_order(modules: &[LoadedModule]) -> Vec<ModuleId> {
+    let mut order = Vec::new();
+    let mut seen = vec![false; modules.len()];
+    // An explicit stack: chains of imports may be long.
+    let mut stack: Vec<(ModuleId, bool)> = (0..modules.len()).rev().map(|at| (ModuleId(at as u32), false)).collect();
+    while let Some((id, done)) = stack.pop() {
+        if done {
+            order.push(id);
+            continue;
+        }
+        let Some(module) = modules.get(id.0 as usize) else { continue };
+        if seen.get_mut(id.0 as usize).is_none_or(|seen| std::mem::replace(seen, true)) {
+            continue;
+        }
+        stack.push((id, true));
+        let mut needed: Vec<ModuleId> = module.imports.values().copied().chain(module.data_module).collect();
+        needed.sort_unstable();
+        stack.extend(needed.into_iter().rev().map(|id| (id, false)));
+    }
+    order
+}
+
+impl Checker<'_> {
+    /// `main` of the main module.
+    fn find_main(&mut self) -> Option<FuncId> {
+        let main = ModuleId(0);
+        let symbol = self.names.find("main");
+        let found = symbol.and_then(|symbol| self.scopes.first()?.funcs.get(&symbol).copied());
+        let Some(id) = found else {
+            if !self.options.library && !self.modules.is_empty() {
+                self.report_in::<()>(main, self.file_start(), FlowProblem::NoMain, &[]);
+            }
+            return None;
+        };
+        let slot = self.funcs.get(id.0 as usize)?;
+        let (func, result) = (slot.ast, slot.result);
+        if let Some(param) = func.params.first() {
+            self.report_in::<()>(main, param.span, FlowProblem::MainSignature { what: "parameters" }, &[]);
+        }
+        if result.is_some_and(|result| result != Base::Void) {
+            self.report_in::<()>(main, func.result.span, FlowProblem::MainSignature { what: "result" }, &[]);
+        }
+        Some(id)
+    }
+
+    fn unused_imports(&mut self) {
+        for (at, module) in self.modules.iter().enumerate() {
+            let id = ModuleId(at as u32);
+            for (span, imported) in &module.import_lines {
+                if !self.used_modules.contains(&(id, *imported)) {
+                    let name = self.module(*imported).map(|module| self.names.name(module.name).to_string());
+                    let problem = FlowProblem::UnusedImport { module: name.unwrap_or_default() };
+                    self.report_in::<()>(id, *span, problem, &[]);
+                }
+            }
+        }
+    }
+
+    /// The finished program; the diagnostics (warnings only) go to `out`.
+    fn into_program(mut self, main: Option<FuncId>, out: &mut Vec<crate::diagnostics::Diagnostic>) -> Program {
+        out.append(&mut self.diagnostics);
+        let modules: Vec<hir::Module> = self.modules.iter().map(|module| finished_module(module, self.names, self.files)).collect();
+        let mut globals = Vec::new();
+        for slot in std::mem::take(&mut self.globals) {
+            globals.push(hir::Global {
+                name: self.names.name(slot.var.name.symbol).to_string(),
+                module: slot.module,
+                ty: slot.ty.unwrap_or(hir::Type::scalar(Base::Int)),
+                constant: slot.decl.constant.is_some(),
+                teachable: self.is_teachable(&slot),
+                value: slot.value,
+                init: slot.init,
+                span: slot.var.name.span,
+            });
+        }
+        let funcs = std::mem::take(&mut self.funcs).into_iter().filter_map(|slot| slot.checked).collect();
+        let name = modules.first().map(|module| module.name.clone()).unwrap_or_default();
+        Program { name, family: self.options.family, modules, globals, funcs, main }
+    }
+}
+
+fn finished_module(module: &LoadedModule, names: &arl_lang::symbol::Interner, files: &Files) -> hir::Module {
+    let source = files.get(module.file);
+    hir::Module {
+        name: names.name(module.name).to_string(),
+        file: source.map(|source| source.name.clone()).unwrap_or_default(),
+        source: source.map(|source| source.text.clone()).unwrap_or_default(),
+        data: module.data,
+    }
+}

@@ -1,0 +1,252 @@
+//! What a name means where it stands.
+
+use super::context::{Body, Checker};
+use super::convert::{Literal, Typed};
+use super::place::PlaceOrValue;
+use crate::diagnostics::names::NameProblem;
+use crate::hir::{Expr, ExprKind, GlobalId, ModuleId, Place, Root, Type, Value};
+use arl_lang::ast;
+use arl_lang::catalog::{self, Base, ConstantValue, Enum, Struct};
+use arl_lang::span::Span;
+use arl_lang::symbol::Symbol;
+
+impl Checker<'_> {
+    /// A name without `::`: a local, a global of this module or its data file, a constant, an enumeration's constant,
+    /// a hexadecimal number that begins with a letter.
+    pub(crate) fn name(
+        &mut self,
+        body: &mut Body,
+        symbol: Symbol,
+        span: Span,
+        want: Option<Type>,
+    ) -> Option<PlaceOrValue> {
+        if let Some(local) = body.find(symbol) {
+            let found = body.locals.get(local.0 as usize);
+            let value = found.and_then(|local| local.value.clone());
+            if self.options.strict
+                && let Some(declared) = found.map(|local| local.span)
+            {
+                let declared = self.text(body.module, declared);
+                self.strict_case(body, span, declared);
+            }
+            if let Some(value) = value {
+                if let Some(local) = body.local(local) {
+                    local.read = true;
+                }
+                return Some(PlaceOrValue::Value(constant(value, span)));
+            }
+            let ty = body.local_type(local)?;
+            return Some(PlaceOrValue::Place(Place { root: Root::Local(local), path: Vec::new(), ty, span }));
+        }
+        if let Some((id, visible)) = self.find_global(body, symbol) {
+            if !visible {
+                let name = self.text(body.module, span).to_string();
+                let declared = self.globals.get(id.0 as usize).map_or(span, |slot| slot.var.name.span);
+                let labels = [(body.module, declared, "declared here")];
+                return self.report_in(body.module, span, NameProblem::VariableBelow { name }, &labels);
+            }
+            return self.global(body, id, span);
+        }
+        let name = self.names.name(symbol);
+        if let Some(typed) = builtin_constant(name, span, want) {
+            return Some(PlaceOrValue::Value(typed));
+        }
+        if name == "world" && want == Some(Type::scalar(Base::Struct(Struct::Wobj))) {
+            let world = self.names.find("world")?;
+            let variable = catalog::system_variable(self.names.name(world))?;
+            let ty = Type::scalar(variable.ty);
+            return Some(PlaceOrValue::Place(Place { root: Root::System(variable), path: Vec::new(), ty, span }));
+        }
+        if let Some(found) = enum_constant(name, want) {
+            let (id, index) = found;
+            if let Some(constant) = id.def().constants.get(index as usize) {
+                self.strict_case(body, span, constant.name);
+            }
+            return Some(PlaceOrValue::Value(constant(Value::Enum(id, index), span)));
+        }
+        if let Some(number) = hexadecimal(name) {
+            let kind = ExprKind::Const(Value::Int(number as i32));
+            let expr = Expr { ty: Type::scalar(Base::Int), kind, span };
+            return Some(PlaceOrValue::Value(Typed { expr, literal: Literal::Pattern }));
+        }
+        self.unknown_variable(body, symbol, span)
+    }
+
+    fn unknown_variable<T>(&mut self, body: &Body, symbol: Symbol, span: Span) -> Option<T> {
+        let name = self.names.name(symbol);
+        if let Some(now) = catalog::renamed(name) {
+            let name = self.text(body.module, span).to_string();
+            return self.report(body, span, NameProblem::Renamed { name, now: now.into() });
+        }
+        let is_function = self.scopes.get(body.module.0 as usize).is_some_and(|scope| scope.funcs.contains_key(&symbol))
+            || !catalog::functions(name).is_empty();
+        let mut near = body.nearest_local(self.names, name);
+        if near.is_none() {
+            let globals = self.scopes.get(body.module.0 as usize).map(|scope| &scope.globals);
+            let mut known: Vec<&str> = globals.into_iter().flatten().map(|(symbol, _)| self.names.name(*symbol)).collect();
+            known.sort_unstable();
+            near = crate::near::nearest(name, known.into_iter()).map(Into::into);
+        }
+        let name = self.text(body.module, span).to_string();
+        self.report(body, span, NameProblem::UnknownVariable { name, near, is_function })
+    }
+
+    /// A global of this module or of its data file, and whether it is declared above.
+    pub(crate) fn find_global(&self, body: &Body, symbol: Symbol) -> Option<(GlobalId, bool)> {
+        if let Some(id) = self.scopes.get(body.module.0 as usize)?.globals.get(&symbol) {
+            let slot = self.globals.get(id.0 as usize)?;
+            // Inside its own declaration a variable is not known yet, but those before it on the line are.
+            let visible = slot.item < body.item || (slot.item == body.item && slot.state == super::context::State::Done);
+            return Some((*id, visible));
+        }
+        let data = self.module(body.module)?.data_module?;
+        let id = self.scopes.get(data.0 as usize)?.globals.get(&symbol)?;
+        Some((*id, true))
+    }
+
+    fn global(&mut self, body: &Body, id: GlobalId, span: Span) -> Option<PlaceOrValue> {
+        self.check_global(id);
+        let slot = self.globals.get(id.0 as usize)?;
+        let declared = (slot.module, slot.var.name.span);
+        let (ty, value) = (slot.ty, slot.value.clone());
+        if self.options.strict {
+            let declared = self.text(declared.0, declared.1);
+            let written = Span::new(span.end.saturating_sub(declared.len() as u32), span.end);
+            self.strict_case(body, written, declared);
+        }
+        if let Some(value) = value {
+            return Some(PlaceOrValue::Value(constant(value, span)));
+        }
+        Some(PlaceOrValue::Place(Place { root: Root::Global(id), path: Vec::new(), ty: ty?, span }))
+    }
+
+    /// `scope::name`: a module's variable or an enumeration's constant.
+    pub(crate) fn path(
+        &mut self,
+        body: &mut Body,
+        scope: ast::Ident,
+        system: bool,
+        name: ast::Ident,
+        span: Span,
+    ) -> Option<PlaceOrValue> {
+        if !system && let Some(module) = self.find_module(body, scope) {
+            self.used_modules.insert((body.module, module));
+            let own = module == body.module;
+            if let Some(id) = self.scopes.get(module.0 as usize)?.globals.get(&name.symbol).copied() {
+                if own {
+                    return self.name(body, name.symbol, span, None);
+                }
+                return self.global(body, id, span);
+            }
+            return self.not_in_module(body, module, name, "variable");
+        }
+        let scope_name = self.names.name(scope.symbol);
+        if let Some(base @ Base::Enum(id)) = catalog::base_type(scope_name)
+            && base.is_system() == system
+        {
+            let def = id.def();
+            self.strict_case(body, scope.span, def.name);
+            let wanted = self.names.name(name.symbol);
+            if let Some(index) = constant_of(id, wanted) {
+                if let Some(constant) = def.constants.get(index as usize) {
+                    self.strict_case(body, name.span, constant.name);
+                }
+                return Some(PlaceOrValue::Value(constant(Value::Enum(id, index), span)));
+            }
+            let problem = NameProblem::UnknownConstant {
+                name: self.text(body.module, name.span).into(),
+                ty: def.name.into(),
+                constants: def.constants.iter().map(|constant| constant.name).collect::<Vec<_>>().join(", "),
+            };
+            return self.report(body, name.span, problem);
+        }
+        self.unknown_module(body, scope)
+    }
+
+    pub(crate) fn unknown_module<T>(&mut self, body: &Body, scope: ast::Ident) -> Option<T> {
+        let name = self.text(body.module, scope.span).to_string();
+        let folder = self.module(body.module).and_then(|module| module.path.parent()).map(|path| path.to_path_buf());
+        let looked = folder.unwrap_or_default().join(format!("{name}.arl")).display().to_string();
+        self.report(body, scope.span, NameProblem::UnknownModule { name, looked: format!("\"{looked}\"") })
+    }
+
+    pub(crate) fn not_in_module<T>(
+        &mut self,
+        body: &Body,
+        module: ModuleId,
+        name: ast::Ident,
+        what: &'static str,
+    ) -> Option<T> {
+        let scope = self.scopes.get(module.0 as usize)?;
+        let mut known: Vec<&str> = match what {
+            "function" => scope.funcs.keys().map(|symbol| self.names.name(*symbol)).collect(),
+            _ => scope.globals.keys().map(|symbol| self.names.name(*symbol)).collect(),
+        };
+        known.sort_unstable();
+        let problem = NameProblem::NotInModule {
+            name: self.text(body.module, name.span).into(),
+            module: self.module(module).map(|module| self.names.name(module.name).to_string()).unwrap_or_default(),
+            what,
+            near: crate::near::nearest(self.names.name(name.symbol), known.into_iter()).map(Into::into),
+        };
+        self.report(body, name.span, problem)
+    }
+
+    /// The module that a name in front of `::` means.
+    pub(crate) fn find_module(&self, body: &Body, scope: ast::Ident) -> Option<ModuleId> {
+        let here = self.module(body.module)?;
+        if here.name == scope.symbol {
+            return Some(body.module);
+        }
+        if let Some(id) = here.imports.get(&scope.symbol) {
+            return Some(*id);
+        }
+        here.data_module.filter(|data| self.module(*data).is_some_and(|data| data.name == scope.symbol))
+    }
+}
+
+impl Body {
+    /// The visible local whose name is nearest.
+    fn nearest_local(&self, names: &arl_lang::symbol::Interner, name: &str) -> Option<String> {
+        let mut known: Vec<&str> = self.visible().map(|symbol| names.name(symbol)).collect();
+        known.sort_unstable();
+        crate::near::nearest(name, known.into_iter()).map(Into::into)
+    }
+}
+
+/// A constant as an expression.
+pub(crate) fn constant(value: Value, span: Span) -> Typed {
+    Typed::plain(Expr { ty: Type::scalar(value.base()), kind: ExprKind::Const(value), span })
+}
+
+fn builtin_constant(name: &str, span: Span, _want: Option<Type>) -> Option<Typed> {
+    let value = match catalog::constant(name)?.value {
+        ConstantValue::Double(number) => Value::Double(number),
+        ConstantValue::String(text) => Value::String(text.into()),
+    };
+    Some(constant(value, span))
+}
+
+/// The constant of this name; the enumeration that is wanted goes first.
+fn enum_constant(name: &str, want: Option<Type>) -> Option<(Enum, u16)> {
+    if let Some(Base::Enum(id)) = want.map(|want| want.base)
+        && let Some(index) = constant_of(id, name)
+    {
+        return Some((id, index));
+    }
+    catalog::enum_constant(name)
+}
+
+fn constant_of(id: Enum, name: &str) -> Option<u16> {
+    let found = id.def().constants.iter().position(|constant| {
+        constant.name.eq_ignore_ascii_case(name) || constant.aliases.iter().any(|alias| alias.eq_ignore_ascii_case(name))
+    });
+    found.map(|index| index as u16)
+}
+
+/// `ffh`: hexadecimal digits and an `h`, beginning with a letter.
+fn hexadecimal(name: &str) -> Option<u32> {
+    let digits = name.strip_suffix('h')?;
+    let valid = !digits.is_empty() && digits.bytes().all(|digit| digit.is_ascii_hexdigit());
+    if valid { u32::from_str_radix(digits, 16).ok() } else { None }
+}

@@ -1,0 +1,354 @@
+//! Statements and function bodies.
+
+use super::arguments::Callee;
+use super::context::{Body, Checker, State};
+use super::convert::integer;
+use crate::diagnostics::arguments::ArgumentProblem;
+use crate::diagnostics::flow::FlowProblem;
+use crate::diagnostics::names::NameProblem;
+use crate::diagnostics::support::SupportProblem;
+use crate::diagnostics::types::TypeProblem;
+use crate::hir::{self, Arm, Block, Expr, ExprKind, For, FuncId, LabelId, LoopInfo, Stmt, StmtKind, Type, Value};
+use arl_lang::ast;
+use arl_lang::catalog::{self, Base, Effect, Kind};
+use std::collections::HashSet;
+
+impl Checker<'_> {
+    /// Checks the body of a function whose signature is known.
+    pub(crate) fn check_func(&mut self, id: FuncId) {
+        self.check_signature(id);
+        let Some(slot) = self.funcs.get(id.0 as usize) else { return };
+        debug_assert!(slot.state == State::Done);
+        let (module, func, item) = (slot.module, slot.ast, slot.item);
+        let (types, result) = (slot.params.clone(), slot.result);
+        let mut body = Body::new(module, item);
+        body.func = Some(id);
+        body.result = result.unwrap_or(Base::Void);
+        let scope = body.enter();
+        let mut params = Vec::new();
+        for (param, ty) in func.params.iter().zip(types) {
+            params.push(self.declare_local(&mut body, param.name, ty, false, None));
+        }
+        self.collect_labels(&mut body, &func.body);
+        // The body is a scope of its own, but a local may not hide a parameter: they share one.
+        let block = self.block_in_scope(&mut body, &func.body);
+        body.leave(scope);
+        let checked = hir::Func {
+            name: self.names.name(func.name.symbol).to_string(),
+            module,
+            params,
+            locals: std::mem::take(&mut body.locals),
+            labels: std::mem::take(&mut body.labels),
+            result: result.unwrap_or(Base::Void),
+            body: block,
+            span: func.span,
+            end: func.end,
+            effects: hir::Effects::default(),
+            has_goto: body.has_goto,
+        };
+        self.check_flow(&checked);
+        if let Some(slot) = self.funcs.get_mut(id.0 as usize) {
+            slot.checked = Some(checked);
+        }
+    }
+
+    fn collect_labels(&mut self, body: &mut Body, block: &ast::Block) {
+        for stmt in block {
+            match &stmt.kind {
+                ast::StmtKind::Label(name) => self.add_label(body, *name),
+                ast::StmtKind::If(branches) => {
+                    branches.arms.iter().for_each(|(_, block)| self.collect_labels(body, block));
+                    branches.otherwise.iter().for_each(|block| self.collect_labels(body, block));
+                }
+                ast::StmtKind::While(_, block) | ast::StmtKind::Repeat(block, _) | ast::StmtKind::Loop(block) => {
+                    self.collect_labels(body, block);
+                }
+                ast::StmtKind::For(each) => self.collect_labels(body, &each.body),
+                ast::StmtKind::Switch(switch) => {
+                    switch.arms.iter().for_each(|arm| self.collect_labels(body, &arm.body));
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn add_label(&mut self, body: &mut Body, name: ast::Ident) {
+        if let Some(earlier) = body.label_names.get(&name.symbol) {
+            let first = body.labels.get(earlier.0 as usize).map_or(name.span, |label| label.span);
+            let text = self.text(body.module, name.span).to_string();
+            let labels = [(body.module, first, "first declared here")];
+            let problem = NameProblem::Duplicate { name: text, what: "label" };
+            self.report_in::<()>(body.module, name.span, problem, &labels);
+            return;
+        }
+        let id = LabelId(body.labels.len() as u32);
+        let text = self.names.name(name.symbol).to_string();
+        body.labels.push(hir::Label { name: text, span: name.span, used: false });
+        body.label_names.insert(name.symbol, id);
+    }
+
+    /// Checks statements in a scope of their own.
+    fn block(&mut self, body: &mut Body, block: &ast::Block) -> Block {
+        let scope = body.enter();
+        let checked = self.block_in_scope(body, block);
+        body.leave(scope);
+        checked
+    }
+
+    /// Checks statements in the scope that is open.
+    pub(crate) fn block_in_scope(&mut self, body: &mut Body, block: &ast::Block) -> Block {
+        let mut out = Vec::with_capacity(block.len());
+        block.iter().for_each(|stmt| self.statement(body, stmt, &mut out));
+        out
+    }
+
+    fn statement(&mut self, body: &mut Body, stmt: &ast::Stmt, out: &mut Vec<Stmt>) {
+        let kind = match &stmt.kind {
+            ast::StmtKind::Decl(decl) => {
+                self.local_decl(body, decl, out);
+                None
+            }
+            ast::StmtKind::Expr(expr) => self.expression_statement(body, expr),
+            ast::StmtKind::Instr(instr) => self.instruction(body, instr, stmt).map(StmtKind::Eval),
+            ast::StmtKind::If(branches) => self.if_statement(body, branches),
+            ast::StmtKind::CompactIf(both) => {
+                let condition = self.condition(body, &both.0);
+                let mut inner = Vec::new();
+                let scope = body.enter();
+                self.statement(body, &both.1, &mut inner);
+                body.leave(scope);
+                condition.map(|condition| StmtKind::If(vec![(condition, inner)], None))
+            }
+            ast::StmtKind::While(condition, block) => {
+                let condition = self.condition(body, condition);
+                let block = self.looped(body, block);
+                condition.map(|condition| StmtKind::While(condition, block, LoopInfo::default()))
+            }
+            ast::StmtKind::Repeat(block, until) => {
+                let block = self.looped(body, block);
+                let until = until.as_ref().and_then(|until| self.condition(body, until));
+                until.map(|until| StmtKind::Repeat(block, until, LoopInfo::default()))
+            }
+            ast::StmtKind::Loop(block) => Some(StmtKind::Loop(self.looped(body, block), LoopInfo::default())),
+            ast::StmtKind::For(each) => self.for_statement(body, each),
+            ast::StmtKind::Switch(switch) => self.switch(body, switch),
+            ast::StmtKind::Break => self.jump(body, stmt, StmtKind::Break),
+            ast::StmtKind::Continue => self.jump(body, stmt, StmtKind::Continue),
+            ast::StmtKind::Goto(name) => self.goto(body, *name),
+            ast::StmtKind::Label(name) => body.label_names.get(&name.symbol).copied().map(StmtKind::Label),
+            ast::StmtKind::Return(value) => self.return_statement(body, value.as_deref(), stmt),
+        };
+        out.extend(kind.map(|kind| Stmt { kind, span: stmt.span }));
+    }
+
+    fn expression_statement(&mut self, body: &mut Body, expr: &ast::Expr) -> Option<StmtKind> {
+        let typed = self.expr(body, expr, None)?;
+        let does_something = matches!(
+            expr.kind,
+            ast::ExprKind::Assign(..) | ast::ExprKind::Step(..) | ast::ExprKind::Call(_) | ast::ExprKind::Error
+        );
+        if !does_something {
+            self.report::<()>(body, expr.span, FlowProblem::NoEffect);
+        }
+        Some(StmtKind::Eval(typed.expr))
+    }
+
+    fn instruction(&mut self, body: &mut Body, instr: &ast::Instr, stmt: &ast::Stmt) -> Option<Expr> {
+        let name = self.names.name(instr.name.symbol);
+        let all = catalog::instructions(name);
+        let family = self.family();
+        let entry = all.iter().find(|entry| entry.family.is_none_or(|only| only == family));
+        let entry = match (entry, all.first()) {
+            (Some(entry), _) => entry,
+            (None, Some(other)) => return self.report_family(body, instr.name.span, other),
+            (None, None) => return self.unknown_instruction(body, instr),
+        };
+        self.strict_case(body, instr.name.span, entry.name);
+        let args = self.bind(body, &Callee::Builtin(entry), &instr.args, instr.name.span);
+        for (event, action) in &instr.events {
+            self.condition(body, event);
+            self.expr(body, action, None);
+        }
+        if let Some((event, _)) = instr.events.first() {
+            if entry.effect != Effect::Plans {
+                let callee = entry.name.to_string();
+                return self.report(body, event.span, ArgumentProblem::Events { callee });
+            }
+            let name = "trigger".to_string();
+            return self.report(body, event.span, SupportProblem::NotYet { name });
+        }
+        self.builtin(body, entry, args?, instr.name.span, stmt.span)
+    }
+
+    fn unknown_instruction<T>(&mut self, body: &Body, instr: &ast::Instr) -> Option<T> {
+        let name = self.names.name(instr.name.symbol);
+        let own = self.scopes.get(body.module.0 as usize)?.funcs.contains_key(&instr.name.symbol);
+        let is_function = own || !catalog::functions(name).is_empty();
+        let known = catalog::all_entries().iter().filter(|entry| entry.kind == Kind::Instruction).map(|entry| entry.name);
+        let near = crate::near::nearest(name, known).map(Into::into);
+        let name = self.text(body.module, instr.name.span).to_string();
+        self.report(body, instr.name.span, NameProblem::UnknownInstruction { name, near, is_function })
+    }
+
+    fn if_statement(&mut self, body: &mut Body, branches: &ast::If) -> Option<StmtKind> {
+        let mut arms = Vec::new();
+        let mut good = true;
+        for (condition, block) in &branches.arms {
+            let condition = self.condition(body, condition);
+            let block = self.block(body, block);
+            match condition {
+                Some(condition) => arms.push((condition, block)),
+                None => good = false,
+            }
+        }
+        let otherwise = branches.otherwise.as_ref().map(|block| self.block(body, block));
+        good.then_some(StmtKind::If(arms, otherwise))
+    }
+
+    /// The body of a loop.
+    fn looped(&mut self, body: &mut Body, block: &ast::Block) -> Block {
+        body.loops += 1;
+        let switches = std::mem::take(&mut body.switches);
+        let checked = self.block(body, block);
+        body.switches = switches;
+        body.loops -= 1;
+        checked
+    }
+
+    fn for_statement(&mut self, body: &mut Body, each: &ast::For) -> Option<StmtKind> {
+        let scope = body.enter();
+        let mut init = Vec::new();
+        if let Some(first) = &each.init {
+            self.statement(body, first, &mut init);
+        }
+        let condition = each.condition.as_ref().map(|condition| self.condition(body, condition));
+        let step = each.step.as_ref().map(|step| self.expr(body, step, None));
+        let block = self.looped(body, &each.body);
+        body.leave(scope);
+        let condition = match condition {
+            Some(condition) => Some(condition?),
+            None => None,
+        };
+        let step = match step {
+            Some(step) => Some(step?.expr),
+            None => None,
+        };
+        let info = LoopInfo::default();
+        Some(StmtKind::For(Box::new(For { init, condition, step, body: block, info, counted: false })))
+    }
+
+    fn switch(&mut self, body: &mut Body, switch: &ast::Switch) -> Option<StmtKind> {
+        let subject = self.expr(body, &switch.subject, None);
+        let subject = subject.and_then(|subject| {
+            let ty = subject.expr.ty;
+            if ty.base == Base::Void {
+                return self.report_no_value(body, &subject.expr);
+            }
+            let comparable =
+                matches!(ty.base, Base::Int | Base::Byte | Base::Uint | Base::Bool | Base::String | Base::Enum(_));
+            if comparable && !ty.is_array() {
+                return Some(subject.expr);
+            }
+            let ty = self.type_name(ty);
+            self.report(body, switch.subject.span, FlowProblem::SwitchType { ty })
+        });
+        let ty = subject.as_ref().map(|subject| subject.ty);
+        let mut arms = Vec::new();
+        let mut seen = HashSet::new();
+        let mut default = false;
+        for arm in &switch.arms {
+            let value = match &arm.value {
+                Some(value) => self.case_value(body, value, ty, &mut seen).map(Some),
+                None if std::mem::replace(&mut default, true) => {
+                    self.report(body, arm.span, FlowProblem::DefaultTwice)
+                }
+                None => Some(None),
+            };
+            body.switches += 1;
+            let block = self.block(body, &arm.body);
+            body.switches -= 1;
+            if let Some(value) = value {
+                arms.push(Arm { value, body: block, span: arm.span });
+            }
+        }
+        Some(StmtKind::Switch(subject?, arms))
+    }
+
+    fn case_value(
+        &mut self,
+        body: &mut Body,
+        value: &ast::Expr,
+        ty: Option<Type>,
+        seen: &mut HashSet<String>,
+    ) -> Option<Value> {
+        let typed = self.expr(body, value, ty)?;
+        let checked = self.coerce(body, typed, ty?, "a case of this switch")?;
+        let ExprKind::Const(constant) = checked.kind else {
+            return self.report(body, value.span, FlowProblem::CaseNotConstant);
+        };
+        if !seen.insert(case_key(&constant)) {
+            let value_text = self.text(body.module, value.span).to_string();
+            return self.report(body, value.span, FlowProblem::CaseTwice { value: value_text });
+        }
+        Some(constant)
+    }
+
+    fn jump(&mut self, body: &Body, stmt: &ast::Stmt, kind: StmtKind) -> Option<StmtKind> {
+        if body.loops > 0 {
+            return Some(kind);
+        }
+        match kind {
+            StmtKind::Break => self.report(body, stmt.span, FlowProblem::BreakOutside { in_switch: body.switches > 0 }),
+            _ => self.report(body, stmt.span, FlowProblem::ContinueOutside),
+        }
+    }
+
+    fn goto(&mut self, body: &mut Body, name: ast::Ident) -> Option<StmtKind> {
+        body.has_goto = true;
+        if let Some(id) = body.label_names.get(&name.symbol).copied() {
+            if let Some(label) = body.labels.get_mut(id.0 as usize) {
+                label.used = true;
+            }
+            return Some(StmtKind::Goto(id));
+        }
+        let wanted = self.names.name(name.symbol);
+        let near = crate::near::nearest(wanted, body.labels.iter().map(|label| label.name.as_str())).map(Into::into);
+        let name_text = self.text(body.module, name.span).to_string();
+        self.report(body, name.span, NameProblem::UnknownLabel { name: name_text, near })
+    }
+
+    fn return_statement(&mut self, body: &mut Body, value: Option<&ast::Expr>, stmt: &ast::Stmt) -> Option<StmtKind> {
+        let result = Type::scalar(body.result);
+        match value {
+            None if body.result == Base::Void => Some(StmtKind::Return(None)),
+            None => {
+                let result = self.type_name(result);
+                self.report(body, stmt.span, FlowProblem::ReturnWithoutValue { result })
+            }
+            Some(value) if body.result == Base::Void => {
+                self.expr(body, value, None);
+                self.report(body, value.span, FlowProblem::ReturnWithValue)
+            }
+            Some(value) => {
+                let typed = self.expr(body, value, Some(result))?;
+                if typed.expr.ty.is_array() {
+                    let ty = self.type_name(typed.expr.ty);
+                    return self.report(body, value.span, TypeProblem::ResultType { ty });
+                }
+                let value = self.coerce(body, typed, result, "the result")?;
+                Some(StmtKind::Return(Some(value)))
+            }
+        }
+    }
+}
+
+/// A text that is equal for equal constants of one type.
+fn case_key(value: &Value) -> String {
+    match (value, integer(value)) {
+        (_, Some(number)) => number.to_string(),
+        (Value::String(text), _) => text.to_string(),
+        (Value::Enum(_, index), _) => index.to_string(),
+        (Value::Bool(value), _) => value.to_string(),
+        (other, _) => format!("{other:?}"),
+    }
+}

@@ -1,0 +1,188 @@
+//! What the command understands.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Robot programs in ARL: checked, turned into Rust, compiled and run.
+#[derive(Parser, Debug)]
+#[command(name = "arl2rs", version, max_term_width = 100)]
+pub(super) struct Cli {
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+#[derive(Subcommand, Debug)]
+pub(super) enum Command {
+    /// Find the mistakes in programs without running them.
+    Check {
+        /// Programs, and modules and data files that belong to them.
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+        /// How to show what was found.
+        #[arg(long, value_enum, default_value_t = Format::Human)]
+        format: Format,
+        #[command(flatten)]
+        checking: Checking,
+    },
+    /// Show the Rust that a program becomes.
+    Emit {
+        /// The file that has `main`.
+        file: PathBuf,
+        /// Write NAME.rs into this folder instead of to standard output.
+        #[arg(short, value_name = "DIR")]
+        out: Option<PathBuf>,
+        #[command(flatten)]
+        checking: Checking,
+    },
+    /// Make a native program.
+    Build {
+        /// The file that has `main`.
+        file: PathBuf,
+        /// Where to put the program; the file's name without `.arl`, in the working directory, if absent.
+        #[arg(short, value_name = "PROGRAM")]
+        out: Option<PathBuf>,
+        /// Compile longer for a faster program.
+        #[arg(long)]
+        release: bool,
+        #[command(flatten)]
+        checking: Checking,
+    },
+    /// Compile a program where needed and run it on a simulated robot.
+    Run {
+        /// The file that has `main`.
+        file: PathBuf,
+        #[command(flatten)]
+        options: RunOptions,
+    },
+    /// Run the cases in folders: every NAME.arl with a sidecar (.out, .err, .alarm, .io.toml, .toml).
+    Test {
+        /// Folders with cases, searched with their subfolders.
+        #[arg(required = true, value_name = "DIR")]
+        dirs: Vec<PathBuf>,
+    },
+    /// Explain a diagnostic: `arl2rs explain ARL0203`.
+    Explain {
+        /// The code.
+        code: String,
+    },
+    /// Show the reference of a built-in instruction, function, type, constant or system variable.
+    Doc {
+        /// Its name.
+        name: String,
+    },
+    /// List the robots that are built in, or print the file of one.
+    Robots {
+        /// The robot to print.
+        name: Option<String>,
+    },
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Debug)]
+pub(super) enum Format {
+    /// For people, on standard error.
+    Human,
+    /// One JSON object a line, on standard output.
+    Json,
+}
+
+/// Options of the compiler.
+#[derive(Args, Clone, Default, Debug)]
+pub(super) struct Checking {
+    /// Warn also where more is accepted than the controller would take.
+    #[arg(long)]
+    pub(super) strict: bool,
+    /// The robot that the program is for: a built-in name or a robot file.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) robot: Option<String>,
+    /// The folder that `/home/ae/script/` in an import means; the program's folder if absent.
+    #[arg(long, value_name = "DIR")]
+    pub(super) script_dir: Option<PathBuf>,
+}
+
+/// Options of a running program. They are handed on to it.
+#[derive(Args, Clone, Default, Debug)]
+pub(super) struct RunOptions {
+    /// The robot: a built-in name or a robot file.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) robot: Option<String>,
+    /// The cell: io, buses, home points.
+    #[arg(long, value_name = "FILE")]
+    pub(super) cell: Option<PathBuf>,
+    /// Run as fast as possible, or in real time.
+    #[arg(long, value_enum)]
+    pub(super) clock: Option<Clock>,
+    /// The folder that the program's files are in; the program's folder if absent.
+    #[arg(long, value_name = "DIR")]
+    pub(super) script_dir: Option<PathBuf>,
+    /// The folder that keeps state between runs.
+    #[arg(long, value_name = "DIR")]
+    pub(super) state_dir: Option<PathBuf>,
+    /// A scenario: what the outside does to the inputs.
+    #[arg(long, value_name = "FILE")]
+    pub(super) io: Option<PathBuf>,
+    /// Write the motion, one row a cycle.
+    #[arg(long, value_name = "FILE.csv")]
+    pub(super) trace: Option<PathBuf>,
+    /// End after so many controller seconds, with exit code 4.
+    #[arg(long, value_name = "S")]
+    pub(super) max_time: Option<f64>,
+    /// The mode of operation.
+    #[arg(long, value_enum)]
+    pub(super) mode: Option<Mode>,
+    /// The override in percent.
+    #[arg(long = "override", value_name = "PCT")]
+    pub(super) override_percent: Option<f64>,
+    /// The seed of `rand` on the virtual clock.
+    #[arg(long, value_name = "N")]
+    pub(super) seed: Option<u64>,
+    /// The date at the start on the virtual clock: `now`, or a time like 2000-01-01T00:00:00.
+    #[arg(long, value_name = "T")]
+    pub(super) start_time: Option<String>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Debug)]
+pub(super) enum Clock {
+    /// As fast as the machine can, the same on every run.
+    Virtual,
+    /// In real time.
+    Real,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Debug)]
+pub(super) enum Mode {
+    /// Automatic.
+    Auto,
+    /// Manual at low speed.
+    Manual,
+    /// Manual at high speed.
+    Manufast,
+}
+
+impl RunOptions {
+    /// The options as the program takes them.
+    pub(super) fn arguments(&self) -> Vec<std::ffi::OsString> {
+        let word = |value: Option<clap::builder::PossibleValue>| value.map(|value| value.get_name().into());
+        let path = |path: &Option<PathBuf>| path.clone().map(PathBuf::into_os_string);
+        let number = |number: Option<String>| number.map(Into::into);
+        let all: [(&str, Option<std::ffi::OsString>); 12] = [
+            ("--robot", self.robot.clone().map(Into::into)),
+            ("--cell", path(&self.cell)),
+            ("--clock", word(self.clock.and_then(|clock| clock.to_possible_value()))),
+            ("--script-dir", path(&self.script_dir)),
+            ("--state-dir", path(&self.state_dir)),
+            ("--io", path(&self.io)),
+            ("--trace", path(&self.trace)),
+            ("--max-time", number(self.max_time.map(|time| time.to_string()))),
+            ("--mode", word(self.mode.and_then(|mode| mode.to_possible_value()))),
+            ("--override", number(self.override_percent.map(|percent| percent.to_string()))),
+            ("--seed", number(self.seed.map(|seed| seed.to_string()))),
+            ("--start-time", self.start_time.clone().map(Into::into)),
+        ];
+        all.into_iter().filter_map(|(name, value)| value.map(|value| [name.into(), value])).flatten().collect()
+    }
+
+    /// The part that the compiler needs.
+    pub(super) fn checking(&self) -> Checking {
+        Checking { strict: false, robot: self.robot.clone(), script_dir: self.script_dir.clone() }
+    }
+}

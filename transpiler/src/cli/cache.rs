@@ -1,0 +1,118 @@
+//! Where compiled programs are kept.
+
+use super::failure::Failure;
+use std::fs::{File, TryLockError};
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+
+/// The folder of all compiled programs of a user.
+#[derive(Clone, Debug)]
+pub(super) struct Cache {
+    root: PathBuf,
+}
+
+impl Cache {
+    /// `$ARL2RS_CACHE`, else the user's cache folder.
+    pub(super) fn find() -> Result<Self, Failure> {
+        let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+        let home = || {
+            if cfg!(windows) {
+                set("LOCALAPPDATA")
+            } else if cfg!(target_os = "macos") {
+                set("HOME").map(|home| home.join("Library/Caches"))
+            } else {
+                set("HOME").map(|home| home.join(".cache"))
+            }
+        };
+        let shared = || set("XDG_CACHE_HOME").filter(|path| path.is_absolute()).or_else(home);
+        let root = set("ARL2RS_CACHE").or_else(|| shared().map(|folder| folder.join("arl2rs")));
+        let root = root.ok_or_else(|| {
+            Failure::Other("there is no folder for compiled programs: set ARL2RS_CACHE to one".into())
+        })?;
+        let root = std::path::absolute(&root).map_err(|error| Failure::io("use", &root, &error))?;
+        Ok(Self { root })
+    }
+
+    /// The folder that all programs are compiled in, so that the runtime is compiled once.
+    pub(super) fn target(&self) -> PathBuf {
+        self.root.join("target")
+    }
+
+    /// The place of the program whose main file is `main`, an absolute path.
+    pub(super) fn program(&self, main: &Path) -> Place {
+        let mut hasher = DefaultHasher::new();
+        main.hash(&mut hasher);
+        let stem: String = main
+            .file_stem()
+            .map(|stem| stem.to_string_lossy().to_lowercase())
+            .unwrap_or_default()
+            .chars()
+            .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
+            .take(40)
+            .collect();
+        // A package's name begins with a letter.
+        let name = format!("arl-{stem}-{:08x}", hasher.finish() as u32);
+        Place { folder: self.root.join("programs").join(&name), name }
+    }
+}
+
+/// The folder of one program, and the name of its package.
+#[derive(Clone, Debug)]
+pub(super) struct Place {
+    pub(super) folder: PathBuf,
+    pub(super) name: String,
+}
+
+impl Place {
+    pub(super) fn stamp(&self) -> PathBuf {
+        self.folder.join("stamp")
+    }
+
+    /// Waits until no other process compiles this program. `shared` is for starting it.
+    pub(super) fn lock(&self, shared: bool) -> Result<Lock, Failure> {
+        std::fs::create_dir_all(&self.folder).map_err(|error| Failure::io("make the folder", &self.folder, &error))?;
+        let path = self.folder.join("lock");
+        let fail = |error: std::io::Error| Failure::io("lock", &path, &error);
+        let file = File::options().read(true).write(true).create(true).truncate(false).open(&path).map_err(fail)?;
+        match if shared { file.try_lock_shared() } else { file.try_lock() } {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => {
+                let waiting = super::progress::Progress::start("waiting for another arl2rs that compiles this program");
+                if shared { file.lock_shared() } else { file.lock() }.map_err(fail)?;
+                drop(waiting);
+            }
+            // A file system without locks: two runs at once are the user's business there.
+            Err(TryLockError::Error(error)) if error.kind() == std::io::ErrorKind::Unsupported => {}
+            Err(TryLockError::Error(error)) => return Err(fail(error)),
+        }
+        Ok(Lock { _file: file })
+    }
+}
+
+/// Held until dropped, or until the process becomes the program.
+#[derive(Debug)]
+pub(super) struct Lock {
+    _file: File,
+}
+
+/// Writes a file unless it already has this content; says whether it wrote.
+pub(super) fn write_if_changed(path: &Path, content: &[u8]) -> Result<bool, Failure> {
+    match crate::sources::write_if_changed(path, content) {
+        Ok(written) => Ok(written),
+        Err(error) => Err(Failure::io("write", path, &error)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_differ_by_path_and_are_package_names() {
+        let cache = Cache { root: "/cache".into() };
+        let one = cache.program(Path::new("/a/Pick me.arl"));
+        let other = cache.program(Path::new("/b/Pick me.arl"));
+        assert!(one.name.starts_with("arl-pick_me-"), "{}", one.name);
+        assert_ne!(one.folder, other.folder);
+    }
+}

@@ -1,0 +1,52 @@
+//! `arl2rs emit` and `arl2rs build`
+
+use super::args::Checking;
+use super::cache::{Cache, write_if_changed};
+use super::failure::Failure;
+use super::program::{check_options, compile, compile_rust};
+use super::runtime::Runtime;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Writes the Rust of a program to standard output, or to NAME.rs in a folder.
+pub(super) fn emit(file: &Path, out: Option<&Path>, checking: &Checking) -> Result<(), Failure> {
+    let (compiled, rust) = compile(file, &check_options(checking)?)?;
+    let Some(folder) = out else {
+        let mut out = std::io::stdout().lock();
+        return match out.write_all(rust.as_bytes()).and_then(|()| out.flush()) {
+            Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+                Err(Failure::Other(format!("cannot write to standard output: {error}")))
+            }
+            _ => Ok(()),
+        };
+    };
+    let name = compiled.checked.program.as_ref().map_or("program", |program| program.name.as_str());
+    write_if_changed(&folder.join(format!("{name}.rs")), rust.as_bytes())?;
+    Ok(())
+}
+
+/// Makes a native program.
+pub(super) fn build(file: &Path, out: Option<&Path>, release: bool, checking: &Checking) -> Result<(), Failure> {
+    let (_, rust) = compile(file, &check_options(checking)?)?;
+    let main = std::path::absolute(file).map_err(|error| Failure::io("use", file, &error))?;
+    let cache = Cache::find()?;
+    let place = cache.program(&main);
+    let lock = place.lock(false)?;
+    let executable = compile_rust(&cache, &place, &Runtime::find(), &rust, &main, release)?;
+    drop(lock);
+    let to = out.map_or_else(|| default_name(file), Path::to_path_buf);
+    if let Some(folder) = to.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        std::fs::create_dir_all(folder).map_err(|error| Failure::io("make the folder", folder, &error))?;
+    }
+    // A program that runs cannot be written over, but it can be removed.
+    if to.is_file() {
+        std::fs::remove_file(&to).map_err(|error| Failure::io("replace", &to, &error))?;
+    }
+    std::fs::copy(&executable, &to).map_err(|error| Failure::io("write", &to, &error))?;
+    Ok(())
+}
+
+fn default_name(file: &Path) -> PathBuf {
+    let stem = file.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_else(|| "program".into());
+    PathBuf::from(format!("{stem}{}", std::env::consts::EXE_SUFFIX))
+}

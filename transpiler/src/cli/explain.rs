@@ -1,0 +1,37 @@
+//! `arl2rs explain` and `arl2rs doc`
+
+use super::failure::Failure;
+use super::pages::PAGES;
+use crate::diagnostics::{Code, info, registry};
+use crate::near::nearest;
+
+/// The page of a code: `ARL0203`, `arl203` or `203`.
+pub(super) fn explain(code: &str) -> Result<String, Failure> {
+    let digits = code.trim().to_ascii_uppercase();
+    let number = digits.strip_prefix("ARL").unwrap_or(&digits).parse().ok().map(Code);
+    let Some(code) = number else {
+        return Err(Failure::Usage(format!("`{code}` is no code of a diagnostic; codes look like ARL0203")));
+    };
+    let name = code.to_string();
+    if let Some((_, page)) = PAGES.iter().find(|(page, _)| *page == name) {
+        return Ok((*page).to_string());
+    }
+    match info(code) {
+        Some(info) => Ok(format!("# {name}: {}\n\nThere is no page for this code yet.\n", info.title)),
+        None => {
+            let names: Vec<String> = registry().iter().map(|info| info.code.to_string()).collect();
+            let near = nearest(&name, names.iter().map(String::as_str));
+            let hint = near.map(|near| format!("; did you mean {near}?")).unwrap_or_default();
+            Err(Failure::Usage(format!("there is no diagnostic {name}{hint}")))
+        }
+    }
+}
+
+/// The reference of something built in.
+pub(super) fn doc(name: &str) -> Result<String, Failure> {
+    arl_lang::catalog::reference(name).ok_or_else(|| {
+        let near = nearest(name, arl_lang::catalog::names());
+        let hint = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
+        Failure::Usage(format!("nothing that is built in is called `{name}`{hint}"))
+    })
+}

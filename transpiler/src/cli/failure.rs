@@ -1,0 +1,49 @@
+//! How the command ends when it does not go well.
+
+use crate::compile::Bug;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Exit codes, as the book lists them.
+pub(super) const COMPILE_ERRORS: u8 = 1;
+pub(super) const USAGE: u8 = 2;
+pub(super) const INTERRUPTED: u8 = 130;
+
+/// Why a command gave up. What is to be said was not said yet, but for [`Failure::Shown`].
+#[derive(Debug)]
+pub(super) enum Failure {
+    /// The program has errors, and they were shown.
+    Shown,
+    /// The command line asks for something that cannot be.
+    Usage(String),
+    /// Something around the compiler went wrong: a folder that cannot be written, cargo missing.
+    Other(String),
+}
+
+impl Failure {
+    /// A file or folder that the command itself could not use.
+    pub(super) fn io(doing: &str, path: &Path, error: &std::io::Error) -> Self {
+        Self::Other(format!("cannot {doing} {}: {error}", path.display()))
+    }
+
+    /// Says it, and gives the exit code.
+    pub(super) fn report(self) -> ExitCode {
+        match self {
+            Failure::Shown => ExitCode::from(COMPILE_ERRORS),
+            Failure::Usage(text) => {
+                super::show::error(&text);
+                ExitCode::from(USAGE)
+            }
+            Failure::Other(text) => {
+                super::show::error(&text);
+                ExitCode::from(COMPILE_ERRORS)
+            }
+        }
+    }
+}
+
+impl From<Bug> for Failure {
+    fn from(bug: Bug) -> Self {
+        Failure::Other(bug.to_string())
+    }
+}

@@ -1,0 +1,67 @@
+//! The `arl2rs` command.
+#![expect(clippy::disallowed_methods, reason = "the command reads and writes files and starts processes")]
+
+mod args;
+mod cache;
+mod cargo;
+mod check;
+mod emit;
+mod explain;
+mod failure;
+mod pages;
+mod program;
+mod progress;
+mod project;
+mod robots;
+mod run;
+mod runtime;
+mod show;
+mod stamp;
+mod test;
+
+use args::{Cli, Command};
+use clap::Parser;
+use failure::Failure;
+use std::io::Write;
+use std::process::ExitCode;
+
+/// Does what the command line says; gives the exit code: 0 done, 1 compile errors, 2 usage, 3 alarm, 4 out of time, 130
+/// interrupted.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    crate::compile::remember_panics();
+    cargo::end_on_interrupt();
+    match crate::compile::guard(|| dispatch(cli.command)) {
+        Ok(Ok(code)) => code,
+        Ok(Err(failure)) => failure.report(),
+        Err(bug) => Failure::from(bug).report(),
+    }
+}
+
+fn dispatch(command: Command) -> Result<ExitCode, Failure> {
+    match command {
+        Command::Check { files, format, checking } => check::check(&files, format, &checking),
+        Command::Emit { file, out, checking } => done(emit::emit(&file, out.as_deref(), &checking)),
+        Command::Build { file, out, release, checking } => {
+            done(emit::build(&file, out.as_deref(), release, &checking))
+        }
+        Command::Run { file, options } => run::run(&file, &options),
+        Command::Test { dirs } => test::test(&dirs),
+        Command::Explain { code } => print(explain::explain(&code)),
+        Command::Doc { name } => print(explain::doc(&name)),
+        Command::Robots { name } => print(robots::robots(name.as_deref())),
+    }
+}
+
+fn done(outcome: Result<(), Failure>) -> Result<ExitCode, Failure> {
+    outcome.map(|()| ExitCode::SUCCESS)
+}
+
+/// The answer of a command that only tells something.
+fn print(text: Result<String, Failure>) -> Result<ExitCode, Failure> {
+    let text = text?;
+    let mut out = std::io::stdout().lock();
+    // Nobody reads on: then there is nobody to tell.
+    let _ = out.write_all(text.as_bytes()).and_then(|()| if text.ends_with('\n') { Ok(()) } else { writeln!(out) });
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,48 @@
+//! The cargo project that a program is compiled in.
+
+use super::cache::{Place, write_if_changed};
+use super::failure::Failure;
+use super::runtime::Runtime;
+use std::path::Path;
+
+/// Writes the project of one program.
+pub(super) fn write(place: &Place, runtime: &Runtime, rust: &str, folder: &Path) -> Result<(), Failure> {
+    manifest(&place.folder, &place.name, runtime, PROGRAM_LEVEL)?;
+    write_if_changed(&place.folder.join("src/main.rs"), main_rs(folder).as_bytes())?;
+    write_if_changed(&place.folder.join("src/program.rs"), rust.as_bytes())?;
+    Ok(())
+}
+
+/// How far programs are optimised: far enough for loops, and soon done.
+const PROGRAM_LEVEL: u8 = 1;
+
+/// Writes Cargo.toml, and Cargo.lock where the versions of other packages are known.
+pub(super) fn manifest(folder: &Path, name: &str, runtime: &Runtime, level: u8) -> Result<(), Failure> {
+    let text = format!(
+        "# Written by arl2rs.\n\
+         [package]\nname = \"{name}\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n\
+         [workspace]\n\n\
+         [dependencies]\narl-rt = {}\n\n\
+         [profile.dev]\nopt-level = {level}\ndebug = false\nincremental = true\noverflow-checks = false\n\
+         debug-assertions = false\n\n\
+         [profile.dev.package.\"*\"]\nopt-level = 3\n\n\
+         [profile.release]\nlto = \"thin\"\n",
+        runtime.dependency()
+    );
+    write_if_changed(&folder.join("Cargo.toml"), text.as_bytes())?;
+    let Some(lock) = runtime.lock_file().and_then(|path| std::fs::read(path).ok()) else { return Ok(()) };
+    // cargo takes out of the lock file what the project does not need, so a copy tells whether the original changed.
+    if write_if_changed(&folder.join("base.lock"), &lock)? {
+        std::fs::write(folder.join("Cargo.lock"), &lock)
+            .map_err(|error| Failure::io("write", &folder.join("Cargo.lock"), &error))?;
+    }
+    Ok(())
+}
+
+fn main_rs(folder: &Path) -> String {
+    format!(
+        "// Written by arl2rs.\n\nmod program;\n\nfn main() -> std::process::ExitCode {{\n    \
+         arl_rt::program_main::main(&program::Globals::new(), {:?})\n}}\n",
+        folder.display().to_string()
+    )
+}

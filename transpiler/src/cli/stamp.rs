@@ -1,0 +1,283 @@
+//! What a compiled program was made from, so that an unchanged one starts without compiling.
+
+use crate::compile::Compiled;
+use crate::hir::Program;
+use crate::{SourceError, Sources};
+use std::cell::RefCell;
+use std::fmt::Write;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+
+/// The first line of a stamp file; another version is as good as no stamp.
+const VERSION: &str = "arl2rs stamp 1";
+
+/// Everything that a compiled program depends on.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct Stamp {
+    /// The compiler, its runtime and its options.
+    pub(super) identity: u64,
+    /// The program's file name in its place.
+    pub(super) program: String,
+    /// The files that were read.
+    pub(super) files: Vec<Stamped>,
+    /// The files that were looked for and not there.
+    pub(super) missing: Vec<PathBuf>,
+}
+
+/// A file that was read.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct Stamped {
+    pub(super) path: PathBuf,
+    /// Hash of the bytes.
+    pub(super) content: u64,
+    /// For a data file: hash of all but the values that the runtime reads again.
+    pub(super) shape: Option<u64>,
+}
+
+/// How a compiled program stands to its sources.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Freshness {
+    /// Nothing changed.
+    Fresh,
+    /// Data files changed, nothing else: perhaps only in values.
+    DataChanged,
+    /// It has to be compiled.
+    Stale,
+}
+
+/// Sources that remember what was read, so that a stamp tells of what was compiled and not of what lies there later.
+pub(super) struct Recording<'a> {
+    sources: &'a dyn Sources,
+    seen: RefCell<Vec<(PathBuf, Option<u64>)>>,
+}
+
+impl<'a> Recording<'a> {
+    pub(super) fn new(sources: &'a dyn Sources) -> Self {
+        Self { sources, seen: RefCell::default() }
+    }
+}
+
+impl Sources for Recording<'_> {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, SourceError> {
+        let outcome = self.sources.read(path);
+        self.seen.borrow_mut().push((path.to_path_buf(), outcome.as_ref().ok().map(|bytes| hash(bytes))));
+        outcome
+    }
+}
+
+impl Stamp {
+    /// The stamp of a compiled program. `None` where a path cannot be written into a stamp.
+    pub(super) fn of(compiled: &Compiled, read: &Recording<'_>, identity: u64, program: String) -> Option<Self> {
+        let mut stamp = Self { identity, program, files: Vec::new(), missing: Vec::new() };
+        for (path, content) in read.seen.borrow().iter() {
+            let path = std::path::absolute(path).ok()?;
+            if path.to_str()?.contains(['\n', '\r']) {
+                return None;
+            }
+            match content {
+                Some(content) => stamp.files.push(Stamped { path, content: *content, shape: None }),
+                None => stamp.missing.push(path),
+            }
+        }
+        if let Some(program) = &compiled.checked.program {
+            for (name, shape) in shapes(program) {
+                let path = std::path::absolute(compiled.folder.join(name)).ok()?;
+                if let Some(file) = stamp.files.iter_mut().find(|file| file.path == path) {
+                    file.shape = Some(shape);
+                }
+            }
+        }
+        Some(stamp)
+    }
+
+    /// Reads a stamp; `None` where there is none, or one of another version.
+    pub(super) fn read(path: &Path) -> Option<Self> {
+        let text = std::fs::read_to_string(path).ok()?;
+        let mut lines = text.lines();
+        if lines.next()? != VERSION {
+            return None;
+        }
+        let identity = u64::from_str_radix(lines.next()?, 16).ok()?;
+        let mut stamp = Self { identity, program: lines.next()?.into(), files: Vec::new(), missing: Vec::new() };
+        for line in lines {
+            let mut words = line.splitn(4, ' ');
+            let (kind, content, shape, path) = (words.next()?, words.next()?, words.next()?, words.next()?);
+            if kind == "missing" {
+                stamp.missing.push(path.into());
+                continue;
+            }
+            let content = u64::from_str_radix(content, 16).ok()?;
+            let shape = (shape != "-").then(|| u64::from_str_radix(shape, 16)).transpose().ok()?;
+            stamp.files.push(Stamped { path: path.into(), content, shape });
+        }
+        Some(stamp)
+    }
+
+    /// The text of a stamp file.
+    pub(super) fn text(&self) -> String {
+        let mut text = format!("{VERSION}\n{:x}\n{}\n", self.identity, self.program);
+        for file in &self.files {
+            let shape = file.shape.map_or_else(|| "-".to_string(), |shape| format!("{shape:x}"));
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "file {:x} {shape} {}", file.content, file.path.display());
+        }
+        for path in &self.missing {
+            let _ = writeln!(text, "missing - - {}", path.display());
+        }
+        text
+    }
+
+    /// How the program stands to its sources now.
+    pub(super) fn freshness(&self, identity: u64) -> Freshness {
+        if self.identity != identity || self.missing.iter().any(|path| path.exists()) {
+            return Freshness::Stale;
+        }
+        let mut freshness = Freshness::Fresh;
+        for file in &self.files {
+            match std::fs::read(&file.path) {
+                Ok(bytes) if hash(&bytes) == file.content => {}
+                Ok(_) if file.shape.is_some() => freshness = Freshness::DataChanged,
+                _ => return Freshness::Stale,
+            }
+        }
+        freshness
+    }
+
+    /// Whether `now` differs from `self` at most in values that the runtime reads again.
+    pub(super) fn same_but_values(&self, now: &Stamp) -> bool {
+        let same = |(old, new): (&Stamped, &Stamped)| {
+            old.path == new.path && (old.content == new.content || (old.shape.is_some() && old.shape == new.shape))
+        };
+        self.identity == now.identity
+            && self.missing == now.missing
+            && self.files.len() == now.files.len()
+            && self.files.iter().zip(&now.files).all(same)
+    }
+}
+
+/// The hash of some bytes.
+pub(super) fn hash(bytes: &[u8]) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    bytes.hash(&mut hasher);
+    hasher.finish()
+}
+
+/// The data files of a program with the hash of their text, but for the values that can be re-taught.
+fn shapes(program: &Program) -> Vec<(String, u64)> {
+    let data = program.modules.iter().enumerate().filter(|(_, module)| module.data);
+    data.map(|(at, module)| {
+        let mut values: Vec<_> = program
+            .globals
+            .iter()
+            .filter(|global| global.module.0 as usize == at && global.teachable && !global.constant)
+            .filter_map(|global| global.init.as_ref().map(|init| init.span))
+            .collect();
+        values.sort();
+        (module.file.clone(), shape(&module.source, values.iter().map(|span| span.start..span.end)))
+    })
+    .collect()
+}
+
+/// The hash of a text without the bytes in `values`, which are ascending.
+fn shape(text: &str, values: impl Iterator<Item = std::ops::Range<u32>>) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    let mut from = 0;
+    for value in values {
+        text.get(from..value.start as usize).hash(&mut hasher);
+        from = value.end as usize;
+    }
+    text.get(from..).hash(&mut hasher);
+    hasher.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A folder that is removed at the end.
+    struct Folder(PathBuf);
+
+    impl Folder {
+        fn new(name: &str) -> Self {
+            let path = std::env::temp_dir().join(format!("arl2rs-stamp-{name}-{}", std::process::id()));
+            std::fs::create_dir_all(&path).expect("a folder");
+            Self(path)
+        }
+
+        fn write(&self, name: &str, text: &str) -> PathBuf {
+            let path = self.0.join(name);
+            std::fs::write(&path, text).expect("a file");
+            path
+        }
+    }
+
+    impl Drop for Folder {
+        fn drop(&mut self) {
+            let _ = std::fs::remove_dir_all(&self.0);
+        }
+    }
+
+    fn stamp(folder: &Folder) -> Stamp {
+        let main = folder.write("pick.arl", "main");
+        let data = folder.write("pick_data.arl", "int a = 1\n");
+        let shape = shape("int a = 1\n", std::iter::once(8..9));
+        let file = |path, text: &str, shape| Stamped { path, content: hash(text.as_bytes()), shape };
+        Stamp {
+            identity: 7,
+            program: "pick-1".into(),
+            files: vec![file(main, "main", None), file(data, "int a = 1\n", Some(shape))],
+            missing: vec![folder.0.join("other.arl")],
+        }
+    }
+
+    #[test]
+    fn text_and_back() {
+        let folder = Folder::new("text");
+        let stamp = stamp(&folder);
+        let path = folder.write("stamp", &stamp.text());
+        assert_eq!(Stamp::read(&path), Some(stamp));
+        folder.write("stamp", "arl2rs stamp 0\n");
+        assert_eq!(Stamp::read(&path), None);
+    }
+
+    #[test]
+    fn changes_of_sources_identity_and_missing_files_are_seen() {
+        let folder = Folder::new("changes");
+        let stamp = stamp(&folder);
+        assert_eq!(stamp.freshness(7), Freshness::Fresh);
+        assert_eq!(stamp.freshness(8), Freshness::Stale);
+        folder.write("pick_data.arl", "int a = 2\n");
+        assert_eq!(stamp.freshness(7), Freshness::DataChanged);
+        folder.write("pick.arl", "other");
+        assert_eq!(stamp.freshness(7), Freshness::Stale);
+        folder.write("pick.arl", "main");
+        folder.write("pick_data.arl", "int a = 1\n");
+        assert_eq!(stamp.freshness(7), Freshness::Fresh);
+        folder.write("other.arl", "");
+        assert_eq!(stamp.freshness(7), Freshness::Stale);
+    }
+
+    #[test]
+    fn a_removed_file_is_a_change() {
+        let folder = Folder::new("removed");
+        let stamp = stamp(&folder);
+        std::fs::remove_file(folder.0.join("pick_data.arl")).expect("removed");
+        assert_eq!(stamp.freshness(7), Freshness::Stale);
+    }
+
+    #[test]
+    fn values_do_not_count_but_names_and_types_do() {
+        let folder = Folder::new("values");
+        let old = stamp(&folder);
+        let mut new = old.clone();
+        let data = |text: &str, value: std::ops::Range<u32>| Stamped {
+            path: folder.0.join("pick_data.arl"),
+            content: hash(text.as_bytes()),
+            shape: Some(shape(text, std::iter::once(value))),
+        };
+        new.files[1] = data("int a = 25\n", 8..10);
+        assert!(old.same_but_values(&new));
+        new.files[1] = data("int b = 25\n", 8..10);
+        assert!(!old.same_but_values(&new));
+    }
+}

@@ -1,0 +1,158 @@
+//! What every door does: one program checked, and turned into Rust when it is right.
+
+use crate::diagnostics::{Diagnostic, FileId, Files, Severity};
+use crate::emit::{EmitOptions, emit};
+use crate::{CheckOptions, Checked, SourceError, Sources, check};
+use std::cell::RefCell;
+use std::panic::AssertUnwindSafe;
+use std::path::{Path, PathBuf};
+
+/// A program on the way from text to Rust.
+#[derive(Debug)]
+pub struct Compiled {
+    /// The folder of the main file: what the names in `files` count from.
+    pub folder: PathBuf,
+    /// What the check found out.
+    pub checked: Checked,
+    /// The Rust, where there was no error.
+    pub rust: Option<String>,
+}
+
+impl Compiled {
+    /// The errors.
+    pub fn errors(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.checked.diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Error)
+    }
+
+    /// The files that were read or looked for, as paths from the working directory.
+    pub fn read(&self) -> impl Iterator<Item = PathBuf> + '_ {
+        self.checked.read.iter().map(|path| self.folder.join(path))
+    }
+
+    /// The files under names that count from the working directory, as messages show them.
+    pub fn shown_files(&self) -> Files {
+        shown_files(&self.checked.files, &self.folder)
+    }
+}
+
+fn shown_files(files: &Files, folder: &Path) -> Files {
+    let mut shown = Files::default();
+    for (_, file) in files.iter() {
+        shown.add(folder.join(&file.name).display().to_string(), file.text.clone());
+    }
+    shown
+}
+
+/// Sources whose relative paths count from a folder.
+struct Below<'a> {
+    folder: &'a Path,
+    sources: &'a dyn Sources,
+}
+
+impl Sources for Below<'_> {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, SourceError> {
+        self.sources.read(&self.folder.join(path))
+    }
+}
+
+/// Checks the program whose main file is `main`. What is emitted does not depend on the folder it lies in.
+///
+/// # Errors
+/// The place and text of a panic inside the compiler.
+pub fn check_program(main: &Path, sources: &dyn Sources, options: &CheckOptions) -> Result<Compiled, Bug> {
+    let folder = main.parent().map(Path::to_path_buf).unwrap_or_default();
+    let name = main.file_name().map_or_else(|| main.to_path_buf(), PathBuf::from);
+    let checked = guard(|| check(&name, &Below { folder: &folder, sources }, options))?;
+    Ok(Compiled { folder, checked, rust: None })
+}
+
+/// Checks a program and emits it where it is right.
+///
+/// # Errors
+/// The place and text of a panic inside the compiler.
+pub fn compile_program(
+    main: &Path,
+    sources: &dyn Sources,
+    options: &CheckOptions,
+    emit_options: &EmitOptions,
+) -> Result<Compiled, Bug> {
+    let mut compiled = check_program(main, sources, options)?;
+    if let Some(program) = &compiled.checked.program {
+        compiled.rust = Some(guard(|| emit(program, emit_options))?);
+    }
+    Ok(compiled)
+}
+
+/// A panic inside the compiler.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Bug {
+    /// What the panic said.
+    pub message: String,
+    /// `file:line` in the compiler's source, where it is known.
+    pub place: Option<String>,
+}
+
+impl std::fmt::Display for Bug {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "bug in arl2rs {}: {}", env!("CARGO_PKG_VERSION"), self.message)?;
+        if let Some(place) = &self.place {
+            write!(f, " (at {place})")?;
+        }
+        write!(f, "; please report it together with the program")
+    }
+}
+
+impl std::error::Error for Bug {}
+
+thread_local! {
+    static LAST_PANIC: RefCell<Option<String>> = const { RefCell::new(None) };
+}
+
+/// Makes panics silent and remembers where they happened, so that a [`Bug`] can say it. For programs of our own only:
+/// it changes the hook of the whole process.
+pub fn remember_panics() {
+    std::panic::set_hook(Box::new(|info| {
+        let place = info.location().map(|at| format!("{}:{}", at.file(), at.line()));
+        LAST_PANIC.with(|last| last.replace(place));
+    }));
+}
+
+/// Runs a part of the compiler; a panic in it becomes a [`Bug`].
+///
+/// # Errors
+/// The place and text of the panic.
+pub fn guard<T>(work: impl FnOnce() -> T) -> Result<T, Bug> {
+    LAST_PANIC.with(|last| last.take());
+    std::panic::catch_unwind(AssertUnwindSafe(work)).map_err(|payload| {
+        let text = payload.downcast_ref::<&str>().map(ToString::to_string);
+        let message = text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_else(|| "panic".into());
+        Bug { message, place: LAST_PANIC.with(|last| last.take()) }
+    })
+}
+
+/// The name that a file has in messages.
+pub fn shown_name(files: &Files, file: FileId) -> &str {
+    files.get(file).map_or("?", |file| file.name.as_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    #[expect(clippy::panic, reason = "the panic is what is tested")]
+    fn panics_become_bugs_with_their_text() {
+        let bug = guard(|| panic!("no {}", 5)).map(|(): ()| ()).unwrap_err();
+        assert_eq!(bug.message, "no 5");
+        assert!(bug.to_string().contains("please report"));
+        assert_eq!(guard(|| 3), Ok(3));
+    }
+
+    #[test]
+    fn shown_names_count_from_the_working_directory() {
+        let mut files = Files::default();
+        files.add("pick.arl".into(), String::new());
+        let shown = shown_files(&files, Path::new("robot"));
+        assert_eq!(shown_name(&shown, FileId(0)), Path::new("robot").join("pick.arl").display().to_string());
+    }
+}

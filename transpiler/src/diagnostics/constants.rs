@@ -1,0 +1,72 @@
+//! Constant expressions that cannot be computed, and places where more is accepted than the manual allows.
+
+use super::{Code, Problem};
+
+/// What is wrong with a constant.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum ConstantProblem {
+    /// Division by a constant zero.
+    DivideByZero,
+    /// A constant shift count outside the width.
+    ShiftCount { count: i64, most: u32 },
+    /// A constant index outside the array.
+    Index { index: i64, size: u32 },
+    /// A constant that depends on itself.
+    Circular { name: String },
+    /// A constant expression that wraps.
+    Overflow { ty: &'static str, value: String },
+    /// A double divided by a literal zero.
+    DoubleByZero,
+    /// A name written in another case than declared.
+    OtherCase { declared: String },
+    /// A conversion that the controller does not know.
+    ExtendedConversion { from: String, to: String },
+    /// A spelling or form that the manual does not have.
+    Extended { what: String },
+}
+
+impl Problem for ConstantProblem {
+    fn code(&self) -> Code {
+        Code(match self {
+            ConstantProblem::DivideByZero => 801,
+            ConstantProblem::ShiftCount { .. } => 802,
+            ConstantProblem::Index { .. } => 803,
+            ConstantProblem::Circular { .. } => 804,
+            ConstantProblem::Overflow { .. } => 851,
+            ConstantProblem::DoubleByZero => 852,
+            ConstantProblem::OtherCase { .. } => 951,
+            ConstantProblem::ExtendedConversion { .. } => 952,
+            ConstantProblem::Extended { .. } => 953,
+        })
+    }
+
+    fn message(&self) -> String {
+        match self {
+            ConstantProblem::DivideByZero => "division by zero".into(),
+            ConstantProblem::ShiftCount { count, .. } => format!("a shift by {count} is out of range"),
+            ConstantProblem::Index { index, size } => format!("index {index} is outside the array of {size} elements"),
+            ConstantProblem::Circular { name } => format!("the value of `{name}` depends on itself"),
+            ConstantProblem::Overflow { ty, value } => format!("this is beyond {ty} and wraps to {value}"),
+            ConstantProblem::DoubleByZero => "division by zero gives inf or nan".into(),
+            ConstantProblem::OtherCase { declared } => format!("this is declared as `{declared}`"),
+            ConstantProblem::ExtendedConversion { from, to } => {
+                format!("the controller does not convert {from} to {to} by itself")
+            }
+            ConstantProblem::Extended { what } => format!("the manual does not know {what}"),
+        }
+    }
+
+    fn label(&self) -> String {
+        String::new()
+    }
+
+    fn help(&self) -> Option<String> {
+        match self {
+            ConstantProblem::ShiftCount { most, .. } => Some(format!("0 to {most} is possible here")),
+            ConstantProblem::Index { size, .. } => {
+                Some(format!("indices begin with 0, so 0 to {} are valid", size.saturating_sub(1)))
+            }
+            _ => None,
+        }
+    }
+}

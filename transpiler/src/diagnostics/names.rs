@@ -1,0 +1,127 @@
+//! Names that mean nothing, or too much.
+
+use super::{Code, Problem};
+
+/// What is wrong with a name.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum NameProblem {
+    /// No variable or constant of this name.
+    UnknownVariable { name: String, near: Option<String>, is_function: bool },
+    /// No function of this name.
+    UnknownFunction { name: String, near: Option<String>, is_instruction: bool },
+    /// Neither a module nor an enumeration.
+    UnknownModule { name: String, looked: String },
+    /// No type of this name.
+    UnknownType { name: String, near: Option<String> },
+    /// Declared before in the same scope.
+    Duplicate { name: String, what: &'static str },
+    /// A global variable that is declared further down.
+    VariableBelow { name: String },
+    /// A function that is defined further down.
+    FunctionBelow { name: String },
+    /// A structure has no such component.
+    UnknownComponent { name: String, ty: String, components: String, near: Option<String> },
+    /// No system variable of this name.
+    UnknownSystem { name: String, near: Option<String> },
+    /// An enumeration has no such constant.
+    UnknownConstant { name: String, ty: String, constants: String },
+    /// No instruction of this name.
+    UnknownInstruction { name: String, near: Option<String>, is_function: bool },
+    /// `goto` to a label that the function does not have.
+    UnknownLabel { name: String, near: Option<String> },
+    /// A module has no such variable or function.
+    NotInModule { name: String, module: String, what: &'static str, near: Option<String> },
+    /// A spelling of other manuals that is not accepted.
+    Renamed { name: String, now: String },
+}
+
+impl Problem for NameProblem {
+    fn code(&self) -> Code {
+        Code(match self {
+            NameProblem::UnknownVariable { .. } => 201,
+            NameProblem::UnknownFunction { .. } => 202,
+            NameProblem::UnknownModule { .. } => 203,
+            NameProblem::UnknownType { .. } => 204,
+            NameProblem::Duplicate { .. } => 205,
+            NameProblem::VariableBelow { .. } => 206,
+            NameProblem::FunctionBelow { .. } => 207,
+            NameProblem::UnknownComponent { .. } => 208,
+            NameProblem::UnknownSystem { .. } => 209,
+            NameProblem::UnknownConstant { .. } => 210,
+            NameProblem::UnknownInstruction { .. } => 211,
+            NameProblem::UnknownLabel { .. } => 212,
+            NameProblem::NotInModule { .. } => 213,
+            NameProblem::Renamed { .. } => 214,
+        })
+    }
+
+    fn message(&self) -> String {
+        match self {
+            NameProblem::UnknownVariable { name, .. } => format!("there is no variable `{name}` here"),
+            NameProblem::UnknownFunction { name, .. } => format!("there is no function `{name}`"),
+            NameProblem::UnknownModule { name, .. } => format!("there is no module or enumeration `{name}`"),
+            NameProblem::UnknownType { name, .. } => format!("there is no type `{name}`"),
+            NameProblem::Duplicate { name, what } => format!("the {what} `{name}` is declared twice"),
+            NameProblem::VariableBelow { name } => format!("the variable `{name}` is used above its declaration"),
+            NameProblem::FunctionBelow { name } => format!("the function `{name}` is called above its definition"),
+            NameProblem::UnknownComponent { name, ty, .. } => format!("a `{ty}` has no component `{name}`"),
+            NameProblem::UnknownSystem { name, .. } => format!("there is no system variable `${name}`"),
+            NameProblem::UnknownConstant { name, ty, .. } => format!("`{ty}` has no constant `{name}`"),
+            NameProblem::UnknownInstruction { name, .. } => format!("there is no instruction `{name}`"),
+            NameProblem::UnknownLabel { name, .. } => format!("this function has no label `{name}`"),
+            NameProblem::NotInModule { name, module, what, .. } => {
+                format!("the module `{module}` has no {what} `{name}`")
+            }
+            NameProblem::Renamed { name, .. } => format!("`{name}` is not a name that ARL knows"),
+        }
+    }
+
+    fn label(&self) -> String {
+        match self {
+            NameProblem::Duplicate { .. } => "declared again here".into(),
+            NameProblem::VariableBelow { .. } | NameProblem::FunctionBelow { .. } => "not known yet here".into(),
+            _ => "not known".into(),
+        }
+    }
+
+    fn help(&self) -> Option<String> {
+        let meant = |near: &Option<String>| near.as_ref().map(|near| format!("did you mean `{near}`?"));
+        match self {
+            NameProblem::UnknownVariable { name, is_function: true, .. } => {
+                Some(format!("`{name}` is a function: call it with parentheses, `{name}(...)`"))
+            }
+            NameProblem::UnknownVariable { near, name, .. } => {
+                meant(near).or_else(|| Some(format!("declare it first, for example `int {name}`")))
+            }
+            NameProblem::UnknownFunction { name, is_instruction: true, .. } => {
+                Some(format!("`{name}` is an instruction: write its arguments without parentheses around them"))
+            }
+            NameProblem::UnknownFunction { near, .. }
+            | NameProblem::UnknownType { near, .. }
+            | NameProblem::UnknownLabel { near, .. }
+            | NameProblem::NotInModule { near, .. } => meant(near),
+            NameProblem::UnknownSystem { near, .. } => {
+                near.as_ref().map(|near| format!("did you mean `${near}`?"))
+            }
+            NameProblem::UnknownModule { looked, .. } => {
+                Some(format!("looked for {looked}; a module in another folder needs an `import` line"))
+            }
+            NameProblem::Duplicate { .. } => Some("give one of them another name (case makes no difference)".into()),
+            NameProblem::VariableBelow { .. } => {
+                Some("a global variable is known below its declaration: move the declaration up".into())
+            }
+            NameProblem::FunctionBelow { .. } => {
+                Some("a function must be defined above its first call: move the definition up".into())
+            }
+            NameProblem::UnknownComponent { near, components, .. } => {
+                meant(near).or_else(|| Some(format!("its components are {components}")))
+            }
+            NameProblem::UnknownConstant { constants, .. } => Some(format!("its constants are {constants}")),
+            NameProblem::UnknownInstruction { name, is_function: true, .. } => {
+                Some(format!("`{name}` is a function: put its arguments in parentheses, `{name}(...)`"))
+            }
+            NameProblem::UnknownInstruction { near, .. } => meant(near),
+            NameProblem::Renamed { now, .. } => Some(format!("did you mean `{now}`?")),
+        }
+    }
+}

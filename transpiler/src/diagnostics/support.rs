@@ -1,0 +1,41 @@
+//! What is known but does not run yet, or not on this robot.
+
+use super::{Code, Problem};
+
+/// What is not supported.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum SupportProblem {
+    /// Declared in the catalog, does not run yet.
+    NotYet { name: String },
+    /// Exists for the other robot family only.
+    OtherFamily { name: String, family: &'static str },
+}
+
+impl Problem for SupportProblem {
+    fn code(&self) -> Code {
+        Code(match self {
+            SupportProblem::NotYet { .. } => 701,
+            SupportProblem::OtherFamily { .. } => 702,
+        })
+    }
+
+    fn message(&self) -> String {
+        match self {
+            SupportProblem::NotYet { name } => format!("`{name}` is not supported yet"),
+            SupportProblem::OtherFamily { name, family } => format!("`{name}` exists for {family} robots only"),
+        }
+    }
+
+    fn label(&self) -> String {
+        String::new()
+    }
+
+    fn help(&self) -> Option<String> {
+        match self {
+            SupportProblem::NotYet { .. } => {
+                Some("it is known and checked, but a program that uses it cannot be run by this version".into())
+            }
+            SupportProblem::OtherFamily { .. } => Some("name the robot that the program is for with `--robot`".into()),
+        }
+    }
+}

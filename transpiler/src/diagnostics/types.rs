@@ -1,0 +1,186 @@
+//! Values of the wrong type, and things that cannot be written.
+
+use super::{Code, Problem};
+
+/// What is wrong with a type or value.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum TypeProblem {
+    /// A value of one type where another is wanted.
+    Mismatch { found: String, wanted: String, what: String, use_instead: Option<String> },
+    /// A constant that the wanted type cannot hold.
+    DoesNotFit { value: String, wanted: String, range: String },
+    /// An operator that does not work on these types.
+    Operator { operator: String, left: String, right: Option<String>, hint: Option<String> },
+    /// Indexing something that is not an array.
+    NotAnArray { ty: String },
+    /// Too many or too few indices.
+    IndexCount { found: usize, wanted: usize },
+    /// An index that is not an integer.
+    IndexType { found: String },
+    /// A component of something that has none.
+    NotAStructure { ty: String },
+    /// Braces where nothing says which type they make.
+    BraceWithoutType,
+    /// More values than components or elements.
+    TooManyValues { wanted: usize, ty: String },
+    /// Named and unnamed values in one pair of braces.
+    MixedBraces,
+    /// A component that is given twice.
+    ComponentTwice { name: String },
+    /// Writing a const.
+    AssignConst { name: String },
+    /// Writing something that is no variable.
+    NotAssignable,
+    /// Writing a system variable that the controller keeps.
+    ReadOnly { name: String },
+    /// Comparing structures or arrays.
+    Compare { ty: String },
+    /// Copying a handle.
+    HandleCopy { ty: String },
+    /// Using the result of something that has none.
+    NoValue { what: String },
+    /// An array size that is not a positive constant.
+    ArraySize,
+    /// An array beyond 10 000 elements.
+    ArrayTooLarge { len: u64 },
+    /// More dimensions than supported.
+    TooManyDimensions { most: usize },
+    /// A const without a value.
+    ConstWithoutValue { name: String },
+    /// A variable of type void.
+    VoidVariable,
+    /// A type of the other robot family.
+    OtherFamily { name: String, family: &'static str },
+    /// An int literal of 2^31 or more where no uint is wanted.
+    WideLiteral { text: String },
+    /// A spliced Rust value whose type is not known.
+    SpliceType,
+    /// An array where a single value is wanted, or the other way round.
+    Dimensions { found: String, wanted: String },
+    /// Nested braces that do not fit the array's shape.
+    BraceShape { wanted: usize },
+    /// A result type that is an array or handle.
+    ResultType { ty: String },
+}
+
+impl Problem for TypeProblem {
+    fn code(&self) -> Code {
+        Code(match self {
+            TypeProblem::Mismatch { .. } => 301,
+            TypeProblem::DoesNotFit { .. } => 302,
+            TypeProblem::Operator { .. } => 303,
+            TypeProblem::NotAnArray { .. } => 304,
+            TypeProblem::IndexCount { .. } => 305,
+            TypeProblem::IndexType { .. } => 306,
+            TypeProblem::NotAStructure { .. } => 307,
+            TypeProblem::BraceWithoutType => 308,
+            TypeProblem::TooManyValues { .. } => 309,
+            TypeProblem::MixedBraces => 310,
+            TypeProblem::ComponentTwice { .. } => 311,
+            TypeProblem::AssignConst { .. } => 312,
+            TypeProblem::NotAssignable => 313,
+            TypeProblem::ReadOnly { .. } => 314,
+            TypeProblem::Compare { .. } => 315,
+            TypeProblem::HandleCopy { .. } => 316,
+            TypeProblem::NoValue { .. } => 317,
+            TypeProblem::ArraySize => 318,
+            TypeProblem::ArrayTooLarge { .. } => 319,
+            TypeProblem::TooManyDimensions { .. } => 320,
+            TypeProblem::ConstWithoutValue { .. } => 321,
+            TypeProblem::VoidVariable => 322,
+            TypeProblem::OtherFamily { .. } => 323,
+            TypeProblem::WideLiteral { .. } => 324,
+            TypeProblem::SpliceType => 325,
+            TypeProblem::Dimensions { .. } => 326,
+            TypeProblem::BraceShape { .. } => 327,
+            TypeProblem::ResultType { .. } => 328,
+        })
+    }
+
+    fn message(&self) -> String {
+        match self {
+            TypeProblem::Mismatch { found, wanted, what, .. } => {
+                format!("{what} must be of type {wanted}, but this is of type {found}")
+            }
+            TypeProblem::DoesNotFit { value, wanted, .. } => format!("{value} does not fit the type {wanted}"),
+            TypeProblem::Operator { operator, left, right: Some(right), .. } => {
+                format!("`{operator}` does not work on {left} and {right}")
+            }
+            TypeProblem::Operator { operator, left, right: None, .. } => {
+                format!("`{operator}` does not work on {left}")
+            }
+            TypeProblem::NotAnArray { ty } => format!("only arrays have elements, but this is of type {ty}"),
+            TypeProblem::IndexCount { found, wanted } => {
+                format!("the array has {wanted} dimension{}, but {found} index{}", plural(*wanted), match found {
+                    1 => " is given",
+                    _ => "es are given",
+                })
+            }
+            TypeProblem::IndexType { found } => format!("an index must be of type int, but this is of type {found}"),
+            TypeProblem::NotAStructure { ty } => format!("only structures have components, but this is of type {ty}"),
+            TypeProblem::BraceWithoutType => "nothing here says what type these braces make".into(),
+            TypeProblem::TooManyValues { wanted, ty } => {
+                format!("too many values: {ty} holds {wanted}")
+            }
+            TypeProblem::MixedBraces => "braces give values by position or by name, not both".into(),
+            TypeProblem::ComponentTwice { name } => format!("the component `{name}` is given twice"),
+            TypeProblem::AssignConst { name } => format!("`{name}` is const and cannot be written"),
+            TypeProblem::NotAssignable => "this is not a variable and cannot be written".into(),
+            TypeProblem::ReadOnly { name } => format!("`${name}` is read-only: the controller sets it"),
+            TypeProblem::Compare { ty } => format!("values of type {ty} cannot be compared as a whole"),
+            TypeProblem::HandleCopy { ty } => format!("a {ty} is a handle and cannot be copied"),
+            TypeProblem::NoValue { what } => format!("{what} has no value"),
+            TypeProblem::ArraySize => "the size of an array must be a constant integer of 1 or more".into(),
+            TypeProblem::ArrayTooLarge { len } => format!("the array has {len} elements, 10000 is the most"),
+            TypeProblem::TooManyDimensions { most } => format!("an array has at most {most} dimensions"),
+            TypeProblem::ConstWithoutValue { name } => format!("the const `{name}` has no value"),
+            TypeProblem::VoidVariable => "a variable cannot be of type void".into(),
+            TypeProblem::OtherFamily { name, family } => format!("`{name}` exists for {family} robots only"),
+            TypeProblem::WideLiteral { text } => format!("{text} is beyond int, and nothing here wants a uint"),
+            TypeProblem::SpliceType => "nothing here says what ARL type this Rust value has".into(),
+            TypeProblem::Dimensions { found, wanted } => format!("this must be {wanted}, but it is {found}"),
+            TypeProblem::BraceShape { wanted } => format!("these braces must hold {wanted} values or fewer"),
+            TypeProblem::ResultType { ty } => format!("a function cannot return a value of type {ty}"),
+        }
+    }
+
+    fn label(&self) -> String {
+        match self {
+            TypeProblem::Mismatch { found, .. } => format!("this is {found}"),
+            TypeProblem::DoesNotFit { range, .. } => range.clone(),
+            TypeProblem::AssignConst { .. } | TypeProblem::NotAssignable | TypeProblem::ReadOnly { .. } => {
+                "written here".into()
+            }
+            TypeProblem::TooManyValues { .. } => "one too many".into(),
+            _ => String::new(),
+        }
+    }
+
+    fn help(&self) -> Option<String> {
+        match self {
+            TypeProblem::Mismatch { use_instead, .. } => use_instead.clone(),
+            TypeProblem::Operator { hint, .. } => hint.clone(),
+            TypeProblem::BraceWithoutType => {
+                Some("declare a variable of the type first, or write the label: `j:{...}`".into())
+            }
+            TypeProblem::MixedBraces => Some("write `{1, 2}` or `{x 1, y 2}`".into()),
+            TypeProblem::Compare { .. } => Some("compare the components or elements one by one".into()),
+            TypeProblem::HandleCopy { .. } => Some("use the one variable everywhere; make it global to share it".into()),
+            TypeProblem::ConstWithoutValue { name } => Some(format!("write `const ... {name} = value`")),
+            TypeProblem::WideLiteral { .. } => {
+                Some("store it in a uint, write it as a double (`3e9`), or as a bit pattern in hexadecimal".into())
+            }
+            TypeProblem::SpliceType => Some("say it with `#(value as double)`".into()),
+            TypeProblem::IndexType { .. } => Some("use `toint(...)` for a double".into()),
+            TypeProblem::VoidVariable => Some("void is for functions that return nothing".into()),
+            TypeProblem::OtherFamily { .. } => {
+                Some("name the robot that the program is for with `--robot`".into())
+            }
+            _ => None,
+        }
+    }
+}
+
+fn plural(count: usize) -> &'static str {
+    if count == 1 { "" } else { "s" }
+}

@@ -1,0 +1,329 @@
+//! What evaluating expressions and running statements involves.
+
+use super::flow;
+use crate::hir::{
+    Effects, Expr, ExprKind, Func, FuncId, LocalId, Passed, Place, Program, Projection, Root, Stmt, StmtKind, Type,
+    Value,
+};
+use arl_lang::ast::BinaryOp;
+use arl_lang::catalog::{Base, Effect, Kind, Mode};
+
+/// What an expression (or several) does.
+#[derive(Default, Debug)]
+pub(crate) struct Facts {
+    /// The locals that are read.
+    pub(crate) reads: Vec<LocalId>,
+    /// The locals that are written.
+    pub(crate) writes: Vec<LocalId>,
+    /// Whether variables are read that others may write: global and system variables.
+    pub(crate) world: bool,
+    /// Whether something is changed that others may see, or may end the program on purpose.
+    pub(crate) acts: bool,
+    /// Whether there may be an alarm.
+    pub(crate) fails: bool,
+    /// Whether the cycle may be given back.
+    pub(crate) waits: bool,
+    /// Whether the context is needed.
+    pub(crate) context: bool,
+    /// Whether global variables are needed.
+    pub(crate) globals: bool,
+    /// The functions that are called.
+    pub(crate) calls: Vec<FuncId>,
+}
+
+impl Facts {
+    /// Whether evaluating it changes nothing and cannot fail.
+    pub(crate) fn quiet(&self) -> bool {
+        self.writes.is_empty() && !self.acts && !self.fails && !self.waits
+    }
+
+    /// Whether evaluating it later than what `later` describes makes a difference.
+    pub(crate) fn disturbed_by(&self, later: &Facts) -> bool {
+        self.reads.iter().any(|read| later.writes.contains(read))
+            || self.writes.iter().any(|write| later.reads.contains(write) || later.writes.contains(write))
+            || (self.world && (later.acts || later.waits))
+            || (self.fails && (later.acts || later.fails || later.waits))
+            || ((self.acts || self.waits) && (later.acts || later.world || later.fails || later.waits))
+    }
+}
+
+/// The facts about what a function does itself; what it calls is only listed.
+pub(crate) fn of_function(program: &Program, func: &Func) -> Facts {
+    let mut collector = Collector { program, func: Some(func), callees: false, facts: Facts::default() };
+    collector.block(&func.body);
+    collector.facts
+}
+
+/// The facts about an expression, once the effects of the functions are known.
+pub(crate) fn of_expr(program: &Program, func: Option<&Func>, expr: &Expr) -> Facts {
+    let mut collector = Collector { program, func, callees: true, facts: Facts::default() };
+    collector.expr(expr);
+    collector.facts
+}
+
+/// The facts about reading a place.
+pub(crate) fn of_place(program: &Program, func: Option<&Func>, place: &Place) -> Facts {
+    let mut collector = Collector { program, func, callees: true, facts: Facts::default() };
+    collector.read(place);
+    collector.facts
+}
+
+/// The facts about the indices of a projection.
+pub(crate) fn of_indices(program: &Program, func: Option<&Func>, indices: &[Expr]) -> Facts {
+    let mut collector = Collector { program, func, callees: true, facts: Facts::default() };
+    collector.indices(indices);
+    collector.facts
+}
+
+/// Adds the locals that an expression writes, also as an argument that a built-in writes.
+pub(crate) fn local_writes(expr: &Expr, out: &mut Vec<LocalId>) {
+    let mut target = |place: &Place| {
+        if let Root::Local(id) = place.root {
+            out.push(id);
+        }
+    };
+    match &expr.kind {
+        ExprKind::Assign(sides) | ExprKind::AssignOp(_, sides) => target(&sides.0),
+        ExprKind::Step(_, place) => target(place),
+        ExprKind::Builtin(builtin) => {
+            for arg in &builtin.args {
+                if let Passed::Out(place) = &arg.value {
+                    target(place);
+                }
+            }
+        }
+        _ => {}
+    }
+    children(expr).into_iter().for_each(|child| local_writes(child, out));
+}
+
+/// The expressions directly inside an expression, those of its indices included.
+pub(crate) fn children(expr: &Expr) -> Vec<&Expr> {
+    fn indices(place: &Place) -> impl Iterator<Item = &Expr> {
+        place.path.iter().flat_map(|step| match step {
+            Projection::Index(indices, _) => indices.as_slice(),
+            Projection::Field(..) => &[],
+        })
+    }
+    match &expr.kind {
+        ExprKind::Const(_) | ExprKind::Splice(_) => Vec::new(),
+        ExprKind::Place(place) | ExprKind::Step(_, place) => indices(place).collect(),
+        ExprKind::FieldOf(inner, ..) | ExprKind::Convert(inner) | ExprKind::Unary(_, inner) => vec![inner],
+        ExprKind::Binary(_, sides) => vec![&sides.0, &sides.1],
+        ExprKind::Assign(sides) | ExprKind::AssignOp(_, sides) => {
+            indices(&sides.0).chain(std::iter::once(&sides.1)).collect()
+        }
+        ExprKind::Call(_, values) | ExprKind::Array(values) => values.iter().collect(),
+        ExprKind::Builtin(builtin) => {
+            let mut all = Vec::new();
+            for arg in &builtin.args {
+                match &arg.value {
+                    Passed::Value(value) => all.push(value),
+                    Passed::Out(place) => all.extend(indices(place)),
+                }
+            }
+            all
+        }
+        ExprKind::Struct(_, values) => values.iter().flatten().collect(),
+    }
+}
+
+struct Collector<'a> {
+    program: &'a Program,
+    func: Option<&'a Func>,
+    /// Whether the effects of called functions count.
+    callees: bool,
+    facts: Facts,
+}
+
+impl Collector<'_> {
+    fn block(&mut self, block: &[Stmt]) {
+        for stmt in flow::reachable(block) {
+            self.stmt(stmt);
+        }
+    }
+
+    fn stmt(&mut self, stmt: &Stmt) {
+        for expr in flow::expressions(stmt) {
+            self.expr(expr);
+        }
+        for block in flow::blocks(stmt) {
+            self.block(block);
+        }
+        let gives_back = match &stmt.kind {
+            StmtKind::While(_, _, info) | StmtKind::Repeat(_, _, info) | StmtKind::Loop(_, info) => info.spends,
+            StmtKind::For(each) => each.info.spends,
+            StmtKind::Goto(label) => self.func.is_some_and(|func| {
+                func.labels.get(label.0 as usize).is_some_and(|label| label.span.start <= stmt.span.start)
+            }),
+            _ => false,
+        };
+        if gives_back {
+            self.facts.waits = true;
+            self.facts.context = true;
+        }
+    }
+
+    fn expr(&mut self, expr: &Expr) {
+        match &expr.kind {
+            ExprKind::Const(_) | ExprKind::Splice(_) => {}
+            ExprKind::Place(place) => self.read(place),
+            ExprKind::FieldOf(inner, ..) | ExprKind::Convert(inner) | ExprKind::Unary(_, inner) => self.expr(inner),
+            ExprKind::Binary(op, sides) => {
+                self.expr(&sides.0);
+                self.expr(&sides.1);
+                self.facts.fails |= self.operator_fails(*op, sides.0.ty, &sides.1);
+            }
+            ExprKind::Assign(sides) => {
+                self.path(&sides.0);
+                self.expr(&sides.1);
+                self.write(&sides.0, Some(&sides.1));
+            }
+            ExprKind::AssignOp(op, sides) => {
+                self.read(&sides.0);
+                self.expr(&sides.1);
+                self.facts.fails |= self.operator_fails(*op, sides.0.ty, &sides.1);
+                self.write(&sides.0, None);
+            }
+            ExprKind::Step(_, place) => {
+                self.read(place);
+                self.write(place, None);
+            }
+            ExprKind::Call(id, args) => {
+                args.iter().for_each(|arg| self.expr(arg));
+                self.call(*id);
+            }
+            ExprKind::Builtin(builtin) => {
+                for arg in &builtin.args {
+                    match &arg.value {
+                        Passed::Value(value) => self.expr(value),
+                        Passed::Out(place) => {
+                            self.read(place);
+                            let handle = matches!(place.ty.base, Base::Handle(_));
+                            if !handle {
+                                self.write(place, None);
+                            }
+                        }
+                    }
+                }
+                let entry = builtin.entry;
+                let conditions = entry.params.iter().any(|param| matches!(param.mode, Mode::Condition | Mode::Action));
+                let pure = entry.effect == Effect::Pure && entry.kind == Kind::Function;
+                self.facts.acts |= !pure;
+                self.facts.context |= (!pure && entry.effect != Effect::Ends) || conditions;
+                self.facts.waits |= matches!(entry.effect, Effect::Plans | Effect::Waits);
+                self.facts.fails |= entry.fails || entry.effect == Effect::Ends;
+            }
+            ExprKind::Struct(_, values) => values.iter().flatten().for_each(|value| self.expr(value)),
+            ExprKind::Array(values) => values.iter().for_each(|value| self.expr(value)),
+        }
+    }
+
+    fn call(&mut self, id: FuncId) {
+        self.facts.calls.push(id);
+        let effects = match self.program.funcs.get(id.0 as usize) {
+            Some(func) if self.callees => func.effects,
+            _ => Effects::default(),
+        };
+        self.facts.waits |= effects.waits;
+        self.facts.fails |= effects.fails;
+        self.facts.context |= effects.context;
+        self.facts.globals |= effects.globals;
+        self.facts.world |= effects.globals || effects.context;
+        self.facts.acts |= effects.globals || effects.context;
+    }
+
+    fn read(&mut self, place: &Place) {
+        self.path(place);
+        self.root(place);
+        match place.root {
+            Root::Local(id) => self.facts.reads.push(id),
+            Root::Global(id) => {
+                let folded = self.program.globals.get(id.0 as usize).is_some_and(|global| global.value.is_some());
+                self.facts.world |= !folded;
+            }
+            Root::System(_) => self.facts.world = true,
+        }
+    }
+
+    fn write(&mut self, place: &Place, value: Option<&Expr>) {
+        self.root(place);
+        match place.root {
+            Root::Local(id) => self.facts.writes.push(id),
+            Root::Global(_) | Root::System(_) => self.facts.acts = true,
+        }
+        self.facts.fails |= range_check(place, value).is_some();
+    }
+
+    fn root(&mut self, place: &Place) {
+        match place.root {
+            Root::Local(_) => {}
+            Root::Global(id) => {
+                let folded = self.program.globals.get(id.0 as usize).is_some_and(|global| global.value.is_some());
+                self.facts.globals |= !folded;
+            }
+            Root::System(_) => self.facts.context = true,
+        }
+    }
+
+    fn path(&mut self, place: &Place) {
+        for step in &place.path {
+            if let Projection::Index(indices, _) = step {
+                self.indices(indices);
+            }
+        }
+    }
+
+    fn indices(&mut self, indices: &[Expr]) {
+        for index in indices {
+            self.expr(index);
+            self.facts.fails |= constant(self.program, self.func, index).is_none();
+        }
+    }
+
+    fn operator_fails(&self, op: BinaryOp, left: Type, right: &Expr) -> bool {
+        let checked = match op {
+            BinaryOp::Divide => left.base != Base::Double,
+            BinaryOp::Remainder | BinaryOp::ShiftLeft | BinaryOp::ShiftRight => true,
+            _ => false,
+        };
+        checked && constant(self.program, self.func, right).is_none_or(is_zero_divisor(op))
+    }
+}
+
+/// A constant divisor that has to alarm all the same (the checker refuses it, so it does not come up).
+fn is_zero_divisor(op: BinaryOp) -> impl Fn(&Value) -> bool {
+    move |value| {
+        let divides = matches!(op, BinaryOp::Divide | BinaryOp::Remainder);
+        divides && matches!(value, Value::Int(0) | Value::Uint(0) | Value::Byte(0))
+    }
+}
+
+/// The value of an expression that is a constant, or a `const` variable with a known value.
+pub(crate) fn constant<'a>(program: &'a Program, func: Option<&'a Func>, expr: &'a Expr) -> Option<&'a Value> {
+    match &expr.kind {
+        ExprKind::Const(value) => Some(value),
+        ExprKind::Place(place) if place.path.is_empty() => match place.root {
+            Root::Local(id) => func?.locals.get(id.0 as usize)?.value.as_ref(),
+            Root::Global(id) => program.globals.get(id.0 as usize)?.value.as_ref(),
+            Root::System(_) => None,
+        },
+        _ => None,
+    }
+}
+
+/// The least and greatest value of a system variable, where writing this place (this value) has to be checked.
+pub(crate) fn range_check(place: &Place, value: Option<&Expr>) -> Option<(f64, f64)> {
+    let Root::System(variable) = place.root else { return None };
+    let number = matches!(place.ty.base, Base::Int | Base::Uint | Base::Byte | Base::Double) && !place.ty.is_array();
+    let inside = |value: f64, (low, high)| value >= low && value <= high;
+    let range = variable.range.filter(|_| number)?;
+    let known = match value.map(|value| &value.kind) {
+        Some(ExprKind::Const(Value::Int(value))) => Some(f64::from(*value)),
+        Some(ExprKind::Const(Value::Uint(value))) => Some(f64::from(*value)),
+        Some(ExprKind::Const(Value::Byte(value))) => Some(f64::from(*value)),
+        Some(ExprKind::Const(Value::Double(value))) => Some(*value),
+        _ => None,
+    };
+    if known.is_some_and(|value| inside(value, range)) { None } else { Some(range) }
+}

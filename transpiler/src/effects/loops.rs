@@ -1,0 +1,188 @@
+//! Which loops run a known number of rounds, and which have to give the cycle back by themselves.
+
+use super::{facts, flow};
+use crate::hir::{Block, Expr, ExprKind, For, Func, LocalId, LoopInfo, Passed, Place, Root, Stmt, StmtKind, Value};
+use arl_lang::ast::BinaryOp;
+use arl_lang::catalog::{Base, Effect};
+
+/// The most rounds (of nested loops together) that may pass without giving the cycle back.
+pub(crate) const MOST_ROUNDS: u64 = 100_000;
+
+/// Drops labels that no `goto` names, then fills in [`LoopInfo`] and `counted` of every loop of a function.
+pub(super) fn judge(func: &mut Func) {
+    let unused: Vec<bool> = func.labels.iter().map(|label| !label.used).collect();
+    drop_labels(&mut func.body, &unused);
+    block_rounds(&mut func.body);
+}
+
+fn drop_labels(block: &mut Block, unused: &[bool]) {
+    block.retain(|stmt| match stmt.kind {
+        StmtKind::Label(id) => unused.get(id.0 as usize) != Some(&true),
+        _ => true,
+    });
+    for stmt in block {
+        inner_blocks(stmt).into_iter().for_each(|block| drop_labels(block, unused));
+    }
+}
+
+fn inner_blocks(stmt: &mut Stmt) -> Vec<&mut Block> {
+    match &mut stmt.kind {
+        StmtKind::If(arms, otherwise) => arms.iter_mut().map(|(_, block)| block).chain(otherwise).collect(),
+        StmtKind::Switch(_, arms) => arms.iter_mut().map(|arm| &mut arm.body).collect(),
+        StmtKind::While(_, body, _) | StmtKind::Repeat(body, _, _) | StmtKind::Loop(body, _) => vec![body],
+        StmtKind::For(each) => vec![&mut each.body],
+        _ => Vec::new(),
+    }
+}
+
+/// The rounds that the loops of a block may run without giving the cycle back.
+fn block_rounds(block: &mut Block) -> u64 {
+    let mut rounds: u64 = 0;
+    for stmt in block {
+        let inside = inner_blocks(stmt).into_iter().map(block_rounds).fold(0, u64::saturating_add);
+        let counted = match &mut stmt.kind {
+            StmtKind::For(each) => {
+                let all = known_rounds(each).map(|known| known.saturating_mul(inside.max(1)));
+                each.counted = all.is_some_and(|all| all <= MOST_ROUNDS);
+                all.filter(|_| each.counted)
+            }
+            _ => None,
+        };
+        if counted.is_none() {
+            let spends = repeats(stmt);
+            if let Some(info) = info(stmt) {
+                info.spends = spends;
+            }
+        }
+        rounds = rounds.saturating_add(counted.unwrap_or(inside));
+    }
+    rounds
+}
+
+fn info(stmt: &mut Stmt) -> Option<&mut LoopInfo> {
+    match &mut stmt.kind {
+        StmtKind::While(_, _, info) | StmtKind::Repeat(_, _, info) | StmtKind::Loop(_, info) => Some(info),
+        StmtKind::For(each) => Some(&mut each.info),
+        _ => None,
+    }
+}
+
+/// Whether a loop may go round without giving the cycle back.
+fn repeats(stmt: &Stmt) -> bool {
+    let body = match &stmt.kind {
+        StmtKind::While(_, body, _) | StmtKind::Repeat(body, _, _) | StmtKind::Loop(body, _) => body,
+        StmtKind::For(each) => &each.body,
+        _ => return false,
+    };
+    let once = flow::block_diverges(body) && !flow::continues(body);
+    !once && !body.iter().take_while(|stmt| !may_skip(stmt)).any(gives_back)
+}
+
+/// Whether what follows in the block may be left out.
+fn may_skip(stmt: &Stmt) -> bool {
+    flow::has_label(stmt) || matches!(stmt.kind, StmtKind::Continue) || flow::continues(std::slice::from_ref(stmt))
+}
+
+/// Whether the statement gives the cycle back each time: a motion does, as the look-ahead is finite, and a wait.
+fn gives_back(stmt: &Stmt) -> bool {
+    let StmtKind::Eval(Expr { kind: ExprKind::Builtin(builtin), .. }) = &stmt.kind else { return false };
+    let known_wait = || {
+        builtin.entry.name == "waittime"
+            && builtin.args.iter().any(|arg| match &arg.value {
+                Passed::Value(Expr { kind: ExprKind::Const(Value::Double(time)), .. }) => *time > 0.0,
+                _ => false,
+            })
+    };
+    builtin.entry.effect == Effect::Plans || known_wait()
+}
+
+/// A `for` that a Rust range can stand for.
+pub(crate) struct Range<'a> {
+    /// The loop's variable.
+    pub(crate) local: LocalId,
+    /// Its first value.
+    pub(crate) from: &'a Expr,
+    /// The first value that it does not reach any more.
+    pub(crate) to: &'a Expr,
+    /// Added to `to`: 1 where the condition is `<=` with a constant.
+    pub(crate) beyond: bool,
+}
+
+/// The range that a loop runs through: `for(int i = a; i < b; i++)` whose body writes neither `i` nor `b`.
+pub(crate) fn range(each: &For) -> Option<Range<'_>> {
+    let [Stmt { kind: StmtKind::Let(local, Some(from)), .. }] = each.init.as_slice() else { return None };
+    let ExprKind::Binary(op, sides) = &each.condition.as_ref()?.kind else { return None };
+    let to = &sides.1;
+    let is_variable = |place: &Place| matches!(place.root, Root::Local(id) if id == *local) && place.path.is_empty();
+    let whole = matches!(from.ty.base, Base::Int | Base::Uint | Base::Byte);
+    let tested = matches!(&sides.0.kind, ExprKind::Place(place) if is_variable(place));
+    let steps = match &each.step.as_ref()?.kind {
+        ExprKind::Step(step, place) => step.up && is_variable(place),
+        ExprKind::AssignOp(BinaryOp::Add, sides) => is_variable(&sides.0) && whole_number(&sides.1) == Some(1),
+        _ => false,
+    };
+    if !whole || !tested || !steps || each.body.iter().any(flow::has_label) {
+        return None;
+    }
+    let bound = match &to.kind {
+        ExprKind::Const(_) => None,
+        ExprKind::Place(place) if place.path.is_empty() => match place.root {
+            Root::Local(id) => Some(id),
+            Root::Global(_) | Root::System(_) => return None,
+        },
+        _ => return None,
+    };
+    let beyond = match op {
+        BinaryOp::Less => false,
+        BinaryOp::LessEqual => is_below_the_greatest(to),
+        _ => return None,
+    };
+    if *op == BinaryOp::LessEqual && !beyond {
+        return None;
+    }
+    let written = |id: LocalId| each.body.iter().any(|stmt| stmt_writes(stmt, id));
+    if written(*local) || bound.is_some_and(|id| id == *local || written(id)) {
+        return None;
+    }
+    Some(Range { local: *local, from, to, beyond })
+}
+
+/// The number of rounds of a loop with constant bounds.
+fn known_rounds(each: &For) -> Option<u64> {
+    let range = range(each)?;
+    let (from, to) = (whole_number(range.from)?, whole_number(range.to)?);
+    Some((to + i64::from(range.beyond) - from).max(0).unsigned_abs())
+}
+
+/// The value of a constant integer.
+pub(crate) fn whole_number(expr: &Expr) -> Option<i64> {
+    match &expr.kind {
+        ExprKind::Const(Value::Int(value)) => Some(i64::from(*value)),
+        ExprKind::Const(Value::Uint(value)) => Some(i64::from(*value)),
+        ExprKind::Const(Value::Byte(value)) => Some(i64::from(*value)),
+        _ => None,
+    }
+}
+
+fn is_below_the_greatest(expr: &Expr) -> bool {
+    match &expr.kind {
+        ExprKind::Const(Value::Int(value)) => *value < i32::MAX,
+        ExprKind::Const(Value::Uint(value)) => *value < u32::MAX,
+        ExprKind::Const(Value::Byte(value)) => *value < u8::MAX,
+        _ => false,
+    }
+}
+
+/// Whether a statement (or one inside it) writes a local variable.
+fn stmt_writes(stmt: &Stmt, id: LocalId) -> bool {
+    matches!(stmt.kind, StmtKind::Let(declared, _) if declared == id)
+        || flow::expressions(stmt).into_iter().any(|expr| expr_writes(expr, id))
+        || flow::blocks(stmt).into_iter().any(|block| block.iter().any(|stmt| stmt_writes(stmt, id)))
+}
+
+fn expr_writes(expr: &Expr, id: LocalId) -> bool {
+    let mut writes = Vec::new();
+    facts::local_writes(expr, &mut writes);
+    writes.contains(&id)
+}
+

@@ -1,0 +1,177 @@
+//! Rust names for the names of the program.
+//!
+//! A folded ARL name is its Rust name, unless it is a word of Rust or would hide something that the emitted code uses;
+//! then it gets underscores behind it. Names with two underscores in a row keep one, which is what rustc wants.
+
+use crate::hir::{Func, LocalId, ModuleId, Program};
+use proc_macro2::{Ident, Span};
+use std::collections::{HashMap, HashSet};
+
+/// Words that cannot be names, in any edition up to 2024.
+const KEYWORDS: &[&str] = &[
+    "abstract", "as", "async", "await", "become", "box", "break", "const", "continue", "crate", "do", "dyn", "else",
+    "enum", "extern", "false", "final", "fn", "for", "gen", "if", "impl", "in", "let", "loop", "macro", "match", "mod",
+    "move", "mut", "override", "priv", "pub", "ref", "return", "self", "static", "struct", "super", "trait", "true",
+    "try", "type", "typeof", "union", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
+];
+
+/// Functions of the prelude, and the names that emitted functions give to what they are passed.
+const VALUES: &[&str] =
+    &["cx", "g", "div", "rem", "rem_double", "shl", "shr", "index", "index2", "in_range", "nested", "truth"];
+
+/// Crates that a module must not hide.
+const CRATES: &[&str] = &["arl_rt", "core", "std", "alloc"];
+
+/// Whether a word is reserved by Rust.
+fn is_keyword(name: &str) -> bool {
+    KEYWORDS.contains(&name)
+}
+
+/// Whether a name is taken by what emitted functions use.
+pub(super) fn is_taken_value(name: &str) -> bool {
+    VALUES.contains(&name)
+}
+
+/// A Rust name; the text must be fit for one.
+pub(super) fn ident(name: &str) -> Ident {
+    Ident::new(name, Span::call_site())
+}
+
+/// The name of a field or method: the folded name, unless it is a word of Rust.
+pub(super) fn field(name: &str) -> Ident {
+    ident(&tidy(&name.to_ascii_lowercase(), &|name| is_keyword(name)))
+}
+
+/// The name without doubled underscores, with underscores behind it as long as it is taken.
+fn tidy(name: &str, taken: &dyn Fn(&str) -> bool) -> String {
+    let mut tidy = String::with_capacity(name.len() + 1);
+    let inner = name.trim_matches('_');
+    let lead = name.len() - name.trim_start_matches('_').len();
+    tidy.extend(std::iter::repeat_n('_', lead.min(1)));
+    for c in inner.chars() {
+        if c != '_' || !tidy.ends_with('_') {
+            tidy.push(c);
+        }
+    }
+    if name.len() > lead + inner.len() {
+        tidy.push('_');
+    }
+    // A lone underscore is no name, and one in front would silence warnings about what is not used.
+    while tidy == "_" || tidy.is_empty() || taken(&tidy) {
+        tidy.push('_');
+        if tidy == "__" {
+            tidy = "underscore".to_owned();
+        }
+    }
+    tidy
+}
+
+/// The names of everything outside functions.
+#[derive(Debug)]
+pub(super) struct Names {
+    modules: Vec<Ident>,
+    funcs: Vec<Ident>,
+    globals: Vec<Ident>,
+    /// The function names of each module: locals must not hide them.
+    functions_of: Vec<HashSet<String>>,
+}
+
+impl Names {
+    /// Finds names for a program.
+    pub(super) fn new(program: &Program) -> Self {
+        let mut used = HashSet::new();
+        let modules = program
+            .modules
+            .iter()
+            .map(|module| distinct(&module.name, &mut used, |name| is_keyword(name) || CRATES.contains(&name)))
+            .collect();
+        let mut functions_of = vec![HashSet::new(); program.modules.len()];
+        let mut spare = HashSet::new();
+        let mut of_module = |used: &mut [HashSet<String>], module: ModuleId, name: &str, values: bool| {
+            let used = used.get_mut(module.0 as usize).unwrap_or(&mut spare);
+            distinct(name, used, |name| is_keyword(name) || (values && is_taken_value(name)))
+        };
+        let funcs =
+            program.funcs.iter().map(|func| of_module(&mut functions_of, func.module, &func.name, true)).collect();
+        let mut fields = vec![HashSet::new(); program.modules.len()];
+        let globals =
+            program.globals.iter().map(|global| of_module(&mut fields, global.module, &global.name, false)).collect();
+        Self { modules, funcs, globals, functions_of }
+    }
+
+    /// The module's name.
+    pub(super) fn module(&self, id: ModuleId) -> Ident {
+        pick(&self.modules, id.0)
+    }
+
+    /// The function's name in its module.
+    pub(super) fn func(&self, id: u32) -> Ident {
+        pick(&self.funcs, id)
+    }
+
+    /// The field of a global variable in its module's structure.
+    pub(super) fn global(&self, id: u32) -> Ident {
+        pick(&self.globals, id)
+    }
+
+    /// Whether a module has a function of this Rust name.
+    pub(super) fn has_function(&self, module: ModuleId, name: &str) -> bool {
+        self.functions_of.get(module.0 as usize).is_some_and(|names| names.contains(name))
+    }
+
+    /// The names of a function's locals. Two of them may share a name where the program hides one behind the other.
+    pub(super) fn locals(&self, func: &Func, unread: &dyn Fn(LocalId) -> bool) -> Vec<Ident> {
+        let mut by_name: HashMap<String, String> = HashMap::new();
+        let mut used = HashSet::new();
+        let mut out = Vec::with_capacity(func.locals.len());
+        for (at, local) in func.locals.iter().enumerate() {
+            let lead = if unread(LocalId(at as u32)) && !local.name.starts_with('_') { "_" } else { "" };
+            let wanted = format!("{lead}{}", local.name);
+            let name = by_name.entry(wanted.clone()).or_insert_with(|| {
+                let taken = |name: &str| is_keyword(name) || is_taken_value(name) || self.has_function(func.module, name);
+                distinct(&wanted, &mut used, taken).to_string()
+            });
+            out.push(ident(name));
+        }
+        out
+    }
+}
+
+fn distinct(name: &str, used: &mut HashSet<String>, taken: impl Fn(&str) -> bool) -> Ident {
+    let found = tidy(name, &|name| taken(name) || used.contains(name));
+    used.insert(found.clone());
+    ident(&found)
+}
+
+fn pick(names: &[Ident], at: u32) -> Ident {
+    names.get(at as usize).cloned().unwrap_or_else(|| ident("unknown"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn local(name: &str) -> String {
+        tidy(name, &|name| is_keyword(name) || is_taken_value(name))
+    }
+
+    #[test]
+    fn names_stay_unless_taken() {
+        assert_eq!(local("count"), "count");
+        assert_eq!(local("type"), "type_");
+        assert_eq!(local("index"), "index_");
+        assert_eq!(local("cx"), "cx_");
+        assert_eq!(local("a__b"), "a_b");
+        assert_eq!(local("__a_"), "_a_");
+        assert_eq!(local("_"), "underscore");
+        assert_eq!(local("___"), "underscore");
+    }
+
+    #[test]
+    fn two_names_never_become_one() {
+        let mut used = HashSet::new();
+        let names: Vec<String> =
+            ["a__b", "a_b", "a_b_", "type", "type_"].iter().map(|name| distinct(name, &mut used, is_keyword).to_string()).collect();
+        assert_eq!(names.iter().collect::<HashSet<_>>().len(), names.len(), "{names:?}");
+    }
+}

@@ -1,0 +1,120 @@
+//! Types and start values in Rust.
+
+use super::names::{field, ident};
+use crate::hir::Type;
+use arl_lang::catalog::{Base, Family, Struct};
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+
+/// Arrays up to this many bytes live where they are declared, larger ones on the heap.
+const SMALL: usize = 1024;
+
+/// Whether values of the type are copied by a plain assignment.
+pub(super) fn is_copy(ty: Type) -> bool {
+    !ty.is_array() && !matches!(ty.base, Base::String | Base::Handle(_) | Base::Struct(Struct::Wobj))
+}
+
+/// Whether a variable of the type is a handle or an array of handles.
+pub(super) fn is_handle(ty: Type) -> bool {
+    matches!(ty.base, Base::Handle(_))
+}
+
+/// The type in Rust.
+pub(super) fn rust_type(ty: Type, family: Family) -> TokenStream {
+    let element = base_type(ty.base, family);
+    if !ty.is_array() {
+        return element;
+    }
+    let (array, count) = (array_type(ty, family), Literal::usize_unsuffixed(ty.len()));
+    quote!(#array<#element, #count>)
+}
+
+/// The type without dimensions in Rust.
+pub(super) fn base_type(base: Base, family: Family) -> TokenStream {
+    match base {
+        Base::Void => quote!(()),
+        Base::Int => quote!(i32),
+        Base::Uint => quote!(u32),
+        Base::Byte => quote!(u8),
+        Base::Double => quote!(f64),
+        Base::Bool => quote!(bool),
+        Base::String => quote!(Str),
+        Base::Struct(_) | Base::Enum(_) | Base::Handle(_) => {
+            let name = type_name(base, family);
+            quote!(#name)
+        }
+    }
+}
+
+/// The runtime's type for a structure, an enumeration or a handle.
+pub(super) fn type_name(base: Base, family: Family) -> Ident {
+    ident(match base {
+        Base::Struct(id) => id.def(family).rust,
+        Base::Enum(id) => id.def().rust,
+        Base::Handle(id) => id.def().rust,
+        _ => "Str",
+    })
+}
+
+/// `Array` or `SmallArray`.
+pub(super) fn array_type(ty: Type, family: Family) -> Ident {
+    let small = bytes(ty.base, family).saturating_mul(ty.len()) <= SMALL;
+    ident(if small { "SmallArray" } else { "Array" })
+}
+
+/// About the size of a value in memory.
+fn bytes(base: Base, family: Family) -> usize {
+    match base {
+        Base::Void => 0,
+        Base::Bool | Base::Byte | Base::Enum(_) => 1,
+        Base::Int | Base::Uint => 4,
+        Base::Double => 8,
+        Base::String => 24,
+        Base::Handle(_) => 32,
+        Base::Struct(id) => {
+            id.def(family).components.iter().map(|component| bytes(component.ty, family).next_multiple_of(4)).sum()
+        }
+    }
+}
+
+/// The variable that a global of this type is: `Cell<i32>`, `Shared<Str>`, or the handle itself.
+pub(super) fn variable_type(ty: Type, family: Family) -> TokenStream {
+    let value = rust_type(ty, family);
+    if is_handle(ty) {
+        value
+    } else if is_copy(ty) {
+        quote!(Cell<#value>)
+    } else {
+        quote!(Shared<#value>)
+    }
+}
+
+/// The start value of a type.
+pub(super) fn start_value(ty: Type, family: Family) -> TokenStream {
+    if ty.is_array() {
+        let (array, element) = (array_type(ty, family), base_type(ty.base, family));
+        let count = Literal::usize_unsuffixed(ty.len());
+        return quote!(#array::<#element, #count>::start());
+    }
+    match ty.base {
+        Base::Void => quote!(()),
+        Base::Int | Base::Uint | Base::Byte => quote!(0),
+        Base::Double => quote!(0.0),
+        Base::Bool => quote!(false),
+        Base::String => quote!(Str::new()),
+        Base::Enum(id) => {
+            let (name, first) = (ident(id.def().rust), id.def().constants.first().map_or("default", |it| it.rust));
+            let first = ident(first);
+            quote!(#name::#first)
+        }
+        Base::Struct(_) | Base::Handle(_) => {
+            let name = type_name(ty.base, family);
+            quote!(#name::default())
+        }
+    }
+}
+
+/// The field of a structure's component.
+pub(super) fn component(id: Struct, index: usize, family: Family) -> Ident {
+    field(id.def(family).components.get(index).map_or("unknown", |component| component.name))
+}

@@ -1,0 +1,34 @@
+//! Sources from the file system.
+
+use crate::{SourceError, Sources};
+use std::io::ErrorKind;
+use std::path::Path;
+
+/// Reads sources from the file system; relative paths count from the working directory.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FileSystem;
+
+impl Sources for FileSystem {
+    #[expect(clippy::disallowed_methods, reason = "this is where the doors read files")]
+    fn read(&self, path: &Path) -> Result<Vec<u8>, SourceError> {
+        std::fs::read(path).map_err(|error| match error.kind() {
+            ErrorKind::NotFound | ErrorKind::NotADirectory => SourceError::Missing,
+            ErrorKind::IsADirectory => SourceError::Unreadable("it is a directory".into()),
+            _ => SourceError::Unreadable(error.to_string()),
+        })
+    }
+}
+
+/// Writes a file unless it already has this content, so that its time changes only with it; makes its folder. Says
+/// whether it wrote.
+#[expect(clippy::disallowed_methods, reason = "this is where the doors write files")]
+pub(crate) fn write_if_changed(path: &Path, content: &[u8]) -> std::io::Result<bool> {
+    if std::fs::read(path).is_ok_and(|old| old == content) {
+        return Ok(false);
+    }
+    if let Some(folder) = path.parent() {
+        std::fs::create_dir_all(folder)?;
+    }
+    std::fs::write(path, content)?;
+    Ok(true)
+}
