@@ -7,6 +7,13 @@ use std::hash::{BuildHasherDefault, Hasher};
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub struct Symbol(u32);
 
+impl Symbol {
+    /// Its number: symbols count from 0 in the order in which they were interned.
+    pub const fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
 /// All names of one compilation.
 #[derive(Default, Debug)]
 pub struct Interner {
@@ -22,11 +29,18 @@ impl Interner {
 
     /// The symbol of `name`, whatever its case.
     pub fn intern(&mut self, name: &str) -> Symbol {
-        if name.bytes().any(|byte| byte.is_ascii_uppercase()) {
-            let folded = name.to_ascii_lowercase();
-            return self.intern_folded(&folded);
+        if !name.bytes().any(|byte| byte.is_ascii_uppercase()) {
+            return self.intern_folded(name);
         }
-        self.intern_folded(name)
+        let mut short = [0; 32];
+        if let Some(place) = short.get_mut(..name.len()) {
+            place.copy_from_slice(name.as_bytes());
+            place.make_ascii_lowercase();
+            if let Ok(folded) = std::str::from_utf8(place) {
+                return self.intern_folded(folded);
+            }
+        }
+        self.intern_folded(&name.to_ascii_lowercase())
     }
 
     fn intern_folded(&mut self, name: &str) -> Symbol {

@@ -1,0 +1,456 @@
+//! What is wrong with a line that the grammar refuses, in the words of the program.
+
+use std::convert::Infallible;
+
+use lalrpop_util::ParseError;
+
+use crate::ast::BinaryOp;
+use crate::span::Span;
+use crate::syntax_error::{Bracket, Hint, SyntaxError, SyntaxErrorKind};
+use crate::token::{Placed, Token};
+
+/// A line and the place where the grammar refuses it.
+struct Refused<'a> {
+    source: &'a str,
+    tokens: &'a [Placed],
+    /// The refused token; behind the last one, the end of the line is refused.
+    at: usize,
+    /// The terminals that could have stood there, as lalrpop writes them.
+    expected: Vec<String>,
+    /// The brackets that are open there.
+    open: Vec<(Bracket, Span)>,
+}
+
+/// The error for what the grammar refused, and the number of the token it is about. `is_line` says whether some
+/// first tokens of the line would be a line.
+pub(crate) fn explain(
+    error: ParseError<u32, Token, Infallible>,
+    source: &str,
+    tokens: &[Placed],
+    is_line: impl Fn(&[Placed]) -> bool,
+) -> (SyntaxError, usize) {
+    let (at, expected) = match error {
+        ParseError::UnrecognizedToken { token, expected } => (position(tokens, token.0), expected),
+        ParseError::UnrecognizedEof { expected, .. } => (tokens.len(), expected),
+        ParseError::InvalidToken { location } => (position(tokens, location), Vec::new()),
+        ParseError::ExtraToken { token } => (position(tokens, token.0), Vec::new()),
+        ParseError::User { error } => match error {},
+    };
+    let open = open_brackets(tokens.get(..at).unwrap_or(tokens));
+    let refused = Refused { source, tokens, at, expected, open };
+    let error = match refused.found() {
+        None => refused.at_line_end(),
+        Some(found) => {
+            let complete = refused.at > 0 && is_line(tokens.get(..at).unwrap_or(tokens));
+            refused.at_token(found, complete)
+        }
+    };
+    (error, at)
+}
+
+/// The number of the token that begins at `offset`.
+fn position(tokens: &[Placed], offset: u32) -> usize {
+    tokens.partition_point(|token| token.0 < offset)
+}
+
+/// The brackets that `tokens` leave open, outermost first.
+fn open_brackets(tokens: &[Placed]) -> Vec<(Bracket, Span)> {
+    let mut open = Vec::new();
+    for (start, token, end) in tokens {
+        match token {
+            Token::ParenOpen => open.push((Bracket::Paren, Span::new(*start, *end))),
+            Token::BracketOpen => open.push((Bracket::Square, Span::new(*start, *end))),
+            Token::BraceOpen => open.push((Bracket::Brace, Span::new(*start, *end))),
+            Token::ParenClose | Token::BracketClose | Token::BraceClose => {
+                open.pop();
+            }
+            _ => {}
+        }
+    }
+    open
+}
+
+impl Refused<'_> {
+    fn found(&self) -> Option<Placed> {
+        self.tokens.get(self.at).copied()
+    }
+
+    fn before(&self) -> Option<Placed> {
+        self.tokens.get(self.at.checked_sub(1)?).copied()
+    }
+
+    fn first(&self) -> Option<Token> {
+        self.tokens.first().map(|token| token.1)
+    }
+
+    fn expects(&self, terminal: &str) -> bool {
+        self.expected.iter().any(|expected| expected.trim_matches('"') == terminal)
+    }
+
+    /// Whether a value could stand here.
+    fn expects_value(&self) -> bool {
+        self.expects("int")
+    }
+
+    fn expects_close(&self, bracket: Bracket) -> bool {
+        self.expects(bracket.close())
+    }
+
+    /// A token as the reader sees it.
+    fn show(&self, token: Placed) -> String {
+        let text = Span::new(token.0, token.2).text(self.source);
+        match token.1 {
+            Token::Text => "this string".into(),
+            _ => format!("`{text}`"),
+        }
+    }
+
+    fn text(&self, token: Placed) -> Box<str> {
+        Span::new(token.0, token.2).text(self.source).into()
+    }
+
+    /// The error where the line ends too early.
+    fn at_line_end(&self) -> SyntaxError {
+        let Some(last) = self.before() else {
+            return SyntaxError::new(self.ends_early(Hint::None), Span::default());
+        };
+        let place = Span::new(last.0, last.2);
+        if let Some((bracket, span)) = self.open.last()
+            && self.expects_close(*bracket)
+        {
+            let error = SyntaxError::new(SyntaxErrorKind::MissingClose(*bracket), place);
+            return error.with(*span, format!("this `{}` is open", bracket.open()));
+        }
+        if matches!(self.first(), Some(Token::Case | Token::Default)) && self.expects(":") {
+            return SyntaxError::new(SyntaxErrorKind::MissingColon, place);
+        }
+        if matches!(last.1, Token::Type(_)) && self.at > 1 && !self.expects("name") {
+            return SyntaxError::new(SyntaxErrorKind::ReservedWord(self.text(last)), place);
+        }
+        if self.expects_value() && self.at > 1 {
+            return SyntaxError::new(SyntaxErrorKind::MissingValue(self.show(last).into(), "".into()), place);
+        }
+        let hint = match self.first() {
+            Some(Token::Func) if matches!(last.1, Token::Name(_)) => Hint::ResultType,
+            Some(Token::Instruction(_)) if self.has_semicolon() => Hint::Events,
+            Some(Token::If | Token::While | Token::Until | Token::ElseIf) if self.at == 1 => Hint::ConditionParens,
+            Some(Token::For) => Hint::For,
+            _ => Hint::None,
+        };
+        SyntaxError::new(self.ends_early(hint), place)
+    }
+
+    fn ends_early(&self, hint: Hint) -> SyntaxErrorKind {
+        SyntaxErrorKind::EndsEarly { expected: self.describe(false).into(), hint }
+    }
+
+    fn has_semicolon(&self) -> bool {
+        self.tokens.iter().any(|token| token.1 == Token::Semicolon)
+    }
+
+    /// The error at the token `found`; `complete` says whether what stands before it is a line.
+    fn at_token(&self, found: Placed, complete: bool) -> SyntaxError {
+        let place = Span::new(found.0, found.2);
+        if let Some(bracket) = closed(found.1) {
+            return self.at_close(found, bracket);
+        }
+        if let Some(error) = self.at_reserved(found, complete) {
+            return error;
+        }
+        let before = self.before();
+        let kind = match (before.map(|before| before.1), found.1) {
+            (Some(Token::Name(_)), _) if self.is_then(before) => {
+                let then = before.map_or("".into(), |before| self.text(before));
+                let place = before.map_or(place, |before| Span::new(before.0, before.2));
+                return SyntaxError::new(SyntaxErrorKind::Then(then), place);
+            }
+            (_, Token::Semicolon) if complete => {
+                let next = self.tokens.get(self.at + 1).map_or(place, |next| Span::new(next.0, next.2));
+                return SyntaxError::new(SyntaxErrorKind::SeveralStatements, next);
+            }
+            (Some(Token::Name(_)), Token::Colon) if self.is_in(Bracket::Brace) => {
+                SyntaxErrorKind::ComponentColon(before.map_or("".into(), |before| self.text(before)))
+            }
+            (_, Token::Unit(_)) if before.is_some_and(|before| ends_value(before.1)) => SyntaxErrorKind::MisplacedUnit,
+            (Some(before), Token::Assign(_)) if ends_value(before) && self.expects("operator") => {
+                SyntaxErrorKind::NotAssignable("the result of an operator".into())
+            }
+            (Some(before), token) if begins_value(token) && ends_value(before) => {
+                return self.between_values(found, complete);
+            }
+            (Some(before), token) if self.expects_value() && is_infix(token) && !complete => {
+                let after = self.before().map_or(String::new(), |before| self.show(before));
+                debug_assert!(!ends_value(before));
+                SyntaxErrorKind::MissingValue(after.into(), self.show(found).into())
+            }
+            _ => self.unexpected(found, self.hint(found, complete), complete),
+        };
+        SyntaxError::new(kind, place)
+    }
+
+    /// The error at a closing bracket.
+    fn at_close(&self, found: Placed, bracket: Bracket) -> SyntaxError {
+        let place = Span::new(found.0, found.2);
+        let Some((open, opened)) = self.open.last().copied() else {
+            return SyntaxError::new(SyntaxErrorKind::StrayClose(bracket), place);
+        };
+        let related = format!("this `{}` is open", open.open());
+        if open != bracket {
+            let error = SyntaxError::new(SyntaxErrorKind::WrongClose(open, bracket), place);
+            return error.with(opened, related);
+        }
+        let before = self.before();
+        if matches!(before, Some((_, Token::Type(_), _))) && !self.expects("name") {
+            let (word, place) =
+                before.map_or(("".into(), place), |before| (self.text(before), Span::new(before.0, before.2)));
+            return SyntaxError::new(SyntaxErrorKind::ReservedWord(word), place);
+        }
+        let kind = match before {
+            Some((_, Token::BracketOpen, _)) => self.unexpected(found, Hint::ArraySize, false),
+            Some(before) if self.expects_value() => {
+                SyntaxErrorKind::MissingValue(self.show(before).into(), self.show(found).into())
+            }
+            _ => self.unexpected(found, self.hint(found, false), false),
+        };
+        SyntaxError::new(kind, place).with(opened, related)
+    }
+
+    /// The error where a reserved word stands in the place of a name or begins a statement in the middle of a line.
+    fn at_reserved(&self, found: Placed, complete: bool) -> Option<SyntaxError> {
+        let reserved = |token: Placed| {
+            let place = Span::new(token.0, token.2);
+            Some(SyntaxError::new(SyntaxErrorKind::ReservedWord(self.text(token)), place))
+        };
+        let before = self.before();
+        match (before, found.1) {
+            (Some((_, Token::Type(_), _)), Token::ParenOpen) => {
+                let place = Span::new(found.0, found.2);
+                return Some(SyntaxError::new(self.unexpected(found, Hint::Conversion, complete), place));
+            }
+            (Some(word @ (_, Token::Type(_), _)), token) if !is_word(token) && !self.is_reference(token) => {
+                return reserved(word);
+            }
+            (Some(word @ (_, Token::Instruction(_), _)), Token::Assign(_) | Token::Dot | Token::Scope) => {
+                return reserved(word);
+            }
+            _ => {}
+        }
+        if !is_word(found.1) || matches!(found.1, Token::Name(_)) {
+            return None;
+        }
+        let behind_if = matches!(self.first(), Some(Token::If)) && complete;
+        let place = Span::new(found.0, found.2);
+        match found.1 {
+            Token::Type(_) | Token::Const if behind_if => {
+                Some(SyntaxError::new(self.unexpected(found, Hint::CompactDeclaration, true), place))
+            }
+            Token::If | Token::While | Token::For | Token::Switch | Token::Loop | Token::Repeat if behind_if => {
+                Some(SyntaxError::new(self.unexpected(found, Hint::CompactIf, true), place))
+            }
+            _ if complete && !begins_value(found.1) => {
+                Some(SyntaxError::new(SyntaxErrorKind::SeveralStatements, place))
+            }
+            _ if self.expects("name") && !begins_value(found.1) => reserved(found),
+            _ if self.expects("name") && !self.expects_value() => reserved(found),
+            _ => None,
+        }
+    }
+
+    /// The error where two values follow each other.
+    fn between_values(&self, found: Placed, complete: bool) -> SyntaxError {
+        let place = Span::new(found.0, found.2);
+        let kind = if self.expects(",") {
+            SyntaxErrorKind::MissingComma(self.show(found).into())
+        } else if let Some((bracket, opened)) = self.open.last()
+            && self.expects_close(*bracket)
+        {
+            let error = SyntaxError::new(SyntaxErrorKind::MissingClose(*bracket), self.place_before(place));
+            return error.with(*opened, format!("this `{}` is open", bracket.open()));
+        } else {
+            self.unexpected(found, self.hint(found, complete), complete)
+        };
+        SyntaxError::new(kind, place)
+    }
+
+    fn place_before(&self, otherwise: Span) -> Span {
+        self.before().map_or(otherwise, |before| Span::new(before.0, before.2))
+    }
+
+    fn unexpected(&self, found: Placed, hint: Hint, complete: bool) -> SyntaxErrorKind {
+        let expected = self.describe(complete).into();
+        SyntaxErrorKind::Unexpected { found: self.show(found).into(), expected, hint }
+    }
+
+    /// What may help where nothing more is known of the mistake.
+    fn hint(&self, found: Placed, complete: bool) -> Hint {
+        let before = self.before().map(|before| before.1);
+        match (self.first(), before, found.1) {
+            (Some(Token::If | Token::While | Token::Until | Token::ElseIf | Token::Switch), ..) if self.at == 1 => {
+                Hint::ConditionParens
+            }
+            (Some(Token::If | Token::While | Token::Until | Token::ElseIf), Some(Token::ParenClose), token)
+                if complete && is_infix(token) =>
+            {
+                Hint::WholeCondition
+            }
+            (Some(Token::Else), ..) if complete => Hint::ElseAlone,
+            (Some(Token::Func), Some(Token::Name(_)), Token::ParenOpen) if self.at == 2 => Hint::ResultType,
+            (Some(Token::Func), _, token) if self.is_reference(token) => Hint::References,
+            (_, _, Token::Comma) if self.is_in(Bracket::Square) => Hint::OneIndex,
+            (Some(Token::Instruction(_)), _, Token::Comma)
+                if self.open.len() == 1 && matches!(self.tokens.get(1), Some((_, Token::ParenOpen, _))) =>
+            {
+                Hint::InstructionParens
+            }
+            (Some(Token::For), ..) if !self.open.is_empty() => Hint::For,
+            (_, Some(Token::Name(_)), Token::Colon) => Hint::Label,
+            (Some(Token::Instruction(_)), ..) if self.has_semicolon() => Hint::Events,
+            (_, _, token) if complete && is_word(token) => Hint::OwnLine,
+            _ => Hint::None,
+        }
+    }
+
+    fn is_in(&self, bracket: Bracket) -> bool {
+        self.open.last().is_some_and(|(open, _)| *open == bracket)
+    }
+
+    fn is_reference(&self, token: Token) -> bool {
+        self.first() == Some(Token::Func) && token == Token::Operator(BinaryOp::BitAnd)
+    }
+
+    /// Whether the name is one that other languages write behind a condition.
+    fn is_then(&self, name: Option<Placed>) -> bool {
+        let header = matches!(self.first(), Some(Token::If | Token::While | Token::ElseIf | Token::For));
+        let behind_condition = self.at >= 2 && matches!(self.tokens.get(self.at - 2), Some((_, Token::ParenClose, _)));
+        header && behind_condition && name.is_some_and(|name| crate::habits::is_then(&self.text(name)))
+    }
+
+    /// What could have stood at the refused place.
+    fn describe(&self, line_end: bool) -> String {
+        if self.at == 0 {
+            return "a statement, a declaration or the beginning or end of a block".into();
+        }
+        let mut parts: Vec<String> = Vec::new();
+        let value = self.expects_value();
+        let operator = self.expects("operator");
+        if value {
+            parts.push("a value".into());
+        }
+        for (terminal, words) in [("name", "a name"), ("type", "a type"), ("text", "a string")] {
+            if self.expects(terminal) && !value {
+                parts.push(words.into());
+            }
+        }
+        for terminal in [",", ";", ":", "::", "(", ")", "]", "}", "="] {
+            let of_value = value && terminal == "(";
+            let of_operator = operator && matches!(terminal, "(" | "=" | "::");
+            if self.expects(terminal) && !of_value && !of_operator {
+                parts.push(format!("`{terminal}`"));
+            }
+        }
+        if operator {
+            parts.push("an operator".into());
+        }
+        if line_end {
+            parts.push("the end of the line".into());
+        }
+        match parts.as_slice() {
+            [] => "something else".into(),
+            [only] => only.clone(),
+            [some @ .., last] => format!("{} or {last}", some.join(", ")),
+        }
+    }
+}
+
+/// The bracket that a token closes.
+fn closed(token: Token) -> Option<Bracket> {
+    match token {
+        Token::ParenClose => Some(Bracket::Paren),
+        Token::BracketClose => Some(Bracket::Square),
+        Token::BraceClose => Some(Bracket::Brace),
+        _ => None,
+    }
+}
+
+/// Whether a value can end with the token.
+fn ends_value(token: Token) -> bool {
+    matches!(
+        token,
+        Token::Name(_)
+            | Token::System(_)
+            | Token::Int(..)
+            | Token::Double(_)
+            | Token::Text
+            | Token::Faulty
+            | Token::True
+            | Token::False
+            | Token::Endl
+            | Token::Unit(_)
+            | Token::Splice(_)
+            | Token::ParenClose
+            | Token::BracketClose
+            | Token::BraceClose
+            | Token::PlusPlus
+            | Token::MinusMinus
+    )
+}
+
+/// Whether a value can begin with the token, but with an operator in front.
+fn begins_value(token: Token) -> bool {
+    matches!(
+        token,
+        Token::Name(_)
+            | Token::System(_)
+            | Token::Type(_)
+            | Token::Label(_)
+            | Token::Component(_)
+            | Token::Int(..)
+            | Token::Double(_)
+            | Token::Text
+            | Token::Faulty
+            | Token::True
+            | Token::False
+            | Token::Endl
+            | Token::Splice(_)
+            | Token::BraceOpen
+            | Token::Not
+            | Token::Complement
+    )
+}
+
+/// Whether the token stands between values.
+fn is_infix(token: Token) -> bool {
+    matches!(token, Token::Operator(_) | Token::Minus | Token::Assign(_) | Token::Comma | Token::Semicolon)
+}
+
+/// Whether the token is a word.
+fn is_word(token: Token) -> bool {
+    !matches!(
+        token,
+        Token::System(_)
+            | Token::Int(..)
+            | Token::Double(_)
+            | Token::Text
+            | Token::Faulty
+            | Token::Unit(_)
+            | Token::Splice(_)
+            | Token::Operator(_)
+            | Token::Minus
+            | Token::Not
+            | Token::Complement
+            | Token::PlusPlus
+            | Token::MinusMinus
+            | Token::Assign(_)
+            | Token::ParenOpen
+            | Token::ParenClose
+            | Token::BracketOpen
+            | Token::BracketClose
+            | Token::BraceOpen
+            | Token::BraceClose
+            | Token::Comma
+            | Token::Semicolon
+            | Token::Colon
+            | Token::Scope
+            | Token::Dot
+    )
+}

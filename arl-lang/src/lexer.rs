@@ -1,0 +1,340 @@
+//! Text to lexemes. The lexer never fails: what it cannot read becomes an error in the place of a lexeme.
+
+use logos::{FilterResult, Logos};
+
+use crate::number::{Number, NumberError, read_number};
+
+/// What cannot be read.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum LexicalError {
+    /// A character that means nothing in ARL.
+    #[default]
+    UnknownCharacter,
+    /// A character from outside ASCII that looks like this one.
+    LooksLike(char),
+    /// Letters from outside ASCII where a name stands.
+    ForeignLetters,
+    /// A `"` without its partner on the line.
+    UnclosedText,
+    /// A `/*` without `*/`.
+    UnclosedComment,
+    /// An escape in a string that ARL does not have: the offset of its backslash from the string's start.
+    BadEscape(u32),
+    /// A number that is none.
+    Number(NumberError),
+    /// A `$` without a name.
+    BareDollar,
+    /// A `\` that is not the last character of its line.
+    Backslash,
+    /// Text in single quotes.
+    SingleQuotes,
+    /// A `#` without a Rust name or parentheses behind it.
+    BareSplice,
+    /// A `#(` without its `)`.
+    UnclosedSplice,
+}
+
+/// A lexeme; its text is under its span.
+#[derive(Logos, Clone, Copy, PartialEq, Debug)]
+#[logos(error = LexicalError)]
+#[logos(skip r"[ \t\x0b\x0c]+")]
+#[logos(skip(r"//[^\r\n]*", allow_greedy = true))]
+#[allow(missing_docs, reason = "the names say it all")]
+pub enum Lexeme {
+    #[regex(r"\r\n|\n|\r")]
+    Newline,
+    /// A name or a word of the language.
+    #[regex(r"[A-Za-z_][A-Za-z0-9_]*")]
+    Word,
+    /// `$NAME`
+    #[regex(r"\$[A-Za-z_][A-Za-z0-9_]*")]
+    #[token("$", bare_dollar)]
+    System,
+    #[regex(r"[0-9]|\.[0-9]", number)]
+    Number(Number),
+    /// A string with its quotes; its escapes are good.
+    #[token("\"", text)]
+    #[token("'", single_quotes)]
+    Text,
+    /// `#name` or `#(tokens)`.
+    #[token("#", splice)]
+    Splice,
+    #[token("+")]
+    Plus,
+    #[token("-")]
+    Minus,
+    #[token("*")]
+    Star,
+    #[token("/")]
+    Slash,
+    #[token("%")]
+    Percent,
+    #[token("<<")]
+    ShiftLeft,
+    #[token(">>")]
+    ShiftRight,
+    #[token("<")]
+    Less,
+    #[token("<=")]
+    LessEqual,
+    #[token(">")]
+    Greater,
+    #[token(">=")]
+    GreaterEqual,
+    #[token("==")]
+    Equal,
+    #[token("!=")]
+    NotEqual,
+    #[token("&")]
+    BitAnd,
+    #[token("^")]
+    BitXor,
+    #[token("|")]
+    BitOr,
+    #[token("&&")]
+    And,
+    #[token("||")]
+    Or,
+    #[token("!")]
+    Not,
+    #[token("~")]
+    Complement,
+    #[token("++")]
+    PlusPlus,
+    #[token("--")]
+    MinusMinus,
+    #[token("=")]
+    Assign,
+    #[token("+=")]
+    AddAssign,
+    #[token("-=")]
+    SubtractAssign,
+    #[token("*=")]
+    MultiplyAssign,
+    #[token("/=")]
+    DivideAssign,
+    #[token("%=")]
+    RemainderAssign,
+    #[token("<<=")]
+    ShiftLeftAssign,
+    #[token(">>=")]
+    ShiftRightAssign,
+    #[token("&=")]
+    AndAssign,
+    #[token("|=")]
+    OrAssign,
+    #[token("^=")]
+    XorAssign,
+    #[token("(")]
+    ParenOpen,
+    #[token(")")]
+    ParenClose,
+    #[token("[")]
+    BracketOpen,
+    #[token("]")]
+    BracketClose,
+    #[token("{")]
+    BraceOpen,
+    #[token("}")]
+    BraceClose,
+    #[token(",")]
+    Comma,
+    #[token(";")]
+    Semicolon,
+    #[token(":")]
+    Colon,
+    #[token("::")]
+    Scope,
+    #[token(".")]
+    Dot,
+    /// Stands for a value that could not be read. The lexer never makes it itself: these rules skip or fail.
+    #[token("/*", comment)]
+    #[token("\\", continuation)]
+    #[regex(r"[^\x00-\x7f]", foreign)]
+    Faulty,
+}
+
+type Lexer<'source> = logos::Lexer<'source, Lexeme>;
+
+fn bare_dollar(_: &mut Lexer<'_>) -> Result<(), LexicalError> {
+    Err(LexicalError::BareDollar)
+}
+
+fn number(lexer: &mut Lexer<'_>) -> Result<Number, LexicalError> {
+    let start = lexer.span().start;
+    let (length, number) = read_number(lexer.source().get(start..).unwrap_or_default());
+    lexer.bump(length.saturating_sub(lexer.span().len()));
+    number.map_err(LexicalError::Number)
+}
+
+/// The bytes of `rest` up to the end of the line.
+fn to_line_end(rest: &str) -> usize {
+    rest.bytes().position(|byte| matches!(byte, b'\n' | b'\r')).unwrap_or(rest.len())
+}
+
+fn text(lexer: &mut Lexer<'_>) -> Result<(), LexicalError> {
+    let rest = lexer.remainder();
+    let mut bad = None;
+    let mut bytes = rest.bytes().enumerate();
+    while let Some((at, byte)) = bytes.next() {
+        match byte {
+            b'"' => {
+                lexer.bump(at + 1);
+                return bad.map_or(Ok(()), |at| Err(LexicalError::BadEscape(at)));
+            }
+            b'\n' | b'\r' => break,
+            b'\\' => match bytes.next() {
+                Some((_, b'n' | b'r' | b't' | b'"' | b'\\')) => {}
+                Some((_, b'\n' | b'\r')) | None => break,
+                Some(_) => bad = bad.or(Some(at as u32 + 1)),
+            },
+            _ => {}
+        }
+    }
+    lexer.bump(to_line_end(rest));
+    Err(LexicalError::UnclosedText)
+}
+
+fn single_quotes(lexer: &mut Lexer<'_>) -> Result<(), LexicalError> {
+    let rest = lexer.remainder();
+    let end = to_line_end(rest);
+    let close = rest.bytes().take(end).position(|byte| byte == b'\'');
+    lexer.bump(close.map_or(end, |at| at + 1));
+    Err(LexicalError::SingleQuotes)
+}
+
+fn comment(lexer: &mut Lexer<'_>) -> FilterResult<(), LexicalError> {
+    let rest = lexer.remainder();
+    match rest.find("*/") {
+        Some(at) => {
+            lexer.bump(at + 2);
+            FilterResult::Skip
+        }
+        None => {
+            lexer.bump(rest.len());
+            FilterResult::Error(LexicalError::UnclosedComment)
+        }
+    }
+}
+
+/// `\` and blanks up to the line end, which no longer ends the line.
+fn continuation(lexer: &mut Lexer<'_>) -> FilterResult<(), LexicalError> {
+    let rest = lexer.remainder();
+    let end = to_line_end(rest);
+    let blank = rest.bytes().take(end).all(|byte| matches!(byte, b' ' | b'\t' | 0x0b | 0x0c));
+    if !blank {
+        return FilterResult::Error(LexicalError::Backslash);
+    }
+    let line_end = match rest.as_bytes().get(end..) {
+        Some([b'\r', b'\n', ..]) => 2,
+        Some([_, ..]) => 1,
+        _ => 0,
+    };
+    lexer.bump(end + line_end);
+    FilterResult::Skip
+}
+
+/// Characters outside ASCII and the ones they are taken for.
+const LOOK_ALIKES: [(char, char); 22] = [
+    ('。', '.'),
+    ('、', ','),
+    ('“', '"'),
+    ('”', '"'),
+    ('„', '"'),
+    ('«', '"'),
+    ('»', '"'),
+    ('‘', '"'),
+    ('’', '"'),
+    ('【', '['),
+    ('】', ']'),
+    ('《', '<'),
+    ('》', '>'),
+    ('×', '*'),
+    ('÷', '/'),
+    ('–', '-'),
+    ('—', '-'),
+    ('−', '-'),
+    ('￥', '$'),
+    ('￠', '~'),
+    ('\u{3000}', ' '),
+    ('\u{a0}', ' '),
+];
+
+/// The ASCII character that `found` is taken for.
+pub fn look_alike(found: char) -> Option<char> {
+    if let '\u{ff01}'..='\u{ff5e}' = found {
+        return char::from_u32(u32::from(found) - 0xfee0);
+    }
+    LOOK_ALIKES.iter().find(|(foreign, _)| *foreign == found).map(|(_, ascii)| *ascii)
+}
+
+fn foreign(lexer: &mut Lexer<'_>) -> FilterResult<(), LexicalError> {
+    let Some(first) = lexer.slice().chars().next() else {
+        return FilterResult::Error(LexicalError::UnknownCharacter);
+    };
+    if let Some(ascii) = look_alike(first) {
+        if ascii == '"' {
+            let rest = lexer.remainder();
+            let line = rest.get(..to_line_end(rest)).unwrap_or_default();
+            let close = line.char_indices().find(|(_, c)| *c == '"' || look_alike(*c) == Some('"'));
+            lexer.bump(close.map_or(0, |(at, c)| at + c.len_utf8()));
+        }
+        return FilterResult::Error(LexicalError::LooksLike(ascii));
+    }
+    if !first.is_alphanumeric() {
+        return FilterResult::Error(LexicalError::UnknownCharacter);
+    }
+    let rest = lexer.remainder();
+    let of_name = |c: &char| (c.is_alphanumeric() || *c == '_') && look_alike(*c).is_none();
+    let length = rest.chars().take_while(of_name).map(char::len_utf8).sum();
+    lexer.bump(length);
+    FilterResult::Error(LexicalError::ForeignLetters)
+}
+
+fn splice(lexer: &mut Lexer<'_>) -> Result<(), LexicalError> {
+    let rest = lexer.remainder();
+    if !rest.starts_with('(') {
+        let length = rest.bytes().take_while(|byte| byte.is_ascii_alphanumeric() || *byte == b'_').count();
+        let starts_well = rest.starts_with(|first: char| first.is_ascii_alphabetic() || first == '_');
+        if !starts_well {
+            return Err(LexicalError::BareSplice);
+        }
+        lexer.bump(length);
+        return Ok(());
+    }
+    let end = splice_end(rest);
+    lexer.bump(end.unwrap_or(to_line_end(rest)));
+    end.map(|_| ()).ok_or(LexicalError::UnclosedSplice)
+}
+
+/// The bytes from a `(` to behind its `)`; Rust strings and characters inside are passed over.
+fn splice_end(rest: &str) -> Option<usize> {
+    let bytes = rest.as_bytes();
+    let mut depth = 0_usize;
+    let mut at = 0;
+    while let Some(byte) = bytes.get(at) {
+        match byte {
+            b'(' => depth += 1,
+            b')' => {
+                depth -= 1;
+                if depth == 0 {
+                    return Some(at + 1);
+                }
+            }
+            b'"' => {
+                at += 1;
+                while *bytes.get(at)? != b'"' {
+                    at += if bytes.get(at) == Some(&b'\\') { 2 } else { 1 };
+                }
+            }
+            b'\'' => match bytes.get(at + 1..at + 4) {
+                Some([b'\\', _, b'\'']) => at += 3,
+                Some([_, b'\'', _]) => at += 2,
+                _ => {}
+            },
+            _ => {}
+        }
+        at += 1;
+    }
+    None
+}

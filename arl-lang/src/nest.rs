@@ -1,0 +1,450 @@
+//! Nests lines into blocks with a stack of its own, so that a missing or a wrong closing line is one error that
+//! knows its opening line, and depth costs no call stack.
+
+use crate::ast::{Arm, Block, Expr, File, For, Func, If, Item, Stmt, StmtKind, Switch};
+use crate::line::{FuncHead, Line, LineKind};
+use crate::span::{LineIndex, Span};
+use crate::syntax_error::{BLOCK_LEVELS, BlockKind, SyntaxError, SyntaxErrorKind};
+
+/// What is known of a line besides its kind.
+#[derive(Clone, Copy, Default, Debug)]
+pub(crate) struct Doubts {
+    /// It may open a block or not: it could not be read.
+    pub(crate) may_open: bool,
+    /// A `{` stood at its end.
+    pub(crate) braced: bool,
+    /// What it opens is not to be kept.
+    pub(crate) drop: bool,
+}
+
+/// An open block.
+struct Frame {
+    kind: Open,
+    /// The opening line.
+    span: Span,
+    /// The statements of the current branch.
+    body: Block,
+    doubts: Doubts,
+}
+
+/// What was read of a block before its current branch.
+enum Open {
+    Func(Box<FuncHead>),
+    /// The branches that are complete, and the condition of the current one; `None` in the `else`.
+    If(Vec<(Expr, Block)>, Option<Expr>),
+    While(Expr),
+    Repeat,
+    Loop,
+    For(Box<For>),
+    /// The subject, the cases that are complete, the current one, and whether a `default` came.
+    Switch(Expr, Vec<Arm>, Option<(Option<Expr>, Span)>, bool),
+}
+
+impl Open {
+    fn kind(&self) -> BlockKind {
+        match self {
+            Open::Func(_) => BlockKind::Func,
+            Open::If(..) => BlockKind::If,
+            Open::While(_) => BlockKind::While,
+            Open::Repeat => BlockKind::Repeat,
+            Open::Loop => BlockKind::Loop,
+            Open::For(_) => BlockKind::For,
+            Open::Switch(..) => BlockKind::Switch,
+        }
+    }
+}
+
+/// Takes lines in order and makes a file, or a block of statements, of them.
+pub(crate) struct Nest<'source> {
+    source: &'source str,
+    lines: Option<LineIndex>,
+    frames: Vec<Frame>,
+    items: Vec<Item>,
+    /// Statements outside of all blocks, where only statements are read.
+    statements: Block,
+    only_statements: bool,
+    /// Closing lines that may lack their block, or the other way round, because of an error reported before.
+    forgiven: Vec<BlockKind>,
+    /// Whether a statement outside of functions was reported since the last function.
+    outside: bool,
+    /// Whether the block that is one too many was reported.
+    too_deep: bool,
+    last: Span,
+}
+
+impl<'source> Nest<'source> {
+    pub(crate) fn new(source: &'source str, only_statements: bool) -> Self {
+        Self {
+            source,
+            lines: None,
+            frames: Vec::new(),
+            items: Vec::new(),
+            statements: Vec::new(),
+            only_statements,
+            forgiven: Vec::new(),
+            outside: false,
+            too_deep: false,
+            last: Span::default(),
+        }
+    }
+
+    /// Takes the next line.
+    pub(crate) fn take(&mut self, line: Line, doubts: Doubts, errors: &mut Vec<SyntaxError>) {
+        let Line { kind, span } = line;
+        self.last = span;
+        match kind {
+            LineKind::Statement(kind) => self.statement(Stmt { kind, span }, errors),
+            LineKind::Import(import) => {
+                if self.only_statements || !self.frames.is_empty() {
+                    errors.push(SyntaxError::new(SyntaxErrorKind::ImportInside, span));
+                    return;
+                }
+                self.outside = false;
+                self.items.push(Item::Import(*import));
+            }
+            LineKind::Func(head) => self.func(head, span, doubts, errors),
+            LineKind::If(condition) => self.open(Open::If(Vec::new(), Some(condition)), span, doubts, errors),
+            LineKind::While(condition) => self.open(Open::While(condition), span, doubts, errors),
+            LineKind::Repeat => self.open(Open::Repeat, span, doubts, errors),
+            LineKind::Loop => self.open(Open::Loop, span, doubts, errors),
+            LineKind::For(head) => self.open(Open::For(head), span, doubts, errors),
+            LineKind::Switch(subject) => {
+                self.open(Open::Switch(subject, Vec::new(), None, false), span, doubts, errors);
+            }
+            LineKind::ElseIf(condition) => self.branch("elseif", Some(condition), span, doubts, errors),
+            LineKind::Else => self.branch("else", None, span, doubts, errors),
+            LineKind::Case(value) => self.case(Some(value), span, errors),
+            LineKind::Default => self.case(None, span, errors),
+            LineKind::EndFunc => self.close(BlockKind::Func, span, None, errors),
+            LineKind::EndIf => self.close(BlockKind::If, span, None, errors),
+            LineKind::EndWhile => self.close(BlockKind::While, span, None, errors),
+            LineKind::Until(condition) => self.close(BlockKind::Repeat, span, Some(condition), errors),
+            LineKind::EndLoop => self.close(BlockKind::Loop, span, None, errors),
+            LineKind::EndFor => self.close(BlockKind::For, span, None, errors),
+            LineKind::EndSwitch => self.close(BlockKind::Switch, span, None, errors),
+        }
+    }
+
+    /// The items read, after closing what is open.
+    pub(crate) fn file(mut self, errors: &mut Vec<SyntaxError>) -> File {
+        self.finish(errors);
+        self.items.shrink_to_fit();
+        File { items: self.items }
+    }
+
+    /// The statements read, after closing what is open.
+    pub(crate) fn block(mut self, errors: &mut Vec<SyntaxError>) -> Block {
+        self.finish(errors);
+        self.statements.shrink_to_fit();
+        self.statements
+    }
+
+    fn finish(&mut self, errors: &mut Vec<SyntaxError>) {
+        let last = self.last;
+        while !self.frames.is_empty() {
+            self.unclosed(last, errors);
+        }
+    }
+
+    /// The innermost open block, if it was opened with a brace; the block counts as closed then.
+    pub(crate) fn close_brace(&mut self, span: Span) -> bool {
+        let braced = self.frames.last().is_some_and(|frame| frame.doubts.braced);
+        if braced {
+            self.pop(span, None);
+        }
+        braced
+    }
+
+    /// Whether a `}` is due.
+    pub(crate) fn is_braced(&self) -> bool {
+        self.frames.last().is_some_and(|frame| frame.doubts.braced)
+    }
+
+    /// One closing line of this kind may lack its block.
+    pub(crate) fn forgive_end(&mut self, kind: BlockKind) {
+        self.forgiven.push(kind);
+    }
+
+    /// The innermost block was opened with a brace on a line of its own.
+    pub(crate) fn set_braced(&mut self) {
+        if let Some(frame) = self.frames.last_mut() {
+            frame.doubts.braced = true;
+        }
+    }
+
+    /// A line that closes a block in another language's words; whether a block was open.
+    pub(crate) fn close_other(
+        &mut self,
+        text: &str,
+        span: Span,
+        function: bool,
+        errors: &mut Vec<SyntaxError>,
+    ) -> bool {
+        if function && let Some(position) = self.find(|open| open.kind() == BlockKind::Func) {
+            self.close_inside(position, span, errors);
+        }
+        let Some(frame) = self.frames.last() else { return false };
+        let (kind, opened) = (frame.kind.kind(), frame.span);
+        let line = self.line_of(opened);
+        let error = SyntaxError::new(SyntaxErrorKind::OtherEnd(text.into(), kind, line), span);
+        errors.push(error.with(opened, format!("this `{}` is open", kind.opener())));
+        self.forgiven.push(kind);
+        self.pop(span, None);
+        true
+    }
+
+    fn line_of(&mut self, span: Span) -> u32 {
+        let source = self.source;
+        self.lines.get_or_insert_with(|| LineIndex::new(source)).line(span.start)
+    }
+
+    /// Adds a statement to the innermost block.
+    fn statement(&mut self, stmt: Stmt, errors: &mut Vec<SyntaxError>) {
+        let span = stmt.span;
+        match self.frames.last_mut() {
+            Some(frame) => {
+                if let Open::Switch(_, arms, current @ None, _) = &mut frame.kind {
+                    // Reported once: the rest goes to a case that is thrown away with the tree's other errors.
+                    *current = Some((None, span));
+                    debug_assert!(arms.is_empty());
+                    errors.push(
+                        SyntaxError::new(SyntaxErrorKind::BeforeFirstCase, span)
+                            .with(frame.span, "the `switch` begins here"),
+                    );
+                }
+                frame.body.push(stmt);
+            }
+            None if self.only_statements => self.statements.push(stmt),
+            None => match stmt.kind {
+                StmtKind::Decl(decl) => self.items.push(Item::Global(*decl)),
+                _ => self.report_outside(span, errors),
+            },
+        }
+    }
+
+    fn report_outside(&mut self, span: Span, errors: &mut Vec<SyntaxError>) {
+        if !std::mem::replace(&mut self.outside, true) {
+            errors.push(SyntaxError::new(SyntaxErrorKind::OutsideFunction, span));
+        }
+    }
+
+    fn func(&mut self, head: Box<FuncHead>, span: Span, doubts: Doubts, errors: &mut Vec<SyntaxError>) {
+        if self.only_statements {
+            errors.push(SyntaxError::new(SyntaxErrorKind::FuncAmongStatements, span));
+            self.frames.push(Frame {
+                kind: Open::Func(head),
+                span,
+                body: Vec::new(),
+                doubts: Doubts { drop: true, ..doubts },
+            });
+            return;
+        }
+        while !self.frames.is_empty() {
+            self.unclosed(span, errors);
+        }
+        self.forgiven.clear();
+        self.outside = false;
+        self.frames.push(Frame { kind: Open::Func(head), span, body: Vec::new(), doubts });
+    }
+
+    fn open(&mut self, kind: Open, span: Span, mut doubts: Doubts, errors: &mut Vec<SyntaxError>) {
+        if self.frames.is_empty() && !self.only_statements {
+            self.report_outside(span, errors);
+            doubts.drop = true;
+        }
+        if let Some(Frame { kind: Open::Switch(_, _, None, _), .. }) = self.frames.last() {
+            // The block belongs to no case; a statement in its place says so.
+            self.statement(Stmt { kind: StmtKind::Expr(Box::new(error_at(span))), span }, errors);
+        }
+        if self.frames.len() >= BLOCK_LEVELS {
+            if !std::mem::replace(&mut self.too_deep, true) {
+                errors.push(SyntaxError::new(SyntaxErrorKind::TooManyBlocks, span));
+            }
+            doubts.drop = true;
+        }
+        self.frames.push(Frame { kind, span, body: Vec::new(), doubts });
+    }
+
+    /// The position of the innermost open block that `wanted` accepts.
+    fn find(&self, wanted: impl Fn(&Open) -> bool) -> Option<usize> {
+        self.frames.iter().rposition(|frame| wanted(&frame.kind))
+    }
+
+    /// Closes all blocks inside of the one at `position`; each of them lacks its closing line.
+    fn close_inside(&mut self, position: usize, span: Span, errors: &mut Vec<SyntaxError>) {
+        while self.frames.len() > position + 1 {
+            self.unclosed(span, errors);
+        }
+    }
+
+    fn branch(
+        &mut self,
+        word: &'static str,
+        condition: Option<Expr>,
+        span: Span,
+        doubts: Doubts,
+        errors: &mut Vec<SyntaxError>,
+    ) {
+        let Some(position) = self.find(|open| matches!(open, Open::If(..))) else {
+            errors.push(SyntaxError::new(SyntaxErrorKind::BranchOutsideIf(word), span));
+            return;
+        };
+        self.close_inside(position, span, errors);
+        let Some(frame) = self.frames.last_mut() else { return };
+        let Open::If(arms, current) = &mut frame.kind else { return };
+        frame.doubts.may_open = false;
+        frame.doubts.braced |= doubts.braced;
+        let Some(before) = current.take() else {
+            let error = SyntaxError::new(SyntaxErrorKind::BranchAfterElse(word), span);
+            errors.push(error.with(frame.span, "the `if` begins here"));
+            return;
+        };
+        let mut body = std::mem::take(&mut frame.body);
+        body.shrink_to_fit();
+        arms.push((before, body));
+        *current = condition;
+    }
+
+    fn case(&mut self, value: Option<Expr>, span: Span, errors: &mut Vec<SyntaxError>) {
+        let Some(position) = self.find(|open| matches!(open, Open::Switch(..))) else {
+            errors.push(SyntaxError::new(SyntaxErrorKind::CaseOutsideSwitch, span));
+            return;
+        };
+        self.close_inside(position, span, errors);
+        let Some(frame) = self.frames.last_mut() else { return };
+        let Open::Switch(_, arms, current, default) = &mut frame.kind else { return };
+        if value.is_none() && std::mem::replace(default, true) {
+            let error = SyntaxError::new(SyntaxErrorKind::SecondDefault, span);
+            errors.push(error.with(frame.span, "the `switch` begins here"));
+        }
+        end_case(arms, current, &mut frame.body);
+        *current = Some((value, span));
+    }
+
+    fn close(&mut self, kind: BlockKind, span: Span, condition: Option<Expr>, errors: &mut Vec<SyntaxError>) {
+        let Some(position) = self.find(|open| open.kind() == kind) else {
+            self.close_wrongly(kind, span, errors);
+            return;
+        };
+        let inside = self.frames.len() - position - 1;
+        if inside > 0 && kind != BlockKind::Func && self.forgive(kind) {
+            return;
+        }
+        let count = errors.len();
+        self.close_inside(position, span, errors);
+        if errors.len() > count && kind != BlockKind::Func {
+            // It may as well have been meant for the inner block, and the line for the outer one is still to come.
+            self.forgiven.push(kind);
+        }
+        let doubtful = self.frames.last().is_some_and(|frame| frame.doubts.may_open);
+        if doubtful {
+            self.forgiven.push(kind);
+        }
+        self.pop(span, condition);
+    }
+
+    /// A closing line for which no block is open.
+    fn close_wrongly(&mut self, kind: BlockKind, span: Span, errors: &mut Vec<SyntaxError>) {
+        if self.forgive(kind) || (self.outside && kind == BlockKind::Func) {
+            return;
+        }
+        let top = self.frames.last().map(|frame| (frame.kind.kind(), frame.span));
+        match top {
+            Some((open, opened)) if open != BlockKind::Func => {
+                let line = self.line_of(opened);
+                let error = SyntaxError::new(SyntaxErrorKind::WrongEnd(open, line, kind), span);
+                errors.push(error.with(opened, format!("this `{}` is open", open.opener())));
+                self.forgiven.push(open);
+                self.pop(span, None);
+            }
+            _ => errors.push(SyntaxError::new(SyntaxErrorKind::StrayEnd(kind), span)),
+        }
+    }
+
+    /// Whether a line of this kind is forgiven because of an error before; each only once.
+    fn forgive(&mut self, kind: BlockKind) -> bool {
+        let found = self.forgiven.iter().rposition(|forgiven| *forgiven == kind);
+        found.map(|at| self.forgiven.swap_remove(at)).is_some()
+    }
+
+    /// Closes the innermost block, whose closing line is missing before `span`.
+    fn unclosed(&mut self, span: Span, errors: &mut Vec<SyntaxError>) {
+        let Some(frame) = self.frames.last() else { return };
+        let (kind, opened, doubts) = (frame.kind.kind(), frame.span, frame.doubts);
+        if doubts.may_open {
+            // It was no block after all: its statements belong to the block around it.
+            let body = self.frames.pop().map_or(Vec::new(), |frame| frame.body);
+            match self.frames.last_mut() {
+                Some(around) => around.body.extend(body),
+                None => self.statements.extend(body),
+            }
+            return;
+        }
+        let beyond = self.frames.len() > BLOCK_LEVELS;
+        if !beyond && !self.forgive_missing(kind) {
+            let line = self.line_of(opened);
+            let error = SyntaxError::new(SyntaxErrorKind::UnclosedBlock(kind, line), span);
+            errors.push(error.with(opened, format!("this `{}` needs its `{}`", kind.opener(), kind.closer())));
+        }
+        self.pop(span, None);
+    }
+
+    /// Whether a block of this kind may lack its closing line, since a line that could not be read took it.
+    fn forgive_missing(&mut self, kind: BlockKind) -> bool {
+        kind == BlockKind::If && self.forgive(kind)
+    }
+
+    /// Closes the innermost block and adds it to the one around it.
+    fn pop(&mut self, end: Span, condition: Option<Expr>) {
+        let Some(Frame { kind, span, mut body, doubts }) = self.frames.pop() else { return };
+        if self.frames.len() < BLOCK_LEVELS {
+            self.too_deep = false;
+        }
+        if doubts.drop {
+            return;
+        }
+        body.shrink_to_fit();
+        let kind = match kind {
+            Open::Func(head) => {
+                let FuncHead { result, name, params } = *head;
+                self.items.push(Item::Func(Func { result, name, params, body, span, end }));
+                return;
+            }
+            Open::If(mut arms, Some(condition)) => {
+                arms.push((condition, body));
+                StmtKind::If(Box::new(If { arms, otherwise: None }))
+            }
+            Open::If(arms, None) => StmtKind::If(Box::new(If { arms, otherwise: Some(body) })),
+            Open::While(condition) => StmtKind::While(Box::new(condition), body),
+            Open::Repeat => StmtKind::Repeat(body, condition.map(Box::new)),
+            Open::Loop => StmtKind::Loop(body),
+            Open::For(mut head) => {
+                head.body = body;
+                StmtKind::For(head)
+            }
+            Open::Switch(subject, mut arms, mut current, _) => {
+                end_case(&mut arms, &mut current, &mut body);
+                StmtKind::Switch(Box::new(Switch { subject, arms }))
+            }
+        };
+        let stmt = Stmt { kind, span };
+        match self.frames.last_mut() {
+            Some(frame) => frame.body.push(stmt),
+            None => self.statements.push(stmt),
+        }
+    }
+}
+
+/// Moves the current case with its statements to the complete ones.
+fn end_case(arms: &mut Vec<Arm>, current: &mut Option<(Option<Expr>, Span)>, body: &mut Block) {
+    let mut body = std::mem::take(body);
+    body.shrink_to_fit();
+    if let Some((value, span)) = current.take() {
+        arms.push(Arm { value, span, body });
+    }
+}
+
+/// An expression that stands for something that could not be read.
+pub(crate) fn error_at(span: Span) -> Expr {
+    Expr { kind: crate::ast::ExprKind::Error, span }
+}

@@ -1,0 +1,342 @@
+//! Source text to syntax tree. Every entry reads to the end and reports all mistakes, each once.
+
+use logos::Logos;
+
+use crate::adapt::{Adapter, PlacedLexeme};
+use crate::ast::{Block, Expr, ExprKind, File, StmtKind};
+use crate::explain::explain;
+use crate::grammar::LineParser;
+use crate::habits::{Habit, repair};
+use crate::lexer::{Lexeme, LexicalError};
+use crate::line::LineKind;
+use crate::nest::{Doubts, Nest};
+use crate::number::{Number, NumberError, NumberValue};
+use crate::salvage::{Salvaged, salvage};
+use crate::span::Span;
+use crate::symbol::{Interner, Symbol};
+use crate::syntax_error::{SyntaxError, SyntaxErrorKind};
+use crate::token::Placed;
+use crate::tree::Context;
+
+/// What is read besides plain ARL.
+#[derive(Clone, Copy, Default, Debug)]
+pub struct ParseOptions {
+    /// Whether `#name` and `#(tokens)` splice Rust values in, as in the macro.
+    pub splices: bool,
+}
+
+/// A file and what is wrong with its form.
+#[derive(Clone, Debug)]
+pub struct Parsed {
+    /// The tree of all that could be read.
+    pub file: File,
+    /// The mistakes, in the order of the text.
+    pub errors: Vec<SyntaxError>,
+    /// The Rust values spliced in; `ExprKind::Splice` counts them from 0.
+    pub splices: Vec<Splice>,
+}
+
+/// Statements and what is wrong with their form.
+#[derive(Clone, Debug)]
+pub struct ParsedStatements {
+    /// The statements that could be read.
+    pub block: Block,
+    /// The mistakes, in the order of the text.
+    pub errors: Vec<SyntaxError>,
+    /// The Rust values spliced in; `ExprKind::Splice` counts them from 0.
+    pub splices: Vec<Splice>,
+}
+
+/// An expression and what is wrong with its form.
+#[derive(Clone, Debug)]
+pub struct ParsedExpression {
+    /// The expression, `ExprKind::Error` where it could not be read.
+    pub expr: Expr,
+    /// The mistakes, in the order of the text.
+    pub errors: Vec<SyntaxError>,
+    /// The Rust values spliced in; `ExprKind::Splice` counts them from 0.
+    pub splices: Vec<Splice>,
+}
+
+/// A Rust value spliced into ARL.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Splice {
+    /// The name, or what stands between the parentheses.
+    pub span: Span,
+    /// Whether it was written in parentheses.
+    pub parenthesised: bool,
+}
+
+/// Reads a file.
+pub fn parse(source: &str, interner: &mut Interner, options: ParseOptions) -> Parsed {
+    let mut parser = Parser::new(source, interner, options, false);
+    parser.run();
+    let Parser { nest, context, splices, .. } = parser;
+    let mut errors = context.errors;
+    let file = nest.file(&mut errors);
+    Parsed { file, errors: in_order(errors), splices }
+}
+
+/// Reads statements as they stand in a function.
+pub fn parse_statements(source: &str, interner: &mut Interner, options: ParseOptions) -> ParsedStatements {
+    let mut parser = Parser::new(source, interner, options, true);
+    parser.run();
+    let Parser { nest, context, splices, .. } = parser;
+    let mut errors = context.errors;
+    let block = nest.block(&mut errors);
+    ParsedStatements { block, errors: in_order(errors), splices }
+}
+
+/// Reads one expression.
+pub fn parse_expression(source: &str, interner: &mut Interner, options: ParseOptions) -> ParsedExpression {
+    let ParsedStatements { block, mut errors, splices } = parse_statements(source, interner, options);
+    let mut statements = block.into_iter();
+    let whole = Span::new(0, u32::try_from(source.len()).unwrap_or(u32::MAX));
+    let expr = match (statements.next().map(|stmt| stmt.kind), statements.next()) {
+        (Some(StmtKind::Expr(expr)), None) => *expr,
+        (_, second) => {
+            if errors.is_empty() {
+                let span = second.map_or(whole, |stmt| stmt.span);
+                errors.push(SyntaxError::new(SyntaxErrorKind::NotOneExpression, span));
+            }
+            Expr { kind: ExprKind::Error, span: whole }
+        }
+    };
+    ParsedExpression { expr, errors, splices }
+}
+
+fn in_order(mut errors: Vec<SyntaxError>) -> Vec<SyntaxError> {
+    errors.sort_by_key(|error| error.span.start);
+    errors
+}
+
+/// Reads a text line by line.
+struct Parser<'a> {
+    source: &'a str,
+    options: ParseOptions,
+    lexer: logos::Lexer<'a, Lexeme>,
+    lexemes: Vec<PlacedLexeme>,
+    adapter: Adapter<'a>,
+    context: Context<'a>,
+    grammar: LineParser,
+    nest: Nest<'a>,
+    splices: Vec<Splice>,
+    void: Symbol,
+}
+
+impl<'a> Parser<'a> {
+    fn new(source: &'a str, interner: &'a mut Interner, options: ParseOptions, only_statements: bool) -> Self {
+        let fits = u32::try_from(source.len()).is_ok_and(|length| length < u32::MAX);
+        let mut errors = Vec::new();
+        if !fits {
+            errors.push(SyntaxError::new(SyntaxErrorKind::FileTooLarge, Span::new(0, 0)));
+        }
+        let source = if fits { source } else { "" };
+        let mut adapter = Adapter::new(source, interner);
+        let (endl, void) = (adapter.intern("endl"), adapter.intern("void"));
+        let mut lexer = Lexeme::lexer(source);
+        if source.starts_with('\u{feff}') {
+            lexer.bump('\u{feff}'.len_utf8());
+        }
+        Self {
+            source,
+            options,
+            lexer,
+            lexemes: Vec::new(),
+            adapter,
+            context: Context { source, errors, endl },
+            grammar: LineParser::new(),
+            nest: Nest::new(source, only_statements),
+            splices: Vec::new(),
+            void,
+        }
+    }
+
+    fn run(&mut self) {
+        loop {
+            let (more, mut broken) = self.read_line();
+            let lexemes = std::mem::take(&mut self.lexemes);
+            let mut rest = lexemes.as_slice();
+            while !rest.is_empty() {
+                let adapted = self.adapter.adapt(rest, &mut self.context.errors);
+                self.line(broken || adapted.broken);
+                rest = rest.get(adapted.taken.max(1)..).unwrap_or_default();
+                broken = broken && !rest.is_empty();
+            }
+            self.lexemes = lexemes;
+            if !more {
+                return;
+            }
+        }
+    }
+
+    /// Reads the lexemes of the next line that has some; whether more may follow, and whether something on the line
+    /// could not be read.
+    fn read_line(&mut self) -> (bool, bool) {
+        self.lexemes.clear();
+        let mut broken = false;
+        while let Some(lexeme) = self.lexer.next() {
+            let range = self.lexer.span();
+            let (start, end) = (range.start as u32, range.end as u32);
+            match lexeme {
+                Ok(Lexeme::Newline) if self.lexemes.is_empty() && !broken => {}
+                Ok(Lexeme::Newline) => return (true, broken),
+                Ok(Lexeme::Splice) => {
+                    let lexeme = self.splice(start, end);
+                    self.lexemes.push((start, lexeme, end));
+                }
+                Ok(lexeme) => self.lexemes.push((start, lexeme, end)),
+                Err(error) => match self.lexical_error(error, Span::new(start, end)) {
+                    Instead::Lexeme(lexeme) => self.lexemes.push((start, lexeme, end)),
+                    Instead::Nothing => {}
+                    Instead::Broken => broken = true,
+                },
+            }
+        }
+        (false, broken)
+    }
+
+    fn splice(&mut self, start: u32, end: u32) -> Lexeme {
+        if !self.options.splices {
+            let span = Span::new(start, end);
+            self.context.errors.push(SyntaxError::new(SyntaxErrorKind::SpliceOutsideMacro, span));
+            return Lexeme::Faulty;
+        }
+        let parenthesised = Span::new(start + 1, end).text(self.source).starts_with('(');
+        let inside = if parenthesised { Span::new(start + 2, end - 1) } else { Span::new(start + 1, end) };
+        self.splices.push(Splice { span: inside, parenthesised });
+        Lexeme::Splice
+    }
+
+    /// Reports what the lexer could not read, and says what is read instead.
+    fn lexical_error(&mut self, error: LexicalError, span: Span) -> Instead {
+        let text = span.text(self.source);
+        let first = text.chars().next().unwrap_or('\u{fffd}');
+        let (kind, place, instead) = match error {
+            LexicalError::UnknownCharacter => (SyntaxErrorKind::UnknownCharacter(first), span, Instead::Broken),
+            LexicalError::LooksLike(meant) => (SyntaxErrorKind::LooksLike(first, meant), span, punctuation(meant)),
+            LexicalError::ForeignLetters => (SyntaxErrorKind::ForeignLetters(text.into()), span, Instead::Broken),
+            LexicalError::UnclosedText => (SyntaxErrorKind::UnclosedText, span, Instead::Broken),
+            LexicalError::UnclosedComment => {
+                (SyntaxErrorKind::UnclosedComment, Span::new(span.start, span.start + 2), Instead::Nothing)
+            }
+            LexicalError::BadEscape(offset) => {
+                let at = span.start + offset;
+                let escaped = Span::new(at + 1, span.end).text(self.source).chars().next().unwrap_or(' ');
+                let place = Span::new(at, at + 1 + escaped.len_utf8() as u32);
+                (SyntaxErrorKind::BadEscape(escaped), place, Instead::Lexeme(Lexeme::Text))
+            }
+            LexicalError::Number(NumberError::OtherHexadecimal(value)) if self.options.splices => {
+                let value = NumberValue::Int(value, crate::ast::Radix::Hexadecimal);
+                return Instead::Lexeme(Lexeme::Number(Number { value, unit: None }));
+            }
+            LexicalError::Number(error) => {
+                let kind = match error {
+                    NumberError::IntTooLarge => SyntaxErrorKind::IntTooLarge,
+                    NumberError::DoubleTooLarge => SyntaxErrorKind::DoubleTooLarge,
+                    NumberError::BinaryDigits => SyntaxErrorKind::BinaryDigits(text.into()),
+                    NumberError::Exponent => SyntaxErrorKind::NoExponent(text.into()),
+                    NumberError::OtherHexadecimal(value) => SyntaxErrorKind::OtherHexadecimal(value),
+                    NumberError::SeveralPoints | NumberError::Letters => SyntaxErrorKind::BadNumber(text.into()),
+                };
+                (kind, span, Instead::Lexeme(Lexeme::Faulty))
+            }
+            LexicalError::BareDollar => (SyntaxErrorKind::BareDollar, span, Instead::Lexeme(Lexeme::Faulty)),
+            LexicalError::Backslash => (SyntaxErrorKind::Backslash, span, Instead::Broken),
+            LexicalError::SingleQuotes => (SyntaxErrorKind::SingleQuotes, span, Instead::Lexeme(Lexeme::Faulty)),
+            LexicalError::BareSplice | LexicalError::UnclosedSplice => {
+                let kind = if self.options.splices {
+                    SyntaxErrorKind::BareSplice
+                } else {
+                    SyntaxErrorKind::UnknownCharacter(first)
+                };
+                (kind, span, Instead::Broken)
+            }
+        };
+        self.context.errors.push(SyntaxError::new(kind, place));
+        instead
+    }
+
+    /// Reads the line whose tokens the adapter holds.
+    fn line(&mut self, broken: bool) {
+        if self.adapter.tokens.is_empty() {
+            return;
+        }
+        let errors = &mut self.context.errors;
+        let mut doubts = Doubts::default();
+        match repair(&mut self.adapter.tokens, self.source, &mut self.nest, errors) {
+            Habit::None => {}
+            Habit::Braced => doubts.braced = true,
+            Habit::Done => return,
+        }
+        let tokens = self.adapter.tokens.as_slice();
+        if broken {
+            self.salvage(tokens.len(), doubts);
+            return;
+        }
+        let before = self.context.errors.len();
+        match self.grammar.parse(&mut self.context, tokens.iter().copied()) {
+            Ok(line) => {
+                if let LineKind::Statement(StmtKind::CompactIf(parts)) = &line.kind
+                    && let StmtKind::Expr(expr) = &parts.1.kind
+                    && matches!(expr.kind, ExprKind::Brace(_))
+                {
+                    self.context.errors.push(SyntaxError::new(SyntaxErrorKind::BlockBrace, expr.span));
+                }
+                self.nest.take(line, doubts, &mut self.context.errors);
+            }
+            Err(error) => {
+                self.context.errors.truncate(before);
+                let endl = self.context.endl;
+                let is_line = |prefix: &[Placed]| is_line(&self.grammar, self.source, endl, prefix);
+                let (error, at) = explain(error, self.source, tokens, is_line);
+                self.context.errors.push(error);
+                self.salvage(at, doubts);
+            }
+        }
+    }
+
+    /// Takes what can be made of a line that is wrong from its token `at` on.
+    fn salvage(&mut self, at: usize, mut doubts: Doubts) {
+        let tokens = self.adapter.tokens.as_slice();
+        let mut context = Context { source: self.source, errors: Vec::new(), endl: self.context.endl };
+        let good = tokens.get(..at).unwrap_or(tokens);
+        let read = self.grammar.parse(&mut context, good.iter().copied()).ok();
+        let Some(Salvaged { line, may_open, drop }) = salvage(tokens, read, self.void) else { return };
+        doubts.may_open = may_open;
+        doubts.drop = drop;
+        self.nest.take(line, doubts, &mut self.context.errors);
+    }
+}
+
+/// What is read in the place of something that cannot be read.
+enum Instead {
+    Lexeme(Lexeme),
+    Nothing,
+    /// The line is not read by the grammar.
+    Broken,
+}
+
+/// What a character from outside ASCII stands for.
+fn punctuation(meant: char) -> Instead {
+    Instead::Lexeme(match meant {
+        '(' => Lexeme::ParenOpen,
+        ')' => Lexeme::ParenClose,
+        '[' => Lexeme::BracketOpen,
+        ']' => Lexeme::BracketClose,
+        '{' => Lexeme::BraceOpen,
+        '}' => Lexeme::BraceClose,
+        ',' => Lexeme::Comma,
+        ';' => Lexeme::Semicolon,
+        ':' => Lexeme::Colon,
+        '"' => Lexeme::Faulty,
+        ' ' => return Instead::Nothing,
+        _ => return Instead::Broken,
+    })
+}
+
+/// Whether the tokens are a whole line.
+fn is_line(grammar: &LineParser, source: &str, endl: Symbol, tokens: &[Placed]) -> bool {
+    let mut context = Context { source, errors: Vec::new(), endl };
+    grammar.parse(&mut context, tokens.iter().copied()).is_ok()
+}

@@ -1,0 +1,169 @@
+//! What the tree keeps of a line that could not be read: that it opens or closes a block, and what it declares, so
+//! that the error costs this line only.
+
+use crate::ast::{Decl, Expr, For, FuncParam, Ident, Stmt, StmtKind, TypeRef, Var};
+use crate::line::{FuncHead, Line, LineKind};
+use crate::nest::error_at;
+use crate::span::Span;
+use crate::symbol::Symbol;
+use crate::token::{Placed, Token};
+
+/// A line made of one that could not be read.
+pub(crate) struct Salvaged {
+    pub(crate) line: Line,
+    /// It opens a block, or it does not.
+    pub(crate) may_open: bool,
+    /// Its block is not to be kept.
+    pub(crate) drop: bool,
+}
+
+/// What to keep of `tokens`. `read` is the line that its good beginning makes, if it makes one, and `void` the
+/// symbol of that type.
+pub(crate) fn salvage(tokens: &[Placed], read: Option<Line>, void: Symbol) -> Option<Salvaged> {
+    let (first, last) = (tokens.first()?, tokens.last()?);
+    let span = Span::new(first.0, last.2);
+    let unknown = || error_at(span);
+    let mut may_open = false;
+    let mut drop = false;
+    let kind = match first.1 {
+        Token::If => match condition_end(tokens) {
+            Some(end) if end == tokens.len() => LineKind::If(guard(read).unwrap_or_else(unknown)),
+            Some(_) => return None,
+            None => {
+                may_open = true;
+                LineKind::If(unknown())
+            }
+        },
+        Token::ElseIf => LineKind::ElseIf(guard(read).unwrap_or_else(unknown)),
+        Token::While => LineKind::While(guard(read).unwrap_or_else(unknown)),
+        Token::Until => LineKind::Until(guard(read).unwrap_or_else(unknown)),
+        Token::Switch => LineKind::Switch(guard(read).unwrap_or_else(unknown)),
+        Token::Case => LineKind::Case(unknown()),
+        Token::For => {
+            LineKind::For(Box::new(For { init: loop_variable(tokens), condition: None, step: None, body: Vec::new() }))
+        }
+        Token::Else => LineKind::Else,
+        Token::EndIf => LineKind::EndIf,
+        Token::EndWhile => LineKind::EndWhile,
+        Token::Repeat => LineKind::Repeat,
+        Token::Loop => LineKind::Loop,
+        Token::EndLoop => LineKind::EndLoop,
+        Token::EndFor => LineKind::EndFor,
+        Token::Default => LineKind::Default,
+        Token::EndSwitch => LineKind::EndSwitch,
+        Token::EndFunc => LineKind::EndFunc,
+        Token::Func => match read {
+            Some(Line { kind: kind @ LineKind::Func(_), .. }) => kind,
+            _ => {
+                let head = function_head(tokens, void);
+                drop = head.is_none();
+                let nameless = || {
+                    let place = Span::new(first.0, first.2);
+                    let result = TypeRef { name: void, system: false, span: place };
+                    FuncHead { result, name: Ident { symbol: void, span: place }, params: Vec::new() }
+                };
+                LineKind::Func(Box::new(head.unwrap_or_else(nameless)))
+            }
+        },
+        Token::Return => LineKind::Statement(StmtKind::Return(Some(Box::new(unknown())))),
+        Token::Const | Token::Type(_) | Token::Name(_) | Token::System(_) => match declaration(tokens) {
+            Some(decl) => LineKind::Statement(StmtKind::Decl(Box::new(decl))),
+            None => return None,
+        },
+        _ => return None,
+    };
+    Some(Salvaged { line: Line { kind, span }, may_open, drop })
+}
+
+/// The condition that was read before the error.
+fn guard(read: Option<Line>) -> Option<Expr> {
+    match read?.kind {
+        LineKind::If(guard)
+        | LineKind::ElseIf(guard)
+        | LineKind::While(guard)
+        | LineKind::Until(guard)
+        | LineKind::Switch(guard) => Some(guard),
+        _ => None,
+    }
+}
+
+/// The number of the token behind the parentheses of the condition that begins with the second one.
+fn condition_end(tokens: &[Placed]) -> Option<usize> {
+    let mut depth = 0_usize;
+    for (at, (_, token, _)) in tokens.iter().enumerate().skip(1) {
+        match token {
+            Token::ParenOpen => depth += 1,
+            Token::ParenClose if depth <= 1 => return Some(at + 1),
+            Token::ParenClose => depth -= 1,
+            _ => {}
+        }
+    }
+    None
+}
+
+fn name(token: Option<&Placed>) -> Option<Ident> {
+    match token {
+        Some((start, Token::Name(symbol), end)) => Some(Ident { symbol: *symbol, span: Span::new(*start, *end) }),
+        _ => None,
+    }
+}
+
+fn type_ref(token: Option<&Placed>) -> Option<TypeRef> {
+    let (start, token, end) = token?;
+    let span = Span::new(*start, *end);
+    match token {
+        Token::Name(name) | Token::Type(name) => Some(TypeRef { name: *name, system: false, span }),
+        Token::System(name) => Some(TypeRef { name: *name, system: true, span }),
+        _ => None,
+    }
+}
+
+/// The variables that the line declares; their values are unknown.
+fn declaration(tokens: &[Placed]) -> Option<Decl> {
+    let constant = tokens.first().filter(|first| first.1 == Token::Const).map(|first| Span::new(first.0, first.2));
+    let rest = tokens.get(usize::from(constant.is_some())..)?;
+    let ty = type_ref(rest.first())?;
+    name(rest.get(1))?;
+    let span = Span::new(tokens.first()?.0, tokens.last()?.2);
+    let mut vars = Vec::new();
+    let mut depth = 0_usize;
+    for pair in rest.windows(2) {
+        let [(_, before, _), token] = pair else { continue };
+        match before {
+            Token::ParenOpen | Token::BracketOpen | Token::BraceOpen => depth += 1,
+            Token::ParenClose | Token::BracketClose | Token::BraceClose => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        let declares = vars.is_empty() || (depth == 0 && *before == Token::Comma);
+        if let (true, Some(name)) = (declares, name(Some(token))) {
+            vars.push(Var { name, dims: Vec::new(), init: Some(error_at(span)) });
+        }
+    }
+    Some(Decl { constant, ty, vars, span })
+}
+
+/// The variable that a `for` declares.
+fn loop_variable(tokens: &[Placed]) -> Option<Stmt> {
+    let mut decl = declaration(tokens.get(2..)?)?;
+    decl.vars.truncate(1);
+    Some(Stmt { span: decl.span, kind: StmtKind::Decl(Box::new(decl)) })
+}
+
+/// The name of a function and such parameters as can be made out.
+fn function_head(tokens: &[Placed], void: Symbol) -> Option<FuncHead> {
+    let (result, name_at) = match (tokens.get(1), tokens.get(2)) {
+        (Some((start, Token::Name(_), _)), None | Some((_, Token::ParenOpen, _))) => {
+            (TypeRef { name: void, system: false, span: Span::new(*start, *start) }, 1)
+        }
+        (token, _) => (type_ref(token)?, 2),
+    };
+    let name_of = name(tokens.get(name_at))?;
+    let mut params = Vec::new();
+    for three in tokens.get(name_at + 1..).unwrap_or_default().windows(3) {
+        let [(_, Token::ParenOpen | Token::Comma, _), ty, param] = three else { continue };
+        if let (Some(ty), Some(name)) = (type_ref(Some(ty)), name(Some(param))) {
+            params.push(FuncParam { ty, name, dims: Vec::new(), span: ty.span.to(name.span) });
+        }
+    }
+    Some(FuncHead { result, name: name_of, params })
+}

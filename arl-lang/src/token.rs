@@ -1,0 +1,82 @@
+//! The tokens of the grammar: what the token adapter makes of the lexer's.
+
+use crate::ast::{BinaryOp, Radix, Unit};
+use crate::symbol::Symbol;
+
+/// A token of the grammar; its text is under the span that travels with it.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Token {
+    /// A name, also a reserved word where only a name can stand (behind `.` and `::`).
+    Name(Symbol),
+    /// `$NAME`, without the `$`.
+    System(Symbol),
+    /// The reserved name of a type.
+    Type(Symbol),
+    /// The name of an instruction at the start of a statement.
+    Instruction(Symbol),
+    /// `label:` in front of an argument, the colon included.
+    Label(Symbol),
+    /// The name of a component in braces, in front of its value.
+    Component(Symbol),
+    /// `label:` on a line of its own, the colon included.
+    Target(Symbol),
+    Int(u32, Radix),
+    Double(f64),
+    Text,
+    True,
+    False,
+    Endl,
+    /// A number or a string that could not be read; reported already.
+    Faulty,
+    /// A unit behind a number.
+    Unit(Unit),
+    /// A Rust value of the macro.
+    Splice(u32),
+    /// An operator between two operands, minus excepted.
+    Operator(BinaryOp),
+    Minus,
+    Not,
+    Complement,
+    PlusPlus,
+    MinusMinus,
+    /// `=`, `+=` and so on.
+    Assign(Option<BinaryOp>),
+    ParenOpen,
+    ParenClose,
+    BracketOpen,
+    BracketClose,
+    BraceOpen,
+    BraceClose,
+    Comma,
+    Semicolon,
+    Colon,
+    Scope,
+    Dot,
+    Break,
+    Case,
+    Const,
+    Continue,
+    Default,
+    Else,
+    ElseIf,
+    EndFor,
+    EndFunc,
+    EndIf,
+    EndLoop,
+    EndSwitch,
+    EndWhile,
+    For,
+    Func,
+    Goto,
+    If,
+    Import,
+    Loop,
+    Repeat,
+    Return,
+    Switch,
+    Until,
+    While,
+}
+
+/// A token between its first byte and the byte behind its last one.
+pub(crate) type Placed = (u32, Token, u32);
