@@ -444,9 +444,10 @@ impl Checker<'_> {
     }
 }
 
-/// How many arguments a parameter takes.
+/// How many arguments a parameter takes; the catalog's greatest number means any.
 fn most(param: &Parameter) -> usize {
     match param.presence {
+        Presence::Repeat { max: u8::MAX, .. } => usize::MAX,
         Presence::Repeat { max, .. } => usize::from(max),
         _ => 1,
     }

@@ -94,6 +94,9 @@ impl Checker<'_> {
             return self.report_family(body, call.name.span, all.first()?);
         };
         self.strict_case(body, call.name.span, first.name);
+        if first.name == "typeof" {
+            return self.type_of(body, first, call, span);
+        }
         let fitting: Vec<&'static Entry> =
             overloads.iter().copied().filter(|entry| takes_count(entry, call.args.len())).collect();
         if !fitting.is_empty() {
@@ -119,16 +122,23 @@ impl Checker<'_> {
         if entry.status == Status::NotYet {
             return self.report(body, name, SupportProblem::NotYet { name: entry.name.into() });
         }
-        if entry.path == "typeof" || entry.name == "typeof" {
-            let ty = match args.first().map(|bound| &bound.value) {
-                Some(Passed::Value(value)) => self.type_name(value.ty),
-                _ => return None,
-            };
-            let kind = ExprKind::Const(Value::String(ty.into()));
-            return Some(Expr { ty: Type::scalar(Base::String), kind, span });
-        }
         let ty = Type::scalar(entry.result);
         Some(Expr { ty, kind: ExprKind::Builtin(Box::new(Builtin { entry, args })), span })
+    }
+
+    /// `typeof(e)`: known here, so `e` (which may be a handle) is not evaluated.
+    fn type_of(&mut self, body: &mut Body, entry: &'static Entry, call: &ast::Call, span: Span) -> Option<Expr> {
+        let [arg] = call.args.as_slice() else {
+            self.bind(body, &Callee::Builtin(entry), &call.args, call.name.span);
+            return None;
+        };
+        let typed = self.expr(body, &arg.value, None)?;
+        if typed.expr.ty.base == Base::Void {
+            return self.report_no_value(body, &typed.expr);
+        }
+        let name = self.type_name(typed.expr.ty);
+        let kind = ExprKind::Const(Value::String(name.into()));
+        Some(Expr { ty: Type::scalar(Base::String), kind, span })
     }
 
     pub(crate) fn report_family<T>(&mut self, body: &Body, span: Span, entry: &Entry) -> Option<T> {

@@ -110,7 +110,7 @@ fn enum_constant(id: Enum, number: i64) -> Option<Value> {
 }
 
 /// The function or way that does what no implicit conversion does.
-fn instead(from: Base, to: Base) -> Option<String> {
+pub(crate) fn instead(from: Base, to: Base) -> Option<String> {
     let words = match (from, to) {
         (Base::Double, Base::Int | Base::Uint | Base::Byte) => {
             "`toint(...)` cuts the fraction; `toint(trunc(..., 0, true))` rounds"

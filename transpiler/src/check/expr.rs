@@ -133,7 +133,7 @@ impl Checker<'_> {
                 found: self.type_name(combined.ty),
                 wanted: self.type_name(ty),
                 what: format!("the result of `{}=`", op.text()),
-                use_instead: None,
+                use_instead: super::convert::instead(combined.ty.base, ty.base),
             };
             return self.report(body, span, problem);
         }

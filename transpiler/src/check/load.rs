@@ -6,7 +6,7 @@ use crate::hir::ModuleId;
 use crate::{CheckOptions, SourceError, Sources};
 use arl_lang::ast;
 use arl_lang::catalog;
-use arl_lang::{ParseOptions, parse};
+use arl_lang::{ParseOptions, Splice, parse, parse_statements};
 use arl_lang::span::Span;
 use arl_lang::symbol::{Interner, Symbol};
 use std::collections::HashMap;
@@ -32,6 +32,17 @@ pub(crate) struct LoadedModule {
     pub(crate) data_module: Option<ModuleId>,
 }
 
+/// Where a program begins.
+#[derive(Clone, Copy)]
+pub(crate) enum Start<'a> {
+    /// In the file at the path.
+    File,
+    /// In this text, which stands for the file at the path.
+    Text(&'a str),
+    /// In these statements, which become the body of a function `fragment`.
+    Statements(&'a str),
+}
+
 /// Everything that was read.
 #[derive(Default)]
 pub(crate) struct Loaded {
@@ -40,22 +51,33 @@ pub(crate) struct Loaded {
     pub(crate) files: Files,
     pub(crate) read: Vec<PathBuf>,
     pub(crate) diagnostics: Vec<Diagnostic>,
+    /// The Rust values spliced into statements.
+    pub(crate) splices: Vec<Splice>,
     by_path: HashMap<PathBuf, ModuleId>,
 }
 
 /// Reads the program that begins at `main`.
-pub(crate) fn load(main: &Path, sources: &dyn Sources, options: &CheckOptions) -> Loaded {
+pub(crate) fn load(main: &Path, start: Start<'_>, sources: &dyn Sources, options: &CheckOptions) -> Loaded {
     let mut loaded = Loaded::default();
     let main = clean(main);
-    loaded.read.push(main.clone());
-    match sources.read(&main) {
-        Ok(bytes) => {
-            loaded.add(&main, main.display().to_string(), &bytes, None);
+    let shown = main.display().to_string();
+    match start {
+        Start::Statements(text) => loaded.add_statements(&main, shown, text),
+        Start::Text(text) => {
+            loaded.add(&main, shown, text.as_bytes(), None);
         }
-        Err(error) => {
-            let file = loaded.files.add(main.display().to_string(), String::new());
-            let problem = source_problem(main.display().to_string(), error);
-            loaded.diagnostics.push(problem.at(Location { file, span: Span::default() }));
+        Start::File => {
+            loaded.read.push(main.clone());
+            match sources.read(&main) {
+                Ok(bytes) => {
+                    loaded.add(&main, shown, &bytes, None);
+                }
+                Err(error) => {
+                    let file = loaded.files.add(shown.clone(), String::new());
+                    let problem = source_problem(shown, error);
+                    loaded.diagnostics.push(problem.at(Location { file, span: Span::default() }));
+                }
+            }
         }
     }
     let mut next = 0;
@@ -83,25 +105,50 @@ impl Loaded {
                 return None;
             }
         };
-        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         let parsed = parse(&text, &mut self.names, ParseOptions::default());
         let file = self.files.add(shown, text);
         for error in &parsed.errors {
             self.diagnostics.push(syntax_diagnostic(error, file));
         }
+        Some(self.push(path, file, parsed.file))
+    }
+
+    /// Adds statements as the body of a function.
+    fn add_statements(&mut self, path: &Path, shown: String, text: &str) {
+        let parsed = parse_statements(text, &mut self.names, ParseOptions { splices: true });
+        let file = self.files.add(shown, text.to_string());
+        for error in &parsed.errors {
+            self.diagnostics.push(syntax_diagnostic(error, file));
+        }
+        self.splices = parsed.splices;
+        let end = Span::new(text.len() as u32, text.len() as u32);
+        let start = Span::default();
+        let func = ast::Func {
+            result: ast::TypeRef { name: self.names.intern("void"), system: false, span: start },
+            name: ast::Ident { symbol: self.names.intern("fragment"), span: start },
+            params: Vec::new(),
+            body: parsed.block,
+            span: start,
+            end,
+        };
+        self.push(path, file, ast::File { items: vec![ast::Item::Func(func)] });
+    }
+
+    fn push(&mut self, path: &Path, file: FileId, ast: ast::File) -> ModuleId {
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         let id = ModuleId(self.modules.len() as u32);
         self.modules.push(LoadedModule {
             name: self.names.intern(&stem),
             file,
             path: path.to_path_buf(),
-            ast: parsed.file,
+            ast,
             data: stem.to_ascii_lowercase().ends_with("_data"),
             imports: HashMap::new(),
             import_lines: Vec::new(),
             data_module: None,
         });
         self.by_path.insert(path.to_path_buf(), id);
-        Some(id)
+        id
     }
 }
 

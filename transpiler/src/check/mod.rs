@@ -12,6 +12,7 @@ mod context;
 mod convert;
 mod declare;
 mod expr;
+mod first_motion;
 mod flow;
 mod fold;
 mod load;
@@ -28,14 +29,61 @@ use crate::{CheckOptions, Checked, Sources};
 use arl_lang::catalog::Base;
 use arl_lang::span::Span;
 use context::Checker;
-use load::{Loaded, LoadedModule};
+use load::{Loaded, LoadedModule, Start};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 /// Checks the program that begins at the file `main`.
 pub fn check(main: &Path, sources: &dyn Sources, options: &CheckOptions) -> Checked {
-    let loaded = load::load(main, sources, options);
-    let Loaded { modules, names, files, read, diagnostics, .. } = loaded;
+    check_loaded(load::load(main, Start::File, sources, options), options).0
+}
+
+/// Checks a program whose main file is this text; `main` is where it would lie.
+pub fn check_text(main: &Path, text: &str, sources: &dyn Sources, options: &CheckOptions) -> Checked {
+    check_loaded(load::load(main, Start::Text(text), sources, options), options).0
+}
+
+/// Checks statements, as they may stand in a function of ARL, with Rust values spliced in. In the program they are
+/// the body of its one function, `fragment`.
+pub fn check_statements(
+    place: &Path,
+    text: &str,
+    sources: &dyn Sources,
+    options: &CheckOptions,
+) -> (Checked, Vec<SplicedValue>) {
+    let options = CheckOptions { library: true, ..options.clone() };
+    check_loaded(load::load(place, Start::Statements(text), sources, &options), &options)
+}
+
+/// A Rust value in ARL statements: `#name`, `#(expression)`, `#(expression as double)`.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct SplicedValue {
+    /// The Rust expression in the text, without `#`, parentheses and the ARL type.
+    pub rust: Span,
+    /// The ARL type that was written behind `as`.
+    pub ty: Option<Base>,
+}
+
+/// The Rust expression of a splice, and its ARL type where ` as type` ends it. `as f64` is Rust's own and stays.
+fn spliced_value(text: &str, splice: &arl_lang::Splice) -> SplicedValue {
+    let inside = splice.span.text(text);
+    let typed = inside.rfind(" as ").and_then(|at| {
+        let name = inside.get(at + 4..)?.trim();
+        let base = arl_lang::catalog::base_type(name).filter(|base| *base != Base::Void)?;
+        Some((at, base))
+    });
+    match typed.filter(|_| splice.parenthesised) {
+        Some((at, base)) => {
+            SplicedValue { rust: Span::new(splice.span.start, splice.span.start + at as u32), ty: Some(base) }
+        }
+        None => SplicedValue { rust: splice.span, ty: None },
+    }
+}
+
+fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<SplicedValue>) {
+    let Loaded { modules, names, files, read, diagnostics, splices, .. } = loaded;
+    let main_text = files.iter().next().map(|(_, file)| file.text.as_str()).unwrap_or_default();
+    let spliced: Vec<SplicedValue> = splices.iter().map(|splice| spliced_value(main_text, splice)).collect();
     let mut checker = Checker {
         names: &names,
         modules: &modules,
@@ -46,7 +94,7 @@ pub fn check(main: &Path, sources: &dyn Sources, options: &CheckOptions) -> Chec
         funcs: Vec::new(),
         diagnostics,
         used_modules: HashSet::new(),
-        splices: Vec::new(),
+        splices: spliced.iter().map(|splice| splice.ty.map(hir::Type::scalar)).collect(),
         functions: HashMap::new(),
     };
     checker.collect(&first_values_order(&modules));
@@ -64,15 +112,16 @@ pub fn check(main: &Path, sources: &dyn Sources, options: &CheckOptions) -> Chec
             file: modules.get(module.0 as usize).map_or(crate::diagnostics::FileId(0), |module| module.file),
             span,
         };
-        let conditions = conditions::check(&built, &locate);
-        if conditions.is_empty() {
+        let mut late = conditions::check(&built, &locate);
+        late.extend(first_motion::check(&built, &locate));
+        if late.is_empty() {
             program = Some(built);
         }
-        diagnostics.extend(conditions);
+        diagnostics.extend(late);
     }
     diagnostics.sort_by(|a, b| (a.primary.at, a.code).cmp(&(b.primary.at, b.code)));
     diagnostics.dedup();
-    Checked { program, diagnostics, files, read }
+    (Checked { program, diagnostics, files, read }, spliced)
 }
 
 /// The order in which modules get their first values: what is imported goes before what imports it.

@@ -183,7 +183,10 @@ impl Checker<'_> {
         }
         let place = match self.place_or_value(body, expr)? {
             PlaceOrValue::Place(place) => place,
-            PlaceOrValue::Value(_) => return self.report(body, expr.span, TypeProblem::NotAssignable),
+            PlaceOrValue::Value(_) => {
+                let text = self.text(body.module, expr.span).to_string();
+                return self.report(body, expr.span, TypeProblem::NotAssignable { text });
+            }
         };
         match place.root {
             Root::Local(id) => {

@@ -29,6 +29,8 @@ pub(crate) enum FlowProblem {
     SwitchType { ty: String },
     /// A condition that waits or moves.
     ConditionWaits { culprit: String },
+    /// A first motion that leaves open where it begins.
+    FirstMotion { instruction: String, missing: String },
     /// Statements that cannot be reached.
     Unreachable,
     /// A variable that is never read.
@@ -58,6 +60,7 @@ impl Problem for FlowProblem {
             FlowProblem::DefaultTwice => 510,
             FlowProblem::SwitchType { .. } => 511,
             FlowProblem::ConditionWaits { .. } => 512,
+            FlowProblem::FirstMotion { .. } => 513,
             FlowProblem::Unreachable => 901,
             FlowProblem::UnusedVariable { .. } => 902,
             FlowProblem::UnusedLabel { .. } => 903,
@@ -84,6 +87,9 @@ impl Problem for FlowProblem {
             FlowProblem::SwitchType { ty } => format!("a switch cannot compare values of type {ty}"),
             FlowProblem::ConditionWaits { culprit } => {
                 format!("a condition may not wait or move, but `{culprit}` does")
+            }
+            FlowProblem::FirstMotion { instruction, missing } => {
+                format!("the first motion of the program, this `{instruction}`, does not set {missing}")
             }
             FlowProblem::Unreachable => "this is never reached".into(),
             FlowProblem::UnusedVariable { name } => format!("the variable `{name}` is never read"),
@@ -118,6 +124,9 @@ impl Problem for FlowProblem {
                 Some("int, byte, uint, bool, string and enumerations can be compared".into())
             }
             FlowProblem::ConditionWaits { .. } => Some("a condition may read inputs and compute".into()),
+            FlowProblem::FirstMotion { .. } => {
+                Some("what is not set keeps its start, and before the first motion no start is known: set all axes".into())
+            }
             FlowProblem::MissingReturn { result, .. } => {
                 Some(format!("it then returns the start value of {result}; write a `return` to say so"))
             }

@@ -83,6 +83,7 @@ static CODES: &[CodeInfo] = &[
     error(510, "more than one default"),
     error(511, "switch on a type that cannot be compared"),
     error(512, "condition that waits or moves"),
+    error(513, "first motion that is not fully set"),
     error(601, "file not found"),
     error(602, "file that cannot be read"),
     error(603, "file of unknown encoding"),

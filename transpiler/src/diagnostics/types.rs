@@ -30,7 +30,7 @@ pub(crate) enum TypeProblem {
     /// Writing a const.
     AssignConst { name: String },
     /// Writing something that is no variable.
-    NotAssignable,
+    NotAssignable { text: String },
     /// Writing a system variable that the controller keeps.
     ReadOnly { name: String },
     /// Comparing structures or arrays.
@@ -78,7 +78,7 @@ impl Problem for TypeProblem {
             TypeProblem::MixedBraces => 310,
             TypeProblem::ComponentTwice { .. } => 311,
             TypeProblem::AssignConst { .. } => 312,
-            TypeProblem::NotAssignable => 313,
+            TypeProblem::NotAssignable { .. } => 313,
             TypeProblem::ReadOnly { .. } => 314,
             TypeProblem::Compare { .. } => 315,
             TypeProblem::HandleCopy { .. } => 316,
@@ -125,7 +125,7 @@ impl Problem for TypeProblem {
             TypeProblem::MixedBraces => "braces give values by position or by name, not both".into(),
             TypeProblem::ComponentTwice { name } => format!("the component `{name}` is given twice"),
             TypeProblem::AssignConst { name } => format!("`{name}` is const and cannot be written"),
-            TypeProblem::NotAssignable => "this is not a variable and cannot be written".into(),
+            TypeProblem::NotAssignable { text } => format!("`{text}` is not a variable and cannot be written"),
             TypeProblem::ReadOnly { name } => format!("`${name}` is read-only: the controller sets it"),
             TypeProblem::Compare { ty } => format!("values of type {ty} cannot be compared as a whole"),
             TypeProblem::HandleCopy { ty } => format!("a {ty} is a handle and cannot be copied"),
@@ -148,7 +148,7 @@ impl Problem for TypeProblem {
         match self {
             TypeProblem::Mismatch { found, .. } => format!("this is {found}"),
             TypeProblem::DoesNotFit { range, .. } => range.clone(),
-            TypeProblem::AssignConst { .. } | TypeProblem::NotAssignable | TypeProblem::ReadOnly { .. } => {
+            TypeProblem::AssignConst { .. } | TypeProblem::NotAssignable { .. } | TypeProblem::ReadOnly { .. } => {
                 "written here".into()
             }
             TypeProblem::TooManyValues { .. } => "one too many".into(),
