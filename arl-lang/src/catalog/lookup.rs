@@ -47,15 +47,6 @@ pub const CHAPTERS: &[Chapter] = &[
 const VARIABLES: [&[SystemVariable]; 4] =
     [super::system::DATA, super::system::FUNCTION, super::system::SOCKETS, super::system::EXTERNAL];
 
-/// Words that users cannot give to anything: Appendix A of the manual and the words of the control structures.
-const RESERVED: &str = "\
-    accset bool break byte case ccir cir clock compen const continue controlmode default double else elseif \
-    endcompen endfor endfunc endif endl endloop endswitch endweave endwhile exit false for frame func goto if \
-    import int interrupt joint jvel lin loop movej num_base parity pause pos pose print printto ptp repeat \
-    restart return scan slip speed startcompen startmove startweave stopbits stopmove stoptype string switch \
-    timer tool toolinertiapara toolload toolswitch trigger true uint until velset void waittime waituntil \
-    weavedata weaverotaxis weaveshape while wobj";
-
 /// Names that old programs and the manual's misprints use, and what is right.
 const RENAMED: &[(&str, &str)] = &[
     ("dfspped", "$DFSPEED"),
@@ -78,7 +69,6 @@ struct Index {
     constants: Names<&'static Constant>,
     enum_constants: Names<(Enum, u16)>,
     types: Names<Base>,
-    reserved: Names<()>,
     renamed: Names<&'static str>,
 }
 
@@ -109,7 +99,6 @@ impl Index {
             constants: super::constants::CONSTANTS.iter().map(|constant| (folded(constant.name), constant)).collect(),
             enum_constants: Names::default(),
             types: Names::default(),
-            reserved: RESERVED.split_ascii_whitespace().map(|word| (word, ())).collect(),
             renamed: RENAMED.iter().copied().collect(),
         };
         for variable in system_variables() {
@@ -221,9 +210,10 @@ pub fn base_type(name: &str) -> Option<Base> {
     find(&INDEX.types, name)
 }
 
-/// Whether users cannot give this name to anything. Built-in functions can be hidden, so they are not reserved.
+/// Whether users cannot give this name to anything: Appendix A of the manual and the words of the control structures.
+/// Built-in functions can be hidden, so they are not reserved.
 pub fn reserved(name: &str) -> bool {
-    find(&INDEX.reserved, name).is_some()
+    crate::is_reserved(name)
 }
 
 /// What is right in place of an old or misprinted name, which may be given with or without `$`.

@@ -325,3 +325,37 @@ fn pages_show_what_the_tables_say() {
         }
     }
 }
+
+#[test]
+fn every_example_is_read_without_a_mistake() {
+    let entries = all_entries().iter().map(|entry| (entry.name, entry.example));
+    for (name, example) in entries.chain(system_variables().map(|variable| (variable.name, variable.example))) {
+        let mut names = crate::symbol::Interner::new();
+        let read = crate::parse_statements(example, &mut names, crate::ParseOptions::default());
+        assert!(read.errors.is_empty(), "{name}: {example}\n{:?}", read.errors);
+    }
+}
+
+#[test]
+fn every_type_declares_variables() {
+    for (name, base) in type_names().filter(|(_, base)| *base != Base::Void) {
+        let mark = if base.is_system() { "$" } else { "" };
+        let mut names = crate::symbol::Interner::new();
+        let text = format!("{mark}{name} first, second[2]");
+        let read = crate::parse_statements(&text, &mut names, crate::ParseOptions::default());
+        let declares = matches!(read.block.first().map(|stmt| &stmt.kind), Some(crate::ast::StmtKind::Decl(_)));
+        assert!(declares && read.errors.is_empty(), "{text}: {:?}", read.errors);
+    }
+}
+
+#[test]
+fn defaults_of_system_variables_are_read_without_a_mistake() {
+    for variable in system_variables() {
+        let mut names = crate::symbol::Interner::new();
+        let read = crate::parse_expression(variable.default, &mut names, crate::ParseOptions::default());
+        assert!(read.errors.is_empty(), "${}: {}", variable.name, variable.default);
+        let braces = matches!(read.expr.kind, crate::ast::ExprKind::Brace(_));
+        let wanted = !variable.dims.is_empty() || matches!(variable.ty, Base::Struct(_));
+        assert_eq!(braces, wanted, "${}: {}", variable.name, variable.default);
+    }
+}
