@@ -240,6 +240,15 @@ impl Opw {
         2 * pair.map_or(0, |(pair, _)| pair) + u8::from(negative)
     }
 
+    /// How clear the axes are of a singular point, 0 to 1: the least of the sines of the wrist's middle angle and of the
+    /// angle at the elbow, and of the wrist centre's distance from axis 1 as part of the arm's length.
+    pub fn clearance(&self, axes: &Axes) -> f64 {
+        let [_, t2, t3, _, t5, _] = self.inner(axes);
+        let (s23, c23) = (t2 + t3).sin_cos();
+        let depth = self.a1 + self.c2 * t2.sin() + self.c3 * s23 + self.a2 * c23;
+        t5.sin().abs().min((t3 + self.psi).sin().abs()).min(depth.abs() / (self.c2 + self.k))
+    }
+
     /// How far, in mm, the wrist centre is from what the arm reaches in any configuration.
     pub fn beyond_reach(&self, flange: &Frame) -> f64 {
         let rotation = flange.rotation.to_rotation_matrix().into_inner();

@@ -1,0 +1,81 @@
+use super::joints::Joints;
+use crate::kinematics::{Frame, Wanted};
+use crate::robot::EXTERNAL_AXES;
+
+/// One motion instruction with everything resolved that applies to it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Command {
+    /// Where to go, and how.
+    pub target: Target,
+    /// The tool on the flange: the TCP's frame seen from the flange, translation in mm.
+    pub tool: Frame,
+    /// The programmed speed.
+    pub speed: Speed,
+    /// The time that the motion shall take, in s; it replaces the programmed speed.
+    pub duration: Option<f64>,
+    /// The program line, for the trace.
+    pub line: u32,
+}
+
+/// Where a motion goes. Components that are [`super::UNSET`] stay as they are where the motion starts.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Target {
+    /// movej: all axes to their positions, arriving together.
+    Joints(Joints),
+    /// ptp: the TCP to a pose, all axes arriving together.
+    Pose {
+        /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
+        pose: [f64; 6],
+        /// The workpiece frame in the robot's base, translation in mm.
+        wobj: Frame,
+        /// The solution that is wanted.
+        wanted: Wanted,
+        /// External axes in deg (mm).
+        external: [f64; EXTERNAL_AXES],
+    },
+    /// lin: the TCP along a straight line, turning evenly; the configuration stays that of the start.
+    Line {
+        /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
+        pose: [f64; 6],
+        /// The workpiece frame in the robot's base, translation in mm.
+        wobj: Frame,
+        /// External axes in deg (mm).
+        external: [f64; EXTERNAL_AXES],
+    },
+}
+
+/// The programmed speed. A motion uses the components that fit it; the robot's own limits hold besides.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Speed {
+    /// Axis motions: percent of every axis's speed, above 0; more than 100 counts as 100.
+    pub percent: f64,
+    /// Lines: speed of the TCP in mm/s, above 0.
+    pub tcp: f64,
+    /// Lines: turning speed of the tool in deg/s, above 0.
+    pub ori: f64,
+    /// External turning axes: deg/s, above 0.
+    pub exj: f64,
+    /// External linear axes: mm/s, above 0.
+    pub exl: f64,
+}
+
+/// What holds for all motions until it is changed.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Settings {
+    /// `velset` override: percent of all programmed speeds, above 0 to 100.
+    pub speed_percent: f64,
+    /// `velset` max: the highest speed of the TCP on lines, in mm/s; infinite where there is none.
+    pub max_tcp: f64,
+    /// `accset` acc: percent of all accelerations. Below 20 counts as 20, above 100 as 100.
+    pub acc_percent: f64,
+    /// `accset` ramp: percent of all jerks. Below 20 counts as 20, above 100 as 100.
+    pub jerk_percent: f64,
+    /// Manual low-speed mode: the TCP moves at most 250 mm/s, on every kind of motion.
+    pub manual: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { speed_percent: 100.0, max_tcp: f64::INFINITY, acc_percent: 100.0, jerk_percent: 100.0, manual: false }
+    }
+}

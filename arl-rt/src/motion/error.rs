@@ -1,0 +1,98 @@
+use std::fmt;
+
+/// Why a motion cannot be planned.
+#[derive(Clone, PartialEq, Debug)]
+pub enum PlanError {
+    /// An axis would leave its range.
+    AxisLimit {
+        /// The axis's name.
+        axis: String,
+        /// The farthest position it would take, in deg (mm).
+        value: f64,
+        /// Its range.
+        min: f64,
+        /// Its range.
+        max: f64,
+        /// Where on the path it leaves its range, 0 to 1; 1 is the target.
+        along: f64,
+    },
+    /// The arm does not reach the pose.
+    Unreachable {
+        /// How far it falls short, in mm; 0 where not the distance but the configuration or the tilt does not fit.
+        beyond: f64,
+        /// Where on the path, 0 to 1; 1 is the target.
+        along: f64,
+    },
+    /// The line passes a singular point, where axes would have to turn at once.
+    Singular {
+        /// The axis that would have to turn most.
+        axis: String,
+        /// Where on the path, 0 to 1.
+        along: f64,
+    },
+    /// The robot has no such configuration.
+    NoSuchCfg {
+        /// What was asked for.
+        cfg: u8,
+    },
+    /// The robot cannot move so fast.
+    Duration {
+        /// The duration asked for, in s.
+        wanted: f64,
+        /// The shortest that its limits allow, in s.
+        least: f64,
+    },
+    /// A speed, or the override of `velset`, is not above zero.
+    NoSpeed {
+        /// The speed that is meant, with its unit.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A component of the target is not a number.
+    NotANumber,
+    /// This kind of motion is not there for this robot.
+    NotForThisRobot,
+    /// The look-ahead is full: ask [`super::Queue::has_room`] first.
+    Full,
+    /// The robot is stopping to drop its motions; where the next one starts is not known yet.
+    Stopping,
+}
+
+impl fmt::Display for PlanError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            PlanError::AxisLimit { axis, value, min, max, along } => {
+                write!(f, "{axis} would have to go to {value:.3}, its range is {min} to {max}; ")?;
+                place(f, *along)
+            }
+            PlanError::Unreachable { beyond, along } if *beyond > 0.0 => {
+                write!(f, "the pose is {beyond:.3} mm out of reach; ")?;
+                place(f, *along)
+            }
+            PlanError::Unreachable { along, .. } => {
+                write!(f, "the pose cannot be reached in this configuration; ")?;
+                place(f, *along)
+            }
+            PlanError::Singular { axis, along } => {
+                write!(f, "the line passes a singular point, where {axis} would have to turn at once; ")?;
+                place(f, *along)
+            }
+            PlanError::NoSuchCfg { cfg } => write!(f, "the robot has no configuration cfg {cfg}"),
+            PlanError::Duration { wanted, least } => {
+                write!(f, "the motion cannot be done in {wanted} s, it takes at least {least:.3} s")
+            }
+            PlanError::NoSpeed { what, value } => write!(f, "{what} is {value}: it must be above 0"),
+            PlanError::NotANumber => write!(f, "the target holds a value that is not a number"),
+            PlanError::NotForThisRobot => write!(f, "this robot knows no such motion"),
+            PlanError::Full => write!(f, "the look-ahead is full"),
+            PlanError::Stopping => write!(f, "the robot is still stopping"),
+        }
+    }
+}
+
+impl std::error::Error for PlanError {}
+
+fn place(f: &mut fmt::Formatter<'_>, along: f64) -> fmt::Result {
+    if along >= 1.0 { write!(f, "at the target") } else { write!(f, "{:.1} % along the path", along * 100.0) }
+}

@@ -1,0 +1,53 @@
+use crate::robot::{EXTERNAL_AXES, ROBOT_AXES, Robot};
+
+/// The value of a component that was not set: a motion keeps it as it is.
+pub const UNSET: f64 = 9e9;
+
+/// Whether a component was not set.
+pub fn is_unset(value: f64) -> bool {
+    value >= UNSET
+}
+
+/// How many values [`Joints`] hold.
+pub(super) const ALL: usize = ROBOT_AXES + EXTERNAL_AXES;
+
+/// Positions of all axes, in deg (mm for linear axes). Axes that a robot does not have are 0 (its own) or [`UNSET`]
+/// (external ones).
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Joints {
+    /// The robot's own axes.
+    pub axes: [f64; ROBOT_AXES],
+    /// The external axes.
+    pub external: [f64; EXTERNAL_AXES],
+}
+
+impl Joints {
+    /// Where the robot's file says it starts.
+    pub fn home(robot: &Robot) -> Self {
+        let mut joints = Self { axes: [0.0; ROBOT_AXES], external: [UNSET; EXTERNAL_AXES] };
+        let own = robot.own_axes().len();
+        for (value, home) in joints.axes.iter_mut().zip(robot.home.iter().take(own)) {
+            *value = *home;
+        }
+        for (value, home) in joints.external.iter_mut().zip(robot.home.iter().skip(own)) {
+            *value = *home;
+        }
+        joints
+    }
+
+    /// These positions, with what is unset taken from `start`, and what the robot does not have as in `start`.
+    pub(super) fn completed(&self, start: &Joints, robot: &Robot) -> Self {
+        let mut joints = *start;
+        fill(&mut joints.axes, &self.axes, robot.own_axes().len());
+        fill(&mut joints.external, &self.external, robot.external_axes().len());
+        joints
+    }
+}
+
+fn fill(into: &mut [f64], from: &[f64], count: usize) {
+    for (value, new) in into.iter_mut().zip(from).take(count) {
+        if !is_unset(*new) {
+            *value = *new;
+        }
+    }
+}

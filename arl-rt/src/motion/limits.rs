@@ -1,0 +1,103 @@
+//! Constant limits of the path parameter that keep everything that moves with it within its own limits.
+
+use super::profile::Limits;
+
+/// One quantity at one place of the path: its derivatives by the path parameter, and how fast it may change in time.
+///
+/// A parameter that moves with speed v, acceleration a and jerk j moves the quantity with speed `first` v, acceleration
+/// `first` a + `second` v2, and jerk `first` j + 3 `second` v a + `third` v3. All are magnitudes.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Bound {
+    pub(super) first: f64,
+    pub(super) second: f64,
+    pub(super) third: f64,
+    pub(super) vel: f64,
+    pub(super) acc: f64,
+    pub(super) jerk: f64,
+}
+
+impl Bound {
+    /// A quantity that changes evenly, by `by` in all.
+    pub(super) fn even(by: f64, vel: f64, acc: f64, jerk: f64) -> Self {
+        Self { first: by.abs(), second: 0.0, third: 0.0, vel, acc, jerk }
+    }
+}
+
+/// Shares of the highest speed, and then of the highest acceleration, among which the quickest limits are looked for. At
+/// the full share of either nothing may be left for the rest; at the others something always is.
+const SPEED_SHARES: [f64; 9] = [1.0, 0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3];
+const ACC_SHARES: [f64; 5] = [1.0, 0.9, 0.75, 0.6, 0.4];
+
+/// Limits under which the way from 0 to 1 is done soon and no bound is broken, whatever moves within them.
+pub(super) fn quickest(bounds: &[Bound]) -> Limits {
+    let vel = lowest(bounds.iter().flat_map(|bound| {
+        [bound.vel / bound.first, (bound.acc / bound.second).sqrt(), (bound.jerk / bound.third).cbrt()]
+    }));
+    let curved = bounds.iter().any(|bound| bound.second > 0.0 || bound.third > 0.0);
+    let (speeds, accs) = if curved { (&SPEED_SHARES[..], &ACC_SHARES[..]) } else { (&[1.0][..], &[1.0][..]) };
+    let mut best: Option<(f64, Limits)> = None;
+    for share in speeds {
+        let vel = vel * share;
+        let most = lowest(bounds.iter().flat_map(|bound| {
+            let by_acc = (bound.acc - bound.second * vel * vel) / bound.first;
+            [by_acc, (bound.jerk - bound.third * vel * vel * vel) / (3.0 * bound.second * vel)]
+        }));
+        for share in accs {
+            let acc = most * share;
+            let jerk = lowest(bounds.iter().map(|bound| {
+                (bound.jerk - 3.0 * bound.second * vel * acc - bound.third * vel * vel * vel) / bound.first
+            }));
+            let limits = Limits { vel, acc, jerk };
+            if acc > 0.0 && jerk > 0.0 {
+                let duration = limits.duration(1.0);
+                if best.is_none_or(|(least, _)| duration < least) {
+                    best = Some((duration, limits));
+                }
+            }
+        }
+    }
+    best.map_or(Limits { vel: 1.0, acc: 1.0, jerk: 1.0 }, |(_, limits)| limits)
+}
+
+/// The lowest of the values that are numbers and finite; a very high one where there is none.
+fn lowest(values: impl Iterator<Item = f64>) -> f64 {
+    values.filter(|value| value.is_finite()).fold(1e12, f64::min)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinematics::random::Random;
+
+    #[test]
+    fn no_bound_is_broken_by_any_motion_within_the_limits() {
+        let mut random = Random::new(21);
+        for _ in 0..2000 {
+            let mut some = |low: f64, high: f64| 10.0_f64.powf(random.between(low, high));
+            let bounds: Vec<Bound> = (0..20)
+                .map(|_| Bound {
+                    first: some(-2.0, 2.0),
+                    second: some(-3.0, 3.0),
+                    third: some(-3.0, 4.0),
+                    vel: some(0.0, 2.0),
+                    acc: some(1.0, 3.0),
+                    jerk: some(2.0, 4.0),
+                })
+                .collect();
+            let Limits { vel, acc, jerk } = quickest(&bounds);
+            assert!(vel > 0.0 && acc > 0.0 && jerk > 0.0);
+            for bound in &bounds {
+                assert!(bound.first * vel <= bound.vel * 1.000_001);
+                assert!(bound.first * acc + bound.second * vel * vel <= bound.acc * 1.000_001);
+                let third = bound.third * vel.powi(3) + 3.0 * bound.second * vel * acc + bound.first * jerk;
+                assert!(third <= bound.jerk * 1.000_001, "{bound:?} {third}");
+            }
+        }
+    }
+
+    #[test]
+    fn even_motion_takes_its_limits_whole() {
+        let limits = quickest(&[Bound::even(-90.0, 180.0, 900.0, 9000.0), Bound::even(10.0, 100.0, 1000.0, 1e4)]);
+        assert_eq!(limits, Limits { vel: 2.0, acc: 10.0, jerk: 100.0 });
+    }
+}

@@ -1,0 +1,185 @@
+//! Walks a line before it is moved: is it reachable, within the ranges of the axes, clear of singular points, and how do
+//! the axes move along it?
+
+use super::error::PlanError;
+use super::joints::{Joints, is_unset};
+use super::path::Line;
+use crate::kinematics::{Axes, Kinematics, Opw, RANGE_SLACK, Rates};
+use crate::robot::Robot;
+
+/// What the walk found.
+pub(super) struct Survey {
+    /// The axes at the end.
+    pub(super) end: Axes,
+    /// The derivatives of the axes by the path parameter, at places close enough to see every change.
+    pub(super) rates: Vec<Rates>,
+}
+
+/// The longest step, as part of the path.
+const LONGEST_STEP: f64 = 1.0 / 16.0;
+/// A step as part of the length over which the axes' motion changes. A singular point is never stepped over: the steps
+/// get shorter in proportion to its distance.
+const STEP_OF_SCALE: f64 = 0.1;
+/// Where the axes' motion changes over so little of the path, the point is singular for all practical speeds.
+const SINGULAR_SCALE: f64 = 1e-3;
+/// Closer to a singular point than this (see [`Opw::clearance`]) rounding spoils the derivatives.
+const SINGULAR: f64 = 1e-5;
+/// An axis that is so far (deg) from where it was bound to be has jumped to another solution.
+const JUMP: f64 = 10.0;
+/// A glimpse behind the start and before the end, where the axes must not differ from the ends by over `GLIMPSE_JUMP` deg.
+const GLIMPSE: f64 = 1e-6;
+const GLIMPSE_JUMP: f64 = 0.05;
+
+struct Walk<'a> {
+    robot: &'a Robot,
+    opw: &'a Opw,
+    line: &'a Line,
+}
+
+/// Walks `line` from `start`.
+pub(super) fn survey(robot: &Robot, line: &Line, start: &Joints) -> Result<Survey, PlanError> {
+    let Kinematics::SixAxis(opw) = &robot.kinematics else { return Err(PlanError::NotForThisRobot) };
+    let walk = Walk { robot, opw, line };
+    // The target first: where it cannot be reached, that is what the programmer wants to know.
+    walk.axes(1.0, &start.axes)?;
+
+    let mut rates = Vec::with_capacity(32);
+    let mut limits = Ranges::new(robot);
+    let (mut at, mut here) = (0.0, start.axes);
+    let glimpse = walk.axes(GLIMPSE, &here)?;
+    walk.no_jump(&here, &glimpse, GLIMPSE_JUMP, 0.0)?;
+    let mut known = walk.rates(0.0, &here);
+    while at < 1.0 - GLIMPSE {
+        let step = match &known {
+            None => SINGULAR_SCALE,
+            Some(known) => {
+                let scale = walk.scale(known);
+                if scale < SINGULAR_SCALE {
+                    return Err(walk.singular(known, at));
+                }
+                (STEP_OF_SCALE * scale).min(LONGEST_STEP)
+            }
+        };
+        let next = (at + step).min(1.0 - GLIMPSE);
+        let expected = known.as_ref().map_or(here, |known| ahead(&here, known, next - at));
+        let found = walk.axes(next, &expected)?;
+        walk.no_jump(&expected, &found, JUMP, next)?;
+        if let Some(known) = known {
+            limits.between(at, &here, &known, next - at);
+            rates.push(known);
+        }
+        limits.at(next, &found);
+        (at, here) = (next, found);
+        known = walk.rates(at, &here);
+    }
+    rates.extend(known);
+    let end = walk.axes(1.0, &here)?;
+    walk.no_jump(&here, &end, GLIMPSE_JUMP, 1.0)?;
+    limits.at(1.0, &end);
+    limits.broken.map_or(Ok(Survey { end, rates }), Err)
+}
+
+impl Walk<'_> {
+    fn axes(&self, at: f64, near: &Axes) -> Result<Axes, PlanError> {
+        self.line.axes(&self.robot.kinematics, at, near).ok_or_else(|| PlanError::Unreachable {
+            beyond: self.robot.kinematics.beyond_reach(&self.line.flange(at)),
+            along: at,
+        })
+    }
+
+    /// The derivatives of the axes; `None` at a singular point, where they would be made of rounding errors.
+    fn rates(&self, at: f64, axes: &Axes) -> Option<Rates> {
+        if self.opw.clearance(axes) < SINGULAR { None } else { self.opw.rates(axes, &self.line.twist(at)) }
+    }
+
+    /// Over which part of the path the axes' motion changes substantially.
+    fn scale(&self, rates: &Rates) -> f64 {
+        let size = |rates: &Axes| {
+            let by_speed = rates.iter().zip(&self.robot.axes).map(|(rate, axis)| rate.abs() / axis.vel);
+            by_speed.fold(0.0, f64::max)
+        };
+        let (first, second, third) = (size(&rates.first), size(&rates.second), size(&rates.third));
+        let scale = (first / second).min((first / third).sqrt());
+        if scale.is_nan() { f64::INFINITY } else { scale }
+    }
+
+    fn no_jump(&self, expected: &Axes, found: &Axes, most: f64, at: f64) -> Result<(), PlanError> {
+        let jump = |index: usize| match (expected.get(index), found.get(index)) {
+            (Some(expected), Some(found)) => (found - expected).abs(),
+            _ => 0.0,
+        };
+        let worst = (0..found.len()).max_by(|a, b| jump(*a).total_cmp(&jump(*b))).unwrap_or(0);
+        if jump(worst) <= most { Ok(()) } else { Err(PlanError::Singular { axis: self.name(worst), along: at }) }
+    }
+
+    fn singular(&self, rates: &Rates, at: f64) -> PlanError {
+        let rate = |index: usize| rates.first.get(index).map_or(0.0, |rate| rate.abs());
+        let fastest = (0..6).max_by(|a, b| rate(*a).total_cmp(&rate(*b))).unwrap_or(0);
+        PlanError::Singular { axis: self.name(fastest), along: at }
+    }
+
+    fn name(&self, index: usize) -> String {
+        self.robot.axes.get(index).map_or(String::new(), |axis| axis.name.clone())
+    }
+}
+
+/// Where the axes are bound to be a step further.
+fn ahead(here: &Axes, rates: &Rates, step: f64) -> Axes {
+    let mut axes = *here;
+    for (index, value) in axes.iter_mut().enumerate() {
+        if let (Some(first), Some(second), Some(third)) =
+            (rates.first.get(index), rates.second.get(index), rates.third.get(index))
+        {
+            *value += step * (first + step * (second / 2.0 + step * third / 6.0));
+        }
+    }
+    axes
+}
+
+/// Watches the ranges of the axes, and remembers the first axis that leaves its range, with its farthest position.
+struct Ranges<'a> {
+    robot: &'a Robot,
+    broken: Option<PlanError>,
+}
+
+impl<'a> Ranges<'a> {
+    fn new(robot: &'a Robot) -> Self {
+        Self { robot, broken: None }
+    }
+
+    fn at(&mut self, at: f64, axes: &Axes) {
+        for (index, value) in axes.iter().enumerate() {
+            self.check(at, index, *value);
+        }
+    }
+
+    /// An axis that turns back between two places goes farthest between them.
+    fn between(&mut self, at: f64, axes: &Axes, rates: &Rates, step: f64) {
+        for (index, ((value, first), second)) in axes.iter().zip(&rates.first).zip(&rates.second).enumerate() {
+            let back = -first / second;
+            if back > 0.0 && back < step {
+                self.check(at + back, index, value + 0.5 * first * back);
+            }
+        }
+    }
+
+    fn check(&mut self, at: f64, index: usize, value: f64) {
+        let Some(axis) = self.robot.axes.get(index) else { return };
+        let beyond = (value - axis.max).max(axis.min - value);
+        if beyond <= RANGE_SLACK || is_unset(value) {
+            return;
+        }
+        match &mut self.broken {
+            None => {
+                let (min, max) = (axis.min, axis.max);
+                self.broken = Some(PlanError::AxisLimit { axis: axis.name.clone(), value, min, max, along: at });
+            }
+            Some(PlanError::AxisLimit { axis: first, value: farthest, min, max, .. }) if *first == axis.name => {
+                if beyond > (*farthest - *max).max(*min - *farthest) {
+                    *farthest = value;
+                }
+            }
+            Some(_) => {}
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Properties of motion, from the sampled trace alone.
+
+mod plans;
+mod stops;
+mod traces;
+
+use std::sync::Arc;
+
+use super::*;
+use crate::kinematics::random::Random;
+use crate::kinematics::{Frame, Kinematics, Wanted, frame, frame_components};
+use crate::robot::Robot;
+
+const CYCLE: f64 = 0.001;
+
+fn robot(name: &str) -> Arc<Robot> {
+    Arc::new(Robot::builtin(name).unwrap())
+}
+
+/// The robot with a turning and a linear external axis.
+fn with_external_axes(name: &str) -> Arc<Robot> {
+    let axis = |name: &str, linear: bool, max: f64| {
+        format!(
+            "[[axis]]\nname = \"{name}\"\nlinear = {linear}\nmin = -{max}\nmax = {max}\nvel = 90\nacc = 300\njerk = 3000\n"
+        )
+    };
+    let text = Robot::text(name).unwrap().to_owned() + &axis("ej1", false, 720.0) + &axis("ej2", true, 1500.0);
+    Arc::new(Robot::parse("with external axes", &text).unwrap())
+}
+
+fn axes(axes: [f64; 6]) -> Joints {
+    Joints { axes, external: [UNSET; 6] }
+}
+
+fn fast() -> Speed {
+    Speed { percent: 100.0, tcp: 1e4, ori: 1e4, exj: 1e4, exl: 1e4 }
+}
+
+fn command(target: Target) -> Command {
+    Command { target, tool: Frame::identity(), speed: fast(), duration: None, line: 7 }
+}
+
+fn movej(to: [f64; 6]) -> Command {
+    command(Target::Joints(axes(to)))
+}
+
+fn lin(pose: [f64; 6]) -> Command {
+    command(Target::Line { pose, wobj: Frame::identity(), external: [UNSET; 6] })
+}
+
+fn ptp(pose: [f64; 6], cfg: u8) -> Command {
+    let wanted = Wanted { cfg: Some(cfg), turn: -1 };
+    command(Target::Pose { pose, wobj: Frame::identity(), wanted, external: [UNSET; 6] })
+}
+
+/// All values of a joint vector that the robot has, in the order of its axes.
+fn values(robot: &Robot, joints: &Joints) -> Vec<f64> {
+    let own = robot.own_axes().len();
+    joints.axes.iter().take(own).chain(joints.external.iter().take(robot.external_axes().len())).copied().collect()
+}
+
+/// Runs until the queue is idle; the first row is where it starts.
+fn run(queue: &mut Queue, percent: f64) -> Vec<Step> {
+    let mut rows =
+        vec![Step { joints: *queue.joints(), tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+    while !queue.idle() {
+        rows.push(queue.step(CYCLE, percent));
+        assert!(rows.len() < 2_000_000, "it does not end");
+    }
+    rows
+}
+
+/// The most that the trace uses of each axis's speed, acceleration and jerk, as shares of the limits.
+fn usage(robot: &Robot, rows: &[Step]) -> [f64; 3] {
+    let still = 4;
+    let mut table: Vec<Vec<f64>> = Vec::new();
+    for row in rows.iter().take(1).cycle().take(still).chain(rows).chain(rows.iter().rev().take(1).cycle().take(still))
+    {
+        table.push(values(robot, &row.joints));
+    }
+    let mut used = [0.0_f64; 3];
+    for (index, axis) in robot.axes.iter().enumerate() {
+        let mut series: Vec<f64> = table.iter().map(|row| row[index]).collect();
+        for (used, most) in used.iter_mut().zip([axis.vel, axis.acc, axis.jerk]) {
+            series = series.windows(2).map(|pair| (pair[1] - pair[0]) / CYCLE).collect();
+            let highest = series.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+            *used = used.max(highest / most);
+        }
+    }
+    used
+}
+
+fn assert_within_limits(robot: &Robot, rows: &[Step], what: &str) {
+    let used = usage(robot, rows);
+    assert!(used.iter().all(|used| *used <= 1.01), "{what}: speed, acceleration, jerk used {used:?}");
+    for row in rows {
+        for (value, axis) in values(robot, &row.joints).iter().zip(&robot.axes) {
+            assert!(*value >= axis.min - 1e-5 && *value <= axis.max + 1e-5, "{what}: {} at {value}", axis.name);
+        }
+    }
+}
+
+/// Distance in mm of a point from the line through two others, and the angle in rad that the rotation at the same share of
+/// the way would have to be off.
+fn off_line(start: &Frame, end: &Frame, at: &Frame) -> (f64, f64) {
+    let way = end.translation.vector - start.translation.vector;
+    let here = at.translation.vector - start.translation.vector;
+    let length = way.norm_squared();
+    let share = if length > 1e-12 { (here.dot(&way) / length).clamp(0.0, 1.0) } else { 0.0 };
+    let rotation = start.rotation.slerp(&end.rotation, share);
+    ((here - way * share).norm(), if length > 1.0 { rotation.angle_to(&at.rotation) } else { 0.0 })
+}
+
+/// A random joint vector inside the middle part of all ranges.
+fn random_joints(robot: &Robot, random: &mut Random, part: f64) -> Joints {
+    let mut joints = Joints::home(robot);
+    let own = robot.own_axes().len();
+    for (index, axis) in robot.axes.iter().enumerate() {
+        let (middle, half) = ((axis.min + axis.max) / 2.0, (axis.max - axis.min) / 2.0 * part);
+        let value = random.between(middle - half, middle + half);
+        if index < own { joints.axes[index] = value } else { joints.external[index - own] = value }
+    }
+    joints
+}
