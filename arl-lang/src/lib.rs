@@ -14,6 +14,7 @@ mod nest;
 pub mod number;
 pub mod operators;
 mod parse;
+pub mod robots;
 mod salvage;
 pub mod span;
 pub mod symbol;
