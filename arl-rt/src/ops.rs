@@ -1,0 +1,264 @@
+//! Operators that ARL and Rust do not share.
+
+use crate::fault::Fault;
+use crate::values::{Joint, JointScara, UNSET};
+use std::ops::{Add, Neg, Sub};
+
+/// The integers of ARL.
+pub trait Integer: Copy {
+    /// The width in bits.
+    const WIDTH: u8;
+    /// The quotient, cut towards zero; `None` for a zero divisor. The least int by -1 wraps.
+    fn quotient(self, by: Self) -> Option<Self>;
+    /// The remainder, with the sign of the dividend; `None` for a zero divisor.
+    fn remainder(self, by: Self) -> Option<Self>;
+    /// All bits moved up; `None` where the count is not below the width.
+    fn up(self, count: u32) -> Option<Self>;
+    /// All bits moved down, the sign kept; `None` where the count is not below the width.
+    fn down(self, count: u32) -> Option<Self>;
+}
+
+macro_rules! integers {
+    ($($ty:ty)*) => { $(
+        impl Integer for $ty {
+            const WIDTH: u8 = <$ty>::BITS as u8;
+
+            #[inline]
+            fn quotient(self, by: Self) -> Option<Self> {
+                if by == 0 { None } else { Some(self.wrapping_div(by)) }
+            }
+
+            #[inline]
+            fn remainder(self, by: Self) -> Option<Self> {
+                if by == 0 { None } else { Some(self.wrapping_rem(by)) }
+            }
+
+            #[inline]
+            fn up(self, count: u32) -> Option<Self> {
+                self.checked_shl(count)
+            }
+
+            #[inline]
+            fn down(self, count: u32) -> Option<Self> {
+                self.checked_shr(count)
+            }
+        }
+    )* };
+}
+
+integers!(i32 u32 u8);
+
+/// `a / b`
+///
+/// # Errors
+/// [`Fault::DivideByZero`]
+#[inline]
+pub fn div<T: Integer>(a: T, b: T) -> Result<T, Fault> {
+    a.quotient(b).ok_or(Fault::DivideByZero)
+}
+
+/// `a % b`
+///
+/// # Errors
+/// [`Fault::DivideByZero`]
+#[inline]
+pub fn rem<T: Integer>(a: T, b: T) -> Result<T, Fault> {
+    a.remainder(b).ok_or(Fault::DivideByZero)
+}
+
+/// `a % b` of doubles: the remainder of the quotient cut towards zero, with the sign of `a`.
+///
+/// # Errors
+/// [`Fault::DivideByZero`]
+#[inline]
+pub fn rem_double(a: f64, b: f64) -> Result<f64, Fault> {
+    if b == 0.0 { Err(Fault::DivideByZero) } else { Ok(a % b) }
+}
+
+/// `value << count`
+///
+/// # Errors
+/// [`Fault::ShiftCount`] for a count outside 0 to 31, for a byte 0 to 7.
+#[inline]
+pub fn shl<T: Integer>(value: T, count: i32) -> Result<T, Fault> {
+    // A negative count is a large one.
+    value.up(count as u32).ok_or(Fault::ShiftCount { count, width: T::WIDTH })
+}
+
+/// `value >> count`; an int keeps its sign.
+///
+/// # Errors
+/// [`Fault::ShiftCount`] for a count outside 0 to 31, for a byte 0 to 7.
+#[inline]
+pub fn shr<T: Integer>(value: T, count: i32) -> Result<T, Fault> {
+    value.down(count as u32).ok_or(Fault::ShiftCount { count, width: T::WIDTH })
+}
+
+/// The place of an element in an array of one dimension.
+///
+/// # Errors
+/// [`Fault::Index`] where the index is negative or not below the size.
+#[inline]
+pub fn index(index: i32, size: usize) -> Result<usize, Fault> {
+    // A negative index is a large one.
+    let at = index as u32 as usize;
+    if at < size { Ok(at) } else { Err(outside(index, size)) }
+}
+
+/// The place of an element in an array of several dimensions, with their sizes, outermost first.
+///
+/// # Errors
+/// [`Fault::Index`] where an index is negative or not below its size.
+#[inline]
+pub fn index2<const D: usize>(indices: [i32; D], sizes: [usize; D]) -> Result<usize, Fault> {
+    let mut place = 0;
+    for (at, size) in indices.into_iter().zip(sizes) {
+        place = place * size + index(at, size)?;
+    }
+    Ok(place)
+}
+
+#[cold]
+fn outside(index: i32, size: usize) -> Fault {
+    Fault::Index { index, size: u32::try_from(size).unwrap_or(u32::MAX) }
+}
+
+/// A value for a system variable that takes `low` to `high`.
+///
+/// # Errors
+/// [`Fault::Range`]
+#[inline]
+pub fn in_range<T: Copy + Into<f64>>(value: T, low: f64, high: f64) -> Result<T, Fault> {
+    let number = value.into();
+    if (low..=high).contains(&number) { Ok(value) } else { Err(Fault::Range { value: number, low, high }) }
+}
+
+/// A value as a condition: everything but zero is true.
+pub trait Truth: Copy {
+    /// Whether it is not zero.
+    fn truth(self) -> bool;
+}
+
+macro_rules! truths {
+    ($($ty:ty: $zero:literal)*) => { $(
+        impl Truth for $ty {
+            #[inline]
+            fn truth(self) -> bool {
+                self != $zero
+            }
+        }
+    )* };
+}
+
+truths!(i32: 0 u32: 0 u8: 0 f64: 0.0 bool: false);
+
+/// Whether a value counts as true: everything but zero does.
+#[inline]
+pub fn truth(value: impl Truth) -> bool {
+    value.truth()
+}
+
+/// Sums, differences and negation by component; an unset component stays unset.
+macro_rules! joints {
+    ($($ty:ident: $count:literal)*) => { $(
+        impl Add for $ty {
+            type Output = $ty;
+
+            fn add(self, other: $ty) -> $ty {
+                let (a, b): ([f64; $count], [f64; $count]) = (self.into(), other.into());
+                std::array::from_fn(|at| both(a[at], b[at], a[at] + b[at])).into()
+            }
+        }
+
+        impl Sub for $ty {
+            type Output = $ty;
+
+            fn sub(self, other: $ty) -> $ty {
+                let (a, b): ([f64; $count], [f64; $count]) = (self.into(), other.into());
+                std::array::from_fn(|at| both(a[at], b[at], a[at] - b[at])).into()
+            }
+        }
+
+        impl Neg for $ty {
+            type Output = $ty;
+
+            fn neg(self) -> $ty {
+                <[f64; $count]>::from(self).map(|axis| both(axis, axis, -axis)).into()
+            }
+        }
+    )* };
+}
+
+joints!(Joint: 12 JointScara: 10);
+
+/// The result, where both operands are set.
+fn both(a: f64, b: f64, result: f64) -> f64 {
+    if a == UNSET || b == UNSET { UNSET } else { result }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn division() {
+        assert_eq!(div(7, -2), Ok(-3));
+        assert_eq!(rem(7, -2), Ok(1));
+        assert_eq!(rem(-7, 2), Ok(-1));
+        assert_eq!(div(i32::MIN, -1), Ok(i32::MIN));
+        assert_eq!(rem(i32::MIN, -1), Ok(0));
+        assert_eq!(div(200_u8, 3), Ok(66));
+        assert_eq!(rem(4_000_000_000_u32, 7), Ok(3));
+        assert_eq!(div(1, 0), Err(Fault::DivideByZero));
+        assert_eq!(rem(1_u8, 0), Err(Fault::DivideByZero));
+        assert_eq!(div(1_u32, 0), Err(Fault::DivideByZero));
+        assert_eq!(rem_double(-7.5, 2.0), Ok(-1.5));
+        assert_eq!(rem_double(1.0, -0.0), Err(Fault::DivideByZero));
+    }
+
+    #[test]
+    fn shifts() {
+        assert_eq!(shl(1, 31), Ok(i32::MIN));
+        assert_eq!(shr(-8, 1), Ok(-4));
+        assert_eq!(shr(0x8000_0000_u32, 31), Ok(1));
+        assert_eq!(shl(0x81_u8, 1), Ok(2));
+        assert_eq!(shl(1, 32), Err(Fault::ShiftCount { count: 32, width: 32 }));
+        assert_eq!(shr(1, -1), Err(Fault::ShiftCount { count: -1, width: 32 }));
+        assert_eq!(shl(1_u8, 8), Err(Fault::ShiftCount { count: 8, width: 8 }));
+    }
+
+    #[test]
+    fn indices() {
+        assert_eq!(index(2, 3), Ok(2));
+        assert_eq!(index(3, 3), Err(Fault::Index { index: 3, size: 3 }));
+        assert_eq!(index(-1, 3), Err(Fault::Index { index: -1, size: 3 }));
+        assert_eq!(index2([1, 2], [2, 3]), Ok(5));
+        assert_eq!(index2([1, 0, 3], [2, 3, 4]), Ok(15));
+        assert_eq!(index2([1, 3], [2, 3]), Err(Fault::Index { index: 3, size: 3 }));
+        assert_eq!(index2([2, 0], [2, 3]), Err(Fault::Index { index: 2, size: 2 }));
+    }
+
+    #[test]
+    fn ranges() {
+        assert_eq!(in_range(5, 0.0, 5.0), Ok(5));
+        assert_eq!(in_range(5.5, 0.0, 5.0), Err(Fault::Range { value: 5.5, low: 0.0, high: 5.0 }));
+        assert!(in_range(f64::NAN, 0.0, 5.0).is_err());
+    }
+
+    #[test]
+    fn conditions() {
+        assert!(truth(-1) && truth(0.1) && truth(1_u8) && truth(f64::NAN) && truth(true));
+        assert!(!truth(0) && !truth(-0.0) && !truth(0_u32) && !truth(false));
+    }
+
+    #[test]
+    fn joints_keep_unset_axes() {
+        let a = Joint { j1: 1.0, j2: 2.0, ej1: 5.0, ..Joint::default() };
+        let b = Joint { j1: 10.0, j3: 3.0, ej1: -5.0, ..Joint::default() };
+        assert_eq!(a + b, Joint { j1: 11.0, ej1: 0.0, ..Joint::default() });
+        assert_eq!(a - b, Joint { j1: -9.0, ej1: 10.0, ..Joint::default() });
+        assert_eq!(-a, Joint { j1: -1.0, j2: -2.0, ej1: -5.0, ..Joint::default() });
+        let scara = JointScara { j3: -10.0, ..JointScara::default() };
+        assert_eq!(scara + scara, JointScara { j3: -20.0, ..JointScara::default() });
+    }
+}

@@ -1,0 +1,27 @@
+//! The values of ARL: strings, arrays, structures, enumerations, and the variables that hold them.
+
+mod array;
+mod convert;
+mod enums;
+mod literal;
+mod shared;
+mod str;
+mod structs;
+mod teach;
+
+pub use array::{Array, SmallArray, Store};
+pub use enums::*;
+pub use literal::Literal;
+pub use shared::Shared;
+pub use str::Str;
+pub use structs::*;
+pub use teach::{Teach, TeachError, TeachProblem};
+
+/// What a component is that nobody has set: "keep what was".
+pub const UNSET: f64 = 9e9;
+
+/// Whether a component has been set.
+#[inline]
+pub fn is_set(component: f64) -> bool {
+    component != UNSET
+}

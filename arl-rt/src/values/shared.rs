@@ -1,0 +1,63 @@
+//! A place for values that are not `Copy`, shared by everything that sees the global variables.
+
+use std::cell::RefCell;
+
+/// A variable that several parts of a program see: strings, arrays, workpieces.
+///
+/// Each access is over when its call returns. The closures of [`Shared::with`] and [`Shared::update`] look at their
+/// argument only, never at this same variable again.
+#[derive(Default, Debug)]
+pub struct Shared<T>(RefCell<T>);
+
+impl<T> Shared<T> {
+    /// A variable with this value.
+    pub const fn new(value: T) -> Self {
+        Self(RefCell::new(value))
+    }
+
+    /// A copy of the value.
+    #[inline]
+    #[track_caller]
+    pub fn get(&self) -> T
+    where
+        T: Clone,
+    {
+        self.0.borrow().clone()
+    }
+
+    /// Puts a value in.
+    #[inline]
+    #[track_caller]
+    pub fn set(&self, value: T) {
+        drop(self.0.replace(value));
+    }
+
+    /// What the function finds out about the value.
+    #[inline]
+    #[track_caller]
+    pub fn with<R>(&self, look: impl FnOnce(&T) -> R) -> R {
+        look(&self.0.borrow())
+    }
+
+    /// What the function returns after it changed the value.
+    #[inline]
+    #[track_caller]
+    pub fn update<R>(&self, change: impl FnOnce(&mut T) -> R) -> R {
+        change(&mut self.0.borrow_mut())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::values::Str;
+
+    #[test]
+    fn is_read_and_written() {
+        let text = Shared::new(Str::from("a"));
+        text.update(|text| text.push(b'b'));
+        assert_eq!(text.get(), "ab");
+        text.set(text.get() + "c");
+        assert_eq!(text.with(Str::len), 3);
+    }
+}

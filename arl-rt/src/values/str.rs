@@ -1,0 +1,350 @@
+//! The string of ARL: bytes, as a rule UTF-8.
+
+use std::borrow::Cow;
+use std::cmp::Ordering;
+use std::fmt;
+use std::ops::{Add, AddAssign};
+
+/// The longest text that is kept without an allocation.
+const INLINE: usize = 15;
+
+/// A string value: any bytes, as a rule UTF-8. Length, order and comparison go by bytes.
+#[derive(Clone)]
+pub struct Str(Text);
+
+/// The vector's niche holds the variant, so that a string is three words wide.
+#[derive(Clone)]
+enum Text {
+    Inline { length: u8, bytes: [u8; INLINE] },
+    Static(&'static [u8]),
+    Heap(Vec<u8>),
+}
+
+impl Str {
+    /// The empty string.
+    pub const fn new() -> Self {
+        Self(Text::Static(&[]))
+    }
+
+    /// A literal of the program; nothing is copied.
+    pub const fn literal(text: &'static str) -> Self {
+        Self(Text::Static(text.as_bytes()))
+    }
+
+    /// An empty string with room for this many bytes.
+    pub fn with_capacity(capacity: usize) -> Self {
+        if capacity <= INLINE { Self::new() } else { Self(Text::Heap(Vec::with_capacity(capacity))) }
+    }
+
+    /// The bytes.
+    #[inline]
+    pub fn as_bytes(&self) -> &[u8] {
+        match &self.0 {
+            Text::Inline { length, bytes } => bytes.get(..usize::from(*length)).unwrap_or(bytes),
+            Text::Static(bytes) => bytes,
+            Text::Heap(bytes) => bytes,
+        }
+    }
+
+    /// How many bytes there are.
+    #[inline]
+    pub fn len(&self) -> usize {
+        match &self.0 {
+            Text::Inline { length, .. } => usize::from(*length),
+            Text::Static(bytes) => bytes.len(),
+            Text::Heap(bytes) => bytes.len(),
+        }
+    }
+
+    /// Whether it is `""`.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The text, with U+FFFD in place of bytes that are not UTF-8.
+    pub fn to_text(&self) -> Cow<'_, str> {
+        String::from_utf8_lossy(self.as_bytes())
+    }
+
+    /// Appends bytes.
+    #[inline]
+    pub fn push_bytes(&mut self, more: &[u8]) {
+        if let Text::Heap(bytes) = &mut self.0 {
+            bytes.extend_from_slice(more);
+        } else {
+            self.push_cold(more);
+        }
+    }
+
+    fn push_cold(&mut self, more: &[u8]) {
+        let old = self.len();
+        let all = old + more.len();
+        if all <= INLINE {
+            let mut joined = [0; INLINE];
+            let both = self.as_bytes().iter().chain(more);
+            joined.iter_mut().zip(both).for_each(|(to, from)| *to = *from);
+            self.0 = Text::Inline { length: all as u8, bytes: joined };
+        } else {
+            let mut joined = Vec::with_capacity(all.max(2 * old));
+            joined.extend_from_slice(self.as_bytes());
+            joined.extend_from_slice(more);
+            self.0 = Text::Heap(joined);
+        }
+    }
+
+    /// Appends text.
+    #[inline]
+    pub fn push_str(&mut self, more: &str) {
+        self.push_bytes(more.as_bytes());
+    }
+
+    /// Appends one byte.
+    #[inline]
+    pub fn push(&mut self, byte: u8) {
+        self.push_bytes(&[byte]);
+    }
+
+    /// Empties it and keeps its memory.
+    pub fn clear(&mut self) {
+        if let Text::Heap(bytes) = &mut self.0 {
+            bytes.clear();
+        } else {
+            self.0 = Text::Static(&[]);
+        }
+    }
+
+    /// All parts one after the other.
+    pub fn concat(parts: &[&Str]) -> Str {
+        let mut all = Str::with_capacity(parts.iter().map(|part| part.len()).sum());
+        for part in parts {
+            all.push_bytes(part.as_bytes());
+        }
+        all
+    }
+
+    /// The bytes as a vector.
+    pub fn into_bytes(self) -> Vec<u8> {
+        match self.0 {
+            Text::Heap(bytes) => bytes,
+            _ => self.as_bytes().to_vec(),
+        }
+    }
+}
+
+impl Default for Str {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl From<&[u8]> for Str {
+    fn from(bytes: &[u8]) -> Self {
+        let mut text = Self::new();
+        text.push_bytes(bytes);
+        text
+    }
+}
+
+impl From<&str> for Str {
+    fn from(text: &str) -> Self {
+        Self::from(text.as_bytes())
+    }
+}
+
+impl From<String> for Str {
+    fn from(text: String) -> Self {
+        Self(Text::Heap(text.into_bytes()))
+    }
+}
+
+impl From<&String> for Str {
+    fn from(text: &String) -> Self {
+        Self::from(text.as_bytes())
+    }
+}
+
+impl From<Vec<u8>> for Str {
+    fn from(bytes: Vec<u8>) -> Self {
+        Self(Text::Heap(bytes))
+    }
+}
+
+impl AsRef<[u8]> for Str {
+    fn as_ref(&self) -> &[u8] {
+        self.as_bytes()
+    }
+}
+
+impl PartialEq for Str {
+    #[inline]
+    fn eq(&self, other: &Str) -> bool {
+        self.as_bytes() == other.as_bytes()
+    }
+}
+
+impl Eq for Str {}
+
+impl PartialOrd for Str {
+    #[inline]
+    fn partial_cmp(&self, other: &Str) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Str {
+    #[inline]
+    fn cmp(&self, other: &Str) -> Ordering {
+        self.as_bytes().cmp(other.as_bytes())
+    }
+}
+
+impl std::hash::Hash for Str {
+    fn hash<H: std::hash::Hasher>(&self, state: &mut H) {
+        self.as_bytes().hash(state);
+    }
+}
+
+macro_rules! compares_with_text {
+    ($($text:ty),*) => { $(
+        impl PartialEq<$text> for Str {
+            #[inline]
+            fn eq(&self, other: &$text) -> bool {
+                self.as_bytes() == other.as_bytes()
+            }
+        }
+
+        impl PartialEq<Str> for $text {
+            #[inline]
+            fn eq(&self, other: &Str) -> bool {
+                self.as_bytes() == other.as_bytes()
+            }
+        }
+
+        impl PartialOrd<$text> for Str {
+            #[inline]
+            fn partial_cmp(&self, other: &$text) -> Option<Ordering> {
+                Some(self.as_bytes().cmp(other.as_bytes()))
+            }
+        }
+
+        impl PartialOrd<Str> for $text {
+            #[inline]
+            fn partial_cmp(&self, other: &Str) -> Option<Ordering> {
+                Some(self.as_bytes().cmp(other.as_bytes()))
+            }
+        }
+    )* };
+}
+
+compares_with_text!(str, &str);
+
+macro_rules! appends {
+    ($($more:ty),*) => { $(
+        impl AddAssign<$more> for Str {
+            #[inline]
+            fn add_assign(&mut self, more: $more) {
+                self.push_bytes(more.as_bytes());
+            }
+        }
+
+        impl Add<$more> for Str {
+            type Output = Str;
+
+            #[inline]
+            fn add(mut self, more: $more) -> Str {
+                self.push_bytes(more.as_bytes());
+                self
+            }
+        }
+
+        impl Add<$more> for &Str {
+            type Output = Str;
+
+            #[inline]
+            fn add(self, more: $more) -> Str {
+                let mut all = Str::with_capacity(self.len() + more.len());
+                all.push_bytes(self.as_bytes());
+                all.push_bytes(more.as_bytes());
+                all
+            }
+        }
+    )* };
+}
+
+appends!(&Str, &str, Str);
+
+impl fmt::Display for Str {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(&self.to_text())
+    }
+}
+
+impl fmt::Debug for Str {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(&self.to_text(), f)
+    }
+}
+
+impl fmt::Write for Str {
+    fn write_str(&mut self, text: &str) -> fmt::Result {
+        self.push_str(text);
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn is_three_words_wide() {
+        assert_eq!(size_of::<Str>(), 3 * size_of::<usize>());
+    }
+
+    #[test]
+    fn grows_through_all_its_forms() {
+        let mut text = Str::literal("");
+        let mut plain = Vec::new();
+        for round in 0..200_u8 {
+            text.push(round);
+            plain.push(round);
+            assert_eq!(text.as_bytes(), plain);
+            assert_eq!(text.len(), plain.len());
+        }
+        text.clear();
+        assert!(text.is_empty());
+        assert_eq!(Str::from(plain.clone()).into_bytes(), plain);
+    }
+
+    #[test]
+    fn joins() {
+        let (a, b) = (Str::from("ab"), Str::literal("cdefghijklmnopqrstuvwxyz"));
+        assert_eq!(&a + &b, "abcdefghijklmnopqrstuvwxyz");
+        assert_eq!(a.clone() + "!", "ab!");
+        assert_eq!(a.clone() + b.clone(), Str::concat(&[&a, &b]));
+        let mut c = b.clone();
+        c += &a;
+        c += "12";
+        assert_eq!(c, "cdefghijklmnopqrstuvwxyzab12");
+        assert_eq!(b, "cdefghijklmnopqrstuvwxyz", "a literal is not changed by its copy");
+    }
+
+    #[test]
+    fn compares_by_bytes_whatever_the_form() {
+        assert_eq!(Str::literal("same"), Str::from("same"));
+        assert_eq!(Str::from(String::from("same")), Str::from("same"));
+        let [upper, lower, short, accented] = ["Z", "a", "ab", "\u{e9}"].map(Str::from);
+        assert!(upper < lower && lower < short);
+        assert!(short < "abc" && short > "aa");
+        assert!("b" > short);
+        assert!(accented > upper, "UTF-8 bytes of \u{e9} begin with c3");
+        assert_ne!(Str::from("a"), "A");
+    }
+
+    #[test]
+    fn shows_bytes_that_are_no_text() {
+        assert_eq!(Str::from(&b"a\xff"[..]).to_string(), "a\u{fffd}");
+        assert_eq!(format!("{:>4}|{:?}", Str::from("ab"), Str::from("q\"")), "  ab|\"q\\\"\"");
+    }
+}
