@@ -12,6 +12,7 @@
 use arl_lang::ast::{BinaryOp, Step, UnaryOp};
 use arl_lang::catalog::{Base, Entry, Enum, Family, Struct, SystemVariable};
 use arl_lang::span::Span;
+use std::sync::{PoisonError, RwLock};
 
 /// Index of a module in [`Program::modules`].
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
@@ -36,39 +37,54 @@ pub struct LabelId(pub u32);
 /// Most dimensions an array may have.
 pub const MAX_DIMS: usize = 8;
 
-/// A type: a base type, or an array of one.
+/// A type: a base type, or an array of one. Small, since every expression has one.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Type {
     /// The type of a scalar or of the elements.
     pub base: Base,
-    count: u8,
-    sizes: [u16; MAX_DIMS],
+    /// 0 for a scalar, else one more than the index of the sizes in `SHAPES`.
+    shape: u16,
 }
+
+/// The sizes of all array shapes that any program of this process has had. Equal shapes have one number.
+static SHAPES: RwLock<Vec<&'static [u16]>> = RwLock::new(Vec::new());
 
 impl Type {
     /// A type without dimensions.
     pub const fn scalar(base: Base) -> Self {
-        Self { base, count: 0, sizes: [0; MAX_DIMS] }
+        Self { base, shape: 0 }
     }
 
-    /// An array type; `None` beyond [`MAX_DIMS`] dimensions or sizes beyond 65535.
+    /// An array type; `None` beyond [`MAX_DIMS`] dimensions, sizes beyond 65535, or more than 65534 different shapes.
     pub fn array(base: Base, dims: &[u32]) -> Option<Self> {
-        let mut ty = Self::scalar(base);
-        for size in dims {
-            *ty.sizes.get_mut(ty.count as usize)? = u16::try_from(*size).ok()?;
-            ty.count += 1;
+        if dims.is_empty() {
+            return Some(Self::scalar(base));
         }
-        Some(ty)
+        let sizes = dims.iter().map(|size| u16::try_from(*size).ok()).collect::<Option<Vec<u16>>>()?;
+        if sizes.len() > MAX_DIMS {
+            return None;
+        }
+        let mut shapes = SHAPES.write().unwrap_or_else(PoisonError::into_inner);
+        let known = shapes.iter().position(|known| **known == *sizes);
+        let at = known.unwrap_or_else(|| {
+            shapes.push(sizes.leak());
+            shapes.len() - 1
+        });
+        Some(Self { base, shape: u16::try_from(at + 1).ok()? })
     }
 
     /// The sizes of the dimensions; empty for a scalar.
-    pub fn dims(&self) -> &[u16] {
-        self.sizes.get(..self.count as usize).unwrap_or(&[])
+    pub fn dims(&self) -> &'static [u16] {
+        if self.shape == 0 {
+            return &[];
+        }
+        let shapes = SHAPES.read().unwrap_or_else(PoisonError::into_inner);
+        shapes.get(self.shape as usize - 1).copied().unwrap_or(&[])
     }
 
     /// Whether it is an array.
     pub const fn is_array(&self) -> bool {
-        self.count > 0
+        self.shape != 0
     }
 
     /// How many elements it has: 1 for a scalar.

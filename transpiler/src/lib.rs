@@ -5,11 +5,13 @@
 
 mod check;
 pub mod diagnostics;
+pub mod effects;
+pub mod emit;
 pub mod hir;
 mod near;
 mod visit;
 
-pub use check::check;
+pub use check::{SplicedValue, check, check_statements, check_text};
 
 use arl_lang::catalog::Family;
 use diagnostics::{Diagnostic, Files, Severity};
@@ -55,6 +57,8 @@ pub struct Checked {
     pub diagnostics: Vec<Diagnostic>,
     /// The files that were read.
     pub files: Files,
+    /// The syntax trees, kept only to be freed with the rest: a command that ends anyway need not wait for it.
+    syntax: check::Syntax,
     /// The paths of the files that were read, in the order of `files`, and those that were looked for in vain.
     pub read: Vec<std::path::PathBuf>,
 }

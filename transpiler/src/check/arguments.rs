@@ -325,6 +325,7 @@ impl Checker<'_> {
     ) -> Option<Passed> {
         self.check_unit(body, param, arg)?;
         let what = format!("`{}` of `{callee}`", param.name);
+        self.has_conditions |= param.mode == Mode::Condition;
         if param.mode == Mode::Out {
             return self.pass_out(body, callee, param, arg);
         }

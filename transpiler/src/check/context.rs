@@ -27,6 +27,8 @@ pub(crate) struct Checker<'a> {
     pub(crate) splices: Vec<Option<Type>>,
     /// Catalog functions by name, looked up once per name.
     pub(crate) functions: HashMap<Symbol, &'static [Entry]>,
+    /// Whether any argument is a condition, so that conditions have to be looked at.
+    pub(crate) has_conditions: bool,
 }
 
 /// The names of one module.

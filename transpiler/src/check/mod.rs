@@ -96,6 +96,7 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
         used_modules: HashSet::new(),
         splices: spliced.iter().map(|splice| splice.ty.map(hir::Type::scalar)).collect(),
         functions: HashMap::new(),
+        has_conditions: false,
     };
     checker.collect(&first_values_order(&modules));
     (0..checker.globals.len()).for_each(|at| checker.check_global(GlobalId(at as u32)));
@@ -107,12 +108,13 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
     if refused {
         diagnostics = std::mem::take(&mut checker.diagnostics);
     } else {
+        let has_conditions = checker.has_conditions;
         let built = checker.into_program(main_func, &mut diagnostics);
         let locate = |module: ModuleId, span: Span| Location {
             file: modules.get(module.0 as usize).map_or(crate::diagnostics::FileId(0), |module| module.file),
             span,
         };
-        let mut late = conditions::check(&built, &locate);
+        let mut late = if has_conditions { conditions::check(&built, &locate) } else { Vec::new() };
         late.extend(first_motion::check(&built, &locate));
         if late.is_empty() {
             program = Some(built);
@@ -121,7 +123,18 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
     }
     diagnostics.sort_by(|a, b| (a.primary.at, a.code).cmp(&(b.primary.at, b.code)));
     diagnostics.dedup();
-    (Checked { program, diagnostics, files, read }, spliced)
+    (Checked { program, diagnostics, files, syntax: Syntax { _modules: modules }, read }, spliced)
+}
+
+/// The syntax trees of a program.
+pub(crate) struct Syntax {
+    _modules: Vec<LoadedModule>,
+}
+
+impl std::fmt::Debug for Syntax {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Syntax")
+    }
 }
 
 /// The order in which modules get their first values: what is imported goes before what imports it.
