@@ -6,6 +6,7 @@ use lalrpop_util::ParseError;
 
 use crate::ast::BinaryOp;
 use crate::span::Span;
+use crate::symbol::Symbol;
 use crate::syntax_error::{Bracket, Hint, SyntaxError, SyntaxErrorKind};
 use crate::token::{Placed, Token};
 
@@ -15,35 +16,36 @@ struct Refused<'a> {
     tokens: &'a [Placed],
     /// The refused token; behind the last one, the end of the line is refused.
     at: usize,
-    /// The terminals that could have stood there, as lalrpop writes them.
-    expected: Vec<String>,
+    /// Whether the line up to there can go on with a token, or end.
+    goes_on: &'a dyn Fn(&[Placed], Option<Token>) -> bool,
+    /// Stands for any name.
+    symbol: Symbol,
     /// The brackets that are open there.
     open: Vec<(Bracket, Span)>,
 }
 
-/// The error for what the grammar refused, and the number of the token it is about. `is_line` says whether some
-/// first tokens of the line would be a line.
+/// The error for what the grammar refused, and the number of the token it is about.
+///
+/// `goes_on` says whether some first tokens of a line can be followed by a token, or by the end of the line. (What
+/// lalrpop itself expects is not enough: its states are merged, and the wrong token may have ended something.)
 pub(crate) fn explain(
-    error: ParseError<u32, Token, Infallible>,
+    error: &ParseError<u32, Token, Infallible>,
     source: &str,
     tokens: &[Placed],
-    is_line: impl Fn(&[Placed]) -> bool,
+    symbol: Symbol,
+    goes_on: &dyn Fn(&[Placed], Option<Token>) -> bool,
 ) -> (SyntaxError, usize) {
-    let (at, expected) = match error {
-        ParseError::UnrecognizedToken { token, expected } => (position(tokens, token.0), expected),
-        ParseError::UnrecognizedEof { expected, .. } => (tokens.len(), expected),
-        ParseError::InvalidToken { location } => (position(tokens, location), Vec::new()),
-        ParseError::ExtraToken { token } => (position(tokens, token.0), Vec::new()),
-        ParseError::User { error } => match error {},
+    let at = match error {
+        ParseError::UnrecognizedToken { token, .. } | ParseError::ExtraToken { token } => position(tokens, token.0),
+        ParseError::UnrecognizedEof { .. } => tokens.len(),
+        ParseError::InvalidToken { location } => position(tokens, *location),
+        ParseError::User { error } => match *error {},
     };
     let open = open_brackets(tokens.get(..at).unwrap_or(tokens));
-    let refused = Refused { source, tokens, at, expected, open };
+    let refused = Refused { source, tokens, at, goes_on, symbol, open };
     let error = match refused.found() {
         None => refused.at_line_end(),
-        Some(found) => {
-            let complete = refused.at > 0 && is_line(tokens.get(..at).unwrap_or(tokens));
-            refused.at_token(found, complete)
-        }
+        Some(found) => refused.at_token(found, at > 0 && refused.can_follow(None)),
     };
     (error, at)
 }
@@ -54,7 +56,7 @@ fn position(tokens: &[Placed], offset: u32) -> usize {
 }
 
 /// The brackets that `tokens` leave open, outermost first.
-fn open_brackets(tokens: &[Placed]) -> Vec<(Bracket, Span)> {
+pub(crate) fn open_brackets(tokens: &[Placed]) -> Vec<(Bracket, Span)> {
     let mut open = Vec::new();
     for (start, token, end) in tokens {
         match token {
@@ -83,17 +85,34 @@ impl Refused<'_> {
         self.tokens.first().map(|token| token.1)
     }
 
-    fn expects(&self, terminal: &str) -> bool {
-        self.expected.iter().any(|expected| expected.trim_matches('"') == terminal)
+    /// Whether the line could go on with the token, or end, where it is refused.
+    fn can_follow(&self, token: Option<Token>) -> bool {
+        (self.goes_on)(self.tokens.get(..self.at).unwrap_or(self.tokens), token)
+    }
+
+    fn expects(&self, token: Token) -> bool {
+        self.can_follow(Some(token))
     }
 
     /// Whether a value could stand here.
     fn expects_value(&self) -> bool {
-        self.expects("int")
+        self.expects(Token::Text) && self.expects(Token::True)
+    }
+
+    fn expects_name(&self) -> bool {
+        self.expects(Token::Name(self.symbol))
+    }
+
+    fn expects_operator(&self) -> bool {
+        self.expects(Token::Operator(BinaryOp::Multiply))
     }
 
     fn expects_close(&self, bracket: Bracket) -> bool {
-        self.expects(bracket.close())
+        self.expects(match bracket {
+            Bracket::Paren => Token::ParenClose,
+            Bracket::Square => Token::BracketClose,
+            Bracket::Brace => Token::BraceClose,
+        })
     }
 
     /// A token as the reader sees it.
@@ -121,10 +140,10 @@ impl Refused<'_> {
             let error = SyntaxError::new(SyntaxErrorKind::MissingClose(*bracket), place);
             return error.with(*span, format!("this `{}` is open", bracket.open()));
         }
-        if matches!(self.first(), Some(Token::Case | Token::Default)) && self.expects(":") {
+        if matches!(self.first(), Some(Token::Case | Token::Default)) && self.expects(Token::Colon) {
             return SyntaxError::new(SyntaxErrorKind::MissingColon, place);
         }
-        if matches!(last.1, Token::Type(_)) && self.at > 1 && !self.expects("name") {
+        if matches!(last.1, Token::Type(_)) && self.at > 1 && !self.expects_name() {
             return SyntaxError::new(SyntaxErrorKind::ReservedWord(self.text(last)), place);
         }
         if self.expects_value() && self.at > 1 {
@@ -164,6 +183,9 @@ impl Refused<'_> {
                 let place = before.map_or(place, |before| Span::new(before.0, before.2));
                 return SyntaxError::new(SyntaxErrorKind::Then(then), place);
             }
+            (Some(before), Token::Semicolon) if !self.open.is_empty() && ends_value(before) => {
+                return self.between_values(found, complete);
+            }
             (_, Token::Semicolon) if complete => {
                 let next = self.tokens.get(self.at + 1).map_or(place, |next| Span::new(next.0, next.2));
                 return SyntaxError::new(SyntaxErrorKind::SeveralStatements, next);
@@ -172,7 +194,7 @@ impl Refused<'_> {
                 SyntaxErrorKind::ComponentColon(before.map_or("".into(), |before| self.text(before)))
             }
             (_, Token::Unit(_)) if before.is_some_and(|before| ends_value(before.1)) => SyntaxErrorKind::MisplacedUnit,
-            (Some(before), Token::Assign(_)) if ends_value(before) && self.expects("operator") => {
+            (Some(before), Token::Assign(_)) if ends_value(before) && self.expects_operator() => {
                 SyntaxErrorKind::NotAssignable("the result of an operator".into())
             }
             (Some(before), token) if begins_value(token) && ends_value(before) => {
@@ -200,7 +222,7 @@ impl Refused<'_> {
             return error.with(opened, related);
         }
         let before = self.before();
-        if matches!(before, Some((_, Token::Type(_), _))) && !self.expects("name") {
+        if matches!(before, Some((_, Token::Type(_), _))) && !self.expects_name() {
             let (word, place) =
                 before.map_or(("".into(), place), |before| (self.text(before), Span::new(before.0, before.2)));
             return SyntaxError::new(SyntaxErrorKind::ReservedWord(word), place);
@@ -233,6 +255,13 @@ impl Refused<'_> {
             (Some(word @ (_, Token::Instruction(_), _)), Token::Assign(_) | Token::Dot | Token::Scope) => {
                 return reserved(word);
             }
+            (Some((start, Token::Type(_), end)), Token::Name(_)) if self.first() == Some(Token::If) => {
+                let word = (start, found.1, end);
+                return Some(SyntaxError::new(
+                    self.unexpected(word, Hint::CompactDeclaration, true),
+                    Span::new(start, end),
+                ));
+            }
             _ => {}
         }
         if !is_word(found.1) || matches!(found.1, Token::Name(_)) {
@@ -250,8 +279,8 @@ impl Refused<'_> {
             _ if complete && !begins_value(found.1) => {
                 Some(SyntaxError::new(SyntaxErrorKind::SeveralStatements, place))
             }
-            _ if self.expects("name") && !begins_value(found.1) => reserved(found),
-            _ if self.expects("name") && !self.expects_value() => reserved(found),
+            _ if self.expects_name() && !begins_value(found.1) => reserved(found),
+            _ if self.expects_name() && !self.expects_value() => reserved(found),
             _ => None,
         }
     }
@@ -259,7 +288,7 @@ impl Refused<'_> {
     /// The error where two values follow each other.
     fn between_values(&self, found: Placed, complete: bool) -> SyntaxError {
         let place = Span::new(found.0, found.2);
-        let kind = if self.expects(",") {
+        let kind = if self.expects(Token::Comma) && found.1 != Token::Semicolon {
             SyntaxErrorKind::MissingComma(self.show(found).into())
         } else if let Some((bracket, opened)) = self.open.last()
             && self.expects_close(*bracket)
@@ -332,20 +361,34 @@ impl Refused<'_> {
         }
         let mut parts: Vec<String> = Vec::new();
         let value = self.expects_value();
-        let operator = self.expects("operator");
+        let operator = self.expects_operator();
+        let line_end = line_end || (self.at < self.tokens.len() && self.can_follow(None));
         if value {
             parts.push("a value".into());
         }
-        for (terminal, words) in [("name", "a name"), ("type", "a type"), ("text", "a string")] {
-            if self.expects(terminal) && !value {
+        let words =
+            [(Token::Name(self.symbol), "a name"), (Token::Type(self.symbol), "a type"), (Token::Text, "a string")];
+        for (token, words) in words {
+            if !value && self.expects(token) {
                 parts.push(words.into());
             }
         }
-        for terminal in [",", ";", ":", "::", "(", ")", "]", "}", "="] {
-            let of_value = value && terminal == "(";
-            let of_operator = operator && matches!(terminal, "(" | "=" | "::");
-            if self.expects(terminal) && !of_value && !of_operator {
-                parts.push(format!("`{terminal}`"));
+        let signs = [
+            (Token::Comma, "`,`"),
+            (Token::Semicolon, "`;`"),
+            (Token::Colon, "`:`"),
+            (Token::Scope, "`::`"),
+            (Token::ParenOpen, "`(`"),
+            (Token::ParenClose, "`)`"),
+            (Token::BracketClose, "`]`"),
+            (Token::BraceClose, "`}`"),
+            (Token::Assign(None), "`=`"),
+        ];
+        for (token, words) in signs {
+            let implied = (value && token == Token::ParenOpen)
+                || (operator && matches!(token, Token::ParenOpen | Token::Assign(_) | Token::Scope));
+            if !implied && self.expects(token) {
+                parts.push(words.into());
             }
         }
         if operator {
@@ -419,7 +462,7 @@ fn begins_value(token: Token) -> bool {
 }
 
 /// Whether the token stands between values.
-fn is_infix(token: Token) -> bool {
+pub(crate) fn is_infix(token: Token) -> bool {
     matches!(token, Token::Operator(_) | Token::Minus | Token::Assign(_) | Token::Comma | Token::Semicolon)
 }
 

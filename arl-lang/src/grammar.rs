@@ -1,6 +1,6 @@
 // Made of grammar.lalrpop; renew it with: cargo run -p arl-lang --example renew_grammar
 // auto-generated: "lalrpop 0.23.2"
-// sha3: 73338b82d41aa0e7a0ffacee981fb18e7f0fb33c6a988af0c345d0aaf9d6f908
+// sha3: 68fda8d3657c39298cb73bc89de27f9dc028a2b3d6e12ba4e2d6b427b019cf8b
 // features: 
 use crate::ast::*;
 use crate::line::{FuncHead, Line, LineKind};
@@ -48,7 +48,7 @@ mod __parse__Line {
         Variant10((Arg, u16)),
         Variant11(Args),
         Variant12(Option<Args>),
-        Variant13(Box<Chain>),
+        Variant13(Chain),
         Variant14(Decl),
         Variant15(Vec<Expr>),
         Variant16((Expr, Expr)),
@@ -2761,7 +2761,7 @@ mod __parse__Line {
     fn __pop_Variant13<
     >(
         __symbols: &mut alloc::vec::Vec<(u32,__Symbol<>,u32)>
-    ) -> (u32, Box<Chain>, u32)
+    ) -> (u32, Chain, u32)
      {
         match __symbols.pop() {
             Some((__l, __Symbol::Variant13(__v), __r)) => (__l, __v, __r),
@@ -6556,7 +6556,7 @@ fn __action57<
     'source,
 >(
     cx: &'cx mut Context<'source>,
-    (_, chain, _): (u32, Box<Chain>, u32),
+    (_, chain, _): (u32, Chain, u32),
 ) -> Deep
 {
     cx.chain(chain)
@@ -6587,7 +6587,7 @@ fn __action59<
     (_, left, _): (u32, Deep, u32),
     (_, op, _): (u32, BinaryOp, u32),
     (_, right, _): (u32, Deep, u32),
-) -> Box<Chain>
+) -> Chain
 {
     Chain::new(left, op, right)
 }
@@ -6599,10 +6599,10 @@ fn __action60<
     'source,
 >(
     cx: &'cx mut Context<'source>,
-    (_, mut chain, _): (u32, Box<Chain>, u32),
+    (_, mut chain, _): (u32, Chain, u32),
     (_, op, _): (u32, BinaryOp, u32),
     (_, right, _): (u32, Deep, u32),
-) -> Box<Chain>
+) -> Chain
 {
     { cx.extend(&mut chain, op, right); chain }
 }

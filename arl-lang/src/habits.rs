@@ -1,6 +1,7 @@
 //! Habits from other languages that can be recognised from the ends of a line: the error is reported, and the line
 //! is read as it was meant.
 
+use crate::explain::open_brackets;
 use crate::nest::Nest;
 use crate::span::Span;
 use crate::syntax_error::{BlockKind, Bracket, SyntaxError, SyntaxErrorKind};
@@ -94,13 +95,13 @@ pub(crate) fn repair(
         nest.set_braced();
         return Habit::Done;
     }
-    while tokens.len() > 1
-        && let Some(last @ (_, Token::Semicolon, _)) = tokens.last().copied()
+    if let Some(last @ (_, Token::Semicolon, _)) = tokens.last().copied()
+        && open_brackets(tokens).is_empty()
     {
-        tokens.pop();
-        if !matches!(tokens.last(), Some((_, Token::Semicolon, _))) {
-            report(SyntaxErrorKind::Semicolon, span(last));
-        }
+        let first = tokens.iter().rposition(|token| token.1 != Token::Semicolon).map_or(0, |at| at + 1);
+        let begin = tokens.get(first).map_or(last.0, |first| first.0);
+        report(SyntaxErrorKind::Semicolon, Span::new(begin, last.2));
+        tokens.truncate(first);
     }
     if let [first @ (_, Token::Else, _), second @ (_, Token::If, _), ..] = tokens.as_slice() {
         let whole = span(*first).to(span(*second));

@@ -381,10 +381,13 @@ impl<'source> Nest<'source> {
             return;
         }
         let beyond = self.frames.len() > BLOCK_LEVELS;
+        let name = match &frame.kind {
+            Open::Func(head) => head.name.span.text(self.source).into(),
+            _ => "".into(),
+        };
         if !beyond && !self.forgive_missing(kind) {
-            let line = self.line_of(opened);
-            let error = SyntaxError::new(SyntaxErrorKind::UnclosedBlock(kind, line), span);
-            errors.push(error.with(opened, format!("this `{}` needs its `{}`", kind.opener(), kind.closer())));
+            let error = SyntaxError::new(SyntaxErrorKind::UnclosedBlock(kind, name), opened);
+            errors.push(error.with(span, format!("`{}` belongs before this at the latest", kind.closer())));
         }
         self.pop(span, None);
     }

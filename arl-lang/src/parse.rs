@@ -1,5 +1,6 @@
 //! Source text to syntax tree. Every entry reads to the end and reports all mistakes, each once.
 
+use lalrpop_util::ParseError;
 use logos::Logos;
 
 use crate::adapt::{Adapter, PlacedLexeme};
@@ -15,7 +16,7 @@ use crate::salvage::{Salvaged, salvage};
 use crate::span::Span;
 use crate::symbol::{Interner, Symbol};
 use crate::syntax_error::{SyntaxError, SyntaxErrorKind};
-use crate::token::Placed;
+use crate::token::{Placed, Token};
 use crate::tree::Context;
 
 /// What is read besides plain ARL.
@@ -154,14 +155,16 @@ impl<'a> Parser<'a> {
 
     fn run(&mut self) {
         loop {
-            let (more, mut broken) = self.read_line();
+            let before = self.context.errors.len();
+            let (more, broken) = self.read_line();
+            // What follows from a character or a number that could not be read is not reported once more.
+            let quiet = self.context.errors.len() > before;
             let lexemes = std::mem::take(&mut self.lexemes);
             let mut rest = lexemes.as_slice();
             while !rest.is_empty() {
                 let adapted = self.adapter.adapt(rest, &mut self.context.errors);
-                self.line(broken || adapted.broken);
+                self.line(broken || adapted.broken, quiet);
                 rest = rest.get(adapted.taken.max(1)..).unwrap_or_default();
-                broken = broken && !rest.is_empty();
             }
             self.lexemes = lexemes;
             if !more {
@@ -232,7 +235,7 @@ impl<'a> Parser<'a> {
             }
             LexicalError::Number(error) => {
                 let kind = match error {
-                    NumberError::IntTooLarge => SyntaxErrorKind::IntTooLarge,
+                    NumberError::IntTooLarge => SyntaxErrorKind::IntTooLarge(text.into()),
                     NumberError::DoubleTooLarge => SyntaxErrorKind::DoubleTooLarge,
                     NumberError::BinaryDigits => SyntaxErrorKind::BinaryDigits(text.into()),
                     NumberError::Exponent => SyntaxErrorKind::NoExponent(text.into()),
@@ -258,7 +261,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Reads the line whose tokens the adapter holds.
-    fn line(&mut self, broken: bool) {
+    fn line(&mut self, broken: bool, quiet: bool) {
         if self.adapter.tokens.is_empty() {
             return;
         }
@@ -287,11 +290,15 @@ impl<'a> Parser<'a> {
             }
             Err(error) => {
                 self.context.errors.truncate(before);
-                let endl = self.context.endl;
-                let is_line = |prefix: &[Placed]| is_line(&self.grammar, self.source, endl, prefix);
-                let (error, at) = explain(error, self.source, tokens, is_line);
-                self.context.errors.push(error);
-                self.salvage(at, doubts);
+                if !quiet {
+                    let (source, endl) = (self.source, self.context.endl);
+                    let grammar = &self.grammar;
+                    let goes_on = |prefix: &[Placed], next| goes_on(grammar, source, endl, prefix, next);
+                    let (error, at) = explain(&error, source, tokens, endl, &goes_on);
+                    self.context.errors.push(error);
+                    return self.salvage(at, doubts);
+                }
+                self.salvage(tokens.len(), doubts);
             }
         }
     }
@@ -335,8 +342,14 @@ fn punctuation(meant: char) -> Instead {
     })
 }
 
-/// Whether the tokens are a whole line.
-fn is_line(grammar: &LineParser, source: &str, endl: Symbol, tokens: &[Placed]) -> bool {
+/// Whether the tokens can be followed by `next`, or by the end of the line.
+fn goes_on(grammar: &LineParser, source: &str, endl: Symbol, tokens: &[Placed], next: Option<Token>) -> bool {
     let mut context = Context { source, errors: Vec::new(), endl };
-    grammar.parse(&mut context, tokens.iter().copied()).is_ok()
+    let behind = u32::MAX;
+    let next = next.map(|next| (behind, next, behind));
+    match grammar.parse(&mut context, tokens.iter().copied().chain(next)) {
+        Ok(_) => true,
+        Err(ParseError::UnrecognizedEof { .. }) => next.is_some(),
+        Err(_) => false,
+    }
 }

@@ -2,6 +2,7 @@
 //! that the error costs this line only.
 
 use crate::ast::{Decl, Expr, For, FuncParam, Ident, Stmt, StmtKind, TypeRef, Var};
+use crate::explain::is_infix;
 use crate::line::{FuncHead, Line, LineKind};
 use crate::nest::error_at;
 use crate::span::Span;
@@ -27,7 +28,10 @@ pub(crate) fn salvage(tokens: &[Placed], read: Option<Line>, void: Symbol) -> Op
     let mut drop = false;
     let kind = match first.1 {
         Token::If => match condition_end(tokens) {
-            Some(end) if end == tokens.len() => LineKind::If(guard(read).unwrap_or_else(unknown)),
+            // `if(a) && (b)`: the condition goes on.
+            Some(end) if tokens.get(end).is_none_or(|next| is_infix(next.1)) => {
+                LineKind::If(guard(read).unwrap_or_else(unknown))
+            }
             Some(_) => return None,
             None => {
                 may_open = true;

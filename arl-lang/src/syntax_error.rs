@@ -203,7 +203,7 @@ pub enum SyntaxErrorKind {
     /// An escape that strings do not have.
     BadEscape(char),
     /// An int that needs more than 32 bits.
-    IntTooLarge,
+    IntTooLarge(Box<str>),
     /// A double beyond the largest one.
     DoubleTooLarge,
     /// A binary number with other digits than 0 and 1.
@@ -280,8 +280,8 @@ pub enum SyntaxErrorKind {
     /// `int a += 1`
     CompoundStartValue,
 
-    /// A block that is never closed, and the line that opens it.
-    UnclosedBlock(BlockKind, u32),
+    /// A block that is never closed; a function's name, empty for others.
+    UnclosedBlock(BlockKind, Box<str>),
     /// A closing line without a block.
     StrayEnd(BlockKind),
     /// A block that is closed by another kind's word: opened, the line that opens it, found.
@@ -340,7 +340,7 @@ numbers! {
     104 SyntaxErrorKind::UnclosedText => "A string without its closing quote",
     105 SyntaxErrorKind::UnclosedComment => "A block comment without its end",
     106 SyntaxErrorKind::BadEscape(_) => "An escape that strings do not have",
-    107 SyntaxErrorKind::IntTooLarge => "An int beyond 32 bits",
+    107 SyntaxErrorKind::IntTooLarge(_) => "An int beyond 32 bits",
     108 SyntaxErrorKind::DoubleTooLarge => "A double beyond the largest one",
     109 SyntaxErrorKind::BinaryDigits(_) => "A binary number with other digits than 0 and 1",
     110 SyntaxErrorKind::NoExponent(_) => "An exponent without digits",
@@ -401,7 +401,7 @@ impl SyntaxErrorKind {
             UnclosedText => "this string is never closed".into(),
             UnclosedComment => "this comment is never closed".into(),
             BadEscape(escaped) => format!("strings have no escape `\\{}`", escaped.escape_default()),
-            IntTooLarge => "this number does not fit into 32 bits".into(),
+            IntTooLarge(text) => format!("`{text}` does not fit into 32 bits"),
             DoubleTooLarge => "this number is beyond the largest double".into(),
             BinaryDigits(text) => format!("`{text}` is no binary number"),
             NoExponent(text) => format!("the exponent of `{text}` has no digits"),
@@ -436,10 +436,13 @@ impl SyntaxErrorKind {
             TooManyLevels => "this expression has too many levels".into(),
             ComponentColon(name) => format!("no `:` stands between the component `{name}` and its value"),
             CompoundStartValue => "a start value follows a plain `=`".into(),
-            UnclosedBlock(kind, line) => {
-                format!("`{}` is missing: the `{}` of line {line} is never closed", kind.closer(), kind.opener())
+            UnclosedBlock(kind, name) if name.is_empty() => {
+                format!("this `{}` is never closed: its `{}` is missing", kind.opener(), kind.closer())
             }
-            StrayEnd(kind) => format!("this `{}` closes nothing", kind.closer()),
+            UnclosedBlock(kind, name) => {
+                format!("the function `{name}` is never closed: its `{}` is missing", kind.closer())
+            }
+            StrayEnd(kind) => format!("this `{}` closes nothing: no `{}` is open", kind.closer(), kind.opener()),
             WrongEnd(open, line, found) => {
                 format!("`{}` cannot close the `{}` of line {line}", found.closer(), open.opener())
             }
@@ -466,7 +469,7 @@ impl SyntaxErrorKind {
             ForeignLetters(_) => "these letters are not allowed in names".into(),
             UnclosedText | UnclosedComment => "it begins here".into(),
             BadEscape(_) => "unknown escape".into(),
-            IntTooLarge | DoubleTooLarge => "too large".into(),
+            IntTooLarge(_) | DoubleTooLarge => "too large".into(),
             BinaryDigits(_) => "other digits than 0 and 1".into(),
             NoExponent(_) => "digits are missing behind this".into(),
             OtherHexadecimal(value) => format!("write `{}`", arl_hexadecimal(*value)),
@@ -494,8 +497,8 @@ impl SyntaxErrorKind {
             TooManyLevels => "too deep".into(),
             ComponentColon(name) => format!("write `{name}`, a blank and the value"),
             CompoundStartValue => "write `=`".into(),
-            UnclosedBlock(kind, _) => format!("`{}` belongs before this at the latest", kind.closing_line()),
-            StrayEnd(kind) => format!("no `{}` is open here", kind.opener()),
+            UnclosedBlock(kind, _) => format!("this needs its `{}`", kind.closing_line()),
+            StrayEnd(_) => "remove this".into(),
             WrongEnd(open, ..) | OtherEnd(_, open, _) => format!("write `{}`", open.closing_line()),
             OutsideFunction => "this is outside of any function".into(),
             FuncAmongStatements => "define it outside".into(),
@@ -526,7 +529,7 @@ impl SyntaxErrorKind {
             BadEscape(_) => {
                 "The escapes are `\\n`, `\\r`, `\\t`, `\\\"` and `\\\\`. A backslash itself is written `\\\\`."
             }
-            IntTooLarge => "Ints have 32 bits. Write a double (`4294967296.0`) where it may be one.",
+            IntTooLarge(_) => "Ints have 32 bits. Write a double (`4294967296.0`) where it may be one.",
             BinaryDigits(_) => "A `b` behind digits makes a binary number, an `h` a hexadecimal one: `1100b`, `12bh`.",
             NoExponent(_) => "Write the exponent's digits (`12e3`), or an `h` for a hexadecimal number (`12eh`).",
             OtherHexadecimal(value) => return Some(format!("Write `{}`.", arl_hexadecimal(*value))),

@@ -77,8 +77,8 @@ pub(crate) struct Chain {
 }
 
 impl Chain {
-    pub(crate) fn new(left: Deep, op: BinaryOp, right: Deep) -> Box<Self> {
-        Box::new(Self { open: vec![(left, op)], last: right })
+    pub(crate) fn new(left: Deep, op: BinaryOp, right: Deep) -> Self {
+        Self { open: vec![(left, op)], last: right }
     }
 }
 
@@ -162,8 +162,8 @@ impl Context<'_> {
     }
 
     /// The tree of the whole chain.
-    pub(crate) fn chain(&mut self, chain: Box<Chain>) -> Deep {
-        let Chain { mut open, last } = *chain;
+    pub(crate) fn chain(&mut self, chain: Chain) -> Deep {
+        let Chain { mut open, last } = chain;
         let mut right = last;
         while let Some((left, op)) = open.pop() {
             right = self.binary(left, op, right);
