@@ -91,14 +91,11 @@ pub(crate) fn load(main: &Path, start: Start<'_>, sources: &dyn Sources, options
 impl Loaded {
     /// Decodes and parses a file; `None` where it cannot be decoded.
     fn add(&mut self, path: &Path, shown: String, bytes: &[u8], from: Option<Location>) -> Option<ModuleId> {
-        let too_large = bytes.len() >= 1 << 30;
         let text = match arl_lang::text::decode(bytes) {
-            Ok(text) if !too_large => text.into_owned(),
-            outcome => {
-                let problem = match outcome {
-                    Err(error) => ModuleProblem::Encoding { path: shown.clone(), offset: error.offset },
-                    Ok(_) => ModuleProblem::TooLarge { path: shown.clone() },
-                };
+            Ok(text) => text.into_owned(),
+            Err(error) => {
+                let (offset, utf16) = (error.offset, error.utf16);
+                let problem = ModuleProblem::Encoding { path: shown.clone(), offset, utf16 };
                 let file = self.files.add(shown, String::new());
                 let at = from.unwrap_or(Location { file, span: Span::default() });
                 self.diagnostics.push(problem.at(at));

@@ -121,6 +121,9 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
         }
         diagnostics.extend(late);
     }
+    if let Some(program) = &mut program {
+        crate::effects::infer(program);
+    }
     diagnostics.sort_by(|a, b| (a.primary.at, a.code).cmp(&(b.primary.at, b.code)));
     diagnostics.dedup();
     (Checked { program, diagnostics, files, syntax: Syntax { _modules: modules }, read }, spliced)

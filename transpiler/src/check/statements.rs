@@ -259,9 +259,8 @@ impl Checker<'_> {
         for arm in &switch.arms {
             let value = match &arm.value {
                 Some(value) => self.case_value(body, value, ty, &mut seen).map(Some),
-                None if std::mem::replace(&mut default, true) => {
-                    self.report(body, arm.span, FlowProblem::DefaultTwice)
-                }
+                // The syntax has reported it.
+                None if std::mem::replace(&mut default, true) => None,
                 None => Some(None),
             };
             body.switches += 1;
