@@ -94,12 +94,12 @@ pub fn ftobytes(src: f64, data: &mut [u8], start: i32) -> Result<(), Fault> {
 
 /// A value as it prints.
 pub fn tostr(v: &dyn Print) -> Str {
-    v.to_text(&Style::START)
+    v.printed(&Style::START)
 }
 
 /// An int in a base.
 pub fn tostr_base(v: i32, number_base: NumBase) -> Str {
-    v.to_text(&Style { base: Some(number_base), ..Style::START })
+    v.printed(&Style { base: Some(number_base), ..Style::START })
 }
 
 /// A double with this many significant digits.
@@ -108,7 +108,7 @@ pub fn tostr_base(v: i32, number_base: NumBase) -> Str {
 /// [`Fault::Domain`] for a negative number of digits.
 pub fn tostr_precision(v: f64, precision: i32) -> Result<Str, Fault> {
     match u32::try_from(precision) {
-        Ok(precision) => Ok(v.to_text(&Style { precision, ..Style::START })),
+        Ok(precision) => Ok(v.printed(&Style { precision, ..Style::START })),
         Err(_) => Err(domain("tostr", format!("{precision} digits: 0 or more are possible"))),
     }
 }

@@ -225,7 +225,7 @@ mod tests {
     use std::f64::consts::PI;
 
     fn shown(value: f64) -> String {
-        value.to_text(&Style::START).to_string()
+        value.printed(&Style::START).to_string()
     }
 
     #[test]

@@ -133,31 +133,6 @@ pub fn in_range<T: Copy + Into<f64>>(value: T, low: f64, high: f64) -> Result<T,
     if (low..=high).contains(&number) { Ok(value) } else { Err(Fault::Range { value: number, low, high }) }
 }
 
-/// A value as a condition: everything but zero is true.
-pub trait Truth: Copy {
-    /// Whether it is not zero.
-    fn truth(self) -> bool;
-}
-
-macro_rules! truths {
-    ($($ty:ty: $zero:literal)*) => { $(
-        impl Truth for $ty {
-            #[inline]
-            fn truth(self) -> bool {
-                self != $zero
-            }
-        }
-    )* };
-}
-
-truths!(i32: 0 u32: 0 u8: 0 f64: 0.0 bool: false);
-
-/// Whether a value counts as true: everything but zero does.
-#[inline]
-pub fn truth(value: impl Truth) -> bool {
-    value.truth()
-}
-
 /// Sums, differences and negation by component; an unset component stays unset.
 macro_rules! joints {
     ($($ty:ident: $count:literal)*) => { $(
@@ -243,12 +218,6 @@ mod tests {
         assert_eq!(in_range(5, 0.0, 5.0), Ok(5));
         assert_eq!(in_range(5.5, 0.0, 5.0), Err(Fault::Range { value: 5.5, low: 0.0, high: 5.0 }));
         assert!(in_range(f64::NAN, 0.0, 5.0).is_err());
-    }
-
-    #[test]
-    fn conditions() {
-        assert!(truth(-1) && truth(0.1) && truth(1_u8) && truth(f64::NAN) && truth(true));
-        assert!(!truth(0) && !truth(-0.0) && !truth(0_u32) && !truth(false));
     }
 
     #[test]

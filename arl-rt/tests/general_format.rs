@@ -12,7 +12,7 @@ fn doubles_print_as_in_c() {
         let value = f64::from_bits(u64::from_str_radix(column(), 16).unwrap());
         let precision = column().parse().unwrap();
         let expected = column();
-        let text = value.to_text(&Style { precision, base: None });
+        let text = value.printed(&Style { precision, base: None });
         let expected = if expected == "-0" { "0" } else { expected };
         assert_eq!(text, expected, "{line}");
         count += 1;

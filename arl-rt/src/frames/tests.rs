@@ -2,7 +2,7 @@ use super::*;
 use crate::text::{Print, Style};
 
 fn shown(value: &dyn Print) -> String {
-    value.to_text(&Style::START).to_string()
+    value.printed(&Style::START).to_string()
 }
 
 fn pose(components: [f64; 6]) -> Pose {

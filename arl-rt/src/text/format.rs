@@ -38,7 +38,7 @@ pub trait Print {
     fn type_name(&self) -> String;
 
     /// The value as text of its own.
-    fn to_text(&self, style: &Style) -> Str {
+    fn printed(&self, style: &Style) -> Str {
         let mut out = Str::new();
         self.print(&mut out, style);
         out
@@ -172,11 +172,11 @@ mod tests {
     use super::*;
 
     fn shown(value: &dyn Print) -> String {
-        value.to_text(&Style::START).to_string()
+        value.printed(&Style::START).to_string()
     }
 
     fn shown_in(base: NumBase, value: &dyn Print) -> String {
-        value.to_text(&Style { base: Some(base), ..Style::START }).to_string()
+        value.printed(&Style { base: Some(base), ..Style::START }).to_string()
     }
 
     #[test]

@@ -195,7 +195,7 @@ mod tests {
         for (at, name) in printed.iter().enumerate() {
             let constant = E::from_index(at as i32).unwrap();
             assert_eq!(constant.index(), at as i32);
-            assert_eq!(constant.to_text(&Style::START), *name);
+            assert_eq!(constant.printed(&Style::START), *name);
             assert_eq!(E::from_name(&name.to_lowercase()), Some(constant));
         }
         assert_eq!(E::CONSTANTS, printed);

@@ -3,6 +3,7 @@
 use super::{Array, Enumeration, Store, Str, Structure, TeachError, TeachProblem};
 use crate::text::{Print, Typed};
 use arl_lang::ast::{BraceItem, Expr, ExprKind, Radix, UnaryOp};
+use arl_lang::catalog::{Base, base_type, enum_constant};
 use arl_lang::symbol::Interner;
 
 /// A value that a literal can be read into.
@@ -28,7 +29,8 @@ enum Read<'a> {
     Double(f64),
     Bool(bool),
     Text(&'a str),
-    Name,
+    /// A name, with its number where it is an enumeration's constant.
+    Name(Option<i32>),
     Brace(&'a [BraceItem]),
     Other,
 }
@@ -61,7 +63,13 @@ impl<'a> Read<'a> {
             ExprKind::String(text) => Read::Text(text),
             ExprKind::Name(name) => Read::word(names.name(*name)),
             ExprKind::System(name) => Read::word(names.name(*name)),
-            ExprKind::Path { .. } => Read::Name,
+            ExprKind::Path { scope, name, .. } => {
+                let number = match base_type(names.name(scope.symbol)) {
+                    Some(Base::Enum(id)) => id.def().constant(names.name(name.symbol)),
+                    _ => None,
+                };
+                Read::Name(number.map(i32::from))
+            }
             ExprKind::Brace(items) => Read::Brace(items),
             ExprKind::Unary(UnaryOp::Negate, inner) => match Read::new(inner, names) {
                 Read::Double(number) => Read::Double(-number),
@@ -94,7 +102,8 @@ impl<'a> Read<'a> {
             _ => {}
         }
         let bits = word.strip_suffix('h').and_then(|digits| u32::from_str_radix(digits, 16).ok());
-        bits.map_or(Read::Name, |bits| Read::Int(Number { value: i64::from(bits), pattern: true }))
+        let constant = || enum_constant(word).map(|(_, number)| i32::from(number));
+        bits.map_or_else(|| Read::Name(constant()), |bits| Read::Int(Number { value: i64::from(bits), pattern: true }))
     }
 
     fn what(&self) -> &'static str {
@@ -103,7 +112,7 @@ impl<'a> Read<'a> {
             Read::Double(_) => "a double",
             Read::Bool(_) => "a bool",
             Read::Text(_) => "a string",
-            Read::Name => "a name",
+            Read::Name(_) => "a name",
             Read::Brace(_) => "braces",
             Read::Other => "an expression that is not a literal",
         }
@@ -132,7 +141,10 @@ macro_rules! scalars {
 }
 
 scalars! {
-    i32 { Read::Int(number) => number.int() }
+    i32 {
+        Read::Int(number) => number.int(),
+        Read::Name(Some(number)) => Some(number),
+    }
     u32 { Read::Int(number) => u32::try_from(number.value).ok() }
     u8 { Read::Int(number) => u8::try_from(number.value).ok() }
     f64 {

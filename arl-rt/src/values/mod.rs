@@ -15,7 +15,7 @@ pub use literal::Literal;
 pub use shared::Shared;
 pub use str::Str;
 pub use structs::*;
-pub use teach::{Teach, TeachError, TeachProblem};
+pub use teach::{Fixed, Teach, TeachError, TeachProblem, teach_variable};
 
 /// What a component is that nobody has set: "keep what was".
 pub const UNSET: f64 = 9e9;

@@ -1,5 +1,6 @@
 //! A place for values that are not `Copy`, shared by everything that sees the global variables.
 
+use super::{Array, Store};
 use std::cell::RefCell;
 
 /// A variable that several parts of a program see: strings, arrays, workpieces.
@@ -47,10 +48,37 @@ impl<T> Shared<T> {
     }
 }
 
+impl<T: Clone + Default, const N: usize, S: Store<T, N>> Shared<Array<T, N, S>> {
+    /// A copy of the element with this index; the start value beyond the last.
+    #[inline]
+    #[track_caller]
+    pub fn item(&self, index: usize) -> T {
+        self.0.borrow().at(index)
+    }
+
+    /// Puts a value into the element with this index; nothing happens beyond the last.
+    #[inline]
+    #[track_caller]
+    pub fn set_item(&self, index: usize, value: T) {
+        if let Some(element) = self.0.borrow_mut().get_mut(index) {
+            *element = value;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::values::Str;
+    use crate::values::{SmallArray, Str};
+
+    #[test]
+    fn elements_are_reached_one_by_one() {
+        let table = Shared::new(SmallArray::<i32, 3>::from_values(&[1, 2, 3]));
+        table.set_item(1, 20);
+        table.set_item(3, 30);
+        assert_eq!((table.item(0), table.item(1), table.item(3)), (1, 20, 0));
+        assert_eq!(*table.get(), [1, 20, 3]);
+    }
 
     #[test]
     fn is_read_and_written() {

@@ -3,9 +3,10 @@
 //! The rules are those of a declaration: the same conversions, braces by name or by position, start values for what
 //! is left out.
 
-use super::{Literal, Shared};
-use crate::text::Print;
-use arl_lang::ast::Expr;
+use super::{Literal, Shared, Str};
+use crate::text::{Print, Style};
+use arl_lang::ast::{Expr, ExprKind, TypeRef, Var};
+use arl_lang::catalog::base_type;
 use arl_lang::span::Span;
 use arl_lang::symbol::Interner;
 use std::cell::Cell;
@@ -27,8 +28,50 @@ pub trait Teach {
     /// What does not fit, and in which component.
     fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError>;
 
+    /// Gives the variable its start value.
+    ///
+    /// # Errors
+    /// [`TeachProblem::Constant`], where the value is fixed. The error has no place.
+    fn restart(&self) -> Result<(), TeachError>;
+
     /// The name of the variable's type: `pose`, `int[6]`.
     fn type_name(&self) -> String;
+}
+
+/// Takes the value of a declaration, which has to be of the type that the variable was compiled with; `sizes` are those
+/// of an array of several dimensions. Without a value the variable gets its start value.
+///
+/// # Errors
+/// Another type, or what does not fit about the value.
+pub fn teach_variable(
+    slot: &dyn Teach,
+    sizes: &[usize],
+    ty: &TypeRef,
+    var: &Var,
+    names: &Interner,
+) -> Result<(), TeachError> {
+    let expected = slot.type_name();
+    let (base, length) = expected.split_once('[').unwrap_or((&expected, ""));
+    let length = length.trim_end_matches(']').parse().ok();
+    let sizes_known = if sizes.is_empty() { length.as_slice() } else { sizes };
+    let literal = |size: &Expr| match size.kind {
+        ExprKind::Int(size, _) => Some(size as usize),
+        _ => None,
+    };
+    let same_sizes = var.dims.len() == sizes_known.len()
+        && var.dims.iter().zip(sizes_known).all(|(size, known)| literal(size).is_none_or(|size| size == *known));
+    let name = names.name(ty.name);
+    if !same_sizes || base_type(name) != base_type(base.trim_start_matches('$')) {
+        let size = |size: &Expr| literal(size).map_or("[..]".to_owned(), |size| format!("[{size}]"));
+        let found = format!("{name}{}", var.dims.iter().map(size).collect::<String>());
+        let sizes_text: String = sizes_known.iter().map(|size| format!("[{size}]")).collect();
+        let problem = TeachProblem::Declared { expected: format!("{base}{sizes_text}"), found };
+        return Err(TeachError { path: String::new(), problem, span: ty.span });
+    }
+    match &var.init {
+        Some(value) => slot.teach_nested(value, sizes, names),
+        None => slot.restart().map_err(|error| TeachError { span: var.name.span, ..error }),
+    }
 }
 
 impl<T: Literal + Default + Copy> Teach for Cell<T> {
@@ -36,6 +79,11 @@ impl<T: Literal + Default + Copy> Teach for Cell<T> {
         let mut fresh = T::default();
         fresh.put_nested(value, sizes, names)?;
         self.set(fresh);
+        Ok(())
+    }
+
+    fn restart(&self) -> Result<(), TeachError> {
+        self.set(T::default());
         Ok(())
     }
 
@@ -52,9 +100,52 @@ impl<T: Literal + Default> Teach for Shared<T> {
         Ok(())
     }
 
+    fn restart(&self) -> Result<(), TeachError> {
+        self.set(T::default());
+        Ok(())
+    }
+
     fn type_name(&self) -> String {
         self.with(Print::type_name)
     }
+}
+
+/// A constant, whose value is part of the compiled program: it takes that value only.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Fixed<T>(pub T);
+
+impl<T: Literal + Default + PartialEq> Teach for Fixed<T> {
+    fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
+        let mut fresh = T::default();
+        fresh.put_nested(value, sizes, names)?;
+        if fresh == self.0 { Ok(()) } else { Err(TeachError::new(constant(&self.0), value)) }
+    }
+
+    fn restart(&self) -> Result<(), TeachError> {
+        Err(TeachError { path: String::new(), problem: constant(&self.0), span: Span::default() })
+    }
+
+    fn type_name(&self) -> String {
+        self.0.type_name()
+    }
+}
+
+impl Teach for Fixed<&'static str> {
+    fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
+        Fixed(Str::literal(self.0)).teach_nested(value, sizes, names)
+    }
+
+    fn restart(&self) -> Result<(), TeachError> {
+        Fixed(Str::literal(self.0)).restart()
+    }
+
+    fn type_name(&self) -> String {
+        self.0.type_name()
+    }
+}
+
+fn constant(value: &dyn Print) -> TeachProblem {
+    TeachProblem::Constant(value.printed(&Style::START).to_string())
 }
 
 /// Why a literal was not taken.
@@ -71,6 +162,15 @@ pub struct TeachError {
 /// What does not fit about a literal.
 #[derive(Clone, PartialEq, Debug)]
 pub enum TeachProblem {
+    /// The declaration is of another type than the one that was compiled.
+    Declared {
+        /// The type that was compiled.
+        expected: String,
+        /// The type that stands there.
+        found: String,
+    },
+    /// A constant, whose compiled value this is, has another value or none.
+    Constant(String),
     /// The value is of another type.
     Type {
         /// The type of the variable or component.
@@ -124,6 +224,15 @@ impl fmt::Display for TeachError {
             write!(f, "{}: ", self.path)?;
         }
         match &self.problem {
+            TeachProblem::Declared { expected, found } => {
+                write!(
+                    f,
+                    "the program was compiled with type {expected}, and the type is {found} now: compile it again"
+                )
+            }
+            TeachProblem::Constant(value) => {
+                write!(f, "the program was compiled with the constant {value}: compile it again to change it")
+            }
             TeachProblem::Type { expected, found } => write!(f, "expected a value of type {expected}, found {found}"),
             TeachProblem::Range { expected } => write!(f, "the number is outside the range of {expected}"),
             TeachProblem::Component { structure, name, known } => {

@@ -1,105 +1,41 @@
 use super::*;
 use crate::text::Style;
 use crate::values::*;
-use arl_lang::ast::Ident;
-use arl_lang::span::Span;
+use arl_lang::ast::{Decl, Item};
 use std::cell::Cell;
 
-/// Reads a literal with the least of a parser, so that these tests need none.
-struct Reader<'a> {
-    left: &'a str,
-    names: Interner,
+/// Reads a declaration of one variable.
+fn declaration(text: &str) -> (Decl, Interner) {
+    let mut names = Interner::new();
+    let parsed = arl_lang::parse(&format!("{text}\n"), &mut names, Default::default());
+    assert!(parsed.errors.is_empty(), "{text}: {:?}", parsed.errors);
+    match parsed.file.items.into_iter().next() {
+        Some(Item::Global(decl)) => (decl, names),
+        other => panic!("{text}: {other:?}"),
+    }
 }
 
-fn expr(kind: ExprKind) -> Expr {
-    Expr { kind, span: Span::default() }
+/// Teaches the initialiser of a declaration of any type.
+fn teach_sizes(slot: &dyn Teach, sizes: &[usize], text: &str) -> Result<(), String> {
+    let (decl, names) = declaration(&format!("int x = {text}"));
+    let value = decl.vars[0].init.as_ref().unwrap();
+    slot.teach_nested(value, sizes, &names).map_err(|error| error.to_string())
 }
 
-impl Reader<'_> {
-    fn token(&mut self) -> String {
-        self.left = self.left.trim_start();
-        let end = match self.left.chars().next() {
-            Some('"') => self.left[1..].find('"').unwrap() + 2,
-            Some(first) if first.is_alphanumeric() => {
-                self.left.find(|c: char| !c.is_alphanumeric() && !"._:".contains(c)).unwrap_or(self.left.len())
-            }
-            Some(_) => 1,
-            None => 0,
-        };
-        let (token, left) = self.left.split_at(end);
-        self.left = left;
-        token.to_owned()
-    }
-
-    fn peek(&self) -> Option<char> {
-        self.left.trim_start().chars().next()
-    }
-
-    fn value(&mut self) -> Expr {
-        let token = self.token();
-        let first = token.chars().next().unwrap();
-        expr(match first {
-            '{' => self.braces(),
-            '-' => ExprKind::Unary(UnaryOp::Negate, Box::new(self.value())),
-            '~' => ExprKind::Unary(UnaryOp::Complement, Box::new(self.value())),
-            '"' => ExprKind::String(token.trim_matches('"').into()),
-            '0'..='9' => match token.strip_suffix('h') {
-                Some(digits) => ExprKind::Int(u32::from_str_radix(digits, 16).unwrap(), Radix::Hexadecimal),
-                None => match token.parse() {
-                    Ok(number) => ExprKind::Int(number, Radix::Decimal),
-                    Err(_) => ExprKind::Double(token.parse().unwrap()),
-                },
-            },
-            _ => match token.split_once("::") {
-                Some((scope, name)) => {
-                    ExprKind::Path { scope: self.ident(scope), system: false, name: self.ident(name) }
-                }
-                None => match token.as_str() {
-                    "true" | "false" => ExprKind::Bool(token == "true"),
-                    _ => ExprKind::Name(self.names.intern(&token)),
-                },
-            },
-        })
-    }
-
-    fn ident(&mut self, name: &str) -> Ident {
-        Ident { symbol: self.names.intern(name), span: Span::new(3, 4) }
-    }
-
-    fn braces(&mut self) -> ExprKind {
-        let mut items = Vec::new();
-        while self.peek() != Some('}') {
-            let before = self.left;
-            let word = self.token();
-            let named = word.starts_with(char::is_alphabetic) && !matches!(self.peek(), Some(',' | '}'));
-            let name = if named { Some(self.ident(&word)) } else { None };
-            if !named {
-                self.left = before;
-            }
-            items.push(BraceItem { name, value: self.value() });
-            if self.peek() == Some(',') {
-                self.token();
-            }
-        }
-        self.token();
-        ExprKind::Brace(items)
-    }
+/// Teaches a whole declaration.
+fn redeclare(slot: &dyn Teach, sizes: &[usize], text: &str) -> Result<(), String> {
+    let (decl, names) = declaration(text);
+    teach_variable(slot, sizes, &decl.ty, &decl.vars[0], &names).map_err(|error| error.to_string())
 }
 
 fn teach(slot: &dyn Teach, text: &str) -> Result<(), String> {
     teach_sizes(slot, &[], text)
 }
 
-fn teach_sizes(slot: &dyn Teach, sizes: &[usize], text: &str) -> Result<(), String> {
-    let mut reader = Reader { left: text, names: Interner::new() };
-    let value = reader.value();
-    slot.teach_nested(&value, sizes, &reader.names).map_err(|error| error.to_string())
-}
-
 fn taught<T: Literal + Default + Clone>(text: &str) -> Result<String, String> {
     let slot = Shared::new(T::default());
     teach(&slot, text)?;
-    Ok(slot.with(|value| value.to_text(&Style::START).to_string()))
+    Ok(slot.with(|value| value.printed(&Style::START).to_string()))
 }
 
 fn fits<T: Literal + Default + Clone>(text: &str, shown: &str) {
@@ -119,6 +55,8 @@ fn scalars() {
     fits::<i32>("-1h", "-1");
     fits::<i32>("~0fh", "-16");
     fits::<i32>("~5", "-6");
+    fits::<i32>("fast", "1");
+    fits::<i32>("parity::even", "2");
     fits::<u32>("4294967295", "4294967295");
     fits::<u32>("ffffffffh", "4294967295");
     fits::<u8>("255", "ffh");
@@ -144,7 +82,7 @@ fn scalars() {
 #[test]
 fn enumerations() {
     fits::<VelProfile>("s_type", "S_TYPE");
-    fits::<VelProfile>("VEL_PROFILE::O_type", "O_TYPE");
+    fits::<VelProfile>("$VEL_PROFILE::O_type", "O_TYPE");
     fits::<Controlmode>("T1", "MANUAL");
     fits::<Parity>("ParityType::even", "even");
     fits::<Stoptype>("1", "fast");
@@ -189,7 +127,7 @@ fn arrays() {
 #[test]
 fn arrays_of_more_dimensions() {
     let slot = Shared::new(Array::<i32, 6>::start());
-    let shown = || slot.with(|array| array.to_text(&Style::START).to_string());
+    let shown = || slot.with(|array| array.printed(&Style::START).to_string());
     for (text, values) in [
         ("{1,2,3,4,5,6}", "{1,2,3,4,5,6}"),
         ("{{1,2,3},{4,5,6}}", "{1,2,3,4,5,6}"),
@@ -211,12 +149,12 @@ fn arrays_of_more_dimensions() {
     let points = Shared::new(Array::<Pos, 4>::start());
     for text in ["{{{1,1,1},{2,2,2}},{{3,3,3},{4,4,4}}}", "{{1,1,1},{2,2,2},{3,3,3},{4,4,4}}"] {
         teach_sizes(&points, &[2, 2], text).unwrap();
-        let shown = points.with(|points| points.to_text(&Style::START));
+        let shown = points.with(|points| points.printed(&Style::START));
         assert_eq!(shown, "{{1,1,1},{2,2,2},{3,3,3},{4,4,4}}");
     }
     let tools = Shared::new(Array::<Tool, 2>::start());
     teach_sizes(&tools, &[1, 2], "{{{{1}},{{2},true}}}").unwrap();
-    assert_eq!(tools.with(|tools| tools.to_text(&Style::START)), "{{{1,0,0,0,0,0},false},{{2,0,0,0,0,0},true}}");
+    assert_eq!(tools.with(|tools| tools.printed(&Style::START)), "{{{1,0,0,0,0,0},false},{{2,0,0,0,0,0},true}}");
 }
 
 #[test]
@@ -228,4 +166,47 @@ fn slots_keep_their_value_where_another_does_not_fit() {
     assert_eq!(slot.get(), Joint { j2: 3.0, ..Joint::default() });
     assert_eq!(Teach::type_name(&slot), "joint");
     assert_eq!(Teach::type_name(&Shared::new(Array::<Pose, 3>::start())), "pose[3]");
+}
+
+#[test]
+fn declarations_keep_their_type() {
+    let slot = Cell::new(Pos { x: 1.0, y: 1.0, z: 1.0 });
+    redeclare(&slot, &[], "pos p = {2,3}").unwrap();
+    assert_eq!(slot.get(), Pos { x: 2.0, y: 3.0, z: UNSET });
+    let again = "the program was compiled with type pos, and the type is ";
+    assert_eq!(redeclare(&slot, &[], "frame p = {2,3}"), Err(format!("{again}frame now: compile it again")));
+    assert_eq!(redeclare(&slot, &[], "pos p[2] = {{2,3}}"), Err(format!("{again}pos[2] now: compile it again")));
+    redeclare(&slot, &[], "pos p").unwrap();
+    assert_eq!(slot.get(), Pos::default());
+    let profile = Cell::new(VelProfile::S);
+    redeclare(&profile, &[], "$VEL_PROFILE v = T_TYPE").unwrap();
+    assert_eq!(profile.get(), VelProfile::T);
+    let centroid = Cell::new(CentroidPos::default());
+    redeclare(&centroid, &[], "CentroidPos c = {1}").unwrap();
+    assert_eq!(centroid.get().x, 1.0);
+    let table = Shared::new(Array::<i32, 6>::start());
+    redeclare(&table, &[], "int t[6] = {1}").unwrap();
+    redeclare(&table, &[2, 3], "int t[2][3] = {{1},{2}}").unwrap();
+    assert_eq!(*table.get(), [1, 0, 0, 2, 0, 0]);
+    for (sizes, text) in [(&[][..], "int t[5]"), (&[], "int t[2][3]"), (&[2, 3], "int t[6]"), (&[2, 3], "int t[3][2]")]
+    {
+        assert!(redeclare(&table, sizes, text).is_err(), "{text}");
+    }
+    assert_eq!(
+        redeclare(&table, &[2, 3], "double t[3][2]").unwrap_err(),
+        "the program was compiled with type int[2][3], and the type is double[3][2] now: compile it again"
+    );
+}
+
+#[test]
+fn constants_keep_their_value() {
+    let slot: &'static dyn Teach = &Fixed(5_u8);
+    redeclare(slot, &[], "const byte b = 5").unwrap();
+    let reason = "the program was compiled with the constant 05h: compile it again to change it";
+    assert_eq!(redeclare(slot, &[], "const byte b = 6"), Err(reason.to_owned()));
+    assert_eq!(redeclare(slot, &[], "byte b"), Err(reason.to_owned()));
+    let slot: &'static dyn Teach = &Fixed("text");
+    redeclare(slot, &[], "const string s = \"text\"").unwrap();
+    assert!(redeclare(slot, &[], "const string s = \"other\"").is_err());
+    assert_eq!(slot.type_name(), "string");
 }

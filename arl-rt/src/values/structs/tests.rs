@@ -13,14 +13,14 @@ struct About {
 }
 
 fn shown(value: &dyn Print) -> String {
-    value.to_text(&Style::START).to_string()
+    value.printed(&Style::START).to_string()
 }
 
 fn about<S: Structure + Typed + Print>() -> About {
     let start = S::default();
     let component = |(at, name): (usize, &&'static str)| {
         let value = start.component(at).unwrap();
-        (*name, value.type_name(), value.to_text(&Style::START).to_string())
+        (*name, value.type_name(), value.printed(&Style::START).to_string())
     };
     About {
         rust: std::any::type_name::<S>().rsplit("::").next().unwrap(),
@@ -164,7 +164,7 @@ fn values_print_in_order() {
     assert_eq!(shown(&pose), "{0,10,15,0,90,0,0,255,20,9e+09,9e+09,9e+09,9e+09,9e+09}");
     let hex = Style { base: Some(NumBase::Hex), precision: 2 };
     assert_eq!(
-        Pose { x: 1234.0, ..pose }.to_text(&hex),
+        Pose { x: 1234.0, ..pose }.printed(&hex),
         "{1.2e+03,10,15,0,90,0,0,ff,20,9e+09,9e+09,9e+09,9e+09,9e+09}"
     );
 }
