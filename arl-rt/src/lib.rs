@@ -1,13 +1,50 @@
-//! Under construction.
+//! What robot programs in ARL run on: the cycle, motion, io, system variables and a simulated robot.
+//!
+//! The compiler turns an ARL program into an implementation of [`Program`]; a [`Controller`] runs it. Emitted code names
+//! everything through the prelude [`emit`].
 
-pub mod kinematics;
-pub mod robot;
-pub mod fault;
-pub mod ops;
-pub mod text;
-pub mod values;
 pub mod bits;
+pub mod cell;
+pub mod clock;
+pub mod clock_source;
+pub mod controller;
 pub mod convert;
+pub mod cx;
+pub mod data;
+pub mod emit;
+pub mod fault;
+pub mod files;
+pub mod flow;
 pub mod frames;
+pub mod io;
+mod keep;
+pub mod kinematics;
 pub mod math;
+pub mod motion;
+mod motion_instructions;
+pub mod ops;
+pub mod output;
+pub mod pose;
+pub mod program;
+pub mod random;
+pub mod rate;
+pub mod robot;
+pub mod robot_driver;
+pub mod settings;
+pub mod state;
 pub mod strings;
+pub mod system;
+pub mod text;
+pub mod time;
+mod trace;
+mod unit;
+pub mod values;
+mod world;
+
+pub use cell::Cell;
+pub use controller::{Builder, Controller, Outcome, SetupError, State};
+pub use cx::Cx;
+pub use fault::{Alarm, Fault};
+pub use output::{Captured, Message, Output, Stream};
+pub use program::{BoxFuture, DataFile, DataVar, Program};
+pub use robot::{Family, Robot};

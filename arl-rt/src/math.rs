@@ -3,6 +3,8 @@
 use crate::fault::Fault;
 use crate::values::Pos;
 
+pub use crate::random::rand;
+
 fn domain(function: &'static str, problem: String) -> Fault {
     Fault::Domain { function, problem: problem.into() }
 }

@@ -2,7 +2,9 @@
 
 pub mod format;
 pub mod number;
+pub mod print;
 pub mod scan;
 
 pub use format::{Nested, Print, Style, Typed, nested};
+pub use print::{PrintMessage, print};
 pub use scan::{Scan, scan};

@@ -1,0 +1,60 @@
+//! Where the time of the controller comes from: as fast as it can, or the time of the world.
+
+use std::time::{Duration, Instant};
+
+/// Says when the next cycle may begin.
+pub trait Clock {
+    /// Returns when the cycle with this running number (from 0) may begin. A cycle is `period` seconds long.
+    fn wait_for(&mut self, cycle: u64, period: f64);
+
+    /// How many cycles began late, because the one before them took too long.
+    fn overruns(&self) -> u64 {
+        0
+    }
+}
+
+/// Cycles follow each other as fast as they can: a run is a function of the program, the robot, the cell and the
+/// scenario alone.
+#[derive(Clone, Copy, Default, Debug)]
+pub struct VirtualClock;
+
+impl Clock for VirtualClock {
+    #[inline]
+    fn wait_for(&mut self, _cycle: u64, _period: f64) {}
+}
+
+/// Each cycle begins at its own point of real time, so that errors do not add up. A cycle that comes more than one
+/// period too late is an overrun; the cycles after it catch up.
+#[derive(Default, Debug)]
+pub struct RealClock {
+    start: Option<Instant>,
+    overruns: u64,
+}
+
+impl RealClock {
+    /// A clock that starts with its first cycle.
+    pub fn new() -> Self {
+        Self::default()
+    }
+}
+
+impl Clock for RealClock {
+    fn wait_for(&mut self, cycle: u64, period: f64) {
+        let now = Instant::now();
+        let since_start = |cycle: u64| Duration::from_secs_f64(cycle as f64 * period);
+        let start = *self.start.get_or_insert_with(|| now.checked_sub(since_start(cycle)).unwrap_or(now));
+        let Some(deadline) = start.checked_add(since_start(cycle)) else { return };
+        match deadline.checked_duration_since(now) {
+            Some(early) if !early.is_zero() => std::thread::sleep(early),
+            _ => {
+                if now.duration_since(deadline).as_secs_f64() > period {
+                    self.overruns += 1;
+                }
+            }
+        }
+    }
+
+    fn overruns(&self) -> u64 {
+        self.overruns
+    }
+}

@@ -1,0 +1,124 @@
+//! A channel: a program and how far it has come.
+
+use std::pin::Pin;
+use std::rc::Rc;
+use std::task::{Context, Poll, Waker};
+
+use super::Outcome;
+use crate::cx::Cx;
+use crate::data;
+use crate::fault::{Alarm, Done, Stop};
+use crate::program::Program;
+use crate::world::World;
+
+/// How many bytes of stack a program may use in one poll where nobody says otherwise: half of what a thread gets.
+pub(super) const STACK: usize = 1 << 20;
+
+/// A program that owns what it borrows from.
+type Running = Pin<Box<dyn Future<Output = Done<()>>>>;
+
+/// What the program does.
+enum Phase {
+    /// Its statements run.
+    Running(Running),
+    /// Its statements have ended; its motion and its pulses run to their end.
+    RunningOut(Next),
+    /// It has ended.
+    Ended(Outcome),
+}
+
+/// What comes after the last motion.
+#[derive(Clone)]
+enum Next {
+    Restart,
+    End(Outcome),
+}
+
+/// A program and how far it has come.
+pub(super) struct Channel {
+    program: Rc<dyn Program>,
+    cx: Rc<Cx>,
+    stack: usize,
+    phase: Phase,
+}
+
+impl Channel {
+    /// A program that will start with the next cycle.
+    pub(super) fn new(program: Rc<dyn Program>, cx: Rc<Cx>, stack: usize) -> Self {
+        let phase = Phase::Running(load(Rc::clone(&program), Rc::clone(&cx)));
+        Self { program, cx, stack, phase }
+    }
+
+    /// Starts the program from its beginning, global variables included.
+    pub(super) fn reset(&mut self) {
+        self.cx.reset();
+        self.phase = Phase::Running(load(Rc::clone(&self.program), Rc::clone(&self.cx)));
+    }
+
+    pub(super) fn cx(&self) -> &Cx {
+        &self.cx
+    }
+
+    /// How the program ended, when it has.
+    pub(super) fn outcome(&self) -> Option<&Outcome> {
+        match &self.phase {
+            Phase::Ended(outcome) => Some(outcome),
+            _ => None,
+        }
+    }
+
+    /// Lets the program run until it waits.
+    pub(super) fn poll(&mut self, world: &World) {
+        if let Phase::Running(running) = &mut self.phase {
+            self.cx.start_cycle(self.stack);
+            let mut context = Context::from_waker(Waker::noop());
+            if let Poll::Ready(done) = running.as_mut().poll(&mut context) {
+                let next = match done {
+                    Ok(()) | Err(Stop::Exit) => Next::End(Outcome::Ended),
+                    Err(Stop::Restart) => Next::Restart,
+                    Err(Stop::Alarm(alarm)) => {
+                        world.stop_motion();
+                        Next::End(Outcome::Alarm(*alarm))
+                    }
+                };
+                self.phase = Phase::RunningOut(next);
+            }
+        }
+        if let Phase::RunningOut(next) = &self.phase {
+            let moving = !world.motion_ended();
+            self.phase = match next {
+                Next::Restart if moving => return,
+                // It starts in the next cycle, so that a program of nothing but `restart` does not hold up the others.
+                Next::Restart => Phase::Running(again(Rc::clone(&self.program), Rc::clone(&self.cx))),
+                Next::End(Outcome::Ended) if moving || world.io.borrow().pulsing() => return,
+                Next::End(_) if moving => return,
+                Next::End(outcome) => Phase::Ended(outcome.clone()),
+            };
+        }
+    }
+
+    /// Ends the program where it is and stops its motion on the path.
+    pub(super) fn end(&mut self, world: &World, outcome: Outcome) {
+        if !matches!(self.phase, Phase::Ended(_)) {
+            world.stop_motion();
+            world.paused.set(false);
+            self.phase = Phase::RunningOut(Next::End(outcome));
+        }
+    }
+}
+
+/// The whole life of a program.
+fn load(program: Rc<dyn Program>, cx: Rc<Cx>) -> Running {
+    Box::pin(async move {
+        program.init(&cx).await?;
+        if let Some(alarm) = data::reload(&*program, &cx).into_iter().next() {
+            return Err(Stop::Alarm(Box::<Alarm>::new(alarm)));
+        }
+        program.main(&cx).await
+    })
+}
+
+/// The program after `restart`: its global variables keep their values.
+fn again(program: Rc<dyn Program>, cx: Rc<Cx>) -> Running {
+    Box::pin(async move { program.main(&cx).await })
+}

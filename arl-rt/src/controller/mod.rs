@@ -1,0 +1,301 @@
+//! The controller: it owns the program, the robot, io and the clock, and runs them cycle by cycle.
+
+mod builder;
+mod channel;
+mod outcome;
+
+use std::rc::Rc;
+
+pub use builder::{Builder, SetupError};
+pub use outcome::{Outcome, State};
+
+use crate::clock_source::Clock;
+use crate::fault::{Fault, File};
+use crate::io::{Digital, IoDriver, Pendant, Playing};
+use crate::motion::Joints;
+use crate::system::System;
+use crate::trace::Trace;
+use crate::world::World;
+use channel::Channel;
+
+/// Runs a program.
+///
+/// One [`step`](Controller::step) is one control cycle. In it, always in this order:
+///
+/// 1. the clock says when the cycle begins;
+/// 2. inputs are read, pulses that are over end, the scenario plays;
+/// 3. the pendant's buttons count;
+/// 4. the program runs until it waits;
+/// 5. the motion goes one step: set-point to the robot's driver, feedback back, variables like `$TRAJ_LEFT_DIS`;
+/// 6. outputs that waited for a motion change, all outputs are written, messages are passed on;
+/// 7. the trace gets its row.
+///
+/// ```
+/// use arl_rt::emit::*;
+///
+/// /// A program by hand: what the compiler emits looks like this, too.
+/// struct Blink;
+///
+/// impl arl_rt::Program for Blink {
+///     fn file(&self) -> File {
+///         File::new("blink.arl")
+///     }
+///     fn family(&self) -> Family {
+///         Family::SixAxis
+///     }
+///     fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> {
+///         Box::pin(async { Ok(()) })
+///     }
+///     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+///         Box::pin(async move {
+///             let file = self.file();
+///             while !io::getdi(cx, 1).await.at(file, 2)? {
+///                 io::pulsedo(cx, 1, true, 0.25).await.at(file, 3)?;
+///                 flow::waittime(0.5).run(cx).await.at(file, 4)?;
+///             }
+///             text::print().argtoprint(&"done after ").argtoprint(&cx.time()).run(cx).at(file, 6)
+///         })
+///     }
+/// }
+///
+/// let messages = arl_rt::Captured::new();
+/// let mut controller = arl_rt::Controller::builder().output(messages.clone()).build(Box::new(Blink))?;
+/// controller.run_for(0.1);
+/// assert!(controller.dout(1)?);
+/// controller.run_for(1.2);
+/// controller.set_di(1, true)?;
+/// assert_eq!(controller.run(), arl_rt::Outcome::Ended);
+/// assert_eq!(messages.text(), "done after 1.5\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Controller {
+    world: Rc<World>,
+    channel: Channel,
+    clock: Box<dyn Clock>,
+    io: Box<dyn IoDriver>,
+    scenario: Playing,
+    trace: Option<Trace>,
+}
+
+impl Controller {
+    /// What a controller can be given before it starts.
+    pub fn builder() -> Builder {
+        Builder::default()
+    }
+
+    /// Runs one cycle.
+    pub fn step(&mut self) -> State {
+        let world = &self.world;
+        let (cycle, rate) = (world.now.get(), world.rate);
+        self.clock.wait_for(cycle, rate.period());
+        {
+            let mut image = world.io.borrow_mut();
+            self.io.read(image.inputs_mut());
+            image.end_pulses_of(cycle);
+            self.scenario.play(cycle, &mut image, |word| press(world, word));
+        }
+        let running = self.channel.outcome().is_none();
+        self.channel.poll(world);
+        {
+            let mut unit = world.unit.borrow_mut();
+            unit.step(rate.period());
+            world.update_system(&unit);
+            let mut image = world.io.borrow_mut();
+            image.motion_ended(unit.motions().1);
+            self.io.write(image.outputs_all());
+            if let Some(trace) = &mut self.trace
+                && running
+            {
+                trace.row(rate.time(cycle), &unit);
+            }
+        }
+        world.flush();
+        if running && self.channel.outcome().is_some() {
+            self.ended();
+        }
+        self.world.now.set(cycle + 1);
+        self.state()
+    }
+
+    /// What is due when the program has ended.
+    fn ended(&mut self) {
+        self.world.io.borrow_mut().end_pulses();
+        self.world.keep_state();
+        if let Some(trace) = &mut self.trace
+            && let Err(error) = trace.flush()
+        {
+            self.world.warn(format!("the trace cannot be written: {error}"));
+        }
+    }
+
+    /// Runs until the program has ended: for ever, where it does not.
+    pub fn run(&mut self) -> Outcome {
+        loop {
+            if let Some(outcome) = self.channel.outcome() {
+                return outcome.clone();
+            }
+            self.step();
+        }
+    }
+
+    /// Runs so many seconds of controller time, or until the program has ended.
+    pub fn run_for(&mut self, seconds: f64) -> State {
+        let end = self.world.now.get().saturating_add(self.world.rate.cycles(seconds));
+        while self.world.now.get() < end && self.channel.outcome().is_none() {
+            self.step();
+        }
+        self.state()
+    }
+
+    /// What the controller does at the moment.
+    pub fn state(&self) -> State {
+        match self.channel.outcome() {
+            Some(_) => State::Ended,
+            None if self.world.paused.get() => State::Paused,
+            None => State::Running,
+        }
+    }
+
+    /// How the program ended, when it has.
+    pub fn outcome(&self) -> Option<&Outcome> {
+        self.channel.outcome()
+    }
+
+    /// Ends the program: the robot stops on its path within the cycles that follow.
+    pub fn stop(&mut self) {
+        self.channel.end(&self.world, Outcome::Stopped);
+    }
+
+    /// Presses the start button: a program that is paused goes on.
+    pub fn resume(&mut self) {
+        self.world.paused.set(false);
+    }
+
+    /// Resets the program, which starts from its beginning with the next cycle: pulses end, global variables and the
+    /// system variables of the manual's chapter 10.2 are at their defaults. The robot stays where it is.
+    ///
+    /// # Errors
+    /// The program still runs: [`stop`](Controller::stop) it first.
+    pub fn reset(&mut self) -> Result<(), StillRunning> {
+        if self.channel.outcome().is_none() {
+            return Err(StillRunning);
+        }
+        self.world.io.borrow_mut().end_pulses();
+        self.world.unit.borrow_mut().reset();
+        self.world.reset_system();
+        self.channel.reset();
+        Ok(())
+    }
+
+    /// Controller time in s: the start of the next cycle.
+    pub fn time(&self) -> f64 {
+        self.world.rate.time(self.world.now.get())
+    }
+
+    /// How many cycles began late, on the real clock.
+    pub fn overruns(&self) -> u64 {
+        self.clock.overruns()
+    }
+
+    /// The file and line of the statement that runs now.
+    pub fn place(&self) -> (File, u32) {
+        self.channel.cx().place()
+    }
+
+    /// The system variables.
+    pub fn system(&self) -> &System {
+        &self.world.system
+    }
+
+    /// The axes as the robot reports them, in deg (mm).
+    pub fn joints(&self) -> Joints {
+        *self.world.unit.borrow().feedback()
+    }
+
+    /// Warnings since the last call.
+    pub fn take_warnings(&mut self) -> Vec<String> {
+        self.world.take_warnings()
+    }
+
+    /// Sets a digital input, from 1.
+    ///
+    /// # Errors
+    /// There is no such channel.
+    pub fn set_di(&mut self, channel: i32, level: bool) -> Result<(), Fault> {
+        self.world.io.borrow_mut().set_digital(Digital::Di, channel, level)
+    }
+
+    /// The level of a digital input, from 1.
+    ///
+    /// # Errors
+    /// There is no such channel.
+    pub fn di(&self, channel: i32) -> Result<bool, Fault> {
+        self.world.io.borrow().digital(Digital::Di, channel)
+    }
+
+    /// The level of a digital output, from 1.
+    ///
+    /// # Errors
+    /// There is no such channel.
+    pub fn dout(&self, channel: i32) -> Result<bool, Fault> {
+        self.world.io.borrow().digital(Digital::Do, channel)
+    }
+
+    /// Sets an analog input, from 1, in V or mA.
+    ///
+    /// # Errors
+    /// There is no such channel.
+    pub fn set_ai(&mut self, channel: i32, value: f64) -> Result<(), Fault> {
+        self.world.io.borrow_mut().set_analog(false, channel, value)
+    }
+
+    /// The value of an analog output, from 1, in V or mA.
+    ///
+    /// # Errors
+    /// There is no such channel.
+    pub fn ao(&self, channel: i32) -> Result<f64, Fault> {
+        self.world.io.borrow().analog(true, channel)
+    }
+
+    /// Sets an internal input signal, from 1.
+    ///
+    /// # Errors
+    /// There is no such channel.
+    pub fn set_internal(&mut self, channel: i32, level: bool) -> Result<(), Fault> {
+        self.world.io.borrow_mut().set_digital(Digital::InternalIn, channel, level)
+    }
+
+    /// The level of an internal output signal, from 1.
+    ///
+    /// # Errors
+    /// There is no such channel.
+    pub fn internal(&self, channel: i32) -> Result<bool, Fault> {
+        self.world.io.borrow().digital(Digital::InternalOut, channel)
+    }
+}
+
+/// A word of the pendant.
+fn press(world: &World, word: Pendant) {
+    match word {
+        Pendant::Start => world.paused.set(false),
+        Pendant::Override(percent) => world.set_override(percent),
+    }
+}
+
+/// A program cannot be reset while it runs.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct StillRunning;
+
+impl std::fmt::Display for StillRunning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "the program still runs: stop it before a reset")
+    }
+}
+
+impl std::error::Error for StillRunning {}
+
+impl std::fmt::Debug for Controller {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Controller").field("time", &self.time()).field("state", &self.state()).finish_non_exhaustive()
+    }
+}

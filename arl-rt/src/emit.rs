@@ -1,0 +1,12 @@
+//! The prelude of emitted code: everything that a compiled program names.
+
+pub use std::cell::Cell;
+
+pub use crate::clock::Clock;
+pub use crate::cx::{Cx, Depth};
+pub use crate::fault::{At, Done, Fault, File, Stop};
+pub use crate::ops::*;
+pub use crate::program::{BoxFuture, DataFile, DataVar, Program};
+pub use crate::robot::Family;
+pub use crate::values::*;
+pub use crate::{bits, clock, convert, files, flow, frames, io, math, motion, pose, strings, system, text, time};

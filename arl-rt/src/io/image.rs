@@ -1,0 +1,404 @@
+//! The controller's picture of its inputs and outputs: what programs read and write between two exchanges with the
+//! outside.
+
+use std::collections::VecDeque;
+
+use super::Channels;
+use super::bits::Bits;
+use crate::fault::Fault;
+
+/// The most channels that one call may name.
+const MOST_AT_ONCE: i64 = 32;
+
+/// The inputs and outputs as the program sees them. Channels count from 1.
+#[derive(Debug)]
+pub struct Image {
+    di: Bits,
+    dout: Bits,
+    ai: Vec<f64>,
+    ao: Vec<f64>,
+    internal_in: Bits,
+    internal_out: Bits,
+    /// The running pulse of each digital output.
+    pulses: Vec<Option<Pulse>>,
+    running_pulses: usize,
+    /// Outputs that change when a motion has ended: in the order of the motions.
+    after_motion: VecDeque<AfterMotion>,
+}
+
+/// A pulse on its way.
+#[derive(Clone, Copy, Debug)]
+struct Pulse {
+    /// The level that it drives.
+    level: bool,
+    /// The cycle at whose start it is over.
+    ends: u64,
+}
+
+/// `setdoimv`: an output that waits for the end of a motion.
+#[derive(Clone, Copy, Debug)]
+struct AfterMotion {
+    motion: u64,
+    channel: usize,
+    level: bool,
+}
+
+/// Which digital signals are meant.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Digital {
+    /// Inputs.
+    Di,
+    /// Outputs.
+    Do,
+    /// Internal inputs.
+    InternalIn,
+    /// Internal outputs.
+    InternalOut,
+}
+
+impl Digital {
+    fn name(self) -> &'static str {
+        match self {
+            Digital::Di => "DI",
+            Digital::Do => "DO",
+            Digital::InternalIn => "internal DI",
+            Digital::InternalOut => "internal DO",
+        }
+    }
+}
+
+impl Image {
+    /// All channels off and at 0.
+    pub(crate) fn new(channels: &Channels) -> Self {
+        Self {
+            di: Bits::new(channels.di),
+            dout: Bits::new(channels.dout),
+            ai: vec![0.0; channels.ai.len()],
+            ao: vec![0.0; channels.ao.len()],
+            internal_in: Bits::new(channels.internal),
+            internal_out: Bits::new(channels.internal),
+            pulses: vec![None; channels.dout as usize],
+            running_pulses: 0,
+            after_motion: VecDeque::with_capacity(64),
+        }
+    }
+
+    /// Ends all pulses at once.
+    pub(crate) fn end_pulses(&mut self) {
+        for at in 0..self.pulses.len() {
+            self.end_pulse(at);
+        }
+    }
+
+    /// Drops what waits for the end of a motion.
+    pub(crate) fn forget_motion(&mut self) {
+        self.after_motion.clear();
+    }
+
+    fn bits(&self, what: Digital) -> &Bits {
+        match what {
+            Digital::Di => &self.di,
+            Digital::Do => &self.dout,
+            Digital::InternalIn => &self.internal_in,
+            Digital::InternalOut => &self.internal_out,
+        }
+    }
+
+    fn bits_mut(&mut self, what: Digital) -> &mut Bits {
+        match what {
+            Digital::Di => &mut self.di,
+            Digital::Do => &mut self.dout,
+            Digital::InternalIn => &mut self.internal_in,
+            Digital::InternalOut => &mut self.internal_out,
+        }
+    }
+
+    fn place(&self, what: Digital, channel: i32) -> Result<usize, Fault> {
+        place(what.name(), channel, self.bits(what).len())
+    }
+
+    /// The level of a channel.
+    pub(crate) fn digital(&self, what: Digital, channel: i32) -> Result<bool, Fault> {
+        Ok(self.bits(what).get(self.place(what, channel)?))
+    }
+
+    /// The levels of a range of channels; the first is the lowest bit.
+    pub(crate) fn digitals(&self, what: Digital, from: i32, to: i32) -> Result<i32, Fault> {
+        let range = self.range(what, from, to)?;
+        let bits = self.bits(what);
+        let levels = range.enumerate().fold(0_u32, |levels, (bit, at)| levels | (u32::from(bits.get(at)) << bit));
+        Ok(levels.cast_signed())
+    }
+
+    /// Sets a channel. A pulse that runs on it is over.
+    pub(crate) fn set_digital(&mut self, what: Digital, channel: i32, level: bool) -> Result<(), Fault> {
+        let at = self.place(what, channel)?;
+        self.drive(what, at, level);
+        Ok(())
+    }
+
+    /// Sets a range of channels; the first takes the lowest bit. Bits left over are ignored.
+    pub(crate) fn set_digitals(&mut self, what: Digital, from: i32, to: i32, levels: i32) -> Result<(), Fault> {
+        for (bit, at) in self.range(what, from, to)?.enumerate() {
+            self.drive(what, at, levels.cast_unsigned() >> bit & 1 == 1);
+        }
+        Ok(())
+    }
+
+    fn drive(&mut self, what: Digital, at: usize, level: bool) {
+        if what == Digital::Do {
+            self.forget_pulse(at);
+        }
+        self.bits_mut(what).set(at, level);
+    }
+
+    fn range(&self, what: Digital, from: i32, to: i32) -> Result<std::ops::Range<usize>, Fault> {
+        let (first, last) = (self.place(what, from)?, self.place(what, to)?);
+        let name = what.name();
+        if first > last {
+            return Err(channel_fault(format!(
+                "{name} {from} to {to} is a reversed range: the first channel comes first, {to} to {from}"
+            )));
+        }
+        if i64::from(to) - i64::from(from) >= MOST_AT_ONCE {
+            return Err(channel_fault(format!(
+                "{name} {from} to {to} are more than {MOST_AT_ONCE} channels, which is the most that one int holds"
+            )));
+        }
+        Ok(first..last + 1)
+    }
+
+    /// The value of an analog channel: `ai` or `ao`.
+    pub(crate) fn analog(&self, output: bool, channel: i32) -> Result<f64, Fault> {
+        let (name, values) = if output { ("AO", &self.ao) } else { ("AI", &self.ai) };
+        let at = place(name, channel, values.len())?;
+        Ok(values.get(at).copied().unwrap_or_default())
+    }
+
+    /// Sets an analog channel.
+    pub(crate) fn set_analog(&mut self, output: bool, channel: i32, value: f64) -> Result<(), Fault> {
+        let (name, values) = if output { ("AO", &mut self.ao) } else { ("AI", &mut self.ai) };
+        let at = place(name, channel, values.len())?;
+        if let Some(place) = values.get_mut(at) {
+            *place = value;
+        }
+        Ok(())
+    }
+
+    /// Starts a pulse of `level` that is over at the start of cycle `ends`.
+    pub(crate) fn pulse(&mut self, channel: i32, level: bool, ends: u64) -> Result<(), Fault> {
+        let at = self.place(Digital::Do, channel)?;
+        self.drive(Digital::Do, at, level);
+        if let Some(place) = self.pulses.get_mut(at) {
+            *place = Some(Pulse { level, ends });
+            self.running_pulses += 1;
+        }
+        Ok(())
+    }
+
+    fn forget_pulse(&mut self, at: usize) -> Option<Pulse> {
+        let pulse = self.pulses.get_mut(at)?.take()?;
+        self.running_pulses -= 1;
+        Some(pulse)
+    }
+
+    fn end_pulse(&mut self, at: usize) {
+        if let Some(pulse) = self.forget_pulse(at) {
+            self.dout.set(at, !pulse.level);
+        }
+    }
+
+    /// Ends the pulses whose time is over at the start of `cycle`.
+    pub(crate) fn end_pulses_of(&mut self, cycle: u64) {
+        if self.running_pulses == 0 {
+            return;
+        }
+        for at in 0..self.pulses.len() {
+            if self.pulses.get(at).copied().flatten().is_some_and(|pulse| pulse.ends <= cycle) {
+                self.end_pulse(at);
+            }
+        }
+    }
+
+    /// Whether a pulse is still running.
+    pub(crate) fn pulsing(&self) -> bool {
+        self.running_pulses > 0
+    }
+
+    /// Sets a channel when the motion with this running number has ended.
+    pub(crate) fn set_after(&mut self, motion: u64, channel: i32, level: bool) -> Result<(), Fault> {
+        let at = self.place(Digital::Do, channel)?;
+        self.after_motion.push_back(AfterMotion { motion, channel: at, level });
+        Ok(())
+    }
+
+    /// Sets the channels that waited for a motion up to `ended`.
+    pub(crate) fn motion_ended(&mut self, ended: u64) {
+        while self.after_motion.front().is_some_and(|waiting| waiting.motion <= ended) {
+            if let Some(waiting) = self.after_motion.pop_front() {
+                self.drive(Digital::Do, waiting.channel, waiting.level);
+            }
+        }
+    }
+
+    /// The digital outputs, for edges.
+    pub(crate) fn outputs(&self) -> &Bits {
+        &self.dout
+    }
+
+    /// The digital inputs, for edges.
+    pub(crate) fn inputs(&self) -> &Bits {
+        &self.di
+    }
+
+    /// The inputs, for the driver to fill.
+    pub(crate) fn inputs_mut(&mut self) -> Inputs<'_> {
+        Inputs { di: &mut self.di, ai: &mut self.ai, internal: &mut self.internal_in }
+    }
+
+    /// The outputs, for the driver to pass on.
+    pub(crate) fn outputs_all(&self) -> Outputs<'_> {
+        Outputs { dout: &self.dout, ao: &self.ao, internal: &self.internal_out }
+    }
+}
+
+fn place(name: &str, channel: i32, count: usize) -> Result<usize, Fault> {
+    match usize::try_from(channel) {
+        Ok(number) if (1..=count).contains(&number) => Ok(number - 1),
+        _ if count == 0 => Err(channel_fault(format!("{name} {channel} does not exist: this cell has no {name}"))),
+        _ => Err(channel_fault(format!("{name} {channel} does not exist: channels 1 to {count} are there"))),
+    }
+}
+
+fn channel_fault(text: String) -> Fault {
+    Fault::Channel(text.into())
+}
+
+/// The inputs of a cycle, as an [`IoDriver`](super::IoDriver) fills them. Channels count from 1 here, too.
+#[derive(Debug)]
+pub struct Inputs<'a> {
+    di: &'a mut Bits,
+    ai: &'a mut [f64],
+    internal: &'a mut Bits,
+}
+
+impl Inputs<'_> {
+    /// Sets a digital input; channels that do not exist are left out.
+    pub fn set_di(&mut self, channel: usize, level: bool) {
+        self.di.set(channel.wrapping_sub(1), level);
+    }
+
+    /// Sets an analog input in V or mA; channels that do not exist are left out.
+    pub fn set_ai(&mut self, channel: usize, value: f64) {
+        if let Some(place) = self.ai.get_mut(channel.wrapping_sub(1)) {
+            *place = value;
+        }
+    }
+
+    /// Sets an internal input; channels that do not exist are left out.
+    pub fn set_internal(&mut self, channel: usize, level: bool) {
+        self.internal.set(channel.wrapping_sub(1), level);
+    }
+}
+
+/// The outputs of a cycle, as an [`IoDriver`](super::IoDriver) gets them. Channels count from 1 here, too.
+#[derive(Clone, Copy, Debug)]
+pub struct Outputs<'a> {
+    dout: &'a Bits,
+    ao: &'a [f64],
+    internal: &'a Bits,
+}
+
+impl Outputs<'_> {
+    /// The level of a digital output; false where there is none.
+    pub fn dout(&self, channel: usize) -> bool {
+        self.dout.get(channel.wrapping_sub(1))
+    }
+
+    /// An analog output in V or mA; 0 where there is none.
+    pub fn ao(&self, channel: usize) -> f64 {
+        self.ao.get(channel.wrapping_sub(1)).copied().unwrap_or_default()
+    }
+
+    /// The level of an internal output; false where there is none.
+    pub fn internal(&self, channel: usize) -> bool {
+        self.internal.get(channel.wrapping_sub(1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn image() -> Image {
+        Image::new(&Channels::default())
+    }
+
+    #[test]
+    fn ranges_have_their_lowest_bit_first() {
+        let mut image = image();
+        image.set_digitals(Digital::Do, 5, 8, 0b1100).unwrap();
+        assert!(!image.digital(Digital::Do, 6).unwrap());
+        assert!(image.digital(Digital::Do, 7).unwrap());
+        assert_eq!(image.digitals(Digital::Do, 5, 8).unwrap(), 0b1100);
+        image.set_digitals(Digital::Do, 33, 64, -1).unwrap();
+        assert_eq!(image.digitals(Digital::Do, 33, 64).unwrap(), -1);
+        image.set_digitals(Digital::Do, 1, 2, 0b111).unwrap();
+        assert_eq!(image.digitals(Digital::Do, 1, 4).unwrap(), 0b11, "bits left over are ignored");
+    }
+
+    #[test]
+    fn channels_that_do_not_exist_are_faults() {
+        let mut image = image();
+        let texts = [
+            image.digital(Digital::Di, 0).unwrap_err().to_string(),
+            image.digital(Digital::Do, 65).unwrap_err().to_string(),
+            image.digitals(Digital::Di, 8, 5).unwrap_err().to_string(),
+            image.set_digitals(Digital::Do, 1, 33, 0).unwrap_err().to_string(),
+            image.analog(true, 9).unwrap_err().to_string(),
+        ];
+        assert_eq!(texts[0], "DI 0 does not exist: channels 1 to 64 are there");
+        assert_eq!(texts[1], "DO 65 does not exist: channels 1 to 64 are there");
+        assert!(texts[2].contains("reversed"), "{}", texts[2]);
+        assert!(texts[3].contains("more than 32"), "{}", texts[3]);
+        assert_eq!(texts[4], "AO 9 does not exist: channels 1 to 8 are there");
+    }
+
+    #[test]
+    fn a_pulse_ends_with_the_opposite_level() {
+        let mut image = image();
+        image.pulse(5, true, 30).unwrap();
+        image.pulse(6, false, 31).unwrap();
+        image.end_pulses_of(29);
+        assert_eq!(image.digitals(Digital::Do, 5, 6).unwrap(), 0b01);
+        image.end_pulses_of(30);
+        assert_eq!(image.digitals(Digital::Do, 5, 6).unwrap(), 0b00);
+        assert!(image.pulsing());
+        image.end_pulses_of(31);
+        assert_eq!(image.digitals(Digital::Do, 5, 6).unwrap(), 0b10);
+        assert!(!image.pulsing());
+    }
+
+    #[test]
+    fn a_new_pulse_ends_the_old_one() {
+        let mut image = image();
+        image.pulse(5, true, 3000).unwrap();
+        image.pulse(5, false, 3000).unwrap();
+        image.end_pulses_of(3000);
+        assert!(image.digital(Digital::Do, 5).unwrap());
+        assert!(!image.pulsing());
+    }
+
+    #[test]
+    fn outputs_wait_for_the_end_of_their_motion() {
+        let mut image = image();
+        image.set_after(3, 1, true).unwrap();
+        image.set_after(4, 2, true).unwrap();
+        image.motion_ended(2);
+        assert_eq!(image.digitals(Digital::Do, 1, 2).unwrap(), 0);
+        image.motion_ended(3);
+        assert_eq!(image.digitals(Digital::Do, 1, 2).unwrap(), 1);
+        image.motion_ended(9);
+        assert_eq!(image.digitals(Digital::Do, 1, 2).unwrap(), 3);
+    }
+}

@@ -1,0 +1,142 @@
+//! Inputs and outputs: the functions that programs call, the picture that they work on, and the scenario that plays
+//! the outside.
+//!
+//! The functions that wait do so for the end of all planned motion; then they act in that cycle. Channels count from 1.
+
+mod bits;
+mod channels;
+mod driver;
+mod image;
+mod scenario;
+
+pub use channels::{AnalogType, Channels};
+pub use driver::{IoDriver, SimulatedIo};
+pub use image::{Image, Inputs, Outputs};
+pub use scenario::{Pendant, Scenario};
+
+pub(crate) use image::Digital;
+pub(crate) use scenario::Playing;
+
+use crate::cx::Cx;
+use crate::fault::Fault;
+
+/// Sets a digital output.
+///
+/// # Errors
+/// There is no such channel.
+pub async fn setdo(cx: &Cx, chan: i32, value: bool) -> Result<(), Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow_mut().set_digital(Digital::Do, chan, value)
+}
+
+/// Sets up to 32 neighbouring digital outputs; the lowest bit of `value` is the first one's level.
+///
+/// # Errors
+/// Channels that do not exist, a reversed range, more than 32 channels.
+pub async fn setdo_group(cx: &Cx, from_chan: i32, to_chan: i32, value: i32) -> Result<(), Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow_mut().set_digitals(Digital::Do, from_chan, to_chan, value)
+}
+
+/// Sets a digital output and goes on when it has been sent: in the next cycle.
+///
+/// # Errors
+/// There is no such channel.
+pub async fn syncdo(cx: &Cx, chan: i32, value: bool) -> Result<(), Fault> {
+    setdo(cx, chan, value).await?;
+    cx.next_cycle().await;
+    Ok(())
+}
+
+/// Sets up to 32 neighbouring digital outputs and goes on when they have been sent: in the next cycle.
+///
+/// # Errors
+/// Channels that do not exist, a reversed range, more than 32 channels.
+pub async fn syncdo_group(cx: &Cx, from_chan: i32, to_chan: i32, value: i32) -> Result<(), Fault> {
+    setdo_group(cx, from_chan, to_chan, value).await?;
+    cx.next_cycle().await;
+    Ok(())
+}
+
+/// Puts a pulse on a digital output: the level for `width` seconds, then the opposite level. The program goes on at
+/// once.
+///
+/// # Errors
+/// There is no such channel; the width is negative or not a number.
+pub async fn pulsedo(cx: &Cx, chan: i32, value: bool, width: f64) -> Result<(), Fault> {
+    let cycles = cx.world().rate.wait(width, "pulsedo")?;
+    cx.motion_end().await;
+    cx.world().io.borrow_mut().pulse(chan, value, cx.cycle() + cycles.max(1))
+}
+
+/// The level of a digital output.
+///
+/// # Errors
+/// There is no such channel.
+pub async fn getdo(cx: &Cx, chan: i32) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow().digital(Digital::Do, chan)
+}
+
+/// The levels of up to 32 neighbouring digital outputs, the first in the lowest bit.
+///
+/// # Errors
+/// Channels that do not exist, a reversed range, more than 32 channels.
+pub async fn getdo_group(cx: &Cx, from_chan: i32, to_chan: i32) -> Result<i32, Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow().digitals(Digital::Do, from_chan, to_chan)
+}
+
+/// The level of a digital input.
+///
+/// # Errors
+/// There is no such channel.
+pub async fn getdi(cx: &Cx, chan: i32) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow().digital(Digital::Di, chan)
+}
+
+/// The levels of up to 32 neighbouring digital inputs, the first in the lowest bit.
+///
+/// # Errors
+/// Channels that do not exist, a reversed range, more than 32 channels.
+pub async fn getdi_group(cx: &Cx, from_chan: i32, to_chan: i32) -> Result<i32, Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow().digitals(Digital::Di, from_chan, to_chan)
+}
+
+/// The level of a digital input now, while the robot may still be on its way.
+///
+/// # Errors
+/// There is no such channel.
+pub fn getnostopdi(cx: &Cx, chan: i32) -> Result<bool, Fault> {
+    cx.world().io.borrow().digital(Digital::Di, chan)
+}
+
+/// `setdoimv`: sets a digital output when the motion before it has ended, without stopping the robot.
+pub fn setdoimv(channel: i32, value: bool) -> SetDoInMotion {
+    SetDoInMotion { channel, value }
+}
+
+/// `setdoimv`, ready to run.
+#[derive(Clone, Copy, Debug)]
+#[must_use = "an instruction does nothing until it is run"]
+pub struct SetDoInMotion {
+    channel: i32,
+    value: bool,
+}
+
+impl SetDoInMotion {
+    /// Leaves the order with the motion planned last; acts at once where none is under way.
+    ///
+    /// # Errors
+    /// There is no such channel.
+    pub fn run(self, cx: &Cx) -> Result<(), Fault> {
+        let world = cx.world();
+        let (last, ended) = world.unit.borrow().motions();
+        let mut io = world.io.borrow_mut();
+        io.set_after(last, self.channel, self.value)?;
+        io.motion_ended(ended);
+        Ok(())
+    }
+}

@@ -1,0 +1,416 @@
+//! The io scenario: what the world around the robot does, and when.
+//!
+//! ```toml
+//! [[event]]
+//! at = 2.0            # seconds of controller time
+//! di.5 = true
+//!
+//! [[event]]
+//! when = "do.3"       # each time the output goes on; "!do.3": off; di.N too
+//! after = 0.5         # seconds later
+//! ai.2 = 4.2
+//! pendant = "start"
+//! override = 50       # %
+//! ```
+
+use std::path::Path;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::bits::Bits;
+use super::{Channels, Digital, Image};
+use crate::rate::Rate;
+use crate::settings::{Section, SettingsError, Source, Value, hint, kind, number, table};
+
+const EVENT: &[&str] = &["at", "when", "after", "di", "ai", "internal", "pendant", "override"];
+
+/// A word of the teach pendant.
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
+pub enum Pendant {
+    /// The start button: a paused program goes on.
+    Start,
+    /// The speed override in %.
+    Override(f64),
+}
+
+/// The words that a scenario may use, and whether they have a meaning yet.
+const WORDS: [(&str, Option<Pendant>); 7] = [
+    ("start", Some(Pendant::Start)),
+    ("pause", None),
+    ("step", None),
+    ("reset", None),
+    ("clear", None),
+    ("servo_on", None),
+    ("servo_off", None),
+];
+
+/// What an event does.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Action {
+    Digital(Digital, i32, bool),
+    Analog(i32, f64),
+    Pendant(Pendant),
+}
+
+/// What sets an event off.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Cause {
+    /// A point in time, in s.
+    At(f64),
+    /// An edge of a signal: input or output, channel from 0, level after the edge.
+    Edge { output: bool, channel: usize, level: bool },
+}
+
+#[derive(Clone, PartialEq, Debug)]
+struct Event {
+    cause: Cause,
+    /// Seconds from the cause to the event; an edge has its effect in the next cycle at the earliest.
+    after: f64,
+    actions: Vec<Action>,
+}
+
+/// What the world around the robot does, and when.
+#[derive(Clone, PartialEq, Default, Debug)]
+pub struct Scenario {
+    events: Vec<Event>,
+}
+
+impl Scenario {
+    /// Reads a scenario file.
+    ///
+    /// # Errors
+    /// The file cannot be read, or what it says is not a scenario.
+    pub fn load(path: &Path) -> Result<Scenario, SettingsError> {
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| SettingsError::of_file(&name, format!("cannot read the io scenario: {error}")))?;
+        Scenario::parse(&name, &text)
+    }
+
+    /// The scenario that `text` describes; `file` names the text in errors.
+    ///
+    /// # Errors
+    /// The text is not TOML, or not a scenario: with line, column and what was expected.
+    pub fn parse(file: &str, text: &str) -> Result<Scenario, SettingsError> {
+        let source = Source { file, text };
+        let root = source.parse()?;
+        let top = Section::new(source, "the io scenario", root.get_ref(), &["event"])?;
+        let Some(events) = top.find("event") else { return Ok(Scenario::default()) };
+        let array = events
+            .get_ref()
+            .as_array()
+            .ok_or_else(|| top.wrong("event", events, "tables that begin with [[event]]"))?;
+        let events = array.iter().map(|value| event(source, value)).collect::<Result<_, _>>()?;
+        Ok(Scenario { events })
+    }
+
+    /// Whether all channels that the scenario names exist.
+    pub(crate) fn check(&self, channels: &Channels) -> Result<(), String> {
+        let mut image = Image::new(channels);
+        for event in &self.events {
+            if let Cause::Edge { output, channel, level: _ } = event.cause {
+                let (name, count) = if output { ("do", channels.dout) } else { ("di", channels.di) };
+                if channel >= count as usize {
+                    return Err(format!("the scenario waits for {name}.{}, but there are {count}", channel + 1));
+                }
+            }
+            for action in &event.actions {
+                let done = match *action {
+                    Action::Digital(what, channel, level) => image.set_digital(what, channel, level),
+                    Action::Analog(channel, value) => image.set_analog(false, channel, value),
+                    Action::Pendant(_) => Ok(()),
+                };
+                done.map_err(|fault| format!("the scenario sets an input that is not there: {fault}"))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+fn event(source: Source<'_>, value: &Value<'_>) -> Result<Event, SettingsError> {
+    let event = table(source, value, "[[event]]", EVENT)?;
+    let after = event.number("after", "seconds", 0.0, 1e9)?;
+    let cause = match (event.number("at", "seconds", 0.0, 1e9)?, event.text("when", "\"do.3\" or \"!do.3\"")?) {
+        (Some(at), None) => Cause::At(at),
+        (None, Some(_)) => edge(&event)?,
+        (at, _) => {
+            let found = if at.is_some() { "both `at` and `when`" } else { "neither `at` nor `when`" };
+            let message = format!("[[event]] has {found}: one of them says when it happens");
+            return Err(source.error(value.span(), message));
+        }
+    };
+    let mut actions = Vec::new();
+    for (key, span, value) in event.entries() {
+        match key {
+            "di" => signals(
+                source,
+                key,
+                value,
+                |channel, level| Action::Digital(Digital::Di, channel, level),
+                &mut actions,
+            )?,
+            "internal" => signals(
+                source,
+                key,
+                value,
+                |channel, level| Action::Digital(Digital::InternalIn, channel, level),
+                &mut actions,
+            )?,
+            "ai" => analogs(source, value, &mut actions)?,
+            "pendant" => actions.push(Action::Pendant(pendant(&event, source, value)?)),
+            "override" => {
+                let percent = event.number(key, "percent", 0.0, 100.0)?.unwrap_or(100.0);
+                actions.push(Action::Pendant(Pendant::Override(percent)));
+            }
+            "after" if matches!(cause, Cause::At(_)) => {
+                return Err(source.error(span, "`after` counts from `when`; with `at`, add the seconds there"));
+            }
+            _ => {}
+        }
+    }
+    if actions.is_empty() {
+        let message = "[[event]] changes nothing: expected `di.N`, `ai.N`, `internal.N`, `pendant` or `override`";
+        return Err(source.error(value.span(), message));
+    }
+    Ok(Event { cause, after: after.unwrap_or(0.0), actions })
+}
+
+fn edge(event: &Section<'_>) -> Result<Cause, SettingsError> {
+    const WHAT: &str = "\"do.3\" (goes on) or \"!do.3\" (goes off), or di";
+    let word = event.text("when", WHAT)?.unwrap_or_default();
+    let (name, level) = word.strip_prefix('!').map_or((word, true), |name| (name, false));
+    let parts = name.split_once('.').and_then(|(kind, channel)| Some((kind, channel.parse::<usize>().ok()?)));
+    match parts {
+        Some((kind @ ("do" | "di"), channel @ 1..)) => {
+            Ok(Cause::Edge { output: kind == "do", channel: channel - 1, level })
+        }
+        _ => match event.find("when") {
+            Some(value) => Err(event.wrong("when", value, WHAT)),
+            None => Ok(Cause::At(0.0)),
+        },
+    }
+}
+
+/// The channels under `di` or `ai`, with their values.
+fn channels<'a>(
+    source: Source<'a>,
+    key: &str,
+    value: &'a Value<'a>,
+) -> Result<Vec<(i32, &'a Value<'a>)>, SettingsError> {
+    let DeValue::Table(table) = value.get_ref() else {
+        let message = format!("expected a channel, like `{key}.5 = ...`, found {}", kind(value.get_ref()));
+        return Err(source.error(value.span(), message));
+    };
+    let mut channels: Vec<_> = DeTable::iter(table).collect();
+    channels.sort_by_key(|(channel, _)| channel.span().start);
+    let read = |(channel, value): (&'a Spanned<_>, &'a Value<'a>)| {
+        let word: &str = AsRef::as_ref(channel.get_ref() as &std::borrow::Cow<'_, str>);
+        match word.parse::<i32>() {
+            Ok(number @ 1..) => Ok((number, value)),
+            _ => Err(source.error(channel.span(), format!("expected a channel number from 1, found `{key}.{word}`"))),
+        }
+    };
+    channels.into_iter().map(read).collect()
+}
+
+fn signals(
+    source: Source<'_>,
+    key: &str,
+    value: &Value<'_>,
+    action: fn(i32, bool) -> Action,
+    actions: &mut Vec<Action>,
+) -> Result<(), SettingsError> {
+    for (channel, value) in channels(source, key, value)? {
+        let level = value.get_ref().as_bool().ok_or_else(|| {
+            let found = kind(value.get_ref());
+            source.error(value.span(), format!("`{key}.{channel}`: expected true or false, found {found}"))
+        })?;
+        actions.push(action(channel, level));
+    }
+    Ok(())
+}
+
+fn analogs(source: Source<'_>, value: &Value<'_>, actions: &mut Vec<Action>) -> Result<(), SettingsError> {
+    for (channel, value) in channels(source, "ai", value)? {
+        let level = number(value.get_ref()).ok_or_else(|| {
+            let found = kind(value.get_ref());
+            source.error(value.span(), format!("`ai.{channel}`: expected a number, found {found}"))
+        })?;
+        actions.push(Action::Analog(channel, level));
+    }
+    Ok(())
+}
+
+fn pendant(event: &Section<'_>, source: Source<'_>, value: &Value<'_>) -> Result<Pendant, SettingsError> {
+    let word = event.text("pendant", "a word of the teach pendant")?.unwrap_or_default();
+    match WORDS.iter().find(|(known, _)| known.eq_ignore_ascii_case(word)) {
+        Some((_, Some(pendant))) => Ok(*pendant),
+        Some((known, None)) => {
+            Err(source.error(value.span(), format!("the pendant's word \"{known}\" is not supported yet")))
+        }
+        None => {
+            let known = WORDS.map(|(known, _)| known);
+            Err(source.error(value.span(), format!("the pendant has no word \"{word}\"; {}", hint(word, &known))))
+        }
+    }
+}
+
+/// A scenario while it plays.
+#[derive(Debug)]
+pub(crate) struct Playing {
+    events: Vec<Event>,
+    rate: Rate,
+    /// Events on their way, by cycle and then by the order in which they were set off.
+    due: Vec<(u64, usize)>,
+    before_in: Bits,
+    before_out: Bits,
+}
+
+impl Playing {
+    pub(crate) fn new(scenario: Scenario, image: &Image, rate: Rate) -> Self {
+        let events = scenario.events;
+        let mut due = Vec::with_capacity(events.len() * 4 + 16);
+        for (at, event) in events.iter().enumerate() {
+            if let Cause::At(time) = event.cause {
+                insert(&mut due, rate.cycles(time), at);
+            }
+        }
+        Self { events, rate, due, before_in: image.inputs().clone(), before_out: image.outputs().clone() }
+    }
+
+    /// Sets what is due at the start of `cycle`; hands the pendant's words to `pendant`.
+    pub(crate) fn play(&mut self, cycle: u64, image: &mut Image, mut pendant: impl FnMut(Pendant)) {
+        if self.events.is_empty() {
+            return;
+        }
+        self.find_edges(cycle, image);
+        while let Some(&(when, at)) = self.due.first()
+            && when <= cycle
+        {
+            self.due.remove(0);
+            for action in self.events.get(at).map(|event| event.actions.as_slice()).unwrap_or_default() {
+                // The channels were checked when the scenario was loaded.
+                let _ = match *action {
+                    Action::Digital(what, channel, level) => image.set_digital(what, channel, level),
+                    Action::Analog(channel, value) => image.set_analog(false, channel, value),
+                    Action::Pendant(word) => {
+                        pendant(word);
+                        Ok(())
+                    }
+                };
+            }
+        }
+    }
+
+    fn find_edges(&mut self, cycle: u64, image: &Image) {
+        for (at, event) in self.events.iter().enumerate() {
+            if let Cause::Edge { output, channel, level } = event.cause {
+                let (before, now) =
+                    if output { (&self.before_out, image.outputs()) } else { (&self.before_in, image.inputs()) };
+                if before.get(channel) != level && now.get(channel) == level {
+                    // The outside has seen the edge at the end of the cycle before.
+                    let due = cycle.saturating_sub(1) + self.rate.cycles(event.after);
+                    insert(&mut self.due, due, at);
+                }
+            }
+        }
+        self.before_in.copy_from(image.inputs());
+        self.before_out.copy_from(image.outputs());
+    }
+}
+
+/// Keeps `due` in order; events of one cycle stay in the order in which they came.
+fn insert(due: &mut Vec<(u64, usize)>, cycle: u64, event: usize) {
+    let place = due.partition_point(|(when, _)| *when <= cycle);
+    due.insert(place, (cycle, event));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn play(text: &str, cycles: u64, mut each: impl FnMut(u64, &mut Image)) -> Vec<Pendant> {
+        let scenario = Scenario::parse("io.toml", text).unwrap();
+        scenario.check(&Channels::default()).unwrap();
+        let mut image = Image::new(&Channels::default());
+        let mut playing = Playing::new(scenario, &image, Rate::default());
+        let mut words = Vec::new();
+        for cycle in 0..cycles {
+            playing.play(cycle, &mut image, |word| words.push(word));
+            each(cycle, &mut image);
+        }
+        words
+    }
+
+    #[test]
+    fn events_come_at_their_time() {
+        let text = "[[event]]\nat = 0.005\ndi.5 = true\nai.2 = 4.5\n[[event]]\nat = 0.002\ndi.5 = false\ndi.6 = true\n";
+        let mut seen = Vec::new();
+        play(text, 8, |_, image| {
+            seen.push((image.digitals(Digital::Di, 5, 6).unwrap(), image.analog(false, 2).unwrap()));
+        });
+        assert_eq!(seen, [(0, 0.0), (0, 0.0), (2, 0.0), (2, 0.0), (2, 0.0), (3, 4.5), (3, 4.5), (3, 4.5)]);
+    }
+
+    #[test]
+    fn edges_set_off_events_every_time() {
+        let text =
+            "[[event]]\nwhen = \"do.3\"\nafter = 0.002\ndi.1 = true\n[[event]]\nwhen = \"!do.3\"\ndi.1 = false\n";
+        let mut seen = Vec::new();
+        play(text, 12, |cycle, image| {
+            if cycle.is_multiple_of(4) {
+                image.set_digital(Digital::Do, 3, cycle % 8 == 0).unwrap();
+            }
+            seen.push(image.digital(Digital::Di, 1).unwrap());
+        });
+        let on = [2, 3, 4, 10, 11];
+        let expected: Vec<bool> = (0..12).map(|cycle| on.contains(&cycle)).collect();
+        assert_eq!(seen, expected);
+    }
+
+    #[test]
+    fn the_pendant_speaks() {
+        let text = "[[event]]\nat = 0\npendant = \"start\"\noverride = 50\n";
+        assert_eq!(play(text, 1, |_, _| {}), [Pendant::Start, Pendant::Override(50.0)]);
+    }
+
+    #[test]
+    fn mistakes_name_line_and_what_was_expected() {
+        for (text, line, words) in [
+            ("[[event]]\nat = 1\ndi.5 = 1", 3, "`di.5`: expected true or false, found the number 1"),
+            ("[[event]]\nat = 1\ndo.5 = true", 3, "did you mean `di`?"),
+            ("[[event]]\nat = 1\ndi.x = true", 3, "a channel number from 1"),
+            ("[[event]]\ndi.5 = true", 1, "neither `at` nor `when`"),
+            ("[[event]]\nat = 1\nwhen = \"do.1\"\ndi.5 = true", 1, "both `at` and `when`"),
+            ("[[event]]\nat = 1\nafter = 1\ndi.5 = true", 3, "counts from `when`"),
+            ("[[event]]\nat = 1", 1, "changes nothing"),
+            ("[[event]]\nwhen = \"do3\"\ndi.5 = true", 2, "expected \"do.3\""),
+            ("[[event]]\nat = -1\ndi.5 = true", 2, "expected seconds"),
+            ("[[event]]\nat = 1\npendant = \"strat\"", 3, "did you mean `start`?"),
+            ("[[event]]\nat = 1\npendant = \"servo_on\"", 3, "not supported yet"),
+            ("[[event]]\nat = 1\noverride = 101", 3, "expected percent from 0 to 100"),
+            ("[[events]]\nat = 1", 1, "did you mean `event`?"),
+            ("event = 3", 1, "[[event]]"),
+            ("[[event]\n", 1, "not TOML"),
+        ] {
+            let error = Scenario::parse("io.toml", text).unwrap_err();
+            assert_eq!(error.line, line, "{text}: {error}");
+            assert!(error.message.contains(words), "{text}: {error}");
+        }
+    }
+
+    #[test]
+    fn channels_must_exist() {
+        for (text, words) in [
+            ("[[event]]\nat = 1\ndi.65 = true", "DI 65 does not exist"),
+            ("[[event]]\nat = 1\nai.9 = 1", "AI 9 does not exist"),
+            ("[[event]]\nwhen = \"do.65\"\ndi.1 = true", "do.65, but there are 64"),
+        ] {
+            let scenario = Scenario::parse("io.toml", text).unwrap();
+            let error = scenario.check(&Channels::default()).unwrap_err();
+            assert!(error.contains(words), "{error}");
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! Values as words of text that lose nothing: the contents of state files.
+
+use std::fmt::Write;
+
+use crate::values::{Array, CentroidPos, Frame, InertiaTensor, Joint, Pose, Store, Str, Tool, ToolInertiaPara, Wobj};
+
+/// Words between blanks.
+pub(crate) type Words<'a> = std::str::SplitAsciiWhitespace<'a>;
+
+/// A value that can be written as words and be read back to the last bit.
+pub(crate) trait Keep: Sized {
+    /// Appends the words, each followed by a blank or a new line.
+    fn write(&self, out: &mut String);
+
+    /// Reads the words; `None` where they are not such a value.
+    fn read(words: &mut Words<'_>) -> Option<Self>;
+}
+
+macro_rules! plain {
+    ($($ty:ty),*) => { $(
+        impl Keep for $ty {
+            fn write(&self, out: &mut String) {
+                // Writing to a string does not fail.
+                let _ = write!(out, "{self:?} ");
+            }
+
+            fn read(words: &mut Words<'_>) -> Option<Self> {
+                words.next()?.parse().ok()
+            }
+        }
+    )* };
+}
+
+plain!(i32, f64, bool);
+
+impl Keep for Str {
+    /// In quotes, without blanks: what is not a plain character stands as `%` and two hexadecimal digits.
+    fn write(&self, out: &mut String) {
+        out.push('"');
+        for byte in self.as_bytes() {
+            if byte.is_ascii_alphanumeric() || b"_-.,:;/+*()".contains(byte) {
+                out.push(char::from(*byte));
+            } else {
+                let _ = write!(out, "%{byte:02x}");
+            }
+        }
+        out.push_str("\" ");
+    }
+
+    fn read(words: &mut Words<'_>) -> Option<Self> {
+        let mut text = Str::new();
+        let mut bytes = words.next()?.strip_prefix('"')?.strip_suffix('"')?.bytes();
+        while let Some(byte) = bytes.next() {
+            if byte == b'%' {
+                let digits = [char::from(bytes.next()?), char::from(bytes.next()?)];
+                text.push((digits[0].to_digit(16)? * 16 + digits[1].to_digit(16)?) as u8);
+            } else {
+                text.push(byte);
+            }
+        }
+        Some(text)
+    }
+}
+
+impl<T: Keep + Clone + Default, const N: usize, S: Store<T, N>> Keep for Array<T, N, S> {
+    fn write(&self, out: &mut String) {
+        for element in self.iter() {
+            element.write(out);
+            out.pop();
+            out.push('\n');
+        }
+    }
+
+    fn read(words: &mut Words<'_>) -> Option<Self> {
+        let mut array = Self::start();
+        for element in array.iter_mut() {
+            *element = T::read(words)?;
+        }
+        words.next().is_none().then_some(array)
+    }
+}
+
+macro_rules! structures {
+    ($($ty:ident { $($field:ident)* })*) => { $(
+        impl Keep for $ty {
+            fn write(&self, out: &mut String) {
+                $( self.$field.write(out); )*
+            }
+
+            fn read(words: &mut Words<'_>) -> Option<Self> {
+                Some(Self { $($field: Keep::read(words)?,)* })
+            }
+        }
+    )* };
+}
+
+structures! {
+    Frame { x y z a b c }
+    Pose { x y z a b c cfg turn ej1 ej2 ej3 ej4 ej5 ej6 }
+    Joint { j1 j2 j3 j4 j5 j6 ej1 ej2 ej3 ej4 ej5 ej6 }
+    Tool { t_frame stationary }
+    Wobj { w_frame robhold mu_name }
+    CentroidPos { x y z }
+    InertiaTensor { ixx ixy ixz iyy iyz izz }
+    ToolInertiaPara { m centroidpos inertiatensor }
+}

@@ -1,0 +1,179 @@
+//! What a motion takes from the instruction, and what from the system variables.
+
+use crate::cx::Cx;
+use crate::fault::Fault;
+use crate::kinematics::Frame;
+use crate::motion;
+use crate::system::is_identity;
+use crate::unit::frame_of;
+use crate::values::{Slip, Speed, Tool, Wobj, is_set};
+
+/// Which components of a speed a motion uses.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Kind {
+    /// Percent of the axes' speeds.
+    Axes,
+    /// Speeds of the TCP.
+    Line,
+}
+
+/// The speed that an instruction gives.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Pace {
+    Speed(Speed),
+    /// % of the robot's own.
+    Percent(f64),
+    /// mm/s.
+    Line(f64),
+}
+
+/// The blending that an instruction gives.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Blend {
+    Slip(Slip),
+    /// % of the largest zone.
+    Percent(f64),
+    /// mm.
+    Line(f64),
+}
+
+/// What an instruction says besides its target.
+#[derive(Clone, Debug)]
+pub(super) struct Modal {
+    kind: Kind,
+    pub(super) pace: Option<Pace>,
+    pub(super) blend: Option<Blend>,
+    pub(super) tool: Option<Tool>,
+    pub(super) wobj: Option<Wobj>,
+    pub(super) duration: Option<f64>,
+}
+
+/// The same, with the system variables filled in.
+#[derive(Clone, Debug)]
+pub(super) struct Resolved {
+    pub(super) speed: motion::Speed,
+    pub(super) tool_frame: Frame,
+    pub(super) wobj_frame: Frame,
+    pub(super) duration: Option<f64>,
+}
+
+impl Modal {
+    pub(super) fn new(kind: Kind) -> Self {
+        Self { kind, pace: None, blend: None, tool: None, wobj: None, duration: None }
+    }
+
+    /// Updates the modal system variables with what the instruction says, and takes from them what it does not.
+    pub(super) fn apply(&self, cx: &Cx) -> Result<Resolved, Fault> {
+        let system = cx.system();
+        if let Some(pace) = self.pace {
+            system.dfspeed.set(self.speed(cx, pace, system.dfspeed.get()));
+        }
+        if let Some(blend) = self.blend {
+            system.dfslip.set(slip(blend, system.dfslip.get()));
+        }
+        if let Some(tool) = self.tool {
+            system.dftool.set(tool);
+        }
+        if let Some(wobj) = &self.wobj {
+            system.dfwobj.set(wobj.clone());
+        }
+        supported(cx)?;
+        warn_of_blending(cx);
+        let speed = system.dfspeed.get();
+        Ok(Resolved {
+            speed: motion::Speed { percent: speed.per, tcp: speed.tcp, ori: speed.ori, exj: speed.exj, exl: speed.exl },
+            tool_frame: frame_of(&system.dftool.get().t_frame),
+            wobj_frame: system.dfwobj.with(|wobj| frame_of(&wobj.w_frame)),
+            duration: self.duration,
+        })
+    }
+
+    /// `$DFSPEED` with the components that the instruction stands for.
+    fn speed(&self, cx: &Cx, pace: Pace, mut speed: Speed) -> Speed {
+        match (pace, self.kind) {
+            (Pace::Speed(new), _) => {
+                let places = [
+                    (&mut speed.per, new.per),
+                    (&mut speed.tcp, new.tcp),
+                    (&mut speed.ori, new.ori),
+                    (&mut speed.exj, new.exj),
+                    (&mut speed.exl, new.exl),
+                ];
+                for (place, new) in places {
+                    if is_set(new) {
+                        *place = new;
+                    }
+                }
+            }
+            (Pace::Percent(percent), Kind::Axes) => speed.per = percent,
+            (Pace::Percent(percent), Kind::Line) => {
+                let unit = cx.world().unit.borrow();
+                let tcp = &unit.robot().tcp;
+                speed.tcp = tcp.vel * percent / 100.0;
+                speed.ori = tcp.ori_vel * percent / 100.0;
+            }
+            (Pace::Line(millimetres), _) => speed.tcp = millimetres,
+        }
+        speed
+    }
+}
+
+/// `$DFSLIP` with the components that the instruction stands for.
+fn slip(blend: Blend, mut slip: Slip) -> Slip {
+    match blend {
+        Blend::Slip(new) => {
+            let places = [
+                (&mut slip.perdis, new.perdis),
+                (&mut slip.pdis, new.pdis),
+                (&mut slip.odis, new.odis),
+                (&mut slip.ejdis, new.ejdis),
+                (&mut slip.eldis, new.eldis),
+                (&mut slip.jdis, new.jdis),
+            ];
+            for (place, new) in places {
+                if is_set(new) {
+                    *place = new;
+                }
+            }
+        }
+        Blend::Percent(percent) => slip.perdis = percent,
+        Blend::Line(distance) => {
+            slip.pdis = distance;
+            // A percentage that is set goes before all distances.
+            slip.perdis = -1.0;
+        }
+    }
+    slip
+}
+
+/// What would lead the robot elsewhere than the program says.
+fn supported(cx: &Cx) -> Result<(), Fault> {
+    let system = cx.system();
+    let refused = if system.dftool.get().stationary {
+        "a stationary tool is"
+    } else if system.dfwobj.with(|wobj| wobj.robhold) {
+        "a workpiece that the robot holds is"
+    } else if system.base.with(|base| base.iter().any(|base| !is_identity(&base.w_frame))) {
+        "$BASE other than zero is"
+    } else if system.wobj_offset.with(|offset| offset.iter().any(|component| *component != 0.0)) {
+        "$WOBJ_OFFSET other than zero is"
+    } else if system.tool_offset.with(|offset| offset.iter().any(|component| *component != 0.0)) {
+        "$TOOL_OFFSET other than zero is"
+    } else {
+        return Ok(());
+    };
+    Err(Fault::Motion(format!("{refused} not supported by motion instructions yet").into()))
+}
+
+fn warn_of_blending(cx: &Cx) {
+    let slip = cx.system().dfslip.get();
+    let zones = [slip.perdis, slip.pdis, slip.odis, slip.ejdis, slip.eldis, slip.jdis];
+    let asked = if is_set(slip.perdis) && slip.perdis >= 0.0 {
+        slip.perdis > 0.0
+    } else {
+        zones.iter().any(|zone| is_set(*zone) && *zone > 0.0)
+    };
+    if asked {
+        cx.world().warn_once("blending is not supported yet: the robot stops at every target");
+    }
+}

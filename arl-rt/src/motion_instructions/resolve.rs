@@ -1,0 +1,81 @@
+//! Targets, and the way to the planner.
+
+use super::modal::Resolved;
+use crate::cx::Cx;
+use crate::fault::Fault;
+use crate::kinematics::Wanted;
+use crate::motion::{Command, Joints, Target, UNSET};
+use crate::robot::{EXTERNAL_AXES, Family};
+use crate::system::all_set;
+use crate::unit::{Unit, joint};
+use crate::values::{Joint, Pose};
+
+/// What the first motion of a program must not leave open.
+const FIRST: &str = "the first motion of a program must set all components of its target";
+
+/// The axes of a target.
+pub(super) fn joints(cx: &Cx, target: &Joint) -> Result<Joints, Fault> {
+    let joints = Joints { axes: target.axes(), external: target.external() };
+    let unit = cx.world().unit.borrow();
+    let own = unit.robot().own_axes().len();
+    first(cx, &unit, joints.axes.get(..own).unwrap_or_default(), &joints.external)?;
+    Ok(joints)
+}
+
+/// The pose of a target, which solution of it is wanted, and its external axes.
+pub(super) fn pose(cx: &Cx, target: &Pose, _: &Resolved) -> Result<([f64; 6], Wanted, [f64; EXTERNAL_AXES]), Fault> {
+    let system = cx.system();
+    let mut pose = target.components();
+    if system.ignore_ori.get() {
+        let [x, y, z, ..] = pose;
+        pose = [x, y, z, UNSET, UNSET, UNSET];
+    }
+    let external = target.external();
+    first(cx, &cx.world().unit.borrow(), &pose, &external)?;
+    Ok((pose, wanted(target, system.config_check.get())?, external))
+}
+
+/// Which solution of a pose is wanted: the one it was taught in, or the nearest.
+pub(crate) fn wanted(target: &Pose, as_taught: bool) -> Result<Wanted, Fault> {
+    if !as_taught {
+        return Ok(Wanted { cfg: None, turn: -1 });
+    }
+    match u8::try_from(target.cfg) {
+        Ok(cfg) => Ok(Wanted { cfg: Some(cfg), turn: target.turn }),
+        Err(_) => Err(Fault::Motion(format!("the robot has no configuration cfg {}", target.cfg).into())),
+    }
+}
+
+/// The first motion of a program knows no start to take unset components from.
+fn first(cx: &Cx, unit: &Unit, own: &[f64], external: &[f64]) -> Result<(), Fault> {
+    if cx.has_moved() {
+        return Ok(());
+    }
+    let there = unit.robot().external_axes().len();
+    if all_set(own) && all_set(external.get(..there).unwrap_or_default()) {
+        Ok(())
+    } else {
+        Err(Fault::Motion(FIRST.into()))
+    }
+}
+
+/// Hands a motion to the planner when there is room.
+pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<(), Fault> {
+    let world = cx.world();
+    if world.unit.borrow().robot().family == Family::Scara {
+        return Err(Fault::Motion("motion of SCARA robots is not supported yet".into()));
+    }
+    if cx.spend() {
+        cx.next_cycle().await;
+    }
+    while !world.unit.borrow().has_room() {
+        cx.next_cycle().await;
+    }
+    let command =
+        Command { target, tool: modal.tool_frame, speed: modal.speed, duration: modal.duration, line: cx.place().1 };
+    let mut unit = world.unit.borrow_mut();
+    unit.plan(&command).map_err(|error| Fault::Motion(error.to_string().into()))?;
+    world.system.cjoint.set(joint(unit.target()));
+    cx.moved();
+    Ok(())
+}

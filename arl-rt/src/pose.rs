@@ -1,0 +1,106 @@
+//! Where the robot is, and where it would be.
+
+pub use crate::frames::{offset, poseinv, reltool};
+
+use crate::cx::Cx;
+use crate::fault::Fault;
+use crate::kinematics::{Axes, Frame, Refusal, frame_components};
+use crate::motion::is_unset;
+use crate::motion_instructions::wanted;
+use crate::unit::{Unit, frame_of, joint, tidy};
+use crate::values::{Joint, Pose, Tool, Wobj};
+
+/// The axes as the robot reports them now, in deg (mm); external axes that are not there are unset.
+pub fn cjoint(cx: &Cx) -> Joint {
+    joint(cx.world().unit.borrow().feedback())
+}
+
+/// The pose of the tool in the workpiece frame as the robot reports it now, in mm and deg, with the external axes.
+pub fn cpose(cx: &Cx, t: Tool, w: &Wobj) -> Pose {
+    let unit = cx.world().unit.borrow();
+    let feedback = unit.feedback();
+    pose(cx, &unit, &feedback.axes, &joint(feedback), t, w)
+}
+
+/// The pose of the tool in the workpiece frame for given axes.
+///
+/// # Errors
+/// Axes of the robot are unset.
+pub fn getpose(cx: &Cx, j: Joint, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
+    let unit = cx.world().unit.borrow();
+    let mut axes = j.axes();
+    let own = unit.robot().own_axes().len();
+    if axes.iter().take(own).any(|axis| is_unset(*axis)) {
+        return Err(domain("getpose", "axes of the robot are not set".to_owned()));
+    }
+    axes.iter_mut().skip(own).for_each(|axis| *axis = 0.0);
+    Ok(pose(cx, &unit, &axes, &j, t, w))
+}
+
+/// The axes that bring the tool to a pose in the workpiece frame, in the configuration that the pose names; its external
+/// axes stay.
+///
+/// # Errors
+/// Components of the pose are unset, or it cannot be reached so.
+pub fn getjoint(cx: &Cx, p: Pose, t: Tool, w: &Wobj) -> Result<Joint, Fault> {
+    let components = p.components();
+    if components.iter().any(|component| is_unset(*component)) {
+        return Err(domain("getjoint", "components of the pose are not set".to_owned()));
+    }
+    let unit = cx.world().unit.borrow();
+    let robot = unit.robot();
+    let target = crate::kinematics::frame(components);
+    let base = base(cx);
+    let (tool, wobj) = (frame_of(&t.t_frame), frame_of(&w.w_frame));
+    // pose = wobj^-1 * tool, each in the world: one of them rides on the flange.
+    let flange = match (t.stationary, w.robhold) {
+        (false, false) => wobj * target * tool.inverse(),
+        (true, true) => tool * target.inverse() * wobj.inverse(),
+        _ => {
+            let problem = "a held workpiece and a tool on the flange do not move against each other".to_owned();
+            return Err(domain("getjoint", problem));
+        }
+    };
+    let near = unit.target().axes;
+    let axes = robot
+        .kinematics
+        .choose(&(base.inverse() * flange), wanted(&p, true)?, robot.own_axes(), &near)
+        .map_err(|refusal| domain("getjoint", refused(&unit, &refusal)))?;
+    let mut joint = Joint::of_axes(axes.map(tidy));
+    (joint.ej1, joint.ej2, joint.ej3, joint.ej4, joint.ej5, joint.ej6) = (p.ej1, p.ej2, p.ej3, p.ej4, p.ej5, p.ej6);
+    Ok(joint)
+}
+
+fn pose(cx: &Cx, unit: &Unit, axes: &Axes, external: &Joint, t: Tool, w: &Wobj) -> Pose {
+    let kinematics = &unit.robot().kinematics;
+    let flange = base(cx) * kinematics.forward(axes);
+    let tool = if t.stationary { frame_of(&t.t_frame) } else { flange * frame_of(&t.t_frame) };
+    let wobj = if w.robhold { flange * frame_of(&w.w_frame) } else { frame_of(&w.w_frame) };
+    let [x, y, z, a, b, c] = frame_components(&(wobj.inverse() * tool)).map(tidy);
+    let cfg = i32::from(kinematics.cfg(axes));
+    let [ej1, ej2, ej3, ej4, ej5, ej6] = external.external();
+    Pose { x, y, z, a, b, c, cfg, turn: -1, ej1, ej2, ej3, ej4, ej5, ej6 }
+}
+
+/// Where the robot stands in the world.
+fn base(cx: &Cx) -> Frame {
+    cx.system().base.with(|base| base.first().map_or(Frame::identity(), |base| frame_of(&base.w_frame)))
+}
+
+fn refused(unit: &Unit, refusal: &Refusal) -> String {
+    match refusal {
+        Refusal::NoSuchCfg { cfg } => format!("the robot has no configuration cfg {cfg}"),
+        Refusal::Unreachable { beyond } if *beyond > 0.0 => format!("the pose is {beyond:.3} mm out of reach"),
+        Refusal::Unreachable { .. } => "the pose cannot be reached in this configuration".to_owned(),
+        Refusal::AxisLimit { axis, value } => match unit.robot().own_axes().get(*axis) {
+            Some(axis) => {
+                format!("{} would have to go to {value:.3}, its range is {} to {}", axis.name, axis.min, axis.max)
+            }
+            None => format!("an axis would have to go to {value:.3}"),
+        },
+    }
+}
+
+fn domain(function: &'static str, problem: String) -> Fault {
+    Fault::Domain { function, problem: problem.into() }
+}

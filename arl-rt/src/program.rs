@@ -1,0 +1,47 @@
+//! What the controller runs: a program, as the emitted code describes it.
+
+use std::pin::Pin;
+
+use crate::cx::Cx;
+use crate::data::Teach;
+use crate::fault::{Done, File};
+use crate::robot::Family;
+
+/// A piece of program that the controller polls once a cycle.
+pub type BoxFuture<'a> = Pin<Box<dyn Future<Output = Done<()>> + 'a>>;
+
+/// A program: its global variables and its `main`.
+pub trait Program {
+    /// The file that has `main`.
+    fn file(&self) -> File;
+
+    /// The build of robot that the program was checked for.
+    fn family(&self) -> Family;
+
+    /// Sets every global variable to its start value, then runs the initialisers in file order.
+    fn init<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a>;
+
+    /// Runs `main` once.
+    fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a>;
+
+    /// The variables of `_data.arl` files, which are read again before `main` starts.
+    fn data(&self) -> Vec<DataFile<'_>> {
+        Vec::new()
+    }
+}
+
+/// A data file and the variables that it gives values to.
+pub struct DataFile<'a> {
+    /// The file, as it was named when the program was compiled.
+    pub file: &'static str,
+    /// Its variables.
+    pub vars: Vec<DataVar<'a>>,
+}
+
+/// A variable of a data file.
+pub struct DataVar<'a> {
+    /// Its name as it was declared.
+    pub name: &'static str,
+    /// The variable.
+    pub slot: &'a dyn Teach,
+}

@@ -1,0 +1,95 @@
+//! The length of a control cycle, and how seconds become cycles.
+
+use crate::fault::Fault;
+
+/// The longest wait in cycles: what no program outlives.
+const FOREVER: f64 = 9e15;
+
+/// The length of the control cycle. It is a whole number of microseconds, so that times stay exact.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Rate {
+    micros: u32,
+}
+
+impl Rate {
+    /// The shortest cycle, in microseconds.
+    pub const SHORTEST: u32 = 100;
+    /// The longest cycle, in microseconds.
+    pub const LONGEST: u32 = 100_000;
+
+    /// A cycle of so many microseconds, brought into the range [`Rate::SHORTEST`] to [`Rate::LONGEST`].
+    pub fn from_micros(micros: u32) -> Self {
+        Self { micros: micros.clamp(Self::SHORTEST, Self::LONGEST) }
+    }
+
+    /// The length in microseconds.
+    pub fn micros(self) -> u32 {
+        self.micros
+    }
+
+    /// The length in seconds.
+    #[inline]
+    pub fn period(self) -> f64 {
+        f64::from(self.micros) / 1e6
+    }
+
+    /// The time at the start of a cycle, in seconds.
+    #[inline]
+    pub fn time(self, cycle: u64) -> f64 {
+        // A product of integers first: 3000 cycles of 1 ms are exactly 3 s.
+        (cycle as f64 * f64::from(self.micros)) / 1e6
+    }
+
+    /// How many cycles pass until `seconds` are over: 0 for 0, at least 1 for everything longer.
+    pub fn cycles(self, seconds: f64) -> u64 {
+        // A thousandth of a cycle of slack, so that 0.003 s are three cycles of 1 ms whatever the last bit says.
+        let cycles = (seconds * 1e6 / f64::from(self.micros) - 1e-3).ceil();
+        if cycles >= 1.0 {
+            cycles.min(FOREVER) as u64
+        } else if seconds > 0.0 {
+            1
+        } else {
+            0
+        }
+    }
+
+    /// The same for a time that a program gives.
+    ///
+    /// # Errors
+    /// The time is negative or not a number.
+    pub(crate) fn wait(self, seconds: f64, function: &'static str) -> Result<u64, Fault> {
+        if seconds >= 0.0 {
+            return Ok(self.cycles(seconds));
+        }
+        let problem = format!("the time is {seconds} s, but must be 0 or more").into();
+        Err(Fault::Domain { function, problem })
+    }
+}
+
+impl Default for Rate {
+    fn default() -> Self {
+        Self { micros: 1000 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seconds_become_whole_cycles() {
+        let rate = Rate::default();
+        for (seconds, cycles) in
+            [(0.0, 0), (1e-9, 1), (0.001, 1), (0.003, 3), (0.0301, 31), (3.0, 3000), (1e300, 9_000_000_000_000_000)]
+        {
+            assert_eq!(rate.cycles(seconds), cycles, "{seconds}");
+        }
+        for cycles in 0..100_000 {
+            assert_eq!(rate.cycles(rate.time(cycles)), cycles);
+            assert_eq!(Rate::from_micros(250).cycles(Rate::from_micros(250).time(cycles)), cycles);
+        }
+        assert_eq!(rate.time(3000), 3.0);
+        assert!(rate.wait(-1.0, "waittime").is_err());
+        assert!(rate.wait(f64::NAN, "waittime").is_err());
+    }
+}

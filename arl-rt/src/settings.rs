@@ -1,0 +1,224 @@
+//! TOML files that users write, read key by key: errors name the line, what is wrong and what was expected.
+
+use std::fmt;
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+/// What is wrong with a cell or scenario file, and where.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct SettingsError {
+    /// The file.
+    pub file: String,
+    /// Line from 1; 0 where the whole file is meant.
+    pub line: u32,
+    /// Column from 1, in characters; 0 where the whole file is meant.
+    pub column: u32,
+    /// What is wrong and what would be right.
+    pub message: String,
+}
+
+impl SettingsError {
+    pub(crate) fn of_file(file: &str, message: String) -> Self {
+        Self { file: file.to_owned(), line: 0, column: 0, message }
+    }
+}
+
+impl fmt::Display for SettingsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.line == 0 {
+            write!(f, "{}: {}", self.file, self.message)
+        } else {
+            write!(f, "{}:{}:{}: {}", self.file, self.line, self.column, self.message)
+        }
+    }
+}
+
+impl std::error::Error for SettingsError {}
+
+/// A value with its place.
+pub(crate) type Value<'a> = Spanned<DeValue<'a>>;
+
+/// The text that spans point into.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Source<'a> {
+    pub(crate) file: &'a str,
+    pub(crate) text: &'a str,
+}
+
+impl<'a> Source<'a> {
+    /// The whole text as a table.
+    pub(crate) fn parse(self) -> Result<Spanned<DeTable<'a>>, SettingsError> {
+        DeTable::parse(self.text).map_err(|error| {
+            self.error(error.span().unwrap_or(0..0), format!("this is not TOML: {}", error.message().trim_end()))
+        })
+    }
+
+    pub(crate) fn line(self, offset: usize) -> u32 {
+        let before = self.text.get(..offset).unwrap_or(self.text);
+        before.bytes().filter(|byte| *byte == b'\n').count() as u32 + 1
+    }
+
+    pub(crate) fn error(self, span: Range<usize>, message: impl Into<String>) -> SettingsError {
+        let before = self.text.get(..span.start).unwrap_or(self.text);
+        let column = before.rsplit('\n').next().map_or(0, |start| start.chars().count()) + 1;
+        SettingsError {
+            file: self.file.to_owned(),
+            line: self.line(span.start),
+            column: column as u32,
+            message: message.into(),
+        }
+    }
+}
+
+/// A table with its name in messages.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Section<'a> {
+    pub(crate) source: Source<'a>,
+    name: &'a str,
+    table: &'a DeTable<'a>,
+}
+
+impl<'a> Section<'a> {
+    /// A table; each key must be one of `known`.
+    pub(crate) fn new(
+        source: Source<'a>,
+        name: &'a str,
+        table: &'a DeTable<'a>,
+        known: &[&str],
+    ) -> Result<Self, SettingsError> {
+        for key in table.keys() {
+            let word: &str = key.get_ref().as_ref();
+            if !known.contains(&word) {
+                let message = format!("{name} has no key `{word}`; {}", hint(word, known));
+                return Err(source.error(key.span(), message));
+            }
+        }
+        Ok(Self { source, name, table })
+    }
+
+    pub(crate) fn find(&self, key: &str) -> Option<&'a Value<'a>> {
+        self.table.get(key)
+    }
+
+    /// Every key with its value, in the order of the file.
+    pub(crate) fn entries(&self) -> Vec<(&'a str, Range<usize>, &'a Value<'a>)> {
+        let mut entries: Vec<_> =
+            self.table.iter().map(|(key, value)| (key.get_ref().as_ref(), key.span(), value)).collect();
+        entries.sort_by_key(|(_, span, _)| span.start);
+        entries
+    }
+
+    /// The table under `key`, if it is there.
+    pub(crate) fn table(&self, key: &str, name: &'a str, known: &[&str]) -> Result<Option<Section<'a>>, SettingsError> {
+        self.find(key).map(|value| table(self.source, value, name, known)).transpose()
+    }
+
+    /// A number within a range, if it is there.
+    pub(crate) fn number(&self, key: &str, what: &str, low: f64, high: f64) -> Result<Option<f64>, SettingsError> {
+        let Some(value) = self.find(key) else { return Ok(None) };
+        let expected = format!("{what} from {low} to {high}");
+        let number = number(value.get_ref()).ok_or_else(|| self.wrong(key, value, &expected))?;
+        if (low..=high).contains(&number) { Ok(Some(number)) } else { Err(self.wrong(key, value, &expected)) }
+    }
+
+    /// A whole number within a range, if it is there.
+    pub(crate) fn count(&self, key: &str, what: &str, high: u32) -> Result<Option<u32>, SettingsError> {
+        let Some(value) = self.find(key) else { return Ok(None) };
+        let expected = format!("{what} from 0 to {high}");
+        match number(value.get_ref()) {
+            Some(number) if number.fract() == 0.0 && (0.0..=f64::from(high)).contains(&number) => {
+                Ok(Some(number as u32))
+            }
+            _ => Err(self.wrong(key, value, &expected)),
+        }
+    }
+
+    /// A text, if it is there.
+    pub(crate) fn text(&self, key: &str, what: &str) -> Result<Option<&'a str>, SettingsError> {
+        let Some(value) = self.find(key) else { return Ok(None) };
+        value.get_ref().as_str().map(Some).ok_or_else(|| self.wrong(key, value, what))
+    }
+
+    /// The error for a value that is not what it should be.
+    pub(crate) fn wrong(&self, key: &str, value: &Value<'_>, expected: &str) -> SettingsError {
+        let found = kind(value.get_ref());
+        self.source.error(value.span(), format!("`{key}` of {}: expected {expected}, found {found}", self.name))
+    }
+}
+
+/// The table that a value must be; each key must be one of `known`.
+pub(crate) fn table<'a>(
+    source: Source<'a>,
+    value: &'a Value<'a>,
+    name: &'a str,
+    known: &[&str],
+) -> Result<Section<'a>, SettingsError> {
+    match value.get_ref() {
+        DeValue::Table(table) => Section::new(source, name, table, known),
+        other => Err(source.error(value.span(), format!("expected the table {name}, found {}", kind(other)))),
+    }
+}
+
+/// A finite number, whole or not.
+pub(crate) fn number(value: &DeValue<'_>) -> Option<f64> {
+    let number = match value {
+        DeValue::Float(float) => float.as_str().parse().ok()?,
+        DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix()).ok()? as f64,
+        _ => return None,
+    };
+    f64::is_finite(number).then_some(number)
+}
+
+/// What a value is, in a reader's words.
+pub(crate) fn kind(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::String(text) => format!("the text \"{text}\""),
+        DeValue::Integer(number) => format!("the number {}", number.as_str()),
+        DeValue::Float(number) => format!("the number {}", number.as_str()),
+        DeValue::Boolean(flag) => format!("{flag}"),
+        DeValue::Datetime(_) => "a date".to_owned(),
+        DeValue::Array(_) => "an array".to_owned(),
+        DeValue::Table(_) => "a table".to_owned(),
+    }
+}
+
+/// `did you mean ...?`, or what there is.
+pub(crate) fn hint(word: &str, known: &[&str]) -> String {
+    match nearest(word, known) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("known are: {}", known.join(", ")),
+    }
+}
+
+/// The known name that `word` may have meant.
+pub(crate) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+    let word = word.to_ascii_lowercase();
+    let allowed = 1 + word.len() / 4;
+    known
+        .iter()
+        .map(|candidate| (distance(word.as_bytes(), candidate.to_ascii_lowercase().as_bytes()), *candidate))
+        .filter(|(distance, _)| *distance <= allowed)
+        .min_by_key(|(distance, _)| *distance)
+        .map(|(_, candidate)| candidate)
+}
+
+/// Letters to insert, delete or replace to get from one word to the other.
+fn distance(from: &[u8], to: &[u8]) -> usize {
+    let mut row: Vec<usize> = (0..=to.len()).collect();
+    for (i, a) in from.iter().enumerate() {
+        let mut diagonal = i;
+        let mut left = i + 1;
+        for (b, cell) in to.iter().zip(row.iter_mut().skip(1)) {
+            let replaced = diagonal + usize::from(a != b);
+            diagonal = *cell;
+            left = replaced.min(left + 1).min(*cell + 1);
+            *cell = left;
+        }
+        if let Some(first) = row.first_mut() {
+            *first = i + 1;
+        }
+    }
+    row.last().copied().unwrap_or(0)
+}

@@ -1,0 +1,213 @@
+//! What is kept when the controller is switched off: one file for each system variable.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Where kept values live, by name.
+pub trait Storage {
+    /// What was stored under this name last; nothing where nothing was.
+    ///
+    /// # Errors
+    /// It is there, but cannot be read.
+    fn load(&self, name: &str) -> io::Result<Option<Vec<u8>>>;
+
+    /// Stores under this name. Whatever happens meanwhile, afterwards the old or the new content is there, whole.
+    ///
+    /// # Errors
+    /// It cannot be stored; then the old content is still there.
+    fn store(&mut self, name: &str, content: &[u8]) -> io::Result<()>;
+
+    /// How messages name the place of this name.
+    fn place(&self, name: &str) -> String {
+        name.to_owned()
+    }
+}
+
+/// Keeps values for as long as it lives.
+#[derive(Clone, Default, Debug)]
+pub struct Memory(BTreeMap<String, Vec<u8>>);
+
+impl Storage for Memory {
+    fn load(&self, name: &str) -> io::Result<Option<Vec<u8>>> {
+        Ok(self.0.get(name).cloned())
+    }
+
+    fn store(&mut self, name: &str, content: &[u8]) -> io::Result<()> {
+        self.0.insert(name.to_owned(), content.to_vec());
+        Ok(())
+    }
+}
+
+/// Keeps values as files of a directory, which is made when the first one is stored.
+#[derive(Clone, Debug)]
+pub struct Directory(PathBuf);
+
+impl Directory {
+    /// The state directory at this path.
+    pub fn new(path: impl Into<PathBuf>) -> Self {
+        Self(path.into())
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.join(format!("{name}.state"))
+    }
+}
+
+impl Storage for Directory {
+    fn load(&self, name: &str) -> io::Result<Option<Vec<u8>>> {
+        match fs::read(self.path(name)) {
+            Ok(content) => Ok(Some(content)),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(error),
+        }
+    }
+
+    fn store(&mut self, name: &str, content: &[u8]) -> io::Result<()> {
+        fs::create_dir_all(&self.0)?;
+        write_whole(&self.path(name), content)
+    }
+
+    fn place(&self, name: &str) -> String {
+        self.path(name).display().to_string()
+    }
+}
+
+/// Writes a file so that a kill at any moment leaves the old or the new content, whole: to a file beside it, which
+/// then takes its name.
+///
+/// # Errors
+/// What the file system says; the old content is still there.
+pub(crate) fn write_whole(path: &Path, content: &[u8]) -> io::Result<()> {
+    let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut beside = path.as_os_str().to_owned();
+    beside.push(format!(".{}.new", std::process::id()));
+    let beside = PathBuf::from(beside);
+    let written = (|| {
+        let mut file = fs::File::create(&beside)?;
+        file.write_all(content)?;
+        file.sync_all()?;
+        fs::rename(&beside, path)
+    })();
+    if written.is_err() {
+        // It is of no use to anybody; that it cannot be removed changes nothing.
+        let _ = fs::remove_file(&beside);
+        return written;
+    }
+    // The new name is on the disk when its directory is. Some systems cannot sync a directory; they do it themselves.
+    if let Ok(directory) = fs::File::open(directory) {
+        let _ = directory.sync_all();
+    }
+    Ok(())
+}
+
+/// Why the state of the controller cannot be read or written.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct StateError {
+    /// The file.
+    pub place: String,
+    /// What is wrong with it.
+    pub problem: String,
+}
+
+impl fmt::Display for StateError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.place, self.problem)
+    }
+}
+
+impl std::error::Error for StateError {}
+
+/// The kept values, with what is known to be stored.
+pub(crate) struct State {
+    storage: Box<dyn Storage>,
+    known: BTreeMap<&'static str, String>,
+}
+
+impl State {
+    pub(crate) fn new(storage: Box<dyn Storage>) -> Self {
+        Self { storage, known: BTreeMap::new() }
+    }
+
+    /// The value that was saved last, as far as this controller knows.
+    pub(crate) fn known(&self, name: &str) -> Option<&str> {
+        self.known.get(name).map(String::as_str)
+    }
+
+    /// Reads a value.
+    pub(crate) fn load(&mut self, name: &'static str) -> Result<Option<String>, StateError> {
+        let content = self.storage.load(name).map_err(|error| self.error(name, format!("cannot be read: {error}")))?;
+        let Some(content) = content else { return Ok(None) };
+        let text = unseal(&content).ok_or_else(|| self.damaged(name))?;
+        self.known.insert(name, text.to_owned());
+        Ok(Some(text.to_owned()))
+    }
+
+    /// Writes a value.
+    pub(crate) fn save(&mut self, name: &'static str, text: String) -> Result<(), StateError> {
+        let stored = self.storage.store(name, seal(&text).as_bytes());
+        stored.map_err(|error| self.error(name, format!("cannot be written: {error}")))?;
+        self.known.insert(name, text);
+        Ok(())
+    }
+
+    pub(crate) fn damaged(&self, name: &str) -> StateError {
+        self.error(name, "the file is damaged; remove it to start with the default".to_owned())
+    }
+
+    fn error(&self, name: &str, problem: String) -> StateError {
+        StateError { place: self.storage.place(name), problem }
+    }
+}
+
+/// The text with a last line that tells whether it is whole.
+fn seal(text: &str) -> String {
+    format!("{text}check {:016x}\n", check(text))
+}
+
+fn unseal(content: &[u8]) -> Option<&str> {
+    let text = std::str::from_utf8(content).ok()?.strip_suffix('\n')?;
+    let (body, sum) = text.rsplit_once("check ")?;
+    (u64::from_str_radix(sum, 16) == Ok(check(body))).then_some(body)
+}
+
+/// FNV-1a.
+fn check(text: &str) -> u64 {
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |sum, byte| (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_damaged_is_noticed() {
+        let whole = seal("1\n2\n3\n");
+        assert_eq!(unseal(whole.as_bytes()), Some("1\n2\n3\n"));
+        for cut in 0..whole.len() {
+            assert_eq!(unseal(&whole.as_bytes()[..cut]), None, "cut at {cut}");
+        }
+        for at in 0..whole.len() - 1 {
+            let mut changed = whole.clone().into_bytes();
+            changed[at] ^= 1;
+            assert_eq!(unseal(&changed), None, "changed at {at}");
+        }
+    }
+
+    #[test]
+    fn files_hold_what_was_stored_last() {
+        let path = std::env::temp_dir().join(format!("arl-rt-state-{}", std::process::id()));
+        let mut directory = Directory::new(&path);
+        assert_eq!(directory.load("I").unwrap(), None);
+        directory.store("I", b"one").unwrap();
+        directory.store("I", b"two").unwrap();
+        assert_eq!(directory.load("I").unwrap().as_deref(), Some(&b"two"[..]));
+        assert_eq!(fs::read_dir(&path).unwrap().count(), 1, "nothing is left beside it");
+        let mut state = State::new(Box::new(directory));
+        let error = state.load("I").unwrap_err();
+        assert!(error.place.ends_with("I.state") && error.problem.contains("damaged"), "{error}");
+        fs::remove_dir_all(&path).unwrap();
+    }
+}

@@ -1,0 +1,356 @@
+//! The system variables: `$DFSPEED`, `$I`, `$CJOINT` and their like.
+
+use std::cell::Cell;
+
+use crate::cx::Cx;
+use crate::fault::Fault;
+use crate::keep::Keep;
+use crate::state::{State, StateError};
+use crate::values::{
+    Array, Controlmode, Frame, Joint, Pose, Shared, Slip, Speed, Str, Tool, ToolInertiaPara, UNSET, VelProfile, Wobj,
+};
+
+/// Declares the variables: field, type, default, name, and when the default comes back.
+macro_rules! system {
+    ($( $(#[doc = $doc:literal])+ $field:ident: $kind:ident<$ty:ty> = $default:expr, $name:literal, $restore:ident; )*) => {
+        /// The system variables of a controller. Programs read and write them like their own global variables; what is
+        /// said to be read-only is kept current by the controller.
+        #[derive(Debug)]
+        pub struct System {
+            $(
+                $(#[doc = $doc])+
+                pub $field: $kind<$ty>,
+            )*
+        }
+
+        impl System {
+            /// All variables at their defaults.
+            pub fn new() -> Self {
+                Self { $($field: $kind::<$ty>::new($default),)* }
+            }
+
+            /// Sets what chapter 10.2 describes to its defaults, except what the controller keeps current.
+            pub(crate) fn reset(&self) {
+                $( system!(@reset $restore self.$field = $default); )*
+            }
+
+            /// The variables that are kept when the controller is switched off.
+            pub(crate) fn kept(&self) -> Vec<Kept<'_>> {
+                let mut kept: Vec<Kept<'_>> = Vec::new();
+                $( system!(@keep $restore kept, self.$field, $name, $ty, $default); )*
+                kept
+            }
+
+            /// Name and value of every variable, for tests that compare with the catalog.
+            #[cfg(test)]
+            fn all(&self) -> Vec<(&'static str, &'static str, &'static str, String, Str)> {
+                use crate::text::{Print, Style};
+                vec![$({
+                    let value = self.$field.get();
+                    (stringify!($field), $name, stringify!($restore), value.type_name(), value.printed(&Style::START))
+                },)*]
+            }
+        }
+    };
+    (@reset Reset $place:expr) => {};
+    (@reset Reset $self:ident.$field:ident = $default:expr) => { $self.$field.set($default) };
+    (@reset $other:ident $self:ident.$field:ident = $default:expr) => {};
+    (@keep Saved $kept:ident, $self:ident.$field:ident, $name:literal, $ty:ty, $default:expr) => {
+        $kept.push(Kept { name: $name, always: false, slot: &$self.$field, default: || encode::<$ty>(&$default) })
+    };
+    (@keep Permanent $kept:ident, $self:ident.$field:ident, $name:literal, $ty:ty, $default:expr) => {
+        $kept.push(Kept { name: $name, always: true, slot: &$self.$field, default: || encode::<$ty>(&$default) })
+    };
+    (@keep $other:ident $kept:ident, $self:ident.$field:ident, $name:literal, $ty:ty, $default:expr) => {};
+}
+
+system! {
+    /// 100 ints for the user.
+    i: Shared<Array<i32, 100>> = Array::start(), "I", Saved;
+    /// Names for the elements of `$I`.
+    i_name: Shared<Array<Str, 100>> = Array::start(), "I_NAME", Permanent;
+    /// 100 bools for the user.
+    b: Shared<Array<bool, 100>> = Array::start(), "B", Saved;
+    /// Names for the elements of `$B`.
+    b_name: Shared<Array<Str, 100>> = Array::start(), "B_NAME", Permanent;
+    /// 100 doubles for the user.
+    d: Shared<Array<f64, 100>> = Array::start(), "D", Saved;
+    /// Names for the elements of `$D`.
+    d_name: Shared<Array<Str, 100>> = Array::start(), "D_NAME", Permanent;
+    /// 100 poses for the user.
+    p: Shared<Array<Pose, 100>> = Array::start(), "P", Saved;
+    /// 100 joints for the user.
+    j: Shared<Array<Joint, 100>> = Array::start(), "J", Saved;
+    /// 32 tools for the user.
+    tools: Shared<Array<Tool, 32>> = Array::start(), "TOOLS", Saved;
+    /// Names for the elements of `$TOOLS`.
+    tools_name: Shared<Array<Str, 32>> = Array::start(), "TOOLS_NAME", Permanent;
+    /// 32 workpiece frames for the user.
+    wobjs: Shared<Array<Wobj, 32>> = Array::start(), "WOBJS", Saved;
+    /// Names for the elements of `$WOBJS`.
+    wobjs_name: Shared<Array<Str, 32>> = Array::start(), "WOBJS_NAME", Permanent;
+    /// Where the bases of the mechanical units stand in the world.
+    base: Shared<Array<Wobj, 3>> = Array::start(), "BASE", Saved;
+    /// The flange as a tool: no tool at all. Read-only.
+    flange: Cell<Tool> = Tool::default(), "FLANGE", Constant;
+    /// The world as a workpiece frame. Read-only.
+    world: Shared<Wobj> = world(), "WORLD", Constant;
+    /// 32 loads.
+    tool_inertia: Shared<Array<ToolInertiaPara, 32>> = Array::start(), "TOOL_INERTIA", Saved;
+    /// Whether lines and arcs may pass near the wrist singularity.
+    wrist: Cell<bool> = false, "WRIST", Reset;
+    /// Whether targets are reached in the configuration that they were taught in.
+    config_check: Cell<bool> = true, "CONFIG_CHECK", Reset;
+    /// The speed of motions that give none: %, mm/s, deg/s, deg/s, mm/s.
+    dfspeed: Cell<Speed> = Speed { per: 5.0, tcp: 50.0, ori: 400.0, exj: 5.0, exl: 5.0 }, "DFSPEED", Reset;
+    /// The blending of motions that give none.
+    dfslip: Cell<Slip> = Slip { perdis: -1.0, pdis: -1.0, ..Slip::default() }, "DFSLIP", Reset;
+    /// The tool of motions that give none.
+    dftool: Cell<Tool> = Tool::default(), "DFTOOL", Reset;
+    /// The workpiece frame of motions that give none.
+    dfwobj: Shared<Wobj> = Wobj::default(), "DFWOBJ", Reset;
+    /// Whether the orientation of targets is ignored.
+    ignore_ori: Cell<bool> = false, "IGNORE_ORI", Reset;
+    /// Whether the tool turns along with the path on arcs.
+    ori_ref_path: Cell<bool> = false, "ORI_REF_PATH", Reset;
+    /// The velocity profile of motions. The default is the robot's.
+    vel_profile: Cell<VelProfile> = VelProfile::S, "VEL_PROFILE", Reset;
+    /// Time since the motion being executed began, s. Read-only.
+    traj_elapse_time: Cell<f64> = 0.0, "TRAJ_ELAPSE_TIME", Reset;
+    /// Time until the motion being executed ends, s. Read-only.
+    traj_left_time: Cell<f64> = 0.0, "TRAJ_LEFT_TIME", Reset;
+    /// Way of the TCP since the motion being executed began, mm. Read-only.
+    traj_elapse_dis: Cell<f64> = 0.0, "TRAJ_ELAPSE_DIS", Reset;
+    /// Way of the TCP until the motion being executed ends, mm. Read-only.
+    traj_left_dis: Cell<f64> = 0.0, "TRAJ_LEFT_DIS", Reset;
+    /// The axes of the target planned last, deg. Read-only.
+    cjoint: Cell<Joint> = Joint::default(), "CJOINT", Reset;
+    /// Whether the first motion of a program runs at manual speed.
+    rpp_enable: Cell<bool> = false, "RPP_ENABLE", Reset;
+    /// Whether the robot stands at each of the home points. Read-only.
+    at_home: Shared<Array<bool, 5>> = Array::start(), "AT_HOME", Current;
+    /// Whether the external control is active. Read-only.
+    ext_ctl_act: Cell<bool> = false, "EXT_CTL_ACT", Current;
+    /// Whether the external control is asked for a program number.
+    pgno_req: Cell<bool> = false, "PGNO_REQ", Reset;
+    /// The program number that the external control has given; -1: none yet.
+    pgno: Cell<i32> = -1, "PGNO", Current;
+    /// The number pi. Read-only.
+    pi: Cell<f64> = std::f64::consts::PI, "PI", Constant;
+    /// The operating mode. Read-only.
+    ctl_mode: Cell<Controlmode> = Controlmode::Auto, "CTL_MODE", Current;
+    /// Shift and turn of all workpiece frames: mm, deg.
+    wobj_offset: Shared<Array<f64, 6>> = Array::start(), "WOBJ_OFFSET", Reset;
+    /// Shift and turn of all tools: mm, deg.
+    tool_offset: Shared<Array<f64, 6>> = Array::start(), "TOOL_OFFSET", Reset;
+    /// Where each mechanical unit believes to be at servo-on.
+    reset_pos_type: Shared<Array<Str, 100>> = Array::start(), "RESET_POS_TYPE", Permanent;
+    /// How near is near enough for `$RESET_POS_TYPE`, deg.
+    reset_pos_threshold: Shared<Array<f64, 100>> = Array::start(), "RESET_POS_THRESHOLD", Permanent;
+}
+
+/// `$WORLD`.
+fn world() -> Wobj {
+    Wobj { mu_name: "WORLD".into(), ..Wobj::default() }
+}
+
+impl Default for System {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// A variable that is kept when the controller is switched off.
+pub(crate) struct Kept<'a> {
+    /// The name without `$`; its file is called so.
+    pub(crate) name: &'static str,
+    /// Whether every change is kept, not only what `savesv` saves.
+    always: bool,
+    slot: &'a dyn Slot,
+    default: fn() -> String,
+}
+
+/// A variable as text.
+trait Slot {
+    fn write(&self) -> String;
+    fn read(&self, text: &str) -> bool;
+}
+
+impl<T: Keep> Slot for Shared<T> {
+    fn write(&self) -> String {
+        self.with(encode)
+    }
+
+    fn read(&self, text: &str) -> bool {
+        let value = T::read(&mut text.split_ascii_whitespace());
+        value.map(|value| self.set(value)).is_some()
+    }
+}
+
+fn encode<T: Keep>(value: &T) -> String {
+    let mut text = String::new();
+    value.write(&mut text);
+    text
+}
+
+/// Gives the kept variables the values that were saved last.
+pub(crate) fn load(system: &System, state: &mut State) -> Result<(), StateError> {
+    for kept in system.kept() {
+        let text = state.load(kept.name)?;
+        if let Some(text) = text
+            && !kept.slot.read(&text)
+        {
+            return Err(state.damaged(kept.name));
+        }
+    }
+    Ok(())
+}
+
+/// Saves the variables of which every change is kept, where they have changed.
+pub(crate) fn keep(system: &System, state: &mut State) -> Result<(), StateError> {
+    for kept in system.kept() {
+        if kept.always {
+            let text = kept.slot.write();
+            let same = match state.known(kept.name) {
+                Some(known) => known == text,
+                None => text == (kept.default)(),
+            };
+            if !same {
+                state.save(kept.name, text)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// `savesv`: saves a system variable, so that its value is there again at the next start.
+///
+/// # Errors
+/// There is no such variable, it is none of those that are saved, or it cannot be written.
+pub fn savesv(cx: &Cx, svname: &Str) -> Result<(), Fault> {
+    let text = svname.to_text();
+    let name = text.strip_prefix('$').unwrap_or(&text);
+    let world = cx.world();
+    let kept = world.system.kept();
+    let name = arl_lang::catalog::system_variable(name).map_or(name, |known| known.name);
+    let Some(variable) = kept.iter().find(|kept| kept.name.eq_ignore_ascii_case(name)) else {
+        let names: Vec<&str> = kept.iter().map(|kept| kept.name).collect();
+        let problem =
+            format!("\"{text}\" is no system variable that is saved; {}", crate::settings::hint(name, &names));
+        return Err(Fault::Domain { function: "savesv", problem: problem.into() });
+    };
+    let saved = world.state.borrow_mut().save(variable.name, variable.slot.write());
+    saved.map_err(|error| Fault::Domain { function: "savesv", problem: error.to_string().into() })
+}
+
+/// `init`: sets the variables of chapter 10.2 to their defaults, and those of chapter 10.1 to what was saved last.
+pub fn init(cx: &Cx) {
+    let world = cx.world();
+    let current = world.system.cjoint.get();
+    world.reset_system();
+    world.system.cjoint.set(current);
+    let state = world.state.borrow();
+    for kept in world.system.kept() {
+        if !kept.always {
+            match state.known(kept.name) {
+                Some(text) => kept.slot.read(text),
+                None => kept.slot.read(&(kept.default)()),
+            };
+        }
+    }
+}
+
+/// Whether a component of a position was set: what the start value is not.
+pub(crate) fn all_set(components: &[f64]) -> bool {
+    components.iter().all(|component| *component != UNSET)
+}
+
+/// Whether a frame changes nothing.
+pub(crate) fn is_identity(frame: &Frame) -> bool {
+    *frame == Frame::default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::text::{Print, Style};
+    use crate::values::Teach;
+    use arl_lang::catalog::{Access, Base, Restore, Status, SystemVariable};
+    use arl_lang::symbol::Interner;
+
+    /// The default of the catalog, put into a fresh variable of our type.
+    fn catalog_default(variable: &SystemVariable, slot: &dyn Teach) -> bool {
+        let mut names = Interner::default();
+        let parsed = arl_lang::parse_expression(variable.default, &mut names, Default::default());
+        assert!(parsed.errors.is_empty(), "{}: {}", variable.name, variable.default);
+        slot.teach(&parsed.expr, &names).is_ok()
+    }
+
+    #[test]
+    fn all_variables_of_the_catalog_are_there() {
+        let system = System::new();
+        let all = system.all();
+        for variable in arl_lang::catalog::system_variables() {
+            let found = all.iter().find(|(field, ..)| *field == variable.field);
+            let Some((_, name, restore, type_name, _)) = found else {
+                assert_eq!(variable.status, Status::NotYet, "${} has no field {}", variable.name, variable.field);
+                continue;
+            };
+            assert_eq!(*name, variable.name);
+            if variable.dims.is_empty() == type_name.contains('[') {
+                panic!("${}: {type_name} for dimensions {:?}", variable.name, variable.dims);
+            }
+            let expected = match (variable.restore, variable.access) {
+                (Restore::Saved, _) => "Saved",
+                (Restore::Permanent, Access::ReadWrite) => "Permanent",
+                (Restore::Permanent, Access::ReadOnly) => "Constant",
+                (Restore::Reset, _) => "Reset",
+                (Restore::Startup, _) => "Current",
+            };
+            assert_eq!(*restore, expected, "${}", variable.name);
+            let _ = Base::Int;
+        }
+    }
+
+    #[test]
+    fn defaults_are_those_of_the_catalog() {
+        let system = System::new();
+        macro_rules! same {
+            ($($field:ident: $fresh:expr),*) => { $({
+                let name = stringify!($field);
+                let variable = arl_lang::catalog::system_variables().find(|variable| variable.field == name).unwrap();
+                let fresh = $fresh;
+                assert!(catalog_default(variable, &fresh), "{name}");
+                assert_eq!(fresh.get().printed(&Style::START), system.$field.get().printed(&Style::START), "{name}");
+            })* };
+        }
+        same! {
+            dfspeed: Cell::new(Speed::default()), dfslip: Cell::new(Slip::default()), dftool: Cell::new(Tool::default()),
+            dfwobj: Shared::new(Wobj::default()), world: Shared::new(Wobj::default()),
+            flange: Cell::new(Tool::default()), config_check: Cell::new(false), pgno: Cell::new(0), pi: Cell::new(0.0),
+            ctl_mode: Cell::new(Controlmode::Manual), vel_profile: Cell::new(VelProfile::T),
+            cjoint: Cell::new(Joint::default())
+        }
+    }
+
+    #[test]
+    fn kept_variables_survive_as_text() {
+        let (one, other) = (System::new(), System::new());
+        one.i.update(|i| i[99] = -7);
+        one.d.update(|d| d[..4].copy_from_slice(&[0.1, -1e300, f64::INFINITY, 9e9]));
+        one.b.update(|b| b[3] = true);
+        one.i_name.update(|names| names[0] = "a \"b\"\n\u{e4} \\%".into());
+        one.p.update(|p| p[1] = Pose { x: 1.5, cfg: 3, turn: 5, ej6: 1.0 / 3.0, ..Pose::default() });
+        one.tools.update(|tools| tools[1].t_frame.z = 120.5);
+        one.wobjs.update(|wobjs| wobjs[2].mu_name = "R 1".into());
+        one.tool_inertia.update(|loads| loads[3].inertiatensor.izz = 2.5);
+        let (from, to) = (one.kept(), other.kept());
+        for (from, to) in from.iter().zip(&to) {
+            assert!(to.slot.read(&from.slot.write()), "{}", from.name);
+            assert_eq!(from.slot.write(), to.slot.write());
+            assert!(!to.slot.read("1 2 3"), "{}: too short", from.name);
+        }
+        assert_eq!(other.i_name.with(|names| names.at(0)), "a \"b\"\n\u{e4} \\%");
+        assert_eq!(other.p.with(|p| p.at(1).ej6), 1.0 / 3.0);
+    }
+}

@@ -1,0 +1,173 @@
+//! What the controller and its programs share.
+
+use std::cell::{Cell, RefCell};
+use std::fmt;
+
+use crate::files::ScriptDir;
+use crate::io::Image;
+use crate::output::{Message, Output};
+use crate::random::Random;
+use crate::rate::Rate;
+use crate::robot::VelocityProfile;
+use crate::state::State;
+use crate::system::{self, System};
+use crate::unit::{Unit, joint};
+use crate::values::VelProfile;
+
+/// What the controller and its programs share. Borrows of the cells end within the call that makes them.
+pub(crate) struct World {
+    /// The running number of the cycle.
+    pub(crate) now: Cell<u64>,
+    pub(crate) rate: Rate,
+    pub(crate) system: System,
+    pub(crate) io: RefCell<Image>,
+    pub(crate) unit: RefCell<Unit>,
+    pub(crate) scripts: ScriptDir,
+    pub(crate) random: Random,
+    /// The date at cycle 0, in s since 1970-01-01 00:00:00.
+    pub(crate) start_date: i64,
+    output: RefCell<Box<dyn Output>>,
+    /// Whether messages came in this cycle.
+    spoken: Cell<bool>,
+    /// Whether the program waits for the start button.
+    pub(crate) paused: Cell<bool>,
+    /// What happened that is no alarm but worth a word.
+    warnings: RefCell<Vec<String>>,
+    /// What was noted once for all.
+    warned: RefCell<Vec<String>>,
+    pub(crate) state: RefCell<State>,
+    /// Home points 1 to 5.
+    homes: [Option<Vec<f64>>; 5],
+    home_tolerance: f64,
+}
+
+/// What a world is made of.
+pub(crate) struct Parts {
+    pub(crate) rate: Rate,
+    pub(crate) system: System,
+    pub(crate) io: Image,
+    pub(crate) unit: Unit,
+    pub(crate) scripts: ScriptDir,
+    pub(crate) random: Random,
+    pub(crate) start_date: i64,
+    pub(crate) output: Box<dyn Output>,
+    pub(crate) state: State,
+    /// Home points 2 to 5.
+    pub(crate) homes: [Option<Vec<f64>>; 4],
+    pub(crate) home_tolerance: f64,
+}
+
+impl World {
+    pub(crate) fn new(parts: Parts) -> Self {
+        let [second, third, fourth, fifth] = parts.homes;
+        let homes = [Some(parts.unit.robot().home.clone()), second, third, fourth, fifth];
+        Self {
+            homes,
+            home_tolerance: parts.home_tolerance,
+            state: RefCell::new(parts.state),
+            now: Cell::new(0),
+            rate: parts.rate,
+            system: parts.system,
+            io: RefCell::new(parts.io),
+            unit: RefCell::new(parts.unit),
+            scripts: parts.scripts,
+            random: parts.random,
+            start_date: parts.start_date,
+            output: RefCell::new(parts.output),
+            spoken: Cell::new(false),
+            paused: Cell::new(false),
+            warnings: RefCell::default(),
+            warned: RefCell::default(),
+        }
+    }
+
+    /// Sets the system variables of the manual's chapter 10.2 to their defaults.
+    pub(crate) fn reset_system(&self) {
+        self.system.reset();
+        let unit = self.unit.borrow();
+        self.system.vel_profile.set(match unit.robot().profile {
+            VelocityProfile::T => VelProfile::T,
+            VelocityProfile::S => VelProfile::S,
+            VelocityProfile::O => VelProfile::O,
+        });
+        self.system.cjoint.set(joint(unit.target()));
+    }
+
+    /// The speed override in %.
+    pub(crate) fn set_override(&self, percent: f64) {
+        self.unit.borrow_mut().set_override(percent.clamp(0.0, 100.0));
+    }
+
+    /// Saves the system variables of which every change is kept.
+    pub(crate) fn keep_state(&self) {
+        if let Err(error) = system::keep(&self.system, &mut self.state.borrow_mut()) {
+            self.warn(format!("system variables cannot be kept: {error}"));
+        }
+    }
+
+    /// Stops all motion on its path and drops what was to follow.
+    pub(crate) fn stop_motion(&self) {
+        self.io.borrow_mut().forget_motion();
+        self.unit.borrow_mut().stop();
+    }
+
+    /// Brings the variables up to date that tell where the robot is.
+    pub(crate) fn update_system(&self, unit: &Unit) {
+        let progress = unit.progress();
+        let system = &self.system;
+        system.traj_elapse_time.set(progress.map_or(0.0, |progress| progress.elapsed_time));
+        system.traj_left_time.set(progress.map_or(0.0, |progress| progress.left_time));
+        system.traj_elapse_dis.set(progress.map_or(0.0, |progress| progress.elapsed_distance));
+        system.traj_left_dis.set(progress.map_or(0.0, |progress| progress.left_distance));
+        system.at_home.update(|at_home| {
+            for (at, home) in at_home.iter_mut().zip(&self.homes) {
+                *at = home.as_ref().is_some_and(|home| unit.is_at(home, self.home_tolerance));
+            }
+        });
+    }
+
+    /// Whether all planned motion has ended and the robot has settled.
+    #[inline]
+    pub(crate) fn motion_ended(&self) -> bool {
+        self.unit.borrow().ended()
+    }
+
+    /// Passes a message on.
+    pub(crate) fn message(&self, hmi: bool, console: bool, text: &[u8]) {
+        let time = self.rate.time(self.now.get());
+        self.output.borrow_mut().message(&Message { time, hmi, console, text });
+        self.spoken.set(true);
+    }
+
+    /// Ends a cycle's messages.
+    pub(crate) fn flush(&self) {
+        if self.spoken.replace(false) {
+            self.output.borrow_mut().flush();
+        }
+    }
+
+    /// Notes what is no alarm but worth a word.
+    pub(crate) fn warn(&self, text: String) {
+        self.warnings.borrow_mut().push(text);
+    }
+
+    /// The same, once only.
+    pub(crate) fn warn_once(&self, text: &str) {
+        let mut warned = self.warned.borrow_mut();
+        if !warned.iter().any(|known| known == text) {
+            warned.push(text.to_owned());
+            self.warn(text.to_owned());
+        }
+    }
+
+    /// The warnings since the last call.
+    pub(crate) fn take_warnings(&self) -> Vec<String> {
+        std::mem::take(&mut self.warnings.borrow_mut())
+    }
+}
+
+impl fmt::Debug for World {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("World").field("now", &self.now.get()).finish_non_exhaustive()
+    }
+}
