@@ -259,10 +259,14 @@ impl Checker<'_> {
     ) -> Option<(usize, Option<Typed>)> {
         let free = |at: usize, param: &Parameter| taken.get(at).is_some_and(|count| *count < most(param));
         if let ast::ExprKind::Brace(_) = arg.value.kind {
-            let takes_braces = |param: &&Parameter| {
-                matches!(param.ty, Some(Wanted::Builtin(ParamType::One(Base::Struct(_)))))
+            let takes_braces = |(at, param): &(usize, &Parameter)| {
+                free(*at, param) && matches!(param.ty, Some(Wanted::Builtin(ParamType::One(Base::Struct(_)))))
             };
-            let labels: Vec<String> = params.iter().filter(takes_braces).map(|param| format!("`{}:{{...}}`", param.name)).collect();
+            let open = params.iter().enumerate().filter(takes_braces);
+            let labels: Vec<String> = open.map(|(_, param)| format!("`{}:{{...}}`", param.name)).collect();
+            if labels.is_empty() {
+                return self.report(body, arg.value.span, TypeProblem::BraceWithoutType);
+            }
             let problem = ArgumentProblem::BareBrace { callee: callee.into(), labels: labels.join(" or ") };
             return self.report(body, arg.value.span, problem);
         }
@@ -279,16 +283,6 @@ impl Checker<'_> {
             return Some((at, Some(typed)));
         }
         let ty = self.type_name(typed.expr.ty);
-        let labelled: Vec<String> = params
-            .iter()
-            .enumerate()
-            .filter(|(at, param)| !param.bare && free(*at, param) && takes(param))
-            .map(|(_, param)| format!("`{}:`", param.name))
-            .collect();
-        if !labelled.is_empty() {
-            let problem = ArgumentProblem::LabelNeeded { callee: callee.into(), labels: labelled.join(", "), ty };
-            return self.report(body, arg.value.span, problem);
-        }
         if params.is_empty() {
             return self.report(body, arg.value.span, ArgumentProblem::TooMany { callee: callee.into(), most: 0 });
         }

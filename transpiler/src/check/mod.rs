@@ -23,7 +23,7 @@ mod statements;
 mod uses;
 
 use crate::diagnostics::flow::FlowProblem;
-use crate::diagnostics::{Files, Location, Severity};
+use crate::diagnostics::{Diagnostic, FileId, Files, Location, Severity};
 use crate::hir::{self, FuncId, GlobalId, ModuleId, Program};
 use crate::{CheckOptions, Checked, Sources};
 use arl_lang::catalog::Base;
@@ -107,11 +107,12 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
     let (mut program, mut diagnostics) = (None, Vec::new());
     if refused {
         diagnostics = std::mem::take(&mut checker.diagnostics);
+        drop_guesses(&mut diagnostics);
     } else {
         let has_conditions = checker.has_conditions;
         let built = checker.into_program(main_func, &mut diagnostics);
         let locate = |module: ModuleId, span: Span| Location {
-            file: modules.get(module.0 as usize).map_or(crate::diagnostics::FileId(0), |module| module.file),
+            file: modules.get(module.0 as usize).map_or(FileId(0), |module| module.file),
             span,
         };
         let mut late = if has_conditions { conditions::check(&built, &locate) } else { Vec::new() };
@@ -138,6 +139,17 @@ impl std::fmt::Debug for Syntax {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str("Syntax")
     }
+}
+
+/// Takes warnings about unused and unreachable things out of files with errors: what could not be read or understood
+/// may well be what uses them.
+fn drop_guesses(diagnostics: &mut Vec<Diagnostic>) {
+    let errors = diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
+    let wrong: HashSet<FileId> = errors.map(|diagnostic| diagnostic.primary.at.file).collect();
+    diagnostics.retain(|diagnostic| {
+        let guess = (901..=906).contains(&diagnostic.code.0);
+        !guess || !wrong.contains(&diagnostic.primary.at.file)
+    });
 }
 
 /// The order in which modules get their first values: what is imported goes before what imports it.
@@ -200,7 +212,7 @@ impl Checker<'_> {
     }
 
     /// The finished program; the diagnostics (warnings only) go to `out`.
-    fn into_program(mut self, main: Option<FuncId>, out: &mut Vec<crate::diagnostics::Diagnostic>) -> Program {
+    fn into_program(mut self, main: Option<FuncId>, out: &mut Vec<Diagnostic>) -> Program {
         out.append(&mut self.diagnostics);
         let modules: Vec<hir::Module> = self.modules.iter().map(|module| finished_module(module, self.names, self.files)).collect();
         let mut globals = Vec::new();

@@ -31,8 +31,6 @@ pub(crate) enum ArgumentProblem {
     NoOverload { callee: String, types: String, signatures: String },
     /// Events behind an instruction that is not a motion.
     Events { callee: String },
-    /// A parameter that needs its label.
-    LabelNeeded { callee: String, labels: String, ty: String },
 }
 
 impl Problem for ArgumentProblem {
@@ -51,7 +49,6 @@ impl Problem for ArgumentProblem {
             ArgumentProblem::Range { .. } => 411,
             ArgumentProblem::NoOverload { .. } => 412,
             ArgumentProblem::Events { .. } => 413,
-            ArgumentProblem::LabelNeeded { .. } => 414,
         })
     }
 
@@ -91,9 +88,6 @@ impl Problem for ArgumentProblem {
                 format!("`{callee}` does not take ({types})")
             }
             ArgumentProblem::Events { callee } => format!("`{callee}` is not a motion, so no events can follow it"),
-            ArgumentProblem::LabelNeeded { callee, ty, .. } => {
-                format!("a value of type {ty} needs a label in `{callee}`")
-            }
         }
     }
 
@@ -113,7 +107,6 @@ impl Problem for ArgumentProblem {
             ArgumentProblem::NoParameter { labels, .. } if labels.is_empty() => None,
             ArgumentProblem::NoParameter { labels, .. } => Some(format!("still free are {labels}")),
             ArgumentProblem::BareBrace { labels, .. } => Some(format!("write the label first: {labels}")),
-            ArgumentProblem::LabelNeeded { labels, .. } => Some(format!("write one of {labels}")),
             ArgumentProblem::WrongUnit { units, .. } if units.is_empty() => Some("it has no unit".into()),
             ArgumentProblem::WrongUnit { units, .. } => Some(format!("write {units}, or no unit")),
             ArgumentProblem::NoOverload { signatures, .. } => Some(format!("it takes {signatures}")),

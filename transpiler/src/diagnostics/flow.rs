@@ -23,8 +23,6 @@ pub(crate) enum FlowProblem {
     CaseTwice { value: String },
     /// A case that is not constant.
     CaseNotConstant,
-    /// Two defaults.
-    DefaultTwice,
     /// A switch on a type that cannot be compared with constants.
     SwitchType { ty: String },
     /// A condition that waits or moves.
@@ -57,7 +55,6 @@ impl Problem for FlowProblem {
             FlowProblem::ContinueOutside => 507,
             FlowProblem::CaseTwice { .. } => 508,
             FlowProblem::CaseNotConstant => 509,
-            FlowProblem::DefaultTwice => 510,
             FlowProblem::SwitchType { .. } => 511,
             FlowProblem::ConditionWaits { .. } => 512,
             FlowProblem::FirstMotion { .. } => 513,
@@ -83,7 +80,6 @@ impl Problem for FlowProblem {
             FlowProblem::ContinueOutside => "`continue` stands outside any loop".into(),
             FlowProblem::CaseTwice { value } => format!("the case {value} stands twice in this switch"),
             FlowProblem::CaseNotConstant => "the value of a case must be constant".into(),
-            FlowProblem::DefaultTwice => "a switch has one `default` at most".into(),
             FlowProblem::SwitchType { ty } => format!("a switch cannot compare values of type {ty}"),
             FlowProblem::ConditionWaits { culprit } => {
                 format!("a condition may not wait or move, but `{culprit}` does")

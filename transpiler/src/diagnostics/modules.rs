@@ -10,15 +10,13 @@ pub(crate) enum ModuleProblem {
     /// A file that cannot be read.
     Unreadable { path: String, reason: String },
     /// A file that is neither UTF-8 nor GB18030.
-    Encoding { path: String, offset: usize },
+    Encoding { path: String, offset: usize, utf16: bool },
     /// A file name that cannot be used in front of `::`.
     ModuleName { path: String },
     /// Two imported files of one name.
     SameName { name: String, first: String },
     /// A function in a data file.
     FunctionInData,
-    /// A file too large to be a program.
-    TooLarge { path: String },
 }
 
 impl Problem for ModuleProblem {
@@ -30,7 +28,6 @@ impl Problem for ModuleProblem {
             ModuleProblem::ModuleName { .. } => 604,
             ModuleProblem::SameName { .. } => 605,
             ModuleProblem::FunctionInData => 606,
-            ModuleProblem::TooLarge { .. } => 607,
         })
     }
 
@@ -38,13 +35,13 @@ impl Problem for ModuleProblem {
         match self {
             ModuleProblem::Missing { path } => format!("there is no file \"{path}\""),
             ModuleProblem::Unreadable { path, reason } => format!("the file \"{path}\" cannot be read: {reason}"),
-            ModuleProblem::Encoding { path, offset } => {
+            ModuleProblem::Encoding { path, utf16: true, .. } => format!("the file \"{path}\" is UTF-16"),
+            ModuleProblem::Encoding { path, offset, .. } => {
                 format!("the file \"{path}\" is neither UTF-8 nor GB18030 (byte {offset})")
             }
             ModuleProblem::ModuleName { path } => format!("the file name of \"{path}\" cannot name a module"),
             ModuleProblem::SameName { name, .. } => format!("two imported files have the module name `{name}`"),
             ModuleProblem::FunctionInData => "a data file holds variables only, no functions".into(),
-            ModuleProblem::TooLarge { path } => format!("the file \"{path}\" is larger than 1 GiB"),
         }
     }
 
