@@ -58,7 +58,7 @@ pub struct Checked {
     /// The files that were read.
     pub files: Files,
     /// The syntax trees, kept only to be freed with the rest: a command that ends anyway need not wait for it.
-    syntax: check::Syntax,
+    _syntax: check::Syntax,
     /// The paths of the files that were read, in the order of `files`, and those that were looked for in vain.
     pub read: Vec<std::path::PathBuf>,
 }

@@ -11,6 +11,7 @@ use crate::hir::{self, Expr, ExprKind, FuncId, GlobalId, LocalId, MAX_DIMS, Modu
 use arl_lang::ast;
 use arl_lang::catalog::{self, Base};
 use arl_lang::span::Span;
+use arl_lang::symbol::Symbol;
 
 /// The most elements an array may have.
 const MAX_ELEMENTS: u64 = 10_000;
@@ -273,7 +274,14 @@ impl<'a> Checker<'a> {
 
     /// Whether the initialiser of a data file's variable can be read again at load.
     pub(crate) fn is_teachable(&self, slot: &GlobalSlot<'_>) -> bool {
-        self.module(slot.module).is_some_and(|module| module.data) && slot.var.init.as_ref().is_none_or(is_literal)
+        let is_data = self.module(slot.module).is_some_and(|module| module.data);
+        // The runtime knows constants of enumerations, PI and numbers like `ffh`, but no other variables.
+        let is_variable = |name: Symbol| {
+            let here = self.scopes.get(slot.module.0 as usize);
+            let imported = self.module(slot.module).is_some_and(|module| module.imports.contains_key(&name));
+            imported || here.is_some_and(|scope| scope.globals.contains_key(&name))
+        };
+        is_data && slot.var.init.as_ref().is_none_or(|init| is_literal(init, &is_variable))
     }
 
     /// Where a module's name for the whole file stands, for problems of the file as such.
@@ -291,17 +299,14 @@ fn constant_value(decl: &ast::Decl, ty: Option<Type>, init: Option<&Expr>) -> Op
     }
 }
 
-/// Whether an expression is made of literals and names only, without operators but a sign.
-fn is_literal(expr: &ast::Expr) -> bool {
+/// Whether an expression is made of literals and constants of the language only, without operators but a sign.
+fn is_literal(expr: &ast::Expr, is_variable: &dyn Fn(Symbol) -> bool) -> bool {
     match &expr.kind {
-        ast::ExprKind::Int(..)
-        | ast::ExprKind::Double(_)
-        | ast::ExprKind::String(_)
-        | ast::ExprKind::Bool(_)
-        | ast::ExprKind::Name(_)
-        | ast::ExprKind::Path { .. } => true,
-        ast::ExprKind::Unary(ast::UnaryOp::Negate, operand) => is_literal(operand),
-        ast::ExprKind::Brace(items) => items.iter().all(|item| is_literal(&item.value)),
+        ast::ExprKind::Int(..) | ast::ExprKind::Double(_) | ast::ExprKind::String(_) | ast::ExprKind::Bool(_) => true,
+        ast::ExprKind::Name(name) => !is_variable(*name),
+        ast::ExprKind::Path { scope, .. } => !is_variable(scope.symbol),
+        ast::ExprKind::Unary(ast::UnaryOp::Negate, operand) => is_literal(operand, is_variable),
+        ast::ExprKind::Brace(items) => items.iter().all(|item| is_literal(&item.value, is_variable)),
         _ => false,
     }
 }

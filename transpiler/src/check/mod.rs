@@ -127,7 +127,7 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
     }
     diagnostics.sort_by(|a, b| (a.primary.at, a.code).cmp(&(b.primary.at, b.code)));
     diagnostics.dedup();
-    (Checked { program, diagnostics, files, syntax: Syntax { _modules: modules }, read }, spliced)
+    (Checked { program, diagnostics, files, _syntax: Syntax { _modules: modules }, read }, spliced)
 }
 
 /// The syntax trees of a program.
