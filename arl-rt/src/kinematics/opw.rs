@@ -53,6 +53,7 @@ pub struct Opw {
     k: f64,
     /// Angle between that line and the forearm.
     psi: f64,
+    psi_sin_cos: (f64, f64),
 }
 
 /// The solutions of one pose, one for each `cfg` that reaches it.
@@ -79,6 +80,31 @@ impl Solutions {
 struct Arm {
     front: bool,
     right: bool,
+}
+
+/// Axis 1 has turned the arm's plane: where the wrist centre is in it, seen from axis 2 (m), and the bend of the elbow that
+/// reaches so far, to the right.
+#[derive(Clone, Copy)]
+struct Shoulder {
+    t1: f64,
+    sin_cos: (f64, f64),
+    x: f64,
+    z: f64,
+    /// Square of the distance.
+    reach: f64,
+    sine: f64,
+    cosine: f64,
+    bend: f64,
+}
+
+/// The inner angles of axes 1 to 3, and sine and cosine of those that the wrist is carried by.
+#[derive(Clone, Copy)]
+struct ArmAngles {
+    t1: f64,
+    t2: f64,
+    t3: f64,
+    t1_sin_cos: (f64, f64),
+    t23_sin_cos: (f64, f64),
 }
 
 /// The arm of `cfg / 2`, by the table of configurations.
@@ -109,6 +135,7 @@ impl Opw {
             offsets: p.offsets.map(f64::to_radians),
             k: a2.hypot(c3),
             psi: a2.atan2(c3),
+            psi_sin_cos: a2.atan2(c3).sin_cos(),
             parameters,
         }
     }
@@ -168,19 +195,41 @@ impl Opw {
         flange.translation.vector / 1000.0 - rotation.column(2) * self.c4
     }
 
-    /// Inner angles of axes 1, 2, 3 that bring the wrist centre to `centre`.
-    fn arm(&self, centre: &Vector3<f64>, arm: Arm, near1: f64) -> Option<[f64; 3]> {
-        let across = centre.x.hypot(centre.y);
-        let depth = square_root(across * across - self.b * self.b)?;
-        let x = if arm.front { depth } else { -depth };
+    /// How axis 1 brings the wrist centre into the arm's plane, before or behind itself.
+    fn shoulder(&self, centre: &Vector3<f64>, front: bool, near1: f64) -> Option<Shoulder> {
+        let square = centre.x * centre.x + centre.y * centre.y;
+        let depth = square_root(square - self.b * self.b)?;
+        let x = if front { depth } else { -depth };
         // On axis 1 any angle of it will do.
-        let t1 = if across < 1e-10 { near1 } else { centre.y.atan2(centre.x) - self.b.atan2(x) };
+        let (t1, sin_cos) = if square < 1e-20 {
+            (near1, near1.sin_cos())
+        } else {
+            let sin = (x * centre.y - self.b * centre.x) / square;
+            let cos = (x * centre.x + self.b * centre.y) / square;
+            (sin.atan2(cos), (sin, cos))
+        };
         let (x, z) = (x - self.a1, centre.z - self.c1);
-        let cosine = (x * x + z * z - self.c2 * self.c2 - self.k * self.k) / (2.0 * self.c2 * self.k);
+        let reach = x * x + z * z;
+        let cosine = (reach - self.c2 * self.c2 - self.k * self.k) / (2.0 * self.c2 * self.k);
         let sine = square_root(1.0 - cosine * cosine)?;
-        let sine = if arm.right { sine } else { -sine };
-        let t2 = x.atan2(z) - (self.k * sine).atan2(self.c2 + self.k * cosine);
-        Some([t1, t2, sine.atan2(cosine) - self.psi])
+        Some(Shoulder { t1, sin_cos, x, z, reach, sine, cosine, bend: sine.atan2(cosine) })
+    }
+
+    /// How axes 2 and 3 bring the wrist centre to its place in the arm's plane.
+    fn elbow(&self, shoulder: &Shoulder, right: bool) -> ArmAngles {
+        let Shoulder { t1, sin_cos: t1_sin_cos, x, z, reach, sine, cosine, bend } = *shoulder;
+        let (sine, bend) = if right { (sine, bend) } else { (-sine, -bend) };
+        let (along, beside) = (self.c2 + self.k * cosine, self.k * sine);
+        // An arm that is folded upon itself points anywhere; upwards, then.
+        let (sin2, cos2) = if reach < 1e-20 {
+            (0.0, 1.0)
+        } else {
+            ((along * x - beside * z) / reach, (beside * x + along * z) / reach)
+        };
+        let (sin, cos) = (sin2 * cosine + cos2 * sine, cos2 * cosine - sin2 * sine);
+        let (sin_psi, cos_psi) = self.psi_sin_cos;
+        let t23_sin_cos = (sin * cos_psi - cos * sin_psi, cos * cos_psi + sin * sin_psi);
+        ArmAngles { t1, t2: sin2.atan2(cos2), t3: bend - self.psi, t1_sin_cos, t23_sin_cos }
     }
 
     /// The lowest bit of `cfg` that the solution with a positive inner angle 5 has.
@@ -189,8 +238,10 @@ impl Opw {
         u8::from(sign5 < 0.0)
     }
 
-    fn all_angles(&self, [t1, t2, t3]: [f64; 3], rotation: &Matrix3<f64>, near4: f64) -> ([f64; 6], [f64; 6]) {
-        let [t4, t5, t6] = wrist_angles(rotation, t1.sin_cos(), (t2 + t3).sin_cos(), near4);
+    /// The two solutions of an arm, with a positive and with a negative inner angle 5.
+    fn with_wrist(&self, arm: &ArmAngles, rotation: &Matrix3<f64>, near4: f64) -> ([f64; 6], [f64; 6]) {
+        let ArmAngles { t1, t2, t3, t1_sin_cos, t23_sin_cos } = *arm;
+        let [t4, t5, t6] = wrist_angles(rotation, t1_sin_cos, t23_sin_cos, near4);
         ([t1, t2, t3, t4, t5, t6], [t1, t2, t3, t4 + PI, -t5, t6 + PI])
     }
 
@@ -200,9 +251,10 @@ impl Opw {
         let centre = self.wrist_centre(flange, &rotation);
         let [near1, _, _, near4, _, _] = self.inner(near);
         let mut solutions = Solutions { axes: [[0.0; 6]; 8], found: 0 };
+        let [front, back] = [true, false].map(|front| self.shoulder(&centre, front, near1));
         for (arm, pair) in ARMS.iter().zip(0_u8..) {
-            let Some(angles) = self.arm(&centre, *arm, near1) else { continue };
-            let (positive, negative) = self.all_angles(angles, &rotation, near4);
+            let Some(shoulder) = (if arm.front { &front } else { &back }) else { continue };
+            let (positive, negative) = self.with_wrist(&self.elbow(shoulder, arm.right), &rotation, near4);
             for (angles, bit) in [(positive, self.wrist_bit()), (negative, 1 - self.wrist_bit())] {
                 let cfg = 2 * pair + bit;
                 if let Some(axes) = solutions.axes.get_mut(usize::from(cfg)) {
@@ -223,8 +275,8 @@ impl Opw {
         let flipped = cfg & 1 != self.wrist_bit();
         // The flipped solution's axis 4 stands half a turn on.
         let near4 = if flipped { near4 - PI } else { near4 };
-        let angles = self.arm(&centre, *arm, near1)?;
-        let (positive, negative) = self.all_angles(angles, &rotation, near4);
+        let angles = self.elbow(&self.shoulder(&centre, arm.front, near1)?, arm.right);
+        let (positive, negative) = self.with_wrist(&angles, &rotation, near4);
         Some(self.outer(if flipped { negative } else { positive }))
     }
 

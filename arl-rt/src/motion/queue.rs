@@ -71,6 +71,7 @@ struct Pace {
 /// The motion being executed.
 #[derive(Clone, PartialEq, Debug)]
 struct Running {
+    number: u64,
     motion: Motion,
     limits: Limits,
     pace: Pace,
@@ -188,8 +189,7 @@ impl Queue {
     /// rest. Without a stop it ends at its target first.
     pub fn clear(&mut self) {
         self.waiting.clear();
-        self.finished = self.added - u64::from(self.running.is_some());
-        self.dropping = self.running.is_some();
+        self.dropping = true;
         self.drop_at_rest();
     }
 
@@ -210,7 +210,7 @@ impl Queue {
         let elapsed_time = profile.time_at(running.state.at);
         let elapsed_distance = running.motion.length * running.state.at;
         Some(Progress {
-            motion: self.finished + 1,
+            motion: running.number,
             line: running.motion.line,
             elapsed_time,
             left_time: profile.duration() - elapsed_time,
@@ -228,7 +228,7 @@ impl Queue {
         }
         let (mut motion, mut line) = (0, 0);
         if let Some(running) = &mut self.running {
-            (motion, line) = (self.finished + 1, running.motion.line);
+            (motion, line) = (running.number, running.motion.line);
             let pace = match self.stop {
                 Some(stop) => Pace { speed: 0.0, stop },
                 None => Pace { speed, stop: Stop::General },
@@ -240,8 +240,8 @@ impl Queue {
             let Motion { path, start, end, .. } = &running.motion;
             self.joints = path.joints(&self.robot.kinematics, start, end, at, &self.joints);
             if at >= 1.0 {
+                self.finished = running.number;
                 self.running = None;
-                self.finished += 1;
             }
         }
         self.drop_at_rest();
@@ -258,7 +258,8 @@ impl Queue {
                     let pace = Pace { speed: 0.0, stop: Stop::General };
                     let profile = Profile::resting(0.0);
                     let state = State::resting(0.0);
-                    let mut running = Running { motion, limits, pace, profile, time: 0.0, state };
+                    let number = self.finished + 1;
+                    let mut running = Running { number, motion, limits, pace, profile, time: 0.0, state };
                     running.take_pace(Pace { speed, stop: Stop::General });
                     self.running = Some(running);
                     return;

@@ -81,10 +81,14 @@ pub(super) fn survey(robot: &Robot, line: &Line, start: &Joints) -> Result<Surve
 
 impl Walk<'_> {
     fn axes(&self, at: f64, near: &Axes) -> Result<Axes, PlanError> {
-        self.line.axes(&self.robot.kinematics, at, near).ok_or_else(|| PlanError::Unreachable {
-            beyond: self.robot.kinematics.beyond_reach(&self.line.flange(at)),
-            along: at,
-        })
+        self.line.axes(&self.robot.kinematics, at, near).ok_or_else(|| self.unreachable(at))
+    }
+
+    /// Out of reach from here on: how far at worst?
+    fn unreachable(&self, along: f64) -> PlanError {
+        let beyond = |at: f64| self.robot.kinematics.beyond_reach(&self.line.flange(at));
+        let rest = (0..=32).map(|step| beyond(along + (1.0 - along) * f64::from(step) / 32.0));
+        PlanError::Unreachable { beyond: rest.fold(0.0, f64::max), along }
     }
 
     /// The derivatives of the axes; `None` at a singular point, where they would be made of rounding errors.
@@ -113,6 +117,11 @@ impl Walk<'_> {
     }
 
     fn singular(&self, rates: &Rates, at: f64) -> PlanError {
+        // A stretched arm is singular, too; but what is wrong there is that the line goes on where the arm ends.
+        let ends = |ahead: f64| self.line.axes(&self.robot.kinematics, (at + ahead).min(1.0), &rates.first).is_none();
+        if [1.0, 2.0, 4.0, 8.0].iter().any(|times| ends(times * SINGULAR_SCALE)) {
+            return self.unreachable(at);
+        }
         let rate = |index: usize| rates.first.get(index).map_or(0.0, |rate| rate.abs());
         let fastest = (0..6).max_by(|a, b| rate(*a).total_cmp(&rate(*b))).unwrap_or(0);
         PlanError::Singular { axis: self.name(fastest), along: at }

@@ -20,9 +20,8 @@ fn robot(name: &str) -> Arc<Robot> {
 /// The robot with a turning and a linear external axis.
 fn with_external_axes(name: &str) -> Arc<Robot> {
     let axis = |name: &str, linear: bool, max: f64| {
-        format!(
-            "[[axis]]\nname = \"{name}\"\nlinear = {linear}\nmin = -{max}\nmax = {max}\nvel = 90\nacc = 300\njerk = 3000\n"
-        )
+        let range = format!("name = \"{name}\"\nlinear = {linear}\nmin = -{max}\nmax = {max}\n");
+        format!("[[axis]]\n{range}vel = 900\nacc = 3000\njerk = 30000\n")
     };
     let text = Robot::text(name).unwrap().to_owned() + &axis("ej1", false, 720.0) + &axis("ej2", true, 1500.0);
     Arc::new(Robot::parse("with external axes", &text).unwrap())

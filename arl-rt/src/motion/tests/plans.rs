@@ -68,6 +68,27 @@ fn what_is_out_of_reach_or_range_says_so() {
 }
 
 #[test]
+fn a_line_that_leaves_the_reach_between_its_ends_says_where_and_how_far() {
+    let robot = robot("kr10-r1420");
+    // The hand turns from one side to the other over the side that faces the robot: there the wrist is too far out.
+    let tool = frame([0.0, 0.0, 150.0, 0.0, 0.0, 0.0]);
+    let facing = |a: f64| frame([1150.0, 0.0, 1080.0, a, 90.0, 0.0]) * tool.inverse();
+    let wanted = Wanted { cfg: None, turn: -1 };
+    let axes = robot.kinematics.choose(&facing(95.0), wanted, &robot.axes, &start().axes).unwrap();
+    let from = Joints { axes, ..start() };
+    let command = Command { tool, ..lin([1150.0, 0.0, 1080.0, -95.0, 90.0, 0.0]) };
+    match plan(&robot, &from, &command, &Settings::default()) {
+        Err(PlanError::Unreachable { beyond, along }) => {
+            // 230 mm behind the tool's tip: 1380 - 150 before and 630 above axis 2, for which the arm is 1270.303 long.
+            let expected = (1380.0_f64 - 150.0).hypot(630.0) - 610.0 - 660.0_f64.hypot(20.0);
+            assert!((beyond - expected).abs() < 1.0, "{beyond} {expected}");
+            assert!(along > 0.05 && along < 0.5, "{along}");
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
 fn a_line_through_the_robot_is_refused_where_it_fails() {
     let robot = robot("kr10-r1420");
     let front = axes([60.0, -90.0, 90.0, 0.0, 45.0, 0.0]);

@@ -195,7 +195,9 @@ fn clearing_drops_motions_when_the_robot_rests() {
     assert!(!queue.idle());
     assert_eq!(queue.add(&movej(start().axes), &Settings::default()), Err(PlanError::Stopping));
     while !queue.idle() {
-        queue.step(CYCLE, 100.0);
+        let step = queue.step(CYCLE, 100.0);
+        assert_eq!(step.motion, 1);
+        assert_eq!(step.finished, if queue.idle() { 2 } else { 0 });
     }
     assert_eq!(queue.end(), queue.joints());
     queue.resume();

@@ -5,7 +5,7 @@ fn axis_motions_use_the_limits_and_never_break_them() {
     let mut random = Random::new(31);
     for name in ["kr10-r1420", "tx2-60", "hsr065", "cobra600"] {
         let robot = with_external_axes(name);
-        for _ in 0..40 {
+        for _ in 0..12 {
             let mut queue = Queue::new(robot.clone(), random_joints(&robot, &mut random, 1.0));
             let mut targets = Vec::new();
             for _ in 0..3 {
@@ -67,7 +67,7 @@ fn lines_are_straight_and_within_all_limits() {
     for name in ["kr10-r1420", "kr6-r700", "irb2400-10", "tx2-60", "six-10"] {
         let robot = with_external_axes(name);
         let (mut planned, mut tried) = (0, 0);
-        while planned < 40 {
+        while planned < 15 {
             tried += 1;
             let (start, goal, mut command, target) = random_line(&robot, &mut random);
             let mut queue = Queue::new(robot.clone(), start);
@@ -91,7 +91,7 @@ fn lines_are_straight_and_within_all_limits() {
             assert_eq!(last.joints.external[..2], goal.external[..2]);
             assert_eq!(robot.kinematics.cfg(&last.joints.axes), robot.kinematics.cfg(&start.axes), "cfg is kept");
         }
-        assert!(tried < 40 * 12, "{name}: of {tried} random lines only {planned} could be planned");
+        assert!(tried < 15 * 12, "{name}: of {tried} random lines only {planned} could be planned");
     }
 }
 
