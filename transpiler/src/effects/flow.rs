@@ -108,10 +108,9 @@ pub(crate) fn blocks(stmt: &Stmt) -> Vec<&[Stmt]> {
 pub(crate) fn expressions(stmt: &Stmt) -> Vec<&Expr> {
     match &stmt.kind {
         StmtKind::Let(_, value) | StmtKind::Return(value) => value.iter().collect(),
-        StmtKind::Eval(expr)
-        | StmtKind::While(expr, ..)
-        | StmtKind::Repeat(_, expr, _)
-        | StmtKind::Switch(expr, _) => vec![expr],
+        StmtKind::Eval(expr) | StmtKind::While(expr, ..) | StmtKind::Repeat(_, expr, _) | StmtKind::Switch(expr, _) => {
+            vec![expr]
+        }
         StmtKind::If(arms, _) => arms.iter().map(|(condition, _)| condition).collect(),
         StmtKind::For(each) => each.condition.iter().chain(&each.step).collect(),
         _ => Vec::new(),

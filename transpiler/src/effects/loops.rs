@@ -185,4 +185,3 @@ fn expr_writes(expr: &Expr, id: LocalId) -> bool {
     facts::local_writes(expr, &mut writes);
     writes.contains(&id)
 }
-

@@ -3,10 +3,11 @@
 //! prettyplease drops comments, so markers stand in for them until the text is printed: macro calls whose name no ARL
 //! name can take, as those are lower case.
 
-use proc_macro2::{Literal, TokenStream};
+use proc_macro2::{Group, Literal, TokenStream, TokenTree};
 use quote::quote;
 use std::cell::RefCell;
 
+const NAME: &str = "ARL__";
 const MARK: &str = "ARL__!(";
 
 /// The texts that the markers stand for.
@@ -62,6 +63,31 @@ impl Comments {
     }
 }
 
+/// The code without markers.
+pub(super) fn without_marks(code: TokenStream) -> TokenStream {
+    let mut out = TokenStream::new();
+    let mut tokens = code.into_iter().peekable();
+    while let Some(token) = tokens.next() {
+        match token {
+            TokenTree::Ident(word) if word == NAME => {
+                // `!`, the number, and `;` or `=> {}`.
+                let rest = [tokens.next(), tokens.next(), tokens.next()];
+                if matches!(rest.last(), Some(Some(TokenTree::Punct(sign))) if sign.as_char() == '=') {
+                    tokens.next();
+                    tokens.next();
+                }
+            }
+            TokenTree::Group(group) => {
+                let mut inner = Group::new(group.delimiter(), without_marks(group.stream()));
+                inner.set_span(group.span());
+                out.extend([TokenTree::Group(inner)]);
+            }
+            token => out.extend([token]),
+        }
+    }
+    out
+}
+
 /// A line of a program, fit for a comment: control characters and those that turn the direction of text become `?`.
 pub(super) fn clean(line: &str) -> String {
     let unfit = |c: char| {
@@ -80,8 +106,7 @@ mod tests {
         comments.mark("3: x = 1\n4: y".into());
         comments.mark(String::new());
         let printed = "fn f() {\n    ARL__!(0);\n    x = 1;\n}\nARL__!(1);\nlet s = \"ARL__!(0);\";\nARL__!(7);\n";
-        let expected =
-            "fn f() {\n    // 3: x = 1\n    // 4: y\n    x = 1;\n}\n\nlet s = \"ARL__!(0);\";\nARL__!(7);\n";
+        let expected = "fn f() {\n    // 3: x = 1\n    // 4: y\n    x = 1;\n}\n\nlet s = \"ARL__!(0);\";\nARL__!(7);\n";
         assert_eq!(comments.fill(printed), expected);
     }
 

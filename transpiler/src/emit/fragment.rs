@@ -6,7 +6,6 @@ use quote::quote;
 /// How tightly an expression holds together; a piece that holds less than its place asks for gets parentheses.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Precedence {
-    Range,
     Or,
     And,
     Compare,
@@ -25,7 +24,6 @@ impl Precedence {
     pub(super) fn tighter(self) -> Self {
         use Precedence::*;
         match self {
-            Range => Or,
             Or => And,
             And => Compare,
             Compare => BitOr,

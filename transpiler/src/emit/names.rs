@@ -4,7 +4,7 @@
 //! then it gets underscores behind it. Names with two underscores in a row keep one, which is what rustc wants.
 
 use crate::hir::{Func, LocalId, ModuleId, Program};
-use proc_macro2::{Ident, Span};
+use proc_macro2::{Ident, Span, TokenStream, TokenTree};
 use std::collections::{HashMap, HashSet};
 
 /// Words that cannot be names, in any edition up to 2024.
@@ -16,8 +16,7 @@ const KEYWORDS: &[&str] = &[
 ];
 
 /// Functions of the prelude, and the names that emitted functions give to what they are passed.
-const VALUES: &[&str] =
-    &["cx", "g", "div", "rem", "rem_double", "shl", "shr", "index", "index2", "in_range", "nested", "truth"];
+const VALUES: &[&str] = &["cx", "g", "div", "rem", "rem_double", "shl", "shr", "index", "index2", "in_range", "truth"];
 
 /// Crates that a module must not hide.
 const CRATES: &[&str] = &["arl_rt", "core", "std", "alloc"];
@@ -65,6 +64,29 @@ fn tidy(name: &str, taken: &dyn Fn(&str) -> bool) -> String {
     }
     tidy
 }
+
+/// Whether code uses the prelude: every path, call and type of it begins with one of these words or with one that is
+/// neither of Rust's own types nor of the module.
+pub(super) fn mentions_prelude(code: &TokenStream) -> bool {
+    code.clone().into_iter().any(|token| match token {
+        TokenTree::Ident(word) => {
+            let word = word.to_string();
+            PRELUDE.contains(&word.as_str()) || is_taken_value(&word) && word != "g" || is_type(&word)
+        }
+        TokenTree::Group(group) => mentions_prelude(&group.stream()),
+        _ => false,
+    })
+}
+
+/// Types of the prelude begin with a capital letter, as do a few names that are not of it.
+fn is_type(word: &str) -> bool {
+    const OTHERS: &[&str] =
+        &["Globals", "Variables", "Default", "Ok", "Err", "Some", "None", "Box", "Self", "State", "ARL__"];
+    word.starts_with(|c: char| c.is_ascii_uppercase()) && !OTHERS.contains(&word) && word != "FILE"
+}
+
+/// Modules of the prelude whose functions may be called without the context.
+const PRELUDE: &[&str] = &["math", "bits", "strings", "convert", "pose", "flow", "text", "random"];
 
 /// The names of everything outside functions.
 #[derive(Debug)]
@@ -119,7 +141,8 @@ impl Names {
         self.functions_of.get(module.0 as usize).is_some_and(|names| names.contains(name))
     }
 
-    /// The names of a function's locals. Two of them may share a name where the program hides one behind the other.
+    /// The names of a function's locals. Two of them may share a name where the program hides one behind the other, but
+    /// not in functions with `goto`, whose variables share a scope.
     pub(super) fn locals(&self, func: &Func, unread: &dyn Fn(LocalId) -> bool) -> Vec<Ident> {
         let mut by_name: HashMap<String, String> = HashMap::new();
         let mut used = HashSet::new();
@@ -127,8 +150,10 @@ impl Names {
         for (at, local) in func.locals.iter().enumerate() {
             let lead = if unread(LocalId(at as u32)) && !local.name.starts_with('_') { "_" } else { "" };
             let wanted = format!("{lead}{}", local.name);
-            let name = by_name.entry(wanted.clone()).or_insert_with(|| {
-                let taken = |name: &str| is_keyword(name) || is_taken_value(name) || self.has_function(func.module, name);
+            let key = if func.has_goto { at.to_string() } else { wanted.clone() };
+            let name = by_name.entry(key).or_insert_with(|| {
+                let taken =
+                    |name: &str| is_keyword(name) || is_taken_value(name) || self.has_function(func.module, name);
                 distinct(&wanted, &mut used, taken).to_string()
             });
             out.push(ident(name));
@@ -170,8 +195,10 @@ mod tests {
     #[test]
     fn two_names_never_become_one() {
         let mut used = HashSet::new();
-        let names: Vec<String> =
-            ["a__b", "a_b", "a_b_", "type", "type_"].iter().map(|name| distinct(name, &mut used, is_keyword).to_string()).collect();
+        let names: Vec<String> = ["a__b", "a_b", "a_b_", "type", "type_"]
+            .iter()
+            .map(|name| distinct(name, &mut used, is_keyword).to_string())
+            .collect();
         assert_eq!(names.iter().collect::<HashSet<_>>().len(), names.len(), "{names:?}");
     }
 }

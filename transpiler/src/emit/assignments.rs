@@ -1,0 +1,214 @@
+//! Assignments, `++` and `--`, as statements and as values.
+
+use super::body::Body;
+use super::consts::constant;
+use super::fragment::Fragment;
+use super::operators::text_mode;
+use super::places::{Reached, Written};
+use super::sequence::{Mode, Operand};
+use crate::effects::facts::{self, Facts};
+use crate::hir::{Expr, ExprKind, Place, Projection, Root, Value};
+use arl_lang::ast::{BinaryOp, Step};
+use arl_lang::catalog::Base;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+impl<'p> Body<'p, '_> {
+    /// An assignment, `++` or `--` whose value nobody wants.
+    pub(super) fn assignment(&mut self, expr: &'p Expr) -> TokenStream {
+        match &expr.kind {
+            ExprKind::Assign(sides) => self.assign(&sides.0, &sides.1, false).0,
+            ExprKind::AssignOp(op, sides) => self.assign_op(*op, &sides.0, &sides.1, false).0,
+            ExprKind::Step(step, place) => self.step(Step { prefix: true, ..*step }, place, false).0,
+            _ => TokenStream::new(),
+        }
+    }
+
+    /// An assignment, `++` or `--` as a value: the assignment goes before.
+    pub(super) fn assignment_value(&mut self, expr: &'p Expr) -> Fragment {
+        let (before, place) = match &expr.kind {
+            ExprKind::Assign(sides) => {
+                let (before, place) = self.assign(&sides.0, &sides.1, true);
+                if let Some(known) = self.constant(&sides.1) {
+                    return constant(known).after(before);
+                }
+                (before, place)
+            }
+            ExprKind::AssignOp(op, sides) => self.assign_op(*op, &sides.0, &sides.1, true),
+            ExprKind::Step(step, place) => {
+                let (before, place, old) = self.step(*step, place, true);
+                if let Some(old) = old {
+                    return old.after(before);
+                }
+                (before, place)
+            }
+            _ => return constant(&Value::Int(0)),
+        };
+        self.read_reached(&place).after(before)
+    }
+
+    /// `place = value`; `keep` tells that the place is read afterwards.
+    fn assign(&mut self, place: &'p Place, value: &'p Expr, keep: bool) -> (TokenStream, Reached) {
+        if let Some(more) = self.appended(place, value) {
+            return self.append_parts(place, &more);
+        }
+        let facts = self.facts(value);
+        let item = matches!(place.path.as_slice(), [Projection::Index(..)]) && !matches!(place.root, Root::Local(_));
+        let settle = keep || !(item || (matches!(place.root, Root::Local(_)) && facts.quiet()));
+        let (before, reached, value_fragment) = self.sides(place, Some((value, Mode::Value)), settle);
+        let fragment = self.in_range(place, value_fragment, Some(value));
+        let write = self.write(&reached, Written::Value(fragment), calm(&facts));
+        (quote!(#before #write), reached)
+    }
+
+    /// `place op= value`: the old value is read first.
+    fn assign_op(&mut self, op: BinaryOp, place: &'p Place, value: &'p Expr, keep: bool) -> (TokenStream, Reached) {
+        if op == BinaryOp::Add && place.ty.base == Base::String {
+            let mut more = Vec::new();
+            leaves(value, &mut more);
+            if self.may_append(place, &more) {
+                return self.append_parts(place, &more);
+            }
+        }
+        let facts = self.facts(value);
+        let own = facts::of_place(self.program(), self.func, place);
+        let disturbed =
+            own.reads.iter().any(|read| facts.writes.contains(read)) || (own.world && (facts.acts || facts.waits));
+        let ranged = facts::range_check(place, None).is_some();
+        let native = self.is_native(op, place, value) && !disturbed && !ranged;
+        let settle = keep || !(native && facts.quiet() && matches!(place.root, Root::Local(_)));
+        if disturbed {
+            let (mut before, reached, _) = self.sides(place, None, true);
+            let old = self.read_reached(&reached);
+            let old = self.settle(old, "old");
+            before.extend(old.before.clone());
+            let right = self.value(value);
+            before.extend(right.before.clone());
+            let new = self.operation(op, place.ty, Fragment { before: TokenStream::new(), ..old }, right, value);
+            let new = self.in_range(place, new, None);
+            let write = self.write(&reached, Written::Value(new), false);
+            return (quote!(#before #write), reached);
+        }
+        let (before, reached, right) = self.sides(place, Some((value, Mode::Value)), settle);
+        let written = if native {
+            Written::Compound(op, right)
+        } else {
+            let old = self.read_reached(&reached);
+            let new = self.operation(op, place.ty, old, right, value);
+            Written::Value(self.in_range(place, new, None))
+        };
+        let calm = native && calm(&facts);
+        let write = self.write(&reached, written, calm);
+        (quote!(#before #write), reached)
+    }
+
+    /// `++`, `--`. With `keep`, the value: the place to read, or the old value.
+    fn step(&mut self, step: Step, place: &'p Place, keep: bool) -> (TokenStream, Reached, Option<Fragment>) {
+        let simple = place.path.is_empty();
+        let (before, reached, _) = self.sides(place, None, !simple || keep);
+        let read = self.read_reached(&reached);
+        let old = if step.prefix { read } else { self.settle(read, "old") };
+        let (old_before, receiver) = (&old.before, old.receiver());
+        let method = if step.up { quote!(wrapping_add) } else { quote!(wrapping_sub) };
+        let new = Fragment::postfix(quote!(#receiver.#method(1)));
+        let new = self.in_range(place, new, None);
+        let write = self.write(&reached, Written::Value(new), false);
+        let old_value = (!step.prefix).then(|| Fragment { before: TokenStream::new(), ..old.clone() });
+        (quote!(#before #old_before #write), reached, old_value)
+    }
+
+    /// The indices of a place and a value, in order. The value's own statements are among those that go before.
+    fn sides(
+        &mut self,
+        place: &'p Place,
+        value: Option<(&'p Expr, Mode)>,
+        settle: bool,
+    ) -> (TokenStream, Reached, Fragment) {
+        let mut operands = Self::index_operands(place);
+        let count = operands.len();
+        operands.extend(value.map(|(value, mode)| Operand::Expr(value, mode)));
+        let (before, mut fragments) = self.sequence(&operands, |at| settle && at < count);
+        let value = match value {
+            Some(_) => fragments.pop(),
+            None => None,
+        };
+        let reached = self.reached(place, fragments);
+        (before, reached, value.unwrap_or_else(|| Fragment::settled(quote!(()))))
+    }
+
+    /// Whether Rust has the operator in the form `a op= b` with the meaning of ARL.
+    fn is_native(&self, op: BinaryOp, place: &Place, value: &'p Expr) -> bool {
+        use BinaryOp::*;
+        let known = self.constant(value);
+        match (place.ty.base, op) {
+            (Base::Double, Add | Subtract | Multiply | Divide) => true,
+            (Base::Double, Remainder) => known.is_some_and(|known| *known != Value::Double(0.0)),
+            (Base::Int | Base::Uint | Base::Byte, BitAnd | BitOr | BitXor) => true,
+            (Base::Int | Base::Uint | Base::Byte, ShiftLeft | ShiftRight) => known.is_some(),
+            (Base::Int | Base::Uint | Base::Byte, Divide | Remainder) => {
+                known.is_some_and(|known| !matches!(known, Value::Int(0 | -1) | Value::Uint(0) | Value::Byte(0)))
+            }
+            _ => false,
+        }
+    }
+
+    /// What `text = text + more + ..` appends, where appending is what it comes to.
+    fn appended(&self, place: &'p Place, value: &'p Expr) -> Option<Vec<&'p Expr>> {
+        if place.ty.base != Base::String || place.ty.is_array() || !place.path.is_empty() {
+            return None;
+        }
+        let mut parts = Vec::new();
+        leaves(value, &mut parts);
+        let (first, more) = parts.split_first()?;
+        let ExprKind::Place(start) = &first.kind else { return None };
+        let same = start.path.is_empty()
+            && match (place.root, start.root) {
+                (Root::Local(a), Root::Local(b)) => a == b,
+                (Root::Global(a), Root::Global(b)) => a == b,
+                (Root::System(a), Root::System(b)) => a.name == b.name,
+                _ => false,
+            };
+        (same && !more.is_empty() && self.may_append(place, more)).then(|| more.to_vec())
+    }
+
+    /// Whether the parts can be appended one by one.
+    fn may_append(&self, place: &Place, parts: &[&'p Expr]) -> bool {
+        place.path.is_empty()
+            && parts.iter().all(|part| {
+                let facts = self.facts(part);
+                let untouched = match place.root {
+                    Root::Local(id) => !facts.reads.contains(&id) && !facts.writes.contains(&id),
+                    Root::Global(_) | Root::System(_) => !facts.world && !facts.acts,
+                };
+                untouched && (parts.len() == 1 || facts.quiet())
+            })
+    }
+
+    fn append_parts(&mut self, place: &'p Place, parts: &[&'p Expr]) -> (TokenStream, Reached) {
+        let reached = self.reached(place, []);
+        let mut out = TokenStream::new();
+        for part in parts {
+            let facts = self.facts(part);
+            let fragment = self.expression(part, text_mode(part));
+            out.extend(self.write(&reached, Written::Compound(BinaryOp::Add, fragment), calm(&facts)));
+        }
+        (out, reached)
+    }
+}
+
+/// The parts of a sum of strings.
+fn leaves<'p>(expr: &'p Expr, out: &mut Vec<&'p Expr>) {
+    match &expr.kind {
+        ExprKind::Binary(BinaryOp::Add, sides) if expr.ty.base == Base::String => {
+            leaves(&sides.0, out);
+            // The right one of two sums is joined first: it is a part of its own.
+            out.push(&sides.1);
+        }
+        _ => out.push(expr),
+    }
+}
+
+/// Whether a value has to do with locals only, so that it may be computed while a variable is held.
+fn calm(facts: &Facts) -> bool {
+    facts.quiet() && !facts.world && !facts.context && !facts.globals
+}

@@ -1,0 +1,242 @@
+//! What is known while the statements of one function are emitted.
+
+use super::comments::{Comments, clean};
+use super::fragment::Fragment;
+use super::goto::Machine;
+use super::names::{Names, ident, is_taken_value};
+use super::usage::Usage;
+use crate::effects::facts::{self, Facts};
+use crate::hir::{Expr, Func, LocalId, ModuleId, Program, Value};
+use arl_lang::catalog::Family;
+use arl_lang::span::{LineIndex, Span};
+use proc_macro2::{Ident, Literal, TokenStream, TokenTree};
+use quote::quote;
+use std::collections::HashSet;
+
+/// What all functions of an emission share.
+pub(super) struct Unit<'p> {
+    pub(super) program: &'p Program,
+    pub(super) names: Names,
+    pub(super) comments: Comments,
+    /// Where the lines of each module begin.
+    pub(super) lines: Vec<LineIndex>,
+}
+
+impl Unit<'_> {
+    pub(super) fn family(&self) -> Family {
+        self.program.family
+    }
+
+    /// The line of a place in a module.
+    pub(super) fn line(&self, module: ModuleId, span: Span) -> u32 {
+        self.lines.get(module.0 as usize).map_or(0, |lines| lines.line(span.start))
+    }
+
+    /// The lines of a module that a span touches, with their numbers, one below the other; long texts are cut.
+    pub(super) fn text(&self, module: ModuleId, span: Span) -> String {
+        const MOST: usize = 4;
+        let (Some(lines), Some(source)) = (
+            self.lines.get(module.0 as usize),
+            self.program.modules.get(module.0 as usize).map(|module| module.source.as_str()),
+        ) else {
+            return String::new();
+        };
+        let (first, last) = (lines.line(span.start), lines.line(span.end.max(span.start + 1) - 1));
+        let mut out = Vec::new();
+        for line in first..=last {
+            let text = lines.line_span(source, line).map_or("", |span| span.text(source));
+            out.push(format!("{line}: {}", clean(text)));
+            if out.len() == MOST && line < last {
+                out.push("...".to_owned());
+                break;
+            }
+        }
+        out.join("\n")
+    }
+}
+
+/// A loop around the statements that are being emitted.
+#[derive(Clone, Debug)]
+pub(super) struct Loop {
+    /// How `break` is written.
+    pub(super) on_break: Exit,
+    /// How `continue` is written.
+    pub(super) on_continue: Exit,
+}
+
+/// A way out of a loop's body.
+#[derive(Clone, Debug)]
+pub(super) enum Exit {
+    /// `break` or `continue` without label.
+    Plain,
+    /// `continue 'label`, `break 'label`.
+    Labelled(TokenStream),
+    /// To a state of the function's machine.
+    State(usize),
+}
+
+/// Emits the statements of one function, or an expression outside functions.
+pub(super) struct Body<'p, 'u> {
+    pub(super) unit: &'u Unit<'p>,
+    pub(super) module: ModuleId,
+    pub(super) func: Option<&'p Func>,
+    /// The names of the locals.
+    pub(super) names: Vec<Ident>,
+    pub(super) usage: Usage,
+    /// The line that alarms are reported on.
+    pub(super) line: u32,
+    /// Temporaries of the current statement.
+    temporaries: Vec<String>,
+    /// Names that temporaries must not take.
+    taken: HashSet<String>,
+    labels: usize,
+    pub(super) loops: Vec<Loop>,
+    /// The locals that ARL sees at this place.
+    pub(super) visible: Vec<LocalId>,
+    pub(super) machine: Option<Machine>,
+    /// The line that the last comment was about.
+    pub(super) commented: u32,
+}
+
+impl<'p, 'u> Body<'p, 'u> {
+    /// For a function.
+    pub(super) fn of_function(unit: &'u Unit<'p>, func: &'p Func) -> Self {
+        let usage = Usage::of_function(func);
+        let names = unit.names.locals(func, &|local| !usage.is_read(local));
+        let taken = names.iter().map(Ident::to_string).collect();
+        let visible = func.params.clone();
+        Self { func: Some(func), usage, names, taken, visible, ..Self::outside(unit, func.module) }
+    }
+
+    /// For expressions outside functions.
+    pub(super) fn outside(unit: &'u Unit<'p>, module: ModuleId) -> Self {
+        Self {
+            unit,
+            module,
+            func: None,
+            names: Vec::new(),
+            usage: Usage::default(),
+            line: 0,
+            temporaries: Vec::new(),
+            taken: HashSet::new(),
+            labels: 0,
+            loops: Vec::new(),
+            visible: Vec::new(),
+            machine: None,
+            commented: 0,
+        }
+    }
+
+    pub(super) fn program(&self) -> &'p Program {
+        self.unit.program
+    }
+
+    pub(super) fn family(&self) -> Family {
+        self.unit.family()
+    }
+
+    /// The name of a local variable.
+    pub(super) fn local(&self, id: LocalId) -> Ident {
+        self.names.get(id.0 as usize).cloned().unwrap_or_else(|| ident("unknown"))
+    }
+
+    /// The value of a constant expression.
+    pub(super) fn constant(&self, expr: &'p Expr) -> Option<&'p Value> {
+        facts::constant(self.program(), self.func, expr)
+    }
+
+    pub(super) fn facts(&self, expr: &Expr) -> Facts {
+        facts::of_expr(self.program(), self.func, expr)
+    }
+
+    /// Makes alarms (and the comment) of what follows stand at the line of `span`.
+    pub(super) fn stand_at(&mut self, span: Span) {
+        self.line = self.unit.line(self.module, span);
+    }
+
+    /// The comment for a statement, unless its line has one already.
+    pub(super) fn comment(&mut self, span: Span) -> TokenStream {
+        let line = self.unit.line(self.module, span);
+        if line == self.commented {
+            return TokenStream::new();
+        }
+        self.commented = line;
+        self.unit.comments.mark(self.unit.text(self.module, span))
+    }
+
+    /// A fallible call of the runtime: its fault becomes an alarm at the current line.
+    pub(super) fn checked(&self, call: TokenStream) -> TokenStream {
+        let line = self.line_number();
+        quote!(#call.at(FILE, #line)?)
+    }
+
+    pub(super) fn line_number(&self) -> Literal {
+        Literal::u32_unsuffixed(self.line)
+    }
+
+    /// `cx.line(FILE, n);` where the code uses the context.
+    pub(super) fn pointer(&self, code: &TokenStream) -> TokenStream {
+        if !mentions(code, "cx") {
+            return TokenStream::new();
+        }
+        let line = self.line_number();
+        quote!(cx.line(FILE, #line);)
+    }
+
+    /// A name for a temporary that nothing in reach has.
+    pub(super) fn fresh(&mut self, wanted: &str) -> Ident {
+        let wanted = if is_taken_value(wanted) { "value" } else { wanted };
+        let mut name = wanted.to_owned();
+        let mut number = 2;
+        while self.taken.contains(&name)
+            || self.temporaries.contains(&name)
+            || self.unit.names.has_function(self.module, &name)
+        {
+            name = format!("{wanted}{number}");
+            number += 1;
+        }
+        self.temporaries.push(name.clone());
+        ident(&name)
+    }
+
+    /// A name that stays reserved for the whole function.
+    pub(super) fn reserve(&mut self, wanted: &str) -> Ident {
+        let name = self.fresh(wanted);
+        self.taken.insert(name.to_string());
+        name
+    }
+
+    /// A label that no other loop of the function has.
+    pub(super) fn label(&mut self, wanted: &str) -> syn::Lifetime {
+        self.labels += 1;
+        let number = if self.labels == 1 { String::new() } else { self.labels.to_string() };
+        syn::Lifetime::new(&format!("'{wanted}{number}"), proc_macro2::Span::call_site())
+    }
+
+    /// Puts a value into a temporary, as a statement before.
+    pub(super) fn settle(&mut self, value: Fragment, wanted: &str) -> Fragment {
+        if value.settled {
+            return value;
+        }
+        let name = self.fresh(wanted);
+        let (before, tokens) = (&value.before, &value.tokens);
+        Fragment { before: quote!(#before let #name = #tokens;), ..Fragment::settled(quote!(#name)) }
+    }
+
+    /// Runs with the temporaries of an inner statement, whose names may be those of the outer one.
+    pub(super) fn with_own_temporaries<R>(&mut self, run: impl FnOnce(&mut Self) -> R) -> R {
+        let outer = std::mem::take(&mut self.temporaries);
+        let result = run(self);
+        self.temporaries = outer;
+        result
+    }
+}
+
+/// Whether a name occurs in the code.
+pub(super) fn mentions(code: &TokenStream, name: &str) -> bool {
+    code.clone().into_iter().any(|token| match token {
+        TokenTree::Ident(word) => word == name,
+        TokenTree::Group(group) => mentions(&group.stream(), name),
+        _ => false,
+    })
+}

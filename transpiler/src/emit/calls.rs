@@ -1,0 +1,242 @@
+//! Calls of the program's functions and of what is built in.
+
+use super::body::Body;
+use super::fragment::{Fragment, Precedence};
+use super::names::{field, ident};
+use super::places::{Reached, Written};
+use super::sequence::{Mode, Operand};
+use super::types::{is_copy, is_handle};
+use crate::effects::facts;
+use crate::hir::{Bound, Builtin, Expr, FuncId, LocalId, Passed, Place, Root, Type};
+use arl_lang::catalog::{Base, Effect, Entry, Kind, Mode as ParamMode, ParamType, Presence};
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+/// An argument on its way to the runtime.
+struct Argument<'p> {
+    param: usize,
+    value: Fragment,
+    /// A place that has to be written after the call, and the temporary that holds its value until then.
+    back: Option<(&'p Place, Reached, Ident)>,
+}
+
+impl<'p> Body<'p, '_> {
+    /// A call of one of the program's functions.
+    pub(super) fn call(&mut self, id: FuncId, args: &'p [Expr]) -> Fragment {
+        let operands: Vec<_> = args.iter().map(|arg| Operand::Expr(arg, Mode::Value)).collect();
+        let (before, args) = self.sequence(&operands, |_| false);
+        let args = args.iter().map(|arg| &arg.tokens);
+        let Some(func) = self.program().funcs.get(id.0 as usize) else {
+            return Fragment::postfix(quote!(compile_error!("a call of an unknown function")));
+        };
+        let name = self.unit.names.func(id.0);
+        let path = if func.module == self.module {
+            quote!(#name)
+        } else {
+            let module = self.unit.names.module(func.module);
+            quote!(super::#module::#name)
+        };
+        let effects = func.effects;
+        let cx = effects.context.then(|| quote!(cx,));
+        let g = effects.globals.then(|| quote!(g,));
+        let mut call = quote!(#path(#cx #g #(#args),*));
+        if effects.waits {
+            let boxed = effects.recursive && self.func.is_some_and(|own| own.effects.recursive);
+            call = if boxed { quote!(Box::pin(#call).await) } else { quote!(#call.await) };
+        }
+        if effects.fails {
+            call = quote!(#call?);
+        }
+        Fragment::postfix(call).after(before)
+    }
+
+    /// A use of something built in.
+    pub(super) fn builtin(&mut self, builtin: &'p Builtin) -> Fragment {
+        let entry = builtin.entry;
+        if let Some(special) = self.special(builtin) {
+            return special;
+        }
+        let (mut before, arguments) = self.arguments(builtin);
+        let mut call = match entry.kind {
+            Kind::Function => self.function_call(entry, &arguments),
+            Kind::Instruction => instruction_call(entry, &arguments),
+        };
+        if matches!(entry.effect, Effect::Plans | Effect::Waits) {
+            call = quote!(#call.await);
+        }
+        if entry.fails {
+            call = self.checked(call);
+        }
+        let backs: Vec<_> = arguments.into_iter().filter_map(|argument| argument.back).collect();
+        if backs.is_empty() {
+            return Fragment::postfix(call).after(before);
+        }
+        // Variables that others see are written after the call, so the call is a statement of its own.
+        let result = if entry.result == Base::Void {
+            before.extend(quote!(#call;));
+            Fragment::settled(quote!(()))
+        } else {
+            let name = self.fresh("result");
+            before.extend(quote!(let #name = #call;));
+            Fragment::settled(quote!(#name))
+        };
+        for (place, reached, name) in backs {
+            let value = self.in_range(place, Fragment::settled(quote!(#name)), None);
+            before.extend(self.write(&reached, Written::Value(value), true));
+        }
+        result.after(before)
+    }
+
+    /// The arguments, evaluated in the order of the program.
+    fn arguments(&mut self, builtin: &'p Builtin) -> (TokenStream, Vec<Argument<'p>>) {
+        let entry = builtin.entry;
+        let mut before = TokenStream::new();
+        let mut out = Vec::new();
+        // Values first, as one sequence; a written variable has no value to be evaluated but its indices.
+        let operands: Vec<Operand<'p>> =
+            builtin.args.iter().flat_map(|arg| self.argument_operands(entry, arg)).collect();
+        let moved = reordered(entry, &builtin.args);
+        let loud: Vec<bool> = operands.iter().map(|operand| !self.operand_facts(operand).quiet()).collect();
+        let several = loud.iter().filter(|loud| **loud).count() > 1;
+        let (first, fragments) = self.sequence(&operands, |at| moved && several && loud.get(at) == Some(&true));
+        before.extend(first);
+        let mut fragments = fragments.into_iter();
+        for (at, arg) in builtin.args.iter().enumerate() {
+            let (value, back) = match &arg.value {
+                Passed::Value(_) => (fragments.next().unwrap_or_else(|| Fragment::settled(quote!(()))), None),
+                Passed::Out(place) => {
+                    let indices: Vec<Fragment> = fragments.by_ref().take(Self::index_operands(place).len()).collect();
+                    let shared = self.is_used_elsewhere(builtin, at, place);
+                    self.out_argument(place, indices, shared, &mut before)
+                }
+            };
+            out.push(Argument { param: arg.param, value, back });
+        }
+        (before, out)
+    }
+
+    fn argument_operands(&self, entry: &Entry, arg: &'p Bound) -> Vec<Operand<'p>> {
+        match &arg.value {
+            Passed::Value(expr) => vec![Operand::Expr(expr, passing(entry, arg.param, expr.ty))],
+            Passed::Out(place) => Self::index_operands(place),
+        }
+    }
+
+    /// `&mut place` for a local variable; for others a temporary that is written back.
+    fn out_argument(
+        &mut self,
+        place: &'p Place,
+        indices: Vec<Fragment>,
+        shared: bool,
+        before: &mut TokenStream,
+    ) -> (Fragment, Option<(&'p Place, Reached, Ident)>) {
+        if is_handle(place.ty) {
+            return (self.handle(place), None);
+        }
+        let local = matches!(place.root, Root::Local(_)) && !shared;
+        if local {
+            let reached = self.reached(place, indices);
+            let target = self.target(&reached);
+            return (Fragment::new(quote!(&mut #target), Precedence::Unary), None);
+        }
+        let mut settled = Vec::new();
+        for index in indices {
+            let index = self.settle(index, "at");
+            before.extend(index.before.clone());
+            settled.push(Fragment { before: TokenStream::new(), ..index });
+        }
+        let reached = self.reached(place, settled);
+        let old = self.read_reached(&reached);
+        let name = self.fresh("out");
+        let (first, old) = (&old.before, &old.tokens);
+        before.extend(quote!(#first let mut #name = #old;));
+        (Fragment::new(quote!(&mut #name), Precedence::Unary), Some((place, reached, name)))
+    }
+
+    /// Whether a variable that the call writes occurs among its other arguments, too.
+    fn is_used_elsewhere(&self, builtin: &'p Builtin, own: usize, place: &Place) -> bool {
+        let Root::Local(id) = place.root else { return true };
+        let touches = |reads: &[LocalId], writes: &[LocalId]| reads.contains(&id) || writes.contains(&id);
+        builtin.args.iter().enumerate().any(|(at, arg)| {
+            at != own
+                && match &arg.value {
+                    Passed::Value(expr) => {
+                        let facts = self.facts(expr);
+                        touches(&facts.reads, &facts.writes)
+                    }
+                    Passed::Out(other) => touches(&facts::of_place(self.program(), self.func, other).reads, &[]),
+                }
+        })
+    }
+
+    /// `math::atan2(y, x)`: all parameters in the order of the catalog.
+    fn function_call(&self, entry: &Entry, arguments: &[Argument<'p>]) -> TokenStream {
+        let path = path(entry.path);
+        let given = |param: usize| {
+            arguments
+                .iter()
+                .filter(move |argument| argument.param == param)
+                .map(|argument| argument.value.tokens.clone())
+        };
+        let mut values: Vec<TokenStream> = Vec::new();
+        if entry.effect != Effect::Pure {
+            values.push(quote!(cx));
+        }
+        for (at, param) in entry.params.iter().enumerate() {
+            match param.presence {
+                Presence::Optional => values.push(match given(at).next() {
+                    Some(value) => quote!(Some(#value)),
+                    None => quote!(None),
+                }),
+                Presence::Repeat { .. } => {
+                    let all = given(at);
+                    values.push(quote!(&[#(#all),*]));
+                }
+                Presence::Required | Presence::Default(_) => values.extend(given(at)),
+            }
+        }
+        quote!(#path(#(#values),*))
+    }
+}
+
+/// `motion::movej(target).vp(20.0).run(cx)`
+fn instruction_call(entry: &Entry, arguments: &[Argument<'_>]) -> TokenStream {
+    let path = path(entry.path);
+    let is_required = |param: usize| entry.params.get(param).is_some_and(|param| param.presence == Presence::Required);
+    let mut required: Vec<&Argument<'_>> = arguments.iter().filter(|argument| is_required(argument.param)).collect();
+    required.sort_by_key(|argument| argument.param);
+    let required = required.iter().map(|argument| &argument.value.tokens);
+    let rest = arguments.iter().filter(|argument| !is_required(argument.param)).map(|argument| {
+        let label = field(entry.params.get(argument.param).map_or("unknown", |param| param.rust));
+        let value = &argument.value.tokens;
+        quote!(.#label(#value))
+    });
+    quote!(#path(#(#required),*)#(#rest)*.run(cx))
+}
+
+/// Whether the arguments are passed in another order than they stand in the program.
+fn reordered(entry: &Entry, args: &[Bound]) -> bool {
+    let key = |bound: &Bound| match (entry.kind, entry.params.get(bound.param).map(|param| param.presence)) {
+        (Kind::Function, _) | (_, Some(Presence::Required)) => bound.param,
+        _ => entry.params.len(),
+    };
+    !args.is_sorted_by_key(key)
+}
+
+/// How the runtime takes a parameter.
+fn passing(entry: &Entry, param: usize, ty: Type) -> Mode {
+    let Some(param) = entry.params.get(param) else { return Mode::Value };
+    match param.ty {
+        _ if param.mode != ParamMode::In => Mode::Value,
+        ParamType::Any => Mode::Printed,
+        _ if is_copy(ty) => Mode::Value,
+        _ => Mode::Reference,
+    }
+}
+
+/// `math::sqrt`
+fn path(text: &str) -> TokenStream {
+    let mut parts = text.split("::").map(ident);
+    let first = parts.next();
+    quote!(#first #(::#parts)*)
+}

@@ -1,0 +1,221 @@
+//! Expressions.
+
+use super::body::Body;
+use super::consts::{constant, typed_constant};
+use super::fragment::{Fragment, Precedence};
+use super::names::ident;
+use super::sequence::{Mode, Operand};
+use super::types::{array_type, base_type, component, is_copy, start_value, type_name};
+use crate::hir::{Expr, ExprKind, Type, Value};
+use arl_lang::catalog::{Base, Struct};
+use proc_macro2::{Literal, TokenStream};
+use quote::quote;
+
+impl<'p> Body<'p, '_> {
+    /// An expression, wanted in some way.
+    pub(super) fn expression(&mut self, expr: &'p Expr, mode: Mode) -> Fragment {
+        match mode {
+            Mode::Value => self.value(expr),
+            Mode::Reference => self.reference(expr),
+            Mode::Printed => self.printed(expr),
+            Mode::Compared => self.compared(expr),
+        }
+    }
+
+    /// An expression as a value to keep.
+    pub(super) fn value(&mut self, expr: &'p Expr) -> Fragment {
+        match &expr.kind {
+            ExprKind::Const(value) => constant(value),
+            ExprKind::Place(place) => self.read(place),
+            ExprKind::FieldOf(inner, id, index) => {
+                let field = component(*id, *index, self.family());
+                self.value(inner).map(Precedence::Postfix, |value| {
+                    let value = value.receiver();
+                    quote!(#value.#field)
+                })
+            }
+            ExprKind::Convert(inner) => self.conversion(inner, expr.ty),
+            ExprKind::Unary(op, inner) => self.unary(*op, inner),
+            ExprKind::Binary(op, sides) => self.binary(*op, &sides.0, &sides.1),
+            ExprKind::Assign(_) | ExprKind::AssignOp(..) | ExprKind::Step(..) => self.assignment_value(expr),
+            ExprKind::Call(id, args) => self.call(*id, args),
+            ExprKind::Builtin(builtin) => self.builtin(builtin),
+            ExprKind::Struct(id, values) => self.structure(*id, values),
+            ExprKind::Array(values) => self.array(expr.ty, values),
+            ExprKind::Splice(number) => {
+                let name = ident(&format!("splice_{number}"));
+                Fragment::postfix(quote!(#name))
+            }
+        }
+    }
+
+    /// The value as the receiver of a method or an argument whose type nothing else tells.
+    pub(super) fn typed_value(&mut self, expr: &'p Expr) -> Fragment {
+        match &expr.kind {
+            ExprKind::Const(value) => typed_constant(value),
+            _ => self.value(expr),
+        }
+    }
+
+    /// `&value`, without a copy of what a variable holds where that is possible.
+    pub(super) fn reference(&mut self, expr: &'p Expr) -> Fragment {
+        let inner = match &expr.kind {
+            ExprKind::Place(place) => self.look_at(place),
+            _ => self.value(expr),
+        };
+        inner.map(Precedence::Unary, |value| {
+            let value = value.at(Precedence::Unary);
+            quote!(&#value)
+        })
+    }
+
+    /// The value for an argument that takes anything printable.
+    fn printed(&mut self, expr: &'p Expr) -> Fragment {
+        match &expr.kind {
+            ExprKind::Const(Value::String(text)) => {
+                Fragment { settled: true, ..Fragment::new(quote!(&#text), Precedence::Unary) }
+            }
+            ExprKind::Const(value @ (Value::Uint(_) | Value::Byte(_))) => {
+                typed_constant(value).map(Precedence::Unary, |value| {
+                    let tokens = &value.tokens;
+                    quote!(&#tokens)
+                })
+            }
+            _ if expr.ty.dims().len() > 1 => {
+                let sizes = expr.ty.dims().iter().map(|size| Literal::u16_unsuffixed(*size));
+                self.reference(expr).map(Precedence::Unary, |array| {
+                    let array = &array.tokens;
+                    quote!(&text::nested(#array, &[#(#sizes),*]))
+                })
+            }
+            _ => self.reference(expr),
+        }
+    }
+
+    /// The value as a side of a comparison.
+    fn compared(&mut self, expr: &'p Expr) -> Fragment {
+        match &expr.kind {
+            ExprKind::Const(Value::String(text)) => Fragment::settled(quote!(#text)),
+            ExprKind::Place(place) => self.look_at(place),
+            _ => self.value(expr),
+        }
+    }
+
+    /// A condition that stands where no statement can go before it.
+    pub(super) fn inline_value(&mut self, expr: &'p Expr) -> Fragment {
+        self.value(expr).inline()
+    }
+
+    /// `index(i, 6).at(FILE, 3)?`, or the number where it is known.
+    pub(super) fn index(&mut self, indices: &'p [Expr], array: Type) -> Fragment {
+        if let Some(at) = self.known_index(indices, array) {
+            let at = Literal::usize_unsuffixed(at);
+            return Fragment::settled(quote!(#at));
+        }
+        let sizes: Vec<Literal> = array.dims().iter().map(|size| Literal::u16_unsuffixed(*size)).collect();
+        let operands: Vec<_> = indices.iter().map(|index| Operand::Expr(index, Mode::Value)).collect();
+        let (before, indices) = self.sequence(&operands, |_| false);
+        let indices: Vec<&TokenStream> = indices.iter().map(|index| &index.tokens).collect();
+        let call = match (indices.as_slice(), sizes.as_slice()) {
+            ([index], [size]) => quote!(index(#index, #size)),
+            _ => quote!(index2([#(#indices),*], [#(#sizes),*])),
+        };
+        Fragment::postfix(self.checked(call)).after(before)
+    }
+
+    fn known_index(&self, indices: &'p [Expr], array: Type) -> Option<usize> {
+        let mut at = 0;
+        for (index, size) in indices.iter().zip(array.dims()) {
+            let Value::Int(index) = self.constant(index)? else { return None };
+            let index = usize::try_from(*index).ok().filter(|index| *index < usize::from(*size))?;
+            at = at * usize::from(*size) + index;
+        }
+        Some(at)
+    }
+
+    /// An implicit conversion.
+    fn conversion(&mut self, inner: &'p Expr, to: Type) -> Fragment {
+        let from = inner.ty.base;
+        if let (Base::Enum(id), Some(Value::Int(index))) = (to.base, self.constant(inner)) {
+            return constant(&Value::Enum(id, u16::try_from(*index).unwrap_or(0)));
+        }
+        let index = |value: &Fragment| {
+            let value = value.receiver();
+            quote!(#value.index())
+        };
+        match (from, to.base) {
+            (from, to) if from == to => self.value(inner),
+            (Base::Double, Base::Bool) => self.typed_value(inner).map(Precedence::Compare, |value| {
+                let value = value.at(Precedence::Compare.tighter());
+                quote!(#value != 0.0)
+            }),
+            (Base::Enum(_), Base::Bool) => self.value(inner).map(Precedence::Compare, |value| {
+                let index = index(value);
+                quote!(#index != 0)
+            }),
+            (_, Base::Bool) => self.typed_value(inner).map(Precedence::Compare, |value| {
+                let value = value.at(Precedence::Compare.tighter());
+                quote!(#value != 0)
+            }),
+            (Base::Enum(_), Base::Int) => self.value(inner).map(Precedence::Postfix, index),
+            (Base::Enum(_), base) => {
+                let ty = base_type(base, self.family());
+                self.value(inner).map(Precedence::Postfix, |value| {
+                    let index = index(value);
+                    if base == Base::Double { quote!(#ty::from(#index)) } else { quote!((#index as #ty)) }
+                })
+            }
+            (_, base) => {
+                let ty = base_type(base, self.family());
+                self.typed_value(inner).map(Precedence::Postfix, |value| {
+                    let value = &value.tokens;
+                    quote!(#ty::from(#value))
+                })
+            }
+        }
+    }
+
+    /// `Pose { x: 1.0, ..Pose::default() }`, the components in the order in which the program has them.
+    fn structure(&mut self, id: Struct, values: &'p [Option<Expr>]) -> Fragment {
+        let family = self.family();
+        let name = type_name(Base::Struct(id), family);
+        let mut given: Vec<(usize, &Expr)> =
+            values.iter().enumerate().filter_map(|(at, value)| Some((at, value.as_ref()?))).collect();
+        if given.is_empty() {
+            return Fragment::postfix(quote!(#name::default()));
+        }
+        given.sort_by_key(|(_, value)| value.span.start);
+        let operands: Vec<_> = given.iter().map(|(_, value)| Operand::Expr(value, Mode::Value)).collect();
+        let (before, fragments) = self.sequence(&operands, |_| false);
+        let values = fragments.iter().map(|value| &value.tokens);
+        let fields = given.iter().map(|(at, _)| component(id, *at, family));
+        let all = given.len() == id.def(family).components.len();
+        let rest = if all { TokenStream::new() } else { quote!(..#name::default()) };
+        Fragment::postfix(quote!(#name { #(#fields: #values,)* #rest })).after(before)
+    }
+
+    /// `SmallArray::<i32, 3>::from_values(&[1, 2, 3])`
+    fn array(&mut self, ty: Type, values: &'p [Expr]) -> Fragment {
+        let family = self.family();
+        if values.is_empty() {
+            return Fragment::postfix(start_value(ty, family));
+        }
+        let operands: Vec<_> = values.iter().map(|value| Operand::Expr(value, Mode::Value)).collect();
+        let (before, values) = self.sequence(&operands, |_| false);
+        let values = values.iter().map(|value| &value.tokens);
+        let (array, element) = (array_type(ty, family), base_type(ty.base, family));
+        let count = Literal::usize_unsuffixed(ty.len());
+        Fragment::postfix(quote!(#array::<#element, #count>::from_values(&[#(#values),*]))).after(before)
+    }
+
+    /// The value of a place that has been read as an owned copy where it is not `Copy`.
+    pub(super) fn owned(place: Fragment, ty: Type) -> Fragment {
+        if is_copy(ty) {
+            return place;
+        }
+        place.map(Precedence::Postfix, |place| {
+            let place = place.receiver();
+            quote!(#place.clone())
+        })
+    }
+}

@@ -1,0 +1,523 @@
+//! Functions with `goto` as machines: a loop around a `match` over states.
+//!
+//! Invariants:
+//! - A state begins at the start of the function, at each label, and where a decomposed statement goes on. Only
+//!   statements that contain a label are decomposed; any other one stays whole inside a state, so nothing is ever
+//!   jumped into but states.
+//! - The code of a state ends by setting the next state or by returning. A jump from inside a statement that stayed whole
+//!   sets the state and continues the machine's loop.
+//! - A variable that more than one state mentions lives outside the loop (it is hoisted), with its start value; its
+//!   declaration becomes an assignment. A jump to a label gives every hoisted variable that is visible there but was not
+//!   visible where the jump stands its start value: its declaration is jumped over.
+//! - Names of locals are distinct in such functions, as all hoisted ones share a scope.
+//! - Each jump backwards gives the cycle back when the budget is used up, as each round of a loop does.
+
+use super::body::{Body, Exit, Loop, mentions};
+use super::loops::{give_back, spend};
+use super::names::ident;
+use super::statements::Tail;
+use super::types::start_value;
+use crate::effects::flow;
+use crate::hir::{Arm, Expr, For, Func, LabelId, LocalId, LoopInfo, Stmt, StmtKind};
+use arl_lang::span::Span;
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+use std::collections::{HashMap, HashSet};
+
+/// What is known about the machine while its states are emitted.
+pub(super) struct Machine {
+    variable: Ident,
+    label: syn::Lifetime,
+    states: Vec<State>,
+    of_label: HashMap<LabelId, usize>,
+    /// The locals that are visible at each label.
+    visible_at: HashMap<LabelId, Vec<LocalId>>,
+    hoisted: HashSet<LocalId>,
+    /// Whether this run only looks which states mention which variables.
+    trial: bool,
+    /// The state whose code grows.
+    current: usize,
+    /// Whether its end is reached.
+    open: bool,
+}
+
+#[derive(Debug)]
+struct State {
+    name: Ident,
+    code: TokenStream,
+}
+
+impl<'p> Body<'p, '_> {
+    /// The body of a function with `goto`.
+    pub(super) fn machine(&mut self, func: &'p Func) -> TokenStream {
+        let variable = self.reserve("state");
+        let (commented, visible) = (self.commented, self.visible.clone());
+        // A first run finds out which variables more than one state needs.
+        self.run(func, variable.clone(), declared(&func.body), true);
+        let all = declared(&func.body);
+        let hoisted = match &self.machine {
+            Some(machine) => all.into_iter().filter(|id| machine.is_shared(&self.local(*id))).collect(),
+            None => HashSet::new(),
+        };
+        (self.commented, self.visible) = (commented, visible);
+        self.run(func, variable, hoisted, false);
+        self.finish(func)
+    }
+
+    fn run(&mut self, func: &'p Func, variable: Ident, hoisted: HashSet<LocalId>, trial: bool) {
+        let mut visible_at = HashMap::new();
+        labels(&func.body, &mut func.params.clone(), &mut visible_at);
+        self.machine = Some(Machine {
+            variable,
+            label: syn::Lifetime::new("'machine", proc_macro2::Span::call_site()),
+            states: Vec::new(),
+            of_label: HashMap::new(),
+            visible_at,
+            hoisted,
+            trial,
+            current: 0,
+            open: true,
+        });
+        self.new_state("Start");
+        self.states(&func.body);
+        if self.is_open() {
+            let end = self.end_result();
+            self.append(quote!(return #end;));
+        }
+    }
+
+    /// The loop around the states that can be reached, and the variables outside it.
+    fn finish(&mut self, func: &'p Func) -> TokenStream {
+        let Some(machine) = self.machine.take() else { return TokenStream::new() };
+        let family = self.family();
+        let reached = machine.reached();
+        let states: Vec<&State> =
+            machine.states.iter().zip(&reached).filter(|(_, reached)| **reached).map(|(state, _)| state).collect();
+        let mut hoisted: Vec<LocalId> = machine.hoisted.iter().copied().collect();
+        hoisted.sort_unstable();
+        let variables = hoisted.into_iter().filter_map(|id| {
+            let local = func.locals.get(id.0 as usize)?;
+            let (name, start) = (self.local(id), start_value(local.ty, family));
+            let ty = (!local.ty.is_array()).then(|| super::types::rust_type(local.ty, family)).map(|ty| quote!(: #ty));
+            Some(quote!(let mut #name #ty = #start;))
+        });
+        let names = states.iter().map(|state| &state.name);
+        let arms = states.iter().map(|state| {
+            let (name, code) = (&state.name, &state.code);
+            quote!(State::#name => { #code })
+        });
+        let (variable, label) = (&machine.variable, &machine.label);
+        let first = states.first().map(|state| &state.name);
+        let labelled = states.iter().any(|state| mentions(&state.code, "machine")).then(|| quote!(#label:));
+        quote! {
+            enum State { #(#names),* }
+            #(#variables)*
+            let mut #variable = State::#first;
+            #labelled loop {
+                match #variable { #(#arms)* }
+            }
+        }
+    }
+
+    /// Whether the declaration of a local is an assignment to a variable outside the machine.
+    pub(super) fn is_hoisted(&self, id: LocalId) -> bool {
+        self.machine.as_ref().is_some_and(|machine| machine.hoisted.contains(&id))
+    }
+
+    /// `goto label`
+    pub(super) fn goto(&mut self, label: LabelId, span: Span) -> TokenStream {
+        let (before, state) = self.departure(label, span);
+        let jump = self.jump(state);
+        quote!(#before #jump)
+    }
+
+    /// What happens before a jump to a label, and its state.
+    fn departure(&mut self, label: LabelId, span: Span) -> (TokenStream, usize) {
+        let state = self.label_state(label);
+        let Some(machine) = &self.machine else { return (TokenStream::new(), state) };
+        let family = self.family();
+        let seen = machine.visible_at.get(&label).map_or(&[][..], Vec::as_slice);
+        let resets: Vec<TokenStream> = seen
+            .iter()
+            .filter(|id| !machine.trial && machine.hoisted.contains(id) && !self.visible.contains(id))
+            .filter_map(|id| {
+                let local = self.func?.locals.get(id.0 as usize)?;
+                let (name, start) = (self.local(*id), start_value(local.ty, family));
+                Some(quote!(#name = #start;))
+            })
+            .collect();
+        let backwards = self
+            .func
+            .and_then(|func| func.labels.get(label.0 as usize))
+            .is_some_and(|label| label.span.start <= span.start);
+        let spend = backwards.then(give_back);
+        (quote!(#(#resets)* #spend), state)
+    }
+
+    /// A jump from inside a statement to a state.
+    pub(super) fn jump(&mut self, state: usize) -> TokenStream {
+        let inside = self.loops.iter().any(|outer| !matches!(outer.on_continue, Exit::State(_)));
+        let set = self.set_state(state);
+        match &self.machine {
+            Some(machine) if inside => {
+                let label = &machine.label;
+                quote!(#set continue #label;)
+            }
+            _ => quote!(#set continue;),
+        }
+    }
+
+    fn set_state(&self, state: usize) -> TokenStream {
+        match &self.machine {
+            Some(machine) => match machine.states.get(state) {
+                Some(State { name, .. }) => {
+                    let variable = &machine.variable;
+                    quote!(#variable = State::#name;)
+                }
+                None => TokenStream::new(),
+            },
+            None => TokenStream::new(),
+        }
+    }
+
+    fn new_state(&mut self, wanted: &str) -> usize {
+        let Some(machine) = &mut self.machine else { return 0 };
+        let mut name = if wanted == "Self" { "SelfLabel".to_owned() } else { wanted.to_owned() };
+        let mut number = 2;
+        while machine.states.iter().any(|state| state.name == name) {
+            name = format!("{wanted}{number}");
+            number += 1;
+        }
+        machine.states.push(State { name: ident(&name), code: TokenStream::new() });
+        machine.states.len() - 1
+    }
+
+    /// A new state named after the line that is emitted.
+    fn state_here(&mut self, what: &str) -> usize {
+        let name = format!("{what}{}", self.line);
+        self.new_state(&name)
+    }
+
+    fn label_state(&mut self, label: LabelId) -> usize {
+        if let Some(state) = self.machine.as_ref().and_then(|machine| machine.of_label.get(&label)) {
+            return *state;
+        }
+        let name = self.func.and_then(|func| func.labels.get(label.0 as usize)).map_or("", |label| label.name.as_str());
+        let state = self.new_state(&camel_case(name));
+        if let Some(machine) = &mut self.machine {
+            machine.of_label.insert(label, state);
+        }
+        state
+    }
+
+    fn append(&mut self, code: TokenStream) {
+        if let Some(machine) = &mut self.machine
+            && let Some(state) = machine.states.get_mut(machine.current)
+        {
+            state.code.extend(code);
+        }
+    }
+
+    fn is_open(&self) -> bool {
+        self.machine.as_ref().is_some_and(|machine| machine.open)
+    }
+
+    /// Ends the current state with a jump, where its end is reached.
+    fn close(&mut self, next: usize) {
+        if self.is_open() {
+            let set = self.set_state(next);
+            self.append(set);
+        }
+        self.shut();
+    }
+
+    fn shut(&mut self) {
+        if let Some(machine) = &mut self.machine {
+            machine.open = false;
+        }
+    }
+
+    fn open(&mut self, state: usize) {
+        if let Some(machine) = &mut self.machine {
+            machine.current = state;
+            machine.open = true;
+        }
+    }
+
+    /// The statements of a block whose labels are states.
+    fn states(&mut self, block: &'p [Stmt]) {
+        let visible = self.visible.len();
+        for stmt in flow::reachable(block) {
+            self.stand_at(stmt.span);
+            match &stmt.kind {
+                StmtKind::Label(label) => {
+                    let state = self.label_state(*label);
+                    self.close(state);
+                    self.open(state);
+                    let comment = self.comment(stmt.span);
+                    self.append(comment);
+                }
+                StmtKind::Goto(label) => {
+                    let comment = self.comment(stmt.span);
+                    let (before, state) = self.departure(*label, stmt.span);
+                    self.append(quote!(#comment #before));
+                    self.close(state);
+                }
+                StmtKind::Break | StmtKind::Continue => self.state_exit(stmt),
+                _ if flow::has_label(stmt) => {
+                    let comment = self.comment(stmt.span);
+                    self.append(comment);
+                    self.decompose(stmt);
+                }
+                _ => {
+                    let code = self.statement(stmt, Tail::Inner);
+                    self.append(code);
+                    if flow::diverges(stmt) {
+                        self.shut();
+                    }
+                }
+            }
+        }
+        self.visible.truncate(visible);
+    }
+
+    /// `break` or `continue` of a decomposed loop.
+    fn state_exit(&mut self, stmt: &Stmt) {
+        let comment = self.comment(stmt.span);
+        self.append(comment);
+        let breaks = matches!(stmt.kind, StmtKind::Break);
+        let exit = self.loops.last().map(|outer| if breaks { &outer.on_break } else { &outer.on_continue });
+        if let Some(Exit::State(state)) = exit {
+            let state = *state;
+            self.close(state);
+        }
+    }
+
+    fn decompose(&mut self, stmt: &'p Stmt) {
+        match &stmt.kind {
+            StmtKind::If(arms, otherwise) => self.split_if(arms, otherwise.as_deref()),
+            StmtKind::Switch(subject, arms) => self.split_switch(subject, arms),
+            StmtKind::While(condition, body, info) => self.split_while(Some(condition), body, *info),
+            StmtKind::Loop(body, info) => self.split_while(None, body, *info),
+            StmtKind::Repeat(body, until, info) => self.split_repeat(body, until, *info),
+            StmtKind::For(each) => self.split_for(each),
+            _ => {}
+        }
+    }
+
+    /// A branch: inside its state where it has no label, else a state of its own, filled later.
+    fn branch(&mut self, block: &'p [Stmt], after: usize, later: &mut Vec<(usize, &'p [Stmt])>) -> TokenStream {
+        if block.iter().any(flow::has_label) {
+            let state = self.state_here("Branch");
+            later.push((state, block));
+            return self.set_state(state);
+        }
+        let code = self.block(block, Tail::Inner);
+        let set = if flow::block_diverges(block) { TokenStream::new() } else { self.set_state(after) };
+        quote!(#code #set)
+    }
+
+    fn fill(&mut self, later: Vec<(usize, &'p [Stmt])>, after: usize) {
+        for (state, block) in later {
+            self.open(state);
+            self.states(block);
+            self.close(after);
+        }
+        self.open(after);
+    }
+
+    fn split_if(&mut self, arms: &'p [(Expr, Vec<Stmt>)], otherwise: Option<&'p [Stmt]>) {
+        let after = self.state_here("After");
+        let mut later = Vec::new();
+        for (at, (condition, block)) in arms.iter().enumerate() {
+            self.stand_at(condition.span);
+            let mut value = self.value(condition);
+            if at == 0 {
+                let pointer = self.pointer(&quote!(#value));
+                let before = std::mem::take(&mut value.before);
+                self.append(quote!(#pointer #before));
+            }
+            let value = value.inline().tokens;
+            let code = self.branch(block, after, &mut later);
+            self.append(quote!(if #value { #code } else));
+        }
+        let code = match otherwise {
+            Some(block) => self.branch(block, after, &mut later),
+            None => self.set_state(after),
+        };
+        self.append(quote!({ #code }));
+        self.fill(later, after);
+    }
+
+    fn split_switch(&mut self, subject: &'p Expr, arms: &'p [Arm]) {
+        let after = self.state_here("After");
+        let mut later = Vec::new();
+        let mut codes = Vec::new();
+        for arm in arms {
+            self.stand_at(arm.span);
+            codes.push((arm.value.as_ref(), self.branch(&arm.body, after, &mut later)));
+        }
+        let otherwise = self.set_state(after);
+        let code = self.chosen(subject, codes, otherwise);
+        self.append(code);
+        self.fill(later, after);
+    }
+
+    /// The body of a decomposed loop, from the current state on.
+    fn split_body(&mut self, body: &'p [Stmt], continues: usize, after: usize) {
+        self.loops.push(Loop { on_break: Exit::State(after), on_continue: Exit::State(continues) });
+        self.states(body);
+        self.loops.pop();
+    }
+
+    /// Leaves the current state for `after` unless the condition holds.
+    fn unless(&mut self, condition: &'p Expr, after: usize) {
+        let value = self.value(condition);
+        let pointer = self.pointer(&quote!(#value));
+        let (before, unmet) = (&value.before, value.at(super::fragment::Precedence::Unary));
+        let jump = self.jump(after);
+        self.append(quote!(#pointer #before if !#unmet { #jump }));
+    }
+
+    fn split_while(&mut self, condition: Option<&'p Expr>, body: &'p [Stmt], info: LoopInfo) {
+        let (head, after) = (self.state_here("Loop"), self.state_here("After"));
+        self.close(head);
+        self.open(head);
+        self.append(spend(info));
+        if let Some(condition) = condition.filter(|condition| !flow::always(condition)) {
+            self.unless(condition, after);
+        }
+        self.split_body(body, head, after);
+        self.close(head);
+        self.open(after);
+    }
+
+    fn split_repeat(&mut self, body: &'p [Stmt], until: &'p Expr, info: LoopInfo) {
+        let (head, test, after) = (self.state_here("Repeat"), self.state_here("Until"), self.state_here("After"));
+        self.close(head);
+        self.open(head);
+        self.split_body(body, test, after);
+        self.close(test);
+        self.open(test);
+        self.stand_at(until.span);
+        let comment = self.comment(until.span);
+        let value = self.value(until);
+        let pointer = self.pointer(&quote!(#value));
+        let (before, met) = (&value.before, &value.tokens);
+        let (done, again, spend) = (self.set_state(after), self.set_state(head), spend(info));
+        self.append(quote!(#comment #pointer #before if #met { #done } else { #spend #again }));
+        self.open(after);
+    }
+
+    fn split_for(&mut self, each: &'p For) {
+        let visible = self.visible.len();
+        for stmt in &each.init {
+            let code = self.statement(stmt, Tail::Inner);
+            self.append(code);
+        }
+        let line = self.line;
+        let (head, next, after) = (self.state_here("For"), self.state_here("Next"), self.state_here("After"));
+        self.close(head);
+        self.open(head);
+        if let Some(condition) = each.condition.as_ref().filter(|condition| !flow::always(condition)) {
+            self.unless(condition, after);
+        }
+        self.split_body(&each.body, next, after);
+        self.close(next);
+        self.open(next);
+        self.line = line;
+        let spend = spend(each.info);
+        let step = each.step.as_ref().map(|step| self.with_own_temporaries(|body| body.effect(step, Tail::Inner)));
+        self.append(quote!(#spend #step));
+        self.close(head);
+        self.open(after);
+        self.visible.truncate(visible);
+    }
+}
+
+impl Machine {
+    /// Whether more than one state mentions a variable.
+    fn is_shared(&self, name: &Ident) -> bool {
+        let name = name.to_string();
+        self.states.iter().filter(|state| mentions(&state.code, &name)).nth(1).is_some()
+    }
+
+    /// The states that can be reached from the first one.
+    fn reached(&self) -> Vec<bool> {
+        let names: HashMap<String, usize> =
+            self.states.iter().enumerate().map(|(at, state)| (state.name.to_string(), at)).collect();
+        let mut reached = vec![false; self.states.len()];
+        let mut open = vec![0];
+        while let Some(at) = open.pop() {
+            let (Some(seen), Some(state)) = (reached.get_mut(at), self.states.get(at)) else { continue };
+            if !std::mem::replace(seen, true) {
+                words(&state.code, &mut |word| open.extend(names.get(&word.to_string())));
+            }
+        }
+        reached
+    }
+}
+
+fn words(code: &TokenStream, found: &mut dyn FnMut(&Ident)) {
+    for token in code.clone() {
+        match token {
+            proc_macro2::TokenTree::Ident(word) => found(&word),
+            proc_macro2::TokenTree::Group(group) => words(&group.stream(), found),
+            _ => {}
+        }
+    }
+}
+
+/// The locals that are declared at the top and in statements with labels.
+fn declared(block: &[Stmt]) -> HashSet<LocalId> {
+    let mut found = HashSet::new();
+    for stmt in block {
+        match &stmt.kind {
+            StmtKind::Let(id, _) => {
+                found.insert(*id);
+            }
+            _ if flow::has_label(stmt) => {
+                for inner in flow::blocks(stmt) {
+                    found.extend(declared(inner));
+                }
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
+/// The locals that are visible at each label.
+fn labels(block: &[Stmt], visible: &mut Vec<LocalId>, found: &mut HashMap<LabelId, Vec<LocalId>>) {
+    let before = visible.len();
+    for stmt in block {
+        match &stmt.kind {
+            StmtKind::Let(id, _) => visible.push(*id),
+            StmtKind::Label(label) => {
+                found.insert(*label, visible.clone());
+            }
+            StmtKind::For(each) => {
+                let outside = visible.len();
+                visible.extend(each.init.iter().filter_map(|stmt| match stmt.kind {
+                    StmtKind::Let(id, _) => Some(id),
+                    _ => None,
+                }));
+                labels(&each.body, visible, found);
+                visible.truncate(outside);
+            }
+            _ => flow::blocks(stmt).into_iter().for_each(|inner| labels(inner, visible, found)),
+        }
+    }
+    visible.truncate(before);
+}
+
+/// `after_stop` as `AfterStop`.
+fn camel_case(name: &str) -> String {
+    let mut out = String::new();
+    for part in name.split('_').filter(|part| !part.is_empty()) {
+        let mut letters = part.chars();
+        out.extend(letters.next().map(|first| first.to_ascii_uppercase()));
+        out.push_str(letters.as_str());
+    }
+    if out.starts_with(|c: char| c.is_ascii_alphabetic()) { out } else { format!("Label{out}") }
+}

@@ -1,0 +1,167 @@
+//! Loops.
+//!
+//! A loop that has to give the cycle back does so behind its last statement; where a `continue` would jump over that,
+//! at the start of the round. `continue` of a loop with something to do behind its body (a step, an `until`) leaves a
+//! labelled block around the body.
+
+use super::body::{Body, Exit, Loop};
+use super::fragment::Precedence;
+use super::statements::Tail;
+use crate::effects::{flow, loops};
+use crate::hir::{Expr, For, LoopInfo, Stmt};
+use proc_macro2::TokenStream;
+use quote::quote;
+
+impl<'p> Body<'p, '_> {
+    /// `while(c)`
+    pub(super) fn while_loop(&mut self, condition: &'p Expr, body: &'p [Stmt], info: LoopInfo) -> TokenStream {
+        if flow::always(condition) {
+            return self.endless_loop(body, info);
+        }
+        let (head, condition) = self.head(condition);
+        let rounds = self.rounds(body, info);
+        match head {
+            Some(head) => quote!(loop { #head #rounds }),
+            None => quote!(while #condition { #rounds }),
+        }
+    }
+
+    /// A condition at the start of each round: statements that break out, where it does not fit into a `while`.
+    fn head(&mut self, condition: &'p Expr) -> (Option<TokenStream>, TokenStream) {
+        let value = self.value(condition);
+        let pointer = self.pointer(&quote!(#value));
+        if pointer.is_empty() && value.before.is_empty() {
+            return (None, value.tokens);
+        }
+        let (before, unmet) = (&value.before, value.at(Precedence::Unary));
+        (Some(quote!(#pointer #before if !#unmet { break; })), TokenStream::new())
+    }
+
+    /// `loop`
+    pub(super) fn endless_loop(&mut self, body: &'p [Stmt], info: LoopInfo) -> TokenStream {
+        let rounds = self.rounds(body, info);
+        quote!(loop { #rounds })
+    }
+
+    /// A loop's body where nothing comes behind it.
+    fn rounds(&mut self, body: &'p [Stmt], info: LoopInfo) -> TokenStream {
+        let spend = spend(info);
+        let continued = flow::continues(body);
+        self.loops.push(Loop { on_break: Exit::Plain, on_continue: Exit::Plain });
+        let statements = self.block(body, Tail::Inner);
+        self.loops.pop();
+        if continued {
+            quote!(#spend #statements)
+        } else if flow::block_diverges(body) {
+            statements
+        } else {
+            quote!(#statements #spend)
+        }
+    }
+
+    /// `repeat` ... `until(c)`
+    pub(super) fn repeat_loop(&mut self, body: &'p [Stmt], until: &'p Expr, info: LoopInfo) -> TokenStream {
+        let (label, statements) = self.round_with_rest(body);
+        if flow::block_diverges(body) && !flow::continues(body) {
+            return quote!(#label loop { #statements });
+        }
+        self.stand_at(until.span);
+        let comment = self.comment(until.span);
+        let condition = self.value(until);
+        let pointer = self.pointer(&quote!(#condition));
+        let (before, met) = (&condition.before, &condition.tokens);
+        let spend = spend(info);
+        quote!(#label loop { #statements #comment #pointer #before if #met { break; } #spend })
+    }
+
+    /// The body of a loop with something behind it, and the label that the loop needs.
+    fn round_with_rest(&mut self, body: &'p [Stmt]) -> (TokenStream, TokenStream) {
+        if !flow::continues(body) {
+            self.loops.push(Loop { on_break: Exit::Plain, on_continue: Exit::Plain });
+            let statements = self.block(body, Tail::Inner);
+            self.loops.pop();
+            return (TokenStream::new(), statements);
+        }
+        let round = self.label("round");
+        let outer = flow::breaks(body).then(|| self.label("rounds"));
+        let on_break = match &outer {
+            Some(outer) => Exit::Labelled(quote!(break #outer)),
+            None => Exit::Plain,
+        };
+        self.loops.push(Loop { on_break, on_continue: Exit::Labelled(quote!(break #round)) });
+        let statements = self.block(body, Tail::Inner);
+        self.loops.pop();
+        let label = outer.map(|outer| quote!(#outer:));
+        (quote!(#label), quote!(#round: { #statements }))
+    }
+
+    /// `for(init; condition; step)`
+    pub(super) fn for_loop(&mut self, each: &'p For) -> TokenStream {
+        let visible = self.visible.len();
+        let code = match loops::range(each) {
+            Some(range) => self.range_loop(each, &range),
+            None => self.general_for(each),
+        };
+        self.visible.truncate(visible);
+        code
+    }
+
+    /// `for i in 0..10`
+    fn range_loop(&mut self, each: &'p For, range: &loops::Range<'p>) -> TokenStream {
+        let name = self.local(range.local);
+        let from = self.value(range.from);
+        let constant = loops::whole_number(range.from).is_some();
+        let to = if constant { self.typed_value(range.to) } else { self.value(range.to) };
+        let (from_before, from) = (from.before.clone(), from.at(Precedence::Or));
+        let to = to.at(Precedence::Or);
+        let to = if range.beyond { quote!(..=#to) } else { quote!(..#to) };
+        let pointer = self.pointer(&quote!(#from_before #from));
+        self.visible.push(range.local);
+        let rounds = self.rounds(&each.body, each.info);
+        quote!(#pointer #from_before for #name in #from #to { #rounds })
+    }
+
+    /// A `for` that is no range: its variables live in the block around it, or in one of their own where an outer
+    /// variable has the same name.
+    fn general_for(&mut self, each: &'p For) -> TokenStream {
+        let outer: Vec<String> = self.visible.iter().map(|id| self.local(*id).to_string()).collect();
+        let mut init = TokenStream::new();
+        let before = self.visible.len();
+        for stmt in &each.init {
+            init.extend(self.with_own_temporaries(|body| body.statement(stmt, Tail::Inner)));
+        }
+        let hides = self.visible.iter().skip(before).any(|id| outer.contains(&self.local(*id).to_string()));
+        let line = self.line;
+        let (head, condition) = match &each.condition {
+            Some(condition) if !flow::always(condition) => self.head(condition),
+            _ => (Some(TokenStream::new()), TokenStream::new()),
+        };
+        let (label, statements) = self.round_with_rest(&each.body);
+        self.line = line;
+        let reached = !flow::block_diverges(&each.body) || flow::continues(&each.body);
+        let rest = if reached {
+            let step = each.step.as_ref().map(|step| self.with_own_temporaries(|body| body.effect(step, Tail::Inner)));
+            let spend = spend(each.info);
+            quote!(#spend #step)
+        } else {
+            TokenStream::new()
+        };
+        let code = match head {
+            Some(head) => quote!(#init #label loop { #head #statements #rest }),
+            None => quote!(#init #label while #condition { #statements #rest }),
+        };
+        if hides { quote!({ #code }) } else { code }
+    }
+}
+
+/// `if cx.spend() { .. }`, where a loop has to give the cycle back by itself.
+pub(super) fn spend(info: LoopInfo) -> TokenStream {
+    if info.spends { give_back() } else { TokenStream::new() }
+}
+
+/// Gives the cycle back once the budget of rounds is used up.
+pub(super) fn give_back() -> TokenStream {
+    quote!(if cx.spend() {
+        cx.next_cycle().await;
+    })
+}

@@ -1,0 +1,211 @@
+//! Operators. Whole numbers wrap, so their arithmetic is written as methods.
+
+use super::body::Body;
+use super::consts::{constant, typed_constant};
+use super::fragment::{Fragment, Precedence};
+use super::sequence::{Mode, Operand};
+use crate::hir::{Expr, ExprKind, Root, Type, Value};
+use arl_lang::ast::{BinaryOp, UnaryOp};
+use arl_lang::catalog::Base;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+impl<'p> Body<'p, '_> {
+    /// `-x`, `!x`, `~x`
+    pub(super) fn unary(&mut self, op: UnaryOp, inner: &'p Expr) -> Fragment {
+        if op == UnaryOp::Negate && matches!(inner.ty.base, Base::Int | Base::Uint | Base::Byte) {
+            return self.typed_value(inner).map(Precedence::Postfix, |value| {
+                let value = value.receiver();
+                quote!(#value.wrapping_neg())
+            });
+        }
+        self.typed_value(inner).map(Precedence::Unary, |value| {
+            let value = value.at(Precedence::Unary);
+            if op == UnaryOp::Negate { quote!(-#value) } else { quote!(!#value) }
+        })
+    }
+
+    /// `left op right`
+    pub(super) fn binary(&mut self, op: BinaryOp, left: &'p Expr, right: &'p Expr) -> Fragment {
+        if matches!(op, BinaryOp::And | BinaryOp::Or) {
+            let (left, right) = (self.value(left), self.inline_value(right));
+            return left.map(precedence(op), |left| infix(op, left, &right));
+        }
+        if let Some(simple) = self.compared_with_bool(op, left, right) {
+            return simple;
+        }
+        let text = left.ty.base == Base::String && !left.ty.is_array();
+        if text && op == BinaryOp::Add {
+            return self.joined(left, right);
+        }
+        let mode = if text { Mode::Compared } else { Mode::Value };
+        let operands = [Operand::Expr(left, mode), Operand::Expr(right, mode)];
+        let (before, mut sides) = self.sequence(&operands, |_| false);
+        let right_side = sides.pop().unwrap_or_else(|| Fragment::settled(quote!(())));
+        let left_side = sides.pop().unwrap_or_else(|| Fragment::settled(quote!(())));
+        let left_side = match &left.kind {
+            ExprKind::Const(value) if needs_type(op) => typed_constant(value),
+            _ => left_side,
+        };
+        self.operation(op, left.ty, left_side, right_side, right).after(before)
+    }
+
+    /// The operation on operands that have been emitted; `right` is looked at for constants only.
+    pub(super) fn operation(
+        &self,
+        op: BinaryOp,
+        ty: Type,
+        left: Fragment,
+        right: Fragment,
+        right_expr: &'p Expr,
+    ) -> Fragment {
+        use BinaryOp::*;
+        let known = self.constant(right_expr);
+        let whole = matches!(ty.base, Base::Int | Base::Uint | Base::Byte);
+        let call = |name: TokenStream| {
+            let (left, right) = (&left.tokens, &right.tokens);
+            Fragment::postfix(self.checked(quote!(#name(#left, #right))))
+        };
+        let method = |name: TokenStream| {
+            let (left, right) = (left.receiver(), &right.tokens);
+            Fragment::postfix(quote!(#left.#name(#right)))
+        };
+        match op {
+            Add if whole => method(quote!(wrapping_add)),
+            Subtract if whole => method(quote!(wrapping_sub)),
+            Multiply if whole => method(quote!(wrapping_mul)),
+            Divide if whole && known == Some(&Value::Int(-1)) => method(quote!(wrapping_div)),
+            Remainder if whole && known == Some(&Value::Int(-1)) => method(quote!(wrapping_rem)),
+            Divide if whole && !known.is_some_and(is_divisor) => call(quote!(div)),
+            Remainder if whole && !known.is_some_and(is_divisor) => call(quote!(rem)),
+            Remainder if ty.base == Base::Double && !known.is_some_and(is_divisor) => call(quote!(rem_double)),
+            ShiftLeft if known.is_none() => call(quote!(shl)),
+            ShiftRight if known.is_none() => call(quote!(shr)),
+            Less | LessEqual | Greater | GreaterEqual if ty.base == Base::Uint || ty.base == Base::Byte => {
+                let upward = matches!(op, Less | GreaterEqual);
+                let (left, right) = (limit(left, ty.base, !upward), limit(right, ty.base, upward));
+                Fragment::new(infix(op, &left, &right), precedence(op))
+            }
+            _ => Fragment::new(infix(op, &left, &right), precedence(op)),
+        }
+    }
+
+    /// `x == true` is `x`, `x != true` is `!x`.
+    fn compared_with_bool(&mut self, op: BinaryOp, left: &'p Expr, right: &'p Expr) -> Option<Fragment> {
+        let (other, value) = match (&left.kind, &right.kind) {
+            (_, ExprKind::Const(Value::Bool(value))) => (left, *value),
+            (ExprKind::Const(Value::Bool(value)), _) => (right, *value),
+            _ => return None,
+        };
+        let same = match op {
+            BinaryOp::Equal => value,
+            BinaryOp::NotEqual => !value,
+            _ => return None,
+        };
+        let other = self.value(other);
+        Some(if same {
+            other
+        } else {
+            other.map(Precedence::Unary, |other| {
+                let other = other.at(Precedence::Unary);
+                quote!(!#other)
+            })
+        })
+    }
+
+    /// `a + b` of strings: the left one is copied, or was made for the purpose; the right one is looked at.
+    fn joined(&mut self, left: &'p Expr, right: &'p Expr) -> Fragment {
+        let left_mode = match text_mode(left) {
+            Mode::Reference => Mode::Reference,
+            _ => Mode::Value,
+        };
+        let operands = [Operand::Expr(left, left_mode), Operand::Expr(right, text_mode(right))];
+        let (before, sides) = self.sequence(&operands, |_| false);
+        match sides.as_slice() {
+            [left, right] => Fragment::new(infix(BinaryOp::Add, left, right), Precedence::Sum).after(before),
+            _ => constant(&Value::String("".into())),
+        }
+    }
+}
+
+/// Whether the left operand has to show its type: the receiver of a method, the first argument of a shift.
+fn needs_type(op: BinaryOp) -> bool {
+    use BinaryOp::*;
+    matches!(op, Add | Subtract | Multiply | ShiftLeft | ShiftRight)
+}
+
+/// How a string is wanted that is appended: a literal as it is, a local variable by reference.
+pub(super) fn text_mode(expr: &Expr) -> Mode {
+    match &expr.kind {
+        ExprKind::Const(Value::String(_)) => Mode::Compared,
+        ExprKind::Place(place) if matches!(place.root, Root::Local(_)) => Mode::Reference,
+        _ => Mode::Value,
+    }
+}
+
+/// Whether a number is no zero, so that dividing by it needs no check.
+fn is_divisor(value: &Value) -> bool {
+    !matches!(value, Value::Int(0) | Value::Uint(0) | Value::Byte(0)) && *value != Value::Double(0.0)
+}
+
+/// rustc warns of comparisons that a literal decides alone; a named limit says that it is meant. `least` tells whether
+/// the side is compared so with the least value, else it is with the greatest.
+fn limit(side: Fragment, base: Base, least: bool) -> Fragment {
+    let text = side.tokens.to_string();
+    let tokens = match (base, least, text.as_str()) {
+        (Base::Byte, true, "0") => quote!(u8::MIN),
+        (Base::Byte, false, "255") => quote!(u8::MAX),
+        (Base::Uint, true, "0") => quote!(u32::MIN),
+        (Base::Uint, false, "4294967295") => quote!(u32::MAX),
+        _ => return side,
+    };
+    Fragment { tokens, ..side }
+}
+
+/// How tightly an operator holds together.
+pub(super) fn precedence(op: BinaryOp) -> Precedence {
+    match op {
+        BinaryOp::Add | BinaryOp::Subtract => Precedence::Sum,
+        BinaryOp::Multiply | BinaryOp::Divide | BinaryOp::Remainder => Precedence::Product,
+        BinaryOp::ShiftLeft | BinaryOp::ShiftRight => Precedence::Shift,
+        BinaryOp::BitAnd => Precedence::BitAnd,
+        BinaryOp::BitXor => Precedence::BitXor,
+        BinaryOp::BitOr => Precedence::BitOr,
+        BinaryOp::And => Precedence::And,
+        BinaryOp::Or => Precedence::Or,
+        _ => Precedence::Compare,
+    }
+}
+
+/// `left op right`
+pub(super) fn infix(op: BinaryOp, left: &Fragment, right: &Fragment) -> TokenStream {
+    let own = precedence(op);
+    let left = left.at(if own == Precedence::Compare { own.tighter() } else { own });
+    let right = right.at(own.tighter());
+    let sign = sign(op);
+    quote!(#left #sign #right)
+}
+
+/// The operator in Rust.
+pub(super) fn sign(op: BinaryOp) -> TokenStream {
+    match op {
+        BinaryOp::Add => quote!(+),
+        BinaryOp::Subtract => quote!(-),
+        BinaryOp::Multiply => quote!(*),
+        BinaryOp::Divide => quote!(/),
+        BinaryOp::Remainder => quote!(%),
+        BinaryOp::ShiftLeft => quote!(<<),
+        BinaryOp::ShiftRight => quote!(>>),
+        BinaryOp::Less => quote!(<),
+        BinaryOp::LessEqual => quote!(<=),
+        BinaryOp::Greater => quote!(>),
+        BinaryOp::GreaterEqual => quote!(>=),
+        BinaryOp::Equal => quote!(==),
+        BinaryOp::NotEqual => quote!(!=),
+        BinaryOp::BitAnd => quote!(&),
+        BinaryOp::BitXor => quote!(^),
+        BinaryOp::BitOr => quote!(|),
+        BinaryOp::And => quote!(&&),
+        BinaryOp::Or => quote!(||),
+    }
+}

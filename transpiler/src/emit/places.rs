@@ -1,0 +1,290 @@
+//! Reading and writing variables, their components and elements.
+//!
+//! Locals are plain Rust variables. Global and system variables are `Cell`s, or `Shared` where their value is not
+//! `Copy`; handles are what they are.
+
+use super::body::Body;
+use super::fragment::{Fragment, Precedence};
+use super::operators::sign;
+use super::sequence::Operand;
+use super::types::{component, is_copy, is_handle, type_name};
+use crate::effects::facts;
+use crate::hir::{Expr, Place, Projection, Root, Type};
+use arl_lang::ast::BinaryOp;
+use arl_lang::catalog::{Base, Struct};
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::quote;
+
+/// A place whose indices have been emitted.
+#[derive(Clone, Debug)]
+pub(super) struct Reached {
+    root: Root,
+    /// The type of the whole variable.
+    whole: Type,
+    /// The type of what the path leads to.
+    pub(super) ty: Type,
+    path: Vec<Reach>,
+}
+
+/// A step of a path.
+#[derive(Clone, Debug)]
+enum Reach {
+    Field(Struct, Ident),
+    At(TokenStream),
+}
+
+/// How a variable is kept.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kept {
+    Local,
+    Handle,
+    Cell,
+    Shared,
+}
+
+/// What is written to a place.
+pub(super) enum Written {
+    /// `place = value`
+    Value(Fragment),
+    /// `place op= value` with an operator that Rust has in this form.
+    Compound(BinaryOp, Fragment),
+}
+
+impl Reached {
+    fn kept(&self) -> Kept {
+        match self.root {
+            Root::Local(_) => Kept::Local,
+            _ if is_handle(self.whole) => Kept::Handle,
+            _ if is_copy(self.whole) => Kept::Cell,
+            _ => Kept::Shared,
+        }
+    }
+
+    /// `.x[3]`
+    fn steps(&self) -> TokenStream {
+        steps(&self.path)
+    }
+}
+
+fn steps(path: &[Reach]) -> TokenStream {
+    path.iter()
+        .map(|step| match step {
+            Reach::Field(_, field) => quote!(.#field),
+            Reach::At(at) => quote!([#at]),
+        })
+        .collect()
+}
+
+impl<'p> Body<'p, '_> {
+    /// The indices of a place as operands.
+    pub(super) fn index_operands(place: &'p Place) -> Vec<Operand<'p>> {
+        place
+            .path
+            .iter()
+            .filter_map(|step| match step {
+                Projection::Index(indices, ty) => Some(Operand::Index(indices, *ty)),
+                Projection::Field(..) => None,
+            })
+            .collect()
+    }
+
+    /// A place with its indices as they were emitted.
+    pub(super) fn reached(&self, place: &Place, indices: impl IntoIterator<Item = Fragment>) -> Reached {
+        let mut indices = indices.into_iter();
+        let path = place
+            .path
+            .iter()
+            .map(|step| match step {
+                Projection::Field(id, index) => Reach::Field(*id, component(*id, *index, self.family())),
+                Projection::Index(..) => Reach::At(indices.next().map_or_else(|| quote!(0), |index| index.tokens)),
+            })
+            .collect();
+        Reached { root: place.root, whole: self.variable_type(place.root), ty: place.ty, path }
+    }
+
+    fn variable_type(&self, root: Root) -> Type {
+        let ty = match root {
+            Root::Local(id) => self.func.and_then(|func| func.locals.get(id.0 as usize)).map(|local| local.ty),
+            Root::Global(id) => self.program().globals.get(id.0 as usize).map(|global| global.ty),
+            Root::System(variable) => Type::array(variable.ty, variable.dims),
+        };
+        ty.unwrap_or(Type::scalar(Base::Void))
+    }
+
+    /// The variable itself: `count`, `g.pick.count`, `cx.system().dfspeed`.
+    fn variable(&self, root: Root) -> TokenStream {
+        match root {
+            Root::Local(id) => {
+                let name = self.local(id);
+                quote!(#name)
+            }
+            Root::Global(id) => {
+                let owner = self.program().globals.get(id.0 as usize).map_or(self.module, |global| global.module);
+                let (module, name) = (self.unit.names.module(owner), self.unit.names.global(id.0));
+                quote!(g.#module.#name)
+            }
+            Root::System(variable) => {
+                let name = super::names::field(variable.field);
+                quote!(cx.system().#name)
+            }
+        }
+    }
+
+    /// The value of a place, to keep.
+    pub(super) fn read(&mut self, place: &'p Place) -> Fragment {
+        let (before, indices) = self.sequence(&Self::index_operands(place), |_| false);
+        let reached = self.reached(place, indices);
+        self.read_reached(&reached).after(before)
+    }
+
+    /// The value of a place, to look at: no copy of what a local variable holds.
+    pub(super) fn look_at(&mut self, place: &'p Place) -> Fragment {
+        let (before, indices) = self.sequence(&Self::index_operands(place), |_| false);
+        let reached = self.reached(place, indices);
+        self.look_at_reached(&reached).after(before)
+    }
+
+    /// The value of a place whose indices are known, to keep.
+    pub(super) fn read_reached(&mut self, place: &Reached) -> Fragment {
+        match place.kept() {
+            Kept::Local => Self::owned(self.look_at_reached(place), place.ty),
+            _ => self.look_at_reached(place),
+        }
+    }
+
+    fn look_at_reached(&mut self, place: &Reached) -> Fragment {
+        let variable = self.variable(place.root);
+        let steps = place.steps();
+        let tokens = match (place.kept(), place.path.split_first()) {
+            (Kept::Local | Kept::Handle, _) => quote!(#variable #steps),
+            (Kept::Cell, _) => quote!(#variable.get()#steps),
+            (Kept::Shared, Some((Reach::At(at), rest))) => {
+                let rest = self::steps(rest);
+                quote!(#variable.item(#at)#rest)
+            }
+            (Kept::Shared, Some(_)) => {
+                let it = self.fresh("it");
+                let copy = if is_copy(place.ty) { TokenStream::new() } else { quote!(.clone()) };
+                quote!(#variable.with(|#it| #it #steps #copy))
+            }
+            (Kept::Shared, None) => quote!(#variable.get()),
+        };
+        Fragment::postfix(tokens)
+    }
+
+    /// The place itself, of a local variable.
+    pub(super) fn target(&self, place: &Reached) -> TokenStream {
+        let (variable, steps) = (self.variable(place.root), place.steps());
+        quote!(#variable #steps)
+    }
+
+    /// The handle in a place: `&timer`, `&g.pick.timers[2]`.
+    pub(super) fn handle(&mut self, place: &'p Place) -> Fragment {
+        self.look_at(place).map(Precedence::Unary, |place| {
+            let place = &place.tokens;
+            quote!(&#place)
+        })
+    }
+
+    /// The statement that writes a place whose indices are known. `calm` tells that the value may be computed while the
+    /// variable is held.
+    pub(super) fn write(&mut self, place: &Reached, written: Written, calm: bool) -> TokenStream {
+        let variable = self.variable(place.root);
+        let steps = place.steps();
+        match (place.kept(), place.path.as_slice()) {
+            (Kept::Local, _) => assign(quote!(#variable #steps), &written),
+            // The checker has no assignment to handles.
+            (Kept::Handle, _) => TokenStream::new(),
+            (Kept::Cell | Kept::Shared, []) => match written {
+                Written::Value(value) => {
+                    let (before, value) = (&value.before, &value.tokens);
+                    quote!(#before #variable.set(#value);)
+                }
+                Written::Compound(..) => self.update(place, &variable, written, calm),
+            },
+            (Kept::Shared, [Reach::At(at)]) => match written {
+                Written::Value(value) => {
+                    let (before, value) = (&value.before, &value.tokens);
+                    quote!(#before #variable.set_item(#at, #value);)
+                }
+                Written::Compound(..) => self.update(place, &variable, written, calm),
+            },
+            _ => self.update(place, &variable, written, calm),
+        }
+    }
+
+    /// `variable.update(|it| ..)`; the value is computed before, unless it has to do with locals only.
+    fn update(&mut self, place: &Reached, variable: &TokenStream, written: Written, calm: bool) -> TokenStream {
+        let (before, written) = match written {
+            Written::Value(value) => {
+                let value = if calm { value } else { self.settle(value, "value") };
+                (value.before.clone(), Written::Value(value))
+            }
+            Written::Compound(op, value) => {
+                let value = if calm { value } else { self.settle(value, "value") };
+                (value.before.clone(), Written::Compound(op, value))
+            }
+        };
+        let it = self.fresh("it");
+        let steps = place.steps();
+        if place.kept() == Kept::Shared {
+            let target = if place.path.is_empty() { quote!(*#it) } else { quote!(#it #steps) };
+            let (op, value) = match &written {
+                Written::Value(value) => (quote!(=), &value.tokens),
+                Written::Compound(op, value) => (compound_sign(*op), &value.tokens),
+            };
+            return quote!(#before #variable.update(|#it| #target #op #value););
+        }
+        let value = match &written {
+            Written::Value(value) => value.tokens.clone(),
+            Written::Compound(op, value) => {
+                let (op, value) = (sign(*op), value.at(super::operators::precedence(*op).tighter()));
+                quote!(#it #steps #op #value)
+            }
+        };
+        let value = self.rebuilt(&quote!(#it), &place.path, value);
+        quote!(#before #variable.update(|#it| #value);)
+    }
+
+    /// `Pose { x: value, ..it }`, for inner components nested.
+    fn rebuilt(&self, it: &TokenStream, path: &[Reach], value: TokenStream) -> TokenStream {
+        let Some((Reach::Field(id, field), rest)) = path.split_first() else { return value };
+        let inner = self.rebuilt(&quote!(#it.#field), rest, value);
+        let name = type_name(Base::Struct(*id), self.family());
+        quote!(#name { #field: #inner, ..#it })
+    }
+
+    /// A value on its way into a system variable that has a range.
+    pub(super) fn in_range(&self, place: &Place, value: Fragment, expr: Option<&Expr>) -> Fragment {
+        let Some((low, high)) = facts::range_check(place, expr) else { return value };
+        let (low, high) = (Literal::f64_unsuffixed(low), Literal::f64_unsuffixed(high));
+        let tokens = &value.tokens;
+        let tokens = self.checked(quote!(in_range(#tokens, #low, #high)));
+        Fragment { tokens, precedence: Precedence::Postfix, settled: false, ..value }
+    }
+}
+
+/// `place = value;` or `place += value;`
+fn assign(target: TokenStream, written: &Written) -> TokenStream {
+    let (op, value) = match written {
+        Written::Value(value) => (quote!(=), value),
+        Written::Compound(op, value) => (compound_sign(*op), value),
+    };
+    let (before, value) = (&value.before, &value.tokens);
+    quote!(#before #target #op #value;)
+}
+
+fn compound_sign(op: BinaryOp) -> TokenStream {
+    match op {
+        BinaryOp::Add => quote!(+=),
+        BinaryOp::Subtract => quote!(-=),
+        BinaryOp::Multiply => quote!(*=),
+        BinaryOp::Divide => quote!(/=),
+        BinaryOp::Remainder => quote!(%=),
+        BinaryOp::ShiftLeft => quote!(<<=),
+        BinaryOp::ShiftRight => quote!(>>=),
+        BinaryOp::BitAnd => quote!(&=),
+        BinaryOp::BitXor => quote!(^=),
+        _ => quote!(|=),
+    }
+}

@@ -1,0 +1,189 @@
+//! The file as a whole: a module for each ARL file, all variables, and what the controller runs.
+
+use super::body::{Unit, mentions};
+use super::variables::{self, Init};
+use super::{functions, names};
+use crate::hir::{FuncId, Module, ModuleId};
+use arl_lang::catalog::Family;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// What a module has.
+struct Parts {
+    id: ModuleId,
+    /// Setting first values, where there are variables.
+    init: Option<Init>,
+    /// Whether there is a `Variables` structure.
+    variables: bool,
+    /// Whether values are read again at load.
+    data: bool,
+}
+
+/// All items of the file.
+pub(super) fn items(unit: &Unit<'_>) -> TokenStream {
+    let mut modules = TokenStream::new();
+    let mut parts = Vec::new();
+    for (at, module) in unit.program.modules.iter().enumerate() {
+        let id = ModuleId(at as u32);
+        let (tokens, part) = one_module(unit, id, module);
+        modules.extend(tokens);
+        parts.push(part);
+    }
+    let globals = globals(unit, &parts);
+    let program = program(unit, &parts);
+    quote!(#modules #globals #program)
+}
+
+fn blank(unit: &Unit<'_>) -> TokenStream {
+    unit.comments.mark(String::new())
+}
+
+fn one_module(unit: &Unit<'_>, id: ModuleId, module: &Module) -> (TokenStream, Parts) {
+    let own = variables::of_module(unit, id);
+    let teachable = unit.program.globals.iter().any(|global| global.module == id && global.teachable);
+    let data = module.data && teachable;
+    let mut content = TokenStream::new();
+    let mut init = None;
+    if !own.is_empty() || data {
+        content.extend(blank(unit));
+        content.extend(variables::structure(unit, id, &own));
+    }
+    if !own.is_empty() {
+        let (code, needs) = variables::init(unit, id, &own);
+        content.extend(blank(unit));
+        content.extend(code);
+        init = Some(needs);
+    }
+    if data {
+        content.extend(blank(unit));
+        content.extend(variables::data(unit, id));
+    }
+    for (at, func) in unit.program.funcs.iter().enumerate().filter(|(_, func)| func.module == id) {
+        content.extend(blank(unit));
+        content.extend(functions::function(unit, FuncId(at as u32), func));
+    }
+    let file = &module.file;
+    let uses_globals = mentions(&content, "Globals").then(|| {
+        quote!(
+            use super::Globals;
+        )
+    });
+    let uses_prelude = names::mentions_prelude(&content).then(|| {
+        quote!(
+            use arl_rt::emit::*;
+        )
+    });
+    let names_file = mentions(&content, "FILE").then(|| {
+        let blank = blank(unit);
+        quote!(#blank const FILE: File = File::new(#file);)
+    });
+    let name = unit.names.module(id);
+    let doc = format!(" `{file}`");
+    let between = blank(unit);
+    let parts = Parts { id, init, variables: !own.is_empty() || data, data };
+    let tokens = quote! {
+        #[doc = #doc]
+        pub mod #name {
+            #uses_globals
+            #uses_prelude
+            #names_file
+            #content
+        }
+        #between
+    };
+    (tokens, parts)
+}
+
+/// `pub struct Globals { .. }`
+fn globals(unit: &Unit<'_>, parts: &[Parts]) -> TokenStream {
+    let with: Vec<_> = parts.iter().filter(|part| part.variables).map(|part| unit.names.module(part.id)).collect();
+    let blank = blank(unit);
+    quote! {
+        /// All global variables of the program.
+        #[derive(Default)]
+        pub struct Globals {
+            #(pub #with: #with::Variables),*
+        }
+        #blank
+        impl Globals {
+            /// All variables with their start values.
+            pub fn new() -> Self {
+                Self::default()
+            }
+        }
+    }
+}
+
+/// `impl arl_rt::Program for Globals`
+fn program(unit: &Unit<'_>, parts: &[Parts]) -> TokenStream {
+    let Some(main) = unit.program.main else { return TokenStream::new() };
+    let Some(func) = unit.program.funcs.get(main.0 as usize) else { return TokenStream::new() };
+    let file = unit.program.modules.get(func.module.0 as usize).map_or("", |module| module.file.as_str());
+    let family = match unit.program.family {
+        Family::SixAxis => quote!(SixAxis),
+        Family::Scara => quote!(Scara),
+    };
+    let inits: TokenStream = order_of_init(unit, parts)
+        .into_iter()
+        .filter_map(|part| {
+            let module = unit.names.module(part.id);
+            Some(variables::init_call(&quote!(#module::Variables), "init", part.init?))
+        })
+        .collect();
+    let init = future(quote!(#inits Ok(())));
+    let (module, name, effects) = (unit.names.module(func.module), unit.names.func(main.0), func.effects);
+    let cx = effects.context.then(|| quote!(cx,));
+    let g = effects.globals.then(|| quote!(g,));
+    let wait = effects.waits.then(|| quote!(.await));
+    let call = quote!(#module::#name(#cx #g)#wait);
+    let main = future(if effects.fails { call } else { quote!(#call; Ok(())) });
+    let data: Vec<_> = parts.iter().filter(|part| part.data).map(|part| unit.names.module(part.id)).collect();
+    let data = (!data.is_empty()).then(|| {
+        quote! {
+            fn data(&self) -> Vec<arl_rt::emit::DataFile<'_>> {
+                vec![#(self.#data.data()),*]
+            }
+        }
+    });
+    let (init_cx, init_body) = init;
+    let (main_cx, main_body) = main;
+    let blank = blank(unit);
+    quote! {
+        #blank
+        impl arl_rt::Program for Globals {
+            fn file(&self) -> arl_rt::emit::File {
+                arl_rt::emit::File::new(#file)
+            }
+            fn family(&self) -> arl_rt::emit::Family {
+                arl_rt::emit::Family::#family
+            }
+            fn init<'a>(&'a self, #init_cx: &'a arl_rt::emit::Cx) -> arl_rt::emit::BoxFuture<'a> {
+                #init_body
+            }
+            fn main<'a>(&'a self, #main_cx: &'a arl_rt::emit::Cx) -> arl_rt::emit::BoxFuture<'a> {
+                #main_body
+            }
+            #data
+        }
+    }
+}
+
+/// The modules in the order in which their variables get their first values.
+fn order_of_init<'a>(unit: &Unit<'_>, parts: &'a [Parts]) -> Vec<&'a Parts> {
+    let mut order: Vec<&Parts> = Vec::new();
+    for global in &unit.program.globals {
+        if let Some(part) = parts.iter().find(|part| part.id == global.module)
+            && !order.iter().any(|seen| seen.id == part.id)
+        {
+            order.push(part);
+        }
+    }
+    order
+}
+
+/// `Box::pin(async move { .. })`, with the name that the context has: `_cx` where it is not used.
+fn future(code: TokenStream) -> (TokenStream, TokenStream) {
+    let cx = if mentions(&code, "cx") { quote!(cx) } else { quote!(_cx) };
+    let g = mentions(&code, "g").then(|| quote!(let g = self;));
+    (cx, quote!(Box::pin(async move { #g #code })))
+}

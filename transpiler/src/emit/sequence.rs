@@ -1,0 +1,94 @@
+//! Operands in order: ARL evaluates from left to right, also where Rust would not.
+//!
+//! An operand may need statements in front of the expression (an assignment inside it, say). They would run before the
+//! operands to its left, so those go into temporaries wherever that could be noticed.
+
+use super::body::Body;
+use super::fragment::{Fragment, Precedence};
+use crate::effects::facts::{self, Facts};
+use crate::hir::{Expr, Type};
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// How a value is wanted.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Mode {
+    /// To keep.
+    Value,
+    /// As `&T`.
+    Reference,
+    /// As `&dyn Print`.
+    Printed,
+    /// As a side of a comparison, which only looks at it.
+    Compared,
+}
+
+/// Something that is evaluated in its turn.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Operand<'p> {
+    /// An expression.
+    Expr(&'p Expr, Mode),
+    /// Indices into an array of this type, together one `usize`.
+    Index(&'p [Expr], Type),
+}
+
+impl<'p> Body<'p, '_> {
+    /// Evaluates operands in order. Returns the statements that go first, and the expressions. Where `settle` says so,
+    /// an operand goes into a temporary unless it is constant.
+    pub(super) fn sequence(
+        &mut self,
+        operands: &[Operand<'p>],
+        settle: impl Fn(usize) -> bool,
+    ) -> (TokenStream, Vec<Fragment>) {
+        let mut fragments: Vec<Fragment> = operands.iter().map(|operand| self.operand(*operand)).collect();
+        let moved = |at: usize, fragment: &Fragment| !fragment.before.is_empty() || (settle(at) && !fragment.settled);
+        let last = fragments.iter().enumerate().rposition(|(at, fragment)| moved(at, fragment));
+        let mut before = TokenStream::new();
+        for (at, operand) in operands.iter().enumerate() {
+            let Some(fragment) = fragments.get_mut(at) else { continue };
+            let rest = operands.get(at + 1..=last.unwrap_or(0)).unwrap_or(&[]);
+            let disturbed = || {
+                let own = self.operand_facts(operand);
+                rest.iter().any(|later| own.disturbed_by(&self.operand_facts(later)))
+            };
+            if !fragment.settled && (settle(at) || (Some(at) < last && disturbed())) {
+                *fragment = self.settled_operand(*operand, std::mem::replace(fragment, Fragment::settled(quote!(()))));
+            }
+            before.extend(std::mem::take(&mut fragment.before));
+        }
+        (before, fragments)
+    }
+
+    fn operand(&mut self, operand: Operand<'p>) -> Fragment {
+        match operand {
+            Operand::Expr(expr, mode) => self.expression(expr, mode),
+            Operand::Index(indices, ty) => self.index(indices, ty),
+        }
+    }
+
+    fn settled_operand(&mut self, operand: Operand<'p>, fragment: Fragment) -> Fragment {
+        match operand {
+            Operand::Index(..) => self.settle(fragment, "at"),
+            Operand::Expr(_, Mode::Value) => self.settle(fragment, "value"),
+            Operand::Expr(expr, mode) => {
+                let value = self.expression(expr, Mode::Value);
+                let value = self.settle(value, "value");
+                match mode {
+                    Mode::Reference | Mode::Printed => value.map(Precedence::Unary, |value| {
+                        let value = value.at(Precedence::Unary);
+                        quote!(&#value)
+                    }),
+                    Mode::Value | Mode::Compared => value,
+                }
+            }
+        }
+    }
+
+    /// What evaluating an operand involves.
+    pub(super) fn operand_facts(&self, operand: &Operand<'p>) -> Facts {
+        match operand {
+            Operand::Expr(expr, _) => self.facts(expr),
+            Operand::Index(indices, _) => facts::of_indices(self.program(), self.func, indices),
+        }
+    }
+}

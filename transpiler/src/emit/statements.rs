@@ -1,0 +1,228 @@
+//! Statements and blocks.
+
+use super::body::{Body, Exit};
+use super::fragment::Fragment;
+use super::switch;
+use super::types::{rust_type, start_value};
+use super::waiting::ending;
+use crate::effects::flow;
+use crate::hir::{Expr, ExprKind, LocalId, Stmt, StmtKind, Type, Value};
+use arl_lang::catalog::Base;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// Whether a block is the end of the function, so that its last statement gives the result.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Tail {
+    /// What comes behind the block runs afterwards.
+    Inner,
+    /// Nothing comes behind it.
+    Function,
+}
+
+impl<'p> Body<'p, '_> {
+    /// The statements of a block, as a scope.
+    pub(super) fn block(&mut self, block: &'p [Stmt], tail: Tail) -> TokenStream {
+        let visible = self.visible.len();
+        let statements = flow::reachable(block);
+        let last = statements.len().saturating_sub(1);
+        let mut out = TokenStream::new();
+        for (at, stmt) in statements.into_iter().enumerate() {
+            let tail = if at == last { tail } else { Tail::Inner };
+            out.extend(self.statement(stmt, tail));
+        }
+        self.visible.truncate(visible);
+        out
+    }
+
+    /// One statement with its comment.
+    pub(super) fn statement(&mut self, stmt: &'p Stmt, tail: Tail) -> TokenStream {
+        self.with_own_temporaries(|body| {
+            body.stand_at(stmt.span);
+            let comment = body.comment(stmt.span);
+            let code = body.bare_statement(stmt, tail);
+            quote!(#comment #code)
+        })
+    }
+
+    fn bare_statement(&mut self, stmt: &'p Stmt, tail: Tail) -> TokenStream {
+        match &stmt.kind {
+            StmtKind::Let(id, value) => self.declaration(*id, value.as_ref()),
+            StmtKind::Eval(expr) => self.effect(expr, tail),
+            StmtKind::If(arms, otherwise) => self.branches(arms, otherwise.as_deref(), tail_of(stmt, tail)),
+            StmtKind::While(condition, body, info) => self.while_loop(condition, body, *info),
+            StmtKind::Repeat(body, until, info) => self.repeat_loop(body, until, *info),
+            StmtKind::Loop(body, info) => self.endless_loop(body, *info),
+            StmtKind::For(each) => self.for_loop(each),
+            StmtKind::Switch(subject, arms) => self.switch(subject, arms, tail_of(stmt, tail)),
+            StmtKind::Break => self.leave(true),
+            StmtKind::Continue => self.leave(false),
+            StmtKind::Goto(label) => self.goto(*label, stmt.span),
+            // Labels that a `goto` names are states of the machine; others have been dropped.
+            StmtKind::Label(_) => TokenStream::new(),
+            StmtKind::Return(value) => self.return_statement(value.as_ref(), tail),
+        }
+    }
+
+    /// `let x = value;`
+    fn declaration(&mut self, id: LocalId, value: Option<&'p Expr>) -> TokenStream {
+        let Some(local) = self.func.and_then(|func| func.locals.get(id.0 as usize)) else { return TokenStream::new() };
+        if local.constant && local.value.is_some() && !self.usage.is_read(id) {
+            return TokenStream::new();
+        }
+        let (name, family) = (self.local(id), self.family());
+        let given = value.map(|value| self.value(value));
+        let before = given.as_ref().map(|value| value.before.clone());
+        let start = start_value(local.ty, family);
+        let tokens = given.as_ref().map_or(&start, |value| &value.tokens);
+        self.visible.push(id);
+        let code = if self.is_hoisted(id) {
+            quote!(#name = #tokens;)
+        } else if self.usage.is_late(id) {
+            let (mutable, ty) = (self.mutable(id), rust_type(local.ty, family));
+            quote!(let #mutable #name: #ty;)
+        } else {
+            let mutable = self.mutable(id);
+            let ty = needs_annotation(local.ty, value).then(|| {
+                let ty = rust_type(local.ty, family);
+                quote!(: #ty)
+            });
+            quote!(let #mutable #name #ty = #tokens;)
+        };
+        let pointer = self.pointer(&quote!(#before #code));
+        quote!(#pointer #before #code)
+    }
+
+    /// `mut` where the variable changes.
+    pub(super) fn mutable(&self, id: LocalId) -> TokenStream {
+        if self.usage.is_mutable(id) { quote!(mut) } else { TokenStream::new() }
+    }
+
+    /// An expression for what it does.
+    pub(super) fn effect(&mut self, expr: &'p Expr, tail: Tail) -> TokenStream {
+        if let ExprKind::Builtin(builtin) = &expr.kind
+            && flow::ends(expr)
+        {
+            let stop = ending(builtin);
+            return if tail == Tail::Function { quote!(Err(#stop)) } else { quote!(return Err(#stop);) };
+        }
+        let code = match &expr.kind {
+            ExprKind::Assign(_) | ExprKind::AssignOp(..) | ExprKind::Step(..) => self.assignment(expr),
+            ExprKind::Call(..) | ExprKind::Builtin(_) => {
+                let Fragment { before, tokens, settled, .. } = self.value(expr);
+                // What is settled has been computed before; a result that nobody wants is left.
+                match settled {
+                    false => quote!(#before #tokens;),
+                    true if is_unit(&tokens) => before,
+                    true => quote!(#before let _ = #tokens;),
+                }
+            }
+            ExprKind::Const(_) => TokenStream::new(),
+            _ => {
+                let Fragment { before, tokens, .. } = self.value(expr);
+                quote!(#before let _ = #tokens;)
+            }
+        };
+        let pointer = self.pointer(&code);
+        quote!(#pointer #code)
+    }
+
+    /// `if`, `else if`, `else`
+    fn branches(&mut self, arms: &'p [(Expr, Vec<Stmt>)], otherwise: Option<&'p [Stmt]>, tail: Tail) -> TokenStream {
+        let mut out = TokenStream::new();
+        for (at, (condition, block)) in arms.iter().enumerate() {
+            self.stand_at(condition.span);
+            let value = self.value(condition);
+            let value = if at == 0 {
+                let pointer = self.pointer(&quote!(#value));
+                let before = &value.before;
+                out = quote!(#pointer #before);
+                Fragment { before: TokenStream::new(), ..value }
+            } else {
+                value.inline()
+            };
+            let condition = &value.tokens;
+            let block = self.block(block, tail);
+            let otherwise = (at > 0).then(|| quote!(else));
+            out.extend(quote!(#otherwise if #condition { #block }));
+        }
+        if let Some(block) = otherwise {
+            let block = self.block(block, tail);
+            out.extend(quote!(else { #block }));
+        }
+        out
+    }
+
+    /// `break`, `continue`
+    fn leave(&mut self, breaks: bool) -> TokenStream {
+        let Some(innermost) = self.loops.last() else { return TokenStream::new() };
+        let exit = if breaks { &innermost.on_break } else { &innermost.on_continue };
+        match exit.clone() {
+            Exit::Plain if breaks => quote!(break;),
+            Exit::Plain => quote!(continue;),
+            Exit::Labelled(how) => quote!(#how;),
+            Exit::State(state) => self.jump(state),
+        }
+    }
+
+    /// `return`
+    fn return_statement(&mut self, value: Option<&'p Expr>, tail: Tail) -> TokenStream {
+        let moved = value.and_then(|value| self.moved_local(value));
+        let value = match moved {
+            Some(name) => Some(Fragment::postfix(name)),
+            None => value.map(|value| self.value(value)),
+        };
+        let before = value.as_ref().map(|value| value.before.clone());
+        let result = self.result(value.map(|value| value.tokens));
+        let code = match (tail, result) {
+            (Tail::Function, Some(result)) => quote!(#before #result),
+            (Tail::Function, None) => quote!(#before),
+            (Tail::Inner, Some(result)) => quote!(#before return #result;),
+            (Tail::Inner, None) => quote!(#before return;),
+        };
+        let pointer = self.pointer(&code);
+        quote!(#pointer #code)
+    }
+
+    /// A returned local variable is moved out, not copied.
+    fn moved_local(&self, value: &Expr) -> Option<TokenStream> {
+        let ExprKind::Place(place) = &value.kind else { return None };
+        let crate::hir::Root::Local(id) = place.root else { return None };
+        let name = self.local(id);
+        place.path.is_empty().then(|| quote!(#name))
+    }
+
+    /// What the function returns with this value: `value`, `Ok(value)`, `Ok(())`, or nothing.
+    pub(super) fn result(&self, value: Option<TokenStream>) -> Option<TokenStream> {
+        let fails = self.func.is_some_and(|func| func.effects.fails);
+        match (fails, value) {
+            (true, Some(value)) => Some(quote!(Ok(#value))),
+            (true, None) => Some(quote!(Ok(()))),
+            (false, value) => value,
+        }
+    }
+
+    /// What the function returns where its end is reached.
+    pub(super) fn end_result(&self) -> Option<TokenStream> {
+        let result = self.func.map_or(Base::Void, |func| func.result);
+        let value = (result != Base::Void).then(|| start_value(Type::scalar(result), self.family()));
+        self.result(value)
+    }
+}
+
+fn is_unit(tokens: &TokenStream) -> bool {
+    tokens.to_string().replace(' ', "") == "()"
+}
+
+/// Statements that end in the same way in all branches give the function's result as an expression.
+fn tail_of(stmt: &Stmt, tail: Tail) -> Tail {
+    if tail == Tail::Function && flow::diverges(stmt) && switch::is_plain(stmt) { Tail::Function } else { Tail::Inner }
+}
+
+/// Whether the type does not show in the value: `let x: i32 = 0`.
+fn needs_annotation(ty: Type, value: Option<&Expr>) -> bool {
+    let number = matches!(ty.base, Base::Int | Base::Uint | Base::Byte) && !ty.is_array();
+    number
+        && value
+            .is_none_or(|value| matches!(value.kind, ExprKind::Const(Value::Int(_) | Value::Uint(_) | Value::Byte(_))))
+}

@@ -1,0 +1,166 @@
+//! How the locals of a function are used, so that the emitted variables are `mut`, initialised and named as rustc likes
+//! them: a value that nobody reads is not assigned at the declaration, a variable that nobody reads has a `_` in front.
+
+use super::usage_graph::{Graph, Site};
+use crate::effects::facts::children;
+use crate::effects::{flow, loops};
+use crate::hir::{Expr, ExprKind, Func, LocalId, Passed, Place, Projection, Root, Stmt, StmtKind};
+
+/// How a local is used.
+#[derive(Clone, Copy, Default, Debug)]
+struct Local {
+    /// Its value is wanted somewhere.
+    read: bool,
+    /// It is written (also in part) after its declaration.
+    written: bool,
+    /// Its first value is never wanted: `let x: i32;`.
+    late: bool,
+    /// It is assigned although it may have been already, after a declaration without value.
+    again: bool,
+}
+
+/// The findings about all locals of a function.
+#[derive(Default, Debug)]
+pub(super) struct Usage {
+    locals: Vec<Local>,
+    /// Whether values are assigned that nobody reads.
+    pub(super) wastes: bool,
+}
+
+impl Usage {
+    /// Looks through a function.
+    pub(super) fn of_function(func: &Func) -> Self {
+        let mut usage = Self { locals: vec![Local::default(); func.locals.len()], wastes: false };
+        usage.block(&func.body);
+        if func.has_goto {
+            usage.wastes = !func.locals.is_empty();
+            return usage;
+        }
+        let Some(graph) = Graph::of_function(func) else {
+            usage.wastes = true;
+            return usage;
+        };
+        for (id, site) in graph.wasted() {
+            let Some(local) = usage.locals.get_mut(id.0 as usize) else { continue };
+            match site {
+                Site::Declaration if local.read => local.late = true,
+                Site::Declaration => {}
+                Site::Other => usage.wastes |= local.read,
+            }
+        }
+        let late = |id: LocalId| usage.locals.get(id.0 as usize).is_some_and(|local| local.late);
+        for id in graph.assigned_again(&late) {
+            if let Some(local) = usage.locals.get_mut(id.0 as usize) {
+                local.again = true;
+            }
+        }
+        usage
+    }
+
+    fn get(&self, id: LocalId) -> Local {
+        self.locals.get(id.0 as usize).copied().unwrap_or_default()
+    }
+
+    /// Whether somebody wants its value.
+    pub(super) fn is_read(&self, id: LocalId) -> bool {
+        self.get(id).read
+    }
+
+    /// Whether it has to be `mut`.
+    pub(super) fn is_mutable(&self, id: LocalId) -> bool {
+        let local = self.get(id);
+        if local.late { local.again } else { local.written }
+    }
+
+    /// Whether it is declared without a value.
+    pub(super) fn is_late(&self, id: LocalId) -> bool {
+        self.get(id).late
+    }
+
+    fn mark(&mut self, place: &Place, change: impl FnOnce(&mut Local)) {
+        if let Root::Local(id) = place.root
+            && let Some(local) = self.locals.get_mut(id.0 as usize)
+        {
+            change(local);
+        }
+    }
+
+    fn block(&mut self, block: &[Stmt]) {
+        for stmt in flow::reachable(block) {
+            self.stmt(stmt);
+        }
+    }
+
+    fn stmt(&mut self, stmt: &Stmt) {
+        match &stmt.kind {
+            StmtKind::Eval(expr) => self.effect(expr),
+            StmtKind::For(each) => {
+                if let Some(range) = loops::range(each) {
+                    self.expr(range.from);
+                    self.expr(range.to);
+                } else {
+                    self.block(&each.init);
+                    each.condition.iter().for_each(|condition| self.expr(condition));
+                    each.step.iter().for_each(|step| self.effect(step));
+                }
+                self.block(&each.body);
+            }
+            _ => {
+                flow::expressions(stmt).into_iter().for_each(|expr| self.expr(expr));
+                flow::blocks(stmt).into_iter().for_each(|block| self.block(block));
+            }
+        }
+    }
+
+    /// An expression whose value nobody wants: what it assigns to is not read by that.
+    fn effect(&mut self, expr: &Expr) {
+        match &expr.kind {
+            ExprKind::Assign(sides) | ExprKind::AssignOp(_, sides) => {
+                self.mark(&sides.0, |local| local.written = true);
+                indices(&sides.0).for_each(|index| self.expr(index));
+                self.expr(&sides.1);
+            }
+            ExprKind::Step(_, place) => {
+                self.mark(place, |local| local.written = true);
+                indices(place).for_each(|index| self.expr(index));
+            }
+            _ => self.expr(expr),
+        }
+    }
+
+    fn expr(&mut self, expr: &Expr) {
+        match &expr.kind {
+            ExprKind::Place(place) => self.mark(place, |local| local.read = true),
+            ExprKind::Assign(sides) | ExprKind::AssignOp(_, sides) => self.used_and_written(&sides.0),
+            ExprKind::Step(_, place) => self.used_and_written(place),
+            ExprKind::Builtin(builtin) => {
+                for arg in &builtin.args {
+                    if let Passed::Out(place) = &arg.value {
+                        let handle = super::types::is_handle(place.ty);
+                        self.mark(place, |local| {
+                            local.read = true;
+                            local.written |= !handle;
+                        });
+                    }
+                }
+            }
+            _ => {}
+        }
+        children(expr).into_iter().for_each(|child| self.expr(child));
+    }
+
+    fn used_and_written(&mut self, place: &Place) {
+        self.mark(place, |local| {
+            local.read = true;
+            local.written = true;
+        });
+    }
+}
+
+/// The index expressions of a place.
+pub(super) fn indices(place: &Place) -> impl Iterator<Item = &Expr> {
+    place.path.iter().flat_map(|step| match step {
+        Projection::Index(indices, _) => indices.as_slice(),
+        Projection::Field(..) => &[],
+    })
+}

@@ -1,0 +1,432 @@
+//! The reads and writes of a function's locals along its flow of control, to find values that nobody reads.
+//!
+//! The graph follows the emitted code: what rustc finds out about assignments, it should find out, too. Functions with
+//! `goto` are left out, as their states hide the flow from rustc.
+
+use super::usage::indices;
+use crate::effects::facts::children;
+use crate::effects::{flow, loops};
+use crate::hir::{Expr, ExprKind, Func, LocalId, Passed, Place, Root, Stmt, StmtKind};
+use arl_lang::ast::BinaryOp;
+
+/// More bits than this for one analysis are not worth it.
+const MOST_BITS: usize = 1 << 26;
+
+/// What kind of write.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Site {
+    /// The declaration, with no value or a constant one.
+    Declaration,
+    /// Any other, parameters included.
+    Other,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Op {
+    Read(LocalId),
+    Write(LocalId, Site),
+    /// The declaration that is no write: the variable starts anew.
+    Fresh(LocalId),
+}
+
+/// Operations that run one after the other.
+#[derive(Default, Debug)]
+struct Node {
+    ops: Vec<Op>,
+    next: Vec<usize>,
+}
+
+/// The flow of a function.
+#[derive(Debug)]
+pub(super) struct Graph {
+    nodes: Vec<Node>,
+    words: usize,
+}
+
+impl Graph {
+    /// The graph of a function; `None` where it would be too large.
+    pub(super) fn of_function(func: &Func) -> Option<Graph> {
+        let mut builder = Builder { nodes: vec![Node::default()], current: Some(0), loops: Vec::new() };
+        for param in &func.params {
+            builder.op(Op::Write(*param, Site::Other));
+        }
+        builder.block(&func.body);
+        let words = func.locals.len().div_ceil(64);
+        let bits = builder.nodes.len().saturating_mul(func.locals.len());
+        (bits <= MOST_BITS).then_some(Graph { nodes: builder.nodes, words })
+    }
+
+    /// The writes whose value is never read.
+    pub(super) fn wasted(&self) -> Vec<(LocalId, Site)> {
+        let live = self.live_at_start();
+        let mut found = Vec::new();
+        for node in &self.nodes {
+            let mut set = self.live_at_end(node, &live);
+            for op in node.ops.iter().rev() {
+                if let Op::Write(id, site) = op
+                    && !set.contains(*id)
+                {
+                    found.push((*id, *site));
+                }
+                set.before(*op);
+            }
+        }
+        found
+    }
+
+    fn live_at_end(&self, node: &Node, live: &[Set]) -> Set {
+        let mut set = Set::new(self.words);
+        for next in node.next.iter().filter_map(|next| live.get(*next)) {
+            set.add_all(next);
+        }
+        set
+    }
+
+    fn live_at_start(&self) -> Vec<Set> {
+        let mut live = vec![Set::new(self.words); self.nodes.len()];
+        let mut changed = true;
+        while changed {
+            changed = false;
+            for (at, node) in self.nodes.iter().enumerate().rev() {
+                let mut set = self.live_at_end(node, &live);
+                node.ops.iter().rev().for_each(|op| set.before(*op));
+                if let Some(old) = live.get_mut(at)
+                    && *old != set
+                {
+                    *old = set;
+                    changed = true;
+                }
+            }
+        }
+        live
+    }
+
+    /// Of the `late` locals, those that are assigned where they may have been before.
+    pub(super) fn assigned_again(&self, late: &dyn Fn(LocalId) -> bool) -> Vec<LocalId> {
+        let mut assigned = vec![Set::new(self.words); self.nodes.len()];
+        let mut found = Vec::new();
+        let mut changed = true;
+        while changed {
+            changed = false;
+            found.clear();
+            for (at, node) in self.nodes.iter().enumerate() {
+                let Some(mut set) = assigned.get(at).cloned() else { continue };
+                for op in &node.ops {
+                    match op {
+                        Op::Write(id, Site::Other) if late(*id) => {
+                            if set.contains(*id) {
+                                found.push(*id);
+                            }
+                            set.add(*id);
+                        }
+                        Op::Write(id, Site::Declaration) | Op::Fresh(id) => set.remove(*id),
+                        Op::Write(..) | Op::Read(_) => {}
+                    }
+                }
+                for next in &node.next {
+                    if let Some(start) = assigned.get_mut(*next) {
+                        changed |= start.add_all(&set);
+                    }
+                }
+            }
+        }
+        found
+    }
+}
+
+/// A set of locals.
+#[derive(Clone, PartialEq, Eq, Debug)]
+struct Set(Vec<u64>);
+
+impl Set {
+    fn new(words: usize) -> Self {
+        Self(vec![0; words])
+    }
+
+    fn contains(&self, id: LocalId) -> bool {
+        self.0.get(id.0 as usize / 64).is_some_and(|word| word & (1 << (id.0 % 64)) != 0)
+    }
+
+    fn add(&mut self, id: LocalId) {
+        if let Some(word) = self.0.get_mut(id.0 as usize / 64) {
+            *word |= 1 << (id.0 % 64);
+        }
+    }
+
+    fn remove(&mut self, id: LocalId) {
+        if let Some(word) = self.0.get_mut(id.0 as usize / 64) {
+            *word &= !(1 << (id.0 % 64));
+        }
+    }
+
+    /// Adds a set; whether that changed something.
+    fn add_all(&mut self, other: &Set) -> bool {
+        let mut changed = false;
+        for (word, more) in self.0.iter_mut().zip(&other.0) {
+            changed |= *more & !*word != 0;
+            *word |= more;
+        }
+        changed
+    }
+
+    /// What is live before an operation, given what is live after it.
+    fn before(&mut self, op: Op) {
+        match op {
+            Op::Read(id) => self.add(id),
+            Op::Write(id, _) | Op::Fresh(id) => self.remove(id),
+        }
+    }
+}
+
+struct Loop {
+    breaks: Vec<usize>,
+    continues: usize,
+}
+
+struct Builder {
+    nodes: Vec<Node>,
+    /// The node that grows; none behind a jump.
+    current: Option<usize>,
+    loops: Vec<Loop>,
+}
+
+impl Builder {
+    fn op(&mut self, op: Op) {
+        if let Some(node) = self.current.and_then(|at| self.nodes.get_mut(at)) {
+            node.ops.push(op);
+        }
+    }
+
+    fn node(&mut self) -> usize {
+        self.nodes.push(Node::default());
+        self.nodes.len() - 1
+    }
+
+    fn link(&mut self, from: Option<usize>, to: usize) {
+        if let Some(node) = from.and_then(|at| self.nodes.get_mut(at)) {
+            node.next.push(to);
+        }
+    }
+
+    /// Goes on in a new node that follows all of these.
+    fn join(&mut self, ends: impl IntoIterator<Item = Option<usize>>) {
+        let node = self.node();
+        let mut reached = false;
+        for end in ends {
+            self.link(end, node);
+            reached |= end.is_some();
+        }
+        self.current = reached.then_some(node);
+    }
+
+    /// Starts a new node behind the current one.
+    fn step(&mut self) -> usize {
+        let (from, node) = (self.current, self.node());
+        self.link(from, node);
+        self.current = from.map(|_| node);
+        node
+    }
+
+    fn block(&mut self, block: &[Stmt]) {
+        for stmt in flow::reachable(block) {
+            self.stmt(stmt);
+        }
+    }
+
+    fn stmt(&mut self, stmt: &Stmt) {
+        match &stmt.kind {
+            StmtKind::Let(id, value) => {
+                value.iter().for_each(|value| self.expr(value, true));
+                let plain = value.as_ref().is_none_or(|value| matches!(value.kind, ExprKind::Const(_)));
+                self.op(Op::Write(*id, if plain { Site::Declaration } else { Site::Other }));
+            }
+            StmtKind::Eval(expr) => {
+                self.expr(expr, false);
+                if flow::ends(expr) {
+                    self.current = None;
+                }
+            }
+            StmtKind::If(arms, otherwise) => {
+                let mut ends = Vec::new();
+                for (condition, block) in arms {
+                    self.expr(condition, true);
+                    let from = self.current;
+                    self.step();
+                    self.block(block);
+                    ends.push(self.current);
+                    self.current = from;
+                    self.step();
+                }
+                otherwise.iter().for_each(|block| self.block(block));
+                ends.push(self.current);
+                self.join(ends);
+            }
+            StmtKind::Switch(subject, arms) => {
+                self.expr(subject, true);
+                let from = self.current;
+                let mut ends = Vec::new();
+                for arm in arms {
+                    self.current = from;
+                    self.step();
+                    self.block(&arm.body);
+                    ends.push(self.current);
+                }
+                if !flow::exhaustive(subject, arms.iter().map(|arm| arm.value.as_ref())) {
+                    ends.push(from);
+                }
+                self.join(ends);
+            }
+            StmtKind::While(condition, body, _) => {
+                let head = self.step();
+                self.expr(condition, true);
+                let out = if flow::always(condition) { None } else { self.current };
+                self.step();
+                self.round(body, head, head, out);
+            }
+            StmtKind::Loop(body, _) => {
+                let head = self.step();
+                self.round(body, head, head, None);
+            }
+            StmtKind::Repeat(body, until, _) => self.repeat(body, until),
+            StmtKind::For(each) => match loops::range(each) {
+                Some(range) => {
+                    self.expr(range.from, true);
+                    self.expr(range.to, true);
+                    let head = self.step();
+                    let out = self.current;
+                    self.step();
+                    self.op(Op::Fresh(range.local));
+                    self.round(&each.body, head, head, out);
+                }
+                None => self.general_for(each),
+            },
+            StmtKind::Return(value) => {
+                value.iter().for_each(|value| self.expr(value, true));
+                self.current = None;
+            }
+            StmtKind::Break => {
+                let from = self.current.take();
+                if let (Some(from), Some(innermost)) = (from, self.loops.last_mut()) {
+                    innermost.breaks.push(from);
+                }
+            }
+            StmtKind::Continue => {
+                let (from, to) = (self.current.take(), self.loops.last().map(|innermost| innermost.continues));
+                if let Some(to) = to {
+                    self.link(from, to);
+                }
+            }
+            StmtKind::Goto(_) | StmtKind::Label(_) => {}
+        }
+    }
+
+    /// The body of a loop from the current node; afterwards the way out.
+    fn round(&mut self, body: &[Stmt], back: usize, continues: usize, out: Option<usize>) {
+        self.loops.push(Loop { breaks: Vec::new(), continues });
+        self.block(body);
+        let end = self.current;
+        self.link(end, back);
+        let breaks = self.loops.pop().map_or_else(Vec::new, |done| done.breaks);
+        self.join(std::iter::once(out).chain(breaks.into_iter().map(Some)));
+    }
+
+    fn repeat(&mut self, body: &[Stmt], until: &Expr) {
+        let head = self.step();
+        let test = self.node();
+        self.loops.push(Loop { breaks: Vec::new(), continues: test });
+        self.block(body);
+        let end = self.current;
+        self.link(end, test);
+        self.current = Some(test);
+        self.expr(until, true);
+        let out = self.current;
+        self.link(out, head);
+        let breaks = self.loops.pop().map_or_else(Vec::new, |done| done.breaks);
+        self.join(std::iter::once(out).chain(breaks.into_iter().map(Some)));
+    }
+
+    fn general_for(&mut self, each: &crate::hir::For) {
+        self.block(&each.init);
+        let head = self.step();
+        each.condition.iter().for_each(|condition| self.expr(condition, true));
+        let out = if each.condition.as_ref().is_none_or(flow::always) { None } else { self.current };
+        self.step();
+        let next = self.node();
+        self.loops.push(Loop { breaks: Vec::new(), continues: next });
+        self.block(&each.body);
+        let end = self.current;
+        self.link(end, next);
+        self.current = Some(next);
+        each.step.iter().for_each(|step| self.expr(step, false));
+        let back = self.current;
+        self.link(back, head);
+        let breaks = self.loops.pop().map_or_else(Vec::new, |done| done.breaks);
+        self.join(std::iter::once(out).chain(breaks.into_iter().map(Some)));
+    }
+
+    /// An expression in the order of its evaluation; `wanted` tells whether its value is used.
+    fn expr(&mut self, expr: &Expr, wanted: bool) {
+        match &expr.kind {
+            ExprKind::Place(place) => {
+                self.indices(place);
+                self.read(place);
+            }
+            ExprKind::Binary(BinaryOp::And | BinaryOp::Or, sides) => {
+                self.expr(&sides.0, true);
+                let from = self.current;
+                self.step();
+                self.expr(&sides.1, true);
+                let end = self.current;
+                self.join([from, end]);
+            }
+            ExprKind::Assign(sides) => {
+                self.indices(&sides.0);
+                self.expr(&sides.1, true);
+                self.write(&sides.0, wanted);
+            }
+            ExprKind::AssignOp(_, sides) => {
+                self.indices(&sides.0);
+                self.read(&sides.0);
+                self.expr(&sides.1, true);
+                self.write(&sides.0, wanted);
+            }
+            ExprKind::Step(step, place) => {
+                self.indices(place);
+                self.read(place);
+                self.write(place, wanted && step.prefix);
+            }
+            ExprKind::Builtin(builtin) => {
+                children(expr).into_iter().for_each(|child| self.expr(child, true));
+                for arg in &builtin.args {
+                    if let Passed::Out(place) = &arg.value {
+                        self.read(place);
+                    }
+                }
+            }
+            _ => children(expr).into_iter().for_each(|child| self.expr(child, true)),
+        }
+    }
+
+    fn indices(&mut self, place: &Place) {
+        indices(place).for_each(|index| self.expr(index, true));
+    }
+
+    fn read(&mut self, place: &Place) {
+        if let Root::Local(id) = place.root {
+            self.op(Op::Read(id));
+        }
+    }
+
+    fn write(&mut self, place: &Place, wanted: bool) {
+        let Root::Local(id) = place.root else { return };
+        if place.path.is_empty() {
+            self.op(Op::Write(id, Site::Other));
+        } else {
+            // Writing a part needs the whole.
+            self.op(Op::Read(id));
+        }
+        if wanted {
+            self.op(Op::Read(id));
+        }
+    }
+}

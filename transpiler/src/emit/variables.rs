@@ -1,0 +1,183 @@
+//! The global variables of a module: their structure, their first values, and the slots for values that are read again
+//! at load.
+
+use super::body::{Body, Unit, mentions};
+use super::consts::typed_constant;
+use super::fragment::Fragment;
+use super::places::Written;
+use super::points;
+use super::types::{is_handle, start_value, variable_type};
+use crate::effects::facts;
+use crate::hir::{Expr, ExprKind, Global, GlobalId, ModuleId, Place, Root, Value};
+use proc_macro2::{Literal, TokenStream};
+use quote::{format_ident, quote};
+
+/// So many variables get their first values in one function; beyond it, rustc's time grows faster than the length.
+const MOST_IN_ONE: usize = 64;
+
+/// Setting the first values of variables: what a call of it needs.
+#[derive(Clone, Copy, Default, Debug)]
+pub(super) struct Init {
+    waits: bool,
+    fails: bool,
+    context: bool,
+}
+
+/// A module's variables that are variables in Rust, too: constants with a known value are written where they are used.
+pub(super) fn of_module<'p>(unit: &Unit<'p>, module: ModuleId) -> Vec<(GlobalId, &'p Global)> {
+    let globals = unit.program.globals.iter().enumerate();
+    globals
+        .filter(|(_, global)| global.module == module && global.value.is_none())
+        .map(|(at, global)| (GlobalId(at as u32), global))
+        .collect()
+}
+
+/// `pub struct Variables { .. }`
+pub(super) fn structure(unit: &Unit<'_>, module: ModuleId, globals: &[(GlobalId, &Global)]) -> TokenStream {
+    let family = unit.family();
+    let file = unit.program.modules.get(module.0 as usize).map_or("", |module| module.file.as_str());
+    let doc = format!(" The global variables of `{file}`.");
+    let fields = globals.iter().map(|(id, global)| {
+        let (name, ty) = (unit.names.global(id.0), variable_type(global.ty, family));
+        quote!(pub #name: #ty)
+    });
+    quote! {
+        #[doc = #doc]
+        #[derive(Default)]
+        pub struct Variables {
+            #(#fields),*
+        }
+    }
+}
+
+/// The functions that give the variables their first values. `again` tells that all start values come first.
+pub(super) fn init(unit: &Unit<'_>, module: ModuleId, globals: &[(GlobalId, &Global)]) -> (TokenStream, Init) {
+    let mut all = Init::default();
+    let mut parts = Vec::new();
+    for chunk in globals.chunks(MOST_IN_ONE) {
+        let mut code = TokenStream::new();
+        let mut part = Init::default();
+        for (id, global) in chunk {
+            code.extend(first_value(unit, module, *id, global));
+            if let Some(init) = &global.init {
+                let facts = facts::of_expr(unit.program, None, init);
+                part.waits |= facts.waits;
+                part.fails |= facts.fails;
+                part.context |= facts.context;
+            }
+        }
+        all.waits |= part.waits;
+        all.fails |= part.fails;
+        all.context |= part.context;
+        parts.push((part, code));
+    }
+    if let [(part, code)] = parts.as_slice() {
+        let function = init_function(quote!(pub), "init", *part, code, "Gives all variables their first values.");
+        return (quote!(impl Variables { #function }), all);
+    }
+    let mut functions = TokenStream::new();
+    let mut calls = TokenStream::new();
+    for (at, (part, code)) in parts.iter().enumerate() {
+        let name = format!("init_{}", at + 1);
+        functions.extend(init_function(TokenStream::new(), &name, *part, code, ""));
+        calls.extend(init_call(&quote!(Self), &name, *part));
+    }
+    let whole = init_function(quote!(pub), "init", all, &calls, "Gives all variables their first values.");
+    (quote!(impl Variables { #whole #functions }), all)
+}
+
+fn init_function(vis: TokenStream, name: &str, init: Init, code: &TokenStream, doc: &str) -> TokenStream {
+    let name = format_ident!("{name}");
+    let waits = init.waits.then(|| quote!(async));
+    let cx = init.context.then(|| quote!(cx: &Cx,));
+    let g = if mentions(code, "g") { quote!(g) } else { quote!(_g) };
+    let (result, end) = if init.fails { (quote!(-> Done<()>), quote!(Ok(()))) } else { Default::default() };
+    let doc = (!doc.is_empty()).then(|| {
+        let doc = format!(" {doc}");
+        quote!(#[doc = #doc])
+    });
+    quote! {
+        #doc
+        #vis #waits fn #name(#cx #g: &Globals) #result {
+            #code
+            #end
+        }
+    }
+}
+
+/// The call of an `init` function inside one that takes `cx` and `g`.
+pub(super) fn init_call(owner: &TokenStream, name: &str, init: Init) -> TokenStream {
+    let name = format_ident!("{name}");
+    let cx = init.context.then(|| quote!(cx,));
+    let wait = init.waits.then(|| quote!(.await));
+    let ask = init.fails.then(|| quote!(?));
+    quote!(#owner::#name(#cx g)#wait #ask;)
+}
+
+/// The statement that gives a variable its first value.
+fn first_value(unit: &Unit<'_>, module: ModuleId, id: GlobalId, global: &Global) -> TokenStream {
+    if is_handle(global.ty) {
+        return TokenStream::new();
+    }
+    let mut body = Body::outside(unit, module);
+    body.stand_at(global.span);
+    let comment = body.comment(global.span);
+    let place = Place { root: Root::Global(id), path: Vec::new(), ty: global.ty, span: global.span };
+    let reached = body.reached(&place, []);
+    let value = match &global.init {
+        Some(Expr { kind: ExprKind::Array(values), .. }) if points::is_large(global.ty, values) => {
+            let code = points::table(&mut body, global.ty, values);
+            let pointer = body.pointer(&code.before);
+            Fragment { before: TokenStream::new(), ..code.clone() }.after({
+                let before = &code.before;
+                quote!(#pointer #before)
+            })
+        }
+        Some(init) => {
+            let value = body.value(init);
+            let pointer = body.pointer(&quote!(#value));
+            value.after(pointer)
+        }
+        None => Fragment::postfix(start_value(global.ty, unit.family())),
+    };
+    let write = body.write(&reached, Written::Value(value), true);
+    quote!(#comment #write)
+}
+
+/// `fn data(&self) -> DataFile<'_>`: the variables of a data file that are read again at load.
+pub(super) fn data(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
+    let file = unit.program.modules.get(module.0 as usize).map_or("", |module| module.file.as_str());
+    let globals = unit.program.globals.iter().enumerate();
+    let vars = globals.filter(|(_, global)| global.module == module && global.teachable).map(|(at, global)| {
+        let name = &global.name;
+        let sizes: Vec<Literal> = match global.ty.dims() {
+            dims if dims.len() > 1 => dims.iter().map(|size| Literal::u16_unsuffixed(*size)).collect(),
+            _ => Vec::new(),
+        };
+        let slot = match &global.value {
+            Some(value) => fixed(value),
+            None => {
+                let field = unit.names.global(at as u32);
+                quote!(&self.#field)
+            }
+        };
+        quote!(DataVar { name: #name, sizes: &[#(#sizes),*], slot: #slot })
+    });
+    quote! {
+        impl Variables {
+            /// The variables whose values are read again at load.
+            pub fn data(&self) -> DataFile<'_> {
+                DataFile { file: #file, vars: vec![#(#vars),*] }
+            }
+        }
+    }
+}
+
+/// A constant in a data file: its value is part of the compiled program, so another one there is refused.
+fn fixed(value: &Value) -> TokenStream {
+    let value = match value {
+        Value::String(text) => quote!(#text),
+        value => typed_constant(value).tokens,
+    };
+    quote!(&Fixed(#value))
+}
