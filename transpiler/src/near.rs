@@ -1,9 +1,9 @@
 //! Finds the name that was probably meant.
 
 /// The candidate nearest to `name`, if it is near enough to be a likely slip: the number of single-character edits
-/// (swaps of neighbours count once) may be a third of the length.
+/// (swaps of neighbours count once) may be a third of the length. Names of one or two characters are near to too many.
 pub(crate) fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let limit = (name.chars().count() / 3).max(1);
+    let limit = name.chars().count() / 3;
     let folded = name.to_ascii_lowercase();
     candidates
         .filter_map(|candidate| {
@@ -55,5 +55,6 @@ mod tests {
         assert_eq!(nearest("cuont", names.into_iter()), Some("count"));
         assert_eq!(nearest("Movej1", names.into_iter()), Some("movej"));
         assert_eq!(nearest("position", names.into_iter()), None);
+        assert_eq!(nearest("vl", ["sl", "vp"].into_iter()), None);
     }
 }

@@ -106,10 +106,10 @@ impl Checker<'_> {
             let row_len: usize = inner.iter().map(|dim| *dim as usize).product();
             for (row, item) in items.iter().enumerate() {
                 let ast::ExprKind::Brace(row_items) = &item.value.kind else {
-                    return self.report(body, item.value.span, TypeProblem::BraceShape { wanted: row_len });
+                    return self.report(body, item.value.span, TypeProblem::NotARow { row: row_len });
                 };
                 if row >= rows {
-                    return self.report(body, item.value.span, TypeProblem::BraceShape { wanted: rows });
+                    return self.report(body, item.value.span, TypeProblem::TooManyRows { rows });
                 }
                 self.array(body, row_items, want, inner, out, item.value.span)?;
                 while out.len() < begin + (row + 1) * row_len {

@@ -8,7 +8,7 @@ use crate::diagnostics::names::NameProblem;
 use crate::diagnostics::support::SupportProblem;
 use crate::hir::{Bound, Builtin, Expr, ExprKind, FuncId, Passed, Type, Value};
 use arl_lang::ast;
-use arl_lang::catalog::{self, Base, Entry, Family, ParamType, Status};
+use arl_lang::catalog::{self, Base, Entry, Family, ParamType, Presence, Status};
 use arl_lang::span::Span;
 use arl_lang::symbol::Symbol;
 
@@ -206,16 +206,20 @@ impl Checker<'_> {
         }
     }
 
-    /// `sin(double x)`, for messages.
+    /// `sin(double x)`, for messages; what may be left out stands in brackets.
     pub(crate) fn signature(&self, entry: &Entry) -> String {
         let params: Vec<String> = entry
             .params
             .iter()
             .map(|param| {
                 let ty = self.param_type_name(&param.ty);
-                match entry.kind {
+                let text = match entry.kind {
                     catalog::Kind::Function => format!("{ty} {}", param.name),
                     catalog::Kind::Instruction => format!("{}:{ty}", param.name),
+                };
+                match param.presence {
+                    Presence::Required | Presence::Repeat { min: 1.., .. } => text,
+                    _ => format!("[{text}]"),
                 }
             })
             .collect();
@@ -237,8 +241,8 @@ impl Checker<'_> {
 
 /// Whether a call with so many arguments can be meant for the entry.
 fn takes_count(entry: &Entry, count: usize) -> bool {
-    let least = entry.params.iter().filter(|param| param.presence == catalog::Presence::Required).count();
-    let most = match entry.params.iter().any(|param| matches!(param.presence, catalog::Presence::Repeat { .. })) {
+    let least = entry.params.iter().filter(|param| param.presence == Presence::Required).count();
+    let most = match entry.params.iter().any(|param| matches!(param.presence, Presence::Repeat { .. })) {
         true => usize::MAX,
         false => entry.params.len(),
     };

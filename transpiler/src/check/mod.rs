@@ -193,7 +193,7 @@ impl Checker<'_> {
             self.report_in::<()>(main, param.span, FlowProblem::MainSignature { what: "parameters" }, &[]);
         }
         if result.is_some_and(|result| result != Base::Void) {
-            self.report_in::<()>(main, func.result.span, FlowProblem::MainSignature { what: "result" }, &[]);
+            self.report_in::<()>(main, func.result.span, FlowProblem::MainSignature { what: "a result" }, &[]);
         }
         Some(id)
     }

@@ -48,8 +48,13 @@ impl Checker<'_> {
             return self.global(body, id, span);
         }
         let name = self.names.name(symbol);
-        if let Some(typed) = builtin_constant(name, span, want) {
-            return Some(PlaceOrValue::Value(typed));
+        if let Some(found) = catalog::constant(name) {
+            self.strict_case(body, span, found.name);
+            let value = match found.value {
+                ConstantValue::Double(number) => Value::Double(number),
+                ConstantValue::String(text) => Value::String(text.into()),
+            };
+            return Some(PlaceOrValue::Value(constant(value, span)));
         }
         if name == "world" && want == Some(Type::scalar(Base::Struct(Struct::Wobj))) {
             let world = self.names.find("world")?;
@@ -81,6 +86,9 @@ impl Checker<'_> {
         let is_function = self.scopes.get(body.module.0 as usize).is_some_and(|scope| scope.funcs.contains_key(&symbol))
             || !catalog::functions(name).is_empty();
         let mut near = body.nearest_local(self.names, name);
+        if near.is_none() && name.len() > 2 {
+            near = catalog::system_variable(name).map(|variable| format!("${}", variable.name));
+        }
         if near.is_none() {
             let globals = self.scopes.get(body.module.0 as usize).map(|scope| &scope.globals);
             let mut known: Vec<&str> = globals.into_iter().flatten().map(|(symbol, _)| self.names.name(*symbol)).collect();
@@ -217,14 +225,6 @@ impl Body {
 /// A constant as an expression.
 pub(crate) fn constant(value: Value, span: Span) -> Typed {
     Typed::plain(Expr { ty: Type::scalar(value.base()), kind: ExprKind::Const(value), span })
-}
-
-fn builtin_constant(name: &str, span: Span, _want: Option<Type>) -> Option<Typed> {
-    let value = match catalog::constant(name)?.value {
-        ConstantValue::Double(number) => Value::Double(number),
-        ConstantValue::String(text) => Value::String(text.into()),
-    };
-    Some(constant(value, span))
 }
 
 /// The constant of this name; the enumeration that is wanted goes first.

@@ -6,7 +6,7 @@ use crate::diagnostics::constants::ConstantProblem;
 use crate::diagnostics::names::NameProblem;
 use crate::diagnostics::support::SupportProblem;
 use crate::diagnostics::types::TypeProblem;
-use crate::hir::{Expr, ExprKind, Place, Projection, Root, Type, Value};
+use crate::hir::{Expr, ExprKind, ModuleId, Place, Projection, Root, Type, Value};
 use arl_lang::ast;
 use arl_lang::catalog::{Access, Base, Status, Struct};
 use arl_lang::span::Span;
@@ -48,7 +48,7 @@ impl Checker<'_> {
         let name = self.names.name(symbol);
         let Some(variable) = arl_lang::catalog::system_variable(name) else {
             if let Some(now) = arl_lang::catalog::renamed(&format!("${name}")) {
-                let name = format!("${name}");
+                let name = self.text(body.module, span).to_string();
                 return self.report(body, span, NameProblem::Renamed { name, now: now.into() });
             }
             let candidates = arl_lang::catalog::system_variables().map(|variable| variable.name);
@@ -60,6 +60,7 @@ impl Checker<'_> {
             let name = format!("${}", variable.name);
             return self.report(body, span, SupportProblem::NotYet { name });
         }
+        self.strict_case(body, Span::new(span.start + 1, span.end), variable.name);
         let ty = Type::array(variable.ty, variable.dims)?;
         Some(PlaceOrValue::Place(Place { root: Root::System(variable), path: Vec::new(), ty, span }))
     }
@@ -178,8 +179,10 @@ impl Checker<'_> {
     /// A place that is written: not const, not read-only. `reads` where the old value matters, too.
     pub(crate) fn written_place(&mut self, body: &mut Body, expr: &ast::Expr, reads: bool) -> Option<Place> {
         // A const with a known value reads as that value; for writing we want its name.
-        if let Some(name) = self.constant_name(body, expr) {
-            return self.report(body, expr.span, TypeProblem::AssignConst { name });
+        if let Some((module, declared)) = self.const_declaration(body, expr) {
+            let name = self.text(module, declared).to_string();
+            let labels = [(module, declared, "declared const here")];
+            return self.report_in(body.module, expr.span, TypeProblem::AssignConst { name }, &labels);
         }
         let place = match self.place_or_value(body, expr)? {
             PlaceOrValue::Place(place) => place,
@@ -203,28 +206,25 @@ impl Checker<'_> {
         Some(place)
     }
 
-    /// The name of the const variable that an expression would write to.
-    fn constant_name(&mut self, body: &Body, expr: &ast::Expr) -> Option<String> {
-        match &expr.kind {
-            ast::ExprKind::Field(inner, _) => self.constant_name(body, inner),
-            ast::ExprKind::Index(both) => self.constant_name(body, &both.0),
-            ast::ExprKind::Name(symbol) => {
-                let constant = match body.find(*symbol) {
-                    Some(local) => body.locals.get(local.0 as usize).is_some_and(|local| local.constant),
-                    None => self.find_global(body, *symbol).is_some_and(|(id, _)| self.global_is_const(id)),
-                };
-                constant.then(|| self.text(body.module, expr.span).to_string())
-            }
+    /// Where the const variable is declared that an expression would write to.
+    fn const_declaration(&self, body: &Body, expr: &ast::Expr) -> Option<(ModuleId, Span)> {
+        let global = match &expr.kind {
+            ast::ExprKind::Field(inner, _) => return self.const_declaration(body, inner),
+            ast::ExprKind::Index(both) => return self.const_declaration(body, &both.0),
+            ast::ExprKind::Name(symbol) => match body.find(*symbol) {
+                Some(local) => {
+                    let local = body.locals.get(local.0 as usize)?;
+                    return local.constant.then_some((body.module, local.span));
+                }
+                None => self.find_global(body, *symbol)?.0,
+            },
             ast::ExprKind::Path { scope, name, .. } => {
-                let module = self.module(body.module)?.imports.get(&scope.symbol).copied()?;
-                let id = self.scopes.get(module.0 as usize)?.globals.get(&name.symbol).copied()?;
-                self.global_is_const(id).then(|| self.text(body.module, expr.span).to_string())
+                let module = self.find_module(body, *scope)?;
+                self.scopes.get(module.0 as usize)?.globals.get(&name.symbol).copied()?
             }
-            _ => None,
-        }
-    }
-
-    fn global_is_const(&self, id: crate::hir::GlobalId) -> bool {
-        self.globals.get(id.0 as usize).is_some_and(|slot| slot.decl.constant.is_some())
+            _ => return None,
+        };
+        let slot = self.globals.get(global.0 as usize)?;
+        slot.decl.constant.map(|_| (slot.module, slot.var.name.span))
     }
 }

@@ -11,7 +11,8 @@ use crate::diagnostics::types::TypeProblem;
 use crate::hir::{self, Arm, Block, Expr, ExprKind, For, FuncId, LabelId, LoopInfo, Stmt, StmtKind, Type, Value};
 use arl_lang::ast;
 use arl_lang::catalog::{self, Base, Effect, Kind};
-use std::collections::HashSet;
+use arl_lang::span::Span;
+use std::collections::HashMap;
 
 impl Checker<'_> {
     /// Checks the body of a function whose signature is known.
@@ -254,7 +255,7 @@ impl Checker<'_> {
         });
         let ty = subject.as_ref().map(|subject| subject.ty);
         let mut arms = Vec::new();
-        let mut seen = HashSet::new();
+        let mut seen = HashMap::new();
         let mut default = false;
         for arm in &switch.arms {
             let value = match &arm.value {
@@ -278,16 +279,16 @@ impl Checker<'_> {
         body: &mut Body,
         value: &ast::Expr,
         ty: Option<Type>,
-        seen: &mut HashSet<String>,
+        seen: &mut HashMap<String, Span>,
     ) -> Option<Value> {
         let typed = self.expr(body, value, ty)?;
         let checked = self.coerce(body, typed, ty?, "a case of this switch")?;
         let ExprKind::Const(constant) = checked.kind else {
             return self.report(body, value.span, FlowProblem::CaseNotConstant);
         };
-        if !seen.insert(case_key(&constant)) {
-            let value_text = self.text(body.module, value.span).to_string();
-            return self.report(body, value.span, FlowProblem::CaseTwice { value: value_text });
+        if let Some(first) = seen.insert(case_key(&constant), value.span) {
+            let problem = FlowProblem::CaseTwice { value: self.text(body.module, value.span).to_string() };
+            return self.report_in(body.module, value.span, problem, &[(body.module, first, "first used here")]);
         }
         Some(constant)
     }
@@ -305,9 +306,11 @@ impl Checker<'_> {
     fn goto(&mut self, body: &mut Body, name: ast::Ident) -> Option<StmtKind> {
         body.has_goto = true;
         if let Some(id) = body.label_names.get(&name.symbol).copied() {
-            if let Some(label) = body.labels.get_mut(id.0 as usize) {
+            let declared = body.labels.get_mut(id.0 as usize).map(|label| {
                 label.used = true;
-            }
+                label.span
+            });
+            self.strict_case(body, name.span, self.text(body.module, declared.unwrap_or(name.span)));
             return Some(StmtKind::Goto(id));
         }
         let wanted = self.names.name(name.symbol);

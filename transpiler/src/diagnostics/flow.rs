@@ -70,7 +70,7 @@ impl Problem for FlowProblem {
     fn message(&self) -> String {
         match self {
             FlowProblem::NoMain => "the program has no function `main`".into(),
-            FlowProblem::MainSignature { what } => format!("`main` has no {what}"),
+            FlowProblem::MainSignature { what } => format!("`main` cannot have {what}"),
             FlowProblem::FunctionTwice { name } => format!("the function `{name}` is defined twice"),
             FlowProblem::ReturnWithoutValue { result } => {
                 format!("this function returns a value of type {result}, but here is none")

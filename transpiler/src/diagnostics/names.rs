@@ -96,8 +96,10 @@ impl Problem for NameProblem {
             NameProblem::UnknownFunction { name, is_instruction: true, .. } => {
                 Some(format!("`{name}` is an instruction: write its arguments without parentheses around them"))
             }
+            NameProblem::UnknownType { near, name } => meant(near).or_else(|| {
+                Some(format!("`{name}` of other languages is called `{}` here", type_of_others(name)?))
+            }),
             NameProblem::UnknownFunction { near, .. }
-            | NameProblem::UnknownType { near, .. }
             | NameProblem::UnknownLabel { near, .. }
             | NameProblem::NotInModule { near, .. } => meant(near),
             NameProblem::UnknownSystem { near, .. } => {
@@ -124,4 +126,35 @@ impl Problem for NameProblem {
             NameProblem::Renamed { now, .. } => Some(format!("did you mean `{now}`?")),
         }
     }
+}
+
+/// Types of other languages and what ARL has in their place.
+const TYPES_OF_OTHERS: &[(&str, &str)] = &[
+    ("float", "double"),
+    ("real", "double"),
+    ("lreal", "double"),
+    ("num", "double"),
+    ("boolean", "bool"),
+    ("logical", "bool"),
+    ("integer", "int"),
+    ("long", "int"),
+    ("short", "int"),
+    ("dint", "int"),
+    ("unsigned", "uint"),
+    ("dword", "uint"),
+    ("char", "string"),
+    ("text", "string"),
+    ("str", "string"),
+    ("robtarget", "pose"),
+    ("jointtarget", "joint"),
+    ("e6pos", "pose"),
+    ("e6axis", "joint"),
+    ("tooldata", "tool"),
+    ("wobjdata", "wobj"),
+    ("speeddata", "speed"),
+    ("zonedata", "slip"),
+];
+
+fn type_of_others(name: &str) -> Option<&'static str> {
+    TYPES_OF_OTHERS.iter().find(|(other, _)| other.eq_ignore_ascii_case(name)).map(|(_, ours)| *ours)
 }

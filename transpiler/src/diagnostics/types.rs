@@ -57,8 +57,10 @@ pub(crate) enum TypeProblem {
     SpliceType,
     /// An array where a single value is wanted, or the other way round.
     Dimensions { found: String, wanted: String },
-    /// Nested braces that do not fit the array's shape.
-    BraceShape { wanted: usize },
+    /// More rows in braces than the array has.
+    TooManyRows { rows: usize },
+    /// A single value between rows in braces.
+    NotARow { row: usize },
     /// A result type that is an array or handle.
     ResultType { ty: String },
 }
@@ -92,7 +94,7 @@ impl Problem for TypeProblem {
             TypeProblem::WideLiteral { .. } => 324,
             TypeProblem::SpliceType => 325,
             TypeProblem::Dimensions { .. } => 326,
-            TypeProblem::BraceShape { .. } => 327,
+            TypeProblem::TooManyRows { .. } | TypeProblem::NotARow { .. } => 327,
             TypeProblem::ResultType { .. } => 328,
         })
     }
@@ -139,7 +141,8 @@ impl Problem for TypeProblem {
             TypeProblem::WideLiteral { text } => format!("{text} is beyond int, and nothing here wants a uint"),
             TypeProblem::SpliceType => "nothing here says what ARL type this Rust value has".into(),
             TypeProblem::Dimensions { found, wanted } => format!("this must be {wanted}, but it is {found}"),
-            TypeProblem::BraceShape { wanted } => format!("these braces must hold {wanted} values or fewer"),
+            TypeProblem::TooManyRows { rows } => format!("too many rows: the array has {rows}"),
+            TypeProblem::NotARow { .. } => "the first values are rows in braces, but this one is not".into(),
             TypeProblem::ResultType { ty } => format!("a function cannot return a value of type {ty}"),
         }
     }
@@ -151,7 +154,8 @@ impl Problem for TypeProblem {
             TypeProblem::AssignConst { .. } | TypeProblem::NotAssignable { .. } | TypeProblem::ReadOnly { .. } => {
                 "written here".into()
             }
-            TypeProblem::TooManyValues { .. } => "one too many".into(),
+            TypeProblem::TooManyValues { .. } | TypeProblem::TooManyRows { .. } => "one too many".into(),
+            TypeProblem::NotARow { row } => format!("expected braces with {row} values"),
             _ => String::new(),
         }
     }
@@ -171,7 +175,12 @@ impl Problem for TypeProblem {
                 Some("store it in a uint, write it as a double (`3e9`), or as a bit pattern in hexadecimal".into())
             }
             TypeProblem::SpliceType => Some("say it with `#(value as double)`".into()),
-            TypeProblem::IndexType { .. } => Some("use `toint(...)` for a double".into()),
+            TypeProblem::IndexType { found } if found == "double" => Some("`toint(...)` makes an int of it".into()),
+            TypeProblem::NotAnArray { ty } if ty == "string" => Some("`substr` takes characters out of a string".into()),
+            TypeProblem::Dimensions { wanted, .. } if !wanted.ends_with(']') => {
+                Some("take one element of the array with an index".into())
+            }
+            TypeProblem::NotARow { .. } => Some("give all rows their braces, or none".into()),
             TypeProblem::VoidVariable => Some("void is for functions that return nothing".into()),
             TypeProblem::OtherFamily { .. } => {
                 Some("name the robot that the program is for with `--robot`".into())
