@@ -2,6 +2,8 @@
 
 use crate::diagnostics::{Diagnostic, FileId, Files, Severity};
 use crate::emit::{EmitOptions, emit};
+use crate::hir::{Expr, ExprKind, Program, Type};
+use crate::visit::exprs_in_stmt;
 use crate::{CheckOptions, Checked, SourceError, Sources, check};
 use std::cell::RefCell;
 use std::panic::AssertUnwindSafe;
@@ -81,6 +83,23 @@ pub fn compile_program(
         compiled.rust = Some(guard(|| emit(program, emit_options))?);
     }
     Ok(compiled)
+}
+
+/// The types of the Rust values spliced into statements (see [`crate::check_statements`]), by their numbers; `None` for
+/// a value that is not used.
+pub fn spliced_types(program: &Program, count: usize) -> Vec<Option<Type>> {
+    let mut types = vec![None; count];
+    let mut see = |expr: &Expr| {
+        if let ExprKind::Splice(number) = expr.kind
+            && let Some(ty) = types.get_mut(number as usize)
+        {
+            *ty = Some(expr.ty);
+        }
+    };
+    for stmt in program.funcs.iter().flat_map(|func| &func.body) {
+        exprs_in_stmt(stmt, &mut see);
+    }
+    types
 }
 
 /// A panic inside the compiler.

@@ -3,14 +3,21 @@
 //! The core does no file or process work: sources come in through [`Sources`], text and diagnostics go out. The doors
 //! (the command, `build.rs`, the macro) read files and show what the core has to say.
 
+mod build_door;
 mod check;
+#[cfg(feature = "cli")]
+pub mod cli;
+pub mod compile;
 pub mod diagnostics;
 pub mod effects;
 pub mod emit;
 pub mod hir;
 mod near;
+pub mod render;
+pub mod sources;
 mod visit;
 
+pub use build_door::Build;
 pub use check::{SplicedValue, check, check_statements, check_text};
 
 use arl_lang::catalog::Family;

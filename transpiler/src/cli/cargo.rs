@@ -11,8 +11,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// What cargo made.
 #[derive(Debug, Default)]
 pub(super) struct Built {
-    /// The program.
-    pub(super) executable: Option<PathBuf>,
+    /// The programs with their names.
+    pub(super) programs: Vec<(String, PathBuf)>,
     /// What rustc and cargo refused; empty when all went well.
     pub(super) errors: Vec<RustError>,
 }
@@ -25,7 +25,6 @@ pub(super) struct RustError {
     /// The error as rustc shows it.
     pub(super) rendered: String,
 }
-
 
 /// Whether Ctrl-C is for the program that runs in front of this process.
 static LEFT_TO_PROGRAM: AtomicBool = AtomicBool::new(false);
@@ -50,12 +49,16 @@ pub(super) fn leave_interrupts_to_the_program() {
 pub(super) fn build(folder: &Path, target: &Path, release: bool, progress: &Progress) -> Result<Built, Failure> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(&cargo);
-    command.args(["build", "--quiet", "--message-format=json-diagnostic-rendered-ansi", "--target-dir"]).arg(target);
+    command
+        .args(["build", "--quiet", "--keep-going", "--message-format=json-diagnostic-rendered-ansi", "--target-dir"])
+        .arg(target);
     if release {
         command.arg("--release");
     }
     // What the emitted code is compiled with must not depend on what the user compiles.
-    for name in ["CARGO_TARGET_DIR", "CARGO_BUILD_TARGET", "CARGO_INCREMENTAL", "RUSTC_WRAPPER", "CARGO_ENCODED_RUSTFLAGS"] {
+    for name in
+        ["CARGO_TARGET_DIR", "CARGO_BUILD_TARGET", "CARGO_INCREMENTAL", "RUSTC_WRAPPER", "CARGO_ENCODED_RUSTFLAGS"]
+    {
         command.env_remove(name);
     }
     command.current_dir(folder).stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -121,10 +124,9 @@ impl Built {
         let Ok(message) = serde_json::from_str::<Message>(line) else { return };
         match message.reason.as_str() {
             "compiler-artifact" => {
-                if let Some(target) = message.target {
-                    progress.say(&format!("compiling: {} done", target.name));
-                }
-                self.executable = message.executable.or(self.executable.take());
+                let name = message.target.map(|target| target.name).unwrap_or_default();
+                progress.say(&format!("compiling: {name} done"));
+                self.programs.extend(message.executable.map(|executable| (name, executable)));
             }
             "compiler-message" => self.errors.extend(message.message.and_then(error)),
             _ => {}
@@ -174,7 +176,7 @@ mod tests {
         );
         built.take(r#"{"reason":"compiler-message","message":{"level":"warning","message":"unused"}}"#, &progress);
         built.take("not json", &progress);
-        assert_eq!(built.executable.as_deref(), Some(Path::new("/t/a")));
+        assert_eq!(built.programs, [("a".to_string(), PathBuf::from("/t/a"))]);
         let expected = RustError { file: Some("src/program.rs".into()), rendered: "R".into() };
         assert_eq!(built.errors, [expected]);
     }

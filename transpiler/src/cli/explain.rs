@@ -4,6 +4,7 @@ use super::failure::Failure;
 use super::pages::PAGES;
 use crate::diagnostics::{Code, info, registry};
 use crate::near::nearest;
+use arl_lang::catalog;
 
 /// The page of a code: `ARL0203`, `arl203` or `203`.
 pub(super) fn explain(code: &str) -> Result<String, Failure> {
@@ -29,8 +30,11 @@ pub(super) fn explain(code: &str) -> Result<String, Failure> {
 
 /// The reference of something built in.
 pub(super) fn doc(name: &str) -> Result<String, Failure> {
-    arl_lang::catalog::reference(name).ok_or_else(|| {
-        let near = nearest(name, arl_lang::catalog::names());
+    catalog::reference::page(name).ok_or_else(|| {
+        let entries = catalog::all_entries().iter().map(|entry| entry.name);
+        let variables = catalog::system_variables().map(|variable| variable.name);
+        let types = catalog::type_names().map(|(name, _)| name);
+        let near = nearest(name, entries.chain(variables).chain(types));
         let hint = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
         Failure::Usage(format!("nothing that is built in is called `{name}`{hint}"))
     })

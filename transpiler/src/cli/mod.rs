@@ -42,9 +42,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Failure> {
     match command {
         Command::Check { files, format, checking } => check::check(&files, format, &checking),
         Command::Emit { file, out, checking } => done(emit::emit(&file, out.as_deref(), &checking)),
-        Command::Build { file, out, release, checking } => {
-            done(emit::build(&file, out.as_deref(), release, &checking))
-        }
+        Command::Build { file, out, release, checking } => done(emit::build(&file, out.as_deref(), release, &checking)),
         Command::Run { file, options } => run::run(&file, &options),
         Command::Test { dirs } => test::test(&dirs),
         Command::Explain { code } => print(explain::explain(&code)),

@@ -135,8 +135,8 @@ pub(super) fn compile_rust(
     let progress = Progress::start(words);
     let built = cargo::build(&place.folder, &cache.target(), release, &progress)?;
     drop(progress);
-    match built.executable {
-        Some(executable) if built.errors.is_empty() => Ok(executable),
+    match built.programs.into_iter().next() {
+        Some((_, program)) if built.errors.is_empty() => Ok(program),
         _ => Err(cargo::bug(&built.errors, main)),
     }
 }

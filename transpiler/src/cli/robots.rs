@@ -9,11 +9,11 @@ use std::path::Path;
 /// Lists the built-in robots, or prints the file of one.
 pub(super) fn robots(name: Option<&str>) -> Result<String, Failure> {
     let Some(name) = name else {
-        let width = ROBOTS.iter().map(|robot| robot.name.len()).max().unwrap_or(0);
-        let line = |(at, robot): (usize, &arl_lang::robots::Robot)| {
-            let about = robot.text.lines().next().unwrap_or("").trim_start_matches(['#', ' ']).trim_end_matches('.');
+        let width = ROBOTS.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
+        let line = |(at, (name, text)): (usize, &(&str, &str))| {
+            let about = text.lines().next().unwrap_or("").trim_start_matches(['#', ' ']).trim_end_matches('.');
             let default = if at == 0 { " (default)" } else { "" };
-            format!("{:width$}  {about}{default}\n", robot.name)
+            format!("{name:width$}  {about}{default}\n")
         };
         return Ok(ROBOTS.iter().enumerate().map(line).collect());
     };
@@ -21,11 +21,11 @@ pub(super) fn robots(name: Option<&str>) -> Result<String, Failure> {
 }
 
 fn built_in(name: &str) -> Option<&'static str> {
-    ROBOTS.iter().find(|robot| robot.name.eq_ignore_ascii_case(name)).map(|robot| robot.text)
+    ROBOTS.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|(_, text)| *text)
 }
 
 fn unknown(name: &str) -> String {
-    let names = || ROBOTS.iter().map(|robot| robot.name);
+    let names = || ROBOTS.iter().map(|(name, _)| *name);
     let hint = match nearest(name, names()) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("built in are {}", names().collect::<Vec<_>>().join(", ")),
@@ -65,9 +65,7 @@ fn family_in(text: &str, file: &str) -> Result<Family, Failure> {
         Some("six-axis") => Ok(Family::SixAxis),
         Some("scara") => Ok(Family::Scara),
         Some(_) => Err(Failure::Usage(format!("{file}:{line}: `family` must be \"six-axis\" or \"scara\""))),
-        None => {
-            Err(Failure::Usage(format!("{file}: `family` is missing; it must be \"six-axis\" or \"scara\"")))
-        }
+        None => Err(Failure::Usage(format!("{file}: `family` is missing; it must be \"six-axis\" or \"scara\""))),
     }
 }
 

@@ -1,0 +1,211 @@
+//! The door for build scripts: ARL programs become modules of a Rust crate.
+
+use crate::compile::{Compiled, compile_program};
+use crate::diagnostics::{Diagnostic, Severity};
+use crate::emit::EmitOptions;
+use crate::render::{plain, plain_block};
+use crate::sources::{FileSystem, write_if_changed};
+use crate::{CheckOptions, Sources};
+use arl_lang::catalog::Family;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+/// Compiles ARL programs in a build script.
+///
+/// ```no_run
+/// // build.rs
+/// arl2rs::Build::new().program("robot/pick.arl").compile();
+/// ```
+///
+/// ```ignore
+/// // src/main.rs
+/// mod robot {
+///     arl_rt::include_arl!("pick");
+/// }
+/// ```
+///
+/// Paths count from the folder of Cargo.toml. cargo runs the script again when a file changes that was read or looked
+/// for; a file is written only when its content changes. Mistakes in the programs end the build with their places.
+#[derive(Clone, Debug, Default)]
+#[must_use = "nothing happens before `compile`"]
+pub struct Build {
+    programs: Vec<PathBuf>,
+    options: CheckOptions,
+    errors_in_code: bool,
+    copies: Option<PathBuf>,
+}
+
+impl Build {
+    /// Without programs yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds a program: the file that has `main`. It becomes `NAME.rs` in `OUT_DIR`.
+    pub fn program(mut self, main: impl Into<PathBuf>) -> Self {
+        self.programs.push(main.into());
+        self
+    }
+
+    /// The kind of robot that the programs are for; six-axis if absent.
+    pub fn family(mut self, family: Family) -> Self {
+        self.options.family = family;
+        self
+    }
+
+    /// Warns also where more is accepted than the controller would take.
+    pub fn strict(mut self, strict: bool) -> Self {
+        self.options.strict = strict;
+        self
+    }
+
+    /// The folder that `/home/ae/script/` in an import means; each program's own folder if absent.
+    pub fn script_dir(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.options.script_dir = Some(folder.into());
+        self
+    }
+
+    /// Mistakes in ARL become `compile_error!` in the emitted file instead of errors of the build script, together with
+    /// what the program was when it was last right: so editors keep their knowledge of the rest of the crate.
+    pub fn errors_in_code(mut self, yes: bool) -> Self {
+        self.errors_in_code = yes;
+        self
+    }
+
+    /// Also writes the emitted files into this folder, to be read or committed.
+    pub fn copy_to(mut self, folder: impl Into<PathBuf>) -> Self {
+        self.copies = Some(folder.into());
+        self
+    }
+
+    /// Compiles everything. What cargo needs to know goes to standard output: files to watch, warnings, errors. cargo
+    /// ends the build after the script where there was an error.
+    pub fn compile(self) {
+        #[expect(clippy::disallowed_methods, reason = "cargo says so where the files go")]
+        let out = std::env::var_os("OUT_DIR").map(PathBuf::from);
+        let lines = match out {
+            Some(out) => self.lines(&out, &FileSystem),
+            None => vec!["cargo::error=OUT_DIR is not set: arl2rs::Build is for build scripts".into()],
+        };
+        for line in lines {
+            println!("{line}");
+        }
+    }
+
+    /// Compiles into `out`; the lines are for cargo.
+    fn lines(&self, out: &Path, sources: &dyn Sources) -> Vec<String> {
+        let mut watched = BTreeSet::new();
+        let mut lines = Vec::new();
+        let mut names: Vec<(String, &Path)> = Vec::new();
+        for main in &self.programs {
+            let name = name(main);
+            if let Some((_, other)) = names.iter().find(|(other, _)| *other == name) {
+                lines.push(format!(
+                    "cargo::error={} and {} would both become {name}.rs: compile them in two crates, or rename one",
+                    other.display(),
+                    main.display()
+                ));
+                continue;
+            }
+            names.push((name.clone(), main));
+            let compiled = match compile_program(main, sources, &self.options, &EmitOptions::default()) {
+                Ok(compiled) => compiled,
+                Err(bug) => {
+                    lines.push(error_line(&format!("{}: {bug}", main.display())));
+                    watched.insert(main.clone());
+                    continue;
+                }
+            };
+            for path in compiled.read() {
+                watched.insert(watchable(&path, out));
+            }
+            lines.extend(self.output(&compiled, &name, out));
+        }
+        let mut all: Vec<String> = watched
+            .into_iter()
+            .filter(|path| !path.as_os_str().is_empty())
+            .map(|path| format!("cargo::rerun-if-changed={}", path.display()))
+            .collect();
+        all.push("cargo::rerun-if-changed=build.rs".into());
+        all.extend(lines);
+        all
+    }
+
+    /// Writes what one program became, and says what cargo shows.
+    fn output(&self, compiled: &Compiled, name: &str, out: &Path) -> Vec<String> {
+        let files = compiled.shown_files();
+        let said = |diagnostic: &Diagnostic| plain(diagnostic, &files);
+        let all = &compiled.checked.diagnostics;
+        let mut lines: Vec<String> = all
+            .iter()
+            .filter(|diagnostic| diagnostic.severity == Severity::Warning)
+            .map(|warning| format!("cargo::warning={}", said(warning)))
+            .collect();
+        let last_good = out.join(format!("{name}.last.rs"));
+        let text = match &compiled.rust {
+            Some(rust) => rust.clone(),
+            None if self.errors_in_code => {
+                let errors = compiled.errors().map(|error| plain_block(error, &files));
+                let errors: String = errors.map(|error| format!("::core::compile_error!({error:?});\n")).collect();
+                errors + &read_last(&last_good)
+            }
+            None => {
+                lines.extend(compiled.errors().map(|error| error_line(&said(error))));
+                return lines;
+            }
+        };
+        let mut targets = vec![out.join(format!("{name}.rs"))];
+        if compiled.rust.is_some() {
+            targets.push(last_good);
+            targets.extend(self.copies.as_ref().map(|folder| folder.join(format!("{name}.rs"))));
+        }
+        for target in targets {
+            if let Err(error) = write_if_changed(&target, text.as_bytes()) {
+                lines.push(error_line(&format!("cannot write {}: {error}", target.display())));
+            }
+        }
+        lines
+    }
+}
+
+/// What a crate without a good version of the program can still be checked with.
+const NOTHING_YET: &str = "\
+/// The program has errors.
+pub struct Globals {}
+
+impl Globals {
+    /// The program has errors.
+    pub fn new() -> Self {
+        Self {}
+    }
+}
+";
+
+#[expect(clippy::disallowed_methods, reason = "this is a door")]
+fn read_last(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap_or_else(|_| NOTHING_YET.into())
+}
+
+fn error_line(text: &str) -> String {
+    format!("cargo::error={}", text.replace(['\n', '\r'], " "))
+}
+
+fn name(main: &Path) -> String {
+    main.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()).unwrap_or_default()
+}
+
+/// The path to watch. A file that is not there is always "changed" for cargo, so its folder is watched instead; but
+/// not where cargo itself writes below it.
+#[expect(clippy::disallowed_methods, reason = "this is a door")]
+fn watchable(path: &Path, out: &Path) -> PathBuf {
+    if path.exists() {
+        return path.to_path_buf();
+    }
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let real = |path: &Path| std::fs::canonicalize(path).ok();
+    let holds_output = match (real(if folder.as_os_str().is_empty() { Path::new(".") } else { folder }), real(out)) {
+        (Some(folder), Some(out)) => out.starts_with(folder),
+        _ => true,
+    };
+    if holds_output { PathBuf::new() } else { folder.to_path_buf() }
+}

@@ -1,0 +1,168 @@
+//! All cases compiled together, in a few programs.
+
+use crate::cli::cache::{Cache, Place, write_if_changed};
+use crate::cli::cargo::{self, RustError};
+use crate::cli::failure::Failure;
+use crate::cli::progress::Progress;
+use crate::cli::project;
+use crate::cli::runtime::Runtime;
+use std::collections::{BTreeMap, HashMap};
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+
+/// A case as Rust.
+pub(super) struct Emitted {
+    /// The ARL file.
+    pub(super) source: PathBuf,
+    /// What it became.
+    pub(super) rust: String,
+}
+
+/// The program that has a case, and the name to start it by.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) struct Compiled {
+    pub(super) program: PathBuf,
+    pub(super) name: String,
+}
+
+/// The environment variable that names the case to run.
+pub(super) const CASE: &str = "ARL2RS_CASE";
+
+/// Compiles all cases; for each, in their order, the program or rustc's errors.
+pub(super) fn compile(
+    place: &Place,
+    cache: &Cache,
+    cases: &[Emitted],
+    progress: &Progress,
+) -> Result<Vec<Result<Compiled, String>>, Failure> {
+    let runtime = Runtime::find();
+    let names: Vec<String> = cases.iter().map(|case| name(&case.source)).collect();
+    let parts = parts(cases.len());
+    let mut refused: HashMap<usize, String> = HashMap::new();
+    // Errors that rustc finds late hide behind those that it finds early, so a few rounds may be needed.
+    for _ in 0..4 {
+        let kept = || (0..cases.len()).filter(|at| !refused.contains_key(at));
+        write(place, &runtime, cases, &names, kept(), parts)?;
+        let built = cargo::build(&place.folder, &cache.target(), false, progress)?;
+        if built.errors.is_empty() {
+            let programs: HashMap<String, PathBuf> = built.programs.into_iter().collect();
+            return Ok(names
+                .iter()
+                .enumerate()
+                .map(|(at, name)| match (refused.get(&at), programs.get(&part_name(part(name, parts)))) {
+                    (Some(errors), _) => Err(errors.clone()),
+                    (None, Some(program)) => Ok(Compiled { program: program.clone(), name: name.clone() }),
+                    (None, None) => Err("cargo did not make its program".into()),
+                })
+                .collect());
+        }
+        let before = refused.len();
+        for error in &built.errors {
+            blame(error, &names, &mut refused);
+        }
+        if refused.len() == before {
+            return Err(cargo::bug(&built.errors, Path::new("every case")));
+        }
+    }
+    Err(Failure::Other("bug in arl2rs: the emitted Rust does not compile, whatever is left out".into()))
+}
+
+/// Notes an error for the case whose file it is in.
+fn blame(error: &RustError, names: &[String], refused: &mut HashMap<usize, String>) {
+    let stem = error.file.as_deref().and_then(|file| Path::new(file).file_stem()).unwrap_or_default();
+    if let Some(at) = names.iter().position(|name| stem == name.as_str()) {
+        *refused.entry(at).or_default() += &error.rendered;
+    }
+}
+
+/// How many programs the cases are compiled into: rustc works on several at once.
+fn parts(cases: usize) -> usize {
+    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    workers.min(cases.div_ceil(40)).clamp(1, 8)
+}
+
+/// The part that a case belongs to, whatever other cases there are.
+fn part(name: &str, parts: usize) -> usize {
+    let mut hasher = DefaultHasher::new();
+    name.hash(&mut hasher);
+    (hasher.finish() % parts as u64) as usize
+}
+
+fn part_name(part: usize) -> String {
+    format!("part{part}")
+}
+
+/// A Rust name for a case: readable, and different for every path.
+fn name(source: &Path) -> String {
+    let mut hasher = DefaultHasher::new();
+    source.hash(&mut hasher);
+    let stem = source.file_stem().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let stem: String = stem.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+    format!("case_{stem}_{:08x}", hasher.finish() as u32)
+}
+
+fn write(
+    place: &Place,
+    runtime: &Runtime,
+    cases: &[Emitted],
+    names: &[String],
+    kept: impl Iterator<Item = usize>,
+    parts: usize,
+) -> Result<(), Failure> {
+    project::manifest(&place.folder, &place.name, runtime, 0)?;
+    let bin = place.folder.join("src/bin");
+    let mut programs: BTreeMap<usize, (String, String)> = (0..parts).map(|part| (part, Default::default())).collect();
+    for at in kept {
+        let (Some(case), Some(name)) = (cases.get(at), names.get(at)) else { continue };
+        write_if_changed(&place.folder.join(format!("src/cases/{name}.rs")), case.rust.as_bytes())?;
+        let (modules, arms) = programs.entry(part(name, parts)).or_default();
+        let folder = case.source.parent().unwrap_or(Path::new("/")).display().to_string();
+        *modules += &format!("#[path = \"../cases/{name}.rs\"]\nmod {name};\n");
+        *arms += &format!("        \"{name}\" => arl_rt::program_main::main(&{name}::Globals::new(), {folder:?}),\n");
+    }
+    for (part, (modules, arms)) in &programs {
+        let text = format!(
+            "// Written by arl2rs.\n#![allow(warnings)]\n\n{modules}\nfn main() -> std::process::ExitCode {{\n    \
+             match std::env::var(\"{CASE}\").unwrap_or_default().as_str() {{\n{arms}        \
+             _ => std::process::ExitCode::from(2),\n    }}\n}}\n"
+        );
+        write_if_changed(&bin.join(format!("{}.rs", part_name(*part))), text.as_bytes())?;
+    }
+    remove_others(&bin, |name| programs.keys().any(|part| name == format!("{}.rs", part_name(*part))));
+    remove_others(&place.folder.join("src/cases"), |name| names.iter().any(|case| name == format!("{case}.rs")));
+    Ok(())
+}
+
+/// Removes what earlier runs left.
+fn remove_others(folder: &Path, keep: impl Fn(&str) -> bool) {
+    let Ok(entries) = std::fs::read_dir(folder) else { return };
+    for entry in entries.filter_map(Result::ok) {
+        if !keep(&entry.file_name().to_string_lossy()) {
+            // What stays is not compiled, but for parts, which cargo would complain about.
+            let _ = std::fs::remove_file(entry.path());
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_rust_names_and_differ_by_folder() {
+        let one = name(Path::new("/a/Two words-3.arl"));
+        assert!(one.starts_with("case_two_words_3_"));
+        assert_ne!(one, name(Path::new("/b/Two words-3.arl")));
+    }
+
+    #[test]
+    fn errors_are_blamed_on_their_case() {
+        let names = ["case_a_1".to_string(), "case_b_2".to_string()];
+        let mut refused = HashMap::new();
+        let error = |file: Option<&str>| RustError { file: file.map(Into::into), rendered: "E".into() };
+        blame(&error(Some("src/bin/../cases/case_b_2.rs")), &names, &mut refused);
+        blame(&error(Some("src/bin/part0.rs")), &names, &mut refused);
+        blame(&error(None), &names, &mut refused);
+        assert_eq!(refused, HashMap::from([(1, "E".to_string())]));
+    }
+}

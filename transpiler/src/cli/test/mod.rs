@@ -1,0 +1,281 @@
+//! `arl2rs test`: every program with a sidecar, compiled together, each run as a process of its own.
+
+mod batch;
+mod case;
+mod diff;
+mod execute;
+mod expect;
+
+use super::cache::Cache;
+use super::failure::{COMPILE_ERRORS, Failure};
+use super::progress::Progress;
+use super::robots;
+use crate::CheckOptions;
+use crate::compile::{Compiled, check_program, compile_program};
+use crate::diagnostics::Files;
+use crate::emit::EmitOptions;
+use crate::render::{Position, human};
+use crate::sources::FileSystem;
+use batch::Emitted;
+use case::{Case, Found};
+use execute::Outcome;
+use expect::FoundError;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// What a case came to: nothing to say, or how it failed.
+type Verdict = Result<(), String>;
+
+/// Runs all cases; the last line on standard output is `N passed, N failed`.
+pub(super) fn test(dirs: &[PathBuf]) -> Result<ExitCode, Failure> {
+    let found = find(dirs)?;
+    let progress = Progress::start("checking");
+    let mut verdicts: Vec<Option<Verdict>> = Vec::new();
+    let mut runs: Vec<(usize, &Case)> = Vec::new();
+    let mut emitted = Vec::new();
+    for (at, found) in found.iter().enumerate() {
+        verdicts.push(match &found.case {
+            Err(problem) => Some(Err(problem.clone())),
+            Ok(case) if case.runs() => match emit(case) {
+                Ok(rust) => {
+                    runs.push((at, case));
+                    emitted.push(Emitted { source: found.source.clone(), rust });
+                    None
+                }
+                Err(failure) => Some(Err(failure)),
+            },
+            Ok(case) => Some(check(case)),
+        });
+    }
+    for ((at, _), verdict) in runs.iter().zip(run_all(dirs, &runs, &emitted, &progress)?) {
+        if let Some(slot) = verdicts.get_mut(*at) {
+            *slot = Some(verdict);
+        }
+    }
+    drop(progress);
+    Ok(report(&found, verdicts))
+}
+
+fn find(dirs: &[PathBuf]) -> Result<Vec<Found>, Failure> {
+    let mut all = Vec::new();
+    for dir in dirs {
+        let folder = std::path::absolute(dir).map_err(|error| Failure::io("use", dir, &error))?;
+        let found = case::find(&folder)
+            .map_err(|error| Failure::Usage(format!("cannot read the folder {}: {error}", dir.display())))?;
+        if found.is_empty() {
+            let sidecars = "a NAME.arl with NAME.out, NAME.err or NAME.alarm beside it";
+            return Err(Failure::Usage(format!("{} has no case: {sidecars}", dir.display())));
+        }
+        all.extend(found);
+    }
+    Ok(all)
+}
+
+fn options(case: &Case) -> Result<CheckOptions, String> {
+    match robots::family(execute::robot(case).as_deref()) {
+        Ok(family) => Ok(CheckOptions { family, ..CheckOptions::default() }),
+        Err(Failure::Usage(text) | Failure::Other(text)) => Err(text),
+        Err(Failure::Shown) => Err(String::new()),
+    }
+}
+
+/// The Rust of a case that is to run.
+fn emit(case: &Case) -> Result<String, String> {
+    let compiled = compile_program(&case.source, &FileSystem, &options(case)?, &EmitOptions::default())
+        .map_err(|bug| bug.to_string())?;
+    match &compiled.rust {
+        Some(rust) => Ok(rust.clone()),
+        None => Err(format!("it does not compile:\n{}", shown_errors(&compiled))),
+    }
+}
+
+fn shown_errors(compiled: &Compiled) -> String {
+    compiled.errors().map(|error| human(error, &compiled.checked.files, false)).collect()
+}
+
+/// Checks a case that is to have errors.
+fn check(case: &Case) -> Verdict {
+    let compiled = check_program(&case.source, &FileSystem, &options(case)?).map_err(|bug| bug.to_string())?;
+    let expected = case.errors.as_deref().unwrap_or_default();
+    let difference = expect::compare_errors(expected, &found_errors(&compiled, &compiled.checked.files));
+    difference.map_or(Ok(()), |lines| Err(format!("other errors than expected (- expected, + came):\n{lines}")))
+}
+
+fn found_errors(compiled: &Compiled, files: &Files) -> Vec<FoundError> {
+    let found = |error: &crate::diagnostics::Diagnostic| FoundError {
+        line: Position::of(error.primary.at, files).line,
+        text: [Some(error.message.as_str()), error.help.as_deref()]
+            .into_iter()
+            .flatten()
+            .collect::<Vec<_>>()
+            .join("; "),
+    };
+    compiled.errors().map(found).collect()
+}
+
+/// Compiles the cases that run, and runs them, several at once.
+fn run_all(
+    dirs: &[PathBuf],
+    runs: &[(usize, &Case)],
+    emitted: &[Emitted],
+    progress: &Progress,
+) -> Result<Vec<Verdict>, Failure> {
+    if runs.is_empty() {
+        return Ok(Vec::new());
+    }
+    let cache = Cache::find()?;
+    let key: PathBuf = dirs.iter().filter_map(|dir| std::path::absolute(dir).ok()).collect();
+    let place = cache.program(&key.join("tests"));
+    let _lock = place.lock(false)?;
+    progress.say(&format!("compiling {} cases", runs.len()));
+    let compiled = batch::compile(&place, &cache, emitted, progress)?;
+    let scratch = std::env::temp_dir().join(format!("arl2rs-test-{}", std::process::id()));
+    let next = AtomicUsize::new(0);
+    let verdicts: Mutex<Vec<Verdict>> = Mutex::new(runs.iter().map(|_| Err("it was not run".into())).collect());
+    let work = || {
+        loop {
+            let at = next.fetch_add(1, Ordering::Relaxed);
+            let (Some((_, case)), Some(compiled)) = (runs.get(at), compiled.get(at)) else { return };
+            progress.say(&format!("running {} of {}", at + 1, runs.len()));
+            let verdict = match compiled {
+                Ok(compiled) => match execute::execute(case, compiled, &scratch) {
+                    Ok(outcome) => judge(case, &outcome),
+                    Err(error) => Err(format!("cannot run it: {error}")),
+                },
+                Err(errors) => Err(format!("bug in arl2rs: the Rust that it became does not compile\n{errors}")),
+            };
+            if let Ok(mut verdicts) = verdicts.lock()
+                && let Some(slot) = verdicts.get_mut(at)
+            {
+                *slot = verdict;
+            }
+        }
+    };
+    let workers = std::thread::available_parallelism().map_or(1, usize::from);
+    std::thread::scope(|scope| {
+        for _ in 0..workers {
+            scope.spawn(work);
+        }
+    });
+    // What stays in the system's folder for such files does no harm.
+    let _ = std::fs::remove_dir_all(&scratch);
+    Ok(verdicts.into_inner().unwrap_or_default())
+}
+
+/// Compares what came with what was expected.
+fn judge(case: &Case, outcome: &Outcome) -> Verdict {
+    let mut problems = Vec::new();
+    if outcome.late {
+        problems.push("it ran too long and was ended".to_string());
+    }
+    if let Some(expected) = &case.out
+        && *expected != outcome.out
+    {
+        let difference = diff::diff(expected, &outcome.out);
+        problems.push(format!("other output than expected (- expected, + came):\n{difference}"));
+    }
+    let said = || if outcome.said.trim().is_empty() { String::new() } else { format!("\n{}", outcome.said.trim_end()) };
+    match (&case.alarm, outcome.code) {
+        _ if outcome.late => {}
+        (Some(expected), Some(3)) => match expect::find_alarm(&outcome.said) {
+            Some((number, line)) => {
+                if expected.number.is_some_and(|expected| expected != number) || expected.line != line {
+                    let wanted = expected.number.map_or("*".to_string(), |number| number.to_string());
+                    problems.push(format!("alarm {wanted} {} expected, {number} {line} came{}", expected.line, said()));
+                }
+            }
+            None => problems.push(format!("an alarm was expected, and none was told{}", said())),
+        },
+        (Some(_), _) => problems.push(format!("an alarm was expected, but it {}{}", ending(outcome), said())),
+        (None, Some(0)) => {}
+        (None, Some(4)) if case.options.max_time.is_some() => {}
+        (None, _) => problems.push(format!("it {}{}", ending(outcome), said())),
+    }
+    if problems.is_empty() { Ok(()) } else { Err(problems.join("\n")) }
+}
+
+fn ending(outcome: &Outcome) -> String {
+    match outcome.code {
+        Some(0) => "ended".into(),
+        Some(3) => "ended with an alarm".into(),
+        Some(4) => "ran out of controller time".into(),
+        Some(101) => "ended by a bug in arl2rs".into(),
+        Some(code) => format!("ended with exit code {code}"),
+        None => "was ended by a signal".into(),
+    }
+}
+
+/// Tells what failed, then how many.
+fn report(found: &[Found], verdicts: Vec<Option<Verdict>>) -> ExitCode {
+    let here = std::env::current_dir().unwrap_or_default();
+    let (mut passed, mut failed) = (0, 0);
+    for (found, verdict) in found.iter().zip(verdicts) {
+        match verdict.unwrap_or_else(|| Err("it was not run".into())) {
+            Ok(()) => passed += 1,
+            Err(problem) => {
+                failed += 1;
+                let source = found.source.strip_prefix(&here).unwrap_or(&found.source);
+                anstream::println!("FAILED {}\n{}\n", source.display(), indented(&problem));
+            }
+        }
+    }
+    anstream::println!("{passed} passed, {failed} failed");
+    if failed == 0 { ExitCode::SUCCESS } else { ExitCode::from(COMPILE_ERRORS) }
+}
+
+fn indented(text: &str) -> String {
+    text.lines().map(|line| format!("  {line}")).collect::<Vec<_>>().join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use expect::ExpectedAlarm;
+    use std::path::Path;
+
+    fn case() -> Case {
+        Case {
+            source: Path::new("/x/a.arl").into(),
+            out: Some(b"1\n".to_vec()),
+            errors: None,
+            alarm: None,
+            scenario: None,
+            options: case::CaseOptions::default(),
+        }
+    }
+
+    fn outcome(code: i32) -> Outcome {
+        Outcome { out: b"1\n".to_vec(), said: String::new(), code: Some(code), late: false }
+    }
+
+    #[test]
+    fn output_and_exit_code_decide() {
+        assert_eq!(judge(&case(), &outcome(0)), Ok(()));
+        assert!(judge(&case(), &outcome(3)).unwrap_err().contains("ended with an alarm"));
+        assert!(judge(&case(), &outcome(4)).unwrap_err().contains("out of controller time"));
+        let other = Outcome { out: b"2\n".to_vec(), ..outcome(0) };
+        assert!(judge(&case(), &other).unwrap_err().ends_with("-1\n+2\n"));
+        let late = Outcome { code: None, late: true, ..outcome(0) };
+        assert_eq!(judge(&case(), &late), Err("it ran too long and was ended".into()));
+    }
+
+    #[test]
+    fn a_case_with_a_limit_may_reach_it() {
+        let mut case = case();
+        case.options.max_time = Some(1.0);
+        assert_eq!(judge(&case, &outcome(4)), Ok(()));
+    }
+
+    #[test]
+    fn alarms_need_their_number_and_line() {
+        let alarm = |number| Case { alarm: Some(ExpectedAlarm { number, line: 5 }), ..case() };
+        let said = |text: &str| Outcome { said: text.into(), ..outcome(3) };
+        assert_eq!(judge(&alarm(Some(7)), &said("alarm 7: x (a.arl:5)\n")), Ok(()));
+        assert_eq!(judge(&alarm(None), &said("alarm 8: x (a.arl:5)\n")), Ok(()));
+        assert!(judge(&alarm(Some(7)), &said("alarm 8: x (a.arl:5)\n")).is_err());
+        assert!(judge(&alarm(None), &said("alarm 8: x (a.arl:6)\n")).is_err());
+        assert!(judge(&alarm(None), &outcome(0)).unwrap_err().contains("but it ended"));
+    }
+}
