@@ -200,9 +200,8 @@ impl Refused<'_> {
             (Some(before), token) if begins_value(token) && ends_value(before) => {
                 return self.between_values(found, complete);
             }
-            (Some(before), token) if self.expects_value() && is_infix(token) && !complete => {
-                let after = self.before().map_or(String::new(), |before| self.show(before));
-                debug_assert!(!ends_value(before));
+            (Some(_), token) if is_infix(token) && !complete && self.expects_value() => {
+                let after = before.map_or(String::new(), |before| self.show(before));
                 SyntaxErrorKind::MissingValue(after.into(), self.show(found).into())
             }
             _ => self.unexpected(found, self.hint(found, complete), complete),
@@ -439,7 +438,7 @@ fn ends_value(token: Token) -> bool {
 }
 
 /// Whether a value can begin with the token, but with an operator in front.
-fn begins_value(token: Token) -> bool {
+pub(crate) fn begins_value(token: Token) -> bool {
     matches!(
         token,
         Token::Name(_)

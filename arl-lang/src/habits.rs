@@ -2,19 +2,22 @@
 //! is read as it was meant.
 
 use crate::explain::open_brackets;
-use crate::nest::Nest;
+use crate::line::{Line, LineKind};
 use crate::span::Span;
-use crate::syntax_error::{BlockKind, Bracket, SyntaxError, SyntaxErrorKind};
+use crate::syntax_error::{SyntaxError, SyntaxErrorKind};
 use crate::token::{Placed, Token};
 
-/// What was done with a line.
-pub(crate) enum Habit {
-    /// The tokens are a line to be read.
-    None,
-    /// They are, and a `{` stood at its end.
-    Braced,
-    /// There is nothing left to read.
-    Done,
+/// What was found in a line.
+#[derive(Default)]
+pub(crate) struct Habits {
+    /// The line is nothing else.
+    pub(crate) whole: Option<Line>,
+    /// A `{` stood at its end.
+    pub(crate) opens_brace: bool,
+    /// A `}` stood at its beginning.
+    pub(crate) closes_brace: Option<Span>,
+    /// `else if`: one more `endif` may follow.
+    pub(crate) else_if: bool,
 }
 
 /// What other languages write behind a condition.
@@ -71,29 +74,18 @@ fn span(token: Placed) -> Span {
 }
 
 /// Reports such habits in the line and takes them out of its tokens.
-pub(crate) fn repair(
-    tokens: &mut Vec<Placed>,
-    source: &str,
-    nest: &mut Nest<'_>,
-    errors: &mut Vec<SyntaxError>,
-) -> Habit {
+pub(crate) fn repair(tokens: &mut Vec<Placed>, source: &str, errors: &mut Vec<SyntaxError>) -> Habits {
     let mut report = |kind, span| errors.push(SyntaxError::new(kind, span));
-    if let [brace @ (_, Token::BraceClose, _), rest @ ..] = tokens.as_slice() {
-        if !nest.is_braced() {
-            report(SyntaxErrorKind::StrayClose(Bracket::Brace), span(*brace));
-            if rest.is_empty() {
-                return Habit::Done;
-            }
-        } else if rest.is_empty() {
-            nest.close_brace(span(*brace));
-            return Habit::Done;
+    let mut habits = Habits::default();
+    let whole = |kind, span| Some(Line { kind, span });
+    match tokens.as_slice() {
+        [brace @ (_, Token::BraceOpen, _)] => habits.whole = whole(LineKind::BraceOpen, span(*brace)),
+        [brace @ (_, Token::BraceClose, _)] => habits.whole = whole(LineKind::BraceClose, span(*brace)),
+        [brace @ (_, Token::BraceClose, _), ..] => {
+            habits.closes_brace = Some(span(*brace));
+            tokens.remove(0);
         }
-        tokens.remove(0);
-    }
-    if let [brace @ (_, Token::BraceOpen, _)] = tokens.as_slice() {
-        report(SyntaxErrorKind::BlockBrace, span(*brace));
-        nest.set_braced();
-        return Habit::Done;
+        _ => {}
     }
     if let Some(last @ (_, Token::Semicolon, _)) = tokens.last().copied()
         && open_brackets(tokens).is_empty()
@@ -104,24 +96,22 @@ pub(crate) fn repair(
         tokens.truncate(first);
     }
     if let [first @ (_, Token::Else, _), second @ (_, Token::If, _), ..] = tokens.as_slice() {
-        let whole = span(*first).to(span(*second));
-        report(SyntaxErrorKind::ElseIf, whole);
-        // Whoever means an `if` of its own inside of the `else` writes one `endif` more.
-        nest.forgive_end(BlockKind::If);
+        let words = span(*first).to(span(*second));
+        report(SyntaxErrorKind::ElseIf, words);
+        habits.else_if = true;
         tokens.remove(0);
         if let Some(word) = tokens.first_mut() {
-            *word = (whole.start, Token::ElseIf, whole.end);
+            *word = (words.start, Token::ElseIf, words.end);
         }
     }
-    let Some((_, first, _)) = tokens.first().copied() else { return Habit::Done };
-    let mut habit = Habit::None;
+    let Some((_, first, _)) = tokens.first().copied() else { return habits };
     if is_header(first) {
         if tokens.len() > 1
             && let Some(last @ (_, Token::BraceOpen, _)) = tokens.last().copied()
         {
             report(SyntaxErrorKind::BlockBrace, span(last));
             tokens.pop();
-            habit = Habit::Braced;
+            habits.opens_brace = true;
         }
         if let [.., (_, before, _), last @ (_, Token::Name(_), _)] = tokens.as_slice()
             && matches!(before, Token::ParenClose | Token::Else | Token::Loop | Token::Repeat)
@@ -130,15 +120,15 @@ pub(crate) fn repair(
             report(SyntaxErrorKind::Then(span(*last).text(source).into()), span(*last));
             tokens.pop();
         }
-    } else if tokens.len() <= 2 && matches!(first, Token::Name(_)) && ends_block(tokens, source, nest, errors) {
-        return Habit::Done;
+    } else if tokens.len() <= 2 && matches!(first, Token::Name(_)) {
+        habits.whole = other_end(tokens, source);
     }
-    habit
+    habits
 }
 
-/// Takes a line like `end if`, `wend` or `endsub` for the end of the innermost block.
-fn ends_block(tokens: &[Placed], source: &str, nest: &mut Nest<'_>, errors: &mut Vec<SyntaxError>) -> bool {
-    let (Some(first), Some(last)) = (tokens.first(), tokens.last()) else { return false };
+/// The line `end if`, `wend`, `endsub` and the like.
+fn other_end(tokens: &[Placed], source: &str) -> Option<Line> {
+    let (first, last) = (tokens.first()?, tokens.last()?);
     let whole = span(*first).to(span(*last));
     let word = span(*first).text(source);
     let is = |list: &[&str]| list.iter().any(|end| end.eq_ignore_ascii_case(word));
@@ -147,5 +137,6 @@ fn ends_block(tokens: &[Placed], source: &str, nest: &mut Nest<'_>, errors: &mut
         [_, (_, second, _)] => (word.eq_ignore_ascii_case("end") && is_header(*second), *second == Token::Func),
         _ => (false, false),
     };
-    ends && nest.close_other(whole.text(source), whole, function, errors)
+    let kind = LineKind::OtherEnd(whole.text(source).into(), function);
+    ends.then_some(Line { kind, span: whole })
 }

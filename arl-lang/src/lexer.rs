@@ -307,9 +307,13 @@ fn splice(lexer: &mut Lexer<'_>) -> Result<(), LexicalError> {
     end.map(|_| ()).ok_or(LexicalError::UnclosedSplice)
 }
 
+/// How many bytes of Rust may be spliced in at one place.
+const SPLICE_BYTES: usize = 16 * 1024;
+
 /// The bytes from a `(` to behind its `)`; Rust strings and characters inside are passed over.
 fn splice_end(rest: &str) -> Option<usize> {
     let bytes = rest.as_bytes();
+    let bytes = bytes.get(..SPLICE_BYTES).unwrap_or(bytes);
     let mut depth = 0_usize;
     let mut at = 0;
     while let Some(byte) = bytes.get(at) {

@@ -37,6 +37,12 @@ pub(crate) enum LineKind {
     Case(Expr),
     Default,
     EndSwitch,
+    /// A `{` alone.
+    BraceOpen,
+    /// A `}` alone.
+    BraceClose,
+    /// `end if` and the like, and whether it names the end of a function.
+    OtherEnd(Box<str>, bool),
 }
 
 /// The first line of a function.

@@ -1,18 +1,27 @@
 //! Nests lines into blocks with a stack of its own, so that a missing or a wrong closing line is one error that
 //! knows its opening line, and depth costs no call stack.
 
+use std::collections::VecDeque;
+
 use crate::ast::{Arm, Block, Expr, File, For, Func, If, Item, Stmt, StmtKind, Switch};
+use crate::foresee::{self, Event, Stack};
 use crate::line::{FuncHead, Line, LineKind};
 use crate::span::{LineIndex, Span};
-use crate::syntax_error::{BLOCK_LEVELS, BlockKind, SyntaxError, SyntaxErrorKind};
+use crate::syntax_error::{BLOCK_LEVELS, BlockKind, Bracket, Hint, SyntaxError, SyntaxErrorKind};
 
 /// What is known of a line besides its kind.
 #[derive(Clone, Copy, Default, Debug)]
 pub(crate) struct Doubts {
     /// It may open a block or not: it could not be read.
     pub(crate) may_open: bool,
+    /// A wrong word closed it perhaps: the right one may be missing.
+    pub(crate) may_be_closed: bool,
     /// A `{` stood at its end.
     pub(crate) braced: bool,
+    /// A `}` stood at its beginning.
+    pub(crate) closes_brace: Option<Span>,
+    /// It was written `else if`.
+    pub(crate) else_if: bool,
     /// What it opens is not to be kept.
     pub(crate) drop: bool,
 }
@@ -25,6 +34,13 @@ struct Frame {
     /// The statements of the current branch.
     body: Block,
     doubts: Doubts,
+}
+
+impl Frame {
+    /// Whether its closing line may be missing without another mistake.
+    fn is_quiet(&self) -> bool {
+        self.doubts.may_open || self.doubts.may_be_closed
+    }
 }
 
 /// What was read of a block before its current branch.
@@ -63,11 +79,17 @@ pub(crate) struct Nest<'source> {
     /// Statements outside of all blocks, where only statements are read.
     statements: Block,
     only_statements: bool,
-    /// Closing lines that may lack their block, or the other way round, because of an error reported before.
-    forgiven: Vec<BlockKind>,
+    /// The lines of a function, as far as it was read.
+    waiting: VecDeque<(Line, Doubts)>,
+    /// Whether lines wait for the end of their function, so that the ones to come can be looked at.
+    waits: bool,
+    /// How many `endif` may lack their `if`, because of an `else if` reported before.
+    forgiven: usize,
     /// Whether a statement outside of functions was reported since the last function.
     outside: bool,
-    /// Whether the block that is one too many was reported.
+    /// How many blocks beyond the limit are open; what is in them is not kept.
+    beyond: usize,
+    /// Whether the block that is one too many was reported in this function.
     too_deep: bool,
     last: Span,
 }
@@ -81,8 +103,11 @@ impl<'source> Nest<'source> {
             items: Vec::new(),
             statements: Vec::new(),
             only_statements,
-            forgiven: Vec::new(),
+            waiting: VecDeque::new(),
+            waits: false,
+            forgiven: 0,
             outside: false,
+            beyond: 0,
             too_deep: false,
             last: Span::default(),
         }
@@ -90,8 +115,36 @@ impl<'source> Nest<'source> {
 
     /// Takes the next line.
     pub(crate) fn take(&mut self, line: Line, doubts: Doubts, errors: &mut Vec<SyntaxError>) {
+        let event = Event::of(&line.kind, doubts.may_open);
+        if matches!(event, Event::Open(BlockKind::Func, _)) {
+            self.take_waiting(errors);
+        }
+        self.waits |= matches!(event, Event::Open(..));
+        if !self.waits {
+            return self.take_now(line, doubts, errors);
+        }
+        self.waiting.push_back((line, doubts));
+        if event == Event::Close(BlockKind::Func) {
+            self.take_waiting(errors);
+        }
+    }
+
+    /// Takes the lines that wait.
+    fn take_waiting(&mut self, errors: &mut Vec<SyntaxError>) {
+        while let Some((line, doubts)) = self.waiting.pop_front() {
+            self.take_now(line, doubts, errors);
+        }
+        self.waits = false;
+    }
+
+    fn take_now(&mut self, line: Line, doubts: Doubts, errors: &mut Vec<SyntaxError>) {
         let Line { kind, span } = line;
         self.last = span;
+        if let Some(brace) = doubts.closes_brace
+            && !self.is_braced()
+        {
+            errors.push(SyntaxError::new(SyntaxErrorKind::StrayClose(Bracket::Brace), brace));
+        }
         match kind {
             LineKind::Statement(kind) => self.statement(Stmt { kind, span }, errors),
             LineKind::Import(import) => {
@@ -122,6 +175,17 @@ impl<'source> Nest<'source> {
             LineKind::EndLoop => self.close(BlockKind::Loop, span, None, errors),
             LineKind::EndFor => self.close(BlockKind::For, span, None, errors),
             LineKind::EndSwitch => self.close(BlockKind::Switch, span, None, errors),
+            LineKind::BraceOpen => {
+                errors.push(SyntaxError::new(SyntaxErrorKind::BlockBrace, span));
+                if let Some(frame) = self.frames.last_mut() {
+                    frame.doubts.braced = true;
+                }
+            }
+            LineKind::BraceClose if self.is_braced() => self.pop(span, None),
+            LineKind::BraceClose => {
+                errors.push(SyntaxError::new(SyntaxErrorKind::StrayClose(Bracket::Brace), span));
+            }
+            LineKind::OtherEnd(text, function) => self.close_other(text, span, function, errors),
         }
     }
 
@@ -140,57 +204,35 @@ impl<'source> Nest<'source> {
     }
 
     fn finish(&mut self, errors: &mut Vec<SyntaxError>) {
+        self.take_waiting(errors);
         let last = self.last;
         while !self.frames.is_empty() {
             self.unclosed(last, errors);
         }
     }
 
-    /// The innermost open block, if it was opened with a brace; the block counts as closed then.
-    pub(crate) fn close_brace(&mut self, span: Span) -> bool {
-        let braced = self.frames.last().is_some_and(|frame| frame.doubts.braced);
-        if braced {
-            self.pop(span, None);
-        }
-        braced
-    }
-
-    /// Whether a `}` is due.
-    pub(crate) fn is_braced(&self) -> bool {
+    /// Whether the innermost block was opened with a brace.
+    fn is_braced(&self) -> bool {
         self.frames.last().is_some_and(|frame| frame.doubts.braced)
     }
 
-    /// One closing line of this kind may lack its block.
-    pub(crate) fn forgive_end(&mut self, kind: BlockKind) {
-        self.forgiven.push(kind);
-    }
-
-    /// The innermost block was opened with a brace on a line of its own.
-    pub(crate) fn set_braced(&mut self) {
-        if let Some(frame) = self.frames.last_mut() {
-            frame.doubts.braced = true;
-        }
-    }
-
-    /// A line that closes a block in another language's words; whether a block was open.
-    pub(crate) fn close_other(
-        &mut self,
-        text: &str,
-        span: Span,
-        function: bool,
-        errors: &mut Vec<SyntaxError>,
-    ) -> bool {
-        if function && let Some(position) = self.find(|open| open.kind() == BlockKind::Func) {
+    /// A line that closes the innermost block, or the function, in another language's words.
+    fn close_other(&mut self, text: Box<str>, span: Span, function: bool, errors: &mut Vec<SyntaxError>) {
+        if function && let Some(position) = self.find(BlockKind::Func) {
             self.close_inside(position, span, errors);
         }
-        let Some(frame) = self.frames.last() else { return false };
+        let Some(frame) = self.frames.last() else {
+            let hint = Hint::None;
+            let found = format!("`{text}`").into();
+            let expected = "a statement, a declaration or the beginning of a block".into();
+            errors.push(SyntaxError::new(SyntaxErrorKind::Unexpected { found, expected, hint }, span));
+            return;
+        };
         let (kind, opened) = (frame.kind.kind(), frame.span);
         let line = self.line_of(opened);
-        let error = SyntaxError::new(SyntaxErrorKind::OtherEnd(text.into(), kind, line), span);
+        let error = SyntaxError::new(SyntaxErrorKind::OtherEnd(text, kind, line), span);
         errors.push(error.with(opened, format!("this `{}` is open", kind.opener())));
-        self.forgiven.push(kind);
         self.pop(span, None);
-        true
     }
 
     fn line_of(&mut self, span: Span) -> u32 {
@@ -201,6 +243,9 @@ impl<'source> Nest<'source> {
     /// Adds a statement to the innermost block.
     fn statement(&mut self, stmt: Stmt, errors: &mut Vec<SyntaxError>) {
         let span = stmt.span;
+        if self.beyond > 0 {
+            return;
+        }
         match self.frames.last_mut() {
             Some(frame) => {
                 if let Open::Switch(_, arms, current @ None, _) = &mut frame.kind {
@@ -242,7 +287,9 @@ impl<'source> Nest<'source> {
         while !self.frames.is_empty() {
             self.unclosed(span, errors);
         }
-        self.forgiven.clear();
+        self.beyond = 0;
+        self.too_deep = false;
+        self.forgiven = 0;
         self.outside = false;
         self.frames.push(Frame { kind: Open::Func(head), span, body: Vec::new(), doubts });
     }
@@ -260,14 +307,69 @@ impl<'source> Nest<'source> {
             if !std::mem::replace(&mut self.too_deep, true) {
                 errors.push(SyntaxError::new(SyntaxErrorKind::TooManyBlocks, span));
             }
-            doubts.drop = true;
+            self.beyond += 1;
+            return;
         }
         self.frames.push(Frame { kind, span, body: Vec::new(), doubts });
     }
 
-    /// The position of the innermost open block that `wanted` accepts.
-    fn find(&self, wanted: impl Fn(&Open) -> bool) -> Option<usize> {
-        self.frames.iter().rposition(|frame| wanted(&frame.kind))
+    /// The position of the innermost open block of the kind.
+    fn find(&self, kind: BlockKind) -> Option<usize> {
+        self.frames.iter().rposition(|frame| frame.kind.kind() == kind)
+    }
+
+    /// The position of the block that a closing line (`closes`) or a branch belongs to, if it belongs to one: of the
+    /// blocks of its kind the innermost, but one that may be no block, if that makes fewer mistakes.
+    fn owner(&self, kind: BlockKind, closes: bool, span: Span) -> Option<usize> {
+        let innermost = self.find(kind)?;
+        if innermost + 1 == self.frames.len() && !self.frames.get(innermost)?.doubts.may_open {
+            return Some(innermost);
+        }
+        if kind == BlockKind::Func {
+            return Some(innermost);
+        }
+        let stack: Stack = self.frames.iter().map(|frame| (frame.kind.kind(), frame.is_quiet())).collect();
+        let after = |position: usize| {
+            let mut stack = stack.clone();
+            let missing = foresee::missing(stack.get(position + 1..).unwrap_or_default());
+            stack.truncate(if closes { position } else { position + 1 });
+            missing + self.mistakes_to_come(stack)
+        };
+        let mut best = (after(innermost), Some(innermost));
+        if self.frames.get(innermost).is_some_and(|frame| frame.doubts.may_open) {
+            let around = stack.get(..innermost)?.iter().rposition(|(open, _)| *open == kind);
+            if let Some(around) = around
+                && after(around) < best.0
+            {
+                best = (after(around), Some(around));
+            }
+        } else {
+            let mut same = stack.clone();
+            if let (Some(top), true) = (same.last_mut(), closes) {
+                top.1 = true;
+            }
+            let none = 1 + self.mistakes_to_come(same);
+            if none < best.0 || (none == best.0 && self.stands_under_innermost(innermost, span)) {
+                best = (none, None);
+            }
+        }
+        best.1
+    }
+
+    /// How many mistakes the lines that wait contain when `stack` is open.
+    fn mistakes_to_come(&self, stack: Stack) -> usize {
+        foresee::mistakes(stack, self.waiting.iter().map(|(line, doubts)| Event::of(&line.kind, doubts.may_open)))
+    }
+
+    /// Whether a line is indented like the innermost block and unlike the block at `position`.
+    fn stands_under_innermost(&self, position: usize, span: Span) -> bool {
+        let indent = |span: Span| {
+            let before = self.source.get(..span.start as usize).unwrap_or_default();
+            before.bytes().rev().take_while(|byte| matches!(byte, b' ' | b'\t')).count()
+        };
+        let of_frame = |frame: Option<&Frame>| frame.map(|frame| indent(frame.span));
+        let own = Some(indent(span));
+        own == of_frame(self.frames.last()) && own != of_frame(self.frames.get(position))
     }
 
     /// Closes all blocks inside of the one at `position`; each of them lacks its closing line.
@@ -285,7 +387,10 @@ impl<'source> Nest<'source> {
         doubts: Doubts,
         errors: &mut Vec<SyntaxError>,
     ) {
-        let Some(position) = self.find(|open| matches!(open, Open::If(..))) else {
+        if self.beyond > 0 {
+            return;
+        }
+        let Some(position) = self.owner(BlockKind::If, false, span) else {
             errors.push(SyntaxError::new(SyntaxErrorKind::BranchOutsideIf(word), span));
             return;
         };
@@ -294,6 +399,8 @@ impl<'source> Nest<'source> {
         let Open::If(arms, current) = &mut frame.kind else { return };
         frame.doubts.may_open = false;
         frame.doubts.braced |= doubts.braced;
+        // Whoever means an `if` of its own inside of the `else` writes one `endif` more.
+        self.forgiven += usize::from(doubts.else_if);
         let Some(before) = current.take() else {
             let error = SyntaxError::new(SyntaxErrorKind::BranchAfterElse(word), span);
             errors.push(error.with(frame.span, "the `if` begins here"));
@@ -306,7 +413,10 @@ impl<'source> Nest<'source> {
     }
 
     fn case(&mut self, value: Option<Expr>, span: Span, errors: &mut Vec<SyntaxError>) {
-        let Some(position) = self.find(|open| matches!(open, Open::Switch(..))) else {
+        if self.beyond > 0 {
+            return;
+        }
+        let Some(position) = self.owner(BlockKind::Switch, false, span) else {
             errors.push(SyntaxError::new(SyntaxErrorKind::CaseOutsideSwitch, span));
             return;
         };
@@ -322,49 +432,43 @@ impl<'source> Nest<'source> {
     }
 
     fn close(&mut self, kind: BlockKind, span: Span, condition: Option<Expr>, errors: &mut Vec<SyntaxError>) {
-        let Some(position) = self.find(|open| open.kind() == kind) else {
-            self.close_wrongly(kind, span, errors);
+        if kind == BlockKind::Func {
+            self.beyond = 0;
+        }
+        if self.beyond > 0 {
+            self.beyond -= 1;
+            return;
+        }
+        let Some(position) = self.owner(kind, true, span) else {
+            self.close_nothing(kind, span, errors);
             return;
         };
-        let inside = self.frames.len() - position - 1;
-        if inside > 0 && kind != BlockKind::Func && self.forgive(kind) {
-            return;
-        }
-        let count = errors.len();
         self.close_inside(position, span, errors);
-        if errors.len() > count && kind != BlockKind::Func {
-            // It may as well have been meant for the inner block, and the line for the outer one is still to come.
-            self.forgiven.push(kind);
-        }
-        let doubtful = self.frames.last().is_some_and(|frame| frame.doubts.may_open);
-        if doubtful {
-            self.forgiven.push(kind);
-        }
         self.pop(span, condition);
     }
 
-    /// A closing line for which no block is open.
-    fn close_wrongly(&mut self, kind: BlockKind, span: Span, errors: &mut Vec<SyntaxError>) {
-        if self.forgive(kind) || (self.outside && kind == BlockKind::Func) {
+    /// A closing line that belongs to no block.
+    fn close_nothing(&mut self, kind: BlockKind, span: Span, errors: &mut Vec<SyntaxError>) {
+        if kind == BlockKind::If && self.forgiven > 0 {
+            self.forgiven -= 1;
             return;
         }
-        let top = self.frames.last().map(|frame| (frame.kind.kind(), frame.span));
+        if self.outside && kind == BlockKind::Func {
+            return;
+        }
+        let top = self.frames.last().map(|frame| (frame.kind.kind(), frame.span, frame.is_quiet()));
         match top {
-            Some((open, opened)) if open != BlockKind::Func => {
+            Some((open, opened, false)) if open != BlockKind::Func => {
                 let line = self.line_of(opened);
                 let error = SyntaxError::new(SyntaxErrorKind::WrongEnd(open, line, kind), span);
                 errors.push(error.with(opened, format!("this `{}` is open", open.opener())));
-                self.forgiven.push(open);
-                self.pop(span, None);
+                // It stays open: the line may as well be one too many, with the right one still to come.
+                if let Some(frame) = self.frames.last_mut() {
+                    frame.doubts.may_be_closed = true;
+                }
             }
             _ => errors.push(SyntaxError::new(SyntaxErrorKind::StrayEnd(kind), span)),
         }
-    }
-
-    /// Whether a line of this kind is forgiven because of an error before; each only once.
-    fn forgive(&mut self, kind: BlockKind) -> bool {
-        let found = self.forgiven.iter().rposition(|forgiven| *forgiven == kind);
-        found.map(|at| self.forgiven.swap_remove(at)).is_some()
     }
 
     /// Closes the innermost block, whose closing line is missing before `span`.
@@ -380,29 +484,21 @@ impl<'source> Nest<'source> {
             }
             return;
         }
-        let beyond = self.frames.len() > BLOCK_LEVELS;
         let name = match &frame.kind {
             Open::Func(head) => head.name.span.text(self.source).into(),
             _ => "".into(),
         };
-        if !beyond && !self.forgive_missing(kind) {
+        // Where blocks were too many, closing lines were not followed.
+        if !self.too_deep && !doubts.may_be_closed {
             let error = SyntaxError::new(SyntaxErrorKind::UnclosedBlock(kind, name), opened);
             errors.push(error.with(span, format!("`{}` belongs before this at the latest", kind.closer())));
         }
         self.pop(span, None);
     }
 
-    /// Whether a block of this kind may lack its closing line, since a line that could not be read took it.
-    fn forgive_missing(&mut self, kind: BlockKind) -> bool {
-        kind == BlockKind::If && self.forgive(kind)
-    }
-
     /// Closes the innermost block and adds it to the one around it.
     fn pop(&mut self, end: Span, condition: Option<Expr>) {
         let Some(Frame { kind, span, mut body, doubts }) = self.frames.pop() else { return };
-        if self.frames.len() < BLOCK_LEVELS {
-            self.too_deep = false;
-        }
         if doubts.drop {
             return;
         }

@@ -7,10 +7,10 @@ use crate::adapt::{Adapter, PlacedLexeme};
 use crate::ast::{Block, Expr, ExprKind, File, StmtKind};
 use crate::explain::explain;
 use crate::grammar::LineParser;
-use crate::habits::{Habit, repair};
+use crate::habits::repair;
 use crate::lexer::{Lexeme, LexicalError};
 use crate::line::LineKind;
-use crate::nest::{Doubts, Nest};
+use crate::nest::{Doubts, Nest, error_at};
 use crate::number::{Number, NumberError, NumberValue};
 use crate::salvage::{Salvaged, salvage};
 use crate::span::Span;
@@ -265,12 +265,15 @@ impl<'a> Parser<'a> {
         if self.adapter.tokens.is_empty() {
             return;
         }
-        let errors = &mut self.context.errors;
-        let mut doubts = Doubts::default();
-        match repair(&mut self.adapter.tokens, self.source, &mut self.nest, errors) {
-            Habit::None => {}
-            Habit::Braced => doubts.braced = true,
-            Habit::Done => return,
+        let habits = repair(&mut self.adapter.tokens, self.source, &mut self.context.errors);
+        let mut doubts = Doubts {
+            braced: habits.opens_brace,
+            closes_brace: habits.closes_brace,
+            else_if: habits.else_if,
+            ..Doubts::default()
+        };
+        if let Some(line) = habits.whole {
+            return self.nest.take(line, doubts, &mut self.context.errors);
         }
         let tokens = self.adapter.tokens.as_slice();
         if broken {
@@ -279,12 +282,18 @@ impl<'a> Parser<'a> {
         }
         let before = self.context.errors.len();
         match self.grammar.parse(&mut self.context, tokens.iter().copied()) {
-            Ok(line) => {
-                if let LineKind::Statement(StmtKind::CompactIf(parts)) = &line.kind
-                    && let StmtKind::Expr(expr) = &parts.1.kind
-                    && matches!(expr.kind, ExprKind::Brace(_))
-                {
-                    self.context.errors.push(SyntaxError::new(SyntaxErrorKind::BlockBrace, expr.span));
+            Ok(mut line) => {
+                if let LineKind::Statement(StmtKind::CompactIf(parts)) = &mut line.kind {
+                    if quiet {
+                        // Whether a statement was meant there or not is anybody's guess.
+                        doubts.may_open = true;
+                        let unknown = error_at(parts.0.span);
+                        line.kind = LineKind::If(std::mem::replace(&mut parts.0, unknown));
+                    } else if let StmtKind::Expr(expr) = &parts.1.kind
+                        && matches!(expr.kind, ExprKind::Brace(_))
+                    {
+                        self.context.errors.push(SyntaxError::new(SyntaxErrorKind::BlockBrace, expr.span));
+                    }
                 }
                 self.nest.take(line, doubts, &mut self.context.errors);
             }

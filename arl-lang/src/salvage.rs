@@ -2,7 +2,7 @@
 //! that the error costs this line only.
 
 use crate::ast::{Decl, Expr, For, FuncParam, Ident, Stmt, StmtKind, TypeRef, Var};
-use crate::explain::is_infix;
+use crate::explain::begins_value;
 use crate::line::{FuncHead, Line, LineKind};
 use crate::nest::error_at;
 use crate::span::Span;
@@ -28,12 +28,16 @@ pub(crate) fn salvage(tokens: &[Placed], read: Option<Line>, void: Symbol) -> Op
     let mut drop = false;
     let kind = match first.1 {
         Token::If => match condition_end(tokens) {
-            // `if(a) && (b)`: the condition goes on.
-            Some(end) if tokens.get(end).is_none_or(|next| is_infix(next.1)) => {
+            // `if(a) endif`, `if(a) if(b) x()`: whole on their line. `if(a) while(b)`: the inner block goes on.
+            Some(end) if matches!(tokens.get(end), Some((_, Token::If | Token::EndIf, _))) => return None,
+            Some(end) if tokens.get(end).is_some_and(|next| is_opener(next.1)) => {
+                return salvage(tokens.get(end..).unwrap_or_default(), None, void);
+            }
+            // `if(a) && (b)`, `if(a) )`: there is no statement behind the condition.
+            Some(end) if tokens.get(end).is_none_or(|next| !may_begin_statement(next.1)) => {
                 LineKind::If(guard(read).unwrap_or_else(unknown))
             }
-            Some(_) => return None,
-            None => {
+            _ => {
                 may_open = true;
                 LineKind::If(unknown())
             }
@@ -77,6 +81,27 @@ pub(crate) fn salvage(tokens: &[Placed], read: Option<Line>, void: Symbol) -> Op
         _ => return None,
     };
     Some(Salvaged { line: Line { kind, span }, may_open, drop })
+}
+
+/// Whether the token opens a block, `if` excepted.
+fn is_opener(token: Token) -> bool {
+    matches!(token, Token::While | Token::For | Token::Loop | Token::Repeat | Token::Switch)
+}
+
+/// Whether a statement may begin with the token.
+fn may_begin_statement(token: Token) -> bool {
+    begins_value(token)
+        || matches!(
+            token,
+            Token::Instruction(_)
+                | Token::ParenOpen
+                | Token::PlusPlus
+                | Token::MinusMinus
+                | Token::Break
+                | Token::Continue
+                | Token::Goto
+                | Token::Return
+        )
 }
 
 /// The condition that was read before the error.

@@ -561,7 +561,8 @@ impl SyntaxErrorKind {
             ReservedWord(_) => "Words of the language cannot name variables, functions or labels, in whatever case.",
             ComponentColon(_) => "In braces: `{x 1, y 2}`. With a colon are labels of arguments: `lin p:p1`.",
             WrongEnd(open, ..) => {
-                return Some(format!("A `{}` reaches to its `{}`.", open.opener(), open.closing_line()));
+                let (opener, closer) = (open.opener(), open.closing_line());
+                return Some(format!("A `{opener}` reaches to its `{closer}`. Write that, or remove this line."));
             }
             StrayEnd(_) => "Remove it, or look above for a line that closes too early.",
             OutsideFunction => {

@@ -205,8 +205,8 @@ fn blocks() {
         ("func void f()\nif(a)\nendif\nendif\nuntil(a)\nendfunc\n", vec![(141, 4), (141, 5)]),
         // Another's.
         ("func void f()\nfor(;;)\nx()\nendwhile\nendfunc\n", vec![(142, 4)]),
-        ("func void f()\nwhile(a)\nfor(;;)\nx()\nendwhile\nendwhile\nendfunc\n", vec![(140, 3)]),
-        ("func void f()\nloop\nif(a)\nendloop\nendloop\nendfunc\n", vec![(140, 3)]),
+        ("func void f()\nwhile(a)\nfor(;;)\nx()\nendwhile\nendwhile\nendfunc\n", vec![(142, 5)]),
+        ("func void f()\nloop\nif(a)\nendloop\nendloop\nendfunc\n", vec![(142, 4)]),
         ("func void f()\nrepeat\nx()\nendrepeat\nendfunc\n", vec![(152, 4)]),
         ("func void f()\nif(a)\nx()\nend if\nx()\nendfunc\n", vec![(152, 4)]),
         ("func void f()\nwhile(a)\nwend\nendfunc\n", vec![(152, 3)]),
