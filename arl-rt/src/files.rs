@@ -23,6 +23,10 @@ impl ScriptDir {
         Self(path)
     }
 
+    pub(crate) fn path(&self) -> &Path {
+        &self.0
+    }
+
     /// The file of this name below the directory.
     ///
     /// # Errors

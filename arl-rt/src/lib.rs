@@ -26,6 +26,7 @@ pub mod ops;
 pub mod output;
 pub mod pose;
 pub mod program;
+pub mod program_main;
 pub mod random;
 pub mod rate;
 pub mod robot;

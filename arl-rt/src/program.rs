@@ -30,6 +30,28 @@ pub trait Program {
     }
 }
 
+impl Program for Box<dyn Program> {
+    fn file(&self) -> File {
+        (**self).file()
+    }
+
+    fn family(&self) -> Family {
+        (**self).family()
+    }
+
+    fn init<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+        (**self).init(cx)
+    }
+
+    fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+        (**self).main(cx)
+    }
+
+    fn data(&self) -> Vec<DataFile<'_>> {
+        (**self).data()
+    }
+}
+
 /// A data file and the variables that it gives values to.
 pub struct DataFile<'a> {
     /// The file, as it was named when the program was compiled.
@@ -42,6 +64,8 @@ pub struct DataFile<'a> {
 pub struct DataVar<'a> {
     /// Its name as it was declared.
     pub name: &'static str,
+    /// The sizes of an array of several dimensions, outermost first; else empty.
+    pub sizes: &'static [usize],
     /// The variable.
     pub slot: &'a dyn Teach,
 }

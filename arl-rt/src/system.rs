@@ -7,7 +7,8 @@ use crate::fault::Fault;
 use crate::keep::Keep;
 use crate::state::{State, StateError};
 use crate::values::{
-    Array, Controlmode, Frame, Joint, Pose, Shared, Slip, Speed, Str, Tool, ToolInertiaPara, UNSET, VelProfile, Wobj,
+    Array, Controlmode, Frame, Joint, Pose, Shared, Slip, SmallArray, Speed, Str, Tool, ToolInertiaPara, UNSET,
+    VelProfile, Wobj,
 };
 
 /// Declares the variables: field, type, default, name, and when the default comes back.
@@ -35,6 +36,7 @@ macro_rules! system {
             }
 
             /// The variables that are kept when the controller is switched off.
+            #[expect(clippy::vec_init_then_push, reason = "which of them are kept is known here only")]
             pub(crate) fn kept(&self) -> Vec<Kept<'_>> {
                 let mut kept: Vec<Kept<'_>> = Vec::new();
                 $( system!(@keep $restore kept, self.$field, $name, $ty, $default); )*
@@ -66,15 +68,15 @@ macro_rules! system {
 
 system! {
     /// 100 ints for the user.
-    i: Shared<Array<i32, 100>> = Array::start(), "I", Saved;
+    i: Shared<SmallArray<i32, 100>> = SmallArray::start(), "I", Saved;
     /// Names for the elements of `$I`.
     i_name: Shared<Array<Str, 100>> = Array::start(), "I_NAME", Permanent;
     /// 100 bools for the user.
-    b: Shared<Array<bool, 100>> = Array::start(), "B", Saved;
+    b: Shared<SmallArray<bool, 100>> = SmallArray::start(), "B", Saved;
     /// Names for the elements of `$B`.
     b_name: Shared<Array<Str, 100>> = Array::start(), "B_NAME", Permanent;
     /// 100 doubles for the user.
-    d: Shared<Array<f64, 100>> = Array::start(), "D", Saved;
+    d: Shared<SmallArray<f64, 100>> = SmallArray::start(), "D", Saved;
     /// Names for the elements of `$D`.
     d_name: Shared<Array<Str, 100>> = Array::start(), "D_NAME", Permanent;
     /// 100 poses for the user.
@@ -90,7 +92,7 @@ system! {
     /// Names for the elements of `$WOBJS`.
     wobjs_name: Shared<Array<Str, 32>> = Array::start(), "WOBJS_NAME", Permanent;
     /// Where the bases of the mechanical units stand in the world.
-    base: Shared<Array<Wobj, 3>> = Array::start(), "BASE", Saved;
+    base: Shared<SmallArray<Wobj, 3>> = SmallArray::start(), "BASE", Saved;
     /// The flange as a tool: no tool at all. Read-only.
     flange: Cell<Tool> = Tool::default(), "FLANGE", Constant;
     /// The world as a workpiece frame. Read-only.
@@ -128,7 +130,7 @@ system! {
     /// Whether the first motion of a program runs at manual speed.
     rpp_enable: Cell<bool> = false, "RPP_ENABLE", Reset;
     /// Whether the robot stands at each of the home points. Read-only.
-    at_home: Shared<Array<bool, 5>> = Array::start(), "AT_HOME", Current;
+    at_home: Shared<SmallArray<bool, 5>> = SmallArray::start(), "AT_HOME", Current;
     /// Whether the external control is active. Read-only.
     ext_ctl_act: Cell<bool> = false, "EXT_CTL_ACT", Current;
     /// Whether the external control is asked for a program number.
@@ -140,13 +142,13 @@ system! {
     /// The operating mode. Read-only.
     ctl_mode: Cell<Controlmode> = Controlmode::Auto, "CTL_MODE", Current;
     /// Shift and turn of all workpiece frames: mm, deg.
-    wobj_offset: Shared<Array<f64, 6>> = Array::start(), "WOBJ_OFFSET", Reset;
+    wobj_offset: Shared<SmallArray<f64, 6>> = SmallArray::start(), "WOBJ_OFFSET", Reset;
     /// Shift and turn of all tools: mm, deg.
-    tool_offset: Shared<Array<f64, 6>> = Array::start(), "TOOL_OFFSET", Reset;
+    tool_offset: Shared<SmallArray<f64, 6>> = SmallArray::start(), "TOOL_OFFSET", Reset;
     /// Where each mechanical unit believes to be at servo-on.
     reset_pos_type: Shared<Array<Str, 100>> = Array::start(), "RESET_POS_TYPE", Permanent;
     /// How near is near enough for `$RESET_POS_TYPE`, deg.
-    reset_pos_threshold: Shared<Array<f64, 100>> = Array::start(), "RESET_POS_THRESHOLD", Permanent;
+    reset_pos_threshold: Shared<SmallArray<f64, 100>> = SmallArray::start(), "RESET_POS_THRESHOLD", Permanent;
 }
 
 /// `$WORLD`.

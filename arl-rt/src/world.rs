@@ -3,6 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::fmt;
 
+use crate::fault::Alarm;
 use crate::files::ScriptDir;
 use crate::io::Image;
 use crate::output::{Message, Output};
@@ -31,6 +32,8 @@ pub(crate) struct World {
     spoken: Cell<bool>,
     /// Whether the program waits for the start button.
     pub(crate) paused: Cell<bool>,
+    /// Alarms that nobody has asked for yet.
+    pub(crate) alarms: RefCell<Vec<Alarm>>,
     /// What happened that is no alarm but worth a word.
     warnings: RefCell<Vec<String>>,
     /// What was noted once for all.
@@ -76,6 +79,7 @@ impl World {
             output: RefCell::new(parts.output),
             spoken: Cell::new(false),
             paused: Cell::new(false),
+            alarms: RefCell::default(),
             warnings: RefCell::default(),
             warned: RefCell::default(),
         }
@@ -161,6 +165,7 @@ impl World {
     }
 
     /// The warnings since the last call.
+    #[inline]
     pub(crate) fn take_warnings(&self) -> Vec<String> {
         std::mem::take(&mut self.warnings.borrow_mut())
     }

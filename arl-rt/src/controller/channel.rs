@@ -7,7 +7,7 @@ use std::task::{Context, Poll, Waker};
 use super::Outcome;
 use crate::cx::Cx;
 use crate::data;
-use crate::fault::{Alarm, Done, Stop};
+use crate::fault::{Done, Stop};
 use crate::program::Program;
 use crate::world::World;
 
@@ -78,6 +78,7 @@ impl Channel {
                     Err(Stop::Restart) => Next::Restart,
                     Err(Stop::Alarm(alarm)) => {
                         world.stop_motion();
+                        world.alarms.borrow_mut().insert(0, (*alarm).clone());
                         Next::End(Outcome::Alarm(*alarm))
                     }
                 };
@@ -111,8 +112,12 @@ impl Channel {
 fn load(program: Rc<dyn Program>, cx: Rc<Cx>) -> Running {
     Box::pin(async move {
         program.init(&cx).await?;
-        if let Some(alarm) = data::reload(&*program, &cx).into_iter().next() {
-            return Err(Stop::Alarm(Box::<Alarm>::new(alarm)));
+        let world = cx.world();
+        let mut alarms = data::reload(&*program, world.scripts.path()).into_iter();
+        if let Some(first) = alarms.next() {
+            // The first one ends the program, and is noted then; all of them come to the user.
+            world.alarms.borrow_mut().extend(alarms);
+            return Err(Stop::Alarm(Box::new(first)));
         }
         program.main(&cx).await
     })

@@ -10,7 +10,7 @@ pub use builder::{Builder, SetupError};
 pub use outcome::{Outcome, State};
 
 use crate::clock_source::Clock;
-use crate::fault::{Fault, File};
+use crate::fault::{Alarm, Fault, File};
 use crate::io::{Digital, IoDriver, Pendant, Playing};
 use crate::motion::Joints;
 use crate::system::System;
@@ -192,6 +192,16 @@ impl Controller {
         self.world.rate.time(self.world.now.get())
     }
 
+    /// The running number of the next cycle, from 0.
+    pub(crate) fn cycle(&self) -> u64 {
+        self.world.now.get()
+    }
+
+    /// How many cycles so many seconds take.
+    pub(crate) fn cycles(&self, seconds: f64) -> u64 {
+        self.world.rate.cycles(seconds)
+    }
+
     /// How many cycles began late, on the real clock.
     pub fn overruns(&self) -> u64 {
         self.clock.overruns()
@@ -215,6 +225,11 @@ impl Controller {
     /// Warnings since the last call.
     pub fn take_warnings(&mut self) -> Vec<String> {
         self.world.take_warnings()
+    }
+
+    /// Alarms since the last call, the one that stopped the program first.
+    pub fn take_alarms(&mut self) -> Vec<Alarm> {
+        std::mem::take(&mut self.world.alarms.borrow_mut())
     }
 
     /// Sets a digital input, from 1.

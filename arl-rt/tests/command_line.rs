@@ -1,0 +1,291 @@
+//! The command line of a compiled program. This test is its own program: it starts itself again with `ARL_RT_PROGRAM`
+//! set, and is then what `arl2rs build` makes.
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test without the harness by which clippy knows tests")]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode, Output, Stdio};
+
+use arl_rt::emit::*;
+
+#[expect(unreachable_pub, reason = "emitted modules are public, wherever they are included")]
+#[path = "programs/pick.rs"]
+mod pick_program;
+
+const PROGRAM: &str = "ARL_RT_PROGRAM";
+const FILE: File = File::new("t.arl");
+
+/// Programs by name.
+struct Small(String);
+
+impl Program for Small {
+    fn file(&self) -> File {
+        FILE
+    }
+
+    fn family(&self) -> Family {
+        Family::SixAxis
+    }
+
+    fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> {
+        Box::pin(async { Ok(()) })
+    }
+
+    fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+        Box::pin(async move {
+            match self.0.as_str() {
+                "hello" => text::print().argtoprint(&"hello").run(cx).at(FILE, 1),
+                "count" => {
+                    let count = cx.system().i.update(|i| {
+                        i[0] += 1;
+                        i[0]
+                    });
+                    cx.system().i_name.update(|names| names[0] = "runs".into());
+                    system::savesv(cx, &"I".into()).at(FILE, 2)?;
+                    text::print().argtoprint(&count).run(cx).at(FILE, 3)
+                }
+                "forever" => {
+                    let there = Joint::of_axes([40.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+                    let back = Joint::of_axes([-40.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+                    loop {
+                        cx.line(FILE, 5);
+                        motion::movej(there).vp(50.0).run(cx).await.at(FILE, 5)?;
+                        motion::movej(back).vp(50.0).run(cx).await.at(FILE, 6)?;
+                        text::print().argtoprint(&"round").run(cx).at(FILE, 7)?;
+                    }
+                }
+                "when" => text::print()
+                    .argtoprint(&time::cdate(cx))
+                    .argtoprint(&" ")
+                    .argtoprint(&time::ctime(cx))
+                    .argtoprint(&" ")
+                    .argtoprint(&math::rand(cx))
+                    .argtoprint(&" ")
+                    .argtoprint(&cx.system().ctl_mode.get())
+                    .run(cx)
+                    .at(FILE, 8),
+                "deep" => deeper(cx, 0).map(|_| ()),
+                "log" => {
+                    text::print().to(Printto::File).filepath(&"log.txt".into()).argtoprint(&"line").run(cx).at(FILE, 9)
+                }
+                other => panic!("no program {other}"),
+            }
+        })
+    }
+}
+
+fn deeper(cx: &Cx, level: i32) -> Done<i32> {
+    let _depth = cx.enter().at(FILE, 12)?;
+    let fill = std::hint::black_box([level; 64]);
+    Ok(deeper(cx, level.wrapping_add(1))?.wrapping_add(fill[3]))
+}
+
+fn main() -> ExitCode {
+    match std::env::var(PROGRAM) {
+        Ok(name) if name == "pick" => arl_rt::program_main::main(pick_program::Globals::new, "."),
+        Ok(name) => arl_rt::program_main::main(move || Small(name), "."),
+        Err(_) => {
+            for (name, test) in TESTS {
+                test();
+                println!("test {name} ... ok");
+            }
+            ExitCode::SUCCESS
+        }
+    }
+}
+
+const TESTS: &[(&str, fn())] = &[
+    ("help_and_usage", help_and_usage),
+    ("alarms", alarms),
+    ("state_is_kept", state_is_kept),
+    ("damaged_state_is_refused", damaged_state_is_refused),
+    ("the_time_is_over", the_time_is_over),
+    ("virtual_time_is_the_same_every_time", virtual_time_is_the_same_every_time),
+    ("recursion_without_end_is_an_alarm", recursion_without_end_is_an_alarm),
+    ("files_are_below_the_script_directory", files_are_below_the_script_directory),
+    ("ctrl_c_stops_on_the_path", ctrl_c_stops_on_the_path),
+    ("traces_are_written", traces_are_written),
+    ("wrong_files_name_their_line", wrong_files_name_their_line),
+];
+
+fn run(program: &str, arguments: &[&str]) -> Output {
+    command(program, arguments).output().unwrap()
+}
+
+fn command(program: &str, arguments: &[&str]) -> Command {
+    let mut command = Command::new(std::env::current_exe().unwrap());
+    command.env(PROGRAM, program).args(arguments).stdin(Stdio::null());
+    command.current_dir(std::env::temp_dir());
+    command
+}
+
+fn check(output: &Output, code: i32, stdout: &str, stderr: &str) {
+    let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
+    assert_eq!(output.status.code(), Some(code), "{out}{err}");
+    assert_eq!(out, stdout, "{err}");
+    assert!(err.contains(stderr), "{err}");
+    assert!(!stderr.is_empty() || err.is_empty(), "{err}");
+}
+
+/// A directory that is removed at the end.
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("arl-rt-{name}-{}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&path);
+        std::fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn file(&self, name: &str, text: &str) -> String {
+        let path = self.0.join(name);
+        std::fs::write(&path, text).unwrap();
+        path.display().to_string()
+    }
+
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn text(&self) -> &str {
+        self.0.to_str().unwrap()
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+fn help_and_usage() {
+    check(&run("hello", &[]), 0, "hello\n", "");
+    let help = run("hello", &["--help"]);
+    assert_eq!(help.status.code(), Some(0));
+    assert!(String::from_utf8_lossy(&help.stdout).contains("--max-time"));
+    check(&run("hello", &["--nonsense"]), 2, "", "--nonsense");
+    check(&run("hello", &["--robot", "kr99"]), 2, "", "kr99");
+    check(&run("hello", &["--robot", "hsr065"]), 2, "", "the program was checked for a six-axis robot");
+}
+
+fn alarms() {
+    let folder = Folder::new("alarms");
+    let scenario = folder.file("s.toml", "[[event]]\nat = 0\ndi.3 = true\n");
+    let output = run("pick", &["--io", &scenario, "--state-dir", folder.text()]);
+    assert_eq!(output.status.code(), Some(3));
+    assert!(String::from_utf8_lossy(&output.stdout).starts_with("pick and place\npart 1 in time: true\n"));
+    assert_eq!(
+        String::from_utf8_lossy(&output.stderr),
+        "alarm 20003: index 6 is outside the array: its size is 6, so 0 to 5 are valid (pick.arl:35)\n"
+    );
+}
+
+fn state_is_kept() {
+    let folder = Folder::new("state");
+    for count in ["1\n", "2\n", "3\n"] {
+        check(&run("count", &["--state-dir", folder.text()]), 0, count, "");
+    }
+    let names = std::fs::read_to_string(folder.path().join("I_NAME.state")).unwrap();
+    assert!(names.starts_with("\"runs\"\n"), "names are kept by themselves: {names}");
+    let scripts = Folder::new("state-default");
+    check(&run("count", &["--script-dir", scripts.text()]), 0, "1\n", "");
+    assert!(scripts.path().join(".arl-state/I.state").is_file());
+}
+
+fn damaged_state_is_refused() {
+    let folder = Folder::new("damaged");
+    check(&run("count", &["--state-dir", folder.text()]), 0, "1\n", "");
+    let file = folder.path().join("I.state");
+    let text = std::fs::read_to_string(&file).unwrap();
+    std::fs::write(&file, &text[..text.len() / 2]).unwrap();
+    check(&run("count", &["--state-dir", folder.text()]), 3, "", "I.state: the file is damaged");
+}
+
+fn the_time_is_over() {
+    let output = run("forever", &["--max-time", "0.5"]);
+    assert_eq!(output.status.code(), Some(4));
+    let error = String::from_utf8_lossy(&output.stderr);
+    assert!(error.contains("the time is over: 0.5 s; the program stands at t.arl:5"), "{error}");
+}
+
+fn virtual_time_is_the_same_every_time() {
+    let first = run("when", &[]);
+    check(&first, 0, &String::from_utf8_lossy(&run("when", &[]).stdout), "");
+    assert!(first.stdout.starts_with(b"2000-01-01 00:00:00 "));
+    let other = run("when", &["--seed", "2", "--start-time", "2026-11-21 10:11:12", "--mode", "manual"]);
+    let other = String::from_utf8_lossy(&other.stdout).into_owned();
+    assert!(other.starts_with("2026-11-21 10:11:12 ") && other.ends_with(" MANUAL\n"), "{other}");
+    assert_ne!(other.split(' ').nth(2), String::from_utf8_lossy(&first.stdout).split(' ').nth(2));
+}
+
+fn recursion_without_end_is_an_alarm() {
+    check(&run("deep", &[]), 3, "", "alarm 20007: functions call each other too deep (t.arl:12)");
+}
+
+fn files_are_below_the_script_directory() {
+    let folder = Folder::new("scripts");
+    check(&run("log", &["--script-dir", folder.text()]), 0, "", "");
+    check(&run("log", &["--script-dir", folder.text()]), 0, "", "");
+    assert_eq!(std::fs::read_to_string(folder.path().join("log.txt")).unwrap(), "line\nline\n");
+    let missing = folder.path().join("missing");
+    check(&run("log", &["--script-dir", missing.to_str().unwrap()]), 3, "", "alarm 20009: file \"log.txt\"");
+}
+
+#[cfg(unix)]
+fn ctrl_c_stops_on_the_path() {
+    use std::io::Read;
+    let folder = Folder::new("ctrl-c");
+    let trace = folder.path().join("t.csv");
+    let arguments = ["--clock", "real", "--trace", trace.to_str().unwrap()];
+    let mut child = command("forever", &arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    // The robot is on its way when the program has planned its first round.
+    let mut first = [0; 6];
+    child.stdout.as_mut().unwrap().read_exact(&mut first).unwrap();
+    let interrupt = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(interrupt.success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("the robot stops on its path"));
+    let rows = std::fs::read_to_string(&trace).unwrap();
+    let axis = |row: &str| row.split(',').nth(3).unwrap().parse::<f64>().unwrap();
+    let positions: Vec<f64> = rows.lines().skip(1).map(axis).collect();
+    let last = positions.windows(2).last().unwrap();
+    assert!((last[1] - last[0]).abs() < 1e-3, "it stands at the end: {last:?}");
+    let fastest = positions.windows(2).map(|pair| (pair[1] - pair[0]).abs()).fold(0.0, f64::max);
+    assert!(fastest < 0.12, "no jump at the stop: {fastest} deg in a cycle");
+}
+
+#[cfg(not(unix))]
+fn ctrl_c_stops_on_the_path() {}
+
+fn traces_are_written() {
+    let folder = Folder::new("trace");
+    let trace = folder.path().join("t.csv");
+    let output = run("forever", &["--max-time", "0.1", "--trace", trace.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(4));
+    let text = std::fs::read_to_string(&trace).unwrap();
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("t,line,motion,j1,j2,j3,j4,j5,j6,ej1,ej2,ej3,ej4,ej5,ej6,x,y,z,a,b,c"));
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    assert!(rows.len() >= 100);
+    assert!(rows.iter().all(|row| row.len() == 21));
+    assert_eq!(rows[1][..3], ["0.001000", "5", "1"]);
+    assert_eq!(rows[1][9], "", "there are no external axes");
+    assert!(rows[50][3].split('.').nth(1).unwrap().len() >= 6);
+}
+
+fn wrong_files_name_their_line() {
+    let folder = Folder::new("wrong");
+    let scenario = folder.file("s.toml", "[[event]]\nat = 0\ndi.3 = 1\n");
+    check(&run("hello", &["--io", &scenario]), 2, "", "s.toml:3:8: `di.3`: expected true or false, found the number 1");
+    let cell = folder.file("c.toml", "[io]\ndo = 2\n\n[home]\nhom2 = []\n");
+    check(&run("hello", &["--cell", &cell]), 2, "", "c.toml:5:1: [home] has no key `hom2`; did you mean `home2`?");
+    let cell = folder.file("d.toml", "[io]\ndi = 2\n");
+    check(
+        &run("hello", &["--cell", &cell, "--io", &folder.file("e.toml", "[[event]]\nat = 1\ndi.3 = true\n")]),
+        2,
+        "",
+        "DI 3 does not exist: channels 1 to 2 are there",
+    );
+    check(&run("hello", &["--cell", "/nowhere.toml"]), 2, "", "cannot read the cell file");
+}
