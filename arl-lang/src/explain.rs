@@ -254,6 +254,7 @@ impl Refused<'_> {
             (Some(word @ (_, Token::Instruction(_), _)), Token::Assign(_) | Token::Dot | Token::Scope) => {
                 return reserved(word);
             }
+            (Some(word @ (_, Token::Type(_), _)), Token::Name(_)) if !self.open.is_empty() => return reserved(word),
             (Some((start, Token::Type(_), end)), Token::Name(_)) if self.first() == Some(Token::If) => {
                 let word = (start, found.1, end);
                 return Some(SyntaxError::new(
@@ -278,8 +279,10 @@ impl Refused<'_> {
             _ if complete && !begins_value(found.1) => {
                 Some(SyntaxError::new(SyntaxErrorKind::SeveralStatements, place))
             }
-            _ if self.expects_name() && !begins_value(found.1) => reserved(found),
-            _ if self.expects_name() && !self.expects_value() => reserved(found),
+            Token::Instruction(_) if self.expects_value() => {
+                Some(SyntaxError::new(self.unexpected(found, Hint::InstructionValue, false), place))
+            }
+            _ if self.expects_name() && !(begins_value(found.1) && self.expects_value()) => reserved(found),
             _ => None,
         }
     }
@@ -333,7 +336,6 @@ impl Refused<'_> {
             (Some(Token::For), ..) if !self.open.is_empty() => Hint::For,
             (_, Some(Token::Name(_)), Token::Colon) => Hint::Label,
             (Some(Token::Instruction(_)), ..) if self.has_semicolon() => Hint::Events,
-            (_, _, token) if complete && is_word(token) => Hint::OwnLine,
             _ => Hint::None,
         }
     }
@@ -357,6 +359,10 @@ impl Refused<'_> {
     fn describe(&self, line_end: bool) -> String {
         if self.at == 0 {
             return "a statement, a declaration or the beginning or end of a block".into();
+        }
+        let behind_if = self.first() == Some(Token::If) && self.open.is_empty();
+        if line_end && behind_if && matches!(self.before(), Some((_, Token::ParenClose | Token::Type(_), _))) {
+            return "a statement or the end of the line".into();
         }
         let mut parts: Vec<String> = Vec::new();
         let value = self.expects_value();
@@ -385,6 +391,7 @@ impl Refused<'_> {
         ];
         for (token, words) in signs {
             let implied = (value && token == Token::ParenOpen)
+                || (token == Token::Scope && parts.iter().any(|part| part == "a name"))
                 || (operator && matches!(token, Token::ParenOpen | Token::Assign(_) | Token::Scope));
             if !implied && self.expects(token) {
                 parts.push(words.into());

@@ -20,6 +20,7 @@ mod salvage;
 pub mod span;
 pub mod symbol;
 pub mod syntax_error;
+mod syntax_words;
 pub mod text;
 mod token;
 mod tree;

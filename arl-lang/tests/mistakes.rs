@@ -120,7 +120,7 @@ fn lines_of_other_languages() {
         ("x = speed + 1", 130, "speed"),
         ("x = f(speed + 1)", 130, "speed"),
         ("goto loop", 130, "loop"),
-        ("x = waittime(1)", 130, "waittime"),
+        ("x = waittime(1)", 120, "waittime"),
         ("next: i++", 131, "i++"),
         ("if(a) then\nendif", 133, "then"),
         ("while(a) do\nendwhile", 133, "do"),
@@ -244,6 +244,14 @@ fn functions_among_statements() {
     let parsed = parse_statements(source, &mut Interner::new(), ParseOptions::default());
     assert_eq!(placed(source, &parsed.errors), [(144, 2), (145, 6)]);
     assert_eq!(parsed.block.len(), 2);
+}
+
+#[test]
+fn splices_that_are_none() {
+    for source in ["x = # + 1", "x = #(a + 1", "x = #1"] {
+        let parsed = parse_statements(source, &mut Interner::new(), ParseOptions { splices: true });
+        assert_eq!(placed(source, &parsed.errors), [(117, 1)], "{source}");
+    }
 }
 
 #[test]

@@ -1,0 +1,260 @@
+//! The words for what can be wrong with the form of a program.
+
+use crate::syntax_error::{Hint, SyntaxErrorKind};
+
+impl Hint {
+    const fn text(self) -> Option<&'static str> {
+        Some(match self {
+            Hint::None => return None,
+            Hint::ResultType => {
+                "A function names the type of its result first, `void` where it has none: `func void main()`."
+            }
+            Hint::References => {
+                "Parameters are passed by value, there are no references. To change the caller's value, return it or use a global variable."
+            }
+            Hint::OneIndex => "Each index stands in brackets of its own: `b[1][2]`.",
+            Hint::InstructionParens => {
+                "An instruction's arguments stand behind its name without parentheses: `print \"a\", 1`."
+            }
+            Hint::WholeCondition => "The parentheses go around the whole condition: `if((a) && (b))`.",
+            Hint::ConditionParens => "The condition stands in parentheses: `if(a == 1)`.",
+            Hint::Conversion => {
+                "A type's name does not convert values. Use `toint`, `todouble`, `tostr` or `trunc`, or assign to a variable of the type."
+            }
+            Hint::CompactIf => {
+                "The `if` on one line takes one simple statement. Put the inner block on lines of its own, up to its `endif`."
+            }
+            Hint::CompactDeclaration => {
+                "The `if` on one line takes one simple statement, not a declaration: the variable would end with the line."
+            }
+            Hint::ElseAlone => "`else` stands on a line of its own, its statements on the lines below.",
+            Hint::For => "`for` has three parts with `;` between them: `for(int i=0;i<5;i++)`.",
+            Hint::Events => {
+                "Behind the `;` of a motion stand an event, a comma and an action: `lin p1;T(1),setdo(2,true)`."
+            }
+            Hint::ArraySize => "An array's size is written between its brackets: `int a[3]`.",
+            Hint::Label => "`name:` labels an argument; elsewhere the value stands alone.",
+            Hint::InstructionValue => "An instruction stands at the beginning of its line and has no value.",
+        })
+    }
+}
+
+impl SyntaxErrorKind {
+    /// What is wrong, in one line.
+    pub fn message(&self) -> String {
+        use SyntaxErrorKind::*;
+        match self {
+            UnknownCharacter(found) => format!("{} means nothing in ARL", show_character(*found)),
+            LooksLike(found, meant) => {
+                format!("this is {}, not {}", show_character(*found), show_ascii(*meant))
+            }
+            ForeignLetters(name) => format!("`{name}` cannot be a name"),
+            UnclosedText => "this string is never closed".into(),
+            UnclosedComment => "this comment is never closed".into(),
+            BadEscape(escaped) => format!("strings have no escape `\\{}`", escaped.escape_default()),
+            IntTooLarge(text) => format!("`{text}` does not fit into 32 bits"),
+            DoubleTooLarge => "this number is beyond the largest double".into(),
+            BinaryDigits(text) => format!("`{text}` is no binary number"),
+            NoExponent(text) => format!("the exponent of `{text}` has no digits"),
+            OtherHexadecimal(_) => "ARL writes hexadecimal numbers with an `h` behind them".into(),
+            BadNumber(text) => format!("`{text}` is neither a number nor a name"),
+            BareDollar => "a name is missing behind `$`".into(),
+            Backslash => "`\\` must be the last character of its line".into(),
+            SingleQuotes => "strings stand in double quotes".into(),
+            SpliceOutsideMacro => "Rust values can be spliced in inside of `arl!` only".into(),
+            BareSplice => "`#` splices nothing in".into(),
+            FileTooLarge => "this file is too large".into(),
+            Unexpected { found, .. } => format!("{found} cannot stand here"),
+            EndsEarly { .. } => "this line ends too early".into(),
+            MissingClose(bracket) => format!("`{}` is missing", bracket.close()),
+            StrayClose(bracket) => format!("this `{}` closes nothing", bracket.close()),
+            WrongClose(open, found) => format!("`{}` cannot close a `{}`", found.close(), open.open()),
+            MissingComma(before) => format!("a comma is missing before {before}"),
+            MissingColon => "the `:` of this case is missing".into(),
+            MissingValue(after, before) => match before.as_ref() {
+                "" => format!("a value is missing behind {after}"),
+                before => format!("a value is missing between {after} and {before}"),
+            },
+            Semicolon => "a line does not end with `;`".into(),
+            SeveralStatements => "each statement stands on a line of its own".into(),
+            ReservedWord(word) => format!("`{word}` is a reserved word and cannot be a name"),
+            LabelNotAlone(name) => format!("the label `{name}` needs a line of its own"),
+            ElseIf => "`else if` is written as one word".into(),
+            Then(word) => format!("ARL has no `{word}` behind a condition"),
+            BlockBrace => "blocks have no braces".into(),
+            NotAssignable(what) => format!("{what} cannot be assigned to"),
+            MisplacedUnit => "a unit can stand behind the value of an argument only".into(),
+            TooManyLevels => "this expression has too many levels".into(),
+            ComponentColon(name) => format!("no `:` stands between the component `{name}` and its value"),
+            CompoundStartValue => "a start value follows a plain `=`".into(),
+            UnclosedBlock(kind, name) if name.is_empty() => {
+                format!("this `{}` is never closed: its `{}` is missing", kind.opener(), kind.closer())
+            }
+            UnclosedBlock(kind, name) => {
+                format!("the function `{name}` is never closed: its `{}` is missing", kind.closer())
+            }
+            StrayEnd(kind) => format!("this `{}` closes nothing: no `{}` is open", kind.closer(), kind.opener()),
+            WrongEnd(open, line, found) => {
+                format!("`{}` cannot close the `{}` of line {line}", found.closer(), open.opener())
+            }
+            OutsideFunction => "statements stand inside of functions".into(),
+            FuncAmongStatements => "a function cannot be defined among statements".into(),
+            ImportInside => "`import` stands outside of functions".into(),
+            BeforeFirstCase => "this statement belongs to no case".into(),
+            CaseOutsideSwitch => "this case belongs to no `switch`".into(),
+            BranchOutsideIf(word) => format!("this `{word}` belongs to no `if`"),
+            BranchAfterElse(word) => format!("no `{word}` can follow the `else` of an `if`"),
+            SecondDefault => "this `switch` has a `default` already".into(),
+            TooManyBlocks => "too many blocks are open here".into(),
+            OtherEnd(found, kind, line) => format!("`{found}` does not close the `{}` of line {line}", kind.opener()),
+            NotOneExpression => "exactly one expression belongs here".into(),
+        }
+    }
+
+    /// The words at the marked place.
+    pub fn label(&self) -> String {
+        use SyntaxErrorKind::*;
+        match self {
+            UnknownCharacter(_) | BadNumber(_) | Backslash | BareSplice => "remove this".into(),
+            LooksLike(_, meant) => format!("{} was probably meant", show_ascii(*meant)),
+            ForeignLetters(_) => "these letters are not allowed in names".into(),
+            UnclosedText | UnclosedComment => "it begins here".into(),
+            BadEscape(_) => "unknown escape".into(),
+            IntTooLarge(_) | DoubleTooLarge => "too large".into(),
+            BinaryDigits(_) => "other digits than 0 and 1".into(),
+            NoExponent(_) => "digits are missing behind this".into(),
+            OtherHexadecimal(value) => format!("write `{}`", arl_hexadecimal(*value)),
+            BareDollar => "the name of a system variable is missing".into(),
+            SingleQuotes => "write `\"`".into(),
+            SpliceOutsideMacro => "not in an ARL file".into(),
+            FileTooLarge => "here".into(),
+            Unexpected { expected, .. } | EndsEarly { expected, .. } => format!("expected {expected}"),
+            MissingClose(bracket) => format!("`{}` belongs behind this at the latest", bracket.close()),
+            StrayClose(bracket) => format!("no `{}` is open here", bracket.open()),
+            WrongClose(open, _) => format!("`{}` belongs here", open.close()),
+            MissingComma(_) => "`,` belongs before this".into(),
+            MissingColon => "`:` belongs behind this".into(),
+            MissingValue(_, before) if before.is_empty() => "a value belongs behind this".into(),
+            MissingValue(..) => "a value belongs before this".into(),
+            Semicolon => "remove this".into(),
+            SeveralStatements => "begin a new line here".into(),
+            ReservedWord(_) => "choose another name".into(),
+            LabelNotAlone(_) => "begin a new line behind the label".into(),
+            ElseIf => "write `elseif`".into(),
+            Then(_) => "remove this".into(),
+            BlockBrace => "remove this".into(),
+            NotAssignable(_) => "no variable".into(),
+            MisplacedUnit => "unit".into(),
+            TooManyLevels => "too deep".into(),
+            ComponentColon(name) => format!("write `{name}`, a blank and the value"),
+            CompoundStartValue => "write `=`".into(),
+            UnclosedBlock(kind, _) => format!("this needs its `{}`", kind.closing_line()),
+            StrayEnd(_) => "remove this".into(),
+            WrongEnd(open, ..) | OtherEnd(_, open, _) => format!("write `{}`", open.closing_line()),
+            OutsideFunction => "this is outside of any function".into(),
+            FuncAmongStatements => "define it outside".into(),
+            ImportInside => "move this to the top of the file".into(),
+            BeforeFirstCase => "in front of the first `case`".into(),
+            CaseOutsideSwitch => "no `switch` is open here".into(),
+            BranchOutsideIf(_) => "no `if` is open here".into(),
+            BranchAfterElse(_) => "behind the `else`".into(),
+            SecondDefault => "second `default`".into(),
+            TooManyBlocks => "one block too many".into(),
+            NotOneExpression => "this is something else".into(),
+        }
+    }
+
+    /// What would be right, where there is more to say.
+    pub fn help(&self) -> Option<String> {
+        use SyntaxErrorKind::*;
+        let text = match self {
+            UnknownCharacter('?') => "ARL has no `?:`. Write an `if` with an `else`.",
+            LooksLike(..) => {
+                "Characters of other alphabets look alike and are not the same. Switch the input method to half-width."
+            }
+            ForeignLetters(_) => {
+                "Names are made of the letters a to z, digits and `_`. In strings and comments any character may stand."
+            }
+            UnclosedText => "Write the closing `\"` on the same line.",
+            UnclosedComment => "Write `*/` at its end. Block comments do not nest.",
+            BadEscape(_) => {
+                "The escapes are `\\n`, `\\r`, `\\t`, `\\\"` and `\\\\`. A backslash itself is written `\\\\`."
+            }
+            IntTooLarge(_) => "Ints have 32 bits. Write a double (`4294967296.0`) where it may be one.",
+            BinaryDigits(_) => "A `b` behind digits makes a binary number, an `h` a hexadecimal one: `1100b`, `12bh`.",
+            NoExponent(_) => "Write the exponent's digits (`12e3`), or an `h` for a hexadecimal number (`12eh`).",
+            OtherHexadecimal(value) => return Some(format!("Write `{}`.", arl_hexadecimal(*value))),
+            BadNumber(_) => {
+                "Names begin with a letter or `_`. Behind a number may stand `b`, `h` or a unit: %, mm, mm/s, deg, deg/s, s."
+            }
+            Backslash => "It joins a line with the next one. Nothing may follow it, no comment either.",
+            SingleQuotes => "Write `\"text\"`.",
+            BareSplice => "Write `#name` for a Rust variable, `#(expression)` for anything else.",
+            FileTooLarge => "ARL files may have up to 4 GB.",
+            Unexpected { hint, .. } | EndsEarly { hint, .. } => return hint.text().map(String::from),
+            MissingColon => "Write `case 1:` or `default:`, the statements on the lines below.",
+            Semicolon => {
+                "The end of the line ends the statement. A `;` adds events to a motion: `lin p1;T(1),setdo(2,true)`."
+            }
+            SeveralStatements => "The end of the line ends a statement; `;` does not separate statements.",
+            LabelNotAlone(_) => "Write the statement on the next line.",
+            ElseIf => "With `elseif` the whole chain has one `endif`.",
+            Then(_) => "The statements follow on the next lines, up to the closing word.",
+            BlockBrace => {
+                "A block reaches from its first line to its closing word: `if(c)` ... `endif`, `while(c)` ... `endwhile`."
+            }
+            NotAssignable(_) => "On the left of `=` stands a variable, an element or a component. `==` compares.",
+            MisplacedUnit => {
+                "Units belong to arguments of instructions: `lin p1,vl:100mm/s`. Elsewhere the number stands alone."
+            }
+            TooManyLevels => "Compute parts of it in variables of their own first.",
+            TooManyBlocks => "Move the inner blocks to a function of their own.",
+            ReservedWord(_) => "Words of the language cannot name variables, functions or labels, in whatever case.",
+            ComponentColon(_) => "In braces: `{x 1, y 2}`. With a colon are labels of arguments: `lin p:p1`.",
+            WrongEnd(open, ..) => {
+                let (opener, closer) = (open.opener(), open.closing_line());
+                return Some(format!("A `{opener}` reaches to its `{closer}`. Write that, or remove this line."));
+            }
+            StrayEnd(_) => "Remove it, or look above for a line that closes too early.",
+            OutsideFunction => {
+                "Outside of functions stand `import`, declarations and `func`. A program begins in `func void main()`."
+            }
+            FuncAmongStatements => "Define functions in an ARL file or a macro of their own.",
+            ImportInside => "Imports hold for the whole file.",
+            BeforeFirstCase => "Between `switch` and its first `case` stands nothing.",
+            SecondDefault => "A `switch` has at most one.",
+            BranchAfterElse(_) => "The order is `if`, any number of `elseif`, at most one `else`, `endif`.",
+            _ => return None,
+        };
+        Some(text.into())
+    }
+}
+
+/// A character as a reader can recognise it.
+fn show_character(c: char) -> String {
+    if c.is_control() || c.is_whitespace() || c == '\u{feff}' {
+        return format!("the character U+{:04X}", u32::from(c));
+    }
+    format!("`{c}` (U+{:04X})", u32::from(c))
+}
+
+fn show_ascii(c: char) -> String {
+    if c == ' ' { "a blank".into() } else { format!("`{c}`") }
+}
+
+/// The number as ARL writes it.
+fn arl_hexadecimal(value: u32) -> String {
+    let digits = format!("{value:x}");
+    if digits.starts_with(|first: char| first.is_ascii_digit()) { format!("{digits}h") } else { format!("0{digits}h") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hexadecimal_as_arl_writes_it() {
+        assert_eq!(arl_hexadecimal(0x3e), "3eh");
+        assert_eq!(arl_hexadecimal(0xff), "0ffh");
+    }
+}
