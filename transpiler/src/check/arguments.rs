@@ -282,6 +282,9 @@ impl Checker<'_> {
         if let Some(at) = found {
             return Some((at, Some(typed)));
         }
+        if params.iter().any(|param| matches!(param.ty, Some(Wanted::Builtin(ParamType::Any)))) {
+            return self.report_no_text(body, &typed.expr);
+        }
         let ty = self.type_name(typed.expr.ty);
         if params.is_empty() {
             return self.report(body, arg.value.span, ArgumentProblem::TooMany { callee: callee.into(), most: 0 });
@@ -318,7 +321,7 @@ impl Checker<'_> {
         arg: &Arg,
         typed: Option<Typed>,
     ) -> Option<Passed> {
-        self.check_unit(body, param, arg)?;
+        let unit = self.check_unit(body, param, arg);
         let what = format!("`{}` of `{callee}`", param.name);
         self.has_conditions |= param.mode == Mode::Condition;
         if param.mode == Mode::Out {
@@ -343,6 +346,7 @@ impl Checker<'_> {
             (Wanted::User(_), None) => return None,
         };
         self.check_range(body, param, &value)?;
+        unit?;
         Some(Passed::Value(value))
     }
 
@@ -356,7 +360,7 @@ impl Checker<'_> {
             return Some(typed.expr);
         }
         let wanted = match ty {
-            ParamType::Any => "a value that can be printed".to_string(),
+            ParamType::Any => return self.report_no_text(body, &typed.expr),
             ParamType::Array(base) => format!("{}[]", self.base_name(*base)),
             ParamType::AnyOf(bases) => bases.iter().map(|base| self.base_name(*base)).collect::<Vec<_>>().join(" or "),
             ParamType::One(base) => self.base_name(*base).into(),
@@ -364,6 +368,12 @@ impl Checker<'_> {
         let found = self.type_name(typed.expr.ty);
         let problem = TypeProblem::Mismatch { found, wanted, what: what.into(), use_instead: None };
         self.report(body, typed.expr.span, problem)
+    }
+
+    /// A handle where any value may stand.
+    fn report_no_text<T>(&mut self, body: &Body, expr: &Expr) -> Option<T> {
+        let what = format!("a {}", self.type_name(expr.ty));
+        self.report(body, expr.span, TypeProblem::NoValue { what })
     }
 
     fn pass_out(&mut self, body: &mut Body, callee: &str, param: &Parameter, arg: &Arg) -> Option<Passed> {

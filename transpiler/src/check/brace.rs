@@ -19,13 +19,8 @@ impl Checker<'_> {
         match want.base {
             Base::Struct(id) => self.structure(body, items, id, span),
             _ => {
-                let problem = TypeProblem::Mismatch {
-                    found: "a list in braces".into(),
-                    wanted: self.type_name(want),
-                    what: "the value".into(),
-                    use_instead: Some("braces make structures and arrays".into()),
-                };
-                self.report(body, span, problem)
+                let wanted = self.type_name(want);
+                self.report(body, span, TypeProblem::BraceForValue { wanted })
             }
         }
     }
@@ -121,7 +116,8 @@ impl Checker<'_> {
         let mut good = true;
         for item in items {
             if out.len() - begin == total {
-                let ty = format!("`{}`", self.type_name(want));
+                let is_row = dims.len() < want.dims().len();
+                let ty = if is_row { "each row".into() } else { format!("`{}`", self.type_name(want)) };
                 return self.report(body, item.value.span, TypeProblem::TooManyValues { wanted: total, ty });
             }
             let joined = brace_difference(item);

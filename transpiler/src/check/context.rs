@@ -77,7 +77,8 @@ pub(crate) struct Body {
     /// Number of the item in its file: what is declared above is known.
     pub(crate) item: u32,
     pub(crate) func: Option<FuncId>,
-    pub(crate) result: Base,
+    /// `None` where the declaration is wrong.
+    pub(crate) result: Option<Base>,
     pub(crate) locals: Vec<hir::Local>,
     /// Types of the locals; `None` where a declaration was wrong.
     pub(crate) types: Vec<Option<Type>>,
@@ -100,7 +101,7 @@ impl Body {
             module,
             item,
             func: None,
-            result: Base::Void,
+            result: Some(Base::Void),
             locals: Vec::new(),
             types: Vec::new(),
             labels: Vec::new(),

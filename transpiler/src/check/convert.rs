@@ -118,6 +118,9 @@ pub(crate) fn instead(from: Base, to: Base) -> Option<String> {
         (Base::String, Base::Int) => "`toint(text, dec)` reads a number from a text",
         (Base::String, Base::Double) => "`scan` reads numbers from a text",
         (Base::Void | Base::Handle(_), _) => return None,
+        (Base::Bool, Base::Int | Base::Uint | Base::Byte | Base::Double) => {
+            "a bool is no number: choose one with `if`"
+        }
         (_, Base::String) => "`tostr(...)` makes a text of any value",
         (Base::Int, Base::Byte) => "only constants of 0 to 255 fit a byte; `tobytes(...)` takes an int apart",
         (Base::Int, Base::Uint) => "only constants of 0 or more fit a uint",

@@ -9,7 +9,7 @@ use arl_lang::catalog;
 use arl_lang::{ParseOptions, Splice, parse, parse_statements};
 use arl_lang::span::Span;
 use arl_lang::symbol::{Interner, Symbol};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Component, Path, PathBuf};
 
 /// The folder on the controller that programs live in.
@@ -26,6 +26,8 @@ pub(crate) struct LoadedModule {
     pub(crate) data: bool,
     /// Modules that `import` lines or `::` name.
     pub(crate) imports: HashMap<Symbol, ModuleId>,
+    /// Modules whose files could not be had, which is reported already.
+    pub(crate) missing: HashSet<Symbol>,
     /// The `import` lines: where, and what they load.
     pub(crate) import_lines: Vec<(Span, ModuleId)>,
     /// The data file beside it.
@@ -54,6 +56,8 @@ pub(crate) struct Loaded {
     /// The Rust values spliced into statements.
     pub(crate) splices: Vec<Splice>,
     by_path: HashMap<PathBuf, ModuleId>,
+    /// The files that could not be decoded.
+    broken: HashSet<PathBuf>,
 }
 
 /// Reads the program that begins at `main`.
@@ -99,6 +103,7 @@ impl Loaded {
                 let file = self.files.add(shown, String::new());
                 let at = from.unwrap_or(Location { file, span: Span::default() });
                 self.diagnostics.push(problem.at(at));
+                self.broken.insert(path.to_path_buf());
                 return None;
             }
         };
@@ -141,6 +146,7 @@ impl Loaded {
             ast,
             data: stem.to_ascii_lowercase().ends_with("_data"),
             imports: HashMap::new(),
+            missing: HashSet::new(),
             import_lines: Vec::new(),
             data_module: None,
         });
@@ -220,8 +226,11 @@ impl Follow<'_> {
             self.loaded.diagnostics.push(ModuleProblem::ModuleName { path: written.into() }.at(from));
             return;
         }
-        let Some(id) = self.open(&path, Some((written, from))) else { return };
         let name = self.loaded.names.intern(&stem);
+        let Some(id) = self.open(&path, Some((written, from))) else {
+            self.set_missing(at, name);
+            return;
+        };
         let earlier = self.loaded.modules.get(at).and_then(|module| module.imports.get(&name)).copied();
         if let Some(earlier) = earlier.filter(|earlier| *earlier != id) {
             let first = self.loaded.modules.get(earlier.0 as usize).map(|module| module.path.display().to_string());
@@ -237,19 +246,36 @@ impl Follow<'_> {
 
     /// A module named with `::` that no import brought in: a file in the same folder.
     fn neighbour(&mut self, at: usize, folder: &Path, file: FileId, scope: ast::Ident) {
-        let known = self.loaded.modules.get(at).is_some_and(|module| module.imports.contains_key(&scope.symbol));
+        let known = self.loaded.modules.get(at).is_some_and(|module| {
+            module.imports.contains_key(&scope.symbol) || module.missing.contains(&scope.symbol)
+        });
         if known || catalog::base_type(self.loaded.names.name(scope.symbol)).is_some() {
             return;
         }
         let source = self.loaded.files.get(file);
         let spelled = source.map(|source| scope.span.text(&source.text).to_string()).unwrap_or_default();
         let folded = self.loaded.names.name(scope.symbol).to_string();
-        let mut found = self.open(&folder.join(format!("{spelled}.arl")), None);
+        let shown = self.loaded.diagnostics.len();
+        let path = folder.join(format!("{spelled}.arl"));
+        let mut found = self.open(&path, None);
         if found.is_none() && spelled != folded {
             found = self.open(&folder.join(format!("{folded}.arl")), None);
         }
-        if let (Some(id), Some(module)) = (found, self.loaded.modules.get_mut(at)) {
-            module.imports.insert(scope.symbol, id);
+        match found {
+            Some(id) => {
+                if let Some(module) = self.loaded.modules.get_mut(at) {
+                    module.imports.insert(scope.symbol, id);
+                }
+            }
+            None if self.loaded.diagnostics.len() > shown || self.loaded.broken.contains(&clean(&path)) => self.set_missing(at, scope.symbol),
+            None => {}
+        }
+    }
+
+    /// What is named in this module's file is not reported once more.
+    fn set_missing(&mut self, at: usize, name: Symbol) {
+        if let Some(module) = self.loaded.modules.get_mut(at) {
+            module.missing.insert(name);
         }
     }
 
@@ -269,6 +295,9 @@ impl Follow<'_> {
         let path = clean(path);
         if let Some(id) = self.loaded.by_path.get(&path) {
             return Some(*id);
+        }
+        if self.loaded.broken.contains(&path) {
+            return None;
         }
         let first_look = !self.loaded.read.contains(&path);
         if first_look {

@@ -172,6 +172,9 @@ impl Checker<'_> {
     }
 
     pub(crate) fn unknown_module<T>(&mut self, body: &Body, scope: ast::Ident) -> Option<T> {
+        if self.module(body.module).is_some_and(|module| module.missing.contains(&scope.symbol)) {
+            return None;
+        }
         let name = self.text(body.module, scope.span).to_string();
         let folder = self.module(body.module).and_then(|module| module.path.parent()).map(|path| path.to_path_buf());
         let looked = folder.unwrap_or_default().join(format!("{name}.arl")).display().to_string();

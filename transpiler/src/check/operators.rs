@@ -121,7 +121,7 @@ impl Checker<'_> {
         let left = self.coerce(body, left, ty, "an operand")?;
         let right = self.coerce(body, right, ty, "an operand")?;
         if divides && by_literal_zero {
-            if base != Base::Double {
+            if base != Base::Double || op == BinaryOp::Remainder {
                 return self.report(body, span, ConstantProblem::DivideByZero);
             }
             self.report::<()>(body, span, ConstantProblem::DoubleByZero);

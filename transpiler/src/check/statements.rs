@@ -24,7 +24,7 @@ impl Checker<'_> {
         let (types, result) = (slot.params.clone(), slot.result);
         let mut body = Body::new(module, item);
         body.func = Some(id);
-        body.result = result.unwrap_or(Base::Void);
+        body.result = result;
         let scope = body.enter();
         let mut params = Vec::new();
         for (param, ty) in func.params.iter().zip(types) {
@@ -181,7 +181,12 @@ impl Checker<'_> {
         self.builtin(body, entry, args?, instr.name.span, stmt.span)
     }
 
-    fn unknown_instruction<T>(&mut self, body: &Body, instr: &ast::Instr) -> Option<T> {
+    fn unknown_instruction<T>(&mut self, body: &mut Body, instr: &ast::Instr) -> Option<T> {
+        for arg in &instr.args {
+            if !matches!(arg.value.kind, ast::ExprKind::Brace(_)) {
+                self.expr(body, &arg.value, None);
+            }
+        }
         let name = self.names.name(instr.name.symbol);
         let own = self.scopes.get(body.module.0 as usize)?.funcs.contains_key(&instr.name.symbol);
         let is_function = own || !catalog::functions(name).is_empty();
@@ -320,14 +325,18 @@ impl Checker<'_> {
     }
 
     fn return_statement(&mut self, body: &mut Body, value: Option<&ast::Expr>, stmt: &ast::Stmt) -> Option<StmtKind> {
-        let result = Type::scalar(body.result);
+        let Some(base) = body.result else {
+            value.map(|value| self.expr(body, value, None));
+            return None;
+        };
+        let result = Type::scalar(base);
         match value {
-            None if body.result == Base::Void => Some(StmtKind::Return(None)),
+            None if base == Base::Void => Some(StmtKind::Return(None)),
             None => {
                 let result = self.type_name(result);
                 self.report(body, stmt.span, FlowProblem::ReturnWithoutValue { result })
             }
-            Some(value) if body.result == Base::Void => {
+            Some(value) if base == Base::Void => {
                 self.expr(body, value, None);
                 self.report(body, value.span, FlowProblem::ReturnWithValue)
             }

@@ -97,10 +97,13 @@ impl Problem for NameProblem {
                 Some(format!("`{name}` is an instruction: write its arguments without parentheses around them"))
             }
             NameProblem::UnknownType { near, name } => meant(near).or_else(|| {
-                Some(format!("`{name}` of other languages is called `{}` here", type_of_others(name)?))
+                Some(format!("`{name}` of other languages is called `{}` here", of_others(TYPES_OF_OTHERS, name)?))
             }),
-            NameProblem::UnknownFunction { near, .. }
-            | NameProblem::UnknownLabel { near, .. }
+            NameProblem::UnknownFunction { near, name, .. } => {
+                let other = of_others(FUNCTIONS_OF_OTHERS, name).or_else(|| of_others(INSTRUCTIONS_OF_OTHERS, name));
+                other.map(|ours| format!("ARL has `{ours}` for this")).or_else(|| meant(near))
+            }
+            NameProblem::UnknownLabel { near, .. }
             | NameProblem::NotInModule { near, .. } => meant(near),
             NameProblem::UnknownSystem { near, .. } => {
                 near.as_ref().map(|near| format!("did you mean `${near}`?"))
@@ -122,7 +125,10 @@ impl Problem for NameProblem {
             NameProblem::UnknownInstruction { name, is_function: true, .. } => {
                 Some(format!("`{name}` is a function: put its arguments in parentheses, `{name}(...)`"))
             }
-            NameProblem::UnknownInstruction { near, .. } => meant(near),
+            NameProblem::UnknownInstruction { near, name, .. } => {
+                let other = of_others(INSTRUCTIONS_OF_OTHERS, name);
+                other.map(|ours| format!("ARL has `{ours}` for this")).or_else(|| meant(near))
+            }
             NameProblem::Renamed { now, .. } => Some(format!("did you mean `{now}`?")),
         }
     }
@@ -155,6 +161,38 @@ const TYPES_OF_OTHERS: &[(&str, &str)] = &[
     ("zonedata", "slip"),
 ];
 
-fn type_of_others(name: &str) -> Option<&'static str> {
-    TYPES_OF_OTHERS.iter().find(|(other, _)| other.eq_ignore_ascii_case(name)).map(|(_, ours)| *ours)
+/// Instructions of other languages and what ARL has in their place.
+const INSTRUCTIONS_OF_OTHERS: &[(&str, &str)] = &[
+    ("movl", "lin"),
+    ("movel", "lin"),
+    ("linear", "lin"),
+    ("movc", "cir"),
+    ("movec", "cir"),
+    ("movp", "ptp"),
+    ("wait", "waittime"),
+    ("delay", "waittime"),
+    ("sleep", "waittime"),
+    ("waitfor", "waituntil"),
+    ("printf", "print"),
+    ("println", "print"),
+    ("echo", "print"),
+    ("halt", "pause"),
+    ("stop", "exit"),
+];
+
+/// Functions of other languages and what ARL has in their place.
+const FUNCTIONS_OF_OTHERS: &[(&str, &str)] = &[
+    ("len", "strlen"),
+    ("length", "strlen"),
+    ("random", "rand"),
+    ("round", "trunc"),
+    ("str", "tostr"),
+    ("tostring", "tostr"),
+    ("chr", "tostr"),
+    ("time", "ctime"),
+    ("date", "cdate"),
+];
+
+fn of_others(table: &[(&str, &'static str)], name: &str) -> Option<&'static str> {
+    table.iter().find(|(other, _)| other.eq_ignore_ascii_case(name)).map(|(_, ours)| *ours)
 }

@@ -19,6 +19,8 @@ pub(crate) enum TypeProblem {
     IndexType { found: String },
     /// A component of something that has none.
     NotAStructure { ty: String },
+    /// Braces where a single value is wanted.
+    BraceForValue { wanted: String },
     /// Braces where nothing says which type they make.
     BraceWithoutType,
     /// More values than components or elements.
@@ -68,7 +70,7 @@ pub(crate) enum TypeProblem {
 impl Problem for TypeProblem {
     fn code(&self) -> Code {
         Code(match self {
-            TypeProblem::Mismatch { .. } => 301,
+            TypeProblem::Mismatch { .. } | TypeProblem::BraceForValue { .. } => 301,
             TypeProblem::DoesNotFit { .. } => 302,
             TypeProblem::Operator { .. } => 303,
             TypeProblem::NotAnArray { .. } => 304,
@@ -113,13 +115,16 @@ impl Problem for TypeProblem {
             }
             TypeProblem::NotAnArray { ty } => format!("only arrays have elements, but this is of type {ty}"),
             TypeProblem::IndexCount { found, wanted } => {
-                format!("the array has {wanted} dimension{}, but {found} index{}", plural(*wanted), match found {
-                    1 => " is given",
-                    _ => "es are given",
+                format!("the array has {wanted} dimension{}, but {found} {}", plural(*wanted), match found {
+                    1 => "index is given",
+                    _ => "indices are given",
                 })
             }
             TypeProblem::IndexType { found } => format!("an index must be of type int, but this is of type {found}"),
             TypeProblem::NotAStructure { ty } => format!("only structures have components, but this is of type {ty}"),
+            TypeProblem::BraceForValue { wanted } => {
+                format!("braces make structures and arrays, but a value of type {wanted} is wanted here")
+            }
             TypeProblem::BraceWithoutType => "nothing here says what type these braces make".into(),
             TypeProblem::TooManyValues { wanted, ty } => {
                 format!("too many values: {ty} holds {wanted}")
