@@ -1,0 +1,7 @@
+//! How fast emitted programs run, and how fast programs are checked. See `docs/speed.md` for the figures.
+
+pub mod kernels;
+pub mod lua;
+pub mod rivals;
+pub mod run;
+pub mod statistics;

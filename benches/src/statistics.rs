@@ -1,0 +1,35 @@
+//! What is made of times that were measured.
+
+use std::time::Duration;
+
+/// The times of one contender, one a round.
+#[derive(Clone, Debug, Default)]
+pub struct Times(Vec<Duration>);
+
+impl Times {
+    /// Adds the time of a round.
+    pub fn push(&mut self, time: Duration) {
+        self.0.push(time);
+    }
+
+    /// The shortest time in s; nan without rounds.
+    pub fn least(&self) -> f64 {
+        self.0.iter().min().map_or(f64::NAN, Duration::as_secs_f64)
+    }
+
+    /// The time in the middle in s; nan without rounds.
+    pub fn median(&self) -> f64 {
+        median(self.0.iter().map(Duration::as_secs_f64).collect())
+    }
+}
+
+/// The value in the middle; nan where there is none.
+pub fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+/// The geometric mean; nan where there is none.
+pub fn geometric_mean(values: &[f64]) -> f64 {
+    (values.iter().map(|value| value.ln()).sum::<f64>() / values.len() as f64).exp()
+}
