@@ -92,12 +92,16 @@ pub struct Pause(());
 
 impl Pause {
     /// Waits for the start button: [`crate::Controller::resume`], or `pendant = "start"` of a scenario.
-    pub async fn run(self, cx: &Cx) {
+    ///
+    /// # Errors
+    /// None yet.
+    pub async fn run(self, cx: &Cx) -> Result<(), Fault> {
         cx.motion_end().await;
         cx.world().paused.set(true);
         while cx.world().paused.get() {
             cx.next_cycle().await;
         }
+        Ok(())
     }
 }
 

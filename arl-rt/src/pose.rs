@@ -22,6 +22,11 @@ pub fn cpose(cx: &Cx, t: Tool, w: &Wobj) -> Pose {
     pose(cx, &unit, &feedback.axes, &joint(feedback), t, w)
 }
 
+/// The pose of `$DFTOOL` in `$DFWOBJ` as the robot reports it now, in mm and deg, with the external axes.
+pub fn cpose_default(cx: &Cx) -> Pose {
+    cpose(cx, cx.system().dftool.get(), &cx.system().dfwobj.get())
+}
+
 /// The pose of the tool in the workpiece frame for given axes.
 ///
 /// # Errors

@@ -54,7 +54,6 @@ macro_rules! system {
             }
         }
     };
-    (@reset Reset $place:expr) => {};
     (@reset Reset $self:ident.$field:ident = $default:expr) => { $self.$field.set($default) };
     (@reset $other:ident $self:ident.$field:ident = $default:expr) => {};
     (@keep Saved $kept:ident, $self:ident.$field:ident, $name:literal, $ty:ty, $default:expr) => {

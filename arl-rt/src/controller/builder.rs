@@ -186,7 +186,8 @@ impl Builder {
         let rate = self.cell.rate;
         let trace = self.trace.map(|writer| Trace::new(writer, robot.family)).transpose();
         let trace = trace.map_err(|error| SetupError::Trace(error.to_string()))?;
-        let unit = Unit::new(robot, self.driver);
+        let mut unit = Unit::new(robot, self.driver);
+        unit.settings.manual = self.mode == Controlmode::Manual;
         let image = Image::new(&self.cell.channels);
         let scenario = Playing::new(self.scenario, &image, rate);
         let world = Rc::new(World::new(Parts {

@@ -45,7 +45,7 @@ pub fn print<'a>() -> PrintMessage<'a> {
 pub struct PrintMessage<'a> {
     to: Option<Targets>,
     tostr: Option<&'a mut Str>,
-    filepath: Option<&'a Str>,
+    filepath: Option<Str>,
     style: Style,
     text: Str,
     problem: Option<Fault>,
@@ -66,8 +66,8 @@ impl<'a> PrintMessage<'a> {
     }
 
     /// The file below the script directory for `to:file`; it holds for the messages after this one, too.
-    pub fn filepath(mut self, path: &'a Str) -> Self {
-        self.filepath = Some(path);
+    pub fn filepath(mut self, path: &Str) -> Self {
+        self.filepath = Some(path.clone());
         self
     }
 
@@ -103,16 +103,16 @@ impl<'a> PrintMessage<'a> {
         if let Some(problem) = self.problem {
             return Err(problem);
         }
-        if let Some(variable) = self.tostr {
-            *variable = self.text;
-            return Ok(());
-        }
         let (modal_to, modal_path) = cx.print_to();
         if let Some(to) = self.to {
             modal_to.set(to);
         }
         if let Some(path) = self.filepath {
-            modal_path.replace(path.clone());
+            modal_path.replace(path);
+        }
+        if let Some(variable) = self.tostr {
+            *variable = self.text;
+            return Ok(());
         }
         let to = modal_to.get();
         if to.file {
