@@ -319,6 +319,7 @@ impl Refused<'_> {
             (Some(Token::If | Token::While | Token::Until | Token::ElseIf | Token::Switch), ..) if self.at == 1 => {
                 Hint::ConditionParens
             }
+            (Some(Token::For), ..) if self.at == 1 => Hint::For,
             (Some(Token::If | Token::While | Token::Until | Token::ElseIf), Some(Token::ParenClose), token)
                 if complete && is_infix(token) =>
             {

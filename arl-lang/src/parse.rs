@@ -218,7 +218,12 @@ impl<'a> Parser<'a> {
         let (kind, place, instead) = match error {
             LexicalError::UnknownCharacter => (SyntaxErrorKind::UnknownCharacter(first), span, Instead::Broken),
             LexicalError::LooksLike(meant) => (SyntaxErrorKind::LooksLike(first, meant), span, punctuation(meant)),
-            LexicalError::ForeignLetters => (SyntaxErrorKind::ForeignLetters(text.into()), span, Instead::Broken),
+            LexicalError::ForeignLetters => {
+                // The name may begin with letters that are fine.
+                let before = self.lexemes.pop_if(|(_, lexeme, end)| *lexeme == Lexeme::Word && *end == span.start);
+                let whole = Span::new(before.map_or(span.start, |before| before.0), span.end);
+                (SyntaxErrorKind::ForeignLetters(whole.text(self.source).into()), whole, Instead::Broken)
+            }
             LexicalError::UnclosedText => (SyntaxErrorKind::UnclosedText, span, Instead::Broken),
             LexicalError::UnclosedComment => {
                 (SyntaxErrorKind::UnclosedComment, Span::new(span.start, span.start + 2), Instead::Nothing)

@@ -156,14 +156,19 @@ fn declaration(tokens: &[Placed]) -> Option<Decl> {
     let span = Span::new(tokens.first()?.0, tokens.last()?.2);
     let mut vars = Vec::new();
     let mut depth = 0_usize;
+    let mut in_value = false;
     for pair in rest.windows(2) {
         let [(_, before, _), token] = pair else { continue };
         match before {
             Token::ParenOpen | Token::BracketOpen | Token::BraceOpen => depth += 1,
             Token::ParenClose | Token::BracketClose | Token::BraceClose => depth = depth.saturating_sub(1),
+            Token::Assign(_) => in_value = true,
+            Token::Comma if depth == 0 => in_value = false,
             _ => {}
         }
-        let declares = vars.is_empty() || (depth == 0 && *before == Token::Comma);
+        // A name directly behind a variable's: the comma is missing.
+        let begins = *before == Token::Comma || (!in_value && matches!(before, Token::Name(_)));
+        let declares = vars.is_empty() || (depth == 0 && begins);
         if let (true, Some(name)) = (declares, name(Some(token))) {
             vars.push(Var { name, dims: Vec::new(), init: Some(error_at(span)) });
         }
@@ -189,7 +194,16 @@ fn function_head(tokens: &[Placed], void: Symbol) -> Option<FuncHead> {
     let name_of = name(tokens.get(name_at))?;
     let mut params = Vec::new();
     for three in tokens.get(name_at + 1..).unwrap_or_default().windows(3) {
-        let [(_, Token::ParenOpen | Token::Comma, _), ty, param] = three else { continue };
+        // A type directly behind a name: the comma is missing.
+        let [(_, before, _), ty, param] = three else { continue };
+        let begins = match before {
+            Token::ParenOpen | Token::Comma => true,
+            Token::Name(_) | Token::BracketClose => matches!(ty.1, Token::Type(_)),
+            _ => false,
+        };
+        if !begins {
+            continue;
+        }
         if let (Some(ty), Some(name)) = (type_ref(Some(ty)), name(Some(param))) {
             params.push(FuncParam { ty, name, dims: Vec::new(), span: ty.span.to(name.span) });
         }

@@ -46,6 +46,7 @@ fn characters_and_numbers() {
         ("x　= 1", 102, "　"),
         ("x ＝ 1", 102, "＝"),
         ("int 变量1 = 5", 103, "变量1"),
+        ("int zähler = 5", 103, "zähler"),
         ("print \"abc", 104, "\"abc"),
         ("print \"abc, x //", 104, "\"abc, x //"),
         ("setdo(\"1, true)", 104, "\"1, true)"),

@@ -60,6 +60,7 @@ impl Flow {
                 }
                 continue;
             }
+            told = false;
             reached = self.stmt(stmt);
         }
         reached
