@@ -1,4 +1,5 @@
 //! `print` and the files of a program.
+#![allow(clippy::unwrap_used, reason = "helpers of tests are tests, too")]
 
 mod common;
 
@@ -36,10 +37,10 @@ impl Drop for Folder {
 fn styles_hold_for_the_rest_of_one_message() {
     let (_, text) = run(|cx| {
         Box::pin(async move {
-            text::print().precision(3).argtoprint(&"PI:").argtoprint(&3.14159265).run(cx).at(FILE, 1)?;
+            text::print().precision(3).argtoprint(&"PI:").argtoprint(&std::f64::consts::PI).run(cx).at(FILE, 1)?;
             let message = text::print().argtoprint(&"255 =").numbase(NumBase::Hex).argtoprint(&255).argtoprint(&"h");
             message.numbase(NumBase::Dec).argtoprint(&16).run(cx).at(FILE, 2)?;
-            text::print().argtoprint(&255).argtoprint(&" ").argtoprint(&3.14159265).run(cx).at(FILE, 3)?;
+            text::print().argtoprint(&255).argtoprint(&" ").argtoprint(&std::f64::consts::PI).run(cx).at(FILE, 3)?;
             text::print().argtoprint(&"ends by itself\n").run(cx).at(FILE, 4)?;
             text::print().precision(-1).argtoprint(&1.5).run(cx).at(FILE, 5)
         })
