@@ -66,7 +66,9 @@ pub(super) fn prepare(file: &Path, checking: &Checking) -> Result<Ready, Failure
     let said = show::rendered(&compiled);
     show::again(&said);
     let rust = compiled.rust.take().ok_or(Failure::Shown)?;
-    let kept = stamp.filter(|stamp| freshness == Freshness::DataChanged && only_values(stamp, &compiled, &read));
+    // The runtime reads data files again in the script directory: here it must be the program's own folder.
+    let read_again = options.script_dir.is_none() && freshness == Freshness::DataChanged;
+    let kept = stamp.filter(|stamp| read_again && only_values(stamp, &compiled, &read));
     let program = match kept {
         Some(stamp) => stamp.program,
         None => build(&cache, &place, &runtime, &rust, &main, &compiled)?,

@@ -16,16 +16,29 @@ pub(super) fn write(place: &Place, runtime: &Runtime, rust: &str, folder: &Path)
 /// How far programs are optimised: far enough for loops, and soon done.
 const PROGRAM_LEVEL: u8 = 1;
 
+/// What reads files at the start, or is not used at all, needs no optimisation: it would take longer to compile.
+const READERS: &str = "\
+arl-lang = { opt-level = 1 }
+encoding_rs = { opt-level = 0 }
+simba = { opt-level = 1 }
+toml = { opt-level = 0 }
+toml_parser = { opt-level = 0 }
+wide = { opt-level = 0 }
+winnow = { opt-level = 0 }
+";
+
 /// Writes Cargo.toml, and Cargo.lock where the versions of other packages are known.
 pub(super) fn manifest(folder: &Path, name: &str, runtime: &Runtime, level: u8) -> Result<(), Failure> {
+    // Not `package."*"`: that would also optimise what only runs while compiling.
     let text = format!(
         "# Written by arl2rs.\n\
          [package]\nname = \"{name}\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n\
          [workspace]\n\n\
          [dependencies]\narl-rt = {}\n\n\
-         [profile.dev]\nopt-level = {level}\ndebug = false\nincremental = true\noverflow-checks = false\n\
+         [profile.dev]\nopt-level = 3\ndebug = false\nincremental = true\noverflow-checks = false\n\
          debug-assertions = false\n\n\
-         [profile.dev.package.\"*\"]\nopt-level = 3\n\n\
+         [profile.dev.package]\n\"{name}\" = {{ opt-level = {level} }}\n\
+         {READERS}\n\
          [profile.release]\nlto = \"thin\"\n",
         runtime.dependency()
     );
@@ -42,7 +55,7 @@ pub(super) fn manifest(folder: &Path, name: &str, runtime: &Runtime, level: u8) 
 fn main_rs(folder: &Path) -> String {
     format!(
         "// Written by arl2rs.\n\nmod program;\n\nfn main() -> std::process::ExitCode {{\n    \
-         arl_rt::program_main::main(&program::Globals::new(), {:?})\n}}\n",
+         arl_rt::program_main::main(program::Globals::new, {:?})\n}}\n",
         folder.display().to_string()
     )
 }

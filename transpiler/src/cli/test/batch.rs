@@ -118,13 +118,14 @@ fn write(
         let (modules, arms) = programs.entry(part(name, parts)).or_default();
         let folder = case.source.parent().unwrap_or(Path::new("/")).display().to_string();
         *modules += &format!("#[path = \"../cases/{name}.rs\"]\nmod {name};\n");
-        *arms += &format!("        \"{name}\" => arl_rt::program_main::main(&{name}::Globals::new(), {folder:?}),\n");
+        *arms += &format!("        \"{name}\" => (|| Box::new({name}::Globals::new()), {folder:?}),\n");
     }
     for (part, (modules, arms)) in &programs {
         let text = format!(
-            "// Written by arl2rs.\n#![allow(warnings)]\n\n{modules}\nfn main() -> std::process::ExitCode {{\n    \
-             match std::env::var(\"{CASE}\").unwrap_or_default().as_str() {{\n{arms}        \
-             _ => std::process::ExitCode::from(2),\n    }}\n}}\n"
+            "// Written by arl2rs.\n#![allow(warnings)]\n\n{modules}\ntype Make = fn() -> Box<dyn arl_rt::Program>;\n\n\
+             fn main() -> std::process::ExitCode {{\n    let case = std::env::var(\"{CASE}\").unwrap_or_default();\n    \
+             let (make, folder): (Make, &str) = match case.as_str() {{\n{arms}        \
+             _ => return std::process::ExitCode::from(2),\n    }};\n    arl_rt::program_main::main(make, folder)\n}}\n"
         );
         write_if_changed(&bin.join(format!("{}.rs", part_name(*part))), text.as_bytes())?;
     }

@@ -77,12 +77,13 @@ pub(super) fn robot(case: &Case) -> Option<String> {
     Some(if file.is_file() { file.to_string_lossy().into_owned() } else { robot.clone() })
 }
 
-/// Copies what programs may read: all files but programs and sidecars.
+/// Copies what programs may read: data files, and all files but programs and sidecars.
 fn copy_files(from: &Path, to: &Path) -> std::io::Result<()> {
     const OURS: [&str; 5] = ["arl", "out", "err", "alarm", "toml"];
     let files = std::fs::read_dir(from)?.filter_map(|entry| Some(entry.ok()?.path())).filter(|path: &PathBuf| {
         let ending = path.extension().map(|ending| ending.to_string_lossy().into_owned()).unwrap_or_default();
-        path.is_file() && !OURS.contains(&ending.as_str())
+        let data = path.file_stem().is_some_and(|stem| stem.to_string_lossy().ends_with("_data"));
+        path.is_file() && (data || !OURS.contains(&ending.as_str()))
     });
     for file in files {
         if let Some(name) = file.file_name() {
