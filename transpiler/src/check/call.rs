@@ -122,6 +122,7 @@ impl Checker<'_> {
         if entry.status == Status::NotYet {
             return self.report(body, name, SupportProblem::NotYet { name: entry.name.into() });
         }
+        self.warn_of_blending(body, entry, &args);
         let ty = Type::scalar(entry.result);
         Some(Expr { ty, kind: ExprKind::Builtin(Box::new(Builtin { entry, args })), span })
     }
@@ -161,7 +162,11 @@ impl Checker<'_> {
             if typed.is_none() && self.diagnostics.len() > shown {
                 return None;
             }
-            types.push(typed?);
+            let typed = typed?;
+            if typed.expr.ty.base == Base::Void {
+                return self.report_no_value(body, &typed.expr);
+            }
+            types.push(typed);
         }
         let best = overloads
             .iter()

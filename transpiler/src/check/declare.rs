@@ -97,7 +97,7 @@ impl<'a> Checker<'a> {
             State::Pending => slot.state = State::Busy,
         }
         let mut body = Body::new(module, item);
-        let ty = self.declared_type(&mut body, &decl.ty, &var.dims);
+        let ty = self.declared_type(&mut body, &decl.ty, var.name, &var.dims);
         if let Some(slot) = self.globals.get_mut(id.0 as usize) {
             slot.ty = ty;
         }
@@ -129,7 +129,7 @@ impl<'a> Checker<'a> {
         };
         let mut params = Vec::new();
         for param in &func.params {
-            let ty = self.declared_type(&mut body, &param.ty, &param.dims);
+            let ty = self.declared_type(&mut body, &param.ty, param.name, &param.dims);
             let ty = match ty {
                 Some(ty) if matches!(ty.base, Base::Handle(_)) => {
                     let ty = self.type_name(ty);
@@ -178,22 +178,27 @@ impl<'a> Checker<'a> {
     }
 
     /// A type with its array sizes, as a variable may have it.
-    fn declared_type(&mut self, body: &mut Body, name: &ast::TypeRef, dims: &[ast::Expr]) -> Option<Type> {
-        let base = self.base_type(body, name);
+    fn declared_type(
+        &mut self,
+        body: &mut Body,
+        ty: &ast::TypeRef,
+        name: ast::Ident,
+        dims: &[ast::Expr],
+    ) -> Option<Type> {
+        let base = self.base_type(body, ty);
         let sizes: Vec<Option<u32>> = dims.iter().map(|dim| self.array_size(body, dim)).collect();
         let base = base?;
         if base == Base::Void {
-            return self.report(body, name.span, TypeProblem::VoidVariable);
+            return self.report(body, ty.span, TypeProblem::VoidVariable);
         }
         let sizes = sizes.into_iter().collect::<Option<Vec<u32>>>()?;
-        let whole = dims.first().zip(dims.last()).map_or(name.span, |(first, last)| first.span.to(last.span));
         let len = sizes.iter().try_fold(1u64, |len, size| len.checked_mul(u64::from(*size))).unwrap_or(u64::MAX);
         if len > MAX_ELEMENTS {
-            return self.report(body, whole, TypeProblem::ArrayTooLarge { len });
+            return self.report(body, name.span, TypeProblem::ArrayTooLarge { len });
         }
         match Type::array(base, &sizes) {
             Some(ty) => Some(ty),
-            None => self.report(body, whole, TypeProblem::TooManyDimensions { most: MAX_DIMS }),
+            None => self.report(body, name.span, TypeProblem::TooManyDimensions { most: MAX_DIMS }),
         }
     }
 
@@ -232,7 +237,7 @@ impl<'a> Checker<'a> {
     /// Declares local variables; one statement each.
     pub(crate) fn local_decl(&mut self, body: &mut Body, decl: &ast::Decl, out: &mut Vec<Stmt>) {
         for var in &decl.vars {
-            let ty = self.declared_type(body, &decl.ty, &var.dims);
+            let ty = self.declared_type(body, &decl.ty, var.name, &var.dims);
             let init = self.initialiser(body, decl, var, ty);
             let value = constant_value(decl, ty, init.as_ref());
             let local = self.declare_local(body, var.name, ty, decl.constant.is_some(), value);

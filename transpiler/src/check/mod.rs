@@ -5,6 +5,7 @@
 //! `conditions` look at the finished functions.
 
 mod arguments;
+mod blending;
 mod brace;
 mod call;
 mod conditions;

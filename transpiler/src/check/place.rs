@@ -72,6 +72,9 @@ impl Checker<'_> {
             PlaceOrValue::Value(typed) => (typed.expr.ty, typed.expr.span),
         };
         let Base::Struct(id) = ty.base else {
+            if let (Base::Void, PlaceOrValue::Value(typed)) = (ty.base, &inner) {
+                return self.report_no_value(body, &typed.expr);
+            }
             let ty = self.type_name(ty);
             return self.report(body, inner_span, TypeProblem::NotAStructure { ty });
         };

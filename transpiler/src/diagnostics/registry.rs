@@ -96,6 +96,7 @@ static CODES: &[CodeInfo] = &[
     error(606, "A function in a data file"),
     error(701, "Something that is not supported yet"),
     error(702, "Something for the other kind of robot"),
+    warning(751, "blending that does not happen yet"),
     error(801, "A constant division by zero"),
     error(802, "A constant shift out of range"),
     error(803, "A constant index out of range"),

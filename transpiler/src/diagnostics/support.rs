@@ -7,6 +7,8 @@ use super::{Code, Problem};
 pub(crate) enum SupportProblem {
     /// Declared in the catalog, does not run yet.
     NotYet { name: String },
+    /// Blending, which does not happen yet.
+    NoBlending { label: String },
     /// Exists for the other robot family only.
     OtherFamily { name: String, family: &'static str },
 }
@@ -16,12 +18,16 @@ impl Problem for SupportProblem {
         Code(match self {
             SupportProblem::NotYet { .. } => 701,
             SupportProblem::OtherFamily { .. } => 702,
+            SupportProblem::NoBlending { .. } => 751,
         })
     }
 
     fn message(&self) -> String {
         match self {
             SupportProblem::NotYet { name } => format!("`{name}` is not supported yet"),
+            SupportProblem::NoBlending { label } => {
+                format!("blending (`{label}`) is not supported yet: the robot stops at this target")
+            }
             SupportProblem::OtherFamily { name, family } => format!("`{name}` exists for {family} robots only"),
         }
     }
@@ -34,6 +40,9 @@ impl Problem for SupportProblem {
         match self {
             SupportProblem::NotYet { .. } => {
                 Some("it is known and checked, but a program that uses it cannot be run by this version".into())
+            }
+            SupportProblem::NoBlending { .. } => {
+                Some("the path goes exactly through the target; only the time that it takes differs".into())
             }
             SupportProblem::OtherFamily { .. } => Some("name the robot that the program is for with `--robot`".into()),
         }
