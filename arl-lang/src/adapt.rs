@@ -166,6 +166,8 @@ impl<'a> Adapter<'a> {
                 true
             }
             [(_, Lexeme::Word, _), (_, Lexeme::Colon, _), ..] => true,
+            // No declaration goes on so.
+            [(_, Lexeme::Word, _), (_, next, _), ..] if begins_operation(*next) => true,
             [(_, Lexeme::Semicolon, _), ..] => known,
             [(from, Lexeme::Word, to), ..] => {
                 known
@@ -264,6 +266,15 @@ impl<'a> Adapter<'a> {
 /// Whether a `%` in front of it is a unit, and a reserved type in front of it a constant.
 fn ends_value(lexeme: Lexeme) -> bool {
     matches!(lexeme, Lexeme::Comma | Lexeme::Semicolon | Lexeme::ParenClose | Lexeme::BraceClose | Lexeme::BracketClose)
+}
+
+/// Whether a value in front of it goes on.
+fn begins_operation(lexeme: Lexeme) -> bool {
+    use Lexeme as L;
+    matches!(
+        lexeme,
+        L::ParenOpen | L::Dot | L::Scope | L::Plus | L::Minus | L::Star | L::Slash | L::Equal | L::NotEqual | L::Less
+    ) || matches!(lexeme, L::LessEqual | L::Greater | L::GreaterEqual | L::And | L::Or | L::BitAnd | L::BitOr)
 }
 
 /// Whether a name in front of it in braces is a component's.

@@ -2,9 +2,10 @@
 
 use super::call::family_name;
 use super::context::{Body, Checker, FuncSlot, GlobalSlot, ModuleScope, State};
+use super::statements::near_instruction;
 use crate::diagnostics::flow::FlowProblem;
 use crate::diagnostics::modules::ModuleProblem;
-use crate::diagnostics::names::NameProblem;
+use crate::diagnostics::names::{NameProblem, is_instruction_of_others, is_type_of_others};
 use crate::diagnostics::support::SupportProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{self, Expr, ExprKind, FuncId, GlobalId, LocalId, MAX_DIMS, ModuleId, Stmt, StmtKind, Type, Value};
@@ -154,7 +155,7 @@ impl<'a> Checker<'a> {
                 let name_text = self.text(body.module, name.span).to_string();
                 return self.report(body, name.span, NameProblem::Renamed { name: name_text, now: now.into() });
             }
-            let near = crate::near::nearest(folded, catalog::type_names().map(|(name, _)| name)).map(Into::into);
+            let near = near_type(folded).map(Into::into);
             let text = self.text(body.module, name.span).to_string();
             return self.report(body, name.span, NameProblem::UnknownType { name: text, near });
         };
@@ -236,6 +237,10 @@ impl<'a> Checker<'a> {
 
     /// Declares local variables; one statement each.
     pub(crate) fn local_decl(&mut self, body: &mut Body, decl: &ast::Decl, out: &mut Vec<Stmt>) {
+        if self.is_instruction(body, decl) {
+            self.report_unknown_instruction::<()>(body, decl.ty.name, decl.ty.span);
+            return;
+        }
         for var in &decl.vars {
             let ty = self.declared_type(body, &decl.ty, var.name, &var.dims);
             let init = self.initialiser(body, decl, var, ty);
@@ -245,6 +250,20 @@ impl<'a> Checker<'a> {
                 out.push(Stmt { kind: StmtKind::Let(local, init), span: decl.span });
             }
         }
+    }
+
+    /// Whether what reads like a declaration is meant as an instruction: `movel p`, `waitutil ready`.
+    fn is_instruction(&self, body: &Body, decl: &ast::Decl) -> bool {
+        let name = self.names.name(decl.ty.name);
+        let plain = decl.constant.is_none() && !decl.ty.system && decl.vars.iter().all(|var| var.init.is_none());
+        if !plain || catalog::base_type(name).is_some() || looks_like_type(name) {
+            return false;
+        }
+        let known = |var: &ast::Var| body.find(var.name.symbol).is_some() || self.find_global(body, var.name.symbol).is_some();
+        near_instruction(name).is_some()
+            || is_instruction_of_others(name)
+            || self.names_function(body, decl.ty.name)
+            || decl.vars.first().is_some_and(known)
     }
 
     /// Makes a local variable known; one of the same name in the same scope is an error.
@@ -293,6 +312,16 @@ impl<'a> Checker<'a> {
     pub(crate) fn file_start(&self) -> Span {
         Span::default()
     }
+}
+
+/// Whether a name that is no type is near to one.
+fn looks_like_type(name: &str) -> bool {
+    is_type_of_others(name) || catalog::renamed(name).is_some() || near_type(name).is_some()
+}
+
+/// The type whose name is nearest.
+fn near_type(name: &str) -> Option<&'static str> {
+    crate::near::nearest(name, catalog::type_names().map(|(name, _)| name))
 }
 
 /// The value of a `const` scalar.

@@ -12,6 +12,7 @@ use crate::hir::{self, Arm, Block, Expr, ExprKind, For, FuncId, LabelId, LoopInf
 use arl_lang::ast;
 use arl_lang::catalog::{self, Base, Effect, Kind};
 use arl_lang::span::Span;
+use arl_lang::symbol::Symbol;
 use std::collections::HashMap;
 
 impl Checker<'_> {
@@ -187,13 +188,20 @@ impl Checker<'_> {
                 self.expr(body, &arg.value, None);
             }
         }
-        let name = self.names.name(instr.name.symbol);
-        let own = self.scopes.get(body.module.0 as usize)?.funcs.contains_key(&instr.name.symbol);
-        let is_function = own || !catalog::functions(name).is_empty();
-        let known = catalog::all_entries().iter().filter(|entry| entry.kind == Kind::Instruction).map(|entry| entry.name);
-        let near = crate::near::nearest(name, known).map(Into::into);
-        let name = self.text(body.module, instr.name.span).to_string();
-        self.report(body, instr.name.span, NameProblem::UnknownInstruction { name, near, is_function })
+        self.report_unknown_instruction(body, instr.name.symbol, instr.name.span)
+    }
+
+    pub(crate) fn report_unknown_instruction<T>(&mut self, body: &Body, symbol: Symbol, span: Span) -> Option<T> {
+        let is_function = self.names_function(body, symbol);
+        let near = near_instruction(self.names.name(symbol)).map(Into::into);
+        let name = self.text(body.module, span).to_string();
+        self.report(body, span, NameProblem::UnknownInstruction { name, near, is_function })
+    }
+
+    /// Whether a function of this module or a built-in one has this name.
+    pub(crate) fn names_function(&self, body: &Body, symbol: Symbol) -> bool {
+        let own = self.scopes.get(body.module.0 as usize).is_some_and(|scope| scope.funcs.contains_key(&symbol));
+        own || !catalog::functions(self.names.name(symbol)).is_empty()
     }
 
     fn if_statement(&mut self, body: &mut Body, branches: &ast::If) -> Option<StmtKind> {
@@ -351,6 +359,12 @@ impl Checker<'_> {
             }
         }
     }
+}
+
+/// The instruction whose name is nearest.
+pub(crate) fn near_instruction(name: &str) -> Option<&'static str> {
+    let entries = catalog::all_entries().iter().filter(|entry| entry.kind == Kind::Instruction);
+    crate::near::nearest(name, entries.map(|entry| entry.name))
 }
 
 /// A text that is equal for equal constants of one type.

@@ -193,6 +193,16 @@ const FUNCTIONS_OF_OTHERS: &[(&str, &str)] = &[
     ("date", "cdate"),
 ];
 
+/// Whether other languages have an instruction of this name.
+pub(crate) fn is_instruction_of_others(name: &str) -> bool {
+    of_others(INSTRUCTIONS_OF_OTHERS, name).is_some()
+}
+
+/// Whether other languages have a type of this name.
+pub(crate) fn is_type_of_others(name: &str) -> bool {
+    of_others(TYPES_OF_OTHERS, name).is_some()
+}
+
 fn of_others(table: &[(&str, &'static str)], name: &str) -> Option<&'static str> {
     table.iter().find(|(other, _)| other.eq_ignore_ascii_case(name)).map(|(_, ours)| *ours)
 }
