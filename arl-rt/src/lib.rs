@@ -49,3 +49,14 @@ pub use fault::{Alarm, Fault};
 pub use output::{Captured, Message, Output, Stream};
 pub use program::{BoxFuture, DataFile, DataVar, Program};
 pub use robot::{Family, Robot};
+
+#[cfg(feature = "macros")]
+pub use arl_macros::{arl, arl_file};
+
+/// Includes a program that `arl2rs::Build` compiled in the build script: `include_arl!("pick")`.
+#[macro_export]
+macro_rules! include_arl {
+    ($name:literal) => {
+        include!(concat!(env!("OUT_DIR"), "/", $name, ".rs"));
+    };
+}
