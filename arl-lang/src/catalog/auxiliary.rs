@@ -35,7 +35,7 @@ entries! { pub(super) AUXILIARY =
         acc: int [units(&[Unit::Percent]), range(0.0, 300.0)] "acceleration, % of the limit, up to 300",
         ramp: int [units(&[Unit::Percent]), range(0.0, 300.0)] "jerk, % of the limit, up to 300",
     )
-        { "3.5.5", motion::accset, acts, fails, foreground, notyet; "accset 50,100" }
+        { "3.5.5", motion::accset, acts, fails, foreground; "accset 50,100" }
     /// Tells the controller which load the robot carries.
     instr toolload(toolinertia: tool_inertia_para "the load")
         { "3.5.6", motion::toolload, acts, fails, foreground, notyet;

@@ -64,10 +64,10 @@ entries! { pub(super) IO =
         { "5.5.15", io::getao, waits, fails, notyet; "setao(1,5.2)\nprint getao(1)" }
     /// Level of an internal output signal.
     fn getintdo(chan: int "the signal") -> bool
-        { "5.5.16", io::getintdo, waits, fails, notyet; "print getintdo(1)" }
+        { "5.5.16", io::getintdo, waits, fails; "print getintdo(1)" }
     /// Level of an internal input signal.
     fn getintdi(chan: int "the signal") -> bool
-        { "5.5.17", io::getintdi, waits, fails, notyet; "print getintdi(1)" }
+        { "5.5.17", io::getintdi, waits, fails; "print getintdi(1)" }
     /// Sets frequency and duty cycle of a PWM output; whether it worked.
     fn setpwm(
         channel: int [range(1.0, 3.0)] "the PWM output, 1 to 3",

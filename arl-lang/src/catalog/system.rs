@@ -41,7 +41,7 @@ variables! { pub(super) DATA =
 variables! { pub(super) FUNCTION =
     /// Whether lines and arcs may pass near the wrist singularity (axis 5 at 0): the TCP's position is kept at the cost of
     /// its orientation.
-    WRIST: bool = "false" { "10.2.1", reset, notyet; "$WRIST = true" }
+    WRIST: bool = "false" { "10.2.1", reset; "$WRIST = true" }
     /// Whether targets are reached in the configuration they were taught in (cfg and turn); false: in the one nearest to
     /// the current axes.
     CONFIG_CHECK: bool = "true"
@@ -57,7 +57,7 @@ variables! { pub(super) FUNCTION =
     /// Whether targets' a, b, c are ignored: the tool keeps its orientation.
     IGNORE_ORI: bool = "false" { "10.2.7", reset; "$IGNORE_ORI = true" }
     /// Whether the tool turns along with the path on arcs.
-    ORI_REF_PATH: bool = "false" { "10.2.8", reset, notyet; "$ORI_REF_PATH = true" }
+    ORI_REF_PATH: bool = "false" { "10.2.8", reset; "$ORI_REF_PATH = true" }
     /// Speed profile of the motions that follow; at first the robot file's.
     VEL_PROFILE: vel_profile = "S_TYPE" { "10.2.9", reset; "$VEL_PROFILE = S_TYPE\nprint $VEL_PROFILE" }
     /// Time since the motion being executed began, s.
@@ -71,7 +71,7 @@ variables! { pub(super) FUNCTION =
     /// Axis positions of the target planned last, for motions relative to it.
     CJOINT: joint = "{9e+09}" { "10.2.14", reset, readonly; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nprint $CJOINT" }
     /// Whether the first motion of a program runs at manual speed and stops at its end.
-    RPP_ENABLE: bool = "false" { "10.2.15", reset, notyet; "$RPP_ENABLE = true" }
+    RPP_ENABLE: bool = "false" { "10.2.15", reset; "$RPP_ENABLE = true" }
     /// Whether the robot stands at each of the five home points.
     AT_HOME: bool[5] = "{false,false,false,false,false}" { "10.2.16", startup, readonly; "print $AT_HOME[0]" }
     /// Whether the external control is active.

@@ -105,6 +105,24 @@ pub async fn getdi_group(cx: &Cx, from_chan: i32, to_chan: i32) -> Result<i32, F
     cx.world().io.borrow().digitals(Digital::Di, from_chan, to_chan)
 }
 
+/// The level of an internal output signal.
+///
+/// # Errors
+/// There is no such signal.
+pub async fn getintdo(cx: &Cx, chan: i32) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow().digital(Digital::InternalOut, chan)
+}
+
+/// The level of an internal input signal.
+///
+/// # Errors
+/// There is no such signal.
+pub async fn getintdi(cx: &Cx, chan: i32) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow().digital(Digital::InternalIn, chan)
+}
+
 /// The level of a digital input now, while the robot may still be on its way.
 ///
 /// # Errors

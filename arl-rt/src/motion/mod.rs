@@ -23,4 +23,4 @@ pub use joints::{Joints, UNSET, is_unset};
 pub use plan::{Motion, plan};
 pub use queue::{LOOK_AHEAD, Progress, Queue, Step, Stop};
 
-pub use crate::motion_instructions::{Lin, MoveJ, Ptp, VelSet, lin, movej, ptp, velset};
+pub use crate::motion_instructions::{AccSet, Lin, MoveJ, Ptp, VelSet, accset, lin, movej, ptp, velset};

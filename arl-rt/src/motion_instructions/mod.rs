@@ -166,3 +166,36 @@ impl VelSet {
         Ok(())
     }
 }
+
+/// `accset`: scales the accelerations and jerks of the motions that follow to `acc` and `ramp` percent. Below 20 counts
+/// as 20; above 100 nothing gets faster than the robot file allows.
+pub fn accset(acc: i32, ramp: i32) -> AccSet {
+    AccSet { acc, ramp }
+}
+
+/// `accset`, ready to run.
+#[derive(Clone, Copy, Debug)]
+#[must_use = "an instruction does nothing until it is run"]
+pub struct AccSet {
+    acc: i32,
+    ramp: i32,
+}
+
+impl AccSet {
+    /// Holds from the next motion on.
+    ///
+    /// # Errors
+    /// A percentage is not within 0 to 300.
+    pub fn run(self, cx: &Cx) -> Result<(), Fault> {
+        for (name, percent) in [("acc", self.acc), ("ramp", self.ramp)] {
+            if !(0..=300).contains(&percent) {
+                let problem = format!("{name} is {percent} %, but must be 0 to 300 %");
+                return Err(Fault::Domain { function: "accset", problem: problem.into() });
+            }
+        }
+        let mut unit = cx.world().unit.borrow_mut();
+        unit.settings.acc_percent = f64::from(self.acc);
+        unit.settings.jerk_percent = f64::from(self.ramp);
+        Ok(())
+    }
+}

@@ -65,6 +65,9 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
     if world.unit.borrow().robot().family == Family::Scara {
         return Err(Fault::Motion("motion of SCARA robots is not supported yet".into()));
     }
+    if world.system.rpp_enable.get() && !cx.has_moved() {
+        return Err(Fault::Motion("the slow first motion of $RPP_ENABLE is not supported yet".into()));
+    }
     if cx.spend() {
         cx.next_cycle().await;
     }
