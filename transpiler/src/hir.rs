@@ -88,6 +88,7 @@ impl Type {
     }
 
     /// How many elements it has: 1 for a scalar.
+    #[expect(clippy::len_without_is_empty, reason = "no type is without elements")]
     pub fn len(&self) -> usize {
         self.dims().iter().map(|size| *size as usize).product()
     }

@@ -12,7 +12,7 @@
 //! The number behind the code is the line (`other.arl:3` in another file), the marked text follows in backticks; parts
 //! behind it are fragments of the message, of another label, of the help. A part may be left out.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test")]
+#![allow(clippy::unwrap_used, reason = "a test")]
 
 use arl2rs::diagnostics::{Diagnostic, Label, info};
 use arl2rs::{CheckOptions, Checked, SourceError, Sources, check_text};

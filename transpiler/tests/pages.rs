@@ -5,7 +5,7 @@
 //! check: `Options: --strict --robot hsr065 macro` (macro: the text is statements inside of `arl!`), and
 //! `` `name.arl`: `` in front of further files. `Not executed: reason` stands in place of what no text can show.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test")]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::disallowed_methods, reason = "a test, which reads the pages")]
 
 use arl2rs::diagnostics::{CodeInfo, Diagnostic, registry};
 use arl2rs::{CheckOptions, Checked, SourceError, Sources, check_statements, check_text};

@@ -126,7 +126,7 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
     if let Some(program) = &mut program {
         crate::effects::infer(program);
     }
-    diagnostics.sort_by(|a, b| (a.primary.at, a.code).cmp(&(b.primary.at, b.code)));
+    diagnostics.sort_by_key(|diagnostic| (diagnostic.primary.at, diagnostic.code));
     diagnostics.dedup();
     (Checked { program, diagnostics, files, _syntax: Syntax { _modules: modules }, read }, spliced)
 }
