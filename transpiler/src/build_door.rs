@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 ///
 /// ```ignore
 /// // src/main.rs
-/// mod robot {
+/// mod picking {
 ///     arl_rt::include_arl!("pick");
 /// }
 /// ```

@@ -12,7 +12,7 @@
 //! The number behind the code is the line (`other.arl:3` in another file), the marked text follows in backticks; parts
 //! behind it are fragments of the message, of another label, of the help. A part may be left out.
 
-#![allow(clippy::unwrap_used, reason = "a test")]
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test")]
 
 use arl2rs::diagnostics::{Diagnostic, Label, info};
 use arl2rs::{CheckOptions, Checked, SourceError, Sources, check_text};
@@ -187,6 +187,76 @@ fn run(text: &str) {
         }
     }
     assert!(failures.is_empty(), "{failures}");
+}
+
+/// Numbers that look random and are the same each time.
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, end: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 % end.max(1) as u64) as usize
+    }
+}
+
+/// The words, numbers, signs and blanks of a text.
+fn pieces(text: &str) -> Vec<&str> {
+    let kind = |c: char| if c.is_alphanumeric() || c == '_' || c == '$' { 1 } else { 2 + usize::from(c == '\n') };
+    let mut pieces = Vec::new();
+    let mut rest = text;
+    while let Some(first) = rest.chars().next() {
+        let same = |(_, c): &(usize, char)| kind(first) != 1 || kind(*c) != 1;
+        let end = rest.char_indices().skip(1).find(same).map_or(rest.len(), |(at, _)| at);
+        let (piece, behind) = rest.split_at(end);
+        pieces.push(piece);
+        rest = behind;
+    }
+    pieces
+}
+
+#[test]
+fn damaged_programs_are_checked_in_peace() {
+    let files = [
+        include_str!("checker/names.txt"),
+        include_str!("checker/types.txt"),
+        include_str!("checker/constants.txt"),
+        include_str!("checker/arguments.txt"),
+        include_str!("checker/statements.txt"),
+        include_str!("checker/modules.txt"),
+        include_str!("checker/warnings.txt"),
+        include_str!("checker/strict.txt"),
+    ];
+    let mut random = Random(0x2545_f491_4f6c_dd1d);
+    let mut refused = 0;
+    let mut all = 0;
+    for mut case in files.iter().flat_map(|text| read(text)) {
+        let whole = case.main.clone();
+        let words = pieces(&whole);
+        for _ in 0..12 {
+            let mut damaged = words.clone();
+            for _ in 0..=random.below(3) {
+                if damaged.is_empty() {
+                    break;
+                }
+                let (from, to) = (random.below(damaged.len()), random.below(damaged.len()));
+                match random.below(3) {
+                    0 => drop(damaged.remove(from)),
+                    1 => damaged.insert(to, damaged[from]),
+                    _ => damaged.swap(from, to),
+                }
+            }
+            case.main = damaged.concat();
+            let checked = case.check();
+            if let Some(odd) = oddity(&checked) {
+                panic!("{odd}\n{}", case.main);
+            }
+            all += 1;
+            refused += usize::from(checked.has_errors());
+        }
+    }
+    assert!(all > 1000 && refused > all / 2, "{refused} of {all} are refused");
 }
 
 #[test]

@@ -1,0 +1,107 @@
+//! `check` and `emit`.
+
+use super::Folder;
+
+const GOOD: &str = "func void main()\n    print \"hello\"\nendfunc\n";
+const BAD: &str = "func void main()\n    int a = \"x\"\n    prnt 3\nendfunc\n";
+
+#[test]
+fn a_right_program_is_not_worth_a_word() {
+    let folder = Folder::new("right").with("a.arl", GOOD);
+    let answer = folder.arl2rs(&["check", "a.arl"]);
+    assert_eq!(answer.is(0, "").err, "");
+}
+
+#[test]
+fn mistakes_show_their_source() {
+    let folder = Folder::new("mistakes").with("robot/a.arl", BAD);
+    let answer = folder.arl2rs(&["check", "robot/a.arl"]);
+    answer
+        .is(1, "")
+        .says("error[ARL0301]")
+        .says("--> robot/a.arl:2:13\n")
+        .says("2 |     int a = \"x\"")
+        .says("2 errors");
+}
+
+#[test]
+fn json_is_one_object_a_line() {
+    let folder = Folder::new("json").with("a.arl", BAD);
+    let answer = folder.arl2rs(&["check", "--format", "json", "a.arl"]);
+    assert_eq!((answer.code, answer.err.as_str()), (Some(1), ""));
+    let objects: Vec<serde_json::Value> =
+        answer.out.lines().map(|line| serde_json::from_str(line).expect("an object")).collect();
+    assert_eq!(objects.len(), 2);
+    let first = objects[0].as_object().expect("an object");
+    let mut keys: Vec<&str> = first.keys().map(String::as_str).collect();
+    keys.sort_unstable();
+    assert_eq!(keys, ["code", "column", "end_column", "end_line", "file", "help", "line", "message", "severity"]);
+    assert_eq!((first["code"].as_str(), first["severity"].as_str()), (Some("ARL0301"), Some("error")));
+    assert_eq!((first["line"].as_u64(), first["column"].as_u64()), (Some(2), Some(13)));
+    assert_eq!((first["end_line"].as_u64(), first["end_column"].as_u64()), (Some(2), Some(16)));
+    assert_eq!(first["file"].as_str(), Some("a.arl"));
+}
+
+#[test]
+fn modules_of_a_given_program_need_no_main_but_programs_do() {
+    let folder = Folder::new("modules")
+        .with("a.arl", "import \"lib/tools.arl\"\nfunc void main()\n    tools::go()\nendfunc\n")
+        .with("a_data.arl", "int count = 3\n")
+        .with("lib/tools.arl", "func void go()\nendfunc\n");
+    folder.arl2rs(&["check", "lib/tools.arl", "a.arl", "a_data.arl"]).is(0, "");
+    folder.arl2rs(&["check", "lib/tools.arl"]).is(1, "").says("main");
+}
+
+#[test]
+fn a_mistake_in_a_module_of_two_programs_is_told_once() {
+    let program = "import \"m.arl\"\nfunc void main()\n    m::go()\nendfunc\n";
+    let folder = Folder::new("once")
+        .with("a.arl", program)
+        .with("b.arl", program)
+        .with("m.arl", "func void go()\n    int a = true + 1\nendfunc\n");
+    let answer = folder.arl2rs(&["check", "--format", "json", "a.arl", "b.arl"]);
+    assert_eq!((answer.code, answer.out.lines().count()), (Some(1), 1), "{}", answer.out);
+}
+
+#[test]
+fn strict_warns_and_passes() {
+    let folder = Folder::new("strict").with("a.arl", "func void main()\n    int Count = 1\n    print count\nendfunc\n");
+    assert_eq!(folder.arl2rs(&["check", "a.arl"]).is(0, "").err, "");
+    folder.arl2rs(&["check", "--strict", "a.arl"]).is(0, "").says("warning[ARL0951]");
+}
+
+#[test]
+fn the_robot_decides_about_types() {
+    let folder = Folder::new("robot")
+        .with("a.arl", "func void main()\n    joint p = {1,2,3,4,5,6}\n    movej p\nendfunc\n")
+        .with("mine.toml", "family = \"scara\"\n")
+        .with("wrong.toml", "name = \"x\"\nfamily = \"delta\"\n");
+    folder.arl2rs(&["check", "a.arl"]).is(0, "");
+    folder.arl2rs(&["check", "--robot", "six-10", "a.arl"]).is(0, "");
+    let as_scara = "func void main()\n    joint p = {1,2,3,4}\n    p.j5 = 1\n    movej p\nendfunc\n";
+    folder.write("a.arl", as_scara);
+    folder.arl2rs(&["check", "--robot", "mine.toml", "a.arl"]).is(1, "").says("j5");
+    folder.arl2rs(&["check", "--robot", "wrong.toml", "a.arl"]).is(2, "").says("wrong.toml:2: ").says("six-axis");
+    folder.arl2rs(&["check", "--robot", "nothing", "a.arl"]).is(2, "").says("no robot `nothing`");
+}
+
+#[test]
+fn bytes_that_are_no_text_are_a_diagnostic() {
+    let folder = Folder::new("bytes");
+    std::fs::write(folder.path.join("a.arl"), [0xff, 0xfe, 0x00, 0xd8, 0x00]).expect("a file");
+    let answer = folder.arl2rs(&["check", "a.arl", "nothing.arl"]);
+    answer.is(1, "").says("a.arl").says("nothing.arl");
+}
+
+#[test]
+fn emitted_rust_does_not_depend_on_the_working_directory() {
+    let folder = Folder::new("emit").with("robot/a.arl", GOOD).with("robot/b.arl", BAD);
+    let there = folder.arl2rs(&["emit", "robot/a.arl"]);
+    assert_eq!(there.code, Some(0));
+    assert!(there.out.contains("// 2: print \"hello\""), "{}", there.out);
+    folder.arl2rs(&["emit", "robot/a.arl", "-o", "out"]).is(0, "");
+    assert_eq!(folder.read("out/a.rs"), there.out);
+    let inside = folder.command(&["emit", "a.arl"]).current_dir(folder.path.join("robot")).output();
+    assert_eq!(String::from_utf8_lossy(&inside.expect("it starts").stdout), there.out);
+    folder.arl2rs(&["emit", "robot/b.arl"]).is(1, "").says("ARL0301");
+}

@@ -1,0 +1,90 @@
+//! The command line, as users see it.
+#![cfg(feature = "cli")]
+
+mod checking;
+mod running;
+mod telling;
+mod testing;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+/// A folder for one test, removed at the end.
+struct Folder {
+    path: PathBuf,
+}
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("command").join(name);
+        let _ = std::fs::remove_dir_all(&path);
+        std::fs::create_dir_all(&path).expect("a folder");
+        Self { path }
+    }
+
+    fn with(self, name: &str, text: &str) -> Self {
+        self.write(name, text);
+        self
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        let path = self.path.join(name);
+        std::fs::create_dir_all(path.parent().expect("a parent")).expect("a folder");
+        std::fs::write(path, text).expect("a file");
+    }
+
+    fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.path.join(name)).expect("the file is there")
+    }
+
+    /// The command in this folder; compiled programs of all tests share a cache, so that the runtime is compiled once.
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_arl2rs"));
+        command.args(arguments).current_dir(&self.path).env("ARL2RS_CACHE", cache()).env("NO_COLOR", "1");
+        command
+    }
+
+    fn arl2rs(&self, arguments: &[&str]) -> Answer {
+        Answer::of(self.command(arguments).output().expect("the command starts"))
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.path);
+    }
+}
+
+fn cache() -> PathBuf {
+    Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache")
+}
+
+/// What the command said.
+#[derive(PartialEq, Eq, Debug)]
+struct Answer {
+    code: Option<i32>,
+    out: String,
+    err: String,
+}
+
+impl Answer {
+    fn of(output: Output) -> Self {
+        Self {
+            code: output.status.code(),
+            out: String::from_utf8_lossy(&output.stdout).into_owned(),
+            err: String::from_utf8_lossy(&output.stderr).into_owned(),
+        }
+    }
+
+    #[track_caller]
+    fn is(&self, code: i32, out: &str) -> &Self {
+        assert_eq!((self.code, self.out.as_str()), (Some(code), out), "standard error: {}", self.err);
+        self
+    }
+
+    #[track_caller]
+    fn says(&self, words: &str) -> &Self {
+        assert!(self.err.contains(words), "`{words}` is not in: {}", self.err);
+        self
+    }
+}

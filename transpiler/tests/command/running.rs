@@ -1,0 +1,96 @@
+//! `run` and `build`. Programs share a cache, so that the runtime is compiled once for all tests.
+
+use super::{Answer, Folder};
+use std::io::{BufRead, BufReader};
+use std::process::{Command, Stdio};
+
+const HELLO: &str = "func void main()\n    int unused = 1\n    print \"hello \", count\nendfunc\n";
+
+/// The command where cargo cannot be started: what works then needs no compilation.
+fn without_cargo(folder: &Folder, arguments: &[&str]) -> Answer {
+    let command = folder.command(arguments).env("CARGO", "/nowhere/cargo").output();
+    Answer::of(command.expect("the command starts"))
+}
+
+#[test]
+fn unchanged_programs_and_new_values_need_no_compilation() {
+    let folder = Folder::new("run").with("a.arl", HELLO).with("a_data.arl", "int count = 3\nconst int LIMIT = 7\n");
+    let first = folder.arl2rs(&["run", "a.arl"]);
+    first.is(0, "hello 3\n").says("ARL0902");
+    let again = without_cargo(&folder, &["run", "a.arl"]);
+    again.is(0, "hello 3\n").says("ARL0902");
+
+    // The runtime reads values again.
+    folder.write("a_data.arl", "// taught\nint count = 40\nconst int LIMIT = 7\n");
+    without_cargo(&folder, &["run", "a.arl"]).says("cargo was not found");
+    folder.write("a_data.arl", "int count = 40\nconst int LIMIT = 7\n");
+    without_cargo(&folder, &["run", "a.arl"]).is(0, "hello 40\n");
+    without_cargo(&folder, &["run", "a.arl"]).is(0, "hello 40\n");
+
+    // Constants, types and names are compiled in.
+    folder.write("a_data.arl", "int count = 40\nconst int LIMIT = 8\n");
+    without_cargo(&folder, &["run", "a.arl"]).is(1, "").says("cargo was not found");
+    folder.write("a_data.arl", "double count = 40\nconst int LIMIT = 7\n");
+    without_cargo(&folder, &["run", "a.arl"]).is(1, "").says("cargo was not found");
+
+    // A broken file is refused before anything runs.
+    folder.write("a_data.arl", "int count = = 40\n");
+    folder.arl2rs(&["run", "a.arl"]).is(1, "").says("a_data.arl:1");
+
+    // Text of the program is compiled.
+    folder.write("a_data.arl", "double count = 1.5\n");
+    folder.write("a.arl", &HELLO.replace("hello", "bye"));
+    folder.arl2rs(&["run", "a.arl"]).is(0, "bye 1.5\n");
+}
+
+#[test]
+fn exit_codes_tell_how_it_ended() {
+    let folder = Folder::new("codes")
+        .with("alarm.arl", "func void main()\n    int a = 0\n    print 1\n    print 2 / a\nendfunc\n")
+        .with("endless.arl", "func void main()\n    print 1\n    loop\n        waittime 1\n    endloop\nendfunc\n")
+        .with("wrong.arl", "func void main()\n    prnt 1\nendfunc\n");
+    folder.arl2rs(&["run", "alarm.arl"]).is(3, "1\n").says("alarm 20001: ").says("(alarm.arl:4)");
+    folder.arl2rs(&["run", "endless.arl", "--max-time", "2.5"]).is(4, "1\n");
+    folder.arl2rs(&["run", "wrong.arl"]).is(1, "").says("ARL0211");
+    folder.arl2rs(&["run", "endless.arl", "--robot", "none"]).is(2, "").says("no robot `none`");
+    folder.arl2rs(&["run", "endless.arl", "--io", "none.toml"]).is(2, "").says("none.toml");
+}
+
+#[cfg(unix)]
+#[test]
+fn an_interrupt_ends_with_130() {
+    let folder = Folder::new("interrupt")
+        .with("a.arl", "func void main()\n    print 1\n    loop\n        waittime 0.1\n    endloop\nendfunc\n");
+    let mut command = folder.command(&["run", "a.arl", "--clock", "real"]);
+    let mut child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("it starts");
+    let mut line = String::new();
+    BufReader::new(child.stdout.take().expect("its output")).read_line(&mut line).expect("a line");
+    assert_eq!(line, "1\n");
+    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill");
+    assert!(sent.success());
+    assert_eq!(child.wait().expect("it ends").code(), Some(130));
+}
+
+#[test]
+fn two_at_once_do_not_disturb_each_other() {
+    let folder = Folder::new("both").with("a.arl", "func void main()\n    print 7\nendfunc\n");
+    let start = || folder.command(&["run", "a.arl"]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+    let (one, other) = (start().expect("it starts"), start().expect("it starts"));
+    for child in [one, other] {
+        Answer::of(child.wait_with_output().expect("it ends")).is(0, "7\n");
+    }
+}
+
+#[test]
+fn built_programs_stand_alone() {
+    let folder = Folder::new("build")
+        .with("robot/a.arl", "func void main()\n    waittime 0.01\n    print getdi(1)\nendfunc\n")
+        .with("on.toml", "[[event]]\nat = 0.0\ndi.1 = true\n");
+    folder.arl2rs(&["build", "robot/a.arl"]).is(0, "");
+    folder.arl2rs(&["build", "robot/a.arl", "-o", "out/mine"]).is(0, "");
+    for program in [format!("a{}", std::env::consts::EXE_SUFFIX), "out/mine".to_string()] {
+        let output =
+            Command::new(folder.path.join(program)).args(["--io", "on.toml"]).current_dir(&folder.path).output();
+        Answer::of(output.expect("it starts")).is(0, "true\n");
+    }
+}

@@ -1,0 +1,46 @@
+//! `explain`, `doc`, `robots`, and usage.
+
+use super::Folder;
+
+#[test]
+fn usage_mistakes_end_with_two() {
+    let folder = Folder::new("usage");
+    folder.arl2rs(&[]).is(2, "").says("Usage");
+    folder.arl2rs(&["check"]).is(2, "").says("FILE");
+    folder.arl2rs(&["run", "a.arl", "--clock", "fast"]).is(2, "").says("virtual");
+    folder.arl2rs(&["fly"]).is(2, "").says("fly");
+}
+
+#[test]
+fn codes_have_pages() {
+    let folder = Folder::new("explain");
+    let page = folder.arl2rs(&["explain", "arl0301"]);
+    assert_eq!(page.code, Some(0), "{}", page.err);
+    assert!(page.out.contains("ARL0301"), "{}", page.out);
+    folder.arl2rs(&["explain", "ARL9999"]).is(2, "").says("ARL9999");
+    folder.arl2rs(&["explain", "x"]).is(2, "").says("ARL0203");
+}
+
+#[test]
+fn built_ins_have_a_reference() {
+    let folder = Folder::new("doc");
+    for name in ["movej", "SIN", "pose", "$DFSPEED"] {
+        let page = folder.arl2rs(&["doc", name]);
+        assert_eq!(page.code, Some(0), "{}", page.err);
+        assert!(page.out.to_lowercase().contains(&name.to_lowercase()), "{}", page.out);
+    }
+    folder.arl2rs(&["doc", "movj"]).is(2, "").says("did you mean `movej`?");
+}
+
+#[test]
+fn robots_are_listed_and_printed() {
+    let folder = Folder::new("robots");
+    let list = folder.arl2rs(&["robots"]);
+    assert!(list.out.lines().any(|line| line.starts_with("six-10 ")), "{}", list.out);
+    let file = folder.arl2rs(&["robots", "six-10"]);
+    assert!(file.out.contains("[geometry]"), "{}", file.out);
+    folder.write("mine.toml", &file.out);
+    folder.write("a.arl", "func void main()\nendfunc\n");
+    folder.arl2rs(&["check", "--robot", "mine.toml", "a.arl"]).is(0, "");
+    folder.arl2rs(&["robots", "six"]).is(2, "").says("six-10");
+}
