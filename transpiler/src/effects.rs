@@ -9,14 +9,55 @@ use crate::hir::{Effects, FuncId, Program};
 use facts::Facts;
 use graph::components;
 
+/// For each function, whether a call of it moves the program pointer: something built in that looks at it is used.
+pub(crate) fn pointer_movers(program: &Program) -> Vec<bool> {
+    let direct: Vec<Facts> = program.funcs.iter().map(|func| facts::of_function(program, func)).collect();
+    let calls = calls(&direct);
+    let mut moves: Vec<bool> = direct.iter().map(|facts| facts.points).collect();
+    for group in components(&calls) {
+        let all = |func: &usize| {
+            let callees = calls.get(*func).into_iter().flatten();
+            callees.chain([func]).any(|callee| moves.get(*callee) == Some(&true))
+        };
+        if group.iter().any(all) {
+            group.iter().for_each(|func| moves.get_mut(*func).into_iter().for_each(|moves| *moves = true));
+        }
+    }
+    moves
+}
+
+/// For each function, whether `main` or the first value of a variable needs it.
+pub(crate) fn reached(program: &Program) -> Vec<bool> {
+    let direct: Vec<Facts> = program.funcs.iter().map(|func| facts::of_function(program, func)).collect();
+    let calls = calls(&direct);
+    let inits = program.globals.iter().filter_map(|global| global.init.as_ref());
+    let mut open: Vec<usize> = inits
+        .flat_map(|init| facts::of_expr(program, None, init).calls)
+        .chain(program.main)
+        .map(|FuncId(func)| func as usize)
+        .collect();
+    let mut reached = vec![false; program.funcs.len()];
+    while let Some(func) = open.pop() {
+        if let Some(seen) = reached.get_mut(func)
+            && !std::mem::replace(seen, true)
+        {
+            open.extend(calls.get(func).into_iter().flatten());
+        }
+    }
+    reached
+}
+
+fn calls(direct: &[Facts]) -> Vec<Vec<usize>> {
+    direct.iter().map(|facts| facts.calls.iter().map(|FuncId(callee)| *callee as usize).collect()).collect()
+}
+
 /// Fills in the effects of all functions and the findings about their loops.
 pub fn infer(program: &mut Program) {
     for func in &mut program.funcs {
         loops::judge(func);
     }
     let direct: Vec<Facts> = program.funcs.iter().map(|func| facts::of_function(program, func)).collect();
-    let calls: Vec<Vec<usize>> =
-        direct.iter().map(|facts| facts.calls.iter().map(|FuncId(callee)| *callee as usize).collect()).collect();
+    let calls = calls(&direct);
     // Callees come before their callers, so one pass is enough.
     for group in components(&calls) {
         let callees = || group.iter().flat_map(|func| calls.get(*func).into_iter().flatten());

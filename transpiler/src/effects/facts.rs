@@ -6,7 +6,7 @@ use crate::hir::{
     Value,
 };
 use arl_lang::ast::BinaryOp;
-use arl_lang::catalog::{Base, Effect, Kind, Mode};
+use arl_lang::catalog::{Base, Effect, Mode};
 
 /// What an expression (or several) does.
 #[derive(Default, Debug)]
@@ -25,6 +25,8 @@ pub(crate) struct Facts {
     pub(crate) waits: bool,
     /// Whether the context is needed.
     pub(crate) context: bool,
+    /// Whether something built in is used that looks at the program pointer.
+    pub(crate) points: bool,
     /// Whether global variables are needed.
     pub(crate) globals: bool,
     /// The functions that are called.
@@ -73,6 +75,26 @@ pub(crate) fn of_indices(program: &Program, func: Option<&Func>, indices: &[Expr
     let mut collector = Collector { program, func, callees: true, facts: Facts::default() };
     collector.indices(indices);
     collector.facts
+}
+
+/// For an assignment to a local variable that changes nothing more than computing its value does: that value. So
+/// `a = a` and the outer one of `a = (a = b)`.
+pub(crate) fn same_anyway(expr: &Expr) -> Option<&Expr> {
+    let ExprKind::Assign(sides) = &expr.kind else { return None };
+    let (place, value) = (&sides.0, &sides.1);
+    let known = match &value.kind {
+        ExprKind::Place(from) => from,
+        ExprKind::Assign(sides) | ExprKind::AssignOp(_, sides) if place.path.is_empty() => &sides.0,
+        ExprKind::Step(step, from) if step.prefix && place.path.is_empty() => from,
+        _ => return None,
+    };
+    let (Root::Local(a), Root::Local(b)) = (place.root, known.root) else { return None };
+    let same_path = place.path.len() == known.path.len()
+        && place.path.iter().zip(&known.path).all(|steps| match steps {
+            (Projection::Field(_, a), Projection::Field(_, b)) => a == b,
+            _ => false,
+        });
+    (a == b && same_path).then_some(value)
 }
 
 /// Adds the locals that an expression writes, also as an argument that a built-in writes.
@@ -208,9 +230,11 @@ impl Collector<'_> {
                 }
                 let entry = builtin.entry;
                 let conditions = entry.params.iter().any(|param| matches!(param.mode, Mode::Condition | Mode::Action));
-                let pure = entry.effect == Effect::Pure && entry.kind == Kind::Function;
+                let pure = entry.effect == Effect::Pure;
                 self.facts.acts |= !pure;
-                self.facts.context |= (!pure && entry.effect != Effect::Ends) || conditions;
+                let context = (!pure && entry.effect != Effect::Ends) || conditions;
+                self.facts.context |= context;
+                self.facts.points |= context;
                 self.facts.waits |= matches!(entry.effect, Effect::Plans | Effect::Waits);
                 self.facts.fails |= entry.fails || entry.effect == Effect::Ends;
             }

@@ -8,20 +8,25 @@ use arl_lang::catalog::{Base, Effect};
 /// The most rounds (of nested loops together) that may pass without giving the cycle back.
 pub(crate) const MOST_ROUNDS: u64 = 100_000;
 
-/// Drops labels that no `goto` names, then fills in [`LoopInfo`] and `counted` of every loop of a function.
+/// Drops labels that no `goto` names and `default`s that nothing reaches, then fills in [`LoopInfo`] and `counted` of every loop of a function.
 pub(super) fn judge(func: &mut Func) {
     let unused: Vec<bool> = func.labels.iter().map(|label| !label.used).collect();
-    drop_labels(&mut func.body, &unused);
+    drop_unused(&mut func.body, &unused);
     block_rounds(&mut func.body);
 }
 
-fn drop_labels(block: &mut Block, unused: &[bool]) {
+fn drop_unused(block: &mut Block, unused: &[bool]) {
     block.retain(|stmt| match stmt.kind {
         StmtKind::Label(id) => unused.get(id.0 as usize) != Some(&true),
         _ => true,
     });
     for stmt in block {
-        inner_blocks(stmt).into_iter().for_each(|block| drop_labels(block, unused));
+        inner_blocks(stmt).into_iter().for_each(|block| drop_unused(block, unused));
+        if let StmtKind::Switch(subject, arms) = &mut stmt.kind
+            && flow::exhaustive(subject, arms.iter().map(|arm| arm.value.as_ref()).filter(Option::is_some))
+        {
+            arms.retain(|arm| arm.value.is_some() || arm.body.iter().any(flow::has_label));
+        }
     }
 }
 

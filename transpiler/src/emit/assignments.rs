@@ -1,7 +1,7 @@
 //! Assignments, `++` and `--`, as statements and as values.
 
 use super::body::Body;
-use super::consts::constant;
+use super::consts::{constant, typed_constant};
 use super::fragment::Fragment;
 use super::operators::text_mode;
 use super::places::{Reached, Written};
@@ -16,6 +16,9 @@ use quote::quote;
 impl<'p> Body<'p, '_> {
     /// An assignment, `++` or `--` whose value nobody wants.
     pub(super) fn assignment(&mut self, expr: &'p Expr) -> TokenStream {
+        if let Some(value) = facts::same_anyway(expr) {
+            return self.assignment(value);
+        }
         match &expr.kind {
             ExprKind::Assign(sides) => self.assign(&sides.0, &sides.1, false).0,
             ExprKind::AssignOp(op, sides) => self.assign_op(*op, &sides.0, &sides.1, false).0,
@@ -24,13 +27,17 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// An assignment, `++` or `--` as a value: the assignment goes before.
-    pub(super) fn assignment_value(&mut self, expr: &'p Expr) -> Fragment {
+    /// An assignment, `++` or `--` as a value: the assignment goes before. `typed` wants a constant to show its type.
+    pub(super) fn assignment_value(&mut self, expr: &'p Expr, typed: bool) -> Fragment {
+        if let Some(value) = facts::same_anyway(expr) {
+            return self.value(value);
+        }
         let (before, place) = match &expr.kind {
             ExprKind::Assign(sides) => {
                 let (before, place) = self.assign(&sides.0, &sides.1, true);
                 if let Some(known) = self.constant(&sides.1) {
-                    return constant(known).after(before);
+                    let value = if typed { typed_constant(known) } else { constant(known) };
+                    return value.after(before);
                 }
                 (before, place)
             }
@@ -55,7 +62,7 @@ impl<'p> Body<'p, '_> {
         let facts = self.facts(value);
         let item = matches!(place.path.as_slice(), [Projection::Index(..)]) && !matches!(place.root, Root::Local(_));
         let settle = keep || !(item || (matches!(place.root, Root::Local(_)) && facts.quiet()));
-        let (before, reached, value_fragment) = self.sides(place, Some((value, Mode::Value)), settle);
+        let (before, reached, value_fragment) = self.sides(place, Some((value, Mode::Placed)), settle);
         let fragment = self.in_range(place, value_fragment, Some(value));
         let write = self.write(&reached, Written::Value(fragment), calm(&facts));
         (quote!(#before #write), reached)

@@ -20,6 +20,10 @@ pub(super) struct Unit<'p> {
     pub(super) comments: Comments,
     /// Where the lines of each module begin.
     pub(super) lines: Vec<LineIndex>,
+    /// The functions that move the program pointer.
+    pub(super) movers: Vec<bool>,
+    /// The functions that something calls.
+    pub(super) reached: Vec<bool>,
 }
 
 impl Unit<'_> {
@@ -96,6 +100,8 @@ pub(super) struct Body<'p, 'u> {
     pub(super) machine: Option<Machine>,
     /// The line that the last comment was about.
     pub(super) commented: u32,
+    /// Whether something that needs the program pointer has been emitted since the flag was cleared.
+    pub(super) acts: bool,
 }
 
 impl<'p, 'u> Body<'p, 'u> {
@@ -124,6 +130,7 @@ impl<'p, 'u> Body<'p, 'u> {
             visible: Vec::new(),
             machine: None,
             commented: 0,
+            acts: false,
         }
     }
 
@@ -174,11 +181,16 @@ impl<'p, 'u> Body<'p, 'u> {
         Literal::u32_unsuffixed(self.line)
     }
 
-    /// `cx.line(FILE, n);` where the code uses the context.
-    pub(super) fn pointer(&self, code: &TokenStream) -> TokenStream {
-        if !mentions(code, "cx") {
+    /// `cx.line(FILE, n);` where what was emitted since the last call needs the program pointer.
+    pub(super) fn pointer(&mut self) -> TokenStream {
+        if !std::mem::take(&mut self.acts) {
             return TokenStream::new();
         }
+        self.line_statement()
+    }
+
+    /// `cx.line(FILE, n);`
+    pub(super) fn line_statement(&self) -> TokenStream {
         let line = self.line_number();
         quote!(cx.line(FILE, #line);)
     }

@@ -56,7 +56,14 @@ impl<'p> Body<'p, '_> {
         if let Some(special) = self.special(builtin) {
             return special;
         }
-        let (mut before, arguments) = self.arguments(builtin);
+        let acts = entry.effect != Effect::Pure;
+        let moved = acts && builtin.args.iter().any(|arg| self.moves_pointer(arg));
+        let (mut before, arguments) = self.arguments(builtin, moved);
+        if moved {
+            before.extend(self.line_statement());
+        } else {
+            self.acts |= acts;
+        }
         let mut call = match entry.kind {
             Kind::Function => self.function_call(entry, &arguments),
             Kind::Instruction => instruction_call(entry, &arguments),
@@ -87,8 +94,18 @@ impl<'p> Body<'p, '_> {
         result.after(before)
     }
 
-    /// The arguments, evaluated in the order of the program.
-    fn arguments(&mut self, builtin: &'p Builtin) -> (TokenStream, Vec<Argument<'p>>) {
+    /// Whether evaluating an argument moves the program pointer away from this line.
+    fn moves_pointer(&self, arg: &'p Bound) -> bool {
+        let facts = match &arg.value {
+            Passed::Value(value) => self.facts(value),
+            Passed::Out(place) => facts::of_place(self.program(), self.func, place),
+        };
+        facts.calls.iter().any(|id| self.unit.movers.get(id.0 as usize) == Some(&true))
+    }
+
+    /// The arguments, evaluated in the order of the program; with `ahead`, all that matters is evaluated in statements
+    /// of its own.
+    fn arguments(&mut self, builtin: &'p Builtin, ahead: bool) -> (TokenStream, Vec<Argument<'p>>) {
         let entry = builtin.entry;
         let mut before = TokenStream::new();
         let mut out = Vec::new();
@@ -98,7 +115,8 @@ impl<'p> Body<'p, '_> {
         let moved = reordered(entry, &builtin.args);
         let loud: Vec<bool> = operands.iter().map(|operand| !self.operand_facts(operand).quiet()).collect();
         let several = loud.iter().filter(|loud| **loud).count() > 1;
-        let (first, fragments) = self.sequence(&operands, |at| moved && several && loud.get(at) == Some(&true));
+        let apart = ahead || (moved && several);
+        let (first, fragments) = self.sequence(&operands, |at| apart && loud.get(at) == Some(&true));
         before.extend(first);
         let mut fragments = fragments.into_iter();
         for (at, arg) in builtin.args.iter().enumerate() {
@@ -211,7 +229,8 @@ fn instruction_call(entry: &Entry, arguments: &[Argument<'_>]) -> TokenStream {
         let value = &argument.value.tokens;
         quote!(.#label(#value))
     });
-    quote!(#path(#(#required),*)#(#rest)*.run(cx))
+    let cx = (entry.effect != Effect::Pure).then(|| quote!(cx));
+    quote!(#path(#(#required),*)#(#rest)*.run(#cx))
 }
 
 /// Whether the arguments are passed in another order than they stand in the program.

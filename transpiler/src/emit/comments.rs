@@ -43,7 +43,12 @@ impl Comments {
             let code = line.trim_start();
             let marked = code.strip_prefix(MARK).and_then(|rest| rest.split_once(')')).map(|(number, _)| number);
             match marked.and_then(|number| number.parse().ok()).and_then(|number: usize| texts.get(number)) {
-                Some(text) if text.is_empty() => out.push('\n'),
+                Some(text) if text.is_empty() => {
+                    // No blank line at the start of a block.
+                    if !out.ends_with("{\n") {
+                        out.push('\n');
+                    }
+                }
                 Some(text) => {
                     let indent = line.get(..line.len() - code.len()).unwrap_or("");
                     for comment in text.lines() {

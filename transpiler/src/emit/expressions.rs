@@ -7,6 +7,7 @@ use super::names::ident;
 use super::sequence::{Mode, Operand};
 use super::types::{array_type, base_type, component, is_copy, start_value, type_name};
 use crate::hir::{Expr, ExprKind, Type, Value};
+use arl_lang::ast::UnaryOp;
 use arl_lang::catalog::{Base, Struct};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -16,6 +17,11 @@ impl<'p> Body<'p, '_> {
     pub(super) fn expression(&mut self, expr: &'p Expr, mode: Mode) -> Fragment {
         match mode {
             Mode::Value => self.value(expr),
+            Mode::Typed => self.typed_value(expr),
+            Mode::Placed => match &expr.kind {
+                ExprKind::Assign(_) => self.assignment_value(expr, false),
+                _ => self.value(expr),
+            },
             Mode::Reference => self.reference(expr),
             Mode::Printed => self.printed(expr),
             Mode::Compared => self.compared(expr),
@@ -35,9 +41,10 @@ impl<'p> Body<'p, '_> {
                 })
             }
             ExprKind::Convert(inner) => self.conversion(inner, expr.ty),
+            ExprKind::Unary(UnaryOp::Not, inner) => self.negated(inner),
             ExprKind::Unary(op, inner) => self.unary(*op, inner),
             ExprKind::Binary(op, sides) => self.binary(*op, &sides.0, &sides.1),
-            ExprKind::Assign(_) | ExprKind::AssignOp(..) | ExprKind::Step(..) => self.assignment_value(expr),
+            ExprKind::Assign(_) | ExprKind::AssignOp(..) | ExprKind::Step(..) => self.assignment_value(expr, true),
             ExprKind::Call(id, args) => self.call(*id, args),
             ExprKind::Builtin(builtin) => self.builtin(builtin),
             ExprKind::Struct(id, values) => self.structure(*id, values),
@@ -187,11 +194,13 @@ impl<'p> Body<'p, '_> {
         given.sort_by_key(|(_, value)| value.span.start);
         let operands: Vec<_> = given.iter().map(|(_, value)| Operand::Expr(value, Mode::Value)).collect();
         let (before, fragments) = self.sequence(&operands, |_| false);
-        let values = fragments.iter().map(|value| &value.tokens);
-        let fields = given.iter().map(|(at, _)| component(id, *at, family));
+        let fields = given.iter().zip(&fragments).map(|((at, _), value)| {
+            let (field, value) = (component(id, *at, family), &value.tokens);
+            if field == value.to_string() { quote!(#field) } else { quote!(#field: #value) }
+        });
         let all = given.len() == id.def(family).components.len();
         let rest = if all { TokenStream::new() } else { quote!(..#name::default()) };
-        Fragment::postfix(quote!(#name { #(#fields: #values,)* #rest })).after(before)
+        Fragment::postfix(quote!(#name { #(#fields,)* #rest })).after(before)
     }
 
     /// `SmallArray::<i32, 3>::from_values(&[1, 2, 3])`

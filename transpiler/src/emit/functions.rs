@@ -52,8 +52,12 @@ pub(super) fn function(unit: &Unit<'_>, id: FuncId, func: &Func) -> TokenStream 
         }
     };
     let wastes = body.usage.wastes.then(|| quote!(#[allow(unused_assignments)]));
+    let unused = (unit.reached.get(id.0 as usize) != Some(&true)).then(|| quote!(#[allow(dead_code)]));
+    let drops = body.usage.drops.then(|| quote!(#[allow(unused_mut, unused_variables)]));
     quote! {
         #comment
+        #drops
+        #unused
         #wastes
         pub #waits fn #name(#cx #g #(#params),*) #result {
             #depth

@@ -33,6 +33,8 @@ pub(super) struct Machine {
     /// The locals that are visible at each label.
     visible_at: HashMap<LabelId, Vec<LocalId>>,
     hoisted: HashSet<LocalId>,
+    /// The states that the declarations of locals stand in.
+    declared_in: HashMap<LocalId, usize>,
     /// Whether this run only looks which states mention which variables.
     trial: bool,
     /// The state whose code grows.
@@ -56,7 +58,7 @@ impl<'p> Body<'p, '_> {
         self.run(func, variable.clone(), declared(&func.body), true);
         let all = declared(&func.body);
         let hoisted = match &self.machine {
-            Some(machine) => all.into_iter().filter(|id| machine.is_shared(&self.local(*id))).collect(),
+            Some(machine) => all.into_iter().filter(|id| machine.is_shared(*id, &self.local(*id))).collect(),
             None => HashSet::new(),
         };
         (self.commented, self.visible) = (commented, visible);
@@ -74,6 +76,7 @@ impl<'p> Body<'p, '_> {
             of_label: HashMap::new(),
             visible_at,
             hoisted,
+            declared_in: HashMap::new(),
             trial,
             current: 0,
             open: true,
@@ -91,6 +94,7 @@ impl<'p> Body<'p, '_> {
         let Some(machine) = self.machine.take() else { return TokenStream::new() };
         let family = self.family();
         let reached = machine.reached();
+        self.usage.drops = reached.contains(&false);
         let states: Vec<&State> =
             machine.states.iter().zip(&reached).filter(|(_, reached)| **reached).map(|(state, _)| state).collect();
         let mut hoisted: Vec<LocalId> = machine.hoisted.iter().copied().collect();
@@ -122,6 +126,13 @@ impl<'p> Body<'p, '_> {
     /// Whether the declaration of a local is an assignment to a variable outside the machine.
     pub(super) fn is_hoisted(&self, id: LocalId) -> bool {
         self.machine.as_ref().is_some_and(|machine| machine.hoisted.contains(&id))
+    }
+
+    /// Notes where a declaration stands.
+    pub(super) fn note_declaration(&mut self, id: LocalId) {
+        if let Some(machine) = &mut self.machine {
+            machine.declared_in.insert(id, machine.current);
+        }
     }
 
     /// `goto label`
@@ -265,6 +276,11 @@ impl<'p> Body<'p, '_> {
                 }
                 StmtKind::Break | StmtKind::Continue => self.state_exit(stmt),
                 _ if flow::has_label(stmt) => {
+                    if !self.is_open() {
+                        // Only its labels are reached; the way in goes into a state that is dropped.
+                        let aside = self.state_here("Aside");
+                        self.open(aside);
+                    }
                     let comment = self.comment(stmt.span);
                     self.append(comment);
                     self.decompose(stmt);
@@ -331,9 +347,9 @@ impl<'p> Body<'p, '_> {
         let mut later = Vec::new();
         for (at, (condition, block)) in arms.iter().enumerate() {
             self.stand_at(condition.span);
-            let mut value = self.value(condition);
+            let mut value = self.value_alone(condition);
             if at == 0 {
-                let pointer = self.pointer(&quote!(#value));
+                let pointer = self.pointer();
                 let before = std::mem::take(&mut value.before);
                 self.append(quote!(#pointer #before));
             }
@@ -372,11 +388,12 @@ impl<'p> Body<'p, '_> {
 
     /// Leaves the current state for `after` unless the condition holds.
     fn unless(&mut self, condition: &'p Expr, after: usize) {
-        let value = self.value(condition);
-        let pointer = self.pointer(&quote!(#value));
-        let (before, unmet) = (&value.before, value.at(super::fragment::Precedence::Unary));
+        self.acts = false;
+        let value = self.negated(condition);
+        let pointer = self.pointer();
+        let (before, unmet) = (&value.before, &value.tokens);
         let jump = self.jump(after);
-        self.append(quote!(#pointer #before if !#unmet { #jump }));
+        self.append(quote!(#pointer #before if #unmet { #jump }));
     }
 
     fn split_while(&mut self, condition: Option<&'p Expr>, body: &'p [Stmt], info: LoopInfo) {
@@ -401,8 +418,8 @@ impl<'p> Body<'p, '_> {
         self.open(test);
         self.stand_at(until.span);
         let comment = self.comment(until.span);
-        let value = self.value(until);
-        let pointer = self.pointer(&quote!(#value));
+        let value = self.value_alone(until);
+        let pointer = self.pointer();
         let (before, met) = (&value.before, &value.tokens);
         let (done, again, spend) = (self.set_state(after), self.set_state(head), spend(info));
         self.append(quote!(#comment #pointer #before if #met { #done } else { #spend #again }));
@@ -436,10 +453,10 @@ impl<'p> Body<'p, '_> {
 }
 
 impl Machine {
-    /// Whether more than one state mentions a variable.
-    fn is_shared(&self, name: &Ident) -> bool {
-        let name = name.to_string();
-        self.states.iter().filter(|state| mentions(&state.code, &name)).nth(1).is_some()
+    /// Whether a variable is mentioned in another state than that of its declaration.
+    fn is_shared(&self, id: LocalId, name: &Ident) -> bool {
+        let (name, home) = (name.to_string(), self.declared_in.get(&id));
+        self.states.iter().enumerate().any(|(at, state)| Some(&at) != home && mentions(&state.code, &name))
     }
 
     /// The states that can be reached from the first one.

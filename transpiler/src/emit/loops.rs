@@ -5,10 +5,10 @@
 //! labelled block around the body.
 
 use super::body::{Body, Exit, Loop};
-use super::fragment::Precedence;
+use super::fragment::{Fragment, Precedence};
 use super::statements::Tail;
 use crate::effects::{flow, loops};
-use crate::hir::{Expr, For, LoopInfo, Stmt};
+use crate::hir::{Expr, For, LoopInfo, Stmt, StmtKind};
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -28,13 +28,13 @@ impl<'p> Body<'p, '_> {
 
     /// A condition at the start of each round: statements that break out, where it does not fit into a `while`.
     fn head(&mut self, condition: &'p Expr) -> (Option<TokenStream>, TokenStream) {
-        let value = self.value(condition);
-        let pointer = self.pointer(&quote!(#value));
+        let value = self.value_alone(condition);
+        let pointer = self.pointer();
         if pointer.is_empty() && value.before.is_empty() {
             return (None, value.tokens);
         }
-        let (before, unmet) = (&value.before, value.at(Precedence::Unary));
-        (Some(quote!(#pointer #before if !#unmet { break; })), TokenStream::new())
+        let Fragment { before, tokens: unmet, .. } = self.negated(condition);
+        (Some(quote!(#pointer #before if #unmet { break; })), TokenStream::new())
     }
 
     /// `loop`
@@ -61,25 +61,28 @@ impl<'p> Body<'p, '_> {
 
     /// `repeat` ... `until(c)`
     pub(super) fn repeat_loop(&mut self, body: &'p [Stmt], until: &'p Expr, info: LoopInfo) -> TokenStream {
-        let (label, statements) = self.round_with_rest(body);
+        let (label, statements) = self.round_with_rest(body, Some(until));
         if flow::block_diverges(body) && !flow::continues(body) {
             return quote!(#label loop { #statements });
         }
         self.stand_at(until.span);
         let comment = self.comment(until.span);
-        let condition = self.value(until);
-        let pointer = self.pointer(&quote!(#condition));
+        let condition = self.value_alone(until);
+        let pointer = self.pointer();
         let (before, met) = (&condition.before, &condition.tokens);
         let spend = spend(info);
         quote!(#label loop { #statements #comment #pointer #before if #met { break; } #spend })
     }
 
     /// The body of a loop with something behind it, and the label that the loop needs.
-    fn round_with_rest(&mut self, body: &'p [Stmt]) -> (TokenStream, TokenStream) {
+    fn round_with_rest(&mut self, body: &'p [Stmt], rest: Option<&'p Expr>) -> (TokenStream, TokenStream) {
         if !flow::continues(body) {
             self.loops.push(Loop { on_break: Exit::Plain, on_continue: Exit::Plain });
-            let statements = self.block(body, Tail::Inner);
+            let mut statements = self.block(body, Tail::Inner);
             self.loops.pop();
+            if rest.is_some_and(|rest| self.hides(body, rest)) {
+                statements = quote!({ #statements });
+            }
             return (TokenStream::new(), statements);
         }
         let round = self.label("round");
@@ -93,6 +96,21 @@ impl<'p> Body<'p, '_> {
         self.loops.pop();
         let label = outer.map(|outer| quote!(#outer:));
         (quote!(#label), quote!(#round: { #statements }))
+    }
+
+    /// Whether variables of a body would hide those that the expression behind it means.
+    fn hides(&self, body: &[Stmt], rest: &Expr) -> bool {
+        let facts = self.facts(rest);
+        let meant: Vec<String> =
+            facts.reads.iter().chain(&facts.writes).map(|id| self.local(*id).to_string()).collect();
+        let declares = |stmt: &Stmt| match stmt.kind {
+            StmtKind::Let(id, _) => meant.contains(&self.local(id).to_string()),
+            _ => false,
+        };
+        body.iter().any(|stmt| match &stmt.kind {
+            StmtKind::For(each) => each.init.iter().any(declares),
+            _ => declares(stmt),
+        })
     }
 
     /// `for(init; condition; step)`
@@ -115,7 +133,7 @@ impl<'p> Body<'p, '_> {
         let (from_before, from) = (from.before.clone(), from.at(Precedence::Or));
         let to = to.at(Precedence::Or);
         let to = if range.beyond { quote!(..=#to) } else { quote!(..#to) };
-        let pointer = self.pointer(&quote!(#from_before #from));
+        let pointer = self.pointer();
         self.visible.push(range.local);
         let rounds = self.rounds(&each.body, each.info);
         quote!(#pointer #from_before for #name in #from #to { #rounds })
@@ -136,7 +154,7 @@ impl<'p> Body<'p, '_> {
             Some(condition) if !flow::always(condition) => self.head(condition),
             _ => (Some(TokenStream::new()), TokenStream::new()),
         };
-        let (label, statements) = self.round_with_rest(&each.body);
+        let (label, statements) = self.round_with_rest(&each.body, each.step.as_ref());
         self.line = line;
         let reached = !flow::block_diverges(&each.body) || flow::continues(&each.body);
         let rest = if reached {

@@ -24,6 +24,7 @@ mod usage_graph;
 mod variables;
 mod waiting;
 
+use crate::effects;
 use crate::hir::Program;
 use body::Unit;
 use comments::Comments;
@@ -72,6 +73,7 @@ fn header(program: &Program) -> String {
 impl<'p> Unit<'p> {
     fn new(program: &'p Program) -> Self {
         let lines = program.modules.iter().map(|module| arl_lang::span::LineIndex::new(&module.source)).collect();
-        Self { program, names: Names::new(program), comments: Comments::default(), lines }
+        let (movers, reached) = (effects::pointer_movers(program), effects::reached(program));
+        Self { program, names: Names::new(program), comments: Comments::default(), lines, movers, reached }
     }
 }

@@ -1,7 +1,7 @@
 //! Operators. Whole numbers wrap, so their arithmetic is written as methods.
 
 use super::body::Body;
-use super::consts::{constant, typed_constant};
+use super::consts::constant;
 use super::fragment::{Fragment, Precedence};
 use super::sequence::{Mode, Operand};
 use crate::hir::{Expr, ExprKind, Root, Type, Value};
@@ -25,6 +25,19 @@ impl<'p> Body<'p, '_> {
         })
     }
 
+    /// The opposite of a condition.
+    pub(super) fn negated(&mut self, condition: &'p Expr) -> Fragment {
+        match &condition.kind {
+            ExprKind::Const(Value::Bool(value)) => constant(&Value::Bool(!value)),
+            ExprKind::Unary(UnaryOp::Not, inner) => self.value(inner),
+            ExprKind::Binary(op, sides) if sides.0.ty.base != Base::Bool => match opposite(*op, sides.0.ty) {
+                Some(op) => self.binary(op, &sides.0, &sides.1),
+                None => self.unary(UnaryOp::Not, condition),
+            },
+            _ => self.unary(UnaryOp::Not, condition),
+        }
+    }
+
     /// `left op right`
     pub(super) fn binary(&mut self, op: BinaryOp, left: &'p Expr, right: &'p Expr) -> Fragment {
         if matches!(op, BinaryOp::And | BinaryOp::Or) {
@@ -38,15 +51,15 @@ impl<'p> Body<'p, '_> {
         if text && op == BinaryOp::Add {
             return self.joined(left, right);
         }
-        let mode = if text { Mode::Compared } else { Mode::Value };
-        let operands = [Operand::Expr(left, mode), Operand::Expr(right, mode)];
+        let (left_mode, right_mode) = match op {
+            _ if text => (Mode::Compared, Mode::Compared),
+            op if needs_type(op) || self.constant(right) == Some(&Value::Int(-1)) => (Mode::Typed, Mode::Value),
+            _ => (Mode::Value, Mode::Value),
+        };
+        let operands = [Operand::Expr(left, left_mode), Operand::Expr(right, right_mode)];
         let (before, mut sides) = self.sequence(&operands, |_| false);
         let right_side = sides.pop().unwrap_or_else(|| Fragment::settled(quote!(())));
         let left_side = sides.pop().unwrap_or_else(|| Fragment::settled(quote!(())));
-        let left_side = match &left.kind {
-            ExprKind::Const(value) if needs_type(op) => typed_constant(value),
-            _ => left_side,
-        };
         self.operation(op, left.ty, left_side, right_side, right).after(before)
     }
 
@@ -81,7 +94,7 @@ impl<'p> Body<'p, '_> {
             Remainder if ty.base == Base::Double && !known.is_some_and(is_divisor) => call(quote!(rem_double)),
             ShiftLeft if known.is_none() => call(quote!(shl)),
             ShiftRight if known.is_none() => call(quote!(shr)),
-            Less | LessEqual | Greater | GreaterEqual if ty.base == Base::Uint || ty.base == Base::Byte => {
+            Less | LessEqual | Greater | GreaterEqual if whole => {
                 let upward = matches!(op, Less | GreaterEqual);
                 let (left, right) = (limit(left, ty.base, !upward), limit(right, ty.base, upward));
                 Fragment::new(infix(op, &left, &right), precedence(op))
@@ -152,7 +165,9 @@ fn is_divisor(value: &Value) -> bool {
 /// the side is compared so with the least value, else it is with the greatest.
 fn limit(side: Fragment, base: Base, least: bool) -> Fragment {
     let text = side.tokens.to_string();
-    let tokens = match (base, least, text.as_str()) {
+    let text = text.trim_end_matches(base_suffix(base));
+    let tokens = match (base, least, text) {
+        (Base::Int, false, "2147483647") => quote!(i32::MAX),
         (Base::Byte, true, "0") => quote!(u8::MIN),
         (Base::Byte, false, "255") => quote!(u8::MAX),
         (Base::Uint, true, "0") => quote!(u32::MIN),
@@ -160,6 +175,28 @@ fn limit(side: Fragment, base: Base, least: bool) -> Fragment {
         _ => return side,
     };
     Fragment { tokens, ..side }
+}
+
+fn base_suffix(base: Base) -> &'static str {
+    match base {
+        Base::Int => "i32",
+        Base::Uint => "u32",
+        _ => "u8",
+    }
+}
+
+/// The operator that is true where `op` is false; not for the order of doubles, which nan is not part of.
+fn opposite(op: BinaryOp, ty: Type) -> Option<BinaryOp> {
+    let ordered = ty.base != Base::Double;
+    match op {
+        BinaryOp::Equal => Some(BinaryOp::NotEqual),
+        BinaryOp::NotEqual => Some(BinaryOp::Equal),
+        BinaryOp::Less if ordered => Some(BinaryOp::GreaterEqual),
+        BinaryOp::GreaterEqual if ordered => Some(BinaryOp::Less),
+        BinaryOp::Greater if ordered => Some(BinaryOp::LessEqual),
+        BinaryOp::LessEqual if ordered => Some(BinaryOp::Greater),
+        _ => None,
+    }
 }
 
 /// How tightly an operator holds together.

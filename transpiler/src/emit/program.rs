@@ -139,7 +139,9 @@ fn program(unit: &Unit<'_>, parts: &[Parts]) -> TokenStream {
     let main = future(if effects.fails { call } else { quote!(#call; Ok(())) });
     let data: Vec<_> = parts.iter().filter(|part| part.data).map(|part| unit.names.module(part.id)).collect();
     let data = (!data.is_empty()).then(|| {
+        let blank = blank(unit);
         quote! {
+            #blank
             fn data(&self) -> Vec<arl_rt::emit::DataFile<'_>> {
                 vec![#(self.#data.data()),*]
             }
@@ -154,12 +156,15 @@ fn program(unit: &Unit<'_>, parts: &[Parts]) -> TokenStream {
             fn file(&self) -> arl_rt::emit::File {
                 arl_rt::emit::File::new(#file)
             }
+            #blank
             fn family(&self) -> arl_rt::emit::Family {
                 arl_rt::emit::Family::#family
             }
+            #blank
             fn init<'a>(&'a self, #init_cx: &'a arl_rt::emit::Cx) -> arl_rt::emit::BoxFuture<'a> {
                 #init_body
             }
+            #blank
             fn main<'a>(&'a self, #main_cx: &'a arl_rt::emit::Cx) -> arl_rt::emit::BoxFuture<'a> {
                 #main_body
             }

@@ -15,6 +15,10 @@ use quote::quote;
 pub(super) enum Mode {
     /// To keep.
     Value,
+    /// The same, where nothing around it tells the type of a number.
+    Typed,
+    /// To put into a variable, whose type tells that of a number.
+    Placed,
     /// As `&T`.
     Reference,
     /// As `&dyn Print`.
@@ -69,7 +73,7 @@ impl<'p> Body<'p, '_> {
     fn settled_operand(&mut self, operand: Operand<'p>, fragment: Fragment) -> Fragment {
         match operand {
             Operand::Index(..) => self.settle(fragment, "at"),
-            Operand::Expr(_, Mode::Value) => self.settle(fragment, "value"),
+            Operand::Expr(_, Mode::Value | Mode::Typed | Mode::Placed) => self.settle(fragment, "value"),
             Operand::Expr(expr, mode) => {
                 let value = self.expression(expr, Mode::Value);
                 let value = self.settle(value, "value");
@@ -78,7 +82,7 @@ impl<'p> Body<'p, '_> {
                         let value = value.at(Precedence::Unary);
                         quote!(&#value)
                     }),
-                    Mode::Value | Mode::Compared => value,
+                    Mode::Value | Mode::Typed | Mode::Placed | Mode::Compared => value,
                 }
             }
         }

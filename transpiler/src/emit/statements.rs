@@ -2,13 +2,14 @@
 
 use super::body::{Body, Exit};
 use super::fragment::Fragment;
+use super::sequence::Mode;
 use super::switch;
 use super::types::{rust_type, start_value};
 use super::waiting::ending;
 use crate::effects::flow;
 use crate::hir::{Expr, ExprKind, LocalId, Stmt, StmtKind, Type, Value};
 use arl_lang::catalog::Base;
-use proc_macro2::TokenStream;
+use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::quote;
 
 /// Whether a block is the end of the function, so that its last statement gives the result.
@@ -35,10 +36,17 @@ impl<'p> Body<'p, '_> {
         out
     }
 
+    /// An expression of which it is asked afterwards whether it needs the program pointer.
+    pub(super) fn value_alone(&mut self, expr: &'p Expr) -> Fragment {
+        self.acts = false;
+        self.value(expr)
+    }
+
     /// One statement with its comment.
     pub(super) fn statement(&mut self, stmt: &'p Stmt, tail: Tail) -> TokenStream {
         self.with_own_temporaries(|body| {
             body.stand_at(stmt.span);
+            body.acts = false;
             let comment = body.comment(stmt.span);
             let code = body.bare_statement(stmt, tail);
             quote!(#comment #code)
@@ -71,11 +79,12 @@ impl<'p> Body<'p, '_> {
             return TokenStream::new();
         }
         let (name, family) = (self.local(id), self.family());
-        let given = value.map(|value| self.value(value));
+        let given = value.map(|value| self.expression(value, Mode::Placed));
         let before = given.as_ref().map(|value| value.before.clone());
         let start = start_value(local.ty, family);
         let tokens = given.as_ref().map_or(&start, |value| &value.tokens);
         self.visible.push(id);
+        self.note_declaration(id);
         let code = if self.is_hoisted(id) {
             quote!(#name = #tokens;)
         } else if self.usage.is_late(id) {
@@ -89,7 +98,7 @@ impl<'p> Body<'p, '_> {
             });
             quote!(let #mutable #name #ty = #tokens;)
         };
-        let pointer = self.pointer(&quote!(#before #code));
+        let pointer = self.pointer();
         quote!(#pointer #before #code)
     }
 
@@ -100,6 +109,7 @@ impl<'p> Body<'p, '_> {
 
     /// An expression for what it does.
     pub(super) fn effect(&mut self, expr: &'p Expr, tail: Tail) -> TokenStream {
+        self.acts = false;
         if let ExprKind::Builtin(builtin) = &expr.kind
             && flow::ends(expr)
         {
@@ -123,7 +133,7 @@ impl<'p> Body<'p, '_> {
                 quote!(#before let _ = #tokens;)
             }
         };
-        let pointer = self.pointer(&code);
+        let pointer = self.pointer();
         quote!(#pointer #code)
     }
 
@@ -131,10 +141,11 @@ impl<'p> Body<'p, '_> {
     fn branches(&mut self, arms: &'p [(Expr, Vec<Stmt>)], otherwise: Option<&'p [Stmt]>, tail: Tail) -> TokenStream {
         let mut out = TokenStream::new();
         for (at, (condition, block)) in arms.iter().enumerate() {
-            self.stand_at(condition.span);
-            let value = self.value(condition);
+            let condition_span = condition.span;
+            self.stand_at(condition_span);
+            let value = self.value_alone(condition);
             let value = if at == 0 {
-                let pointer = self.pointer(&quote!(#value));
+                let pointer = self.pointer();
                 let before = &value.before;
                 out = quote!(#pointer #before);
                 Fragment { before: TokenStream::new(), ..value }
@@ -142,9 +153,10 @@ impl<'p> Body<'p, '_> {
                 value.inline()
             };
             let condition = &value.tokens;
+            let comment = if at > 0 { self.comment(condition_span) } else { TokenStream::new() };
             let block = self.block(block, tail);
             let otherwise = (at > 0).then(|| quote!(else));
-            out.extend(quote!(#otherwise if #condition { #block }));
+            out.extend(quote!(#otherwise if #condition { #comment #block }));
         }
         if let Some(block) = otherwise {
             let block = self.block(block, tail);
@@ -173,14 +185,14 @@ impl<'p> Body<'p, '_> {
             None => value.map(|value| self.value(value)),
         };
         let before = value.as_ref().map(|value| value.before.clone());
-        let result = self.result(value.map(|value| value.tokens));
+        let result = self.result(value.map(|value| value.tokens)).map(without_detour);
         let code = match (tail, result) {
             (Tail::Function, Some(result)) => quote!(#before #result),
             (Tail::Function, None) => quote!(#before),
             (Tail::Inner, Some(result)) => quote!(#before return #result;),
             (Tail::Inner, None) => quote!(#before return;),
         };
-        let pointer = self.pointer(&code);
+        let pointer = self.pointer();
         quote!(#pointer #code)
     }
 
@@ -210,6 +222,28 @@ impl<'p> Body<'p, '_> {
     }
 }
 
+/// `Ok(f(x)?)` of one of the program's own functions is `f(x)`.
+fn without_detour(result: TokenStream) -> TokenStream {
+    let tokens: Vec<TokenTree> = result.clone().into_iter().collect();
+    let [TokenTree::Ident(ok), TokenTree::Group(inner)] = tokens.as_slice() else { return result };
+    let mut inner: Vec<TokenTree> = inner.stream().into_iter().collect();
+    let asks = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Punct(sign)) if sign.as_char() == '?');
+    let call = |token: &TokenTree| match token {
+        TokenTree::Ident(_) => true,
+        TokenTree::Punct(sign) => sign.as_char() == ':',
+        TokenTree::Group(group) => group.delimiter() == Delimiter::Parenthesis,
+        TokenTree::Literal(_) => false,
+    };
+    if ok != "Ok" || !asks(inner.last()) {
+        return result;
+    }
+    inner.pop();
+    // A path and one list of arguments.
+    let lists = inner.iter().filter(|token| matches!(token, TokenTree::Group(_))).count();
+    let ends_in_list = matches!(inner.last(), Some(TokenTree::Group(_)));
+    if lists == 1 && ends_in_list && inner.iter().all(call) { inner.into_iter().collect() } else { result }
+}
+
 fn is_unit(tokens: &TokenStream) -> bool {
     tokens.to_string().replace(' ', "") == "()"
 }
@@ -222,7 +256,14 @@ fn tail_of(stmt: &Stmt, tail: Tail) -> Tail {
 /// Whether the type does not show in the value: `let x: i32 = 0`.
 fn needs_annotation(ty: Type, value: Option<&Expr>) -> bool {
     let number = matches!(ty.base, Base::Int | Base::Uint | Base::Byte) && !ty.is_array();
-    number
-        && value
-            .is_none_or(|value| matches!(value.kind, ExprKind::Const(Value::Int(_) | Value::Uint(_) | Value::Byte(_))))
+    number && value.is_none_or(is_plain_number)
+}
+
+/// Whether a value is emitted as a number without type.
+fn is_plain_number(value: &Expr) -> bool {
+    match &value.kind {
+        ExprKind::Const(value) => matches!(value, Value::Int(_) | Value::Uint(_) | Value::Byte(_)),
+        ExprKind::Assign(sides) => is_plain_number(&sides.1),
+        _ => false,
+    }
 }

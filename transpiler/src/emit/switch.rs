@@ -6,7 +6,7 @@ use super::fragment::Fragment;
 use super::sequence::Mode;
 use super::statements::Tail;
 use crate::effects::flow;
-use crate::hir::{Arm, Expr, Stmt, StmtKind, Value};
+use crate::hir::{Arm, Expr, ExprKind, Root, Stmt, StmtKind, Value};
 use arl_lang::catalog::Base;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -19,7 +19,7 @@ impl<'p> Body<'p, '_> {
             return self.chain(subject, arms, tail);
         }
         let value = self.value(subject);
-        let pointer = self.pointer(&quote!(#value));
+        let pointer = self.pointer();
         let mut out = TokenStream::new();
         for arm in arms.iter().filter(|arm| arm.value.is_some()) {
             let Some(value) = &arm.value else { continue };
@@ -44,12 +44,9 @@ impl<'p> Body<'p, '_> {
     }
 
     fn chain(&mut self, subject: &'p Expr, arms: &'p [Arm], tail: Tail) -> TokenStream {
-        let value = self.expression(subject, Mode::Compared);
-        let facts = self.facts(subject);
-        // A local variable is compared as it is: the arms are chosen before any of them runs.
-        let value = if facts.quiet() && !facts.world { value } else { self.settle(value, "subject") };
+        let value = self.chain_subject(subject);
         let (before, subject) = (value.before.clone(), value.receiver());
-        let pointer = self.pointer(&quote!(#before #subject));
+        let pointer = self.pointer();
         let mut out = quote!(#pointer #before);
         let mut first = true;
         for arm in arms {
@@ -64,6 +61,19 @@ impl<'p> Body<'p, '_> {
             out.extend(if first { quote!({ #block }) } else { quote!(else { #block }) });
         }
         out
+    }
+
+    /// What a chain compares again and again: a local variable as it is, since the arm is chosen before any of them runs.
+    fn chain_subject(&mut self, subject: &'p Expr) -> Fragment {
+        match &subject.kind {
+            ExprKind::Place(place) if matches!(place.root, Root::Local(_)) && place.path.is_empty() => {
+                self.expression(subject, Mode::Compared)
+            }
+            _ => {
+                let value = self.value(subject);
+                self.settle(value, "subject")
+            }
+        }
     }
 
     fn arm(&mut self, arm: &'p Arm, tail: Tail) -> TokenStream {
@@ -93,10 +103,8 @@ impl<'p> Body<'p, '_> {
         otherwise: TokenStream,
     ) -> TokenStream {
         self.stand_at(subject.span);
-        let mode = if is_chain(subject) { Mode::Compared } else { Mode::Value };
-        let value = self.expression(subject, mode);
-        let value = if is_chain(subject) { self.settle(value, "subject") } else { value };
-        let pointer = self.pointer(&quote!(#value));
+        let value = if is_chain(subject) { self.chain_subject(subject) } else { self.value(subject) };
+        let pointer = self.pointer();
         let Fragment { before, tokens, .. } = value;
         let exhaustive = flow::exhaustive(subject, arms.iter().map(|(value, _)| *value).filter(Option::is_some));
         let default = arms.iter().find(|(value, _)| value.is_none()).map_or(otherwise, |(_, code)| code.clone());

@@ -1,8 +1,8 @@
 //! How the locals of a function are used, so that the emitted variables are `mut`, initialised and named as rustc likes
 //! them: a value that nobody reads is not assigned at the declaration, a variable that nobody reads has a `_` in front.
 
-use super::usage_graph::{Graph, Site};
-use crate::effects::facts::children;
+use super::usage_graph::{Graph, Site, writes_only};
+use crate::effects::facts::{self, children};
 use crate::effects::{flow, loops};
 use crate::hir::{Expr, ExprKind, Func, LocalId, Passed, Place, Projection, Root, Stmt, StmtKind};
 
@@ -13,6 +13,8 @@ struct Local {
     read: bool,
     /// It is written (also in part) after its declaration.
     written: bool,
+    /// A part of it is written, or a reference to it is passed to be written.
+    parts: bool,
     /// Its first value is never wanted: `let x: i32;`.
     late: bool,
     /// It is assigned although it may have been already, after a declaration without value.
@@ -25,12 +27,14 @@ pub(super) struct Usage {
     locals: Vec<Local>,
     /// Whether values are assigned that nobody reads.
     pub(super) wastes: bool,
+    /// Whether code has been left out that was counted here.
+    pub(super) drops: bool,
 }
 
 impl Usage {
     /// Looks through a function.
     pub(super) fn of_function(func: &Func) -> Self {
-        let mut usage = Self { locals: vec![Local::default(); func.locals.len()], wastes: false };
+        let mut usage = Self { locals: vec![Local::default(); func.locals.len()], wastes: false, drops: false };
         usage.block(&func.body);
         if func.has_goto {
             usage.wastes = !func.locals.is_empty();
@@ -69,7 +73,7 @@ impl Usage {
     /// Whether it has to be `mut`.
     pub(super) fn is_mutable(&self, id: LocalId) -> bool {
         let local = self.get(id);
-        if local.late { local.again } else { local.written }
+        if local.late { local.again || local.parts } else { local.written }
     }
 
     /// Whether it is declared without a value.
@@ -83,6 +87,14 @@ impl Usage {
         {
             change(local);
         }
+    }
+
+    fn mark_written(&mut self, place: &Place) {
+        let part = !place.path.is_empty();
+        self.mark(place, |local| {
+            local.written = true;
+            local.parts |= part;
+        });
     }
 
     fn block(&mut self, block: &[Stmt]) {
@@ -114,14 +126,20 @@ impl Usage {
 
     /// An expression whose value nobody wants: what it assigns to is not read by that.
     fn effect(&mut self, expr: &Expr) {
+        if let Some(value) = facts::same_anyway(expr) {
+            if !matches!(value.kind, ExprKind::Place(_)) {
+                self.effect(value);
+            }
+            return;
+        }
         match &expr.kind {
             ExprKind::Assign(sides) | ExprKind::AssignOp(_, sides) => {
-                self.mark(&sides.0, |local| local.written = true);
+                self.mark_written(&sides.0);
                 indices(&sides.0).for_each(|index| self.expr(index));
                 self.expr(&sides.1);
             }
             ExprKind::Step(_, place) => {
-                self.mark(place, |local| local.written = true);
+                self.mark_written(place);
                 indices(place).for_each(|index| self.expr(index));
             }
             _ => self.expr(expr),
@@ -131,14 +149,19 @@ impl Usage {
     fn expr(&mut self, expr: &Expr) {
         match &expr.kind {
             ExprKind::Place(place) => self.mark(place, |local| local.read = true),
+            ExprKind::Assign(_) if facts::same_anyway(expr).is_some() => {}
+            // The value is known, so the variable is not read for it.
+            ExprKind::Assign(sides) if matches!(sides.1.kind, ExprKind::Const(_)) => self.mark_written(&sides.0),
             ExprKind::Assign(sides) | ExprKind::AssignOp(_, sides) => self.used_and_written(&sides.0),
             ExprKind::Step(_, place) => self.used_and_written(place),
             ExprKind::Builtin(builtin) => {
                 for arg in &builtin.args {
                     if let Passed::Out(place) = &arg.value {
                         let handle = super::types::is_handle(place.ty);
+                        let only = writes_only(builtin.entry);
                         self.mark(place, |local| {
-                            local.read = true;
+                            local.read |= !only;
+                            local.parts |= !only && !handle;
                             local.written |= !handle;
                         });
                     }
@@ -150,10 +173,8 @@ impl Usage {
     }
 
     fn used_and_written(&mut self, place: &Place) {
-        self.mark(place, |local| {
-            local.read = true;
-            local.written = true;
-        });
+        self.mark(place, |local| local.read = true);
+        self.mark_written(place);
     }
 }
 

@@ -4,10 +4,11 @@
 //! `goto` are left out, as their states hide the flow from rustc.
 
 use super::usage::indices;
-use crate::effects::facts::children;
+use crate::effects::facts::{self, children};
 use crate::effects::{flow, loops};
 use crate::hir::{Expr, ExprKind, Func, LocalId, Passed, Place, Root, Stmt, StmtKind};
 use arl_lang::ast::BinaryOp;
+use arl_lang::catalog::{Entry, Mode};
 
 /// More bits than this for one analysis are not worth it.
 const MOST_BITS: usize = 1 << 26;
@@ -176,6 +177,11 @@ impl Set {
             Op::Write(id, _) | Op::Fresh(id) => self.remove(id),
         }
     }
+}
+
+/// Whether a built-in assigns what it writes, and passes no reference to it.
+pub(super) fn writes_only(entry: &Entry) -> bool {
+    entry.params.iter().any(|param| param.mode == Mode::Condition)
 }
 
 struct Loop {
@@ -366,6 +372,12 @@ impl Builder {
 
     /// An expression in the order of its evaluation; `wanted` tells whether its value is used.
     fn expr(&mut self, expr: &Expr, wanted: bool) {
+        if let Some(value) = facts::same_anyway(expr) {
+            if wanted || !matches!(value.kind, ExprKind::Place(_)) {
+                self.expr(value, wanted);
+            }
+            return;
+        }
         match &expr.kind {
             ExprKind::Place(place) => {
                 self.indices(place);
@@ -382,7 +394,7 @@ impl Builder {
             ExprKind::Assign(sides) => {
                 self.indices(&sides.0);
                 self.expr(&sides.1, true);
-                self.write(&sides.0, wanted);
+                self.write(&sides.0, wanted && !matches!(sides.1.kind, ExprKind::Const(_)));
             }
             ExprKind::AssignOp(_, sides) => {
                 self.indices(&sides.0);
@@ -399,7 +411,11 @@ impl Builder {
                 children(expr).into_iter().for_each(|child| self.expr(child, true));
                 for arg in &builtin.args {
                     if let Passed::Out(place) = &arg.value {
-                        self.read(place);
+                        if writes_only(builtin.entry) {
+                            self.write(place, false);
+                        } else {
+                            self.read(place);
+                        }
                     }
                 }
             }

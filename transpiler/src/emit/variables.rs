@@ -127,7 +127,7 @@ fn first_value(unit: &Unit<'_>, module: ModuleId, id: GlobalId, global: &Global)
     let value = match &global.init {
         Some(Expr { kind: ExprKind::Array(values), .. }) if points::is_large(global.ty, values) => {
             let code = points::table(&mut body, global.ty, values);
-            let pointer = body.pointer(&code.before);
+            let pointer = body.pointer();
             Fragment { before: TokenStream::new(), ..code.clone() }.after({
                 let before = &code.before;
                 quote!(#pointer #before)
@@ -135,7 +135,7 @@ fn first_value(unit: &Unit<'_>, module: ModuleId, id: GlobalId, global: &Global)
         }
         Some(init) => {
             let value = body.value(init);
-            let pointer = body.pointer(&quote!(#value));
+            let pointer = body.pointer();
             value.after(pointer)
         }
         None => Fragment::postfix(start_value(global.ty, unit.family())),

@@ -5,7 +5,7 @@ use super::body::Body;
 use super::fragment::{Fragment, Precedence};
 use super::places::Written;
 use super::sequence::Mode;
-use crate::hir::{Builtin, Expr, Passed, Place};
+use crate::hir::{Builtin, Expr, Passed, Place, Root};
 use arl_lang::catalog::{Effect, Mode as ParamMode};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -46,39 +46,37 @@ impl<'p> Body<'p, '_> {
             let seconds = &limit.tokens;
             quote!(.maxtime(#seconds))
         });
+        self.acts = true;
         let start = self.checked(quote!(flow::waituntil(cx)#maxtime.start().await));
         let late = limit.is_some().then(|| self.fresh("wait"));
         let start = match &late {
             Some(wait) => quote!(#limit_before let #wait = #start;),
             None => quote!(#start;),
         };
-        let condition = match condition {
-            Some(condition) => self.value(condition),
-            None => Fragment::settled(quote!(true)),
-        };
-        let (before, met) = (&condition.before, &condition.tokens);
         let next = quote!(cx.next_cycle().await;);
+        let Some(condition) = condition else { return start };
+        let met = self.value(condition);
         let Some(flag) = flag else {
-            if !before.is_empty() {
+            if !met.before.is_empty() {
+                let (before, met) = (&met.before, &met.tokens);
                 let late = late.map(|wait| quote!(if #wait.late() { break; }));
                 return quote!(#start loop { #before if #met { break; } #late #next });
             }
-            let unmet = condition.at(Precedence::Unary);
+            let unmet = self.negated(condition).at(Precedence::And);
             let late = late.map(|wait| quote!(&& !#wait.late()));
-            return quote!(#start while !#unmet #late { #next });
+            return quote!(#start while #unmet #late { #next });
         };
+        let (before, met) = (&met.before, &met.tokens);
         let late = late.map(|wait| quote!(if #wait.late() { break true; }));
-        let timed_out = self.fresh("timed_out");
-        let indices = Self::index_operands(flag);
-        let (flag_before, indices) = self.sequence(&indices, |_| true);
+        let waiting = Fragment::postfix(quote!(loop { #before if #met { break false; } #late #next }));
+        let (flag_before, indices) = self.sequence(&Self::index_operands(flag), |_| true);
         let reached = self.reached(flag, indices);
-        let write = self.write(&reached, Written::Value(Fragment::settled(quote!(#timed_out))), true);
-        quote! {
-            #start
-            let #timed_out = loop { #before if #met { break false; } #late #next };
-            #flag_before
-            #write
-        }
+        let waiting = match flag.root {
+            Root::Local(_) => waiting,
+            _ => self.settle(waiting, "timed_out"),
+        };
+        let write = self.write(&reached, Written::Value(waiting), true);
+        quote!(#start #flag_before #write)
     }
 }
 
