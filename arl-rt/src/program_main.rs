@@ -85,8 +85,7 @@ pub fn main<P: Program + 'static>(program: impl FnOnce() -> P + Send, script_dir
         Err(error) => return fail(USAGE, &format!("{error}\nTry --help.")),
     };
     let interrupted = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&interrupted);
-    if let Err(error) = signal_hook::flag::register(signal_hook::consts::SIGINT, flag) {
+    if let Err(error) = watch_for_interrupts(&interrupted) {
         warn(&format!("Ctrl-C will not stop the robot on its path: {error}"));
     }
     std::thread::scope(|scope| {
@@ -99,6 +98,14 @@ pub fn main<P: Program + 'static>(program: impl FnOnce() -> P + Send, script_dir
             Err(error) => fail(ALARM, &format!("the program's thread cannot be started: {error}")),
         }
     })
+}
+
+/// The first Ctrl-C sets the flag; a second one ends the process, should the program not come to an end.
+fn watch_for_interrupts(interrupted: &Arc<AtomicBool>) -> std::io::Result<()> {
+    use signal_hook::{consts::SIGINT, flag};
+    flag::register_conditional_shutdown(SIGINT, i32::from(INTERRUPTED), Arc::clone(interrupted))?;
+    flag::register(SIGINT, Arc::clone(interrupted))?;
+    Ok(())
 }
 
 fn fail(code: u8, text: &str) -> ExitCode {

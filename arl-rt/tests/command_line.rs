@@ -43,6 +43,20 @@ impl Program for Small {
                     system::savesv(cx, &"I".into()).at(FILE, 2)?;
                     text::print().argtoprint(&count).run(cx).at(FILE, 3)
                 }
+                "save" => loop {
+                    let count = cx.system().i.update(|i| {
+                        i[0] += 1;
+                        i[99] = i[0];
+                        i[0]
+                    });
+                    system::savesv(cx, &"I".into()).at(FILE, 2)?;
+                    text::print().argtoprint(&count).run(cx).at(FILE, 3)?;
+                    cx.next_cycle().await;
+                },
+                "first" => {
+                    let (first, last) = cx.system().i.with(|i| (i[0], i[99]));
+                    text::print().argtoprint(&first).argtoprint(&" ").argtoprint(&last).run(cx).at(FILE, 4)
+                }
                 "forever" => {
                     let there = Joint::of_axes([40.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
                     let back = Joint::of_axes([-40.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
@@ -98,6 +112,7 @@ const TESTS: &[(&str, fn())] = &[
     ("alarms", alarms),
     ("state_is_kept", state_is_kept),
     ("damaged_state_is_refused", damaged_state_is_refused),
+    ("state_survives_a_kill", state_survives_a_kill),
     ("the_time_is_over", the_time_is_over),
     ("virtual_time_is_the_same_every_time", virtual_time_is_the_same_every_time),
     ("recursion_without_end_is_an_alarm", recursion_without_end_is_an_alarm),
@@ -199,6 +214,26 @@ fn damaged_state_is_refused() {
     let text = std::fs::read_to_string(&file).unwrap();
     std::fs::write(&file, &text[..text.len() / 2]).unwrap();
     check(&run("count", &["--state-dir", folder.text()]), 3, "", "I.state: the file is damaged");
+}
+
+fn state_survives_a_kill() {
+    use std::io::{BufRead, BufReader};
+    let folder = Folder::new("kill");
+    for round in 0..10 {
+        let mut child = command("save", &["--state-dir", folder.text()]).stdout(Stdio::piped()).spawn().unwrap();
+        let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
+        for _ in 0..=round {
+            lines.next().unwrap().unwrap();
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let after = run("first", &["--state-dir", folder.text()]);
+        assert_eq!(after.status.code(), Some(0), "{}", String::from_utf8_lossy(&after.stderr));
+        let values = String::from_utf8_lossy(&after.stdout).into_owned();
+        let (first, last) = values.trim_end().split_once(' ').unwrap();
+        assert_eq!(first, last, "the old or the new content, whole");
+        assert_ne!(first, "0");
+    }
 }
 
 fn the_time_is_over() {

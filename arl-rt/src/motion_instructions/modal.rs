@@ -4,6 +4,7 @@ use crate::cx::Cx;
 use crate::fault::Fault;
 use crate::kinematics::Frame;
 use crate::motion;
+use crate::robot::Family;
 use crate::system::is_identity;
 use crate::unit::frame_of;
 use crate::values::{Slip, Speed, Tool, Wobj, is_set};
@@ -146,10 +147,14 @@ fn slip(blend: Blend, mut slip: Slip) -> Slip {
     slip
 }
 
-/// What would lead the robot elsewhere than the program says.
+/// What would lead the robot elsewhere than the program says, or otherwise than it says.
 fn supported(cx: &Cx) -> Result<(), Fault> {
     let system = cx.system();
-    let refused = if system.dftool.get().stationary {
+    let refused = if cx.world().unit.borrow().robot().family == Family::Scara {
+        "a SCARA robot is"
+    } else if system.rpp_enable.get() && !cx.has_moved() {
+        "the slow first motion of $RPP_ENABLE is"
+    } else if system.dftool.get().stationary {
         "a stationary tool is"
     } else if system.dfwobj.with(|wobj| wobj.robhold) {
         "a workpiece that the robot holds is"

@@ -5,7 +5,7 @@ use crate::cx::Cx;
 use crate::fault::Fault;
 use crate::kinematics::Wanted;
 use crate::motion::{Command, Joints, Target, UNSET};
-use crate::robot::{EXTERNAL_AXES, Family};
+use crate::robot::EXTERNAL_AXES;
 use crate::system::all_set;
 use crate::unit::{Unit, joint};
 use crate::values::{Joint, Pose};
@@ -62,12 +62,6 @@ fn first(cx: &Cx, unit: &Unit, own: &[f64], external: &[f64]) -> Result<(), Faul
 /// Hands a motion to the planner when there is room.
 pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<(), Fault> {
     let world = cx.world();
-    if world.unit.borrow().robot().family == Family::Scara {
-        return Err(Fault::Motion("motion of SCARA robots is not supported yet".into()));
-    }
-    if world.system.rpp_enable.get() && !cx.has_moved() {
-        return Err(Fault::Motion("the slow first motion of $RPP_ENABLE is not supported yet".into()));
-    }
     if cx.spend() {
         cx.next_cycle().await;
     }

@@ -98,7 +98,7 @@ impl<'a> PrintMessage<'a> {
     /// Sends the message.
     ///
     /// # Errors
-    /// A file that cannot be written, or a negative precision.
+    /// A file that has no name or cannot be written, or a negative precision.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         if let Some(problem) = self.problem {
             return Err(problem);
@@ -116,6 +116,10 @@ impl<'a> PrintMessage<'a> {
         }
         let to = modal_to.get();
         if to.file {
+            if modal_path.borrow().is_empty() {
+                let problem = "to:file needs the file's name: filepath:\"...\"".into();
+                return Err(Fault::Domain { function: "print", problem });
+            }
             let mut text = self.text.as_bytes().to_vec();
             if !text.ends_with(b"\n") {
                 text.push(b'\n');
