@@ -28,10 +28,7 @@ fn distance(left: &str, right: &str) -> usize {
             let get = |line: &[usize], at: usize| line.get(at).copied().unwrap_or(usize::MAX / 2);
             let replace = get(&last, column) + usize::from(a != b);
             let mut best = replace.min(get(&last, column + 1) + 1).min(get(&this, column) + 1);
-            let swapped = row > 0
-                && column > 0
-                && left.get(row - 1) == Some(b)
-                && right.get(column - 1) == Some(a);
+            let swapped = row > 0 && column > 0 && left.get(row - 1) == Some(b) && right.get(column - 1) == Some(a);
             if swapped {
                 best = best.min(get(&before, column - 1) + 1);
             }

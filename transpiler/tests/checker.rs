@@ -132,12 +132,6 @@ fn oddity(checked: &Checked) -> Option<String> {
                 return Some(format!("{code} marks {start}..{end}, which is not in its file"));
             }
         }
-        let words = [&diagnostic.message, diagnostic.help.as_ref().unwrap_or(&diagnostic.message)];
-        for words in words {
-            if words.is_empty() || words.contains("  ") || words.contains("``") || words.starts_with(' ') {
-                return Some(format!("{code} has odd words: {words}"));
-            }
-        }
     }
     let place = |diagnostic: &Diagnostic| (diagnostic.primary.at, diagnostic.code);
     if !checked.diagnostics.windows(2).all(|pair| place(&pair[0]) <= place(&pair[1])) {
@@ -150,6 +144,19 @@ fn oddity(checked: &Checked) -> Option<String> {
         return Some("there is a program if and only if there is no error".into());
     }
     None
+}
+
+/// Words that nobody would write.
+fn odd_words(checked: &Checked) -> Option<String> {
+    let words = checked.diagnostics.iter().flat_map(|diagnostic| [Some(&diagnostic.message), diagnostic.help.as_ref()]);
+    let odd = |words: &&String| {
+        words.is_empty()
+            || words.contains("  ")
+            || words.contains("``")
+            || words.contains('\n')
+            || words.starts_with(' ')
+    };
+    words.flatten().find(odd).map(|words| format!("odd words: {words}"))
 }
 
 fn run(text: &str) {
@@ -166,7 +173,7 @@ fn run(text: &str) {
                 && checked.diagnostics.iter().zip(&case.wanted).all(|(found, wanted)| fits(&checked, found, wanted))
         };
         let again = case.check();
-        let odd = oddity(&checked).or_else(|| {
+        let odd = oddity(&checked).or_else(|| odd_words(&checked)).or_else(|| {
             (again.diagnostics != checked.diagnostics).then(|| "a second check finds something else".to_string())
         });
         if same && !case.wanted.is_empty() && odd.is_none() {

@@ -99,9 +99,11 @@ impl Checker<'_> {
     fn callee_name(&self, callee: &Callee) -> String {
         match callee {
             Callee::Builtin(entry) => entry.name.into(),
-            Callee::User(func) => {
-                self.funcs.get(func.0 as usize).map(|slot| self.text(slot.module, slot.ast.name.span).to_string()).unwrap_or_default()
-            }
+            Callee::User(func) => self
+                .funcs
+                .get(func.0 as usize)
+                .map(|slot| self.text(slot.module, slot.ast.name.span).to_string())
+                .unwrap_or_default(),
         }
     }
 
@@ -110,7 +112,8 @@ impl Checker<'_> {
             Callee::Builtin(entry) => self.signature(entry),
             Callee::User(func) => {
                 let Some(slot) = self.funcs.get(func.0 as usize) else { return String::new() };
-                let params: Vec<&str> = slot.ast.params.iter().map(|param| self.text(slot.module, param.span)).collect();
+                let params = slot.ast.params.iter().map(|param| self.excerpt(slot.module, param.span));
+                let params: Vec<String> = params.collect();
                 format!("{}({})", self.text(slot.module, slot.ast.name.span), params.join(", "))
             }
         }
@@ -203,7 +206,8 @@ impl Checker<'_> {
     ) -> Option<usize> {
         let wanted = self.names.name(label.symbol);
         let named = |param: &Parameter| {
-            param.name.eq_ignore_ascii_case(wanted) || param.aliases.iter().any(|alias| alias.eq_ignore_ascii_case(wanted))
+            param.name.eq_ignore_ascii_case(wanted)
+                || param.aliases.iter().any(|alias| alias.eq_ignore_ascii_case(wanted))
         };
         let Some(at) = params.iter().position(named) else {
             let labels: Vec<&str> = params.iter().map(|param| param.name.as_str()).collect();
@@ -289,16 +293,19 @@ impl Checker<'_> {
         if params.is_empty() {
             return self.report(body, arg.value.span, ArgumentProblem::TooMany { callee: callee.into(), most: 0 });
         }
-        let labels: Vec<&str> =
-            params.iter().enumerate().filter(|(at, param)| free(*at, param)).map(|(_, param)| param.name.as_str()).collect();
+        let labels: Vec<&str> = params
+            .iter()
+            .enumerate()
+            .filter(|(at, param)| free(*at, param))
+            .map(|(_, param)| param.name.as_str())
+            .collect();
         let problem = ArgumentProblem::NoParameter { callee: callee.into(), ty, labels: labels.join(", ") };
         self.report(body, arg.value.span, problem)
     }
 
     fn exclusions(&mut self, body: &Body, entry: &'static Entry, pairs: &[Pair<'_>], args: &[Arg]) -> bool {
-        let given = |name: &str| {
-            pairs.iter().find(|pair| entry.params.get(pair.param).is_some_and(|param| param.name == name))
-        };
+        let given =
+            |name: &str| pairs.iter().find(|pair| entry.params.get(pair.param).is_some_and(|param| param.name == name));
         let mut good = true;
         for group in entry.exclusive {
             let mut present = group.iter().filter_map(|name| Some((*name, given(name)?.arg.span())));
@@ -442,7 +449,7 @@ impl Checker<'_> {
         }
         let problem = ArgumentProblem::Range {
             parameter: param.name.clone(),
-            value: self.text(body.module, value.span).into(),
+            value: self.excerpt(body.module, value.span),
             low: low.to_string(),
             high: high.to_string(),
         };

@@ -15,7 +15,9 @@ impl Checker<'_> {
             return;
         }
         for bound in args {
-            let Some(param) = entry.params.get(bound.param).filter(|param| LABELS.contains(&param.name)) else { continue };
+            let Some(param) = entry.params.get(bound.param).filter(|param| LABELS.contains(&param.name)) else {
+                continue;
+            };
             let Passed::Value(value) = &bound.value else { continue };
             if asks(value) {
                 let label = param.name.to_string();

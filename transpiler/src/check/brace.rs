@@ -60,7 +60,11 @@ impl Checker<'_> {
             };
             if values.get(index).is_some_and(Option::is_some) {
                 let name = component.name.to_string();
-                self.report::<()>(body, item.name.map_or(value.span, |name| name.span), TypeProblem::ComponentTwice { name });
+                self.report::<()>(
+                    body,
+                    item.name.map_or(value.span, |name| name.span),
+                    TypeProblem::ComponentTwice { name },
+                );
                 good = false;
                 continue;
             }

@@ -60,7 +60,8 @@ impl Checker<'_> {
         let scope = self.scopes.get(body.module.0 as usize)?;
         let mut known: Vec<&str> = scope.funcs.keys().map(|symbol| self.names.name(*symbol)).collect();
         known.sort_unstable();
-        let builtin = catalog::all_entries().iter().filter(|entry| entry.kind == catalog::Kind::Function).map(|entry| entry.name);
+        let builtin =
+            catalog::all_entries().iter().filter(|entry| entry.kind == catalog::Kind::Function).map(|entry| entry.name);
         let near = crate::near::nearest(name, known.into_iter().chain(builtin)).map(Into::into);
         let name = self.text(body.module, call.name.span).to_string();
         self.report(body, call.name.span, NameProblem::UnknownFunction { name, near, is_instruction })

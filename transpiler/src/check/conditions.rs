@@ -28,7 +28,8 @@ pub(crate) fn check(program: &Program, locate: &dyn Fn(crate::hir::ModuleId, Spa
 /// The arguments of a built-in that are conditions.
 fn conditions(expr: &Expr) -> Vec<&Expr> {
     let ExprKind::Builtin(builtin) = &expr.kind else { return Vec::new() };
-    let is_condition = |param: usize| builtin.entry.params.get(param).is_some_and(|param| param.mode == Mode::Condition);
+    let is_condition =
+        |param: usize| builtin.entry.params.get(param).is_some_and(|param| param.mode == Mode::Condition);
     let bound = builtin.args.iter().filter(|bound| is_condition(bound.param));
     bound
         .filter_map(|bound| match &bound.value {

@@ -201,6 +201,17 @@ impl<'a> Checker<'a> {
         files.get(self.file(module)).map_or("", |file| span.text(&file.text))
     }
 
+    /// The source under a span as a message can show it: on one line, and not too much of it.
+    pub(crate) fn excerpt(&self, module: ModuleId, span: Span) -> String {
+        const MOST: usize = 40;
+        let words = self.text(module, span).split_whitespace().filter(|word| *word != "\\");
+        let line = words.collect::<Vec<_>>().join(" ");
+        match line.char_indices().nth(MOST) {
+            Some((cut, _)) => format!("{}...", line.get(..cut).unwrap_or_default()),
+            None => line,
+        }
+    }
+
     /// Reports a problem. The result is always `None`, so that `return self.report(..)` gives up on an expression.
     pub(crate) fn report<T>(&mut self, body: &Body, span: Span, problem: impl Problem) -> Option<T> {
         self.report_in(body.module, span, problem, &[])

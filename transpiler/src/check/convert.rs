@@ -88,7 +88,9 @@ pub(crate) fn fit(value: &Value, literal: Literal, to: Base) -> Option<Value> {
             let low = *bits as u8;
             (*bits as u32 | 0xff == u32::MAX || *bits as u32 <= 0xff).then_some(Value::Byte(low))
         }
-        (Value::Int(bits), Base::Byte) if literal == Literal::Pattern => u8::try_from(*bits as u32).ok().map(Value::Byte),
+        (Value::Int(bits), Base::Byte) if literal == Literal::Pattern => {
+            u8::try_from(*bits as u32).ok().map(Value::Byte)
+        }
         (_, Base::Byte) => u8::try_from(number?).ok().map(Value::Byte),
         _ => None,
     }
@@ -118,9 +120,7 @@ pub(crate) fn instead(from: Base, to: Base) -> Option<String> {
         (Base::String, Base::Int) => "`toint(text, dec)` reads a number from a text",
         (Base::String, Base::Double) => "`scan` reads numbers from a text",
         (Base::Void | Base::Handle(_), _) => return None,
-        (Base::Bool, Base::Int | Base::Uint | Base::Byte | Base::Double) => {
-            "a bool is no number: choose one with `if`"
-        }
+        (Base::Bool, Base::Int | Base::Uint | Base::Byte | Base::Double) => "a bool is no number: choose one with `if`",
         (_, Base::String) => "`tostr(...)` makes a text of any value",
         (Base::Int, Base::Byte) => "only constants of 0 to 255 fit a byte; `tobytes(...)` takes an int apart",
         (Base::Int, Base::Uint) => "only constants of 0 or more fit a uint",
@@ -169,7 +169,7 @@ impl Checker<'_> {
                 return Some(Expr { ty: to, kind: ExprKind::Const(value), span: expr.span });
             }
             if integer(value).is_some() && matches!(to.base, Base::Int | Base::Uint | Base::Byte) {
-                let value = self.text(body.module, expr.span).to_string();
+                let value = self.excerpt(body.module, expr.span);
                 let problem =
                     TypeProblem::DoesNotFit { value, wanted: self.type_name(to), range: range(to.base).into() };
                 return self.report(body, expr.span, problem);
@@ -207,7 +207,7 @@ impl Checker<'_> {
 
     /// Reports that something without a value stands where one is wanted.
     pub(crate) fn report_no_value<T>(&mut self, body: &Body, expr: &Expr) -> Option<T> {
-        let what = format!("`{}`", self.text(body.module, expr.span));
+        let what = format!("`{}`", self.excerpt(body.module, expr.span));
         self.report(body, expr.span, TypeProblem::NoValue { what })
     }
 

@@ -259,7 +259,8 @@ impl<'a> Checker<'a> {
         if !plain || catalog::base_type(name).is_some() || looks_like_type(name) {
             return false;
         }
-        let known = |var: &ast::Var| body.find(var.name.symbol).is_some() || self.find_global(body, var.name.symbol).is_some();
+        let known =
+            |var: &ast::Var| body.find(var.name.symbol).is_some() || self.find_global(body, var.name.symbol).is_some();
         near_instruction(name).is_some()
             || is_instruction_of_others(name)
             || self.names_function(body, decl.ty.name)

@@ -33,7 +33,10 @@ impl Checker<'_> {
                 let found = self.name(body, *symbol, span, want)?;
                 Some(self.value_of(body, found))
             }
-            ast::ExprKind::Path { .. } | ast::ExprKind::System(_) | ast::ExprKind::Index(_) | ast::ExprKind::Field(..) => {
+            ast::ExprKind::Path { .. }
+            | ast::ExprKind::System(_)
+            | ast::ExprKind::Index(_)
+            | ast::ExprKind::Field(..) => {
                 let found = self.place_or_value(body, expr)?;
                 Some(self.value_of(body, found))
             }

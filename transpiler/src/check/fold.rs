@@ -30,7 +30,9 @@ impl Checker<'_> {
                 BinaryOp::Add => Some(Value::String(format!("{a}{b}").into())),
                 _ => compare(op, a.as_bytes().cmp(b.as_bytes())).map(Value::Bool),
             },
-            (Value::Int(a), Value::Int(b)) => self.fold_integer(body, op, Base::Int, i64::from(*a), i64::from(*b), span)?,
+            (Value::Int(a), Value::Int(b)) => {
+                self.fold_integer(body, op, Base::Int, i64::from(*a), i64::from(*b), span)?
+            }
             (Value::Uint(a), Value::Uint(b)) => {
                 self.fold_integer(body, op, Base::Uint, i64::from(*a), i64::from(*b), span)?
             }

@@ -6,9 +6,9 @@ use crate::hir::ModuleId;
 use crate::{CheckOptions, SourceError, Sources};
 use arl_lang::ast;
 use arl_lang::catalog;
-use arl_lang::{ParseOptions, Splice, parse, parse_statements};
 use arl_lang::span::Span;
 use arl_lang::symbol::{Interner, Symbol};
+use arl_lang::{ParseOptions, Splice, parse, parse_statements};
 use std::collections::{HashMap, HashSet};
 use std::path::{Component, Path, PathBuf};
 
@@ -246,9 +246,10 @@ impl Follow<'_> {
 
     /// A module named with `::` that no import brought in: a file in the same folder.
     fn neighbour(&mut self, at: usize, folder: &Path, file: FileId, scope: ast::Ident) {
-        let known = self.loaded.modules.get(at).is_some_and(|module| {
-            module.imports.contains_key(&scope.symbol) || module.missing.contains(&scope.symbol)
-        });
+        let known =
+            self.loaded.modules.get(at).is_some_and(|module| {
+                module.imports.contains_key(&scope.symbol) || module.missing.contains(&scope.symbol)
+            });
         if known || catalog::base_type(self.loaded.names.name(scope.symbol)).is_some() {
             return;
         }
@@ -267,7 +268,9 @@ impl Follow<'_> {
                     module.imports.insert(scope.symbol, id);
                 }
             }
-            None if self.loaded.diagnostics.len() > shown || self.loaded.broken.contains(&clean(&path)) => self.set_missing(at, scope.symbol),
+            None if self.loaded.diagnostics.len() > shown || self.loaded.broken.contains(&clean(&path)) => {
+                self.set_missing(at, scope.symbol)
+            }
             None => {}
         }
     }

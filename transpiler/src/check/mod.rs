@@ -215,7 +215,8 @@ impl Checker<'_> {
     /// The finished program; the diagnostics (warnings only) go to `out`.
     fn into_program(mut self, main: Option<FuncId>, out: &mut Vec<Diagnostic>) -> Program {
         out.append(&mut self.diagnostics);
-        let modules: Vec<hir::Module> = self.modules.iter().map(|module| finished_module(module, self.names, self.files)).collect();
+        let modules: Vec<hir::Module> =
+            self.modules.iter().map(|module| finished_module(module, self.names, self.files)).collect();
         let mut globals = Vec::new();
         for slot in std::mem::take(&mut self.globals) {
             globals.push(hir::Global {

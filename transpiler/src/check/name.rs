@@ -83,15 +83,17 @@ impl Checker<'_> {
             let name = self.text(body.module, span).to_string();
             return self.report(body, span, NameProblem::Renamed { name, now: now.into() });
         }
-        let is_function = self.scopes.get(body.module.0 as usize).is_some_and(|scope| scope.funcs.contains_key(&symbol))
-            || !catalog::functions(name).is_empty();
+        let is_function =
+            self.scopes.get(body.module.0 as usize).is_some_and(|scope| scope.funcs.contains_key(&symbol))
+                || !catalog::functions(name).is_empty();
         let mut near = body.nearest_local(self.names, name);
         if near.is_none() && name.len() > 2 {
             near = catalog::system_variable(name).map(|variable| format!("${}", variable.name));
         }
         if near.is_none() {
             let globals = self.scopes.get(body.module.0 as usize).map(|scope| &scope.globals);
-            let mut known: Vec<&str> = globals.into_iter().flatten().map(|(symbol, _)| self.names.name(*symbol)).collect();
+            let mut known: Vec<&str> =
+                globals.into_iter().flatten().map(|(symbol, _)| self.names.name(*symbol)).collect();
             known.sort_unstable();
             near = crate::near::nearest(name, known.into_iter()).map(Into::into);
         }
@@ -104,7 +106,8 @@ impl Checker<'_> {
         if let Some(id) = self.scopes.get(body.module.0 as usize)?.globals.get(&symbol) {
             let slot = self.globals.get(id.0 as usize)?;
             // Inside its own declaration a variable is not known yet, but those before it on the line are.
-            let visible = slot.item < body.item || (slot.item == body.item && slot.state == super::context::State::Done);
+            let visible =
+                slot.item < body.item || (slot.item == body.item && slot.state == super::context::State::Done);
             return Some((*id, visible));
         }
         let data = self.module(body.module)?.data_module?;
@@ -242,7 +245,8 @@ fn enum_constant(name: &str, want: Option<Type>) -> Option<(Enum, u16)> {
 
 fn constant_of(id: Enum, name: &str) -> Option<u16> {
     let found = id.def().constants.iter().position(|constant| {
-        constant.name.eq_ignore_ascii_case(name) || constant.aliases.iter().any(|alias| alias.eq_ignore_ascii_case(name))
+        constant.name.eq_ignore_ascii_case(name)
+            || constant.aliases.iter().any(|alias| alias.eq_ignore_ascii_case(name))
     });
     found.map(|index| index as u16)
 }

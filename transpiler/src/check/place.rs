@@ -190,7 +190,7 @@ impl Checker<'_> {
         let place = match self.place_or_value(body, expr)? {
             PlaceOrValue::Place(place) => place,
             PlaceOrValue::Value(_) => {
-                let text = self.text(body.module, expr.span).to_string();
+                let text = self.excerpt(body.module, expr.span);
                 return self.report(body, expr.span, TypeProblem::NotAssignable { text });
             }
         };

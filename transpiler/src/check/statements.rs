@@ -300,7 +300,7 @@ impl Checker<'_> {
             return self.report(body, value.span, FlowProblem::CaseNotConstant);
         };
         if let Some(first) = seen.insert(case_key(&constant), value.span) {
-            let problem = FlowProblem::CaseTwice { value: self.text(body.module, value.span).to_string() };
+            let problem = FlowProblem::CaseTwice { value: self.excerpt(body.module, value.span) };
             return self.report_in(body.module, value.span, problem, &[(body.module, first, "first used here")]);
         }
         Some(constant)

@@ -55,10 +55,13 @@ impl Problem for ArgumentProblem {
     fn message(&self) -> String {
         match self {
             ArgumentProblem::TooMany { callee, most } => {
-                format!("too many arguments: `{callee}` takes {}", match most {
-                    0 => "none".into(),
-                    most => format!("at most {most}"),
-                })
+                format!(
+                    "too many arguments: `{callee}` takes {}",
+                    match most {
+                        0 => "none".into(),
+                        most => format!("at most {most}"),
+                    }
+                )
             }
             ArgumentProblem::Missing { callee, parameter, .. } => format!("`{callee}` needs its `{parameter}`"),
             ArgumentProblem::UnknownLabel { callee, label, .. } => {

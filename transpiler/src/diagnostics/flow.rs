@@ -120,9 +120,9 @@ impl Problem for FlowProblem {
                 Some("int, byte, uint, bool, string and enumerations can be compared".into())
             }
             FlowProblem::ConditionWaits { .. } => Some("a condition may read inputs and compute".into()),
-            FlowProblem::FirstMotion { .. } => {
-                Some("what is not set keeps its start, and before the first motion no start is known: set all axes".into())
-            }
+            FlowProblem::FirstMotion { .. } => Some(
+                "what is not set keeps its start, and before the first motion no start is known: set all axes".into(),
+            ),
             FlowProblem::MissingReturn { result, .. } => {
                 Some(format!("it then returns the start value of {result}; write a `return` to say so"))
             }

@@ -51,9 +51,10 @@ impl Problem for ModuleProblem {
 
     fn help(&self) -> Option<String> {
         match self {
-            ModuleProblem::Missing { .. } => {
-                Some("a path is relative to the file that imports, or absolute; /home/ae/script/ is the script folder".into())
-            }
+            ModuleProblem::Missing { .. } => Some(
+                "a path is relative to the file that imports, or absolute; /home/ae/script/ is the script folder"
+                    .into(),
+            ),
             ModuleProblem::Encoding { .. } => Some("save the file as UTF-8".into()),
             ModuleProblem::ModuleName { .. } => {
                 Some("use letters, digits and underscores, not beginning with a digit".into())

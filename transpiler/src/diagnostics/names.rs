@@ -103,11 +103,8 @@ impl Problem for NameProblem {
                 let other = of_others(FUNCTIONS_OF_OTHERS, name).or_else(|| of_others(INSTRUCTIONS_OF_OTHERS, name));
                 other.map(|ours| format!("ARL has `{ours}` for this")).or_else(|| meant(near))
             }
-            NameProblem::UnknownLabel { near, .. }
-            | NameProblem::NotInModule { near, .. } => meant(near),
-            NameProblem::UnknownSystem { near, .. } => {
-                near.as_ref().map(|near| format!("did you mean `${near}`?"))
-            }
+            NameProblem::UnknownLabel { near, .. } | NameProblem::NotInModule { near, .. } => meant(near),
+            NameProblem::UnknownSystem { near, .. } => near.as_ref().map(|near| format!("did you mean `${near}`?")),
             NameProblem::UnknownModule { looked, .. } => {
                 Some(format!("looked for {looked}; a module in another folder needs an `import` line"))
             }

@@ -115,10 +115,14 @@ impl Problem for TypeProblem {
             }
             TypeProblem::NotAnArray { ty } => format!("only arrays have elements, but this is of type {ty}"),
             TypeProblem::IndexCount { found, wanted } => {
-                format!("the array has {wanted} dimension{}, but {found} {}", plural(*wanted), match found {
-                    1 => "index is given",
-                    _ => "indices are given",
-                })
+                format!(
+                    "the array has {wanted} dimension{}, but {found} {}",
+                    plural(*wanted),
+                    match found {
+                        1 => "index is given",
+                        _ => "indices are given",
+                    }
+                )
             }
             TypeProblem::IndexType { found } => format!("an index must be of type int, but this is of type {found}"),
             TypeProblem::NotAStructure { ty } => format!("only structures have components, but this is of type {ty}"),
@@ -174,22 +178,24 @@ impl Problem for TypeProblem {
             }
             TypeProblem::MixedBraces => Some("write `{1, 2}` or `{x 1, y 2}`".into()),
             TypeProblem::Compare { .. } => Some("compare the components or elements one by one".into()),
-            TypeProblem::HandleCopy { .. } => Some("use the one variable everywhere; make it global to share it".into()),
+            TypeProblem::HandleCopy { .. } => {
+                Some("use the one variable everywhere; make it global to share it".into())
+            }
             TypeProblem::ConstWithoutValue { name } => Some(format!("write `const ... {name} = value`")),
             TypeProblem::WideLiteral { .. } => {
                 Some("store it in a uint, write it as a double (`3e9`), or as a bit pattern in hexadecimal".into())
             }
             TypeProblem::SpliceType => Some("say it with `#(value as double)`".into()),
             TypeProblem::IndexType { found } if found == "double" => Some("`toint(...)` makes an int of it".into()),
-            TypeProblem::NotAnArray { ty } if ty == "string" => Some("`substr` takes characters out of a string".into()),
+            TypeProblem::NotAnArray { ty } if ty == "string" => {
+                Some("`substr` takes characters out of a string".into())
+            }
             TypeProblem::Dimensions { wanted, .. } if !wanted.ends_with(']') => {
                 Some("take one element of the array with an index".into())
             }
             TypeProblem::NotARow { .. } => Some("give all rows their braces, or none".into()),
             TypeProblem::VoidVariable => Some("void is for functions that return nothing".into()),
-            TypeProblem::OtherFamily { .. } => {
-                Some("name the robot that the program is for with `--robot`".into())
-            }
+            TypeProblem::OtherFamily { .. } => Some("name the robot that the program is for with `--robot`".into()),
             _ => None,
         }
     }
