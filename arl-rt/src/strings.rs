@@ -8,6 +8,7 @@ fn domain(function: &'static str, problem: String) -> Fault {
 }
 
 /// How many bytes the string has.
+#[inline]
 pub fn strlen(s: &Str) -> i32 {
     i32::try_from(s.len()).unwrap_or(i32::MAX)
 }
@@ -17,6 +18,7 @@ pub fn strlen(s: &Str) -> i32 {
 ///
 /// # Errors
 /// [`Fault::Domain`] for a start outside the string and a negative length.
+#[inline]
 pub fn substr(s: &Str, startpos: i32, len: Option<i32>) -> Result<Str, Fault> {
     let bytes = s.as_bytes();
     let start = usize::try_from(startpos).ok().filter(|start| *start < bytes.len());
@@ -37,6 +39,7 @@ pub fn substr(s: &Str, startpos: i32, len: Option<i32>) -> Result<Str, Fault> {
 ///
 /// # Errors
 /// [`Fault::Domain`] for any other string.
+#[inline]
 pub fn toascii(s: &Str) -> Result<i32, Fault> {
     match s.as_bytes() {
         [byte] => Ok(i32::from(*byte)),

@@ -73,23 +73,26 @@ impl Str {
         if let Text::Heap(bytes) = &mut self.0 {
             bytes.extend_from_slice(more);
         } else {
-            self.push_cold(more);
+            self.push_small(more);
         }
     }
 
-    fn push_cold(&mut self, more: &[u8]) {
+    fn push_small(&mut self, more: &[u8]) {
         let old = self.len();
         let all = old + more.len();
-        if all <= INLINE {
-            let mut joined = [0; INLINE];
-            let both = self.as_bytes().iter().chain(more);
-            joined.iter_mut().zip(both).for_each(|(to, from)| *to = *from);
-            self.0 = Text::Inline { length: all as u8, bytes: joined };
-        } else {
+        if all > INLINE {
             let mut joined = Vec::with_capacity(all.max(2 * old));
             joined.extend_from_slice(self.as_bytes());
             joined.extend_from_slice(more);
             self.0 = Text::Heap(joined);
+            return;
+        }
+        if let Text::Static(text) = self.0 {
+            self.0 = Text::Inline { length: 0, bytes: small(text) };
+        }
+        if let Text::Inline { length, bytes } = &mut self.0 {
+            put(bytes, old, more);
+            *length = all as u8;
         }
     }
 
@@ -132,6 +135,37 @@ impl Str {
     }
 }
 
+/// The bytes of a short text.
+#[inline]
+fn small(text: &[u8]) -> [u8; INLINE] {
+    let mut bytes = [0; INLINE];
+    put(&mut bytes, 0, text);
+    bytes
+}
+
+/// Writes a short text at an offset, where there is room for it. Two moves that may overlap do it for any length: a
+/// call of `memcpy` would cost more than so few bytes.
+#[inline]
+fn put(bytes: &mut [u8; INLINE], at: usize, text: &[u8]) {
+    let Some(to) = bytes.get_mut(at..at + text.len()) else { return };
+    if !(both_ends::<8>(to, text) || both_ends::<4>(to, text) || both_ends::<2>(to, text)) {
+        both_ends::<1>(to, text);
+    }
+}
+
+/// Writes the first and the last N bytes, where there are so many: up to twice N bytes are copied so.
+#[inline]
+fn both_ends<const N: usize>(to: &mut [u8], from: &[u8]) -> bool {
+    let (Some(first), Some(last)) = (from.first_chunk::<N>(), from.last_chunk::<N>()) else { return false };
+    if let Some(to) = to.first_chunk_mut() {
+        *to = *first;
+    }
+    if let Some(to) = to.last_chunk_mut() {
+        *to = *last;
+    }
+    true
+}
+
 impl Default for Str {
     fn default() -> Self {
         Self::new()
@@ -139,10 +173,13 @@ impl Default for Str {
 }
 
 impl From<&[u8]> for Str {
+    #[inline]
     fn from(bytes: &[u8]) -> Self {
-        let mut text = Self::new();
-        text.push_bytes(bytes);
-        text
+        if bytes.len() <= INLINE {
+            Self(Text::Inline { length: bytes.len() as u8, bytes: small(bytes) })
+        } else {
+            Self(Text::Heap(bytes.to_vec()))
+        }
     }
 }
 
@@ -315,6 +352,21 @@ mod tests {
         text.clear();
         assert!(text.is_empty());
         assert_eq!(Str::from(plain.clone()).into_bytes(), plain);
+    }
+
+    #[test]
+    fn appends_any_length_to_any_length() {
+        let all: Vec<u8> = (b'a'..=b'z').chain(b'A'..=b'Z').collect();
+        for first in 0..=20 {
+            for more in 0..=20 {
+                let mut text = Str::from(&all[..first]);
+                text.push_bytes(&all[first..first + more]);
+                assert_eq!(text.as_bytes(), &all[..first + more], "{first} and {more} bytes");
+            }
+        }
+        let mut text = Str::literal("ab");
+        text.push_str("cde");
+        assert_eq!(text, "abcde");
     }
 
     #[test]
