@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
 #[derive(Clone, Debug, Default)]
 #[must_use = "nothing happens before `compile`"]
 pub struct Build {
-    programs: Vec<PathBuf>,
+    programs: Vec<(String, PathBuf)>,
     options: CheckOptions,
     errors_in_code: bool,
     copies: Option<PathBuf>,
@@ -42,8 +42,14 @@ impl Build {
     }
 
     /// Adds a program: the file that has `main`. It becomes `NAME.rs` in `OUT_DIR`.
-    pub fn program(mut self, main: impl Into<PathBuf>) -> Self {
-        self.programs.push(main.into());
+    pub fn program(self, main: impl Into<PathBuf>) -> Self {
+        let main = main.into();
+        self.program_as(name(&main), main)
+    }
+
+    /// Adds a program under a name of its own: `name` instead of the file's.
+    pub fn program_as(mut self, name: impl Into<String>, main: impl Into<PathBuf>) -> Self {
+        self.programs.push((name.into(), main.into()));
         self
     }
 
@@ -96,18 +102,17 @@ impl Build {
     fn lines(&self, out: &Path, sources: &dyn Sources) -> Vec<String> {
         let mut watched = BTreeSet::new();
         let mut lines = Vec::new();
-        let mut names: Vec<(String, &Path)> = Vec::new();
-        for main in &self.programs {
-            let name = name(main);
-            if let Some((_, other)) = names.iter().find(|(other, _)| *other == name) {
+        let mut names: Vec<(&str, &Path)> = Vec::new();
+        for (name, main) in &self.programs {
+            if let Some((_, other)) = names.iter().find(|(other, _)| other == name) {
                 lines.push(format!(
-                    "cargo::error={} and {} would both become {name}.rs: compile them in two crates, or rename one",
+                    "cargo::error={} and {} would both become {name}.rs: give one another name with `program_as`",
                     other.display(),
                     main.display()
                 ));
                 continue;
             }
-            names.push((name.clone(), main));
+            names.push((name, main));
             let compiled = match compile_program(main, sources, &self.options, &EmitOptions::default()) {
                 Ok(compiled) => compiled,
                 Err(bug) => {
@@ -119,7 +124,7 @@ impl Build {
             for path in compiled.read() {
                 watched.insert(watchable(&path, out));
             }
-            lines.extend(self.output(&compiled, &name, out));
+            lines.extend(self.output(&compiled, name, out));
         }
         let mut all: Vec<String> = watched
             .into_iter()
@@ -208,4 +213,125 @@ fn watchable(path: &Path, out: &Path) -> PathBuf {
         _ => true,
     };
     if holds_output { PathBuf::new() } else { folder.to_path_buf() }
+}
+
+#[cfg(test)]
+#[expect(clippy::disallowed_methods, reason = "tests look at what was written")]
+mod tests {
+    use super::*;
+
+    struct Folder(PathBuf);
+
+    impl Folder {
+        fn new(name: &str) -> Self {
+            let path = std::env::temp_dir().join(format!("arl2rs-build-{name}-{}", std::process::id()));
+            std::fs::create_dir_all(path.join("out")).expect("a folder");
+            std::fs::create_dir_all(path.join("robot")).expect("a folder");
+            Self(path)
+        }
+
+        fn program(&self, name: &str, text: &str) -> PathBuf {
+            let path = self.0.join("robot").join(name);
+            std::fs::write(&path, text).expect("a file");
+            path
+        }
+
+        fn out(&self, name: &str) -> PathBuf {
+            self.0.join("out").join(name)
+        }
+
+        fn lines(&self, build: &Build) -> Vec<String> {
+            build.lines(&self.0.join("out"), &FileSystem)
+        }
+    }
+
+    impl Drop for Folder {
+        fn drop(&mut self) {
+            let _ = std::fs::remove_dir_all(&self.0);
+        }
+    }
+
+    const GOOD: &str = "func void main()\n    int unused = 1\n    print 1\nendfunc\n";
+    const BAD: &str = "func void main()\n    prnt 1\n    goto no\nendfunc\n";
+
+    #[test]
+    fn every_file_is_watched_and_warnings_are_told() {
+        let folder = Folder::new("watch");
+        let main = folder.program("a.arl", &format!("import \"m.arl\"\n{GOOD}"));
+        folder.program("m.arl", "int x = 1\n");
+        folder.program("a_data.arl", "int y = 1\n");
+        let lines = folder.lines(&Build::new().program(&main));
+        let robot = folder.0.join("robot");
+        let watched: Vec<String> =
+            lines.iter().filter_map(|line| line.strip_prefix("cargo::rerun-if-changed=").map(Into::into)).collect();
+        // m_data.arl is not there: its folder tells when it comes.
+        let expected = [robot.clone(), main, robot.join("a_data.arl"), robot.join("m.arl"), PathBuf::from("build.rs")];
+        assert_eq!(watched, expected.map(|path| path.display().to_string()));
+        assert!(lines.iter().any(|line| line.starts_with("cargo::warning=") && line.contains("a.arl:3:")), "{lines:?}");
+        assert!(!lines.iter().any(|line| line.starts_with("cargo::error=")), "{lines:?}");
+    }
+
+    #[test]
+    fn a_folder_that_cargo_writes_below_is_not_watched() {
+        let folder = Folder::new("root");
+        let main = folder.0.join("a.arl");
+        std::fs::write(&main, GOOD).expect("a file");
+        let lines = folder.lines(&Build::new().program(&main));
+        assert!(!lines.contains(&format!("cargo::rerun-if-changed={}", folder.0.display())), "{lines:?}");
+        assert!(!lines.contains(&"cargo::rerun-if-changed=".to_string()), "{lines:?}");
+    }
+
+    #[test]
+    fn errors_are_told_on_one_line_each_and_nothing_is_written() {
+        let folder = Folder::new("errors");
+        let main = folder.program("a.arl", BAD);
+        let lines = folder.lines(&Build::new().program(&main));
+        let errors: Vec<&String> = lines.iter().filter(|line| line.starts_with("cargo::error=")).collect();
+        assert_eq!(errors.len(), 2, "{lines:?}");
+        assert!(errors[0].contains("a.arl:2:5: ARL0211: "), "{errors:?}");
+        assert!(lines.iter().all(|line| !line.contains('\n')));
+        assert!(!folder.out("a.rs").exists());
+    }
+
+    #[test]
+    fn errors_in_code_keep_the_last_good_program() {
+        let folder = Folder::new("code");
+        let main = folder.program("a.arl", BAD);
+        let build = Build::new().program(&main).errors_in_code(true);
+        let text = || std::fs::read_to_string(folder.out("a.rs")).expect("the file");
+        assert!(!folder.lines(&build).iter().any(|line| line.starts_with("cargo::error=")));
+        assert!(text().contains("compile_error!") && text().contains("pub struct Globals"));
+        folder.program("a.arl", GOOD);
+        folder.lines(&build);
+        let good = text();
+        assert!(!good.contains("compile_error!"));
+        folder.program("a.arl", BAD);
+        folder.lines(&build);
+        assert_eq!(text().matches("compile_error!").count(), 2);
+        assert!(text().ends_with(&good));
+    }
+
+    #[test]
+    fn files_are_written_only_when_they_change_and_copied_where_wanted() {
+        let folder = Folder::new("copies");
+        let main = folder.program("a.arl", GOOD);
+        let build = Build::new().program(&main).copy_to(folder.0.join("copies"));
+        folder.lines(&build);
+        let time = || std::fs::metadata(folder.out("a.rs")).and_then(|data| data.modified()).expect("a time");
+        let (first, copy) = (time(), std::fs::read(folder.0.join("copies/a.rs")).expect("a copy"));
+        assert_eq!(copy, std::fs::read(folder.out("a.rs")).expect("the file"));
+        folder.lines(&build);
+        assert_eq!(time(), first);
+    }
+
+    #[test]
+    fn names_stand_for_one_program_each() {
+        let folder = Folder::new("names");
+        let main = folder.program("a.arl", GOOD);
+        let twice = folder.lines(&Build::new().program(&main).program(&main));
+        assert!(twice.iter().any(|line| line.starts_with("cargo::error=") && line.contains("program_as")));
+        let lines = folder.lines(&Build::new().program(&main).program_as("b", &main));
+        assert!(!lines.iter().any(|line| line.starts_with("cargo::error=")), "{lines:?}");
+        assert!(folder.out("b.rs").exists());
+    }
 }

@@ -159,7 +159,6 @@ mod tests {
     use super::*;
 
     #[test]
-    #[expect(clippy::panic, reason = "the panic is what is tested")]
     fn panics_become_bugs_with_their_text() {
         let bug = guard(|| panic!("no {}", 5)).map(|(): ()| ()).unwrap_err();
         assert_eq!(bug.message, "no 5");

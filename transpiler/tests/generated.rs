@@ -1,4 +1,5 @@
 //! The committed Rust of the examples is what the compiler emits now.
+#![allow(clippy::disallowed_methods, clippy::expect_used, reason = "tests read and write files, and may fail")]
 
 use arl2rs::CheckOptions;
 use arl2rs::compile::compile_program;

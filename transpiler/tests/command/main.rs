@@ -1,5 +1,6 @@
 //! The command line, as users see it.
 #![cfg(feature = "cli")]
+#![allow(clippy::disallowed_methods, clippy::expect_used, reason = "tests read and write files, and may fail")]
 
 mod checking;
 mod running;
