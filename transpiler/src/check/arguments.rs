@@ -339,9 +339,14 @@ impl Checker<'_> {
             Some(Wanted::Builtin(ParamType::One(base))) if param.mode != Mode::Action => Some(Type::scalar(base)),
             _ => None,
         };
+        // What takes one type without conversion still tells what a name can mean.
+        let hint = match param.ty {
+            Some(Wanted::Builtin(ParamType::AnyOf([only]))) => Some(Type::scalar(*only)),
+            _ => want,
+        };
         let typed = match typed {
             Some(typed) => typed,
-            None => self.expr(body, &arg.value, want)?,
+            None => self.expr(body, &arg.value, hint)?,
         };
         if param.mode == Mode::Action {
             return Some(Passed::Value(typed.expr));

@@ -245,6 +245,8 @@ impl<'a> Checker<'a> {
             let ty = self.declared_type(body, &decl.ty, var.name, &var.dims);
             let init = self.initialiser(body, decl, var, ty);
             let value = constant_value(decl, ty, init.as_ref());
+            // A const without its value would be reported wherever a constant is wanted.
+            let ty = ty.filter(|_| decl.constant.is_none() || init.is_some());
             let local = self.declare_local(body, var.name, ty, decl.constant.is_some(), value);
             if ty.is_some() {
                 out.push(Stmt { kind: StmtKind::Let(local, init), span: decl.span });

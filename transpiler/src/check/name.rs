@@ -74,10 +74,10 @@ impl Checker<'_> {
             let expr = Expr { ty: Type::scalar(Base::Int), kind, span };
             return Some(PlaceOrValue::Value(Typed { expr, literal: Literal::Pattern }));
         }
-        self.unknown_variable(body, symbol, span)
+        self.unknown_variable(body, symbol, span, want)
     }
 
-    fn unknown_variable<T>(&mut self, body: &Body, symbol: Symbol, span: Span) -> Option<T> {
+    fn unknown_variable<T>(&mut self, body: &Body, symbol: Symbol, span: Span, want: Option<Type>) -> Option<T> {
         let name = self.names.name(symbol);
         if let Some(now) = catalog::renamed(name) {
             let name = self.text(body.module, span).to_string();
@@ -96,6 +96,9 @@ impl Checker<'_> {
                 globals.into_iter().flatten().map(|(symbol, _)| self.names.name(*symbol)).collect();
             known.sort_unstable();
             near = crate::near::nearest(name, known.into_iter()).map(Into::into);
+        }
+        if let (None, Some(Base::Enum(id))) = (&near, want.map(|want| want.base)) {
+            return self.unknown_constant(body, id, span);
         }
         let name = self.text(body.module, span).to_string();
         self.report(body, span, NameProblem::UnknownVariable { name, near, is_function })
@@ -120,6 +123,10 @@ impl Checker<'_> {
         let slot = self.globals.get(id.0 as usize)?;
         let declared = (slot.module, slot.var.name.span);
         let (ty, value) = (slot.ty, slot.value.clone());
+        if slot.decl.constant.is_some() && slot.init.is_none() {
+            // Its declaration is wrong, and reported.
+            return None;
+        }
         if self.options.strict {
             let declared = self.text(declared.0, declared.1);
             let written = Span::new(span.end.saturating_sub(declared.len() as u32), span.end);
@@ -164,14 +171,19 @@ impl Checker<'_> {
                 }
                 return Some(PlaceOrValue::Value(constant(Value::Enum(id, index), span)));
             }
-            let problem = NameProblem::UnknownConstant {
-                name: self.text(body.module, name.span).into(),
-                ty: def.name.into(),
-                constants: def.constants.iter().map(|constant| constant.name).collect::<Vec<_>>().join(", "),
-            };
-            return self.report(body, name.span, problem);
+            return self.unknown_constant(body, id, name.span);
         }
         self.unknown_module(body, scope)
+    }
+
+    fn unknown_constant<T>(&mut self, body: &Body, id: Enum, span: Span) -> Option<T> {
+        let def = id.def();
+        let problem = NameProblem::UnknownConstant {
+            name: self.text(body.module, span).into(),
+            ty: def.name.into(),
+            constants: def.constants.iter().map(|constant| constant.name).collect::<Vec<_>>().join(", "),
+        };
+        self.report(body, span, problem)
     }
 
     pub(crate) fn unknown_module<T>(&mut self, body: &Body, scope: ast::Ident) -> Option<T> {
