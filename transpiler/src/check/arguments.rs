@@ -55,10 +55,9 @@ impl Checker<'_> {
         let name = self.callee_name(callee);
         let params = self.parameters(callee);
         let by_type = matches!(callee, Callee::Builtin(entry) if entry.kind == Kind::Instruction);
-        let shown = self.diagnostics.len();
         let pairs = self.pair(body, callee, &name, &params, args, by_type);
         // An argument without a parameter was reported, here or where its variable is declared.
-        let mut good = self.diagnostics.len() == shown && pairs.len() == args.len();
+        let mut good = pairs.len() == args.len();
         let counts = counts(&params, &pairs);
         for (param, count) in params.iter().zip(&counts) {
             let least = match param.presence {

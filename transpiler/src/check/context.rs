@@ -3,7 +3,8 @@
 use super::load::LoadedModule;
 use crate::CheckOptions;
 use crate::diagnostics::constants::ConstantProblem;
-use crate::diagnostics::{Diagnostic, FileId, Files, Label, Location, Problem};
+use crate::diagnostics::support::SupportProblem;
+use crate::diagnostics::{Diagnostic, FileId, Files, Label, Location, Problem, Severity};
 use crate::hir::{self, FuncId, GlobalId, LabelId, LocalId, ModuleId, Type, Value};
 use arl_lang::ast;
 use arl_lang::catalog::{Base, Entry, Family};
@@ -21,6 +22,8 @@ pub(crate) struct Checker<'a> {
     pub(crate) globals: Vec<GlobalSlot<'a>>,
     pub(crate) funcs: Vec<FuncSlot<'a>>,
     pub(crate) diagnostics: Vec<Diagnostic>,
+    /// How many of the diagnostics are errors.
+    pub(crate) errors: usize,
     /// (module, module that it uses)
     pub(crate) used_modules: HashSet<(ModuleId, ModuleId)>,
     /// The ARL types of spliced Rust values, where they are known.
@@ -230,8 +233,17 @@ impl<'a> Checker<'a> {
             .iter()
             .map(|(module, span, text)| Label { at: self.location(*module, *span), text: (*text).into() })
             .collect();
+        self.errors += usize::from(diagnostic.severity == Severity::Error);
         self.diagnostics.push(diagnostic);
         None
+    }
+
+    /// For what is left out of the program: somebody must have said why. A program must never lose a statement in
+    /// silence, so where nobody did, the program is refused.
+    pub(crate) fn must_be_reported(&mut self, module: ModuleId, span: Span) {
+        if self.errors == 0 {
+            self.report_in::<()>(module, span, SupportProblem::Lost, &[]);
+        }
     }
 
     /// With `--strict`, warns where a name is written in another case than it was declared in.

@@ -104,6 +104,9 @@ impl<'a> Checker<'a> {
         }
         let init = self.initialiser(&mut body, decl, var, ty);
         let value = constant_value(decl, ty, init.as_ref());
+        if ty.is_none() || init.is_none() != var.init.is_none() {
+            self.must_be_reported(module, var.name.span);
+        }
         if let Some(slot) = self.globals.get_mut(id.0 as usize) {
             slot.state = State::Done;
             slot.init = init;
@@ -248,6 +251,9 @@ impl<'a> Checker<'a> {
             // A const without its value would be reported wherever a constant is wanted.
             let ty = ty.filter(|_| decl.constant.is_none() || init.is_some());
             let local = self.declare_local(body, var.name, ty, decl.constant.is_some(), value);
+            if ty.is_none() || init.is_none() != var.init.is_none() {
+                self.must_be_reported(body.module, var.name.span);
+            }
             if ty.is_some() {
                 out.push(Stmt { kind: StmtKind::Let(local, init), span: decl.span });
             }

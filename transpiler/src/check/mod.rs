@@ -85,6 +85,7 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
     let Loaded { modules, names, files, read, diagnostics, splices, .. } = loaded;
     let main_text = files.iter().next().map(|(_, file)| file.text.as_str()).unwrap_or_default();
     let spliced: Vec<SplicedValue> = splices.iter().map(|splice| spliced_value(main_text, splice)).collect();
+    let errors = diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Error).count();
     let mut checker = Checker {
         names: &names,
         modules: &modules,
@@ -97,6 +98,7 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
         used_modules: HashSet::new(),
         splices: spliced.iter().map(|splice| splice.ty.map(hir::Type::scalar)).collect(),
         functions: HashMap::new(),
+        errors,
         has_conditions: false,
     };
     checker.collect(&first_values_order(&modules));

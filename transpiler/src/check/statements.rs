@@ -140,6 +140,9 @@ impl Checker<'_> {
             ast::StmtKind::Label(name) => body.label_names.get(&name.symbol).copied().map(StmtKind::Label),
             ast::StmtKind::Return(value) => self.return_statement(body, value.as_deref(), stmt),
         };
+        if kind.is_none() && !matches!(stmt.kind, ast::StmtKind::Decl(_)) {
+            self.must_be_reported(body.module, stmt.span);
+        }
         out.extend(kind.map(|kind| Stmt { kind, span: stmt.span }));
     }
 

@@ -135,6 +135,7 @@ pub(super) static PAGES: &[(&str, &str)] = pages! {
     "ARL0606"
     "ARL0701"
     "ARL0702"
+    "ARL0703"
     "ARL0751"
     "ARL0801"
     "ARL0802"

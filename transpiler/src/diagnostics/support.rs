@@ -7,6 +7,8 @@ use super::{Code, Problem};
 pub(crate) enum SupportProblem {
     /// Declared in the catalog, does not run yet.
     NotYet { name: String },
+    /// Something that the checker gave up on without a reason: a mistake of the compiler.
+    Lost,
     /// Blending, which does not happen yet.
     NoBlending { label: String },
     /// Exists for the other robot family only.
@@ -18,6 +20,7 @@ impl Problem for SupportProblem {
         Code(match self {
             SupportProblem::NotYet { .. } => 701,
             SupportProblem::OtherFamily { .. } => 702,
+            SupportProblem::Lost => 703,
             SupportProblem::NoBlending { .. } => 751,
         })
     }
@@ -25,6 +28,7 @@ impl Problem for SupportProblem {
     fn message(&self) -> String {
         match self {
             SupportProblem::NotYet { name } => format!("`{name}` is not supported yet"),
+            SupportProblem::Lost => "arl2rs could not make sense of this, and cannot say why".into(),
             SupportProblem::NoBlending { label } => {
                 format!("blending (`{label}`) is not supported yet: the robot stops at this target")
             }
@@ -40,6 +44,9 @@ impl Problem for SupportProblem {
         match self {
             SupportProblem::NotYet { .. } => {
                 Some("it is known and checked, but a program that uses it cannot be run by this version".into())
+            }
+            SupportProblem::Lost => {
+                Some("this is a mistake of arl2rs, not of the program: please report it together with the program".into())
             }
             SupportProblem::NoBlending { .. } => {
                 Some("the path goes exactly through the target; only the time that it takes differs".into())
