@@ -11,7 +11,8 @@ impl arl2rs::Sources for Disk {
 
 fn main() {
     let out = PathBuf::from(std::env::var_os("OUT_DIR").unwrap());
-    for name in ["sieve", "matrix", "collatz", "crc", "sort", "text", "fixed", "structures", "fib", "machine"] {
+    for name in ["sieve", "matrix", "collatz", "crc", "sort", "text", "fixed", "structures", "fib", "queens", "machine"]
+    {
         let file = PathBuf::from(format!("kernels/{name}.arl"));
         let checked = arl2rs::check(&file, &Disk, &Default::default());
         for d in &checked.diagnostics {

@@ -3,11 +3,10 @@
 //! `cargo bench -p arl-benches --bench kernels [-- ROUNDS [KERNEL...]]`
 
 use std::hint::black_box;
-use std::time::Instant;
 
 use arl_benches::kernels::{self, Kernel};
 use arl_benches::lua;
-use arl_benches::statistics::{Times, geometric_mean, median};
+use arl_benches::statistics::{Times, geometric_mean, median, processor_time};
 
 fn main() -> Result<(), String> {
     let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
@@ -17,53 +16,68 @@ fn main() -> Result<(), String> {
     if !with_lua {
         println!("lua5.4 is not there: no comparison with it");
     }
-    println!("times of the emitted program against Rust by hand (least and median of {rounds} rounds, in turns)");
-    println!("kernel         by hand/ms  emitted  median  with the controller's cycles     cycles  Lua");
-    let (mut least, mut middle, mut whole, mut against_lua) = (vec![], vec![], vec![], vec![]);
-    for kernel in kernels::ALL.iter().filter(wanted) {
-        let [mut by_hand, mut program, mut all] = [Times::default(), Times::default(), Times::default()];
-        let mut ratios = Vec::new();
-        let mut cycles = 0;
-        for _ in 0..rounds {
-            let start = Instant::now();
-            let expected = black_box((kernel.rival)(black_box(kernel.large)));
-            let time = start.elapsed();
-            let run = (kernel.emitted)(black_box(kernel.large))?;
-            if run.checksum != expected {
-                return Err(format!("{}: {} by hand, {} emitted", kernel.name, expected, run.checksum));
-            }
-            by_hand.push(time);
-            program.push(run.program);
-            all.push(run.whole);
-            ratios.push(run.program.as_secs_f64() / time.as_secs_f64());
-            cycles = run.cycles;
-        }
-        let base = by_hand.least();
-        let lua = if with_lua { lua::run(kernel.name, kernel.large, 5)?.least / program.least() } else { f64::NAN };
-        println!(
-            "{:<12} {:>12.2} {:>8.2} {:>7.2} {:>29.2} {:>10} {:>4.0}",
-            kernel.name,
-            base * 1e3,
-            program.least() / base,
-            median(ratios.clone()),
-            all.least() / base,
-            cycles,
-            lua,
-        );
-        least.push(program.least() / base);
-        middle.push(median(ratios));
-        whole.push(all.least() / base);
-        against_lua.push(lua);
-    }
     println!(
-        "{:<12} {:>12} {:>8.2} {:>7.2} {:>29.2} {:>10} {:>4.0}",
-        "mean",
-        "",
-        geometric_mean(&least),
-        geometric_mean(&middle),
-        geometric_mean(&whole),
-        "",
-        geometric_mean(&against_lua),
+        "processor time of {rounds} rounds in turns: emitted code (with what the controller does between its cycles)"
     );
+    println!("against Rust by hand, and Lua 5.4 against emitted code");
+    println!("kernel       by hand/ms  emitted: least  median  cycles  Lua: least  median");
+    let mut all = Vec::new();
+    for kernel in kernels::ALL.iter().filter(wanted) {
+        let row = measure(kernel, rounds, with_lua)?;
+        println!(
+            "{:<12} {:>10.2} {:>14.2} {:>7.2} {:>7} {:>11.1} {:>7.1}",
+            kernel.name,
+            row.by_hand * 1e3,
+            row.least,
+            row.median,
+            row.cycles,
+            row.lua_least,
+            row.lua_median
+        );
+        all.push(row);
+    }
+    let mean = |of: fn(&Row) -> f64| geometric_mean(&all.iter().map(of).collect::<Vec<_>>());
+    let (least, middle) = (mean(|row| row.least), mean(|row| row.median));
+    let (lua_least, lua_median) = (mean(|row| row.lua_least), mean(|row| row.lua_median));
+    println!("{:<23} {least:>14.2} {middle:>7.2} {:>7} {lua_least:>11.1} {lua_median:>7.1}", "geometric mean", "");
     Ok(())
+}
+
+/// The figures of a kernel.
+struct Row {
+    /// The least time of the rival in s.
+    by_hand: f64,
+    /// Least by least.
+    least: f64,
+    /// The middle of the ratios of all rounds.
+    median: f64,
+    cycles: u64,
+    lua_least: f64,
+    lua_median: f64,
+}
+
+fn measure(kernel: &Kernel, rounds: usize, with_lua: bool) -> Result<Row, String> {
+    let [mut by_hand, mut emitted] = [Times::default(), Times::default()];
+    let mut ratios = Vec::new();
+    let mut cycles = 0;
+    for _ in 0..rounds {
+        let start = processor_time();
+        let expected = black_box((kernel.rival)(black_box(kernel.large)));
+        let time = processor_time() - start;
+        let run = (kernel.emitted)(black_box(kernel.large))?;
+        if run.checksum != expected {
+            return Err(format!("{}: {expected} by hand, {} emitted", kernel.name, run.checksum));
+        }
+        by_hand.push(time);
+        emitted.push(run.time);
+        ratios.push(run.time.as_secs_f64() / time.as_secs_f64());
+        cycles = run.cycles;
+    }
+    let (mut lua_least, mut lua_median) = (f64::NAN, f64::NAN);
+    if with_lua {
+        let lua = lua::run(kernel.name, kernel.large, 5)?;
+        (lua_least, lua_median) = (lua.least / emitted.least(), lua.median / emitted.median());
+    }
+    let (least, median) = (emitted.least() / by_hand.least(), median(ratios));
+    Ok(Row { by_hand: by_hand.least(), least, median, cycles, lua_least, lua_median })
 }

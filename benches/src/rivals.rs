@@ -199,60 +199,86 @@ pub fn fixed(rows: i32) -> i32 {
     sum
 }
 
+/// As large as the runtime's.
 #[derive(Clone, Copy)]
 struct Pose {
     x: f64,
     y: f64,
     z: f64,
-    _rest: [f64; 11],
+    _rest: [f64; 10],
 }
 
+/// As large as the runtime's.
 #[derive(Clone, Copy)]
 struct Joint {
     j1: f64,
     j2: f64,
-    j3: f64,
     _rest: [f64; 9],
+    j6: f64,
 }
 
-fn step_to(path: &mut [Pose], seat: &mut [Joint], target: Pose, share: f64) -> f64 {
+fn turn(grid: &mut [Pose], seat: &mut [Joint], middle: Pose, cosine: f64, sine: f64) -> f64 {
     let mut moved = 0.0;
-    for i in 1..path.len() {
-        let dx = path[i - 1].x - path[i].x;
-        let dy = path[i - 1].y - path[i].y;
-        let dz = path[i - 1].z - path[i].z;
-        path[i].x += dx * share;
-        path[i].y += dy * share;
-        path[i].z += dz * share;
-        seat[i].j1 += dy * 0.01;
-        seat[i].j2 -= dx * 0.02;
-        seat[i].j3 = seat[i - 1].j2 + seat[i].j1;
-        moved = moved + dx * dx + dy * dy + dz * dz;
+    for (point, seat) in grid.iter_mut().zip(seat) {
+        let dx = point.x - middle.x;
+        let dy = point.y - middle.y;
+        let x = middle.x + dx * cosine - dy * sine;
+        let y = middle.y + dx * sine + dy * cosine;
+        moved = moved + (x - point.x).abs() + (y - point.y).abs();
+        point.x = x;
+        point.y = y;
+        point.z = point.z * 0.999 + middle.z * 0.001;
+        seat.j1 += dx * 0.01;
+        if seat.j1 > 170.0 {
+            seat.j1 -= 340.0;
+        }
+        seat.j2 += (point.z - 300.0) * 0.001;
+        seat.j6 = seat.j1 - seat.j2;
     }
-    path[0].x = target.x;
-    path[0].y = target.y;
-    path[0].z = target.z;
     moved
 }
 
-/// Points of a path that follow a leader.
+/// Points of a grid are turned around a middle, step by step.
 pub fn structures(rounds: i32) -> f64 {
-    let mut path: Vec<Pose> =
-        (0..200).map(|i| Pose { x: 500.0 + f64::from(i), y: f64::from(i) * 0.5, z: 300.0, _rest: [0.0; 11] }).collect();
-    let mut seat = vec![Joint { j1: 0.0, j2: -90.0, j3: 90.0, _rest: [0.0; 9] }; 200];
-    let mut target = Pose { x: 600.0, y: -20.0, z: 410.0, _rest: [0.0; 11] };
+    let mut grid = Vec::new();
+    let mut seat = Vec::new();
+    for i in 0..200 {
+        let (x, y) = (f64::from(500 + i % 20 * 10), f64::from(i / 20) * 10.0 - 50.0);
+        grid.push(Pose { x, y, z: 300.0, _rest: [0.0; 10] });
+        seat.push(Joint { j1: 0.0, j2: -90.0, _rest: [0.0; 9], j6: 0.0 });
+    }
+    let mut middle = Pose { x: 590.0, y: -20.0, z: 410.0, _rest: [0.0; 10] };
     let mut sum = 0.0;
     for _ in 0..rounds {
-        target.x += 0.25;
-        target.y -= 0.125;
-        sum += step_to(&mut path, &mut seat, target, 0.4);
+        middle.x += 0.25;
+        middle.y -= 0.125;
+        sum += turn(&mut grid, &mut seat, middle, 0.999, 0.0447);
     }
-    sum + seat[199].j3 + path[199].x
+    sum + seat[199].j6 + grid[199].x
 }
 
 /// Fibonacci numbers by a function that calls itself.
 pub fn fib(n: i32) -> i32 {
     if n < 2 { n } else { fib(n - 1).wrapping_add(fib(n - 2)) }
+}
+
+fn place(row: i32, size: i32, columns: i32, up: i32, down: i32) -> i32 {
+    if row == size {
+        return 1;
+    }
+    let mut count = 0;
+    for i in 0..size {
+        let here = 1 << i;
+        if (columns | up | down) & here == 0 {
+            count += place(row + 1, size, columns | here, (up | here) << 1, (down | here) >> 1);
+        }
+    }
+    count
+}
+
+/// Counts the ways to place queens on a board so that none attacks another.
+pub fn queens(size: i32) -> i32 {
+    place(0, size, 0, 0, 0)
 }
 
 enum State {

@@ -3,9 +3,9 @@
 use std::cell::Cell;
 use std::pin::Pin;
 use std::rc::Rc;
-use std::task::{Context, Poll};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+use crate::statistics::processor_time;
 use arl_rt::emit::{BoxFuture, Done, Family, File};
 use arl_rt::{Captured, Controller, Cx, Outcome, Program};
 
@@ -14,10 +14,8 @@ use arl_rt::{Captured, Controller, Cx, Outcome, Program};
 pub struct Run {
     /// The checksum of the kernel.
     pub checksum: f64,
-    /// The time from the first statement to the last, the work of the controller between the cycles included.
-    pub whole: Duration,
-    /// The part of it in which the program's statements ran.
-    pub program: Duration,
+    /// The processor time from the first statement to the last. What the controller does in each cycle is part of it.
+    pub time: Duration,
     /// How many cycles it took.
     pub cycles: u64,
 }
@@ -70,32 +68,10 @@ where
 
     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
         Box::pin(async move {
-            let first = cx.cycle();
-            let timed = Timed { work: (self.work)(cx, &self.globals), start: None, program: Duration::ZERO };
-            let (done, whole, program) = timed.await;
-            let cycles = cx.cycle() - first;
-            self.result.set(Run { checksum: done?, whole, program, cycles });
+            let (first, start) = (cx.cycle(), processor_time());
+            let checksum = (self.work)(cx, &self.globals).await?;
+            self.result.set(Run { checksum, time: processor_time() - start, cycles: cx.cycle() - first });
             Ok(())
         })
-    }
-}
-
-/// Measures the polls of a future.
-struct Timed<'a> {
-    work: Work<'a>,
-    start: Option<Instant>,
-    program: Duration,
-}
-
-impl Future for Timed<'_> {
-    type Output = (Done<f64>, Duration, Duration);
-
-    fn poll(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<Self::Output> {
-        let before = Instant::now();
-        let start = *self.start.get_or_insert(before);
-        let polled = self.work.as_mut().poll(context);
-        let after = Instant::now();
-        self.program += after - before;
-        polled.map(|done| (done, after - start, self.program))
     }
 }
