@@ -32,6 +32,7 @@ pub struct Build {
     programs: Vec<(String, PathBuf)>,
     options: CheckOptions,
     errors_in_code: bool,
+    silent: bool,
     copies: Option<PathBuf>,
 }
 
@@ -75,6 +76,12 @@ impl Build {
     /// what the program was when it was last right: so editors keep their knowledge of the rest of the crate.
     pub fn errors_in_code(mut self, yes: bool) -> Self {
         self.errors_in_code = yes;
+        self
+    }
+
+    /// Whether cargo shows warnings; it does if this is never called.
+    pub fn warnings(mut self, show: bool) -> Self {
+        self.silent = !show;
         self
     }
 
@@ -143,7 +150,7 @@ impl Build {
         let all = &compiled.checked.diagnostics;
         let mut lines: Vec<String> = all
             .iter()
-            .filter(|diagnostic| diagnostic.severity == Severity::Warning)
+            .filter(|diagnostic| diagnostic.severity == Severity::Warning && !self.silent)
             .map(|warning| format!("cargo::warning={}", said(warning)))
             .collect();
         let last_good = out.join(format!("{name}.last.rs"));
@@ -269,6 +276,8 @@ mod tests {
         assert_eq!(watched, expected.map(|path| path.display().to_string()));
         assert!(lines.iter().any(|line| line.starts_with("cargo::warning=") && line.contains("a.arl:3:")), "{lines:?}");
         assert!(!lines.iter().any(|line| line.starts_with("cargo::error=")), "{lines:?}");
+        let silent = folder.lines(&Build::new().program(folder.0.join("robot/a.arl")).warnings(false));
+        assert!(!silent.iter().any(|line| line.starts_with("cargo::warning=")), "{silent:?}");
     }
 
     #[test]

@@ -1,0 +1,97 @@
+//! Runs conformance cases inside the process, as Rust programs that embed ARL do.
+
+use arl_rt::io::Scenario;
+use arl_rt::values::Controlmode;
+use arl_rt::{Captured, Controller, Outcome, Program, Robot};
+use std::path::Path;
+
+/// How to make a program, its ARL file, and the lines above its text in the file that rustc read.
+pub type Entry = (fn() -> Box<dyn Program>, &'static str, u32);
+
+/// Controller seconds after which a case without a limit of its own is given up.
+const LONGEST: f64 = 3600.0;
+/// Bytes of stack for the program's functions, as compiled programs have them.
+const STACK: usize = 64 << 20;
+
+/// Runs all cases; the failures, as text.
+pub fn run_all(cases: &'static [Entry]) -> Vec<String> {
+    let thread = std::thread::Builder::new().stack_size(STACK + (8 << 20));
+    let all =
+        || cases.iter().filter_map(|case| run(case).err().map(|problem| format!("{}: {problem}", case.1))).collect();
+    match thread.spawn(all).map(|thread| thread.join()) {
+        Ok(Ok(failures)) => failures,
+        _ => vec!["the thread of the cases ended early".into()],
+    }
+}
+
+fn run((make, source, lines_above): &Entry) -> Result<(), String> {
+    let source = Path::new(source);
+    let text = |error: &dyn std::fmt::Display| error.to_string();
+    let options = std::fs::read_to_string(source.with_extension("toml")).unwrap_or_default();
+    let options: toml::Table = toml::from_str(&options).map_err(|error| text(&error))?;
+    let word = |key: &str| options.get(key).and_then(toml::Value::as_str);
+    let number =
+        |key: &str| options.get(key).and_then(|value| value.as_float().or(value.as_integer().map(|n| n as f64)));
+
+    let scratch = std::env::temp_dir().join(format!("door-tests-{}", std::process::id()));
+    prepare(source, &scratch).map_err(|error| text(&error))?;
+    let messages = Captured::new();
+    let mut builder = Controller::builder().output(messages.clone()).script_dir(&scratch).stack(STACK);
+    if let Some(robot) = word("robot") {
+        let file = source.with_file_name(robot);
+        let robot = if file.is_file() { file.display().to_string() } else { robot.to_string() };
+        builder = builder.robot(Robot::load(&robot).map_err(|error| text(&error))?);
+    }
+    if let Some(cell) = word("cell") {
+        let cell = arl_rt::cell::Cell::load(&source.with_file_name(cell)).map_err(|error| text(&error))?;
+        builder = builder.cell(cell);
+    }
+    let scenario = source.with_extension("io.toml");
+    if scenario.is_file() {
+        builder = builder.scenario(Scenario::load(&scenario).map_err(|error| text(&error))?);
+    }
+    builder = match word("mode") {
+        Some("manual") => builder.mode(Controlmode::Manual),
+        Some("manufast") => builder.mode(Controlmode::Manufast),
+        _ => builder,
+    };
+    if let Some(percent) = number("override") {
+        builder = builder.speed_override(percent);
+    }
+    let mut controller = builder.build(make()).map_err(|error| text(&error))?;
+    controller.run_for(number("max_time").unwrap_or(LONGEST));
+    let outcome = controller.outcome().cloned();
+    let cleaned = std::fs::remove_dir_all(&scratch);
+
+    if let Ok(expected) = std::fs::read_to_string(source.with_extension("out"))
+        && expected != messages.text()
+    {
+        return Err(format!("printed {:?} instead of {expected:?}", messages.text()));
+    }
+    match (std::fs::read_to_string(source.with_extension("alarm")).ok(), outcome) {
+        (Some(expected), Some(Outcome::Alarm(alarm))) => {
+            let (wanted, line) = expected.trim().split_once(' ').unwrap_or_default();
+            let came = (alarm.fault.number().to_string(), (alarm.line - lines_above).to_string());
+            let same = (wanted == "*" || wanted == came.0) && line == came.1;
+            if same { Ok(()) } else { Err(format!("alarm {} {} instead of {}", came.0, came.1, expected.trim())) }
+        }
+        (None, Some(Outcome::Ended)) => Ok(()),
+        (None, None) if number("max_time").is_some() => Ok(()),
+        (_, outcome) => Err(format!("ended with {outcome:?}")),
+    }
+    .and_then(|()| cleaned.map_err(|error| text(&error)))
+}
+
+/// A script directory with the files that lie beside the case, without programs and sidecars.
+fn prepare(source: &Path, scratch: &Path) -> std::io::Result<()> {
+    std::fs::create_dir_all(scratch)?;
+    let Some(folder) = source.parent() else { return Ok(()) };
+    for entry in std::fs::read_dir(folder)? {
+        let path = entry?.path();
+        let ending = path.extension().unwrap_or_default().to_string_lossy().into_owned();
+        if path.is_file() && !["arl", "out", "err", "alarm", "toml"].contains(&ending.as_str()) {
+            std::fs::copy(&path, scratch.join(path.file_name().unwrap_or_default()))?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,12 @@
+//! Every conformance case that runs, compiled by the build script.
+#![allow(dead_code, unreachable_pub, unused_assignments, missing_docs, reason = "emitted")]
+#![allow(clippy::all, reason = "emitted")]
+
+include!(concat!(env!("OUT_DIR"), "/built.rs"));
+
+#[test]
+fn cases_do_in_rust_what_the_command_does() {
+    assert!(CASES.len() > 100, "the corpus is there");
+    let failures = door_tests::run_all(CASES);
+    assert!(failures.is_empty(), "{} of {} failed:\n{}", failures.len(), CASES.len(), failures.join("\n"));
+}
