@@ -2,6 +2,7 @@
 
 pub mod kernels;
 pub mod lua;
+pub mod programs;
 pub mod rivals;
 pub mod run;
 pub mod statistics;
