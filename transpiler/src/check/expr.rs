@@ -46,8 +46,15 @@ impl Checker<'_> {
                 self.unary(body, *op, operand, span)
             }
             ast::ExprKind::Binary(op, both) => {
-                let left = self.expr(body, &both.0, None);
-                let right = self.expr(body, &both.1, None);
+                let (left, right) = if is_splice(&both.0) {
+                    let right = self.expr(body, &both.1, None);
+                    let ty = right.as_ref()?.expr.ty;
+                    (self.expr(body, &both.0, Some(ty)), right)
+                } else {
+                    let left = self.expr(body, &both.0, None);
+                    let ty = left.as_ref().filter(|_| is_splice(&both.1)).map(|left| left.expr.ty);
+                    (left, self.expr(body, &both.1, ty))
+                };
                 self.binary(body, *op, left?, right?, span)
             }
             ast::ExprKind::Assign(None, both) => self.assign(body, &both.0, &both.1, span).map(Typed::plain),
@@ -123,7 +130,8 @@ impl Checker<'_> {
         span: Span,
     ) -> Option<Expr> {
         let place = self.written_place(body, target, true);
-        let value = self.expr(body, value, None);
+        let ty = place.as_ref().filter(|_| is_splice(value)).map(|place| place.ty);
+        let value = self.expr(body, value, ty);
         let (place, value) = (place?, value?);
         let ty = place.ty;
         // The types are those of `place op value`; a stand-in for the place is enough to find them.
@@ -171,4 +179,9 @@ fn integer_literal(number: u32, radix: Radix, span: Span) -> Typed {
             Typed { expr: Expr { ty: Type::scalar(Base::Int), kind, span }, literal: Literal::Pattern }
         }
     }
+}
+
+/// A Rust value takes the type of the other operand.
+fn is_splice(expr: &ast::Expr) -> bool {
+    matches!(expr.kind, ast::ExprKind::Splice(_))
 }

@@ -45,9 +45,9 @@ impl Problem for SupportProblem {
             SupportProblem::NotYet { .. } => {
                 Some("it is known and checked, but a program that uses it cannot be run by this version".into())
             }
-            SupportProblem::Lost => {
-                Some("this is a mistake of arl2rs, not of the program: please report it together with the program".into())
-            }
+            SupportProblem::Lost => Some(
+                "this is a mistake of arl2rs, not of the program: please report it together with the program".into(),
+            ),
             SupportProblem::NoBlending { .. } => {
                 Some("the path goes exactly through the target; only the time that it takes differs".into())
             }

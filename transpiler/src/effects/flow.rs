@@ -1,25 +1,32 @@
 //! Where the flow of control ends: what is reachable, what never goes on.
 
-use crate::hir::{Expr, ExprKind, Stmt, StmtKind, Value};
+use crate::hir::{Arm, Block, Expr, ExprKind, Stmt, StmtKind, Value};
 use arl_lang::catalog::{Base, Effect};
 
 /// The statements of a block that can be reached, given that its start can be (or a label in it).
 pub(crate) fn reachable(block: &[Stmt]) -> Vec<&Stmt> {
-    let mut live = true;
     let mut kept = Vec::with_capacity(block.len());
-    for stmt in block {
-        live = live || has_label(stmt);
-        if live {
-            live = !diverges(stmt);
-            kept.push(stmt);
-        }
-    }
+    run_through(block, &mut |stmt| kept.push(stmt));
     kept
 }
 
 /// Whether the end of the block is never reached.
 pub(crate) fn block_diverges(block: &[Stmt]) -> bool {
-    reachable(block).last().is_some_and(|stmt| diverges(stmt))
+    !run_through(block, &mut |_| ())
+}
+
+/// Calls `see` for every statement of a block that can be reached. Whether the end of the block can be. Each statement
+/// is looked into once: more would add up over the nesting.
+fn run_through<'a>(block: &'a [Stmt], see: &mut dyn FnMut(&'a Stmt)) -> bool {
+    let mut live = true;
+    for stmt in block {
+        live = live || has_label(stmt);
+        if live {
+            see(stmt);
+            live = !diverges(stmt);
+        }
+    }
+    live
 }
 
 /// Whether what follows the statement is never reached from it.
@@ -88,31 +95,34 @@ fn leaves(block: &[Stmt], wanted: &dyn Fn(&StmtKind) -> bool) -> bool {
 
 /// Whether a label stands in the statement.
 pub(crate) fn has_label(stmt: &Stmt) -> bool {
-    matches!(stmt.kind, StmtKind::Label(_)) || blocks(stmt).iter().any(|block| block.iter().any(has_label))
+    matches!(stmt.kind, StmtKind::Label(_)) || blocks(stmt).any(|block| block.iter().any(has_label))
 }
 
 /// The blocks directly inside a statement (also the declarations of a `for`).
-pub(crate) fn blocks(stmt: &Stmt) -> Vec<&[Stmt]> {
+pub(crate) fn blocks(stmt: &Stmt) -> impl Iterator<Item = &[Stmt]> {
+    let (mut conditional, mut cases, mut plain): (&[(Expr, Block)], &[Arm], [Option<&Block>; 2]) = Default::default();
     match &stmt.kind {
-        StmtKind::If(arms, otherwise) => {
-            arms.iter().map(|(_, block)| block).chain(otherwise).map(Vec::as_slice).collect()
-        }
-        StmtKind::Switch(_, arms) => arms.iter().map(|arm| arm.body.as_slice()).collect(),
-        StmtKind::While(_, body, _) | StmtKind::Repeat(body, _, _) | StmtKind::Loop(body, _) => vec![body],
-        StmtKind::For(each) => vec![&each.init, &each.body],
-        _ => Vec::new(),
+        StmtKind::If(arms, otherwise) => (conditional, plain) = (arms, [otherwise.as_ref(), None]),
+        StmtKind::Switch(_, arms) => cases = arms,
+        StmtKind::While(_, body, _) | StmtKind::Repeat(body, _, _) | StmtKind::Loop(body, _) => plain[0] = Some(body),
+        StmtKind::For(each) => plain = [Some(&each.init), Some(&each.body)],
+        _ => {}
     }
+    let blocks = conditional.iter().map(|(_, block)| block).chain(cases.iter().map(|arm| &arm.body));
+    blocks.chain(plain.into_iter().flatten()).map(Vec::as_slice)
 }
 
 /// The expressions directly inside a statement.
-pub(crate) fn expressions(stmt: &Stmt) -> Vec<&Expr> {
+pub(crate) fn expressions(stmt: &Stmt) -> impl Iterator<Item = &Expr> {
+    let (mut conditional, mut plain): (&[(Expr, Block)], [Option<&Expr>; 2]) = Default::default();
     match &stmt.kind {
-        StmtKind::Let(_, value) | StmtKind::Return(value) => value.iter().collect(),
+        StmtKind::Let(_, value) | StmtKind::Return(value) => plain[0] = value.as_ref(),
         StmtKind::Eval(expr) | StmtKind::While(expr, ..) | StmtKind::Repeat(_, expr, _) | StmtKind::Switch(expr, _) => {
-            vec![expr]
+            plain[0] = Some(expr);
         }
-        StmtKind::If(arms, _) => arms.iter().map(|(condition, _)| condition).collect(),
-        StmtKind::For(each) => each.condition.iter().chain(&each.step).collect(),
-        _ => Vec::new(),
+        StmtKind::If(arms, _) => conditional = arms,
+        StmtKind::For(each) => plain = [each.condition.as_ref(), each.step.as_ref()],
+        _ => {}
     }
+    conditional.iter().map(|(condition, _)| condition).chain(plain.into_iter().flatten())
 }

@@ -181,8 +181,8 @@ fn is_below_the_greatest(expr: &Expr) -> bool {
 /// Whether a statement (or one inside it) writes a local variable.
 fn stmt_writes(stmt: &Stmt, id: LocalId) -> bool {
     matches!(stmt.kind, StmtKind::Let(declared, _) if declared == id)
-        || flow::expressions(stmt).into_iter().any(|expr| expr_writes(expr, id))
-        || flow::blocks(stmt).into_iter().any(|block| block.iter().any(|stmt| stmt_writes(stmt, id)))
+        || flow::expressions(stmt).any(|expr| expr_writes(expr, id))
+        || flow::blocks(stmt).any(|block| block.iter().any(|stmt| stmt_writes(stmt, id)))
 }
 
 fn expr_writes(expr: &Expr, id: LocalId) -> bool {
