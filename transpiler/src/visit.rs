@@ -3,10 +3,7 @@
 use crate::hir::{Expr, ExprKind, Passed, Place, Projection, Stmt, StmtKind};
 
 /// Calls `see` for every expression in a statement, inner statements included; each before its parts.
-pub(crate) fn exprs_in_stmt(stmt: &Stmt, see: &mut dyn FnMut(&Expr)) {
-    let block = |stmts: &[Stmt], see: &mut dyn FnMut(&Expr)| {
-        stmts.iter().for_each(|stmt| exprs_in_stmt(stmt, see));
-    };
+pub(crate) fn exprs_in_stmt<'a, F: FnMut(&'a Expr)>(stmt: &'a Stmt, see: &mut F) {
     match &stmt.kind {
         StmtKind::Let(_, init) => init.iter().for_each(|init| exprs(init, see)),
         StmtKind::Eval(expr) => exprs(expr, see),
@@ -37,7 +34,7 @@ pub(crate) fn exprs_in_stmt(stmt: &Stmt, see: &mut dyn FnMut(&Expr)) {
 }
 
 /// Calls `see` for an expression and all its parts.
-pub(crate) fn exprs(expr: &Expr, see: &mut dyn FnMut(&Expr)) {
+pub(crate) fn exprs<'a, F: FnMut(&'a Expr)>(expr: &'a Expr, see: &mut F) {
     see(expr);
     match &expr.kind {
         ExprKind::Const(_) | ExprKind::Splice(_) => {}
@@ -64,7 +61,11 @@ pub(crate) fn exprs(expr: &Expr, see: &mut dyn FnMut(&Expr)) {
     }
 }
 
-fn place(place: &Place, see: &mut dyn FnMut(&Expr)) {
+fn block<'a, F: FnMut(&'a Expr)>(stmts: &'a [Stmt], see: &mut F) {
+    stmts.iter().for_each(|stmt| exprs_in_stmt(stmt, see));
+}
+
+fn place<'a, F: FnMut(&'a Expr)>(place: &'a Place, see: &mut F) {
     for step in &place.path {
         if let Projection::Index(indices, _) = step {
             indices.iter().for_each(|index| exprs(index, see));

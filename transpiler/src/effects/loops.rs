@@ -16,10 +16,12 @@ pub(super) fn judge(func: &mut Func) {
 }
 
 fn drop_unused(block: &mut Block, unused: &[bool]) {
-    block.retain(|stmt| match stmt.kind {
-        StmtKind::Label(id) => unused.get(id.0 as usize) != Some(&true),
-        _ => true,
-    });
+    if unused.contains(&true) {
+        block.retain(|stmt| match stmt.kind {
+            StmtKind::Label(id) => unused.get(id.0 as usize) != Some(&true),
+            _ => true,
+        });
+    }
     for stmt in block {
         inner_blocks(stmt).into_iter().for_each(|block| drop_unused(block, unused));
         if let StmtKind::Switch(subject, arms) = &mut stmt.kind
