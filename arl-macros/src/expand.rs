@@ -75,6 +75,16 @@ impl Here {
         Self { shown: span.file(), folder }
     }
 
+    /// The files under names that messages show: the text itself is in the Rust file.
+    fn files(&self, checked: &Checked) -> Files {
+        let mut files = Files::default();
+        for (id, file) in checked.files.iter() {
+            let name = if id == FileId(0) { self.shown.clone() } else { file.name.clone() };
+            files.add(name, file.text.clone());
+        }
+        files
+    }
+
     /// The name that the text gets among its neighbours.
     fn name(&self) -> PathBuf {
         Path::new(&self.shown).file_name().map_or_else(|| PathBuf::from("program.rs"), PathBuf::from)
@@ -211,7 +221,7 @@ fn program_in_literal(literal: &Literal) -> TokenStream {
     let Some(text) = literal_text(literal) else { return stub::program() };
     match guard(|| check_text(&here.name(), &text, &Beside(&here), &options(Family::default()))) {
         Ok(mut checked) => {
-            let shown = shown_in_words(&checked, &checked.files, literal.span());
+            let shown = shown_in_words(&checked, &here.files(&checked), literal.span());
             let items = checked.program.as_mut().map_or_else(stub::program, |program| items(program, &here));
             quote!(#shown #items)
         }
@@ -281,7 +291,7 @@ fn statements_in_literal(context: &TokenStream, literal: &Literal) -> TokenStrea
         let tokens: TokenStream = value.rust.text(&text).parse().ok()?;
         Some(respan(tokens, literal.span().into()))
     };
-    let shown = |checked: &Checked| Some(shown_in_words(checked, &checked.files, literal.span()));
+    let shown = |checked: &Checked| Some(shown_in_words(checked, &here.files(checked), literal.span()));
     statements(context, &text, &here, Family::default(), splice, shown)
 }
 

@@ -1,7 +1,8 @@
 //! The one binder: gives the arguments of instructions, built-in functions and the user's functions to parameters.
 //!
 //! Labelled arguments take their parameter. Bare ones go, in a call, to the parameters in order; in an instruction
-//! to the first parameter of the format line that is free and takes their type.
+//! to the first parameter of the format line that is free and takes their type. A Rust value whose type nobody said
+//! goes to the first free one and takes its type.
 
 use super::context::{Body, Checker};
 use super::convert::{Typed, integer};
@@ -272,6 +273,13 @@ impl Checker<'_> {
             }
             let problem = ArgumentProblem::BareBrace { callee: callee.into(), labels: labels.join(" or ") };
             return self.report(body, arg.value.span, problem);
+        }
+        if self.is_untyped_splice(&arg.value) {
+            let open: Vec<_> = params.iter().enumerate().filter(|(at, param)| param.bare && free(*at, param)).collect();
+            let any = open.iter().any(|(_, param)| matches!(param.ty, Some(Wanted::Builtin(ParamType::Any))));
+            if let (Some((at, _)), false) = (open.first(), any) {
+                return Some((*at, None));
+            }
         }
         let typed = self.expr(body, &arg.value, None)?;
         if typed.expr.ty.base == Base::Void {

@@ -52,7 +52,7 @@ impl Checker<'_> {
                     (self.expr(body, &both.0, Some(ty)), right)
                 } else {
                     let left = self.expr(body, &both.0, None);
-                    let ty = left.as_ref().filter(|_| is_splice(&both.1)).map(|left| left.expr.ty);
+                    let ty = if is_splice(&both.1) { Some(left.as_ref()?.expr.ty) } else { None };
                     (left, self.expr(body, &both.1, ty))
                 };
                 self.binary(body, *op, left?, right?, span)
@@ -87,6 +87,12 @@ impl Checker<'_> {
             }
             ast::ExprKind::Error => None,
         }
+    }
+
+    /// Whether it is a Rust value whose type was not said.
+    pub(crate) fn is_untyped_splice(&self, expr: &ast::Expr) -> bool {
+        let ast::ExprKind::Splice(number) = expr.kind else { return false };
+        self.splices.get(number as usize).is_none_or(Option::is_none)
     }
 
     /// Checks an expression and converts it to what its place asks for.

@@ -1,6 +1,6 @@
 //! Diagnostics without any decoration, for build scripts and the macro.
 
-use super::{Position, severity_word};
+use super::Position;
 use crate::diagnostics::{Diagnostic, Files};
 
 /// One line: `pick.arl:3:5: ARL0203: message; help`.
@@ -12,10 +12,10 @@ pub fn plain(diagnostic: &Diagnostic, files: &Files) -> String {
     text.replace(['\n', '\r'], " ")
 }
 
-/// Several lines: what is wrong, the source line with a mark under the place, other places, what would be right.
+/// Several lines, without the word for the severity: what is wrong, the source line with a mark under the place, other places, what would be right.
 pub fn plain_block(diagnostic: &Diagnostic, files: &Files) -> String {
     let at = Position::of(diagnostic.primary.at, files);
-    let mut text = format!("{}[{}]: {}\n", severity_word(diagnostic.severity), diagnostic.code, diagnostic.message);
+    let mut text = format!("{}: {}\n", diagnostic.code, diagnostic.message);
     let width = at.line.to_string().len();
     if let Some(file) = files.get(diagnostic.primary.at.file) {
         text += &format!("{:width$}--> {}:{}:{}\n", "", file.name, at.line, at.column);

@@ -36,7 +36,7 @@ fn one_line_for_build_logs() {
 
 #[test]
 fn block_marks_the_place_under_tabs() {
-    let expected = "error[ARL0201]: no variable is called `gröse`\n --> pick.arl:3:10\n  |\n\
+    let expected = "ARL0201: no variable is called `gröse`\n --> pick.arl:3:10\n  |\n\
         3 | \tint b = gröse + 1\n  | \t        ^^^^^ not known\n  = help: did you mean `größe`?\n";
     assert_eq!(plain_block(&unknown_name(), &files()), expected);
 }
