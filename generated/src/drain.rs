@@ -10,13 +10,11 @@ pub mod drain {
     // 4: func void main()
     pub async fn main(cx: &Cx, g: &Globals) -> Done<()> {
         // 5: valves::open(valves::OUTLET)
-        cx.line(FILE, 5);
         super::valves::open(cx, g, 2).await?;
         // 6: waittime 2
         cx.line(FILE, 6);
         flow::waittime(2.0).run(cx).await.at(FILE, 6)?;
         // 7: valves::close(valves::OUTLET)
-        cx.line(FILE, 7);
         super::valves::close(cx, g, 2).await?;
         // 8: print "empty"
         cx.line(FILE, 8);
@@ -67,6 +65,7 @@ pub mod valves {
     }
 
     // 18: func double litres(double seconds, double rate)
+    #[allow(dead_code)]
     pub fn litres(seconds: f64, rate: f64) -> f64 {
         // 19: return seconds * rate
         seconds * rate
@@ -90,9 +89,11 @@ impl arl_rt::Program for Globals {
     fn file(&self) -> arl_rt::emit::File {
         arl_rt::emit::File::new("drain.arl")
     }
+
     fn family(&self) -> arl_rt::emit::Family {
         arl_rt::emit::Family::SixAxis
     }
+
     fn init<'a>(&'a self, _cx: &'a arl_rt::emit::Cx) -> arl_rt::emit::BoxFuture<'a> {
         Box::pin(async move {
             let g = self;
@@ -100,6 +101,7 @@ impl arl_rt::Program for Globals {
             Ok(())
         })
     }
+
     fn main<'a>(&'a self, cx: &'a arl_rt::emit::Cx) -> arl_rt::emit::BoxFuture<'a> {
         Box::pin(async move {
             let g = self;

@@ -24,11 +24,9 @@ pub mod fill {
     // 6: func void main()
     pub async fn main(cx: &Cx, g: &Globals) -> Done<()> {
         // 7: bool late
-        let mut late = false;
         // 8: clock watch
         let watch = Clock::default();
         // 9: valves::open(valves::INLET)
-        cx.line(FILE, 9);
         super::valves::open(cx, g, 1).await?;
         // 10: clkstart(watch)
         cx.line(FILE, 10);
@@ -36,7 +34,7 @@ pub mod fill {
         // 11: waituntil getdi(1), maxtime:10, timeoutflag:late
         cx.line(FILE, 11);
         let wait = flow::waituntil(cx).maxtime(10.0).start().await.at(FILE, 11)?;
-        let timed_out = loop {
+        let late = loop {
             if io::getdi(cx, 1).await.at(FILE, 11)? {
                 break false;
             }
@@ -45,12 +43,10 @@ pub mod fill {
             }
             cx.next_cycle().await;
         };
-        late = timed_out;
         // 12: clkstop(watch)
         cx.line(FILE, 12);
         clock::clkstop(cx, &watch);
         // 13: valves::close(valves::INLET)
-        cx.line(FILE, 13);
         super::valves::close(cx, g, 1).await?;
         // 14: if(late)
         if late {
@@ -140,9 +136,11 @@ impl arl_rt::Program for Globals {
     fn file(&self) -> arl_rt::emit::File {
         arl_rt::emit::File::new("fill.arl")
     }
+
     fn family(&self) -> arl_rt::emit::Family {
         arl_rt::emit::Family::SixAxis
     }
+
     fn init<'a>(&'a self, _cx: &'a arl_rt::emit::Cx) -> arl_rt::emit::BoxFuture<'a> {
         Box::pin(async move {
             let g = self;
@@ -151,6 +149,7 @@ impl arl_rt::Program for Globals {
             Ok(())
         })
     }
+
     fn main<'a>(&'a self, cx: &'a arl_rt::emit::Cx) -> arl_rt::emit::BoxFuture<'a> {
         Box::pin(async move {
             let g = self;

@@ -9,11 +9,10 @@ pub mod greet {
     // 2: func void main()
     pub async fn main(cx: &Cx) -> Done<()> {
         // 3: bool late
-        let mut late = false;
         // 4: waituntil getdi(1), maxtime:2, timeoutflag:late
         cx.line(FILE, 4);
         let wait = flow::waituntil(cx).maxtime(2.0).start().await.at(FILE, 4)?;
-        let timed_out = loop {
+        let late = loop {
             if io::getdi(cx, 1).await.at(FILE, 4)? {
                 break false;
             }
@@ -22,7 +21,6 @@ pub mod greet {
             }
             cx.next_cycle().await;
         };
-        late = timed_out;
         // 5: if(late)
         if late {
             // 6: print "nobody came"
@@ -52,12 +50,15 @@ impl arl_rt::Program for Globals {
     fn file(&self) -> arl_rt::emit::File {
         arl_rt::emit::File::new("greet.arl")
     }
+
     fn family(&self) -> arl_rt::emit::Family {
         arl_rt::emit::Family::SixAxis
     }
+
     fn init<'a>(&'a self, _cx: &'a arl_rt::emit::Cx) -> arl_rt::emit::BoxFuture<'a> {
         Box::pin(async move { Ok(()) })
     }
+
     fn main<'a>(&'a self, cx: &'a arl_rt::emit::Cx) -> arl_rt::emit::BoxFuture<'a> {
         Box::pin(async move { greet::main(cx).await })
     }

@@ -26,14 +26,13 @@ pub mod pick_and_place {
     // 24: func bool grip()
     pub async fn grip(cx: &Cx) -> Done<bool> {
         // 25: bool late
-        let mut late = false;
         // 26: setdo(1, true)
         cx.line(FILE, 26);
         io::setdo(cx, 1, true).await.at(FILE, 26)?;
         // 27: waituntil getdi(2), maxtime:1, timeoutflag:late
         cx.line(FILE, 27);
         let wait = flow::waituntil(cx).maxtime(1.0).start().await.at(FILE, 27)?;
-        let timed_out = loop {
+        let late = loop {
             if io::getdi(cx, 2).await.at(FILE, 27)? {
                 break false;
             }
@@ -42,7 +41,6 @@ pub mod pick_and_place {
             }
             cx.next_cycle().await;
         };
-        late = timed_out;
         // 28: return !late
         Ok(!late)
     }
@@ -91,7 +89,6 @@ pub mod pick_and_place {
                 .await
                 .at(FILE, 39)?;
             // 40: if(grip())
-            cx.line(FILE, 40);
             if grip(cx).await? {
                 // 41: lin above(feeder, clearance), vl:400mm/s
                 cx.line(FILE, 41);
@@ -254,13 +251,33 @@ pub mod pick_and_place_data {
         pub fn data(&self) -> DataFile<'_> {
             DataFile {
                 file: "pick_and_place_data.arl",
-                vars: vec![
-                    DataVar { name : "home", sizes : & [], slot : & self.home }, DataVar
-                    { name : "feeder", sizes : & [], slot : & self.feeder }, DataVar {
-                    name : "pallet", sizes : & [], slot : & self.pallet }, DataVar { name
-                    : "pitch", sizes : & [], slot : & self.pitch }, DataVar { name :
-                    "clearance", sizes : & [], slot : & self.clearance }
-                ],
+                vars: Vec::from([
+                    DataVar {
+                        name: "home",
+                        sizes: &[],
+                        slot: &self.home,
+                    },
+                    DataVar {
+                        name: "feeder",
+                        sizes: &[],
+                        slot: &self.feeder,
+                    },
+                    DataVar {
+                        name: "pallet",
+                        sizes: &[],
+                        slot: &self.pallet,
+                    },
+                    DataVar {
+                        name: "pitch",
+                        sizes: &[],
+                        slot: &self.pitch,
+                    },
+                    DataVar {
+                        name: "clearance",
+                        sizes: &[],
+                        slot: &self.clearance,
+                    },
+                ]),
             }
         }
     }
@@ -283,9 +300,11 @@ impl arl_rt::Program for Globals {
     fn file(&self) -> arl_rt::emit::File {
         arl_rt::emit::File::new("pick_and_place.arl")
     }
+
     fn family(&self) -> arl_rt::emit::Family {
         arl_rt::emit::Family::SixAxis
     }
+
     fn init<'a>(&'a self, _cx: &'a arl_rt::emit::Cx) -> arl_rt::emit::BoxFuture<'a> {
         Box::pin(async move {
             let g = self;
@@ -293,12 +312,14 @@ impl arl_rt::Program for Globals {
             Ok(())
         })
     }
+
     fn main<'a>(&'a self, cx: &'a arl_rt::emit::Cx) -> arl_rt::emit::BoxFuture<'a> {
         Box::pin(async move {
             let g = self;
             pick_and_place::main(cx, g).await
         })
     }
+
     fn data(&self) -> Vec<arl_rt::emit::DataFile<'_>> {
         vec![self.pick_and_place_data.data()]
     }

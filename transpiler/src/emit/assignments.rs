@@ -1,6 +1,7 @@
 //! Assignments, `++` and `--`, as statements and as values.
 
 use super::body::Body;
+use super::compound::{is_native, stepped};
 use super::consts::{constant, typed_constant};
 use super::fragment::Fragment;
 use super::operators::text_mode;
@@ -59,11 +60,18 @@ impl<'p> Body<'p, '_> {
         if let Some(more) = self.appended(place, value) {
             return self.append_parts(place, &more);
         }
+        if let Some((op, by)) = stepped(place, value) {
+            return self.assign_op(op, place, by, keep);
+        }
         let facts = self.facts(value);
         let item = matches!(place.path.as_slice(), [Projection::Index(..)]) && !matches!(place.root, Root::Local(_));
         let settle = keep || !(item || (matches!(place.root, Root::Local(_)) && facts.quiet()));
         let (before, reached, value_fragment) = self.sides(place, Some((value, Mode::Placed)), settle);
         let fragment = self.in_range(place, value_fragment, Some(value));
+        if let Some(declared) = self.joined_let(place, Some(value)) {
+            let (first, tokens) = (&fragment.before, &fragment.tokens);
+            return (quote!(#before #first #declared = #tokens;), reached);
+        }
         let write = self.write(&reached, Written::Value(fragment), calm(&facts));
         (quote!(#before #write), reached)
     }
@@ -82,7 +90,7 @@ impl<'p> Body<'p, '_> {
         let disturbed =
             own.reads.iter().any(|read| facts.writes.contains(read)) || (own.world && (facts.acts || facts.waits));
         let ranged = facts::range_check(place, None).is_some();
-        let native = self.is_native(op, place, value) && !disturbed && !ranged;
+        let native = is_native(op, place, value) && !disturbed && !ranged;
         let settle = keep || !(native && facts.quiet() && matches!(place.root, Root::Local(_)));
         if disturbed {
             let (mut before, reached, _) = self.sides(place, None, true);
@@ -141,22 +149,6 @@ impl<'p> Body<'p, '_> {
         };
         let reached = self.reached(place, fragments);
         (before, reached, value.unwrap_or_else(|| Fragment::settled(quote!(()))))
-    }
-
-    /// Whether Rust has the operator in the form `a op= b` with the meaning of ARL.
-    fn is_native(&self, op: BinaryOp, place: &Place, value: &'p Expr) -> bool {
-        use BinaryOp::*;
-        let known = self.constant(value);
-        match (place.ty.base, op) {
-            (Base::Double, Add | Subtract | Multiply | Divide) => true,
-            (Base::Double, Remainder) => known.is_some_and(|known| *known != Value::Double(0.0)),
-            (Base::Int | Base::Uint | Base::Byte, BitAnd | BitOr | BitXor) => true,
-            (Base::Int | Base::Uint | Base::Byte, ShiftLeft | ShiftRight) => known.is_some(),
-            (Base::Int | Base::Uint | Base::Byte, Divide | Remainder) => {
-                known.is_some_and(|known| !matches!(known, Value::Int(0 | -1) | Value::Uint(0) | Value::Byte(0)))
-            }
-            _ => false,
-        }
     }
 
     /// What `text = text + more + ..` appends, where appending is what it comes to.

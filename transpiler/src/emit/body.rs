@@ -100,6 +100,8 @@ pub(super) struct Body<'p, 'u> {
     pub(super) machine: Option<Machine>,
     /// The line that the last comment was about.
     pub(super) commented: u32,
+    /// The locals that are declared at their first assignment, until that comes.
+    pub(super) joined: HashSet<LocalId>,
     /// Whether something that needs the program pointer has been emitted since the flag was cleared.
     pub(super) acts: bool,
 }
@@ -130,6 +132,7 @@ impl<'p, 'u> Body<'p, 'u> {
             visible: Vec::new(),
             machine: None,
             commented: 0,
+            joined: HashSet::new(),
             acts: false,
         }
     }
@@ -218,11 +221,10 @@ impl<'p, 'u> Body<'p, 'u> {
         name
     }
 
-    /// A label that no other loop of the function has.
-    pub(super) fn label(&mut self, wanted: &str) -> syn::Lifetime {
+    /// A number for labels that no other loop of the function has.
+    pub(super) fn label_number(&mut self) -> usize {
         self.labels += 1;
-        let number = if self.labels == 1 { String::new() } else { self.labels.to_string() };
-        syn::Lifetime::new(&format!("'{wanted}{number}"), proc_macro2::Span::call_site())
+        self.labels
     }
 
     /// Puts a value into a temporary, as a statement before.
@@ -235,6 +237,14 @@ impl<'p, 'u> Body<'p, 'u> {
         Fragment { before: quote!(#before let #name = #tokens;), ..Fragment::settled(quote!(#name)) }
     }
 
+    /// Runs for what the code looks like; the temporaries that it names are free afterwards.
+    pub(super) fn on_trial<R>(&mut self, run: impl FnOnce(&mut Self) -> R) -> R {
+        let before = self.temporaries.len();
+        let result = run(self);
+        self.temporaries.truncate(before);
+        result
+    }
+
     /// Runs with the temporaries of an inner statement, whose names may be those of the outer one.
     pub(super) fn with_own_temporaries<R>(&mut self, run: impl FnOnce(&mut Self) -> R) -> R {
         let outer = std::mem::take(&mut self.temporaries);
@@ -242,6 +252,12 @@ impl<'p, 'u> Body<'p, 'u> {
         self.temporaries = outer;
         result
     }
+}
+
+/// `'round`, `'round2`
+pub(super) fn label(name: &str, number: usize) -> syn::Lifetime {
+    let text = if number == 1 { format!("'{name}") } else { format!("'{name}{number}") };
+    syn::Lifetime::new(&text, proc_macro2::Span::call_site())
 }
 
 /// Whether a name occurs in the code.

@@ -93,12 +93,17 @@ pub(super) fn without_marks(code: TokenStream) -> TokenStream {
     out
 }
 
-/// A line of a program, fit for a comment: control characters and those that turn the direction of text become `?`.
+/// A line of a program, fit for a comment: long ones are cut, control characters and those that turn the direction of text become `?`.
 pub(super) fn clean(line: &str) -> String {
     let unfit = |c: char| {
         c.is_control() || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{200e}' | '\u{200f}')
     };
-    line.trim().chars().map(|c| if c == '\t' { ' ' } else { c }).map(|c| if unfit(c) { '?' } else { c }).collect()
+    const MOST: usize = 140;
+    let line = line.trim();
+    let long = line.chars().count() > MOST;
+    let shown = line.chars().take(if long { MOST } else { usize::MAX });
+    let fit: String = shown.map(|c| if c == '\t' { ' ' } else { c }).map(|c| if unfit(c) { '?' } else { c }).collect();
+    if long { format!("{fit} ...") } else { fit }
 }
 
 #[cfg(test)]

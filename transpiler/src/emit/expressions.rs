@@ -4,10 +4,11 @@ use super::body::Body;
 use super::consts::{constant, typed_constant};
 use super::fragment::{Fragment, Precedence};
 use super::names::ident;
+use super::operators::infix;
 use super::sequence::{Mode, Operand};
 use super::types::{array_type, base_type, component, is_copy, start_value, type_name};
 use crate::hir::{Expr, ExprKind, Type, Value};
-use arl_lang::ast::UnaryOp;
+use arl_lang::ast::{BinaryOp, UnaryOp};
 use arl_lang::catalog::{Base, Struct};
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
@@ -152,18 +153,7 @@ impl<'p> Body<'p, '_> {
         };
         match (from, to.base) {
             (from, to) if from == to => self.value(inner),
-            (Base::Double, Base::Bool) => self.typed_value(inner).map(Precedence::Compare, |value| {
-                let value = value.at(Precedence::Compare.tighter());
-                quote!(#value != 0.0)
-            }),
-            (Base::Enum(_), Base::Bool) => self.value(inner).map(Precedence::Compare, |value| {
-                let index = index(value);
-                quote!(#index != 0)
-            }),
-            (_, Base::Bool) => self.typed_value(inner).map(Precedence::Compare, |value| {
-                let value = value.at(Precedence::Compare.tighter());
-                quote!(#value != 0)
-            }),
+            (_, Base::Bool) => self.as_condition(inner, true),
             (Base::Enum(_), Base::Int) => self.value(inner).map(Precedence::Postfix, index),
             (Base::Enum(_), base) => {
                 let ty = base_type(base, self.family());
@@ -180,6 +170,18 @@ impl<'p> Body<'p, '_> {
                 })
             }
         }
+    }
+
+    /// A number as a condition: everything but zero is true. With `wanted` false the opposite.
+    pub(super) fn as_condition(&mut self, inner: &'p Expr, wanted: bool) -> Fragment {
+        let op = if wanted { BinaryOp::NotEqual } else { BinaryOp::Equal };
+        let zero = match inner.ty.base {
+            Base::Bool => return self.truth(inner, wanted),
+            Base::Double => constant(&Value::Double(0.0)),
+            Base::Enum(id) => constant(&Value::Enum(id, 0)),
+            _ => constant(&Value::Int(0)),
+        };
+        self.typed_value(inner).map(Precedence::Compare, |value| infix(op, value, &zero))
     }
 
     /// `Pose { x: 1.0, ..Pose::default() }`, the components in the order in which the program has them.

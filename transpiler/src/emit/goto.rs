@@ -322,10 +322,15 @@ impl<'p> Body<'p, '_> {
     }
 
     /// A branch: inside its state where it has no label, else a state of its own, filled later.
-    fn branch(&mut self, block: &'p [Stmt], after: usize, later: &mut Vec<(usize, &'p [Stmt])>) -> TokenStream {
+    fn branch(&mut self, block: &'p [Stmt], after: usize, later: &mut Vec<(Option<usize>, &'p [Stmt])>) -> TokenStream {
+        if let Some(Stmt { kind: StmtKind::Label(label), .. }) = flow::reachable(block).first() {
+            let state = self.label_state(*label);
+            later.push((None, block));
+            return self.set_state(state);
+        }
         if block.iter().any(flow::has_label) {
             let state = self.state_here("Branch");
-            later.push((state, block));
+            later.push((Some(state), block));
             return self.set_state(state);
         }
         let code = self.block(block, Tail::Inner);
@@ -333,9 +338,13 @@ impl<'p> Body<'p, '_> {
         quote!(#code #set)
     }
 
-    fn fill(&mut self, later: Vec<(usize, &'p [Stmt])>, after: usize) {
+    fn fill(&mut self, later: Vec<(Option<usize>, &'p [Stmt])>, after: usize) {
         for (state, block) in later {
-            self.open(state);
+            match state {
+                Some(state) => self.open(state),
+                // The label at its start opens a state.
+                None => self.shut(),
+            }
             self.states(block);
             self.close(after);
         }
@@ -522,7 +531,7 @@ fn labels(block: &[Stmt], visible: &mut Vec<LocalId>, found: &mut HashMap<LabelI
                 labels(&each.body, visible, found);
                 visible.truncate(outside);
             }
-            _ => flow::blocks(stmt).into_iter().for_each(|inner| labels(inner, visible, found)),
+            _ => flow::blocks(stmt).for_each(|inner| labels(inner, visible, found)),
         }
     }
     visible.truncate(before);

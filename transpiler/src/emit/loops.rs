@@ -4,7 +4,7 @@
 //! at the start of the round. `continue` of a loop with something to do behind its body (a step, an `until`) leaves a
 //! labelled block around the body.
 
-use super::body::{Body, Exit, Loop};
+use super::body::{Body, Exit, Loop, label};
 use super::fragment::{Fragment, Precedence};
 use super::statements::Tail;
 use crate::effects::{flow, loops};
@@ -28,7 +28,7 @@ impl<'p> Body<'p, '_> {
 
     /// A condition at the start of each round: statements that break out, where it does not fit into a `while`.
     fn head(&mut self, condition: &'p Expr) -> (Option<TokenStream>, TokenStream) {
-        let value = self.value_alone(condition);
+        let value = self.on_trial(|body| body.value_alone(condition));
         let pointer = self.pointer();
         if pointer.is_empty() && value.before.is_empty() {
             return (None, value.tokens);
@@ -85,8 +85,9 @@ impl<'p> Body<'p, '_> {
             }
             return (TokenStream::new(), statements);
         }
-        let round = self.label("round");
-        let outer = flow::breaks(body).then(|| self.label("rounds"));
+        let number = self.label_number();
+        let round = label("round", number);
+        let outer = flow::breaks(body).then(|| label("rounds", number));
         let on_break = match &outer {
             Some(outer) => Exit::Labelled(quote!(break #outer)),
             None => Exit::Plain,

@@ -6,7 +6,7 @@ use super::fragment::{Fragment, Precedence};
 use super::sequence::{Mode, Operand};
 use crate::hir::{Expr, ExprKind, Root, Type, Value};
 use arl_lang::ast::{BinaryOp, UnaryOp};
-use arl_lang::catalog::Base;
+use arl_lang::catalog::{Base, Enum};
 use proc_macro2::TokenStream;
 use quote::quote;
 
@@ -27,14 +27,43 @@ impl<'p> Body<'p, '_> {
 
     /// The opposite of a condition.
     pub(super) fn negated(&mut self, condition: &'p Expr) -> Fragment {
+        self.truth(condition, false)
+    }
+
+    /// A condition, or with `wanted` false its opposite. `x == true` is `x`, `!(a < b)` is `a >= b`.
+    pub(super) fn truth(&mut self, condition: &'p Expr, wanted: bool) -> Fragment {
         match &condition.kind {
-            ExprKind::Const(Value::Bool(value)) => constant(&Value::Bool(!value)),
-            ExprKind::Unary(UnaryOp::Not, inner) => self.value(inner),
-            ExprKind::Binary(op, sides) if sides.0.ty.base != Base::Bool => match opposite(*op, sides.0.ty) {
-                Some(op) => self.binary(op, &sides.0, &sides.1),
-                None => self.unary(UnaryOp::Not, condition),
-            },
-            _ => self.unary(UnaryOp::Not, condition),
+            ExprKind::Const(Value::Bool(value)) => return constant(&Value::Bool(*value == wanted)),
+            ExprKind::Unary(UnaryOp::Not, inner) => return self.truth(inner, !wanted),
+            ExprKind::Binary(op, sides) => {
+                if let Some((other, same)) = compared_with_bool(*op, &sides.0, &sides.1) {
+                    return self.truth(other, same == wanted);
+                }
+                if wanted {
+                    return self.binary(*op, &sides.0, &sides.1);
+                }
+                if let Some(op) = opposite(*op, sides.0.ty) {
+                    return self.binary(op, &sides.0, &sides.1);
+                }
+            }
+            ExprKind::Convert(inner) if condition.ty.base == Base::Bool => return self.as_condition(inner, wanted),
+            _ => {}
+        }
+        let value = self.value_of_condition(condition);
+        if wanted {
+            return value;
+        }
+        value.map(Precedence::Unary, |value| {
+            let value = value.at(Precedence::Unary);
+            quote!(!#value)
+        })
+    }
+
+    /// A condition without looking for a simpler form.
+    fn value_of_condition(&mut self, condition: &'p Expr) -> Fragment {
+        match &condition.kind {
+            ExprKind::Binary(op, sides) => self.binary(*op, &sides.0, &sides.1),
+            _ => self.value(condition),
         }
     }
 
@@ -44,8 +73,11 @@ impl<'p> Body<'p, '_> {
             let (left, right) = (self.value(left), self.inline_value(right));
             return left.map(precedence(op), |left| infix(op, left, &right));
         }
-        if let Some(simple) = self.compared_with_bool(op, left, right) {
-            return simple;
+        if let Some((other, same)) = compared_with_bool(op, left, right) {
+            return self.truth(other, same);
+        }
+        if let Some(compared) = self.compared_enums(op, left, right) {
+            return compared;
         }
         let text = left.ty.base == Base::String && !left.ty.is_array();
         if text && op == BinaryOp::Add {
@@ -103,27 +135,28 @@ impl<'p> Body<'p, '_> {
         }
     }
 
-    /// `x == true` is `x`, `x != true` is `!x`.
-    fn compared_with_bool(&mut self, op: BinaryOp, left: &'p Expr, right: &'p Expr) -> Option<Fragment> {
-        let (other, value) = match (&left.kind, &right.kind) {
-            (_, ExprKind::Const(Value::Bool(value))) => (left, *value),
-            (ExprKind::Const(Value::Bool(value)), _) => (right, *value),
-            _ => return None,
-        };
-        let same = match op {
-            BinaryOp::Equal => value,
-            BinaryOp::NotEqual => !value,
-            _ => return None,
-        };
-        let other = self.value(other);
-        Some(if same {
-            other
-        } else {
-            other.map(Precedence::Unary, |other| {
-                let other = other.at(Precedence::Unary);
-                quote!(!#other)
-            })
-        })
+    /// `v == VelProfile::S`, where the program compares the numbers that enumerations stand for.
+    fn compared_enums(&mut self, op: BinaryOp, left: &'p Expr, right: &'p Expr) -> Option<Fragment> {
+        if !matches!(op, BinaryOp::Equal | BinaryOp::NotEqual) {
+            return None;
+        }
+        match (enumeration(left), enumeration(right)) {
+            (Some((id, left)), Some((other, right))) if id == other => {
+                let operands = [Operand::Expr(left, Mode::Value), Operand::Expr(right, Mode::Value)];
+                let (before, sides) = self.sequence(&operands, |_| false);
+                let [left, right] = sides.as_slice() else { return None };
+                Some(Fragment::new(infix(op, left, right), Precedence::Compare).after(before))
+            }
+            (Some((id, left)), None) => {
+                let right = constant_of(id, right)?;
+                Some(self.value(left).map(Precedence::Compare, |left| infix(op, left, &right)))
+            }
+            (None, Some((id, right))) => {
+                let left = constant_of(id, left)?;
+                Some(self.value(right).map(Precedence::Compare, |right| infix(op, &left, right)))
+            }
+            _ => None,
+        }
     }
 
     /// `a + b` of strings: the left one is copied, or was made for the purpose; the right one is looked at.
@@ -139,6 +172,38 @@ impl<'p> Body<'p, '_> {
             _ => constant(&Value::String("".into())),
         }
     }
+}
+
+/// The other side of a comparison with a bool constant, and whether it is true when they are.
+fn compared_with_bool<'p>(op: BinaryOp, left: &'p Expr, right: &'p Expr) -> Option<(&'p Expr, bool)> {
+    let (other, value) = match (&left.kind, &right.kind) {
+        (_, ExprKind::Const(Value::Bool(value))) => (left, *value),
+        (ExprKind::Const(Value::Bool(value)), _) => (right, *value),
+        _ => return None,
+    };
+    match op {
+        BinaryOp::Equal => Some((other, value)),
+        BinaryOp::NotEqual => Some((other, !value)),
+        _ => None,
+    }
+}
+
+/// The value of an enumeration that is used as its number.
+fn enumeration(expr: &Expr) -> Option<(Enum, &Expr)> {
+    match &expr.kind {
+        ExprKind::Convert(inner) => match inner.ty.base {
+            Base::Enum(id) => Some((id, inner)),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// The constant of an enumeration for a known number.
+fn constant_of(id: Enum, expr: &Expr) -> Option<Fragment> {
+    let ExprKind::Const(Value::Int(index)) = expr.kind else { return None };
+    let index = u16::try_from(index).ok().filter(|index| usize::from(*index) < id.def().constants.len())?;
+    Some(constant(&Value::Enum(id, index)))
 }
 
 /// Whether the left operand has to show its type: the receiver of a method, the first argument of a shift.

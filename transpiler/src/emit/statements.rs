@@ -1,7 +1,7 @@
 //! Statements and blocks.
 
 use super::body::{Body, Exit};
-use super::fragment::Fragment;
+use super::fragment::{Fragment, Precedence};
 use super::sequence::Mode;
 use super::switch;
 use super::types::{rust_type, start_value};
@@ -9,7 +9,7 @@ use super::waiting::ending;
 use crate::effects::flow;
 use crate::hir::{Expr, ExprKind, LocalId, Stmt, StmtKind, Type, Value};
 use arl_lang::catalog::Base;
-use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
 
 /// Whether a block is the end of the function, so that its last statement gives the result.
@@ -27,6 +27,7 @@ impl<'p> Body<'p, '_> {
         let visible = self.visible.len();
         let statements = flow::reachable(block);
         let last = statements.len().saturating_sub(1);
+        self.find_joined(&statements);
         let mut out = TokenStream::new();
         for (at, stmt) in statements.into_iter().enumerate() {
             let tail = if at == last { tail } else { Tail::Inner };
@@ -87,19 +88,26 @@ impl<'p> Body<'p, '_> {
         self.note_declaration(id);
         let code = if self.is_hoisted(id) {
             quote!(#name = #tokens;)
+        } else if self.joined.contains(&id) {
+            TokenStream::new()
         } else if self.usage.is_late(id) {
             let (mutable, ty) = (self.mutable(id), rust_type(local.ty, family));
             quote!(let #mutable #name: #ty;)
         } else {
-            let mutable = self.mutable(id);
-            let ty = needs_annotation(local.ty, value).then(|| {
-                let ty = rust_type(local.ty, family);
-                quote!(: #ty)
-            });
+            let (mutable, ty) = (self.mutable(id), self.annotation(local.ty, value));
             quote!(let #mutable #name #ty = #tokens;)
         };
         let pointer = self.pointer();
         quote!(#pointer #before #code)
+    }
+
+    /// `: i32`, where the type does not show in the value.
+    pub(super) fn annotation(&self, ty: Type, value: Option<&Expr>) -> TokenStream {
+        if !needs_annotation(ty, value) {
+            return TokenStream::new();
+        }
+        let ty = rust_type(ty, self.family());
+        quote!(: #ty)
     }
 
     /// `mut` where the variable changes.
@@ -185,7 +193,9 @@ impl<'p> Body<'p, '_> {
             None => value.map(|value| self.value(value)),
         };
         let before = value.as_ref().map(|value| value.before.clone());
-        let result = self.result(value.map(|value| value.tokens)).map(without_detour);
+        let fails = self.func.is_some_and(|func| func.effects.fails);
+        let direct = value.as_ref().filter(|_| fails).and_then(without_detour);
+        let result = direct.or_else(|| self.result(value.map(|value| value.tokens)));
         let code = match (tail, result) {
             (Tail::Function, Some(result)) => quote!(#before #result),
             (Tail::Function, None) => quote!(#before),
@@ -222,26 +232,12 @@ impl<'p> Body<'p, '_> {
     }
 }
 
-/// `Ok(f(x)?)` of one of the program's own functions is `f(x)`.
-fn without_detour(result: TokenStream) -> TokenStream {
-    let tokens: Vec<TokenTree> = result.clone().into_iter().collect();
-    let [TokenTree::Ident(ok), TokenTree::Group(inner)] = tokens.as_slice() else { return result };
-    let mut inner: Vec<TokenTree> = inner.stream().into_iter().collect();
-    let asks = |token: Option<&TokenTree>| matches!(token, Some(TokenTree::Punct(sign)) if sign.as_char() == '?');
-    let call = |token: &TokenTree| match token {
-        TokenTree::Ident(_) => true,
-        TokenTree::Punct(sign) => sign.as_char() == ':',
-        TokenTree::Group(group) => group.delimiter() == Delimiter::Parenthesis,
-        TokenTree::Literal(_) => false,
-    };
-    if ok != "Ok" || !asks(inner.last()) {
-        return result;
-    }
-    inner.pop();
-    // A path and one list of arguments.
-    let lists = inner.iter().filter(|token| matches!(token, TokenTree::Group(_))).count();
-    let ends_in_list = matches!(inner.last(), Some(TokenTree::Group(_)));
-    if lists == 1 && ends_in_list && inner.iter().all(call) { inner.into_iter().collect() } else { result }
+/// `Ok(call?)` is `call`.
+fn without_detour(value: &Fragment) -> Option<TokenStream> {
+    let mut tokens: Vec<TokenTree> = value.tokens.clone().into_iter().collect();
+    let asks = matches!(tokens.last(), Some(TokenTree::Punct(sign)) if sign.as_char() == '?');
+    tokens.pop();
+    (asks && value.precedence == Precedence::Postfix).then(|| tokens.into_iter().collect())
 }
 
 fn is_unit(tokens: &TokenStream) -> bool {

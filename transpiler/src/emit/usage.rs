@@ -1,6 +1,7 @@
 //! How the locals of a function are used, so that the emitted variables are `mut`, initialised and named as rustc likes
 //! them: a value that nobody reads is not assigned at the declaration, a variable that nobody reads has a `_` in front.
 
+use super::compound::stepped;
 use super::usage_graph::{Graph, Site, writes_only};
 use crate::effects::facts::{self, children};
 use crate::effects::{flow, loops};
@@ -118,8 +119,8 @@ impl Usage {
                 self.block(&each.body);
             }
             _ => {
-                flow::expressions(stmt).into_iter().for_each(|expr| self.expr(expr));
-                flow::blocks(stmt).into_iter().for_each(|block| self.block(block));
+                flow::expressions(stmt).for_each(|expr| self.expr(expr));
+                flow::blocks(stmt).for_each(|block| self.block(block));
             }
         }
     }
@@ -133,6 +134,10 @@ impl Usage {
             return;
         }
         match &expr.kind {
+            ExprKind::Assign(sides) if stepped(&sides.0, &sides.1).is_some() => {
+                self.mark_written(&sides.0);
+                stepped(&sides.0, &sides.1).into_iter().for_each(|(_, by)| self.expr(by));
+            }
             ExprKind::Assign(sides) | ExprKind::AssignOp(_, sides) => {
                 self.mark_written(&sides.0);
                 indices(&sides.0).for_each(|index| self.expr(index));
@@ -176,6 +181,27 @@ impl Usage {
         self.mark(place, |local| local.read = true);
         self.mark_written(place);
     }
+}
+
+/// Whether a statement mentions a local.
+pub(super) fn mentions(stmt: &Stmt, id: LocalId) -> bool {
+    flow::expressions(stmt).any(|expr| expr_mentions(expr, id))
+        || flow::blocks(stmt).any(|block| block.iter().any(|stmt| mentions(stmt, id)))
+}
+
+/// Whether an expression mentions a local.
+pub(super) fn expr_mentions(expr: &Expr, id: LocalId) -> bool {
+    let is_it = |place: &Place| matches!(place.root, Root::Local(other) if other == id);
+    let own = match &expr.kind {
+        ExprKind::Place(place) | ExprKind::Step(_, place) => is_it(place),
+        ExprKind::Assign(sides) | ExprKind::AssignOp(_, sides) => is_it(&sides.0),
+        ExprKind::Builtin(builtin) => builtin.args.iter().any(|arg| match &arg.value {
+            Passed::Out(place) => is_it(place),
+            Passed::Value(_) => false,
+        }),
+        _ => false,
+    };
+    own || children(expr).into_iter().any(|child| expr_mentions(child, id))
 }
 
 /// The index expressions of a place.

@@ -167,7 +167,7 @@ pub(super) fn data(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
         impl Variables {
             /// The variables whose values are read again at load.
             pub fn data(&self) -> DataFile<'_> {
-                DataFile { file: #file, vars: vec![#(#vars),*] }
+                DataFile { file: #file, vars: Vec::from([#(#vars),*]) }
             }
         }
     }

@@ -55,7 +55,7 @@ impl<'p> Body<'p, '_> {
         };
         let next = quote!(cx.next_cycle().await;);
         let Some(condition) = condition else { return start };
-        let met = self.value(condition);
+        let met = self.on_trial(|body| body.value(condition));
         let Some(flag) = flag else {
             if !met.before.is_empty() {
                 let (before, met) = (&met.before, &met.tokens);
@@ -75,6 +75,9 @@ impl<'p> Body<'p, '_> {
             Root::Local(_) => waiting,
             _ => self.settle(waiting, "timed_out"),
         };
+        if let Some(declared) = self.joined_let(flag, None) {
+            return quote!(#start #declared = #waiting;);
+        }
         let write = self.write(&reached, Written::Value(waiting), true);
         quote!(#start #flag_before #write)
     }
