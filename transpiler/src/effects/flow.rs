@@ -100,7 +100,9 @@ pub(crate) fn has_label(stmt: &Stmt) -> bool {
 
 /// The blocks directly inside a statement (also the declarations of a `for`).
 pub(crate) fn blocks(stmt: &Stmt) -> impl Iterator<Item = &[Stmt]> {
-    let (mut conditional, mut cases, mut plain): (&[(Expr, Block)], &[Arm], [Option<&Block>; 2]) = Default::default();
+    let mut conditional: &[(Expr, Block)] = &[];
+    let mut cases: &[Arm] = &[];
+    let mut plain: [Option<&Block>; 2] = [None, None];
     match &stmt.kind {
         StmtKind::If(arms, otherwise) => (conditional, plain) = (arms, [otherwise.as_ref(), None]),
         StmtKind::Switch(_, arms) => cases = arms,
@@ -114,7 +116,8 @@ pub(crate) fn blocks(stmt: &Stmt) -> impl Iterator<Item = &[Stmt]> {
 
 /// The expressions directly inside a statement.
 pub(crate) fn expressions(stmt: &Stmt) -> impl Iterator<Item = &Expr> {
-    let (mut conditional, mut plain): (&[(Expr, Block)], [Option<&Expr>; 2]) = Default::default();
+    let mut conditional: &[(Expr, Block)] = &[];
+    let mut plain: [Option<&Expr>; 2] = [None, None];
     match &stmt.kind {
         StmtKind::Let(_, value) | StmtKind::Return(value) => plain[0] = value.as_ref(),
         StmtKind::Eval(expr) | StmtKind::While(expr, ..) | StmtKind::Repeat(_, expr, _) | StmtKind::Switch(expr, _) => {
