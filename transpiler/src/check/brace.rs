@@ -33,9 +33,11 @@ impl Checker<'_> {
         let mut good = true;
         for item in items {
             let difference = self.difference_item(item, id);
-            let (name, value) = match &difference {
-                Some(difference) => (None, difference),
-                None => (item.name, &item.value),
+            let parenthesised = self.parenthesised_item(body, item, id);
+            let (name, value) = match (&difference, &parenthesised) {
+                (Some(difference), _) => (None, difference),
+                (None, Some((name, value))) => (Some(*name), value),
+                (None, None) => (item.name, &item.value),
             };
             if named.is_some_and(|named| named != name.is_some()) {
                 self.report::<()>(body, value.span, TypeProblem::MixedBraces);
@@ -60,16 +62,13 @@ impl Checker<'_> {
             };
             if values.get(index).is_some_and(Option::is_some) {
                 let name = component.name.to_string();
-                self.report::<()>(
-                    body,
-                    item.name.map_or(value.span, |name| name.span),
-                    TypeProblem::ComponentTwice { name },
-                );
+                let span = item.name.map_or(item.value.span, |name| name.span);
+                self.report::<()>(body, span, TypeProblem::ComponentTwice { name });
                 good = false;
                 continue;
             }
-            let what = format!("`{}`", component.name);
-            match self.expr_as(body, value, Type::scalar(component.ty), &what) {
+            let what = format_args!("`{}`", component.name);
+            match self.expr_as(body, value, Type::scalar(component.ty), what) {
                 Some(checked) => {
                     if let Some(slot) = values.get_mut(index) {
                         *slot = Some(checked);
@@ -85,6 +84,17 @@ impl Checker<'_> {
     fn difference_item(&self, item: &BraceItem, id: Struct) -> Option<ast::Expr> {
         let is_component = item.name.is_some_and(|name| self.find_component(id, name.symbol).is_some());
         if is_component { None } else { brace_difference(item) }
+    }
+
+    /// `{x (a)}` reads like a call; where the structure has the component and the program no such function, it is the
+    /// component and its value.
+    fn parenthesised_item(&self, body: &Body, item: &BraceItem, id: Struct) -> Option<(ast::Ident, ast::Expr)> {
+        if item.name.is_some() {
+            return None;
+        }
+        let (name, value) = without_call(&item.value)?;
+        let is_function = self.scopes.get(body.module.0 as usize)?.funcs.contains_key(&name.symbol);
+        (self.find_component(id, name.symbol).is_some() && !is_function).then_some((name, value))
     }
 
     /// Fills `out` with the elements of an array of the given (remaining) dimensions.
@@ -166,6 +176,28 @@ fn brace_difference(item: &BraceItem) -> Option<ast::Expr> {
     let name = item.name?;
     let left = ast::Expr { kind: ast::ExprKind::Name(name.symbol), span: name.span };
     subtract(left, &item.value)
+}
+
+/// The name of the call that an expression begins with, and the expression with its one argument in the call's place.
+fn without_call(expr: &ast::Expr) -> Option<(ast::Ident, ast::Expr)> {
+    let (name, kind) = match &expr.kind {
+        ast::ExprKind::Call(call) => match call.args.as_slice() {
+            [ast::Arg { label: None, value, unit: None }] if call.module.is_none() => {
+                return Some((call.name, value.clone()));
+            }
+            _ => return None,
+        },
+        ast::ExprKind::Binary(op, both) => {
+            let (name, left) = without_call(&both.0)?;
+            (name, ast::ExprKind::Binary(*op, Box::new((left, both.1.clone()))))
+        }
+        ast::ExprKind::Field(inner, component) => {
+            let (name, inner) = without_call(inner)?;
+            (name, ast::ExprKind::Field(Box::new(inner), *component))
+        }
+        _ => return None,
+    };
+    Some((name, ast::Expr { kind, span: expr.span }))
 }
 
 /// `left` minus what the leftmost unary minus of `expr` negates; `None` where it does not begin with one.

@@ -39,13 +39,7 @@ impl Checker<'_> {
             return Some(PlaceOrValue::Place(Place { root: Root::Local(local), path: Vec::new(), ty, span }));
         }
         if let Some((id, visible)) = self.find_global(body, symbol) {
-            if !visible {
-                let name = self.text(body.module, span).to_string();
-                let declared = self.globals.get(id.0 as usize).map_or(span, |slot| slot.var.name.span);
-                let labels = [(body.module, declared, "declared here")];
-                return self.report_in(body.module, span, NameProblem::VariableBelow { name }, &labels);
-            }
-            return self.global(body, id, span);
+            return self.own_global(body, id, visible, span);
         }
         let name = self.names.name(symbol);
         if let Some(found) = catalog::constant(name) {
@@ -118,6 +112,17 @@ impl Checker<'_> {
         Some((*id, true))
     }
 
+    /// A global of this module, which has to be declared above.
+    fn own_global(&mut self, body: &Body, id: GlobalId, visible: bool, span: Span) -> Option<PlaceOrValue> {
+        if !visible {
+            let name = self.text(body.module, span).to_string();
+            let declared = self.globals.get(id.0 as usize).map_or(span, |slot| slot.var.name.span);
+            let labels = [(body.module, declared, "declared here")];
+            return self.report_in(body.module, span, NameProblem::VariableBelow { name }, &labels);
+        }
+        self.global(body, id, span)
+    }
+
     fn global(&mut self, body: &Body, id: GlobalId, span: Span) -> Option<PlaceOrValue> {
         self.check_global(id);
         let slot = self.globals.get(id.0 as usize)?;
@@ -149,11 +154,13 @@ impl Checker<'_> {
     ) -> Option<PlaceOrValue> {
         if !system && let Some(module) = self.find_module(body, scope) {
             self.used_modules.insert((body.module, module));
-            let own = module == body.module;
+            if module == body.module
+                && let Some((id, visible)) = self.find_global(body, name.symbol)
+            {
+                // Not by its bare name: a local may hide that.
+                return self.own_global(body, id, visible, span);
+            }
             if let Some(id) = self.scopes.get(module.0 as usize)?.globals.get(&name.symbol).copied() {
-                if own {
-                    return self.name(body, name.symbol, span, None);
-                }
                 return self.global(body, id, span);
             }
             return self.not_in_module(body, module, name, "variable");
