@@ -41,6 +41,9 @@ pub(super) fn field(name: &str) -> Ident {
     ident(&tidy(&name.to_ascii_lowercase(), &|name| is_keyword(name)))
 }
 
+/// What a name of nothing but underscores becomes.
+const UNDERSCORE: &str = "underscore";
+
 /// The name without doubled underscores, with underscores behind it as long as it is taken.
 fn tidy(name: &str, taken: &dyn Fn(&str) -> bool) -> String {
     let mut tidy = String::with_capacity(name.len() + 1);
@@ -59,7 +62,7 @@ fn tidy(name: &str, taken: &dyn Fn(&str) -> bool) -> String {
     while tidy == "_" || tidy.is_empty() || taken(&tidy) {
         tidy.push('_');
         if tidy == "__" {
-            tidy = "underscore".to_owned();
+            tidy = UNDERSCORE.to_owned();
         }
     }
     tidy
@@ -148,8 +151,10 @@ impl Names {
         let mut used = HashSet::new();
         let mut out = Vec::with_capacity(func.locals.len());
         for (at, local) in func.locals.iter().enumerate() {
-            let lead = if unread(LocalId(at as u32)) && !local.name.starts_with('_') { "_" } else { "" };
-            let wanted = format!("{lead}{}", local.name);
+            // Underscores alone are no name in Rust, and get one that has to show by itself that nothing reads it.
+            let name = if local.name.chars().all(|c| c == '_') { UNDERSCORE } else { &local.name };
+            let lead = if unread(LocalId(at as u32)) && !name.starts_with('_') { "_" } else { "" };
+            let wanted = format!("{lead}{name}");
             let key = if func.has_goto { at.to_string() } else { wanted.clone() };
             let name = by_name.entry(key).or_insert_with(|| {
                 let taken =
