@@ -13,6 +13,7 @@ use crate::hir::{Bound, Expr, ExprKind, FuncId, Passed, Type, Value};
 use arl_lang::ast::{self, Arg, Unit};
 use arl_lang::catalog::{Base, Entry, Kind, Mode, ParamType, Presence};
 use arl_lang::span::Span;
+use std::fmt;
 
 /// Who gets the arguments.
 pub(crate) enum Callee {
@@ -24,8 +25,8 @@ pub(crate) enum Callee {
 
 /// A parameter, of whichever kind of callee.
 #[derive(Clone)]
-struct Parameter {
-    name: String,
+struct Parameter<'a> {
+    name: &'a str,
     aliases: &'static [&'static str],
     /// `None` where the declaration is wrong and reported.
     ty: Option<Wanted>,
@@ -50,13 +51,13 @@ struct Pair<'e> {
     typed: Option<Typed>,
 }
 
-impl Checker<'_> {
+impl<'a> Checker<'a> {
     /// Binds arguments. `None` where anything is wrong; everything wrong is reported.
     pub(crate) fn bind(&mut self, body: &mut Body, callee: &Callee, args: &[Arg], span: Span) -> Option<Vec<Bound>> {
         let name = self.callee_name(callee);
         let params = self.parameters(callee);
         let by_type = matches!(callee, Callee::Builtin(entry) if entry.kind == Kind::Instruction);
-        let pairs = self.pair(body, callee, &name, &params, args, by_type);
+        let pairs = self.pair(body, callee, name, &params, args, by_type);
         // An argument without a parameter was reported, here or where its variable is declared.
         let mut good = pairs.len() == args.len();
         let counts = counts(&params, &pairs);
@@ -68,8 +69,7 @@ impl Checker<'_> {
             };
             if *count < least && good {
                 let signature = self.callee_signature(callee);
-                let problem =
-                    ArgumentProblem::Missing { callee: name.clone(), parameter: param.name.clone(), signature };
+                let problem = ArgumentProblem::Missing { callee: name.into(), parameter: param.name.into(), signature };
                 self.report::<()>(body, span, problem);
                 good = false;
             }
@@ -80,7 +80,7 @@ impl Checker<'_> {
         let mut bound = Vec::new();
         for pair in pairs {
             let Some(param) = params.get(pair.param) else { continue };
-            match self.pass(body, &name, param, pair.arg, pair.typed) {
+            match self.pass(body, name, param, pair.arg, pair.typed) {
                 Some(value) => bound.push(Bound { param: pair.param, value }),
                 None => good = false,
             }
@@ -96,13 +96,13 @@ impl Checker<'_> {
         good.then_some(bound)
     }
 
-    fn callee_name(&self, callee: &Callee) -> String {
+    fn callee_name(&self, callee: &Callee) -> &'a str {
         match callee {
-            Callee::Builtin(entry) => entry.name.into(),
+            Callee::Builtin(entry) => entry.name,
             Callee::User(func) => self
                 .funcs
                 .get(func.0 as usize)
-                .map(|slot| self.text(slot.module, slot.ast.name.span).to_string())
+                .map(|slot| self.text(slot.module, slot.ast.name.span))
                 .unwrap_or_default(),
         }
     }
@@ -119,13 +119,13 @@ impl Checker<'_> {
         }
     }
 
-    fn parameters(&self, callee: &Callee) -> Vec<Parameter> {
+    fn parameters(&self, callee: &Callee) -> Vec<Parameter<'a>> {
         match callee {
             Callee::Builtin(entry) => entry
                 .params
                 .iter()
                 .map(|param| Parameter {
-                    name: param.name.into(),
+                    name: param.name,
                     aliases: param.aliases,
                     ty: Some(Wanted::Builtin(param.ty)),
                     mode: param.mode,
@@ -141,7 +141,7 @@ impl Checker<'_> {
                 types
                     .zip(&slot.ast.params)
                     .map(|(ty, param)| Parameter {
-                        name: self.text(slot.module, param.name.span).into(),
+                        name: self.text(slot.module, param.name.span),
                         aliases: &[],
                         ty: ty.map(Wanted::User),
                         mode: Mode::In,
@@ -161,7 +161,7 @@ impl Checker<'_> {
         body: &mut Body,
         callee: &Callee,
         name: &str,
-        params: &[Parameter],
+        params: &[Parameter<'_>],
         args: &'e [Arg],
         by_type: bool,
     ) -> Vec<Pair<'e>> {
@@ -200,17 +200,17 @@ impl Checker<'_> {
         &mut self,
         body: &Body,
         callee: &str,
-        params: &[Parameter],
+        params: &[Parameter<'_>],
         label: ast::Ident,
         taken: &[usize],
     ) -> Option<usize> {
         let wanted = self.names.name(label.symbol);
-        let named = |param: &Parameter| {
+        let named = |param: &Parameter<'_>| {
             param.name.eq_ignore_ascii_case(wanted)
                 || param.aliases.iter().any(|alias| alias.eq_ignore_ascii_case(wanted))
         };
         let Some(at) = params.iter().position(named) else {
-            let labels: Vec<&str> = params.iter().map(|param| param.name.as_str()).collect();
+            let labels: Vec<&str> = params.iter().map(|param| param.name).collect();
             let problem = ArgumentProblem::UnknownLabel {
                 callee: callee.into(),
                 label: self.text(body.module, label.span).into(),
@@ -220,9 +220,9 @@ impl Checker<'_> {
             return self.report(body, label.span, problem);
         };
         let param = params.get(at)?;
-        self.strict_case(body, label.span, &param.name);
+        self.strict_case(body, label.span, param.name);
         if taken.get(at).is_some_and(|count| *count >= most(param)) {
-            return self.report(body, label.span, ArgumentProblem::Twice { parameter: param.name.clone() });
+            return self.report(body, label.span, ArgumentProblem::Twice { parameter: param.name.into() });
         }
         Some(at)
     }
@@ -233,7 +233,7 @@ impl Checker<'_> {
         body: &Body,
         callee: &Callee,
         name: &str,
-        params: &[Parameter],
+        params: &[Parameter<'_>],
         arg: &Arg,
         position: &mut usize,
         taken: &[usize],
@@ -257,13 +257,13 @@ impl Checker<'_> {
         &mut self,
         body: &mut Body,
         callee: &str,
-        params: &[Parameter],
+        params: &[Parameter<'_>],
         arg: &Arg,
         taken: &[usize],
     ) -> Option<(usize, Option<Typed>)> {
-        let free = |at: usize, param: &Parameter| taken.get(at).is_some_and(|count| *count < most(param));
+        let free = |at: usize, param: &Parameter<'_>| taken.get(at).is_some_and(|count| *count < most(param));
         if let ast::ExprKind::Brace(_) = arg.value.kind {
-            let takes_braces = |(at, param): &(usize, &Parameter)| {
+            let takes_braces = |(at, param): &(usize, &Parameter<'_>)| {
                 free(*at, param) && matches!(param.ty, Some(Wanted::Builtin(ParamType::One(Base::Struct(_)))))
             };
             let open = params.iter().enumerate().filter(takes_braces);
@@ -285,7 +285,7 @@ impl Checker<'_> {
         if typed.expr.ty.base == Base::Void {
             return self.report_no_value(body, &typed.expr);
         }
-        let takes = |param: &Parameter| match &param.ty {
+        let takes = |param: &Parameter<'_>| match &param.ty {
             Some(Wanted::Builtin(ty)) => self.param_cost(ty, param.mode, &typed).is_some(),
             _ => false,
         };
@@ -300,12 +300,8 @@ impl Checker<'_> {
         if params.is_empty() {
             return self.report(body, arg.value.span, ArgumentProblem::TooMany { callee: callee.into(), most: 0 });
         }
-        let labels: Vec<&str> = params
-            .iter()
-            .enumerate()
-            .filter(|(at, param)| free(*at, param))
-            .map(|(_, param)| param.name.as_str())
-            .collect();
+        let labels: Vec<&str> =
+            params.iter().enumerate().filter(|(at, param)| free(*at, param)).map(|(_, param)| param.name).collect();
         let problem = ArgumentProblem::NoParameter { callee: callee.into(), ty, labels: labels.join(", ") };
         self.report(body, arg.value.span, problem)
     }
@@ -331,12 +327,12 @@ impl Checker<'_> {
         &mut self,
         body: &mut Body,
         callee: &str,
-        param: &Parameter,
+        param: &Parameter<'_>,
         arg: &Arg,
         typed: Option<Typed>,
     ) -> Option<Passed> {
         let unit = self.check_unit(body, param, arg);
-        let what = format!("`{}` of `{callee}`", param.name);
+        let what = format_args!("`{}` of `{callee}`", param.name);
         self.has_conditions |= param.mode == Mode::Condition;
         if param.mode == Mode::Out {
             return self.pass_out(body, callee, param, arg);
@@ -360,8 +356,8 @@ impl Checker<'_> {
         }
         let value = match (param.ty?, want) {
             (Wanted::Builtin(ParamType::One(Base::Handle(_))), Some(want)) if typed.expr.ty == want => typed.expr,
-            (_, Some(want)) => self.coerce(body, typed, want, &what)?,
-            (Wanted::Builtin(ty), None) => self.unconverted(body, &what, &ty, param.mode, typed)?,
+            (_, Some(want)) => self.coerce(body, typed, want, what)?,
+            (Wanted::Builtin(ty), None) => self.unconverted(body, what, &ty, param.mode, typed)?,
             (Wanted::User(_), None) => return None,
         };
         self.check_range(body, param, &value)?;
@@ -370,7 +366,14 @@ impl Checker<'_> {
     }
 
     /// A value for a parameter that takes several types as they are.
-    fn unconverted(&mut self, body: &Body, what: &str, ty: &ParamType, mode: Mode, typed: Typed) -> Option<Expr> {
+    fn unconverted(
+        &mut self,
+        body: &Body,
+        what: fmt::Arguments<'_>,
+        ty: &ParamType,
+        mode: Mode,
+        typed: Typed,
+    ) -> Option<Expr> {
         self.refuse_wide(body, &typed)?;
         if typed.expr.ty.base == Base::Void {
             return self.report_no_value(body, &typed.expr);
@@ -385,7 +388,7 @@ impl Checker<'_> {
             ParamType::One(base) => self.base_name(*base).into(),
         };
         let found = self.type_name(typed.expr.ty);
-        let problem = TypeProblem::Mismatch { found, wanted, what: what.into(), use_instead: None };
+        let problem = TypeProblem::Mismatch { found, wanted, what: what.to_string(), use_instead: None };
         self.report(body, typed.expr.span, problem)
     }
 
@@ -395,7 +398,7 @@ impl Checker<'_> {
         self.report(body, expr.span, TypeProblem::NoValue { what })
     }
 
-    fn pass_out(&mut self, body: &mut Body, callee: &str, param: &Parameter, arg: &Arg) -> Option<Passed> {
+    fn pass_out(&mut self, body: &mut Body, callee: &str, param: &Parameter<'_>, arg: &Arg) -> Option<Passed> {
         let is_place = matches!(
             arg.value.kind,
             ast::ExprKind::Name(_)
@@ -405,7 +408,7 @@ impl Checker<'_> {
                 | ast::ExprKind::Field(..)
         );
         if !is_place {
-            let problem = ArgumentProblem::NotAVariable { callee: callee.into(), parameter: param.name.clone() };
+            let problem = ArgumentProblem::NotAVariable { callee: callee.into(), parameter: param.name.into() };
             return self.report(body, arg.value.span, problem);
         }
         let place = self.written_place(body, &arg.value, true)?;
@@ -431,7 +434,7 @@ impl Checker<'_> {
         self.report(body, arg.value.span, problem)
     }
 
-    fn check_unit(&mut self, body: &Body, param: &Parameter, arg: &Arg) -> Option<()> {
+    fn check_unit(&mut self, body: &Body, param: &Parameter<'_>, arg: &Arg) -> Option<()> {
         let Some((unit, span)) = arg.unit else { return Some(()) };
         let number = match &arg.value.kind {
             ast::ExprKind::Unary(ast::UnaryOp::Negate, operand) => &operand.kind,
@@ -445,11 +448,11 @@ impl Checker<'_> {
         }
         let units: Vec<&str> = param.units.iter().map(|unit| unit.text()).collect();
         let problem =
-            ArgumentProblem::WrongUnit { parameter: param.name.clone(), unit: unit.text(), units: units.join(" or ") };
+            ArgumentProblem::WrongUnit { parameter: param.name.into(), unit: unit.text(), units: units.join(" or ") };
         self.report(body, span, problem)
     }
 
-    fn check_range(&mut self, body: &Body, param: &Parameter, value: &Expr) -> Option<()> {
+    fn check_range(&mut self, body: &Body, param: &Parameter<'_>, value: &Expr) -> Option<()> {
         let (Some((low, high)), ExprKind::Const(constant)) = (param.range, &value.kind) else { return Some(()) };
         let number = match (constant, integer(constant)) {
             (Value::Double(number), _) => *number,
@@ -460,7 +463,7 @@ impl Checker<'_> {
             return Some(());
         }
         let problem = ArgumentProblem::Range {
-            parameter: param.name.clone(),
+            parameter: param.name.into(),
             value: self.excerpt(body.module, value.span),
             low: low.to_string(),
             high: high.to_string(),
@@ -478,7 +481,7 @@ fn most(param: &Parameter) -> usize {
     }
 }
 
-fn counts(params: &[Parameter], pairs: &[Pair<'_>]) -> Vec<usize> {
+fn counts(params: &[Parameter<'_>], pairs: &[Pair<'_>]) -> Vec<usize> {
     let mut counts = vec![0; params.len()];
     for pair in pairs {
         if let Some(count) = counts.get_mut(pair.param) {

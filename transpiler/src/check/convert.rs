@@ -5,6 +5,7 @@ use crate::diagnostics::constants::ConstantProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Expr, ExprKind, Type, Value};
 use arl_lang::catalog::{Base, Enum};
+use std::fmt::Display;
 
 /// An expression with what matters of the way it was written.
 pub(crate) struct Typed {
@@ -142,7 +143,11 @@ fn range(to: Base) -> &'static str {
 
 impl Checker<'_> {
     /// The expression as a value of type `to`. `what` names the place that wants it: "the condition", "`vp`".
-    pub(crate) fn coerce(&mut self, body: &Body, typed: Typed, to: Type, what: &str) -> Option<Expr> {
+    pub(crate) fn coerce(&mut self, body: &Body, typed: Typed, to: Type, what: impl Display) -> Option<Expr> {
+        self.coerced(body, typed, to, &what)
+    }
+
+    fn coerced(&mut self, body: &Body, typed: Typed, to: Type, what: &dyn Display) -> Option<Expr> {
         let Typed { expr, literal } = typed;
         let from = expr.ty;
         if literal == Literal::Wide && to != Type::scalar(Base::Uint) {
@@ -185,7 +190,7 @@ impl Checker<'_> {
                 let problem = TypeProblem::Mismatch {
                     found: self.type_name(from),
                     wanted: self.type_name(to),
-                    what: what.into(),
+                    what: what.to_string(),
                     use_instead: instead(from.base, to.base),
                 };
                 self.report(body, expr.span, problem)

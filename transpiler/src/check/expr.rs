@@ -10,6 +10,7 @@ use crate::hir::{Expr, ExprKind, Place, Type, Value};
 use arl_lang::ast::{self, BinaryOp, Radix};
 use arl_lang::catalog::Base;
 use arl_lang::span::Span;
+use std::fmt::Display;
 
 impl Checker<'_> {
     /// Checks an expression. `want` is the type that its place asks for: braces, enumeration constants and spliced
@@ -96,7 +97,7 @@ impl Checker<'_> {
     }
 
     /// Checks an expression and converts it to what its place asks for.
-    pub(crate) fn expr_as(&mut self, body: &mut Body, expr: &ast::Expr, to: Type, what: &str) -> Option<Expr> {
+    pub(crate) fn expr_as(&mut self, body: &mut Body, expr: &ast::Expr, to: Type, what: impl Display) -> Option<Expr> {
         let typed = self.expr(body, expr, Some(to))?;
         self.coerce(body, typed, to, what)
     }

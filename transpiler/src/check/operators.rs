@@ -23,9 +23,9 @@ impl Checker<'_> {
         }
         match op {
             BinaryOp::And | BinaryOp::Or => {
-                let what = format!("an operand of `{}`", op.text());
-                let left = self.coerce(body, left, BOOL, &what);
-                let right = self.coerce(body, right, BOOL, &what);
+                let what = format_args!("an operand of `{}`", op.text());
+                let left = self.coerce(body, left, BOOL, what);
+                let right = self.coerce(body, right, BOOL, what);
                 self.finish(body, op, left?, right?, Base::Bool, span)
             }
             BinaryOp::ShiftLeft | BinaryOp::ShiftRight => self.shift(body, op, left, right, span),
