@@ -97,7 +97,7 @@ impl Build {
         #[expect(clippy::disallowed_methods, reason = "cargo says so where the files go")]
         let out = std::env::var_os("OUT_DIR").map(PathBuf::from);
         let lines = match out {
-            Some(out) => self.lines(&out, &FileSystem),
+            Some(out) => self.compile_into(&out),
             None => vec!["cargo::error=OUT_DIR is not set: arl2rs::Build is for build scripts".into()],
         };
         for line in lines {
@@ -105,7 +105,12 @@ impl Build {
         }
     }
 
-    /// Compiles into `out`; the lines are for cargo.
+    /// Compiles into a folder, for whoever is no build script of cargo's; the lines are what [`Build::compile`] tells
+    /// cargo: `cargo::rerun-if-changed=..`, `cargo::warning=..`, `cargo::error=..`.
+    pub fn compile_into(&self, out: &Path) -> Vec<String> {
+        self.lines(out, &FileSystem)
+    }
+
     fn lines(&self, out: &Path, sources: &dyn Sources) -> Vec<String> {
         let mut watched = BTreeSet::new();
         let mut lines = Vec::new();
