@@ -1,6 +1,8 @@
 //! What goes wrong while a program runs: faults, and the alarms that they become.
 
+use std::cell::RefCell;
 use std::fmt;
+use std::marker::PhantomData;
 
 /// A fault without its place; [`At::at`] makes an alarm of it.
 #[derive(Clone, PartialEq, Debug)]
@@ -166,15 +168,60 @@ impl fmt::Display for Alarm {
 
 impl std::error::Error for Alarm {}
 
-/// Why a program does not go on: an alarm, `exit`, or `restart`. One pointer wide.
-#[derive(Debug)]
-pub enum Stop {
+/// The program does not go on. It takes no room, so that results come back in registers: the reason waits in a place of
+/// this thread, for the controller that runs the program.
+#[must_use = "the program has to end"]
+pub struct Stop(PhantomData<*const ()>);
+
+/// Why a program does not go on.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Reason {
     /// An alarm.
-    Alarm(Box<Alarm>),
+    Alarm(Alarm),
     /// The `exit` instruction.
     Exit,
     /// The `restart` instruction.
     Restart,
+}
+
+thread_local! {
+    /// The reason of the last [`Stop`].
+    static REASON: RefCell<Reason> = const { RefCell::new(Reason::Exit) };
+}
+
+impl Stop {
+    /// Ends the program with an alarm.
+    pub fn alarm(alarm: Alarm) -> Self {
+        Self::new(Reason::Alarm(alarm))
+    }
+
+    /// The `exit` instruction.
+    pub fn exit() -> Self {
+        Self::new(Reason::Exit)
+    }
+
+    /// The `restart` instruction.
+    pub fn restart() -> Self {
+        Self::new(Reason::Restart)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn new(reason: Reason) -> Self {
+        REASON.set(reason);
+        Self(PhantomData)
+    }
+
+    /// Why the program does not go on. Of several stops on a thread that nobody asked, the last one counts.
+    pub fn reason(self) -> Reason {
+        REASON.replace(Reason::Exit)
+    }
+}
+
+impl fmt::Debug for Stop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        REASON.with_borrow(|reason| write!(f, "Stop({reason:?})"))
+    }
 }
 
 /// The result of whatever may stop the program.
@@ -202,5 +249,5 @@ impl<T> At<T> for Result<T, Fault> {
 #[cold]
 #[inline(never)]
 fn raise(fault: Fault, file: File, line: u32) -> Stop {
-    Stop::Alarm(Box::new(Alarm { fault, file, line }))
+    Stop::alarm(Alarm { fault, file, line })
 }

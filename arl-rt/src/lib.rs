@@ -45,7 +45,7 @@ mod world;
 pub use cell::Cell;
 pub use controller::{Builder, Controller, Outcome, SetupError, State};
 pub use cx::Cx;
-pub use fault::{Alarm, Fault};
+pub use fault::{Alarm, Fault, Reason, Stop};
 pub use output::{Captured, Message, Output, Stream};
 pub use program::{BoxFuture, DataFile, DataVar, Program};
 pub use robot::{Family, Robot};

@@ -123,7 +123,7 @@ fn restart_keeps_variables_and_lets_motion_run_out() {
             });
             text::print().argtoprint(&count).argtoprint(&pose::cjoint(cx).j1).run(cx).at(FILE, 1)?;
             motion::movej(bent(f64::from(count) * 5.0)).vp(50.0).run(cx).await.at(FILE, 2)?;
-            if count < 3 { Err(Stop::Restart) } else { Err(Stop::Exit) }
+            if count < 3 { Err(Stop::restart()) } else { Err(Stop::exit()) }
         })
     });
     assert_eq!(controller.run(), Outcome::Ended);
@@ -133,7 +133,7 @@ fn restart_keeps_variables_and_lets_motion_run_out() {
 
 #[test]
 fn a_program_of_nothing_but_restart_does_not_hang() {
-    let (mut controller, _) = controller(Controller::builder(), |_| Box::pin(async { Err(Stop::Restart) }));
+    let (mut controller, _) = controller(Controller::builder(), |_| Box::pin(async { Err(Stop::restart()) }));
     assert_eq!(controller.run_for(0.05), State::Running);
 }
 
@@ -199,7 +199,7 @@ fn a_reset_starts_from_the_beginning() {
             text::print().to(Printto::Off).argtoprint(&"not seen").run(cx).at(FILE, 1)?;
             io::pulsedo(cx, 4, true, 100.0).await.at(FILE, 2)?;
             motion::movej(bent(5.0)).vp(70.0).run(cx).await.at(FILE, 3)?;
-            Err(Stop::Alarm(Box::new(arl_rt::Alarm { fault: Fault::Assertion, file: FILE, line: 4 })))
+            Err(Stop::alarm(arl_rt::Alarm { fault: Fault::Assertion, file: FILE, line: 4 }))
         })
     });
     assert!(controller.reset().is_err(), "it runs");

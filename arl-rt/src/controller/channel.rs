@@ -7,7 +7,7 @@ use std::task::{Context, Poll, Waker};
 use super::Outcome;
 use crate::cx::Cx;
 use crate::data;
-use crate::fault::{Done, Stop};
+use crate::fault::{Done, Reason, Stop};
 use crate::program::Program;
 use crate::world::World;
 
@@ -73,13 +73,13 @@ impl Channel {
             self.cx.start_cycle(self.stack);
             let mut context = Context::from_waker(Waker::noop());
             if let Poll::Ready(done) = running.as_mut().poll(&mut context) {
-                let next = match done {
-                    Ok(()) | Err(Stop::Exit) => Next::End(Outcome::Ended),
-                    Err(Stop::Restart) => Next::Restart,
-                    Err(Stop::Alarm(alarm)) => {
+                let next = match done.map_err(Stop::reason) {
+                    Ok(()) | Err(Reason::Exit) => Next::End(Outcome::Ended),
+                    Err(Reason::Restart) => Next::Restart,
+                    Err(Reason::Alarm(alarm)) => {
                         world.stop_motion();
-                        world.alarms.borrow_mut().insert(0, (*alarm).clone());
-                        Next::End(Outcome::Alarm(*alarm))
+                        world.alarms.borrow_mut().insert(0, alarm.clone());
+                        Next::End(Outcome::Alarm(alarm))
                     }
                 };
                 self.phase = Phase::RunningOut(next);
@@ -117,7 +117,7 @@ fn load(program: Rc<dyn Program>, cx: Rc<Cx>) -> Running {
         if let Some(first) = alarms.next() {
             // The first one ends the program, and is noted then; all of them come to the user.
             world.alarms.borrow_mut().extend(alarms);
-            return Err(Stop::Alarm(Box::new(first)));
+            return Err(Stop::alarm(first));
         }
         program.main(&cx).await
     })

@@ -85,5 +85,5 @@ impl<'p> Body<'p, '_> {
 
 /// Why the program ends.
 pub(super) fn ending(builtin: &Builtin) -> TokenStream {
-    if builtin.entry.name.eq_ignore_ascii_case("restart") { quote!(Stop::Restart) } else { quote!(Stop::Exit) }
+    if builtin.entry.name.eq_ignore_ascii_case("restart") { quote!(Stop::restart()) } else { quote!(Stop::exit()) }
 }
