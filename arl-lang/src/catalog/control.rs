@@ -16,7 +16,7 @@ entries! { pub(super) CONTROL =
         { "3.4.2", flow::waituntil, waits, fails; "bool late\nwaituntil getdi(6),maxtime:0.5,timeoutflag:late\nprint late" }
     /// Pauses the program when all motion so far has run; the pendant or the external control continues it.
     instr pause()
-        { "3.4.3", flow::pause, waits; "pause" }
+        { "3.4.3", flow::pause, waits, fails; "pause" }
     /// Ends the program, from any function, when all motion so far has run.
     instr exit()
         { "3.4.4", flow::exit, ends; "if(getdi(6))\nexit\nendif" }
