@@ -21,9 +21,22 @@ impl Text {
         if !placed(leaves) {
             return None;
         }
-        source
-            .and_then(|(source, start)| Self::from_source(leaves, source, start))
-            .or_else(|| Some(Self::laid_out(leaves)))
+        let cut = source.and_then(|(source, start)| Self::from_source(leaves, source, start));
+        let mut text = cut.unwrap_or_else(|| Self::laid_out(leaves));
+        text.rewrite_hexadecimal();
+        Some(text)
+    }
+
+    /// `0x3e` is how `3eh`, which Rust cannot read, is written in Rust: it becomes `03eh`, which is as long.
+    fn rewrite_hexadecimal(&mut self) {
+        for (from, to) in &self.ranges {
+            let digits = self.text.get(*from..*to).and_then(|token| token.strip_prefix("0x"));
+            let digits = digits.filter(|digits| digits.bytes().all(|digit| digit.is_ascii_hexdigit()));
+            if let Some(digits) = digits.filter(|digits| !digits.is_empty()) {
+                let number = format!("0{digits}h");
+                self.text.replace_range(*from..*to, &number);
+            }
+        }
     }
 
     /// Cuts the text out of the invocation; `None` where the tokens do not stand there.
@@ -206,6 +219,12 @@ mod tests {
         }
         assert_eq!(Text::of(&leaves, None), None);
         assert_eq!(Text::of::<()>(&[], None), None);
+    }
+
+    #[test]
+    fn hexadecimal_numbers_may_be_those_of_rust() {
+        let text = Text::of(&tokens("0x3e + 0xFF - 0x", (1, 1)), None).expect("a text");
+        assert_eq!(text.text, "03eh + 0FFh - 0x");
     }
 
     #[test]

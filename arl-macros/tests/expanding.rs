@@ -52,6 +52,19 @@ fn programs_may_be_texts() {
     assert_eq!((outcome, printed.as_str()), (Outcome::Ended, "0bh is 11\n"));
 }
 
+mod numbers {
+    arl_rt::arl! {
+        func void main()
+            print 0x3e, " ", 0x0b, " ", 10b, " ", 0ch, " ", 9e+09
+        endfunc
+    }
+}
+
+#[test]
+fn numbers_that_rust_cannot_read_are_written_its_way() {
+    assert_eq!(run(numbers::Globals::new()), (Outcome::Ended, "62 11 2 12 9e+09\n".into()));
+}
+
 mod alarm {
     pub(super) const LINE: u32 = line!() + 4;
     arl_rt::arl! {
