@@ -1,7 +1,7 @@
 //! Everything that ARL has built in, declared once: names, types, parameters, effects, texts and examples.
 //!
 //! One file per family holds its table, in the notation of `declare`. [`functions`] and its relatives find things by
-//! name, [`reference`] writes the pages of the book.
+//! name, [`mod@reference`] writes the pages of the book.
 
 mod auxiliary;
 mod bits;
