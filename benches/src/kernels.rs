@@ -49,13 +49,13 @@ macro_rules! kernels {
 
 kernels! {
     sieve(3, 400) = |cx, _, size| sieve(cx, size).await?;
-    matrix(2, 100) = |cx, _, size| matrix(cx, size).await?;
+    matrix(2, 100) = |cx, _, size| matrix(cx, size).await;
     collatz(1000, 60_000) = |cx, _, size| collatz(cx, size).await;
     crc(3, 300) = |cx, g, size| crc(cx, g, size).await?;
     sort(1, 8) = |cx, g, size| sort(cx, g, size).await?;
     text(1000, 100_000) = |cx, _, size| text(cx, size).await?;
     fixed(10, 800) = |cx, _, size| fixed(cx, size).await?;
-    structures(10, 10_000) = |cx, g, size| structures(cx, g, size).await?;
+    structures(10, 10_000) = |cx, g, size| structures(cx, g, size).await;
     fib(15, 32) = |cx, _, size| fib(cx, size)?;
     queens(6, 11) = |cx, _, size| queens(cx, size)?;
     machine(1000, 500_000) = |cx, _, size| machine(cx, size).await;

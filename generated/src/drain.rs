@@ -50,7 +50,7 @@ pub mod valves {
         cx.line(FILE, 8);
         io::setdo(cx, valve, true).await.at(FILE, 8)?;
         // 9: switched++
-        g.valves.switched.set(g.valves.switched.get().wrapping_add(1));
+        g.valves.switched.update(|it| it.wrapping_add(1));
         Ok(())
     }
 
@@ -60,7 +60,7 @@ pub mod valves {
         cx.line(FILE, 13);
         io::setdo(cx, valve, false).await.at(FILE, 13)?;
         // 14: switched++
-        g.valves.switched.set(g.valves.switched.get().wrapping_add(1));
+        g.valves.switched.update(|it| it.wrapping_add(1));
         Ok(())
     }
 

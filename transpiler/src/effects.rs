@@ -4,6 +4,7 @@ pub(crate) mod facts;
 pub(crate) mod flow;
 pub(crate) mod graph;
 pub(crate) mod loops;
+pub(crate) mod ranges;
 
 use crate::hir::{Effects, FuncId, Program};
 use facts::Facts;
@@ -30,9 +31,11 @@ pub(crate) fn pointer_movers(program: &Program) -> Vec<bool> {
 pub(crate) fn reached(program: &Program) -> Vec<bool> {
     let direct: Vec<Facts> = program.funcs.iter().map(|func| facts::of_function(program, func)).collect();
     let calls = calls(&direct);
+    let ranges = ranges::Ranges::default();
+    let scope = facts::Scope { program, func: None, ranges: &ranges };
     let inits = program.globals.iter().filter_map(|global| global.init.as_ref());
     let mut open: Vec<usize> = inits
-        .flat_map(|init| facts::of_expr(program, None, init).calls)
+        .flat_map(|init| facts::of_expr(scope, init).calls)
         .chain(program.main)
         .map(|FuncId(func)| func as usize)
         .collect();

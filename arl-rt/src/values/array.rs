@@ -65,7 +65,12 @@ pub type SmallArray<T, const N: usize> = Array<T, N, [T; N]>;
 impl<T: Clone + Default, const N: usize, S: Store<T, N>> Array<T, N, S> {
     /// All elements have their start value.
     pub fn start() -> Self {
-        Self { elements: S::build(|_| T::default()), of: PhantomData }
+        Self::build(|_| T::default())
+    }
+
+    /// Each element is made from its index.
+    pub(super) fn build(make: impl FnMut(usize) -> T) -> Self {
+        Self { elements: S::build(make), of: PhantomData }
     }
 
     /// The first elements have these values, the others their start value; values beyond N are left out.

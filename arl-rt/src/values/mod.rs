@@ -1,6 +1,7 @@
 //! The values of ARL: strings, arrays, structures, enumerations, and the variables that hold them.
 
 mod array;
+mod cells;
 mod convert;
 mod enums;
 mod literal;
@@ -10,6 +11,7 @@ mod structs;
 mod teach;
 
 pub use array::{Array, SmallArray, Store};
+pub use cells::{Cells, SmallCells};
 pub use enums::*;
 pub use literal::Literal;
 pub use shared::Shared;

@@ -3,7 +3,7 @@
 //! The rules are those of a declaration: the same conversions, braces by name or by position, start values for what
 //! is left out.
 
-use super::{Literal, Shared, Str};
+use super::{Array, Cells, Literal, Shared, Store, Str};
 use crate::text::{Print, Style};
 use arl_lang::ast::{Expr, ExprKind, TypeRef, Var};
 use arl_lang::catalog::base_type;
@@ -107,6 +107,27 @@ impl<T: Literal + Default> Teach for Shared<T> {
 
     fn type_name(&self) -> String {
         self.with(Print::type_name)
+    }
+}
+
+impl<T: Copy + Default, const N: usize, S: Store<T, N>> Teach for Cells<T, N, S>
+where
+    Array<T, N, S>: Literal,
+{
+    fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
+        let mut fresh = Array::start();
+        fresh.put_nested(value, sizes, names)?;
+        self.set(fresh);
+        Ok(())
+    }
+
+    fn restart(&self) -> Result<(), TeachError> {
+        self.set(Array::start());
+        Ok(())
+    }
+
+    fn type_name(&self) -> String {
+        self.get().type_name()
     }
 }
 

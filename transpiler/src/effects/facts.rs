@@ -1,6 +1,7 @@
 //! What evaluating expressions and running statements involves.
 
 use super::flow;
+use super::ranges::Ranges;
 use crate::hir::{
     Effects, Expr, ExprKind, Func, FuncId, LocalId, Passed, Place, Program, Projection, Root, Stmt, StmtKind, Type,
     Value,
@@ -49,31 +50,43 @@ impl Facts {
     }
 }
 
+/// What an expression is looked at with.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Scope<'a> {
+    pub(crate) program: &'a Program,
+    /// The function that it stands in.
+    pub(crate) func: Option<&'a Func>,
+    /// The values of that function's counting variables.
+    pub(crate) ranges: &'a Ranges,
+}
+
 /// The facts about what a function does itself; what it calls is only listed.
 pub(crate) fn of_function(program: &Program, func: &Func) -> Facts {
-    let mut collector = Collector { program, func: Some(func), callees: false, facts: Facts::default() };
+    let ranges = Ranges::of_function(func);
+    let scope = Scope { program, func: Some(func), ranges: &ranges };
+    let mut collector = Collector { scope, callees: false, facts: Facts::default() };
     collector.block(&func.body);
     collector.facts
 }
 
 /// The facts about an expression, once the effects of the functions are known.
-pub(crate) fn of_expr(program: &Program, func: Option<&Func>, expr: &Expr) -> Facts {
-    let mut collector = Collector { program, func, callees: true, facts: Facts::default() };
+pub(crate) fn of_expr(scope: Scope<'_>, expr: &Expr) -> Facts {
+    let mut collector = Collector { scope, callees: true, facts: Facts::default() };
     collector.expr(expr);
     collector.facts
 }
 
 /// The facts about reading a place.
-pub(crate) fn of_place(program: &Program, func: Option<&Func>, place: &Place) -> Facts {
-    let mut collector = Collector { program, func, callees: true, facts: Facts::default() };
+pub(crate) fn of_place(scope: Scope<'_>, place: &Place) -> Facts {
+    let mut collector = Collector { scope, callees: true, facts: Facts::default() };
     collector.read(place);
     collector.facts
 }
 
 /// The facts about the indices of a projection.
-pub(crate) fn of_indices(program: &Program, func: Option<&Func>, indices: &[Expr]) -> Facts {
-    let mut collector = Collector { program, func, callees: true, facts: Facts::default() };
-    collector.indices(indices);
+pub(crate) fn of_indices(scope: Scope<'_>, indices: &[Expr], array: Type) -> Facts {
+    let mut collector = Collector { scope, callees: true, facts: Facts::default() };
+    collector.indices(indices, array);
     collector.facts
 }
 
@@ -151,8 +164,7 @@ pub(crate) fn children(expr: &Expr) -> Vec<&Expr> {
 }
 
 struct Collector<'a> {
-    program: &'a Program,
-    func: Option<&'a Func>,
+    scope: Scope<'a>,
     /// Whether the effects of called functions count.
     callees: bool,
     facts: Facts,
@@ -175,7 +187,7 @@ impl Collector<'_> {
         let gives_back = match &stmt.kind {
             StmtKind::While(_, _, info) | StmtKind::Repeat(_, _, info) | StmtKind::Loop(_, info) => info.spends,
             StmtKind::For(each) => each.info.spends,
-            StmtKind::Goto(label) => self.func.is_some_and(|func| {
+            StmtKind::Goto(label) => self.scope.func.is_some_and(|func| {
                 func.labels.get(label.0 as usize).is_some_and(|label| label.span.start <= stmt.span.start)
             }),
             _ => false,
@@ -245,7 +257,7 @@ impl Collector<'_> {
 
     fn call(&mut self, id: FuncId) {
         self.facts.calls.push(id);
-        let effects = match self.program.funcs.get(id.0 as usize) {
+        let effects = match self.scope.program.funcs.get(id.0 as usize) {
             Some(func) if self.callees => func.effects,
             _ => Effects::default(),
         };
@@ -263,7 +275,7 @@ impl Collector<'_> {
         match place.root {
             Root::Local(id) => self.facts.reads.push(id),
             Root::Global(id) => {
-                let folded = self.program.globals.get(id.0 as usize).is_some_and(|global| global.value.is_some());
+                let folded = self.scope.program.globals.get(id.0 as usize).is_some_and(|global| global.value.is_some());
                 self.facts.world |= !folded;
             }
             Root::System(_) => self.facts.world = true,
@@ -283,7 +295,7 @@ impl Collector<'_> {
         match place.root {
             Root::Local(_) => {}
             Root::Global(id) => {
-                let folded = self.program.globals.get(id.0 as usize).is_some_and(|global| global.value.is_some());
+                let folded = self.scope.program.globals.get(id.0 as usize).is_some_and(|global| global.value.is_some());
                 self.facts.globals |= !folded;
             }
             Root::System(_) => self.facts.context = true,
@@ -292,16 +304,19 @@ impl Collector<'_> {
 
     fn path(&mut self, place: &Place) {
         for step in &place.path {
-            if let Projection::Index(indices, _) = step {
-                self.indices(indices);
+            if let Projection::Index(indices, array) = step {
+                self.indices(indices, *array);
             }
         }
     }
 
-    fn indices(&mut self, indices: &[Expr]) {
+    fn indices(&mut self, indices: &[Expr], array: Type) {
+        indices.iter().for_each(|index| self.expr(index));
+        if self.scope.ranges.are_inside(indices, array) {
+            return;
+        }
         for index in indices {
-            self.expr(index);
-            self.facts.fails |= constant(self.program, self.func, index).is_none();
+            self.facts.fails |= constant(self.scope.program, self.scope.func, index).is_none();
         }
     }
 
@@ -311,7 +326,7 @@ impl Collector<'_> {
             BinaryOp::Remainder | BinaryOp::ShiftLeft | BinaryOp::ShiftRight => true,
             _ => false,
         };
-        checked && constant(self.program, self.func, right).is_none_or(is_zero_divisor(op))
+        checked && constant(self.scope.program, self.scope.func, right).is_none_or(is_zero_divisor(op))
     }
 }
 

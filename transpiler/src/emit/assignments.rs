@@ -4,10 +4,11 @@ use super::body::Body;
 use super::compound::{is_native, stepped};
 use super::consts::{constant, typed_constant};
 use super::fragment::Fragment;
-use super::operators::text_mode;
-use super::places::{Reached, Written};
+use super::operators::{may_fail, text_mode};
+use super::places::{Calm, Reached, Written};
 use super::sequence::{Mode, Operand};
-use crate::effects::facts::{self, Facts};
+use super::types::is_copy;
+use crate::effects::facts;
 use crate::hir::{Expr, ExprKind, Place, Projection, Root, Value};
 use arl_lang::ast::{BinaryOp, Step};
 use arl_lang::catalog::Base;
@@ -72,7 +73,7 @@ impl<'p> Body<'p, '_> {
             let (first, tokens) = (&fragment.before, &fragment.tokens);
             return (quote!(#before #first #declared = #tokens;), reached);
         }
-        let write = self.write(&reached, Written::Value(fragment), calm(&facts));
+        let write = self.write(&reached, Written::Value(fragment), Calm::of(&facts));
         (quote!(#before #write), reached)
     }
 
@@ -86,7 +87,7 @@ impl<'p> Body<'p, '_> {
             }
         }
         let facts = self.facts(value);
-        let own = facts::of_place(self.program(), self.func, place);
+        let own = facts::of_place(self.scope(), place);
         let disturbed =
             own.reads.iter().any(|read| facts.writes.contains(read)) || (own.world && (facts.acts || facts.waits));
         let ranged = facts::range_check(place, None).is_some();
@@ -99,21 +100,22 @@ impl<'p> Body<'p, '_> {
             before.extend(old.before.clone());
             let right = self.value(value);
             before.extend(right.before.clone());
-            let new = self.operation(op, place.ty, Fragment { before: TokenStream::new(), ..old }, right, value);
+            let known = self.constant(value);
+            let new = self.operation(op, place.ty, Fragment { before: TokenStream::new(), ..old }, &right, known);
             let new = self.in_range(place, new, None);
-            let write = self.write(&reached, Written::Value(new), false);
+            let write = self.write(&reached, Written::Value(new), Calm::No);
             return (quote!(#before #write), reached);
         }
         let (before, reached, right) = self.sides(place, Some((value, Mode::Value)), settle);
-        let written = if native {
-            Written::Compound(op, right)
-        } else {
+        let known = self.constant(value);
+        let written = if ranged || !is_copy(place.ty) || may_fail(op, place.ty, known) {
             let old = self.read_reached(&reached);
-            let new = self.operation(op, place.ty, old, right, value);
-            Written::Value(self.in_range(place, new, None))
+            let new = self.operation(op, place.ty, old, &right, known);
+            Written::Value(self.in_range(place, new, None).after(right.before))
+        } else {
+            Written::Step { op, value: right, known, native }
         };
-        let calm = native && calm(&facts);
-        let write = self.write(&reached, written, calm);
+        let write = self.write(&reached, written, Calm::of(&facts));
         (quote!(#before #write), reached)
     }
 
@@ -121,13 +123,20 @@ impl<'p> Body<'p, '_> {
     fn step(&mut self, step: Step, place: &'p Place, keep: bool) -> (TokenStream, Reached, Option<Fragment>) {
         let simple = place.path.is_empty();
         let (before, reached, _) = self.sides(place, None, !simple || keep);
+        if step.prefix && facts::range_check(place, None).is_none() {
+            let op = if step.up { BinaryOp::Add } else { BinaryOp::Subtract };
+            let one = constant(&Value::Int(1));
+            let written = Written::Step { op, value: one, known: None, native: false };
+            let write = self.write(&reached, written, Calm::Local);
+            return (quote!(#before #write), reached, None);
+        }
         let read = self.read_reached(&reached);
         let old = if step.prefix { read } else { self.settle(read, "old") };
         let (old_before, receiver) = (&old.before, old.receiver());
         let method = if step.up { quote!(wrapping_add) } else { quote!(wrapping_sub) };
         let new = Fragment::postfix(quote!(#receiver.#method(1)));
         let new = self.in_range(place, new, None);
-        let write = self.write(&reached, Written::Value(new), false);
+        let write = self.write(&reached, Written::Value(new), Calm::No);
         let old_value = (!step.prefix).then(|| Fragment { before: TokenStream::new(), ..old.clone() });
         (quote!(#before #old_before #write), reached, old_value)
     }
@@ -189,7 +198,11 @@ impl<'p> Body<'p, '_> {
         for part in parts {
             let facts = self.facts(part);
             let fragment = self.expression(part, text_mode(part));
-            out.extend(self.write(&reached, Written::Compound(BinaryOp::Add, fragment), calm(&facts)));
+            out.extend(self.write(
+                &reached,
+                Written::Step { op: BinaryOp::Add, value: fragment, known: None, native: true },
+                Calm::of(&facts),
+            ));
         }
         (out, reached)
     }
@@ -205,9 +218,4 @@ fn leaves<'p>(expr: &'p Expr, out: &mut Vec<&'p Expr>) {
         }
         _ => out.push(expr),
     }
-}
-
-/// Whether a value has to do with locals only, so that it may be computed while a variable is held.
-fn calm(facts: &Facts) -> bool {
-    facts.quiet() && !facts.world && !facts.context && !facts.globals
 }

@@ -5,7 +5,8 @@ use super::fragment::Fragment;
 use super::goto::Machine;
 use super::names::{Names, ident, is_taken_value};
 use super::usage::Usage;
-use crate::effects::facts::{self, Facts};
+use crate::effects::facts::{self, Facts, Scope};
+use crate::effects::ranges::Ranges;
 use crate::hir::{Expr, Func, LocalId, ModuleId, Program, Value};
 use arl_lang::catalog::Family;
 use arl_lang::span::{LineIndex, Span};
@@ -87,6 +88,8 @@ pub(super) struct Body<'p, 'u> {
     /// The names of the locals.
     pub(super) names: Vec<Ident>,
     pub(super) usage: Usage,
+    /// The values of the variables that loops count.
+    pub(super) ranges: Ranges,
     /// The line that alarms are reported on.
     pub(super) line: u32,
     /// Temporaries of the current statement.
@@ -113,7 +116,8 @@ impl<'p, 'u> Body<'p, 'u> {
         let names = unit.names.locals(func, &|local| !usage.is_read(local));
         let taken = names.iter().map(Ident::to_string).collect();
         let visible = func.params.clone();
-        Self { func: Some(func), usage, names, taken, visible, ..Self::outside(unit, func.module) }
+        let ranges = Ranges::of_function(func);
+        Self { func: Some(func), usage, ranges, names, taken, visible, ..Self::outside(unit, func.module) }
     }
 
     /// For expressions outside functions.
@@ -124,6 +128,7 @@ impl<'p, 'u> Body<'p, 'u> {
             func: None,
             names: Vec::new(),
             usage: Usage::default(),
+            ranges: Ranges::default(),
             line: 0,
             temporaries: Vec::new(),
             taken: HashSet::new(),
@@ -155,8 +160,13 @@ impl<'p, 'u> Body<'p, 'u> {
         facts::constant(self.program(), self.func, expr)
     }
 
+    /// What facts are found with.
+    pub(super) fn scope(&self) -> Scope<'_> {
+        Scope { program: self.unit.program, func: self.func, ranges: &self.ranges }
+    }
+
     pub(super) fn facts(&self, expr: &Expr) -> Facts {
-        facts::of_expr(self.program(), self.func, expr)
+        facts::of_expr(self.scope(), expr)
     }
 
     /// Makes alarms (and the comment) of what follows stand at the line of `span`.

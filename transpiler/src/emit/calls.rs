@@ -3,7 +3,7 @@
 use super::body::Body;
 use super::fragment::{Fragment, Precedence};
 use super::names::{field, ident};
-use super::places::{Reached, Written};
+use super::places::{Calm, Reached, Written};
 use super::sequence::{Mode, Operand};
 use super::types::{is_copy, is_handle};
 use crate::effects::facts;
@@ -89,7 +89,7 @@ impl<'p> Body<'p, '_> {
         };
         for (place, reached, name) in backs {
             let value = self.in_range(place, Fragment::settled(quote!(#name)), None);
-            before.extend(self.write(&reached, Written::Value(value), true));
+            before.extend(self.write(&reached, Written::Value(value), Calm::Local));
         }
         result.after(before)
     }
@@ -98,7 +98,7 @@ impl<'p> Body<'p, '_> {
     fn moves_pointer(&self, arg: &'p Bound) -> bool {
         let facts = match &arg.value {
             Passed::Value(value) => self.facts(value),
-            Passed::Out(place) => facts::of_place(self.program(), self.func, place),
+            Passed::Out(place) => facts::of_place(self.scope(), place),
         };
         facts.calls.iter().any(|id| self.unit.movers.get(id.0 as usize) == Some(&true))
     }
@@ -182,7 +182,7 @@ impl<'p> Body<'p, '_> {
                         let facts = self.facts(expr);
                         touches(&facts.reads, &facts.writes)
                     }
-                    Passed::Out(other) => touches(&facts::of_place(self.program(), self.func, other).reads, &[]),
+                    Passed::Out(other) => touches(&facts::of_place(self.scope(), other).reads, &[]),
                 }
         })
     }

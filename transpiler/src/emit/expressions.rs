@@ -120,6 +120,9 @@ impl<'p> Body<'p, '_> {
             let at = Literal::usize_unsuffixed(at);
             return Fragment::settled(quote!(#at));
         }
+        if self.ranges.are_inside(indices, array) {
+            return self.sure_index(indices, array);
+        }
         let sizes: Vec<Literal> = array.dims().iter().map(|size| Literal::u16_unsuffixed(*size)).collect();
         let operands: Vec<_> = indices.iter().map(|index| Operand::Expr(index, Mode::Value)).collect();
         let (before, indices) = self.sequence(&operands, |_| false);
@@ -129,6 +132,33 @@ impl<'p> Body<'p, '_> {
             _ => quote!(index2([#(#indices),*], [#(#sizes),*])),
         };
         Fragment::postfix(self.checked(call)).after(before)
+    }
+
+    /// `i as usize * 3 + k as usize`, where the indices cannot leave the array.
+    fn sure_index(&mut self, indices: &'p [Expr], array: Type) -> Fragment {
+        let operands: Vec<_> = indices.iter().map(|index| Operand::Expr(index, Mode::Value)).collect();
+        let (before, fragments) = self.sequence(&operands, |_| false);
+        let mut known = 0;
+        let mut terms: Vec<TokenStream> = Vec::new();
+        for (at, fragment) in fragments.iter().enumerate() {
+            let row: usize = array.dims().iter().skip(at + 1).map(|size| usize::from(*size)).product();
+            if let Some(Value::Int(index)) = indices.get(at).and_then(|index| self.constant(index)) {
+                known += usize::try_from(*index).unwrap_or(0) * row;
+                continue;
+            }
+            let index = fragment.at(Precedence::Cast);
+            let row = Literal::usize_unsuffixed(row);
+            terms.push(if row.to_string() == "1" { quote!(#index as usize) } else { quote!(#index as usize * #row) });
+        }
+        if known > 0 {
+            let known = Literal::usize_unsuffixed(known);
+            terms.push(quote!(#known));
+        }
+        let precedence = match terms.as_slice() {
+            [_] if array.dims().len() == 1 => Precedence::Cast,
+            _ => Precedence::Sum,
+        };
+        Fragment::new(quote!(#(#terms)+*), precedence).after(before)
     }
 
     fn known_index(&self, indices: &'p [Expr], array: Type) -> Option<usize> {

@@ -15,6 +15,7 @@ pub(super) enum Precedence {
     Shift,
     Sum,
     Product,
+    Cast,
     Unary,
     Postfix,
 }
@@ -32,7 +33,8 @@ impl Precedence {
             BitAnd => Shift,
             Shift => Sum,
             Sum => Product,
-            Product => Unary,
+            Product => Cast,
+            Cast => Unary,
             Unary | Postfix => Postfix,
         }
     }

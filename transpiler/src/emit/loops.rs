@@ -161,7 +161,8 @@ impl<'p> Body<'p, '_> {
         let rest = if reached {
             let step = each.step.as_ref().map(|step| self.with_own_temporaries(|body| body.effect(step, Tail::Inner)));
             let spend = spend(each.info);
-            quote!(#spend #step)
+            // At the very end, so that waiting ends where the next round begins: rustc makes a better loop of it.
+            quote!(#step #spend)
         } else {
             TokenStream::new()
         };

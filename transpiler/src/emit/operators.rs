@@ -92,20 +92,20 @@ impl<'p> Body<'p, '_> {
         let (before, mut sides) = self.sequence(&operands, |_| false);
         let right_side = sides.pop().unwrap_or_else(|| Fragment::settled(quote!(())));
         let left_side = sides.pop().unwrap_or_else(|| Fragment::settled(quote!(())));
-        self.operation(op, left.ty, left_side, right_side, right).after(before)
+        let known = self.constant(right);
+        self.operation(op, left.ty, left_side, &right_side, known).after(before)
     }
 
-    /// The operation on operands that have been emitted; `right` is looked at for constants only.
+    /// The operation on operands that have been emitted; `known` is the right one's value where it is constant.
     pub(super) fn operation(
         &self,
         op: BinaryOp,
         ty: Type,
         left: Fragment,
-        right: Fragment,
-        right_expr: &'p Expr,
+        right: &Fragment,
+        known: Option<&Value>,
     ) -> Fragment {
         use BinaryOp::*;
-        let known = self.constant(right_expr);
         let whole = matches!(ty.base, Base::Int | Base::Uint | Base::Byte);
         let call = |name: TokenStream| {
             let (left, right) = (&left.tokens, &right.tokens);
@@ -128,10 +128,10 @@ impl<'p> Body<'p, '_> {
             ShiftRight if known.is_none() => call(quote!(shr)),
             Less | LessEqual | Greater | GreaterEqual if whole => {
                 let upward = matches!(op, Less | GreaterEqual);
-                let (left, right) = (limit(left, ty.base, !upward), limit(right, ty.base, upward));
+                let (left, right) = (limit(left, ty.base, !upward), limit(right.clone(), ty.base, upward));
                 Fragment::new(infix(op, &left, &right), precedence(op))
             }
-            _ => Fragment::new(infix(op, &left, &right), precedence(op)),
+            _ => Fragment::new(infix(op, &left, right), precedence(op)),
         }
     }
 
@@ -218,6 +218,16 @@ pub(super) fn text_mode(expr: &Expr) -> Mode {
         ExprKind::Const(Value::String(_)) => Mode::Compared,
         ExprKind::Place(place) if matches!(place.root, Root::Local(_)) => Mode::Reference,
         _ => Mode::Value,
+    }
+}
+
+/// Whether an operation may end in an alarm.
+pub(super) fn may_fail(op: BinaryOp, ty: Type, known: Option<&Value>) -> bool {
+    match op {
+        BinaryOp::Divide => ty.base != Base::Double && !known.is_some_and(is_divisor),
+        BinaryOp::Remainder => !known.is_some_and(is_divisor),
+        BinaryOp::ShiftLeft | BinaryOp::ShiftRight => known.is_none(),
+        _ => false,
     }
 }
 

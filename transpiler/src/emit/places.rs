@@ -5,11 +5,10 @@
 
 use super::body::Body;
 use super::fragment::{Fragment, Precedence};
-use super::operators::sign;
 use super::sequence::Operand;
-use super::types::{component, is_copy, is_handle, type_name};
-use crate::effects::facts;
-use crate::hir::{Expr, Place, Projection, Root, Type};
+use super::types::{component, is_cells, is_copy, is_handle, type_name};
+use crate::effects::facts::{self, Facts};
+use crate::hir::{Expr, Place, Projection, Root, Type, Value};
 use arl_lang::ast::BinaryOp;
 use arl_lang::catalog::{Base, Struct};
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -39,15 +38,46 @@ enum Kept {
     Local,
     Handle,
     Cell,
+    /// An array of cells.
+    Cells,
     Shared,
 }
 
+/// Where a value may be computed.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Calm {
+    /// In a statement of its own only.
+    No,
+    /// Anywhere where nothing is held that it reads.
+    Quiet,
+    /// Anywhere: it has to do with locals only.
+    Local,
+}
+
+impl Calm {
+    /// For a value that these facts are about.
+    pub(super) fn of(facts: &Facts) -> Self {
+        match facts.quiet() {
+            true if !facts.world && !facts.context && !facts.globals => Calm::Local,
+            true => Calm::Quiet,
+            false => Calm::No,
+        }
+    }
+}
+
 /// What is written to a place.
-pub(super) enum Written {
+pub(super) enum Written<'p> {
     /// `place = value`
     Value(Fragment),
-    /// `place op= value` with an operator that Rust has in this form.
-    Compound(BinaryOp, Fragment),
+    /// `place op= value`, where the operation cannot fail.
+    Step {
+        op: BinaryOp,
+        value: Fragment,
+        /// The value where it is constant.
+        known: Option<&'p Value>,
+        /// Whether Rust has the operator in this form.
+        native: bool,
+    },
 }
 
 impl Reached {
@@ -56,7 +86,16 @@ impl Reached {
             Root::Local(_) => Kept::Local,
             _ if is_handle(self.whole) => Kept::Handle,
             _ if is_copy(self.whole) => Kept::Cell,
+            Root::Global(_) if is_cells(self.whole) => Kept::Cells,
             _ => Kept::Shared,
+        }
+    }
+
+    /// The index of the element that the path begins with.
+    fn first_index(&self) -> TokenStream {
+        match self.path.first() {
+            Some(Reach::At(at)) => at.clone(),
+            _ => quote!(0),
         }
     }
 
@@ -158,7 +197,7 @@ impl<'p> Body<'p, '_> {
         let tokens = match (place.kept(), place.path.split_first()) {
             (Kept::Local | Kept::Handle, _) => quote!(#variable #steps),
             (Kept::Cell, _) => quote!(#variable.get()#steps),
-            (Kept::Shared, Some((Reach::At(at), rest))) => {
+            (Kept::Shared | Kept::Cells, Some((Reach::At(at), rest))) => {
                 let rest = self::steps(rest);
                 quote!(#variable.item(#at)#rest)
             }
@@ -167,7 +206,7 @@ impl<'p> Body<'p, '_> {
                 let copy = if is_copy(place.ty) { TokenStream::new() } else { quote!(.clone()) };
                 quote!(#variable.with(|#it| #it #steps #copy))
             }
-            (Kept::Shared, None) => quote!(#variable.get()),
+            (Kept::Shared | Kept::Cells, _) => quote!(#variable.get()),
         };
         Fragment::postfix(tokens)
     }
@@ -186,64 +225,89 @@ impl<'p> Body<'p, '_> {
         })
     }
 
-    /// The statement that writes a place whose indices are known. `calm` tells that the value may be computed while the
-    /// variable is held.
-    pub(super) fn write(&mut self, place: &Reached, written: Written, calm: bool) -> TokenStream {
+    /// The statement that writes a place whose indices are known. `calm` tells where the value may be computed.
+    pub(super) fn write(&mut self, place: &Reached, written: Written<'p>, calm: Calm) -> TokenStream {
         let variable = self.variable(place.root);
-        let steps = place.steps();
-        match (place.kept(), place.path.as_slice()) {
-            (Kept::Local, _) => assign(quote!(#variable #steps), &written),
+        let item = matches!(place.path.as_slice(), [Reach::At(_)]);
+        match (place.kept(), written) {
+            (Kept::Local, written) => {
+                let target = self.target(place);
+                let (before, change) = self.changed(place.ty, &target, written);
+                quote!(#before #change;)
+            }
             // The checker has no assignment to handles.
             (Kept::Handle, _) => TokenStream::new(),
-            (Kept::Cell | Kept::Shared, []) => match written {
-                Written::Value(value) => {
-                    let (before, value) = (&value.before, &value.tokens);
-                    quote!(#before #variable.set(#value);)
-                }
-                Written::Compound(..) => self.update(place, &variable, written, calm),
-            },
-            (Kept::Shared, [Reach::At(at)]) => match written {
-                Written::Value(value) => {
-                    let (before, value) = (&value.before, &value.tokens);
-                    quote!(#before #variable.set_item(#at, #value);)
-                }
-                Written::Compound(..) => self.update(place, &variable, written, calm),
-            },
-            _ => self.update(place, &variable, written, calm),
+            (_, Written::Value(value)) if place.path.is_empty() => {
+                let (before, value) = (&value.before, &value.tokens);
+                quote!(#before #variable.set(#value);)
+            }
+            (Kept::Cells | Kept::Shared, Written::Value(value)) if item => {
+                let (before, value, at) = (&value.before, &value.tokens, place.first_index());
+                quote!(#before #variable.set_item(#at, #value);)
+            }
+            (_, written) => self.update(place, &variable, written, calm),
         }
     }
 
-    /// `variable.update(|it| ..)`; the value is computed before, unless it has to do with locals only.
-    fn update(&mut self, place: &Reached, variable: &TokenStream, written: Written, calm: bool) -> TokenStream {
+    /// `target = value`, `target += value`, with the statements before.
+    fn changed(&self, ty: Type, target: &TokenStream, written: Written<'p>) -> (TokenStream, TokenStream) {
+        match written {
+            Written::Value(value) => {
+                let new = &value.tokens;
+                (value.before.clone(), quote!(#target = #new))
+            }
+            Written::Step { op, value, native: true, .. } => {
+                let (sign, by) = (compound_sign(op), &value.tokens);
+                (value.before.clone(), quote!(#target #sign #by))
+            }
+            Written::Step { op, value, known, .. } => {
+                let new = self.operation(op, ty, Fragment::postfix(target.clone()), &value, known).tokens;
+                (value.before, quote!(#target = #new))
+            }
+        }
+    }
+
+    /// `variable.update(|it| ..)`; the value is computed before, unless it may be computed in there.
+    fn update(&mut self, place: &Reached, variable: &TokenStream, written: Written<'p>, calm: Calm) -> TokenStream {
+        let kept = place.kept();
+        let inside = if kept == Kept::Shared { calm == Calm::Local } else { calm != Calm::No };
+        let settle = |body: &mut Self, value: Fragment| {
+            let mut value = if inside { value } else { body.settle(value, "value") };
+            (std::mem::take(&mut value.before), value)
+        };
         let (before, written) = match written {
             Written::Value(value) => {
-                let value = if calm { value } else { self.settle(value, "value") };
-                (value.before.clone(), Written::Value(value))
+                let (before, value) = settle(self, value);
+                (before, Written::Value(value))
             }
-            Written::Compound(op, value) => {
-                let value = if calm { value } else { self.settle(value, "value") };
-                (value.before.clone(), Written::Compound(op, value))
+            Written::Step { op, value, known, native } => {
+                let (before, value) = settle(self, value);
+                (before, Written::Step { op, value, known, native })
             }
         };
         let it = self.fresh("it");
-        let steps = place.steps();
-        if place.kept() == Kept::Shared {
+        if kept == Kept::Shared {
+            let steps = place.steps();
             let target = if place.path.is_empty() { quote!(*#it) } else { quote!(#it #steps) };
-            let (op, value) = match &written {
-                Written::Value(value) => (quote!(=), &value.tokens),
-                Written::Compound(op, value) => (compound_sign(*op), &value.tokens),
-            };
-            return quote!(#before #variable.update(|#it| #target #op #value););
+            let (_, change) = self.changed(place.ty, &target, written);
+            return quote!(#before #variable.update(|#it| #change););
         }
-        let value = match &written {
-            Written::Value(value) => value.tokens.clone(),
-            Written::Compound(op, value) => {
-                let (op, value) = (sign(*op), value.at(super::operators::precedence(*op).tighter()));
-                quote!(#it #steps #op #value)
+        let (element, path) = match place.path.split_first() {
+            Some((Reach::At(at), rest)) => (Some(at), rest),
+            _ => (None, place.path.as_slice()),
+        };
+        let value = match written {
+            Written::Value(value) => value.tokens,
+            Written::Step { op, value, known, .. } => {
+                let steps = steps(path);
+                self.operation(op, place.ty, Fragment::postfix(quote!(#it #steps)), &value, known).tokens
             }
         };
-        let value = self.rebuilt(&quote!(#it), &place.path, value);
-        quote!(#before #variable.update(|#it| #value);)
+        let value = self.rebuilt(&quote!(#it), path, value);
+        match element {
+            Some(at) => quote!(#before #variable.update_item(#at, |#it| #value);),
+            None => quote!(#before #variable.update(|#it| #value);),
+        }
     }
 
     /// `Pose { x: value, ..it }`, for inner components nested.
@@ -262,16 +326,6 @@ impl<'p> Body<'p, '_> {
         let tokens = self.checked(quote!(in_range(#tokens, #low, #high)));
         Fragment { tokens, precedence: Precedence::Postfix, settled: false, ..value }
     }
-}
-
-/// `place = value;` or `place += value;`
-fn assign(target: TokenStream, written: &Written) -> TokenStream {
-    let (op, value) = match written {
-        Written::Value(value) => (quote!(=), value),
-        Written::Compound(op, value) => (compound_sign(*op), value),
-    };
-    let (before, value) = (&value.before, &value.tokens);
-    quote!(#before #target #op #value;)
 }
 
 fn compound_sign(op: BinaryOp) -> TokenStream {

@@ -92,7 +92,7 @@ impl<'p> Body<'p, '_> {
     pub(super) fn operand_facts(&self, operand: &Operand<'p>) -> Facts {
         match operand {
             Operand::Expr(expr, _) => self.facts(expr),
-            Operand::Index(indices, _) => facts::of_indices(self.program(), self.func, indices),
+            Operand::Index(indices, array) => facts::of_indices(self.scope(), indices, *array),
         }
     }
 }

@@ -19,6 +19,11 @@ pub(super) fn is_handle(ty: Type) -> bool {
     matches!(ty.base, Base::Handle(_))
 }
 
+/// Whether a global of the type is an array of cells.
+pub(super) fn is_cells(ty: Type) -> bool {
+    ty.is_array() && is_copy(ty.element())
+}
+
 /// The type in Rust.
 pub(super) fn rust_type(ty: Type, family: Family) -> TokenStream {
     let element = base_type(ty.base, family);
@@ -80,7 +85,12 @@ fn bytes(base: Base, family: Family) -> usize {
 /// The variable that a global of this type is: `Cell<i32>`, `Shared<Str>`, or the handle itself.
 pub(super) fn variable_type(ty: Type, family: Family) -> TokenStream {
     let value = rust_type(ty, family);
-    if is_handle(ty) {
+    if is_cells(ty) {
+        let small = array_type(ty, family) == "SmallArray";
+        let cells = if small { quote!(SmallCells) } else { quote!(Cells) };
+        let (element, count) = (base_type(ty.base, family), Literal::usize_unsuffixed(ty.len()));
+        quote!(#cells<#element, #count>)
+    } else if is_handle(ty) {
         value
     } else if is_copy(ty) {
         quote!(Cell<#value>)

@@ -4,10 +4,9 @@
 use super::body::{Body, Unit, mentions};
 use super::consts::typed_constant;
 use super::fragment::Fragment;
-use super::places::Written;
+use super::places::{Calm, Written};
 use super::points;
 use super::types::{is_handle, start_value, variable_type};
-use crate::effects::facts;
 use crate::hir::{Expr, ExprKind, Global, GlobalId, ModuleId, Place, Root, Value};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -60,7 +59,7 @@ pub(super) fn init(unit: &Unit<'_>, module: ModuleId, globals: &[(GlobalId, &Glo
         for (id, global) in chunk {
             code.extend(first_value(unit, module, *id, global));
             if let Some(init) = &global.init {
-                let facts = facts::of_expr(unit.program, None, init);
+                let facts = Body::outside(unit, module).facts(init);
                 part.waits |= facts.waits;
                 part.fails |= facts.fails;
                 part.context |= facts.context;
@@ -140,7 +139,7 @@ fn first_value(unit: &Unit<'_>, module: ModuleId, id: GlobalId, global: &Global)
         }
         None => Fragment::postfix(start_value(global.ty, unit.family())),
     };
-    let write = body.write(&reached, Written::Value(value), true);
+    let write = body.write(&reached, Written::Value(value), Calm::Local);
     quote!(#comment #write)
 }
 

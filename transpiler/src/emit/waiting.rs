@@ -3,7 +3,7 @@
 
 use super::body::Body;
 use super::fragment::{Fragment, Precedence};
-use super::places::Written;
+use super::places::{Calm, Written};
 use super::sequence::Mode;
 use crate::hir::{Builtin, Expr, Passed, Place, Root};
 use arl_lang::catalog::{Effect, Mode as ParamMode};
@@ -78,7 +78,7 @@ impl<'p> Body<'p, '_> {
         if let Some(declared) = self.joined_let(flag, None) {
             return quote!(#start #declared = #waiting;);
         }
-        let write = self.write(&reached, Written::Value(waiting), true);
+        let write = self.write(&reached, Written::Value(waiting), Calm::Local);
         quote!(#start #flag_before #write)
     }
 }
