@@ -200,6 +200,12 @@ impl<'a> Adapter<'a> {
             Some(Token::BraceOpen | Token::Comma) if in_brace && next.is_some_and(begins_component_value) => {
                 return (Token::Component(symbol), 0);
             }
+            // `weaveshape` is a type, which cannot be called, and a component.
+            Some(Token::BraceOpen | Token::Comma)
+                if in_brace && word == Word::Type && next == Some(Lexeme::ParenOpen) =>
+            {
+                return (Token::Component(symbol), 0);
+            }
             _ => {}
         }
         let token = match word {

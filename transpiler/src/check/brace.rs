@@ -29,11 +29,12 @@ impl Checker<'_> {
         let components = id.def(self.family()).components;
         let mut values: Vec<Option<Expr>> = components.iter().map(|_| None).collect();
         let mut by_position = components.iter().enumerate().filter(|(_, component)| component.by_position);
+        let any_named = items.iter().any(|item| item.name.is_some() && self.difference_item(item, id).is_none());
         let mut named: Option<bool> = None;
         let mut good = true;
         for item in items {
             let difference = self.difference_item(item, id);
-            let parenthesised = self.parenthesised_item(body, item, id);
+            let parenthesised = self.parenthesised_item(body, item, id, any_named);
             let (name, value) = match (&difference, &parenthesised) {
                 (Some(difference), _) => (None, difference),
                 (None, Some((name, value))) => (Some(*name), value),
@@ -86,15 +87,21 @@ impl Checker<'_> {
         if is_component { None } else { brace_difference(item) }
     }
 
-    /// `{x (a)}` reads like a call; where the structure has the component and the program no such function, it is the
-    /// component and its value.
-    fn parenthesised_item(&self, body: &Body, item: &BraceItem, id: Struct) -> Option<(ast::Ident, ast::Expr)> {
+    /// `{x (a)}` reads like a call; where the structure has the component, and other components are named or the
+    /// program has no such function, it is the component and its value.
+    fn parenthesised_item(
+        &self,
+        body: &Body,
+        item: &BraceItem,
+        id: Struct,
+        any_named: bool,
+    ) -> Option<(ast::Ident, ast::Expr)> {
         if item.name.is_some() {
             return None;
         }
         let (name, value) = without_call(&item.value)?;
         let is_function = self.scopes.get(body.module.0 as usize)?.funcs.contains_key(&name.symbol);
-        (self.find_component(id, name.symbol).is_some() && !is_function).then_some((name, value))
+        (self.find_component(id, name.symbol).is_some() && (any_named || !is_function)).then_some((name, value))
     }
 
     /// Fills `out` with the elements of an array of the given (remaining) dimensions.
