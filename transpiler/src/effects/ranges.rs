@@ -39,6 +39,18 @@ impl Ranges {
         }
     }
 
+    /// Whether an expression is a constant or a variable that a loop counts.
+    pub(crate) fn is_counted(&self, expr: &Expr) -> bool {
+        match &expr.kind {
+            ExprKind::Const(_) => true,
+            ExprKind::Place(place) => match place.root {
+                Root::Local(id) => place.path.is_empty() && self.0.contains_key(&id),
+                _ => false,
+            },
+            _ => false,
+        }
+    }
+
     /// The values that an expression may have; none where too little is known.
     pub(crate) fn interval(&self, expr: &Expr) -> Option<Interval> {
         let limits = limits(expr.ty)?;

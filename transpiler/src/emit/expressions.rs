@@ -158,7 +158,9 @@ impl<'p> Body<'p, '_> {
             [_] if array.dims().len() == 1 => Precedence::Cast,
             _ => Precedence::Sum,
         };
-        Fragment::new(quote!(#(#terms)+*), precedence).after(before)
+        // What loops count does not change within a round.
+        let settled = indices.iter().all(|index| self.ranges.is_counted(index));
+        Fragment { settled, ..Fragment::new(quote!(#(#terms)+*), precedence) }.after(before)
     }
 
     fn known_index(&self, indices: &'p [Expr], array: Type) -> Option<usize> {

@@ -315,6 +315,9 @@ impl<'p> Body<'p, '_> {
         let Some((Reach::Field(id, field), rest)) = path.split_first() else { return value };
         let inner = self.rebuilt(&quote!(#it.#field), rest, value);
         let name = type_name(Base::Struct(*id), self.family());
+        if *field == inner.to_string() {
+            return quote!(#name { #field, ..#it });
+        }
         quote!(#name { #field: #inner, ..#it })
     }
 
