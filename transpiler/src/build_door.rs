@@ -1,6 +1,6 @@
 //! The door for build scripts: ARL programs become modules of a Rust crate.
 
-use crate::compile::{Compiled, compile_program};
+use crate::compile::{Compiled, compile_program, on_large_stack};
 use crate::diagnostics::{Diagnostic, Severity};
 use crate::emit::EmitOptions;
 use crate::render::{plain, plain_block};
@@ -108,7 +108,7 @@ impl Build {
     /// Compiles into a folder, for whoever is no build script of cargo's; the lines are what [`Build::compile`] tells
     /// cargo: `cargo::rerun-if-changed=..`, `cargo::warning=..`, `cargo::error=..`.
     pub fn compile_into(&self, out: &Path) -> Vec<String> {
-        self.lines(out, &FileSystem)
+        on_large_stack(|| self.lines(out, &FileSystem))
     }
 
     fn lines(&self, out: &Path, sources: &dyn Sources) -> Vec<String> {

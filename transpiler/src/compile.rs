@@ -149,6 +149,26 @@ pub fn guard<T>(work: impl FnOnce() -> T) -> Result<T, Bug> {
     })
 }
 
+/// Stack for the compiler, in bytes: enough for the deepest nesting that ARL allows, also without optimisation and on
+/// systems that give programs little.
+const STACK: usize = 64 << 20;
+
+/// Runs a part of the compiler where there is stack enough for the deepest nesting that ARL allows.
+pub fn on_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    let work = std::sync::Mutex::new(Some(work));
+    let run = || work.lock().ok().and_then(|mut work| work.take()).map(|work| work());
+    let done = std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, run);
+        thread.ok().map(|thread| thread.join())
+    });
+    match done {
+        Some(Ok(Some(done))) => done,
+        Some(Err(panic)) => std::panic::resume_unwind(panic),
+        // No thread to be had: this one has to do. Nobody took the work, so it is there.
+        _ => run().unwrap_or_else(|| std::process::abort()),
+    }
+}
+
 /// The name that a file has in messages.
 pub fn shown_name(files: &Files, file: FileId) -> &str {
     files.get(file).map_or("?", |file| file.name.as_str())

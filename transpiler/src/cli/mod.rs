@@ -19,6 +19,7 @@ mod show;
 mod stamp;
 mod test;
 
+use crate::compile::{guard, on_large_stack, remember_panics};
 use args::{Cli, Command};
 use clap::Parser;
 use failure::Failure;
@@ -29,9 +30,9 @@ use std::process::ExitCode;
 /// interrupted.
 pub fn main() -> ExitCode {
     let cli = Cli::parse();
-    crate::compile::remember_panics();
+    remember_panics();
     cargo::end_on_interrupt();
-    match crate::compile::guard(|| dispatch(cli.command)) {
+    match on_large_stack(|| guard(|| dispatch(cli.command))) {
         Ok(Ok(code)) => code,
         Ok(Err(failure)) => failure.report(),
         Err(bug) => Failure::from(bug).report(),
