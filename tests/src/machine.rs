@@ -56,6 +56,9 @@ pub struct Machine<'p> {
     line: u32,
 }
 
+/// Bytes of a string beyond which a program is of no use.
+const LONGEST: usize = 1000;
+
 /// A place in a variable: the variable, and the numbers of components and elements.
 type Place = (Var, Vec<usize>);
 
@@ -359,7 +362,12 @@ impl<'p> Machine<'p> {
             Op::Shl | Op::Shr => (convert(left, common), right),
             _ => (convert(left, common), convert(right, common)),
         };
-        binary(op, left, right).map_err(|alarm| self.alarm(alarm, frame))
+        let value = binary(op, left, right).map_err(|alarm| self.alarm(alarm, frame))?;
+        match value {
+            // It doubles in every turn of some loop.
+            Value::Str(text) if text.len() > LONGEST => Err(Stop::Tired),
+            value => Ok(value),
+        }
     }
 
     fn assign(&mut self, op: Option<(Op, Base)>, sides: &(Expr, Expr), frame: &mut Frame) -> Result<Value, Stop> {
@@ -385,10 +393,8 @@ impl<'p> Machine<'p> {
             values.push(match param {
                 Param::Like(base) | Param::Exactly(base) => convert(self.eval(arg, frame)?, *base),
                 Param::Near(..) => convert(self.eval(arg, frame)?, Base::Int),
-                Param::Any if builtin.name == "typeof" => {
-                    self.eval(arg, frame)?;
-                    Value::Str(type_name(arg.ty).into_bytes())
-                }
+                // It is known beforehand, and nothing is evaluated.
+                Param::Any if builtin.name == "typeof" => Value::Str(type_name(arg.ty).into_bytes()),
                 Param::Any => self.eval(arg, frame)?,
                 Param::Word(_) => Value::Void,
                 Param::Out(_) => {
@@ -400,6 +406,9 @@ impl<'p> Machine<'p> {
             });
         }
         let result = (builtin.run)(&mut values).map_err(|alarm| self.alarm(alarm, frame))?;
+        if matches!(&result, Value::Str(text) if text.len() > LONGEST) {
+            return Err(Stop::Tired);
+        }
         if let Some((at, place)) = written {
             *self.at(&place, frame) = values.swap_remove(at);
         }

@@ -18,7 +18,8 @@ fn integer(value: &Value) -> Option<i64> {
 pub fn fits(expr: &Expr, base: Base) -> bool {
     let Some(value) = expr.constant.as_ref().and_then(integer) else { return false };
     match base {
-        Base::Byte => (0..=255).contains(&value),
+        // The complement of a bit pattern is as wide as its place wants.
+        Base::Byte => (0..=255).contains(&value) || (expr.is_complement() && value | 255 == -1),
         Base::Int => i32::try_from(value).is_ok(),
         Base::Uint => u32::try_from(value).is_ok() || (expr.pattern && matches!(expr.ty.base, Base::Int)),
         Base::Double => true,

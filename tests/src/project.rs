@@ -96,11 +96,13 @@ impl Project {
         }
         let _ = std::fs::remove_dir_all(self.folder.join("src/programs"));
         let mut modules = String::from("#![deny(warnings)]\n\n");
+
         let mut list = String::new();
+        let library = name.replace('-', "_");
         for (at, program) in programs.iter().enumerate() {
             self.write(&format!("src/programs/p{at}.rs"), program);
             let _ = write!(modules, "#[path = \"programs/p{at}.rs\"]\npub mod p{at};\n");
-            let _ = writeln!(list, "    run({at}, || Box::new({name}::p{at}::Globals::new()));");
+            let _ = writeln!(list, "    run({at}, || Box::new({library}::p{at}::Globals::new()));");
         }
         self.write("src/lib.rs", &modules);
         self.write("src/main.rs", &MAIN.replace("LIST", &list));

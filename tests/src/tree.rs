@@ -276,6 +276,15 @@ impl Expr {
         Self::new(kind, Type::one(base))
     }
 
+    /// Whether it is `~` of a literal in binary or hexadecimal.
+    pub fn is_complement(&self) -> bool {
+        match &self.kind {
+            Kind::Paren(inner) => inner.is_complement(),
+            Kind::Unary(Unary::Complement, inner) => self.pattern && inner.pattern,
+            _ => false,
+        }
+    }
+
     /// How close it binds; 1 for what needs no parentheses anywhere.
     pub fn level(&self) -> u8 {
         match &self.kind {

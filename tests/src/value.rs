@@ -300,6 +300,8 @@ fn list(values: &[&Value], style: Style, out: &mut Vec<u8>) {
 
 /// A double like C's `%g` with so many digits.
 pub fn general(value: f64, digits: usize) -> String {
+    // No double has more; each further one would be a zero, which is not written.
+    let digits = digits.min(1100);
     if value.is_nan() {
         return "nan".into();
     }

@@ -10,7 +10,7 @@ const NAMES: &str = "\
     final box gen macro union priv virtual typeof1 become override do in as i32 u8 u32 f64 str Str Cell Shared \
     Array SmallArray Cx cx g Globals Done Stop Variables wait old value at State state Some None1 Ok Err Result \
     Option Vec Box1 div rem shl shr index index2 math bits strings convert flow motion init new it values drop \
-    Clone Default1 Print std core alloc arl_rt depth _depth main first next last left right it_2 old_2 value2 \
+    Clone Default1 Printed std core alloc arl_rt depth _depth main first next last left right it_2 old_2 value2 \
     at_1 i2 i_2 a_1 a1 ffh each beach dah fast odd j1 cfg t_frame Rust assert_eq panic vec format include line \
     enter spend late Future Pin Program Family Pos1 Double1 Teach Fixed rem_double in_range is_true loop1 Start \
     End label start";

@@ -108,7 +108,7 @@ impl Grower {
         let (result, operand) = crate::operators::typed_unary(op, &inner)?;
         let value =
             inner.constant.clone().map(|value| crate::operators::unary(op, crate::value::convert(value, operand)));
-        let pattern = op == Unary::Complement && inner.pattern && matches!(inner.kind, Kind::Literal(..));
+        let pattern = op == Unary::Complement && inner.pattern && !inner.is_complement();
         Some(Expr { kind: Kind::Unary(op, Box::new(inner)), ty: Type::one(result), constant: value, pattern })
     }
 }

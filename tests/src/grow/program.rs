@@ -76,7 +76,7 @@ pub fn linear(seed: u64, prints: usize) -> (Program, Vec<Program>) {
                     printed += usize::from(matches!(stmt.kind, StmtKind::Print(_)));
                     body.push(stmt);
                 }
-                Err(_) => {
+                Err(stop) => {
                     // It becomes the end of a program of its own.
                     let mut wrong = body.clone();
                     if wrong.len() > 5 {
@@ -84,9 +84,11 @@ pub fn linear(seed: u64, prints: usize) -> (Program, Vec<Program>) {
                     }
                     wrong.push(stmt);
                     wrong.push(StmtKind::Print(vec![Printed::Value(int(0))]).into());
-                    let mut program = library.clone();
-                    program.funcs.push(grower.finished("main".into(), wrong));
-                    alarms.push(program);
+                    if stop != Stop::Tired {
+                        let mut program = library.clone();
+                        program.funcs.push(grower.finished("main".into(), wrong));
+                        alarms.push(program);
+                    }
                     (grower.locals, grower.scopes) = before;
                     (machine, frame) = (trial_machine, trial_frame);
                 }
