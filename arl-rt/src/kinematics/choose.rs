@@ -95,6 +95,10 @@ fn with_turns(value: f64, below: Option<bool>, axis: &Axis, near: f64) -> Option
         return fits(value).then(|| value.clamp(axis.min, axis.max));
     }
     let first = wrap_degrees(value);
+    let nearest = first + ((near - first) - wrap_degrees(near - first));
+    if below.is_none() && fits(nearest) {
+        return Some(nearest.clamp(axis.min, axis.max));
+    }
     let lowest = ((axis.min - first) / 360.0).floor() as i64;
     let highest = ((axis.max - first) / 360.0).ceil() as i64;
     let cost = |value: f64| {

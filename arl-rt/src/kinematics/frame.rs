@@ -24,7 +24,8 @@ fn half(angle: f64) -> (f64, f64) {
     (angle.to_radians() * 0.5).sin_cos()
 }
 
-/// The components x, y, z (mm), a, b, c (deg) of a frame: b within -90..90, c = 0 where b is 90 or -90.
+/// The components x, y, z (mm), a, b, c (deg) of a frame: a and c above -180 to 180, b within -90..90, c = 0 where b is 90
+/// or -90.
 pub fn frame_components(frame: &Frame) -> [f64; 6] {
     let rotation = frame.rotation.to_rotation_matrix();
     let r = |row: usize, column: usize| rotation[(row, column)];
@@ -39,5 +40,10 @@ pub fn frame_components(frame: &Frame) -> [f64; 6] {
         (a, (sa * r(0, 2) - ca * r(1, 2)).atan2(ca * r(1, 1) - sa * r(0, 1)))
     };
     let [x, y, z] = frame.translation.vector.into();
-    [x, y, z, a.to_degrees(), b.to_degrees(), c.to_degrees()]
+    [x, y, z, half_turn(a.to_degrees()), b.to_degrees(), half_turn(c.to_degrees())]
+}
+
+/// Half a turn is 180, whatever side rounding has put it on.
+fn half_turn(angle: f64) -> f64 {
+    if angle <= -180.0 + 1e-10 { angle + 360.0 } else { angle }
 }

@@ -1,7 +1,8 @@
 //! Kinematics: axes to pose and back, in closed form.
 //!
-//! Lengths are mm and angles deg at the border of this module; inside it computes in m and rad.
+//! Lengths are mm and angles deg at the border of this module; inside it computes in m.
 
+mod angles;
 mod choose;
 mod frame;
 mod opw;
@@ -90,9 +91,6 @@ impl Kinematics {
 
 /// The angle in (-180, 180].
 pub(crate) fn wrap_degrees(angle: f64) -> f64 {
-    if angle > -180.0 && angle <= 180.0 {
-        return angle;
-    }
-    let wrapped = angle - 360.0 * (angle / 360.0).round();
-    if wrapped <= -180.0 { wrapped + 360.0 } else { wrapped }
+    let [wrapped] = angles::wrap([angle]);
+    wrapped
 }

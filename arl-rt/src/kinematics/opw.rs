@@ -5,13 +5,12 @@
 //! front and `c1` above the base, then `c2` along the upper arm, then `c3` along and `a2` beside the forearm; the whole
 //! plane is `b` off axis 1. An axis angle is sign * (inner angle + offset).
 
-use std::f64::consts::PI;
-
 use nalgebra::{Matrix3, Quaternion, Translation3, UnitQuaternion, Vector3};
 
+use super::Axes;
+use super::angles::{atan2, sin_cos, wrap};
 use super::frame::Frame;
-use super::wrist::wrist_angles;
-use super::{Axes, wrap_degrees};
+use super::wrist::{Hand, hand};
 
 /// The geometry of a six-axis robot: lengths in mm, offsets in deg.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -40,7 +39,7 @@ pub struct OpwParameters {
 #[derive(Clone, PartialEq, Debug)]
 pub struct Opw {
     parameters: OpwParameters,
-    // The lengths in m and the offsets in rad.
+    // The lengths in m.
     pub(super) a1: f64,
     pub(super) a2: f64,
     pub(super) b: f64,
@@ -48,12 +47,13 @@ pub struct Opw {
     pub(super) c2: f64,
     pub(super) c3: f64,
     pub(super) c4: f64,
-    offsets: [f64; 6],
     /// Axis 3 to the wrist centre, straight.
     k: f64,
-    /// Angle between that line and the forearm.
+    /// Angle between that line and the forearm, in deg.
     psi: f64,
     psi_sin_cos: (f64, f64),
+    /// 1 by twice the product of the two arms.
+    by_arms: f64,
 }
 
 /// The solutions of one pose, one for each `cfg` that reaches it.
@@ -82,28 +82,26 @@ struct Arm {
     right: bool,
 }
 
-/// Axis 1 has turned the arm's plane: where the wrist centre is in it, seen from axis 2 (m), and the bend of the elbow that
-/// reaches so far, to the right.
+/// Axis 1 has turned the arm's plane: where the wrist centre is in it, seen from axis 2 (m), and sine and cosine of the
+/// bend of the elbow that reaches so far, to the right. Without meaning where it is not reached.
 #[derive(Clone, Copy)]
 struct Shoulder {
-    t1: f64,
-    sin_cos: (f64, f64),
+    reached: bool,
+    sin1: f64,
+    cos1: f64,
     x: f64,
     z: f64,
-    /// Square of the distance.
-    reach: f64,
+    /// 1 by the square of the distance.
+    by_reach: f64,
     sine: f64,
     cosine: f64,
-    bend: f64,
 }
 
-/// The inner angles of axes 1 to 3, and sine and cosine of those that the wrist is carried by.
+/// Sine and cosine of the inner angle of axis 2, and of the angle that the wrist is carried at.
 #[derive(Clone, Copy)]
-struct ArmAngles {
-    t1: f64,
-    t2: f64,
-    t3: f64,
-    t1_sin_cos: (f64, f64),
+struct Elbow {
+    sin2: f64,
+    cos2: f64,
     t23_sin_cos: (f64, f64),
 }
 
@@ -132,10 +130,10 @@ impl Opw {
             c2: m(p.c2),
             c3,
             c4: m(p.c4),
-            offsets: p.offsets.map(f64::to_radians),
             k: a2.hypot(c3),
-            psi: a2.atan2(c3),
+            psi: a2.atan2(c3).to_degrees(),
             psi_sin_cos: a2.atan2(c3).sin_cos(),
+            by_arms: 0.5 / (m(p.c2) * a2.hypot(c3)),
             parameters,
         }
     }
@@ -145,34 +143,33 @@ impl Opw {
         &self.parameters
     }
 
-    /// Inner angles in rad.
+    /// Inner angles in deg.
+    #[inline]
     pub(super) fn inner(&self, axes: &Axes) -> [f64; 6] {
         let mut inner = [0.0; 6];
-        for (((inner, axis), sign), offset) in inner.iter_mut().zip(axes).zip(&self.parameters.signs).zip(&self.offsets)
-        {
-            *inner = axis.to_radians() * sign - offset;
+        let parameters = self.parameters.signs.iter().zip(&self.parameters.offsets);
+        for ((inner, axis), (sign, offset)) in inner.iter_mut().zip(axes).zip(parameters) {
+            *inner = axis * sign - offset;
         }
         inner
     }
 
+    #[inline]
     fn outer(&self, inner: [f64; 6]) -> Axes {
         let mut axes = [0.0; 6];
-        for (((axis, inner), sign), offset) in
-            axes.iter_mut().zip(inner).zip(&self.parameters.signs).zip(&self.parameters.offsets)
-        {
-            *axis = wrap_degrees((inner.to_degrees() + offset) * sign);
+        let parameters = self.parameters.signs.iter().zip(&self.parameters.offsets);
+        for ((axis, inner), (sign, offset)) in axes.iter_mut().zip(inner).zip(parameters) {
+            *axis = (inner + offset) * sign;
         }
-        axes
+        wrap(axes)
     }
 
     /// The flange's frame in the base, translation in mm.
     pub fn forward(&self, axes: &Axes) -> Frame {
         let [t1, t2, t3, t4, t5, t6] = self.inner(axes);
-        let (s2, c2) = t2.sin_cos();
         // Half angles give the rotation as a quaternion; the full ones follow from them.
-        let ((h1, g1), (h23, g23), (h5, g5)) =
-            ((t1 * 0.5).sin_cos(), ((t2 + t3) * 0.5).sin_cos(), (t5 * 0.5).sin_cos());
-        let ((h46, g46), (h64, g64)) = (((t4 + t6) * 0.5).sin_cos(), ((t6 - t4) * 0.5).sin_cos());
+        let halves = [0.5 * t1, 0.5 * (t2 + t3), 0.5 * t5, 0.5 * (t4 + t6), 0.5 * (t6 - t4), t2];
+        let ([h1, h23, h5, h46, h64, s2], [g1, g23, g5, g46, g64, c2]) = sin_cos(halves);
         let (s1, c1) = (2.0 * h1 * g1, 1.0 - 2.0 * h1 * h1);
         let (s23, c23) = (2.0 * h23 * g23, 1.0 - 2.0 * h23 * h23);
 
@@ -196,40 +193,41 @@ impl Opw {
     }
 
     /// How axis 1 brings the wrist centre into the arm's plane, before or behind itself.
-    fn shoulder(&self, centre: &Vector3<f64>, front: bool, near1: f64) -> Option<Shoulder> {
+    #[inline]
+    fn shoulder(&self, centre: &Vector3<f64>, front: bool, near1: f64) -> Shoulder {
         let square = centre.x * centre.x + centre.y * centre.y;
-        let depth = square_root(square - self.b * self.b)?;
+        let (depth, beside) = square_root(square - self.b * self.b);
         let x = if front { depth } else { -depth };
         // On axis 1 any angle of it will do.
-        let (t1, sin_cos) = if square < 1e-20 {
-            (near1, near1.sin_cos())
+        let (sin1, cos1) = if square < 1e-20 {
+            let ([sine], [cosine]) = sin_cos([near1]);
+            (sine, cosine)
         } else {
-            let sin = (x * centre.y - self.b * centre.x) / square;
-            let cos = (x * centre.x + self.b * centre.y) / square;
-            (sin.atan2(cos), (sin, cos))
+            let by_square = 1.0 / square;
+            ((x * centre.y - self.b * centre.x) * by_square, (x * centre.x + self.b * centre.y) * by_square)
         };
         let (x, z) = (x - self.a1, centre.z - self.c1);
         let reach = x * x + z * z;
-        let cosine = (reach - self.c2 * self.c2 - self.k * self.k) / (2.0 * self.c2 * self.k);
-        let sine = square_root(1.0 - cosine * cosine)?;
-        Some(Shoulder { t1, sin_cos, x, z, reach, sine, cosine, bend: sine.atan2(cosine) })
+        let cosine = (reach - self.c2 * self.c2 - self.k * self.k) * self.by_arms;
+        let (sine, within) = square_root(1.0 - cosine * cosine);
+        Shoulder { reached: beside && within, sin1, cos1, x, z, by_reach: 1.0 / reach, sine, cosine }
     }
 
     /// How axes 2 and 3 bring the wrist centre to its place in the arm's plane.
-    fn elbow(&self, shoulder: &Shoulder, right: bool) -> ArmAngles {
-        let Shoulder { t1, sin_cos: t1_sin_cos, x, z, reach, sine, cosine, bend } = *shoulder;
-        let (sine, bend) = if right { (sine, bend) } else { (-sine, -bend) };
+    #[inline]
+    fn elbow(&self, shoulder: &Shoulder, right: bool) -> Elbow {
+        let Shoulder { x, z, by_reach, sine, cosine, .. } = *shoulder;
+        let sine = if right { sine } else { -sine };
         let (along, beside) = (self.c2 + self.k * cosine, self.k * sine);
         // An arm that is folded upon itself points anywhere; upwards, then.
-        let (sin2, cos2) = if reach < 1e-20 {
+        let (sin2, cos2) = if by_reach > 1e20 {
             (0.0, 1.0)
         } else {
-            ((along * x - beside * z) / reach, (beside * x + along * z) / reach)
+            ((along * x - beside * z) * by_reach, (beside * x + along * z) * by_reach)
         };
         let (sin, cos) = (sin2 * cosine + cos2 * sine, cos2 * cosine - sin2 * sine);
         let (sin_psi, cos_psi) = self.psi_sin_cos;
-        let t23_sin_cos = (sin * cos_psi - cos * sin_psi, cos * cos_psi + sin * sin_psi);
-        ArmAngles { t1, t2: sin2.atan2(cos2), t3: bend - self.psi, t1_sin_cos, t23_sin_cos }
+        Elbow { sin2, cos2, t23_sin_cos: (sin * cos_psi - cos * sin_psi, cos * cos_psi + sin * sin_psi) }
     }
 
     /// The lowest bit of `cfg` that the solution with a positive inner angle 5 has.
@@ -238,30 +236,35 @@ impl Opw {
         u8::from(sign5 < 0.0)
     }
 
-    /// The two solutions of an arm, with a positive and with a negative inner angle 5.
-    fn with_wrist(&self, arm: &ArmAngles, rotation: &Matrix3<f64>, near4: f64) -> ([f64; 6], [f64; 6]) {
-        let ArmAngles { t1, t2, t3, t1_sin_cos, t23_sin_cos } = *arm;
-        let [t4, t5, t6] = wrist_angles(rotation, t1_sin_cos, t23_sin_cos, near4);
-        ([t1, t2, t3, t4, t5, t6], [t1, t2, t3, t4 + PI, -t5, t6 + PI])
-    }
-
     /// All solutions of a pose, up to eight; what the pose leaves open at a singular point stays as in `near`.
     pub fn solutions(&self, flange: &Frame, near: &Axes) -> Solutions {
         let rotation = flange.rotation.to_rotation_matrix().into_inner();
         let centre = self.wrist_centre(flange, &rotation);
         let [near1, _, _, near4, _, _] = self.inner(near);
-        let mut solutions = Solutions { axes: [[0.0; 6]; 8], found: 0 };
         let [front, back] = [true, false].map(|front| self.shoulder(&centre, front, near1));
-        for (arm, pair) in ARMS.iter().zip(0_u8..) {
-            let Some(shoulder) = (if arm.front { &front } else { &back }) else { continue };
-            let (positive, negative) = self.with_wrist(&self.elbow(shoulder, arm.right), &rotation, near4);
-            for (angles, bit) in [(positive, self.wrist_bit()), (negative, 1 - self.wrist_bit())] {
-                let cfg = 2 * pair + bit;
-                if let Some(axes) = solutions.axes.get_mut(usize::from(cfg)) {
-                    *axes = self.outer(angles);
-                    solutions.found |= 1 << cfg;
-                }
-            }
+        let arms = ARMS.map(|arm| {
+            let shoulder = if arm.front { front } else { back };
+            let elbow = self.elbow(&shoulder, arm.right);
+            (shoulder, elbow, hand(&rotation, (shoulder.sin1, shoulder.cos1), elbow.t23_sin_cos, near4))
+        });
+        let [t1_front, t1_back, bend_front, bend_back] =
+            atan2([front.sin1, back.sin1, front.sine, back.sine], [front.cos1, back.cos1, front.cosine, back.cosine]);
+        let t2 = atan2(arms.map(|(_, elbow, _)| elbow.sin2), arms.map(|(_, elbow, _)| elbow.cos2));
+        let t4 = atan2(arms.map(|(.., hand)| hand.t4.0), arms.map(|(.., hand)| hand.t4.1));
+        let t5 = atan2(arms.map(|(.., hand)| hand.t5.0), arms.map(|(.., hand)| hand.t5.1));
+        let t6 = atan2(arms.map(|(.., hand)| hand.t6.0), arms.map(|(.., hand)| hand.t6.1));
+
+        let mut solutions = Solutions { axes: [[0.0; 6]; 8], found: 0 };
+        let (pairs, _) = solutions.axes.as_chunks_mut::<2>();
+        let angles = arms.iter().zip(t2).zip(t4).zip(t5).zip(t6);
+        for ((arm, pair), (((((shoulder, _, hand), t2), t4), t5), t6)) in ARMS.iter().zip(pairs).zip(angles) {
+            let (t1, bend) = if arm.front { (t1_front, bend_front) } else { (t1_back, bend_back) };
+            let t3 = if arm.right { bend } else { -bend } - self.psi;
+            let t4 = if hand.open { near4 } else { t4 };
+            let positive = self.outer([t1, t2, t3, t4, t5, t6]);
+            let negative = self.outer([t1, t2, t3, t4 + 180.0, -t5, t6 + 180.0]);
+            *pair = if self.wrist_bit() == 0 { [positive, negative] } else { [negative, positive] };
+            solutions.found = (solutions.found >> 2) | if shoulder.reached { 0b1100_0000 } else { 0 };
         }
         solutions
     }
@@ -274,20 +277,28 @@ impl Opw {
         let [near1, _, _, near4, _, _] = self.inner(near);
         let flipped = cfg & 1 != self.wrist_bit();
         // The flipped solution's axis 4 stands half a turn on.
-        let near4 = if flipped { near4 - PI } else { near4 };
-        let angles = self.elbow(&self.shoulder(&centre, arm.front, near1)?, arm.right);
-        let (positive, negative) = self.with_wrist(&angles, &rotation, near4);
-        Some(self.outer(if flipped { negative } else { positive }))
+        let near4 = if flipped { near4 - 180.0 } else { near4 };
+        let shoulder = self.shoulder(&centre, arm.front, near1);
+        if !shoulder.reached {
+            return None;
+        }
+        let Elbow { sin2, cos2, t23_sin_cos } = self.elbow(&shoulder, arm.right);
+        let Hand { t4, t5, t6, open } = hand(&rotation, (shoulder.sin1, shoulder.cos1), t23_sin_cos, near4);
+        let [t1, t2, bend, found4, t5, t6] = atan2(
+            [shoulder.sin1, sin2, shoulder.sine, t4.0, t5.0, t6.0],
+            [shoulder.cos1, cos2, shoulder.cosine, t4.1, t5.1, t6.1],
+        );
+        let t3 = if arm.right { bend } else { -bend } - self.psi;
+        let t4 = if open { near4 } else { found4 };
+        Some(self.outer(if flipped { [t1, t2, t3, t4 + 180.0, -t5, t6 + 180.0] } else { [t1, t2, t3, t4, t5, t6] }))
     }
 
     /// The configuration of a joint vector: 0 to 7.
     pub fn cfg(&self, axes: &Axes) -> u8 {
-        let [_, t2, t3, _, t5, _] = self.inner(axes);
-        let (s23, c23) = (t2 + t3).sin_cos();
-        let front = self.a1 + self.c2 * t2.sin() + self.c3 * s23 + self.a2 * c23 >= -ZERO;
-        let right = (t3 + self.psi).sin() >= -ZERO;
+        let Stance { depth, bend, wrist } = self.stance(axes);
+        let (front, right) = (depth >= -ZERO, bend >= -ZERO);
         let [_, _, _, _, sign5, _] = self.parameters.signs;
-        let negative = sign5 * t5.sin() < -ZERO;
+        let negative = sign5 * wrist < -ZERO;
         let pair = (0_u8..).zip(&ARMS).find(|(_, arm)| arm.front == front && arm.right == right);
         2 * pair.map_or(0, |(pair, _)| pair) + u8::from(negative)
     }
@@ -295,10 +306,14 @@ impl Opw {
     /// How clear the axes are of a singular point, 0 to 1: the least of the sines of the wrist's middle angle and of the
     /// angle at the elbow, and of the wrist centre's distance from axis 1 as part of the arm's length.
     pub fn clearance(&self, axes: &Axes) -> f64 {
+        let Stance { depth, bend, wrist } = self.stance(axes);
+        wrist.abs().min(bend.abs()).min(depth.abs() / (self.c2 + self.k))
+    }
+
+    fn stance(&self, axes: &Axes) -> Stance {
         let [_, t2, t3, _, t5, _] = self.inner(axes);
-        let (s23, c23) = (t2 + t3).sin_cos();
-        let depth = self.a1 + self.c2 * t2.sin() + self.c3 * s23 + self.a2 * c23;
-        t5.sin().abs().min((t3 + self.psi).sin().abs()).min(depth.abs() / (self.c2 + self.k))
+        let ([s2, s23, bend, wrist], [_, c23, _, _]) = sin_cos([t2, t2 + t3, t3 + self.psi, t5]);
+        Stance { depth: self.a1 + self.c2 * s2 + self.c3 * s23 + self.a2 * c23, bend, wrist }
     }
 
     /// How far, in mm, the wrist centre is from what the arm reaches in any configuration.
@@ -319,13 +334,16 @@ impl Opw {
     }
 }
 
-/// The square root, where a value that rounding put below zero counts as zero.
-fn square_root(value: f64) -> Option<f64> {
-    if value >= 0.0 {
-        Some(value.sqrt())
-    } else if value > -1e-13 {
-        Some(0.0)
-    } else {
-        None
-    }
+/// How far (m) the wrist centre is in front of axis 1, the sine of the bend at the elbow, to the right, and the sine of
+/// the wrist's middle angle.
+struct Stance {
+    depth: f64,
+    bend: f64,
+    wrist: f64,
+}
+
+/// The square root, where a value that rounding put below zero counts as zero; and whether there is one.
+#[inline]
+fn square_root(value: f64) -> (f64, bool) {
+    (value.max(0.0).sqrt(), value > -1e-13)
 }

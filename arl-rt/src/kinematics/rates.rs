@@ -3,6 +3,7 @@
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use super::Axes;
+use super::angles::sin_cos;
 use super::opw::Opw;
 
 /// The motion of a rigid body along a path parameter, seen at the base's origin: turning (rad) over moving (m), with its
@@ -63,8 +64,7 @@ impl Opw {
     /// The axes as screws in the base (rad, m): column i is the twist of the flange when axis i + 1 turns 1 rad.
     pub fn jacobian(&self, axes: &Axes) -> Matrix6<f64> {
         let [t1, t2, t3, t4, t5, _] = self.inner(axes);
-        let ((s1, c1), (s2, c2), (s4, c4), (s5, c5)) = (t1.sin_cos(), t2.sin_cos(), t4.sin_cos(), t5.sin_cos());
-        let (s23, c23) = (t2 + t3).sin_cos();
+        let ([s1, s2, s23, s4, s5, _], [c1, c2, c23, c4, c5, _]) = sin_cos([t1, t2, t2 + t3, t4, t5, 0.0]);
         let turned = |x: f64, y: f64, z: f64| Vector3::new(c1 * x - s1 * y, s1 * x + c1 * y, z);
         let across = turned(0.0, 1.0, 0.0);
         let shoulder = turned(self.a1, self.b, self.c1);
