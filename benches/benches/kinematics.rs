@@ -5,9 +5,9 @@
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use arl_rt::kinematics::{Axes, Frame, Kinematics, Opw, OpwParameters, Wanted};
+use arl_rt::kinematics::{Axes, Frame, Kinematics, Opw, OpwParameters, Twist, Wanted};
 use arl_rt::robot::Robot;
-use nalgebra::{Quaternion, Translation3, UnitQuaternion};
+use nalgebra::{Quaternion, Translation3, UnitQuaternion, Vector3};
 use rs_opw_kinematics::kinematic_traits::{Joints, Kinematics as _, Pose};
 use rs_opw_kinematics::kinematics_impl::OPWKinematics;
 use rs_opw_kinematics::parameters::opw_kinematics::Parameters;
@@ -22,6 +22,7 @@ const ROUNDS: usize = 40;
 fn main() -> Result<(), String> {
     let mut times = [Pair::default(); 4];
     let mut exact = Exactness::default();
+    let mut rates = 0.0;
     for (seed, name) in ROBOTS.into_iter().enumerate() {
         let robot = Robot::builtin(name).map_err(|error| error.to_string())?;
         let Kinematics::SixAxis(opw) = &robot.kinematics else { return Err(format!("{name} has not six axes")) };
@@ -37,6 +38,10 @@ fn main() -> Result<(), String> {
             sum.ours += pair.ours / ROBOTS.len() as f64;
             sum.other += pair.other / ROBOTS.len() as f64;
         }
+        let [x, y, z] = [Vector3::x(), Vector3::y(), Vector3::z()];
+        let twist = Twist::of_point(&x, &[x, y, z], &[y, z, x]);
+        let solve = || each(timed, |axes| robot.kinematics.rates(axes, &twist));
+        rates += best(timed.len(), solve, || ()).ours / ROBOTS.len() as f64;
     }
     println!("ns a call, the mean of {} robots, each the least of {ROUNDS} rounds of {TIMED} poses", ROBOTS.len());
     println!("job                              arl-rt  rs-opw   ratio    goal");
@@ -50,6 +55,7 @@ fn main() -> Result<(), String> {
     for ((job, goal), Pair { ours, other }) in jobs.into_iter().zip(times) {
         println!("{job:<31} {ours:>7.1} {other:>7.1} {:>7.4} {goal:>7.4}", ours / other);
     }
+    println!("{:<31} {rates:>7.1}", "three derivatives of the axes");
     println!(
         "{} poses, {} solutions: worst error {:.1e} m, {:.1e} rad (rs-opw: {:.1e} m); {} missing that rs-opw has, {} more",
         exact.poses, exact.solutions, exact.worst, exact.worst_angle, exact.worst_other, exact.missing, exact.more

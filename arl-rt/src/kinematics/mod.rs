@@ -14,8 +14,6 @@ mod scara;
 mod tests;
 mod wrist;
 
-use nalgebra::Vector3;
-
 pub(crate) use choose::RANGE_SLACK;
 pub use choose::{Refusal, Wanted};
 pub use frame::{Frame, frame, frame_components};
@@ -76,15 +74,6 @@ impl Kinematics {
         match self {
             Kinematics::SixAxis(opw) => opw.beyond_reach(flange),
             Kinematics::Scara(scara) => scara.beyond_reach(flange),
-        }
-    }
-
-    /// The velocity of `point` (mm, fixed to the flange, given in the base) in mm per unit, when the axes move by `rates`
-    /// (deg or mm per unit).
-    pub fn point_velocity(&self, axes: &Axes, rates: &Axes, point: &Vector3<f64>) -> Vector3<f64> {
-        match self {
-            Kinematics::SixAxis(opw) => opw.point_velocity(axes, rates, point),
-            Kinematics::Scara(scara) => scara.point_velocity(axes, rates, point),
         }
     }
 }

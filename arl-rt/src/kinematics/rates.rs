@@ -1,37 +1,51 @@
 //! How axes and tool move together: speeds, and along a path the first three derivatives of the axes.
 
-use nalgebra::{Matrix6, Vector3, Vector6};
+use nalgebra::{Matrix6, Vector3};
 
-use super::Axes;
 use super::angles::sin_cos;
 use super::opw::Opw;
+use super::scara::Scara;
+use super::{Axes, Kinematics};
 
-/// The motion of a rigid body along a path parameter, seen at the base's origin: turning (rad) over moving (m), with its
-/// first and second derivative.
+/// The motion of the flange along a path parameter, with its first and second derivative.
 #[derive(Clone, Copy, Debug)]
 pub struct Twist {
-    /// Per unit of the parameter.
-    pub first: Vector6<f64>,
-    /// First derivative.
-    pub second: Vector6<f64>,
-    /// Second derivative.
-    pub third: Vector6<f64>,
+    first: Screw,
+    second: Screw,
+    third: Screw,
+}
+
+/// A turn (rad) about the base's origin over a move (m) of what is there: how a rigid body moves, in the base.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Screw {
+    pub(super) turning: Vector3<f64>,
+    pub(super) moving: Vector3<f64>,
 }
 
 impl Twist {
     /// A body whose point `point` (mm) moves straight by `travel` (mm) per unit while the body turns by `turning` (rad,
     /// about a fixed axis of the base) per unit.
     pub fn straight(point: &Vector3<f64>, travel: &Vector3<f64>, turning: &Vector3<f64>) -> Self {
-        let (point, travel) = (point / 1000.0, travel / 1000.0);
+        let rest = Vector3::zeros();
+        Self::of_point(point, &[*travel, rest, rest], &[*turning, rest, rest])
+    }
+
+    /// A body of which one point, now at `point` (mm), moves with the first three derivatives `moving` of its place (mm
+    /// per unit of the path parameter, its square, its cube), while the body turns with the speed and its first two
+    /// derivatives `turning` (rad per unit, its square, its cube). All in the base.
+    pub fn of_point(point: &Vector3<f64>, moving: &[Vector3<f64>; 3], turning: &[Vector3<f64>; 3]) -> Self {
+        let p = point / 1000.0;
+        let [v, a, j] = moving.map(|derivative| derivative / 1000.0);
+        let [w, w1, w2] = *turning;
         Self {
-            first: stack(turning, &(travel - turning.cross(&point))),
-            second: stack(&Vector3::zeros(), &-turning.cross(&travel)),
-            third: Vector6::zeros(),
+            first: Screw { turning: w, moving: v - w.cross(&p) },
+            second: Screw { turning: w1, moving: a - w1.cross(&p) - w.cross(&v) },
+            third: Screw { turning: w2, moving: j - w2.cross(&p) - w1.cross(&v) * 2.0 - w.cross(&a) },
         }
     }
 }
 
-/// Derivatives of the axes along a path, in deg per unit of the path parameter, its square, its cube.
+/// Derivatives of the axes along a path, in deg (mm where linear) per unit of the path parameter, its square, its cube.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Rates {
     /// First derivative.
@@ -42,90 +56,239 @@ pub struct Rates {
     pub third: Axes,
 }
 
-fn stack(turning: &Vector3<f64>, moving: &Vector3<f64>) -> Vector6<f64> {
-    Vector6::new(turning.x, turning.y, turning.z, moving.x, moving.y, moving.z)
+impl Screw {
+    const REST: Screw = Screw { turning: Vector3::new(0.0, 0.0, 0.0), moving: Vector3::new(0.0, 0.0, 0.0) };
+
+    /// A turn about the line through `point` (m) along `axis`.
+    fn about(axis: Vector3<f64>, point: &Vector3<f64>) -> Self {
+        Self { turning: axis, moving: point.cross(&axis) }
+    }
+
+    fn plus(&self, other: &Screw, times: f64) -> Self {
+        Self { turning: self.turning + other.turning * times, moving: self.moving + other.moving * times }
+    }
+
+    /// How it changes when it is carried by a body that moves with `by`: the Lie bracket of two twists.
+    fn carried(&self, by: &Screw) -> Self {
+        Self {
+            turning: by.turning.cross(&self.turning),
+            moving: by.turning.cross(&self.moving) + by.moving.cross(&self.turning),
+        }
+    }
+
+    /// The velocity (m) of what is at `point` (m).
+    fn at(&self, point: &Vector3<f64>) -> Vector3<f64> {
+        self.moving + self.turning.cross(point)
+    }
 }
 
-fn turning(twist: &Vector6<f64>) -> Vector3<f64> {
-    twist.fixed_rows::<3>(0).into_owned()
+/// The derivatives of `N` axes (rad or m) whose screws, from the base on, are `screws`, when the last body moves with
+/// `twist`. `solve` says how fast the axes move when that body moves with a screw.
+fn derivatives<const N: usize>(
+    screws: &[Screw; N],
+    twist: &Twist,
+    solve: impl Fn(&Screw) -> Option<[f64; N]>,
+) -> Option<[[f64; N]; 3]> {
+    let first = solve(&twist.first)?;
+    // Each axis is carried by the ones below it: that is how its screw changes along the path.
+    let mut screws1 = [Screw::REST; N];
+    let (mut below, mut rest) = (Screw::REST, twist.second);
+    for ((screw, screw1), first) in screws.iter().zip(&mut screws1).zip(first) {
+        *screw1 = screw.carried(&below);
+        below = below.plus(screw, first);
+        rest = rest.plus(screw1, -first);
+    }
+    let second = solve(&rest)?;
+
+    let (mut below, mut below1, mut rest) = (Screw::REST, Screw::REST, twist.third);
+    for (((screw, screw1), first), second) in screws.iter().zip(&screws1).zip(first).zip(second) {
+        let screw2 = screw.carried(&below1).plus(&screw1.carried(&below), 1.0);
+        below = below.plus(screw, first);
+        below1 = below1.plus(screw1, first).plus(screw, second);
+        rest = rest.plus(screw1, -2.0 * second).plus(&screw2, -first);
+    }
+    Some([first, second, solve(&rest)?])
 }
 
-fn moving(twist: &Vector6<f64>) -> Vector3<f64> {
-    twist.fixed_rows::<3>(3).into_owned()
-}
-
-/// How `of` changes when it is carried by a body that moves with `by`: the Lie bracket of two twists.
-fn carried(by: &Vector6<f64>, of: &Vector6<f64>) -> Vector6<f64> {
-    let (w1, v1, w2, v2) = (turning(by), moving(by), turning(of), moving(of));
-    stack(&w1.cross(&w2), &(w1.cross(&v2) + v1.cross(&w2)))
+/// The axes of an arm at one moment.
+struct Stance {
+    screws: [Screw; 6],
+    sin_cos: ([f64; 6], [f64; 6]),
+    centre: Vector3<f64>,
+    /// The wrist centre seen from axes 1, 2 and 3 in the arm's plane: in front and above.
+    from1: f64,
+    from2: (f64, f64),
+    from3: (f64, f64),
 }
 
 impl Opw {
-    /// The axes as screws in the base (rad, m): column i is the twist of the flange when axis i + 1 turns 1 rad.
-    pub fn jacobian(&self, axes: &Axes) -> Matrix6<f64> {
+    fn stance_at(&self, axes: &Axes) -> Stance {
         let [t1, t2, t3, t4, t5, _] = self.inner(axes);
-        let ([s1, s2, s23, s4, s5, _], [c1, c2, c23, c4, c5, _]) = sin_cos([t1, t2, t2 + t3, t4, t5, 0.0]);
+        let sin_cos = sin_cos([t1, t2, t2 + t3, t4, t5, 0.0]);
+        let ([s1, s2, s23, s4, s5, _], [c1, c2, c23, c4, c5, _]) = sin_cos;
         let turned = |x: f64, y: f64, z: f64| Vector3::new(c1 * x - s1 * y, s1 * x + c1 * y, z);
+        let from3 = (self.c3 * s23 + self.a2 * c23, self.c3 * c23 - self.a2 * s23);
+        let from2 = (self.c2 * s2 + from3.0, self.c2 * c2 + from3.1);
         let across = turned(0.0, 1.0, 0.0);
         let shoulder = turned(self.a1, self.b, self.c1);
         let elbow = shoulder + turned(self.c2 * s2, 0.0, self.c2 * c2);
-        let centre = elbow + turned(self.c3 * s23 + self.a2 * c23, 0.0, self.c3 * c23 - self.a2 * s23);
+        let centre = shoulder + turned(from2.0, 0.0, from2.1);
         // In the forearm's frame axis 5 is y and axis 6 is z, turned by axis 4 (and 5).
         let forearm = |x: f64, y: f64, z: f64| turned(c23 * x + s23 * z, y, c23 * z - s23 * x);
         let screws = [
-            (Vector3::z(), Vector3::zeros()),
-            (across, shoulder),
-            (across, elbow),
-            (forearm(0.0, 0.0, 1.0), centre),
-            (forearm(-s4, c4, 0.0), centre),
-            (forearm(c4 * s5, s4 * s5, c5), centre),
+            Screw { turning: Vector3::z(), moving: Vector3::zeros() },
+            Screw::about(across, &shoulder),
+            Screw::about(across, &elbow),
+            Screw::about(forearm(0.0, 0.0, 1.0), &centre),
+            Screw::about(forearm(-s4, c4, 0.0), &centre),
+            Screw::about(forearm(c4 * s5, s4 * s5, c5), &centre),
         ];
-        let mut jacobian = Matrix6::zeros();
-        for (column, ((axis, point), sign)) in screws.iter().zip(&self.parameters().signs).enumerate() {
-            jacobian.set_column(column, &(stack(axis, &point.cross(axis)) * *sign));
+        Stance { screws, sin_cos, centre, from1: self.a1 + from2.0, from2, from3 }
+    }
+
+    /// The derivatives of the axes when the flange moves with `twist`; see [`Kinematics::rates`].
+    pub fn rates(&self, axes: &Axes, twist: &Twist) -> Option<Rates> {
+        let Stance { screws, sin_cos, centre, from1, from2, from3 } = self.stance_at(axes);
+        let ([s1, _, s23, s4, s5, _], [c1, _, c23, c4, c5, _]) = sin_cos;
+        // Axes 1 to 3 alone move the wrist centre, two of them in the arm's plane; the other three turn what is left.
+        let (by_from1, by_s5) = (1.0 / from1, 1.0 / s5);
+        let by_plane = 1.0 / (from2.1 * from3.0 - from2.0 * from3.1);
+        let solve = |body: &Screw| {
+            let v = body.at(&centre);
+            let q1 = (c1 * v.y - s1 * v.x) * by_from1;
+            let (x, z) = (c1 * v.x + s1 * v.y + self.b * q1, v.z);
+            // (x, z) = q2 (from2.z, -from2.x) + q3 (from3.z, -from3.x)
+            let q2 = (x * from3.0 + z * from3.1) * by_plane;
+            let q3 = -(x * from2.0 + z * from2.1) * by_plane;
+            let w = &body.turning;
+            let (along, y) = (c1 * w.x + s1 * w.y, c1 * w.y - s1 * w.x - q2 - q3);
+            let z = w.z - q1;
+            let (x, z) = (c23 * along - s23 * z, s23 * along + c23 * z);
+            let q5 = c4 * y - s4 * x;
+            let q6 = (c4 * x + s4 * y) * by_s5;
+            Some([q1, q2, q3, z - c5 * q6, q5, q6])
+        };
+        let signs = &self.parameters().signs;
+        let degrees = |mut rates: Axes| {
+            rates.iter_mut().zip(signs).for_each(|(rate, sign)| *rate = rate.to_degrees() * sign);
+            rates.iter().all(|rate| rate.is_finite()).then_some(rates)
+        };
+        let [first, second, third] = derivatives(&screws, twist, solve)?.map(degrees);
+        Some(Rates { first: first?, second: second?, third: third? })
+    }
+}
+
+/// A flange that tilts faster than this (rad per unit), as part of all it does, is not a SCARA's.
+const UPRIGHT: f64 = 1e-6;
+
+impl Scara {
+    /// The screws of the four axes, and elbow and flange from axis 1 (m).
+    fn screws(&self, axes: &Axes) -> ([Screw; 4], Vector3<f64>, Vector3<f64>) {
+        let [j1, j2, ..] = *axes;
+        let ([s1, s12], [c1, c12]) = sin_cos([j1, j1 + j2]);
+        let (l1, l2) = (self.l1 / 1000.0, self.l2 / 1000.0);
+        let elbow = Vector3::new(l1 * c1, l1 * s1, 0.0);
+        let flange = elbow + Vector3::new(l2 * c12, l2 * s12, 0.0);
+        let screws = [
+            Screw::about(Vector3::z(), &Vector3::zeros()),
+            Screw::about(Vector3::z(), &elbow),
+            Screw { turning: Vector3::zeros(), moving: Vector3::z() },
+            Screw::about(Vector3::z(), &flange),
+        ];
+        (screws, elbow, flange)
+    }
+
+    /// The derivatives of the axes when the flange moves with `twist`; see [`Kinematics::rates`].
+    pub fn rates(&self, axes: &Axes, twist: &Twist) -> Option<Rates> {
+        let (screws, elbow, flange) = self.screws(axes);
+        let reach = flange - elbow;
+        let by_area = 1.0 / (elbow.x * reach.y - elbow.y * reach.x);
+        let solve = |body: &Screw| {
+            let w = &body.turning;
+            if w.xy().norm() > UPRIGHT * (1.0 + w.norm()) {
+                return None;
+            }
+            // z x flange * q1 + z x reach * q2 = v, which is z x elbow * q1 + z x reach * (q1 + q2).
+            let v = body.at(&flange);
+            let q1 = (v.x * reach.x + v.y * reach.y) * by_area;
+            let both = -(v.x * elbow.x + v.y * elbow.y) * by_area;
+            Some([q1, both - q1, v.z, w.z - both])
+        };
+        let outer = |[q1, q2, q3, q4]: [f64; 4]| {
+            let rates = [q1.to_degrees(), q2.to_degrees(), q3 * 1000.0, q4.to_degrees(), 0.0, 0.0];
+            rates.iter().all(|rate| rate.is_finite()).then_some(rates)
+        };
+        let [first, second, third] = derivatives(&screws, twist, solve)?.map(outer);
+        Some(Rates { first: first?, second: second?, third: third? })
+    }
+}
+
+impl Kinematics {
+    /// The derivatives of the axes when the flange moves with `twist`; the unused axes of a SCARA stay at rest. `None` at
+    /// a singular point (near one the rates are large: see [`Kinematics::clearance`]), and where a SCARA would have to
+    /// tilt its flange.
+    pub fn rates(&self, axes: &Axes, twist: &Twist) -> Option<Rates> {
+        match self {
+            Kinematics::SixAxis(opw) => opw.rates(axes, twist),
+            Kinematics::Scara(scara) => scara.rates(axes, twist),
         }
+    }
+
+    /// How a body on the flange moves when each axis moves alone: column i is what axis i + 1 does, its speed being 1 rad
+    /// (1 mm where linear). The first three rows are the turning (rad) in the base, the last three the velocity (mm) of
+    /// `point` (mm, given in the base, fixed to the flange). The columns of axes that a SCARA has not are zero.
+    pub fn jacobian(&self, axes: &Axes, point: &Vector3<f64>) -> Matrix6<f64> {
+        let mut jacobian = Matrix6::zeros();
+        let point = point / 1000.0;
+        self.each_screw(axes, |column, screw, linear| {
+            jacobian.fixed_view_mut::<3, 1>(0, column).copy_from(&screw.turning);
+            let millimetres = if linear { 1.0 } else { 1000.0 };
+            jacobian.fixed_view_mut::<3, 1>(3, column).copy_from(&(screw.at(&point) * millimetres));
+        });
         jacobian
     }
 
-    /// The velocity of `point` (mm, fixed to the flange, given in the base) when the axes move by `rates` (deg per unit):
-    /// mm per unit.
+    /// The velocity of `point` (mm, fixed to the flange, given in the base) in mm per unit, when the axes move by `rates`
+    /// (deg or mm per unit).
     pub fn point_velocity(&self, axes: &Axes, rates: &Axes, point: &Vector3<f64>) -> Vector3<f64> {
-        let twist = self.jacobian(axes) * Vector6::from(*rates).map(f64::to_radians);
-        moving(&twist) * 1000.0 + turning(&twist).cross(point)
+        let (turning, moving) = self.velocity(axes, rates);
+        moving + turning.cross(point)
     }
 
-    /// The derivatives of the axes when the flange moves with `twist`. `None` at a singular point.
-    pub fn rates(&self, axes: &Axes, twist: &Twist) -> Option<Rates> {
-        let screws = self.jacobian(axes);
-        let solver = screws.lu();
-        let column = |matrix: &Matrix6<f64>, index: usize| matrix.column(index).into_owned();
-        let first = solver.solve(&twist.first)?;
+    /// How a body on the flange moves when the axes move by `rates` (deg or mm per unit): its turning (rad per unit) in
+    /// the base, and the velocity (mm per unit) of what is at the base's origin.
+    pub fn velocity(&self, axes: &Axes, rates: &Axes) -> (Vector3<f64>, Vector3<f64>) {
+        let mut sum = Screw::REST;
+        self.each_screw(axes, |column, screw, linear| {
+            let rate = rates.get(column).copied().unwrap_or(0.0);
+            sum = sum.plus(screw, if linear { rate / 1000.0 } else { rate.to_radians() });
+        });
+        (sum.turning, sum.moving * 1000.0)
+    }
 
-        // Each axis is carried by the ones below it: that is how its screw changes along the path.
-        let mut screws1 = Matrix6::zeros();
-        let mut below = Vector6::zeros();
-        for index in 0..6 {
-            let screw = column(&screws, index);
-            screws1.set_column(index, &carried(&below, &screw));
-            below += screw * first[index];
+    /// Hands over the screw (rad, m) of every axis, with the sense of the axis, and whether it is linear.
+    fn each_screw(&self, axes: &Axes, mut take: impl FnMut(usize, &Screw, bool)) {
+        match self {
+            Kinematics::SixAxis(opw) => {
+                let screws = opw.stance_at(axes).screws;
+                for (column, (screw, sign)) in screws.iter().zip(&opw.parameters().signs).enumerate() {
+                    take(column, &Screw::REST.plus(screw, *sign), false);
+                }
+            }
+            Kinematics::Scara(scara) => {
+                let (screws, ..) = scara.screws(axes);
+                screws.iter().enumerate().for_each(|(column, screw)| take(column, screw, column == 2));
+            }
         }
-        let second = solver.solve(&(twist.second - screws1 * first))?;
+    }
 
-        let mut screws2 = Matrix6::zeros();
-        let mut below = Vector6::zeros();
-        let mut below1 = Vector6::zeros();
-        for index in 0..6 {
-            let (screw, screw1) = (column(&screws, index), column(&screws1, index));
-            screws2.set_column(index, &(carried(&below1, &screw) + carried(&below, &screw1)));
-            below += screw * first[index];
-            below1 += screw1 * first[index] + screw * second[index];
+    /// How clear the axes are of a singular point, 0 to 1: for six axes the least of the sines of the wrist's middle angle
+    /// and of the angle at the elbow, and of the wrist centre's distance from axis 1 as part of the arm's length; for a
+    /// SCARA the sine of the angle at the elbow.
+    pub fn clearance(&self, axes: &Axes) -> f64 {
+        match self {
+            Kinematics::SixAxis(opw) => opw.clearance(axes),
+            Kinematics::Scara(scara) => scara.clearance(axes),
         }
-        let third = solver.solve(&(twist.third - screws1 * second * 2.0 - screws2 * first))?;
-
-        let degrees = |vector: Vector6<f64>| -> Option<Axes> {
-            let axes: Axes = vector.map(f64::to_degrees).into();
-            axes.iter().all(|value| value.is_finite()).then_some(axes)
-        };
-        Some(Rates { first: degrees(first)?, second: degrees(second)?, third: degrees(third)? })
     }
 }

@@ -66,14 +66,9 @@ impl Scara {
         (distance - (self.l1 + self.l2)).max((self.l1 - self.l2).abs() - distance).max(0.0)
     }
 
-    /// The velocity of `point` (mm, fixed to the flange, given in the base) in mm per unit, when the axes move by `rates`
-    /// (deg or mm per unit).
-    pub fn point_velocity(&self, axes: &Axes, rates: &Axes, point: &Vector3<f64>) -> Vector3<f64> {
-        let [j1, j2, ..] = *axes;
-        let [r1, r2, r3, r4, ..] = *rates;
-        let elbow = Vector3::new(j1.to_radians().cos(), j1.to_radians().sin(), 0.0) * self.l1;
-        let wrist = elbow + Vector3::new((j1 + j2).to_radians().cos(), (j1 + j2).to_radians().sin(), 0.0) * self.l2;
-        let about = |rate: f64, arm: Vector3<f64>| Vector3::new(0.0, 0.0, rate.to_radians()).cross(&arm);
-        about(r1, *point) + about(r2, point - elbow) + about(r4, point - wrist) + Vector3::new(0.0, 0.0, r3)
+    /// How clear the axes are of the singular points, where the arm is stretched or folded: the sine at the elbow.
+    pub fn clearance(&self, axes: &Axes) -> f64 {
+        let [_, j2, ..] = *axes;
+        j2.to_radians().sin().abs()
     }
 }

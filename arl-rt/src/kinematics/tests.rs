@@ -4,6 +4,7 @@ use super::*;
 use crate::kinematics::random::Random;
 use crate::robot::{Axis, Robot};
 
+const SCARAS: [&str; 2] = ["hsr065", "cobra600"];
 const ROBOTS: [&str; 5] = ["kr10-r1420", "kr6-r700", "irb2400-10", "tx2-60", "six-10"];
 
 fn opw(robot: &Robot) -> &Opw {
@@ -281,19 +282,21 @@ fn along(start: &Frame, travel: &Vector3<f64>, turning: &Vector3<f64>, u: f64) -
 #[test]
 fn rates_are_the_derivatives_of_the_axes_along_a_line() {
     let mut random = Random::new(6);
-    for name in ROBOTS {
+    for name in ROBOTS.into_iter().chain(SCARAS) {
         let robot = Robot::builtin(name).unwrap();
-        let opw = opw(&robot);
+        let kinematics = &robot.kinematics;
+        let upright = matches!(kinematics, Kinematics::Scara(_));
         let mut tried = 0;
         while tried < 100 {
             let axes = random_axes(&robot, &mut random);
-            let pose = opw.forward(&axes);
+            let pose = kinematics.forward(&axes);
             let mut vector = |size: f64| {
                 Vector3::new(random.between(-size, size), random.between(-size, size), random.between(-size, size))
             };
             let (travel, turning) = (vector(300.0), vector(1.0));
+            let turning = if upright { Vector3::new(0.0, 0.0, turning.z) } else { turning };
             let twist = Twist::straight(&pose.translation.vector, &travel, &turning);
-            let Some(rates) = opw.rates(&axes, &twist) else { continue };
+            let Some(rates) = kinematics.rates(&axes, &twist) else { continue };
             // Away from singular points, so that differences tell the derivative.
             if rates.third.iter().any(|third| third.abs() > 3e3) {
                 continue;
@@ -301,7 +304,8 @@ fn rates_are_the_derivatives_of_the_axes_along_a_line() {
             tried += 1;
             let h = 1e-3;
             let at = |u: f64| {
-                let mut found = opw.inverse(&along(&pose, &travel, &turning, u), opw.cfg(&axes), &axes).unwrap();
+                let flange = along(&pose, &travel, &turning, u);
+                let mut found = kinematics.inverse(&flange, kinematics.cfg(&axes), &axes).unwrap();
                 for (value, near) in found.iter_mut().zip(axes) {
                     *value = near + wrap_degrees(*value - near);
                 }
@@ -317,10 +321,86 @@ fn rates_are_the_derivatives_of_the_axes_along_a_line() {
                 assert!(close(second, rates.second[i], 1e-4), "{name} axis {i}: {second} {rates:?}");
                 assert!(close(third, rates.third[i], 0.1), "{name} axis {i}: {third} {rates:?}");
             }
-            let velocity = opw.point_velocity(&axes, &rates.first, &pose.translation.vector);
+            let velocity = kinematics.point_velocity(&axes, &rates.first, &pose.translation.vector);
             assert!((velocity - travel).norm() < 1e-6);
         }
     }
+}
+
+/// The jacobian is what differences of the forward kinematics give, and the rates of a curved path keep to it.
+#[test]
+fn the_jacobian_tells_how_a_point_on_the_flange_moves() {
+    let mut random = Random::new(7);
+    for name in ROBOTS.into_iter().chain(SCARAS) {
+        let robot = Robot::builtin(name).unwrap();
+        for _ in 0..200 {
+            let axes = random_axes(&robot, &mut random);
+            let pose = robot.kinematics.forward(&axes);
+            let point = pose * nalgebra::Point3::new(30.0, -50.0, 120.0);
+            let jacobian = robot.kinematics.jacobian(&axes, &point.coords);
+            for column in 0..6 {
+                let linear = robot.own_axes().get(column).is_some_and(|axis| axis.linear);
+                let h = if linear { 1e-3 } else { 1e-6 };
+                let moved = |by: f64| {
+                    let mut axes = axes;
+                    axes[column] += if linear { by } else { by.to_degrees() };
+                    robot.kinematics.forward(&axes) * pose.inverse()
+                };
+                let (before, after) = (moved(-h), moved(h));
+                let turning = (after.rotation * before.rotation.inverse()).scaled_axis() / (2.0 * h);
+                let moving = (after * point - before * point) / (2.0 * h);
+                let expected = [turning.x, turning.y, turning.z, moving.x, moving.y, moving.z];
+                let found: [f64; 6] = jacobian.column(column).into_owned().into();
+                let close = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-5 * (1.0 + b.abs()));
+                assert!(close, "{name} {axes:?} axis {column}: {found:?} {expected:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn rates_of_a_curved_path_follow_it() {
+    // The point of a tool runs around a circle while the tool turns ever faster.
+    let robot = Robot::builtin("irb2400-10").unwrap();
+    let start = [10.0, 20.0, -15.0, 30.0, 50.0, -40.0];
+    let pose = robot.kinematics.forward(&start);
+    let tool = Translation3::new(40.0, 0.0, 150.0);
+    let centre = (pose * tool).translation.vector - Vector3::new(100.0, 0.0, 0.0);
+    let axis = Vector3::new(0.3, -0.2, 0.9).normalize();
+    let at = |u: f64| {
+        let tip = centre + Vector3::new(u.cos(), u.sin(), 0.0) * 100.0;
+        let turned = UnitQuaternion::from_scaled_axis(axis * (0.4 * u + 0.3 * u * u)) * pose.rotation;
+        let flange = Frame::from_parts(Translation3::from(tip), turned) * tool.inverse();
+        robot.kinematics.inverse(&flange, robot.kinematics.cfg(&start), &start).unwrap()
+    };
+    let travel = [Vector3::new(0.0, 100.0, 0.0), Vector3::new(-100.0, 0.0, 0.0), Vector3::new(0.0, -100.0, 0.0)];
+    let turning = [axis * 0.4, axis * 0.6, Vector3::zeros()];
+    let tip = centre + Vector3::new(100.0, 0.0, 0.0);
+    let rates = robot.kinematics.rates(&start, &Twist::of_point(&tip, &travel, &turning)).unwrap();
+    let h = 1e-3;
+    let (m2, m1, p1, p2) = (at(-2.0 * h), at(-h), at(h), at(2.0 * h));
+    for i in 0..6 {
+        let first = (8.0 * (p1[i] - m1[i]) - (p2[i] - m2[i])) / (12.0 * h);
+        let second = (16.0 * (p1[i] + m1[i]) - (p2[i] + m2[i]) - 30.0 * start[i]) / (12.0 * h * h);
+        let third = (p2[i] - m2[i] - 2.0 * (p1[i] - m1[i])) / (2.0 * h * h * h);
+        let close = |a: f64, b: f64, slack: f64| (a - b).abs() < slack * (1.0 + b.abs());
+        assert!(close(first, rates.first[i], 1e-7), "axis {i}: {first} {rates:?}");
+        assert!(close(second, rates.second[i], 1e-5), "axis {i}: {second} {rates:?}");
+        assert!(close(third, rates.third[i], 1e-2), "axis {i}: {third} {rates:?}");
+    }
+}
+
+#[test]
+fn rates_at_singular_points_and_of_a_tilting_scara_are_none() {
+    let robot = Robot::builtin("kr10-r1420").unwrap();
+    let twist = Twist::straight(&Vector3::zeros(), &Vector3::new(10.0, 20.0, 30.0), &Vector3::new(0.1, 0.2, 0.3));
+    assert!(robot.kinematics.rates(&[10.0, -90.0, 90.0, 20.0, 0.0, 0.0], &twist).is_none(), "wrist");
+    let scara = Robot::builtin("hsr065").unwrap();
+    assert!(scara.kinematics.rates(&[10.0, 40.0, 0.0, 20.0, 0.0, 0.0], &twist).is_none(), "tilt");
+    let upright = Twist::straight(&Vector3::zeros(), &Vector3::new(10.0, 20.0, 30.0), &Vector3::new(0.0, 0.0, 0.3));
+    assert!(scara.kinematics.rates(&[10.0, 40.0, 0.0, 20.0, 0.0, 0.0], &upright).is_some());
+    assert!(scara.kinematics.rates(&[10.0, 0.0, 0.0, 20.0, 0.0, 0.0], &upright).is_none(), "stretched");
+    assert_eq!(scara.kinematics.clearance(&[10.0, 0.0, 0.0, 20.0, 0.0, 0.0]), 0.0);
 }
 
 #[test]
