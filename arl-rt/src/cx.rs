@@ -66,10 +66,16 @@ impl Cx {
     /// `if cx.spend() { cx.next_cycle().await; }`.
     #[inline]
     pub fn spend(&self) -> bool {
+        self.spend_rounds(1)
+    }
+
+    /// Counts so many turns of loops, as [`Cx::spend`] counts one.
+    #[inline]
+    pub fn spend_rounds(&self, rounds: u32) -> bool {
         let left = self.budget.get();
-        // One instruction: whoever has nothing left waits for the next cycle, which brings a whole budget.
-        self.budget.set(left.wrapping_sub(1));
-        left == 0
+        // One instruction: whoever has too little left waits for the next cycle, which brings a whole budget.
+        self.budget.set(left.wrapping_sub(rounds));
+        left < rounds
     }
 
     /// Waits for the next cycle.
@@ -102,14 +108,13 @@ impl Cx {
         &self.world.system
     }
 
-    /// Checks that there is room on the stack for one more function. Functions that call themselves ask at their
-    /// start.
+    /// Checks that there is room on the stack for one more function. Functions ask before they call themselves.
     ///
     /// # Errors
     /// [`Fault::Depth`]: functions call each other too deep.
     #[inline]
-    pub fn enter(&self) -> Result<Depth, Fault> {
-        if stack_pointer() < self.stack_floor.get() { Err(Fault::Depth) } else { Ok(Depth(())) }
+    pub fn enter(&self) -> Result<(), Fault> {
+        if stack_pointer() < self.stack_floor.get() { Err(Fault::Depth) } else { Ok(()) }
     }
 
     /// Gives the program a whole cycle's budget, and so many bytes of stack below the caller.
@@ -165,10 +170,6 @@ fn stack_pointer() -> usize {
     (&raw const here) as usize
 }
 
-/// Proof that [`Cx::enter`] found room.
-#[derive(Debug)]
-pub struct Depth(());
-
 /// Ready in the cycle after the one in which it was made.
 #[derive(Debug)]
 #[must_use = "a future does nothing until it is awaited"]
@@ -177,11 +178,43 @@ pub struct NextCycle<'a> {
     from: u64,
 }
 
+impl<'a> NextCycle<'a> {
+    /// The same, with values that are given back afterwards. A variable whose value is kept here need not live across
+    /// the wait, so that the compiler can have it in a register.
+    #[inline]
+    pub fn keeping<T: Copy>(self, values: T) -> Keeping<'a, T> {
+        Keeping { next: self, values }
+    }
+}
+
+/// Values that are ready in the next cycle.
+#[derive(Debug)]
+#[must_use = "a future does nothing until it is awaited"]
+pub struct Keeping<'a, T> {
+    next: NextCycle<'a>,
+    values: T,
+}
+
+impl<T: Copy> Future for Keeping<'_, T> {
+    type Output = T;
+
+    #[inline]
+    fn poll(self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<T> {
+        if self.next.is_over() { Poll::Ready(self.values) } else { Poll::Pending }
+    }
+}
+
+impl NextCycle<'_> {
+    fn is_over(&self) -> bool {
+        self.cx.cycle() != self.from
+    }
+}
+
 impl Future for NextCycle<'_> {
     type Output = ();
 
     #[inline]
     fn poll(self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<()> {
-        if self.cx.cycle() == self.from { Poll::Pending } else { Poll::Ready(()) }
+        if self.is_over() { Poll::Ready(()) } else { Poll::Pending }
     }
 }

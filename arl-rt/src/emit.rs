@@ -3,7 +3,7 @@
 pub use std::cell::Cell;
 
 pub use crate::clock::Clock;
-pub use crate::cx::{Cx, Depth};
+pub use crate::cx::Cx;
 pub use crate::fault::{At, Done, Fault, File, Stop};
 pub use crate::ops::*;
 pub use crate::program::{BoxFuture, DataFile, DataVar, Program};

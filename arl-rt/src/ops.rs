@@ -54,7 +54,7 @@ integers!(i32 u32 u8);
 /// [`Fault::DivideByZero`]
 #[inline]
 pub fn div<T: Integer>(a: T, b: T) -> Result<T, Fault> {
-    a.quotient(b).ok_or(Fault::DivideByZero)
+    a.quotient(b).ok_or_else(by_zero)
 }
 
 /// `a % b`
@@ -63,7 +63,7 @@ pub fn div<T: Integer>(a: T, b: T) -> Result<T, Fault> {
 /// [`Fault::DivideByZero`]
 #[inline]
 pub fn rem<T: Integer>(a: T, b: T) -> Result<T, Fault> {
-    a.remainder(b).ok_or(Fault::DivideByZero)
+    a.remainder(b).ok_or_else(by_zero)
 }
 
 /// `a % b` of doubles: the remainder of the quotient cut towards zero, with the sign of `a`.
@@ -72,7 +72,7 @@ pub fn rem<T: Integer>(a: T, b: T) -> Result<T, Fault> {
 /// [`Fault::DivideByZero`]
 #[inline]
 pub fn rem_double(a: f64, b: f64) -> Result<f64, Fault> {
-    if b == 0.0 { Err(Fault::DivideByZero) } else { Ok(a % b) }
+    if b == 0.0 { Err(by_zero()) } else { Ok(a % b) }
 }
 
 /// `value << count`
@@ -82,7 +82,7 @@ pub fn rem_double(a: f64, b: f64) -> Result<f64, Fault> {
 #[inline]
 pub fn shl<T: Integer>(value: T, count: i32) -> Result<T, Fault> {
     // A negative count is a large one.
-    value.up(count as u32).ok_or(Fault::ShiftCount { count, width: T::WIDTH })
+    value.up(count as u32).ok_or_else(|| too_far(count, T::WIDTH))
 }
 
 /// `value >> count`; an int keeps its sign.
@@ -91,7 +91,7 @@ pub fn shl<T: Integer>(value: T, count: i32) -> Result<T, Fault> {
 /// [`Fault::ShiftCount`] for a count outside 0 to 31, for a byte 0 to 7.
 #[inline]
 pub fn shr<T: Integer>(value: T, count: i32) -> Result<T, Fault> {
-    value.down(count as u32).ok_or(Fault::ShiftCount { count, width: T::WIDTH })
+    value.down(count as u32).ok_or_else(|| too_far(count, T::WIDTH))
 }
 
 /// The place of an element in an array of one dimension.
@@ -116,6 +116,18 @@ pub fn index2<const D: usize>(indices: [i32; D], sizes: [usize; D]) -> Result<us
         place = place * size + index(at, size)?;
     }
     Ok(place)
+}
+
+// Faults are made apart from the code that has none: only there the compiler may forget about them.
+
+#[cold]
+fn by_zero() -> Fault {
+    Fault::DivideByZero
+}
+
+#[cold]
+fn too_far(count: i32, width: u8) -> Fault {
+    Fault::ShiftCount { count, width }
 }
 
 #[cold]

@@ -88,7 +88,7 @@ impl Program for Small {
 }
 
 fn deeper(cx: &Cx, level: i32) -> Done<i32> {
-    let _depth = cx.enter().at(FILE, 12)?;
+    cx.enter().at(FILE, 12)?;
     let fill = std::hint::black_box([level; 64]);
     Ok(deeper(cx, level.wrapping_add(1))?.wrapping_add(fill[3]))
 }

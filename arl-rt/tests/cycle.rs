@@ -101,6 +101,26 @@ fn loops_that_only_compute_give_the_cycle_back() {
 }
 
 #[test]
+fn many_rounds_count_at_once_and_values_outlast_the_wait() {
+    let (mut controller, messages) = controller(Controller::builder(), |cx| {
+        Box::pin(async move {
+            let (mut sum, mut turns, first) = (0_i32, 0_i32, cx.cycle());
+            while turns < 100 {
+                turns += 1;
+                sum += turns;
+                if cx.spend_rounds(1_000_000) {
+                    (sum, turns) = cx.next_cycle().keeping((sum, turns)).await;
+                }
+            }
+            let cycles = (cx.cycle() - first) as i32;
+            text::print().argtoprint(&sum).argtoprint(&" ").argtoprint(&cycles).run(cx).at(FILE, 1)
+        })
+    });
+    controller.run();
+    assert_eq!(messages.text(), "5050 100\n");
+}
+
+#[test]
 fn loops_of_calls_that_need_not_wait_give_the_cycle_back() {
     let (mut controller, _) = controller(Controller::builder(), |cx| {
         Box::pin(async move {

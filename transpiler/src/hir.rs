@@ -270,6 +270,10 @@ pub enum StmtKind {
 pub struct LoopInfo {
     /// Whether a round may pass without waiting, so that the loop has to give the cycle back by itself.
     pub spends: bool,
+    /// What a round counts when the loop spends: itself and all rounds of the counted loops inside.
+    pub rounds: u32,
+    /// The number of the loop in its function.
+    pub number: u32,
 }
 
 /// `for(init; condition; step)`

@@ -31,21 +31,23 @@ impl<T: Copy + Default, const N: usize, S: Store<T, N>> Cells<T, N, S> {
     /// The element with this index; the start value beyond the last.
     #[inline]
     pub fn item(&self, index: usize) -> T {
-        self.elements.get(index).map_or_else(T::default, Cell::get)
+        // Indexing behind a test of the index: rustc sees that it cannot fail. The test of what `get` returns stays.
+        if index < N { self.elements[index].get() } else { T::default() }
     }
 
     /// Puts a value into the element with this index; nothing happens beyond the last.
     #[inline]
     pub fn set_item(&self, index: usize, value: T) {
-        if let Some(cell) = self.elements.get(index) {
-            cell.set(value);
+        if index < N {
+            self.elements[index].set(value);
         }
     }
 
     /// Changes the element with this index.
     #[inline]
     pub fn update_item(&self, index: usize, change: impl FnOnce(T) -> T) {
-        if let Some(cell) = self.elements.get(index) {
+        if index < N {
+            let cell = &self.elements[index];
             cell.set(change(cell.get()));
         }
     }

@@ -5,14 +5,14 @@ use crate::hir::{Block, Expr, ExprKind, For, Func, LocalId, LoopInfo, Passed, Pl
 use arl_lang::ast::BinaryOp;
 use arl_lang::catalog::{Base, Effect};
 
-/// The most rounds (of nested loops together) that may pass without giving the cycle back.
-pub(crate) const MOST_ROUNDS: u64 = 100_000;
+/// The most rounds (of nested loops together) that may pass before they are counted and the cycle can be given back.
+pub(crate) const MOST_ROUNDS: u64 = 250_000;
 
 /// Drops labels that no `goto` names and `default`s that nothing reaches, then fills in [`LoopInfo`] and `counted` of every loop of a function.
 pub(super) fn judge(func: &mut Func) {
     let unused: Vec<bool> = func.labels.iter().map(|label| !label.used).collect();
     drop_unused(&mut func.body, &unused);
-    block_rounds(&mut func.body);
+    block_rounds(&mut func.body, &mut 0);
 }
 
 fn drop_unused(block: &mut Block, unused: &[bool]) {
@@ -42,11 +42,12 @@ fn inner_blocks(stmt: &mut Stmt) -> Vec<&mut Block> {
     }
 }
 
-/// The rounds that the loops of a block may run without giving the cycle back.
-fn block_rounds(block: &mut Block) -> u64 {
+/// The rounds that the loops of a block may run without giving the cycle back; `number` is that of the last loop.
+fn block_rounds(block: &mut Block, number: &mut u32) -> u64 {
     let mut rounds: u64 = 0;
     for stmt in block {
-        let inside = inner_blocks(stmt).into_iter().map(block_rounds).fold(0, u64::saturating_add);
+        let inside =
+            inner_blocks(stmt).into_iter().map(|block| block_rounds(block, number)).fold(0, u64::saturating_add);
         let counted = match &mut stmt.kind {
             StmtKind::For(each) => {
                 let all = known_rounds(each).map(|known| known.saturating_mul(inside.max(1)));
@@ -58,7 +59,16 @@ fn block_rounds(block: &mut Block) -> u64 {
         if counted.is_none() {
             let spends = repeats(stmt);
             if let Some(info) = info(stmt) {
-                info.spends = spends;
+                *number += 1;
+                *info = LoopInfo {
+                    spends,
+                    rounds: u32::try_from(inside).map_or(u32::MAX, |all| all.saturating_add(1)),
+                    number: *number,
+                };
+                if spends {
+                    // Each round pays for what is inside.
+                    continue;
+                }
             }
         }
         rounds = rounds.saturating_add(counted.unwrap_or(inside));

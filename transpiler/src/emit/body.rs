@@ -7,7 +7,7 @@ use super::names::{Names, ident, is_taken_value};
 use super::usage::Usage;
 use crate::effects::facts::{self, Facts, Scope};
 use crate::effects::ranges::Ranges;
-use crate::hir::{Expr, Func, LocalId, ModuleId, Program, Value};
+use crate::hir::{Expr, Func, FuncId, LocalId, ModuleId, Program, Value};
 use arl_lang::catalog::Family;
 use arl_lang::span::{LineIndex, Span};
 use proc_macro2::{Ident, Literal, TokenStream, TokenTree};
@@ -103,6 +103,10 @@ pub(super) struct Body<'p, 'u> {
     pub(super) machine: Option<Machine>,
     /// The line that the last comment was about.
     pub(super) commented: u32,
+    /// What a function that calls itself does before it does so, until that has been emitted.
+    pub(super) guard: Option<TokenStream>,
+    /// Whether the function is compiled into its callers.
+    pub(super) inlined: bool,
     /// The locals that are declared at their first assignment, until that comes.
     pub(super) joined: HashSet<LocalId>,
     /// Whether something that needs the program pointer has been emitted since the flag was cleared.
@@ -112,7 +116,8 @@ pub(super) struct Body<'p, 'u> {
 impl<'p, 'u> Body<'p, 'u> {
     /// For a function.
     pub(super) fn of_function(unit: &'u Unit<'p>, func: &'p Func) -> Self {
-        let usage = Usage::of_function(func);
+        let waits = |id: FuncId| unit.program.funcs.get(id.0 as usize).is_some_and(|func| func.effects.waits);
+        let usage = Usage::of_function(func, &waits);
         let names = unit.names.locals(func, &|local| !usage.is_read(local));
         let taken = names.iter().map(Ident::to_string).collect();
         let visible = func.params.clone();
@@ -137,6 +142,8 @@ impl<'p, 'u> Body<'p, 'u> {
             visible: Vec::new(),
             machine: None,
             commented: 0,
+            guard: None,
+            inlined: false,
             joined: HashSet::new(),
             acts: false,
         }

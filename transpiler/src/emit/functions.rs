@@ -1,13 +1,17 @@
 //! Functions: signature, attributes, body.
 
-use super::body::{Body, Unit};
+use super::body::{Body, Unit, mentions};
 use super::statements::Tail;
-use super::types::{base_type, rust_type};
+use super::types::{base_type, is_number, rust_type};
+use super::usage;
 use crate::effects::flow;
-use crate::hir::{Func, FuncId};
+use crate::hir::{Func, FuncId, Stmt, StmtKind};
 use arl_lang::catalog::Base;
 use proc_macro2::TokenStream;
 use quote::quote;
+
+/// The most statements that are compiled into every call of a function that calls itself.
+const MOST_SHALLOW: usize = 8;
 
 /// One function of the program.
 pub(super) fn function(unit: &Unit<'_>, id: FuncId, func: &Func) -> TokenStream {
@@ -36,21 +40,22 @@ pub(super) fn function(unit: &Unit<'_>, id: FuncId, func: &Func) -> TokenStream 
         (false, None) => TokenStream::new(),
     };
     body.stand_at(func.span);
-    let depth = effects.recursive.then(|| {
+    let guard = effects.recursive.then(|| {
         let enter = body.checked(quote!(cx.enter()));
-        quote!(let _depth = #enter;)
+        quote!(#enter;)
     });
     let statements = if func.has_goto {
-        body.machine(func)
+        let machine = body.machine(func);
+        quote!(#guard #machine)
     } else {
-        let statements = body.block(&func.body, Tail::Function);
-        if flow::block_diverges(&func.body) {
-            statements
-        } else {
-            let end = body.end_result();
-            quote!(#statements #end)
+        // Not before it is about to call itself: most calls end without.
+        body.guard = guard;
+        match body.shallow(func) {
+            0 => body.until_end(&func.body),
+            shallow => body.deeper(func, shallow, &result),
         }
     };
+    let inlined = body.inlined.then(|| quote!(#[inline(always)]));
     let wastes = body.usage.wastes.then(|| quote!(#[allow(unused_assignments)]));
     let unused = (unit.reached.get(id.0 as usize) != Some(&true)).then(|| quote!(#[allow(dead_code)]));
     let drops = body.usage.drops.then(|| quote!(#[allow(unused_mut, unused_variables)]));
@@ -59,9 +64,74 @@ pub(super) fn function(unit: &Unit<'_>, id: FuncId, func: &Func) -> TokenStream 
         #drops
         #unused
         #wastes
+        #inlined
         pub #waits fn #name(#cx #g #(#params),*) #result {
-            #depth
             #statements
         }
     }
+}
+
+impl<'p> Body<'p, '_> {
+    /// The statements up to the end of the function.
+    fn until_end(&mut self, block: &'p [Stmt]) -> TokenStream {
+        let statements = self.block(block, Tail::Function);
+        if flow::block_diverges(block) {
+            statements
+        } else {
+            let end = self.end_result();
+            quote!(#statements #end)
+        }
+    }
+
+    /// How many statements at the start of a function that calls itself decide whether it does. Where they are compiled
+    /// into the callers, half of all calls are saved.
+    fn shallow(&self, func: &Func) -> usize {
+        let numbers = func.params.iter().all(|param| {
+            !self.usage.is_mutable(*param) && func.locals.get(param.0 as usize).is_some_and(|local| is_number(local.ty))
+        });
+        if !func.effects.recursive || func.effects.waits || !numbers {
+            return 0;
+        }
+        let decides = |stmt: &&Stmt| matches!(stmt.kind, StmtKind::If(..)) && !self.calls_itself(stmt);
+        let shallow: Vec<&Stmt> = func.body.iter().take_while(decides).collect();
+        let length: usize = shallow.iter().map(|stmt| length(stmt)).sum();
+        if length > MOST_SHALLOW || shallow.len() == func.body.len() { 0 } else { shallow.len() }
+    }
+
+    /// The first statements, and the others in a function of their own.
+    fn deeper(&mut self, func: &'p Func, shallow: usize, result: &TokenStream) -> TokenStream {
+        let (first, rest) = func.body.split_at(shallow);
+        let guard = self.guard.take();
+        let first = self.block(first, Tail::Inner);
+        self.guard = guard;
+        let rest_code = self.until_end(rest);
+        let name = self.fresh("deeper");
+        let used = func.params.iter().filter(|param| rest.iter().any(|stmt| usage::mentions(stmt, **param)));
+        let (mut params, mut args) = (TokenStream::new(), TokenStream::new());
+        if mentions(&rest_code, "g") {
+            params.extend(quote!(g: &Globals,));
+            args.extend(quote!(g,));
+        }
+        for param in used {
+            let (name, ty) = (self.local(*param), func.locals.get(param.0 as usize).map(|local| local.ty));
+            let ty = ty.map(|ty| rust_type(ty, self.family()));
+            params.extend(quote!(#name: #ty,));
+            args.extend(quote!(#name,));
+        }
+        self.inlined = true;
+        quote! {
+            #first
+            return #name(cx, #args);
+
+            #[doc = " What is left when the function calls itself. The lines above are compiled into its callers."]
+            fn #name(cx: &Cx, #params) #result {
+                #rest_code
+            }
+        }
+    }
+}
+
+/// How many statements there are, with those inside.
+fn length(stmt: &Stmt) -> usize {
+    1 + flow::blocks(stmt).flatten().map(length).sum::<usize>()
 }

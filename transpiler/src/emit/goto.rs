@@ -13,7 +13,7 @@
 //! - Each jump backwards gives the cycle back when the budget is used up, as each round of a loop does.
 
 use super::body::{Body, Exit, Loop, mentions};
-use super::loops::{give_back, spend};
+use super::loops::give_back;
 use super::names::ident;
 use super::statements::Tail;
 use super::types::start_value;
@@ -409,7 +409,7 @@ impl<'p> Body<'p, '_> {
         let (head, after) = (self.state_here("Loop"), self.state_here("After"));
         self.close(head);
         self.open(head);
-        self.append(spend(info));
+        self.append(self.spend(info));
         if let Some(condition) = condition.filter(|condition| !flow::always(condition)) {
             self.unless(condition, after);
         }
@@ -430,7 +430,7 @@ impl<'p> Body<'p, '_> {
         let value = self.value_alone(until);
         let pointer = self.pointer();
         let (before, met) = (&value.before, &value.tokens);
-        let (done, again, spend) = (self.set_state(after), self.set_state(head), spend(info));
+        let (done, again, spend) = (self.set_state(after), self.set_state(head), self.spend(info));
         self.append(quote!(#comment #pointer #before if #met { #done } else { #spend #again }));
         self.open(after);
     }
@@ -452,7 +452,7 @@ impl<'p> Body<'p, '_> {
         self.close(next);
         self.open(next);
         self.line = line;
-        let spend = spend(each.info);
+        let spend = self.spend(each.info);
         let step = each.step.as_ref().map(|step| self.with_own_temporaries(|body| body.effect(step, Tail::Inner)));
         self.append(quote!(#spend #step));
         self.close(head);

@@ -3,13 +3,16 @@
 //! A loop that has to give the cycle back does so behind its last statement; where a `continue` would jump over that,
 //! at the start of the round. `continue` of a loop with something to do behind its body (a step, an `until`) leaves a
 //! labelled block around the body.
+//!
+//! What lives across an `.await` lies in the memory of the future, and the compiler cannot keep it in a register in
+//! between. Numbers that a loop changes are therefore handed to the wait and come back from it.
 
 use super::body::{Body, Exit, Loop, label};
 use super::fragment::{Fragment, Precedence};
 use super::statements::Tail;
 use crate::effects::{flow, loops};
-use crate::hir::{Expr, For, LoopInfo, Stmt, StmtKind};
-use proc_macro2::TokenStream;
+use crate::hir::{Expr, For, LocalId, LoopInfo, Stmt, StmtKind};
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 impl<'p> Body<'p, '_> {
@@ -45,11 +48,14 @@ impl<'p> Body<'p, '_> {
 
     /// A loop's body where nothing comes behind it.
     fn rounds(&mut self, body: &'p [Stmt], info: LoopInfo) -> TokenStream {
-        let spend = spend(info);
+        let spend = self.spend(info);
         let continued = flow::continues(body);
         self.loops.push(Loop { on_break: Exit::Plain, on_continue: Exit::Plain });
-        let statements = self.block(body, Tail::Inner);
+        let mut statements = self.block(body, Tail::Inner);
         self.loops.pop();
+        if info.spends && !continued && self.hides(body, self.usage.kept(info)) {
+            statements = quote!({ #statements });
+        }
         if continued {
             quote!(#spend #statements)
         } else if flow::block_diverges(body) {
@@ -61,7 +67,7 @@ impl<'p> Body<'p, '_> {
 
     /// `repeat` ... `until(c)`
     pub(super) fn repeat_loop(&mut self, body: &'p [Stmt], until: &'p Expr, info: LoopInfo) -> TokenStream {
-        let (label, statements) = self.round_with_rest(body, Some(until));
+        let (label, statements) = self.round_with_rest(body, Some(until), info);
         if flow::block_diverges(body) && !flow::continues(body) {
             return quote!(#label loop { #statements });
         }
@@ -70,17 +76,27 @@ impl<'p> Body<'p, '_> {
         let condition = self.value_alone(until);
         let pointer = self.pointer();
         let (before, met) = (&condition.before, &condition.tokens);
-        let spend = spend(info);
+        let spend = self.spend(info);
         quote!(#label loop { #statements #comment #pointer #before if #met { break; } #spend })
     }
 
     /// The body of a loop with something behind it, and the label that the loop needs.
-    fn round_with_rest(&mut self, body: &'p [Stmt], rest: Option<&'p Expr>) -> (TokenStream, TokenStream) {
+    fn round_with_rest(
+        &mut self,
+        body: &'p [Stmt],
+        rest: Option<&'p Expr>,
+        info: LoopInfo,
+    ) -> (TokenStream, TokenStream) {
         if !flow::continues(body) {
             self.loops.push(Loop { on_break: Exit::Plain, on_continue: Exit::Plain });
             let mut statements = self.block(body, Tail::Inner);
             self.loops.pop();
-            if rest.is_some_and(|rest| self.hides(body, rest)) {
+            let mut meant = self.usage.kept(info).to_vec();
+            if let Some(rest) = rest {
+                let facts = self.facts(rest);
+                meant.extend(facts.reads.iter().chain(&facts.writes));
+            }
+            if self.hides(body, &meant) {
                 statements = quote!({ #statements });
             }
             return (TokenStream::new(), statements);
@@ -99,11 +115,12 @@ impl<'p> Body<'p, '_> {
         (quote!(#label), quote!(#round: { #statements }))
     }
 
-    /// Whether variables of a body would hide those that the expression behind it means.
-    fn hides(&self, body: &[Stmt], rest: &Expr) -> bool {
-        let facts = self.facts(rest);
-        let meant: Vec<String> =
-            facts.reads.iter().chain(&facts.writes).map(|id| self.local(*id).to_string()).collect();
+    /// Whether variables of a body would hide those that are meant behind it.
+    fn hides(&self, body: &[Stmt], meant: &[LocalId]) -> bool {
+        if meant.is_empty() {
+            return false;
+        }
+        let meant: Vec<String> = meant.iter().map(|id| self.local(*id).to_string()).collect();
         let declares = |stmt: &Stmt| match stmt.kind {
             StmtKind::Let(id, _) => meant.contains(&self.local(id).to_string()),
             _ => false,
@@ -155,12 +172,12 @@ impl<'p> Body<'p, '_> {
             Some(condition) if !flow::always(condition) => self.head(condition),
             _ => (Some(TokenStream::new()), TokenStream::new()),
         };
-        let (label, statements) = self.round_with_rest(&each.body, each.step.as_ref());
+        let (label, statements) = self.round_with_rest(&each.body, each.step.as_ref(), each.info);
         self.line = line;
         let reached = !flow::block_diverges(&each.body) || flow::continues(&each.body);
         let rest = if reached {
             let step = each.step.as_ref().map(|step| self.with_own_temporaries(|body| body.effect(step, Tail::Inner)));
-            let spend = spend(each.info);
+            let spend = self.spend(each.info);
             // At the very end, so that waiting ends where the next round begins: rustc makes a better loop of it.
             quote!(#step #spend)
         } else {
@@ -172,11 +189,27 @@ impl<'p> Body<'p, '_> {
         };
         if hides { quote!({ #code }) } else { code }
     }
-}
 
-/// `if cx.spend() { .. }`, where a loop has to give the cycle back by itself.
-pub(super) fn spend(info: LoopInfo) -> TokenStream {
-    if info.spends { give_back() } else { TokenStream::new() }
+    /// `if cx.spend() { .. }`, where a loop has to give the cycle back by itself.
+    pub(super) fn spend(&self, info: LoopInfo) -> TokenStream {
+        if !info.spends {
+            return TokenStream::new();
+        }
+        let rounds = Literal::u32_unsuffixed(info.rounds);
+        let spent = if info.rounds == 1 { quote!(cx.spend()) } else { quote!(cx.spend_rounds(#rounds)) };
+        // A variable that another one of the same name hides stays in memory.
+        let is_seen = |id: &&LocalId| {
+            let name = self.local(**id);
+            self.visible.iter().rfind(|other| self.local(**other) == name) == Some(*id)
+        };
+        let kept: Vec<_> = self.usage.kept(info).iter().filter(is_seen).map(|id| self.local(*id)).collect();
+        let wait = match kept.as_slice() {
+            [] => quote!(cx.next_cycle().await;),
+            [kept] => quote!(#kept = cx.next_cycle().keeping(#kept).await;),
+            kept => quote!((#(#kept),*) = cx.next_cycle().keeping((#(#kept),*)).await;),
+        };
+        quote!(if #spent { #wait })
+    }
 }
 
 /// Gives the cycle back once the budget of rounds is used up.

@@ -7,7 +7,7 @@ use super::switch;
 use super::types::{rust_type, start_value};
 use super::waiting::ending;
 use crate::effects::flow;
-use crate::hir::{Expr, ExprKind, LocalId, Stmt, StmtKind, Type, Value};
+use crate::hir::{Expr, ExprKind, FuncId, LocalId, Stmt, StmtKind, Type, Value};
 use arl_lang::catalog::Base;
 use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
@@ -29,12 +29,24 @@ impl<'p> Body<'p, '_> {
         let last = statements.len().saturating_sub(1);
         self.find_joined(&statements);
         let mut out = TokenStream::new();
+        let mut guard = self.guard.take();
         for (at, stmt) in statements.into_iter().enumerate() {
+            if guard.is_some() && self.calls_itself(stmt) {
+                out.extend(guard.take());
+            }
             let tail = if at == last { tail } else { Tail::Inner };
             out.extend(self.statement(stmt, tail));
         }
         self.visible.truncate(visible);
         out
+    }
+
+    /// Whether a statement calls a function that may lead back to this one.
+    pub(super) fn calls_itself(&self, stmt: &Stmt) -> bool {
+        let funcs = &self.program().funcs;
+        let recursive = |id: &FuncId| funcs.get(id.0 as usize).is_some_and(|func| func.effects.recursive);
+        flow::expressions(stmt).any(|expr| self.facts(expr).calls.iter().any(recursive))
+            || flow::blocks(stmt).any(|block| block.iter().any(|stmt| self.calls_itself(stmt)))
     }
 
     /// An expression of which it is asked afterwards whether it needs the program pointer.

@@ -14,6 +14,11 @@ pub(super) fn is_copy(ty: Type) -> bool {
     !ty.is_array() && !matches!(ty.base, Base::String | Base::Handle(_) | Base::Struct(Struct::Wobj))
 }
 
+/// Whether a value of the type fits into a register.
+pub(super) fn is_number(ty: Type) -> bool {
+    !ty.is_array() && matches!(ty.base, Base::Int | Base::Uint | Base::Byte | Base::Double | Base::Bool)
+}
+
 /// Whether a variable of the type is a handle or an array of handles.
 pub(super) fn is_handle(ty: Type) -> bool {
     matches!(ty.base, Base::Handle(_))

@@ -2,10 +2,11 @@
 //! them: a value that nobody reads is not assigned at the declaration, a variable that nobody reads has a `_` in front.
 
 use super::compound::stepped;
-use super::usage_graph::{Graph, Site, writes_only};
+use super::types::is_number;
+use super::usage_graph::{Graph, Kept, Site, writes_only};
 use crate::effects::facts::{self, children};
 use crate::effects::{flow, loops};
-use crate::hir::{Expr, ExprKind, Func, LocalId, Passed, Place, Projection, Root, Stmt, StmtKind};
+use crate::hir::{Expr, ExprKind, Func, FuncId, LocalId, LoopInfo, Passed, Place, Projection, Root, Stmt, StmtKind};
 
 /// How a local is used.
 #[derive(Clone, Copy, Default, Debug)]
@@ -30,18 +31,20 @@ pub(super) struct Usage {
     pub(super) wastes: bool,
     /// Whether code has been left out that was counted here.
     pub(super) drops: bool,
+    /// What each loop keeps while it gives the cycle back.
+    kept: Kept,
 }
 
 impl Usage {
-    /// Looks through a function.
-    pub(super) fn of_function(func: &Func) -> Self {
-        let mut usage = Self { locals: vec![Local::default(); func.locals.len()], wastes: false, drops: false };
+    /// Looks through a function; `waits` tells of which functions calls may wait.
+    pub(super) fn of_function(func: &Func, waits: &dyn Fn(FuncId) -> bool) -> Self {
+        let mut usage = Self { locals: vec![Local::default(); func.locals.len()], ..Self::default() };
         usage.block(&func.body);
         if func.has_goto {
             usage.wastes = !func.locals.is_empty();
             return usage;
         }
-        let Some(graph) = Graph::of_function(func) else {
+        let Some(graph) = Graph::of_function(func, waits) else {
             usage.wastes = true;
             return usage;
         };
@@ -53,13 +56,29 @@ impl Usage {
                 Site::Other => usage.wastes |= local.read,
             }
         }
+        let wanted = |id: LocalId| {
+            let number = func.locals.get(id.0 as usize).is_some_and(|local| is_number(local.ty));
+            let own = usage.get(id);
+            number && own.read && own.written && !own.parts
+        };
+        usage.kept = graph.kept(&wanted);
         let late = |id: LocalId| usage.locals.get(id.0 as usize).is_some_and(|local| local.late);
         for id in graph.assigned_again(&late) {
             if let Some(local) = usage.locals.get_mut(id.0 as usize) {
                 local.again = true;
             }
         }
+        for id in usage.kept.values().flatten() {
+            if let Some(local) = usage.locals.get_mut(id.0 as usize) {
+                local.again = true;
+            }
+        }
         usage
+    }
+
+    /// What a loop keeps while it gives the cycle back.
+    pub(super) fn kept(&self, info: LoopInfo) -> &[LocalId] {
+        self.kept.get(&info.number).map_or(&[], Vec::as_slice)
     }
 
     fn get(&self, id: LocalId) -> Local {

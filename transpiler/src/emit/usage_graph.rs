@@ -6,12 +6,19 @@
 use super::usage::indices;
 use crate::effects::facts::{self, children};
 use crate::effects::{flow, loops};
-use crate::hir::{Expr, ExprKind, Func, LocalId, Passed, Place, Root, Stmt, StmtKind};
+use crate::hir::{Expr, ExprKind, Func, FuncId, LocalId, LoopInfo, Passed, Place, Root, Stmt, StmtKind};
 use arl_lang::ast::BinaryOp;
-use arl_lang::catalog::{Entry, Mode};
+use arl_lang::catalog::{Effect, Entry, Mode};
+use std::collections::HashMap;
 
 /// More bits than this for one analysis are not worth it.
 const MOST_BITS: usize = 1 << 26;
+
+/// More locals than this are not kept while a loop gives the cycle back: nobody could read that.
+const MOST_KEPT: usize = 8;
+
+/// What to keep while the loop with this number gives the cycle back.
+pub(super) type Kept = HashMap<u32, Vec<LocalId>>;
 
 /// What kind of write.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -28,6 +35,10 @@ enum Op {
     Write(LocalId, Site),
     /// The declaration that is no write: the variable starts anew.
     Fresh(LocalId),
+    /// The loop with this number gives the cycle back.
+    Pause(u32),
+    /// Something else waits.
+    Wait,
 }
 
 /// Operations that run one after the other.
@@ -42,19 +53,23 @@ struct Node {
 pub(super) struct Graph {
     nodes: Vec<Node>,
     words: usize,
+    /// Locals that are written inside loops.
+    repeated: Vec<LocalId>,
 }
 
 impl Graph {
-    /// The graph of a function; `None` where it would be too large.
-    pub(super) fn of_function(func: &Func) -> Option<Graph> {
-        let mut builder = Builder { nodes: vec![Node::default()], current: Some(0), loops: Vec::new() };
+    /// The graph of a function, where `waits` tells of which functions calls may wait; `None` where it would be too
+    /// large.
+    pub(super) fn of_function(func: &Func, waits: &dyn Fn(FuncId) -> bool) -> Option<Graph> {
+        let mut builder =
+            Builder { nodes: vec![Node::default()], current: Some(0), loops: Vec::new(), repeated: Vec::new(), waits };
         for param in &func.params {
             builder.op(Op::Write(*param, Site::Other));
         }
         builder.block(&func.body);
         let words = func.locals.len().div_ceil(64);
         let bits = builder.nodes.len().saturating_mul(func.locals.len());
-        (bits <= MOST_BITS).then_some(Graph { nodes: builder.nodes, words })
+        (bits <= MOST_BITS).then_some(Graph { nodes: builder.nodes, words, repeated: builder.repeated })
     }
 
     /// The writes whose value is never read.
@@ -73,6 +88,36 @@ impl Graph {
             }
         }
         found
+    }
+
+    /// Of the locals that are written inside loops and of which it is asked whether they are `wanted`: those that are
+    /// live where each loop gives the cycle back. Locals that are live where something else waits are left out.
+    pub(super) fn kept(&self, wanted: &dyn Fn(LocalId) -> bool) -> Kept {
+        let live = self.live_at_start();
+        let (mut waiting, mut pauses) = (Set::new(self.words), Vec::new());
+        for node in &self.nodes {
+            let mut set = self.live_at_end(node, &live);
+            for op in node.ops.iter().rev() {
+                match op {
+                    Op::Wait => _ = waiting.add_all(&set),
+                    Op::Pause(number) => pauses.push((*number, set.clone())),
+                    _ => set.before(*op),
+                }
+            }
+        }
+        let mut candidates: Vec<LocalId> =
+            self.repeated.iter().copied().filter(|id| wanted(*id) && !waiting.contains(*id)).collect();
+        candidates.sort_unstable_by_key(|id| id.0);
+        candidates.dedup();
+        // A local that is not kept everywhere lies in memory everywhere. Those of the inner blocks have higher numbers.
+        while let Some(first) = pauses.iter().find_map(|(_, live)| {
+            let mut kept = candidates.iter().filter(|id| live.contains(**id));
+            kept.next().copied().filter(|_| kept.count() >= MOST_KEPT)
+        }) {
+            candidates.retain(|id| *id != first);
+        }
+        let kept = |live: &Set| candidates.iter().copied().filter(|id| live.contains(*id)).collect();
+        pauses.iter().map(|(number, live)| (*number, kept(live))).collect()
     }
 
     fn live_at_end(&self, node: &Node, live: &[Set]) -> Set {
@@ -121,7 +166,7 @@ impl Graph {
                             set.add(*id);
                         }
                         Op::Write(id, Site::Declaration) | Op::Fresh(id) => set.remove(*id),
-                        Op::Write(..) | Op::Read(_) => {}
+                        Op::Write(..) | Op::Read(_) | Op::Pause(_) | Op::Wait => {}
                     }
                 }
                 for next in &node.next {
@@ -175,6 +220,7 @@ impl Set {
         match op {
             Op::Read(id) => self.add(id),
             Op::Write(id, _) | Op::Fresh(id) => self.remove(id),
+            Op::Pause(_) | Op::Wait => {}
         }
     }
 }
@@ -189,15 +235,24 @@ struct Loop {
     continues: usize,
 }
 
-struct Builder {
+struct Builder<'a> {
     nodes: Vec<Node>,
     /// The node that grows; none behind a jump.
     current: Option<usize>,
     loops: Vec<Loop>,
+    /// What is written while a loop is open.
+    repeated: Vec<LocalId>,
+    /// Which functions may wait.
+    waits: &'a dyn Fn(FuncId) -> bool,
 }
 
-impl Builder {
+impl Builder<'_> {
     fn op(&mut self, op: Op) {
+        if let Op::Write(id, _) = op
+            && !self.loops.is_empty()
+        {
+            self.repeated.push(id);
+        }
         if let Some(node) = self.current.and_then(|at| self.nodes.get_mut(at)) {
             node.ops.push(op);
         }
@@ -282,18 +337,18 @@ impl Builder {
                 }
                 self.join(ends);
             }
-            StmtKind::While(condition, body, _) => {
+            StmtKind::While(condition, body, info) => {
                 let head = self.step();
                 self.expr(condition, true);
                 let out = if flow::always(condition) { None } else { self.current };
                 self.step();
-                self.round(body, head, head, out);
+                self.round(body, *info, head, out);
             }
-            StmtKind::Loop(body, _) => {
+            StmtKind::Loop(body, info) => {
                 let head = self.step();
-                self.round(body, head, head, None);
+                self.round(body, *info, head, None);
             }
-            StmtKind::Repeat(body, until, _) => self.repeat(body, until),
+            StmtKind::Repeat(body, until, info) => self.repeat(body, until, *info),
             StmtKind::For(each) => match loops::range(each) {
                 Some(range) => {
                     self.expr(range.from, true);
@@ -302,7 +357,7 @@ impl Builder {
                     let out = self.current;
                     self.step();
                     self.op(Op::Fresh(range.local));
-                    self.round(&each.body, head, head, out);
+                    self.round(&each.body, each.info, head, out);
                 }
                 None => self.general_for(each),
             },
@@ -326,17 +381,31 @@ impl Builder {
         }
     }
 
+    /// Where a loop gives the cycle back.
+    fn pause(&mut self, info: LoopInfo) {
+        if info.spends {
+            self.op(Op::Pause(info.number));
+        }
+    }
+
     /// The body of a loop from the current node; afterwards the way out.
-    fn round(&mut self, body: &[Stmt], back: usize, continues: usize, out: Option<usize>) {
-        self.loops.push(Loop { breaks: Vec::new(), continues });
+    fn round(&mut self, body: &[Stmt], info: LoopInfo, head: usize, out: Option<usize>) {
+        self.loops.push(Loop { breaks: Vec::new(), continues: head });
+        let first = flow::continues(body);
+        if first {
+            self.pause(info);
+        }
         self.block(body);
+        if !first {
+            self.pause(info);
+        }
         let end = self.current;
-        self.link(end, back);
+        self.link(end, head);
         let breaks = self.loops.pop().map_or_else(Vec::new, |done| done.breaks);
         self.join(std::iter::once(out).chain(breaks.into_iter().map(Some)));
     }
 
-    fn repeat(&mut self, body: &[Stmt], until: &Expr) {
+    fn repeat(&mut self, body: &[Stmt], until: &Expr, info: LoopInfo) {
         let head = self.step();
         let test = self.node();
         self.loops.push(Loop { breaks: Vec::new(), continues: test });
@@ -346,7 +415,10 @@ impl Builder {
         self.current = Some(test);
         self.expr(until, true);
         let out = self.current;
-        self.link(out, head);
+        self.step();
+        self.pause(info);
+        let back = self.current;
+        self.link(back, head);
         let breaks = self.loops.pop().map_or_else(Vec::new, |done| done.breaks);
         self.join(std::iter::once(out).chain(breaks.into_iter().map(Some)));
     }
@@ -364,6 +436,7 @@ impl Builder {
         self.link(end, next);
         self.current = Some(next);
         each.step.iter().for_each(|step| self.expr(step, false));
+        self.pause(each.info);
         let back = self.current;
         self.link(back, head);
         let breaks = self.loops.pop().map_or_else(Vec::new, |done| done.breaks);
@@ -407,8 +480,17 @@ impl Builder {
                 self.read(place);
                 self.write(place, wanted && step.prefix);
             }
+            ExprKind::Call(callee, _) => {
+                children(expr).into_iter().for_each(|child| self.expr(child, true));
+                if (self.waits)(*callee) {
+                    self.op(Op::Wait);
+                }
+            }
             ExprKind::Builtin(builtin) => {
                 children(expr).into_iter().for_each(|child| self.expr(child, true));
+                if matches!(builtin.entry.effect, Effect::Plans | Effect::Waits) {
+                    self.op(Op::Wait);
+                }
                 for arg in &builtin.args {
                     if let Passed::Out(place) = &arg.value {
                         if writes_only(builtin.entry) {
