@@ -97,6 +97,7 @@ fn refused(unit: &Unit, refusal: &Refusal) -> String {
         Refusal::NoSuchCfg { cfg } => format!("the robot has no configuration cfg {cfg}"),
         Refusal::Unreachable { beyond } if *beyond > 0.0 => format!("the pose is {beyond:.3} mm out of reach"),
         Refusal::Unreachable { .. } => "the pose cannot be reached in this configuration".to_owned(),
+        Refusal::Tilted { by } => format!("the pose tilts the flange by {by:.3} deg, which a SCARA robot cannot do"),
         Refusal::AxisLimit { axis, value } => match unit.robot().own_axes().get(*axis) {
             Some(axis) => {
                 format!("{} would have to go to {value:.3}, its range is {} to {}", axis.name, axis.min, axis.max)

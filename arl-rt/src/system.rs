@@ -7,8 +7,8 @@ use crate::fault::Fault;
 use crate::keep::Keep;
 use crate::state::{State, StateError};
 use crate::values::{
-    Array, Controlmode, Frame, Joint, Pose, Shared, Slip, SmallArray, Speed, Str, Tool, ToolInertiaPara, UNSET,
-    VelProfile, Wobj,
+    Array, AsScara, Controlmode, Frame, Joint, Pose, Shared, Slip, SmallArray, Speed, Str, Tool, ToolInertiaPara,
+    UNSET, VelProfile, Wobj,
 };
 
 /// Declares the variables: field, type, default, name, and when the default comes back.
@@ -150,6 +150,24 @@ system! {
     reset_pos_threshold: Shared<SmallArray<f64, 100>> = SmallArray::start(), "RESET_POS_THRESHOLD", Permanent;
 }
 
+/// The variables whose type depends on the robot's family, as the programs of SCARA robots see them.
+#[derive(Debug)]
+pub struct ScaraSystem<'a> {
+    /// `$J`.
+    pub j: AsScara<'a, Shared<Array<Joint, 100>>>,
+    /// `$DFSLIP`.
+    pub dfslip: AsScara<'a, Cell<Slip>>,
+    /// `$CJOINT`. Read-only.
+    pub cjoint: AsScara<'a, Cell<Joint>>,
+}
+
+impl System {
+    /// The variables as a SCARA robot's program sees them.
+    pub fn scara(&self) -> ScaraSystem<'_> {
+        ScaraSystem { j: AsScara::new(&self.j), dfslip: AsScara::new(&self.dfslip), cjoint: AsScara::new(&self.cjoint) }
+    }
+}
+
 /// `$WORLD`.
 fn world() -> Wobj {
     Wobj { mu_name: "WORLD".into(), ..Wobj::default() }
@@ -276,7 +294,7 @@ mod tests {
     use super::*;
     use crate::text::{Print, Style};
     use crate::values::Teach;
-    use arl_lang::catalog::{Access, Base, Restore, Status, SystemVariable};
+    use arl_lang::catalog::{Access, Base, Family, Restore, Status, SystemVariable};
     use arl_lang::symbol::Interner;
 
     /// The default of the catalog, put into a fresh variable of our type.
@@ -332,6 +350,15 @@ mod tests {
             ctl_mode: Cell::new(Controlmode::Manual), vel_profile: Cell::new(VelProfile::T),
             cjoint: Cell::new(Joint::default())
         }
+    }
+
+    #[test]
+    fn variables_of_types_that_depend_on_the_family_have_a_scara_s_view() {
+        let families = arl_lang::catalog::system_variables().filter(|variable| match variable.ty {
+            Base::Struct(id) => id.def(Family::SixAxis).rust != id.def(Family::Scara).rust,
+            _ => false,
+        });
+        assert_eq!(families.map(|variable| variable.field).collect::<Vec<_>>(), ["j", "dfslip", "cjoint"]);
     }
 
     #[test]

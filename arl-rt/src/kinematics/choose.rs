@@ -24,8 +24,13 @@ pub enum Refusal {
     },
     /// The pose is out of reach.
     Unreachable {
-        /// How far the arm falls short, in mm; 0 where it is the configuration or the tilt that does not fit.
+        /// How far the arm falls short, in mm; 0 where it is the configuration that does not fit.
         beyond: f64,
+    },
+    /// The flange would have to tilt, which a SCARA cannot.
+    Tilted {
+        /// By how much, in deg.
+        by: f64,
     },
     /// The pose is reached with an axis outside its range only.
     AxisLimit {
@@ -43,9 +48,7 @@ impl Kinematics {
     /// None is found; the reason is that of the configuration asked for, or that of the nearest one.
     pub fn choose(&self, flange: &Frame, wanted: Wanted, axes: &[Axis], near: &Axes) -> Result<Axes, Refusal> {
         let one = |cfg: u8| {
-            let solution = self
-                .inverse(flange, cfg, near)
-                .ok_or_else(|| Refusal::Unreachable { beyond: self.beyond_reach(flange) })?;
+            let solution = self.inverse(flange, cfg, near).ok_or_else(|| self.refusal(flange))?;
             turn(&solution, wanted.turn, axes, near)
         };
         if let Some(cfg) = wanted.cfg {
@@ -68,8 +71,7 @@ impl Kinematics {
                 }
             }
         }
-        let beyond = || Refusal::Unreachable { beyond: self.beyond_reach(flange) };
-        best.map(|(_, axes)| axes).ok_or_else(|| refusal.unwrap_or_else(beyond))
+        best.map(|(_, axes)| axes).ok_or_else(|| refusal.unwrap_or_else(|| self.refusal(flange)))
     }
 }
 

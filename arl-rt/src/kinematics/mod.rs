@@ -56,7 +56,15 @@ impl Kinematics {
     pub fn inverse(&self, flange: &Frame, cfg: u8, near: &Axes) -> Option<Axes> {
         match self {
             Kinematics::SixAxis(opw) => opw.inverse(flange, cfg, near),
-            Kinematics::Scara(scara) => scara.inverse(flange, cfg),
+            Kinematics::Scara(scara) => scara.inverse(flange, cfg, near),
+        }
+    }
+
+    /// Why no configuration, or none of those asked for, reaches `flange`.
+    pub fn refusal(&self, flange: &Frame) -> Refusal {
+        match self {
+            Kinematics::Scara(scara) if scara.tilt(flange) > 0.0 => Refusal::Tilted { by: scara.tilt(flange) },
+            _ => Refusal::Unreachable { beyond: self.beyond_reach(flange) },
         }
     }
 

@@ -1,7 +1,8 @@
 //! Four axes: two arms that turn about z, a lift, a flange that turns about z.
 
-use nalgebra::{Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, Translation3, UnitQuaternion};
 
+use super::angles::{atan2, sin_cos, wrap};
 use super::frame::Frame;
 use super::{Axes, wrap_degrees};
 
@@ -16,18 +17,17 @@ pub struct Scara {
     pub z0: f64,
 }
 
-/// Beyond this tilt (sine) a pose does not stand upright.
-const UPRIGHT: f64 = 1e-6;
+/// Beyond this tilt (sine of half of it) a pose does not stand upright.
+const UPRIGHT: f64 = 5e-7;
 
 impl Scara {
     /// The flange's frame in the base, translation in mm.
     pub fn forward(&self, axes: &Axes) -> Frame {
         let [j1, j2, j3, j4, ..] = *axes;
-        let (s1, c1) = j1.to_radians().sin_cos();
-        let (s12, c12) = (j1 + j2).to_radians().sin_cos();
+        let ([s1, s12, half_sin, _], [c1, c12, half_cos, _]) = sin_cos([j1, j1 + j2, 0.5 * (j1 + j2 + j4), 0.0]);
         Frame::from_parts(
             Translation3::new(self.l1 * c1 + self.l2 * c12, self.l1 * s1 + self.l2 * s12, self.z0 + j3),
-            UnitQuaternion::from_axis_angle(&Vector3::z_axis(), (j1 + j2 + j4).to_radians()),
+            UnitQuaternion::new_unchecked(Quaternion::new(half_cos, 0.0, 0.0, half_sin)),
         )
     }
 
@@ -37,27 +37,36 @@ impl Scara {
         if wrap_degrees(j2) < -1e-9 { 4 } else { 0 }
     }
 
-    /// The axes for a flange frame (translation in mm) with hand `cfg`, 0 or 4. `None`: out of reach, or not upright.
-    pub fn inverse(&self, flange: &Frame, cfg: u8) -> Option<Axes> {
-        let rotation = flange.rotation.to_rotation_matrix();
-        let tilt = rotation[(0, 2)].hypot(rotation[(1, 2)]);
-        if tilt > UPRIGHT || rotation[(2, 2)] < 0.0 || !matches!(cfg, 0 | 4) {
+    /// The axes for a flange frame (translation in mm) with hand `cfg`, 0 or 4; where the arm is folded upon itself, axis 1
+    /// stays as in `near`. `None`: out of reach, or not upright.
+    pub fn inverse(&self, flange: &Frame, cfg: u8, near: &Axes) -> Option<Axes> {
+        if self.tilt(flange) > 0.0 || !matches!(cfg, 0 | 4) {
             return None;
         }
         let [x, y, z]: [f64; 3] = flange.translation.vector.into();
         let (l1, l2) = (self.l1, self.l2);
-        let cosine = (x * x + y * y - l1 * l1 - l2 * l2) / (2.0 * l1 * l2);
+        let square = x * x + y * y;
+        let cosine = (square - l1 * l1 - l2 * l2) / (2.0 * l1 * l2);
         let rest = 1.0 - cosine * cosine;
         if rest < -1e-12 {
             return None;
         }
-        let sine = rest.max(0.0).sqrt();
+        let (sine, cosine) = (rest.max(0.0).sqrt(), cosine.clamp(-1.0, 1.0));
         let sine = if cfg == 0 { sine } else { -sine };
-        let j1 = y.atan2(x) - (l2 * sine).atan2(l1 + l2 * cosine);
-        let j2 = sine.atan2(cosine);
-        let heading = rotation[(1, 0)].atan2(rotation[(0, 0)]);
-        let turn = |angle: f64| wrap_degrees(angle.to_degrees());
-        Some([turn(j1), turn(j2), z - self.z0, turn(heading - j1 - j2), 0.0, 0.0])
+        let q = flange.rotation.quaternion();
+        let (along, beside) = (l1 + l2 * cosine, l2 * sine);
+        let [found1, j2, half] = atan2([along * y - beside * x, sine, q.k], [along * x + beside * y, cosine, q.w]);
+        let [near1, ..] = *near;
+        let j1 = if square < 1e-14 { near1 } else { found1 };
+        let [j1, j2, j4, _] = wrap([j1, j2, 2.0 * half - j1 - j2, 0.0]);
+        Some([j1, j2, z - self.z0, j4, 0.0, 0.0])
+    }
+
+    /// By how much, in deg, a flange frame tilts from upright; 0 where that is rounding only.
+    pub fn tilt(&self, flange: &Frame) -> f64 {
+        let q = flange.rotation.quaternion();
+        let half = (q.i * q.i + q.j * q.j).sqrt();
+        if half <= UPRIGHT { 0.0 } else { 2.0 * half.atan2((q.w * q.w + q.k * q.k).sqrt()).to_degrees() }
     }
 
     /// How far, in mm, the pose is outside or inside the ring that the arms reach.

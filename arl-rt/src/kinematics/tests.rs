@@ -222,21 +222,52 @@ fn a_linear_axis_takes_no_turns() {
 }
 
 #[test]
-fn scara_goes_both_ways() {
+fn a_hundred_thousand_scara_poses_have_both_hands() {
     let mut random = Random::new(4);
-    for name in ["hsr065", "cobra600"] {
+    for name in SCARAS {
         let robot = Robot::builtin(name).unwrap();
-        for _ in 0..2000 {
+        let kinematics = &robot.kinematics;
+        for _ in 0..50_000 {
             let axes = random_axes(&robot, &mut random);
-            let pose = robot.kinematics.forward(&axes);
+            let pose = kinematics.forward(&axes);
+            assert_eq!(kinematics.beyond_reach(&pose), 0.0);
             for cfg in [0, 4] {
-                let found = robot.kinematics.inverse(&pose, cfg, &axes).unwrap();
-                let (far, turned) = distance(&robot.kinematics.forward(&found), &pose);
-                assert!(far < 1e-6 && turned < 1e-9, "{name} {axes:?} {found:?}");
-                assert_eq!(robot.kinematics.cfg(&found), cfg);
+                let found = kinematics.inverse(&pose, cfg, &axes).unwrap();
+                let (far, turned) = distance(&kinematics.forward(&found), &pose);
+                assert!(far < 1e-7 && turned < 1e-9, "{name} {axes:?} {found:?}: {far} {turned}");
+                let stretched = kinematics.clearance(&found) < 1e-6;
+                assert!(kinematics.cfg(&found) == cfg || stretched, "{name} {axes:?} {found:?}");
             }
+            let wanted = Wanted { cfg: Some(kinematics.cfg(&axes)), turn: -1 };
+            let own = kinematics.choose(&pose, wanted, robot.own_axes(), &axes).unwrap();
+            let near = own.iter().zip(axes).all(|(a, b)| (a - b).abs() < 1e-6);
+            assert!(near || kinematics.clearance(&axes) < 1e-3, "{name} {axes:?} {own:?}");
         }
     }
+}
+
+#[test]
+fn a_scara_says_why_it_refuses() {
+    let robot = Robot::builtin("hsr065").unwrap();
+    let choose = |pose: [f64; 6], cfg| {
+        let wanted = Wanted { cfg, turn: -1 };
+        robot.kinematics.choose(&frame(pose), wanted, robot.own_axes(), &[0.0; 6])
+    };
+    let tilted = |pose: [f64; 6], degrees: f64| match choose(pose, None) {
+        Err(Refusal::Tilted { by }) => assert!((by - degrees).abs() < 1e-9, "{by}"),
+        other => panic!("{other:?}"),
+    };
+    tilted([400.0, 0.0, 300.0, 30.0, 1.0, 0.0], 1.0);
+    tilted([400.0, 0.0, 300.0, 30.0, 0.0, 180.0], 180.0);
+    let far = choose([700.0, 0.0, 300.0, 0.0, 0.0, 0.0], Some(0));
+    assert!(matches!(far, Err(Refusal::Unreachable { beyond }) if (beyond - 50.0).abs() < 1e-9), "{far:?}");
+    let close = choose([0.0, 60.0, 300.0, 0.0, 0.0, 0.0], Some(4));
+    assert!(matches!(close, Err(Refusal::Unreachable { beyond }) if (beyond - 40.0).abs() < 1e-9), "{close:?}");
+    assert_eq!(choose([400.0, 0.0, 300.0, 0.0, 0.0, 0.0], Some(1)), Err(Refusal::NoSuchCfg { cfg: 1 }));
+    // Where the whole arm is folded upon itself, axis 1 stays.
+    let folding = Scara { l1: 300.0, l2: 300.0, z0: 0.0 };
+    let found = folding.inverse(&frame([0.0; 6]), 0, &[25.0; 6]).unwrap();
+    assert!((found[0] - 25.0).abs() < 1e-9 && (found[1] - 180.0).abs() < 1e-9, "{found:?}");
 }
 
 #[test]

@@ -123,6 +123,7 @@ impl Planner<'_> {
         match refusal {
             Refusal::NoSuchCfg { cfg } => PlanError::NoSuchCfg { cfg },
             Refusal::Unreachable { beyond } => PlanError::Unreachable { beyond, along: 1.0 },
+            Refusal::Tilted { .. } => PlanError::Unreachable { beyond: 0.0, along: 1.0 },
             Refusal::AxisLimit { axis, value } => match self.robot.axes.get(axis) {
                 Some(axis) => limit(axis, value),
                 None => PlanError::NotForThisRobot,

@@ -5,7 +5,7 @@ use super::fragment::{Fragment, Precedence};
 use super::names::{field, ident};
 use super::places::{Calm, Reached, Written};
 use super::sequence::{Mode, Operand};
-use super::types::{is_copy, is_handle};
+use super::types::{differs, is_copy, is_handle, type_name};
 use crate::effects::facts;
 use crate::hir::{Bound, Builtin, Expr, FuncId, LocalId, Passed, Place, Root, Type};
 use arl_lang::catalog::{Base, Effect, Entry, Kind, Mode as ParamMode, ParamType, Presence};
@@ -74,6 +74,10 @@ impl<'p> Body<'p, '_> {
         if entry.fails {
             call = self.checked(call);
         }
+        if differs(entry.result, self.family()) {
+            let name = type_name(entry.result, self.family());
+            call = quote!(#name::from(#call));
+        }
         let backs: Vec<_> = arguments.into_iter().filter_map(|argument| argument.back).collect();
         if backs.is_empty() {
             return Fragment::postfix(call).after(before);
@@ -121,7 +125,10 @@ impl<'p> Body<'p, '_> {
         let mut fragments = fragments.into_iter();
         for (at, arg) in builtin.args.iter().enumerate() {
             let (value, back) = match &arg.value {
-                Passed::Value(_) => (fragments.next().unwrap_or_else(|| Fragment::settled(quote!(()))), None),
+                Passed::Value(_) => {
+                    let value = fragments.next().unwrap_or_else(|| Fragment::settled(quote!(())));
+                    (self.for_the_runtime(entry, arg.param, value), None)
+                }
                 Passed::Out(place) => {
                     let indices: Vec<Fragment> = fragments.by_ref().take(Self::index_operands(place).len()).collect();
                     let shared = self.is_used_elsewhere(builtin, at, place);
@@ -131,6 +138,19 @@ impl<'p> Body<'p, '_> {
             out.push(Argument { param: arg.param, value, back });
         }
         (before, out)
+    }
+
+    /// The runtime's functions take six-axis robots' structures; its instructions take either family's.
+    fn for_the_runtime(&self, entry: &Entry, param: usize, value: Fragment) -> Fragment {
+        match entry.params.get(param).map(|param| param.ty) {
+            Some(ParamType::One(base)) if entry.kind == Kind::Function && differs(base, self.family()) => {
+                value.map(Precedence::Postfix, |value| {
+                    let receiver = value.receiver();
+                    quote!(#receiver.into())
+                })
+            }
+            _ => value,
+        }
     }
 
     fn argument_operands(&self, entry: &Entry, arg: &'p Bound) -> Vec<Operand<'p>> {

@@ -6,7 +6,7 @@
 use super::body::Body;
 use super::fragment::{Fragment, Precedence};
 use super::sequence::Operand;
-use super::types::{component, is_cells, is_copy, is_handle, type_name};
+use super::types::{component, differs, is_cells, is_copy, is_handle, type_name};
 use crate::effects::facts::{self, Facts};
 use crate::hir::{Expr, Place, Projection, Root, Type, Value};
 use arl_lang::ast::BinaryOp;
@@ -164,7 +164,11 @@ impl<'p> Body<'p, '_> {
             }
             Root::System(variable) => {
                 let name = super::names::field(variable.field);
-                quote!(cx.system().#name)
+                if differs(variable.ty, self.family()) {
+                    quote!(cx.system().scara().#name)
+                } else {
+                    quote!(cx.system().#name)
+                }
             }
         }
     }

@@ -66,6 +66,11 @@ pub(super) fn type_name(base: Base, family: Family) -> Ident {
     })
 }
 
+/// Whether this robot family has a type of its own here: the runtime keeps and returns what six-axis robots have.
+pub(super) fn differs(base: Base, family: Family) -> bool {
+    matches!(base, Base::Struct(id) if id.def(family).rust != id.def(Family::SixAxis).rust)
+}
+
 /// `Array` or `SmallArray`.
 pub(super) fn array_type(ty: Type, family: Family) -> Ident {
     let small = bytes(ty.base, family).saturating_mul(ty.len()) <= SMALL;
