@@ -3,6 +3,7 @@
 //! `ARL_PROPERTY_COUNT` multiplies the number of cases, `ARL_PROPERTY_SEED` moves on to others.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests stop where something is wrong")]
 
+mod corpus;
 mod expressions;
 mod programs;
 

@@ -123,10 +123,9 @@ builtins! {
     };
     "tostr"(Any) Str = |a| Ok(printed(&a[0], PLAIN));
     "tostr"(Exactly(Double), Near(1, 12)) Str = |a| {
-        if int(a, 1) < 1 {
-            return Err(Alarm::DOMAIN);
-        }
-        Ok(Value::Str(general(double(a, 0), int(a, 1) as usize).into_bytes()))
+        // As in `print`, 0 counts as 1.
+        let digits = usize::try_from(int(a, 1)).map_err(|_| Alarm::DOMAIN)?;
+        Ok(Value::Str(general(double(a, 0), digits.max(1)).into_bytes()))
     };
     "tostr"(Exactly(Int), Word("hex")) Str = |a| Ok(printed(&a[0], Style { hex: Some(true), ..PLAIN }));
     "tostr"(Exactly(Int), Word("dec")) Str = |a| Ok(printed(&a[0], PLAIN));

@@ -85,8 +85,25 @@ impl Project {
     /// # Errors
     /// What rustc has to say.
     pub fn build(&self, programs: &[String]) -> Result<PathBuf, String> {
+        self.cargo("build", programs)?;
+        Ok(self.target.join("debug").join(self.name()))
+    }
+
+    /// Lets rustc look at emitted programs without compiling them.
+    ///
+    /// # Errors
+    /// What rustc has to say, warnings included.
+    pub fn check(&self, programs: &[String]) -> Result<(), String> {
+        self.cargo("check", programs)
+    }
+
+    fn name(&self) -> String {
+        self.folder.file_name().expect("a name").to_string_lossy().into_owned()
+    }
+
+    fn cargo(&self, what: &str, programs: &[String]) -> Result<(), String> {
         let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
-        let name = self.folder.file_name().expect("a name").to_string_lossy().into_owned();
+        let name = self.name();
         self.write("Cargo.toml", &manifest(&name, workspace));
         if let Ok(lock) = std::fs::read_to_string(workspace.join("Cargo.lock")) {
             self.write("workspace.lock", &lock);
@@ -107,13 +124,13 @@ impl Project {
         self.write("src/lib.rs", &modules);
         self.write("src/main.rs", &MAIN.replace("LIST", &list));
         let mut command = Command::new(std::env::var_os("CARGO").unwrap_or("cargo".into()));
-        command.args(["build", "--quiet", "--offline", "--message-format=short"]).current_dir(&self.folder);
+        command.args([what, "--quiet", "--offline", "--message-format=short"]).current_dir(&self.folder);
         command.env("CARGO_TARGET_DIR", &self.target).env_remove("RUSTFLAGS").env("CARGO_INCREMENTAL", "0");
         let output = command.output().expect("cargo runs");
-        if !output.status.success() {
-            return Err(String::from_utf8_lossy(&output.stderr).into_owned());
+        match output.status.success() {
+            true => Ok(()),
+            false => Err(String::from_utf8_lossy(&output.stderr).into_owned()),
         }
-        Ok(self.target.join("debug").join(&name))
     }
 
     /// Runs all programs of a command that [`Project::build`] made.

@@ -285,6 +285,20 @@ impl Expr {
         }
     }
 
+    /// Whether a function of the program is called in it.
+    pub fn calls(&self) -> bool {
+        match &self.kind {
+            Kind::Literal(..) | Kind::Constant { .. } | Kind::Var { .. } => false,
+            Kind::Call(..) => true,
+            Kind::Index(inner, parts) => inner.calls() || parts.iter().any(Expr::calls),
+            Kind::Component(inner, _) | Kind::Paren(inner) | Kind::Unary(_, inner) => inner.calls(),
+            Kind::Binary { sides, .. } | Kind::Assign { sides, .. } => sides.0.calls() || sides.1.calls(),
+            Kind::Step { place, .. } => place.calls(),
+            Kind::Builtin(_, parts) | Kind::List(parts) => parts.iter().any(Expr::calls),
+            Kind::Named(parts) => parts.iter().any(|(_, part)| part.calls()),
+        }
+    }
+
     /// How close it binds; 1 for what needs no parentheses anywhere.
     pub fn level(&self) -> u8 {
         match &self.kind {

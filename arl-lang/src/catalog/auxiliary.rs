@@ -10,7 +10,7 @@ entries! { pub(super) AUXILIARY =
         to: {printto} [repeat(0, 4)] "where to, up to four; holds for later prints of the channel too; hmi at first",
         tostr: string [out, optional, labelled] "a variable that gets the text; nothing is written elsewhere then",
         filepath: string [optional, labelled] "the file for to:file, below the script directory; text is appended",
-        precision: int [repeat(0, 255), labelled] "significant digits of doubles from here on; 6 without it",
+        precision: int [repeat(0, 255), labelled] "significant digits of doubles from here on, 0 counts as 1; 6 without it",
         numbase: {num_base} [repeat(0, 255)] "base of whole numbers from here on; dec without it",
         argtoprint: any [repeat(1, 255)] "a value; endl is a new line",
     )

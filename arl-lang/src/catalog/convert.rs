@@ -43,7 +43,8 @@ entries! { pub(super) CONVERT =
     /// Text of an int in base 10 or 16.
     fn tostr(v: int "the number", number_base: {num_base} "the base") -> string
         { "5.7.4", convert::tostr_base, pure; "print tostr(255,hex)" }
-    /// Text of a number with so many significant digits. A precision below 1: alarm.
+    /// Text of a number with so many significant digits, where 0 counts as 1, as in print. A negative
+    /// precision: alarm.
     fn tostr(v: double "the number", precision: {int} "how many significant digits") -> string
         { "5.7.4", convert::tostr_precision, pure, fails; "print tostr(3.1415926,3)" }
     /// Writes a number as a float of four bytes into an array, lowest byte first; digits beyond the seventh are lost. No

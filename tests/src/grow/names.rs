@@ -2,6 +2,7 @@
 
 use super::Grower;
 use crate::random::Random;
+use crate::value::{STRUCTS, components};
 
 /// Names of variables, functions and labels.
 const NAMES: &str = "\
@@ -66,6 +67,11 @@ impl Grower {
         loop {
             let name = self.any_name();
             let mut funcs = self.program.funcs.iter().filter(|func| func.module == module);
+            // `{x (a)}` is a call where everything in the braces can be one.
+            let mut components = (0..STRUCTS.len()).flat_map(components);
+            if components.any(|(component, ..)| component.eq_ignore_ascii_case(&name)) {
+                continue;
+            }
             if !name.eq_ignore_ascii_case("main") && !funcs.any(|func| func.name.eq_ignore_ascii_case(&name)) {
                 return name;
             }

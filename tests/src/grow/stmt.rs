@@ -34,7 +34,9 @@ impl Grower {
             )),
             1 => {
                 let truth = super::constant::literal(crate::value::Value::Bool(true), "true".into(), Base::Bool);
+                // What a condition calls must not wait.
                 let either = self.expr(Base::Bool, 1);
+                let either = if either.calls() { truth.clone() } else { either };
                 let condition = self.binary(crate::tree::Op::Or, either, truth).expect("bools");
                 StmtKind::WaitUntil(condition)
             }

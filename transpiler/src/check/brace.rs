@@ -29,7 +29,11 @@ impl Checker<'_> {
         let components = id.def(self.family()).components;
         let mut values: Vec<Option<Expr>> = components.iter().map(|_| None).collect();
         let mut by_position = components.iter().enumerate().filter(|(_, component)| component.by_position);
-        let any_named = items.iter().any(|item| item.name.is_some() && self.difference_item(item, id).is_none());
+        let is_named = |item: &BraceItem| match item.name {
+            Some(_) => self.difference_item(item, id).is_none(),
+            None => self.parenthesised_item(body, item, id, false).is_some(),
+        };
+        let any_named = items.iter().any(is_named);
         let mut named: Option<bool> = None;
         let mut good = true;
         for item in items {

@@ -6,7 +6,7 @@ use crate::hir::{
     Effects, Expr, ExprKind, Func, FuncId, LocalId, Passed, Place, Program, Projection, Root, Stmt, StmtKind, Type,
     Value,
 };
-use arl_lang::ast::BinaryOp;
+use arl_lang::ast::{BinaryOp, UnaryOp};
 use arl_lang::catalog::{Base, Effect, Mode};
 
 /// What an expression (or several) does.
@@ -94,7 +94,8 @@ pub(crate) fn of_indices(scope: Scope<'_>, indices: &[Expr], array: Type) -> Fac
 /// `a = a` and the outer one of `a = (a = b)`.
 pub(crate) fn same_anyway(expr: &Expr) -> Option<&Expr> {
     let ExprKind::Assign(sides) = &expr.kind else { return None };
-    let (place, value) = (&sides.0, &sides.1);
+    let place = &sides.0;
+    let value = plain_truth(&sides.1, true).unwrap_or(&sides.1);
     let known = match &value.kind {
         ExprKind::Place(from) => from,
         ExprKind::Assign(sides) | ExprKind::AssignOp(_, sides) if place.path.is_empty() => &sides.0,
@@ -108,6 +109,34 @@ pub(crate) fn same_anyway(expr: &Expr) -> Option<&Expr> {
             _ => false,
         });
     (a == b && same_path).then_some(value)
+}
+
+/// The other side of a comparison with a bool constant, and whether it is true when they are.
+pub(crate) fn compared_with_bool<'p>(op: BinaryOp, left: &'p Expr, right: &'p Expr) -> Option<(&'p Expr, bool)> {
+    let (other, value) = match (&left.kind, &right.kind) {
+        (_, ExprKind::Const(Value::Bool(value))) => (left, *value),
+        (ExprKind::Const(Value::Bool(value)), _) => (right, *value),
+        _ => return None,
+    };
+    match op {
+        BinaryOp::Equal => Some((other, value)),
+        BinaryOp::NotEqual => Some((other, !value)),
+        _ => None,
+    }
+}
+
+/// What a bool expression is but for signs that cancel out: `!!b`, `b == true`; with `wanted` false, what it is the
+/// opposite of.
+fn plain_truth(expr: &Expr, wanted: bool) -> Option<&Expr> {
+    match &expr.kind {
+        _ if expr.ty.base != Base::Bool => None,
+        ExprKind::Unary(UnaryOp::Not, inner) => plain_truth(inner, !wanted),
+        ExprKind::Binary(op, sides) => {
+            let (other, same) = compared_with_bool(*op, &sides.0, &sides.1)?;
+            plain_truth(other, same == wanted)
+        }
+        _ => wanted.then_some(expr),
+    }
 }
 
 /// Adds the locals that an expression writes, also as an argument that a built-in writes.

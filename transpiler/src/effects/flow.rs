@@ -42,6 +42,7 @@ pub(crate) fn diverges(stmt: &Stmt) -> bool {
                 && arms.iter().all(|arm| block_diverges(&arm.body))
         }
         StmtKind::Loop(body, _) => !breaks(body),
+        StmtKind::Repeat(body, ..) => !goes_round(body) && !breaks(body),
         StmtKind::While(condition, body, _) => always(condition) && !breaks(body),
         StmtKind::For(each) => each.condition.as_ref().is_none_or(always) && !breaks(&each.body),
         _ => false,
@@ -71,6 +72,11 @@ pub(crate) fn exhaustive<'a>(subject: &Expr, values: impl Iterator<Item = Option
             Base::Enum(id) => count == id.def().constants.len(),
             _ => false,
         }
+}
+
+/// Whether what stands behind a loop's body (a step, an `until`, the next round) is ever reached.
+pub(crate) fn goes_round(body: &[Stmt]) -> bool {
+    !block_diverges(body) || continues(body)
 }
 
 /// Whether a `break` in the statements leaves the loop whose body they are.

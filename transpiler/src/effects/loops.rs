@@ -91,8 +91,7 @@ fn repeats(stmt: &Stmt) -> bool {
         StmtKind::For(each) => &each.body,
         _ => return false,
     };
-    let once = flow::block_diverges(body) && !flow::continues(body);
-    !once && !body.iter().take_while(|stmt| !may_skip(stmt)).any(gives_back)
+    flow::goes_round(body) && !body.iter().take_while(|stmt| !may_skip(stmt)).any(gives_back)
 }
 
 /// Whether what follows in the block may be left out.

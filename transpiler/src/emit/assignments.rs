@@ -108,14 +108,17 @@ impl<'p> Body<'p, '_> {
         }
         let (before, reached, right) = self.sides(place, Some((value, Mode::Value)), settle);
         let known = self.constant(value);
-        let written = if ranged || !is_copy(place.ty) || may_fail(op, place.ty, known) {
+        let fails = ranged || may_fail(op, place.ty, known);
+        let written = if fails || !is_copy(place.ty) {
             let old = self.read_reached(&reached);
             let new = self.operation(op, place.ty, old, &right, known);
             Written::Value(self.in_range(place, new, None).after(right.before))
         } else {
             Written::Step { op, value: right, known, native }
         };
-        let write = self.write(&reached, written, Calm::of(&facts));
+        // A copy is made of the old value, which must not happen while the variable is being changed.
+        let calm = if fails || !is_copy(place.ty) { Calm::No } else { Calm::of(&facts) };
+        let write = self.write(&reached, written, calm);
         (quote!(#before #write), reached)
     }
 

@@ -89,14 +89,7 @@ impl<'p> Body<'p, '_> {
                     quote!(&#tokens)
                 })
             }
-            _ if expr.ty.dims().len() > 1 => {
-                let sizes = expr.ty.dims().iter().map(|size| Literal::u16_unsuffixed(*size));
-                self.reference(expr).map(Precedence::Unary, |array| {
-                    let array = &array.tokens;
-                    quote!(&text::nested(#array, &[#(#sizes),*]))
-                })
-            }
-            _ => self.reference(expr),
+            _ => nested(self.reference(expr), expr.ty),
         }
     }
 
@@ -261,4 +254,16 @@ impl<'p> Body<'p, '_> {
             quote!(#place.clone())
         })
     }
+}
+
+/// A reference for printing, with the sizes of an array of more than one dimension, which Rust keeps flat.
+pub(super) fn nested(reference: Fragment, ty: Type) -> Fragment {
+    if ty.dims().len() < 2 {
+        return reference;
+    }
+    let sizes = ty.dims().iter().map(|size| Literal::u16_unsuffixed(*size));
+    reference.map(Precedence::Unary, |array| {
+        let array = &array.tokens;
+        quote!(&text::nested(#array, &[#(#sizes),*]))
+    })
 }

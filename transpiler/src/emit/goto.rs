@@ -20,7 +20,7 @@ use super::types::start_value;
 use crate::effects::flow;
 use crate::hir::{Arm, Expr, For, Func, LabelId, LocalId, LoopInfo, Stmt, StmtKind};
 use arl_lang::span::Span;
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::quote;
 use std::collections::{HashMap, HashSet};
 
@@ -112,7 +112,7 @@ impl<'p> Body<'p, '_> {
         });
         let (variable, label) = (&machine.variable, &machine.label);
         let first = states.first().map(|state| &state.name);
-        let labelled = states.iter().any(|state| mentions(&state.code, "machine")).then(|| quote!(#label:));
+        let labelled = states.iter().any(|state| jumps(&state.code)).then(|| quote!(#label:));
         quote! {
             enum State { #(#names),* }
             #(#variables)*
@@ -484,11 +484,25 @@ impl Machine {
     }
 }
 
+/// Whether the machine's label is named.
+fn jumps(code: &TokenStream) -> bool {
+    let mut quoted = false;
+    code.clone().into_iter().any(|token| match token {
+        TokenTree::Ident(word) => std::mem::take(&mut quoted) && word == "machine",
+        TokenTree::Group(group) => jumps(&group.stream()),
+        TokenTree::Punct(sign) => {
+            quoted = sign.as_char() == '\'';
+            false
+        }
+        TokenTree::Literal(_) => false,
+    })
+}
+
 fn words(code: &TokenStream, found: &mut dyn FnMut(&Ident)) {
     for token in code.clone() {
         match token {
-            proc_macro2::TokenTree::Ident(word) => found(&word),
-            proc_macro2::TokenTree::Group(group) => words(&group.stream(), found),
+            TokenTree::Ident(word) => found(&word),
+            TokenTree::Group(group) => words(&group.stream(), found),
             _ => {}
         }
     }

@@ -68,7 +68,7 @@ impl<'p> Body<'p, '_> {
     /// `repeat` ... `until(c)`
     pub(super) fn repeat_loop(&mut self, body: &'p [Stmt], until: &'p Expr, info: LoopInfo) -> TokenStream {
         let (label, statements) = self.round_with_rest(body, Some(until), info);
-        if flow::block_diverges(body) && !flow::continues(body) {
+        if !flow::goes_round(body) {
             return quote!(#label loop { #statements });
         }
         self.stand_at(until.span);
@@ -174,8 +174,7 @@ impl<'p> Body<'p, '_> {
         };
         let (label, statements) = self.round_with_rest(&each.body, each.step.as_ref(), each.info);
         self.line = line;
-        let reached = !flow::block_diverges(&each.body) || flow::continues(&each.body);
-        let rest = if reached {
+        let rest = if flow::goes_round(&each.body) {
             let step = each.step.as_ref().map(|step| self.with_own_temporaries(|body| body.effect(step, Tail::Inner)));
             let spend = self.spend(each.info);
             // At the very end, so that waiting ends where the next round begins: rustc makes a better loop of it.

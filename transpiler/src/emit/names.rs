@@ -18,8 +18,8 @@ const KEYWORDS: &[&str] = &[
 /// Functions of the prelude, and the names that emitted functions give to what they are passed.
 const VALUES: &[&str] = &["cx", "g", "div", "rem", "rem_double", "shl", "shr", "index", "index2", "in_range", "truth"];
 
-/// Crates that a module must not hide.
-const CRATES: &[&str] = &["arl_rt", "core", "std", "alloc"];
+/// What a module must not hide: crates, and what the functions of the program as a whole are passed.
+const OUTSIDE: &[&str] = &["arl_rt", "core", "std", "alloc", "cx", "g"];
 
 /// Whether a word is reserved by Rust.
 fn is_keyword(name: &str) -> bool {
@@ -108,7 +108,7 @@ impl Names {
         let modules = program
             .modules
             .iter()
-            .map(|module| distinct(&module.name, &mut used, |name| is_keyword(name) || CRATES.contains(&name)))
+            .map(|module| distinct(&module.name, &mut used, |name| is_keyword(name) || OUTSIDE.contains(&name)))
             .collect();
         let mut functions_of = vec![HashSet::new(); program.modules.len()];
         let mut spare = HashSet::new();
@@ -155,7 +155,8 @@ impl Names {
             let name = if local.name.chars().all(|c| c == '_') { UNDERSCORE } else { &local.name };
             let lead = if unread(LocalId(at as u32)) && !name.starts_with('_') { "_" } else { "" };
             let wanted = format!("{lead}{name}");
-            let key = if func.has_goto { at.to_string() } else { wanted.clone() };
+            // `depth` that nobody reads and `_depth` are two.
+            let key = if func.has_goto { at.to_string() } else { format!("{lead} {}", local.name) };
             let name = by_name.entry(key).or_insert_with(|| {
                 let taken =
                     |name: &str| is_keyword(name) || is_taken_value(name) || self.has_function(func.module, name);

@@ -4,10 +4,11 @@ use super::body::Body;
 use super::consts::constant;
 use super::fragment::{Fragment, Precedence};
 use super::sequence::{Mode, Operand};
+use crate::effects::facts::compared_with_bool;
 use crate::hir::{Expr, ExprKind, Root, Type, Value};
 use arl_lang::ast::{BinaryOp, UnaryOp};
 use arl_lang::catalog::{Base, Enum};
-use proc_macro2::TokenStream;
+use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
 
 impl<'p> Body<'p, '_> {
@@ -21,7 +22,12 @@ impl<'p> Body<'p, '_> {
         }
         self.typed_value(inner).map(Precedence::Unary, |value| {
             let value = value.at(Precedence::Unary);
-            if op == UnaryOp::Negate { quote!(-#value) } else { quote!(!#value) }
+            match op {
+                // Two signs in a row read as another language's `--`, of which rustc warns.
+                UnaryOp::Negate if is_signed(&value) => quote!(-(#value)),
+                UnaryOp::Negate => quote!(-#value),
+                _ => quote!(!#value),
+            }
         })
     }
 
@@ -131,6 +137,10 @@ impl<'p> Body<'p, '_> {
                 let (left, right) = (limit(left, ty.base, !upward), limit(right.clone(), ty.base, upward));
                 Fragment::new(infix(op, &left, &right), precedence(op))
             }
+            _ if precedence(op) == Precedence::Compare => {
+                let (left, right) = (nan_with_sign(left), nan_with_sign(right.clone()));
+                Fragment::new(infix(op, &left, &right), Precedence::Compare)
+            }
             _ => Fragment::new(infix(op, &left, right), precedence(op)),
         }
     }
@@ -174,18 +184,9 @@ impl<'p> Body<'p, '_> {
     }
 }
 
-/// The other side of a comparison with a bool constant, and whether it is true when they are.
-fn compared_with_bool<'p>(op: BinaryOp, left: &'p Expr, right: &'p Expr) -> Option<(&'p Expr, bool)> {
-    let (other, value) = match (&left.kind, &right.kind) {
-        (_, ExprKind::Const(Value::Bool(value))) => (left, *value),
-        (ExprKind::Const(Value::Bool(value)), _) => (right, *value),
-        _ => return None,
-    };
-    match op {
-        BinaryOp::Equal => Some((other, value)),
-        BinaryOp::NotEqual => Some((other, !value)),
-        _ => None,
-    }
+/// Whether an expression begins with a minus sign.
+fn is_signed(value: &TokenStream) -> bool {
+    matches!(value.clone().into_iter().next(), Some(TokenTree::Punct(sign)) if sign.as_char() == '-')
 }
 
 /// The value of an enumeration that is used as its number.
@@ -250,6 +251,12 @@ fn limit(side: Fragment, base: Base, least: bool) -> Fragment {
         _ => return side,
     };
     Fragment { tokens, ..side }
+}
+
+/// rustc warns of comparisons with the name of nan, which no number equals; with a sign it is the same.
+fn nan_with_sign(side: Fragment) -> Fragment {
+    let is_nan = side.tokens.to_string() == quote!(f64::NAN).to_string();
+    if is_nan { Fragment::new(quote!(-f64::NAN), Precedence::Unary) } else { side }
 }
 
 fn base_suffix(base: Base) -> &'static str {

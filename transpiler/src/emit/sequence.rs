@@ -4,6 +4,7 @@
 //! operands to its left, so those go into temporaries wherever that could be noticed.
 
 use super::body::Body;
+use super::expressions::nested;
 use super::fragment::{Fragment, Precedence};
 use crate::effects::facts::{self, Facts};
 use crate::hir::{Expr, Type};
@@ -78,10 +79,13 @@ impl<'p> Body<'p, '_> {
                 let value = self.expression(expr, Mode::Value);
                 let value = self.settle(value, "value");
                 match mode {
-                    Mode::Reference | Mode::Printed => value.map(Precedence::Unary, |value| {
-                        let value = value.at(Precedence::Unary);
-                        quote!(&#value)
-                    }),
+                    Mode::Reference | Mode::Printed => {
+                        let reference = value.map(Precedence::Unary, |value| {
+                            let value = value.at(Precedence::Unary);
+                            quote!(&#value)
+                        });
+                        if mode == Mode::Printed { nested(reference, expr.ty) } else { reference }
+                    }
                     Mode::Value | Mode::Typed | Mode::Placed | Mode::Compared => value,
                 }
             }

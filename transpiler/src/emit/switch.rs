@@ -44,7 +44,8 @@ impl<'p> Body<'p, '_> {
     }
 
     fn chain(&mut self, subject: &'p Expr, arms: &'p [Arm], tail: Tail) -> TokenStream {
-        let value = self.chain_subject(subject);
+        let compares = arms.iter().any(|arm| arm.value.is_some());
+        let value = if compares { self.chain_subject(subject) } else { self.only_evaluated(subject) };
         let (before, subject) = (value.before.clone(), value.receiver());
         let pointer = self.pointer();
         let mut out = quote!(#pointer #before);
@@ -76,6 +77,14 @@ impl<'p> Body<'p, '_> {
         }
     }
 
+    /// A subject that nothing is compared with: only what evaluating it does.
+    fn only_evaluated(&mut self, subject: &'p Expr) -> Fragment {
+        let value = self.expression(subject, Mode::Compared);
+        let (before, tokens) = (&value.before, &value.tokens);
+        let before = if value.settled { before.clone() } else { quote!(#before let _ = #tokens;) };
+        Fragment::settled(TokenStream::new()).after(before)
+    }
+
     fn arm(&mut self, arm: &'p Arm, tail: Tail) -> TokenStream {
         self.block(&arm.body, tail)
     }
@@ -103,7 +112,12 @@ impl<'p> Body<'p, '_> {
         otherwise: TokenStream,
     ) -> TokenStream {
         self.stand_at(subject.span);
-        let value = if is_chain(subject) { self.chain_subject(subject) } else { self.value(subject) };
+        let compares = arms.iter().any(|(value, _)| value.is_some());
+        let value = match is_chain(subject) {
+            true if compares => self.chain_subject(subject),
+            true => self.only_evaluated(subject),
+            false => self.value(subject),
+        };
         let pointer = self.pointer();
         let Fragment { before, tokens, .. } = value;
         let exhaustive = flow::exhaustive(subject, arms.iter().map(|(value, _)| *value).filter(Option::is_some));

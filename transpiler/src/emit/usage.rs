@@ -3,7 +3,7 @@
 
 use super::compound::stepped;
 use super::types::is_number;
-use super::usage_graph::{Graph, Kept, Site, writes_only};
+use super::usage_graph::{Graph, Kept, Readers, Site, writes_only};
 use crate::effects::facts::{self, children};
 use crate::effects::{flow, loops};
 use crate::hir::{Expr, ExprKind, Func, FuncId, LocalId, LoopInfo, Passed, Place, Projection, Root, Stmt, StmtKind};
@@ -48,13 +48,14 @@ impl Usage {
             usage.wastes = true;
             return usage;
         };
-        for (id, site) in graph.wasted() {
-            let Some(local) = usage.locals.get_mut(id.0 as usize) else { continue };
-            match site {
-                Site::Declaration if local.read => local.late = true,
-                Site::Declaration => {}
-                Site::Other => usage.wastes |= local.read,
+        for (id, site) in graph.wasted(Readers::All) {
+            if let Some(local) = usage.locals.get_mut(id.0 as usize) {
+                local.late |= site == Site::Declaration && local.read;
             }
+        }
+        for (id, site) in graph.wasted(Readers::Others) {
+            let local = usage.get(id);
+            usage.wastes |= local.read && !(local.late && site == Site::Declaration);
         }
         let wanted = |id: LocalId| {
             let number = func.locals.get(id.0 as usize).is_some_and(|local| is_number(local.ty));
@@ -133,10 +134,11 @@ impl Usage {
                 } else {
                     self.block(&each.init);
                     each.condition.iter().for_each(|condition| self.expr(condition));
-                    each.step.iter().for_each(|step| self.effect(step));
+                    each.step.iter().filter(|_| flow::goes_round(&each.body)).for_each(|step| self.effect(step));
                 }
                 self.block(&each.body);
             }
+            StmtKind::Repeat(body, ..) if !flow::goes_round(body) => self.block(body),
             _ => {
                 flow::expressions(stmt).for_each(|expr| self.expr(expr));
                 flow::blocks(stmt).for_each(|block| self.block(block));

@@ -3,7 +3,8 @@
 //! The graph follows the emitted code: what rustc finds out about assignments, it should find out, too. Functions with
 //! `goto` are left out, as their states hide the flow from rustc.
 
-use super::usage::indices;
+use super::compound::{is_native, stepped};
+use super::usage::{expr_mentions, indices};
 use crate::effects::facts::{self, children};
 use crate::effects::{flow, loops};
 use crate::hir::{Expr, ExprKind, Func, FuncId, LocalId, LoopInfo, Passed, Place, Root, Stmt, StmtKind};
@@ -33,12 +34,23 @@ pub(super) enum Site {
 enum Op {
     Read(LocalId),
     Write(LocalId, Site),
+    /// A write that needs the old value for nothing but itself: of a part, or `x += 1`.
+    Update(LocalId),
     /// The declaration that is no write: the variable starts anew.
     Fresh(LocalId),
     /// The loop with this number gives the cycle back.
     Pause(u32),
     /// Something else waits.
     Wait,
+}
+
+/// What reads a value.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Readers {
+    /// Whatever needs it: a variable must have a value there.
+    All,
+    /// Not the updates of the variable itself: so rustc finds values that nobody reads.
+    Others,
 }
 
 /// Operations that run one after the other.
@@ -73,18 +85,18 @@ impl Graph {
     }
 
     /// The writes whose value is never read.
-    pub(super) fn wasted(&self) -> Vec<(LocalId, Site)> {
-        let live = self.live_at_start();
+    pub(super) fn wasted(&self, readers: Readers) -> Vec<(LocalId, Site)> {
+        let live = self.live_at_start(readers);
         let mut found = Vec::new();
         for node in &self.nodes {
             let mut set = self.live_at_end(node, &live);
             for op in node.ops.iter().rev() {
-                if let Op::Write(id, site) = op
-                    && !set.contains(*id)
-                {
-                    found.push((*id, *site));
+                match op {
+                    Op::Write(id, site) if !set.contains(*id) => found.push((*id, *site)),
+                    Op::Update(id) if !set.contains(*id) => found.push((*id, Site::Other)),
+                    _ => {}
                 }
-                set.before(*op);
+                set.before(*op, readers);
             }
         }
         found
@@ -93,7 +105,7 @@ impl Graph {
     /// Of the locals that are written inside loops and of which it is asked whether they are `wanted`: those that are
     /// live where each loop gives the cycle back. Locals that are live where something else waits are left out.
     pub(super) fn kept(&self, wanted: &dyn Fn(LocalId) -> bool) -> Kept {
-        let live = self.live_at_start();
+        let live = self.live_at_start(Readers::All);
         let (mut waiting, mut pauses) = (Set::new(self.words), Vec::new());
         for node in &self.nodes {
             let mut set = self.live_at_end(node, &live);
@@ -101,7 +113,7 @@ impl Graph {
                 match op {
                     Op::Wait => _ = waiting.add_all(&set),
                     Op::Pause(number) => pauses.push((*number, set.clone())),
-                    _ => set.before(*op),
+                    _ => set.before(*op, Readers::All),
                 }
             }
         }
@@ -128,14 +140,14 @@ impl Graph {
         set
     }
 
-    fn live_at_start(&self) -> Vec<Set> {
+    fn live_at_start(&self, readers: Readers) -> Vec<Set> {
         let mut live = vec![Set::new(self.words); self.nodes.len()];
         let mut changed = true;
         while changed {
             changed = false;
             for (at, node) in self.nodes.iter().enumerate().rev() {
                 let mut set = self.live_at_end(node, &live);
-                node.ops.iter().rev().for_each(|op| set.before(*op));
+                node.ops.iter().rev().for_each(|op| set.before(*op, readers));
                 if let Some(old) = live.get_mut(at)
                     && *old != set
                 {
@@ -166,7 +178,8 @@ impl Graph {
                             set.add(*id);
                         }
                         Op::Write(id, Site::Declaration) | Op::Fresh(id) => set.remove(*id),
-                        Op::Write(..) | Op::Read(_) | Op::Pause(_) | Op::Wait => {}
+                        Op::Update(id) if late(*id) => found.push(*id),
+                        Op::Write(..) | Op::Read(_) | Op::Update(_) | Op::Pause(_) | Op::Wait => {}
                     }
                 }
                 for next in &node.next {
@@ -216,9 +229,11 @@ impl Set {
     }
 
     /// What is live before an operation, given what is live after it.
-    fn before(&mut self, op: Op) {
+    fn before(&mut self, op: Op, readers: Readers) {
         match op {
             Op::Read(id) => self.add(id),
+            Op::Update(id) if readers == Readers::All => self.add(id),
+            Op::Update(_) => {}
             Op::Write(id, _) | Op::Fresh(id) => self.remove(id),
             Op::Pause(_) | Op::Wait => {}
         }
@@ -233,6 +248,8 @@ pub(super) fn writes_only(entry: &Entry) -> bool {
 struct Loop {
     breaks: Vec<usize>,
     continues: usize,
+    /// Whether there is a `continue`.
+    continued: bool,
 }
 
 struct Builder<'a> {
@@ -248,7 +265,7 @@ struct Builder<'a> {
 
 impl Builder<'_> {
     fn op(&mut self, op: Op) {
-        if let Op::Write(id, _) = op
+        if let Op::Write(id, _) | Op::Update(id) = op
             && !self.loops.is_empty()
         {
             self.repeated.push(id);
@@ -372,8 +389,10 @@ impl Builder<'_> {
                 }
             }
             StmtKind::Continue => {
-                let (from, to) = (self.current.take(), self.loops.last().map(|innermost| innermost.continues));
-                if let Some(to) = to {
+                let from = self.current.take();
+                if let Some(innermost) = self.loops.last_mut() {
+                    innermost.continued |= from.is_some();
+                    let to = innermost.continues;
                     self.link(from, to);
                 }
             }
@@ -390,7 +409,7 @@ impl Builder<'_> {
 
     /// The body of a loop from the current node; afterwards the way out.
     fn round(&mut self, body: &[Stmt], info: LoopInfo, head: usize, out: Option<usize>) {
-        self.loops.push(Loop { breaks: Vec::new(), continues: head });
+        self.loops.push(Loop { breaks: Vec::new(), continues: head, continued: false });
         let first = flow::continues(body);
         if first {
             self.pause(info);
@@ -405,14 +424,20 @@ impl Builder<'_> {
         self.join(std::iter::once(out).chain(breaks.into_iter().map(Some)));
     }
 
+    /// Goes on behind the body of the innermost loop, where its end or a `continue` leads there.
+    fn go_on_if_reached(&mut self, end: Option<usize>, node: usize) {
+        let continued = self.loops.last().is_some_and(|innermost| innermost.continued);
+        self.current = (end.is_some() || continued).then_some(node);
+    }
+
     fn repeat(&mut self, body: &[Stmt], until: &Expr, info: LoopInfo) {
         let head = self.step();
         let test = self.node();
-        self.loops.push(Loop { breaks: Vec::new(), continues: test });
+        self.loops.push(Loop { breaks: Vec::new(), continues: test, continued: false });
         self.block(body);
         let end = self.current;
         self.link(end, test);
-        self.current = Some(test);
+        self.go_on_if_reached(end, test);
         self.expr(until, true);
         let out = self.current;
         self.step();
@@ -430,11 +455,11 @@ impl Builder<'_> {
         let out = if each.condition.as_ref().is_none_or(flow::always) { None } else { self.current };
         self.step();
         let next = self.node();
-        self.loops.push(Loop { breaks: Vec::new(), continues: next });
+        self.loops.push(Loop { breaks: Vec::new(), continues: next, continued: false });
         self.block(&each.body);
         let end = self.current;
         self.link(end, next);
-        self.current = Some(next);
+        self.go_on_if_reached(end, next);
         each.step.iter().for_each(|step| self.expr(step, false));
         self.pause(each.info);
         let back = self.current;
@@ -463,6 +488,15 @@ impl Builder<'_> {
                 self.expr(&sides.1, true);
                 let end = self.current;
                 self.join([from, end]);
+            }
+            ExprKind::Assign(sides) if stepped(&sides.0, &sides.1).is_some() => {
+                stepped(&sides.0, &sides.1).into_iter().for_each(|(_, by)| self.expr(by, true));
+                self.update(&sides.0, wanted);
+            }
+            ExprKind::AssignOp(op, sides) if is_update(*op, sides) => {
+                self.indices(&sides.0);
+                self.expr(&sides.1, true);
+                self.update(&sides.0, wanted);
             }
             ExprKind::Assign(sides) => {
                 self.indices(&sides.0);
@@ -521,10 +555,25 @@ impl Builder<'_> {
             self.op(Op::Write(id, Site::Other));
         } else {
             // Writing a part needs the whole.
-            self.op(Op::Read(id));
+            self.op(Op::Update(id));
         }
         if wanted {
             self.op(Op::Read(id));
         }
     }
+
+    fn update(&mut self, place: &Place, wanted: bool) {
+        let Root::Local(id) = place.root else { return };
+        self.op(Op::Update(id));
+        if wanted {
+            self.op(Op::Read(id));
+        }
+    }
+}
+
+/// Whether `place op= value` is emitted so, for a local variable.
+fn is_update(op: BinaryOp, sides: &(Place, Expr)) -> bool {
+    let (place, value) = sides;
+    let Root::Local(id) = place.root else { return false };
+    is_native(op, place, value) && !expr_mentions(value, id)
 }
