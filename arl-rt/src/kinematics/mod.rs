@@ -6,6 +6,7 @@ mod angles;
 mod choose;
 mod frame;
 mod opw;
+mod passing;
 #[cfg(test)]
 pub(crate) mod random;
 mod rates;
@@ -18,6 +19,7 @@ pub(crate) use choose::RANGE_SLACK;
 pub use choose::{Refusal, Wanted};
 pub use frame::{Frame, frame, frame_components};
 pub use opw::{Opw, OpwParameters, Solutions};
+pub use passing::{PASSAGE, Passage};
 pub use rates::{Rates, Twist};
 pub use scara::Scara;
 

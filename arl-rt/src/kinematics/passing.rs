@@ -1,0 +1,302 @@
+//! Passing the wrist singularity: where the middle axis of the wrist stands near 0, axes 4 and 6 turn about nearly the same
+//! line, and an exact orientation would have axis 4 swing round at once. A passage leads axis 4 evenly from where it stands
+//! before that stretch to where it has to be behind it; the TCP stays exactly on its path, and the orientation gives way by
+//! at most as much as the middle axis is away from 0.
+
+use nalgebra::{Matrix6, Vector3, Vector6};
+
+use super::angles::wrap;
+use super::frame::Frame;
+use super::{Axes, Kinematics, wrap_degrees};
+use crate::robot::Axis;
+
+/// A passage is where the sine of the wrist's middle axis is below this: 4 deg, the most that the orientation gives way.
+pub const PASSAGE: f64 = 0.07;
+
+/// How fine a path is looked at, as part of it.
+const STEP: f64 = 1.0 / 512.0;
+/// Over so much of the path differences tell derivatives.
+const DIFFERENCE: f64 = 1e-4;
+/// The TCP counts as exact within this, in mm; the orientation's two exact components in rad.
+const EXACT: f64 = 1e-9;
+const EXACT_TURN: f64 = 1e-12;
+const MOST_STEPS: usize = 30;
+
+/// A stretch of a path that passes the wrist singularity.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Passage {
+    /// The stretch, as path parameters within 0 to 1.
+    pub from: f64,
+    /// Its end.
+    pub to: f64,
+    /// Coefficients of axis 4 (deg) by the part of the stretch, lowest power first.
+    axis4: [f64; 6],
+    /// The configuration behind the stretch: the middle axis may have gone through 0.
+    pub cfg_behind: u8,
+}
+
+impl Passage {
+    /// Where axis 4 (deg) is led to at a path parameter within the stretch.
+    pub fn axis4(&self, at: f64) -> f64 {
+        let part = ((at - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
+        self.axis4.iter().rev().fold(0.0, |sum, coefficient| sum * part + coefficient)
+    }
+}
+
+impl Kinematics {
+    /// The axes with axis 4 at `axis4` (deg) that bring the TCP of `tool` (seen from the flange) to the place of `tcp` (in
+    /// the base) exactly, and its orientation as near as that axis allows: what is missing is a turn about the line that
+    /// is at right angles to axes 5 and 6. `near` are the axes shortly before; the result is the one that continues them.
+    /// `None` for a SCARA, and where no axes lead there.
+    pub fn inverse_at_axis4(&self, tcp: &Frame, tool: &Frame, axis4: f64, near: &Axes) -> Option<Axes> {
+        let Kinematics::SixAxis(_) = self else { return None };
+        let mut axes = *near;
+        let [_, _, _, fourth, ..] = &mut axes;
+        *fourth = axis4;
+        for _ in 0..MOST_STEPS {
+            let found = self.forward(&axes) * tool;
+            let off = tcp.translation.vector - found.translation.vector;
+            let turn = (tcp.rotation * found.rotation.inverse()).scaled_axis();
+            let screws = self.jacobian(&axes, &found.translation.vector);
+            let line = |column: usize| screws.fixed_view::<3, 1>(0, column).into_owned();
+            let (fifth, sixth) = (line(4), line(5));
+            if off.norm() < EXACT && fifth.dot(&turn).abs().max(sixth.dot(&turn).abs()) < EXACT_TURN {
+                return Some(axes);
+            }
+            // Rows: the TCP in m, the two components of the orientation, and axis 4 stays.
+            let mut matrix = Matrix6::zeros();
+            for column in 0..6 {
+                let moving: Vector3<f64> = screws.fixed_view::<3, 1>(3, column) / 1000.0;
+                let turning = line(column);
+                let rows = Vector6::new(moving.x, moving.y, moving.z, fifth.dot(&turning), sixth.dot(&turning), 0.0);
+                matrix.set_column(column, &rows);
+            }
+            matrix[(5, 3)] = 1.0;
+            let [x, y, z]: [f64; 3] = (off / 1000.0).into();
+            let wanted = Vector6::new(x, y, z, fifth.dot(&turn), sixth.dot(&turn), 0.0);
+            let step: [f64; 6] = matrix.lu().solve(&wanted)?.into();
+            axes.iter_mut().zip(step).for_each(|(axis, step)| *axis += step.to_degrees());
+            if !axes.iter().all(|axis| axis.is_finite()) {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// The stretches of a path that pass the wrist singularity, in order. `tcp` gives the frame of the TCP in the base for
+    /// a path parameter from 0 to 1, `tool` is seen from the flange, `start` are the axes where the path begins, `axes`
+    /// the robot's own, within whose ranges axis 4 is led. On a path that has none, and with a SCARA, there are none.
+    pub fn passages(&self, tcp: impl Fn(f64) -> Frame, tool: &Frame, start: &Axes, axes: &[Axis]) -> Vec<Passage> {
+        let Kinematics::SixAxis(opw) = self else { return Vec::new() };
+        let back = tool.inverse();
+        // The exact axes 4 and 5 of the arm's present configuration.
+        let exact = |at: f64, cfg: u8, near: &Axes| opw.inverse(&(tcp(at) * back), cfg, near);
+        let sine = |axes: &Axes| {
+            let [_, _, _, _, fifth, _] = opw.inner(axes);
+            fifth.to_radians().sin().abs()
+        };
+        let inside = |at: f64, cfg: u8, near: &Axes| exact(at, cfg, near).is_some_and(|axes| sine(&axes) < PASSAGE);
+        // The border between two places of which one is inside.
+        let border = |mut outside: f64, mut within: f64, cfg: u8, near: &Axes| {
+            for _ in 0..50 {
+                let middle = 0.5 * (outside + within);
+                if inside(middle, cfg, near) { within = middle } else { outside = middle }
+            }
+            outside
+        };
+        let fourth = |axes: &Axes| {
+            let [_, _, _, fourth, ..] = *axes;
+            fourth
+        };
+        let range = axes.get(3).map_or((f64::NEG_INFINITY, f64::INFINITY), |axis| (axis.min, axis.max));
+
+        let mut passages = Vec::new();
+        let (mut cfg, mut near, mut at) = (opw.cfg(start), *start, 0.0);
+        let mut entered = sine(start) < PASSAGE;
+        let mut from = 0.0;
+        while at < 1.0 {
+            let next = (at + STEP).min(1.0);
+            let is_inside = inside(next, cfg, &near);
+            if !entered && is_inside {
+                from = border(at, next, cfg, &near);
+                entered = true;
+            }
+            if entered && (!is_inside || next >= 1.0) {
+                let to = if is_inside { 1.0 } else { border(next, at.max(from), cfg, &near) };
+                let Some(end) = exact(to, cfg, &near) else { break };
+                let first = if from == 0.0 { fourth(start) } else { fourth(&near) };
+                // Half a turn of axis 4 more or less, with the middle axis on the other side, gives the same orientation.
+                let least = end_of_axis4(fourth(&end), first, range);
+                let flips = (wrap_degrees(least - fourth(&end))).abs() > 90.0;
+                let derivatives = |border: f64, value: f64| {
+                    if border <= 0.0 || border >= 1.0 {
+                        return [value, 0.0, 0.0];
+                    }
+                    let shift = |by: f64| exact(border + by, cfg, &near).map(|axes| fourth(&axes) - value);
+                    let (Some(before), Some(here), Some(after)) = (shift(-DIFFERENCE), shift(0.0), shift(DIFFERENCE))
+                    else {
+                        return [value, 0.0, 0.0];
+                    };
+                    let [before, after] = wrap([before - here, after - here]);
+                    [value, (after - before) / (2.0 * DIFFERENCE), (after + before) / (DIFFERENCE * DIFFERENCE)]
+                };
+                let starts = if from == 0.0 { first } else { first + nearest(exact(from, cfg, &near), first, fourth) };
+                let coefficients = quintic(derivatives(from, starts), derivatives(to, least), to - from);
+                if flips {
+                    cfg ^= 1;
+                }
+                passages.push(Passage { from, to, axis4: coefficients, cfg_behind: cfg });
+                let [_, _, _, fourth, ..] = &mut near;
+                *fourth = least;
+                entered = false;
+            } else if !entered && let Some(found) = exact(next, cfg, &near) {
+                let followed = fourth(&near) + wrap_degrees(fourth(&found) - fourth(&near));
+                near = found;
+                let [_, _, _, fourth, ..] = &mut near;
+                *fourth = followed;
+            }
+            at = next;
+        }
+        passages
+    }
+}
+
+/// How far the exact axis 4 is from `value`, whole turns left out.
+fn nearest(axes: Option<Axes>, value: f64, fourth: impl Fn(&Axes) -> f64) -> f64 {
+    axes.map_or(0.0, |axes| wrap_degrees(fourth(&axes) - value))
+}
+
+/// The angle half turns away from `end` that is nearest to `start` and within the range.
+fn end_of_axis4(end: f64, start: f64, (min, max): (f64, f64)) -> f64 {
+    let first = end + 180.0 * ((start - end) / 180.0).round();
+    let all = [first, first - 180.0, first + 180.0];
+    let fits = all.into_iter().filter(|angle| (min..=max).contains(angle));
+    fits.min_by(|a, b| (a - start).abs().total_cmp(&(b - start).abs())).unwrap_or(first)
+}
+
+/// The coefficients by the part of a stretch of length `length` that begins and ends with these values, first and second
+/// derivatives.
+fn quintic(start: [f64; 3], end: [f64; 3], length: f64) -> [f64; 6] {
+    let [p, v, a] = start;
+    let [q, w, b] = end;
+    let (v, w, a, b) = (v * length, w * length, a * length * length, b * length * length);
+    let way = q - p;
+    [
+        p,
+        v,
+        0.5 * a,
+        10.0 * way - 6.0 * v - 4.0 * w - 1.5 * a + 0.5 * b,
+        -15.0 * way + 8.0 * v + 7.0 * w + 1.5 * a - b,
+        6.0 * way - 3.0 * (v + w) - 0.5 * a + 0.5 * b,
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinematics::frame;
+    use crate::robot::Robot;
+    use nalgebra::Translation3;
+
+    /// Follows a line of the TCP with its passages; returns the largest jump of an axis from one place to the next, the
+    /// largest change of a jump, and how far the orientation gave way at most (rad).
+    fn follow(robot: &Robot, tcp: &dyn Fn(f64) -> Frame, tool: &Frame, start: &Axes, places: i32) -> (f64, f64, f64) {
+        let kinematics = &robot.kinematics;
+        let passages = kinematics.passages(tcp, tool, start, robot.own_axes());
+        let (mut near, mut cfg) = (*start, kinematics.cfg(start));
+        let (mut most, mut bend, mut gave) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let mut last = [0.0; 6];
+        for place in 1..=places {
+            let at = f64::from(place) / f64::from(places);
+            let passage = passages.iter().find(|passage| passage.from <= at && at <= passage.to);
+            let found = match passage {
+                Some(passage) => {
+                    cfg = passage.cfg_behind;
+                    kinematics.inverse_at_axis4(&tcp(at), tool, passage.axis4(at), &near).unwrap()
+                }
+                None => {
+                    let mut found = kinematics.inverse(&(tcp(at) * tool.inverse()), cfg, &near).unwrap();
+                    found.iter_mut().zip(near).for_each(|(new, old)| *new = old + wrap_degrees(*new - old));
+                    found
+                }
+            };
+            let reached = kinematics.forward(&found) * tool;
+            assert!((reached.translation.vector - tcp(at).translation.vector).norm() < 1e-7, "the TCP is exact");
+            gave = gave.max(reached.rotation.angle_to(&tcp(at).rotation));
+            for ((new, old), last) in found.iter().zip(near).zip(&mut last) {
+                let jump = new - old;
+                most = most.max(jump.abs());
+                if place > 1 {
+                    bend = bend.max((jump - *last).abs());
+                }
+                *last = jump;
+            }
+            near = found;
+        }
+        let end = kinematics.forward(&near) * tool;
+        assert!(end.rotation.angle_to(&tcp(1.0).rotation) < 1e-6, "the target's orientation is exact");
+        (most, bend, gave)
+    }
+
+    /// A line whose flange keeps its orientation; at its middle the axes stand at `middle`.
+    fn through(robot: &Robot, middle: &Axes, tool: &Frame, travel: Vector3<f64>) -> impl Fn(f64) -> Frame + use<> {
+        let pose = robot.kinematics.forward(middle) * tool;
+        move |at: f64| {
+            let place = pose.translation.vector + travel * (at - 0.5);
+            Frame::from_parts(Translation3::from(place), pose.rotation)
+        }
+    }
+
+    #[test]
+    fn lines_pass_the_singularity_with_the_tcp_exact_and_even_axes() {
+        let robot = Robot::builtin("kr10-r1420").unwrap();
+        let tool = frame([30.0, -20.0, 160.0, 10.0, 35.0, 0.0]);
+        for (fifth, travel) in [
+            (0.0, Vector3::new(100.0, 300.0, -200.0)),
+            (0.02, Vector3::new(0.0, 400.0, 100.0)),
+            (0.5, Vector3::new(-80.0, 350.0, 150.0)),
+            (2.0, Vector3::new(50.0, -350.0, 100.0)),
+        ] {
+            let tcp = through(&robot, &[10.0, -70.0, 80.0, 25.0, fifth, 15.0], &tool, travel);
+            let start = [0, 1].into_iter().find_map(|bit| {
+                let near = [10.0, -70.0, 80.0, 25.0, 5.0, 15.0];
+                let found = robot.kinematics.inverse(&(tcp(0.0) * tool.inverse()), bit, &near)?;
+                (found[3].abs() < 90.0).then_some(found)
+            });
+            let start = start.unwrap();
+            let passages = robot.kinematics.passages(&tcp, &tool, &start, robot.own_axes());
+            assert_eq!(passages.len(), 1, "{fifth}: {passages:?}");
+            let (most, bend, gave) = follow(&robot, &tcp, &tool, &start, 1000);
+            let (finer, finer_bend, _) = follow(&robot, &tcp, &tool, &start, 4000);
+            // Steps shrink with the distance of the places, their changes with its square: position and speed are even.
+            assert!(most < 3.0 && finer < 0.3 * most, "{fifth}: {most} {finer}");
+            assert!(finer_bend < 0.1 * bend + 1e-6, "{fifth}: {bend} {finer_bend}");
+            assert!(gave < 1.01 * PASSAGE, "{fifth}: {gave}");
+        }
+    }
+
+    #[test]
+    fn a_line_that_begins_or_ends_at_the_singularity_is_passed_too() {
+        let robot = Robot::builtin("irb2400-10").unwrap();
+        let tool = frame([0.0, 0.0, 100.0, 0.0, 0.0, 0.0]);
+        let singular = [0.0, 10.0, -20.0, 30.0, 0.0, -10.0];
+        let tcp = through(&robot, &singular, &tool, Vector3::new(200.0, 300.0, 100.0));
+        // From the middle on.
+        let (most, ..) = follow(&robot, &|at| tcp(0.5 + 0.5 * at), &tool, &singular, 500);
+        assert!(most < 1.0, "{most}");
+        let start = robot.kinematics.inverse(&(tcp(0.0) * tool.inverse()), 0, &singular).unwrap();
+        let (most, ..) = follow(&robot, &|at| tcp(0.5 * at), &tool, &start, 500);
+        assert!(most < 1.0, "{most}");
+    }
+
+    #[test]
+    fn a_path_that_keeps_clear_has_no_passage() {
+        let robot = Robot::builtin("kr10-r1420").unwrap();
+        let start = [10.0, -70.0, 80.0, 25.0, 40.0, 15.0];
+        let tcp = through(&robot, &start, &Frame::identity(), Vector3::new(20.0, 0.0, 0.0));
+        assert_eq!(robot.kinematics.passages(tcp, &Frame::identity(), &start, robot.own_axes()), []);
+        let scara = Robot::builtin("hsr065").unwrap();
+        let tcp = through(&scara, &[0.0; 6], &Frame::identity(), Vector3::zeros());
+        assert_eq!(scara.kinematics.passages(tcp, &Frame::identity(), &[0.0; 6], scara.own_axes()), []);
+    }
+}
