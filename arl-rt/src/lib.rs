@@ -11,6 +11,7 @@ pub mod controller;
 pub mod convert;
 pub mod cx;
 pub mod data;
+pub mod dynamics;
 pub mod emit;
 pub mod fault;
 pub mod files;

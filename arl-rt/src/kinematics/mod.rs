@@ -15,6 +15,7 @@ mod scara;
 mod tests;
 mod wrist;
 
+pub(crate) use angles::sin_cos;
 pub(crate) use choose::RANGE_SLACK;
 pub use choose::{Refusal, Wanted};
 pub use frame::{Frame, frame, frame_components};

@@ -78,11 +78,11 @@ pub struct TcpLimits {
 pub struct Link {
     /// Mass in kg.
     pub mass: f64,
-    /// Centre of mass in the link's frame, in mm.
+    /// Centre of mass in the link's frame (see [`crate::dynamics`]), in mm.
     pub com: [f64; 3],
     /// Inertia about the centre of mass in the link's frame, in kg mm2: xx, xy, xz, yy, yz, zz.
     pub inertia: [f64; 6],
-    /// Turns of the motor for one turn of the axis.
+    /// Turns of the motor for one turn of the axis; rad of the motor for one m of a linear one.
     pub gear: f64,
     /// Torque of the motor for one ampere, in Nm/A.
     pub torque_constant: f64,
