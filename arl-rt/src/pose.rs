@@ -4,10 +4,11 @@ pub use crate::frames::{offset, poseinv, reltool};
 
 use crate::cx::Cx;
 use crate::fault::Fault;
-use crate::kinematics::{Axes, Frame, Refusal, frame_components};
+use crate::frames::Setting;
+use crate::kinematics::{Axes, Refusal, frame_components};
 use crate::motion::is_unset;
 use crate::motion_instructions::wanted;
-use crate::unit::{Unit, frame_of, joint, tidy};
+use crate::unit::{Unit, joint, tidy};
 use crate::values::{Joint, Pose, Tool, Wobj};
 
 /// The axes as the robot reports them now, in deg (mm); external axes that are not there are unset.
@@ -55,21 +56,11 @@ pub fn getjoint(cx: &Cx, p: Pose, t: Tool, w: &Wobj) -> Result<Joint, Fault> {
     let unit = cx.world().unit.borrow();
     let robot = unit.robot();
     let target = crate::kinematics::frame(components);
-    let base = base(cx);
-    let (tool, wobj) = (frame_of(&t.t_frame), frame_of(&w.w_frame));
-    // pose = wobj^-1 * tool, each in the world: one of them rides on the flange.
-    let flange = match (t.stationary, w.robhold) {
-        (false, false) => wobj * target * tool.inverse(),
-        (true, true) => tool * target.inverse() * wobj.inverse(),
-        _ => {
-            let problem = "a held workpiece and a tool on the flange do not move against each other".to_owned();
-            return Err(domain("getjoint", problem));
-        }
-    };
+    let flange = setting(cx, &t, w).flange_of(&target).map_err(|unmoved| domain("getjoint", unmoved.to_string()))?;
     let near = unit.target().axes;
     let axes = robot
         .kinematics
-        .choose(&(base.inverse() * flange), wanted(&p, true)?, robot.own_axes(), &near)
+        .choose(&flange, wanted(&p, true)?, robot.own_axes(), &near)
         .map_err(|refusal| domain("getjoint", refused(&unit, &refusal)))?;
     let mut joint = Joint::of_axes(axes.map(tidy));
     (joint.ej1, joint.ej2, joint.ej3, joint.ej4, joint.ej5, joint.ej6) = (p.ej1, p.ej2, p.ej3, p.ej4, p.ej5, p.ej6);
@@ -78,18 +69,16 @@ pub fn getjoint(cx: &Cx, p: Pose, t: Tool, w: &Wobj) -> Result<Joint, Fault> {
 
 fn pose(cx: &Cx, unit: &Unit, axes: &Axes, external: &Joint, t: Tool, w: &Wobj) -> Pose {
     let kinematics = &unit.robot().kinematics;
-    let flange = base(cx) * kinematics.forward(axes);
-    let tool = if t.stationary { frame_of(&t.t_frame) } else { flange * frame_of(&t.t_frame) };
-    let wobj = if w.robhold { flange * frame_of(&w.w_frame) } else { frame_of(&w.w_frame) };
-    let [x, y, z, a, b, c] = frame_components(&(wobj.inverse() * tool)).map(tidy);
+    let [x, y, z, a, b, c] = frame_components(&setting(cx, &t, w).pose_of(&kinematics.forward(axes))).map(tidy);
     let cfg = i32::from(kinematics.cfg(axes));
     let [ej1, ej2, ej3, ej4, ej5, ej6] = external.external();
     Pose { x, y, z, a, b, c, cfg, turn: -1, ej1, ej2, ej3, ej4, ej5, ej6 }
 }
 
-/// Where the robot stands in the world.
-fn base(cx: &Cx) -> Frame {
-    cx.system().base.with(|base| base.first().map_or(Frame::identity(), |base| frame_of(&base.w_frame)))
+/// The frames between poses and the flange; `$TOOL_OFFSET` and `$WOBJ_OFFSET` are the motions' alone.
+fn setting(cx: &Cx, tool: &Tool, wobj: &Wobj) -> Setting {
+    let base = cx.system().base.with(|base| base.first().map_or_else(Default::default, |base| base.w_frame));
+    Setting::new(tool, wobj, &base)
 }
 
 fn refused(unit: &Unit, refusal: &Refusal) -> String {

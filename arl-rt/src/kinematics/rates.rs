@@ -45,6 +45,18 @@ impl Twist {
     }
 }
 
+impl Twist {
+    /// The first three derivatives (mm per unit of the path parameter, its square, its cube) of the place of what is at
+    /// `point` (mm) and moves along.
+    pub fn of_place(&self, point: &Vector3<f64>) -> [Vector3<f64>; 3] {
+        let p = point / 1000.0;
+        let v = self.first.at(&p);
+        let a = self.second.at(&p) + self.first.turning.cross(&v);
+        let j = self.third.at(&p) + self.second.turning.cross(&v) * 2.0 + self.first.turning.cross(&a);
+        [v * 1000.0, a * 1000.0, j * 1000.0]
+    }
+}
+
 /// Derivatives of the axes along a path, in deg (mm where linear) per unit of the path parameter, its square, its cube.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Rates {

@@ -1,0 +1,254 @@
+//! What carries what: the tool on the flange or standing in the world, the workpiece in the world or held by the robot, the
+//! base under the robot, and the offsets of all tools and workpieces.
+
+use std::fmt;
+
+use nalgebra::Vector3;
+
+use crate::kinematics::{Frame, Twist, frame};
+use crate::values::{Tool, Wobj};
+
+/// The frames between a programmed pose and the flange. Translations are mm, as in all frames.
+///
+/// A pose is the tool's frame seen from the workpiece frame. `tool` is seen from the flange, or in the world where the tool
+/// is stationary; `wobj` is in the world, or seen from the flange where the robot holds the workpiece; `base` is where the
+/// robot stands in the world.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Setting {
+    tool: Frame,
+    stationary: bool,
+    wobj: Frame,
+    held: bool,
+    base: Frame,
+}
+
+/// Tool and workpiece do not move against each other, so that no motion of the robot leads to a pose.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Unmoved {
+    /// Both are on the flange.
+    BothHeld,
+    /// Neither is.
+    NeitherHeld,
+}
+
+impl fmt::Display for Unmoved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Unmoved::BothHeld => {
+                "the robot holds both the tool and the workpiece, which then do not move against each other; a workpiece \
+                 with robhold needs a tool with stationary"
+            }
+            Unmoved::NeitherHeld => {
+                "the robot holds neither the tool nor the workpiece, so it cannot move them; a stationary tool needs a \
+                 workpiece with robhold"
+            }
+        })
+    }
+}
+
+impl std::error::Error for Unmoved {}
+
+impl Setting {
+    /// Tool and workpiece as a program gives them, and where the base stands in the world (`$BASE`).
+    pub fn new(tool: &Tool, wobj: &Wobj, base: &crate::values::Frame) -> Self {
+        let transform = |given: &crate::values::Frame| frame(given.components());
+        Self {
+            tool: transform(&tool.t_frame),
+            stationary: tool.stationary,
+            wobj: transform(&wobj.w_frame),
+            held: wobj.robhold,
+            base: transform(base),
+        }
+    }
+
+    /// With `$TOOL_OFFSET` and `$WOBJ_OFFSET` (mm, deg), which motions add and queries do not: each shifts and turns its
+    /// frame along and about that frame's own axes.
+    pub fn with_offsets(self, tool: &[f64; 6], wobj: &[f64; 6]) -> Self {
+        Self { tool: self.tool * frame(*tool), wobj: self.wobj * frame(*wobj), ..self }
+    }
+
+    /// Where the flange is, seen from the robot's base, when the tool is at `pose` of the workpiece.
+    ///
+    /// # Errors
+    /// Tool and workpiece do not move against each other.
+    pub fn flange_of(&self, pose: &Frame) -> Result<Frame, Unmoved> {
+        match (self.stationary, self.held) {
+            (false, false) => Ok(self.base.inverse() * self.wobj * pose * self.tool.inverse()),
+            (true, true) => Ok(self.base.inverse() * self.tool * pose.inverse() * self.wobj.inverse()),
+            (false, true) => Err(Unmoved::BothHeld),
+            (true, false) => Err(Unmoved::NeitherHeld),
+        }
+    }
+
+    /// The tool's frame in the workpiece frame when the flange is at `flange`, seen from the robot's base.
+    pub fn pose_of(&self, flange: &Frame) -> Frame {
+        self.wobj_at(flange).inverse() * self.tool_at(flange)
+    }
+
+    /// The tool's frame in the world when the flange is at `flange`, seen from the robot's base.
+    pub fn tool_at(&self, flange: &Frame) -> Frame {
+        if self.stationary { self.tool } else { self.base * flange * self.tool }
+    }
+
+    /// The workpiece frame in the world when the flange is at `flange`, seen from the robot's base.
+    pub fn wobj_at(&self, flange: &Frame) -> Frame {
+        if self.held { self.base * flange * self.wobj } else { self.wobj }
+    }
+
+    /// What is fixed to the flange and meets the other: the tool's frame, or that of the held workpiece, seen from the
+    /// flange.
+    pub fn carried(&self) -> &Frame {
+        if self.held { &self.wobj } else { &self.tool }
+    }
+
+    /// How the flange moves in the robot's base when the tool is at `pose` of the workpiece and moves there with the
+    /// first three derivatives `moving` of its place (mm per unit of the path parameter, its square, its cube) while it
+    /// turns with the speed and its first two derivatives `turning` (rad), all along the axes of the workpiece frame.
+    ///
+    /// # Errors
+    /// Tool and workpiece do not move against each other.
+    pub fn twist_of(
+        &self,
+        pose: &Frame,
+        moving: &[Vector3<f64>; 3],
+        turning: &[Vector3<f64>; 3],
+    ) -> Result<Twist, Unmoved> {
+        let flange = self.flange_of(pose)?;
+        let from_base = self.base.inverse() * self.wobj_at(&flange);
+        let turned = |vectors: &[Vector3<f64>; 3]| vectors.map(|vector| from_base.rotation * vector);
+        if !self.held {
+            let point = (from_base * pose).translation.vector;
+            return Ok(Twist::of_point(&point, &turned(moving), &turned(turning)));
+        }
+        // The tool stands; the workpiece goes the opposite way. Its origin, along its own axes, which move with it.
+        let p = pose.translation.vector;
+        let ([v, a, j], [w, w1, w2]) = (*moving, *turning);
+        let first = w.cross(&p) - v;
+        let first1 = w1.cross(&p) + w.cross(&v) - a;
+        let first2 = w2.cross(&p) + w1.cross(&v) * 2.0 + w.cross(&a) - j;
+        let second = first1 - w.cross(&first);
+        let third = first2 - w1.cross(&first) - w.cross(&first1) - w.cross(&second);
+        let turning = [-w, -w1, w.cross(&w1) - w2];
+        Ok(Twist::of_point(&from_base.translation.vector, &turned(&[first, second, third]), &turned(&turning)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinematics::frame_components;
+    use crate::kinematics::random::Random;
+    use nalgebra::{Translation3, UnitQuaternion};
+
+    fn tool(components: [f64; 6], stationary: bool) -> Tool {
+        Tool { t_frame: crate::values::Frame::of_components(components), stationary }
+    }
+
+    fn wobj(components: [f64; 6], robhold: bool) -> Wobj {
+        Wobj { w_frame: crate::values::Frame::of_components(components), robhold, ..Wobj::default() }
+    }
+
+    const NOWHERE: [f64; 6] = [0.0; 6];
+
+    fn base(components: [f64; 6]) -> crate::values::Frame {
+        crate::values::Frame::of_components(components)
+    }
+
+    fn close(found: &Frame, expected: [f64; 6]) {
+        let found = frame_components(found);
+        assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?} {expected:?}");
+    }
+
+    #[test]
+    fn the_examples_of_the_offsets_come_out() {
+        let plain = Setting::new(&tool(NOWHERE, false), &wobj(NOWHERE, false), &base(NOWHERE));
+        let target = frame([400.0, 0.0, 800.0, 0.0, 0.0, 0.0]);
+        let moved = plain.with_offsets(&NOWHERE, &[50.0, 50.0, 50.0, 0.0, 0.0, 0.0]).flange_of(&target).unwrap();
+        close(&plain.pose_of(&moved), [450.0, 50.0, 850.0, 0.0, 0.0, 0.0]);
+        let moved = plain.with_offsets(&[50.0, 0.0, 0.0, 0.0, 0.0, 0.0], &NOWHERE).flange_of(&target).unwrap();
+        close(&plain.pose_of(&moved), [350.0, 0.0, 800.0, 0.0, 0.0, 0.0]);
+        // Offsets go along the axes of their own frames.
+        let turned = Setting::new(&tool(NOWHERE, false), &wobj([0.0, 0.0, 0.0, 90.0, 0.0, 0.0], false), &base(NOWHERE));
+        let moved = turned.with_offsets(&NOWHERE, &[10.0, 0.0, 0.0, 0.0, 0.0, 0.0]).flange_of(&Frame::identity());
+        close(&moved.unwrap(), [0.0, 10.0, 0.0, 90.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn the_base_is_under_the_robot() {
+        // The robot hangs head down, 2 m above the floor.
+        let hanging = base([0.0, 0.0, 2000.0, 0.0, 0.0, 180.0]);
+        let setting = Setting::new(&tool([0.0, 0.0, 100.0, 0.0, 0.0, 0.0], false), &wobj(NOWHERE, false), &hanging);
+        let flange = setting.flange_of(&frame([500.0, 200.0, 900.0, 0.0, 0.0, 180.0])).unwrap();
+        close(&flange, [500.0, -200.0, 1000.0, 0.0, 0.0, 0.0]);
+        close(&setting.tool_at(&flange), [500.0, 200.0, 900.0, 0.0, 0.0, 180.0]);
+    }
+
+    #[test]
+    fn a_held_workpiece_goes_to_the_tool_that_stands() {
+        // A grinder stands at x 1000; the corner of the part is 200 in front of the flange.
+        let grinder = tool([1000.0, 0.0, 500.0, 0.0, 0.0, 0.0], true);
+        let part = wobj([0.0, 0.0, 200.0, 0.0, 0.0, 0.0], true);
+        let setting = Setting::new(&grinder, &part, &base(NOWHERE));
+        let flange = setting.flange_of(&Frame::identity()).unwrap();
+        close(&flange, [1000.0, 0.0, 300.0, 0.0, 0.0, 0.0]);
+        // 50 further along the part: the part goes back by 50.
+        let flange = setting.flange_of(&frame([50.0, 0.0, 0.0, 0.0, 0.0, 0.0])).unwrap();
+        close(&flange, [950.0, 0.0, 300.0, 0.0, 0.0, 0.0]);
+        close(&setting.pose_of(&flange), [50.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!(setting.carried(), &frame([0.0, 0.0, 200.0, 0.0, 0.0, 0.0]));
+    }
+
+    #[test]
+    fn what_does_not_move_is_refused_but_can_be_asked_for() {
+        let on_flange = tool([0.0, 0.0, 100.0, 0.0, 0.0, 0.0], false);
+        let both = Setting::new(&on_flange, &wobj([0.0, 0.0, 30.0, 0.0, 0.0, 0.0], true), &base(NOWHERE));
+        assert_eq!(both.flange_of(&Frame::identity()), Err(Unmoved::BothHeld));
+        close(&both.pose_of(&frame([7.0, 8.0, 9.0, 10.0, 20.0, 30.0])), [0.0, 0.0, 70.0, 0.0, 0.0, 0.0]);
+        let neither = Setting::new(&tool(NOWHERE, true), &wobj(NOWHERE, false), &base(NOWHERE));
+        assert_eq!(neither.flange_of(&Frame::identity()), Err(Unmoved::NeitherHeld));
+        assert!(Unmoved::NeitherHeld.to_string().contains("robhold"));
+    }
+
+    #[test]
+    fn poses_and_flanges_go_both_ways_and_twists_are_their_derivatives() {
+        let mut random = Random::new(31);
+        let mut place = || {
+            let mut number = |size: f64| random.between(-size, size);
+            [number(800.0), number(800.0), number(800.0), number(170.0), number(80.0), number(170.0)]
+        };
+        for round in 0..200 {
+            let held = round % 2 == 1;
+            let setting = Setting::new(&tool(place(), held), &wobj(place(), held), &base(place()))
+                .with_offsets(&place(), &place());
+            let start = frame(place());
+            let flange = setting.flange_of(&start).unwrap();
+            let back = setting.pose_of(&flange);
+            assert!((back.translation.vector - start.translation.vector).norm() < 1e-8);
+            assert!(back.rotation.angle_to(&start.rotation) < 1e-12);
+
+            // Along a curve: the twist predicts the flange where a straight prediction of third order reaches.
+            let ([x, y, z, a, b, c], [u, v, w, ..], [r, s, t, ..]) = (place(), place(), place());
+            let moving = [Vector3::new(x, y, z), Vector3::new(u, v, w), Vector3::new(r, s, t)];
+            let axis = Vector3::new(a, b, c).normalize();
+            let at = |h: f64| {
+                let way = moving[0] * h + moving[1] * (h * h / 2.0) + moving[2] * (h * h * h / 6.0);
+                let turned = UnitQuaternion::from_scaled_axis(axis * (0.7 * h + 0.3 * h * h + 0.2 * h * h * h));
+                let pose =
+                    Frame::from_parts(Translation3::from(start.translation.vector + way), turned * start.rotation);
+                setting.flange_of(&pose).unwrap()
+            };
+            let twist = setting.twist_of(&start, &moving, &[axis * 0.7, axis * 0.6, axis * 1.2]).unwrap();
+            let point = flange.translation.vector;
+            let [first, second, third] = twist.of_place(&point);
+            let h = 1e-3;
+            let place = |h: f64| at(h).translation.vector;
+            let (m2, m1, p1, p2) = (place(-2.0 * h), place(-h), place(h), place(2.0 * h));
+            let near = |found: Vector3<f64>, expected: Vector3<f64>, slack: f64| {
+                assert!((found - expected).norm() < slack * (1.0 + expected.norm()), "{held}: {found} {expected}");
+            };
+            near(((p1 - m1) * 8.0 - (p2 - m2)) / (12.0 * h), first, 1e-6);
+            near(((p1 + m1) * 16.0 - (p2 + m2) - point * 30.0) / (12.0 * h * h), second, 1e-5);
+            near((p2 - m2 - (p1 - m1) * 2.0) / (2.0 * h * h * h), third, 1e-3);
+        }
+    }
+}
