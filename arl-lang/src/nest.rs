@@ -87,6 +87,8 @@ pub(crate) struct Nest<'source> {
     forgiven: usize,
     /// Whether a statement outside of functions was reported since the last function.
     outside: bool,
+    /// Whether the function before this one was reported as not closed: what follows this one may be its rest.
+    cut_short: bool,
     /// How many blocks beyond the limit are open; what is in them is not kept.
     beyond: usize,
     /// Whether the block that is one too many was reported in this function.
@@ -107,6 +109,7 @@ impl<'source> Nest<'source> {
             waits: false,
             forgiven: 0,
             outside: false,
+            cut_short: false,
             beyond: 0,
             too_deep: false,
             last: Span::default(),
@@ -268,7 +271,7 @@ impl<'source> Nest<'source> {
     }
 
     fn report_outside(&mut self, span: Span, errors: &mut Vec<SyntaxError>) {
-        if !std::mem::replace(&mut self.outside, true) {
+        if !std::mem::replace(&mut self.outside, true) && !self.cut_short {
             errors.push(SyntaxError::new(SyntaxErrorKind::OutsideFunction, span));
         }
     }
@@ -284,6 +287,7 @@ impl<'source> Nest<'source> {
             });
             return;
         }
+        self.cut_short = !self.frames.is_empty();
         while !self.frames.is_empty() {
             self.unclosed(span, errors);
         }
@@ -453,7 +457,7 @@ impl<'source> Nest<'source> {
             self.forgiven -= 1;
             return;
         }
-        if self.outside && kind == BlockKind::Func {
+        if kind == BlockKind::Func && (self.outside || std::mem::take(&mut self.cut_short)) {
             return;
         }
         let top = self.frames.last().map(|frame| (frame.kind.kind(), frame.span, frame.is_quiet()));

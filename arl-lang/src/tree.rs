@@ -185,7 +185,9 @@ impl Context<'_> {
     /// A variable with a start value; only a plain `=` may give one.
     pub(crate) fn var(&mut self, name: Ident, dims: Vec<Expr>, op: Option<BinaryOp>, init: Deep) -> Var {
         if op.is_some() {
-            let span = Span::new(name.span.start, init.expr.span.start);
+            let before = Span::new(name.span.start, init.expr.span.start);
+            let length = before.text(self.source).trim_end().len();
+            let span = Span::new(before.start, before.start + length as u32);
             self.errors.push(SyntaxError::new(SyntaxErrorKind::CompoundStartValue, span));
         }
         Var { name, dims, init: Some(init.expr) }

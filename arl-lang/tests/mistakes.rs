@@ -133,7 +133,7 @@ fn lines_of_other_languages() {
         ("x = 5mm", 136, "mm"),
         ("p = {x 5mm}", 136, "mm"),
         ("p = {x:1, y 2}", 138, ":"),
-        ("int a += 1", 139, "a += "),
+        ("int a += 1", 139, "a +="),
         ("if a == 1\nendif", 120, "a"),
         ("if(a) && (b)\nendif", 120, "&&"),
         ("int(x)", 120, "("),

@@ -13,7 +13,7 @@ pub enum Fault {
     /// A shift count outside the width.
     ShiftCount {
         /// The count.
-        count: i32,
+        count: i64,
         /// The width of the value in bits.
         width: u8,
     },

@@ -75,14 +75,43 @@ pub fn rem_double(a: f64, b: f64) -> Result<f64, Fault> {
     if b == 0.0 { Err(by_zero()) } else { Ok(a % b) }
 }
 
+/// What a shift counts with: int or uint.
+pub trait Count: Copy {
+    /// The places to shift by; a negative count is a large one.
+    fn places(self) -> u32;
+    /// The number itself.
+    fn number(self) -> i64;
+}
+
+impl Count for i32 {
+    #[inline]
+    fn places(self) -> u32 {
+        self as u32
+    }
+
+    fn number(self) -> i64 {
+        self.into()
+    }
+}
+
+impl Count for u32 {
+    #[inline]
+    fn places(self) -> u32 {
+        self
+    }
+
+    fn number(self) -> i64 {
+        self.into()
+    }
+}
+
 /// `value << count`
 ///
 /// # Errors
 /// [`Fault::ShiftCount`] for a count outside 0 to 31, for a byte 0 to 7.
 #[inline]
-pub fn shl<T: Integer>(value: T, count: i32) -> Result<T, Fault> {
-    // A negative count is a large one.
-    value.up(count as u32).ok_or_else(|| too_far(count, T::WIDTH))
+pub fn shl<T: Integer>(value: T, count: impl Count) -> Result<T, Fault> {
+    value.up(count.places()).ok_or_else(|| too_far(count, T::WIDTH))
 }
 
 /// `value >> count`; an int keeps its sign.
@@ -90,8 +119,8 @@ pub fn shl<T: Integer>(value: T, count: i32) -> Result<T, Fault> {
 /// # Errors
 /// [`Fault::ShiftCount`] for a count outside 0 to 31, for a byte 0 to 7.
 #[inline]
-pub fn shr<T: Integer>(value: T, count: i32) -> Result<T, Fault> {
-    value.down(count as u32).ok_or_else(|| too_far(count, T::WIDTH))
+pub fn shr<T: Integer>(value: T, count: impl Count) -> Result<T, Fault> {
+    value.down(count.places()).ok_or_else(|| too_far(count, T::WIDTH))
 }
 
 /// The place of an element in an array of one dimension.
@@ -126,8 +155,8 @@ fn by_zero() -> Fault {
 }
 
 #[cold]
-fn too_far(count: i32, width: u8) -> Fault {
-    Fault::ShiftCount { count, width }
+fn too_far(count: impl Count, width: u8) -> Fault {
+    Fault::ShiftCount { count: count.number(), width }
 }
 
 #[cold]
@@ -211,6 +240,8 @@ mod tests {
         assert_eq!(shl(0x81_u8, 1), Ok(2));
         assert_eq!(shl(1, 32), Err(Fault::ShiftCount { count: 32, width: 32 }));
         assert_eq!(shr(1, -1), Err(Fault::ShiftCount { count: -1, width: 32 }));
+        assert_eq!(shl(1, 3_u32), Ok(8));
+        assert_eq!(shr(1, u32::MAX), Err(Fault::ShiftCount { count: 4_294_967_295, width: 32 }));
         assert_eq!(shl(1_u8, 8), Err(Fault::ShiftCount { count: 8, width: 8 }));
     }
 

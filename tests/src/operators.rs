@@ -102,7 +102,8 @@ pub fn typed(op: Op, left: &Expr, right: &Expr) -> Option<(Base, Base)> {
                 _ => return None,
             };
             let count = right.constant.as_ref().and_then(integer);
-            let good = matches!(b, Base::Int | Base::Byte) && count.is_none_or(|count| (0..width).contains(&count));
+            let good = matches!(b, Base::Int | Base::Uint | Base::Byte)
+                && count.is_none_or(|count| (0..width).contains(&count));
             good.then_some((a, a))
         }
         _ if a == Base::Str && b == Base::Str => match op {
@@ -196,7 +197,7 @@ fn whole(op: Op, a: i64, b: i64) -> Result<i64, Alarm> {
 }
 
 fn shift(op: Op, left: Value, right: Value) -> Result<Value, Alarm> {
-    let Value::Int(count) = convert(right, Base::Int) else { panic!("a count is an int") };
+    let count = integer(&right).expect("a count is a whole number");
     let width = if matches!(left, Value::Byte(_)) { 8 } else { 32 };
     if !(0..width).contains(&count) {
         return Err(Alarm::SHIFT);

@@ -236,8 +236,9 @@ impl Grower {
         if self.random.chance(50) {
             return self.small(width);
         }
-        let count = self.like(Base::Int, depth);
-        if matches!(count.ty.base, Base::Enum(_) | Base::Uint) {
+        let base = if self.random.chance(20) { Base::Uint } else { Base::Int };
+        let count = self.like(base, depth);
+        if matches!(count.ty.base, Base::Enum(_)) {
             return self.small(width);
         }
         if self.random.chance(self.risk) && count.constant.is_none() {

@@ -43,7 +43,11 @@ impl Checker<'_> {
         if right.expr.ty.is_array() || !matches!(right.expr.ty.base, Base::Int | Base::Uint | Base::Byte) {
             return self.operator_problem(body, op, &left, &right, span, None);
         }
-        let count = self.coerce(body, right, INT, "a shift count")?;
+        // A uint that is no constant counts as it is: the result has the type of the left operand anyway.
+        let count = match (right.expr.ty.base, right.value()) {
+            (Base::Uint, None) => right.expr,
+            _ => self.coerce(body, right, INT, "a shift count")?,
+        };
         if let ExprKind::Const(Value::Int(count)) = count.kind
             && !(0..width(base) as i32).contains(&count)
         {
