@@ -70,10 +70,13 @@ pub(super) enum Command {
         /// Its name.
         name: String,
     },
-    /// List the robots that are built in, or print the file of one.
+    /// List the robots that are built in, print the file of one, or make a file of a URDF.
     Robots {
         /// The robot to print.
         name: Option<String>,
+        /// Print a robot file for the robot of a URDF file: six axes with a spherical wrist, or a SCARA.
+        #[arg(long, value_name = "FILE.urdf", conflicts_with = "name")]
+        import: Option<PathBuf>,
     },
 }
 

@@ -18,6 +18,7 @@ mod runtime;
 mod show;
 mod stamp;
 mod test;
+mod urdf;
 
 use crate::compile::{guard, on_large_stack, remember_panics};
 use args::{Cli, Command};
@@ -48,7 +49,8 @@ fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Test { dirs } => test::test(&dirs),
         Command::Explain { code } => print(explain::explain(&code)),
         Command::Doc { name } => print(explain::doc(&name)),
-        Command::Robots { name } => print(robots::robots(name.as_deref())),
+        Command::Robots { import: Some(file), .. } => print(urdf::import(&file)),
+        Command::Robots { name, .. } => print(robots::robots(name.as_deref())),
     }
 }
 

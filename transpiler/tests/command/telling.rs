@@ -44,3 +44,27 @@ fn robots_are_listed_and_printed() {
     folder.arl2rs(&["check", "--robot", "mine.toml", "a.arl"]).is(0, "");
     folder.arl2rs(&["robots", "six"]).is(2, "").says("six-10");
 }
+
+#[test]
+fn a_urdf_becomes_a_robot_file() {
+    let folder = Folder::new("import");
+    let mut urdf = String::from("<robot name=\"pick\"><link name=\"base\"/>");
+    let joints = [("0 0 0.3", "revolute"), ("0.4 0 0", "revolute"), ("0.3 0 0", "prismatic"), ("0 0 0", "revolute")];
+    for (at, (xyz, kind)) in joints.iter().enumerate() {
+        let parent = if at == 0 { "base".to_owned() } else { format!("l{at}") };
+        urdf += &format!(
+            "<link name=\"l{0}\"/><joint name=\"a{0}\" type=\"{kind}\"><origin xyz=\"{xyz}\"/><parent link=\"{parent}\"/>\
+             <child link=\"l{0}\"/><axis xyz=\"0 0 1\"/><limit lower=\"-2\" upper=\"2\" effort=\"0\" velocity=\"3\"/></joint>",
+            at + 1
+        );
+    }
+    folder.write("pick.urdf", &(urdf.clone() + "</robot>"));
+    let file = folder.arl2rs(&["robots", "--import", "pick.urdf"]);
+    assert!(file.out.contains("family = \"scara\"") && file.out.contains("l1 = 400.0"), "{}", file.out);
+    folder.write("pick.toml", &file.out);
+    folder.write("a.arl", "func void main()\n    joint j = {1,2,3,4}\n    print j.j4\nendfunc\n");
+    folder.arl2rs(&["check", "--robot", "pick.toml", "a.arl"]).is(0, "");
+    folder.write("bent.urdf", &(urdf.replacen("0.4 0 0", "0.4 0.1 0", 1) + "</robot>"));
+    folder.arl2rs(&["robots", "--import", "bent.urdf"]).is(2, "").says("bent.urdf").says("not stretched along x");
+    folder.arl2rs(&["robots", "--import", "none.urdf"]).is(2, "").says("cannot read none.urdf");
+}

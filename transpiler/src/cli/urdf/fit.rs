@@ -1,0 +1,239 @@
+//! Which lengths of a robot file describe a chain of joints.
+
+use super::chain::{Chain, Moving};
+use super::place::{Place, Vector, cross, dot, length, plus};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Differences that count as none: m, and the sine of an angle.
+const NEAR: f64 = 1e-6;
+const PARALLEL: f64 = 1e-5;
+
+/// The geometry of a six-axis robot: m, rad.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SixAxes {
+    /// a1, a2, b, c1, c2, c3, c4.
+    pub(super) lengths: [f64; 7],
+    pub(super) offsets: [f64; 6],
+    pub(super) signs: [f64; 6],
+}
+
+/// The geometry of a SCARA robot, m, and which joint of the file is which axis.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scara {
+    pub(super) l1: f64,
+    pub(super) l2: f64,
+    pub(super) z0: f64,
+    pub(super) order: [usize; 4],
+}
+
+/// An axis in the base: a point of it, and its direction.
+#[derive(Clone, Copy)]
+struct Line {
+    at: Vector,
+    along: Vector,
+}
+
+fn lines(chain: &Chain) -> (Vec<Line>, Place) {
+    let mut places = chain.forward(&vec![0.0; chain.joints.len()]);
+    let flange = places.pop().unwrap_or(Place::ORIGIN);
+    let line = |(place, joint): (&Place, &Moving)| Line { at: place.at, along: place.turned(joint.axis) };
+    (places.iter().zip(&chain.joints).map(line).collect(), flange)
+}
+
+fn parallel(a: Vector, b: Vector) -> bool {
+    length(cross(a, b)) < PARALLEL
+}
+
+/// The angle that brings one of two directions, this one or its opposite, nearest to 0; and whether it is the opposite.
+fn nearest(sine: f64, cosine: f64) -> (f64, f64) {
+    let angle = sine.atan2(cosine);
+    if angle.abs() <= FRAC_PI_2 + PARALLEL { (angle, 1.0) } else { ((-sine).atan2(-cosine), -1.0) }
+}
+
+/// How far a point is from a line.
+fn distance(point: Vector, line: &Line) -> f64 {
+    length(cross(plus(point, line.at, -1.0), line.along))
+}
+
+/// The geometry of six turning axes with a spherical wrist.
+pub(super) fn six_axes(chain: &Chain) -> Result<SixAxes, String> {
+    let names: Vec<&str> = chain.joints.iter().map(|joint| joint.name.as_str()).collect();
+    let ([n1, n2, n3, n4, n5, n6], (all, flange)) = (names.as_slice(), lines(chain)) else {
+        return Err(format!("{} joints are not six", names.len()));
+    };
+    let [l1, l2, l3, l4, l5, l6] = all.as_slice() else { return Err("six axes are needed".to_owned()) };
+    let up = [0.0, 0.0, 1.0];
+    if !parallel(l1.along, up) {
+        return Err(format!(
+            "axis 1 (`{n1}`) does not stand upright in the base; the robot file has no place for that"
+        ));
+    }
+    if distance([0.0; 3], l1) > NEAR {
+        return Err(format!("axis 1 (`{n1}`) does not go through the base's origin; move the base's frame onto it"));
+    }
+    if !parallel(l2.along, l3.along) || dot(l2.along, up).abs() > PARALLEL {
+        return Err(format!("axes 2 and 3 (`{n2}`, `{n3}`) are not level and parallel: this arm does not fit"));
+    }
+    let [x, y, _] = l2.along;
+    let (t1, sign2) = nearest(-x, y);
+    // From here on in the arm's plane: x in front, y along axis 2, z up.
+    let back = Place::about(up, -t1);
+    let into = |line: &Line| Line { at: back.turned(line.at), along: back.turned(line.along) };
+    let [l2, l3, l4, l5, l6] = [l2, l3, l4, l5, l6].map(into);
+    let flange = back.then(&flange);
+    let ([a1, _, c1], [x3, _, z3]) = (l2.at, l3.at);
+    let c2 = (x3 - a1).hypot(z3 - c1);
+    if c2 < NEAR {
+        return Err(format!("axes 2 and 3 (`{n2}`, `{n3}`) are the same line: this arm does not fit"));
+    }
+    let t2 = (x3 - a1).atan2(z3 - c1);
+
+    let Some(centre) = meeting(&l5, &l6) else {
+        return Err(format!("axes 5 and 6 (`{n5}`, `{n6}`) do not meet at a right angle: no spherical wrist"));
+    };
+    if distance(centre, &l4) > NEAR {
+        return Err(format!(
+            "axis 4 (`{n4}`) misses the point where axes 5 and 6 meet by {:.3} mm: no spherical wrist",
+            1e3 * distance(centre, &l4)
+        ));
+    }
+    let [fx, fy, fz] = l4.along;
+    if fy.abs() > PARALLEL {
+        return Err(format!("axis 4 (`{n4}`) does not lie in the plane of the arm"));
+    }
+    let [wx, b, wz] = centre;
+    let (mut sign4, mut t23) = (1.0, fx.atan2(fz));
+    let along = |t: f64| (wx - x3) * t.sin() + (wz - z3) * t.cos();
+    if along(t23) < 0.0 {
+        (sign4, t23) = (-1.0, (-fx).atan2(-fz));
+    }
+    let (c3, a2) = (along(t23), (wx - x3) * t23.cos() - (wz - z3) * t23.sin());
+    if c3 < NEAR {
+        return Err(format!("the wrist is not beyond axis 3 (`{n3}`) along axis 4 (`{n4}`): this arm does not fit"));
+    }
+    // In the forearm's frame.
+    let forearm = |v: Vector| {
+        let [x, y, z] = v;
+        [x * t23.cos() - z * t23.sin(), y, x * t23.sin() + z * t23.cos()]
+    };
+    let [x5, y5, z5] = forearm(l5.along);
+    if z5.abs() > PARALLEL {
+        return Err(format!("axes 4 and 5 (`{n4}`, `{n5}`) are not at right angles: no spherical wrist"));
+    }
+    let (t4, sign5) = nearest(-x5, y5);
+    let out = dot(plus(flange.at, centre, -1.0), l6.along);
+    let faces = dot(flange.column(2), l6.along);
+    let sign6 = if out.abs() > NEAR {
+        out.signum()
+    } else if faces < -0.5 {
+        -1.0
+    } else {
+        1.0
+    };
+    let hand = |v: Vector| Place::about(up, -t4).turned(forearm(v));
+    let [hx, _, hz] = hand(l6.along.map(|component| component * sign6));
+    let t5 = hx.atan2(hz);
+    // Where the flange's z does not point outwards along axis 6, its x tells nothing.
+    let [px, py, _] = Place::about([0.0, 1.0, 0.0], -t5).turned(hand(flange.column(0)));
+    let t6 = if faces * sign6 > 1.0 - PARALLEL { py.atan2(px) } else { 0.0 };
+    let side = |v: Vector| {
+        let [_, y, _] = v;
+        y.signum()
+    };
+    let signs = [dot(l1.along, up).signum(), sign2, side(l3.along), sign4, sign5, sign6];
+    let t3 = wrapped(t23 - t2);
+    let fit = SixAxes {
+        lengths: [a1, a2, b, c1, c2, c3, out.abs()],
+        offsets: [t1, t2, t3, t4, t5, t6].map(|angle| -angle),
+        signs,
+    };
+    proven(chain, &fit, faces * sign6 > 1.0 - PARALLEL)?;
+    Ok(fit)
+}
+
+fn wrapped(angle: f64) -> f64 {
+    angle - 2.0 * PI * (angle / (2.0 * PI)).round()
+}
+
+/// Where two lines at right angles meet.
+fn meeting(a: &Line, b: &Line) -> Option<Vector> {
+    if dot(a.along, b.along).abs() > PARALLEL {
+        return None;
+    }
+    let apart = plus(b.at, a.at, -1.0);
+    let place = plus(a.at, a.along, dot(apart, a.along));
+    (distance(place, b) < NEAR).then_some(place)
+}
+
+/// The pose of the flange that the geometry gives.
+fn forward(fit: &SixAxes, at: &[f64]) -> Place {
+    let [a1, a2, b, c1, c2, c3, c4] = fit.lengths;
+    let (y, z) = ([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+    let steps =
+        [(z, [a1, b, c1]), (y, [0.0, 0.0, c2]), (y, [a2, 0.0, c3]), (z, [0.0; 3]), (y, [0.0; 3]), (z, [0.0, 0.0, c4])];
+    let mut place = Place::ORIGIN;
+    for (((axis, shift), at), (sign, offset)) in steps.iter().zip(at).zip(fit.signs.iter().zip(&fit.offsets)) {
+        place = place.then(&Place::about(*axis, at * sign - offset)).then(&Place::shift(*shift));
+    }
+    place
+}
+
+/// The geometry must lead to the same flange as the file, wherever the axes stand.
+fn proven(chain: &Chain, fit: &SixAxes, turned: bool) -> Result<(), String> {
+    for round in 0..20 {
+        let at: Vec<f64> = (0..6).map(|axis| f64::from((round * 37 + axis * 101) % 60) / 10.0 - 3.0).collect();
+        let Some(expected) = chain.forward(&at).pop() else { return Ok(()) };
+        let found = forward(fit, &at);
+        let off = length(plus(found.at, expected.at, -1.0));
+        let apart = (0..3).map(|column| length(plus(found.column(column), expected.column(column), -1.0)));
+        if off > 1e-4 || (turned && apart.fold(0.0, f64::max) > 1e-3) {
+            return Err(format!(
+                "no geometry of a six-axis robot file leads to the flange of this one: it is {:.3} mm off",
+                off * 1e3
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// The geometry of two arms, a lift and a flange that turns.
+pub(super) fn scara(chain: &Chain) -> Result<Scara, String> {
+    let (all, flange) = lines(chain);
+    let order = match chain.joints.iter().map(|joint| joint.slides).collect::<Vec<_>>().as_slice() {
+        [false, false, true, false] => [0, 1, 2, 3],
+        [false, false, false, true] => [0, 1, 3, 2],
+        _ => {
+            return Err(
+                "of the four joints of a SCARA robot the first two must turn; of the others, one must slide and \
+                        one turn"
+                    .to_owned(),
+            );
+        }
+    };
+    let [l1, l2, ..] = all.as_slice() else { return Err("four axes are needed".to_owned()) };
+    for (line, joint) in all.iter().zip(&chain.joints) {
+        let [_, _, z] = line.along;
+        if z < 1.0 - PARALLEL {
+            return Err(format!(
+                "the axis of `{}` does not point upwards; a SCARA's robot file has no signs, so turn the joint's axis (and \
+                 change the sense of its range)",
+                joint.name
+            ));
+        }
+    }
+    if distance([0.0; 3], l1) > NEAR {
+        return Err("axis 1 does not go through the base's origin; move the base's frame onto it".to_owned());
+    }
+    let ([x, y, _], [fx, fy, z0]) = (l2.at, flange.at);
+    if y.abs() > NEAR || fy.abs() > NEAR || x < NEAR || fx - x < NEAR {
+        return Err(
+            "at zero of all joints the arm is not stretched along x; a SCARA's robot file has no offsets".to_owned()
+        );
+    }
+    let [.., turning] = order;
+    let off = all.get(turning).map_or(0.0, |line| distance(flange.at, line));
+    if off > NEAR {
+        return Err(format!("the flange is {:.3} mm beside the axis that turns it", off * 1e3));
+    }
+    Ok(Scara { l1: x, l2: fx - x, z0, order })
+}
