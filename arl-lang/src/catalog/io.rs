@@ -68,11 +68,12 @@ entries! { pub(super) IO =
     /// Level of an internal input signal.
     fn getintdi(chan: int "the signal") -> bool
         { "5.5.17", io::getintdi, waits, fails; "print getintdi(1)" }
-    /// Sets frequency and duty cycle of a PWM output; whether it worked.
+    /// Sets frequency and duty cycle of a PWM output; true: it has been set. Another channel, frequency or duty cycle
+    /// than the controller has: alarm.
     fn setpwm(
         channel: int [range(1.0, 3.0)] "the PWM output, 1 to 3",
         freq: int [range(10.0, 10000.0)] "frequency, Hz, 10 to 10000",
         ratio: int [range(0.0, 100.0)] "duty cycle, %, 0 to 100",
     ) -> bool
-        { "5.5.18", io::setpwm, waits, fails, notyet; "print setpwm(1,20,50)" }
+        { "5.5.18", io::setpwm, waits, fails; "print setpwm(1,20,50)" }
 }

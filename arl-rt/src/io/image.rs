@@ -22,8 +22,21 @@ pub struct Image {
     /// The running pulse of each digital output.
     pulses: Vec<Option<Pulse>>,
     running_pulses: usize,
+    pwm: [Pwm; PWM_CHANNELS],
     /// Outputs that change when a motion has ended: in the order of the motions.
     after_motion: VecDeque<AfterMotion>,
+}
+
+/// How many PWM outputs a controller has.
+pub(crate) const PWM_CHANNELS: usize = 3;
+
+/// What a PWM output does. One that no program has set yet is off: 0 Hz, 0 %.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub struct Pwm {
+    /// The frequency in Hz, 10 to 10000.
+    pub frequency: u16,
+    /// The duty cycle in %, 0 to 100.
+    pub duty: u8,
 }
 
 /// A pulse on its way.
@@ -79,6 +92,7 @@ impl Image {
             internal_out: Bits::new(channels.internal),
             pulses: vec![None; channels.dout as usize],
             running_pulses: 0,
+            pwm: [Pwm::default(); PWM_CHANNELS],
             after_motion: VecDeque::with_capacity(64),
         }
     }
@@ -88,6 +102,13 @@ impl Image {
         for at in 0..self.pulses.len() {
             self.end_pulse(at);
         }
+    }
+
+    /// Sets a PWM output.
+    pub(crate) fn set_pwm(&mut self, channel: i32, pwm: Pwm) -> Result<(), Fault> {
+        let at = place("PWM", channel, PWM_CHANNELS)?;
+        self.pwm.get_mut(at).into_iter().for_each(|output| *output = pwm);
+        Ok(())
     }
 
     /// Drops what waits for the end of a motion.
@@ -258,7 +279,7 @@ impl Image {
 
     /// The outputs, for the driver to pass on.
     pub(crate) fn outputs_all(&self) -> Outputs<'_> {
-        Outputs { dout: &self.dout, ao: &self.ao, internal: &self.internal_out }
+        Outputs { dout: &self.dout, ao: &self.ao, internal: &self.internal_out, pwm: &self.pwm }
     }
 }
 
@@ -307,6 +328,7 @@ pub struct Outputs<'a> {
     dout: &'a Bits,
     ao: &'a [f64],
     internal: &'a Bits,
+    pwm: &'a [Pwm],
 }
 
 impl Outputs<'_> {
@@ -318,6 +340,11 @@ impl Outputs<'_> {
     /// An analog output in V or mA; 0 where there is none.
     pub fn ao(&self, channel: usize) -> f64 {
         self.ao.get(channel.wrapping_sub(1)).copied().unwrap_or_default()
+    }
+
+    /// A PWM output; off where there is none.
+    pub fn pwm(&self, channel: usize) -> Pwm {
+        self.pwm.get(channel.wrapping_sub(1)).copied().unwrap_or_default()
     }
 
     /// The level of an internal output; false where there is none.
@@ -362,6 +389,17 @@ mod tests {
         assert!(texts[2].contains("reversed"), "{}", texts[2]);
         assert!(texts[3].contains("more than 32"), "{}", texts[3]);
         assert_eq!(texts[4], "AO 9 does not exist: channels 1 to 8 are there");
+    }
+
+    #[test]
+    fn pwm_outputs_are_off_until_they_are_set() {
+        let mut image = image();
+        assert_eq!(image.outputs_all().pwm(2), Pwm::default());
+        let pwm = Pwm { frequency: 20, duty: 50 };
+        image.set_pwm(2, pwm).unwrap();
+        assert_eq!(image.outputs_all().pwm(2), pwm);
+        assert_eq!(image.outputs_all().pwm(4), Pwm::default());
+        assert!(image.set_pwm(0, pwm).is_err() && image.set_pwm(4, pwm).is_err());
     }
 
     #[test]

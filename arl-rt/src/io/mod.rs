@@ -11,7 +11,7 @@ mod scenario;
 
 pub use channels::{AnalogType, Channels};
 pub use driver::{IoDriver, SimulatedIo};
-pub use image::{Image, Inputs, Outputs};
+pub use image::{Image, Inputs, Outputs, Pwm};
 pub use scenario::{Pendant, Scenario};
 
 pub(crate) use image::Digital;
@@ -129,6 +129,23 @@ pub async fn getintdi(cx: &Cx, chan: i32) -> Result<bool, Fault> {
 /// There is no such channel.
 pub fn getnostopdi(cx: &Cx, chan: i32) -> Result<bool, Fault> {
     cx.world().io.borrow().digital(Digital::Di, chan)
+}
+
+/// Sets frequency (Hz) and duty cycle (%) of a PWM output. True: it has been set.
+///
+/// # Errors
+/// There is no such channel; a frequency outside 10 to 10000, a duty cycle outside 0 to 100.
+pub async fn setpwm(cx: &Cx, channel: i32, freq: i32, ratio: i32) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    let wrong = |problem: String| Fault::Domain { function: "setpwm", problem: problem.into() };
+    let frequency = u16::try_from(freq).ok().filter(|freq| (10..=10_000).contains(freq));
+    let duty = u8::try_from(ratio).ok().filter(|ratio| *ratio <= 100);
+    let pwm = Pwm {
+        frequency: frequency.ok_or_else(|| wrong(format!("{freq} Hz: 10 to 10000 are possible")))?,
+        duty: duty.ok_or_else(|| wrong(format!("{ratio} %: 0 to 100 are possible")))?,
+    };
+    cx.world().io.borrow_mut().set_pwm(channel, pwm)?;
+    Ok(true)
 }
 
 /// `setdoimv`: sets a digital output when the motion before it has ended, without stopping the robot.
