@@ -47,8 +47,7 @@ impl Bench {
     fn edit_and_run(&self, rounds: usize) -> Result<(), String> {
         let file = self.folder.join("edited.arl");
         let program = |number: usize| {
-            let text =
-                Kind::Typical.program(495).replace("print station10(5, 2.5)", "if(getdi(1)) print station10(5, 2.5)");
+            let text = Kind::Typical.program(500);
             text.replacen("double total = limit * 2.5", &format!("double total = limit * {number}.5"), 1)
         };
         let lines = program(0).lines().count();

@@ -53,12 +53,12 @@ fn line(text: &mut String, pattern: &str, number: usize) {
     text.push('\n');
 }
 
-/// A function of typical lines.
+/// A function of typical lines. The default robot can do what it does.
 const TYPICAL: &[&str] = &[
     "// Station #: takes a part from the conveyor and puts it into the press.",
     "func int station#(int wanted, double limit)",
-    "  pose above = {x 911.138, y -5.704, z 739.959, a -178.159, b 43.881, c 2.201}",
-    "  joint ready = {0, -10, 90, 0, 90, 0}",
+    "  pose above = {x 911.138, y -5.704, z 339.959, a -178.159, b 3.881, c 177.799}",
+    "  joint ready = {0, -30, 80, 0, 60, 0}",
     "  speed slow = {per 20, tcp 200}",
     "  int count = 0",
     "  int retries[8]",
@@ -164,5 +164,5 @@ fn points(lines: usize, text: &mut String) {
             number,
         );
     }
-    main("  lin p:p0,vl:100mm/s", text);
+    main("  print p0.x", text);
 }

@@ -54,6 +54,8 @@ macro_rules! structures {
         }
 
         impl Default for $rust {
+            // Inlined, the start values of a thousand variables are one function that takes minutes to compile.
+            #[inline(never)]
             fn default() -> Self {
                 Self { $($field: $start,)* }
             }

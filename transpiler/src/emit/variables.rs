@@ -78,6 +78,11 @@ pub(super) fn init(unit: &Unit<'_>, module: ModuleId, globals: &[(GlobalId, &Glo
     let mut calls = TokenStream::new();
     for (at, (part, code)) in parts.iter().enumerate() {
         let name = format!("init_{}", at + 1);
+        // Together they would be one function after all, and compiling that takes more than twice as long for twice
+        // as many variables.
+        if !part.waits {
+            functions.extend(quote!(#[inline(never)]));
+        }
         functions.extend(init_function(TokenStream::new(), &name, *part, code, ""));
         calls.extend(init_call(&quote!(Self), &name, *part));
     }
