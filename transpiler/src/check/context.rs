@@ -12,6 +12,9 @@ use arl_lang::span::Span;
 use arl_lang::symbol::{Interner, Symbol};
 use std::collections::{HashMap, HashSet};
 
+/// Spellings of older and later editions, accepted for names that this one spells otherwise.
+const OTHER_EDITIONS: &[&str] = &["startweavelin", "startweavespa", "DETECT_SOCK_CLOSE", "ERR_SOCK_CLOSED", "mu_name"];
+
 /// The whole check: modules in, a checked program and diagnostics out.
 pub(crate) struct Checker<'a> {
     pub(crate) names: &'a Interner,
@@ -246,7 +249,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// With `--strict`, warns where a name is written in another case than it was declared in.
+    /// With `--strict`, warns where a name is written in another case than it was declared in, or as another edition of
+    /// the language spells it.
     pub(crate) fn strict_case(&mut self, body: &Body, span: Span, declared: &str) {
         if !self.options.strict {
             return;
@@ -255,6 +259,9 @@ impl<'a> Checker<'a> {
         if written != declared && written.eq_ignore_ascii_case(declared) {
             let problem = ConstantProblem::OtherCase { declared: declared.to_string() };
             self.report::<()>(body, span, problem);
+        } else if OTHER_EDITIONS.iter().any(|other| other.eq_ignore_ascii_case(written)) && written != declared {
+            let what = format!("`{written}`, which is `{declared}` there");
+            self.strict_form(body, span, &what);
         }
     }
 

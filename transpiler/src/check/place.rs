@@ -56,11 +56,11 @@ impl Checker<'_> {
             let name = self.text(body.module, span).trim_start_matches('$').to_string();
             return self.report(body, span, NameProblem::UnknownSystem { name, near });
         };
+        self.strict_case(body, Span::new(span.start + 1, span.end), variable.name);
         if variable.status == Status::NotYet {
             let name = format!("${}", variable.name);
             return self.report(body, span, SupportProblem::NotYet { name });
         }
-        self.strict_case(body, Span::new(span.start + 1, span.end), variable.name);
         let ty = Type::array(variable.ty, variable.dims)?;
         Some(PlaceOrValue::Place(Place { root: Root::System(variable), path: Vec::new(), ty, span }))
     }
