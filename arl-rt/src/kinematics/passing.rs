@@ -195,6 +195,7 @@ fn quintic(start: [f64; 3], end: [f64; 3], length: f64) -> [f64; 6] {
 mod tests {
     use super::*;
     use crate::kinematics::frame;
+    use crate::kinematics::random::Random;
     use crate::robot::Robot;
     use nalgebra::Translation3;
 
@@ -273,6 +274,51 @@ mod tests {
             assert!(finer_bend < 0.1 * bend + 1e-6, "{fifth}: {bend} {finer_bend}");
             assert!(gave < 1.01 * PASSAGE, "{fifth}: {gave}");
         }
+    }
+
+    #[test]
+    fn random_lines_past_the_singularity_stay_even() {
+        let mut random = Random::new(41);
+        let (mut passed, mut worst) = (0, (0.0_f64, 0.0_f64));
+        for name in ["kr10-r1420", "irb2400-10", "tx2-60"] {
+            let robot = Robot::builtin(name).unwrap();
+            let kinematics = &robot.kinematics;
+            for _ in 0..60 {
+                let mut number = |size: f64| random.between(-size, size);
+                let middle = match name {
+                    "kr10-r1420" => [number(90.0), -70.0 + number(20.0), 80.0 + number(20.0)],
+                    _ => [number(90.0), number(20.0), 40.0 + number(20.0)],
+                };
+                let [j1, j2, j3] = middle;
+                let middle = [j1, j2, j3, number(60.0), number(5.0), number(60.0)];
+                let tool = frame([number(50.0), number(50.0), 100.0 + number(100.0), number(90.0), number(60.0), 0.0]);
+                let travel = Vector3::new(number(150.0), number(150.0), number(150.0));
+                let tcp = through(&robot, &middle, &tool, travel);
+                let Some(start) = kinematics.inverse(&(tcp(0.0) * tool.inverse()), kinematics.cfg(&middle), &middle)
+                else {
+                    continue;
+                };
+                // Only what the arm itself passes without a singular point of its own, and within its ranges.
+                let fits = |at: f64| {
+                    let found = kinematics.inverse(&(tcp(at) * tool.inverse()), kinematics.cfg(&middle), &middle);
+                    found.is_some_and(|[_, _, third, ..]| (third - j3).abs() < 30.0)
+                };
+                if !(0..=20).all(|part| fits(f64::from(part) / 20.0)) {
+                    continue;
+                }
+                if kinematics.passages(&tcp, &tool, &start, robot.own_axes()).is_empty() {
+                    continue;
+                }
+                passed += 1;
+                let (most, _, gave) = follow(&robot, &tcp, &tool, &start, 500);
+                let (finer, ..) = follow(&robot, &tcp, &tool, &start, 2000);
+                worst = (worst.0.max(most), worst.1.max(gave));
+                assert!(finer < 0.35 * most, "{name} {middle:?} {travel}: {most} {finer}");
+                assert!(gave < 1.05 * PASSAGE, "{name} {middle:?} {travel}: {gave}");
+            }
+        }
+        assert!(passed > 100, "{passed}");
+        assert!(worst.0 < 5.0, "{worst:?}");
     }
 
     #[test]
