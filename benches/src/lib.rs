@@ -5,4 +5,5 @@ pub mod lua;
 pub mod programs;
 pub mod rivals;
 pub mod run;
+pub mod splines;
 pub mod statistics;

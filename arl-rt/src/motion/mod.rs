@@ -9,6 +9,8 @@ mod command;
 mod error;
 mod joints;
 mod limits;
+#[doc(hidden)]
+pub mod optimal;
 mod path;
 mod plan;
 mod profile;

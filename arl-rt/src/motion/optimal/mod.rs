@@ -1,0 +1,78 @@
+//! The fastest speed along a given path that keeps every axis's velocity, acceleration and jerk within limits.
+//!
+//! The unknown is x, the square of the path parameter's speed, as a function of the parameter. Velocity and acceleration
+//! limits are linear in x and its slope; without jerk limits the optimum is found by one pass back and one pass forth over
+//! the places (`reach`). A jerk limit bounds a linear form of x, its slope and its bend by 1/sqrt(x); the tangent of
+//! that bound is always below it, so every convex problem made with it is safe, and an interior point method that renews
+//! the tangents with every step (`interior`) climbs to the optimum.
+//!
+//! At rest, x as a function of the path parameter has an infinite bend. The problem is therefore stated over a warped
+//! parameter (`warp`) of which the path parameter is the cube near rest: constant jerk is then constant speed.
+
+mod banded;
+mod error;
+mod interior;
+mod lanes;
+mod law;
+mod program;
+mod reach;
+mod screen;
+#[cfg(test)]
+mod tests;
+mod warp;
+mod way;
+
+pub use error::Refusal;
+pub use law::{Law, Moment};
+pub use way::{Row, Way};
+
+use warp::Warp;
+
+/// How the path parameter moves at an end of the way.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Edge {
+    /// Its speed, per s; not negative.
+    pub vel: f64,
+    /// Its acceleration, per s2; without meaning at rest, where the speed is 0.
+    pub acc: f64,
+}
+
+impl Edge {
+    /// At rest.
+    pub const REST: Self = Self { vel: 0.0, acc: 0.0 };
+
+    fn rests(&self) -> bool {
+        self.vel == 0.0
+    }
+}
+
+/// Path parameters from `from` to `to`, `count` of them, that are close together where the motion is slow because it
+/// starts or ends at rest: places for a [`Way`].
+pub fn places(from: f64, to: f64, count: usize, start: Edge, end: Edge) -> Vec<f64> {
+    let warp = Warp::new(from, to, start.rests(), end.rests());
+    let last = count.max(2) - 1;
+    let inner = |index: usize| warp.place(warp.length() * index as f64 / last as f64).at;
+    (0..=last).map(|index| if index == last { to } else { inner(index) }).collect()
+}
+
+/// The fastest motion along `way` from `start` to `end`.
+///
+/// Limits are kept at the places of the way, and between them as far as the places are close: some 100 where the path bends
+/// once. From rest to rest there always is a motion. Without jerk limits the acceleration jumps, and that of the edges does
+/// not count.
+///
+/// A motion that starts on the way of another one has half a percent of acceleration and jerk more to go by. Where only
+/// braking is left that is still not always enough, and the start is refused as too fast: the old law remains valid.
+///
+/// # Errors
+/// A way of fewer than two places or without order, rows that are no numbers or without positive limits, a way along
+/// which nothing moves, and edges that no motion within the limits has.
+pub fn fastest(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
+    way.check()?;
+    for edge in [start, end] {
+        if !(edge.vel >= 0.0 && edge.vel.is_finite() && edge.acc.is_finite()) {
+            return Err(Refusal::Edge);
+        }
+    }
+    if way.limits_jerk() { interior::solve(way, start, end) } else { reach::solve(way, start, end) }
+}

@@ -1,0 +1,115 @@
+//! What is to be timed: rows of limits at places along a path.
+
+use super::Refusal;
+
+/// One quantity that moves with the path parameter, at one place: its derivatives by the parameter and its limits.
+///
+/// A parameter that moves with speed v, acceleration a and jerk j moves the quantity with speed `first` v, acceleration
+/// `first` a + `second` v2 and jerk `first` j + 3 `second` v a + `third` v3. Units are the caller's, the same in all rows
+/// of one quantity; time is in s.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Row {
+    /// First derivative by the path parameter.
+    pub first: f64,
+    /// Second derivative.
+    pub second: f64,
+    /// Third derivative.
+    pub third: f64,
+    /// Highest speed either way, per s; finite.
+    pub vel: f64,
+    /// Highest acceleration either way, per s2; infinite where there is no limit.
+    pub acc: f64,
+    /// Highest jerk either way, per s3; infinite where there is no limit.
+    pub jerk: f64,
+}
+
+impl Row {
+    /// Whether all figures can be worked with.
+    fn is_sound(&self) -> bool {
+        [self.first, self.second, self.third, self.vel].iter().all(|value| value.is_finite())
+            && self.vel > 0.0
+            && self.acc > 0.0
+            && self.jerk > 0.0
+    }
+
+    /// Whether the quantity moves here at all.
+    pub(super) fn moves(&self) -> bool {
+        self.first != 0.0 || self.second != 0.0 || self.third != 0.0
+    }
+}
+
+/// A path as places along its parameter, each with the rows that hold there.
+///
+/// Where a derivative jumps, the place has the rows of both sides. Limits hold at the places; between them as far as the
+/// derivatives change evenly from place to place.
+#[derive(Clone, Default, Debug)]
+pub struct Way {
+    at: Vec<f64>,
+    rows: Vec<Row>,
+    ends: Vec<usize>,
+}
+
+impl Way {
+    /// A way without places.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Drops all places and keeps the memory.
+    pub fn clear(&mut self) {
+        self.at.clear();
+        self.rows.clear();
+        self.ends.clear();
+    }
+
+    /// Adds the next place, at the path parameter `at`, with its rows.
+    pub fn push(&mut self, at: f64, rows: impl IntoIterator<Item = Row>) {
+        self.at.push(at);
+        self.rows.extend(rows);
+        self.ends.push(self.rows.len());
+    }
+
+    /// The places' path parameters.
+    pub fn places(&self) -> &[f64] {
+        &self.at
+    }
+
+    /// The rows of the place `index`; none past the end.
+    pub fn rows(&self, index: usize) -> &[Row] {
+        let start = if index == 0 { 0 } else { self.ends.get(index - 1).copied().unwrap_or(self.rows.len()) };
+        let end = self.ends.get(index).copied().unwrap_or(start);
+        self.rows.get(start..end).unwrap_or_default()
+    }
+
+    /// The first and the last path parameter.
+    pub(super) fn span(&self) -> Result<(f64, f64), Refusal> {
+        match self.at.as_slice() {
+            [first, .., last] => Ok((*first, *last)),
+            _ => Err(Refusal::Short),
+        }
+    }
+
+    /// Whether any row limits the jerk.
+    pub(super) fn limits_jerk(&self) -> bool {
+        self.rows.iter().any(|row| row.jerk.is_finite() && row.moves())
+    }
+
+    /// Refuses what cannot be timed.
+    pub(super) fn check(&self) -> Result<(), Refusal> {
+        self.span()?;
+        if let Some(place) = self.at.iter().position(|at| !at.is_finite()) {
+            return Err(Refusal::Place { place });
+        }
+        if let Some(place) = self.at.windows(2).position(|pair| pair[1] <= pair[0]) {
+            return Err(Refusal::Place { place: place + 1 });
+        }
+        if let Some(row) = self.rows.iter().position(|row| !row.is_sound()) {
+            let place = self.ends.iter().position(|end| row < *end).unwrap_or_default();
+            return Err(Refusal::Row { place });
+        }
+        if self.rows.iter().all(|row| row.first == 0.0) {
+            return Err(Refusal::Still);
+        }
+        Ok(())
+    }
+}
