@@ -13,6 +13,8 @@ pub struct Command {
     pub speed: Speed,
     /// The time that the motion shall take, in s; it replaces the programmed speed.
     pub duration: Option<f64>,
+    /// How far from its target the motion may be left for the next one.
+    pub zone: Zone,
     /// The program line, for the trace.
     pub line: u32,
 }
@@ -42,6 +44,44 @@ pub enum Target {
         /// External axes in deg (mm).
         external: [f64; EXTERNAL_AXES],
     },
+    /// cir: the TCP along a circle through a point on the way, turning evenly; the configuration stays that of the start.
+    Arc {
+        /// x, y, z in mm of the point on the way, in the workpiece frame.
+        via: [f64; 3],
+        /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
+        pose: [f64; 6],
+        /// The workpiece frame in the robot's base, translation in mm.
+        wobj: Frame,
+        /// How far to go along the circle, in deg, in place of going to `pose`; below 0 goes the other way round.
+        angle: Option<f64>,
+        /// Whether the tool turns with the path, in place of turning to the orientation of `pose`.
+        follow: bool,
+        /// External axes in deg (mm).
+        external: [f64; EXTERNAL_AXES],
+    },
+}
+
+/// How far from the target of a motion the next one may take over (slip). What is not above 0, or [`super::UNSET`], asks
+/// for nothing.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Zone {
+    /// Percent of the largest zone, which is half of the motion; 0 or more goes before all others.
+    pub percent: f64,
+    /// Distance of the TCP along its way, in mm.
+    pub tcp: f64,
+    /// Angle by which the tool still has to turn, in deg.
+    pub ori: f64,
+    /// Axis motions: angle of the axis that has farthest to go, in deg (mm).
+    pub joint: f64,
+    /// Turning external axes, in deg.
+    pub turning: f64,
+    /// Linear external axes, in mm.
+    pub linear: f64,
+}
+
+impl Zone {
+    /// The target is reached exactly.
+    pub const NONE: Zone = Zone { percent: -1.0, tcp: -1.0, ori: -1.0, joint: -1.0, turning: -1.0, linear: -1.0 };
 }
 
 /// The programmed speed. A motion uses the components that fit it; the robot's own limits hold besides.

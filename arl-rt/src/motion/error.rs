@@ -30,6 +30,8 @@ pub enum PlanError {
         /// Where on the path, 0 to 1.
         along: f64,
     },
+    /// Start, point on the way and target do not make a circle: two of them are the same, or all lie on a line.
+    NoCircle,
     /// The robot has no such configuration.
     NoSuchCfg {
         /// What was asked for.
@@ -78,6 +80,10 @@ impl fmt::Display for PlanError {
                 write!(f, "the line passes a singular point, where {axis} would have to turn at once; ")?;
                 place(f, *along)
             }
+            PlanError::NoCircle => write!(
+                f,
+                "start, auxiliary point and target make no circle: they must be three different points that do not lie on a line"
+            ),
             PlanError::NoSuchCfg { cfg } => write!(f, "the robot has no configuration cfg {cfg}"),
             PlanError::Duration { wanted, least } => {
                 write!(f, "the motion cannot be done in {wanted} s, it takes at least {least:.3} s")

@@ -59,6 +59,41 @@ pub(super) fn quickest(bounds: &[Bound]) -> Limits {
     best.map_or(Limits { vel: 1.0, acc: 1.0, jerk: 1.0 }, |(_, limits)| limits)
 }
 
+/// Shares of the highest speed, fastest first, of which the first is taken that leaves enough to stop with.
+const PASSING_SHARES: [f64; 8] = [1.0, 0.98, 0.96, 0.94, 0.92, 0.88, 0.8, 0.6];
+/// Shares of the acceleration that is left at that speed.
+const PASSING_ACC_SHARES: [f64; 5] = [1.0, 0.7, 0.4, 0.2, 0.1];
+/// How much of the acceleration and of the jerk that are there at rest must be left at speed.
+const LEFT_OVER: f64 = 0.08;
+
+/// Limits for passing through without stopping, no faster than `fastest`, under which no bound is broken.
+pub(super) fn passing(bounds: &[Bound], fastest: f64) -> Limits {
+    let vel = lowest(bounds.iter().flat_map(|bound| {
+        [bound.vel / bound.first, (bound.acc / bound.second).sqrt(), (bound.jerk / bound.third).cbrt()]
+    }));
+    let acc_at = |vel: f64| lowest(bounds.iter().map(|bound| (bound.acc - bound.second * vel * vel) / bound.first));
+    let jerk_at = |vel: f64, acc: f64| {
+        lowest(bounds.iter().map(|bound| {
+            (bound.jerk - 3.0 * bound.second * vel * acc - bound.third * vel * vel * vel) / bound.first
+        }))
+    };
+    let (acc_at_rest, jerk_at_rest) = (acc_at(0.0), jerk_at(0.0, 0.0));
+    let mut found = Limits { vel: vel * 0.5, acc: acc_at_rest * 0.1, jerk: jerk_at_rest * 0.1 };
+    for share in PASSING_SHARES {
+        let vel = (vel * share).min(fastest);
+        // What the acceleration takes of the jerk is shared between the two.
+        for acc_share in PASSING_ACC_SHARES {
+            let acc = acc_at(vel) * acc_share;
+            let jerk = jerk_at(vel, acc);
+            if acc >= LEFT_OVER * acc_at_rest && jerk >= LEFT_OVER * jerk_at_rest {
+                return Limits { vel, acc, jerk };
+            }
+            found = if acc > 0.0 && jerk > 0.0 { Limits { vel, acc, jerk } } else { found };
+        }
+    }
+    found
+}
+
 /// The lowest of the values that are numbers and finite; a very high one where there is none.
 fn lowest(values: impl Iterator<Item = f64>) -> f64 {
     values.filter(|value| value.is_finite()).fold(1e12, f64::min)

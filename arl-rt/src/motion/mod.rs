@@ -1,25 +1,34 @@
 //! Motion: commands become paths, paths get their timing, and an interpolator follows them cycle by cycle.
 //!
-//! Every motion runs over one path parameter from 0 to 1. Planning finds constant limits of that parameter's speed,
-//! acceleration and jerk such that *whatever* moves along the path within them keeps every axis and the TCP within
-//! theirs. Starting, stopping, resuming and changing the override are then problems of that one parameter and can never
-//! leave the path or break a limit.
+//! Every motion, and every blend between two, is a stretch of one way with one parameter. Planning finds limits of that
+//! parameter's speed, acceleration and jerk, constant for each stretch, such that *whatever* moves along it within them
+//! keeps every axis and the TCP within theirs. Starting, stopping, resuming and changing the override are then problems of
+//! that one parameter and can never leave the path or break a limit.
 
+mod arc;
+mod blend;
+mod bounds;
 mod command;
+mod course;
+mod curve;
 mod error;
+mod governor;
 mod joints;
 mod limits;
 #[doc(hidden)]
 pub mod optimal;
-mod path;
 mod plan;
 mod profile;
+mod progress;
 mod queue;
+mod quintic;
 mod survey;
+mod timing;
 #[cfg(test)]
 mod tests;
+mod zone;
 
-pub use command::{Command, Settings, Speed, Target};
+pub use command::{Command, Settings, Speed, Target, Zone};
 pub use error::PlanError;
 pub use joints::{Joints, UNSET, is_unset};
 pub use plan::{Motion, plan};

@@ -1,35 +1,38 @@
-//! From a command to a motion: geometry, checks, and the limits of its path parameter.
+//! From a command to a motion: geometry, checks, and the limits of its parameter.
 
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector3};
 
-use super::command::{Command, Settings, Speed, Target};
+use super::arc::arc_through;
+use super::bounds::{Bounds, Pace};
+use super::command::{Command, Settings, Target, Zone};
+use super::curve::{Curve, ToolCurve, Track};
 use super::error::PlanError;
 use super::joints::{Joints, is_unset};
-use super::limits::{Bound, quickest};
-use super::path::{Line, Path, distances};
-use super::profile::{Limits, Profile, State};
+use super::limits::quickest;
+use super::profile::Limits;
+use super::quintic::Quintic;
 use super::survey::survey;
-use crate::kinematics::{Frame, RANGE_SLACK, Rates, Refusal, frame, frame_components};
-use crate::robot::{Axis, Robot, TcpLimits};
+use crate::kinematics::{Frame, RANGE_SLACK, Refusal, frame, frame_components};
+use crate::robot::{Axis, Robot};
 
-/// The highest speed of the TCP in manual low-speed mode, in mm/s.
-const MANUAL_SPEED: f64 = 250.0;
-/// Between the places where a line is surveyed, derivatives are a little larger than at them.
-const BETWEEN_SAMPLES: f64 = 1.005;
 /// Distances up to this are no motion: mm or deg of an axis; mm and deg of the TCP.
 const NO_DISTANCE: f64 = 1e-10;
 
-/// A motion that is ready to run.
+/// A motion that is ready to run, from the target before it to its own.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Motion {
-    pub(super) path: Path,
+    pub(super) curve: Curve,
     pub(super) start: Joints,
     pub(super) end: Joints,
     pub(super) tool: Frame,
     /// `None` for a motion that goes nowhere.
     pub(super) limits: Option<Limits>,
-    /// The line's length in mm, 0 for axis motions.
+    pub(super) pace: Pace,
+    /// The length of the TCP's way in mm, 0 for axis motions.
     pub(super) length: f64,
+    /// The angle in deg by which the tool turns on its way, 0 for axis motions.
+    pub(super) angle: f64,
+    pub(super) zone: Zone,
     pub(super) line: u32,
 }
 
@@ -44,27 +47,21 @@ impl Motion {
         &self.end
     }
 
-    /// How long it takes at an override of 100 %, in s.
+    /// How long it takes from rest to rest at an override of 100 %, in s.
     pub fn duration(&self) -> f64 {
         self.limits.map_or(0.0, |limits| limits.duration(1.0))
     }
 
-    /// The length of a line in mm; 0 for axis motions.
+    /// The length of the TCP's way in mm; 0 for axis motions.
     pub fn length(&self) -> f64 {
         self.length
     }
-
-    /// The profile that it has at an override of 100 %.
-    pub(super) fn profile(&self) -> Profile {
-        let whole = |limits| Profile::to_rest(State::default(), 1.0, &limits);
-        self.limits.and_then(whole).unwrap_or(Profile::resting(1.0))
-    }
 }
 
-/// Plans a motion that starts from rest at `start`.
+/// Plans a motion that starts at `start`.
 ///
 /// # Errors
-/// The target or the way to it is out of reach or of an axis's range, the line passes a singular point, the duration is
+/// The target or the way to it is out of reach or of an axis's range, the way passes a singular point, the duration is
 /// too short, a speed is not above zero. Nothing has moved then.
 pub fn plan(robot: &Robot, start: &Joints, command: &Command, settings: &Settings) -> Result<Motion, PlanError> {
     let planner = Planner { robot, start, command, settings };
@@ -78,7 +75,14 @@ pub fn plan(robot: &Robot, start: &Joints, command: &Command, settings: &Setting
         }
         Target::Line { pose, wobj, external } => {
             let end = planner.target_frame(pose, wobj)?;
-            planner.line(end, Joints { axes: start.axes, external: *external }.completed(start, robot))
+            let start = planner.start_frame();
+            let track = Track::line(start.translation.vector, end.translation.vector);
+            let turning = (end.rotation * start.rotation.inverse()).scaled_axis();
+            planner.tool(track, turning, external)
+        }
+        Target::Arc { via, pose, wobj, angle, follow, external } => {
+            let (track, turning) = planner.arc(via, pose, wobj, *angle, *follow)?;
+            planner.tool(track, turning, external)
         }
     }
 }
@@ -119,6 +123,36 @@ impl Planner<'_> {
         Ok(wobj * target)
     }
 
+    /// The circle, and the rotation vector by which the tool turns on it.
+    fn arc(
+        &self,
+        via: &[f64; 3],
+        pose: &[f64; 6],
+        wobj: &Frame,
+        angle: Option<f64>,
+        follow: bool,
+    ) -> Result<(Track, Vector3<f64>), PlanError> {
+        if via.iter().any(|value| !value.is_finite()) || angle.is_some_and(|angle| !angle.is_finite()) {
+            return Err(PlanError::NotANumber);
+        }
+        let [x, y, z] = *via;
+        let via = self.target_frame(&[x, y, z, super::UNSET, super::UNSET, super::UNSET], wobj)?;
+        let (start, end) = (self.start_frame(), self.target_frame(pose, wobj)?);
+        let points = [start, via, end].map(|frame| frame.translation.vector);
+        let mut arc = arc_through(&points).ok_or(PlanError::NoCircle)?;
+        let whole = arc.sweep;
+        if let Some(angle) = angle {
+            arc.sweep = angle.to_radians();
+        }
+        let turning = if follow {
+            arc.across.cross(&arc.along).normalize() * arc.sweep
+        } else {
+            // The orientation of the target belongs to the target's place on the circle.
+            (end.rotation * start.rotation.inverse()).scaled_axis() * (arc.sweep / whole)
+        };
+        Ok((Track::Arc(arc), turning))
+    }
+
     fn refused(&self, refusal: Refusal) -> PlanError {
         match refusal {
             Refusal::NoSuchCfg { cfg } => PlanError::NoSuchCfg { cfg },
@@ -150,91 +184,72 @@ impl Planner<'_> {
 
     fn axes(&self, end: Joints) -> Result<Motion, PlanError> {
         let end = self.within_ranges(end)?;
-        let travel = self.distances(&end);
-        let own = self.robot.own_axes().len();
-        let bounds = |speed: Option<&Speed>| -> Result<Vec<Bound>, PlanError> {
-            let percent = match speed {
-                Some(speed) => self.programmed("the speed in percent", speed.percent)?.min(100.0) / 100.0,
-                None => 1.0,
-            };
-            let mut bounds = self.external_bounds(&end, speed)?;
-            bounds.extend(self.robot.own_axes().iter().zip(&travel).map(|(axis, travel)| {
-                let (acc, jerk) = self.softened(axis.acc, axis.jerk);
-                Bound::even(*travel, axis.vel * percent, acc, jerk)
-            }));
-            Ok(bounds)
-        };
-        let moves = travel.iter().any(|travel| travel.abs() > NO_DISTANCE);
-        let caps = if self.settings.manual && moves {
-            let mut rates = [0.0; 6];
-            for (rate, travel) in rates.iter_mut().zip(travel.iter().take(own)) {
-                *rate = *travel;
+        let curve = Curve::even_axes(self.start, &end);
+        let moves = self.moves(&end);
+        let bounds = |pace: &Pace, bounds: &mut Bounds| bounds.even_axes(self.start, &end, pace);
+        let caps = |bounds: &mut Bounds| {
+            if self.settings.manual && moves {
+                bounds.manual_axes(&curve, &self.command.tool, self.start);
             }
-            vec![cap(self.fastest_tcp(&end, &rates), MANUAL_SPEED)]
-        } else {
-            Vec::new()
         };
-        self.motion(Path::Axes, end, moves, 0.0, bounds, &caps)
+        self.motion(&curve, end, moves, [0.0, 0.0], bounds, caps)
     }
 
-    /// The highest speed of the TCP along an axis motion, in mm per unit of the path.
-    fn fastest_tcp(&self, end: &Joints, rates: &[f64; 6]) -> f64 {
-        let farthest = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
-        let steps = 16 + (farthest / 2.0) as usize;
-        let speed = |step: usize| {
-            let at = step as f64 / steps as f64;
-            let joints = Path::Axes.joints(&self.robot.kinematics, self.start, end, at, self.start);
-            let tcp: Vector3<f64> =
-                (self.robot.kinematics.forward(&joints.axes) * self.command.tool).translation.vector;
-            self.robot.kinematics.point_velocity(&joints.axes, rates, &tcp).norm()
-        };
-        (0..=steps).map(speed).fold(0.0, f64::max) * BETWEEN_SAMPLES
-    }
-
-    fn line(&self, target: Frame, end: Joints) -> Result<Motion, PlanError> {
+    fn tool(&self, track: Track, turning: Vector3<f64>, external: &[f64; 6]) -> Result<Motion, PlanError> {
+        let end = Joints { axes: self.start.axes, external: *external }.completed(self.start, self.robot);
         let start = self.start_frame();
-        let line = Line::new(start, target, &self.command.tool, self.configuration(&start, &target));
-        let (length, angle) = (line.length(), line.angle());
-        let turns_or_travels = length > NO_DISTANCE || angle > NO_DISTANCE;
-        let (axes, rates) = if turns_or_travels {
-            let found = survey(self.robot, &line, self.start)?;
-            (found.end, found.rates)
-        } else {
-            (self.start.axes, Vec::new())
+        let external = Curve::even_axes(self.start, &end);
+        let mut curve = ToolCurve {
+            track,
+            base: start.rotation,
+            turning: Quintic::even([0.0; 3], turning.into()),
+            flange: self.command.tool.inverse(),
+            external: external.external(),
+            cfg: 0,
         };
-        let end = self.within_ranges(Joints { axes, ..end })?;
-        let moves = turns_or_travels || self.distances(&end).iter().any(|travel| travel.abs() > NO_DISTANCE);
+        curve.cfg = self.configuration(&curve);
+        self.along(curve, end)
+    }
 
-        let TcpLimits { vel, acc, jerk, ori_vel, ori_acc, ori_jerk } = self.robot.tcp;
-        let bounds = |speed: Option<&Speed>| -> Result<Vec<Bound>, PlanError> {
-            let (tcp, ori) = match speed {
-                Some(speed) => (
-                    self.programmed("the speed of the TCP in mm/s", speed.tcp)?.min(vel),
-                    self.programmed("the turning speed in deg/s", speed.ori)?.min(ori_vel),
-                ),
-                None => (vel, ori_vel),
-            };
-            let mut bounds = self.external_bounds(&end, speed)?;
-            let ((acc, jerk), (ori_acc, ori_jerk)) = (self.softened(acc, jerk), self.softened(ori_acc, ori_jerk));
-            bounds.push(Bound::even(length, tcp, acc, jerk));
-            bounds.push(Bound::even(angle, ori, ori_acc, ori_jerk));
-            bounds.extend(rates.iter().flat_map(|rates| self.axis_bounds(rates)));
-            Ok(bounds)
+    /// A motion along a way of the TCP, which starts where the robot is.
+    fn along(&self, curve: ToolCurve, end: Joints) -> Result<Motion, PlanError> {
+        let length = curve.track.length();
+        let angle = UnitQuaternion::from_scaled_axis(Vector3::from(curve.turning.derivative(1, 0.0)));
+        let angle = if curve.turning.is_even() {
+            Vector3::from(curve.turning.derivative(1, 0.0)).norm().to_degrees()
+        } else {
+            angle.angle().to_degrees()
         };
-        let mut caps = vec![cap(length, self.programmed_cap()?)];
-        if self.settings.manual {
-            caps.push(cap(length, MANUAL_SPEED));
-        }
-        self.motion(Path::Line(line), end, moves, length, bounds, &caps)
+        let goes = length > NO_DISTANCE || angle > NO_DISTANCE;
+        let found = if goes { Some(survey(self.robot, &curve, self.start)?) } else { None };
+        let axes = found.as_ref().map_or(self.start.axes, |found| found.end);
+        let end = self.within_ranges(Joints { axes, ..end })?;
+        let moves = goes || self.moves(&end);
+
+        let bounds = |pace: &Pace, bounds: &mut Bounds| {
+            bounds.even_external(self.start, &end, pace);
+            bounds.tool(&curve, pace);
+            for (_, rates) in found.iter().flat_map(|found| &found.rates) {
+                bounds.axes(&rates.first, &rates.second, &rates.third, pace);
+            }
+        };
+        let programmed_cap = self.programmed_cap()?;
+        let caps = |bounds: &mut Bounds| {
+            bounds.cap_tool(&curve, programmed_cap);
+            if self.settings.manual {
+                bounds.cap_tool(&curve, super::bounds::MANUAL_SPEED);
+            }
+        };
+        self.motion(&Curve::Tool(curve.clone()), end, moves, [length, angle], bounds, caps)
     }
 
     /// The configuration of the start. At a singular start two meet: then the one in which the axes go on evenly.
-    fn configuration(&self, start: &Frame, target: &Frame) -> u8 {
+    fn configuration(&self, curve: &ToolCurve) -> u8 {
         let kinematics = &self.robot.kinematics;
         let own = kinematics.cfg(&self.start.axes);
         let at = |cfg: u8, part: f64| {
-            let line = Line::new(*start, *target, &self.command.tool, cfg);
-            let axes = line.axes(kinematics, part, &self.start.axes)?;
+            let curve = ToolCurve { cfg, ..curve.clone() };
+            let axes = curve.axes(kinematics, part, &self.start.axes)?;
             Some(axes.iter().zip(&self.start.axes).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max))
         };
         let meets = |cfg: u8| at(cfg, 0.0).is_some_and(|far| far < 1e-3);
@@ -243,45 +258,10 @@ impl Planner<'_> {
         candidates.min_by(|a, b| far(*a).total_cmp(&far(*b))).unwrap_or(own)
     }
 
-    fn axis_bounds(&self, rates: &Rates) -> impl Iterator<Item = Bound> {
-        let derivatives = rates.first.into_iter().zip(rates.second).zip(rates.third);
-        self.robot.own_axes().iter().zip(derivatives).map(|(axis, ((first, second), third))| {
-            let (acc, jerk) = self.softened(axis.acc, axis.jerk);
-            Bound {
-                first: first.abs() * BETWEEN_SAMPLES,
-                second: second.abs() * BETWEEN_SAMPLES,
-                third: third.abs() * BETWEEN_SAMPLES,
-                vel: axis.vel,
-                acc,
-                jerk,
-            }
-        })
-    }
-
-    fn external_bounds(&self, end: &Joints, speed: Option<&Speed>) -> Result<Vec<Bound>, PlanError> {
-        let own = self.robot.own_axes().len();
-        let travel = self.distances(end);
-        let mut bounds = Vec::with_capacity(16);
-        for (axis, travel) in self.robot.external_axes().iter().zip(travel.iter().skip(own)) {
-            let vel = match speed {
-                Some(speed) if axis.linear => {
-                    self.programmed("the speed of linear external axes in mm/s", speed.exl)?
-                }
-                Some(speed) => self.programmed("the speed of external axes in deg/s", speed.exj)?,
-                None => axis.vel,
-            };
-            let (acc, jerk) = self.softened(axis.acc, axis.jerk);
-            bounds.push(Bound::even(*travel, vel.min(axis.vel), acc, jerk));
-        }
-        Ok(bounds)
-    }
-
-    /// How far every axis of the robot has to go, in the order of its axes.
-    fn distances(&self, end: &Joints) -> Vec<f64> {
-        let own = self.robot.own_axes().len();
-        let all = distances(self.start, end);
-        let (axes, external) = all.split_at(6.min(all.len()));
-        axes.iter().take(own).chain(external.iter().take(self.robot.external_axes().len())).copied().collect()
+    /// Whether any axis has to go somewhere.
+    fn moves(&self, end: &Joints) -> bool {
+        let pairs = self.start.all().into_iter().zip(end.all());
+        pairs.into_iter().any(|(start, end)| (end - start).abs() > NO_DISTANCE)
     }
 
     /// A programmed speed under the override of `velset`.
@@ -303,52 +283,85 @@ impl Planner<'_> {
         if value.is_nan() || value <= 0.0 { Err(PlanError::NoSpeed { what, value }) } else { Ok(value) }
     }
 
-    /// Acceleration and jerk under `accset`.
-    fn softened(&self, acc: f64, jerk: f64) -> (f64, f64) {
-        let share = |percent: f64| percent.clamp(20.0, 100.0) / 100.0;
-        (acc * share(self.settings.acc_percent), jerk * share(self.settings.jerk_percent))
+    /// The programmed speeds, as far as this kind of motion uses them.
+    fn pace(&self, tool: bool) -> Result<Pace, PlanError> {
+        let speed = &self.command.speed;
+        let mut pace = self.free();
+        if tool {
+            pace.tcp = self.programmed("the speed of the TCP in mm/s", speed.tcp)?;
+            pace.ori = self.programmed("the turning speed in deg/s", speed.ori)?;
+        } else {
+            pace.axes = self.programmed("the speed in percent", speed.percent)?.min(100.0) / 100.0;
+        }
+        for axis in self.robot.external_axes() {
+            if axis.linear {
+                pace.linear = self.programmed("the speed of linear external axes in mm/s", speed.exl)?;
+            } else {
+                pace.turning = self.programmed("the speed of external axes in deg/s", speed.exj)?;
+            }
+        }
+        Ok(pace)
     }
 
-    /// Finds the timing: `bounds` gives the limits at a programmed speed or, for a programmed duration, those of the
+    /// Nothing but the robot's own limits.
+    fn free(&self) -> Pace {
+        let share = |percent: f64| percent.clamp(20.0, 100.0) / 100.0;
+        Pace {
+            acc: share(self.settings.acc_percent),
+            jerk: share(self.settings.jerk_percent),
+            manual: self.settings.manual,
+            ..Pace::FREE
+        }
+    }
+
+    /// Finds the timing: `bounds` collects the limits at a programmed pace or, for a programmed duration, those of the
     /// robot alone. `caps` slow the motion down in either case.
     fn motion(
         &self,
-        path: Path,
+        curve: &Curve,
         end: Joints,
         moves: bool,
-        length: f64,
-        bounds: impl Fn(Option<&Speed>) -> Result<Vec<Bound>, PlanError>,
-        caps: &[Bound],
+        [length, angle]: [f64; 2],
+        collect: impl Fn(&Pace, &mut Bounds),
+        caps: impl Fn(&mut Bounds),
     ) -> Result<Motion, PlanError> {
+        let is_tool = matches!(curve, Curve::Tool(_));
+        let (mut pace, mut bounds) = (self.free(), Bounds::new(self.robot));
         let limits = match self.command.duration {
             None => {
-                let mut bounds = bounds(Some(&self.command.speed))?;
-                bounds.extend(caps);
-                moves.then(|| quickest(&bounds))
+                pace = self.pace(is_tool)?;
+                collect(&pace, &mut bounds);
+                caps(&mut bounds);
+                moves.then(|| quickest(&bounds.rows))
             }
             Some(duration) => {
-                let mut bounds = bounds(None)?;
-                let free = if moves { quickest(&bounds).duration(1.0) } else { 0.0 };
+                collect(&pace, &mut bounds);
+                let free = if moves { quickest(&bounds.rows).duration(1.0) } else { 0.0 };
                 if duration.is_nan() || duration <= 0.0 || duration < free * (1.0 - 1e-9) {
                     return Err(PlanError::Duration { wanted: duration, least: free });
                 }
-                bounds.extend(caps);
+                caps(&mut bounds);
                 moves.then(|| {
-                    let capped = quickest(&bounds);
+                    let capped = quickest(&bounds.rows);
                     capped.slowed((capped.duration(1.0) / duration).min(1.0))
                 })
             }
         };
-        let (tool, line) = (self.command.tool, self.command.line);
-        Ok(Motion { path, start: *self.start, end, tool, limits, length, line })
+        Ok(Motion {
+            curve: curve.clone(),
+            start: *self.start,
+            end,
+            tool: self.command.tool,
+            limits,
+            pace,
+            length,
+            angle,
+            zone: self.command.zone,
+            line: self.command.line,
+        })
     }
 }
 
 fn limit(axis: &Axis, value: f64) -> PlanError {
     PlanError::AxisLimit { axis: axis.name.clone(), value, min: axis.min, max: axis.max, along: 1.0 }
-}
-
-/// A speed that must not be passed, whatever is programmed.
-fn cap(by: f64, vel: f64) -> Bound {
-    Bound::even(by, vel, f64::INFINITY, f64::INFINITY)
 }

@@ -1,18 +1,22 @@
 //! The look-ahead and the interpolator: motions wait in a queue, and each cycle moves along the first one.
 
-use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::command::{Command, Settings};
+use super::course::Course;
 use super::error::PlanError;
+use super::governor::Pacing;
 use super::joints::Joints;
-use super::plan::{Motion, plan};
-use super::profile::{Limits, Profile, State};
+use super::plan::plan;
 use crate::kinematics::Frame;
 use crate::robot::Robot;
 
-/// How many motions wait at most, the one being executed not counted.
+/// How many motions can always wait, the one being executed not counted.
 pub const LOOK_AHEAD: usize = 64;
+/// As many motions wait at the very most.
+const MOST_AHEAD: u64 = 8192;
+/// The way ahead, in s at full speed, beyond which no more than [`LOOK_AHEAD`] motions wait.
+const TIME_AHEAD: f64 = 3.0;
 
 /// How to come to rest on the path.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -60,39 +64,27 @@ pub struct Progress {
     pub left_distance: f64,
 }
 
-/// How fast to go along the path: what the current profile was made for.
-#[derive(Clone, Copy, PartialEq, Debug)]
-struct Pace {
-    /// Share of the motion's own speed; 0 comes to rest on the path.
-    speed: f64,
-    stop: Stop,
-}
-
-/// The motion being executed.
-#[derive(Clone, PartialEq, Debug)]
-struct Running {
-    number: u64,
-    motion: Motion,
-    limits: Limits,
-    pace: Pace,
-    profile: Profile,
-    /// s since the start of the profile.
-    time: f64,
-    state: State,
-}
-
 /// The motions of one robot, planned ahead and executed cycle by cycle.
 #[derive(Clone, Debug)]
 pub struct Queue {
     robot: Arc<Robot>,
-    waiting: VecDeque<Motion>,
-    running: Option<Running>,
+    course: Course,
     stop: Option<Stop>,
+    /// Whether a fast stop is on its way to rest.
+    braking_hard: bool,
     dropping: bool,
     joints: Joints,
+    /// Where the last motion ends.
+    end: Joints,
     tool: Frame,
+    last_tool: Frame,
     added: u64,
     finished: u64,
+    /// The motion being executed, and the s that it has run at an override of 100 %.
+    started: Option<u64>,
+    elapsed: f64,
+    cycle: f64,
+    late: bool,
 }
 
 impl Queue {
@@ -100,14 +92,20 @@ impl Queue {
     pub fn new(robot: Arc<Robot>, start: Joints) -> Self {
         Self {
             robot,
-            waiting: VecDeque::with_capacity(LOOK_AHEAD),
-            running: None,
+            course: Course::default(),
             stop: None,
+            braking_hard: false,
             dropping: false,
             joints: start,
+            end: start,
             tool: Frame::identity(),
+            last_tool: Frame::identity(),
             added: 0,
             finished: 0,
+            started: None,
+            elapsed: 0.0,
+            cycle: 0.001,
+            late: false,
         }
     }
 
@@ -116,9 +114,12 @@ impl Queue {
         &self.robot
     }
 
-    /// Whether another motion can be added.
+    /// Whether another motion can be added: up to [`LOOK_AHEAD`] always, then as long as the way ahead is shorter than what
+    /// stopping may take.
     pub fn has_room(&self) -> bool {
-        self.waiting.len() < LOOK_AHEAD
+        let executing = u64::from(self.started == Some(self.finished + 1));
+        let waiting = self.added - self.finished - executing;
+        waiting < LOOK_AHEAD as u64 || (waiting < MOST_AHEAD && self.course.time_left() < TIME_AHEAD)
     }
 
     /// Plans a motion from the end of the last one and appends it; returns its running number, from 1.
@@ -132,19 +133,23 @@ impl Queue {
         if !self.has_room() {
             return Err(PlanError::Full);
         }
-        let motion = plan(&self.robot, self.end(), command, settings)?;
-        self.waiting.push_back(motion);
+        let motion = plan(&self.robot, &self.end, command, settings)?;
         self.added += 1;
+        self.end = *motion.end();
+        self.last_tool = command.tool;
+        self.late |= self.course.append(&self.robot, motion, self.added, self.cycle);
         Ok(self.added)
+    }
+
+    /// Whether, since this was asked last, a motion came too late to be blended with the one before it, so that the robot
+    /// stopped or will stop between the two.
+    pub fn take_late(&mut self) -> bool {
+        std::mem::take(&mut self.late)
     }
 
     /// Where the last motion of the queue ends: where the next one starts.
     pub fn end(&self) -> &Joints {
-        match (self.waiting.back(), &self.running) {
-            (Some(last), _) => &last.end,
-            (None, Some(running)) => &running.motion.end,
-            (None, None) => &self.joints,
-        }
+        &self.end
     }
 
     /// The commanded positions now.
@@ -159,12 +164,12 @@ impl Queue {
 
     /// Whether no motion is there, running or waiting.
     pub fn idle(&self) -> bool {
-        self.running.is_none() && self.waiting.is_empty()
+        self.finished == self.added
     }
 
     /// Whether the robot stands still, at the end of a motion or within one.
     pub fn rests(&self) -> bool {
-        self.running.as_ref().is_none_or(|running| running.state.rests() && running.time >= running.profile.duration())
+        self.course.rests()
     }
 
     /// Whether it was told to stop, and neither to resume nor to drop its motions.
@@ -186,9 +191,9 @@ impl Queue {
     }
 
     /// Drops all motions that wait, and the one being executed: at once where the robot rests, else when it has come to
-    /// rest. Without a stop it ends at its target first.
+    /// rest. Without a stop it goes on to the next target that it reaches exactly first.
     pub fn clear(&mut self) {
-        self.waiting.clear();
+        self.course.keep_to_stop();
         self.dropping = true;
         self.drop_at_rest();
     }
@@ -198,116 +203,108 @@ impl Queue {
     pub fn place(&mut self, joints: Joints) -> bool {
         let idle = self.idle();
         if idle {
-            self.joints = joints;
+            (self.joints, self.end) = (joints, joints);
         }
         idle
     }
 
     /// How far the motion being executed has come; `None` where there is none.
     pub fn progress(&self) -> Option<Progress> {
-        let running = self.running.as_ref()?;
-        let profile = running.motion.profile();
-        let elapsed_time = profile.time_at(running.state.at);
-        let elapsed_distance = running.motion.length * running.state.at;
+        let piece = self.course.first()?;
+        let started = self.started?;
+        if started != piece.number {
+            return None;
+        }
+        let done = piece.length * piece.share(self.course.at());
+        let most = 10.0 * self.course.time_left() + 10.0;
         Some(Progress {
-            motion: running.number,
-            line: running.motion.line,
-            elapsed_time,
-            left_time: profile.duration() - elapsed_time,
-            elapsed_distance,
-            left_distance: running.motion.length - elapsed_distance,
+            motion: piece.number,
+            line: piece.line,
+            elapsed_time: self.elapsed,
+            left_time: self.course.time_to_end(self.cycle, Pacing::Go(1.0), most),
+            elapsed_distance: done,
+            left_distance: piece.length - done,
         })
     }
 
-    /// Moves on by one cycle of `dt` s at an override of `override_percent`, 0 to 100. A motion ends exactly at its target,
-    /// and the next one starts with the cycle after.
+    /// Moves on by one cycle of `dt` s at an override of `override_percent`, 0 to 100. A motion that is not blended with the
+    /// next one ends exactly at its target, and the next one starts with the cycle after.
     pub fn step(&mut self, dt: f64, override_percent: f64) -> Step {
+        self.cycle = dt;
         let speed = if override_percent > 0.0 { override_percent.min(100.0) / 100.0 } else { 0.0 };
-        if self.running.is_none() && self.stop.is_none() {
-            self.start_next(speed);
-        }
+        let pacing = match self.stop {
+            Some(Stop::Fast) => Pacing::Stop(FAST),
+            Some(Stop::General) => Pacing::Stop(1.0),
+            None if speed > 0.0 => Pacing::Go(speed),
+            None => Pacing::Stop(1.0),
+        };
+        self.braking_hard = match (pacing, self.course.rests()) {
+            (_, true) => false,
+            (Pacing::Stop(harder), false) => self.braking_hard || harder > 1.0,
+            (Pacing::Go(_) | Pacing::Settle(_), false) => self.braking_hard,
+        };
+        // A fast stop is carried through to rest: from its acceleration nothing else would be within the limits.
+        let pacing = if self.braking_hard { Pacing::Stop(FAST) } else { pacing };
+        let rested = self.course.rests();
         let (mut motion, mut line) = (0, 0);
-        if let Some(running) = &mut self.running {
-            (motion, line) = (running.number, running.motion.line);
-            let pace = match self.stop {
-                Some(stop) => Pace { speed: 0.0, stop },
-                None => Pace { speed, stop: Stop::General },
-            };
-            running.take_pace(pace);
-            running.time += dt;
-            running.state = running.profile.at(running.time);
-            let at = running.state.at;
-            let Motion { path, start, end, .. } = &running.motion;
-            self.joints = path.joints(&self.robot.kinematics, start, end, at, &self.joints);
-            if at >= 1.0 {
-                self.finished = running.number;
-                self.running = None;
+        if !(rested && matches!(pacing, Pacing::Stop(_))) && !self.course.is_empty() {
+            if let Some(piece) = self.course.first() {
+                (motion, line) = self.enter(piece.number, piece.line, piece.tool);
+            }
+            if matches!(pacing, Pacing::Go(_)) {
+                self.elapsed += dt * speed;
+            }
+            let (mut arrived, mut finished) = (None, self.finished);
+            let stands = self.course.advance(dt, pacing, |passed| {
+                finished = if passed.ends { passed.number } else { finished };
+                arrived = Some(passed);
+            });
+            self.finished = finished;
+            match (stands, arrived, self.course.first()) {
+                (true, Some(piece), _) => {
+                    (motion, line) = (piece.number, piece.line);
+                    self.joints = piece.joints(&self.robot.kinematics, piece.time, &self.joints);
+                }
+                (_, _, Some(piece)) => {
+                    self.joints = piece.joints(&self.robot.kinematics, self.course.at(), &self.joints);
+                    (motion, line) = (piece.number, piece.line);
+                    let tool = piece.tool;
+                    self.enter(motion, line, tool);
+                }
+                _ => {}
             }
         }
+        self.end_empty();
         self.drop_at_rest();
         Step { joints: self.joints, tcp: self.tcp(), motion, line, finished: self.finished, rests: self.rests() }
     }
 
-    fn start_next(&mut self, speed: f64) {
-        while let Some(motion) = self.waiting.pop_front() {
-            self.tool = motion.tool;
-            match motion.limits {
-                // A motion that goes nowhere has ended when it starts.
-                None => self.finished += 1,
-                Some(limits) => {
-                    let pace = Pace { speed: 0.0, stop: Stop::General };
-                    let profile = Profile::resting(0.0);
-                    let state = State::resting(0.0);
-                    let number = self.finished + 1;
-                    let mut running = Running { number, motion, limits, pace, profile, time: 0.0, state };
-                    running.take_pace(Pace { speed, stop: Stop::General });
-                    self.running = Some(running);
-                    return;
-                }
-            }
+    /// Notes that a motion is being executed.
+    fn enter(&mut self, number: u64, line: u32, tool: Frame) -> (u64, u32) {
+        if self.started != Some(number) {
+            (self.started, self.elapsed) = (Some(number), 0.0);
+        }
+        self.tool = tool;
+        (number, line)
+    }
+
+    /// Motions that go nowhere end when those before them have ended.
+    fn end_empty(&mut self) {
+        let next = self.course.first().map_or(self.added + 1, |piece| piece.number);
+        self.finished = self.finished.max(next - 1);
+        if self.course.is_empty() && !self.dropping {
+            self.tool = self.last_tool;
         }
     }
 
     fn drop_at_rest(&mut self) {
         if self.dropping && self.rests() {
             self.finished = self.added;
-            self.running = None;
+            self.course.clear();
+            self.end = self.joints;
+            self.started = None;
             self.dropping = false;
+            self.braking_hard = false;
         }
-    }
-}
-
-impl Running {
-    /// Makes the rest of the path a profile of this pace, from the state that has been reached.
-    fn take_pace(&mut self, pace: Pace) {
-        if pace == self.pace || (self.pace.stop == Stop::Fast && !self.state.rests()) {
-            return;
-        }
-        self.pace = pace;
-        let profile = if pace.speed > 0.0 { self.onwards(pace.speed) } else { self.to_rest(pace.stop) };
-        // No profile: the motion brakes already and comes to rest at its target, and there is no gentler way.
-        if let Some(profile) = profile {
-            self.profile = profile;
-            self.time = 0.0;
-        }
-    }
-
-    fn to_rest(&self, stop: Stop) -> Option<Profile> {
-        let harder = if stop == Stop::Fast { FAST } else { 1.0 };
-        let limits = Limits { vel: self.limits.vel, acc: self.limits.acc * harder, jerk: self.limits.jerk * harder };
-        let profile = Profile::stop(self.state, &limits);
-        (profile.end() < 1.0).then_some(profile)
-    }
-
-    /// At a constant override a motion is the same as at 100 %, only slower: its ramps are slowed, too. To change from one
-    /// override to another, and where a slowed ramp is too long for what is left of the path, the motion's own limits are
-    /// used.
-    fn onwards(&self, speed: f64) -> Option<Profile> {
-        let slowed = self.limits.slowed(speed);
-        if self.state.rests() {
-            return Profile::to_rest(self.state, 1.0, &slowed);
-        }
-        let limits = Limits { vel: slowed.vel, ..self.limits };
-        Profile::reaching(self.state, 1.0, &limits, &slowed).or_else(|| Profile::to_rest(self.state, 1.0, &limits))
     }
 }

@@ -1,9 +1,9 @@
-//! Walks a line before it is moved: is it reachable, within the ranges of the axes, clear of singular points, and how do
+//! Walks a way of the TCP before it is moved: is it reachable, within the ranges of the axes, clear of singular points, and how do
 //! the axes move along it?
 
+use super::curve::ToolCurve;
 use super::error::PlanError;
 use super::joints::{Joints, is_unset};
-use super::path::Line;
 use crate::kinematics::{Axes, Kinematics, Opw, RANGE_SLACK, Rates};
 use crate::robot::Robot;
 
@@ -11,8 +11,8 @@ use crate::robot::Robot;
 pub(super) struct Survey {
     /// The axes at the end.
     pub(super) end: Axes,
-    /// The derivatives of the axes by the path parameter, at places close enough to see every change.
-    pub(super) rates: Vec<Rates>,
+    /// The derivatives of the axes by the parameter, at places close enough to see every change.
+    pub(super) rates: Vec<(f64, Rates)>,
 }
 
 /// The longest step, as part of the path.
@@ -33,13 +33,13 @@ const GLIMPSE_JUMP: f64 = 0.05;
 struct Walk<'a> {
     robot: &'a Robot,
     opw: &'a Opw,
-    line: &'a Line,
+    curve: &'a ToolCurve,
 }
 
-/// Walks `line` from `start`.
-pub(super) fn survey(robot: &Robot, line: &Line, start: &Joints) -> Result<Survey, PlanError> {
+/// Walks `curve` from `start`.
+pub(super) fn survey(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result<Survey, PlanError> {
     let Kinematics::SixAxis(opw) = &robot.kinematics else { return Err(PlanError::NotForThisRobot) };
-    let walk = Walk { robot, opw, line };
+    let walk = Walk { robot, opw, curve };
     // The target first: where it cannot be reached, that is what the programmer wants to know.
     walk.axes(1.0, &start.axes)?;
 
@@ -66,13 +66,13 @@ pub(super) fn survey(robot: &Robot, line: &Line, start: &Joints) -> Result<Surve
         walk.no_jump(&expected, &found, JUMP, next)?;
         if let Some(known) = known {
             limits.between(at, &here, &known, next - at);
-            rates.push(known);
+            rates.push((at, known));
         }
         limits.at(next, &found);
         (at, here) = (next, found);
         known = walk.rates(at, &here);
     }
-    rates.extend(known);
+    rates.extend(known.map(|known| (at, known)));
     let end = walk.axes(1.0, &here)?;
     walk.no_jump(&here, &end, GLIMPSE_JUMP, 1.0)?;
     limits.at(1.0, &end);
@@ -81,19 +81,19 @@ pub(super) fn survey(robot: &Robot, line: &Line, start: &Joints) -> Result<Surve
 
 impl Walk<'_> {
     fn axes(&self, at: f64, near: &Axes) -> Result<Axes, PlanError> {
-        self.line.axes(&self.robot.kinematics, at, near).ok_or_else(|| self.unreachable(at))
+        self.curve.axes(&self.robot.kinematics, at, near).ok_or_else(|| self.unreachable(at))
     }
 
     /// Out of reach from here on: how far at worst?
     fn unreachable(&self, along: f64) -> PlanError {
-        let beyond = |at: f64| self.robot.kinematics.beyond_reach(&self.line.flange(at));
+        let beyond = |at: f64| self.robot.kinematics.beyond_reach(&self.curve.flange(at));
         let rest = (0..=32).map(|step| beyond(along + (1.0 - along) * f64::from(step) / 32.0));
         PlanError::Unreachable { beyond: rest.fold(0.0, f64::max), along }
     }
 
     /// The derivatives of the axes; `None` at a singular point, where they would be made of rounding errors.
     fn rates(&self, at: f64, axes: &Axes) -> Option<Rates> {
-        if self.opw.clearance(axes) < SINGULAR { None } else { self.opw.rates(axes, &self.line.twist(at)) }
+        if self.opw.clearance(axes) < SINGULAR { None } else { self.opw.rates(axes, &self.curve.twist(at)) }
     }
 
     /// Over which part of the path the axes' motion changes substantially.
@@ -118,7 +118,7 @@ impl Walk<'_> {
 
     fn singular(&self, rates: &Rates, at: f64) -> PlanError {
         // A stretched arm is singular, too; but what is wrong there is that the line goes on where the arm ends.
-        let ends = |ahead: f64| self.line.axes(&self.robot.kinematics, (at + ahead).min(1.0), &rates.first).is_none();
+        let ends = |ahead: f64| self.curve.axes(&self.robot.kinematics, (at + ahead).min(1.0), &rates.first).is_none();
         if [1.0, 2.0, 4.0, 8.0].iter().any(|times| ends(times * SINGULAR_SCALE)) {
             return self.unreachable(at);
         }

@@ -1,5 +1,6 @@
 //! Properties of motion, from the sampled trace alone.
 
+mod blends;
 mod plans;
 mod stops;
 mod traces;
@@ -36,7 +37,7 @@ fn fast() -> Speed {
 }
 
 fn command(target: Target) -> Command {
-    Command { target, tool: Frame::identity(), speed: fast(), duration: None, line: 7 }
+    Command { target, tool: Frame::identity(), speed: fast(), duration: None, zone: Zone::NONE, line: 7 }
 }
 
 fn movej(to: [f64; 6]) -> Command {

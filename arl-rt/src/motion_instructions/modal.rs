@@ -56,6 +56,7 @@ pub(super) struct Resolved {
     pub(super) tool_frame: Frame,
     pub(super) wobj_frame: Frame,
     pub(super) duration: Option<f64>,
+    pub(super) zone: motion::Zone,
 }
 
 impl Modal {
@@ -79,13 +80,13 @@ impl Modal {
             system.dfwobj.set(wobj.clone());
         }
         supported(cx)?;
-        warn_of_blending(cx);
         let speed = system.dfspeed.get();
         Ok(Resolved {
             speed: motion::Speed { percent: speed.per, tcp: speed.tcp, ori: speed.ori, exj: speed.exj, exl: speed.exl },
             tool_frame: frame_of(&system.dftool.get().t_frame),
             wobj_frame: system.dfwobj.with(|wobj| frame_of(&wobj.w_frame)),
             duration: self.duration,
+            zone: zone(&system.dfslip.get()),
         })
     }
 
@@ -170,15 +171,14 @@ fn supported(cx: &Cx) -> Result<(), Fault> {
     Err(Fault::Motion(format!("{refused} not supported by motion instructions yet").into()))
 }
 
-fn warn_of_blending(cx: &Cx) {
-    let slip = cx.system().dfslip.get();
-    let zones = [slip.perdis, slip.pdis, slip.odis, slip.ejdis, slip.eldis, slip.jdis];
-    let asked = if is_set(slip.perdis) && slip.perdis >= 0.0 {
-        slip.perdis > 0.0
-    } else {
-        zones.iter().any(|zone| is_set(*zone) && *zone > 0.0)
-    };
-    if asked {
-        cx.world().warn_once("blending is not supported yet: the robot stops at every target");
+/// The zone that `$DFSLIP` describes; what is unset stays so.
+fn zone(slip: &Slip) -> motion::Zone {
+    motion::Zone {
+        percent: slip.perdis,
+        tcp: slip.pdis,
+        ori: slip.odis,
+        joint: slip.jdis,
+        turning: slip.ejdis,
+        linear: slip.eldis,
     }
 }

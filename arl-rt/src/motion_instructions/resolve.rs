@@ -68,8 +68,14 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
     while !world.unit.borrow().has_room() {
         cx.next_cycle().await;
     }
-    let command =
-        Command { target, tool: modal.tool_frame, speed: modal.speed, duration: modal.duration, line: cx.place().1 };
+    let command = Command {
+        target,
+        tool: modal.tool_frame,
+        speed: modal.speed,
+        duration: modal.duration,
+        zone: modal.zone,
+        line: cx.place().1,
+    };
     let mut unit = world.unit.borrow_mut();
     unit.plan(&command).map_err(|error| Fault::Motion(error.to_string().into()))?;
     world.system.cjoint.set(joint(unit.target()));

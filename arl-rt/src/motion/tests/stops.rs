@@ -228,5 +228,6 @@ fn progress_counts_time_at_full_override_and_mm_of_lines() {
     }
     let slow = slow.progress().unwrap();
     assert!((slow.elapsed_time - 0.4).abs() < 1e-6, "{slow:?}");
-    assert!((slow.elapsed_distance - now.elapsed_distance).abs() < 1e-6);
+    // The same motion but for what whole cycles make of it.
+    assert!((slow.elapsed_distance - now.elapsed_distance).abs() < 0.5, "{slow:?} {now:?}");
 }

@@ -1,0 +1,267 @@
+//! Blending zones: a curve that leaves one motion before its target and joins the next one behind its start.
+//!
+//! The curve meets both motions with position, direction and curvature, and depends on the geometry of the zone alone,
+//! never on a speed. It is a polynomial of the fifth degree: in the TCP's position and orientation where both motions
+//! lead the same TCP, else in the axes. Only then is it timed.
+
+use nalgebra::Vector3;
+
+use super::bounds::{Bounds, Pace};
+use super::curve::{Curve, ToolCurve, Track};
+use super::joints::{ALL, Joints};
+use super::limits::passing;
+use super::plan::Motion;
+use super::profile::Limits;
+use super::progress::Progress;
+use super::quintic::{Knot, Quintic};
+use super::survey::survey;
+use super::zone::parts;
+use crate::kinematics::{Kinematics, Rates};
+use crate::robot::{ROBOT_AXES, Robot};
+
+/// Length of the tangents at the ends of a blend, in lengths of the zone. With 2 the blend of two straight lines that are
+/// left and joined at the same distance accelerates along the bisector alone.
+const TANGENT: f64 = 2.0;
+/// How often a zone is halved before it is given up: where its blend would leave an axis's range or the reach.
+const HALVINGS: u32 = 4;
+/// Places at which a blend is looked at.
+const PLACES: u32 = 32;
+
+/// The way between two motions.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Blend {
+    /// The part of the first motion after which it is left.
+    pub(super) leave: f64,
+    /// The part of the second motion at which it is joined.
+    pub(super) join: f64,
+    pub(super) curve: Curve,
+    /// The curve's parameter over the time that is nominal for it, both from 0 to 1.
+    pub(super) progress: Progress,
+    /// The nominal time in s.
+    pub(super) time: f64,
+    /// In shares of the nominal time per s.
+    pub(super) limits: Limits,
+}
+
+/// The blend that the first motion's zone asks for; `None` where it asks for none, or there is no way.
+pub(super) fn blend(robot: &Robot, from: &Motion, to: &Motion) -> Option<Blend> {
+    let (mut leaving, mut joining) = parts(robot, from, to)?;
+    for _ in 0..=HALVINGS {
+        if let Some(blend) = attempt(robot, from, to, leaving, joining) {
+            return Some(blend);
+        }
+        (leaving, joining) = (leaving / 2.0, joining / 2.0);
+    }
+    None
+}
+
+fn attempt(robot: &Robot, from: &Motion, to: &Motion, leaving: f64, joining: f64) -> Option<Blend> {
+    let (vel_from, vel_to) = (from.limits?.vel, to.limits?.vel);
+    let (leave, join) = (1.0 - leaving, joining);
+    let (slope_from, slope_to) = (TANGENT * leaving, TANGENT * joining);
+    // Both ends are met at the speeds that the motions have there.
+    let (start_rate, end_rate) = (vel_from / slope_from, vel_to / slope_to);
+    let mut time = 2.0 / (start_rate + end_rate);
+    let mut progress = Progress::between(start_rate * time, end_rate * time);
+
+    let mut bounds = Bounds::new(robot);
+    let pace = common_pace(from, to);
+    let curve = match (&from.curve, &to.curve) {
+        (Curve::Tool(a), Curve::Tool(b)) if a.flange == b.flange && a.cfg == b.cfg => {
+            let curve = tool_blend(a, b, leave, join, slope_from, slope_to);
+            let (start_speed, end_speed) = (from.length * vel_from, to.length * vel_to);
+            if let Some(even) = Progress::along(&curve.track, start_speed, end_speed) {
+                (progress, time) = even;
+            }
+            let start = joints_at(robot, from, leave)?;
+            let found = survey(robot, &curve, &start).ok()?;
+            let there = joints_at(robot, to, join)?;
+            if found.end.iter().zip(&there.axes).any(|(a, b)| (a - b).abs() > 0.01) {
+                return None;
+            }
+            for (at, rates) in &found.rates {
+                let place = Place::at(&progress, inverse(&progress, *at));
+                let [first, second, third] = place.rates([rates.first, rates.second, rates.third]);
+                bounds.axes(&first, &second, &third, &pace);
+            }
+            for step in 0..=PLACES {
+                let place = Place::at(&progress, f64::from(step) / f64::from(PLACES));
+                let moving = [1, 2, 3].map(|order| curve.track.derivative(order, place.at));
+                let turning = curve.rotation_rates(place.at);
+                bounds.moving(&place.vectors(moving), &pace);
+                if pace.manual {
+                    bounds.manual_moving(&place.vectors(moving));
+                }
+                bounds.turning(&place.vectors(turning), &pace);
+                let external = [1, 2, 3].map(|order| curve.external.derivative(order, place.at));
+                bounds.external(&place.rates(external), &pace);
+            }
+            Curve::Tool(curve)
+        }
+        _ => {
+            let curve = Quintic::between(
+                &axes_knot(robot, from, leave, slope_from)?,
+                &axes_knot(robot, to, join, slope_to)?,
+            );
+            for step in 0..=PLACES {
+                let place = Place::at(&progress, f64::from(step) / f64::from(PLACES));
+                if !within_ranges(robot, &Joints::of(&curve.at(place.at))) {
+                    return None;
+                }
+                let derivatives = [1, 2, 3].map(|order| curve.derivative(order, place.at));
+                bounds.all_axes(&place.rates(derivatives), &pace);
+                if pace.manual {
+                    bounds.manual_place(&Joints::of(&curve.at(place.at)), &place.rates(derivatives)[0], &to.tool);
+                }
+            }
+            Curve::Axes(curve)
+        }
+    };
+    let limits = passing(&bounds.rows, 1.0 / time);
+    Some(Blend { leave, join, curve, progress, time, limits })
+}
+
+/// The faster of the two motions' speeds, the gentler of their accelerations.
+fn common_pace(from: &Motion, to: &Motion) -> Pace {
+    let faster = |of: fn(&Pace) -> f64| of(&from.pace).max(of(&to.pace));
+    let reached = |of: fn(&Motion) -> f64| {
+        let speed = |motion: &Motion| match motion.curve {
+            Curve::Tool(_) => of(motion) * motion.limits.map_or(0.0, |limits| limits.vel),
+            Curve::Axes(_) => f64::INFINITY,
+        };
+        speed(from).max(speed(to))
+    };
+    Pace {
+        axes: faster(|pace| pace.axes),
+        tcp: reached(|motion| motion.length),
+        ori: reached(|motion| motion.angle).max(1.0),
+        turning: faster(|pace| pace.turning),
+        linear: faster(|pace| pace.linear),
+        acc: from.pace.acc.min(to.pace.acc),
+        jerk: from.pace.jerk.min(to.pace.jerk),
+        manual: from.pace.manual || to.pace.manual,
+    }
+}
+
+fn tool_blend(
+    from: &ToolCurve,
+    to: &ToolCurve,
+    leave: f64,
+    join: f64,
+    slope_from: f64,
+    slope_to: f64,
+) -> ToolCurve {
+    let corner = from.rotation(1.0);
+    let ([moved_from, turned_from], [moved_to, turned_to]) = (from.place(leave, &corner), to.place(join, &corner));
+    let knot = |[value, first, second]: [Vector3<f64>; 3], slope: f64| Knot {
+        value: value.into(),
+        first: (first * slope).into(),
+        second: (second * slope * slope).into(),
+    };
+    let external = |curve: &ToolCurve, at: f64, slope: f64| scaled(curve.external.knot(at), slope);
+    ToolCurve {
+        track: Track::Poly(Quintic::between(&knot(moved_from, slope_from), &knot(moved_to, slope_to))),
+        base: corner,
+        turning: Quintic::between(&knot(turned_from, slope_from), &knot(turned_to, slope_to)),
+        flange: from.flange,
+        external: Quintic::between(&external(from, leave, slope_from), &external(to, join, slope_to)),
+        cfg: from.cfg,
+    }
+}
+
+fn scaled<const N: usize>(mut knot: Knot<N>, slope: f64) -> Knot<N> {
+    for value in &mut knot.first {
+        *value *= slope;
+    }
+    for value in &mut knot.second {
+        *value *= slope * slope;
+    }
+    knot
+}
+
+/// The axes within a motion with their derivatives.
+fn axes_knot(robot: &Robot, motion: &Motion, at: f64, slope: f64) -> Option<Knot<ALL>> {
+    let knot = match &motion.curve {
+        Curve::Axes(axes) => axes.knot(at),
+        Curve::Tool(tool) => {
+            let joints = joints_at(robot, motion, at)?;
+            let Rates { first, second, .. } = axis_rates(&robot.kinematics, tool, at, &joints)?;
+            let external = tool.external.knot(at);
+            let all = |axes: [f64; ROBOT_AXES], external| Joints { axes, external }.all();
+            Knot {
+                value: joints.all(),
+                first: all(first, external.first),
+                second: all(second, external.second),
+            }
+        }
+    };
+    Some(scaled(knot, slope))
+}
+
+fn axis_rates(kinematics: &Kinematics, tool: &ToolCurve, at: f64, joints: &Joints) -> Option<Rates> {
+    match kinematics {
+        Kinematics::SixAxis(opw) => opw.rates(&joints.axes, &tool.twist(at)),
+        Kinematics::Scara(_) => None,
+    }
+}
+
+/// The joints within a motion, followed from its nearer end.
+fn joints_at(robot: &Robot, motion: &Motion, at: f64) -> Option<Joints> {
+    const STEPS: u32 = 16;
+    let Curve::Tool(tool) = &motion.curve else { return Some(motion.curve.joints(&robot.kinematics, at, &motion.end)) };
+    let (from, near) = if at > 0.5 { (1.0, &motion.end) } else { (0.0, &motion.start) };
+    let mut axes = near.axes;
+    for step in 1..=STEPS {
+        axes = tool.axes(&robot.kinematics, from + (at - from) * f64::from(step) / f64::from(STEPS), &axes)?;
+    }
+    Some(Joints { axes, external: tool.external.at(at) })
+}
+
+fn within_ranges(robot: &Robot, joints: &Joints) -> bool {
+    let own = robot.own_axes().len();
+    let values = joints.axes.iter().take(own).chain(&joints.external);
+    robot.axes.iter().zip(values).all(|(axis, value)| *value >= axis.min && *value <= axis.max)
+}
+
+/// The share of the nominal time at which the curve's parameter is `at`.
+fn inverse(progress: &Progress, at: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..50 {
+        let middle = f64::midpoint(low, high);
+        if progress.at(middle) < at { low = middle } else { high = middle }
+    }
+    low
+}
+
+/// A place on the curve: its parameter, and how that changes with the share of the nominal time.
+struct Place {
+    at: f64,
+    first: f64,
+    second: f64,
+    third: f64,
+}
+
+impl Place {
+    fn at(progress: &Progress, share: f64) -> Self {
+        let [first, second, third] = [1, 2, 3].map(|order| progress.derivative(order, share));
+        Self { at: progress.at(share), first, second, third }
+    }
+
+    /// Derivatives by the curve's parameter become derivatives by the share of the time.
+    fn rates<const N: usize>(&self, [p1, p2, p3]: [[f64; N]; 3]) -> [[f64; N]; 3] {
+        let Self { first: a, second: b, third: c, .. } = *self;
+        let mut out = [[0.0; N]; 3];
+        let [first, second, third] = &mut out;
+        let places = first.iter_mut().zip(second).zip(third);
+        for (((first, second), third), ((p1, p2), p3)) in places.zip(p1.iter().zip(&p2).zip(&p3)) {
+            *first = p1 * a;
+            *second = p2 * a * a + p1 * b;
+            *third = p3 * a * a * a + 3.0 * p2 * a * b + p1 * c;
+        }
+        out
+    }
+
+    fn vectors(&self, vectors: [Vector3<f64>; 3]) -> [Vector3<f64>; 3] {
+        self.rates(vectors.map(<[f64; 3]>::from)).map(Vector3::from)
+    }
+}

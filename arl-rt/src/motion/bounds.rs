@@ -1,0 +1,189 @@
+//! Collects what limits the parameter of a motion: every axis, the TCP, the tool's turning, the programmed speeds.
+
+use nalgebra::Vector3;
+
+use super::curve::{Curve, ToolCurve};
+use super::joints::{ALL, Joints};
+use super::limits::Bound;
+use crate::kinematics::{Axes, Frame};
+use crate::robot::{EXTERNAL_AXES, Robot};
+
+/// The highest speed of the TCP in manual low-speed mode, in mm/s.
+pub(super) const MANUAL_SPEED: f64 = 250.0;
+/// Between the places where a way is surveyed, derivatives are a little larger than at them.
+const BETWEEN_SAMPLES: f64 = 1.005;
+/// Places at which a curved way of the TCP is looked at.
+const PLACES: u32 = 24;
+
+/// How fast a motion may go, and how hard it may accelerate.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Pace {
+    /// Share of the own axes' speeds.
+    pub(super) axes: f64,
+    /// TCP in mm/s.
+    pub(super) tcp: f64,
+    /// Turning of the tool in deg/s.
+    pub(super) ori: f64,
+    /// Turning external axes in deg/s.
+    pub(super) turning: f64,
+    /// Linear external axes in mm/s.
+    pub(super) linear: f64,
+    /// Share of all accelerations.
+    pub(super) acc: f64,
+    /// Share of all jerks.
+    pub(super) jerk: f64,
+    /// Whether the TCP is limited to the speed of manual operation.
+    pub(super) manual: bool,
+}
+
+impl Pace {
+    /// Nothing but the robot's own limits.
+    pub(super) const FREE: Self = Self {
+        axes: 1.0,
+        tcp: f64::INFINITY,
+        ori: f64::INFINITY,
+        turning: f64::INFINITY,
+        linear: f64::INFINITY,
+        acc: 1.0,
+        jerk: 1.0,
+        manual: false,
+    };
+}
+
+/// The limits found so far.
+pub(super) struct Bounds<'a> {
+    robot: &'a Robot,
+    pub(super) rows: Vec<Bound>,
+}
+
+impl<'a> Bounds<'a> {
+    pub(super) fn new(robot: &'a Robot) -> Self {
+        Self { robot, rows: Vec::with_capacity(64) }
+    }
+
+    /// All axes go evenly from `start` to `end`.
+    pub(super) fn even_axes(&mut self, start: &Joints, end: &Joints, pace: &Pace) {
+        for (axis, (start, end)) in self.robot.own_axes().iter().zip(start.axes.iter().zip(&end.axes)) {
+            self.rows.push(Bound::even(end - start, axis.vel * pace.axes, axis.acc * pace.acc, axis.jerk * pace.jerk));
+        }
+        self.even_external(start, end, pace);
+    }
+
+    /// The external axes go evenly from `start` to `end`.
+    pub(super) fn even_external(&mut self, start: &Joints, end: &Joints, pace: &Pace) {
+        let ways = start.external.iter().zip(&end.external).map(|(start, end)| end - start);
+        for (axis, way) in self.robot.external_axes().iter().zip(ways) {
+            let programmed = if axis.linear { pace.linear } else { pace.turning };
+            let vel = axis.vel.min(programmed);
+            self.rows.push(Bound::even(way, vel, axis.acc * pace.acc, axis.jerk * pace.jerk));
+        }
+    }
+
+    /// The own axes at a place where these are their derivatives.
+    pub(super) fn axes(&mut self, first: &Axes, second: &Axes, third: &Axes, pace: &Pace) {
+        let derivatives = first.iter().zip(second).zip(third);
+        for (axis, ((first, second), third)) in self.robot.own_axes().iter().zip(derivatives) {
+            let limits = [axis.vel * pace.axes, axis.acc * pace.acc, axis.jerk * pace.jerk];
+            self.rows.push(row([*first, *second, *third], limits));
+        }
+    }
+
+    /// All axes at a place where these are their derivatives.
+    pub(super) fn all_axes(&mut self, derivatives: &[[f64; ALL]; 3], pace: &Pace) {
+        let parts = derivatives.map(|all| Joints::of(&all));
+        let [first, second, third] = &parts;
+        self.axes(&first.axes, &second.axes, &third.axes, pace);
+        self.external(&parts.map(|part| part.external), pace);
+    }
+
+    /// The TCP on its way, and the turning of the tool.
+    pub(super) fn tool(&mut self, curve: &ToolCurve, pace: &Pace) {
+        for place in places(curve) {
+            self.moving(&[1, 2, 3].map(|order| curve.track.derivative(order, place)), pace);
+            self.turning(&curve.rotation_rates(place), pace);
+        }
+    }
+
+    /// The TCP at a place where these are the derivatives of its position, in mm.
+    pub(super) fn moving(&mut self, rates: &[Vector3<f64>; 3], pace: &Pace) {
+        let tcp = &self.robot.tcp;
+        self.rows.push(along(rates, (tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk)));
+    }
+
+    /// The speed of the TCP in manual operation, at a place where these are the derivatives of its position.
+    pub(super) fn manual_moving(&mut self, rates: &[Vector3<f64>; 3]) {
+        self.rows.push(along(rates, (MANUAL_SPEED, f64::INFINITY, f64::INFINITY)));
+    }
+
+    /// The tool at a place where it turns so, in rad.
+    pub(super) fn turning(&mut self, rates: &[Vector3<f64>; 3], pace: &Pace) {
+        let tcp = &self.robot.tcp;
+        let rates = rates.map(|rate| rate.map(f64::to_degrees));
+        let limits = (tcp.ori_vel.min(pace.ori), tcp.ori_acc * pace.acc, tcp.ori_jerk * pace.jerk);
+        self.rows.push(along(&rates, limits));
+    }
+
+    /// The external axes at a place where these are their derivatives.
+    pub(super) fn external(&mut self, rates: &[[f64; EXTERNAL_AXES]; 3], pace: &Pace) {
+        let [first, second, third] = rates;
+        let derivatives = first.iter().zip(second).zip(third);
+        for (axis, ((first, second), third)) in self.robot.external_axes().iter().zip(derivatives) {
+            let vel = axis.vel.min(if axis.linear { pace.linear } else { pace.turning });
+            self.rows.push(row([*first, *second, *third], [vel, axis.acc * pace.acc, axis.jerk * pace.jerk]));
+        }
+    }
+
+    /// A speed of the TCP, in mm/s, that must not be passed, whatever is programmed.
+    pub(super) fn cap_tool(&mut self, curve: &ToolCurve, vel: f64) {
+        for place in places(curve) {
+            let first = curve.track.derivative(1, place).norm();
+            self.rows.push(Bound::even(first, vel, f64::INFINITY, f64::INFINITY));
+        }
+    }
+
+    /// The speed of the TCP of an axis motion in manual operation.
+    pub(super) fn manual_axes(&mut self, curve: &Curve, tool: &Frame, start: &Joints) {
+        let Curve::Axes(axes) = curve else { return };
+        let kinematics = &self.robot.kinematics;
+        let farthest = axes.derivative(1, 0.0).iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+        let steps = 16 + (farthest / 2.0).min(1e4) as u32;
+        for step in 0..=steps {
+            let at = f64::from(step) / f64::from(steps);
+            let joints = curve.joints(kinematics, at, start);
+            self.manual_place(&joints, &axes.derivative(1, at), tool);
+        }
+    }
+
+    /// The speed of the TCP in manual operation, at a place where all axes change by `rates`.
+    pub(super) fn manual_place(&mut self, joints: &Joints, rates: &[f64; ALL], tool: &Frame) {
+        let kinematics = &self.robot.kinematics;
+        let tcp: Vector3<f64> = (kinematics.forward(&joints.axes) * tool).translation.vector;
+        let rates = Joints::of(rates).axes;
+        let speed = kinematics.point_velocity(&joints.axes, &rates, &tcp).norm() * BETWEEN_SAMPLES;
+        self.rows.push(Bound::even(speed, MANUAL_SPEED, f64::INFINITY, f64::INFINITY));
+    }
+}
+
+/// Where to look at a way: once where it is even.
+fn places(curve: &ToolCurve) -> impl Iterator<Item = f64> + use<> {
+    let even = curve.is_even();
+    (0..=if even { 0 } else { PLACES }).map(move |place| f64::from(place) / f64::from(PLACES))
+}
+
+/// A value with these derivatives, between whose places it changes a little more.
+fn row([first, second, third]: [f64; 3], [vel, acc, jerk]: [f64; 3]) -> Bound {
+    let more = |value: f64| value.abs() * BETWEEN_SAMPLES;
+    Bound { first: more(first), second: more(second), third: more(third), vel, acc, jerk }
+}
+
+/// A speed along a way whose derivatives are given, with how it changes along the way.
+fn along(rates: &[Vector3<f64>; 3], (vel, acc, jerk): (f64, f64, f64)) -> Bound {
+    let [p1, p2, p3] = rates;
+    let first = p1.norm();
+    if first < 1e-12 {
+        return Bound { first: 0.0, second: p2.norm(), third: p3.norm(), vel, acc, jerk };
+    }
+    let second = p1.dot(p2) / first;
+    let third = (p2.norm_squared() + p1.dot(p3) - second * second) / first;
+    Bound { first, second: second.abs(), third: third.abs(), vel, acc, jerk }
+}

@@ -1,0 +1,309 @@
+//! The way ahead: pieces of motions and the blends between them, one behind the other.
+
+use std::collections::VecDeque;
+
+use super::blend::{Blend, blend};
+use super::curve::Curve;
+use super::governor::{Governor, MARGIN, Pacing};
+use super::joints::Joints;
+use super::plan::Motion;
+use super::profile::{Limits, State};
+use super::progress::Progress;
+use super::timing::{Cell, Timing};
+use crate::kinematics::{Frame, Kinematics};
+use crate::robot::Robot;
+
+/// A stretch of the way with constant limits. Its own parameter is the time, in s, that it takes at its full speed: so
+/// that motions and blends meet with the same speed.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    pub(super) number: u64,
+    pub(super) line: u32,
+    pub(super) tool: Frame,
+    curve: Curve,
+    /// The parameters of the curve at the start and at the end.
+    from: f64,
+    to: f64,
+    /// How the curve's parameter goes with the share of the nominal time, where it does not go evenly.
+    progress: Option<Progress>,
+    /// The nominal time in s.
+    pub(super) time: f64,
+    /// In s of nominal time.
+    pub(super) limits: Limits,
+    /// Whether the robot has to stand still at the end.
+    pub(super) stops: bool,
+    /// Whether the motion ends here.
+    pub(super) ends: bool,
+    /// Where the motion ends, exactly; only where it stops there.
+    target: Joints,
+    /// Shares of the motion that are done at the start and at the end.
+    shares: [f64; 2],
+    /// The length of the motion in mm.
+    pub(super) length: f64,
+}
+
+impl Piece {
+    /// A part of a motion.
+    fn part(motion: &Motion, limits: Limits, number: u64, from: f64, to: f64) -> Self {
+        // One s of nominal time at full speed.
+        let scaled = Limits { vel: 1.0, acc: limits.acc / limits.vel, jerk: limits.jerk / limits.vel };
+        Self {
+            number,
+            line: motion.line,
+            tool: motion.tool,
+            curve: motion.curve.clone(),
+            from,
+            to,
+            progress: None,
+            time: (to - from) / limits.vel,
+            limits: scaled,
+            stops: true,
+            ends: true,
+            target: motion.end,
+            shares: [from, to],
+            length: motion.length,
+        }
+    }
+
+    /// One half of a blend: the first belongs to the motion that is left, the second to the one that is joined.
+    fn half(blend: &Blend, motion: &Motion, number: u64, first: bool) -> Self {
+        let Limits { vel, acc, jerk } = blend.limits;
+        let time = blend.time;
+        Self {
+            number,
+            line: motion.line,
+            tool: motion.tool,
+            curve: blend.curve.clone(),
+            from: if first { 0.0 } else { 0.5 },
+            to: if first { 0.5 } else { 1.0 },
+            progress: Some(blend.progress),
+            time: time / 2.0,
+            limits: Limits { vel: vel * time, acc: acc * time, jerk: jerk * time },
+            stops: false,
+            ends: first,
+            target: motion.end,
+            shares: if first { [blend.leave, 1.0] } else { [0.0, blend.join] },
+            length: motion.length,
+        }
+    }
+
+    /// The joints after `at` s of nominal time.
+    pub(super) fn joints(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> Joints {
+        if self.stops && at >= self.time {
+            return self.target;
+        }
+        let place = self.from + (self.to - self.from) * (at / self.time);
+        let place = self.progress.as_ref().map_or(place, |progress| progress.at(place));
+        self.curve.joints(kinematics, place, near)
+    }
+
+    /// The share of the motion that is done after `at` s of nominal time.
+    pub(super) fn share(&self, at: f64) -> f64 {
+        let [from, to] = self.shares;
+        from + (to - from) * (at / self.time).clamp(0.0, 1.0)
+    }
+}
+
+/// All pieces from the one that the robot is on.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Course {
+    pieces: VecDeque<Piece>,
+    /// Where the robot is on the first piece, in s of nominal time.
+    at: f64,
+    timing: Timing,
+    /// Where the robot is on the first cell of the timing, and how it moves.
+    state: State,
+    /// The share of the speed that the robot has settled to.
+    share: f64,
+    /// The last motion, with its limits, which the next one may still round off.
+    tail: Option<(Motion, Limits)>,
+}
+
+impl Course {
+    /// The piece that the robot is on.
+    pub(super) fn first(&self) -> Option<&Piece> {
+        self.pieces.front()
+    }
+
+    /// Whether nothing is left to go.
+    pub(super) fn is_empty(&self) -> bool {
+        self.pieces.is_empty()
+    }
+
+    /// Whether the robot stands still.
+    pub(super) fn rests(&self) -> bool {
+        self.state.rests()
+    }
+
+    /// Where the robot is on the first piece, in s of nominal time.
+    pub(super) fn at(&self) -> f64 {
+        self.at
+    }
+
+    /// The nominal time in s that is left to go.
+    pub(super) fn time_left(&self) -> f64 {
+        self.timing.length() - self.state.at
+    }
+
+    /// Appends a motion. Returns whether it was asked to round off the motion before it, but came too late for that.
+    pub(super) fn append(&mut self, robot: &Robot, motion: Motion, number: u64, cycle: f64) -> bool {
+        let Some(limits) = motion.limits else { return false };
+        let wanted = match self.tail.take() {
+            Some((before, before_limits)) if !self.pieces.is_empty() => {
+                blend(robot, &before, &motion).map(|blend| (before, before_limits, blend))
+            }
+            _ => None,
+        };
+        let asked = wanted.is_some();
+        let rounded = wanted.is_some_and(|(before, before_limits, blend)| {
+            self.round_off((&before, before_limits), (&motion, limits), number, &blend, cycle)
+        });
+        if !rounded {
+            self.push(Piece::part(&motion, limits, number, 0.0, 1.0), cycle);
+        }
+        self.timing.settle();
+        self.timing.find_entries(MARGIN, cycle);
+        self.tail = Some((motion, limits));
+        asked && !rounded
+    }
+
+    /// Puts a blend in place of the end of the last motion and the start of the next; returns whether the robot is still
+    /// able to take it.
+    fn round_off(
+        &mut self,
+        (before, before_limits): (&Motion, Limits),
+        (motion, limits): (&Motion, Limits),
+        number: u64,
+        blend: &Blend,
+        cycle: f64,
+    ) -> bool {
+        let Some(last) = self.pieces.pop_back() else { return false };
+        if self.pieces.is_empty() && self.at >= (blend.leave - last.from) / before_limits.vel {
+            self.pieces.push_back(last);
+            return false;
+        }
+        self.timing.pop();
+        let mut cut = Piece::part(before, before_limits, last.number, last.from, blend.leave);
+        (cut.stops, cut.ends) = (false, false);
+        let rest = Piece::part(motion, limits, number, blend.join, 1.0);
+        let halves = [Piece::half(blend, before, last.number, true), Piece::half(blend, motion, number, false)];
+        let [first, second] = halves;
+        let mut added = 0;
+        for piece in [cut, first, second, rest].into_iter().filter(|piece| piece.time > 1e-12) {
+            self.push(piece, cycle);
+            added += 1;
+        }
+        if let Some(end) = self.pieces.back_mut() {
+            end.stops = true;
+        }
+        if let Some(end) = self.timing.stretches.back_mut() {
+            end.stops = true;
+        }
+        self.timing.find_entries(MARGIN, cycle);
+        if self.governor(cycle).holds(&self.state) {
+            return true;
+        }
+        for _ in 0..added {
+            self.pieces.pop_back();
+            self.timing.pop();
+        }
+        self.push(last, cycle);
+        false
+    }
+
+    /// Appends a piece, in a stretch of its own where the robot could not keep to it otherwise.
+    fn push(&mut self, piece: Piece, cycle: f64) {
+        let cell = Cell { length: piece.time, limits: piece.limits };
+        self.timing.push(cell, piece.stops, true);
+        if self.timing.stretches.len() == 1 && !self.state.rests() {
+            self.timing.find_entries(MARGIN, cycle);
+            if !self.governor(cycle).holds(&self.state) {
+                self.timing.pop();
+                self.timing.push(cell, piece.stops, false);
+            }
+        }
+        self.pieces.push_back(piece);
+    }
+
+    fn governor(&self, cycle: f64) -> Governor<'_> {
+        Governor { stretches: &self.timing.stretches, cycle }
+    }
+
+    /// Goes on for a cycle; tells of each piece that is left behind. Returns whether the robot has arrived where it had
+    /// to stop: at the end of the last piece that was told of.
+    pub(super) fn advance(&mut self, cycle: f64, pacing: Pacing, mut passed: impl FnMut(Piece)) -> bool {
+        let pacing = self.settling(cycle, pacing);
+        let next = self.governor(cycle).next(&self.state, pacing);
+        self.at += next.at - self.state.at;
+        self.state = next;
+        let stands = self.timing.pass(&mut self.state);
+        while let Some(first) = self.pieces.front() {
+            // What rounding leaves of pieces before a stop is passed with it.
+            let at_stop = stands && self.at >= first.time - 1e-9;
+            if self.at < first.time && !at_stop {
+                break;
+            }
+            let stops = first.stops;
+            if stops && !stands {
+                break;
+            }
+            self.at = if stops { 0.0 } else { self.at - first.time };
+            if let Some(piece) = self.pieces.pop_front() {
+                passed(piece);
+            }
+            if stops {
+                break;
+            }
+        }
+        stands
+    }
+
+    /// The pacing with the way to a share of the speed that is new.
+    fn settling(&mut self, cycle: f64, pacing: Pacing) -> Pacing {
+        match pacing {
+            Pacing::Go(share) if share != self.share => {
+                if self.governor(cycle).settled(&self.state, share) {
+                    self.share = share;
+                    return pacing;
+                }
+                Pacing::Settle(share)
+            }
+            Pacing::Stop(_) => {
+                self.share = 0.0;
+                pacing
+            }
+            _ => pacing,
+        }
+    }
+
+    /// Drops the motions behind the next place where the robot stops.
+    pub(super) fn keep_to_stop(&mut self) {
+        let kept = self.pieces.iter().position(|piece| piece.stops).map_or(0, |last| last + 1);
+        self.pieces.truncate(kept);
+        let kept = self.timing.stretches.iter().position(|stretch| stretch.stops).map_or(0, |last| last + 1);
+        self.timing.stretches.truncate(kept);
+        self.tail = None;
+    }
+
+    /// Drops everything.
+    pub(super) fn clear(&mut self) {
+        *self = Self::default();
+    }
+
+    /// How long the motion on which the robot is still takes, in s at this pace; at most `most` s are looked at.
+    pub(super) fn time_to_end(&self, cycle: f64, pacing: Pacing, most: f64) -> f64 {
+        let Some(number) = self.pieces.front().map(|piece| piece.number) else { return 0.0 };
+        let own = self.pieces.iter().take_while(|piece| piece.number == number);
+        let left = own.map(|piece| piece.time).sum::<f64>() - self.at;
+        let (mut state, mut timing) = (self.state, self.timing.clone());
+        let (mut time, mut gone) = (0.0, 0.0);
+        while gone < left - 1e-9 && time < most {
+            let next = Governor { stretches: &timing.stretches, cycle }.next(&state, pacing);
+            gone += next.at - state.at;
+            state = next;
+            timing.pass(&mut state);
+            time += cycle;
+        }
+        time
+    }
+}

@@ -1,0 +1,286 @@
+//! The geometry of motion: where everything is at a parameter that runs from 0 to 1, and how it changes with it.
+
+use nalgebra::{Translation3, UnitQuaternion, Vector3};
+
+use super::joints::{ALL, Joints};
+use super::quintic::Quintic;
+use crate::kinematics::{Axes, Frame, Kinematics, Twist, wrap_degrees};
+use crate::robot::{EXTERNAL_AXES, ROBOT_AXES};
+
+/// What a motion moves along.
+#[derive(Clone, PartialEq, Debug)]
+#[expect(clippy::large_enum_variant, reason = "a box would be freed in the cycle that ends the motion")]
+pub(super) enum Curve {
+    /// All axes by polynomials.
+    Axes(Quintic<ALL>),
+    /// The TCP along a track; external axes by polynomials.
+    Tool(ToolCurve),
+}
+
+/// Where a point goes.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum Track {
+    /// By polynomials, in mm.
+    Poly(Quintic<3>),
+    /// Along a circle.
+    Arc(Arc),
+}
+
+/// A part of a circle: `centre + across cos(sweep u) + along sin(sweep u)`, in mm and rad.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Arc {
+    pub(super) centre: Vector3<f64>,
+    pub(super) across: Vector3<f64>,
+    pub(super) along: Vector3<f64>,
+    pub(super) sweep: f64,
+}
+
+/// A way of the TCP, seen from the base.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct ToolCurve {
+    /// The position of the TCP.
+    pub(super) track: Track,
+    /// The orientation to which `turning` is added.
+    pub(super) base: UnitQuaternion<f64>,
+    /// A rotation vector in rad, about axes of the base.
+    pub(super) turning: Quintic<3>,
+    /// The flange seen from the TCP.
+    pub(super) flange: Frame,
+    /// The external axes.
+    pub(super) external: Quintic<EXTERNAL_AXES>,
+    /// The configuration that the whole way keeps.
+    pub(super) cfg: u8,
+}
+
+impl Track {
+    /// A straight line.
+    pub(super) fn line(start: Vector3<f64>, end: Vector3<f64>) -> Self {
+        Self::Poly(Quintic::even(start.into(), (end - start).into()))
+    }
+
+    /// The position at `at`, in mm.
+    pub(super) fn at(&self, at: f64) -> Vector3<f64> {
+        match self {
+            Track::Poly(poly) => poly.at(at).into(),
+            Track::Arc(arc) => {
+                let (sine, cosine) = (arc.sweep * at).sin_cos();
+                arc.centre + arc.across * cosine + arc.along * sine
+            }
+        }
+    }
+
+    /// The derivative of the order `order`, 1 to 3, in mm per unit.
+    pub(super) fn derivative(&self, order: usize, at: f64) -> Vector3<f64> {
+        match self {
+            Track::Poly(poly) => poly.derivative(order, at).into(),
+            Track::Arc(arc) => {
+                let (sine, cosine) = (arc.sweep * at).sin_cos();
+                let (x, y) = match order {
+                    1 => (-sine, cosine),
+                    2 => (-cosine, -sine),
+                    _ => (sine, -cosine),
+                };
+                (arc.across * x + arc.along * y) * arc.sweep.powi(order as i32)
+            }
+        }
+    }
+
+    /// Its length in mm.
+    pub(super) fn length(&self) -> f64 {
+        match self {
+            Track::Poly(poly) if poly.is_even() => self.derivative(1, 0.0).norm(),
+            Track::Arc(arc) => arc.along.norm() * arc.sweep.abs(),
+            // Gauss's rule with five places, on eight parts.
+            Track::Poly(_) => {
+                const PLACES: [(f64, f64); 5] = [
+                    (0.0, 0.568_888_888_888_888_9),
+                    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+                    (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+                    (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
+                    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+                ];
+                let part = |part: u32| {
+                    let speed = |(place, weight): &(f64, f64)| {
+                        weight * self.derivative(1, (f64::from(part) + 0.5 + place / 2.0) / 8.0).norm()
+                    };
+                    PLACES.iter().map(speed).sum::<f64>() / 16.0
+                };
+                (0..8).map(part).sum()
+            }
+        }
+    }
+}
+
+/// Half the width of the places between which a rotation's derivatives are measured, as part of the way.
+const STENCIL: f64 = 1.0 / 128.0;
+
+impl ToolCurve {
+    /// The TCP's frame at `at`, translation in mm.
+    pub(super) fn tcp(&self, at: f64) -> Frame {
+        Frame::from_parts(Translation3::from(self.track.at(at)), self.rotation(at))
+    }
+
+    /// Whether speed and turning of the TCP are the same all along.
+    pub(super) fn is_even(&self) -> bool {
+        let even = match &self.track {
+            Track::Poly(poly) => poly.is_even(),
+            Track::Arc(_) => true,
+        };
+        even && self.turning.is_even()
+    }
+
+    /// The orientation at `at`.
+    pub(super) fn rotation(&self, at: f64) -> UnitQuaternion<f64> {
+        UnitQuaternion::from_scaled_axis(Vector3::from(self.turning.at(at))) * self.base
+    }
+
+    /// The flange's frame at `at`, translation in mm.
+    pub(super) fn flange(&self, at: f64) -> Frame {
+        self.tcp(at) * self.flange
+    }
+
+    /// The axes at `at`, no farther than half a turn from `near`; `None` where the arm does not reach.
+    pub(super) fn axes(&self, kinematics: &Kinematics, at: f64, near: &Axes) -> Option<Axes> {
+        let mut axes = kinematics.inverse(&self.flange(at), self.cfg, near)?;
+        for (value, near) in axes.iter_mut().zip(near) {
+            *value = near + wrap_degrees(*value - near);
+        }
+        Some(axes)
+    }
+
+    /// How the orientation changes at `at`: its speed of rotation in rad per unit, and two derivatives of that.
+    pub(super) fn rotation_rates(&self, at: f64) -> [Vector3<f64>; 3] {
+        if self.turning.is_even() {
+            return [Vector3::from(self.turning.derivative(1, at)), Vector3::zeros(), Vector3::zeros()];
+        }
+        // The rotation vector from here on, at five places, gives derivatives that hold here.
+        let here = self.rotation(at).inverse();
+        let turned = |steps: f64| (self.rotation(at + steps * STENCIL) * here).scaled_axis();
+        let (m2, m1, p1, p2) = (turned(-2.0), turned(-1.0), turned(1.0), turned(2.0));
+        let h = STENCIL;
+        let first = (m2 - m1 * 8.0 + p1 * 8.0 - p2) / (12.0 * h);
+        let second = (-m2 + m1 * 16.0 + p1 * 16.0 - p2) / (12.0 * h * h);
+        let third = (-m2 + m1 * 2.0 - p1 * 2.0 + p2) / (2.0 * h * h * h);
+        [first, second, third + first.cross(&second) * 0.5]
+    }
+
+    /// How the flange moves at `at`, per unit of the parameter.
+    pub(super) fn twist(&self, at: f64) -> Twist {
+        let point = self.track.at(at);
+        let moving = [1, 2, 3].map(|order| self.track.derivative(order, at));
+        Twist::new(&point, &moving, &self.rotation_rates(at))
+    }
+
+    /// The position and the rotation vector from `origin` at `at`, with their derivatives.
+    pub(super) fn place(&self, at: f64, origin: &UnitQuaternion<f64>) -> [[Vector3<f64>; 3]; 2] {
+        let turned = |at: f64| (self.rotation(at) * origin.inverse()).scaled_axis();
+        let h = STENCIL / 4.0;
+        let (m1, here, p1) = (turned(at - h), turned(at), turned(at + h));
+        let rotation = if self.turning.is_even() {
+            [here, (p1 - m1) / (2.0 * h), Vector3::zeros()]
+        } else {
+            let (m2, p2) = (turned(at - 2.0 * h), turned(at + 2.0 * h));
+            let first = (m2 - m1 * 8.0 + p1 * 8.0 - p2) / (12.0 * h);
+            let second = (-m2 + m1 * 16.0 - here * 30.0 + p1 * 16.0 - p2) / (12.0 * h * h);
+            [here, first, second]
+        };
+        [[self.track.at(at), self.track.derivative(1, at), self.track.derivative(2, at)], rotation]
+    }
+}
+
+impl Curve {
+    /// The external axes of an axis curve; of others, those that they have.
+    pub(super) fn external(&self) -> Quintic<EXTERNAL_AXES> {
+        match self {
+            Curve::Axes(axes) => Quintic(axes.0.map(|power| Joints::of(&power).external)),
+            Curve::Tool(tool) => tool.external,
+        }
+    }
+
+    /// All axes evenly from start to end.
+    pub(super) fn even_axes(start: &Joints, end: &Joints) -> Self {
+        let (from, mut travel) = (start.all(), end.all());
+        for (travel, from) in travel.iter_mut().zip(from) {
+            *travel -= from;
+        }
+        Curve::Axes(Quintic::even(from, travel))
+    }
+
+    /// The joints at `at`; `near` are the joints of the cycle before.
+    pub(super) fn joints(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> Joints {
+        match self {
+            Curve::Axes(axes) => Joints::of(&axes.at(at)),
+            // Planning has walked the way; where rounding alone misses the edge of the reach, the axes stay.
+            Curve::Tool(tool) => Joints {
+                axes: tool.axes(kinematics, at, &near.axes).unwrap_or(near.axes),
+                external: tool.external.at(at),
+            },
+        }
+    }
+}
+
+impl Joints {
+    /// Own axes, then external ones.
+    pub(super) fn all(&self) -> [f64; ALL] {
+        let mut all = [0.0; ALL];
+        for (value, joint) in all.iter_mut().zip(self.axes.iter().chain(&self.external)) {
+            *value = *joint;
+        }
+        all
+    }
+
+    /// The opposite of [`Joints::all`].
+    pub(super) fn of(all: &[f64; ALL]) -> Self {
+        let mut joints = Self { axes: [0.0; ROBOT_AXES], external: [0.0; EXTERNAL_AXES] };
+        for (joint, value) in joints.axes.iter_mut().chain(&mut joints.external).zip(all) {
+            *joint = *value;
+        }
+        joints
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_twist_is_how_the_flange_moves() {
+        let turning = Quintic([
+            [0.1, 0.2, 0.0],
+            [0.5, -0.3, 0.2],
+            [0.0, 0.4, -0.6],
+            [0.3, 0.0, 0.1],
+            [0.0, 0.2, 0.0],
+            [-0.1, 0.0, 0.1],
+        ]);
+        let arc = Arc {
+            centre: Vector3::new(500.0, 20.0, 300.0),
+            across: Vector3::new(0.0, 90.0, 0.0),
+            along: Vector3::new(0.0, 0.0, 90.0),
+            sweep: 2.0,
+        };
+        let curve = ToolCurve {
+            track: Track::Arc(arc),
+            base: UnitQuaternion::from_euler_angles(0.3, 0.2, 0.1),
+            turning,
+            flange: crate::kinematics::frame([10.0, 20.0, -100.0, 5.0, 6.0, 7.0]),
+            external: Quintic::even([0.0; 6], [0.0; 6]),
+            cfg: 0,
+        };
+        let (at, h) = (0.4, 1e-4);
+        let twist = curve.twist(at);
+        // The velocity of the flange's origin, from its twist and from its positions.
+        let velocity = |at: f64| {
+            let (twist, flange) = (curve.twist(at).first, curve.flange(at).translation.vector / 1000.0);
+            let (turning, moving) = (twist.fixed_rows::<3>(0).into_owned(), twist.fixed_rows::<3>(3).into_owned());
+            moving + turning.cross(&flange)
+        };
+        let measured = (curve.flange(at + h).translation.vector - curve.flange(at - h).translation.vector) / 2000.0 / h;
+        assert!((velocity(at) - measured).norm() < 1e-6, "{} {measured}", velocity(at));
+        let (before, after) = (curve.twist(at - h), curve.twist(at + h));
+        let second = (after.first - before.first) / (2.0 * h);
+        let third = (after.second - before.second) / (2.0 * h);
+        assert!((twist.second - second).norm() < 1e-4 * second.norm(), "{} {second}", twist.second);
+        assert!((twist.third - third).norm() < 1e-2 * third.norm(), "{} {third}", twist.third);
+    }
+}

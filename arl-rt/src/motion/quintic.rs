@@ -1,0 +1,102 @@
+//! Polynomials of the fifth degree: straight ways, blends, splines.
+
+/// A polynomial of up to the fifth degree for each of `N` values, lowest power first.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Quintic<const N: usize>(pub(super) [[f64; N]; 6]);
+
+/// A value with its first and second derivative.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Knot<const N: usize> {
+    pub(super) value: [f64; N],
+    pub(super) first: [f64; N],
+    pub(super) second: [f64; N],
+}
+
+impl<const N: usize> Quintic<N> {
+    /// Evenly from `start` at 0 by `travel` per unit.
+    pub(super) fn even(start: [f64; N], travel: [f64; N]) -> Self {
+        let zero = [0.0; N];
+        Self([start, travel, zero, zero, zero, zero])
+    }
+
+    /// From one knot at 0 to another at 1.
+    pub(super) fn between(from: &Knot<N>, to: &Knot<N>) -> Self {
+        let mut powers = [[0.0; N]; 6];
+        for index in 0..N {
+            let (p0, v0, a0) = (from.value[index], from.first[index], from.second[index]);
+            let (p1, v1, a1) = (to.value[index], to.first[index], to.second[index]);
+            let way = p1 - p0;
+            let column = [
+                p0,
+                v0,
+                a0 / 2.0,
+                10.0 * way - 6.0 * v0 - 4.0 * v1 - 1.5 * a0 + 0.5 * a1,
+                -15.0 * way + 8.0 * v0 + 7.0 * v1 + 1.5 * a0 - a1,
+                6.0 * way - 3.0 * (v0 + v1) - 0.5 * a0 + 0.5 * a1,
+            ];
+            for (power, value) in powers.iter_mut().zip(column) {
+                power[index] = value;
+            }
+        }
+        Self(powers)
+    }
+
+    /// The values at `at`.
+    pub(super) fn at(&self, at: f64) -> [f64; N] {
+        self.0.iter().rev().fold([0.0; N], |sum, power| times_plus(sum, at, power))
+    }
+
+    /// The derivative of the order `order`, 1 to 3, at `at`.
+    pub(super) fn derivative(&self, order: usize, at: f64) -> [f64; N] {
+        let factor = |power: usize| (0..order).map(|step| (power - step) as f64).product::<f64>();
+        let mut sum = [0.0; N];
+        for (power, values) in self.0.iter().enumerate().skip(order).rev() {
+            sum = times_plus(sum, at, &values.map(|value| value * factor(power)));
+        }
+        sum
+    }
+
+    /// The values at `at` with their first two derivatives.
+    pub(super) fn knot(&self, at: f64) -> Knot<N> {
+        Knot { value: self.at(at), first: self.derivative(1, at), second: self.derivative(2, at) }
+    }
+
+    /// Whether it goes evenly.
+    pub(super) fn is_even(&self) -> bool {
+        self.0.iter().skip(2).all(|power| power.iter().all(|value| *value == 0.0))
+    }
+}
+
+fn times_plus<const N: usize>(sum: [f64; N], at: f64, add: &[f64; N]) -> [f64; N] {
+    let mut out = *add;
+    for (out, sum) in out.iter_mut().zip(sum) {
+        *out += sum * at;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_takes_the_knots_at_both_ends() {
+        let from = Knot { value: [1.0, -2.0], first: [3.0, 0.5], second: [-4.0, 2.0] };
+        let to = Knot { value: [0.0, 5.0], first: [-1.0, 2.0], second: [6.0, -7.0] };
+        let curve = Quintic::between(&from, &to);
+        for (at, knot) in [(0.0, from), (1.0, to)] {
+            let found = curve.knot(at);
+            for (found, wanted) in
+                [(found.value, knot.value), (found.first, knot.first), (found.second, knot.second)]
+            {
+                assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?} {wanted:?}");
+            }
+        }
+        let step = 1e-4;
+        let third = curve.derivative(3, 0.3);
+        let (before, after) = (curve.derivative(2, 0.3 - step), curve.derivative(2, 0.3 + step));
+        for index in 0..2 {
+            assert!((third[index] - (after[index] - before[index]) / (2.0 * step)).abs() < 1e-4);
+        }
+    }
+}

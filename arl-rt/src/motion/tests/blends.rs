@@ -1,0 +1,153 @@
+use super::*;
+
+/// Corner points around a reachable place, and their lines with a zone.
+fn corner_run(robot: &Arc<Robot>, points: &[[f64; 3]], zone: Zone, tcp: f64) -> (Vec<Step>, Frame) {
+    let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+    let mut queue = Queue::new(robot.clone(), start);
+    let home = robot.kinematics.forward(&start.axes);
+    let origin = frame_components(&home);
+    for [x, y, z] in points {
+        let mut pose = origin;
+        (pose[0], pose[1], pose[2]) = (origin[0] + x, origin[1] + y, origin[2] + z);
+        let speed = Speed { tcp, ..fast() };
+        queue.add(&Command { zone, speed, ..lin(pose) }, &Settings::default()).unwrap();
+    }
+    (run(&mut queue, 100.0), home)
+}
+
+fn tcp_zone(distance: f64) -> Zone {
+    Zone { tcp: distance, ..Zone::NONE }
+}
+
+/// Distance in mm of a point from the line between two others.
+fn off(at: &nalgebra::Vector3<f64>, a: &nalgebra::Vector3<f64>, b: &nalgebra::Vector3<f64>) -> f64 {
+    let way = b - a;
+    let along = ((at - a).dot(&way) / way.norm_squared()).clamp(0.0, 1.0);
+    (at - a - way * along).norm()
+}
+
+#[test]
+fn a_corner_stays_in_its_zone_and_is_passed_without_a_stop() {
+    let robot = robot("kr10-r1420");
+    for (zone, angle) in [(10.0, 90.0_f64), (40.0, 90.0), (5.0, 30.0), (40.0, 135.0), (25.0, 170.0), (300.0, 60.0)] {
+        let (sine, cosine) = angle.to_radians().sin_cos();
+        let points = [[0.0, 200.0, 0.0], [0.0, 200.0 + 200.0 * cosine, -200.0 * sine]];
+        let (rows, home) = corner_run(&robot, &points, tcp_zone(zone), 400.0);
+        assert_within_limits(&robot, &rows, &format!("{zone} mm, {angle} deg"));
+        let place = |p: &[f64; 3]| home.translation.vector + nalgebra::Vector3::new(p[0], p[1], p[2]);
+        let (start, corner, end) = (home.translation.vector, place(&points[0]), place(&points[1]));
+        let reach = zone.min(100.0);
+        let mut closest = f64::INFINITY;
+        for row in &rows[1..] {
+            let at = row.tcp.translation.vector;
+            let from_corner = (at - corner).norm();
+            closest = closest.min(from_corner);
+            let off = off(&at, &start, &corner).min(off(&at, &corner, &end));
+            assert!(from_corner <= reach + 1e-6 || off < 1e-3, "{off} mm off, {from_corner} mm before the corner");
+        }
+        assert!(closest > 0.01 * reach, "{zone} {angle}: the corner was cut, {closest}");
+        // Between start and end it never stands still.
+        let inner = &rows[2..rows.len() - 1];
+        assert!(inner.iter().all(|row| !row.rests), "{zone} mm, {angle} deg");
+        let last = rows.last().unwrap();
+        assert!((last.tcp.translation.vector - end).norm() < 1e-6);
+        assert_eq!(rows.iter().map(|row| row.finished).max(), Some(2));
+    }
+}
+
+#[test]
+fn a_rounded_corner_is_quicker_than_a_stop() {
+    let robot = robot("kr10-r1420");
+    let points = [[0.0, 300.0, 0.0], [0.0, 300.0, -300.0]];
+    let cycles = |zone: f64| corner_run(&robot, &points, tcp_zone(zone), 250.0).0.len();
+    let (stop, small, large) = (cycles(-1.0), cycles(20.0), cycles(100.0));
+    assert!(stop > small && small > large, "{stop} {small} {large}");
+}
+
+#[test]
+fn dense_points_keep_their_speed() {
+    let robot = robot("kr10-r1420");
+    let points: Vec<[f64; 3]> = (1..=4000).map(|index| [0.0, 0.1 * f64::from(index), 0.0]).collect();
+    let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+    let mut queue = Queue::new(robot.clone(), start);
+    let origin = frame_components(&robot.kinematics.forward(&start.axes));
+    let mut rows = vec![Step { joints: start, tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+    let mut next = 0;
+    while next < points.len() || !queue.idle() {
+        while next < points.len() && queue.has_room() {
+            let pose = [origin[0], origin[1] + points[next][1], origin[2], origin[3], origin[4], origin[5]];
+            let speed = Speed { tcp: 500.0, ..fast() };
+            queue.add(&Command { zone: tcp_zone(0.05), speed, ..lin(pose) }, &Settings::default()).unwrap();
+            next += 1;
+        }
+        rows.push(queue.step(CYCLE, 100.0));
+        assert!(rows.len() < 20_000);
+    }
+    assert_within_limits(&robot, &rows, "dense");
+    let speeds: Vec<f64> = rows
+        .windows(2)
+        .skip(1)
+        .map(|pair| (pair[1].tcp.translation.vector - pair[0].tcp.translation.vector).norm() / CYCLE)
+        .collect();
+    let fast = speeds.iter().filter(|speed| **speed >= 0.99 * 500.0).count();
+    // 400 mm at 500 mm/s take 0.8 s, less the ramps.
+    assert!(fast > 500, "{fast} cycles of {} at full speed", speeds.len());
+}
+
+#[test]
+fn random_chains_of_all_kinds_keep_every_limit() {
+    let mut random = Random::new(91);
+    for name in ["kr10-r1420", "tx2-60", "irb2400-10"] {
+        let robot = with_external_axes(name);
+        for round in 0..6 {
+            let mut queue = Queue::new(robot.clone(), random_joints(&robot, &mut random, 0.5));
+            let (mut added, mut tried) = (0_u32, 0);
+            while added < 10 && tried < 400 {
+                tried += 1;
+                let end = *queue.end();
+                let goal = random_joints(&robot, &mut random, 0.5);
+                let mut pose = frame_components(&robot.kinematics.forward(&end.axes));
+                for (index, value) in pose.iter_mut().enumerate() {
+                    *value += if index < 3 { random.between(-150.0, 150.0) } else { random.between(-20.0, 20.0) };
+                }
+                let external = goal.external;
+                let wobj = Frame::identity();
+                let target = match (random.between(0.0, 4.0)) as u32 {
+                    0 => Target::Joints(goal),
+                    1 => Target::Pose { pose, wobj, wanted: Wanted { cfg: None, turn: -1 }, external },
+                    2 => Target::Line { pose, wobj, external },
+                    _ => {
+                        let here = robot.kinematics.forward(&end.axes).translation.vector;
+                        let via = [0, 1, 2].map(|i| (here[i] + pose[i]) / 2.0 + random.between(-60.0, 60.0));
+                        Target::Arc { via, pose, wobj, angle: None, follow: false, external }
+                    }
+                };
+                let size = random.between(1.0, 60.0);
+                let zone = match random.between(0.0, 5.0) as u32 {
+                    0 => Zone::NONE,
+                    1 => Zone { percent: size, ..Zone::NONE },
+                    2 => Zone { tcp: size, ..Zone::NONE },
+                    3 => Zone { tcp: UNSET, ori: size / 3.0, joint: size / 3.0, ..Zone::NONE },
+                    _ => Zone { tcp: size, joint: size / 3.0, ori: size, turning: 5.0, linear: 20.0, ..Zone::NONE },
+                };
+                let speed = Speed {
+                    percent: random.between(5.0, 100.0),
+                    tcp: random.between(20.0, 1500.0),
+                    ori: random.between(20.0, 400.0),
+                    exj: random.between(20.0, 500.0),
+                    exl: random.between(20.0, 500.0),
+                };
+                let command = Command { target, zone, speed, line: added + 1, ..movej([0.0; 6]) };
+                if queue.add(&command, &Settings::default()).is_ok() {
+                    added += 1;
+                }
+            }
+            assert!(added == 10, "{name}: {added} of {tried}");
+            let end = *queue.end();
+            let rows = run(&mut queue, 100.0);
+            assert_within_limits(&robot, &rows, &format!("{name} {round}"));
+            assert_eq!(values(&robot, &rows.last().unwrap().joints), values(&robot, &end), "{name} {round}");
+            assert_eq!(rows.last().unwrap().finished, 10);
+        }
+    }
+}

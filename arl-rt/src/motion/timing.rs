@@ -1,0 +1,177 @@
+//! What limits the speed along the way ahead, as the governor sees it: stretches of constant acceleration and jerk, each
+//! cut into cells of constant speed. Lengths are s of nominal time.
+
+use std::collections::VecDeque;
+
+use super::profile::{Change, Limits, State};
+
+/// A part of a stretch on which one speed is allowed.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Cell {
+    pub(super) length: f64,
+    pub(super) limits: Limits,
+}
+
+/// A part of the way on which one acceleration and one jerk hold.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Stretch {
+    pub(super) cells: VecDeque<Cell>,
+    pub(super) acc: f64,
+    pub(super) jerk: f64,
+    /// The highest speed, without acceleration, from which everything behind the start of the stretch can be kept.
+    pub(super) entry: f64,
+    /// Whether the robot has to stand still at the end.
+    pub(super) stops: bool,
+}
+
+/// Cells whose limits differ by up to this factor share a stretch.
+const ALIKE: f64 = 2.0;
+/// Cells whose speeds differ by up to this part become one, which has the lower one.
+const SAME_SPEED: f64 = 0.01;
+
+/// All stretches from the one that the robot is on.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Timing {
+    pub(super) stretches: VecDeque<Stretch>,
+}
+
+impl Stretch {
+    fn new(cell: Cell) -> Self {
+        let Limits { acc, jerk, .. } = cell.limits;
+        Self { cells: VecDeque::from([cell]), acc, jerk, entry: 0.0, stops: false }
+    }
+
+    /// Whether a cell is enough like the others to join them.
+    fn takes(&self, cell: &Cell) -> bool {
+        let alike = |a: f64, b: f64| a <= b * ALIKE && b <= a * ALIKE;
+        alike(self.acc, cell.limits.acc) && alike(self.jerk, cell.limits.jerk)
+    }
+
+    fn measure(&mut self) {
+        let lowest = |of: fn(&Limits) -> f64| self.cells.iter().map(|cell| of(&cell.limits)).fold(f64::INFINITY, f64::min);
+        (self.acc, self.jerk) = (lowest(|limits| limits.acc), lowest(|limits| limits.jerk));
+    }
+
+    /// Acceleration and jerk, with no limit of the speed.
+    pub(super) fn limits(&self) -> Limits {
+        Limits { vel: f64::INFINITY, acc: self.acc, jerk: self.jerk }
+    }
+
+    /// The speed at which it may be entered, where `exit` is the highest speed at its end.
+    fn entry(&self, exit: f64, margin: f64, cycle: f64) -> f64 {
+        let limits = Limits { vel: 0.0, acc: self.acc * margin, jerk: self.jerk * margin };
+        let Some(first) = self.cells.front() else { return exit };
+        let mut entry = first.limits.vel;
+        let mut way = 0.0;
+        let speeds = self.cells.iter().skip(1).map(|cell| cell.limits.vel).chain([exit]);
+        for (cell, speed) in self.cells.iter().zip(speeds) {
+            way += cell.length;
+            // It is entered in the middle of a cycle, and braking begins with the next one.
+            let distance = |vel: f64| Change::new(vel, 0.0, speed, &limits).distance(vel, 0.0) + 2.0 * cycle * vel;
+            if speed >= entry || distance(entry) <= way {
+                // Nothing farther away than a stop from here matters.
+                if way > Change::new(entry, 0.0, 0.0, &limits).distance(entry, 0.0) {
+                    break;
+                }
+                continue;
+            }
+            let (mut low, mut high) = (speed, entry);
+            for _ in 0..50 {
+                let middle = f64::midpoint(low, high);
+                if distance(middle) <= way { low = middle } else { high = middle }
+            }
+            entry = low;
+        }
+        entry
+    }
+}
+
+impl Timing {
+    /// Appends a cell, at whose end the robot has to stand still if `stops`; it joins the last stretch if it `may`.
+    pub(super) fn push(&mut self, cell: Cell, stops: bool, may: bool) {
+        match self.stretches.back_mut() {
+            Some(last) if may && !last.stops && last.takes(&cell) => {
+                last.cells.push_back(cell);
+                last.measure();
+            }
+            _ => self.stretches.push_back(Stretch::new(cell)),
+        }
+        if let Some(last) = self.stretches.back_mut() {
+            last.stops = stops;
+        }
+    }
+
+    /// Takes the last cell away.
+    pub(super) fn pop(&mut self) {
+        if let Some(last) = self.stretches.back_mut() {
+            last.cells.pop_back();
+            last.stops = false;
+            last.measure();
+            if last.cells.is_empty() {
+                self.stretches.pop_back();
+            }
+        }
+    }
+
+    /// Joins cells that are almost the same, but for the last one, which may still be taken away.
+    pub(super) fn settle(&mut self) {
+        let Some(last) = self.stretches.back_mut() else { return };
+        // At most a few cells are new.
+        let count = last.cells.len();
+        for at in (1..count.saturating_sub(1)).rev().take(4) {
+            let (Some(before), Some(cell)) = (last.cells.get(at - 1).copied(), last.cells.get(at).copied()) else { return };
+            // The cell that the robot is on keeps its start.
+            let (a, b) = (before.limits, cell.limits);
+            if (a.vel - b.vel).abs() <= SAME_SPEED * a.vel.max(b.vel) {
+                let limits = Limits { vel: a.vel.min(b.vel), acc: a.acc.min(b.acc), jerk: a.jerk.min(b.jerk) };
+                if let Some(place) = last.cells.get_mut(at - 1) {
+                    *place = Cell { length: before.length + cell.length, limits };
+                }
+                last.cells.remove(at);
+            }
+        }
+    }
+
+    /// Finds the speeds at which stretches may be entered, from the last one backwards. `margin` is the part of the limits
+    /// that is counted on, `cycle` the length of a cycle in s.
+    pub(super) fn find_entries(&mut self, margin: f64, cycle: f64) {
+        let mut exit = 0.0;
+        for stretch in self.stretches.iter_mut().rev() {
+            let entry = stretch.entry(if stretch.stops { 0.0 } else { exit }, margin, cycle);
+            stretch.entry = entry;
+            exit = entry;
+        }
+    }
+
+    /// Leaves behind what the robot has passed; returns whether it stands at a stop.
+    pub(super) fn pass(&mut self, state: &mut State) -> bool {
+        while let Some(first) = self.stretches.front_mut() {
+            let Some(cell) = first.cells.front().copied() else {
+                let stops = first.stops;
+                self.stretches.pop_front();
+                if stops {
+                    *state = State::default();
+                    return true;
+                }
+                continue;
+            };
+            let last = first.cells.len() == 1;
+            if state.at < cell.length {
+                return false;
+            }
+            state.at -= cell.length;
+            first.cells.pop_front();
+            if last && first.stops {
+                *state = State::default();
+                self.stretches.pop_front();
+                return true;
+            }
+        }
+        false
+    }
+
+    /// The way in s to the end of everything.
+    pub(super) fn length(&self) -> f64 {
+        self.stretches.iter().flat_map(|stretch| &stretch.cells).map(|cell| cell.length).sum()
+    }
+}

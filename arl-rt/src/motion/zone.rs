@@ -1,0 +1,107 @@
+//! How much of a motion a blending zone takes.
+
+use super::curve::Curve;
+use super::joints::{Joints, is_unset};
+use super::plan::Motion;
+use crate::robot::Robot;
+
+/// What a zone is measured by.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Measure {
+    /// Part of the motion.
+    Share,
+    /// Way of the TCP in mm.
+    Tcp,
+    /// Turning of the tool in deg.
+    Ori,
+    /// The own axis that goes farthest, in deg (mm).
+    Joint,
+    /// The turning external axis that goes farthest, in deg.
+    Turning,
+    /// The linear external axis that goes farthest, in mm.
+    Linear,
+}
+
+/// The largest zone, as part of a motion.
+const LARGEST: f64 = 0.5;
+
+/// The parts that a blend takes from the end of one motion and from the start of the next; `None` where none is asked for.
+pub(super) fn parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f64)> {
+    let (measure, size, leaving) = leaving(robot, from)?;
+    let time = |motion: &Motion, part: f64| motion.limits.map(|limits| part / limits.vel);
+    let entering = match extent(robot, to, measure) {
+        _ if measure == Measure::Share => leaving,
+        _ if measure == Measure::Tcp && matches!(to.curve, Curve::Axes(_)) => tcp_part(robot, to, size, 0.0),
+        Some(extent) => size / extent,
+        // It does not move that way: it is entered for as long as the other one is left.
+        None => time(from, leaving)? / time(to, 1.0)?,
+    };
+    Some((leaving, entering.min(LARGEST)))
+}
+
+/// What the zone of a motion is measured by, how large it is, and which part of the motion it takes.
+fn leaving(robot: &Robot, motion: &Motion) -> Option<(Measure, f64, f64)> {
+    let zone = &motion.zone;
+    if !is_unset(zone.percent) && zone.percent >= 0.0 {
+        let part = zone.percent.min(100.0) / 100.0 * LARGEST;
+        return (part > 0.0).then_some((Measure::Share, part, part));
+    }
+    let asked = |size: f64| !is_unset(size) && size > 0.0;
+    let wanted = match motion.curve {
+        Curve::Tool(_) if !is_unset(zone.tcp) && zone.tcp <= 0.0 => return None,
+        Curve::Tool(_) => [(Measure::Tcp, zone.tcp), (Measure::Ori, zone.ori)],
+        Curve::Axes(_) if asked(zone.joint) => [(Measure::Joint, zone.joint), (Measure::Joint, zone.joint)],
+        Curve::Axes(_) => [(Measure::Tcp, zone.tcp), (Measure::Tcp, zone.tcp)],
+    };
+    let external = [(Measure::Turning, zone.turning), (Measure::Linear, zone.linear)];
+    let found = wanted.into_iter().chain(external).filter(|(_, size)| asked(*size)).filter_map(|(measure, size)| {
+        let part = match (measure, &motion.curve) {
+            (Measure::Tcp, Curve::Axes(_)) => tcp_part(robot, motion, size, 1.0),
+            _ => size / extent(robot, motion, measure)?,
+        };
+        Some((measure, size, part.min(LARGEST)))
+    });
+    found.min_by(|(_, _, a), (_, _, b)| a.total_cmp(b))
+}
+
+/// How far a motion goes in a measure; `None` where it does not.
+fn extent(robot: &Robot, motion: &Motion, measure: Measure) -> Option<f64> {
+    let is_tool = matches!(motion.curve, Curve::Tool(_));
+    let external = |linear: bool| {
+        let ways = motion.end.external.iter().zip(&motion.start.external).map(|(end, start)| (end - start).abs());
+        let axes = robot.external_axes().iter().zip(ways).filter(|(axis, _)| axis.linear == linear);
+        axes.map(|(_, way)| way).fold(0.0, f64::max)
+    };
+    let extent = match measure {
+        Measure::Share => 1.0,
+        Measure::Tcp => motion.length,
+        Measure::Ori => motion.angle,
+        Measure::Joint if is_tool => 0.0,
+        Measure::Joint => {
+            motion.end.axes.iter().zip(&motion.start.axes).map(|(end, start)| (end - start).abs()).fold(0.0, f64::max)
+        }
+        Measure::Turning => external(false),
+        Measure::Linear => external(true),
+    };
+    (extent > 1e-9).then_some(extent)
+}
+
+/// The part of an axis motion, from its end at `of`, on which the TCP is within `distance` mm of that end.
+fn tcp_part(robot: &Robot, motion: &Motion, distance: f64, of: f64) -> f64 {
+    let tcp = |at: f64| {
+        let joints: Joints = motion.curve.joints(&robot.kinematics, at, &motion.start);
+        (robot.kinematics.forward(&joints.axes) * motion.tool).translation.vector
+    };
+    let end = tcp(of);
+    let far = |part: f64| (tcp((of - part).abs()) - end).norm() > distance;
+    // The first place, seen from the end, where the TCP is too far.
+    const STEPS: u32 = 32;
+    let place = |step: u32| LARGEST * f64::from(step) / f64::from(STEPS);
+    let Some(step) = (1..=STEPS).find(|step| far(place(*step))) else { return LARGEST };
+    let (mut near, mut beyond) = (place(step - 1), place(step));
+    for _ in 0..40 {
+        let middle = f64::midpoint(near, beyond);
+        if far(middle) { beyond = middle } else { near = middle }
+    }
+    near
+}
