@@ -23,19 +23,6 @@ pub(super) struct Screw {
 }
 
 impl Twist {
-    /// A body with a point at `point` (mm) whose first three derivatives are `moving` (mm per unit), while the body turns
-    /// by `turning` (rad per unit; with its first and second derivative).
-    pub fn new(point: &Vector3<f64>, moving: &[Vector3<f64>; 3], turning: &[Vector3<f64>; 3]) -> Self {
-        let point = point / 1000.0;
-        let [p1, p2, p3] = moving.map(|moving| moving / 1000.0);
-        let [w, w1, w2] = turning;
-        Self {
-            first: stack(w, &(p1 - w.cross(&point))),
-            second: stack(w1, &(p2 - w1.cross(&point) - w.cross(&p1))),
-            third: stack(w2, &(p3 - w2.cross(&point) - w1.cross(&p1) * 2.0 - w.cross(&p2))),
-        }
-    }
-
     /// A body whose point `point` (mm) moves straight by `travel` (mm) per unit while the body turns by `turning` (rad,
     /// about a fixed axis of the base) per unit.
     pub fn straight(point: &Vector3<f64>, travel: &Vector3<f64>, turning: &Vector3<f64>) -> Self {

@@ -16,7 +16,7 @@ use super::progress::Progress;
 use super::quintic::{Knot, Quintic};
 use super::survey::survey;
 use super::zone::parts;
-use crate::kinematics::{Kinematics, Rates};
+use crate::kinematics::Rates;
 use crate::robot::{ROBOT_AXES, Robot};
 
 /// Length of the tangents at the ends of a blend, in lengths of the zone. With 2 the blend of two straight lines that are
@@ -185,7 +185,7 @@ fn axes_knot(robot: &Robot, motion: &Motion, at: f64, slope: f64) -> Option<Knot
         Curve::Axes(axes) => axes.knot(at),
         Curve::Tool(tool) => {
             let joints = joints_at(robot, motion, at)?;
-            let Rates { first, second, .. } = axis_rates(&robot.kinematics, tool, at, &joints)?;
+            let Rates { first, second, .. } = robot.kinematics.rates(&joints.axes, &tool.twist(at))?;
             let external = tool.external.knot(at);
             let all = |axes: [f64; ROBOT_AXES], external| Joints { axes, external }.all();
             Knot {
@@ -196,13 +196,6 @@ fn axes_knot(robot: &Robot, motion: &Motion, at: f64, slope: f64) -> Option<Knot
         }
     };
     Some(scaled(knot, slope))
-}
-
-fn axis_rates(kinematics: &Kinematics, tool: &ToolCurve, at: f64, joints: &Joints) -> Option<Rates> {
-    match kinematics {
-        Kinematics::SixAxis(opw) => opw.rates(&joints.axes, &tool.twist(at)),
-        Kinematics::Scara(_) => None,
-    }
 }
 
 /// The joints within a motion, followed from its nearer end.

@@ -168,7 +168,7 @@ impl ToolCurve {
     pub(super) fn twist(&self, at: f64) -> Twist {
         let point = self.track.at(at);
         let moving = [1, 2, 3].map(|order| self.track.derivative(order, at));
-        Twist::new(&point, &moving, &self.rotation_rates(at))
+        Twist::of_point(&point, &moving, &self.rotation_rates(at))
     }
 
     /// The position and the rotation vector from `origin` at `at`, with their derivatives.

@@ -4,7 +4,7 @@
 use super::curve::ToolCurve;
 use super::error::PlanError;
 use super::joints::{Joints, is_unset};
-use crate::kinematics::{Axes, Kinematics, Opw, RANGE_SLACK, Rates};
+use crate::kinematics::{Axes, RANGE_SLACK, Rates};
 use crate::robot::Robot;
 
 /// What the walk found.
@@ -22,7 +22,7 @@ const LONGEST_STEP: f64 = 1.0 / 16.0;
 const STEP_OF_SCALE: f64 = 0.1;
 /// Where the axes' motion changes over so little of the path, the point is singular for all practical speeds.
 const SINGULAR_SCALE: f64 = 1e-3;
-/// Closer to a singular point than this (see [`Opw::clearance`]) rounding spoils the derivatives.
+/// Closer to a singular point than this (see [`crate::kinematics::Kinematics::clearance`]) rounding spoils the derivatives.
 const SINGULAR: f64 = 1e-5;
 /// An axis that is so far (deg) from where it was bound to be has jumped to another solution.
 const JUMP: f64 = 10.0;
@@ -32,14 +32,12 @@ const GLIMPSE_JUMP: f64 = 0.05;
 
 struct Walk<'a> {
     robot: &'a Robot,
-    opw: &'a Opw,
     curve: &'a ToolCurve,
 }
 
 /// Walks `curve` from `start`.
 pub(super) fn survey(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result<Survey, PlanError> {
-    let Kinematics::SixAxis(opw) = &robot.kinematics else { return Err(PlanError::NotForThisRobot) };
-    let walk = Walk { robot, opw, curve };
+    let walk = Walk { robot, curve };
     // The target first: where it cannot be reached, that is what the programmer wants to know.
     walk.axes(1.0, &start.axes)?;
 
@@ -93,7 +91,8 @@ impl Walk<'_> {
 
     /// The derivatives of the axes; `None` at a singular point, where they would be made of rounding errors.
     fn rates(&self, at: f64, axes: &Axes) -> Option<Rates> {
-        if self.opw.clearance(axes) < SINGULAR { None } else { self.opw.rates(axes, &self.curve.twist(at)) }
+        let kinematics = &self.robot.kinematics;
+        if kinematics.clearance(axes) < SINGULAR { None } else { kinematics.rates(axes, &self.curve.twist(at)) }
     }
 
     /// Over which part of the path the axes' motion changes substantially.
@@ -123,7 +122,7 @@ impl Walk<'_> {
             return self.unreachable(at);
         }
         let rate = |index: usize| rates.first.get(index).map_or(0.0, |rate| rate.abs());
-        let fastest = (0..6).max_by(|a, b| rate(*a).total_cmp(&rate(*b))).unwrap_or(0);
+        let fastest = (0..self.robot.own_axes().len()).max_by(|a, b| rate(*a).total_cmp(&rate(*b))).unwrap_or(0);
         PlanError::Singular { axis: self.name(fastest), along: at }
     }
 
