@@ -7,8 +7,8 @@ use crate::fault::Fault;
 use crate::keep::Keep;
 use crate::state::{State, StateError};
 use crate::values::{
-    Array, AsScara, Controlmode, Frame, Joint, Pose, Shared, Slip, SmallArray, Speed, Str, Tool, ToolInertiaPara,
-    UNSET, VelProfile, Wobj,
+    Array, AsScara, Controlmode, Joint, Pose, Shared, Slip, SmallArray, Speed, Str, Tool, ToolInertiaPara, UNSET,
+    VelProfile, Wobj,
 };
 
 /// Declares the variables: field, type, default, name, and when the default comes back.
@@ -282,11 +282,6 @@ pub fn init(cx: &Cx) {
 /// Whether a component of a position was set: what the start value is not.
 pub(crate) fn all_set(components: &[f64]) -> bool {
     components.iter().all(|component| *component != UNSET)
-}
-
-/// Whether a frame changes nothing.
-pub(crate) fn is_identity(frame: &Frame) -> bool {
-    *frame == Frame::default()
 }
 
 #[cfg(test)]

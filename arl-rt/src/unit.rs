@@ -24,6 +24,8 @@ pub(crate) struct Unit {
     /// The motion of the cycle before: its line and its running number.
     executing: (u32, u64),
     tcp: Frame,
+    /// Where the robot stands in the world.
+    base: Frame,
 }
 
 impl Unit {
@@ -44,7 +46,18 @@ impl Unit {
             finished: 0,
             executing: (0, 0),
             tcp,
+            base: Frame::identity(),
         }
+    }
+
+    /// Where the robot stands in the world, for the motions planned from now on.
+    pub(crate) fn set_base(&mut self, base: Frame) {
+        self.base = base;
+    }
+
+    /// Whether a motion came too late to be blended with the one before it, since this was asked last.
+    pub(crate) fn take_late(&mut self) -> bool {
+        self.queue.take_late()
     }
 
     pub(crate) fn robot(&self) -> &Robot {
@@ -83,7 +96,7 @@ impl Unit {
 
     /// The commanded pose of the TCP in the world, with the tool of its motion: mm, deg.
     pub(crate) fn commanded_tcp(&self) -> [f64; 6] {
-        frame_components(&self.tcp)
+        frame_components(&(self.base * self.tcp))
     }
 
     /// Whether the robot stands at these positions.

@@ -36,8 +36,6 @@ pub(crate) struct World {
     pub(crate) alarms: RefCell<Vec<Alarm>>,
     /// What happened that is no alarm but worth a word.
     warnings: RefCell<Vec<String>>,
-    /// What was noted once for all.
-    warned: RefCell<Vec<String>>,
     pub(crate) state: RefCell<State>,
     /// Home points 1 to 5.
     homes: [Option<Vec<f64>>; 5],
@@ -81,7 +79,6 @@ impl World {
             paused: Cell::new(false),
             alarms: RefCell::default(),
             warnings: RefCell::default(),
-            warned: RefCell::default(),
         }
     }
 
@@ -153,15 +150,6 @@ impl World {
     /// Notes what is no alarm but worth a word.
     pub(crate) fn warn(&self, text: String) {
         self.warnings.borrow_mut().push(text);
-    }
-
-    /// The same, once only.
-    pub(crate) fn warn_once(&self, text: &str) {
-        let mut warned = self.warned.borrow_mut();
-        if !warned.iter().any(|known| known == text) {
-            warned.push(text.to_owned());
-            self.warn(text.to_owned());
-        }
     }
 
     /// The warnings since the last call.

@@ -82,7 +82,7 @@ entries! { pub(super) MOTION =
         CA: double [optional, units(&[Unit::Degree])] "angle of the arc, deg: the motion ends there, p only shapes the circle",
         dura: double [optional, units(&[Unit::Second]), range(0.0, f64::INFINITY)] "how long the motion takes, s; the speed is then ignored",
     )
-        { "3.2.5", motion::cir, plans, fails, exclusive(PATH), notyet;
+        { "3.2.5", motion::cir, plans, fails, exclusive(PATH);
           "joint j = {0,-90,90,0,45,0}\npose p = getpose(j,$FLANGE,$WORLD)\nptp p,vp:20%\npose m = offset(p,50,50,0,0,0,0)\np.x = p.x + 100\ncir m,p,vl:100mm/s" }
     /// Moves the TCP on an arc that consecutive ccir instructions make together, one point each. Fewer than three points,
     /// points on one line, equal neighbours, or a stop of the look-ahead between them: alarm 12002.

@@ -99,10 +99,8 @@ fn attempt(robot: &Robot, from: &Motion, to: &Motion, leaving: f64, joining: f64
             Curve::Tool(curve)
         }
         _ => {
-            let curve = Quintic::between(
-                &axes_knot(robot, from, leave, slope_from)?,
-                &axes_knot(robot, to, join, slope_to)?,
-            );
+            let curve =
+                Quintic::between(&axes_knot(robot, from, leave, slope_from)?, &axes_knot(robot, to, join, slope_to)?);
             for step in 0..=PLACES {
                 let place = Place::at(&progress, f64::from(step) / f64::from(PLACES));
                 if !within_ranges(robot, &Joints::of(&curve.at(place.at))) {
@@ -143,14 +141,7 @@ fn common_pace(from: &Motion, to: &Motion) -> Pace {
     }
 }
 
-fn tool_blend(
-    from: &ToolCurve,
-    to: &ToolCurve,
-    leave: f64,
-    join: f64,
-    slope_from: f64,
-    slope_to: f64,
-) -> ToolCurve {
+fn tool_blend(from: &ToolCurve, to: &ToolCurve, leave: f64, join: f64, slope_from: f64, slope_to: f64) -> ToolCurve {
     let corner = from.rotation(1.0);
     let ([moved_from, turned_from], [moved_to, turned_to]) = (from.place(leave, &corner), to.place(join, &corner));
     let knot = |[value, first, second]: [Vector3<f64>; 3], slope: f64| Knot {
@@ -188,11 +179,7 @@ fn axes_knot(robot: &Robot, motion: &Motion, at: f64, slope: f64) -> Option<Knot
             let Rates { first, second, .. } = robot.kinematics.rates(&joints.axes, &tool.twist(at))?;
             let external = tool.external.knot(at);
             let all = |axes: [f64; ROBOT_AXES], external| Joints { axes, external }.all();
-            Knot {
-                value: joints.all(),
-                first: all(first, external.first),
-                second: all(second, external.second),
-            }
+            Knot { value: joints.all(), first: all(first, external.first), second: all(second, external.second) }
         }
     };
     Some(scaled(knot, slope))

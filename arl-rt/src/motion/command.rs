@@ -1,6 +1,6 @@
 use super::joints::Joints;
 use crate::kinematics::{Frame, Wanted};
-use crate::robot::EXTERNAL_AXES;
+use crate::robot::{EXTERNAL_AXES, VelocityProfile};
 
 /// One motion instruction with everything resolved that applies to it.
 #[derive(Clone, PartialEq, Debug)]
@@ -110,12 +110,21 @@ pub struct Settings {
     pub acc_percent: f64,
     /// `accset` ramp: percent of all jerks. Below 20 counts as 20, above 100 as 100.
     pub jerk_percent: f64,
+    /// How the speed rises and falls: with T no jerk is limited.
+    pub profile: VelocityProfile,
     /// Manual low-speed mode: the TCP moves at most 250 mm/s, on every kind of motion.
     pub manual: bool,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { speed_percent: 100.0, max_tcp: f64::INFINITY, acc_percent: 100.0, jerk_percent: 100.0, manual: false }
+        Self {
+            speed_percent: 100.0,
+            max_tcp: f64::INFINITY,
+            acc_percent: 100.0,
+            jerk_percent: 100.0,
+            profile: VelocityProfile::S,
+            manual: false,
+        }
     }
 }

@@ -34,6 +34,8 @@ pub(super) struct Piece {
     pub(super) stops: bool,
     /// Whether the motion ends here.
     pub(super) ends: bool,
+    /// How long the whole motion takes, in s, where the piece is all of it, from rest to rest.
+    duration: Option<f64>,
     /// Where the motion ends, exactly; only where it stops there.
     target: Joints,
     /// Shares of the motion that are done at the start and at the end.
@@ -59,6 +61,7 @@ impl Piece {
             limits: scaled,
             stops: true,
             ends: true,
+            duration: (from == 0.0 && to == 1.0).then(|| limits.duration(1.0)),
             target: motion.end,
             shares: [from, to],
             length: motion.length,
@@ -81,6 +84,7 @@ impl Piece {
             limits: Limits { vel: vel * time, acc: acc * time, jerk: jerk * time },
             stops: false,
             ends: first,
+            duration: None,
             target: motion.end,
             shares: if first { [blend.leave, 1.0] } else { [0.0, blend.join] },
             length: motion.length,
@@ -290,20 +294,14 @@ impl Course {
         *self = Self::default();
     }
 
-    /// How long the motion on which the robot is still takes, in s at this pace; at most `most` s are looked at.
-    pub(super) fn time_to_end(&self, cycle: f64, pacing: Pacing, most: f64) -> f64 {
-        let Some(number) = self.pieces.front().map(|piece| piece.number) else { return 0.0 };
-        let own = self.pieces.iter().take_while(|piece| piece.number == number);
-        let left = own.map(|piece| piece.time).sum::<f64>() - self.at;
-        let (mut state, mut timing) = (self.state, self.timing.clone());
-        let (mut time, mut gone) = (0.0, 0.0);
-        while gone < left - 1e-9 && time < most {
-            let next = Governor { stretches: &timing.stretches, cycle }.next(&state, pacing);
-            gone += next.at - state.at;
-            state = next;
-            timing.pass(&mut state);
-            time += cycle;
+    /// How long the motion on which the robot is still takes, in s, when it has run for `elapsed` s at full speed: exact
+    /// where it begins and ends at rest, else what its pieces take at their speeds.
+    pub(super) fn time_to_end(&self, elapsed: f64) -> f64 {
+        let Some(first) = self.pieces.front() else { return 0.0 };
+        if let Some(duration) = first.duration {
+            return (duration - elapsed).max(0.0);
         }
-        time
+        let own = self.pieces.iter().take_while(|piece| piece.number == first.number);
+        own.map(|piece| piece.time / piece.limits.vel).sum::<f64>() - self.at / first.limits.vel
     }
 }

@@ -102,9 +102,9 @@ impl Governor<'_> {
                     return next;
                 }
                 // Too fast for this share yet: as soon as can be to the speed that it allows.
-                let slowing = self.at(state.at).map(|(here, cell)| {
-                    self.toward(state, cell.limits.vel * share, &careful(here, FREE))
-                });
+                let slowing = self
+                    .at(state.at)
+                    .map(|(here, cell)| self.toward(state, cell.limits.vel * share, &careful(here, FREE)));
                 slowing.filter(|next| self.feasible(next, FREE)).unwrap_or_else(|| self.braking(state, FREE))
             }
         }
@@ -126,7 +126,8 @@ impl Governor<'_> {
             return None;
         }
         let left = length - state.at;
-        let nothing = SNAP * limits.jerk * self.cycle * self.cycle * self.cycle;
+        let jerk = limits.jerk.min(limits.acc / self.cycle);
+        let nothing = SNAP * jerk * self.cycle * self.cycle * self.cycle;
         let end = State { at: length, vel: 0.0, acc: 0.0 };
         if state.rests() {
             return (left <= nothing).then_some(end);
@@ -495,9 +496,12 @@ mod tests {
             let cells = [(random.between(0.05, 2.0), limits)];
             let (stop, harder) = (random.between(1.0, 1500.0) as u32, if round % 2 == 0 { 1.0 } else { 5.0 });
             let share = random.between(0.01, 1.0);
-            run(&cells, |cycle| {
-                if cycle >= stop && cycle < stop + 1500 { Pacing::Stop(harder) } else { Pacing::Go(1.0) }
-            });
+            run(
+                &cells,
+                |cycle| {
+                    if cycle >= stop && cycle < stop + 1500 { Pacing::Stop(harder) } else { Pacing::Go(1.0) }
+                },
+            );
             run(&cells, |cycle| if cycle >= stop { Pacing::Settle(share) } else { Pacing::Go(1.0) });
             // A slider that moves all the time.
             let shares: Vec<f64> = (0..100).map(|_| random.between(0.01, 1.0)).collect();
@@ -512,7 +516,8 @@ mod tests {
             let mut some = || {
                 let vel = random.between(0.1, 1.0);
                 let acc = if round % 2 == 0 { random.between(1.0, 20.0) } else { random.between(5.0, 8.0) };
-                let limits = Limits { vel, acc, jerk: acc * random.between(5.0, if round % 4 < 2 { 60.0 } else { 8.0 }) };
+                let limits =
+                    Limits { vel, acc, jerk: acc * random.between(5.0, if round % 4 < 2 { 60.0 } else { 8.0 }) };
                 (10.0_f64.powf(random.between(-2.5, 0.0)), limits)
             };
             let cells: Vec<_> = (0..8).map(|_| some()).collect();

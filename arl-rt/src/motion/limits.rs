@@ -72,11 +72,12 @@ pub(super) fn passing(bounds: &[Bound], fastest: f64) -> Limits {
         [bound.vel / bound.first, (bound.acc / bound.second).sqrt(), (bound.jerk / bound.third).cbrt()]
     }));
     let acc_at = |vel: f64| lowest(bounds.iter().map(|bound| (bound.acc - bound.second * vel * vel) / bound.first));
-    let jerk_at = |vel: f64, acc: f64| {
-        lowest(bounds.iter().map(|bound| {
-            (bound.jerk - 3.0 * bound.second * vel * acc - bound.third * vel * vel * vel) / bound.first
-        }))
-    };
+    let jerk_at =
+        |vel: f64, acc: f64| {
+            lowest(bounds.iter().map(|bound| {
+                (bound.jerk - 3.0 * bound.second * vel * acc - bound.third * vel * vel * vel) / bound.first
+            }))
+        };
     let (acc_at_rest, jerk_at_rest) = (acc_at(0.0), jerk_at(0.0, 0.0));
     let mut found = Limits { vel: vel * 0.5, acc: acc_at_rest * 0.1, jerk: jerk_at_rest * 0.1 };
     for share in PASSING_SHARES {

@@ -23,9 +23,9 @@ mod progress;
 mod queue;
 mod quintic;
 mod survey;
-mod timing;
 #[cfg(test)]
 mod tests;
+mod timing;
 mod zone;
 
 pub use command::{Command, Settings, Speed, Target, Zone};
@@ -34,4 +34,4 @@ pub use joints::{Joints, UNSET, is_unset};
 pub use plan::{Motion, plan};
 pub use queue::{LOOK_AHEAD, Progress, Queue, Step, Stop};
 
-pub use crate::motion_instructions::{AccSet, Lin, MoveJ, Ptp, VelSet, accset, lin, movej, ptp, velset};
+pub use crate::motion_instructions::{AccSet, Cir, Lin, MoveJ, Ptp, VelSet, accset, cir, lin, movej, ptp, velset};

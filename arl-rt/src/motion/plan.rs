@@ -13,7 +13,7 @@ use super::profile::Limits;
 use super::quintic::Quintic;
 use super::survey::survey;
 use crate::kinematics::{Frame, RANGE_SLACK, Refusal, frame, frame_components};
-use crate::robot::{Axis, Robot};
+use crate::robot::{Axis, Robot, VelocityProfile};
 
 /// Distances up to this are no motion: mm or deg of an axis; mm and deg of the TCP.
 const NO_DISTANCE: f64 = 1e-10;
@@ -308,7 +308,10 @@ impl Planner<'_> {
         let share = |percent: f64| percent.clamp(20.0, 100.0) / 100.0;
         Pace {
             acc: share(self.settings.acc_percent),
-            jerk: share(self.settings.jerk_percent),
+            jerk: match self.settings.profile {
+                VelocityProfile::T => f64::INFINITY,
+                VelocityProfile::S | VelocityProfile::O => share(self.settings.jerk_percent),
+            },
             manual: self.settings.manual,
             ..Pace::FREE
         }

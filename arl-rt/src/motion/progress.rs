@@ -19,7 +19,8 @@ impl Progress {
         let knot = |value: f64, first: f64| Knot { value: [value], first: [first], second: [0.0] };
         let whole = Quintic::between(&knot(0.0, start_rate), &knot(1.0, end_rate));
         Self::of(|share| {
-            let ([value], [first], [second]) = (whole.at(share), whole.derivative(1, share), whole.derivative(2, share));
+            let ([value], [first], [second]) =
+                (whole.at(share), whole.derivative(1, share), whole.derivative(2, share));
             [value, first, second]
         })
     }

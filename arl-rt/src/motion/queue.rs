@@ -216,12 +216,11 @@ impl Queue {
             return None;
         }
         let done = piece.length * piece.share(self.course.at());
-        let most = 10.0 * self.course.time_left() + 10.0;
         Some(Progress {
             motion: piece.number,
             line: piece.line,
             elapsed_time: self.elapsed,
-            left_time: self.course.time_to_end(self.cycle, Pacing::Go(1.0), most),
+            left_time: self.course.time_to_end(self.elapsed),
             elapsed_distance: done,
             left_distance: piece.length - done,
         })

@@ -86,9 +86,7 @@ mod tests {
         let curve = Quintic::between(&from, &to);
         for (at, knot) in [(0.0, from), (1.0, to)] {
             let found = curve.knot(at);
-            for (found, wanted) in
-                [(found.value, knot.value), (found.first, knot.first), (found.second, knot.second)]
-            {
+            for (found, wanted) in [(found.value, knot.value), (found.first, knot.first), (found.second, knot.second)] {
                 assert!(found.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12), "{found:?} {wanted:?}");
             }
         }

@@ -48,7 +48,8 @@ impl Stretch {
     }
 
     fn measure(&mut self) {
-        let lowest = |of: fn(&Limits) -> f64| self.cells.iter().map(|cell| of(&cell.limits)).fold(f64::INFINITY, f64::min);
+        let lowest =
+            |of: fn(&Limits) -> f64| self.cells.iter().map(|cell| of(&cell.limits)).fold(f64::INFINITY, f64::min);
         (self.acc, self.jerk) = (lowest(|limits| limits.acc), lowest(|limits| limits.jerk));
     }
 
@@ -119,7 +120,9 @@ impl Timing {
         // At most a few cells are new.
         let count = last.cells.len();
         for at in (1..count.saturating_sub(1)).rev().take(4) {
-            let (Some(before), Some(cell)) = (last.cells.get(at - 1).copied(), last.cells.get(at).copied()) else { return };
+            let (Some(before), Some(cell)) = (last.cells.get(at - 1).copied(), last.cells.get(at).copied()) else {
+                return;
+            };
             // The cell that the robot is on keeps its start.
             let (a, b) = (before.limits, cell.limits);
             if (a.vel - b.vel).abs() <= SAME_SPEED * a.vel.max(b.vel) {

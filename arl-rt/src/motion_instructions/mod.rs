@@ -15,19 +15,19 @@ pub(crate) use resolve::wanted;
 macro_rules! instruction {
     (
         $(#[doc = $doc:literal])+
-        $name:ident $builder:ident ($target:ident: $ty:ty) $kind:ident { $($label:ident)* }
+        $name:ident $builder:ident ($($target:ident: $ty:ty),+) $kind:ident { $($label:ident)* }
         -> |$self:ident, $modal:ident, $cx:ident| $resolve:expr
     ) => {
         $(#[doc = $doc])+
-        pub fn $name($target: impl Into<$ty>) -> $builder {
-            $builder { $target: $target.into(), modal: Modal::new(Kind::$kind) }
+        pub fn $name($($target: impl Into<$ty>),+) -> $builder {
+            $builder { $($target: $target.into(),)+ modal: Modal::new(Kind::$kind) }
         }
 
         #[doc = concat!("`", stringify!($name), "`, ready to run.")]
         #[derive(Clone, Debug)]
         #[must_use = "an instruction does nothing until it is run"]
         pub struct $builder {
-            $target: $ty,
+            $($target: $ty,)+
             modal: Modal,
         }
 
@@ -102,6 +102,13 @@ macro_rules! instruction {
             self
         }
     };
+    (@label ca) => {
+        /// How far to go along the circle, in deg, in place of going to the target.
+        pub fn ca(mut self, angle: f64) -> Self {
+            self.modal.angle = Some(angle);
+            self
+        }
+    };
     (@label dura) => {
         /// How long the motion takes, in s; the speed is then ignored.
         pub fn dura(mut self, seconds: f64) -> Self {
@@ -130,6 +137,17 @@ instruction! {
     lin Lin (p: Pose) Line { v vl vp s sl sp t w dura }
     -> |this, modal, cx| resolve::pose(cx, &this.p, &modal).map(|(pose, _, external)| Target::Line {
         pose, wobj: modal.wobj_frame, external
+    })
+}
+
+instruction! {
+    /// `cir`: the TCP along a circle through an auxiliary point, the tool turning evenly along with it or, with
+    /// `$ORI_REF_PATH`, with the path.
+    cir Cir (m: Pose, p: Pose) Line { v vl vp s sl sp t w ca dura }
+    -> |this, modal, cx| resolve::pose(cx, &this.p, &modal).map(|(pose, _, external)| {
+        let [x, y, z, ..] = this.m.components();
+        let follow = cx.system().ori_ref_path.get();
+        Target::Arc { via: [x, y, z], pose, wobj: modal.wobj_frame, angle: this.modal.angle, follow, external }
     })
 }
 

@@ -2,12 +2,10 @@
 
 use crate::cx::Cx;
 use crate::fault::Fault;
-use crate::kinematics::Frame;
+use crate::kinematics::{Frame, frame};
 use crate::motion;
-use crate::robot::Family;
-use crate::system::is_identity;
 use crate::unit::frame_of;
-use crate::values::{Slip, Speed, Tool, Wobj, is_set};
+use crate::values::{Slip, SmallArray, Speed, Tool, Wobj, is_set};
 
 /// Which components of a speed a motion uses.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -47,13 +45,19 @@ pub(super) struct Modal {
     pub(super) tool: Option<Tool>,
     pub(super) wobj: Option<Wobj>,
     pub(super) duration: Option<f64>,
+    /// How far to go along a circle, in deg.
+    pub(super) angle: Option<f64>,
 }
 
 /// The same, with the system variables filled in.
 #[derive(Clone, Debug)]
 pub(super) struct Resolved {
     pub(super) speed: motion::Speed,
+    /// Where the robot stands in the world.
+    pub(super) base: Frame,
+    /// The tool seen from the flange.
     pub(super) tool_frame: Frame,
+    /// The workpiece frame seen from the robot's base.
     pub(super) wobj_frame: Frame,
     pub(super) duration: Option<f64>,
     pub(super) zone: motion::Zone,
@@ -61,7 +65,7 @@ pub(super) struct Resolved {
 
 impl Modal {
     pub(super) fn new(kind: Kind) -> Self {
-        Self { kind, pace: None, blend: None, tool: None, wobj: None, duration: None }
+        Self { kind, pace: None, blend: None, tool: None, wobj: None, duration: None, angle: None }
     }
 
     /// Updates the modal system variables with what the instruction says, and takes from them what it does not.
@@ -81,10 +85,21 @@ impl Modal {
         }
         supported(cx)?;
         let speed = system.dfspeed.get();
+        let offset = |offset: &SmallArray<f64, 6>| {
+            let mut components = [0.0; 6];
+            for (component, value) in components.iter_mut().zip(offset.iter()) {
+                *component = *value;
+            }
+            frame(components)
+        };
+        let base = system.base.with(|base| base.first().map_or_else(Frame::identity, |base| frame_of(&base.w_frame)));
         Ok(Resolved {
             speed: motion::Speed { percent: speed.per, tcp: speed.tcp, ori: speed.ori, exj: speed.exj, exl: speed.exl },
-            tool_frame: frame_of(&system.dftool.get().t_frame),
-            wobj_frame: system.dfwobj.with(|wobj| frame_of(&wobj.w_frame)),
+            base,
+            tool_frame: frame_of(&system.dftool.get().t_frame) * system.tool_offset.with(offset),
+            wobj_frame: base.inverse()
+                * system.dfwobj.with(|wobj| frame_of(&wobj.w_frame))
+                * system.wobj_offset.with(offset),
             duration: self.duration,
             zone: zone(&system.dfslip.get()),
         })
@@ -151,20 +166,12 @@ fn slip(blend: Blend, mut slip: Slip) -> Slip {
 /// What would lead the robot elsewhere than the program says, or otherwise than it says.
 fn supported(cx: &Cx) -> Result<(), Fault> {
     let system = cx.system();
-    let refused = if cx.world().unit.borrow().robot().family == Family::Scara {
-        "a SCARA robot is"
-    } else if system.rpp_enable.get() && !cx.has_moved() {
+    let refused = if system.rpp_enable.get() && !cx.has_moved() {
         "the slow first motion of $RPP_ENABLE is"
     } else if system.dftool.get().stationary {
         "a stationary tool is"
     } else if system.dfwobj.with(|wobj| wobj.robhold) {
         "a workpiece that the robot holds is"
-    } else if system.base.with(|base| base.iter().any(|base| !is_identity(&base.w_frame))) {
-        "$BASE other than zero is"
-    } else if system.wobj_offset.with(|offset| offset.iter().any(|component| *component != 0.0)) {
-        "$WOBJ_OFFSET other than zero is"
-    } else if system.tool_offset.with(|offset| offset.iter().any(|component| *component != 0.0)) {
-        "$TOOL_OFFSET other than zero is"
     } else {
         return Ok(());
     };

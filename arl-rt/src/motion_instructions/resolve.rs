@@ -5,10 +5,10 @@ use crate::cx::Cx;
 use crate::fault::Fault;
 use crate::kinematics::Wanted;
 use crate::motion::{Command, Joints, Target, UNSET};
-use crate::robot::EXTERNAL_AXES;
+use crate::robot::{EXTERNAL_AXES, VelocityProfile};
 use crate::system::all_set;
 use crate::unit::{Unit, joint};
-use crate::values::{Joint, Pose};
+use crate::values::{Joint, Pose, VelProfile};
 
 /// What the first motion of a program must not leave open.
 const FIRST: &str = "the first motion of a program must set all components of its target";
@@ -77,8 +77,19 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
         line: cx.place().1,
     };
     let mut unit = world.unit.borrow_mut();
+    unit.settings.profile = match world.system.vel_profile.get() {
+        VelProfile::T => VelocityProfile::T,
+        VelProfile::S => VelocityProfile::S,
+        VelProfile::O => VelocityProfile::O,
+    };
+    unit.set_base(modal.base);
     unit.plan(&command).map_err(|error| Fault::Motion(error.to_string().into()))?;
     world.system.cjoint.set(joint(unit.target()));
     cx.moved();
+    if unit.take_late() {
+        let (file, line) = cx.place();
+        let file = file.name();
+        world.warn(format!("{file}:{line}: the motion came too late to be blended with the one before it: the robot stops between the two"));
+    }
     Ok(())
 }

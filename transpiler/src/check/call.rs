@@ -123,7 +123,6 @@ impl Checker<'_> {
         if entry.status == Status::NotYet {
             return self.report(body, name, SupportProblem::NotYet { name: entry.name.into() });
         }
-        self.warn_of_blending(body, entry, &args);
         let ty = Type::scalar(entry.result);
         Some(Expr { ty, kind: ExprKind::Builtin(Box::new(Builtin { entry, args })), span })
     }

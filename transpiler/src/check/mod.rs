@@ -5,7 +5,6 @@
 //! `conditions` look at the finished functions.
 
 mod arguments;
-mod blending;
 mod brace;
 mod call;
 mod conditions;

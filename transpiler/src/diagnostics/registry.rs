@@ -97,7 +97,6 @@ static CODES: &[CodeInfo] = &[
     error(701, "Something that is not supported yet"),
     error(702, "Something for the other kind of robot"),
     error(703, "Something that arl2rs cannot make sense of"),
-    warning(751, "Blending that does not happen yet"),
     error(801, "A constant division by zero"),
     error(802, "A constant shift out of range"),
     error(803, "A constant index out of range"),

@@ -9,8 +9,6 @@ pub(crate) enum SupportProblem {
     NotYet { name: String },
     /// Something that the checker gave up on without a reason: a mistake of the compiler.
     Lost,
-    /// Blending, which does not happen yet.
-    NoBlending { label: String },
     /// Exists for the other robot family only.
     OtherFamily { name: String, family: &'static str },
 }
@@ -21,7 +19,6 @@ impl Problem for SupportProblem {
             SupportProblem::NotYet { .. } => 701,
             SupportProblem::OtherFamily { .. } => 702,
             SupportProblem::Lost => 703,
-            SupportProblem::NoBlending { .. } => 751,
         })
     }
 
@@ -29,9 +26,6 @@ impl Problem for SupportProblem {
         match self {
             SupportProblem::NotYet { name } => format!("`{name}` is not supported yet"),
             SupportProblem::Lost => "arl2rs could not make sense of this, and cannot say why".into(),
-            SupportProblem::NoBlending { label } => {
-                format!("blending (`{label}`) is not supported yet: the robot stops at this target")
-            }
             SupportProblem::OtherFamily { name, family } => format!("`{name}` exists for {family} robots only"),
         }
     }
@@ -48,9 +42,6 @@ impl Problem for SupportProblem {
             SupportProblem::Lost => Some(
                 "this is a mistake of arl2rs, not of the program: please report it together with the program".into(),
             ),
-            SupportProblem::NoBlending { .. } => {
-                Some("the path goes exactly through the target; only the time that it takes differs".into())
-            }
             SupportProblem::OtherFamily { .. } => Some("name the robot that the program is for with `--robot`".into()),
         }
     }
