@@ -9,7 +9,6 @@ use crate::robot::{EXTERNAL_AXES, ROBOT_AXES};
 
 /// What a motion moves along.
 #[derive(Clone, PartialEq, Debug)]
-#[expect(clippy::large_enum_variant, reason = "a box would be freed in the cycle that ends the motion")]
 pub(super) enum Curve {
     /// All axes by polynomials.
     Axes(Quintic<ALL>),
@@ -270,7 +269,8 @@ mod tests {
         let (at, h) = (0.4, 1e-3);
         let place = |at: f64| curve.flange(at).translation.vector;
         let derivatives = curve.twist(at).of_place(&place(at));
-        let (m2, m1, here, p1, p2) = (place(at - 2.0 * h), place(at - h), place(at), place(at + h), place(at + 2.0 * h));
+        let (m2, m1, here, p1, p2) =
+            (place(at - 2.0 * h), place(at - h), place(at), place(at + h), place(at + 2.0 * h));
         let measured = [
             (p1 - m1) / (2.0 * h),
             (p1 - here * 2.0 + m1) / (h * h),

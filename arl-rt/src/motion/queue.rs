@@ -246,7 +246,8 @@ impl Queue {
         let pacing = if self.braking_hard { Pacing::Stop(FAST) } else { pacing };
         let rested = self.course.rests();
         let (mut motion, mut line) = (0, 0);
-        if !(rested && matches!(pacing, Pacing::Stop(_))) && !self.course.is_empty() {
+        let waits = rested && matches!(pacing, Pacing::Stop(_));
+        if !waits && !self.course.is_empty() {
             if let Some(piece) = self.course.first() {
                 (motion, line) = self.enter(piece.number, piece.line, piece.tool);
             }

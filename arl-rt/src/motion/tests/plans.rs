@@ -259,12 +259,26 @@ fn motions_that_go_nowhere_end_at_once() {
 }
 
 #[test]
-fn scara_moves_its_axes_but_no_lines_yet() {
+fn scara_moves_its_axes_and_along_lines() {
     let robot = robot("hsr065");
     let home = Joints::home(&robot);
-    let moved = plan(&robot, &home, &movej([30.0, 40.0, 50.0, 60.0, UNSET, UNSET]), &Settings::default()).unwrap();
-    assert_eq!(moved.end().axes, [30.0, 40.0, 50.0, 60.0, 0.0, 0.0]);
-    let Kinematics::Scara(_) = robot.kinematics else { panic!("a SCARA") };
-    let refused = plan(&robot, moved.end(), &lin([500.0, UNSET, UNSET, UNSET, UNSET, UNSET]), &Settings::default());
-    assert_eq!(refused, Err(PlanError::NotForThisRobot));
+    let mut queue = Queue::new(robot.clone(), home);
+    queue.add(&movej([30.0, 40.0, 50.0, 60.0, UNSET, UNSET]), &Settings::default()).unwrap();
+    assert_eq!(queue.end().axes, [30.0, 40.0, 50.0, 60.0, 0.0, 0.0]);
+    let from = robot.kinematics.forward(&queue.end().axes);
+    let [x, y, z, ..] = frame_components(&from);
+    queue.add(&lin([x - 50.0, y + 40.0, z - 30.0, UNSET, UNSET, UNSET]), &Settings::default()).unwrap();
+    let rows = run(&mut queue, 100.0);
+    assert_within_limits(&robot, &rows, "SCARA");
+    let to = rows.last().unwrap().tcp;
+    assert!(
+        (to.translation.vector - from.translation.vector - nalgebra::Vector3::new(-50.0, 40.0, -30.0)).norm() < 1e-6
+    );
+    for row in rows.iter().filter(|row| row.motion == 2) {
+        let (off, turned) = off_line(&from, &to, &row.tcp);
+        assert!(off < 1e-6 && turned < 1e-8, "{off} mm, {turned} rad off the line");
+    }
+    // What tilts the flange cannot be reached.
+    let tilted = plan(&robot, &home, &lin([x, y, z, 0.0, 20.0, 0.0]), &Settings::default());
+    assert!(tilted.is_err());
 }
