@@ -272,7 +272,7 @@ fn a_motion_that_comes_too_late_to_be_blended_is_told_of() {
         Box::pin(async move {
             motion::movej(bent(30.0)).vp(100.0).sp(5.0).run(cx).await.at(FILE, 1)?;
             // It brakes for its target by now.
-            for _ in 0..330 {
+            for _ in 0..620 {
                 cx.next_cycle().await;
             }
             motion::movej(bent(60.0)).sp(-1.0).run(cx).await.at(FILE, 2)
