@@ -2,7 +2,6 @@
 
 mod builtin;
 mod error;
-mod near;
 mod read;
 mod section;
 #[cfg(test)]

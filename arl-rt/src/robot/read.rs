@@ -3,9 +3,10 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::section::{Section, Source, kind};
+use super::section::{Section, Source};
 use super::{Axis, EXTERNAL_AXES, Family, Link, Robot, RobotError, TcpLimits, VelocityProfile, own_axes};
 use crate::kinematics::{Kinematics, Opw, OpwParameters, Scara};
+use crate::settings::kind;
 
 const TOP: &[&str] = &["name", "family", "profile", "geometry", "tcp", "axis", "link", "home"];
 const OPW: &[&str] = &["a1", "a2", "b", "c1", "c2", "c3", "c4", "offsets", "signs"];

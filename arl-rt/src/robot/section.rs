@@ -6,7 +6,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::RobotError;
-use super::near::nearest;
+use crate::settings::{hint, kind, number};
 
 /// The text that spans point into.
 #[derive(Clone, Copy)]
@@ -47,11 +47,7 @@ impl<'a> Section<'a> {
         for key in table.keys() {
             let word: &str = key.get_ref().as_ref();
             if !known.contains(&word) {
-                let hint = match nearest(word, known.iter().copied()) {
-                    Some(near) => format!("did you mean `{near}`?"),
-                    None => format!("known are: {}", known.join(", ")),
-                };
-                return Err(source.error(key.span(), format!("{name} has no key `{word}`; {hint}")));
+                return Err(source.error(key.span(), format!("{name} has no key `{word}`; {}", hint(word, known))));
             }
         }
         Ok(Self { source, name, span_start: span.start, table })
@@ -126,27 +122,5 @@ impl<'a> Section<'a> {
             let message = format!("`{key}` of {}: expected {what}, found {count} of them", self.name);
             self.source.error(value.span(), message)
         })
-    }
-}
-
-fn number(value: &DeValue<'_>) -> Option<f64> {
-    let number = match value {
-        DeValue::Float(float) => float.as_str().parse().ok()?,
-        DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix()).ok()? as f64,
-        _ => return None,
-    };
-    f64::is_finite(number).then_some(number)
-}
-
-/// What a value is, in a reader's words.
-pub(super) fn kind(value: &DeValue<'_>) -> String {
-    match value {
-        DeValue::String(text) => format!("the text \"{text}\""),
-        DeValue::Integer(number) => format!("the number {}", number.as_str()),
-        DeValue::Float(number) => format!("the number {}", number.as_str()),
-        DeValue::Boolean(flag) => format!("{flag}"),
-        DeValue::Datetime(_) => "a date".to_owned(),
-        DeValue::Array(_) => "an array".to_owned(),
-        DeValue::Table(_) => "a table".to_owned(),
     }
 }
