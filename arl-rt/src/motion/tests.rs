@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::*;
 use crate::kinematics::random::Random;
-use crate::kinematics::{Frame, Kinematics, Wanted, frame, frame_components};
+use crate::kinematics::{Frame, Wanted, frame, frame_components};
 use crate::robot::Robot;
 
 const CYCLE: f64 = 0.001;
