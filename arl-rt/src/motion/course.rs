@@ -197,12 +197,6 @@ impl Course {
             self.push(piece, cycle);
             added += 1;
         }
-        if let Some(end) = self.pieces.back_mut() {
-            end.stops = true;
-        }
-        if let Some(end) = self.timing.stretches.back_mut() {
-            end.stops = true;
-        }
         self.timing.find_entries(MARGIN, cycle);
         if self.governor(cycle).holds(&self.state) {
             return true;

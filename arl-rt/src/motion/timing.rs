@@ -22,6 +22,8 @@ pub(super) struct Stretch {
     pub(super) entry: f64,
     /// Whether the robot has to stand still at the end.
     pub(super) stops: bool,
+    /// Whether `entry` has been found since the stretch was changed last.
+    known: bool,
 }
 
 /// Cells whose limits differ by up to this factor share a stretch.
@@ -38,7 +40,7 @@ pub(super) struct Timing {
 impl Stretch {
     fn new(cell: Cell) -> Self {
         let Limits { acc, jerk, .. } = cell.limits;
-        Self { cells: VecDeque::from([cell]), acc, jerk, entry: 0.0, stops: false }
+        Self { cells: VecDeque::from([cell]), acc, jerk, entry: 0.0, stops: false, known: false }
     }
 
     /// Whether a cell is enough like the others to join them.
@@ -48,6 +50,7 @@ impl Stretch {
     }
 
     fn measure(&mut self) {
+        self.known = false;
         let lowest =
             |of: fn(&Limits) -> f64| self.cells.iter().map(|cell| of(&cell.limits)).fold(f64::INFINITY, f64::min);
         (self.acc, self.jerk) = (lowest(|limits| limits.acc), lowest(|limits| limits.jerk));
@@ -98,7 +101,7 @@ impl Timing {
             _ => self.stretches.push_back(Stretch::new(cell)),
         }
         if let Some(last) = self.stretches.back_mut() {
-            last.stops = stops;
+            (last.stops, last.known) = (stops, false);
         }
     }
 
@@ -138,10 +141,15 @@ impl Timing {
     /// Finds the speeds at which stretches may be entered, from the last one backwards. `margin` is the part of the limits
     /// that is counted on, `cycle` the length of a cycle in s.
     pub(super) fn find_entries(&mut self, margin: f64, cycle: f64) {
-        let mut exit = 0.0;
+        let (mut exit, mut changed) = (0.0, true);
         for stretch in self.stretches.iter_mut().rev() {
+            // What ends like before is entered like before.
+            if stretch.known && !changed {
+                return;
+            }
             let entry = stretch.entry(if stretch.stops { 0.0 } else { exit }, margin, cycle);
-            stretch.entry = entry;
+            changed = !stretch.known || entry != stretch.entry;
+            (stretch.entry, stretch.known) = (entry, true);
             exit = entry;
         }
     }
