@@ -139,11 +139,11 @@ mod tests {
 
     #[test]
     fn paths_stay_below_the_script_directory() {
-        let scripts = ScriptDir::new(PathBuf::from("/work/scripts"));
+        let scripts = ScriptDir::new(PathBuf::from("/robot/scripts"));
         let file = |name: &str| scripts.file(&name.into()).map(|path| path.display().to_string());
-        assert_eq!(file("mylog/a.log").unwrap(), "/work/scripts/mylog/a.log");
-        assert_eq!(file("./a.log").unwrap(), "/work/scripts/a.log");
-        assert_eq!(file("/home/ae/script/sub/a.log").unwrap(), "/work/scripts/sub/a.log");
+        assert_eq!(file("mylog/a.log").unwrap(), "/robot/scripts/mylog/a.log");
+        assert_eq!(file("./a.log").unwrap(), "/robot/scripts/a.log");
+        assert_eq!(file("/home/ae/script/sub/a.log").unwrap(), "/robot/scripts/sub/a.log");
         for wrong in
             ["", ".", "/", "/etc/passwd", "../a", "a/../../b", "/home/ae/script/../a", "/home/ae/script/", "a\0b"]
         {
