@@ -163,7 +163,11 @@ impl Course {
             self.round_off((&before, before_limits), (&motion, limits), number, &blend, cycle)
         });
         if !rounded {
-            self.push(Piece::part(&motion, limits, number, 0.0, 1.0), cycle);
+            let whole = [Piece::part(&motion, limits, number, 0.0, 1.0)];
+            // In a stretch of its own it asks for nothing that the stop before it did not.
+            if !self.lay(&whole, true, cycle) {
+                self.push(&whole, false);
+            }
         }
         self.timing.settle();
         self.timing.find_entries(MARGIN, cycle);
@@ -190,37 +194,39 @@ impl Course {
         let mut cut = Piece::part(before, before_limits, last.number, last.from, blend.leave);
         (cut.stops, cut.ends) = (false, false);
         let rest = Piece::part(motion, limits, number, blend.join, 1.0);
-        let halves = [Piece::half(blend, before, last.number, true), Piece::half(blend, motion, number, false)];
-        let [first, second] = halves;
-        let mut added = 0;
-        for piece in [cut, first, second, rest].into_iter().filter(|piece| piece.time > 1e-12) {
-            self.push(piece, cycle);
-            added += 1;
-        }
-        self.timing.find_entries(MARGIN, cycle);
-        if self.governor(cycle).holds(&self.state) {
+        let first = Piece::half(blend, before, last.number, true);
+        let second = Piece::half(blend, motion, number, false);
+        let pieces: Vec<Piece> = [cut, first, second, rest].into_iter().filter(|piece| piece.time > 1e-12).collect();
+        if self.lay(&pieces, true, cycle) || self.lay(&pieces, false, cycle) {
             return true;
         }
-        for _ in 0..added {
-            self.pieces.pop_back();
-            self.timing.pop();
+        let last = [last];
+        if !self.lay(&last, true, cycle) {
+            self.push(&last, false);
         }
-        self.push(last, cycle);
         false
     }
 
-    /// Appends a piece, in a stretch of its own where the robot could not keep to it otherwise.
-    fn push(&mut self, piece: Piece, cycle: f64) {
-        let cell = Cell { length: piece.time, limits: piece.limits };
-        self.timing.push(cell, piece.stops, true);
-        if self.timing.stretches.len() == 1 && !self.state.rests() {
-            self.timing.find_entries(MARGIN, cycle);
-            if !self.governor(cycle).holds(&self.state) {
+    /// Appends pieces if the robot is able to keep to them, and returns whether it is; `may` they join the last stretch?
+    fn lay(&mut self, pieces: &[Piece], may: bool, cycle: f64) -> bool {
+        self.push(pieces, may);
+        self.timing.find_entries(MARGIN, cycle);
+        let holds = self.state.rests() || self.governor(cycle).holds(&self.state);
+        if !holds {
+            for _ in pieces {
+                self.pieces.pop_back();
                 self.timing.pop();
-                self.timing.push(cell, piece.stops, false);
             }
         }
-        self.pieces.push_back(piece);
+        holds
+    }
+
+    fn push(&mut self, pieces: &[Piece], may: bool) {
+        for (index, piece) in pieces.iter().enumerate() {
+            let cell = Cell { length: piece.time, limits: piece.limits };
+            self.timing.push(cell, piece.stops, may || index > 0);
+            self.pieces.push_back(piece.clone());
+        }
     }
 
     fn governor(&self, cycle: f64) -> Governor<'_> {

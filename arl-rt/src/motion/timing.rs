@@ -28,7 +28,7 @@ pub(super) struct Stretch {
 
 /// Cells whose limits differ by up to this factor share a stretch.
 const ALIKE: f64 = 2.0;
-/// Cells whose speeds differ by up to this part become one, which has the lower one.
+/// A cell that is faster than the one before it by up to this part joins it and takes on its speed.
 const SAME_SPEED: f64 = 0.01;
 
 /// All stretches from the one that the robot is on.
@@ -126,10 +126,10 @@ impl Timing {
             let (Some(before), Some(cell)) = (last.cells.get(at - 1).copied(), last.cells.get(at).copied()) else {
                 return;
             };
-            // The cell that the robot is on keeps its start.
             let (a, b) = (before.limits, cell.limits);
-            if (a.vel - b.vel).abs() <= SAME_SPEED * a.vel.max(b.vel) {
-                let limits = Limits { vel: a.vel.min(b.vel), acc: a.acc.min(b.acc), jerk: a.jerk.min(b.jerk) };
+            // Only the later one may lose speed: the robot may count on the earlier one already.
+            if a.vel <= b.vel && b.vel <= a.vel * (1.0 + SAME_SPEED) {
+                let limits = Limits { vel: a.vel, acc: a.acc.min(b.acc), jerk: a.jerk.min(b.jerk) };
                 if let Some(place) = last.cells.get_mut(at - 1) {
                     *place = Cell { length: before.length + cell.length, limits };
                 }
