@@ -9,4 +9,6 @@ pub use crate::ops::*;
 pub use crate::program::{BoxFuture, DataFile, DataVar, Program};
 pub use crate::robot::Family;
 pub use crate::values::*;
-pub use crate::{bits, clock, convert, files, flow, frames, io, math, motion, pose, strings, system, text, time};
+pub use crate::{
+    bits, calibration, clock, convert, files, flow, frames, io, math, motion, pose, strings, system, text, time,
+};

@@ -4,6 +4,7 @@
 //! everything through the prelude [`emit`].
 
 pub mod bits;
+pub mod calibration;
 pub mod cell;
 pub mod clock;
 pub mod clock_source;

@@ -35,6 +35,7 @@ const WORKS: &str = "\
     getnostopdi cjoint cpose getpose getjoint poseinv offset reltool abs sin cos tan asin acos atan atan2 sinh cosh tanh \
     exp pow pow10 log log10 sqrt floor ceil frexp ldexp fmod modf hypot rand norm trunc bitclear bitset bitcheck bitlcs \
     bitrcs clkstart clkstop clkreset clkread strlen substr toascii toint todouble tobytes tostr ftobytes tofloat typeof \
+    getwobj_3p getwobj_indi getwobj_flange gettooltcp_ref gettoolrot_world gettoolrot_3p gettool_3p getbase_3p \
     ctime cdate savesv init gettextstr filesize renamefile removefile";
 
 const RUST_WORDS: &str = "as async await break const continue crate do dyn else enum extern false final fn for gen if \
