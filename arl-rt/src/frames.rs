@@ -3,12 +3,14 @@
 //! A frame's angles are in deg: a about z, b about the new y, c about the new x. A component that depends on an unset
 //! one of a pose is unset.
 
+mod rig;
 mod setting;
 
 use crate::values::{Frame, Pose, UNSET};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Mul;
 
+pub use rig::{Carried, Rig};
 pub use setting::{Setting, Unmoved};
 
 /// Angles of turns that are closer to zero than this, deg, are rounding noise.

@@ -23,9 +23,8 @@ pub(crate) struct Unit {
     finished: u64,
     /// The motion of the cycle before: its line and its running number.
     executing: (u32, u64),
+    /// The TCP in the world.
     tcp: Frame,
-    /// Where the robot stands in the world.
-    base: Frame,
 }
 
 impl Unit {
@@ -46,13 +45,7 @@ impl Unit {
             finished: 0,
             executing: (0, 0),
             tcp,
-            base: Frame::identity(),
         }
-    }
-
-    /// Where the robot stands in the world, for the motions planned from now on.
-    pub(crate) fn set_base(&mut self, base: Frame) {
-        self.base = base;
     }
 
     /// Whether a motion came too late to be blended with the one before it, since this was asked last.
@@ -96,7 +89,7 @@ impl Unit {
 
     /// The commanded pose of the TCP in the world, with the tool of its motion: mm, deg.
     pub(crate) fn commanded_tcp(&self) -> [f64; 6] {
-        frame_components(&(self.base * self.tcp))
+        frame_components(&self.tcp)
     }
 
     /// Whether the robot stands at these positions.
@@ -116,9 +109,9 @@ impl Unit {
         self.queue.has_room()
     }
 
-    /// Plans a motion.
-    pub(crate) fn plan(&mut self, command: &Command) -> Result<(), PlanError> {
-        self.planned = self.queue.add(command, &self.settings)?;
+    /// Plans a motion, under [`Unit::settings`] with the changes that it brings along.
+    pub(crate) fn plan(&mut self, command: &Command, settings: &Settings) -> Result<(), PlanError> {
+        self.planned = self.queue.add(command, settings)?;
         Ok(())
     }
 
@@ -161,9 +154,4 @@ pub(crate) fn joint(joints: &Joints) -> Joint {
 /// A length or an angle without the noise that computing leaves where it should be zero.
 pub(crate) fn tidy(value: f64) -> f64 {
     if value.abs() < 1e-9 { 0.0 } else { value }
-}
-
-/// A frame of a program as a transform.
-pub(crate) fn frame_of(frame: &crate::values::Frame) -> Frame {
-    crate::kinematics::frame(frame.components())
 }

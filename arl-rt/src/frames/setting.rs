@@ -3,9 +3,8 @@
 
 use std::fmt;
 
-use nalgebra::Vector3;
-
-use crate::kinematics::{Frame, Twist, frame};
+use super::rig::{Carried, Rig};
+use crate::kinematics::{Frame, frame};
 use crate::values::{Tool, Wobj};
 
 /// The frames between a programmed pose and the flange. Translations are mm, as in all frames.
@@ -67,69 +66,44 @@ impl Setting {
         Self { tool: self.tool * frame(*tool), wobj: self.wobj * frame(*wobj), ..self }
     }
 
-    /// Where the flange is, seen from the robot's base, when the tool is at `pose` of the workpiece.
+    /// Whether tool and workpiece move against each other.
     ///
     /// # Errors
-    /// Tool and workpiece do not move against each other.
-    pub fn flange_of(&self, pose: &Frame) -> Result<Frame, Unmoved> {
+    /// They do not.
+    pub fn check(&self) -> Result<(), Unmoved> {
         match (self.stationary, self.held) {
-            (false, false) => Ok(self.base.inverse() * self.wobj * pose * self.tool.inverse()),
-            (true, true) => Ok(self.base.inverse() * self.tool * pose.inverse() * self.wobj.inverse()),
+            (false, false) | (true, true) => Ok(()),
             (false, true) => Err(Unmoved::BothHeld),
             (true, false) => Err(Unmoved::NeitherHeld),
         }
     }
 
-    /// The tool's frame in the workpiece frame when the flange is at `flange`, seen from the robot's base.
-    pub fn pose_of(&self, flange: &Frame) -> Frame {
-        self.wobj_at(flange).inverse() * self.tool_at(flange)
+    /// What the robot carries to the tool or to the workpiece, and where it stands.
+    pub fn rig(&self) -> Rig {
+        let base = self.base;
+        let carried =
+            if self.stationary { Carried::Workpiece(base.inverse() * self.tool) } else { Carried::Tool(self.tool) };
+        Rig { carried, base }
     }
 
-    /// The tool's frame in the world when the flange is at `flange`, seen from the robot's base.
-    pub fn tool_at(&self, flange: &Frame) -> Frame {
-        if self.stationary { self.tool } else { self.base * flange * self.tool }
+    /// The workpiece frame seen from what ways of the TCP are seen from (see [`Carried`]).
+    pub fn workpiece(&self) -> Frame {
+        if self.held { self.wobj } else { self.base.inverse() * self.wobj }
     }
 
-    /// The workpiece frame in the world when the flange is at `flange`, seen from the robot's base.
-    pub fn wobj_at(&self, flange: &Frame) -> Frame {
-        if self.held { self.base * flange * self.wobj } else { self.wobj }
-    }
-
-    /// What is fixed to the flange and meets the other: the tool's frame, or that of the held workpiece, seen from the
-    /// flange.
-    pub fn carried(&self) -> &Frame {
-        if self.held { &self.wobj } else { &self.tool }
-    }
-
-    /// How the flange moves in the robot's base when the tool is at `pose` of the workpiece and moves there with the
-    /// first three derivatives `moving` of its place (mm per unit of the path parameter, its square, its cube) while it
-    /// turns with the speed and its first two derivatives `turning` (rad), all along the axes of the workpiece frame.
+    /// Where the flange is, seen from the robot's base, when the tool is at `pose` of the workpiece.
     ///
     /// # Errors
     /// Tool and workpiece do not move against each other.
-    pub fn twist_of(
-        &self,
-        pose: &Frame,
-        moving: &[Vector3<f64>; 3],
-        turning: &[Vector3<f64>; 3],
-    ) -> Result<Twist, Unmoved> {
-        let flange = self.flange_of(pose)?;
-        let from_base = self.base.inverse() * self.wobj_at(&flange);
-        let turned = |vectors: &[Vector3<f64>; 3]| vectors.map(|vector| from_base.rotation * vector);
-        if !self.held {
-            let point = (from_base * pose).translation.vector;
-            return Ok(Twist::of_point(&point, &turned(moving), &turned(turning)));
-        }
-        // The tool stands; the workpiece goes the opposite way. Its origin, along its own axes, which move with it.
-        let p = pose.translation.vector;
-        let ([v, a, j], [w, w1, w2]) = (*moving, *turning);
-        let first = w.cross(&p) - v;
-        let first1 = w1.cross(&p) + w.cross(&v) - a;
-        let first2 = w2.cross(&p) + w1.cross(&v) * 2.0 + w.cross(&a) - j;
-        let second = first1 - w.cross(&first);
-        let third = first2 - w1.cross(&first) - w.cross(&first1) - w.cross(&second);
-        let turning = [-w, -w1, w.cross(&w1) - w2];
-        Ok(Twist::of_point(&from_base.translation.vector, &turned(&[first, second, third]), &turned(&turning)))
+    pub fn flange_of(&self, pose: &Frame) -> Result<Frame, Unmoved> {
+        self.check()?;
+        Ok(self.rig().carried.flange_at(&(self.workpiece() * pose)))
+    }
+
+    /// The tool's frame in the workpiece frame when the flange is at `flange`, seen from the robot's base.
+    pub fn pose_of(&self, flange: &Frame) -> Frame {
+        let wobj = if self.held { self.base * flange * self.wobj } else { self.wobj };
+        wobj.inverse() * self.rig().tcp_at(flange)
     }
 }
 
@@ -138,7 +112,7 @@ mod tests {
     use super::*;
     use crate::kinematics::frame_components;
     use crate::kinematics::random::Random;
-    use nalgebra::{Translation3, UnitQuaternion};
+    use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
     fn tool(components: [f64; 6], stationary: bool) -> Tool {
         Tool { t_frame: crate::values::Frame::of_components(components), stationary }
@@ -180,7 +154,7 @@ mod tests {
         let setting = Setting::new(&tool([0.0, 0.0, 100.0, 0.0, 0.0, 0.0], false), &wobj(NOWHERE, false), &hanging);
         let flange = setting.flange_of(&frame([500.0, 200.0, 900.0, 0.0, 0.0, 180.0])).unwrap();
         close(&flange, [500.0, -200.0, 1000.0, 0.0, 0.0, 0.0]);
-        close(&setting.tool_at(&flange), [500.0, 200.0, 900.0, 0.0, 0.0, 180.0]);
+        close(&setting.rig().tcp_at(&flange), [500.0, 200.0, 900.0, 0.0, 0.0, 180.0]);
     }
 
     #[test]
@@ -195,7 +169,7 @@ mod tests {
         let flange = setting.flange_of(&frame([50.0, 0.0, 0.0, 0.0, 0.0, 0.0])).unwrap();
         close(&flange, [950.0, 0.0, 300.0, 0.0, 0.0, 0.0]);
         close(&setting.pose_of(&flange), [50.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-        assert_eq!(setting.carried(), &frame([0.0, 0.0, 200.0, 0.0, 0.0, 0.0]));
+        close(&setting.rig().tcp_at(&flange), [1000.0, 0.0, 500.0, 0.0, 0.0, 0.0]);
     }
 
     #[test]
@@ -237,7 +211,10 @@ mod tests {
                     Frame::from_parts(Translation3::from(start.translation.vector + way), turned * start.rotation);
                 setting.flange_of(&pose).unwrap()
             };
-            let twist = setting.twist_of(&start, &moving, &[axis * 0.7, axis * 0.6, axis * 1.2]).unwrap();
+            let frame = setting.workpiece();
+            let turned = |vectors: [Vector3<f64>; 3]| vectors.map(|vector| frame.rotation * vector);
+            let turning = turned([axis * 0.7, axis * 0.6, axis * 1.2]);
+            let twist = setting.rig().carried.twist(&(frame * start), &turned(moving), &turning);
             let point = flange.translation.vector;
             let [first, second, third] = twist.of_place(&point);
             let h = 1e-3;

@@ -83,14 +83,13 @@ impl Kinematics {
         None
     }
 
-    /// The stretches of a path that pass the wrist singularity, in order. `tcp` gives the frame of the TCP in the base for
-    /// a path parameter from 0 to 1, `tool` is seen from the flange, `start` are the axes where the path begins, `axes`
-    /// the robot's own, within whose ranges axis 4 is led. On a path that has none, and with a SCARA, there are none.
-    pub fn passages(&self, tcp: impl Fn(f64) -> Frame, tool: &Frame, start: &Axes, axes: &[Axis]) -> Vec<Passage> {
+    /// The stretches of a path that pass the wrist singularity, in order. `flange` gives the frame of the flange in the base
+    /// for a path parameter from 0 to 1, `start` are the axes where the path begins, in configuration `cfg`, and `axes` the
+    /// robot's own, within whose ranges axis 4 is led. On a path that has none, and with a SCARA, there are none.
+    pub fn passages(&self, flange: impl Fn(f64) -> Frame, cfg: u8, start: &Axes, axes: &[Axis]) -> Vec<Passage> {
         let Kinematics::SixAxis(opw) = self else { return Vec::new() };
-        let back = tool.inverse();
         // The exact axes 4 and 5 of the arm's present configuration.
-        let exact = |at: f64, cfg: u8, near: &Axes| opw.inverse(&(tcp(at) * back), cfg, near);
+        let exact = |at: f64, cfg: u8, near: &Axes| opw.inverse(&flange(at), cfg, near);
         let sine = |axes: &Axes| {
             let [_, _, _, _, fifth, _] = opw.inner(axes);
             fifth.to_radians().sin().abs()
@@ -111,7 +110,7 @@ impl Kinematics {
         let range = axes.get(3).map_or((f64::NEG_INFINITY, f64::INFINITY), |axis| (axis.min, axis.max));
 
         let mut passages = Vec::new();
-        let (mut cfg, mut near, mut at) = (opw.cfg(start), *start, 0.0);
+        let (mut cfg, mut near, mut at) = (cfg, *start, 0.0);
         let mut entered = sine(start) < PASSAGE;
         let mut from = 0.0;
         while at < 1.0 {
@@ -199,11 +198,16 @@ mod tests {
     use crate::robot::Robot;
     use nalgebra::Translation3;
 
+    fn all(robot: &Robot, tcp: &dyn Fn(f64) -> Frame, tool: &Frame, start: &Axes) -> Vec<Passage> {
+        let back = tool.inverse();
+        robot.kinematics.passages(|at| tcp(at) * back, robot.kinematics.cfg(start), start, robot.own_axes())
+    }
+
     /// Follows a line of the TCP with its passages; returns the largest jump of an axis from one place to the next, the
     /// largest change of a jump, and how far the orientation gave way at most (rad).
     fn follow(robot: &Robot, tcp: &dyn Fn(f64) -> Frame, tool: &Frame, start: &Axes, places: i32) -> (f64, f64, f64) {
         let kinematics = &robot.kinematics;
-        let passages = kinematics.passages(tcp, tool, start, robot.own_axes());
+        let passages = all(robot, tcp, tool, start);
         let (mut near, mut cfg) = (*start, kinematics.cfg(start));
         let (mut most, mut bend, mut gave) = (0.0_f64, 0.0_f64, 0.0_f64);
         let mut last = [0.0; 6];
@@ -265,7 +269,7 @@ mod tests {
                 (found[3].abs() < 90.0).then_some(found)
             });
             let start = start.unwrap();
-            let passages = robot.kinematics.passages(&tcp, &tool, &start, robot.own_axes());
+            let passages = all(&robot, &tcp, &tool, &start);
             assert_eq!(passages.len(), 1, "{fifth}: {passages:?}");
             let (most, bend, gave) = follow(&robot, &tcp, &tool, &start, 1000);
             let (finer, finer_bend, _) = follow(&robot, &tcp, &tool, &start, 4000);
@@ -306,7 +310,7 @@ mod tests {
                 if !(0..=20).all(|part| fits(f64::from(part) / 20.0)) {
                     continue;
                 }
-                if kinematics.passages(&tcp, &tool, &start, robot.own_axes()).is_empty() {
+                if all(&robot, &tcp, &tool, &start).is_empty() {
                     continue;
                 }
                 passed += 1;
@@ -340,9 +344,9 @@ mod tests {
         let robot = Robot::builtin("kr10-r1420").unwrap();
         let start = [10.0, -70.0, 80.0, 25.0, 40.0, 15.0];
         let tcp = through(&robot, &start, &Frame::identity(), Vector3::new(20.0, 0.0, 0.0));
-        assert_eq!(robot.kinematics.passages(tcp, &Frame::identity(), &start, robot.own_axes()), []);
+        assert_eq!(all(&robot, &tcp, &Frame::identity(), &start), []);
         let scara = Robot::builtin("hsr065").unwrap();
         let tcp = through(&scara, &[0.0; 6], &Frame::identity(), Vector3::zeros());
-        assert_eq!(scara.kinematics.passages(tcp, &Frame::identity(), &[0.0; 6], scara.own_axes()), []);
+        assert_eq!(all(&scara, &tcp, &Frame::identity(), &[0.0; 6]), []);
     }
 }

@@ -67,7 +67,7 @@ fn attempt(robot: &Robot, from: &Motion, to: &Motion, leaving: f64, joining: f64
     let mut bounds = Bounds::new(robot);
     let pace = common_pace(from, to);
     let curve = match (&from.curve, &to.curve) {
-        (Curve::Tool(a), Curve::Tool(b)) if a.flange == b.flange && a.cfg == b.cfg => {
+        (Curve::Tool(a), Curve::Tool(b)) if go_on(a, leave, b, join) => {
             let curve = tool_blend(a, b, leave, join, slope_from, slope_to);
             let (start_speed, end_speed) = (from.length * vel_from, to.length * vel_to);
             if let Some(even) = Progress::along(&curve.track, start_speed, end_speed) {
@@ -91,6 +91,7 @@ fn attempt(robot: &Robot, from: &Motion, to: &Motion, leaving: f64, joining: f64
                 bounds.moving(&place.vectors(moving), &pace);
                 if pace.manual {
                     bounds.manual_moving(&place.vectors(moving));
+                    bounds.manual_flange(&curve, place.at, place.first);
                 }
                 bounds.turning(&place.vectors(turning), &pace);
                 let external = [1, 2, 3].map(|order| curve.external.derivative(order, place.at));
@@ -109,7 +110,8 @@ fn attempt(robot: &Robot, from: &Motion, to: &Motion, leaving: f64, joining: f64
                 let derivatives = [1, 2, 3].map(|order| curve.derivative(order, place.at));
                 bounds.all_axes(&place.rates(derivatives), &pace);
                 if pace.manual {
-                    bounds.manual_place(&Joints::of(&curve.at(place.at)), &place.rates(derivatives)[0], &to.tool);
+                    let [first, ..] = place.rates(derivatives);
+                    bounds.manual_place(&Joints::of(&curve.at(place.at)), &first, &to.rig.carried);
                 }
             }
             Curve::Axes(curve)
@@ -154,9 +156,10 @@ fn tool_blend(from: &ToolCurve, to: &ToolCurve, leave: f64, join: f64, slope_fro
         track: Track::Poly(Quintic::between(&knot(moved_from, slope_from), &knot(moved_to, slope_to))),
         base: corner,
         turning: Quintic::between(&knot(turned_from, slope_from), &knot(turned_to, slope_to)),
-        flange: from.flange,
+        carried: from.carried,
         external: Quintic::between(&external(from, leave, slope_from), &external(to, join, slope_to)),
-        cfg: from.cfg,
+        cfg: to.cfg,
+        passages: Vec::new(),
     }
 }
 
@@ -176,7 +179,7 @@ fn axes_knot(robot: &Robot, motion: &Motion, at: f64, slope: f64) -> Option<Knot
         Curve::Axes(axes) => axes.knot(at),
         Curve::Tool(tool) => {
             let joints = joints_at(robot, motion, at)?;
-            let Rates { first, second, .. } = robot.kinematics.rates(&joints.axes, &tool.twist(at))?;
+            let Rates { first, second, .. } = tool.rates(&robot.kinematics, at, &joints.axes)?;
             let external = tool.external.knot(at);
             let all = |axes: [f64; ROBOT_AXES], external| Joints { axes, external }.all();
             Knot { value: joints.all(), first: all(first, external.first), second: all(second, external.second) }
@@ -185,9 +188,17 @@ fn axes_knot(robot: &Robot, motion: &Motion, at: f64, slope: f64) -> Option<Knot
     Some(scaled(knot, slope))
 }
 
+/// Whether the TCP can go from one way over to another: they lead the same TCP, and no passage makes their orientations
+/// inexact there.
+fn go_on(from: &ToolCurve, leave: f64, to: &ToolCurve, join: f64) -> bool {
+    let exact =
+        from.passages.iter().all(|passage| passage.to < leave) && to.passages.iter().all(|passage| passage.from > join);
+    exact && from.carried == to.carried && from.cfg_at(1.0) == to.cfg
+}
+
 /// The joints within a motion, followed from its nearer end.
 fn joints_at(robot: &Robot, motion: &Motion, at: f64) -> Option<Joints> {
-    const STEPS: u32 = 16;
+    const STEPS: u32 = 64;
     let Curve::Tool(tool) = &motion.curve else { return Some(motion.curve.joints(&robot.kinematics, at, &motion.end)) };
     let (from, near) = if at > 0.5 { (1.0, &motion.end) } else { (0.0, &motion.start) };
     let mut axes = near.axes;

@@ -5,7 +5,8 @@ use nalgebra::Vector3;
 use super::curve::{Curve, ToolCurve};
 use super::joints::{ALL, Joints};
 use super::limits::Bound;
-use crate::kinematics::{Axes, Frame};
+use crate::frames::Carried;
+use crate::kinematics::Axes;
 use crate::robot::{EXTERNAL_AXES, Robot};
 
 /// The highest speed of the TCP in manual low-speed mode, in mm/s.
@@ -142,7 +143,7 @@ impl<'a> Bounds<'a> {
     }
 
     /// The speed of the TCP of an axis motion in manual operation.
-    pub(super) fn manual_axes(&mut self, curve: &Curve, tool: &Frame, start: &Joints) {
+    pub(super) fn manual_axes(&mut self, curve: &Curve, carried: &Carried, start: &Joints) {
         let Curve::Axes(axes) = curve else { return };
         let kinematics = &self.robot.kinematics;
         let farthest = axes.derivative(1, 0.0).iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
@@ -150,17 +151,37 @@ impl<'a> Bounds<'a> {
         for step in 0..=steps {
             let at = f64::from(step) / f64::from(steps);
             let joints = curve.joints(kinematics, at, start);
-            self.manual_place(&joints, &axes.derivative(1, at), tool);
+            self.manual_place(&joints, &axes.derivative(1, at), carried);
         }
     }
 
-    /// The speed of the TCP in manual operation, at a place where all axes change by `rates`.
-    pub(super) fn manual_place(&mut self, joints: &Joints, rates: &[f64; ALL], tool: &Frame) {
+    /// The speed of the TCP in manual operation, at a place where all axes change by `rates`; of the flange, too, where the
+    /// tool stands.
+    pub(super) fn manual_place(&mut self, joints: &Joints, rates: &[f64; ALL], carried: &Carried) {
         let kinematics = &self.robot.kinematics;
-        let tcp: Vector3<f64> = (kinematics.forward(&joints.axes) * tool).translation.vector;
+        let flange = kinematics.forward(&joints.axes);
         let rates = Joints::of(rates).axes;
-        let speed = kinematics.point_velocity(&joints.axes, &rates, &tcp).norm() * BETWEEN_SAMPLES;
-        self.rows.push(Bound::even(speed, MANUAL_SPEED, f64::INFINITY, f64::INFINITY));
+        let mut point = |place: Vector3<f64>| {
+            let speed = kinematics.point_velocity(&joints.axes, &rates, &place).norm() * BETWEEN_SAMPLES;
+            self.rows.push(Bound::even(speed, MANUAL_SPEED, f64::INFINITY, f64::INFINITY));
+        };
+        match carried {
+            Carried::Tool(tool) => point((flange * tool).translation.vector),
+            Carried::Workpiece(tool) => {
+                point(tool.translation.vector);
+                point(flange.translation.vector);
+            }
+        }
+    }
+
+    /// The speed of the flange in manual operation at a place of a way whose parameter changes by `rate`, where the tool
+    /// stands; else it is the TCP's that counts.
+    pub(super) fn manual_flange(&mut self, curve: &ToolCurve, at: f64, rate: f64) {
+        if let Carried::Workpiece(_) = curve.carried {
+            let [first, ..] = curve.twist(at).of_place(&curve.flange(at).translation.vector);
+            let speed = first.norm() * rate * BETWEEN_SAMPLES;
+            self.rows.push(Bound::even(speed, MANUAL_SPEED, f64::INFINITY, f64::INFINITY));
+        }
     }
 }
 

@@ -1,4 +1,5 @@
 use super::joints::Joints;
+use crate::frames::Rig;
 use crate::kinematics::{Frame, Wanted};
 use crate::robot::{EXTERNAL_AXES, VelocityProfile};
 
@@ -7,8 +8,8 @@ use crate::robot::{EXTERNAL_AXES, VelocityProfile};
 pub struct Command {
     /// Where to go, and how.
     pub target: Target,
-    /// The tool on the flange: the TCP's frame seen from the flange, translation in mm.
-    pub tool: Frame,
+    /// What the robot carries, and where it stands.
+    pub rig: Rig,
     /// The programmed speed.
     pub speed: Speed,
     /// The time that the motion shall take, in s; it replaces the programmed speed.
@@ -28,7 +29,7 @@ pub enum Target {
     Pose {
         /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
         pose: [f64; 6],
-        /// The workpiece frame in the robot's base, translation in mm.
+        /// The workpiece frame in what the TCP's way is seen from ([`crate::frames::Carried`]), translation in mm.
         wobj: Frame,
         /// The solution that is wanted.
         wanted: Wanted,
@@ -39,7 +40,7 @@ pub enum Target {
     Line {
         /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
         pose: [f64; 6],
-        /// The workpiece frame in the robot's base, translation in mm.
+        /// The workpiece frame in what the TCP's way is seen from ([`crate::frames::Carried`]), translation in mm.
         wobj: Frame,
         /// External axes in deg (mm).
         external: [f64; EXTERNAL_AXES],
@@ -50,7 +51,7 @@ pub enum Target {
         via: [f64; 3],
         /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
         pose: [f64; 6],
-        /// The workpiece frame in the robot's base, translation in mm.
+        /// The workpiece frame in what the TCP's way is seen from ([`crate::frames::Carried`]), translation in mm.
         wobj: Frame,
         /// How far to go along the circle, in deg, in place of going to `pose`; below 0 goes the other way round.
         angle: Option<f64>,
@@ -112,8 +113,11 @@ pub struct Settings {
     pub jerk_percent: f64,
     /// How the speed rises and falls: with T no jerk is limited.
     pub profile: VelocityProfile,
-    /// Manual low-speed mode: the TCP moves at most 250 mm/s, on every kind of motion.
+    /// Manual low-speed mode: the TCP moves at most 250 mm/s, on every kind of motion; with a tool that stands, the flange
+    /// does, too.
     pub manual: bool,
+    /// Whether lines and circles pass the wrist singularity by letting the orientation give way.
+    pub wrist: bool,
 }
 
 impl Default for Settings {
@@ -125,6 +129,7 @@ impl Default for Settings {
             jerk_percent: 100.0,
             profile: VelocityProfile::S,
             manual: false,
+            wrist: false,
         }
     }
 }

@@ -10,7 +10,8 @@ use super::plan::Motion;
 use super::profile::{Limits, State};
 use super::progress::Progress;
 use super::timing::{Cell, Timing};
-use crate::kinematics::{Frame, Kinematics};
+use crate::frames::Rig;
+use crate::kinematics::Kinematics;
 use crate::robot::Robot;
 
 /// A stretch of the way with constant limits. Its own parameter is the time, in s, that it takes at its full speed: so
@@ -19,7 +20,7 @@ use crate::robot::Robot;
 pub(super) struct Piece {
     pub(super) number: u64,
     pub(super) line: u32,
-    pub(super) tool: Frame,
+    pub(super) rig: Rig,
     curve: Curve,
     /// The parameters of the curve at the start and at the end.
     from: f64,
@@ -52,7 +53,7 @@ impl Piece {
         Self {
             number,
             line: motion.line,
-            tool: motion.tool,
+            rig: motion.rig,
             curve: motion.curve.clone(),
             from,
             to,
@@ -75,7 +76,7 @@ impl Piece {
         Self {
             number,
             line: motion.line,
-            tool: motion.tool,
+            rig: motion.rig,
             curve: blend.curve.clone(),
             from: if first { 0.0 } else { 0.5 },
             to: if first { 0.5 } else { 1.0 },

@@ -4,7 +4,8 @@ use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use super::joints::{ALL, Joints};
 use super::quintic::Quintic;
-use crate::kinematics::{Axes, Frame, Kinematics, Twist, wrap_degrees};
+use crate::frames::Carried;
+use crate::kinematics::{Axes, Frame, Kinematics, Passage, Rates, Twist, wrap_degrees};
 use crate::robot::{EXTERNAL_AXES, ROBOT_AXES};
 
 /// What a motion moves along.
@@ -34,21 +35,23 @@ pub(super) struct Arc {
     pub(super) sweep: f64,
 }
 
-/// A way of the TCP, seen from the base.
+/// A way of the TCP, seen from what [`Carried`] says.
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct ToolCurve {
     /// The position of the TCP.
     pub(super) track: Track,
     /// The orientation to which `turning` is added.
     pub(super) base: UnitQuaternion<f64>,
-    /// A rotation vector in rad, about axes of the base.
+    /// A rotation vector in rad, about the axes of what the way is seen from.
     pub(super) turning: Quintic<3>,
-    /// The flange seen from the TCP.
-    pub(super) flange: Frame,
+    /// What the robot moves along the way.
+    pub(super) carried: Carried,
     /// The external axes.
     pub(super) external: Quintic<EXTERNAL_AXES>,
-    /// The configuration that the whole way keeps.
+    /// The configuration at the start, which only a passage changes.
     pub(super) cfg: u8,
+    /// Where axis 4 is led through the wrist singularity.
+    pub(super) passages: Vec<Passage>,
 }
 
 impl Track {
@@ -133,18 +136,66 @@ impl ToolCurve {
         UnitQuaternion::from_scaled_axis(Vector3::from(self.turning.at(at))) * self.base
     }
 
-    /// The flange's frame at `at`, translation in mm.
+    /// The flange's frame at `at` in the robot's base, translation in mm.
     pub(super) fn flange(&self, at: f64) -> Frame {
-        self.tcp(at) * self.flange
+        self.carried.flange_at(&self.tcp(at))
     }
 
-    /// The axes at `at`, no farther than half a turn from `near`; `None` where the arm does not reach.
+    /// The passage that `at` is in.
+    pub(super) fn passage(&self, at: f64) -> Option<&Passage> {
+        self.passages.iter().find(|passage| passage.from <= at && at <= passage.to)
+    }
+
+    /// The configuration at `at`; within a passage, that before it.
+    pub(super) fn cfg_at(&self, at: f64) -> u8 {
+        self.passages.iter().rev().find(|passage| passage.to < at).map_or(self.cfg, |passage| passage.cfg_behind)
+    }
+
+    /// The axes at `at`, no farther than half a turn from `near`; `None` where the arm does not reach. Within a passage
+    /// `near` has to be the axes shortly before.
     pub(super) fn axes(&self, kinematics: &Kinematics, at: f64, near: &Axes) -> Option<Axes> {
-        let mut axes = kinematics.inverse(&self.flange(at), self.cfg, near)?;
+        let mut axes = match self.passage(at) {
+            None => kinematics.inverse(&self.flange(at), self.cfg_at(at), near)?,
+            Some(passage) => {
+                let (tcp, tool) = self.carried.meeting(&self.tcp(at));
+                kinematics.inverse_at_axis4(&tcp, &tool, passage.axis4(at), near)?
+            }
+        };
         for (value, near) in axes.iter_mut().zip(near) {
             *value = near + wrap_degrees(*value - near);
         }
         Some(axes)
+    }
+
+    /// The derivatives of the axes by the parameter at `at`, where they are `axes`; `None` at a singular point.
+    pub(super) fn rates(&self, kinematics: &Kinematics, at: f64, axes: &Axes) -> Option<Rates> {
+        match self.passage(at) {
+            None => kinematics.rates(axes, &self.twist(at)),
+            Some(passage) => self.rates_in(passage, kinematics, at, axes),
+        }
+    }
+
+    /// The same within a passage, from the axes at five places of it.
+    fn rates_in(&self, passage: &Passage, kinematics: &Kinematics, at: f64, axes: &Axes) -> Option<Rates> {
+        let h = (passage.to - passage.from) * STENCIL;
+        let middle = at.clamp(passage.from + 2.0 * h, passage.to - 2.0 * h);
+        let place = |steps: f64| self.axes(kinematics, middle + steps * h, axes);
+        let (m2, m1, here, p1, p2) = (place(-2.0)?, place(-1.0)?, place(0.0)?, place(1.0)?, place(2.0)?);
+        let mut rates = Rates { first: [0.0; ROBOT_AXES], second: [0.0; ROBOT_AXES], third: [0.0; ROBOT_AXES] };
+        let places = m2.iter().zip(&m1).zip(&here).zip(p1.iter().zip(&p2));
+        let out = rates.first.iter_mut().zip(&mut rates.second).zip(&mut rates.third);
+        for (((first, second), third), (((m2, m1), here), (p1, p2))) in out.zip(places) {
+            // The polynomial of the fourth degree through the five places, at `t` steps from the middle.
+            let t = (at - middle) / h;
+            let a1 = (m2 - m1 * 8.0 + p1 * 8.0 - p2) / 12.0;
+            let a2 = (-m2 + m1 * 16.0 - here * 30.0 + p1 * 16.0 - p2) / 12.0;
+            let a3 = (-m2 + m1 * 2.0 - p1 * 2.0 + p2) / 2.0;
+            let a4 = m2 - m1 * 4.0 + here * 6.0 - p1 * 4.0 + p2;
+            *first = (a1 + t * (a2 + t * (a3 / 2.0 + t * a4 / 6.0))) / h;
+            *second = (a2 + t * (a3 + t * a4 / 2.0)) / (h * h);
+            *third = (a3 + t * a4) / (h * h * h);
+        }
+        Some(rates)
     }
 
     /// How the orientation changes at `at`: its speed of rotation in rad per unit, and two derivatives of that.
@@ -165,9 +216,8 @@ impl ToolCurve {
 
     /// How the flange moves at `at`, per unit of the parameter.
     pub(super) fn twist(&self, at: f64) -> Twist {
-        let point = self.track.at(at);
         let moving = [1, 2, 3].map(|order| self.track.derivative(order, at));
-        Twist::of_point(&point, &moving, &self.rotation_rates(at))
+        self.carried.twist(&self.tcp(at), &moving, &self.rotation_rates(at))
     }
 
     /// The position and the rotation vector from `origin` at `at`, with their derivatives.
@@ -262,9 +312,10 @@ mod tests {
             track: Track::Arc(arc),
             base: UnitQuaternion::from_euler_angles(0.3, 0.2, 0.1),
             turning,
-            flange: crate::kinematics::frame([10.0, 20.0, -100.0, 5.0, 6.0, 7.0]),
+            carried: Carried::Tool(crate::kinematics::frame([10.0, 20.0, 100.0, 5.0, 6.0, 7.0])),
             external: Quintic::even([0.0; 6], [0.0; 6]),
             cfg: 0,
+            passages: Vec::new(),
         };
         let (at, h) = (0.4, 1e-3);
         let place = |at: f64| curve.flange(at).translation.vector;

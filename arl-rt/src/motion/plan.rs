@@ -12,6 +12,7 @@ use super::limits::quickest;
 use super::profile::Limits;
 use super::quintic::Quintic;
 use super::survey::survey;
+use crate::frames::Rig;
 use crate::kinematics::{Frame, RANGE_SLACK, Refusal, frame, frame_components};
 use crate::robot::{Axis, Robot, VelocityProfile};
 
@@ -24,7 +25,7 @@ pub struct Motion {
     pub(super) curve: Curve,
     pub(super) start: Joints,
     pub(super) end: Joints,
-    pub(super) tool: Frame,
+    pub(super) rig: Rig,
     /// `None` for a motion that goes nowhere.
     pub(super) limits: Option<Limits>,
     pub(super) pace: Pace,
@@ -68,7 +69,7 @@ pub fn plan(robot: &Robot, start: &Joints, command: &Command, settings: &Setting
     match &command.target {
         Target::Joints(joints) => planner.axes(joints.completed(start, robot)),
         Target::Pose { pose, wobj, wanted, external } => {
-            let target = planner.target_frame(pose, wobj)? * command.tool.inverse();
+            let target = command.rig.carried.flange_at(&planner.target_frame(pose, wobj)?);
             let found = robot.kinematics.choose(&target, *wanted, robot.own_axes(), &start.axes);
             let axes = found.map_err(|refusal| planner.refused(refusal))?;
             planner.axes(Joints { axes, external: *external }.completed(start, robot))
@@ -95,12 +96,12 @@ struct Planner<'a> {
 }
 
 impl Planner<'_> {
-    /// The TCP's frame at the start, in the base.
+    /// The TCP's frame at the start, on its way.
     fn start_frame(&self) -> Frame {
-        self.robot.kinematics.forward(&self.start.axes) * self.command.tool
+        self.command.rig.carried.way_at(&self.robot.kinematics.forward(&self.start.axes))
     }
 
-    /// The TCP's frame at the target, in the base; unset components stay as at the start, seen in the workpiece frame.
+    /// The TCP's frame at the target, on its way; unset components stay as at the start, seen in the workpiece frame.
     fn target_frame(&self, pose: &[f64; 6], wobj: &Frame) -> Result<Frame, PlanError> {
         if pose.iter().any(|value| !value.is_finite()) {
             return Err(PlanError::NotANumber);
@@ -189,7 +190,7 @@ impl Planner<'_> {
         let bounds = |pace: &Pace, bounds: &mut Bounds| bounds.even_axes(self.start, &end, pace);
         let caps = |bounds: &mut Bounds| {
             if self.settings.manual && moves {
-                bounds.manual_axes(&curve, &self.command.tool, self.start);
+                bounds.manual_axes(&curve, &self.command.rig.carried, self.start);
             }
         };
         self.motion(&curve, end, moves, [0.0, 0.0], bounds, caps)
@@ -203,16 +204,22 @@ impl Planner<'_> {
             track,
             base: start.rotation,
             turning: Quintic::even([0.0; 3], turning.into()),
-            flange: self.command.tool.inverse(),
+            carried: self.command.rig.carried,
             external: external.external(),
             cfg: 0,
+            passages: Vec::new(),
         };
         curve.cfg = self.configuration(&curve);
         self.along(curve, end)
     }
 
     /// A motion along a way of the TCP, which starts where the robot is.
-    fn along(&self, curve: ToolCurve, end: Joints) -> Result<Motion, PlanError> {
+    fn along(&self, mut curve: ToolCurve, end: Joints) -> Result<Motion, PlanError> {
+        if self.settings.wrist {
+            let kinematics = &self.robot.kinematics;
+            let (start, axes) = (&self.start.axes, self.robot.own_axes());
+            curve.passages = kinematics.passages(|at| curve.flange(at), curve.cfg, start, axes);
+        }
         let length = curve.track.length();
         let angle = UnitQuaternion::from_scaled_axis(Vector3::from(curve.turning.derivative(1, 0.0)));
         let angle = if curve.turning.is_even() {
@@ -238,6 +245,9 @@ impl Planner<'_> {
             bounds.cap_tool(&curve, programmed_cap);
             if self.settings.manual {
                 bounds.cap_tool(&curve, super::bounds::MANUAL_SPEED);
+                for (at, _) in found.iter().flat_map(|found| &found.rates) {
+                    bounds.manual_flange(&curve, *at, 1.0);
+                }
             }
         };
         self.motion(&Curve::Tool(curve.clone()), end, moves, [length, angle], bounds, caps)
@@ -354,7 +364,7 @@ impl Planner<'_> {
             curve: curve.clone(),
             start: *self.start,
             end,
-            tool: self.command.tool,
+            rig: self.command.rig,
             limits,
             pace,
             length,

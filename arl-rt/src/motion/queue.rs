@@ -8,6 +8,7 @@ use super::error::PlanError;
 use super::governor::Pacing;
 use super::joints::Joints;
 use super::plan::plan;
+use crate::frames::Rig;
 use crate::kinematics::Frame;
 use crate::robot::Robot;
 
@@ -35,7 +36,7 @@ const FAST: f64 = 5.0;
 pub struct Step {
     /// The commanded positions.
     pub joints: Joints,
-    /// The TCP in the robot's base with the tool of the motion that is or was last executed, translation in mm.
+    /// The TCP in the world, with the tool and the base of the motion that is or was last executed, translation in mm.
     pub tcp: Frame,
     /// The running number, from 1, of the motion executed in this cycle; 0 where there is none.
     pub motion: u64,
@@ -76,8 +77,8 @@ pub struct Queue {
     joints: Joints,
     /// Where the last motion ends.
     end: Joints,
-    tool: Frame,
-    last_tool: Frame,
+    rig: Rig,
+    last_rig: Rig,
     added: u64,
     finished: u64,
     /// The motion being executed, and the s that it has run at an override of 100 %.
@@ -98,8 +99,8 @@ impl Queue {
             dropping: false,
             joints: start,
             end: start,
-            tool: Frame::identity(),
-            last_tool: Frame::identity(),
+            rig: Rig::bare(),
+            last_rig: Rig::bare(),
             added: 0,
             finished: 0,
             started: None,
@@ -136,7 +137,7 @@ impl Queue {
         let motion = plan(&self.robot, &self.end, command, settings)?;
         self.added += 1;
         self.end = *motion.end();
-        self.last_tool = command.tool;
+        self.last_rig = command.rig;
         self.late |= self.course.append(&self.robot, motion, self.added, self.cycle);
         Ok(self.added)
     }
@@ -157,9 +158,9 @@ impl Queue {
         &self.joints
     }
 
-    /// The TCP now in the robot's base, with the tool of the last motion, translation in mm.
+    /// The TCP now in the world, with the tool and the base of the motion that is or was last executed, translation in mm.
     pub fn tcp(&self) -> Frame {
-        self.robot.kinematics.forward(&self.joints.axes) * self.tool
+        self.rig.tcp_at(&self.robot.kinematics.forward(&self.joints.axes))
     }
 
     /// Whether no motion is there, running or waiting.
@@ -249,7 +250,7 @@ impl Queue {
         let waits = rested && matches!(pacing, Pacing::Stop(_));
         if !waits && !self.course.is_empty() {
             if let Some(piece) = self.course.first() {
-                (motion, line) = self.enter(piece.number, piece.line, piece.tool);
+                (motion, line) = self.enter(piece.number, piece.line, piece.rig);
             }
             if matches!(pacing, Pacing::Go(_)) {
                 self.elapsed += dt * speed;
@@ -268,8 +269,8 @@ impl Queue {
                 (_, _, Some(piece)) => {
                     self.joints = piece.joints(&self.robot.kinematics, self.course.at(), &self.joints);
                     (motion, line) = (piece.number, piece.line);
-                    let tool = piece.tool;
-                    self.enter(motion, line, tool);
+                    let rig = piece.rig;
+                    self.enter(motion, line, rig);
                 }
                 _ => {}
             }
@@ -280,11 +281,11 @@ impl Queue {
     }
 
     /// Notes that a motion is being executed.
-    fn enter(&mut self, number: u64, line: u32, tool: Frame) -> (u64, u32) {
+    fn enter(&mut self, number: u64, line: u32, rig: Rig) -> (u64, u32) {
         if self.started != Some(number) {
             (self.started, self.elapsed) = (Some(number), 0.0);
         }
-        self.tool = tool;
+        self.rig = rig;
         (number, line)
     }
 
@@ -293,7 +294,7 @@ impl Queue {
         let next = self.course.first().map_or(self.added + 1, |piece| piece.number);
         self.finished = self.finished.max(next - 1);
         if self.course.is_empty() && !self.dropping {
-            self.tool = self.last_tool;
+            self.rig = self.last_rig;
         }
     }
 

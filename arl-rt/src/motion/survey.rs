@@ -26,6 +26,10 @@ const SINGULAR_SCALE: f64 = 1e-3;
 const SINGULAR: f64 = 1e-5;
 /// An axis that is so far (deg) from where it was bound to be has jumped to another solution.
 const JUMP: f64 = 10.0;
+/// Steps through a passage of the wrist singularity.
+const PASSAGE_STEPS: f64 = 48.0;
+/// The place of axis 4.
+const AXIS_4: usize = 3;
 /// A glimpse behind the start and before the end, where the axes must not differ from the ends by over `GLIMPSE_JUMP` deg.
 const GLIMPSE: f64 = 1e-6;
 const GLIMPSE_JUMP: f64 = 0.05;
@@ -39,7 +43,7 @@ struct Walk<'a> {
 pub(super) fn survey(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result<Survey, PlanError> {
     let walk = Walk { robot, curve };
     // The target first: where it cannot be reached, that is what the programmer wants to know.
-    walk.axes(1.0, &start.axes)?;
+    walk.reaches_target(&start.axes)?;
 
     let mut rates = Vec::with_capacity(32);
     let mut limits = Ranges::new(robot);
@@ -48,17 +52,7 @@ pub(super) fn survey(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result
     walk.no_jump(&here, &glimpse, GLIMPSE_JUMP, 0.0)?;
     let mut known = walk.rates(0.0, &here);
     while at < 1.0 - GLIMPSE {
-        let step = match &known {
-            None => SINGULAR_SCALE,
-            Some(known) => {
-                let scale = walk.scale(known);
-                if scale < SINGULAR_SCALE {
-                    return Err(walk.singular(known, at));
-                }
-                (STEP_OF_SCALE * scale).min(LONGEST_STEP)
-            }
-        };
-        let next = (at + step).min(1.0 - GLIMPSE);
+        let next = walk.next(at, known.as_ref())?.min(1.0 - GLIMPSE);
         let expected = known.as_ref().map_or(here, |known| ahead(&here, known, next - at));
         let found = walk.axes(next, &expected)?;
         walk.no_jump(&expected, &found, JUMP, next)?;
@@ -79,7 +73,33 @@ pub(super) fn survey(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result
 
 impl Walk<'_> {
     fn axes(&self, at: f64, near: &Axes) -> Result<Axes, PlanError> {
-        self.curve.axes(&self.robot.kinematics, at, near).ok_or_else(|| self.unreachable(at))
+        let found = self.curve.axes(&self.robot.kinematics, at, near);
+        found.ok_or_else(|| match self.curve.passage(at) {
+            Some(_) => PlanError::Singular { axis: self.name(AXIS_4), along: at },
+            None => self.unreachable(at),
+        })
+    }
+
+    fn reaches_target(&self, near: &Axes) -> Result<(), PlanError> {
+        let found = self.robot.kinematics.inverse(&self.curve.flange(1.0), self.curve.cfg_at(1.0), near);
+        found.map(|_| ()).ok_or_else(|| self.unreachable(1.0))
+    }
+
+    /// The next place to look at; never beyond the border of a passage.
+    fn next(&self, at: f64, known: Option<&Rates>) -> Result<f64, PlanError> {
+        let step = match (self.curve.passage(at), known) {
+            (Some(passage), _) if at < passage.to => (passage.to - passage.from) / PASSAGE_STEPS,
+            (_, None) => SINGULAR_SCALE,
+            (_, Some(known)) => {
+                let scale = self.scale(known);
+                if scale < SINGULAR_SCALE {
+                    return Err(self.singular(known, at));
+                }
+                (STEP_OF_SCALE * scale).min(LONGEST_STEP)
+            }
+        };
+        let borders = self.curve.passages.iter().flat_map(|passage| [passage.from, passage.to]);
+        Ok(borders.filter(|border| *border > at).fold(at + step, f64::min))
     }
 
     /// Out of reach from here on: how far at worst?
@@ -92,7 +112,8 @@ impl Walk<'_> {
     /// The derivatives of the axes; `None` at a singular point, where they would be made of rounding errors.
     fn rates(&self, at: f64, axes: &Axes) -> Option<Rates> {
         let kinematics = &self.robot.kinematics;
-        if kinematics.clearance(axes) < SINGULAR { None } else { kinematics.rates(axes, &self.curve.twist(at)) }
+        let spoilt = self.curve.passage(at).is_none() && kinematics.clearance(axes) < SINGULAR;
+        if spoilt { None } else { self.curve.rates(kinematics, at, axes) }
     }
 
     /// Over which part of the path the axes' motion changes substantially.

@@ -1,13 +1,16 @@
 //! Properties of motion, from the sampled trace alone.
 
 mod blends;
+mod carried;
 mod plans;
 mod stops;
 mod traces;
+mod wrist;
 
 use std::sync::Arc;
 
 use super::*;
+use crate::frames::{Carried, Rig};
 use crate::kinematics::random::Random;
 use crate::kinematics::{Frame, Wanted, frame, frame_components};
 use crate::robot::Robot;
@@ -37,7 +40,7 @@ fn fast() -> Speed {
 }
 
 fn command(target: Target) -> Command {
-    Command { target, tool: Frame::identity(), speed: fast(), duration: None, zone: Zone::NONE, line: 7 }
+    Command { target, rig: Rig::bare(), speed: fast(), duration: None, zone: Zone::NONE, line: 7 }
 }
 
 fn movej(to: [f64; 6]) -> Command {

@@ -90,7 +90,7 @@ fn extent(robot: &Robot, motion: &Motion, measure: Measure) -> Option<f64> {
 fn tcp_part(robot: &Robot, motion: &Motion, distance: f64, of: f64) -> f64 {
     let tcp = |at: f64| {
         let joints: Joints = motion.curve.joints(&robot.kinematics, at, &motion.start);
-        (robot.kinematics.forward(&joints.axes) * motion.tool).translation.vector
+        motion.rig.carried.way_at(&robot.kinematics.forward(&joints.axes)).translation.vector
     };
     let end = tcp(of);
     let far = |part: f64| (tcp((of - part).abs()) - end).norm() > distance;

@@ -128,7 +128,7 @@ instruction! {
     /// `ptp`: the TCP to a pose, all axes arriving together; its path is not defined.
     ptp Ptp (p: Pose) Axes { v vp s sl sp t w dura }
     -> |this, modal, cx| resolve::pose(cx, &this.p, &modal).map(|(pose, wanted, external)| Target::Pose {
-        pose, wobj: modal.wobj_frame, wanted, external
+        pose, wobj: modal.setting.workpiece(), wanted, external
     })
 }
 
@@ -136,7 +136,7 @@ instruction! {
     /// `lin`: the TCP along a straight line, the tool turning evenly along with it.
     lin Lin (p: Pose) Line { v vl vp s sl sp t w dura }
     -> |this, modal, cx| resolve::pose(cx, &this.p, &modal).map(|(pose, _, external)| Target::Line {
-        pose, wobj: modal.wobj_frame, external
+        pose, wobj: modal.setting.workpiece(), external
     })
 }
 
@@ -147,7 +147,7 @@ instruction! {
     -> |this, modal, cx| resolve::pose(cx, &this.p, &modal).map(|(pose, _, external)| {
         let [x, y, z, ..] = this.m.components();
         let follow = cx.system().ori_ref_path.get();
-        Target::Arc { via: [x, y, z], pose, wobj: modal.wobj_frame, angle: this.modal.angle, follow, external }
+        Target::Arc { via: [x, y, z], pose, wobj: modal.setting.workpiece(), angle: this.modal.angle, follow, external }
     })
 }
 

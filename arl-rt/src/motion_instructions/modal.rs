@@ -2,9 +2,9 @@
 
 use crate::cx::Cx;
 use crate::fault::Fault;
-use crate::kinematics::{Frame, frame};
+use crate::frames::Setting;
 use crate::motion;
-use crate::unit::frame_of;
+use crate::system::System;
 use crate::values::{Slip, SmallArray, Speed, Tool, Wobj, is_set};
 
 /// Which components of a speed a motion uses.
@@ -53,12 +53,8 @@ pub(super) struct Modal {
 #[derive(Clone, Debug)]
 pub(super) struct Resolved {
     pub(super) speed: motion::Speed,
-    /// Where the robot stands in the world.
-    pub(super) base: Frame,
-    /// The tool seen from the flange.
-    pub(super) tool_frame: Frame,
-    /// The workpiece frame seen from the robot's base.
-    pub(super) wobj_frame: Frame,
+    /// What carries tool and workpiece.
+    pub(super) setting: Setting,
     pub(super) duration: Option<f64>,
     pub(super) zone: motion::Zone,
 }
@@ -83,23 +79,10 @@ impl Modal {
         if let Some(wobj) = &self.wobj {
             system.dfwobj.set(wobj.clone());
         }
-        supported(cx)?;
         let speed = system.dfspeed.get();
-        let offset = |offset: &SmallArray<f64, 6>| {
-            let mut components = [0.0; 6];
-            for (component, value) in components.iter_mut().zip(offset.iter()) {
-                *component = *value;
-            }
-            frame(components)
-        };
-        let base = system.base.with(|base| base.first().map_or_else(Frame::identity, |base| frame_of(&base.w_frame)));
         Ok(Resolved {
             speed: motion::Speed { percent: speed.per, tcp: speed.tcp, ori: speed.ori, exj: speed.exj, exl: speed.exl },
-            base,
-            tool_frame: frame_of(&system.dftool.get().t_frame) * system.tool_offset.with(offset),
-            wobj_frame: base.inverse()
-                * system.dfwobj.with(|wobj| frame_of(&wobj.w_frame))
-                * system.wobj_offset.with(offset),
+            setting: setting(system)?,
             duration: self.duration,
             zone: zone(&system.dfslip.get()),
         })
@@ -163,19 +146,32 @@ fn slip(blend: Blend, mut slip: Slip) -> Slip {
     slip
 }
 
-/// What would lead the robot elsewhere than the program says, or otherwise than it says.
-fn supported(cx: &Cx) -> Result<(), Fault> {
-    let system = cx.system();
-    let refused = if system.rpp_enable.get() && !cx.has_moved() {
-        "the slow first motion of $RPP_ENABLE is"
-    } else if system.dftool.get().stationary {
-        "a stationary tool is"
-    } else if system.dfwobj.with(|wobj| wobj.robhold) {
-        "a workpiece that the robot holds is"
-    } else {
-        return Ok(());
-    };
-    Err(Fault::Motion(format!("{refused} not supported by motion instructions yet").into()))
+/// What carries `$DFTOOL` and `$DFWOBJ`, with the offsets of all tools and workpieces.
+fn setting(system: &System) -> Result<Setting, Fault> {
+    let (tool, wobj) = (system.dftool.get(), system.dfwobj.get());
+    let base = system.base.with(|base| base.first().map_or_else(Default::default, |base| base.w_frame));
+    let (tool_offset, wobj_offset) = (system.tool_offset.with(components), system.wobj_offset.with(components));
+    let frames = [
+        ("the tool frame", tool.t_frame.components()),
+        ("the workpiece frame", wobj.w_frame.components()),
+        ("$BASE[0]", base.components()),
+        ("$TOOL_OFFSET", tool_offset),
+        ("$WOBJ_OFFSET", wobj_offset),
+    ];
+    for (name, components) in frames {
+        if let Some(value) = components.iter().find(|value| !value.is_finite() || motion::is_unset(value.abs())) {
+            return Err(Fault::Motion(format!("{name} holds the value {value}, which is no length or angle").into()));
+        }
+    }
+    Ok(Setting::new(&tool, &wobj, &base).with_offsets(&tool_offset, &wobj_offset))
+}
+
+fn components(offset: &SmallArray<f64, 6>) -> [f64; 6] {
+    let mut components = [0.0; 6];
+    for (component, value) in components.iter_mut().zip(offset.iter()) {
+        *component = *value;
+    }
+    components
 }
 
 /// The zone that `$DFSLIP` describes; what is unset stays so.

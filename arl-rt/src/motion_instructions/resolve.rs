@@ -4,7 +4,7 @@ use super::modal::Resolved;
 use crate::cx::Cx;
 use crate::fault::Fault;
 use crate::kinematics::Wanted;
-use crate::motion::{Command, Joints, Target, UNSET};
+use crate::motion::{Command, Joints, Settings, Target, UNSET, Zone};
 use crate::robot::{EXTERNAL_AXES, VelocityProfile};
 use crate::system::all_set;
 use crate::unit::{Unit, joint};
@@ -23,15 +23,19 @@ pub(super) fn joints(cx: &Cx, target: &Joint) -> Result<Joints, Fault> {
 }
 
 /// The pose of a target, which solution of it is wanted, and its external axes.
-pub(super) fn pose(cx: &Cx, target: &Pose, _: &Resolved) -> Result<([f64; 6], Wanted, [f64; EXTERNAL_AXES]), Fault> {
+pub(super) fn pose(
+    cx: &Cx,
+    target: &Pose,
+    modal: &Resolved,
+) -> Result<([f64; 6], Wanted, [f64; EXTERNAL_AXES]), Fault> {
+    modal.setting.check().map_err(|unmoved| Fault::Motion(unmoved.to_string().into()))?;
     let system = cx.system();
-    let mut pose = target.components();
+    let (mut pose, external) = (target.components(), target.external());
+    first(cx, &cx.world().unit.borrow(), &pose, &external)?;
     if system.ignore_ori.get() {
         let [x, y, z, ..] = pose;
         pose = [x, y, z, UNSET, UNSET, UNSET];
     }
-    let external = target.external();
-    first(cx, &cx.world().unit.borrow(), &pose, &external)?;
     Ok((pose, wanted(target, system.config_check.get())?, external))
 }
 
@@ -68,22 +72,28 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
     while !world.unit.borrow().has_room() {
         cx.next_cycle().await;
     }
+    // The return to the path: the first motion goes at manual speed, and stops.
+    let returns = world.system.rpp_enable.get() && !cx.has_moved();
     let command = Command {
         target,
-        tool: modal.tool_frame,
+        rig: modal.setting.rig(),
         speed: modal.speed,
         duration: modal.duration,
-        zone: modal.zone,
+        zone: if returns { Zone::NONE } else { modal.zone },
         line: cx.place().1,
     };
     let mut unit = world.unit.borrow_mut();
-    unit.settings.profile = match world.system.vel_profile.get() {
-        VelProfile::T => VelocityProfile::T,
-        VelProfile::S => VelocityProfile::S,
-        VelProfile::O => VelocityProfile::O,
+    let settings = Settings {
+        profile: match world.system.vel_profile.get() {
+            VelProfile::T => VelocityProfile::T,
+            VelProfile::S => VelocityProfile::S,
+            VelProfile::O => VelocityProfile::O,
+        },
+        wrist: world.system.wrist.get(),
+        manual: unit.settings.manual || returns,
+        ..unit.settings
     };
-    unit.set_base(modal.base);
-    unit.plan(&command).map_err(|error| Fault::Motion(error.to_string().into()))?;
+    unit.plan(&command, &settings).map_err(|error| Fault::Motion(error.to_string().into()))?;
     world.system.cjoint.set(joint(unit.target()));
     cx.moved();
     if unit.take_late() {

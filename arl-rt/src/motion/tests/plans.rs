@@ -76,7 +76,7 @@ fn a_line_that_leaves_the_reach_between_its_ends_says_where_and_how_far() {
     let wanted = Wanted { cfg: None, turn: -1 };
     let axes = robot.kinematics.choose(&facing(95.0), wanted, &robot.axes, &start().axes).unwrap();
     let from = Joints { axes, ..start() };
-    let command = Command { tool, ..lin([1150.0, 0.0, 1080.0, -95.0, 90.0, 0.0]) };
+    let command = Command { rig: Rig::with_tool(tool), ..lin([1150.0, 0.0, 1080.0, -95.0, 90.0, 0.0]) };
     match plan(&robot, &from, &command, &Settings::default()) {
         Err(PlanError::Unreachable { beyond, along }) => {
             // 230 mm behind the tool's tip: 1380 - 150 before and 630 above axis 2, for which the arm is 1270.303 long.

@@ -58,7 +58,7 @@ fn random_line(robot: &Robot, random: &mut Random) -> (Joints, Joints, Command, 
     let target = Frame::from_parts(position.into(), rotation);
     let pose = frame_components(&(wobj.inverse() * target));
     let line = Target::Line { pose, wobj, external: goal.external };
-    (start, goal, Command { tool, ..command(line) }, target)
+    (start, goal, Command { rig: Rig::with_tool(tool), ..command(line) }, target)
 }
 
 #[test]
@@ -76,7 +76,7 @@ fn lines_are_straight_and_within_all_limits() {
                 continue;
             }
             planned += 1;
-            let from = robot.kinematics.forward(&start.axes) * command.tool;
+            let from = command.rig.tcp_at(&robot.kinematics.forward(&start.axes));
             let rows = run(&mut queue, 100.0);
             assert_within_limits(&robot, &rows, name);
             assert_tcp_limits(&robot, &rows, &command.speed);
@@ -168,7 +168,7 @@ fn manual_mode_limits_the_tcp_on_every_motion() {
             let mut queue = Queue::new(robot.clone(), random_joints(&robot, &mut random, 0.8));
             let tool = frame([50.0, 0.0, 250.0, 0.0, 30.0, 0.0]);
             let target = random_joints(&robot, &mut random, 0.8);
-            queue.add(&Command { tool, ..command(Target::Joints(target)) }, &settings).unwrap();
+            queue.add(&Command { rig: Rig::with_tool(tool), ..command(Target::Joints(target)) }, &settings).unwrap();
             let rows = run(&mut queue, 100.0);
             let speeds = rows
                 .windows(2)

@@ -1,0 +1,92 @@
+//! What the robot carries, and where it stands: from a way of the TCP to the flange.
+
+use nalgebra::Vector3;
+
+use crate::kinematics::{Frame, Twist};
+
+/// What is on the flange and meets the other: the tool, or the workpiece that is held to a tool that stands.
+///
+/// A way of the TCP is the tool's frame seen from whatever the workpiece stands still in: from the robot's base where the
+/// robot carries the tool, from the flange where it carries the workpiece. So speeds along a way are those of the TCP
+/// against the workpiece. Translations are mm.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Carried {
+    /// The tool, at this frame of the flange.
+    Tool(Frame),
+    /// The workpiece; the tool stands at this frame of the robot's base.
+    Workpiece(Frame),
+}
+
+impl Carried {
+    /// Where the flange is in the robot's base when the tool's frame on its way is `way`.
+    pub fn flange_at(&self, way: &Frame) -> Frame {
+        match self {
+            Carried::Tool(tool) => way * tool.inverse(),
+            Carried::Workpiece(tool) => tool * way.inverse(),
+        }
+    }
+
+    /// The tool's frame on its way when the flange is at `flange` of the robot's base.
+    pub fn way_at(&self, flange: &Frame) -> Frame {
+        match self {
+            Carried::Tool(tool) => flange * tool,
+            Carried::Workpiece(tool) => flange.inverse() * tool,
+        }
+    }
+
+    /// Two frames that meet when the tool's frame on its way is `way`: one of the robot's base, one of the flange.
+    pub fn meeting(&self, way: &Frame) -> (Frame, Frame) {
+        match self {
+            Carried::Tool(tool) => (*way, *tool),
+            Carried::Workpiece(tool) => (*tool, *way),
+        }
+    }
+
+    /// How the flange moves in the robot's base when the tool's frame on its way is `way` and moves there with the first
+    /// three derivatives `moving` of its place (mm per unit of the path parameter, its square, its cube) while it turns
+    /// with the speed and its first two derivatives `turning` (rad).
+    pub fn twist(&self, way: &Frame, moving: &[Vector3<f64>; 3], turning: &[Vector3<f64>; 3]) -> Twist {
+        let Carried::Workpiece(_) = self else { return Twist::of_point(&way.translation.vector, moving, turning) };
+        // The tool stands; the flange goes the opposite way. Its origin, along its own axes, which move with it.
+        let flange = self.flange_at(way);
+        let p = way.translation.vector;
+        let ([v, a, j], [w, w1, w2]) = (*moving, *turning);
+        let first = w.cross(&p) - v;
+        let first1 = w1.cross(&p) + w.cross(&v) - a;
+        let first2 = w2.cross(&p) + w1.cross(&v) * 2.0 + w.cross(&a) - j;
+        let second = first1 - w.cross(&first);
+        let third = first2 - w1.cross(&first) - w.cross(&first1) - w.cross(&second);
+        let turning = [-w, -w1, w.cross(&w1) - w2];
+        let turned = |vectors: [Vector3<f64>; 3]| vectors.map(|vector| flange.rotation * vector);
+        Twist::of_point(&flange.translation.vector, &turned([first, second, third]), &turned(turning))
+    }
+}
+
+/// What the robot carries, and where its base stands in the world.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Rig {
+    /// What is on the flange.
+    pub carried: Carried,
+    /// The robot's base in the world, translation in mm.
+    pub base: Frame,
+}
+
+impl Rig {
+    /// A bare flange of a robot that stands at the origin of the world.
+    pub fn bare() -> Self {
+        Self::with_tool(Frame::identity())
+    }
+
+    /// A tool at this frame of the flange of a robot that stands at the origin of the world.
+    pub fn with_tool(tool: Frame) -> Self {
+        Self { carried: Carried::Tool(tool), base: Frame::identity() }
+    }
+
+    /// The TCP's frame in the world when the flange is at `flange` of the robot's base.
+    pub fn tcp_at(&self, flange: &Frame) -> Frame {
+        match self.carried {
+            Carried::Tool(tool) => self.base * flange * tool,
+            Carried::Workpiece(tool) => self.base * tool,
+        }
+    }
+}
