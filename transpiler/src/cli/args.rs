@@ -54,6 +54,18 @@ pub(super) enum Command {
         #[command(flatten)]
         options: RunOptions,
     },
+    /// Draw a trace that a run wrote.
+    Plot {
+        /// The trace.
+        #[arg(value_name = "TRACE.csv")]
+        trace: PathBuf,
+        /// The picture.
+        #[arg(value_name = "FILE.svg")]
+        plot: PathBuf,
+        /// The robot that ran: a built-in name or a robot file.
+        #[arg(long, value_name = "NAME|FILE")]
+        robot: Option<String>,
+    },
     /// Run the cases in folders: every NAME.arl with a sidecar (.out, .err, .alarm, .io.toml, .toml).
     Test {
         /// Folders with cases, searched with their subfolders.
@@ -102,7 +114,7 @@ pub(super) struct Checking {
     pub(super) script_dir: Option<PathBuf>,
 }
 
-/// Options of a running program. They are handed on to it.
+/// Options of a running program. They are handed on to it, but for the plot, which is made from its trace.
 #[derive(Args, Clone, Default, Debug)]
 pub(super) struct RunOptions {
     /// The robot: a built-in name or a robot file.
@@ -126,6 +138,9 @@ pub(super) struct RunOptions {
     /// Write the motion, one row a cycle.
     #[arg(long, value_name = "FILE.csv")]
     pub(super) trace: Option<PathBuf>,
+    /// Draw the motion afterwards: the way of the TCP, its speed, the axes' speeds.
+    #[arg(long, value_name = "FILE.svg")]
+    pub(super) plot: Option<PathBuf>,
     /// End after so many controller seconds, with exit code 4.
     #[arg(long, value_name = "S")]
     pub(super) max_time: Option<f64>,

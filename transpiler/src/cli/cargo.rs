@@ -40,7 +40,6 @@ pub(super) fn end_on_interrupt() {
 }
 
 /// From now on Ctrl-C is the running program's business.
-#[cfg(not(unix))]
 pub(super) fn leave_interrupts_to_the_program() {
     LEFT_TO_PROGRAM.store(true, Ordering::Relaxed);
 }

@@ -9,6 +9,7 @@ mod emit;
 mod explain;
 mod failure;
 mod pages;
+mod plot;
 mod program;
 mod progress;
 mod project;
@@ -46,6 +47,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Emit { file, out, checking } => done(emit::emit(&file, out.as_deref(), &checking)),
         Command::Build { file, out, release, checking } => done(emit::build(&file, out.as_deref(), release, &checking)),
         Command::Run { file, options } => run::run(&file, &options),
+        Command::Plot { trace, plot, robot } => done(run::plot(&trace, &plot, robot.as_deref())),
         Command::Test { dirs } => test::test(&dirs),
         Command::Explain { code } => print(explain::explain(&code)),
         Command::Doc { name } => print(explain::doc(&name)),

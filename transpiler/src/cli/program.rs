@@ -19,6 +19,8 @@ use std::path::{Path, PathBuf};
 pub(super) struct Ready {
     pub(super) program: PathBuf,
     pub(super) lock: Lock,
+    /// The files that were read; none where nobody wrote them down.
+    pub(super) sources: Vec<PathBuf>,
 }
 
 /// The options of a check.
@@ -75,11 +77,11 @@ pub(super) fn prepare(file: &Path, checking: &Checking) -> Result<Ready, Failure
     };
     write_if_changed(&place.folder.join("said"), said.as_bytes())?;
     let path = place.folder.join(&program);
-    match Stamp::of(&compiled, &read, identity, program) {
-        Some(stamp) => write_if_changed(&place.stamp(), stamp.text().as_bytes())?,
-        None => false,
-    };
-    Ok(Ready { program: path, lock })
+    let stamp = Stamp::of(&compiled, &read, identity, program);
+    if let Some(stamp) = &stamp {
+        write_if_changed(&place.stamp(), stamp.text().as_bytes())?;
+    }
+    Ok(Ready { program: path, lock, sources: stamp.as_ref().map(sources).unwrap_or_default() })
 }
 
 fn only_values(stamp: &Stamp, compiled: &Compiled, read: &Recording<'_>) -> bool {
@@ -97,7 +99,11 @@ fn state(place: &Place, identity: u64) -> (Freshness, Option<Stamp>) {
 /// Shows the warnings again and leaves the rest as it is.
 fn start_again(place: &Place, stamp: &Stamp, lock: Lock) -> Result<Ready, Failure> {
     show::again(&std::fs::read_to_string(place.folder.join("said")).unwrap_or_default());
-    Ok(Ready { program: place.folder.join(&stamp.program), lock })
+    Ok(Ready { program: place.folder.join(&stamp.program), lock, sources: sources(stamp) })
+}
+
+fn sources(stamp: &Stamp) -> Vec<PathBuf> {
+    stamp.files.iter().map(|file| file.path.clone()).collect()
 }
 
 /// Compiles the Rust and puts the program into its place under a name of its own, so that older ones run on.

@@ -4,6 +4,7 @@ use super::failure::Failure;
 use crate::near::nearest;
 use arl_lang::catalog::Family;
 use arl_lang::robots::ROBOTS;
+use std::borrow::Cow;
 use std::path::Path;
 
 /// Lists the built-in robots, or prints the file of one.
@@ -35,12 +36,24 @@ fn unknown(name: &str) -> String {
 
 /// The kind of the robot that `--robot` names. The rest of a robot file is read when the program starts.
 pub(super) fn family(robot: Option<&str>) -> Result<Family, Failure> {
-    let Some(robot) = robot else { return Ok(Family::default()) };
+    if robot.is_none() {
+        return Ok(Family::default());
+    }
+    let (file, text) = text(robot)?;
+    family_in(&text, &file)
+}
+
+/// The name and the text of the file of the robot that `--robot` names, or of the default one.
+pub(super) fn text(robot: Option<&str>) -> Result<(String, Cow<'static, str>), Failure> {
+    let Some(robot) = robot else {
+        let (name, text) = ROBOTS.first().copied().unwrap_or_default();
+        return Ok((name.to_owned(), text.into()));
+    };
     if let Some(text) = built_in(robot) {
-        return family_in(text, robot);
+        return Ok((robot.to_owned(), text.into()));
     }
     match std::fs::read_to_string(robot) {
-        Ok(text) => family_in(&text, robot),
+        Ok(text) => Ok((robot.to_owned(), text.into())),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound && is_name(robot) => {
             Err(Failure::Usage(unknown(robot)))
         }

@@ -1,9 +1,11 @@
-//! `arl2rs run`
+//! `arl2rs run` and `arl2rs plot`
 
 use super::args::RunOptions;
 use super::failure::Failure;
+use super::plot::{self, Ran};
 use super::program::{Ready, prepare};
-use std::path::Path;
+use super::show;
+use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 /// Compiles where needed, then lets the program take over.
@@ -11,22 +13,105 @@ pub(super) fn run(file: &Path, options: &RunOptions) -> Result<ExitCode, Failure
     let ready = prepare(file, &options.checking())?;
     let mut command = Command::new(&ready.program);
     command.args(options.arguments());
-    start(command, ready)
+    match &options.plot {
+        Some(picture) => run_and_plot(command, ready, file, options, picture),
+        None => start(command, ready),
+    }
+}
+
+/// Draws a trace that is there.
+pub(super) fn plot(trace: &Path, picture: &Path, robot: Option<&str>) -> Result<(), Failure> {
+    let title = trace.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    draw(trace, picture, robot, &Ran { title, source: None })
+}
+
+fn draw(trace: &Path, picture: &Path, robot: Option<&str>, ran: &Ran) -> Result<(), Failure> {
+    if !plot::plot(trace, picture, robot, ran)? {
+        // There may be an empty one, made to see whether it can be.
+        let _ = std::fs::remove_file(picture);
+        show::warning(&format!("no motion was executed, so there is no {}", picture.display()));
+    }
+    Ok(())
+}
+
+/// The program runs, then its trace is drawn, however it ended.
+fn run_and_plot(
+    mut command: Command,
+    ready: Ready,
+    file: &Path,
+    options: &RunOptions,
+    picture: &Path,
+) -> Result<ExitCode, Failure> {
+    // Better now than after a long run.
+    std::fs::write(picture, "").map_err(|error| Failure::io("write", picture, &error))?;
+    let kept = options.trace.clone().map(Trace::Kept);
+    let trace = kept.unwrap_or_else(|| {
+        let path = std::env::temp_dir().join(format!("arl2rs-{}.csv", std::process::id()));
+        command.arg("--trace").arg(&path);
+        Trace::Passing(path)
+    });
+    // What lies there from another run is not to be drawn.
+    let _ = std::fs::remove_file(trace.path());
+    let ran = ran(file, &ready.sources);
+    let code = wait(command, ready)?;
+    match trace.path().is_file() {
+        true => draw(trace.path(), picture, options.robot.as_deref(), &ran)?,
+        // The program did not even begin, and has said why.
+        false => drop(std::fs::remove_file(picture)),
+    }
+    Ok(code)
+}
+
+/// Where the trace is.
+enum Trace {
+    /// The user wants it.
+    Kept(PathBuf),
+    /// It goes with the plot.
+    Passing(PathBuf),
+}
+
+impl Trace {
+    fn path(&self) -> &Path {
+        let (Trace::Kept(path) | Trace::Passing(path)) = self;
+        path
+    }
+}
+
+impl Drop for Trace {
+    fn drop(&mut self) {
+        if let Trace::Passing(path) = self {
+            // It lies in the system's folder for files that go.
+            let _ = std::fs::remove_file(path);
+        }
+    }
+}
+
+/// What the plot says of the program. Lines have no files in a trace: with several files they are just numbers.
+fn ran(file: &Path, sources: &[PathBuf]) -> Ran {
+    let title = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let stem = |path: &PathBuf| path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let programs = sources.iter().filter(|path| !stem(path).ends_with("_data")).count();
+    let bytes = (programs == 1).then(|| std::fs::read(file).ok()).flatten();
+    Ran { title, source: bytes.and_then(|bytes| Some(arl_lang::text::decode(&bytes).ok()?.into_owned())) }
 }
 
 /// The program takes the place of this process: signals, streams and exit code are its own.
 #[cfg(unix)]
 fn start(mut command: Command, ready: Ready) -> Result<ExitCode, Failure> {
     use std::os::unix::process::CommandExt;
-    let Ready { program, lock } = ready;
+    let Ready { program, lock, .. } = ready;
     let error = command.exec();
     drop(lock);
     Err(Failure::io("start", &program, &error))
 }
 
-/// The program runs while this process waits. Ctrl-C reaches both; only the program acts on it.
 #[cfg(not(unix))]
-fn start(mut command: Command, ready: Ready) -> Result<ExitCode, Failure> {
+fn start(command: Command, ready: Ready) -> Result<ExitCode, Failure> {
+    wait(command, ready)
+}
+
+/// The program runs while this process waits. Ctrl-C reaches both; only the program acts on it.
+fn wait(mut command: Command, ready: Ready) -> Result<ExitCode, Failure> {
     super::cargo::leave_interrupts_to_the_program();
     let fail = |error: std::io::Error| Failure::io("start", &ready.program, &error);
     let mut child = command.spawn().map_err(fail)?;

@@ -10,6 +10,11 @@ pub(super) fn error(text: &str) {
     eprintln!("\u{1b}[1m\u{1b}[91merror\u{1b}[0m\u{1b}[1m: {text}\u{1b}[0m");
 }
 
+/// A warning of the command itself.
+pub(super) fn warning(text: &str) {
+    eprintln!("\u{1b}[1m\u{1b}[93mwarning\u{1b}[0m\u{1b}[1m: {text}\u{1b}[0m");
+}
+
 /// Errors and warnings of a program, then how many there were.
 pub(super) fn diagnostics(compiled: &Compiled) {
     eprint!("{}", rendered(compiled));

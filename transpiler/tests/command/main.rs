@@ -38,6 +38,10 @@ impl Folder {
         std::fs::read_to_string(self.path.join(name)).expect("the file is there")
     }
 
+    fn has(&self, name: &str) -> bool {
+        self.path.join(name).exists()
+    }
+
     /// The command in this folder; compiled programs of all tests share a cache, so that the runtime is compiled once.
     fn command(&self, arguments: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_arl2rs"));

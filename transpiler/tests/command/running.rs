@@ -94,3 +94,55 @@ fn built_programs_stand_alone() {
         Answer::of(output.expect("it starts")).is(0, "true\n");
     }
 }
+
+#[test]
+fn a_plot_shows_the_way_the_speeds_and_the_lines() {
+    let program = "func void main()\n    joint a = {30,40,50,30}\n    movej a,vp:50%\n    waittime 0\n    \
+                   pose p = cpose($FLANGE,$WORLD)\n    p.x = p.x - 100\n    lin p,vl:200\nendfunc\n";
+    let folder =
+        Folder::new("plot").with("way.arl", program).with("still.arl", "func void main()\n    print 1\nendfunc\n");
+    folder.arl2rs(&["run", "way.arl", "--robot", "hsr065", "--plot", "way.svg", "--trace", "way.csv"]).is(0, "");
+    let picture = folder.read("way.svg");
+    for text in
+        ["way.arl", "hsr065", "Top", "Front", "Side", "Speed of the TCP in mm/s", "j4  up to", "   7  lin p,vl:200"]
+    {
+        assert!(picture.contains(text), "{text}");
+    }
+    // Two motions, a thousand cycles: what nobody would see is left out.
+    assert!(folder.read("way.csv").lines().count() > 1000 && picture.len() < 50_000, "{}", picture.len());
+    // The same from the trace, which knows neither the program's name nor its text.
+    folder.arl2rs(&["plot", "way.csv", "again.svg", "--robot", "hsr065"]).is(0, "");
+    let again = folder.read("again.svg");
+    assert!(again.contains("way.csv") && !again.contains("lin p"));
+
+    // A robot that does not move gives no picture; the program's exit code stays.
+    folder.arl2rs(&["run", "still.arl", "--plot", "still.svg"]).is(0, "1\n").says("no motion was executed");
+    assert!(!folder.has("still.svg"));
+    folder.arl2rs(&["run", "way.arl", "--max-time", "0.1", "--robot", "hsr065", "--plot", "part.svg"]).is(4, "");
+    assert!(folder.read("part.svg").contains("1 motion"));
+    folder
+        .arl2rs(&["run", "way.arl", "--robot", "hsr065", "--plot", "none/way.svg"])
+        .is(1, "")
+        .says("cannot write none/way.svg");
+    folder.arl2rs(&["plot", "way.arl", "x.svg"]).is(2, "").says("is not a trace of a run");
+}
+
+#[test]
+fn a_plot_shows_external_axes() {
+    let robot = crate_robot("kr10-r1420").replacen(
+        "\n[[link]]",
+        "\n[[axis]]\nname = \"ej1\"\nlinear = true\nmin = 0.0\n\
+        max = 900.0\nvel = 500.0\nacc = 2000.0\njerk = 9000.0\n\n[[link]]",
+        1,
+    );
+    let program = "func void main()\n    joint a = {0,-90,90,0,45,0,400}\n    movej a,vp:50%\nendfunc\n";
+    let folder = Folder::new("rail").with("rail.arl", program).with("rail.toml", &robot);
+    folder.arl2rs(&["run", "rail.arl", "--robot", "rail.toml", "--plot", "rail.svg"]).is(0, "");
+    let picture = folder.read("rail.svg");
+    assert!(picture.contains("ej1  up to") && picture.contains("of 500 mm/s"));
+}
+
+fn crate_robot(name: &str) -> String {
+    let robots = arl_lang::robots::ROBOTS;
+    robots.iter().find(|(known, _)| *known == name).expect("the robot is built in").1.to_owned()
+}

@@ -1,0 +1,122 @@
+//! The first look at a trace: how long, how far, which motions. The second one draws.
+
+use super::super::failure::Failure;
+use super::trace::{AXES, Movement, Row};
+
+/// A motion: from when to when its line was executed.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Stretch {
+    pub(super) line: u32,
+    pub(super) motion: u64,
+    /// s.
+    pub(super) from: f64,
+    pub(super) to: f64,
+}
+
+/// What a trace is about.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Outline {
+    /// s of the first and of the last row.
+    pub(super) time: [f64; 2],
+    /// Lowest and highest x, y, z of the TCP while it moved, mm.
+    pub(super) space: [[f64; 2]; 3],
+    pub(super) stretches: Vec<Stretch>,
+    /// The lines with motions, in the order of their first execution.
+    pub(super) lines: Vec<u32>,
+    /// The highest speed of the TCP, mm/s.
+    pub(super) speed: f64,
+    /// The highest speed of each axis, deg/s (mm/s).
+    pub(super) axes: [f64; AXES],
+}
+
+impl Outline {
+    /// Looks at all rows; `None` where no motion is among them.
+    ///
+    /// # Errors
+    /// A row cannot be read.
+    pub(super) fn of(rows: impl Iterator<Item = Result<Row, Failure>>) -> Result<Option<Self>, Failure> {
+        let mut outline = Self {
+            time: [f64::INFINITY, 0.0],
+            space: [[f64::INFINITY, f64::NEG_INFINITY]; 3],
+            stretches: Vec::new(),
+            lines: Vec::new(),
+            speed: 0.0,
+            axes: [0.0; AXES],
+        };
+        let mut movement = Movement::default();
+        let mut before = 0.0;
+        for row in rows {
+            let row = row?;
+            let moved = movement.next(row);
+            outline.time = [outline.time[0].min(row.t), row.t];
+            outline.speed = outline.speed.max(moved.speed.unwrap_or(0.0));
+            for (most, speed) in outline.axes.iter_mut().zip(moved.axes) {
+                *most = most.max(speed.abs());
+            }
+            if row.motion != 0 {
+                outline.motion(&row, before);
+            }
+            before = row.t;
+        }
+        Ok((!outline.stretches.is_empty()).then_some(outline))
+    }
+
+    fn motion(&mut self, row: &Row, before: f64) {
+        for ([low, high], place) in self.space.iter_mut().zip(row.tcp) {
+            (*low, *high) = (low.min(place), high.max(place));
+        }
+        match self.stretches.last_mut() {
+            Some(last) if last.motion == row.motion && last.line == row.line => last.to = row.t,
+            _ => {
+                let from = if row.t > self.time[0] { before } else { row.t };
+                self.stretches.push(Stretch { line: row.line, motion: row.motion, from, to: row.t });
+                if !self.lines.contains(&row.line) {
+                    self.lines.push(row.line);
+                }
+            }
+        }
+    }
+
+    /// The colour of a line's motions.
+    pub(super) fn colour(&self, line: u32) -> &'static str {
+        let at = self.lines.iter().position(|known| *known == line).unwrap_or(0);
+        colour(at)
+    }
+}
+
+/// Colours that are told apart on white, also by people who see few of them.
+const COLOURS: [&str; 10] =
+    ["#0969da", "#d1570a", "#1a7f37", "#a0447a", "#8a6d00", "#0a8a9a", "#cf222e", "#6639ba", "#57606a", "#3fa34d"];
+
+/// The colour with this number; they come again after ten.
+pub(super) fn colour(at: usize) -> &'static str {
+    COLOURS.get(at % COLOURS.len()).copied().unwrap_or("#57606a")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(t: f64, line: u32, motion: u64, x: f64) -> Row {
+        Row { t, line, motion, axes: [f64::NAN; AXES], tcp: [x, 1.0, 2.0] }
+    }
+
+    #[test]
+    fn stretches_are_motions_and_lines_come_once() {
+        let rows = [(0.0, 0, 0, 0.0), (0.001, 7, 1, 1.0), (0.002, 7, 1, 3.0), (0.003, 9, 2, 4.0), (0.004, 0, 0, 4.0)];
+        let again = [(0.005, 7, 3, 5.0), (0.006, 7, 3, 6.0)];
+        let rows = rows.into_iter().chain(again).map(|(t, line, motion, x)| Ok(row(t, line, motion, x)));
+        let outline = Outline::of(rows).unwrap().unwrap();
+        assert_eq!(outline.lines, [7, 9]);
+        let stretches: Vec<_> = outline.stretches.iter().map(|it| (it.line, it.from, it.to)).collect();
+        assert_eq!(stretches, [(7, 0.0, 0.002), (9, 0.002, 0.003), (7, 0.004, 0.006)]);
+        assert_eq!((outline.time, outline.space[0]), ([0.0, 0.006], [1.0, 6.0]));
+        assert!((outline.speed - 2000.0).abs() < 1e-6);
+        assert_ne!(outline.colour(7), outline.colour(9));
+    }
+
+    #[test]
+    fn without_a_motion_there_is_nothing() {
+        assert_eq!(Outline::of([Ok(row(0.0, 0, 0, 0.0))].into_iter()).unwrap(), None);
+    }
+}

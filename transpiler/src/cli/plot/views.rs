@@ -1,0 +1,199 @@
+//! The way of the TCP from the top, the front and the side, all at one scale.
+
+use super::outline::Outline;
+use super::scale::{Scale, label, step, ticks};
+use super::svg::{Anchor, Area, Picture};
+use super::thin::Line;
+use super::trace::Moved;
+use std::collections::{BTreeMap, HashSet};
+
+/// What the axes of the world are called.
+const NAMES: [&str; 3] = ["x", "y", "z"];
+
+/// The views: title, and which component of a place goes to the right and which upwards. The front is seen against x.
+const VIEWS: [(&str, usize, usize); 3] = [("Top", 0, 1), ("Front (against x)", 1, 2), ("Side (along y)", 0, 2)];
+
+/// The least extent of a view, mm.
+const LEAST: f64 = 10.0;
+
+/// One view.
+struct View {
+    title: &'static str,
+    right: usize,
+    up: usize,
+    area: Area,
+    ranges: [[f64; 2]; 2],
+    across: Scale,
+    upward: Scale,
+    /// The way so far, by line of the program.
+    ways: BTreeMap<u32, Line>,
+    current: Option<u32>,
+    last: Option<[f64; 2]>,
+    /// Pieces of way that are there already: a program's loop draws its way once.
+    drawn: HashSet<(u32, [i32; 4])>,
+    /// Where the lines' numbers may stand: line and place.
+    marks: Vec<(u32, [f64; 2])>,
+}
+
+/// The three views.
+pub(super) struct Views {
+    views: Vec<View>,
+    step: f64,
+}
+
+impl Views {
+    /// Lays the views out side by side, `gap` px apart.
+    pub(super) fn new(outline: &Outline, whole: &Area, gap: f64) -> Self {
+        let width = (whole.width - 2.0 * gap) / 3.0;
+        let extent = |at: usize| outline.space.get(at).map_or(LEAST, |[low, high]| (high - low).max(LEAST));
+        // mm for one px; the way leaves a margin.
+        let scale = VIEWS.iter().map(|(_, right, up)| (extent(*right) / width).max(extent(*up) / whole.height));
+        let scale = scale.fold(0.0, f64::max) * 1.16;
+        let views = VIEWS.iter().enumerate().map(|(at, (title, right, up))| {
+            let area = Area { x: whole.x + at as f64 * (width + gap), width, ..*whole };
+            let range = |component: usize, pixels: f64| {
+                let middle = outline.space.get(component).map_or(0.0, |[low, high]| f64::midpoint(*low, *high));
+                [middle - scale * pixels / 2.0, middle + scale * pixels / 2.0]
+            };
+            let ranges = [range(*right, area.width), range(*up, area.height)];
+            View {
+                title,
+                right: *right,
+                up: *up,
+                area,
+                ranges,
+                across: Scale::new(ranges[0], area.x, area.right()),
+                upward: Scale::new(ranges[1], area.bottom(), area.y),
+                ways: BTreeMap::new(),
+                current: None,
+                last: None,
+                drawn: HashSet::new(),
+                marks: Vec::new(),
+            }
+        });
+        Self { views: views.collect(), step: step(scale * width, 5.0) }
+    }
+
+    /// The next cycle.
+    pub(super) fn push(&mut self, moved: &Moved) {
+        self.views.iter_mut().for_each(|view| view.push(moved));
+    }
+
+    /// Draws the views.
+    pub(super) fn draw(self, outline: &Outline, picture: &mut Picture) {
+        for view in self.views {
+            view.draw(outline, self.step, picture);
+        }
+    }
+}
+
+impl View {
+    fn push(&mut self, moved: &Moved) {
+        let component = |at: usize| moved.row.tcp.get(at).copied().unwrap_or_default();
+        let point = [self.across.at(component(self.right)), self.upward.at(component(self.up))];
+        let before = self.last.replace(point);
+        if moved.row.motion == 0 {
+            self.lift();
+            return;
+        }
+        let line = moved.row.line;
+        if self.current != Some(line) {
+            self.lift();
+            self.current = Some(line);
+        }
+        let from = if moved.speed.is_some() { before.unwrap_or(point) } else { point };
+        // Quarters of a pixel: what is drawn there already is not drawn again.
+        let rounded = |value: f64| (value * 4.0).round() as i32;
+        let new = self.drawn.insert((line, [from[0], from[1], point[0], point[1]].map(rounded)));
+        let way = self.ways.entry(line).or_default();
+        if !new {
+            way.lift();
+            return;
+        }
+        if moved.speed.is_none() {
+            way.lift();
+        }
+        way.push(from);
+        way.push(point);
+    }
+
+    fn lift(&mut self) {
+        if let Some(line) = self.current.take()
+            && let Some(way) = self.ways.get_mut(&line)
+        {
+            way.lift();
+        }
+    }
+
+    fn draw(mut self, outline: &Outline, step: f64, picture: &mut Picture) {
+        self.ground(step, picture);
+        for line in &outline.lines {
+            let Some(way) = self.ways.remove(line) else { continue };
+            let points = way.finish();
+            picture.path(&points, "way", outline.colour(*line));
+            if let Some(place) = longest(&points) {
+                self.marks.push((*line, place));
+            }
+        }
+        self.numbers(picture);
+    }
+
+    fn ground(&self, step: f64, picture: &mut Picture) {
+        let Area { x, y, .. } = self.area;
+        let (right, bottom) = (self.area.right(), self.area.bottom());
+        for value in ticks(self.ranges[0], step) {
+            let at = self.across.at(value);
+            picture.line([at, y], [at, bottom], if value == 0.0 { "zero" } else { "grid" });
+            picture.text([at, bottom + 13.0], Anchor::Middle, "tick", &label(value, step));
+        }
+        for value in ticks(self.ranges[1], step) {
+            let at = self.upward.at(value);
+            picture.line([x, at], [right, at], if value == 0.0 { "zero" } else { "grid" });
+            picture.text([x - 5.0, at + 3.5], Anchor::End, "tick", &label(value, step));
+        }
+        picture.rect(&self.area, "frame", None);
+        let name = |at: usize| NAMES.get(at).copied().unwrap_or_default();
+        picture.text([x, y - 8.0], Anchor::Start, "head", self.title);
+        let axes = format!("{} \u{2192}  {} \u{2191}  mm", name(self.right), name(self.up));
+        picture.text([right, y - 8.0], Anchor::End, "tick", &axes);
+    }
+
+    /// The lines' numbers beside their ways, as far as they do not cover each other.
+    fn numbers(&self, picture: &mut Picture) {
+        let mut taken: Vec<[f64; 4]> = Vec::new();
+        for (line, [x, y]) in &self.marks {
+            let text = line.to_string();
+            let width = 6.5 * text.len() as f64 + 4.0;
+            let fits = |[left, top]: [f64; 2]| {
+                let inside = left > self.area.x
+                    && left + width < self.area.right()
+                    && top > self.area.y
+                    && top + 12.0 < self.area.bottom();
+                let free = |other: &[f64; 4]| {
+                    left + width < other[0] || left > other[2] || top + 12.0 < other[1] || top > other[3]
+                };
+                inside && taken.iter().all(free)
+            };
+            let around = [[4.0, -14.0], [4.0, 2.0], [-4.0 - width, -14.0], [-4.0 - width, 2.0]];
+            let Some([left, top]) = around.map(|[dx, dy]| [x + dx, y + dy]).into_iter().find(|place| fits(*place))
+            else {
+                continue;
+            };
+            taken.push([left, top, left + width, top + 12.0]);
+            // White around it, so that it is read on top of ways.
+            picture.text([left + 2.0, top + 10.0], Anchor::Start, "halo", &text);
+            picture.text([left + 2.0, top + 10.0], Anchor::Start, "mark", &text);
+        }
+    }
+}
+
+/// The middle of the longest straight piece of a way; where it is a dot, the dot.
+fn longest(points: &[Option<[f64; 2]>]) -> Option<[f64; 2]> {
+    let pairs = points.windows(2).filter_map(|pair| Some((*pair.first()?.as_ref()?, *pair.last()?.as_ref()?)));
+    let length = |(from, to): &([f64; 2], [f64; 2])| (to[0] - from[0]).hypot(to[1] - from[1]);
+    let best = pairs.max_by(|a, b| length(a).total_cmp(&length(b)));
+    match best {
+        Some((from, to)) => Some([f64::midpoint(from[0], to[0]), f64::midpoint(from[1], to[1])]),
+        None => points.iter().flatten().next().copied(),
+    }
+}
