@@ -5,7 +5,7 @@ pub use crate::frames::{offset, poseinv, reltool};
 use crate::cx::Cx;
 use crate::fault::Fault;
 use crate::frames::Setting;
-use crate::kinematics::{Axes, Refusal, frame_components};
+use crate::kinematics::{Axes, CONFIGURATIONS, Refusal, frame_components};
 use crate::motion::is_unset;
 use crate::motion_instructions::wanted;
 use crate::unit::{Unit, joint, tidy};
@@ -36,8 +36,8 @@ pub fn getpose(cx: &Cx, j: Joint, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
     let unit = cx.world().unit.borrow();
     let mut axes = j.axes();
     let own = unit.robot().own_axes().len();
-    if axes.iter().take(own).any(|axis| is_unset(*axis)) {
-        return Err(domain("getpose", "axes of the robot are not set".to_owned()));
+    if axes.iter().take(own).any(|axis| is_open(*axis)) {
+        return Err(domain("getpose", "axes of the robot are not set, or no numbers".to_owned()));
     }
     axes.iter_mut().skip(own).for_each(|axis| *axis = 0.0);
     Ok(pose(cx, &unit, &axes, &j, t, w))
@@ -50,8 +50,8 @@ pub fn getpose(cx: &Cx, j: Joint, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
 /// Components of the pose are unset, or it cannot be reached so.
 pub fn getjoint(cx: &Cx, p: Pose, t: Tool, w: &Wobj) -> Result<Joint, Fault> {
     let components = p.components();
-    if components.iter().any(|component| is_unset(*component)) {
-        return Err(domain("getjoint", "components of the pose are not set".to_owned()));
+    if components.iter().any(|component| is_open(*component)) {
+        return Err(domain("getjoint", "components of the pose are not set, or no numbers".to_owned()));
     }
     let unit = cx.world().unit.borrow();
     let robot = unit.robot();
@@ -81,9 +81,14 @@ fn setting(cx: &Cx, tool: &Tool, wobj: &Wobj) -> Setting {
     Setting::new(tool, wobj, &base)
 }
 
+/// Whether nothing can be computed from a component.
+fn is_open(component: f64) -> bool {
+    is_unset(component) || !component.is_finite()
+}
+
 fn refused(unit: &Unit, refusal: &Refusal) -> String {
     match refusal {
-        Refusal::NoSuchCfg { cfg } => format!("the robot has no configuration cfg {cfg}"),
+        Refusal::NoSuchCfg { cfg } => format!("the robot has no configuration cfg {cfg}: {CONFIGURATIONS}"),
         Refusal::Unreachable { beyond } if *beyond > 0.0 => format!("the pose is {beyond:.3} mm out of reach"),
         Refusal::Unreachable { .. } => "the pose cannot be reached in this configuration".to_owned(),
         Refusal::Tilted { by } => format!("the pose tilts the flange by {by:.3} deg, which a SCARA robot cannot do"),

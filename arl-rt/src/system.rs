@@ -5,10 +5,11 @@ use std::cell::Cell;
 use crate::cx::Cx;
 use crate::fault::Fault;
 use crate::keep::Keep;
+use crate::motion::is_unset;
 use crate::state::{State, StateError};
 use crate::values::{
-    Array, AsScara, Controlmode, Joint, Pose, Shared, Slip, SmallArray, Speed, Str, Tool, ToolInertiaPara, UNSET,
-    VelProfile, Wobj,
+    Array, AsScara, Controlmode, Joint, Pose, Shared, Slip, SmallArray, Speed, Str, Tool, ToolInertiaPara, VelProfile,
+    Wobj,
 };
 
 /// Declares the variables: field, type, default, name, and when the default comes back.
@@ -103,7 +104,7 @@ system! {
     /// Whether targets are reached in the configuration that they were taught in.
     config_check: Cell<bool> = true, "CONFIG_CHECK", Reset;
     /// The speed of motions that give none: %, mm/s, deg/s, deg/s, mm/s.
-    dfspeed: Cell<Speed> = Speed { per: 5.0, tcp: 50.0, ori: 400.0, exj: 5.0, exl: 5.0 }, "DFSPEED", Reset;
+    dfspeed: Cell<Speed> = DFSPEED, "DFSPEED", Reset;
     /// The blending of motions that give none.
     dfslip: Cell<Slip> = Slip { perdis: -1.0, pdis: -1.0, ..Slip::default() }, "DFSLIP", Reset;
     /// The tool of motions that give none.
@@ -167,6 +168,9 @@ impl System {
         ScaraSystem { j: AsScara::new(&self.j), dfslip: AsScara::new(&self.dfslip), cjoint: AsScara::new(&self.cjoint) }
     }
 }
+
+/// The default of `$DFSPEED`.
+pub(crate) const DFSPEED: Speed = Speed { per: 5.0, tcp: 50.0, ori: 400.0, exj: 5.0, exl: 5.0 };
 
 /// `$WORLD`.
 fn world() -> Wobj {
@@ -281,7 +285,7 @@ pub fn init(cx: &Cx) {
 
 /// Whether a component of a position was set: what the start value is not.
 pub(crate) fn all_set(components: &[f64]) -> bool {
-    components.iter().all(|component| *component != UNSET)
+    !components.iter().any(|component| is_unset(*component))
 }
 
 #[cfg(test)]

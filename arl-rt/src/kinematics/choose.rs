@@ -14,6 +14,9 @@ pub struct Wanted {
     pub turn: i32,
 }
 
+/// What `cfg` may be, in words.
+pub(crate) const CONFIGURATIONS: &str = "six axes have 0 to 7, a SCARA robot has 0 (right-handed) and 4 (left-handed)";
+
 /// Why no joint vector for a pose was found.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Refusal {
@@ -79,7 +82,7 @@ impl Kinematics {
 fn turn(solution: &Axes, turn: i32, axes: &[Axis], near: &Axes) -> Result<Axes, Refusal> {
     let mut chosen = *solution;
     for (index, ((value, axis), near)) in chosen.iter_mut().zip(axes).zip(near).enumerate() {
-        let below = (turn >= 0).then_some((turn >> index) & 1 == 1);
+        let below = (turn != -1).then_some((turn >> index) & 1 == 1);
         match with_turns(*value, below, axis, *near) {
             Some(found) => *value = found,
             None => return Err(Refusal::AxisLimit { axis: index, value: *value }),

@@ -16,7 +16,7 @@ mod tests;
 mod wrist;
 
 pub(crate) use angles::sin_cos;
-pub(crate) use choose::RANGE_SLACK;
+pub(crate) use choose::{CONFIGURATIONS, RANGE_SLACK};
 pub use choose::{Refusal, Wanted};
 pub use frame::{Frame, frame, frame_components};
 pub use opw::{Opw, OpwParameters, Solutions};

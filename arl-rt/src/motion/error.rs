@@ -1,5 +1,7 @@
 use std::fmt;
 
+use crate::kinematics::CONFIGURATIONS;
+
 /// Why a motion cannot be planned.
 #[derive(Clone, PartialEq, Debug)]
 pub enum PlanError {
@@ -30,8 +32,22 @@ pub enum PlanError {
         /// Where on the path, 0 to 1.
         along: f64,
     },
+    /// The line passes the wrist singularity, which `$WRIST` would let it pass.
+    Wrist {
+        /// The axis that would have to turn most.
+        axis: String,
+        /// Where on the path, 0 to 1.
+        along: f64,
+    },
     /// Start, point on the way and target do not make a circle: two of them are the same, or all lie on a line.
     NoCircle,
+    /// The angle of a circle is beyond what is sensible.
+    Circles {
+        /// The angle in deg.
+        angle: f64,
+        /// The most that is possible, in deg.
+        most: f64,
+    },
     /// The robot has no such configuration.
     NoSuchCfg {
         /// What was asked for.
@@ -44,9 +60,9 @@ pub enum PlanError {
         /// The shortest that its limits allow, in s.
         least: f64,
     },
-    /// A speed, or the override of `velset`, is not above zero.
+    /// A speed, a duration, or the override of `velset`, is not above zero, or no number.
     NoSpeed {
-        /// The speed that is meant, with its unit.
+        /// What is meant, with its unit.
         what: &'static str,
         /// Its value.
         value: f64,
@@ -80,15 +96,23 @@ impl fmt::Display for PlanError {
                 write!(f, "the line passes a singular point, where {axis} would have to turn at once; ")?;
                 place(f, *along)
             }
+            PlanError::Wrist { axis, along } => {
+                write!(f, "the line passes the wrist singularity, where {axis} would have to turn at once; ")?;
+                place(f, *along)?;
+                write!(f, "; with $WRIST it passes, the orientation gives way a little there")
+            }
             PlanError::NoCircle => write!(
                 f,
                 "start, auxiliary point and target make no circle: they must be three different points that do not lie on a line"
             ),
-            PlanError::NoSuchCfg { cfg } => write!(f, "the robot has no configuration cfg {cfg}"),
+            PlanError::Circles { angle, most } => {
+                write!(f, "the circle's angle is {angle} deg: a single motion goes round by at most {most} deg")
+            }
+            PlanError::NoSuchCfg { cfg } => write!(f, "the robot has no configuration cfg {cfg}: {CONFIGURATIONS}"),
             PlanError::Duration { wanted, least } => {
                 write!(f, "the motion cannot be done in {wanted} s, it takes at least {least:.3} s")
             }
-            PlanError::NoSpeed { what, value } => write!(f, "{what} is {value}: it must be above 0"),
+            PlanError::NoSpeed { what, value } => write!(f, "{what} is {value}: it must be a number above 0"),
             PlanError::NotANumber => write!(f, "the target holds a value that is not a number"),
             PlanError::NotForThisRobot => write!(f, "this robot knows no such motion"),
             PlanError::Full => write!(f, "the look-ahead is full"),

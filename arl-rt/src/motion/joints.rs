@@ -5,7 +5,7 @@ pub const UNSET: f64 = 9e9;
 
 /// Whether a component was not set.
 pub fn is_unset(value: f64) -> bool {
-    value >= UNSET
+    (UNSET..f64::INFINITY).contains(&value)
 }
 
 /// How many values [`Joints`] hold.

@@ -13,11 +13,14 @@ use super::profile::Limits;
 use super::quintic::Quintic;
 use super::survey::survey;
 use crate::frames::Rig;
-use crate::kinematics::{Frame, RANGE_SLACK, Refusal, frame, frame_components};
+use crate::kinematics::{Frame, Passage, RANGE_SLACK, Refusal, frame, frame_components};
 use crate::robot::{Axis, Robot, VelocityProfile};
 
 /// Distances up to this are no motion: mm or deg of an axis; mm and deg of the TCP.
 const NO_DISTANCE: f64 = 1e-10;
+
+/// The largest angle of a circle, in deg.
+const MOST_ROUND: f64 = 7200.0;
 
 /// A motion that is ready to run, from the target before it to its own.
 #[derive(Clone, PartialEq, Debug)]
@@ -143,6 +146,9 @@ impl Planner<'_> {
         let mut arc = arc_through(&points).ok_or(PlanError::NoCircle)?;
         let whole = arc.sweep;
         if let Some(angle) = angle {
+            if angle.abs() > MOST_ROUND {
+                return Err(PlanError::Circles { angle, most: MOST_ROUND });
+            }
             arc.sweep = angle.to_radians();
         }
         let turning = if follow {
@@ -228,7 +234,8 @@ impl Planner<'_> {
             angle.angle().to_degrees()
         };
         let goes = length > NO_DISTANCE || angle > NO_DISTANCE;
-        let found = if goes { Some(survey(self.robot, &curve, self.start)?) } else { None };
+        let found = if goes { Some(survey(self.robot, &curve, self.start)) } else { None };
+        let found = found.transpose().map_err(|error| self.at_the_wrist(error, &curve))?;
         let axes = found.as_ref().map_or(self.start.axes, |found| found.end);
         let end = self.within_ranges(Joints { axes, ..end })?;
         let moves = goes || self.moves(&end);
@@ -251,6 +258,24 @@ impl Planner<'_> {
             }
         };
         self.motion(&Curve::Tool(curve.clone()), end, moves, [length, angle], bounds, caps)
+    }
+
+    /// A singular point that `$WRIST` would pass is told as such.
+    fn at_the_wrist(&self, error: PlanError, curve: &ToolCurve) -> PlanError {
+        const BESIDE: f64 = 0.02;
+        match error {
+            PlanError::Singular { axis, along } if !self.settings.wrist => {
+                let (kinematics, start) = (&self.robot.kinematics, &self.start.axes);
+                let passages = kinematics.passages(|at| curve.flange(at), curve.cfg, start, self.robot.own_axes());
+                let wrist = |passage: &Passage| passage.from - BESIDE < along && along < passage.to + BESIDE;
+                if passages.iter().any(wrist) {
+                    PlanError::Wrist { axis, along }
+                } else {
+                    PlanError::Singular { axis, along }
+                }
+            }
+            error => error,
+        }
     }
 
     /// The configuration of the start. At a singular start two meet: then the one in which the axes go on evenly.
@@ -280,10 +305,10 @@ impl Planner<'_> {
         if percent.is_nan() || percent <= 0.0 {
             return Err(PlanError::NoSpeed { what: "the override of velset in percent", value: percent });
         }
-        if value.is_nan() || value <= 0.0 {
-            Err(PlanError::NoSpeed { what, value })
-        } else {
+        if value.is_finite() && value > 0.0 {
             Ok(value * percent / 100.0)
+        } else {
+            Err(PlanError::NoSpeed { what, value })
         }
     }
 
@@ -350,7 +375,10 @@ impl Planner<'_> {
             Some(duration) => {
                 collect(&pace, &mut bounds);
                 let free = if moves { quickest(&bounds.rows).duration(1.0) } else { 0.0 };
-                if duration.is_nan() || duration <= 0.0 || duration < free * (1.0 - 1e-9) {
+                if !duration.is_finite() || duration <= 0.0 {
+                    return Err(PlanError::NoSpeed { what: "the duration in s", value: duration });
+                }
+                if duration < free * (1.0 - 1e-9) {
                     return Err(PlanError::Duration { wanted: duration, least: free });
                 }
                 caps(&mut bounds);

@@ -4,7 +4,7 @@ use crate::cx::Cx;
 use crate::fault::Fault;
 use crate::frames::Setting;
 use crate::motion;
-use crate::system::System;
+use crate::system::{self, System};
 use crate::values::{Slip, SmallArray, Speed, Tool, Wobj, is_set};
 
 /// Which components of a speed a motion uses.
@@ -79,12 +79,11 @@ impl Modal {
         if let Some(wobj) = &self.wobj {
             system.dfwobj.set(wobj.clone());
         }
-        let speed = system.dfspeed.get();
         Ok(Resolved {
-            speed: motion::Speed { percent: speed.per, tcp: speed.tcp, ori: speed.ori, exj: speed.exj, exl: speed.exl },
+            speed: speed(&system.dfspeed.get()),
             setting: setting(system)?,
             duration: self.duration,
-            zone: zone(&system.dfslip.get()),
+            zone: zone(&system.dfslip.get())?,
         })
     }
 
@@ -174,14 +173,32 @@ fn components(offset: &SmallArray<f64, 6>) -> [f64; 6] {
     components
 }
 
+/// The speed that `$DFSPEED` describes; what is unset is as in its default.
+fn speed(speed: &Speed) -> motion::Speed {
+    let or = |value: f64, default: f64| if is_set(value) { value } else { default };
+    let Speed { per, tcp, ori, exj, exl } = system::DFSPEED;
+    motion::Speed {
+        percent: or(speed.per, per),
+        tcp: or(speed.tcp, tcp),
+        ori: or(speed.ori, ori),
+        exj: or(speed.exj, exj),
+        exl: or(speed.exl, exl),
+    }
+}
+
 /// The zone that `$DFSLIP` describes; what is unset stays so.
-fn zone(slip: &Slip) -> motion::Zone {
-    motion::Zone {
+fn zone(slip: &Slip) -> Result<motion::Zone, Fault> {
+    let zone = motion::Zone {
         percent: slip.perdis,
         tcp: slip.pdis,
         ori: slip.odis,
         joint: slip.jdis,
         turning: slip.ejdis,
         linear: slip.eldis,
+    };
+    let motion::Zone { percent, tcp, ori, joint, turning, linear } = zone;
+    if [percent, tcp, ori, joint, turning, linear].iter().any(|size| !size.is_finite()) {
+        return Err(Fault::Motion("the zone (slip) holds a value that is not a number".into()));
     }
+    Ok(zone)
 }

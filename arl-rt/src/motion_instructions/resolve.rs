@@ -3,7 +3,7 @@
 use super::modal::Resolved;
 use crate::cx::Cx;
 use crate::fault::Fault;
-use crate::kinematics::Wanted;
+use crate::kinematics::{CONFIGURATIONS, Wanted};
 use crate::motion::{Command, Joints, Settings, Target, UNSET, Zone};
 use crate::robot::{EXTERNAL_AXES, VelocityProfile};
 use crate::system::all_set;
@@ -46,7 +46,9 @@ pub(crate) fn wanted(target: &Pose, as_taught: bool) -> Result<Wanted, Fault> {
     }
     match u8::try_from(target.cfg) {
         Ok(cfg) => Ok(Wanted { cfg: Some(cfg), turn: target.turn }),
-        Err(_) => Err(Fault::Motion(format!("the robot has no configuration cfg {}", target.cfg).into())),
+        Err(_) => {
+            Err(Fault::Motion(format!("the robot has no configuration cfg {}: {CONFIGURATIONS}", target.cfg).into()))
+        }
     }
 }
 

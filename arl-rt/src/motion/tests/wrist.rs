@@ -37,7 +37,7 @@ fn a_line_through_the_singularity_needs_wrist() {
     let middle = [10.0, -70.0, 80.0, 25.0, 0.02, 15.0];
     let (start, command) = through(&robot, &middle, &tool, Vector3::new(0.0, 400.0, 100.0)).unwrap();
     let refused = plan(&robot, &start, &command, &Settings::default());
-    assert!(matches!(refused, Err(PlanError::Singular { .. })), "{refused:?}");
+    assert!(matches!(refused, Err(PlanError::Wrist { .. })), "{refused:?}");
     let rows = assert_passes(&robot, start, &[command], "through").unwrap();
     assert!(rows.last().unwrap().joints.axes[4].abs() > 3.0);
 }
