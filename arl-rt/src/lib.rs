@@ -31,6 +31,7 @@ pub mod program;
 pub mod program_main;
 pub mod random;
 pub mod rate;
+mod report;
 pub mod robot;
 pub mod robot_driver;
 pub mod settings;

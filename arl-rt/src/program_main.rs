@@ -13,6 +13,7 @@ use crate::clock_source::{RealClock, VirtualClock};
 use crate::controller::{Builder, Controller, Outcome, SetupError};
 use crate::io::Scenario;
 use crate::program::Program;
+use crate::report;
 use crate::robot::Robot;
 use crate::state::Directory;
 use crate::time;
@@ -42,6 +43,8 @@ Options:
   --state-dir DIR       the folder that keeps system variables between runs
   --io FILE             a scenario: what the outside does to the inputs
   --trace FILE.csv      write the motion, one row a cycle
+  --report[=FILE]       say at the end what each motion did, on the standard error,
+                        or one JSON object a line into a file
   --max-time S          end after so many controller seconds, with exit code 4
   --mode MODE           auto (default), manual or manufast
   --override PCT        the speed override in percent, 0 to 100
@@ -62,11 +65,21 @@ struct Options {
     state_dir: Option<PathBuf>,
     io: Option<PathBuf>,
     trace: Option<PathBuf>,
+    report: Option<Report>,
     max_time: Option<f64>,
     mode: Controlmode,
     override_percent: f64,
     seed: Option<u64>,
     start_time: Option<i64>,
+}
+
+/// Where to say what the motions did.
+#[derive(Clone, PartialEq, Debug)]
+enum Report {
+    /// As a table on the standard error.
+    Table,
+    /// As JSON in a file.
+    File(PathBuf),
 }
 
 /// Runs a program as its command line says: the `main` of every compiled program.
@@ -131,6 +144,7 @@ fn parse(
         state_dir: None,
         io: None,
         trace: None,
+        report: None,
         max_time: None,
         mode: Controlmode::Auto,
         override_percent: 100.0,
@@ -147,6 +161,9 @@ fn parse(
             Long("state-dir") => options.state_dir = Some(parser.value()?.into()),
             Long("io") => options.io = Some(parser.value()?.into()),
             Long("trace") => options.trace = Some(parser.value()?.into()),
+            Long("report") => {
+                options.report = Some(parser.optional_value().map_or(Report::Table, |file| Report::File(file.into())));
+            }
             Long("max-time") => options.max_time = Some(number(&mut parser, "--max-time", "seconds", f64::MAX)?),
             Long("mode") => {
                 let modes =
@@ -193,6 +210,13 @@ fn number(parser: &mut lexopt::Parser, option: &str, what: &str, most: f64) -> R
 fn run(program: Box<dyn Program>, options: Options, interrupted: &AtomicBool) -> u8 {
     let max_time = options.max_time;
     let real = options.real;
+    let report = match options.report.clone().map(report_to).transpose() {
+        Ok(report) => report,
+        Err(error) => {
+            eprintln!("error: {error}");
+            return USAGE;
+        }
+    };
     let controller = set_up(options).and_then(|builder| builder.build(program).map_err(SetupFailure::from));
     let mut controller = match controller {
         Ok(controller) => controller,
@@ -202,10 +226,34 @@ fn run(program: Box<dyn Program>, options: Options, interrupted: &AtomicBool) ->
         }
     };
     let code = watch(&mut controller, max_time, interrupted);
+    if let Some(mut report) = report
+        && let Err(error) = report(&controller)
+    {
+        warn(&format!("the report cannot be written: {error}"));
+    }
     if real && controller.overruns() > 0 {
         warn(&format!("{} control cycles began late: the computer was too busy", controller.overruns()));
     }
     code
+}
+
+/// Writes the report at the end of a run.
+type WriteReport = Box<dyn FnMut(&Controller) -> std::io::Result<()>>;
+
+/// What writes the report. A file is made at the start: better to fail now than after a long run.
+fn report_to(report: Report) -> Result<WriteReport, String> {
+    Ok(match report {
+        Report::Table => Box::new(|controller| {
+            let text = report::table(&controller.motions(), &controller.robot(), controller.time());
+            std::io::stderr().write_all(text.as_bytes())
+        }),
+        Report::File(path) => {
+            let mut file = File::create(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+            Box::new(move |controller| {
+                file.write_all(report::json(&controller.motions(), &controller.robot(), controller.time()).as_bytes())
+            })
+        }
+    })
 }
 
 /// Steps until the program has ended, its time is over, or somebody pressed Ctrl-C.
@@ -228,9 +276,9 @@ fn watch(controller: &mut Controller, max_time: Option<f64>, interrupted: &Atomi
             controller.stop();
         }
         controller.step();
-        report(controller);
+        say(controller);
     }
-    report(controller);
+    say(controller);
     match (code, controller.outcome()) {
         (Some(code), _) => code,
         (None, Some(Outcome::Alarm(_))) => ALARM,
@@ -239,7 +287,7 @@ fn watch(controller: &mut Controller, max_time: Option<f64>, interrupted: &Atomi
 }
 
 /// Says on the standard error what came up.
-fn report(controller: &mut Controller) {
+fn say(controller: &mut Controller) {
     for text in controller.take_warnings() {
         warn(&text);
     }
@@ -282,6 +330,9 @@ fn set_up(options: Options) -> Result<Builder, SetupFailure> {
         let file = File::create(trace);
         builder = builder.trace(file.map_err(|error| SetupFailure::usage(format!("{}: {error}", trace.display())))?);
     }
+    if options.report.is_some() {
+        builder = builder.record_motions();
+    }
     if let Some(seed) = options.seed {
         builder = builder.seed(seed);
     }
@@ -312,6 +363,9 @@ mod tests {
         assert_eq!((options.real, options.max_time, options.mode), (true, Some(2.5), Controlmode::Manual));
         assert_eq!(options.script_dir, Path::new("scripts"));
         assert_eq!(parsed(&["--help"]), Ok(None));
+        let report = |arguments: &[&str]| parsed(arguments).unwrap().unwrap().report;
+        assert_eq!(report(&["--report", "--seed", "1"]), Some(Report::Table));
+        assert_eq!(report(&["--report=r.jsonl"]), Some(Report::File("r.jsonl".into())));
     }
 
     #[test]

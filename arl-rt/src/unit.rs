@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::kinematics::{Frame, frame_components};
-use crate::motion::{Command, Joints, PlanError, Progress, Queue, Settings, Stop};
+use crate::motion::{Command, Joints, MotionRecord, PlanError, Progress, Queue, Recorder, Settings, Stop};
 use crate::robot::Robot;
 use crate::robot_driver::{RobotDriver, settled};
 use crate::values::Joint;
@@ -25,6 +25,7 @@ pub(crate) struct Unit {
     executing: (u32, u64),
     /// The TCP in the world.
     tcp: Frame,
+    recorder: Option<Box<Recorder>>,
 }
 
 impl Unit {
@@ -45,7 +46,18 @@ impl Unit {
             finished: 0,
             executing: (0, 0),
             tcp,
+            recorder: None,
         }
+    }
+
+    /// From now on keeps records of all motions.
+    pub(crate) fn record(&mut self) {
+        self.recorder = Some(Box::new(Recorder::new(Arc::clone(&self.robot), &self.setpoint)));
+    }
+
+    /// The records of all motions; none unless they are kept.
+    pub(crate) fn records(&self) -> &[MotionRecord] {
+        self.recorder.as_ref().map_or(&[], |recorder| recorder.records())
     }
 
     /// Whether a motion came too late to be blended with the one before it, since this was asked last.
@@ -55,6 +67,10 @@ impl Unit {
 
     pub(crate) fn robot(&self) -> &Robot {
         &self.robot
+    }
+
+    pub(crate) fn shared_robot(&self) -> Arc<Robot> {
+        Arc::clone(&self.robot)
     }
 
     /// The axes as the robot reports them.
@@ -112,6 +128,9 @@ impl Unit {
     /// Plans a motion, under [`Unit::settings`] with the changes that it brings along.
     pub(crate) fn plan(&mut self, command: &Command, settings: &Settings) -> Result<(), PlanError> {
         self.planned = self.queue.add(command, settings)?;
+        if let Some(recorder) = &mut self.recorder {
+            recorder.planned(&self.queue, self.planned, command, settings);
+        }
         Ok(())
     }
 
@@ -124,6 +143,9 @@ impl Unit {
     /// One interpolation step, and the exchange with the driver.
     pub(crate) fn step(&mut self, period: f64) {
         let step = self.queue.step(period, self.override_percent);
+        if let Some(recorder) = &mut self.recorder {
+            recorder.step(&step, period);
+        }
         self.setpoint = step.joints;
         self.tcp = step.tcp;
         self.executing = (step.line, step.motion);

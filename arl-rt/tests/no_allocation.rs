@@ -21,7 +21,8 @@ fn the_counter_counts() {
 fn cycles_without_statements_allocate_nothing() {
     let scenario = "[[event]]\nwhen = \"do.1\"\nafter = 0.01\ndi.1 = true\n[[event]]\nwhen = \"!do.1\"\ndi.1 = false\n\
                     [[event]]\nat = 0.3\nai.1 = 2.5\noverride = 50\n";
-    let builder = Controller::builder().scenario(Scenario::parse("s.toml", scenario).unwrap()).trace(std::io::sink());
+    let builder = Controller::builder().record_motions().scenario(Scenario::parse("s.toml", scenario).unwrap());
+    let builder = builder.trace(std::io::sink());
     let (mut controller, _) = controller(builder, |cx| {
         Box::pin(async move {
             motion::movej(bent(60.0)).vp(100.0).run(cx).await.at(FILE, 1)?;

@@ -38,6 +38,7 @@ pub struct Builder {
     storage: Box<dyn Storage>,
     script_dir: PathBuf,
     trace: Option<Box<dyn Write>>,
+    record: bool,
     mode: Controlmode,
     speed_override: f64,
     seed: u64,
@@ -58,6 +59,7 @@ impl Default for Builder {
             storage: Box::new(Memory::default()),
             script_dir: PathBuf::from("."),
             trace: None,
+            record: false,
             mode: Controlmode::Auto,
             speed_override: 100.0,
             seed: random::SEED,
@@ -128,6 +130,12 @@ impl Builder {
         self
     }
 
+    /// Keeps a record of every motion, for [`Controller::motions`].
+    pub fn record_motions(mut self) -> Self {
+        self.record = true;
+        self
+    }
+
     /// The operating mode; without it automatic.
     pub fn mode(mut self, mode: Controlmode) -> Self {
         self.mode = mode;
@@ -188,6 +196,9 @@ impl Builder {
         let trace = trace.map_err(|error| SetupError::Trace(error.to_string()))?;
         let mut unit = Unit::new(robot, self.driver);
         unit.settings.manual = self.mode == Controlmode::Manual;
+        if self.record {
+            unit.record();
+        }
         let image = Image::new(&self.cell.channels);
         let scenario = Playing::new(self.scenario, &image, rate);
         let world = Rc::new(World::new(Parts {

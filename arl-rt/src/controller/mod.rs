@@ -5,6 +5,7 @@ mod channel;
 mod outcome;
 
 use std::rc::Rc;
+use std::sync::Arc;
 
 pub use builder::{Builder, SetupError};
 pub use outcome::{Outcome, State};
@@ -12,7 +13,8 @@ pub use outcome::{Outcome, State};
 use crate::clock_source::Clock;
 use crate::fault::{Alarm, Fault, File};
 use crate::io::{Digital, IoDriver, Pendant, Playing};
-use crate::motion::Joints;
+use crate::motion::{Joints, MotionRecord};
+use crate::robot::Robot;
 use crate::system::System;
 use crate::trace::Trace;
 use crate::world::World;
@@ -220,6 +222,17 @@ impl Controller {
     /// The axes as the robot reports them, in deg (mm).
     pub fn joints(&self) -> Joints {
         *self.world.unit.borrow().feedback()
+    }
+
+    /// What the motions planned so far did, in order; none unless the controller was built with
+    /// [`Builder::record_motions`].
+    pub fn motions(&self) -> Vec<MotionRecord> {
+        self.world.unit.borrow().records().to_vec()
+    }
+
+    /// The robot.
+    pub fn robot(&self) -> Arc<Robot> {
+        self.world.unit.borrow().shared_robot()
     }
 
     /// Warnings since the last call.

@@ -130,6 +130,18 @@ impl Course {
         self.pieces.front()
     }
 
+    /// The motion with this number, if it was appended last.
+    pub(super) fn last(&self, number: u64) -> Option<&Motion> {
+        let is_last = self.pieces.back().is_some_and(|piece| piece.number == number);
+        self.tail.as_ref().filter(|_| is_last).map(|(motion, _)| motion)
+    }
+
+    /// The share of the motion at which it is left for a blend with the next one.
+    pub(super) fn left_at(&self, number: u64) -> Option<f64> {
+        let own = |piece: &&Piece| piece.number == number && piece.ends && !piece.stops;
+        self.pieces.iter().rev().find(own).map(|piece| piece.shares[0])
+    }
+
     /// Whether nothing is left to go.
     pub(super) fn is_empty(&self) -> bool {
         self.pieces.is_empty()

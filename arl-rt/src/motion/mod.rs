@@ -22,6 +22,7 @@ mod profile;
 mod progress;
 mod queue;
 mod quintic;
+mod record;
 mod survey;
 #[cfg(test)]
 mod tests;
@@ -33,5 +34,8 @@ pub use error::PlanError;
 pub use joints::{Joints, UNSET, is_unset};
 pub use plan::{Motion, plan};
 pub use queue::{LOOK_AHEAD, Progress, Queue, Step, Stop};
+pub(crate) use record::Recorder;
+pub use record::{Closest, Figure, Limited, MotionRecord, Rate};
+pub use zone::Rounding;
 
 pub use crate::motion_instructions::{AccSet, Cir, Lin, MoveJ, Ptp, VelSet, accset, cir, lin, movej, ptp, velset};

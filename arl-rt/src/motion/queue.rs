@@ -7,7 +7,7 @@ use super::course::Course;
 use super::error::PlanError;
 use super::governor::Pacing;
 use super::joints::Joints;
-use super::plan::plan;
+use super::plan::{Motion, plan};
 use crate::frames::Rig;
 use crate::kinematics::Frame;
 use crate::robot::Robot;
@@ -140,6 +140,16 @@ impl Queue {
         self.last_rig = command.rig;
         self.late |= self.course.append(&self.robot, motion, self.added, self.cycle);
         Ok(self.added)
+    }
+
+    /// The motion with this number, if it was planned last and goes somewhere.
+    pub(super) fn planned(&self, number: u64) -> Option<&Motion> {
+        self.course.last(number)
+    }
+
+    /// The share of the motion at which it is left for a blend with the next one; `None` where it is not.
+    pub(super) fn left_at(&self, number: u64) -> Option<f64> {
+        self.course.left_at(number)
     }
 
     /// Whether, since this was asked last, a motion came too late to be blended with the one before it, so that the robot

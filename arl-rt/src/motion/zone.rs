@@ -1,5 +1,7 @@
 //! How much of a motion a blending zone takes.
 
+use nalgebra::Vector3;
+
 use super::curve::Curve;
 use super::joints::{Joints, is_unset};
 use super::plan::Motion;
@@ -20,6 +22,34 @@ enum Measure {
     Turning,
     /// The linear external axis that goes farthest, in mm.
     Linear,
+}
+
+/// The zone at the end of a motion: what was asked for, and what the blend took of it.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Rounding {
+    /// The size that was asked for.
+    pub asked: f64,
+    /// The size that was used; 0 where the robot stops at the target.
+    pub used: f64,
+    /// `%` of the largest zone, `mm`, or `deg`.
+    pub unit: &'static str,
+}
+
+/// The zone of a motion that is left at the share `leave`; `None` where none was asked for.
+pub(super) fn rounding(robot: &Robot, motion: &Motion, leave: f64) -> Option<Rounding> {
+    let (measure, size, _) = leaving(robot, motion)?;
+    let part = 1.0 - leave;
+    Some(match (measure, &motion.curve) {
+        (Measure::Share, _) => Rounding { asked: 100.0 * size / LARGEST, used: 100.0 * part / LARGEST, unit: "%" },
+        (Measure::Tcp, Curve::Axes(_)) => {
+            let far = tcp_place(robot, motion, leave) - tcp_place(robot, motion, 1.0);
+            Rounding { asked: size, used: far.norm(), unit: "mm" }
+        }
+        _ => {
+            let unit = if matches!(measure, Measure::Tcp | Measure::Linear) { "mm" } else { "deg" };
+            Rounding { asked: size, used: part * extent(robot, motion, measure)?, unit }
+        }
+    })
 }
 
 /// The largest zone, as part of a motion.
@@ -88,10 +118,7 @@ fn extent(robot: &Robot, motion: &Motion, measure: Measure) -> Option<f64> {
 
 /// The part of an axis motion, from its end at `of`, on which the TCP is within `distance` mm of that end.
 fn tcp_part(robot: &Robot, motion: &Motion, distance: f64, of: f64) -> f64 {
-    let tcp = |at: f64| {
-        let joints: Joints = motion.curve.joints(&robot.kinematics, at, &motion.start);
-        motion.rig.carried.way_at(&robot.kinematics.forward(&joints.axes)).translation.vector
-    };
+    let tcp = |at: f64| tcp_place(robot, motion, at);
     let end = tcp(of);
     let far = |part: f64| (tcp((of - part).abs()) - end).norm() > distance;
     // The first place, seen from the end, where the TCP is too far.
@@ -104,4 +131,10 @@ fn tcp_part(robot: &Robot, motion: &Motion, distance: f64, of: f64) -> f64 {
         if far(middle) { beyond = middle } else { near = middle }
     }
     near
+}
+
+/// Where the TCP is on its way at a share of an axis motion, in mm.
+fn tcp_place(robot: &Robot, motion: &Motion, at: f64) -> Vector3<f64> {
+    let joints: Joints = motion.curve.joints(&robot.kinematics, at, &motion.start);
+    motion.rig.carried.way_at(&robot.kinematics.forward(&joints.axes)).translation.vector
 }

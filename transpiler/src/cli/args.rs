@@ -138,6 +138,10 @@ pub(super) struct RunOptions {
     /// Write the motion, one row a cycle.
     #[arg(long, value_name = "FILE.csv")]
     pub(super) trace: Option<PathBuf>,
+    /// Say at the end what each line's motions did: speeds, times, blends, the closest limit. With =FILE: each motion as
+    /// a JSON object in a line of the file.
+    #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "-")]
+    pub(super) report: Option<PathBuf>,
     /// Draw the motion afterwards: the way of the TCP, its speed, the axes' speeds.
     #[arg(long, value_name = "FILE.svg")]
     pub(super) plot: Option<PathBuf>,
@@ -196,7 +200,17 @@ impl RunOptions {
             ("--seed", number(self.seed.map(|seed| seed.to_string()))),
             ("--start-time", self.start_time.clone().map(Into::into)),
         ];
-        all.into_iter().filter_map(|(name, value)| value.map(|value| [name.into(), value])).flatten().collect()
+        let mut arguments: Vec<std::ffi::OsString> =
+            all.into_iter().filter_map(|(name, value)| value.map(|value| [name.into(), value])).flatten().collect();
+        if let Some(file) = &self.report {
+            let mut report = std::ffi::OsString::from("--report");
+            if file.as_os_str() != "-" {
+                report.push("=");
+                report.push(file);
+            }
+            arguments.push(report);
+        }
+        arguments
     }
 
     /// The part that the compiler needs.

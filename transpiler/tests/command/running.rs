@@ -146,3 +146,31 @@ fn crate_robot(name: &str) -> String {
     let robots = arl_lang::robots::ROBOTS;
     robots.iter().find(|(known, _)| *known == name).expect("the robot is built in").1.to_owned()
 }
+
+#[test]
+fn a_report_says_what_each_line_did() {
+    let program = "func void main()\n    joint a = {0,-90,90,0,45,0}\n    movej a,vp:50%\n    waittime 0\n    \
+                   pose p = cpose($FLANGE,$WORLD)\n    for(int i = 0; i < 3; i++)\n        p.z = p.z - 50\n        \
+                   lin p,vl:100,sl:10\n    endfor\n    waittime 1\nendfunc\n";
+    let folder =
+        Folder::new("report").with("way.arl", program).with("still.arl", "func void main()\n    print 1\nendfunc\n");
+    let answer = folder.arl2rs(&["run", "way.arl", "--report"]);
+    answer.is(0, "").says("line  motion  runs  programmed").says("s standing; 4 motions");
+    let row = answer.err.lines().find(|line| line.contains("lin ")).expect("a row of lin").to_owned();
+    let words: Vec<&str> = row.split_whitespace().collect();
+    // The last one is not blended.
+    assert_eq!(words[..7], ["8", "lin", "3", "100", "mm/s", "100", "mm/s"], "{row}");
+    assert!(row.contains("0 of 10 mm") && row.contains("tcp 5 %"), "{row}");
+
+    folder.arl2rs(&["run", "way.arl", "--report=way.jsonl"]).is(0, "");
+    let text = folder.read("way.jsonl");
+    let lines: Vec<serde_json::Value> = text.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    assert_eq!(lines.len(), 5);
+    assert_eq!((&lines[1]["line"], &lines[1]["kind"], &lines[1]["unit"]), (&8.into(), &"lin".into(), &"mm/s".into()));
+    assert_eq!((&lines[1]["blend"]["asked"], &lines[1]["blend"]["used"]), (&10.0.into(), &10.0.into()));
+    assert_eq!(lines[4]["motions"], 4);
+    assert!(lines[4]["standing"].as_f64().expect("a number") > 0.99);
+
+    folder.arl2rs(&["run", "still.arl", "--report"]).is(0, "1\n").says("0 motions");
+    folder.arl2rs(&["run", "still.arl", "--report=none/a"]).is(2, "").says("none/a");
+}

@@ -1,0 +1,102 @@
+//! What the controller records of motions.
+
+mod common;
+
+use arl_rt::Controller;
+use arl_rt::emit::*;
+use arl_rt::motion::{Limited, MotionRecord};
+use common::*;
+
+fn way(cx: &Cx) -> BoxFuture<'_> {
+    Box::pin(async move {
+        cx.line(FILE, 3);
+        motion::movej(bent(0.0)).vp(50.0).run(cx).await.at(FILE, 3)?;
+        cx.line(FILE, 4);
+        motion::ptp(aside(cx, 0.0, 0.0)?).sl(0.0).run(cx).await.at(FILE, 4)?;
+        cx.line(FILE, 5);
+        motion::lin(aside(cx, 0.0, -80.0)?).vl(100.0).sl(20.0).run(cx).await.at(FILE, 5)?;
+        cx.line(FILE, 6);
+        motion::lin(aside(cx, 300.0, -80.0)?).vl(100.0).sl(900.0).run(cx).await.at(FILE, 6)?;
+        cx.line(FILE, 7);
+        motion::lin(aside(cx, 300.0, 0.0)?).vl(100.0).run(cx).await.at(FILE, 7)?;
+        cx.line(FILE, 8);
+        flow::waittime(0.5).run(cx).await.at(FILE, 8)?;
+        cx.line(FILE, 9);
+        motion::movej(bent(0.0)).vp(20.0).run(cx).await.at(FILE, 9)
+    })
+}
+
+fn aside(cx: &Cx, dy: f64, dz: f64) -> Done<Pose> {
+    let start = pose::getpose(cx, bent(0.0), Tool::default(), &cx.system().world.get()).at(FILE, 1)?;
+    Ok(pose::offset(start, 0.0, dy, dz, 0.0, 0.0, 0.0))
+}
+
+fn records() -> (Vec<MotionRecord>, f64) {
+    let (mut controller, _) = controller(Controller::builder().record_motions(), way);
+    controller.run();
+    (controller.motions(), controller.time())
+}
+
+#[test]
+fn every_motion_has_its_figures() {
+    let (records, time) = records();
+    let lines: Vec<_> = records.iter().map(|record| (record.number, record.line, record.kind)).collect();
+    let expected = [(1, 3, "movej"), (2, 4, "ptp"), (3, 5, "lin"), (4, 6, "lin"), (5, 7, "lin"), (6, 9, "movej")];
+    assert_eq!(lines, expected);
+    let moving: f64 = records.iter().map(|record| record.duration).sum();
+    assert!(moving < time - 0.49 && moving > time - 0.52, "{moving} {time}");
+    // It goes nowhere, so it never begins.
+    assert_eq!((records[1].start, records[1].duration), (None, 0.0));
+    for pair in records.windows(2) {
+        let end = pair[0].start.unwrap_or_default() + pair[0].duration;
+        assert!(pair[1].start.is_none_or(|start| start > end - 1e-6), "{pair:?}");
+    }
+    // Long enough for the programmed speed, and not above it.
+    for (at, unit, speed) in [(0, "%", 50.0), (2, "mm/s", 100.0), (3, "mm/s", 100.0), (5, "%", 20.0)] {
+        let record = &records[at];
+        assert_eq!((record.programmed.value, record.programmed.unit), (speed, unit));
+        assert!(record.reached <= speed * 1.0001 && record.reached > speed * 0.99, "{record:?}");
+    }
+    assert!((records[2].way + records[3].way + records[4].way - 460.0).abs() < 60.0);
+}
+
+#[test]
+fn blends_tell_what_was_asked_and_used() {
+    let (records, _) = records();
+    let blends: Vec<_> = records.iter().map(|record| record.blend.map(|it| (it.asked, it.used, it.unit))).collect();
+    assert_eq!(blends[0], None);
+    let Some((asked, used, "mm")) = blends[2] else { panic!("{blends:?}") };
+    assert!(asked == 20.0 && (used - 20.0).abs() < 1e-6, "{used}");
+    // A zone is half of the motion at most.
+    let Some((asked, used, "mm")) = blends[3] else { panic!("{blends:?}") };
+    assert!(asked == 900.0 && used <= 150.0 + 1e-6 && used > 30.0, "{used}");
+    // The zone is still asked for, but the program waits.
+    let Some((_, used, "mm")) = blends[4] else { panic!("{blends:?}") };
+    assert_eq!(used, 0.0);
+}
+
+#[test]
+fn the_closest_limits_are_within_reach() {
+    let (records, _) = records();
+    for record in records.iter().filter(|record| record.start.is_some()) {
+        let [vel, acc, jerk] = record.closest().map(|closest| closest.expect("it moves"));
+        for closest in [vel, acc, jerk] {
+            assert!(closest.share > 0.0 && closest.share < 1.01, "{record:?}");
+        }
+    }
+    // Axis motions between rests use all of something.
+    for record in [&records[0], &records[5]] {
+        let shares = record.closest().map(|closest| closest.map_or(0.0, |closest| closest.share));
+        assert!(shares.into_iter().fold(0.0, f64::max) > 0.98, "{record:?}");
+    }
+    // j1 alone turns there, at half of its speed; the robot stands with all other axes.
+    let [vel, ..] = records[0].closest();
+    assert!(matches!(vel.map(|it| it.of), Some(Limited::Axis(_))) && (vel.unwrap().share - 0.5).abs() < 0.01);
+}
+
+#[test]
+fn nothing_is_recorded_unless_asked_for() {
+    let (mut controller, _) = controller(Controller::builder(), way);
+    controller.run();
+    assert_eq!(controller.motions(), []);
+}
