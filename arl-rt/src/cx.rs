@@ -157,7 +157,11 @@ impl Cx {
         if self.spend() {
             self.next_cycle().await;
         }
-        while !self.world.motion_ended() {
+        if self.world.motion_ended() {
+            return;
+        }
+        self.world.conclude_motion();
+        while self.world.in_trouble() || !self.world.motion_ended() {
             self.next_cycle().await;
         }
     }

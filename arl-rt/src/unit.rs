@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::fault::{Alarm, Fault, File};
 use crate::kinematics::{Frame, frame_components};
 use crate::motion::{Command, Joints, MotionRecord, PlanError, Progress, Queue, Recorder, Settings, Stop};
 use crate::robot::Robot;
@@ -26,6 +27,8 @@ pub(crate) struct Unit {
     /// The TCP in the world.
     tcp: Frame,
     recorder: Option<Box<Recorder>>,
+    /// The file of the motion planned last.
+    file: File,
 }
 
 impl Unit {
@@ -47,6 +50,7 @@ impl Unit {
             executing: (0, 0),
             tcp,
             recorder: None,
+            file: File::new(""),
         }
     }
 
@@ -125,13 +129,26 @@ impl Unit {
         self.queue.has_room()
     }
 
-    /// Plans a motion, under [`Unit::settings`] with the changes that it brings along.
-    pub(crate) fn plan(&mut self, command: &Command, settings: &Settings) -> Result<(), PlanError> {
-        self.planned = self.queue.add(command, settings)?;
+    /// Plans a motion of a program file, under [`Unit::settings`] with the changes that it brings along; the alarm where
+    /// that, or a motion before it, cannot be.
+    pub(crate) fn plan(&mut self, command: &Command, settings: &Settings, file: File) -> Result<(), Alarm> {
+        let planned = self.queue.add(command, settings);
+        self.planned = planned.map_err(|error| alarm(error, self.file, (file, command.line)))?;
+        self.file = file;
         if let Some(recorder) = &mut self.recorder {
             recorder.planned(&self.queue, self.planned, command, settings);
         }
         Ok(())
+    }
+
+    /// Says that the program waits: motions that waited for the next one go without it. The alarm where that cannot be.
+    pub(crate) fn conclude(&mut self) -> Result<(), Alarm> {
+        self.queue.conclude().map_err(|error| alarm(error, self.file, (self.file, 0)))
+    }
+
+    /// The alarm of a motion that waited in vain for the next one.
+    pub(crate) fn take_broken(&mut self) -> Option<Alarm> {
+        Some(alarm(self.queue.take_broken()?, self.file, (self.file, 0)))
     }
 
     /// Whether all planned motion has ended and the robot has settled.
@@ -163,6 +180,17 @@ impl Unit {
     pub(crate) fn reset(&mut self) {
         self.queue.resume();
         self.settings = Settings { manual: self.settings.manual, ..Settings::default() };
+    }
+}
+
+/// The alarm of a motion, here or in an earlier line of another file.
+fn alarm(error: PlanError, earlier: File, (file, line): (File, u32)) -> Alarm {
+    match error {
+        PlanError::Earlier { line, error } => alarm(*error, earlier, (earlier, line)),
+        PlanError::NoCircle | PlanError::LoneCircle => {
+            Alarm { fault: Fault::Other { number: 12002, text: error.to_string().into() }, file, line }
+        }
+        error => Alarm { fault: Fault::Motion(error.to_string().into()), file, line },
     }
 }
 

@@ -34,6 +34,8 @@ pub(crate) struct World {
     pub(crate) paused: Cell<bool>,
     /// Alarms that nobody has asked for yet.
     pub(crate) alarms: RefCell<Vec<Alarm>>,
+    /// What went wrong apart from the statement that runs, and ends the program.
+    trouble: RefCell<Option<Alarm>>,
     /// What happened that is no alarm but worth a word.
     warnings: RefCell<Vec<String>>,
     pub(crate) state: RefCell<State>,
@@ -78,6 +80,7 @@ impl World {
             spoken: Cell::new(false),
             paused: Cell::new(false),
             alarms: RefCell::default(),
+            trouble: RefCell::default(),
             warnings: RefCell::default(),
         }
     }
@@ -131,6 +134,30 @@ impl World {
     #[inline]
     pub(crate) fn motion_ended(&self) -> bool {
         self.unit.borrow().ended()
+    }
+
+    /// Says that the program waits for the robot: motions that waited for the next one go without it.
+    pub(crate) fn conclude_motion(&self) {
+        let concluded = self.unit.borrow_mut().conclude();
+        if let Err(alarm) = concluded {
+            self.trouble(alarm);
+        }
+    }
+
+    /// Ends the program with an alarm that is not that of the statement that runs. The first one counts.
+    pub(crate) fn trouble(&self, alarm: Alarm) {
+        self.trouble.borrow_mut().get_or_insert(alarm);
+    }
+
+    /// Whether the program is about to be ended by [`World::trouble`].
+    pub(crate) fn in_trouble(&self) -> bool {
+        self.trouble.borrow().is_some()
+    }
+
+    /// What went wrong apart from the statement that runs.
+    pub(crate) fn take_trouble(&self) -> Option<Alarm> {
+        let broken = self.unit.borrow_mut().take_broken();
+        self.trouble.borrow_mut().take().or(broken)
     }
 
     /// Passes a message on.

@@ -65,7 +65,7 @@ entries! { pub(super) MOTION =
         t: tool [optional] "the tool whose TCP moves; it goes to $DFTOOL, which stands in without it",
         w: wobj [optional] "the frame of the target; it goes to $DFWOBJ, which stands in without it",
     )
-        { "3.2.4", motion::spl, plans, fails, exclusive(PATH), notyet;
+        { "3.2.4", motion::spl, plans, fails, exclusive(PATH);
           "joint j = {0,-90,90,0,45,0}\npose p = getpose(j,$FLANGE,$WORLD)\nptp p,vp:20%\np.y = p.y + 50\nspl p\np.x = p.x + 50\nspl p" }
     /// Moves the TCP on an arc through an auxiliary point to the target. Points on one line: alarm.
     instr cir(
@@ -97,7 +97,7 @@ entries! { pub(super) MOTION =
         t: tool [optional] "the tool whose TCP moves; it goes to $DFTOOL, which stands in without it",
         w: wobj [optional] "the frame of the target; it goes to $DFWOBJ, which stands in without it",
     )
-        { "3.2.6", motion::ccir, plans, fails, exclusive(PATH), only(Family::SixAxis), notyet;
+        { "3.2.6", motion::ccir, plans, fails, exclusive(PATH), only(Family::SixAxis);
           "joint j = {0,-90,90,0,45,0}\npose p = getpose(j,$FLANGE,$WORLD)\nptp p,vp:20%\np.x = p.x + 50\np.y = p.y + 50\nccir p\np.x = p.x + 50\np.y = p.y - 50\nccir p" }
     /// Lifts, moves over and lowers: the fast way from place to place of a SCARA robot. Start or target above the limit Z:
     /// alarm 12042.

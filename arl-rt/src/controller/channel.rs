@@ -7,7 +7,7 @@ use std::task::{Context, Poll, Waker};
 use super::Outcome;
 use crate::cx::Cx;
 use crate::data;
-use crate::fault::{Done, Reason, Stop};
+use crate::fault::{Alarm, Done, Reason, Stop};
 use crate::program::Program;
 use crate::world::World;
 
@@ -76,17 +76,16 @@ impl Channel {
                 let next = match done.map_err(Stop::reason) {
                     Ok(()) | Err(Reason::Exit) => Next::End(Outcome::Ended),
                     Err(Reason::Restart) => Next::Restart,
-                    Err(Reason::Alarm(alarm)) => {
-                        world.stop_motion();
-                        world.alarms.borrow_mut().insert(0, alarm.clone());
-                        Next::End(Outcome::Alarm(alarm))
-                    }
+                    Err(Reason::Alarm(alarm)) => failed(world, alarm),
                 };
                 self.phase = Phase::RunningOut(next);
             }
         }
         if let Phase::RunningOut(next) = &self.phase {
             let moving = !world.motion_ended();
+            if moving {
+                world.conclude_motion();
+            }
             self.phase = match next {
                 Next::Restart if moving => return,
                 // It starts in the next cycle, so that a program of nothing but `restart` does not hold up the others.
@@ -98,6 +97,13 @@ impl Channel {
         }
     }
 
+    /// Ends the program with an alarm that did not come from its statements.
+    pub(super) fn fail(&mut self, world: &World, alarm: Alarm) {
+        if !matches!(self.phase, Phase::Ended(_)) {
+            self.phase = Phase::RunningOut(failed(world, alarm));
+        }
+    }
+
     /// Ends the program where it is and stops its motion on the path.
     pub(super) fn end(&mut self, world: &World, outcome: Outcome) {
         if !matches!(self.phase, Phase::Ended(_)) {
@@ -106,6 +112,14 @@ impl Channel {
             self.phase = Phase::RunningOut(Next::End(outcome));
         }
     }
+}
+
+/// Stops for an alarm.
+fn failed(world: &World, alarm: Alarm) -> Next {
+    world.stop_motion();
+    world.paused.set(false);
+    world.alarms.borrow_mut().insert(0, alarm.clone());
+    Next::End(Outcome::Alarm(alarm))
 }
 
 /// The whole life of a program.

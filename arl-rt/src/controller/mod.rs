@@ -98,6 +98,9 @@ impl Controller {
         }
         let running = self.channel.outcome().is_none();
         self.channel.poll(world);
+        if let Some(alarm) = world.take_trouble() {
+            self.channel.fail(world, alarm);
+        }
         {
             let mut unit = world.unit.borrow_mut();
             unit.step(rate.period());

@@ -9,9 +9,17 @@ const SAME: f64 = 1e-6;
 /// Three points whose angle has a smaller sine lie on a line.
 const FLAT: f64 = 1e-9;
 
-/// The circle from the first of three points (mm) over the second to the third; `None` where two are the same or all lie
-/// on a line.
-pub(super) fn arc_through([start, via, end]: &[Vector3<f64>; 3]) -> Option<Arc> {
+/// A circle with a sense of rotation.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Circle {
+    /// In mm.
+    centre: Vector3<f64>,
+    /// A unit vector, about which it is gone along.
+    normal: Vector3<f64>,
+}
+
+/// The circle through three points (mm) in their order; `None` where two are the same or all lie on a line.
+pub(super) fn circle_through([start, via, end]: &[Vector3<f64>; 3]) -> Option<Circle> {
     let (to_via, to_end, rest) = (via - start, end - start, end - via);
     let lengths = [to_via.norm(), to_end.norm(), rest.norm()];
     if lengths.iter().any(|length| *length < SAME) {
@@ -24,15 +32,26 @@ pub(super) fn arc_through([start, via, end]: &[Vector3<f64>; 3]) -> Option<Arc> 
     }
     // The centre of the circumscribed circle, seen from the start.
     let to_centre = (normal.cross(&to_via) * b * b + to_end.cross(&normal) * a * a) / (2.0 * normal.norm_squared());
-    let across = -to_centre;
-    let along = normal.normalize().cross(&across);
-    let angle = |point: &Vector3<f64>| {
-        let from_centre = point - start - to_centre;
+    // With this normal the second point always comes before the third.
+    Some(Circle { centre: start + to_centre, normal: normal.normalize() })
+}
+
+impl Circle {
+    /// The way on it from one of its points to another (mm).
+    pub(super) fn arc(&self, from: &Vector3<f64>, to: &Vector3<f64>) -> Arc {
+        let across = from - self.centre;
+        let along = self.normal.cross(&across);
+        let from_centre = to - self.centre;
         let angle = from_centre.dot(&along).atan2(from_centre.dot(&across));
-        if angle < 0.0 { angle + std::f64::consts::TAU } else { angle }
-    };
-    // With this normal the point on the way always comes before the target.
-    Some(Arc { centre: start + to_centre, across, along, sweep: angle(end) })
+        let sweep = if angle < 0.0 { angle + std::f64::consts::TAU } else { angle };
+        Arc { centre: self.centre, across, along, sweep }
+    }
+}
+
+/// The arc from the first of three points (mm) over the second to the third; `None` where they make no circle.
+pub(super) fn arc_through(points: &[Vector3<f64>; 3]) -> Option<Arc> {
+    let [start, _, end] = points;
+    Some(circle_through(points)?.arc(start, end))
 }
 
 #[cfg(test)]

@@ -56,7 +56,7 @@ pub(super) fn blend(robot: &Robot, from: &Motion, to: &Motion) -> Option<Blend> 
 }
 
 fn attempt(robot: &Robot, from: &Motion, to: &Motion, leaving: f64, joining: f64) -> Option<Blend> {
-    let (vel_from, vel_to) = (from.limits?.vel, to.limits?.vel);
+    let (vel_from, vel_to) = (from.rate, to.rate);
     let (leave, join) = (1.0 - leaving, joining);
     let (slope_from, slope_to) = (TANGENT * leaving, TANGENT * joining);
     // Both ends are met at the speeds that the motions have there.
@@ -69,8 +69,8 @@ fn attempt(robot: &Robot, from: &Motion, to: &Motion, leaving: f64, joining: f64
     let curve = match (&from.curve, &to.curve) {
         (Curve::Tool(a), Curve::Tool(b)) if go_on(a, leave, b, join) => {
             let curve = tool_blend(a, b, leave, join, slope_from, slope_to);
-            let (start_speed, end_speed) = (from.length * vel_from, to.length * vel_to);
-            if let Some(even) = Progress::along(&curve.track, start_speed, end_speed) {
+            let ends = (along(&a.track, leave, vel_from), along(&b.track, join, vel_to));
+            if let Some(even) = Progress::along(&curve.track, ends.0, ends.1) {
                 (progress, time) = even;
             }
             let start = joints_at(robot, from, leave)?;
@@ -121,12 +121,19 @@ fn attempt(robot: &Robot, from: &Motion, to: &Motion, leaving: f64, joining: f64
     Some(Blend { leave, join, curve, progress, time, limits })
 }
 
+/// The speed and the acceleration along a track in mm/s and mm/s2, at a rate of its parameter.
+fn along(track: &Track, at: f64, rate: f64) -> [f64; 2] {
+    let (first, second) = (track.derivative(1, at), track.derivative(2, at));
+    let length = first.norm();
+    [length * rate, if length > 0.0 { first.dot(&second) / length * rate * rate } else { 0.0 }]
+}
+
 /// The faster of the two motions' speeds, the gentler of their accelerations.
 fn common_pace(from: &Motion, to: &Motion) -> Pace {
     let faster = |of: fn(&Pace) -> f64| of(&from.pace).max(of(&to.pace));
     let reached = |of: fn(&Motion) -> f64| {
         let speed = |motion: &Motion| match motion.curve {
-            Curve::Tool(_) => of(motion) * motion.limits.map_or(0.0, |limits| limits.vel),
+            Curve::Tool(_) => of(motion) * motion.rate,
             Curve::Axes(_) => f64::INFINITY,
         };
         speed(from).max(speed(to))
@@ -153,11 +160,11 @@ fn tool_blend(from: &ToolCurve, to: &ToolCurve, leave: f64, join: f64, slope_fro
     };
     let external = |curve: &ToolCurve, at: f64, slope: f64| scaled(curve.external.knot(at), slope);
     ToolCurve {
-        track: Track::Poly(Quintic::between(&knot(moved_from, slope_from), &knot(moved_to, slope_to))),
+        track: Track::Poly(Quintic::between(&knot(moved_from, slope_from), &knot(moved_to, slope_to)).into()),
         base: corner,
-        turning: Quintic::between(&knot(turned_from, slope_from), &knot(turned_to, slope_to)),
+        turning: Quintic::between(&knot(turned_from, slope_from), &knot(turned_to, slope_to)).into(),
         carried: from.carried,
-        external: Quintic::between(&external(from, leave, slope_from), &external(to, join, slope_to)),
+        external: Quintic::between(&external(from, leave, slope_from), &external(to, join, slope_to)).into(),
         cfg: to.cfg,
         passages: Vec::new(),
     }

@@ -134,6 +134,13 @@ impl<'a> Bounds<'a> {
         }
     }
 
+    /// The external axes all along a way.
+    pub(super) fn external_along(&mut self, curve: &ToolCurve, pace: &Pace) {
+        for place in places(curve) {
+            self.external(&[1, 2, 3].map(|order| curve.external.derivative(order, place)), pace);
+        }
+    }
+
     /// A speed of the TCP, in mm/s, that must not be passed, whatever is programmed.
     pub(super) fn cap_tool(&mut self, curve: &ToolCurve, vel: f64) {
         for place in places(curve) {

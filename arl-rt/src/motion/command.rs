@@ -60,6 +60,28 @@ pub enum Target {
         /// External axes in deg (mm).
         external: [f64; EXTERNAL_AXES],
     },
+    /// ccir: the TCP along the circle through start, target and the target of the next motion of this kind or, in the last
+    /// one, through the start of the one before it. It takes two in a row at least.
+    Circle {
+        /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
+        pose: [f64; 6],
+        /// The workpiece frame in the robot's base, translation in mm.
+        wobj: Frame,
+        /// Whether the tool turns with the path, in place of turning to the orientation of `pose`.
+        follow: bool,
+        /// External axes in deg (mm).
+        external: [f64; EXTERNAL_AXES],
+    },
+    /// spl: the TCP, the tool's rotation and the external axes smoothly through the targets of all motions of this kind in
+    /// a row, without a stop.
+    Spline {
+        /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
+        pose: [f64; 6],
+        /// The workpiece frame in the robot's base, translation in mm.
+        wobj: Frame,
+        /// External axes in deg (mm).
+        external: [f64; EXTERNAL_AXES],
+    },
 }
 
 /// How far from the target of a motion the next one may take over (slip). What is not above 0, or [`super::UNSET`], asks

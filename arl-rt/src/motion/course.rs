@@ -49,7 +49,8 @@ impl Piece {
     /// A part of a motion.
     fn part(motion: &Motion, limits: Limits, number: u64, from: f64, to: f64) -> Self {
         // One s of nominal time at full speed.
-        let scaled = Limits { vel: 1.0, acc: limits.acc / limits.vel, jerk: limits.jerk / limits.vel };
+        let rate = motion.rate;
+        let scaled = Limits { vel: limits.vel / rate, acc: limits.acc / rate, jerk: limits.jerk / rate };
         Self {
             number,
             line: motion.line,
@@ -58,7 +59,7 @@ impl Piece {
             from,
             to,
             progress: None,
-            time: (to - from) / limits.vel,
+            time: (to - from) / rate,
             limits: scaled,
             stops: true,
             ends: true,
@@ -165,13 +166,20 @@ impl Course {
     /// Appends a motion. Returns whether it was asked to round off the motion before it, but came too late for that.
     pub(super) fn append(&mut self, robot: &Robot, motion: Motion, number: u64, cycle: f64) -> bool {
         let Some(limits) = motion.limits else { return false };
-        let wanted = match self.tail.take() {
+        let tail = self.tail.take();
+        if motion.flows && tail.is_some() && self.flow_on(Piece::part(&motion, limits, number, 0.0, 1.0), cycle) {
+            self.timing.settle();
+            self.timing.find_entries(MARGIN, cycle);
+            self.tail = Some((motion, limits));
+            return false;
+        }
+        let wanted = match tail {
             Some((before, before_limits)) if !self.pieces.is_empty() => {
                 blend(robot, &before, &motion).map(|blend| (before, before_limits, blend))
             }
             _ => None,
         };
-        let asked = wanted.is_some();
+        let asked = wanted.is_some() || motion.flows;
         let rounded = wanted.is_some_and(|(before, before_limits, blend)| {
             self.round_off((&before, before_limits), (&motion, limits), number, &blend, cycle)
         });
@@ -199,7 +207,7 @@ impl Course {
         cycle: f64,
     ) -> bool {
         let Some(last) = self.pieces.pop_back() else { return false };
-        if self.pieces.is_empty() && self.at >= (blend.leave - last.from) / before_limits.vel {
+        if self.pieces.is_empty() && self.at >= (blend.leave - last.from) / before.rate {
             self.pieces.push_back(last);
             return false;
         }
@@ -210,6 +218,22 @@ impl Course {
         let first = Piece::half(blend, before, last.number, true);
         let second = Piece::half(blend, motion, number, false);
         let pieces: Vec<Piece> = [cut, first, second, rest].into_iter().filter(|piece| piece.time > 1e-12).collect();
+        if self.lay(&pieces, true, cycle) || self.lay(&pieces, false, cycle) {
+            return true;
+        }
+        let last = [last];
+        if !self.lay(&last, true, cycle) {
+            self.push(&last, false);
+        }
+        false
+    }
+
+    /// Goes on from the last motion without a stop; returns whether the robot is still able to.
+    fn flow_on(&mut self, piece: Piece, cycle: f64) -> bool {
+        let Some(last) = self.pieces.pop_back() else { return false };
+        self.timing.pop();
+        let through = Piece { stops: false, duration: None, ..last.clone() };
+        let pieces = [through, Piece { duration: None, ..piece }];
         if self.lay(&pieces, true, cycle) || self.lay(&pieces, false, cycle) {
             return true;
         }

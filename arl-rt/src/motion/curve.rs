@@ -3,7 +3,8 @@
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use super::joints::{ALL, Joints};
-use super::quintic::Quintic;
+use super::quintic::{Quintic, Way};
+use super::rotation;
 use crate::frames::Carried;
 use crate::kinematics::{Axes, Frame, Kinematics, Passage, Rates, Twist, wrap_degrees};
 use crate::robot::{EXTERNAL_AXES, ROBOT_AXES};
@@ -21,7 +22,7 @@ pub(super) enum Curve {
 #[derive(Clone, PartialEq, Debug)]
 pub(super) enum Track {
     /// By polynomials, in mm.
-    Poly(Quintic<3>),
+    Poly(Way<3>),
     /// Along a circle.
     Arc(Arc),
 }
@@ -43,11 +44,11 @@ pub(super) struct ToolCurve {
     /// The orientation to which `turning` is added.
     pub(super) base: UnitQuaternion<f64>,
     /// A rotation vector in rad, about the axes of what the way is seen from.
-    pub(super) turning: Quintic<3>,
+    pub(super) turning: Way<3>,
     /// What the robot moves along the way.
     pub(super) carried: Carried,
     /// The external axes.
-    pub(super) external: Quintic<EXTERNAL_AXES>,
+    pub(super) external: Way<EXTERNAL_AXES>,
     /// The configuration at the start, which only a passage changes.
     pub(super) cfg: u8,
     /// Where axis 4 is led through the wrist singularity.
@@ -57,7 +58,7 @@ pub(super) struct ToolCurve {
 impl Track {
     /// A straight line.
     pub(super) fn line(start: Vector3<f64>, end: Vector3<f64>) -> Self {
-        Self::Poly(Quintic::even(start.into(), (end - start).into()))
+        Self::Poly(Quintic::even(start.into(), (end - start).into()).into())
     }
 
     /// The position at `at`, in mm.
@@ -113,7 +114,7 @@ impl Track {
     }
 }
 
-/// Half the width of the places between which a rotation's derivatives are measured, as part of the way.
+/// Half the width of the places between which derivatives are measured within a passage, as part of it.
 const STENCIL: f64 = 1.0 / 128.0;
 
 impl ToolCurve {
@@ -203,15 +204,8 @@ impl ToolCurve {
         if self.turning.is_even() {
             return [Vector3::from(self.turning.derivative(1, at)), Vector3::zeros(), Vector3::zeros()];
         }
-        // The rotation vector from here on, at five places, gives derivatives that hold here.
-        let here = self.rotation(at).inverse();
-        let turned = |steps: f64| (self.rotation(at + steps * STENCIL) * here).scaled_axis();
-        let (m2, m1, p1, p2) = (turned(-2.0), turned(-1.0), turned(1.0), turned(2.0));
-        let h = STENCIL;
-        let first = (m2 - m1 * 8.0 + p1 * 8.0 - p2) / (12.0 * h);
-        let second = (-m2 + m1 * 16.0 + p1 * 16.0 - p2) / (12.0 * h * h);
-        let third = (-m2 + m1 * 2.0 - p1 * 2.0 + p2) / (2.0 * h * h * h);
-        [first, second, third + first.cross(&second) * 0.5]
+        let derivatives = [1, 2, 3].map(|order| Vector3::from(self.turning.derivative(order, at)));
+        rotation::speeds(&self.turning.at(at).into(), &derivatives)
     }
 
     /// How the flange moves at `at`, per unit of the parameter.
@@ -222,27 +216,19 @@ impl ToolCurve {
 
     /// The position and the rotation vector from `origin` at `at`, with their derivatives.
     pub(super) fn place(&self, at: f64, origin: &UnitQuaternion<f64>) -> [[Vector3<f64>; 3]; 2] {
-        let turned = |at: f64| (self.rotation(at) * origin.inverse()).scaled_axis();
-        let h = STENCIL / 4.0;
-        let (m1, here, p1) = (turned(at - h), turned(at), turned(at + h));
-        let rotation = if self.turning.is_even() {
-            [here, (p1 - m1) / (2.0 * h), Vector3::zeros()]
-        } else {
-            let (m2, p2) = (turned(at - 2.0 * h), turned(at + 2.0 * h));
-            let first = (m2 - m1 * 8.0 + p1 * 8.0 - p2) / (12.0 * h);
-            let second = (-m2 + m1 * 16.0 - here * 30.0 + p1 * 16.0 - p2) / (12.0 * h * h);
-            [here, first, second]
-        };
-        [[self.track.at(at), self.track.derivative(1, at), self.track.derivative(2, at)], rotation]
+        let turned = (self.rotation(at) * origin.inverse()).scaled_axis();
+        let [speed, change, _] = self.rotation_rates(at);
+        let [first, second] = rotation::of_speeds(&turned, &[speed, change]);
+        [[self.track.at(at), self.track.derivative(1, at), self.track.derivative(2, at)], [turned, first, second]]
     }
 }
 
 impl Curve {
     /// The external axes of an axis curve; of others, those that they have.
-    pub(super) fn external(&self) -> Quintic<EXTERNAL_AXES> {
+    pub(super) fn external(&self) -> Way<EXTERNAL_AXES> {
         match self {
-            Curve::Axes(axes) => Quintic(axes.0.map(|power| Joints::of(&power).external)),
-            Curve::Tool(tool) => tool.external,
+            Curve::Axes(axes) => Quintic(axes.0.map(|power| Joints::of(&power).external)).into(),
+            Curve::Tool(tool) => tool.external.clone(),
         }
     }
 
@@ -311,9 +297,9 @@ mod tests {
         let curve = ToolCurve {
             track: Track::Arc(arc),
             base: UnitQuaternion::from_euler_angles(0.3, 0.2, 0.1),
-            turning,
+            turning: turning.into(),
             carried: Carried::Tool(crate::kinematics::frame([10.0, 20.0, 100.0, 5.0, 6.0, 7.0])),
-            external: Quintic::even([0.0; 6], [0.0; 6]),
+            external: Quintic::even([0.0; 6], [0.0; 6]).into(),
             cfg: 0,
             passages: Vec::new(),
         };

@@ -48,6 +48,15 @@ pub enum PlanError {
         /// The most that is possible, in deg.
         most: f64,
     },
+    /// A ccir that no other one follows, before it or behind it.
+    LoneCircle,
+    /// A motion turned out not to be possible only when the one behind it was known, or none followed.
+    Earlier {
+        /// Its program line.
+        line: u32,
+        /// What is wrong with it.
+        error: Box<PlanError>,
+    },
     /// The robot has no such configuration.
     NoSuchCfg {
         /// What was asked for.
@@ -103,12 +112,17 @@ impl fmt::Display for PlanError {
             }
             PlanError::NoCircle => write!(
                 f,
-                "start, auxiliary point and target make no circle: they must be three different points that do not lie on a line"
+                "the three points of the arc make no circle: they must be different and must not lie on a line"
             ),
             PlanError::Circles { angle, most } => {
                 write!(f, "the circle's angle is {angle} deg: a single motion goes round by at most {most} deg")
             }
             PlanError::NoSuchCfg { cfg } => write!(f, "the robot has no configuration cfg {cfg}: {CONFIGURATIONS}"),
+            PlanError::LoneCircle => write!(
+                f,
+                "one ccir alone makes no arc: it takes another one right behind it, before the program waits for the robot"
+            ),
+            PlanError::Earlier { line, error } => write!(f, "line {line}: {error}"),
             PlanError::Duration { wanted, least } => {
                 write!(f, "the motion cannot be done in {wanted} s, it takes at least {least:.3} s")
             }

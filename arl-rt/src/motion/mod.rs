@@ -8,6 +8,7 @@
 mod arc;
 mod blend;
 mod bounds;
+mod chain;
 mod command;
 mod course;
 mod curve;
@@ -23,6 +24,8 @@ mod progress;
 mod queue;
 mod quintic;
 mod record;
+mod rotation;
+mod spline;
 mod survey;
 #[cfg(test)]
 mod tests;
@@ -38,4 +41,6 @@ pub(crate) use record::Recorder;
 pub use record::{Closest, Figure, Limited, MotionRecord, Rate};
 pub use zone::Rounding;
 
-pub use crate::motion_instructions::{AccSet, Cir, Lin, MoveJ, Ptp, VelSet, accset, cir, lin, movej, ptp, velset};
+pub use crate::motion_instructions::{
+    AccSet, Ccir, Cir, Lin, MoveJ, Ptp, Spl, VelSet, accset, ccir, cir, lin, movej, ptp, spl, velset,
+};

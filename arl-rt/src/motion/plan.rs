@@ -8,9 +8,10 @@ use super::command::{Command, Settings, Target, Zone};
 use super::curve::{Curve, ToolCurve, Track};
 use super::error::PlanError;
 use super::joints::{Joints, is_unset};
-use super::limits::quickest;
+use super::limits::{passing, quickest};
 use super::profile::Limits;
 use super::quintic::Quintic;
+use super::spline::turned;
 use super::survey::survey;
 use crate::frames::Rig;
 use crate::kinematics::{Frame, Passage, RANGE_SLACK, Refusal, frame, frame_components};
@@ -31,6 +32,10 @@ pub struct Motion {
     pub(super) rig: Rig,
     /// `None` for a motion that goes nowhere.
     pub(super) limits: Option<Limits>,
+    /// The nominal speed, as part of the motion per s, at which it meets its neighbours; at most `limits` are reached.
+    pub(super) rate: f64,
+    /// Whether it goes on smoothly from the motion before it, at the same nominal speed.
+    pub(super) flows: bool,
     pub(super) pace: Pace,
     /// The length of the TCP's way in mm, 0 for axis motions.
     pub(super) length: f64,
@@ -77,35 +82,33 @@ pub fn plan(robot: &Robot, start: &Joints, command: &Command, settings: &Setting
             let axes = found.map_err(|refusal| planner.refused(refusal))?;
             planner.axes(Joints { axes, external: *external }.completed(start, robot))
         }
-        Target::Line { pose, wobj, external } => {
-            let end = planner.target_frame(pose, wobj)?;
-            let start = planner.start_frame();
-            let track = Track::line(start.translation.vector, end.translation.vector);
-            let turning = (end.rotation * start.rotation.inverse()).scaled_axis();
-            planner.tool(track, turning, external)
+        Target::Line { pose, wobj, external } | Target::Spline { pose, wobj, external } => {
+            planner.line(pose, wobj, external)
         }
         Target::Arc { via, pose, wobj, angle, follow, external } => {
             let (track, turning) = planner.arc(via, pose, wobj, *angle, *follow)?;
             planner.tool(track, turning, external)
         }
+        Target::Circle { .. } => Err(PlanError::LoneCircle),
     }
 }
 
-struct Planner<'a> {
-    robot: &'a Robot,
-    start: &'a Joints,
-    command: &'a Command,
-    settings: &'a Settings,
+/// Plans one motion.
+pub(super) struct Planner<'a> {
+    pub(super) robot: &'a Robot,
+    pub(super) start: &'a Joints,
+    pub(super) command: &'a Command,
+    pub(super) settings: &'a Settings,
 }
 
 impl Planner<'_> {
     /// The TCP's frame at the start, on its way.
-    fn start_frame(&self) -> Frame {
+    pub(super) fn start_frame(&self) -> Frame {
         self.command.rig.carried.way_at(&self.robot.kinematics.forward(&self.start.axes))
     }
 
     /// The TCP's frame at the target, on its way; unset components stay as at the start, seen in the workpiece frame.
-    fn target_frame(&self, pose: &[f64; 6], wobj: &Frame) -> Result<Frame, PlanError> {
+    pub(super) fn target_frame(&self, pose: &[f64; 6], wobj: &Frame) -> Result<Frame, PlanError> {
         if pose.iter().any(|value| !value.is_finite()) {
             return Err(PlanError::NotANumber);
         }
@@ -125,6 +128,12 @@ impl Planner<'_> {
             target.rotation = start.rotation;
         }
         Ok(wobj * target)
+    }
+
+    fn line(&self, pose: &[f64; 6], wobj: &Frame, external: &[f64; 6]) -> Result<Motion, PlanError> {
+        let (start, end) = (self.start_frame(), self.target_frame(pose, wobj)?);
+        let track = Track::line(start.translation.vector, end.translation.vector);
+        self.tool(track, (end.rotation * start.rotation.inverse()).scaled_axis(), external)
     }
 
     /// The circle, and the rotation vector by which the tool turns on it.
@@ -202,30 +211,87 @@ impl Planner<'_> {
         self.motion(&curve, end, moves, [0.0, 0.0], bounds, caps)
     }
 
-    fn tool(&self, track: Track, turning: Vector3<f64>, external: &[f64; 6]) -> Result<Motion, PlanError> {
+    pub(super) fn tool(&self, track: Track, turning: Vector3<f64>, external: &[f64; 6]) -> Result<Motion, PlanError> {
         let end = Joints { axes: self.start.axes, external: *external }.completed(self.start, self.robot);
-        let start = self.start_frame();
-        let external = Curve::even_axes(self.start, &end);
-        let mut curve = ToolCurve {
-            track,
-            base: start.rotation,
-            turning: Quintic::even([0.0; 3], turning.into()),
-            carried: self.command.rig.carried,
-            external: external.external(),
-            cfg: 0,
-            passages: Vec::new(),
-        };
+        let mut curve = self.even_curve(track, turning, &end);
         curve.cfg = self.configuration(&curve);
         self.along(curve, end)
     }
 
-    /// A motion along a way of the TCP, which starts where the robot is.
-    fn along(&self, mut curve: ToolCurve, end: Joints) -> Result<Motion, PlanError> {
+    /// A curve from the start along which the tool turns evenly.
+    pub(super) fn even_curve(&self, track: Track, turning: Vector3<f64>, end: &Joints) -> ToolCurve {
+        ToolCurve {
+            track,
+            base: self.start_frame().rotation,
+            turning: Quintic::even([0.0; 3], turning.into()).into(),
+            carried: self.command.rig.carried,
+            external: Curve::even_axes(self.start, end).external(),
+            cfg: 0,
+            passages: Vec::new(),
+        }
+    }
+
+    /// A piece of a smooth way, nominally in `time` s; it joins the motion before it without a stop where it `flows`.
+    pub(super) fn piece(
+        &self,
+        mut curve: ToolCurve,
+        time: f64,
+        external: &[f64; 6],
+        flows: bool,
+    ) -> Result<Motion, PlanError> {
+        curve.cfg = self.configuration(&curve);
+        self.find_passages(&mut curve);
+        let found = survey(self.robot, &curve, self.start).map_err(|error| self.at_the_wrist(error, &curve))?;
+        let end = Joints { axes: found.end, external: *external }.completed(self.start, self.robot);
+        let end = self.within_ranges(end)?;
+        let pace = self.pace(true)?;
+        let mut bounds = Bounds::new(self.robot);
+        bounds.tool(&curve, &pace);
+        bounds.external_along(&curve, &pace);
+        bounds.cap_tool(&curve, self.programmed_cap()?);
+        if self.settings.manual {
+            bounds.cap_tool(&curve, super::bounds::MANUAL_SPEED);
+            for (at, _) in &found.rates {
+                bounds.manual_flange(&curve, *at, 1.0);
+            }
+        }
+        for (_, rates) in &found.rates {
+            bounds.axes(&rates.first, &rates.second, &rates.third, &pace);
+        }
+        Ok(Motion {
+            start: *self.start,
+            end,
+            rig: self.command.rig,
+            limits: Some(passing(&bounds.rows, 1.0 / time)),
+            rate: 1.0 / time,
+            flows,
+            pace,
+            length: curve.track.length(),
+            angle: turned(&curve),
+            zone: self.command.zone,
+            line: self.command.line,
+            curve: Curve::Tool(curve),
+        })
+    }
+
+    /// The highest speed that the TCP may have, in mm/s.
+    pub(super) fn tcp_speed(&self) -> Result<f64, PlanError> {
+        let speed = self.pace(true)?.tcp.min(self.robot.tcp.vel).min(self.programmed_cap()?);
+        Ok(if self.settings.manual { speed.min(super::bounds::MANUAL_SPEED) } else { speed })
+    }
+
+    /// Finds where axis 4 has to be led through the wrist singularity, if `$WRIST` wants that.
+    fn find_passages(&self, curve: &mut ToolCurve) {
         if self.settings.wrist {
             let kinematics = &self.robot.kinematics;
             let (start, axes) = (&self.start.axes, self.robot.own_axes());
             curve.passages = kinematics.passages(|at| curve.flange(at), curve.cfg, start, axes);
         }
+    }
+
+    /// A motion along a way of the TCP, which starts where the robot is.
+    fn along(&self, mut curve: ToolCurve, end: Joints) -> Result<Motion, PlanError> {
+        self.find_passages(&mut curve);
         let length = curve.track.length();
         let angle = UnitQuaternion::from_scaled_axis(Vector3::from(curve.turning.derivative(1, 0.0)));
         let angle = if curve.turning.is_even() {
@@ -394,6 +460,8 @@ impl Planner<'_> {
             end,
             rig: self.command.rig,
             limits,
+            rate: limits.map_or(1.0, |limits| limits.vel),
+            flows: false,
             pace,
             length,
             angle,

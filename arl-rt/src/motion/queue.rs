@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::chain::Held;
 use super::command::{Command, Settings};
 use super::course::Course;
 use super::error::PlanError;
@@ -28,6 +29,8 @@ pub enum Stop {
     Fast,
 }
 
+/// How long the robot stands still, in s, before a motion that waits for the next one of its way goes without it.
+const PATIENCE: f64 = 0.1;
 /// How much harder a fast stop is.
 const FAST: f64 = 5.0;
 
@@ -86,6 +89,11 @@ pub struct Queue {
     elapsed: f64,
     cycle: f64,
     late: bool,
+    /// The last motion, where its way depends on the next one.
+    held: Option<Held>,
+    /// How long the robot has stood still for it, in s.
+    patience: f64,
+    broken: Option<PlanError>,
 }
 
 impl Queue {
@@ -107,6 +115,9 @@ impl Queue {
             elapsed: 0.0,
             cycle: 0.001,
             late: false,
+            held: None,
+            patience: 0.0,
+            broken: None,
         }
     }
 
@@ -123,10 +134,12 @@ impl Queue {
         waiting < LOOK_AHEAD as u64 || (waiting < MOST_AHEAD && self.course.time_left() < TIME_AHEAD)
     }
 
-    /// Plans a motion from the end of the last one and appends it; returns its running number, from 1.
+    /// Plans a motion from the end of the last one and appends it; returns its running number, from 1. A motion whose way
+    /// depends on the next one waits for that one, or for [`Queue::conclude`].
     ///
     /// # Errors
-    /// The motion cannot be planned, or there is no room, or dropped motions have not come to rest yet. Nothing was added.
+    /// The motion cannot be planned, or the one before it cannot now that this one is known ([`PlanError::Earlier`]), or
+    /// there is no room, or dropped motions have not come to rest yet. It was not added.
     pub fn add(&mut self, command: &Command, settings: &Settings) -> Result<u64, PlanError> {
         if self.dropping {
             return Err(PlanError::Stopping);
@@ -134,11 +147,15 @@ impl Queue {
         if !self.has_room() {
             return Err(PlanError::Full);
         }
-        let motion = plan(&self.robot, &self.end, command, settings)?;
+        let mut next = Held::new(&self.robot, self.end(), command, settings, self.added + 1)?;
+        self.release(next.as_mut())?;
+        if next.is_some() {
+            self.held = next;
+        } else {
+            let motion = plan(&self.robot, &self.end, command, settings)?;
+            self.append(motion, self.added + 1);
+        }
         self.added += 1;
-        self.end = *motion.end();
-        self.last_rig = command.rig;
-        self.late |= self.course.append(&self.robot, motion, self.added, self.cycle);
         Ok(self.added)
     }
 
@@ -152,6 +169,49 @@ impl Queue {
         self.course.left_at(number)
     }
 
+    /// Says that no motion will come soon: one that waited for the next goes without it.
+    ///
+    /// # Errors
+    /// It cannot be moved without a next one ([`PlanError::Earlier`]). It was dropped.
+    pub fn conclude(&mut self) -> Result<(), PlanError> {
+        self.release(None)
+    }
+
+    /// What was wrong with a motion that had waited in vain for the next one, since this was asked last.
+    pub fn take_broken(&mut self) -> Option<PlanError> {
+        self.broken.take()
+    }
+
+    /// Plans the motion that waits, before the next one where there is one.
+    fn release(&mut self, next: Option<&mut Held>) -> Result<(), PlanError> {
+        let Some(held) = self.held.take() else { return Ok(()) };
+        let joined = next.as_deref().filter(|next| held.goes_on(&self.robot, next));
+        let goes_on = joined.is_some();
+        let (motion, before) = held.plan(&self.robot, joined)?;
+        self.append(motion, held.number);
+        if let Some(next) = next {
+            next.goes_on_from(&self.end, before.filter(|_| goes_on));
+        }
+        Ok(())
+    }
+
+    fn append(&mut self, motion: Motion, number: u64) {
+        self.end = *motion.end();
+        self.last_rig = motion.rig;
+        self.late |= self.course.append(&self.robot, motion, number, self.cycle);
+    }
+
+    /// Lets a motion go that waits while the robot stands still, where it can be the last one of its way.
+    fn lose_patience(&mut self, dt: f64) {
+        let starves = self.course.is_empty() && self.held.as_ref().is_some_and(Held::can_end);
+        self.patience = if starves { self.patience + dt } else { 0.0 };
+        if self.patience >= PATIENCE
+            && let Err(error) = self.release(None)
+        {
+            self.broken = Some(error);
+        }
+    }
+
     /// Whether, since this was asked last, a motion came too late to be blended with the one before it, so that the robot
     /// stopped or will stop between the two.
     pub fn take_late(&mut self) -> bool {
@@ -160,7 +220,7 @@ impl Queue {
 
     /// Where the last motion of the queue ends: where the next one starts.
     pub fn end(&self) -> &Joints {
-        &self.end
+        self.held.as_ref().map_or(&self.end, Held::end)
     }
 
     /// The commanded positions now.
@@ -205,6 +265,7 @@ impl Queue {
     /// rest. Without a stop it goes on to the next target that it reaches exactly first.
     pub fn clear(&mut self) {
         self.course.keep_to_stop();
+        self.held = None;
         self.dropping = true;
         self.drop_at_rest();
     }
@@ -287,6 +348,9 @@ impl Queue {
         }
         self.end_empty();
         self.drop_at_rest();
+        if !matches!(pacing, Pacing::Stop(_)) {
+            self.lose_patience(dt);
+        }
         Step { joints: self.joints, tcp: self.tcp(), motion, line, finished: self.finished, rests: self.rests() }
     }
 
@@ -301,7 +365,8 @@ impl Queue {
 
     /// Motions that go nowhere end when those before them have ended.
     fn end_empty(&mut self) {
-        let next = self.course.first().map_or(self.added + 1, |piece| piece.number);
+        let waiting = self.held.as_ref().map_or(self.added + 1, |held| held.number);
+        let next = self.course.first().map_or(waiting, |piece| piece.number);
         self.finished = self.finished.max(next - 1);
         if self.course.is_empty() && !self.dropping {
             self.rig = self.last_rig;

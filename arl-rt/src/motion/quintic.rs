@@ -1,5 +1,9 @@
 //! Polynomials of the fifth degree: straight ways, blends, splines.
 
+use std::sync::Arc;
+
+use super::progress::Progress;
+
 /// A polynomial of up to the fifth degree for each of `N` values, lowest power first.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Quintic<const N: usize>(pub(super) [[f64; N]; 6]);
@@ -65,6 +69,63 @@ impl<const N: usize> Quintic<N> {
     pub(super) fn is_even(&self) -> bool {
         self.0.iter().skip(2).all(|power| power.iter().all(|value| *value == 0.0))
     }
+}
+
+/// Values along a way: a polynomial of the way's parameter or, where it has a pace of its own, of the progress that the
+/// parameter stands for.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Way<const N: usize> {
+    poly: Quintic<N>,
+    pace: Option<Arc<Progress>>,
+}
+
+impl<const N: usize> From<Quintic<N>> for Way<N> {
+    fn from(poly: Quintic<N>) -> Self {
+        Self { poly, pace: None }
+    }
+}
+
+impl<const N: usize> Way<N> {
+    /// A polynomial at a pace.
+    pub(super) fn paced(poly: Quintic<N>, pace: Arc<Progress>) -> Self {
+        Self { poly, pace: Some(pace) }
+    }
+
+    /// The values at `at`.
+    pub(super) fn at(&self, at: f64) -> [f64; N] {
+        self.poly.at(self.pace.as_ref().map_or(at, |pace| pace.at(at)))
+    }
+
+    /// The derivative of the order `order`, 1 to 3, at `at`.
+    pub(super) fn derivative(&self, order: usize, at: f64) -> [f64; N] {
+        let Some(pace) = &self.pace else { return self.poly.derivative(order, at) };
+        let place = pace.at(at);
+        let [a, b, c] = [1, 2, 3].map(|order| pace.derivative(order, at));
+        let of = |order: usize| self.poly.derivative(order, place);
+        match order {
+            1 => of(1).map(|first| first * a),
+            2 => sum([of(1), of(2), [0.0; N]], [b, a * a, 0.0]),
+            _ => sum([of(1), of(2), of(3)], [c, 3.0 * a * b, a * a * a]),
+        }
+    }
+
+    /// The values at `at` with their first two derivatives.
+    pub(super) fn knot(&self, at: f64) -> Knot<N> {
+        Knot { value: self.at(at), first: self.derivative(1, at), second: self.derivative(2, at) }
+    }
+
+    /// Whether it goes evenly.
+    pub(super) fn is_even(&self) -> bool {
+        self.pace.is_none() && self.poly.is_even()
+    }
+}
+
+fn sum<const N: usize>([a, b, c]: [[f64; N]; 3], [x, y, z]: [f64; 3]) -> [f64; N] {
+    let mut out = [0.0; N];
+    for (((out, a), b), c) in out.iter_mut().zip(a).zip(b).zip(c) {
+        *out = a * x + b * y + c * z;
+    }
+    out
 }
 
 fn times_plus<const N: usize>(sum: [f64; N], at: f64, add: &[f64; N]) -> [f64; N] {

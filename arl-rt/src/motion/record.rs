@@ -97,7 +97,7 @@ pub struct MotionRecord {
     pub number: u64,
     /// Its program line.
     pub line: u32,
-    /// `movej`, `ptp`, `lin` or `cir`.
+    /// `movej`, `ptp`, `lin`, `cir`, `ccir` or `spl`.
     pub kind: &'static str,
     /// The programmed speed, under the override of `velset`: % of the axes' limits on axis motions, else mm/s, or deg/s
     /// where only the tool turns; or the programmed duration in s.
@@ -187,7 +187,18 @@ impl Recorder {
             Target::Pose { .. } => ("ptp", false),
             Target::Line { .. } => ("lin", true),
             Target::Arc { .. } => ("cir", true),
+            Target::Circle { .. } => ("ccir", true),
+            Target::Spline { .. } => ("spl", true),
         };
+        // What is held back is blended only when the next motion comes: it may be.
+        let chained = command.target.chained().is_some();
+        let mut mixed = false;
+        if let Some(before) = self.records.last_mut()
+            && (chained || matches!(before.kind, "ccir" | "spl"))
+        {
+            mixed = before.along_tool != along_tool;
+            before.mixed |= mixed;
+        }
         self.records.push(MotionRecord {
             number,
             line: command.line,
@@ -202,7 +213,7 @@ impl Recorder {
             tool: Nearest::NONE,
             carried: command.rig.carried,
             along_tool,
-            mixed: false,
+            mixed,
             jerks: settings.profile != VelocityProfile::T,
         });
         let Some(motion) = motion.cloned() else { return };

@@ -5,6 +5,7 @@ mod carried;
 mod plans;
 mod stops;
 mod traces;
+mod ways;
 mod wrist;
 
 use std::sync::Arc;

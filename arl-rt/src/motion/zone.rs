@@ -58,13 +58,13 @@ const LARGEST: f64 = 0.5;
 /// The parts that a blend takes from the end of one motion and from the start of the next; `None` where none is asked for.
 pub(super) fn parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f64)> {
     let (measure, size, leaving) = leaving(robot, from)?;
-    let time = |motion: &Motion, part: f64| motion.limits.map(|limits| part / limits.vel);
+    let time = |motion: &Motion, part: f64| part / motion.rate;
     let entering = match extent(robot, to, measure) {
         _ if measure == Measure::Share => leaving,
         _ if measure == Measure::Tcp && matches!(to.curve, Curve::Axes(_)) => tcp_part(robot, to, size, 0.0),
         Some(extent) => size / extent,
         // It does not move that way: it is entered for as long as the other one is left.
-        None => time(from, leaving)? / time(to, 1.0)?,
+        None => time(from, leaving) / time(to, 1.0),
     };
     Some((leaving, entering.min(LARGEST)))
 }

@@ -151,6 +151,23 @@ instruction! {
     })
 }
 
+instruction! {
+    /// `ccir`: the TCP along the circle that consecutive ones make, the tool turning evenly along with it or, with
+    /// `$ORI_REF_PATH`, with the path.
+    ccir Ccir (p: Pose) Line { v vl vp s sl sp t w }
+    -> |this, modal, cx| resolve::pose(cx, &this.p, &modal).map(|(pose, _, external)| Target::Circle {
+        pose, wobj: modal.setting.workpiece(), follow: cx.system().ori_ref_path.get(), external
+    })
+}
+
+instruction! {
+    /// `spl`: the TCP, the tool's rotation and the external axes smoothly through the targets of consecutive ones.
+    spl Spl (p: Pose) Line { v vl vp s sl sp t w }
+    -> |this, modal, cx| resolve::pose(cx, &this.p, &modal).map(|(pose, _, external)| Target::Spline {
+        pose, wobj: modal.setting.workpiece(), external
+    })
+}
+
 /// `velset`: scales the programmed speeds of the motions that follow to `percent`, and limits their TCP speed to `max`
 /// mm/s.
 pub fn velset(percent: i32, max: i32) -> VelSet {

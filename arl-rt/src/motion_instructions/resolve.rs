@@ -76,6 +76,10 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
     }
     // The return to the path: the first motion goes at manual speed, and stops.
     let returns = world.system.rpp_enable.get() && !cx.has_moved();
+    let target = match target {
+        Target::Spline { pose, wobj, external } if returns => Target::Line { pose, wobj, external },
+        target => target,
+    };
     let command = Command {
         target,
         rig: modal.setting.rig(),
@@ -84,7 +88,7 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
         zone: if returns { Zone::NONE } else { modal.zone },
         line: cx.place().1,
     };
-    let mut unit = world.unit.borrow_mut();
+    let current = world.unit.borrow().settings;
     let settings = Settings {
         profile: match world.system.vel_profile.get() {
             VelProfile::T => VelocityProfile::T,
@@ -92,10 +96,21 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
             VelProfile::O => VelocityProfile::O,
         },
         wrist: world.system.wrist.get(),
-        manual: unit.settings.manual || returns,
-        ..unit.settings
+        manual: current.manual || returns,
+        ..current
     };
-    unit.plan(&command, &settings).map_err(|error| Fault::Motion(error.to_string().into()))?;
+    let planned = world.unit.borrow_mut().plan(&command, &settings, cx.place().0);
+    if let Err(alarm) = planned {
+        if (alarm.file, alarm.line) == cx.place() {
+            return Err(alarm.fault);
+        }
+        world.trouble(alarm);
+        // The controller ends the program here.
+        loop {
+            cx.next_cycle().await;
+        }
+    }
+    let mut unit = world.unit.borrow_mut();
     world.system.cjoint.set(joint(unit.target()));
     cx.moved();
     if unit.take_late() {

@@ -1,0 +1,193 @@
+//! Motions whose way depends on the one behind them: it is planned when that one is known, or none comes.
+
+use super::arc::circle_through;
+use super::command::{Command, Settings, Target};
+use super::curve::Track;
+use super::error::PlanError;
+use super::joints::Joints;
+use super::plan::{Motion, Planner};
+use super::spline::{Passing, Place, piece};
+use crate::kinematics::Frame;
+use crate::robot::Robot;
+
+/// Points of a spline that are not so far from each other, in mm, are the same: the tool only turns there.
+const SAME: f64 = 1e-3;
+
+/// The kinds of motion that make one way together with their neighbours.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Kind {
+    /// ccir
+    Circle,
+    /// spl
+    Spline,
+}
+
+/// A motion that has been added, but is not planned yet.
+#[derive(Clone, Debug)]
+pub(super) struct Held {
+    kind: Kind,
+    command: Command,
+    settings: Settings,
+    pub(super) number: u64,
+    /// Where the robot is when it begins.
+    start: Joints,
+    /// Where it ends, as far as that is known already.
+    end: Joints,
+    target: Place,
+    before: Option<Before>,
+}
+
+/// What the motion before, of the same kind and planned already, leaves to the next.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Before {
+    /// Where the circle before began.
+    Circle(Joints),
+    /// How the spline goes on.
+    Spline(Passing),
+}
+
+impl Target {
+    /// The kind of way that this makes with its neighbours.
+    pub(super) fn chained(&self) -> Option<(Kind, &[f64; 6], &Frame, &[f64; 6])> {
+        match self {
+            Target::Circle { pose, wobj, external, .. } => Some((Kind::Circle, pose, wobj, external)),
+            Target::Spline { pose, wobj, external } => Some((Kind::Spline, pose, wobj, external)),
+            _ => None,
+        }
+    }
+}
+
+impl Held {
+    /// Holds a motion back that starts at `start`; `None` for a kind that needs not wait.
+    pub(super) fn new(
+        robot: &Robot,
+        start: &Joints,
+        command: &Command,
+        settings: &Settings,
+        number: u64,
+    ) -> Result<Option<Self>, PlanError> {
+        let Some((kind, pose, wobj, external)) = command.target.chained() else { return Ok(None) };
+        let planner = Planner { robot, start, command, settings };
+        let tcp = planner.target_frame(pose, wobj)?;
+        planner.tcp_speed()?;
+        let end = Joints { axes: start.axes, external: *external }.completed(start, robot);
+        let flange = command.rig.carried.flange_at(&tcp);
+        let kinematics = &robot.kinematics;
+        let axes = kinematics
+            .inverse(&flange, kinematics.cfg(&start.axes), &start.axes)
+            .ok_or_else(|| PlanError::Unreachable { beyond: kinematics.beyond_reach(&flange), along: 1.0 })?;
+        let end = Joints { axes, ..end };
+        Ok(Some(Self {
+            kind,
+            command: command.clone(),
+            settings: *settings,
+            number,
+            start: *start,
+            end,
+            target: Place { tcp, external: end.external },
+            before: None,
+        }))
+    }
+
+    /// Where it ends, as far as that is known.
+    pub(super) fn end(&self) -> &Joints {
+        &self.end
+    }
+
+    /// Whether it can be the last of its kind.
+    pub(super) fn can_end(&self) -> bool {
+        self.kind == Kind::Spline || self.before.is_some()
+    }
+
+    /// Whether the motion that comes next makes one way with this one.
+    pub(super) fn goes_on(&self, robot: &Robot, next: &Held) -> bool {
+        self.kind == next.kind
+            && match self.kind {
+                Kind::Circle => {
+                    let carried = |held: &Held| std::mem::discriminant(&held.command.rig.carried);
+                    carried(self) == carried(next)
+                }
+                Kind::Spline => {
+                    self.command.rig.carried == next.command.rig.carried
+                        && self.from(robot).chord(&self.target) > SAME
+                        && self.target.chord(&next.target) > SAME
+                }
+            }
+    }
+
+    fn from(&self, robot: &Robot) -> Place {
+        let tcp = self.command.rig.carried.way_at(&robot.kinematics.forward(&self.start.axes));
+        Place { tcp, external: self.start.external }
+    }
+
+    /// Plans it, with the motion of its way that comes next; returns also what it leaves to that one.
+    ///
+    /// # Errors
+    /// It cannot be moved; the error tells its line.
+    pub(super) fn plan(&self, robot: &Robot, next: Option<&Held>) -> Result<(Motion, Option<Before>), PlanError> {
+        let planner = Planner { robot, start: &self.start, command: &self.command, settings: &self.settings };
+        let planned = match self.kind {
+            Kind::Circle => self.circle(&planner, next),
+            Kind::Spline => self.spline(&planner, next),
+        };
+        planned.map_err(|error| PlanError::Earlier { line: self.command.line, error: Box::new(error) })
+    }
+
+    /// Takes over what the motion before has left.
+    pub(super) fn goes_on_from(&mut self, end: &Joints, before: Option<Before>) {
+        (self.start, self.before) = (*end, before);
+    }
+
+    fn circle(&self, planner: &Planner<'_>, next: Option<&Held>) -> Result<(Motion, Option<Before>), PlanError> {
+        let Target::Circle { follow, external, .. } = &self.command.target else { return Err(PlanError::NoCircle) };
+        let (start, target) = (planner.start_frame(), self.target.tcp);
+        let [from, to] = [start, target].map(|frame| frame.translation.vector);
+        let points = match (next, self.before) {
+            (Some(next), _) => [from, to, next.target.tcp.translation.vector],
+            (None, Some(Before::Circle(before))) => {
+                let before = self.command.rig.carried.way_at(&planner.robot.kinematics.forward(&before.axes));
+                [before.translation.vector, from, to]
+            }
+            _ => return Err(PlanError::LoneCircle),
+        };
+        let arc = circle_through(&points).ok_or(PlanError::NoCircle)?.arc(&from, &to);
+        let turning = if *follow {
+            arc.across.cross(&arc.along).normalize() * arc.sweep
+        } else {
+            (target.rotation * start.rotation.inverse()).scaled_axis()
+        };
+        let motion = planner.tool(Track::Arc(arc), turning, external)?;
+        Ok((motion, Some(Before::Circle(self.start))))
+    }
+
+    fn spline(&self, planner: &Planner<'_>, next: Option<&Held>) -> Result<(Motion, Option<Before>), PlanError> {
+        let from = self.from(planner.robot);
+        let speed = planner.tcp_speed()?;
+        let start = match self.before {
+            Some(Before::Spline(passing)) => Some(passing),
+            _ => None,
+        };
+        let end = match next {
+            Some(next) => {
+                let settings = &next.settings;
+                let other = Planner { robot: planner.robot, start: &self.end, command: &next.command, settings };
+                Some(Passing::through([&from, &self.target, &next.target], speed.min(other.tcp_speed()?)))
+            }
+            None => None,
+        };
+        if start.is_none() && end.is_none() {
+            let Target::Spline { external, .. } = &self.command.target else { return Err(PlanError::NotANumber) };
+            let track = Track::line(from.tcp.translation.vector, self.target.tcp.translation.vector);
+            let turning = (self.target.tcp.rotation * from.tcp.rotation.inverse()).scaled_axis();
+            return Ok((planner.tool(track, turning, external)?, None));
+        }
+        let base = planner.even_curve(
+            Track::line(from.tcp.translation.vector, from.tcp.translation.vector),
+            nalgebra::Vector3::zeros(),
+            &self.end,
+        );
+        let (curve, time) = piece(base, [&from, &self.target], [start.as_ref(), end.as_ref()], speed);
+        let motion = planner.piece(curve, time, &self.target.external, start.is_some())?;
+        Ok((motion, end.map(Before::Spline)))
+    }
+}
