@@ -60,13 +60,17 @@ fn missing(program: &Program, main: &Func, motion: &Builtin) -> Option<String> {
 }
 
 /// The braces that the target is made of: written here, or given to a variable that nothing changes.
-fn known_structure<'a>(program: &'a Program, main: &'a Func, target: &'a Expr) -> Option<(Struct, &'a [Option<Expr>])> {
+pub(super) fn known_structure<'a>(
+    program: &'a Program,
+    func: &'a Func,
+    target: &'a Expr,
+) -> Option<(Struct, &'a [Option<Expr>])> {
     match &target.kind {
         ExprKind::Struct(id, values) => Some((*id, values)),
         ExprKind::Place(place) if place.path.is_empty() => {
             let init = match place.root {
-                Root::Local(id) if !main.locals.get(id.0 as usize)?.mutated => {
-                    main.body.iter().find_map(|stmt| match &stmt.kind {
+                Root::Local(id) if !func.locals.get(id.0 as usize)?.mutated => {
+                    func.body.iter().find_map(|stmt| match &stmt.kind {
                         StmtKind::Let(local, init) if *local == id => init.as_ref(),
                         _ => None,
                     })

@@ -2,7 +2,7 @@
 //!
 //! One file per concern: `load` reads the files, `declare` globals and signatures, `statements` and `expr` (with
 //! `name`, `place`, `operators`, `brace`, `call`, `arguments`, `convert`, `fold`) what functions do, `flow` and
-//! `conditions` look at the finished functions.
+//! `conditions`, `first_motion` and `targets` (with `reach`) look at the finished functions.
 
 mod arguments;
 mod brace;
@@ -19,7 +19,9 @@ mod load;
 mod name;
 mod operators;
 mod place;
+mod reach;
 mod statements;
+mod targets;
 mod uses;
 
 use crate::diagnostics::flow::FlowProblem;
@@ -119,6 +121,9 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
         };
         let mut late = if has_conditions { conditions::check(&built, &locate) } else { Vec::new() };
         late.extend(first_motion::check(&built, &locate));
+        if let Some(robot) = &options.robot {
+            diagnostics.extend(targets::check(&built, robot, &locate));
+        }
         if late.is_empty() {
             program = Some(built);
         }

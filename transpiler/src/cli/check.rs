@@ -3,6 +3,7 @@
 use super::args::{Checking, Format};
 use super::failure::{COMPILE_ERRORS, Failure};
 use super::program::check_options;
+use super::robot::Robot;
 use super::show;
 use crate::CheckOptions;
 use crate::compile::{Compiled, check_program};
@@ -15,7 +16,11 @@ use std::process::ExitCode;
 
 /// Checks each file as a program. A data file, and a file that an earlier one uses, is a module and needs no `main`.
 pub(super) fn check(files: &[PathBuf], format: Format, checking: &Checking) -> Result<ExitCode, Failure> {
-    let options = check_options(checking)?;
+    let mut options = check_options(checking)?;
+    // A program that runs meets its robot itself, and one that is compiled may meet several.
+    if let Some(robot) = &checking.robot {
+        options.robot = Some(Robot::load(Some(robot))?.limits());
+    }
     let mut reporter = Reporter { format, said: HashSet::new() };
     let mut used = HashSet::new();
     let (programs, modules): (Vec<&PathBuf>, Vec<&PathBuf>) = files.iter().partition(|file| !is_data(file));

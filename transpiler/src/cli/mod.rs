@@ -13,6 +13,7 @@ mod plot;
 mod program;
 mod progress;
 mod project;
+mod robot;
 mod robots;
 mod run;
 mod runtime;

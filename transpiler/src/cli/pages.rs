@@ -148,6 +148,8 @@ pub(super) static PAGES: &[(&str, &str)] = pages! {
     "ARL0904"
     "ARL0905"
     "ARL0906"
+    "ARL0907"
+    "ARL0908"
     "ARL0951"
     "ARL0952"
     "ARL0953"

@@ -109,6 +109,8 @@ static CODES: &[CodeInfo] = &[
     warning(904, "An import that is never used"),
     warning(905, "The end of a function reached without return"),
     warning(906, "A value that is not used"),
+    warning(907, "A joint target that the robot cannot reach"),
+    warning(908, "A pose that the robot cannot reach"),
     warning(951, "A name in another case than declared"),
     warning(952, "A conversion beyond the manual"),
     warning(953, "A form beyond the manual"),

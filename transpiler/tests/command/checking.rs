@@ -105,3 +105,22 @@ fn emitted_rust_does_not_depend_on_the_working_directory() {
     assert_eq!(String::from_utf8_lossy(&inside.expect("it starts").stdout), there.out);
     folder.arl2rs(&["emit", "robot/b.arl"]).is(1, "").says("ARL0301");
 }
+
+#[test]
+fn targets_that_a_robot_cannot_reach_are_warned_of() {
+    let program = "const joint FAR = {500,-90,90,0,45,0}\nfunc void main()\n    joint start = {0,-90,90,0,45,0}\n    \
+        joint changed = {500,-90,90,0,45,0}\n    movej start\n    movej FAR\n    changed.j1 = 10\n    movej changed\n    \
+        lin p:{1600,0,450,0,90,0}\n    lin p:{1400,0,450,0,90,0}\n    lin p:{x 1600}\n    \
+        cir m:{3000,0,450,0,90,0},p:{1300,0,450,0,90,0}\nendfunc\n";
+    let tool = program.replace("lin p:{1400", "lin t:{{0,0,-500,0,0,0}},p:{1400");
+    let taught = program.replacen("const joint FAR = {500,-90,90,0,45,0}\n", "", 1);
+    let folder = Folder::new("reach").with("far.arl", program).with("tool.arl", &tool).with("taught.arl", &taught);
+    folder.write("taught_data.arl", "joint FAR = {500,-90,90,0,45,0}\n");
+    let answer = folder.arl2rs(&["check", "far.arl", "--robot", "kr10-r1420"]);
+    answer.is(0, "").says("far.arl:6:").says("ARL0907").says("j1 at 500 deg").says("-170 to 170 deg");
+    answer.says("far.arl:9:").says("ARL0908").says("99.697 mm out of the reach of kr10-r1420").says("2 warnings");
+    // With a tool or a point that may be taught anew it is not sure; without a robot nothing is.
+    folder.arl2rs(&["check", "tool.arl", "--robot", "kr10-r1420"]).is(0, "").says("1 warning");
+    folder.arl2rs(&["check", "taught.arl", "--robot", "kr10-r1420"]).is(0, "").says("taught.arl:8:").says("1 warning");
+    assert_eq!(folder.arl2rs(&["check", "far.arl"]).err, "");
+}

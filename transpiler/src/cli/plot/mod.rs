@@ -3,7 +3,6 @@
 //! It is made from the trace, so that the compiled program need not know of it.
 
 mod outline;
-mod robot;
 mod scale;
 mod svg;
 mod thin;
@@ -12,8 +11,9 @@ mod trace;
 mod views;
 
 use super::failure::Failure;
+use super::robot::Robot;
 use outline::Outline;
-use robot::Robot;
+
 use std::path::Path;
 use svg::{Anchor, Area, Picture};
 use times::Times;

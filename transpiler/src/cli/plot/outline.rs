@@ -1,7 +1,8 @@
 //! The first look at a trace: how long, how far, which motions. The second one draws.
 
 use super::super::failure::Failure;
-use super::trace::{AXES, Movement, Row};
+use super::super::robot::AXES;
+use super::trace::{Movement, Row};
 
 /// A motion: from when to when its line was executed.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -1,7 +1,7 @@
 //! The speed of the TCP and of the axes over time, with the lines that are executed.
 
+use super::super::robot::Robot;
 use super::outline::{Outline, colour};
-use super::robot::Robot;
 use super::scale::{Scale, label, step, ticks};
 use super::svg::{Anchor, Area, Picture, short};
 use super::thin::OverTime;

@@ -1,12 +1,10 @@
 //! Reads the trace that a run wrote.
 
 use super::super::failure::Failure;
+use super::super::robot::AXES;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-
-/// How many axes a row holds: six of the robot, six external ones.
-pub(super) const AXES: usize = 12;
 
 const HEADER: &str = "t,line,motion,j1,j2,j3,j4,j5,j6,ej1,ej2,ej3,ej4,ej5,ej6,x,y,z,a,b,c";
 
