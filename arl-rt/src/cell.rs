@@ -14,6 +14,11 @@
 //! [home]                       # axis positions in deg (mm where linear); home 1 is `home` of the robot file
 //! tolerance = 0.1              # how near is at home, deg (mm)
 //! home2 = [0, -90, 90, 0, 0, 0]
+//!
+//! [[collision]]                # conditions of startdetect
+//! cid = 1                      # 0 to 16
+//! percent = 20                 # how much an axis may differ, of what it needs at most; or for each axis, in Nm (N):
+//! # torque = [60, 60, 40, 15, 15, 10]
 //! ```
 
 use std::path::Path;
@@ -22,12 +27,13 @@ use toml::de::DeValue;
 
 use crate::io::{AnalogType, Channels};
 use crate::rate::Rate;
-use crate::settings::{Section, SettingsError, Source, number};
+use crate::settings::{Section, SettingsError, Source, Value, number, table};
 
-const TOP: &[&str] = &["controller", "io", "home"];
+const TOP: &[&str] = &["controller", "io", "home", "collision"];
 const CONTROLLER: &[&str] = &["cycle"];
 const IO: &[&str] = &["di", "do", "ai", "ao", "internal"];
 const HOME: &[&str] = &["tolerance", "home2", "home3", "home4", "home5"];
+const COLLISION: &[&str] = &["cid", "percent", "torque"];
 const HOMES: [&str; 4] = ["home2", "home3", "home4", "home5"];
 
 /// Far more channels than any cell has.
@@ -44,6 +50,17 @@ pub struct Cell {
     pub homes: [Option<Vec<f64>>; 4],
     /// How near to a home point is at home, in deg (mm).
     pub home_tolerance: f64,
+    /// The conditions of `startdetect` by their numbers; of those that are not there, 20 %.
+    pub collisions: Vec<(u8, Sensitivity)>,
+}
+
+/// By how much the torques of the axes may differ from what the model asks for before that counts as a collision.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Sensitivity {
+    /// Percent of what each axis of the robot, without load, needs at most.
+    Percent(f64),
+    /// Nm (N of linear axes), for each of the robot's own axes.
+    Torques(Vec<f64>),
 }
 
 impl Default for Cell {
@@ -53,6 +70,7 @@ impl Default for Cell {
             channels: Channels::default(),
             homes: [None, None, None, None],
             home_tolerance: 0.1,
+            collisions: Vec::new(),
         }
     }
 }
@@ -92,8 +110,13 @@ impl Cell {
                 cell.home_tolerance = tolerance;
             }
             for (place, key) in cell.homes.iter_mut().zip(HOMES) {
-                *place = positions(&home, key)?;
+                *place = numbers(&home, key, POSITIONS)?;
             }
+        }
+        if let Some(found) = top.find("collision") {
+            let what = "tables that begin with [[collision]]";
+            let tables = found.get_ref().as_array().ok_or_else(|| top.wrong("collision", found, what))?;
+            cell.collisions = tables.iter().map(|table| collision(source, table)).collect::<Result<_, _>>()?;
         }
         Ok(cell)
     }
@@ -130,12 +153,32 @@ fn analog(io: &Section<'_>, key: &str) -> Result<Option<Vec<AnalogType>>, Settin
     types.collect::<Result<_, _>>().map(Some)
 }
 
-fn positions(home: &Section<'_>, key: &str) -> Result<Option<Vec<f64>>, SettingsError> {
-    const WHAT: &str = "axis positions in deg, like [0, -90, 90, 0, 0, 0]";
-    let Some(value) = home.find(key) else { return Ok(None) };
-    let array = value.get_ref().as_array().ok_or_else(|| home.wrong(key, value, WHAT))?;
-    let items = array.iter().map(|item| number(item.get_ref()).ok_or_else(|| home.wrong(key, item, WHAT)));
+const POSITIONS: &str = "axis positions in deg, like [0, -90, 90, 0, 0, 0]";
+const TORQUES: &str = "a torque above 0 in Nm for each axis, like [60, 60, 40, 15, 15, 10]";
+
+fn numbers(section: &Section<'_>, key: &str, what: &str) -> Result<Option<Vec<f64>>, SettingsError> {
+    let Some(value) = section.find(key) else { return Ok(None) };
+    let array = value.get_ref().as_array().ok_or_else(|| section.wrong(key, value, what))?;
+    let items = array.iter().map(|item| number(item.get_ref()).ok_or_else(|| section.wrong(key, item, what)));
     items.collect::<Result<_, _>>().map(Some)
+}
+
+fn collision(source: Source<'_>, value: &Value<'_>) -> Result<(u8, Sensitivity), SettingsError> {
+    let section = table(source, value, "[[collision]]", COLLISION)?;
+    let cid = section.count("cid", "the number of a condition", 16)?;
+    let cid = cid.ok_or_else(|| source.error(value.span(), "[[collision]] lacks `cid`: a number from 0 to 16"))?;
+    let percent = section.number("percent", "percent", 0.1, 1000.0)?;
+    let sensitivity = match (percent, numbers(&section, "torque", TORQUES)?) {
+        (Some(percent), None) => Sensitivity::Percent(percent),
+        (None, Some(torques)) if torques.iter().all(|torque| *torque > 0.0) => Sensitivity::Torques(torques),
+        (None, Some(_)) => return Err(source.error(value.span(), format!("`torque`: expected {TORQUES}"))),
+        (percent, _) => {
+            let found =
+                if percent.is_some() { "both `percent` and `torque`" } else { "neither `percent` nor `torque`" };
+            return Err(source.error(value.span(), format!("[[collision]] has {found}: expected one of them")));
+        }
+    };
+    Ok((cid as u8, sensitivity))
 }
 
 #[cfg(test)]
@@ -155,7 +198,8 @@ mod tests {
     #[test]
     fn everything_is_read() {
         let text = "[controller]\ncycle = 4\n[io]\ndi = 16\ndo = 8\nai = [\"V\", \"ma\"]\nao = 2\ninternal = 0\n\
-                    [home]\ntolerance = 0.5\nhome3 = [0, 1.5, 2, 3, 4, 5]\n";
+                    [home]\ntolerance = 0.5\nhome3 = [0, 1.5, 2, 3, 4, 5]\n\
+                    [[collision]]\ncid = 2\npercent = 10\n[[collision]]\ncid = 3\ntorque = [1, 2.5]\n";
         let cell = Cell::parse("cell.toml", text).unwrap();
         assert_eq!(cell.rate.micros(), 4000);
         assert_eq!((cell.channels.di, cell.channels.dout, cell.channels.internal), (16, 8, 0));
@@ -163,19 +207,25 @@ mod tests {
         assert_eq!(cell.channels.ao, [AnalogType::Volt; 2]);
         assert_eq!(cell.homes[1].as_deref(), Some(&[0.0, 1.5, 2.0, 3.0, 4.0, 5.0][..]));
         assert_eq!((cell.homes[0].as_ref(), cell.home_tolerance), (None, 0.5));
+        let torques = Sensitivity::Torques(vec![1.0, 2.5]);
+        assert_eq!(cell.collisions, [(2, Sensitivity::Percent(10.0)), (3, torques)]);
     }
 
     #[test]
     fn mistakes_name_line_and_what_was_expected() {
         for (text, line, words) in [
             ("[io]\ndi = 64\ndoo = 3", 3, "did you mean `do`?"),
-            ("\n[inout]\n", 2, "known are: controller, io, home"),
+            ("\n[inout]\n", 2, "known are: controller, io, home, collision"),
             ("[io]\ndi = -1", 2, "expected a number of channels from 0 to 10000, found the number -1"),
             ("[io]\ndi = \"many\"", 2, "found the text \"many\""),
             ("[io]\nai = [\"V\",\n \"A\"]", 3, "expected \"V\" or \"mA\""),
             ("[controller]\ncycle = 0", 2, "the control cycle in ms from 0.1 to 100"),
             ("[home]\nhome2 = 3", 2, "expected axis positions"),
             ("[home]\nhome2 = [0,", 2, "this is not TOML"),
+            ("[[collision]]\npercent = 20", 1, "lacks `cid`"),
+            ("[[collision]]\ncid = 1", 1, "neither `percent` nor `torque`"),
+            ("[[collision]]\ncid = 17\npercent = 20", 2, "the number of a condition from 0 to 16"),
+            ("[[collision]]\ncid = 1\ntorque = [1, 0]", 1, "a torque above 0 in Nm for each axis"),
             ("io = 3", 1, "expected the table [io], found the number 3"),
         ] {
             let error = Cell::parse("cell.toml", text).unwrap_err();

@@ -25,6 +25,8 @@ pub struct Cx {
     budget: Cell<u32>,
     /// The address below which the stack must not grow.
     stack_floor: Cell<usize>,
+    /// The program's own file.
+    program: File,
     file: Cell<File>,
     line: Cell<u32>,
     /// Where `print` sends its messages until it is told otherwise.
@@ -41,6 +43,7 @@ impl Cx {
             world,
             budget: Cell::new(BUDGET),
             stack_floor: Cell::new(0),
+            program: file,
             file: Cell::new(file),
             line: Cell::new(0),
             print_to: Cell::default(),
@@ -129,6 +132,11 @@ impl Cx {
         self.print_file.take();
         self.moved.set(false);
         self.line.set(0);
+    }
+
+    /// The program's own file.
+    pub(crate) fn program(&self) -> File {
+        self.program
     }
 
     /// Whether the program has moved the robot yet.

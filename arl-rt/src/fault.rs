@@ -71,6 +71,15 @@ pub enum Fault {
     Channel(Box<str>),
     /// A motion that cannot be planned or run.
     Motion(Box<str>),
+    /// The robot met something that it did not expect.
+    Collision(Box<str>),
+    /// Torques or forces of a robot whose file has no masses.
+    NoMasses {
+        /// The function or instruction.
+        function: &'static str,
+        /// The robot.
+        robot: Box<str>,
+    },
     /// A `_data.arl` file that cannot be read back.
     Data(Box<str>),
     /// Anything else that has a number of its own.
@@ -99,6 +108,8 @@ impl Fault {
             Fault::File { .. } => 20009,
             Fault::Channel(_) => 20010,
             Fault::Motion(_) => 20020,
+            Fault::Collision(_) => 20021,
+            Fault::NoMasses { .. } => 20022,
             Fault::Data(_) => 20030,
             Fault::Other { number, .. } => *number,
         }
@@ -125,7 +136,14 @@ impl fmt::Display for Fault {
             Fault::NoSuchLine { line, count } => {
                 write!(f, "line {line} was asked for, but the file has {count} lines")
             }
-            Fault::Channel(text) | Fault::Motion(text) | Fault::Data(text) => write!(f, "{text}"),
+            Fault::Channel(text) | Fault::Motion(text) | Fault::Collision(text) | Fault::Data(text) => {
+                write!(f, "{text}")
+            }
+            Fault::NoMasses { function, robot } => write!(
+                f,
+                "{function}: the file of robot {robot} gives no masses, so that torques and forces are not known; it needs a \
+                 [[link]] for each axis"
+            ),
             Fault::Other { text, .. } => write!(f, "{text}"),
         }
     }

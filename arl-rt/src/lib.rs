@@ -6,6 +6,7 @@
 pub mod bits;
 pub mod calibration;
 pub mod cell;
+pub mod channel;
 pub mod clock;
 pub mod clock_source;
 pub mod controller;
@@ -14,6 +15,7 @@ pub mod cx;
 pub mod data;
 pub mod dynamics;
 pub mod emit;
+pub mod event;
 pub mod fault;
 pub mod files;
 pub mod flow;

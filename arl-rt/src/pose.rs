@@ -67,7 +67,8 @@ pub fn getjoint(cx: &Cx, p: Pose, t: Tool, w: &Wobj) -> Result<Joint, Fault> {
     Ok(joint)
 }
 
-fn pose(cx: &Cx, unit: &Unit, axes: &Axes, external: &Joint, t: Tool, w: &Wobj) -> Pose {
+/// The pose of the tool in the workpiece frame for axes of the robot, with these external axes.
+pub(crate) fn pose(cx: &Cx, unit: &Unit, axes: &Axes, external: &Joint, t: Tool, w: &Wobj) -> Pose {
     let kinematics = &unit.robot().kinematics;
     let [x, y, z, a, b, c] = frame_components(&setting(cx, &t, w).pose_of(&kinematics.forward(axes))).map(tidy);
     let cfg = i32::from(kinematics.cfg(axes));
@@ -76,7 +77,7 @@ fn pose(cx: &Cx, unit: &Unit, axes: &Axes, external: &Joint, t: Tool, w: &Wobj) 
 }
 
 /// The frames between poses and the flange; `$TOOL_OFFSET` and `$WOBJ_OFFSET` are the motions' alone.
-fn setting(cx: &Cx, tool: &Tool, wobj: &Wobj) -> Setting {
+pub(crate) fn setting(cx: &Cx, tool: &Tool, wobj: &Wobj) -> Setting {
     let base = cx.system().base.with(|base| base.first().map_or_else(Default::default, |base| base.w_frame));
     Setting::new(tool, wobj, &base)
 }

@@ -1,9 +1,14 @@
 //! The border to the robot: set-points out, feedback in, once a cycle.
 
 use crate::motion::Joints;
+use crate::robot::ROBOT_AXES;
 
-/// The time constant of the simulated robot's following error, in s.
-const LAG: f64 = 0.004;
+/// How long the simulated robot's set-points take to be followed, in s.
+const LAG: f64 = 0.008;
+/// The same in cycles, at least and at most: there is always some lag.
+const CYCLES: (f64, f64) = (2.0, KEPT as f64);
+/// How many set-points the simulated robot keeps.
+const KEPT: usize = 8;
 
 /// How near feedback must be to its set-point to count as settled, in deg (mm).
 pub const SETTLED: f64 = 0.001;
@@ -15,12 +20,23 @@ pub trait RobotDriver {
 
     /// Takes the set-point of a cycle of `period` seconds, in deg (mm); says where the robot is.
     fn exchange(&mut self, setpoint: &Joints, period: f64) -> Joints;
+
+    /// The torques (Nm; N of linear axes) that the motors of the robot's own axes gave at the axes in the last
+    /// [`exchange`](RobotDriver::exchange). `None`: the robot does not measure them; then the controller takes what its
+    /// model asks for the motion that the robot reports, and what a scenario does to the robot.
+    fn torques(&self) -> Option<[f64; ROBOT_AXES]> {
+        None
+    }
 }
 
-/// A robot that follows its set-point with a small lag of first order, and stands still exactly on it.
+/// A robot that follows its set-point with a lag: it is where the mean of its last set-points is, those of 8 ms and at
+/// least two. So it moves no more jerkily than it is told to, half of that time late, and stands exactly on its set-point
+/// when that has rested for as long.
 #[derive(Clone, Debug, Default)]
 pub struct SimulatedRobot {
-    position: Option<Joints>,
+    last: Option<[Joints; KEPT]>,
+    /// Which of `last` is the oldest.
+    oldest: usize,
 }
 
 impl SimulatedRobot {
@@ -32,20 +48,31 @@ impl SimulatedRobot {
 
 impl RobotDriver for SimulatedRobot {
     fn start(&mut self, home: &Joints) -> Joints {
-        *self.position.get_or_insert(*home)
+        let [position, ..] = self.last.get_or_insert([*home; KEPT]);
+        *position
     }
 
     fn exchange(&mut self, setpoint: &Joints, period: f64) -> Joints {
-        let share = 1.0 - (-period / LAG).exp();
-        let position = self.position.get_or_insert(*setpoint);
-        let axes = position.axes.iter_mut().zip(&setpoint.axes);
-        let external = position.external.iter_mut().zip(&setpoint.external);
-        for (position, setpoint) in axes.chain(external) {
-            let error = setpoint - *position;
-            // Within the tolerance it is there: an encoder does not tell the difference.
-            *position = if error.abs() <= SETTLED { *setpoint } else { *position + error * share };
+        let (least, most) = CYCLES;
+        let count = (LAG / period).round().clamp(least, most);
+        let last = self.last.get_or_insert([*setpoint; KEPT]);
+        if self.oldest >= count as usize {
+            self.oldest = 0;
         }
-        *position
+        if let Some(oldest) = last.get_mut(self.oldest) {
+            *oldest = *setpoint;
+        }
+        self.oldest += 1;
+        // Seen from the set-point, so that no rounding is left when all are the same.
+        let mut position = *setpoint;
+        for old in last.iter().take(count as usize) {
+            let axes = position.axes.iter_mut().zip(&old.axes).zip(&setpoint.axes);
+            let external = position.external.iter_mut().zip(&old.external).zip(&setpoint.external);
+            for ((position, old), setpoint) in axes.chain(external) {
+                *position += (old - setpoint) / count;
+            }
+        }
+        position
     }
 }
 
@@ -71,6 +98,23 @@ mod tests {
         assert!(first.axes[0] > home.axes[0] && first.axes[0] < home.axes[0] + 0.5, "it lags: {first:?}");
         assert!(!settled(&target, &first));
         let cycles = (0..100).position(|_| robot.exchange(&target, 0.001) == target).unwrap();
-        assert!((10..60).contains(&cycles), "{cycles}");
+        assert_eq!(cycles + 2, 8);
+    }
+
+    #[test]
+    fn an_even_motion_is_followed_evenly_and_some_cycles_late() {
+        let home = Joints::home(&Robot::builtin("kr10-r1420").unwrap());
+        for (period, late) in [(0.001, 3.5), (0.004, 0.5), (0.02, 0.5)] {
+            let mut robot = SimulatedRobot::new();
+            robot.start(&home);
+            for cycle in 1..50 {
+                let mut target = home;
+                target.axes[1] += 0.25 * f64::from(cycle);
+                let found = robot.exchange(&target, period);
+                if cycle > 8 {
+                    assert!((found.axes[1] - (target.axes[1] - 0.25 * late)).abs() < 1e-9, "{period} {found:?}");
+                }
+            }
+        }
     }
 }

@@ -1,13 +1,35 @@
 //! A mechanical unit: the robot with its planned motion and its driver.
 
+mod effort;
+mod moving;
+
+use std::collections::VecDeque;
 use std::sync::Arc;
 
+use crate::cell::Sensitivity;
+use crate::dynamics::{Dynamics, Load};
 use crate::fault::{Alarm, Fault, File};
-use crate::kinematics::{Frame, frame_components};
+use crate::frames::Rig;
+use crate::kinematics::{Axes, Frame, frame_components};
 use crate::motion::{Command, Joints, MotionRecord, PlanError, Progress, Queue, Recorder, Settings, Stop};
 use crate::robot::Robot;
 use crate::robot_driver::{RobotDriver, settled};
 use crate::values::Joint;
+use effort::Effort;
+pub(crate) use effort::{Collision, Outside, SENSITIVITY};
+pub(crate) use moving::Moving;
+
+/// For how many cycles a robot that never stands quite where it shall must be near enough to count as settled.
+const SETTLING: u32 = 8;
+
+/// What changes with a motion.
+#[derive(Clone, Debug)]
+enum Change {
+    /// What the flange carries.
+    Load(Load),
+    /// By how much the axes may differ from the model; `None`: collisions are not looked for.
+    Detect(Option<Axes>),
+}
 
 /// The robot with its planned motion and its driver.
 pub(crate) struct Unit {
@@ -16,19 +38,30 @@ pub(crate) struct Unit {
     /// What `velset` and the mode say.
     pub(crate) settings: Settings,
     override_percent: f64,
-    setpoint: Joints,
-    feedback: Joints,
+    commanded: Moving,
+    reported: Moving,
+    effort: Effort,
+    /// What changes with motions that are planned: the running number of the first motion it holds for.
+    changes: VecDeque<(u64, Change)>,
     driver: Box<dyn RobotDriver>,
     /// The running number of the motion planned last, and of the one that has ended last.
     planned: u64,
     finished: u64,
     /// The motion of the cycle before: its line and its running number.
     executing: (u32, u64),
+    /// Where the motion stands that is or was last executed.
+    pointer: Option<(File, u32)>,
+    /// The files of the motions from a running number on, that of the motion executed last first.
+    files: VecDeque<(u64, File)>,
+    /// For how many cycles the robot has been near enough to where it shall stand.
+    settled: u32,
     /// The TCP in the world.
     tcp: Frame,
     recorder: Option<Box<Recorder>>,
     /// The file of the motion planned last.
     file: File,
+    /// Where the robot stands in the world.
+    base: Frame,
 }
 
 impl Unit {
@@ -37,26 +70,41 @@ impl Unit {
         let robot = Arc::new(robot);
         let queue = Queue::new(Arc::clone(&robot), start);
         let tcp = queue.tcp();
+        let effort = Effort::new(&robot);
         Self {
             robot,
             queue,
             settings: Settings::default(),
             override_percent: 100.0,
-            setpoint: start,
-            feedback: start,
+            commanded: Moving::resting(start),
+            reported: Moving::resting(start),
+            effort,
+            changes: VecDeque::new(),
             driver,
             planned: 0,
             finished: 0,
             executing: (0, 0),
+            pointer: None,
+            files: VecDeque::new(),
+            settled: 0,
             tcp,
             recorder: None,
             file: File::new(""),
+            base: Frame::identity(),
+        }
+    }
+
+    /// Where the robot stands in the world.
+    pub(crate) fn set_base(&mut self, base: Frame) {
+        if base != self.base {
+            self.base = base;
+            self.effort.set_base(&base);
         }
     }
 
     /// From now on keeps records of all motions.
     pub(crate) fn record(&mut self) {
-        self.recorder = Some(Box::new(Recorder::new(Arc::clone(&self.robot), &self.setpoint)));
+        self.recorder = Some(Box::new(Recorder::new(Arc::clone(&self.robot), &self.commanded.at)));
     }
 
     /// The records of all motions; none unless they are kept.
@@ -79,12 +127,79 @@ impl Unit {
 
     /// The axes as the robot reports them.
     pub(crate) fn feedback(&self) -> &Joints {
-        &self.feedback
+        &self.reported.at
     }
 
     /// The axes as they are commanded.
     pub(crate) fn setpoint(&self) -> &Joints {
-        &self.setpoint
+        &self.commanded.at
+    }
+
+    /// How the axes move: as commanded, or as the robot reports it.
+    pub(crate) fn moving(&self, commanded: bool) -> &Moving {
+        if commanded { &self.commanded } else { &self.reported }
+    }
+
+    /// Where the motion ends that is being executed; without one, where the robot will stand.
+    pub(crate) fn current_target(&self) -> &Joints {
+        self.queue.target()
+    }
+
+    /// The file and line of the motion that is being executed, or that was last.
+    pub(crate) fn motion_pointer(&self) -> Option<(File, u32)> {
+        self.pointer
+    }
+
+    /// The robot's masses; `None`: its file has none.
+    pub(crate) fn model(&self) -> Option<&Dynamics> {
+        self.effort.model()
+    }
+
+    /// The torques (Nm, N) of the robot's axes, as the motion is commanded, or as they are measured. `None`: the robot
+    /// file has no masses.
+    pub(crate) fn torques(&self, commanded: bool) -> Option<Axes> {
+        let mut torques = self.effort.asked(self.moving(commanded))?;
+        if !commanded {
+            torques.iter_mut().zip(self.surplus()?).for_each(|(torque, surplus)| *torque += surplus);
+        }
+        Some(torques)
+    }
+
+    /// What the axes give more than the model asks for (Nm, N). `None`: the robot file has no masses.
+    pub(crate) fn surplus(&self) -> Option<Axes> {
+        self.effort.surplus(&self.reported, &self.robot, &self.rig())
+    }
+
+    fn rig(&self) -> Rig {
+        Rig { base: self.base, ..*self.queue.rig() }
+    }
+
+    /// What pushes the robot.
+    pub(crate) fn outside_mut(&mut self) -> &mut Outside {
+        self.effort.outside_mut()
+    }
+
+    /// Says what the flange carries during the motions that follow.
+    pub(crate) fn set_load(&mut self, load: Load) {
+        self.change(Change::Load(load));
+    }
+
+    /// Looks for collisions during the motions that follow, or no longer does. Returns whether it can: whether the robot
+    /// file has masses.
+    pub(crate) fn detect(&mut self, sensitivity: Option<&Sensitivity>) -> bool {
+        let allowed = sensitivity.map(|sensitivity| self.effort.allowed(&self.robot, sensitivity));
+        let able = allowed != Some(None);
+        if able {
+            self.change(Change::Detect(allowed.flatten()));
+        }
+        able
+    }
+
+    /// The collision of this cycle, if there was one. It is told once: detection is off then.
+    pub(crate) fn take_collision(&mut self) -> Option<Collision> {
+        let found = self.effort.collision(&self.reported, &self.robot, &self.rig())?;
+        self.effort.detect(None);
+        Some(found)
     }
 
     /// Where the robot will stand when all planned motion has ended.
@@ -115,7 +230,7 @@ impl Unit {
     /// Whether the robot stands at these positions.
     pub(crate) fn is_at(&self, positions: &[f64], tolerance: f64) -> bool {
         let (own, external) = (self.robot.own_axes().len(), self.robot.external_axes().len());
-        let axes = self.feedback.axes.iter().take(own).chain(self.feedback.external.iter().take(external));
+        let axes = self.reported.at.axes.iter().take(own).chain(self.reported.at.external.iter().take(external));
         axes.zip(positions).all(|(axis, position)| (axis - position).abs() <= tolerance)
     }
 
@@ -138,6 +253,9 @@ impl Unit {
         if let Some(recorder) = &mut self.recorder {
             recorder.planned(&self.queue, self.planned, command, settings);
         }
+        if self.files.back().is_none_or(|(_, last)| *last != file) {
+            self.files.push_back((self.planned, file));
+        }
         Ok(())
     }
 
@@ -151,10 +269,30 @@ impl Unit {
         Some(alarm(self.queue.take_broken()?, self.file, (self.file, 0)))
     }
 
-    /// Whether all planned motion has ended and the robot has settled.
+    /// Lets something hold from the motion on that is planned next: at once where there is none before it.
+    fn change(&mut self, change: Change) {
+        self.changes.push_back((self.planned + 1, change));
+        self.change_due();
+    }
+
+    /// Makes the changes of the motion that comes after the last one that has ended.
+    fn change_due(&mut self) {
+        while let Some((from, change)) = self.changes.front()
+            && *from <= self.finished + 1
+        {
+            match change {
+                Change::Load(load) => self.effort.set_load(load),
+                Change::Detect(allowed) => self.effort.detect(*allowed),
+            }
+            self.changes.pop_front();
+        }
+    }
+
+    /// Whether all planned motion has ended and the robot has settled: it stands where it shall, or has been near enough
+    /// for some cycles.
     #[inline]
     pub(crate) fn ended(&self) -> bool {
-        self.queue.idle() && settled(&self.setpoint, &self.feedback)
+        self.queue.idle() && (self.settled >= SETTLING || self.commanded.at == self.reported.at)
     }
 
     /// One interpolation step, and the exchange with the driver.
@@ -163,11 +301,37 @@ impl Unit {
         if let Some(recorder) = &mut self.recorder {
             recorder.step(&step, period);
         }
-        self.setpoint = step.joints;
         self.tcp = step.tcp;
         self.executing = (step.line, step.motion);
         self.finished = step.finished;
-        self.feedback = self.driver.exchange(&self.setpoint, period);
+        self.point_at(step.motion, step.line);
+        if step.motion != 0 {
+            self.set_base(self.queue.rig().base);
+        }
+        self.change_due();
+        self.commanded.go_to(step.joints, period);
+        self.reported.go_to(self.driver.exchange(&step.joints, period), period);
+        self.effort.measured(self.driver.torques());
+        let near = self.queue.idle() && settled(&self.commanded.at, &self.reported.at);
+        self.settled = if near { self.settled.saturating_add(1) } else { 0 };
+    }
+
+    /// Sets the motion pointer to the motion that was executed, if there was one.
+    fn point_at(&mut self, motion: u64, line: u32) {
+        while self.files.get(1).is_some_and(|(from, _)| *from <= motion) {
+            self.files.pop_front();
+        }
+        if let Some((_, file)) = self.files.front()
+            && motion != 0
+        {
+            self.pointer = Some((*file, line));
+        }
+    }
+
+    /// Comes to rest on the path as fast as it can, and forgets what was planned.
+    pub(crate) fn stop_fast(&mut self) {
+        self.queue.stop_on_path(Stop::Fast);
+        self.stop();
     }
 
     /// Comes to rest on the path, and forgets what was planned.
@@ -179,6 +343,10 @@ impl Unit {
     /// Lets motion be planned again after [`Unit::stop`], at rest.
     pub(crate) fn reset(&mut self) {
         self.queue.resume();
+        self.changes.clear();
+        self.files.clear();
+        self.effort.set_load(&Load::none());
+        self.effort.detect(None);
         self.settings = Settings { manual: self.settings.manual, ..Settings::default() };
     }
 }

@@ -3,7 +3,8 @@
 use std::cell::{Cell, RefCell};
 use std::fmt;
 
-use crate::fault::Alarm;
+use crate::cell::Sensitivity;
+use crate::fault::{Alarm, Fault, File};
 use crate::files::ScriptDir;
 use crate::io::Image;
 use crate::output::{Message, Output};
@@ -12,7 +13,7 @@ use crate::rate::Rate;
 use crate::robot::VelocityProfile;
 use crate::state::State;
 use crate::system::{self, System};
-use crate::unit::{Unit, joint};
+use crate::unit::{Collision, SENSITIVITY, Unit, joint};
 use crate::values::VelProfile;
 
 /// What the controller and its programs share. Borrows of the cells end within the call that makes them.
@@ -42,6 +43,8 @@ pub(crate) struct World {
     /// Home points 1 to 5.
     homes: [Option<Vec<f64>>; 5],
     home_tolerance: f64,
+    /// The conditions of `startdetect` that the cell gives.
+    collisions: Vec<(u8, Sensitivity)>,
 }
 
 /// What a world is made of.
@@ -58,6 +61,7 @@ pub(crate) struct Parts {
     /// Home points 2 to 5.
     pub(crate) homes: [Option<Vec<f64>>; 4],
     pub(crate) home_tolerance: f64,
+    pub(crate) collisions: Vec<(u8, Sensitivity)>,
 }
 
 impl World {
@@ -67,6 +71,7 @@ impl World {
         Self {
             homes,
             home_tolerance: parts.home_tolerance,
+            collisions: parts.collisions,
             state: RefCell::new(parts.state),
             now: Cell::new(0),
             rate: parts.rate,
@@ -115,14 +120,41 @@ impl World {
         self.unit.borrow_mut().stop();
     }
 
+    /// The sensitivity of a condition of `startdetect`.
+    pub(crate) fn sensitivity(&self, cid: u8) -> Sensitivity {
+        let given = self.collisions.iter().rev().find(|(known, _)| *known == cid);
+        given.map_or(Sensitivity::Percent(SENSITIVITY), |(_, sensitivity)| sensitivity.clone())
+    }
+
+    /// The collision of this cycle, if there was one, as the alarm of the motion that met it. The robot is told to stop.
+    pub(crate) fn collision(&self, program: File) -> Option<Alarm> {
+        let mut unit = self.unit.borrow_mut();
+        let Collision { axis, surplus, allowed } = unit.take_collision()?;
+        unit.stop_fast();
+        let (file, line) = unit.motion_pointer().unwrap_or((program, 0));
+        let (name, measure) = match unit.robot().own_axes().get(axis) {
+            Some(axis) => (axis.name.as_str(), if axis.linear { "N" } else { "Nm" }),
+            None => ("an axis", "Nm"),
+        };
+        let more = if surplus > 0.0 { "more" } else { "less" };
+        let text = format!(
+            "collision: {name} gives {:.1} {measure} {more} than the motion and the load ask for, {allowed:.1} {measure} \
+             are allowed",
+            surplus.abs()
+        );
+        Some(Alarm { fault: Fault::Collision(text.into()), file, line })
+    }
+
     /// Brings the variables up to date that tell where the robot is.
     pub(crate) fn update_system(&self, unit: &Unit) {
-        let progress = unit.progress();
         let system = &self.system;
-        system.traj_elapse_time.set(progress.map_or(0.0, |progress| progress.elapsed_time));
-        system.traj_left_time.set(progress.map_or(0.0, |progress| progress.left_time));
-        system.traj_elapse_dis.set(progress.map_or(0.0, |progress| progress.elapsed_distance));
-        system.traj_left_dis.set(progress.map_or(0.0, |progress| progress.left_distance));
+        // Outside a motion they keep what the last one left.
+        if let Some(progress) = unit.progress() {
+            system.traj_elapse_time.set(progress.elapsed_time);
+            system.traj_left_time.set(progress.left_time);
+            system.traj_elapse_dis.set(progress.elapsed_distance);
+            system.traj_left_dis.set(progress.left_distance);
+        }
         system.at_home.update(|at_home| {
             for (at, home) in at_home.iter_mut().zip(&self.homes) {
                 *at = home.as_ref().is_some_and(|home| unit.is_at(home, self.home_tolerance));

@@ -20,12 +20,14 @@ fn the_counter_counts() {
 #[test]
 fn cycles_without_statements_allocate_nothing() {
     let scenario = "[[event]]\nwhen = \"do.1\"\nafter = 0.01\ndi.1 = true\n[[event]]\nwhen = \"!do.1\"\ndi.1 = false\n\
-                    [[event]]\nat = 0.3\nai.1 = 2.5\noverride = 50\n";
+                    [[event]]\nat = 0.3\nai.1 = 2.5\noverride = 50\nforce = [0, 0, 1]\ntorque.j2 = 0.1\n";
     let builder = Controller::builder().record_motions().scenario(Scenario::parse("s.toml", scenario).unwrap());
     let builder = builder.trace(std::io::sink());
     let (mut controller, _) = controller(builder, |cx| {
         Box::pin(async move {
+            motion::startdetect(1).run(cx).at(FILE, 1)?;
             motion::movej(bent(60.0)).vp(100.0).run(cx).await.at(FILE, 1)?;
+            motion::toolload(ToolInertiaPara { m: 500.0, ..Default::default() }).run(cx).at(FILE, 2)?;
             motion::movej(bent(-60.0)).vp(100.0).run(cx).await.at(FILE, 2)?;
             let there = cx.system().flange.get();
             let pose = pose::getpose(cx, bent(-60.0), there, &cx.system().world.get()).at(FILE, 3)?;

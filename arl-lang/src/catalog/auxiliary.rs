@@ -38,21 +38,21 @@ entries! { pub(super) AUXILIARY =
         { "3.5.5", motion::accset, acts, fails, foreground; "accset 50,100" }
     /// Tells the controller which load the robot carries.
     instr toolload(toolinertia: tool_inertia_para "the load")
-        { "3.5.6", motion::toolload, acts, fails, foreground, notyet;
+        { "3.5.6", motion::toolload, acts, fails, foreground;
           "ToolInertiaPara load = {30,{15,25,100},{10,20,30,40,50,60}}\ntoolload load\ntoolload $TOOL_INERTIA[3]" }
     /// Takes a load of $TOOL_INERTIA by its index.
     instr toolswitch(
         toolindex: int "the index",
         mu: string [optional, alias(&["mu_name"])] "name of the mechanical unit; the channel's own without it",
     )
-        { "3.5.7", motion::toolswitch, acts, fails, foreground, notyet; "toolswitch toolindex:2" }
+        { "3.5.7", motion::toolswitch, acts, fails, foreground; "toolswitch toolindex:2" }
     /// Switches collision detection on.
     instr startdetect(
         cid: int [range(0.0, 16.0)] "number of the conditions: 0 for jogging, 1 to 16 for programs",
         mu: string [optional, alias(&["mu_name"])] "name of the mechanical unit; the channel's own without it",
     )
-        { "3.5.8", motion::startdetect, acts, fails, foreground, notyet; "startdetect cid:1,mu:\"R1\"" }
+        { "3.5.8", motion::startdetect, acts, fails, foreground; "startdetect cid:1,mu:\"R1\"" }
     /// Switches collision detection off.
     instr enddetect(mu: string [optional, alias(&["mu_name"])] "name of the mechanical unit; the channel's own without it")
-        { "3.5.9", motion::enddetect, acts, fails, foreground, notyet; "enddetect mu:\"R1\"" }
+        { "3.5.9", motion::enddetect, acts, fails, foreground; "enddetect mu:\"R1\"" }
 }

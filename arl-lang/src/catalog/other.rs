@@ -28,16 +28,16 @@ entries! { pub(super) OTHER =
           "print to:file,filepath:\"notes.txt\",\"first line\",endl\nprint to:hmi,gettextstr(\"notes.txt\",1)" }
     /// Name of the file that the motion being executed stands in.
     fn curmpfile(channel_index: int "the foreground channel, from 1") -> string
-        { "5.12.8", channel::curmpfile, acts, fails, notyet; "print curmpfile(1)" }
+        { "5.12.8", channel::curmpfile, acts, fails; "print curmpfile(1)" }
     /// Line of the motion being executed.
     fn curmpline(channel_index: int "the foreground channel, from 1") -> int
-        { "5.12.9", channel::curmpline, acts, fails, notyet; "print curmpline(1)" }
+        { "5.12.9", channel::curmpline, acts, fails; "print curmpline(1)" }
     /// Name of the file that the program stands in.
     fn curppfile(channel_index: int "the foreground channel, from 1") -> string
-        { "5.12.10", channel::curppfile, acts, fails, notyet; "print curppfile(1)" }
+        { "5.12.10", channel::curppfile, acts, fails; "print curppfile(1)" }
     /// Line that the program stands on.
     fn curppline(channel_index: int "the foreground channel, from 1") -> int
-        { "5.12.11", channel::curppline, acts, fails, notyet; "print curppline(1)" }
+        { "5.12.11", channel::curppline, acts, fails; "print curppline(1)" }
     /// Size of a file in the script directory, bytes. A file that is missing: alarm.
     fn filesize(file_name: string "the file") -> int
         { "5.12.12", files::filesize, waits, fails;

@@ -36,7 +36,9 @@ const WORKS: &str = "\
     exp pow pow10 log log10 sqrt floor ceil frexp ldexp fmod modf hypot rand norm trunc bitclear bitset bitcheck bitlcs \
     bitrcs clkstart clkstop clkreset clkread strlen substr toascii toint todouble tobytes tostr ftobytes tofloat typeof \
     getwobj_3p getwobj_indi getwobj_flange gettooltcp_ref gettoolrot_world gettoolrot_3p gettool_3p getbase_3p \
-    ctime cdate savesv init gettextstr filesize renamefile removefile";
+    ctime cdate savesv init gettextstr filesize renamefile removefile toolload toolswitch startdetect enddetect cjttq cjtci ctcpforce \
+    channeltojoint channeltopose channeljoint channelpose channeljointvel channeltcpvel T S StoEnd P curmpfile curmpline \
+    curppfile curppline";
 
 const RUST_WORDS: &str = "as async await break const continue crate do dyn else enum extern false final fn for gen if \
     impl in let loop macro match mod move mut override priv pub ref return self static struct super trait true try type \

@@ -7,11 +7,12 @@ use std::rc::Rc;
 
 use super::Controller;
 use super::channel::{Channel, STACK};
-use crate::cell::Cell;
+use crate::cell::{Cell, Sensitivity};
 use crate::clock_source::{Clock, VirtualClock};
 use crate::cx::Cx;
 use crate::files::ScriptDir;
 use crate::io::{Image, IoDriver, Playing, Scenario, SimulatedIo};
+use crate::kinematics::frame;
 use crate::output::{Output, Stream};
 use crate::program::Program;
 use crate::random::{self, Random};
@@ -171,22 +172,12 @@ impl Builder {
     ///
     /// # Errors
     /// The parts do not fit each other, or what was kept is damaged.
-    pub fn build(self, program: Box<dyn Program>) -> Result<Controller, SetupError> {
-        let robot = match self.robot {
+    pub fn build(mut self, program: Box<dyn Program>) -> Result<Controller, SetupError> {
+        let robot = match self.robot.take() {
             Some(robot) => robot,
             None => default_robot(program.family())?,
         };
-        if robot.family != program.family() {
-            return Err(SetupError::Family { program: program.family(), robot: robot.name, family: robot.family });
-        }
-        for home in self.cell.homes.iter().flatten() {
-            if home.len() != robot.axes.len() {
-                let (found, name, axes) = (home.len(), &robot.name, robot.axes.len());
-                let text = format!("a home point of the cell has {found} positions; robot {name} has {axes} axes");
-                return Err(SetupError::Cell(text));
-            }
-        }
-        self.scenario.check(&self.cell.channels).map_err(SetupError::Cell)?;
+        self.check(&robot, program.family())?;
         let system = System::new();
         let mut state = State::new(self.storage);
         system::load(&system, &mut state)?;
@@ -199,6 +190,8 @@ impl Builder {
         if self.record {
             unit.record();
         }
+        let base = system.base.with(|base| base.first().map_or_else(Default::default, |base| base.w_frame));
+        unit.set_base(frame(base.components()));
         let image = Image::new(&self.cell.channels);
         let scenario = Playing::new(self.scenario, &image, rate);
         let world = Rc::new(World::new(Parts {
@@ -213,12 +206,39 @@ impl Builder {
             state,
             homes: self.cell.homes,
             home_tolerance: self.cell.home_tolerance,
+            collisions: self.cell.collisions,
         }));
         world.reset_system();
         world.set_override(self.speed_override);
         let cx = Rc::new(Cx::new(Rc::clone(&world), program.file()));
         let channel = Channel::new(Rc::from(program), cx, self.stack);
         Ok(Controller { world, channel, clock: self.clock, io: self.io, scenario, trace })
+    }
+
+    /// Whether the parts fit the robot and a program for this family.
+    fn check(&self, robot: &Robot, program: Family) -> Result<(), SetupError> {
+        if robot.family != program {
+            return Err(SetupError::Family { program, robot: robot.name.clone(), family: robot.family });
+        }
+        for home in self.cell.homes.iter().flatten() {
+            if home.len() != robot.axes.len() {
+                let (found, name, axes) = (home.len(), &robot.name, robot.axes.len());
+                let text = format!("a home point of the cell has {found} positions; robot {name} has {axes} axes");
+                return Err(SetupError::Cell(text));
+            }
+        }
+        for (cid, sensitivity) in &self.cell.collisions {
+            let (own, name) = (robot.own_axes().len(), &robot.name);
+            if let Sensitivity::Torques(torques) = sensitivity
+                && torques.len() != own
+            {
+                let found = torques.len();
+                let text =
+                    format!("collision condition {cid} of the cell has {found} torques; robot {name} has {own} axes");
+                return Err(SetupError::Cell(text));
+            }
+        }
+        self.scenario.check(&self.cell.channels, robot).map_err(SetupError::Cell)
     }
 }
 

@@ -12,7 +12,7 @@ pub use outcome::{Outcome, State};
 
 use crate::clock_source::Clock;
 use crate::fault::{Alarm, Fault, File};
-use crate::io::{Digital, IoDriver, Pendant, Playing};
+use crate::io::{Deed, Digital, IoDriver, Pendant, Playing};
 use crate::motion::{Joints, MotionRecord};
 use crate::robot::Robot;
 use crate::system::System;
@@ -29,7 +29,8 @@ use channel::Channel;
 /// 3. the pendant's buttons count;
 /// 4. the program runs until it waits;
 /// 5. the motion goes one step: set-point to the robot's driver, feedback back, variables like `$TRAJ_LEFT_DIS`;
-/// 6. outputs that waited for a motion change, all outputs are written, messages are passed on;
+/// 6. outputs that waited for a motion change, all outputs are written, a collision stops robot and program, messages are
+///    passed on;
 /// 7. the trace gets its row.
 ///
 /// ```
@@ -94,7 +95,7 @@ impl Controller {
             let mut image = world.io.borrow_mut();
             self.io.read(image.inputs_mut());
             image.end_pulses_of(cycle);
-            self.scenario.play(cycle, &mut image, |word| press(world, word));
+            self.scenario.play(cycle, &mut image, |deed| act(world, deed));
         }
         let running = self.channel.outcome().is_none();
         self.channel.poll(world);
@@ -113,6 +114,9 @@ impl Controller {
             {
                 trace.row(rate.time(cycle), &unit);
             }
+        }
+        if let Some(alarm) = world.collision(self.channel.cx().program()) {
+            self.channel.fail(world, alarm);
         }
         world.flush();
         if running && self.channel.outcome().is_some() {
@@ -305,11 +309,17 @@ impl Controller {
     }
 }
 
-/// A word of the pendant.
-fn press(world: &World, word: Pendant) {
-    match word {
-        Pendant::Start => world.paused.set(false),
-        Pendant::Override(percent) => world.set_override(percent),
+/// Does what a scenario says, inputs aside.
+fn act(world: &World, deed: Deed) {
+    match deed {
+        Deed::Pendant(Pendant::Start) => world.paused.set(false),
+        Deed::Pendant(Pendant::Override(percent)) => world.set_override(percent),
+        Deed::Force(force) => world.unit.borrow_mut().outside_mut().force = force,
+        Deed::Torque(axis, torque) => {
+            if let Some(place) = world.unit.borrow_mut().outside_mut().torques.get_mut(axis) {
+                *place = torque;
+            }
+        }
     }
 }
 

@@ -29,6 +29,13 @@ pub struct Wrench {
     pub torque: Vector3<f64>,
 }
 
+impl Wrench {
+    /// Torque, then force.
+    fn of([tx, ty, tz, x, y, z]: [f64; 6]) -> Self {
+        Self { force: Vector3::new(x, y, z), torque: Vector3::new(tx, ty, tz) }
+    }
+}
+
 /// What a joint does.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Moves {
@@ -208,17 +215,31 @@ impl Dynamics {
     /// `surplus` (Nm, N) more than [`Dynamics::torques`] asks for without anything outside. `None` at a singular point, where
     /// it cannot be told. Of a SCARA, which cannot turn about x and y, those torques are zero.
     pub fn pressing(&self, axes: &Axes, surplus: &Axes, point: &Vector3<f64>) -> Option<Wrench> {
+        if self.kinematics.clearance(axes) < SINGULAR {
+            return None;
+        }
+        let matrix = self.levers(axes, point);
+        let found: [f64; 6] = matrix.transpose().lu().solve(&Vector6::from(*surplus))?.into();
+        Some(Wrench::of(found))
+    }
+
+    /// As [`Dynamics::pressing`], at singular points too: the smallest force and torque that the axes would feel so. What
+    /// they cannot feel there is zero.
+    pub fn felt(&self, axes: &Axes, surplus: &Axes, point: &Vector3<f64>) -> Wrench {
+        let matrix = self.levers(axes, point);
+        let squares = matrix.transpose() * matrix + Matrix6::identity() * DAMPING;
+        let solved = squares.cholesky().map(|squares| squares.solve(&Vector6::from(*surplus)));
+        solved.map_or_else(Wrench::default, |solved| Wrench::of((matrix * solved).into()))
+    }
+
+    /// How far the point turns and moves (rad, m) with each axis (rad, m).
+    fn levers(&self, axes: &Axes, point: &Vector3<f64>) -> Matrix6<f64> {
         let mut matrix = self.metres(self.kinematics.jacobian(axes, point));
         if let Kinematics::Scara(_) = self.kinematics {
             // Two axes that are not there would turn about x and y.
             (matrix[(0, 4)], matrix[(1, 5)]) = (1.0, 1.0);
         }
-        if self.kinematics.clearance(axes) < SINGULAR {
-            return None;
-        }
-        let found: [f64; 6] = matrix.transpose().lu().solve(&Vector6::from(*surplus))?.into();
-        let [tx, ty, tz, x, y, z] = found;
-        Some(Wrench { force: Vector3::new(x, y, z), torque: Vector3::new(tx, ty, tz) })
+        matrix
     }
 
     /// Velocities of the point in m; linear axes per m.
@@ -244,6 +265,8 @@ impl Dynamics {
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 /// Nearer to a singular point than this (see [`Kinematics::clearance`]) forces cannot be told from torques.
 const SINGULAR: f64 = 1e-6;
+/// What keeps the forces finite that the axes hardly feel, in squares of levers (m).
+const DAMPING: f64 = 1e-9;
 
 impl Moves {
     /// A vector of the link before, in the frame of the link that is turned by `turn`, sine and cosine.

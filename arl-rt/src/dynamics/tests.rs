@@ -94,6 +94,16 @@ fn a_force_from_outside_is_held_and_told_again() {
     let dynamics = Dynamics::new(&Robot::builtin("kr10-r1420").unwrap()).unwrap();
     let singular = [0.0, -90.0, 90.0, 0.0, 0.0, 0.0];
     assert_eq!(dynamics.pressing(&singular, &[1.0; 6], &Vector3::zeros()), None);
+    // What is told there makes the axes feel the same.
+    let (outside, point) =
+        (Wrench { force: Vector3::new(10.0, -20.0, 30.0), torque: Vector3::zeros() }, Vector3::new(800.0, 50.0, 900.0));
+    let felt = dynamics.holding(&singular, &outside, &point);
+    let told = dynamics.felt(&singular, &felt, &point);
+    let again = dynamics.holding(&singular, &Wrench { force: -told.force, torque: -told.torque }, &point);
+    assert!(told.force.norm() + told.torque.norm() > 1.0);
+    for (again, felt) in again.iter().zip(felt) {
+        assert!((again - felt).abs() < 1e-4, "{again} {felt}");
+    }
 }
 
 #[test]

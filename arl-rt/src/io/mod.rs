@@ -15,7 +15,7 @@ pub use image::{Image, Inputs, Outputs, Pwm};
 pub use scenario::{Pendant, Scenario};
 
 pub(crate) use image::Digital;
-pub(crate) use scenario::Playing;
+pub(crate) use scenario::{Deed, Playing};
 
 use crate::cx::Cx;
 use crate::fault::Fault;

@@ -11,6 +11,8 @@
 //! ai.2 = 4.2
 //! pendant = "start"
 //! override = 50       # %
+//! force = [0, 0, 80]  # N, what pushes the TCP, in the world; until another event says otherwise
+//! torque.j3 = -20     # Nm (N of a linear axis), what turns an axis
 //! ```
 
 use std::path::Path;
@@ -21,9 +23,10 @@ use toml::de::{DeTable, DeValue};
 use super::bits::Bits;
 use super::{Channels, Digital, Image};
 use crate::rate::Rate;
+use crate::robot::Robot;
 use crate::settings::{Section, SettingsError, Source, Value, hint, kind, number, table};
 
-const EVENT: &[&str] = &["at", "when", "after", "di", "ai", "internal", "pendant", "override"];
+const EVENT: &[&str] = &["at", "when", "after", "di", "ai", "internal", "pendant", "override", "force", "torque"];
 
 /// A word of the teach pendant.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -46,12 +49,23 @@ const WORDS: [(&str, Option<Pendant>); 7] = [
     ("servo_off", None),
 ];
 
+/// What an event does besides setting inputs.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Deed {
+    /// Somebody uses the pendant.
+    Pendant(Pendant),
+    /// A force pushes the TCP: in the world, N.
+    Force([f64; 3]),
+    /// A torque (Nm; N of a linear axis) turns an axis, counted from 0.
+    Torque(usize, f64),
+}
+
 /// What an event does.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Action {
     Digital(Digital, i32, bool),
     Analog(i32, f64),
-    Pendant(Pendant),
+    Deed(Deed),
 }
 
 /// What sets an event off.
@@ -106,8 +120,8 @@ impl Scenario {
         Ok(Scenario { events })
     }
 
-    /// Whether all channels that the scenario names exist.
-    pub(crate) fn check(&self, channels: &Channels) -> Result<(), String> {
+    /// Whether all channels and axes that the scenario names exist, and the masses that it needs.
+    pub(crate) fn check(&self, channels: &Channels, robot: &Robot) -> Result<(), String> {
         let mut image = Image::new(channels);
         for event in &self.events {
             if let Cause::Edge { output, channel, level: _ } = event.cause {
@@ -120,12 +134,30 @@ impl Scenario {
                 let done = match *action {
                     Action::Digital(what, channel, level) => image.set_digital(what, channel, level),
                     Action::Analog(channel, value) => image.set_analog(false, channel, value),
-                    Action::Pendant(_) => Ok(()),
+                    Action::Deed(deed) => {
+                        moves(robot, deed)?;
+                        Ok(())
+                    }
                 };
                 done.map_err(|fault| format!("the scenario sets an input that is not there: {fault}"))?;
             }
         }
         Ok(())
+    }
+}
+
+/// Whether a deed can be done to the robot.
+fn moves(robot: &Robot, deed: Deed) -> Result<(), String> {
+    let own = robot.own_axes().len();
+    match deed {
+        Deed::Pendant(_) => Ok(()),
+        Deed::Torque(axis, _) if axis >= own => {
+            Err(format!("the scenario turns j{}, but robot {} has j1 to j{own}", axis + 1, robot.name))
+        }
+        Deed::Force(_) | Deed::Torque(..) if robot.links.is_empty() => {
+            Err(format!("the scenario pushes the robot, but the file of robot {} has no [[link]]", robot.name))
+        }
+        Deed::Force(_) | Deed::Torque(..) => Ok(()),
     }
 }
 
@@ -159,11 +191,13 @@ fn event(source: Source<'_>, value: &Value<'_>) -> Result<Event, SettingsError> 
                 &mut actions,
             )?,
             "ai" => analogs(source, value, &mut actions)?,
-            "pendant" => actions.push(Action::Pendant(pendant(&event, source, value)?)),
+            "pendant" => actions.push(Action::Deed(Deed::Pendant(pendant(&event, source, value)?))),
             "override" => {
                 let percent = event.number(key, "percent", 0.0, 100.0)?.unwrap_or(100.0);
-                actions.push(Action::Pendant(Pendant::Override(percent)));
+                actions.push(Action::Deed(Deed::Pendant(Pendant::Override(percent))));
             }
+            "force" => actions.push(Action::Deed(force(&event, value)?)),
+            "torque" => torques(source, value, &mut actions)?,
             "after" if matches!(cause, Cause::At(_)) => {
                 return Err(source.error(span, "`after` counts from `when`; with `at`, add the seconds there"));
             }
@@ -171,7 +205,8 @@ fn event(source: Source<'_>, value: &Value<'_>) -> Result<Event, SettingsError> 
         }
     }
     if actions.is_empty() {
-        let message = "[[event]] changes nothing: expected `di.N`, `ai.N`, `internal.N`, `pendant` or `override`";
+        let message = "[[event]] changes nothing: expected `di.N`, `ai.N`, `internal.N`, `pendant`, `override`, \
+                       `force` or `torque.jN`";
         return Err(source.error(value.span(), message));
     }
     Ok(Event { cause, after: after.unwrap_or(0.0), actions })
@@ -243,6 +278,29 @@ fn analogs(source: Source<'_>, value: &Value<'_>, actions: &mut Vec<Action>) -> 
     Ok(())
 }
 
+/// A force on the TCP.
+fn force(event: &Section<'_>, value: &Value<'_>) -> Result<Deed, SettingsError> {
+    let wrong = || event.wrong("force", value, "three components in N, like [0, 0, 80]");
+    let components = value.get_ref().as_array().ok_or_else(wrong)?;
+    let components: Option<Vec<f64>> = components.iter().map(|component| number(component.get_ref())).collect();
+    let force = components.and_then(|components| <[f64; 3]>::try_from(components).ok());
+    force.map(Deed::Force).ok_or_else(wrong)
+}
+
+/// Torques on axes.
+fn torques(source: Source<'_>, value: &Value<'_>, actions: &mut Vec<Action>) -> Result<(), SettingsError> {
+    let axes = table(source, value, "torque", &["j1", "j2", "j3", "j4", "j5", "j6"])?;
+    for (key, span, value) in axes.entries() {
+        let axis = key.trim_start_matches('j').parse::<usize>().unwrap_or(1) - 1;
+        let torque = number(value.get_ref()).ok_or_else(|| {
+            let found = kind(value.get_ref());
+            source.error(span, format!("`torque.{key}`: expected a torque in Nm, found {found}"))
+        })?;
+        actions.push(Action::Deed(Deed::Torque(axis, torque)));
+    }
+    Ok(())
+}
+
 fn pendant(event: &Section<'_>, source: Source<'_>, value: &Value<'_>) -> Result<Pendant, SettingsError> {
     let word = event.text("pendant", "a word of the teach pendant")?.unwrap_or_default();
     match WORDS.iter().find(|(known, _)| known.eq_ignore_ascii_case(word)) {
@@ -280,8 +338,8 @@ impl Playing {
         Self { events, rate, due, before_in: image.inputs().clone(), before_out: image.outputs().clone() }
     }
 
-    /// Sets what is due at the start of `cycle`; hands the pendant's words to `pendant`.
-    pub(crate) fn play(&mut self, cycle: u64, image: &mut Image, mut pendant: impl FnMut(Pendant)) {
+    /// Sets what is due at the start of `cycle`; hands everything but inputs to `do_it`.
+    pub(crate) fn play(&mut self, cycle: u64, image: &mut Image, mut do_it: impl FnMut(Deed)) {
         if self.events.is_empty() {
             return;
         }
@@ -295,8 +353,8 @@ impl Playing {
                 let _ = match *action {
                     Action::Digital(what, channel, level) => image.set_digital(what, channel, level),
                     Action::Analog(channel, value) => image.set_analog(false, channel, value),
-                    Action::Pendant(word) => {
-                        pendant(word);
+                    Action::Deed(deed) => {
+                        do_it(deed);
                         Ok(())
                     }
                 };
@@ -331,17 +389,17 @@ fn insert(due: &mut Vec<(u64, usize)>, cycle: u64, event: usize) {
 mod tests {
     use super::*;
 
-    fn play(text: &str, cycles: u64, mut each: impl FnMut(u64, &mut Image)) -> Vec<Pendant> {
+    fn play(text: &str, cycles: u64, mut each: impl FnMut(u64, &mut Image)) -> Vec<Deed> {
         let scenario = Scenario::parse("io.toml", text).unwrap();
-        scenario.check(&Channels::default()).unwrap();
+        scenario.check(&Channels::default(), &Robot::builtin("kr10-r1420").unwrap()).unwrap();
         let mut image = Image::new(&Channels::default());
         let mut playing = Playing::new(scenario, &image, Rate::default());
-        let mut words = Vec::new();
+        let mut deeds = Vec::new();
         for cycle in 0..cycles {
-            playing.play(cycle, &mut image, |word| words.push(word));
+            playing.play(cycle, &mut image, |deed| deeds.push(deed));
             each(cycle, &mut image);
         }
-        words
+        deeds
     }
 
     #[test]
@@ -373,7 +431,7 @@ mod tests {
     #[test]
     fn the_pendant_speaks() {
         let text = "[[event]]\nat = 0\npendant = \"start\"\noverride = 50\n";
-        assert_eq!(play(text, 1, |_, _| {}), [Pendant::Start, Pendant::Override(50.0)]);
+        assert_eq!(play(text, 1, |_, _| {}), [Pendant::Start, Pendant::Override(50.0)].map(Deed::Pendant));
     }
 
     #[test]
@@ -391,6 +449,11 @@ mod tests {
             ("[[event]]\nat = 1\npendant = \"strat\"", 3, "did you mean `start`?"),
             ("[[event]]\nat = 1\npendant = \"servo_on\"", 3, "not supported yet"),
             ("[[event]]\nat = 1\noverride = 101", 3, "expected percent from 0 to 100"),
+            ("[[event]]\nat = 1\nforce = [1, 2]", 3, "three components in N"),
+            ("[[event]]\nat = 1\nforce = 80", 3, "three components in N"),
+            ("[[event]]\nat = 1\ntorque.j7 = 80", 3, "did you mean `j1`?"),
+            ("[[event]]\nat = 1\ntorque.j3 = \"much\"", 3, "`torque.j3`: expected a torque in Nm"),
+            ("[[event]]\nat = 1\ntorque = 3", 3, "expected the table torque"),
             ("[[events]]\nat = 1", 1, "did you mean `event`?"),
             ("event = 3", 1, "[[event]]"),
             ("[[event]\n", 1, "not TOML"),
@@ -402,6 +465,24 @@ mod tests {
     }
 
     #[test]
+    fn forces_and_torques_are_told_in_order() {
+        let text = "[[event]]\nat = 0\ntorque.j3 = -20.5\nforce = [1, 2.5, -3]\ntorque.j1 = 7\n";
+        let deeds = [Deed::Torque(2, -20.5), Deed::Torque(0, 7.0), Deed::Force([1.0, 2.5, -3.0])];
+        assert_eq!(play(text, 1, |_, _| {}), deeds);
+    }
+
+    #[test]
+    fn axes_and_masses_must_exist() {
+        let scenario = Scenario::parse("io.toml", "[[event]]\nat = 1\ntorque.j5 = 1").unwrap();
+        let scara = Robot::builtin("hsr065").unwrap();
+        let error = scenario.check(&Channels::default(), &scara).unwrap_err();
+        assert!(error.contains("turns j5, but robot hsr065 has j1 to j4"), "{error}");
+        let robot = Robot { links: Vec::new(), ..Robot::builtin("kr10-r1420").unwrap() };
+        let error = scenario.check(&Channels::default(), &robot).unwrap_err();
+        assert!(error.contains("has no [[link]]"), "{error}");
+    }
+
+    #[test]
     fn channels_must_exist() {
         for (text, words) in [
             ("[[event]]\nat = 1\ndi.65 = true", "DI 65 does not exist"),
@@ -409,7 +490,7 @@ mod tests {
             ("[[event]]\nwhen = \"do.65\"\ndi.1 = true", "do.65, but there are 64"),
         ] {
             let scenario = Scenario::parse("io.toml", text).unwrap();
-            let error = scenario.check(&Channels::default()).unwrap_err();
+            let error = scenario.check(&Channels::default(), &Robot::builtin("kr10-r1420").unwrap()).unwrap_err();
             assert!(error.contains(words), "{error}");
         }
     }

@@ -37,9 +37,9 @@ pub(super) struct Piece {
     pub(super) ends: bool,
     /// How long the whole motion takes, in s, where the piece is all of it, from rest to rest.
     duration: Option<f64>,
-    /// Where the motion ends, exactly; only where it stops there.
+    /// Where the motion ends, exactly, if it is not blended with the next one.
     target: Joints,
-    /// Shares of the motion that are done at the start and at the end.
+    /// Shares of the motion's way that are done at the start and at the end.
     shares: [f64; 2],
     /// The length of the motion in mm.
     pub(super) length: f64,
@@ -88,7 +88,8 @@ impl Piece {
             ends: first,
             duration: None,
             target: motion.end,
-            shares: if first { [blend.leave, 1.0] } else { [0.0, blend.join] },
+            // All of the blend counts as the motion that is joined: see `Course::current`.
+            shares: if first { [blend.leave; 2] } else { [blend.join / 2.0, blend.join] },
             length: motion.length,
         }
     }
@@ -103,8 +104,23 @@ impl Piece {
         self.curve.joints(kinematics, place, near)
     }
 
+    /// Whether this is the half of a blend that leaves its motion.
+    fn leaves(&self) -> bool {
+        self.progress.is_some() && self.ends
+    }
+
+    /// How long the whole motion takes, in s, where the piece is all of it, from rest to rest.
+    pub(super) fn duration(&self) -> Option<f64> {
+        self.duration
+    }
+
+    /// Where the motion ends.
+    pub(super) fn target(&self) -> &Joints {
+        &self.target
+    }
+
     /// The share of the motion that is done after `at` s of nominal time.
-    pub(super) fn share(&self, at: f64) -> f64 {
+    fn share(&self, at: f64) -> f64 {
         let [from, to] = self.shares;
         from + (to - from) * (at / self.time).clamp(0.0, 1.0)
     }
@@ -141,6 +157,19 @@ impl Course {
     pub(super) fn left_at(&self, number: u64) -> Option<f64> {
         let own = |piece: &&Piece| piece.number == number && piece.ends && !piece.stops;
         self.pieces.iter().rev().find(own).map(|piece| piece.shares[0])
+    }
+
+    /// The motion that counts as being executed, and the share of its way that is done. A blend belongs to the motion that
+    /// is joined (manual 7.3), whose way still counts from the target that is rounded off.
+    pub(super) fn current(&self) -> Option<(&Piece, f64)> {
+        let first = self.pieces.front()?;
+        match self.pieces.get(1).filter(|_| first.leaves()) {
+            Some(next) => {
+                let [half, _] = next.shares;
+                Some((next, half * (self.at / first.time).clamp(0.0, 1.0)))
+            }
+            None => Some((first, first.share(self.at))),
+        }
     }
 
     /// Whether nothing is left to go.
@@ -331,14 +360,15 @@ impl Course {
         *self = Self::default();
     }
 
-    /// How long the motion on which the robot is still takes, in s, when it has run for `elapsed` s at full speed: exact
-    /// where it begins and ends at rest, else what its pieces take at their speeds.
+    /// How long the motion that counts as being executed still takes, in s, when it has run for `elapsed` s at full speed:
+    /// exact where it begins and ends at rest, else what its pieces take at their speeds.
     pub(super) fn time_to_end(&self, elapsed: f64) -> f64 {
-        let Some(first) = self.pieces.front() else { return 0.0 };
-        if let Some(duration) = first.duration {
+        let (Some(first), Some((current, _))) = (self.pieces.front(), self.current()) else { return 0.0 };
+        if let Some(duration) = current.duration {
             return (duration - elapsed).max(0.0);
         }
-        let own = self.pieces.iter().take_while(|piece| piece.number == first.number);
-        own.map(|piece| piece.time / piece.limits.vel).sum::<f64>() - self.at / first.limits.vel
+        let own = |piece: &&Piece| piece.number == current.number && !piece.leaves();
+        let later = self.pieces.iter().skip(1).take_while(own);
+        later.map(|piece| piece.time / piece.limits.vel).sum::<f64>() + (first.time - self.at) / first.limits.vel
     }
 }

@@ -42,5 +42,6 @@ pub use record::{Closest, Figure, Limited, MotionRecord, Rate};
 pub use zone::Rounding;
 
 pub use crate::motion_instructions::{
-    AccSet, Ccir, Cir, Lin, MoveJ, Ptp, Spl, VelSet, accset, ccir, cir, lin, movej, ptp, spl, velset,
+    AccSet, Ccir, Cir, EndDetect, Lin, MoveJ, Ptp, Spl, StartDetect, ToolLoad, ToolSwitch, VelSet, accset, ccir, cir,
+    enddetect, lin, movej, ptp, spl, startdetect, toolload, toolswitch, velset,
 };

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::chain::Held;
 use super::command::{Command, Settings};
-use super::course::Course;
+use super::course::{Course, Piece};
 use super::error::PlanError;
 use super::governor::Pacing;
 use super::joints::Joints;
@@ -51,7 +51,8 @@ pub struct Step {
     pub rests: bool,
 }
 
-/// How far the motion being executed has come. Times are those at an override of 100 %.
+/// How far the motion being executed has come. Times are those at an override of 100 %. A blend belongs to the motion that
+/// is joined, whose way counts from the target that is rounded off (manual 7.3).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Progress {
     /// The running number of the motion.
@@ -66,6 +67,8 @@ pub struct Progress {
     pub elapsed_distance: f64,
     /// mm of the line that are left; 0 for axis motions.
     pub left_distance: f64,
+    /// The share of the motion that is done, 0 to 1; of axis motions as of others.
+    pub share: f64,
 }
 
 /// The motions of one robot, planned ahead and executed cycle by cycle.
@@ -84,9 +87,12 @@ pub struct Queue {
     last_rig: Rig,
     added: u64,
     finished: u64,
-    /// The motion being executed, and the s that it has run at an override of 100 %.
+    /// The motion being executed.
     started: Option<u64>,
+    /// The motion whose time counts, and the s that it has run at an override of 100 %.
+    timed: u64,
     elapsed: f64,
+    progress: Option<Progress>,
     cycle: f64,
     late: bool,
     /// The last motion, where its way depends on the next one.
@@ -112,7 +118,9 @@ impl Queue {
             added: 0,
             finished: 0,
             started: None,
+            timed: 0,
             elapsed: 0.0,
+            progress: None,
             cycle: 0.001,
             late: false,
             held: None,
@@ -280,22 +288,20 @@ impl Queue {
         idle
     }
 
-    /// How far the motion being executed has come; `None` where there is none.
+    /// How far the motion has come that was executed in the last cycle: all the way, if it came to its target then.
+    /// `None`: there was none.
     pub fn progress(&self) -> Option<Progress> {
-        let piece = self.course.first()?;
-        let started = self.started?;
-        if started != piece.number {
-            return None;
-        }
-        let done = piece.length * piece.share(self.course.at());
-        Some(Progress {
-            motion: piece.number,
-            line: piece.line,
-            elapsed_time: self.elapsed,
-            left_time: self.course.time_to_end(self.elapsed),
-            elapsed_distance: done,
-            left_distance: piece.length - done,
-        })
+        self.progress
+    }
+
+    /// Where the motion ends that is being executed, or else the next one.
+    pub fn target(&self) -> &Joints {
+        self.course.current().map_or(&self.end, |(piece, _)| piece.target())
+    }
+
+    /// What the robot carries in the motion that is or was last executed, and where it stands.
+    pub fn rig(&self) -> &Rig {
+        &self.rig
     }
 
     /// Moves on by one cycle of `dt` s at an override of `override_percent`, 0 to 100. A motion that is not blended with the
@@ -323,16 +329,14 @@ impl Queue {
             if let Some(piece) = self.course.first() {
                 (motion, line) = self.enter(piece.number, piece.line, piece.rig);
             }
-            if matches!(pacing, Pacing::Go(_)) {
-                self.elapsed += dt * speed;
-            }
+            self.time(if matches!(pacing, Pacing::Go(_)) { dt * speed } else { 0.0 });
             let (mut arrived, mut finished) = (None, self.finished);
             let stands = self.course.advance(dt, pacing, |passed| {
                 finished = if passed.ends { passed.number } else { finished };
                 arrived = Some(passed);
             });
             self.finished = finished;
-            match (stands, arrived, self.course.first()) {
+            match (stands, &arrived, self.course.first()) {
                 (true, Some(piece), _) => {
                     (motion, line) = (piece.number, piece.line);
                     self.joints = piece.joints(&self.robot.kinematics, piece.time, &self.joints);
@@ -345,6 +349,13 @@ impl Queue {
                 }
                 _ => {}
             }
+            self.progress = match arrived.filter(|_| stands) {
+                Some(piece) => Some(self.at_the_end_of(&piece)),
+                None => self.on_the_way(),
+            };
+        } else if self.course.rests() && self.course.at() == 0.0 {
+            // It stands at a target and not on the way.
+            self.progress = None;
         }
         self.end_empty();
         self.drop_at_rest();
@@ -356,11 +367,46 @@ impl Queue {
 
     /// Notes that a motion is being executed.
     fn enter(&mut self, number: u64, line: u32, rig: Rig) -> (u64, u32) {
-        if self.started != Some(number) {
-            (self.started, self.elapsed) = (Some(number), 0.0);
-        }
+        self.started = Some(number);
         self.rig = rig;
         (number, line)
+    }
+
+    /// Counts time for the motion that counts as being executed.
+    fn time(&mut self, passed: f64) {
+        let Some((piece, _)) = self.course.current() else { return };
+        if self.timed != piece.number {
+            (self.timed, self.elapsed) = (piece.number, 0.0);
+        }
+        self.elapsed += passed;
+    }
+
+    fn at_the_end_of(&self, piece: &Piece) -> Progress {
+        Progress {
+            motion: piece.number,
+            line: piece.line,
+            elapsed_time: piece.duration().unwrap_or(self.elapsed),
+            left_time: 0.0,
+            elapsed_distance: piece.length,
+            left_distance: 0.0,
+            share: 1.0,
+        }
+    }
+
+    fn on_the_way(&self) -> Option<Progress> {
+        let (piece, share) = self.course.current()?;
+        // A motion that is joined in this very cycle has not run yet.
+        let elapsed = if piece.number == self.timed { self.elapsed } else { 0.0 };
+        let done = piece.length * share;
+        Some(Progress {
+            motion: piece.number,
+            line: piece.line,
+            elapsed_time: elapsed,
+            left_time: self.course.time_to_end(elapsed),
+            elapsed_distance: done,
+            left_distance: piece.length - done,
+            share,
+        })
     }
 
     /// Motions that go nowhere end when those before them have ended.
@@ -379,6 +425,7 @@ impl Queue {
             self.course.clear();
             self.end = self.joints;
             self.started = None;
+            self.progress = None;
             self.dropping = false;
             self.braking_hard = false;
         }

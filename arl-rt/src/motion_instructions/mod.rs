@@ -1,5 +1,6 @@
 //! The motion instructions: they resolve what a program says, and what it leaves out, to a command for the planner.
 
+mod load;
 mod modal;
 mod resolve;
 
@@ -9,6 +10,7 @@ use crate::motion::Target;
 use crate::values::{Joint, Pose, Slip, Speed, Tool, Wobj};
 use modal::{Blend, Kind, Modal, Pace};
 
+pub use load::{EndDetect, StartDetect, ToolLoad, ToolSwitch, enddetect, startdetect, toolload, toolswitch};
 pub(crate) use resolve::wanted;
 
 /// Declares an instruction's builder: its target and its optional labels.

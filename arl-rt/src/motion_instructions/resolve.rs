@@ -80,13 +80,14 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
         Target::Spline { pose, wobj, external } if returns => Target::Line { pose, wobj, external },
         target => target,
     };
+    let (file, line) = cx.place();
     let command = Command {
         target,
         rig: modal.setting.rig(),
         speed: modal.speed,
         duration: modal.duration,
         zone: if returns { Zone::NONE } else { modal.zone },
-        line: cx.place().1,
+        line,
     };
     let current = world.unit.borrow().settings;
     let settings = Settings {
@@ -99,9 +100,9 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
         manual: current.manual || returns,
         ..current
     };
-    let planned = world.unit.borrow_mut().plan(&command, &settings, cx.place().0);
+    let planned = world.unit.borrow_mut().plan(&command, &settings, file);
     if let Err(alarm) = planned {
-        if (alarm.file, alarm.line) == cx.place() {
+        if (alarm.file, alarm.line) == (file, line) {
             return Err(alarm.fault);
         }
         world.trouble(alarm);
@@ -114,7 +115,6 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
     world.system.cjoint.set(joint(unit.target()));
     cx.moved();
     if unit.take_late() {
-        let (file, line) = cx.place();
         let file = file.name();
         world.warn(format!("{file}:{line}: the motion came too late to be blended with the one before it: the robot stops between the two"));
     }

@@ -151,3 +151,45 @@ fn random_chains_of_all_kinds_keep_every_limit() {
         }
     }
 }
+
+#[test]
+fn a_blend_belongs_to_the_motion_that_it_leads_into() {
+    let robot = robot("kr10-r1420");
+    let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+    let mut queue = Queue::new(robot.clone(), start);
+    let home = robot.kinematics.forward(&start.axes);
+    let [x, y, z, a, b, c] = frame_components(&home);
+    for pose in [[x, y + 200.0, z, a, b, c], [x, y + 200.0, z - 150.0, a, b, c]] {
+        let speed = Speed { tcp: 300.0, ..fast() };
+        queue.add(&Command { zone: tcp_zone(40.0), speed, ..lin(pose) }, &Settings::default()).unwrap();
+    }
+    let corner = home.translation.vector + nalgebra::Vector3::new(0.0, 200.0, 0.0);
+    let mut rows: Vec<(Progress, Frame)> = Vec::new();
+    while !queue.idle() {
+        let step = queue.step(CYCLE, 100.0);
+        rows.push((queue.progress().unwrap(), step.tcp));
+    }
+    for (progress, tcp) in &rows {
+        let at = tcp.translation.vector;
+        let length = if progress.motion == 1 { 200.0 } else { 150.0 };
+        assert!((progress.elapsed_distance + progress.left_distance - length).abs() < 1e-9);
+        assert!((progress.share * length - progress.elapsed_distance).abs() < 1e-9 && progress.left_time >= 0.0);
+        if progress.motion == 1 {
+            assert!((progress.elapsed_distance - (at - home.translation.vector).norm()).abs() < 1e-6);
+            assert!(progress.left_distance >= 40.0 - 1e-6, "{progress:?}");
+        } else if progress.elapsed_distance > 40.0 {
+            assert!((progress.elapsed_distance - (at - corner).norm()).abs() < 1e-6);
+        }
+    }
+    let second = rows.iter().position(|(progress, _)| progress.motion == 2).unwrap();
+    let joined = rows[second].0;
+    assert!(joined.elapsed_time == 0.0 && joined.elapsed_distance < 1.0, "{joined:?}");
+    for pair in rows.windows(2).filter(|pair| pair[0].0.motion == pair[1].0.motion) {
+        assert!(pair[1].0.elapsed_distance > pair[0].0.elapsed_distance);
+        assert!((pair[1].0.elapsed_time - pair[0].0.elapsed_time - CYCLE).abs() < 1e-9);
+    }
+    let last = rows.last().unwrap().0;
+    assert_eq!((last.share, last.left_distance, last.left_time), (1.0, 0.0, 0.0));
+    queue.step(CYCLE, 100.0);
+    assert_eq!(queue.progress(), None);
+}

@@ -1,0 +1,207 @@
+//! What programs ask about a foreground channel: where its robot is, how it moves, what it feels, and where its program
+//! stands.
+
+use std::cell::Ref;
+
+use crate::cx::Cx;
+use crate::fault::{Fault, File};
+use crate::kinematics::Axes;
+use crate::motion::Joints;
+use crate::pose::{pose, setting};
+use crate::robot::Axis;
+use crate::unit::{Unit, joint, tidy};
+use crate::values::{Joint, Jtci, Jttq, Jvel, Pose, Str, Tcpforce, Tool, UNSET, Wobj};
+
+/// A foreground channel, as all channels see it.
+struct Foreground<'a> {
+    cx: &'a Cx,
+    unit: Ref<'a, Unit>,
+}
+
+/// The channel with this number, from 1. There is one, the program's own.
+fn foreground<'a>(cx: &'a Cx, function: &'static str, number: i32) -> Result<Foreground<'a>, Fault> {
+    if number == 1 {
+        return Ok(Foreground { cx, unit: cx.world().unit.borrow() });
+    }
+    let problem = format!("there is no foreground channel {number}, only channel 1");
+    Err(Fault::Domain { function, problem: problem.into() })
+}
+
+impl Foreground<'_> {
+    fn positions(&self, commanded: bool) -> &Joints {
+        &self.unit.moving(commanded).at
+    }
+
+    fn pose(&self, joints: &Joints, tool: Tool, wobj: &Wobj) -> Pose {
+        pose(self.cx, &self.unit, &joints.axes, &joint(joints), tool, wobj)
+    }
+
+    /// What needs the masses of the robot.
+    fn known<T>(&self, function: &'static str, found: Option<T>) -> Result<T, Fault> {
+        found.ok_or_else(|| Fault::NoMasses { function, robot: self.unit.robot().name.as_str().into() })
+    }
+
+    /// The torques of the robot's own axes.
+    fn torques(&self, function: &'static str, commanded: bool) -> Result<Axes, Fault> {
+        self.known(function, self.unit.torques(commanded))
+    }
+
+    /// Values of the robot's own axes for a program: those that the robot does not have are unset.
+    fn own(&self, values: Axes) -> [f64; 6] {
+        let mut own = [UNSET; 6];
+        let there = self.unit.robot().own_axes().len();
+        own.iter_mut().zip(values).take(there).for_each(|(own, value)| *own = tidy(value));
+        own
+    }
+
+    /// Where the motion stands that is being executed, or was last.
+    fn motion_pointer(&self) -> (File, u32) {
+        self.unit.motion_pointer().unwrap_or((self.cx.program(), 0))
+    }
+}
+
+/// `cjttq`: the torques of the axes in Nm (N of linear axes), as the motion is commanded or as they are measured. Those of
+/// external axes are unset: their masses are not known.
+///
+/// # Errors
+/// There is no such channel, or the robot file has no masses.
+pub fn cjttq(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jttq, Fault> {
+    const FUNCTION: &str = "cjttq";
+    let channel = foreground(cx, FUNCTION, chan_no)?;
+    let [jt1, jt2, jt3, jt4, jt5, jt6] = channel.own(channel.torques(FUNCTION, ls_cmd)?);
+    Ok(Jttq { jt1, jt2, jt3, jt4, jt5, jt6, ..Jttq::default() })
+}
+
+/// `cjtci`: the currents of the motors in A, as the motion is commanded or as they are measured. Those of external axes are
+/// unset.
+///
+/// # Errors
+/// There is no such channel, or the robot file has no masses.
+pub fn cjtci(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jtci, Fault> {
+    const FUNCTION: &str = "cjtci";
+    let channel = foreground(cx, FUNCTION, chan_no)?;
+    let model = channel.known(FUNCTION, channel.unit.model())?;
+    let [ji1, ji2, ji3, ji4, ji5, ji6] = channel.own(model.currents(&channel.torques(FUNCTION, ls_cmd)?));
+    Ok(Jtci { ji1, ji2, ji3, ji4, ji5, ji6, ..Jtci::default() })
+}
+
+/// `channeltojoint`: the axes (deg, mm) of the target of the motion that is being executed; without one, of the last.
+///
+/// # Errors
+/// There is no such channel.
+pub fn channeltojoint(cx: &Cx, chan_no: i32) -> Result<Joint, Fault> {
+    Ok(joint(foreground(cx, "channeltojoint", chan_no)?.unit.current_target()))
+}
+
+/// `channeltopose`: the pose (mm, deg) of the tool in the workpiece frame at the target of the motion that is being
+/// executed; without one, of the last.
+///
+/// # Errors
+/// There is no such channel.
+pub fn channeltopose(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
+    let channel = foreground(cx, "channeltopose", chan_no)?;
+    Ok(channel.pose(channel.unit.current_target(), t, w))
+}
+
+/// `channeljoint`: the axes (deg, mm) now, as commanded or as the robot reports them.
+///
+/// # Errors
+/// There is no such channel.
+pub fn channeljoint(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Joint, Fault> {
+    Ok(joint(foreground(cx, "channeljoint", chan_no)?.positions(ls_cmd)))
+}
+
+/// `channelpose`: the pose (mm, deg) of the tool in the workpiece frame now, as commanded or as the robot reports it.
+///
+/// # Errors
+/// There is no such channel.
+pub fn channelpose(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj, ls_cmd: bool) -> Result<Pose, Fault> {
+    let channel = foreground(cx, "channelpose", chan_no)?;
+    Ok(channel.pose(channel.positions(ls_cmd), t, w))
+}
+
+/// `channeljointvel`: the speeds of the axes in rad/s (mm/s of linear axes), as commanded or as the robot reports them.
+///
+/// # Errors
+/// There is no such channel.
+pub fn channeljointvel(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jvel, Fault> {
+    let channel = foreground(cx, "channeljointvel", chan_no)?;
+    let robot = channel.unit.robot();
+    let moving = channel.unit.moving(ls_cmd);
+    let speed = |axis: &Axis, rate: f64| tidy(if axis.linear { rate } else { rate.to_radians() });
+    let mut speeds = [UNSET; 12];
+    let (own, external) = speeds.split_at_mut(6);
+    let own = own.iter_mut().zip(robot.own_axes().iter().zip(moving.rates));
+    let external = external.iter_mut().zip(robot.external_axes().iter().zip(moving.external_rates));
+    own.chain(external).for_each(|(value, (axis, rate))| *value = speed(axis, rate));
+    Ok(Jvel::from(speeds))
+}
+
+/// `channeltcpvel`: the speed of the tool in the workpiece frame in mm/s, as commanded or as the robot reports it.
+///
+/// # Errors
+/// There is no such channel.
+pub fn channeltcpvel(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj, ls_cmd: bool) -> Result<f64, Fault> {
+    let channel = foreground(cx, "channeltcpvel", chan_no)?;
+    let (setting, moving) = (setting(cx, &t, w), channel.unit.moving(ls_cmd));
+    let kinematics = &channel.unit.robot().kinematics;
+    let place = |joints: &Joints| setting.pose_of(&kinematics.forward(&joints.axes)).translation.vector;
+    Ok(tidy((place(&moving.at) - place(&moving.before)).norm() / moving.period))
+}
+
+/// `ctcpforce`: the force (N) and the torque (Nm) with which the robot presses on what is outside, at the TCP and along the
+/// axes of the workpiece frame. What the axes cannot feel at a singular point is 0.
+///
+/// # Errors
+/// There is no such channel, or the robot file has no masses.
+pub fn ctcpforce(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj) -> Result<Tcpforce, Fault> {
+    const FUNCTION: &str = "ctcpforce";
+    let channel = foreground(cx, FUNCTION, chan_no)?;
+    let unit = &channel.unit;
+    let model = channel.known(FUNCTION, unit.model())?;
+    let surplus = channel.known(FUNCTION, unit.surplus())?;
+    let (setting, axes) = (setting(cx, &t, w), &unit.feedback().axes);
+    let flange = unit.robot().kinematics.forward(axes);
+    let rig = setting.rig();
+    let tcp = rig.tcp_at(&flange);
+    let point = (rig.base.inverse() * tcp).translation.vector;
+    let pressing = model.pressing(axes, &surplus, &point).unwrap_or_else(|| model.felt(axes, &surplus, &point));
+    // From the base by the world and the TCP to the workpiece.
+    let turn = setting.pose_of(&flange).rotation * tcp.rotation.inverse() * rig.base.rotation;
+    let [fx, fy, fz]: [f64; 3] = (turn * pressing.force).into();
+    let [tx, ty, tz]: [f64; 3] = (turn * pressing.torque).into();
+    let [fx, fy, fz, tx, ty, tz] = [fx, fy, fz, tx, ty, tz].map(tidy);
+    Ok(Tcpforce { fx, fy, fz, tx, ty, tz })
+}
+
+/// `curmpfile`: the file of the motion that is being executed, or was last; before the first one the program's own.
+///
+/// # Errors
+/// There is no such channel.
+pub fn curmpfile(cx: &Cx, channel_index: i32) -> Result<Str, Fault> {
+    Ok(foreground(cx, "curmpfile", channel_index)?.motion_pointer().0.name().into())
+}
+
+/// `curmpline`: the line of the motion that is being executed, or was last; before the first one 0.
+///
+/// # Errors
+/// There is no such channel.
+pub fn curmpline(cx: &Cx, channel_index: i32) -> Result<i32, Fault> {
+    Ok(foreground(cx, "curmpline", channel_index)?.motion_pointer().1 as i32)
+}
+
+/// `curppfile`: the file that the program stands in.
+///
+/// # Errors
+/// There is no such channel.
+pub fn curppfile(cx: &Cx, channel_index: i32) -> Result<Str, Fault> {
+    Ok(foreground(cx, "curppfile", channel_index)?.cx.place().0.name().into())
+}
+
+/// `curppline`: the line that the program stands on.
+///
+/// # Errors
+/// There is no such channel.
+pub fn curppline(cx: &Cx, channel_index: i32) -> Result<i32, Fault> {
+    Ok(foreground(cx, "curppline", channel_index)?.cx.place().1 as i32)
+}

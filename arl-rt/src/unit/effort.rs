@@ -1,0 +1,161 @@
+//! What the motors have to give: the load on the flange, what pushes from outside, and collision detection.
+
+use nalgebra::Vector3;
+
+use super::Moving;
+use crate::cell::Sensitivity;
+use crate::dynamics::{Dynamics, Load, Wrench};
+use crate::frames::Rig;
+use crate::kinematics::{Axes, Frame};
+use crate::robot::{ROBOT_AXES, Robot};
+
+/// The part of what an axis asks for at most by which it may differ, in %, where the cell file says nothing.
+pub(crate) const SENSITIVITY: f64 = 20.0;
+
+/// How much less than a torque counts as exactly that torque, in Nm (N).
+const ROUNDING: f64 = 1e-6;
+
+/// What a scenario does to the robot.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub(crate) struct Outside {
+    /// A force at the TCP, in the world, N.
+    pub(crate) force: [f64; 3],
+    /// Torques on the axes, Nm (N).
+    pub(crate) torques: [f64; ROBOT_AXES],
+}
+
+/// An axis that gives more or less than it should.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Collision {
+    /// Which axis, from 0.
+    pub(crate) axis: usize,
+    /// How much more than the model asks for, in Nm (N).
+    pub(crate) surplus: f64,
+    /// How much it may be.
+    pub(crate) allowed: f64,
+}
+
+/// The robot's masses, what it carries and what pushes it.
+pub(super) struct Effort {
+    /// `None`: the robot file has no masses.
+    model: Option<Dynamics>,
+    outside: Outside,
+    /// What the driver has measured in the last cycle.
+    measured: Option<Axes>,
+    /// By how much the axes may differ from the model while collisions are looked for.
+    allowed: Option<Axes>,
+    /// What the axes ask for at most, once somebody wants to know.
+    greatest: Option<Axes>,
+}
+
+impl Effort {
+    pub(super) fn new(robot: &Robot) -> Self {
+        let model = Dynamics::new(robot);
+        Self { model, outside: Outside::default(), measured: None, allowed: None, greatest: None }
+    }
+
+    pub(super) fn model(&self) -> Option<&Dynamics> {
+        self.model.as_ref()
+    }
+
+    pub(super) fn set_base(&mut self, base: &Frame) {
+        if let Some(model) = &mut self.model {
+            model.set_base(base);
+        }
+    }
+
+    pub(super) fn set_load(&mut self, load: &Load) {
+        if let Some(model) = &mut self.model {
+            model.set_load(load);
+        }
+    }
+
+    pub(super) fn outside_mut(&mut self) -> &mut Outside {
+        &mut self.outside
+    }
+
+    pub(super) fn measured(&mut self, torques: Option<Axes>) {
+        self.measured = torques;
+    }
+
+    pub(super) fn detect(&mut self, allowed: Option<Axes>) {
+        self.allowed = allowed;
+    }
+
+    /// The torques that the model asks for the motion, without anything outside.
+    pub(super) fn asked(&self, moving: &Moving) -> Option<Axes> {
+        let model = self.model.as_ref()?;
+        Some(model.torques(&moving.at.axes, &moving.rates, &moving.accelerations, &Wrench::default()))
+    }
+
+    /// What the axes give more than the model asks for. `rig` is what it carries and where it stands.
+    pub(super) fn surplus(&self, moving: &Moving, robot: &Robot, rig: &Rig) -> Option<Axes> {
+        let model = self.model.as_ref()?;
+        let mut surplus;
+        match (self.measured, self.asked(moving)) {
+            (Some(measured), Some(asked)) => {
+                surplus = measured;
+                surplus.iter_mut().zip(asked).for_each(|(surplus, asked)| *surplus -= asked);
+            }
+            _ if self.outside == Outside::default() => surplus = [0.0; ROBOT_AXES],
+            _ => {
+                let force = rig.base.rotation.inverse() * Vector3::from(self.outside.force);
+                let tcp = rig.tcp_at(&robot.kinematics.forward(&moving.at.axes));
+                let point = (rig.base.inverse() * tcp).translation.vector;
+                surplus = model.holding(&moving.at.axes, &Wrench { force, torque: Vector3::zeros() }, &point);
+                surplus.iter_mut().zip(self.outside.torques).for_each(|(surplus, torque)| *surplus -= torque);
+            }
+        }
+        Some(surplus)
+    }
+
+    /// The axis that differs most from the model, where collisions are looked for and one differs too much.
+    pub(super) fn collision(&self, moving: &Moving, robot: &Robot, rig: &Rig) -> Option<Collision> {
+        let allowed = self.allowed?;
+        let surplus = self.surplus(moving, robot, rig)?;
+        let axes = surplus.into_iter().zip(allowed).enumerate();
+        axes.map(|(axis, (surplus, allowed))| Collision { axis, surplus, allowed })
+            .filter(|found| found.surplus.abs() > found.allowed + ROUNDING)
+            .max_by(|a, b| (a.surplus.abs() / a.allowed).total_cmp(&(b.surplus.abs() / b.allowed)))
+    }
+
+    /// By how much the axes may differ from the model at this sensitivity.
+    pub(super) fn allowed(&mut self, robot: &Robot, sensitivity: &Sensitivity) -> Option<Axes> {
+        if self.greatest.is_none() {
+            self.greatest = Dynamics::new(robot).map(|bare| greatest(&bare, robot));
+        }
+        let most = self.greatest?;
+        let mut allowed = [f64::INFINITY; ROBOT_AXES];
+        match sensitivity {
+            Sensitivity::Percent(percent) => {
+                allowed.iter_mut().zip(most).for_each(|(allowed, most)| *allowed = most * percent / 100.0);
+            }
+            Sensitivity::Torques(torques) => {
+                allowed.iter_mut().zip(torques).for_each(|(allowed, torque)| *allowed = *torque);
+            }
+        }
+        Some(allowed)
+    }
+}
+
+/// What each axis has to give at most while all axes accelerate as much as they may: in the middle and at the ends of
+/// their ranges.
+fn greatest(model: &Dynamics, robot: &Robot) -> Axes {
+    let own = robot.own_axes();
+    let mut accelerations = [0.0; ROBOT_AXES];
+    accelerations.iter_mut().zip(own).for_each(|(acceleration, axis)| *acceleration = axis.acc);
+    let mut most = [0.0_f64; ROBOT_AXES];
+    for place in 0..3_usize.pow(own.len() as u32) {
+        let (mut axes, mut digits) = ([0.0; ROBOT_AXES], place);
+        for (at, axis) in axes.iter_mut().zip(own) {
+            *at = axis.min + (axis.max - axis.min) * 0.5 * (digits % 3) as f64;
+            digits /= 3;
+        }
+        for sign in [1.0, -1.0] {
+            let accelerations = accelerations.map(|acceleration| acceleration * sign);
+            let torques = model.torques(&axes, &[0.0; ROBOT_AXES], &accelerations, &Wrench::default());
+            most.iter_mut().zip(torques).for_each(|(most, torque)| *most = most.max(torque.abs()));
+        }
+    }
+    most
+}

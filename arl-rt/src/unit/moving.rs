@@ -1,0 +1,48 @@
+//! How the axes move, told from where they are from cycle to cycle.
+
+use crate::motion::Joints;
+use crate::robot::{EXTERNAL_AXES, ROBOT_AXES};
+
+/// Where the axes are, in deg (mm), and how they move: differences of the last cycles, per s and s2.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Moving {
+    pub(crate) at: Joints,
+    /// The cycle before.
+    pub(crate) before: Joints,
+    pub(crate) rates: [f64; ROBOT_AXES],
+    pub(crate) external_rates: [f64; EXTERNAL_AXES],
+    pub(crate) accelerations: [f64; ROBOT_AXES],
+    /// The length of the last cycle in s.
+    pub(crate) period: f64,
+}
+
+impl Moving {
+    /// At rest.
+    pub(super) fn resting(at: Joints) -> Self {
+        Self {
+            at,
+            before: at,
+            rates: [0.0; ROBOT_AXES],
+            external_rates: [0.0; EXTERNAL_AXES],
+            accelerations: [0.0; ROBOT_AXES],
+            period: 1.0,
+        }
+    }
+
+    /// A cycle of `period` s later.
+    pub(super) fn go_to(&mut self, at: Joints, period: f64) {
+        self.before = std::mem::replace(&mut self.at, at);
+        self.period = period;
+        let axes = self.at.axes.iter().zip(&self.before.axes);
+        let rates = self.rates.iter_mut().zip(&mut self.accelerations);
+        for ((rate, acceleration), (at, before)) in rates.zip(axes) {
+            let new = (at - before) / period;
+            *acceleration = (new - *rate) / period;
+            *rate = new;
+        }
+        let external = self.at.external.iter().zip(&self.before.external);
+        for (rate, (at, before)) in self.external_rates.iter_mut().zip(external) {
+            *rate = (at - before) / period;
+        }
+    }
+}
