@@ -69,6 +69,8 @@ pub enum Fault {
     },
     /// A channel of io that does not exist, or a reversed range of channels.
     Channel(Box<str>),
+    /// `ccir`: points that make no arc.
+    ArcPlane(Box<str>),
     /// A motion that cannot be planned or run.
     Motion(Box<str>),
     /// The robot met something that it did not expect.
@@ -92,11 +94,12 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// The alarm's number. 10064 and 10065 are the manual's; ours begin at 20000.
+    /// The alarm's number. 10064, 10065 and 12002 are the manual's; ours begin at 20000.
     pub fn number(&self) -> u32 {
         match self {
             Fault::NoSuchFile(_) => 10064,
             Fault::NoSuchLine { .. } => 10065,
+            Fault::ArcPlane(_) => 12002,
             Fault::DivideByZero => 20001,
             Fault::ShiftCount { .. } => 20002,
             Fault::Index { .. } => 20003,
@@ -136,7 +139,11 @@ impl fmt::Display for Fault {
             Fault::NoSuchLine { line, count } => {
                 write!(f, "line {line} was asked for, but the file has {count} lines")
             }
-            Fault::Channel(text) | Fault::Motion(text) | Fault::Collision(text) | Fault::Data(text) => {
+            Fault::Channel(text)
+            | Fault::ArcPlane(text)
+            | Fault::Motion(text)
+            | Fault::Collision(text)
+            | Fault::Data(text) => {
                 write!(f, "{text}")
             }
             Fault::NoMasses { function, robot } => write!(

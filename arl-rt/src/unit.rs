@@ -356,7 +356,7 @@ fn alarm(error: PlanError, earlier: File, (file, line): (File, u32)) -> Alarm {
     match error {
         PlanError::Earlier { line, error } => alarm(*error, earlier, (earlier, line)),
         PlanError::NoCircle | PlanError::LoneCircle => {
-            Alarm { fault: Fault::Other { number: 12002, text: error.to_string().into() }, file, line }
+            Alarm { fault: Fault::ArcPlane(error.to_string().into()), file, line }
         }
         error => Alarm { fault: Fault::Motion(error.to_string().into()), file, line },
     }
