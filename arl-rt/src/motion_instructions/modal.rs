@@ -52,6 +52,7 @@ pub(super) struct Modal {
 /// The same, with the system variables filled in.
 #[derive(Clone, Debug)]
 pub(super) struct Resolved {
+    pub(super) kind: Kind,
     pub(super) speed: motion::Speed,
     /// What carries tool and workpiece.
     pub(super) setting: Setting,
@@ -80,6 +81,7 @@ impl Modal {
             system.dfwobj.set(wobj.clone());
         }
         Ok(Resolved {
+            kind: self.kind,
             speed: speed(&system.dfspeed.get()),
             setting: setting(system)?,
             duration: self.duration,

@@ -1,6 +1,6 @@
 //! Targets, and the way to the planner.
 
-use super::modal::Resolved;
+use super::modal::{Kind, Resolved};
 use crate::cx::Cx;
 use crate::fault::Fault;
 use crate::kinematics::{CONFIGURATIONS, Wanted};
@@ -36,7 +36,9 @@ pub(super) fn pose(
         let [x, y, z, ..] = pose;
         pose = [x, y, z, UNSET, UNSET, UNSET];
     }
-    Ok((pose, wanted(target, system.config_check.get())?, external))
+    // Lines keep the configuration of their start, whatever their target says.
+    let as_taught = system.config_check.get() && modal.kind == Kind::Axes;
+    Ok((pose, wanted(target, as_taught)?, external))
 }
 
 /// Which solution of a pose is wanted: the one it was taught in, or the nearest.
