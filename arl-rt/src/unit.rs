@@ -104,7 +104,7 @@ impl Unit {
 
     /// From now on keeps records of all motions.
     pub(crate) fn record(&mut self) {
-        self.recorder = Some(Box::new(Recorder::new(Arc::clone(&self.robot), &self.commanded.at)));
+        self.recorder = Some(Box::new(Recorder::new(Arc::clone(&self.robot), &mut self.queue)));
     }
 
     /// The records of all motions; none unless they are kept.
@@ -251,7 +251,7 @@ impl Unit {
         self.planned = planned.map_err(|error| alarm(error, self.file, (file, command.line)))?;
         self.file = file;
         if let Some(recorder) = &mut self.recorder {
-            recorder.planned(&self.queue, self.planned, command, settings);
+            recorder.planned(&mut self.queue, self.planned, command, settings);
         }
         if self.files.back().is_none_or(|(_, last)| *last != file) {
             self.files.push_back((self.planned, file));
@@ -299,7 +299,7 @@ impl Unit {
     pub(crate) fn step(&mut self, period: f64) {
         let step = self.queue.step(period, self.override_percent);
         if let Some(recorder) = &mut self.recorder {
-            recorder.step(&step, period);
+            recorder.step(&mut self.queue, &step, period);
         }
         self.tcp = step.tcp;
         self.executing = (step.line, step.motion);

@@ -95,6 +95,30 @@ fn the_closest_limits_are_within_reach() {
 }
 
 #[test]
+fn motions_that_wait_for_the_next_one_are_recorded_when_they_go() {
+    let (mut controller, _) = controller(Controller::builder().record_motions(), |cx| {
+        Box::pin(async move {
+            motion::movej(bent(0.0)).vp(50.0).run(cx).await.at(FILE, 3)?;
+            motion::lin(aside(cx, 0.0, -80.0)?).vl(100.0).sl(20.0).run(cx).await.at(FILE, 4)?;
+            motion::spl(aside(cx, 60.0, -80.0)?).vl(100.0).run(cx).await.at(FILE, 5)?;
+            motion::spl(aside(cx, 120.0, -40.0)?).vl(100.0).run(cx).await.at(FILE, 6)?;
+            motion::lin(aside(cx, 120.0, 0.0)?).vl(100.0).run(cx).await.at(FILE, 7)
+        })
+    });
+    assert_eq!(controller.run(), arl_rt::Outcome::Ended);
+    let records = controller.motions();
+    let kinds: Vec<_> = records.iter().map(|record| record.kind).collect();
+    assert_eq!(kinds, ["movej", "lin", "spl", "spl", "lin"]);
+    for record in &records {
+        assert!(record.start.is_some() && record.duration > 0.1 && record.reached > 0.0, "{record:?}");
+        // A zone stays what it is where motions flow into each other.
+        assert!(record.blend.is_none_or(|blend| blend.used <= blend.asked + 1e-6), "{record:?}");
+    }
+    assert!(records[1].blend.is_some_and(|blend| blend.used > 5.0), "{:?}", records[1].blend);
+    assert!((records[2].way + records[3].way - 132.0).abs() < 25.0, "{records:?}");
+}
+
+#[test]
 fn nothing_is_recorded_unless_asked_for() {
     let (mut controller, _) = controller(Controller::builder(), way);
     controller.run();

@@ -147,16 +147,11 @@ impl Course {
         self.pieces.front()
     }
 
-    /// The motion with this number, if it was appended last.
-    pub(super) fn last(&self, number: u64) -> Option<&Motion> {
-        let is_last = self.pieces.back().is_some_and(|piece| piece.number == number);
-        self.tail.as_ref().filter(|_| is_last).map(|(motion, _)| motion)
-    }
-
-    /// The share of the motion at which it is left for a blend with the next one.
-    pub(super) fn left_at(&self, number: u64) -> Option<f64> {
-        let own = |piece: &&Piece| piece.number == number && piece.ends && !piece.stops;
-        self.pieces.iter().rev().find(own).map(|piece| piece.shares[0])
+    /// The motion that is blended with the one that was appended last, `number`, and the share at which it is left.
+    pub(super) fn left_before(&self, number: u64) -> Option<(u64, f64)> {
+        let before = self.pieces.iter().rev().find(|piece| piece.number != number)?;
+        let rounded = before.ends && !before.stops && before.progress.is_some();
+        rounded.then(|| (before.number, before.shares[0]))
     }
 
     /// The motion that counts as being executed, and the share of its way that is done. A blend belongs to the motion that

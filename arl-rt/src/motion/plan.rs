@@ -61,6 +61,11 @@ impl Motion {
         self.limits.map_or(0.0, |limits| limits.duration(1.0))
     }
 
+    /// Whether anything moves.
+    pub(super) fn goes(&self) -> bool {
+        self.limits.is_some()
+    }
+
     /// The length of the TCP's way in mm; 0 for axis motions.
     pub fn length(&self) -> f64 {
         self.length

@@ -100,6 +100,17 @@ pub struct Queue {
     /// How long the robot has stood still for it, in s.
     patience: f64,
     broken: Option<PlanError>,
+    /// What was laid on the way, where somebody watches.
+    laid: Option<Vec<Laid>>,
+}
+
+/// A motion that was laid on the way.
+#[derive(Clone, Debug)]
+pub(super) struct Laid {
+    pub(super) number: u64,
+    pub(super) motion: Motion,
+    /// The motion that is blended with it, and the share at which that one is left.
+    pub(super) left: Option<(u64, f64)>,
 }
 
 impl Queue {
@@ -126,6 +137,7 @@ impl Queue {
             held: None,
             patience: 0.0,
             broken: None,
+            laid: None,
         }
     }
 
@@ -167,14 +179,14 @@ impl Queue {
         Ok(self.added)
     }
 
-    /// The motion with this number, if it was planned last and goes somewhere.
-    pub(super) fn planned(&self, number: u64) -> Option<&Motion> {
-        self.course.last(number)
+    /// From now on notes the motions that are laid on the way, for [`Queue::take_laid`].
+    pub(super) fn watch(&mut self) {
+        self.laid = Some(Vec::new());
     }
 
-    /// The share of the motion at which it is left for a blend with the next one; `None` where it is not.
-    pub(super) fn left_at(&self, number: u64) -> Option<f64> {
-        self.course.left_at(number)
+    /// The motions that were laid on the way since this was asked last.
+    pub(super) fn take_laid(&mut self) -> Vec<Laid> {
+        self.laid.as_mut().map_or_else(Vec::new, std::mem::take)
     }
 
     /// Says that no motion will come soon: one that waited for the next goes without it.
@@ -206,7 +218,12 @@ impl Queue {
     fn append(&mut self, motion: Motion, number: u64) {
         self.end = *motion.end();
         self.last_rig = motion.rig;
+        let watched = self.laid.is_some().then(|| motion.clone());
         self.late |= self.course.append(&self.robot, motion, number, self.cycle);
+        if let (Some(laid), Some(motion)) = (&mut self.laid, watched) {
+            let left = self.course.left_before(number).filter(|_| motion.goes());
+            laid.push(Laid { number, motion, left });
+        }
     }
 
     /// Lets a motion go that waits while the robot stands still, where it can be the last one of its way.

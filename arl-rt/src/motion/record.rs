@@ -4,9 +4,9 @@ use std::sync::Arc;
 
 use super::bounds::MANUAL_SPEED;
 use super::command::{Command, Settings, Target};
-use super::joints::{ALL, Joints};
+use super::joints::ALL;
 use super::plan::Motion;
-use super::queue::{Queue, Step};
+use super::queue::{Laid, Queue, Step};
 use super::zone::{self, Rounding};
 use crate::frames::Carried;
 use crate::kinematics::Frame;
@@ -116,6 +116,8 @@ pub struct MotionRecord {
     tool: Nearest,
     carried: Carried,
     along_tool: bool,
+    /// The programmed speed of the tool's turning, deg/s.
+    turning: f64,
     /// Whether a blend with an axis motion is a part of it, in which the TCP's limits do not hold.
     mixed: bool,
     jerks: bool,
@@ -140,8 +142,8 @@ impl MotionRecord {
 pub(crate) struct Recorder {
     robot: Arc<Robot>,
     records: Vec<MotionRecord>,
-    /// The last motion that goes somewhere, and its number.
-    last: Option<(u64, Motion)>,
+    /// The last motion that goes somewhere.
+    last: Option<Motion>,
     time: f64,
     /// The number of the motion executed last.
     executed: u64,
@@ -157,14 +159,16 @@ pub(crate) struct Recorder {
 }
 
 impl Recorder {
-    pub(crate) fn new(robot: Arc<Robot>, start: &Joints) -> Self {
+    /// A recorder of what this queue does from now on.
+    pub(crate) fn new(robot: Arc<Robot>, queue: &mut Queue) -> Self {
+        queue.watch();
         Self {
             robot,
             records: Vec::new(),
             last: None,
             time: 0.0,
             executed: 0,
-            joints: start.all(),
+            joints: queue.joints().all(),
             rates: [[0.0; ALL]; 2],
             way: Frame::identity(),
             moving: [0.0; 2],
@@ -178,10 +182,8 @@ impl Recorder {
         &self.records
     }
 
-    /// Notes the motion that the queue has just planned.
-    pub(crate) fn planned(&mut self, queue: &Queue, number: u64, command: &Command, settings: &Settings) {
-        let motion = queue.planned(number);
-        let turns_only = motion.is_some_and(|motion| motion.length() < NO_WAY);
+    /// Notes a motion that the queue has taken. Its way may become known only with the next one.
+    pub(crate) fn planned(&mut self, queue: &mut Queue, number: u64, command: &Command, settings: &Settings) {
         let (kind, along_tool) = match command.target {
             Target::Joints(_) => ("movej", false),
             Target::Pose { .. } => ("ptp", false),
@@ -190,55 +192,57 @@ impl Recorder {
             Target::Circle { .. } => ("ccir", true),
             Target::Spline { .. } => ("spl", true),
         };
-        // What is held back is blended only when the next motion comes: it may be.
-        let chained = command.target.chained().is_some();
-        let mut mixed = false;
-        if let Some(before) = self.records.last_mut()
-            && (chained || matches!(before.kind, "ccir" | "spl"))
-        {
-            mixed = before.along_tool != along_tool;
-            before.mixed |= mixed;
-        }
         self.records.push(MotionRecord {
             number,
             line: command.line,
             kind,
-            programmed: programmed(command, settings, along_tool, turns_only),
+            programmed: programmed(command, settings, along_tool),
             reached: 0.0,
             start: None,
             duration: 0.0,
             way: 0.0,
-            blend: motion.and_then(|motion| zone::rounding(&self.robot, motion, 1.0)),
+            blend: None,
             axes: Nearest::NONE,
             tool: Nearest::NONE,
             carried: command.rig.carried,
             along_tool,
-            mixed,
+            turning: command.speed.ori * settings.speed_percent / 100.0,
+            mixed: false,
             jerks: settings.profile != VelocityProfile::T,
         });
-        let Some(motion) = motion.cloned() else { return };
-        if let Some((before, left)) = self.last.replace((number, motion))
-            && let Some(leave) = queue.left_at(before)
-        {
-            let rounding = zone::rounding(&self.robot, &left, leave);
-            self.blended(before, rounding, along_tool);
-        }
+        self.laid(queue);
     }
 
-    /// Notes that the motion planned last is blended with the one before it.
-    fn blended(&mut self, before: u64, rounding: Option<Rounding>, along_tool: bool) {
-        let Some(record) = at(&mut self.records, before) else { return };
-        record.blend = rounding;
-        if record.along_tool != along_tool {
-            record.mixed = true;
-            if let Some(record) = self.records.last_mut() {
-                record.mixed = true;
+    /// Notes what the queue has laid on the way.
+    fn laid(&mut self, queue: &mut Queue) {
+        for Laid { number, motion, left } in queue.take_laid() {
+            let rounding = zone::rounding(&self.robot, &motion, 1.0);
+            let Some(record) = at(&mut self.records, number) else { continue };
+            record.blend = rounding;
+            let along_tool = record.along_tool;
+            if record.programmed.unit == "mm/s" && motion.length() < NO_WAY {
+                record.programmed = Figure { value: record.turning, unit: "deg/s" };
+            }
+            if let (Some((before, leave)), Some(last)) = (left, &self.last) {
+                let rounding = zone::rounding(&self.robot, last, leave);
+                let mixed = at(&mut self.records, before).is_some_and(|record| {
+                    record.blend = rounding;
+                    record.mixed |= record.along_tool != along_tool;
+                    record.along_tool != along_tool
+                });
+                if let Some(record) = at(&mut self.records, number) {
+                    record.mixed |= mixed;
+                }
+            }
+            if motion.goes() {
+                self.last = Some(motion);
             }
         }
     }
 
     /// Notes what one cycle of `period` s did.
-    pub(crate) fn step(&mut self, step: &Step, period: f64) {
+    pub(crate) fn step(&mut self, queue: &mut Queue, step: &Step, period: f64) {
+        self.laid(queue);
         let began = self.time;
         self.time += period;
         let all = step.joints.all();
@@ -315,17 +319,15 @@ fn at(records: &mut [MotionRecord], number: u64) -> Option<&mut MotionRecord> {
     records.get_mut(usize::try_from(number.checked_sub(first)?).ok()?)
 }
 
-fn programmed(command: &Command, settings: &Settings, along_tool: bool, turns_only: bool) -> Figure {
+fn programmed(command: &Command, settings: &Settings, along_tool: bool) -> Figure {
     let (speed, share) = (&command.speed, settings.speed_percent / 100.0);
     if let Some(duration) = command.duration {
         return Figure { value: duration, unit: "s" };
     }
-    match (along_tool, turns_only) {
-        (false, _) => Figure { value: speed.percent.min(100.0) * share, unit: "%" },
-        (true, true) => Figure { value: speed.ori * share, unit: "deg/s" },
-        (true, false) => {
-            let most = if settings.manual { settings.max_tcp.min(MANUAL_SPEED) } else { settings.max_tcp };
-            Figure { value: (speed.tcp * share).min(most), unit: "mm/s" }
-        }
+    if along_tool {
+        let most = if settings.manual { settings.max_tcp.min(MANUAL_SPEED) } else { settings.max_tcp };
+        Figure { value: (speed.tcp * share).min(most), unit: "mm/s" }
+    } else {
+        Figure { value: speed.percent.min(100.0) * share, unit: "%" }
     }
 }
