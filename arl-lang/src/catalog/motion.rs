@@ -114,7 +114,7 @@ entries! { pub(super) MOTION =
         s: bool [otherwise("false")] "true: goes on to the next motion without stopping at the target",
         sig: bool [condition, otherwise("false")] "looked at before sinking: where it holds, the robot stops above the target",
     )
-        { "3.3.6", motion::jump, plans, fails, exclusive(&[&["v", "vp"]]), only(Family::Scara), notyet;
+        { "3.3.6", motion::jump, plans, fails, exclusive(&[&["v", "vp"]]), only(Family::Scara);
           "pose p = {x 400,y 100,z 50,a 0,b 0,c 0}\njump p,vp:50%,a:30,b:30" }
     /// Lays a weave over the paths that follow, up to endweave.
     instr startweave(weave: weavedata "the pattern")

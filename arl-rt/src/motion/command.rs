@@ -1,3 +1,4 @@
+use super::gate::Gate;
 use super::joints::Joints;
 use crate::frames::Rig;
 use crate::kinematics::{Frame, Wanted};
@@ -59,6 +60,19 @@ pub enum Target {
         follow: bool,
         /// External axes in deg (mm).
         external: [f64; EXTERNAL_AXES],
+    },
+    /// jump: up, over and down to a pose, with robots whose third axis lifts.
+    Gate {
+        /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
+        pose: [f64; 6],
+        /// The workpiece frame in the robot's base, translation in mm.
+        wobj: Frame,
+        /// The solution that is wanted.
+        wanted: Wanted,
+        /// External axes in deg (mm).
+        external: [f64; EXTERNAL_AXES],
+        /// Its form.
+        gate: Gate,
     },
     /// ccir: the TCP along the circle through start, target and the target of the next motion of this kind or, in the last
     /// one, through the start of the one before it. It takes two in a row at least.

@@ -62,7 +62,7 @@ impl Piece {
             time: (to - from) / rate,
             limits: scaled,
             stops: true,
-            ends: true,
+            ends: motion.ends,
             duration: (from == 0.0 && to == 1.0).then(|| limits.duration(1.0)),
             target: motion.end,
             shares: [from, to],
@@ -85,7 +85,7 @@ impl Piece {
             time: time / 2.0,
             limits: Limits { vel: vel * time, acc: acc * time, jerk: jerk * time },
             stops: false,
-            ends: first,
+            ends: first && motion.ends,
             duration: None,
             target: motion.end,
             // All of the blend counts as the motion that is joined: see `Course::current`.

@@ -48,6 +48,13 @@ pub enum PlanError {
         /// The most that is possible, in deg.
         most: f64,
     },
+    /// A gate begins or ends above the height that it must not pass.
+    AboveLimit {
+        /// The height of the higher end, in mm.
+        height: f64,
+        /// The height that must not be passed, in mm.
+        highest: f64,
+    },
     /// A ccir that no other one follows, before it or behind it.
     LoneCircle,
     /// A motion turned out not to be possible only when the one behind it was known, or none followed.
@@ -118,6 +125,9 @@ impl fmt::Display for PlanError {
                 write!(f, "the circle's angle is {angle} deg: a single motion goes round by at most {most} deg")
             }
             PlanError::NoSuchCfg { cfg } => write!(f, "the robot has no configuration cfg {cfg}: {CONFIGURATIONS}"),
+            PlanError::AboveLimit { height, highest } => {
+                write!(f, "the jump starts or ends at the height {height:.3}, above its limit of {highest:.3}")
+            }
             PlanError::LoneCircle => write!(
                 f,
                 "one ccir alone makes no arc: it takes another one right behind it, before the program waits for the robot"

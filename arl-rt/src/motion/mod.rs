@@ -13,6 +13,7 @@ mod command;
 mod course;
 mod curve;
 mod error;
+mod gate;
 mod governor;
 mod joints;
 mod limits;
@@ -34,6 +35,7 @@ mod zone;
 
 pub use command::{Command, Settings, Speed, Target, Zone};
 pub use error::PlanError;
+pub use gate::{Gate, Lift};
 pub use joints::{Joints, UNSET, is_unset};
 pub use plan::{Motion, plan};
 pub use queue::{LOOK_AHEAD, Progress, Queue, Step, Stop};
@@ -42,6 +44,6 @@ pub use record::{Closest, Figure, Limited, MotionRecord, Rate};
 pub use zone::Rounding;
 
 pub use crate::motion_instructions::{
-    AccSet, Ccir, Cir, EndDetect, Lin, MoveJ, Ptp, Spl, StartDetect, ToolLoad, ToolSwitch, VelSet, accset, ccir, cir,
-    enddetect, lin, movej, ptp, spl, startdetect, toolload, toolswitch, velset,
+    Above, AccSet, Ccir, Cir, EndDetect, Jump, Lin, MoveJ, Ptp, Spl, StartDetect, ToolLoad, ToolSwitch, VelSet, accset,
+    ccir, cir, enddetect, jump, lin, movej, ptp, spl, startdetect, toolload, toolswitch, velset,
 };

@@ -14,7 +14,7 @@ use super::quintic::Quintic;
 use super::spline::turned;
 use super::survey::survey;
 use crate::frames::Rig;
-use crate::kinematics::{Frame, Passage, RANGE_SLACK, Refusal, frame, frame_components};
+use crate::kinematics::{Frame, Passage, RANGE_SLACK, Refusal, Wanted, frame, frame_components};
 use crate::robot::{Axis, Robot, VelocityProfile};
 
 /// Distances up to this are no motion: mm or deg of an axis; mm and deg of the TCP.
@@ -42,6 +42,10 @@ pub struct Motion {
     /// The angle in deg by which the tool turns on its way, 0 for axis motions.
     pub(super) angle: f64,
     pub(super) zone: Zone,
+    /// The parts of this motion and of the next one that a blend takes, where that is not left to the zone.
+    pub(super) corner: Option<(f64, f64)>,
+    /// Whether the instruction ends with it.
+    pub(super) ends: bool,
     pub(super) line: u32,
 }
 
@@ -81,12 +85,7 @@ pub fn plan(robot: &Robot, start: &Joints, command: &Command, settings: &Setting
     let planner = Planner { robot, start, command, settings };
     match &command.target {
         Target::Joints(joints) => planner.axes(joints.completed(start, robot)),
-        Target::Pose { pose, wobj, wanted, external } => {
-            let target = command.rig.carried.flange_at(&planner.target_frame(pose, wobj)?);
-            let found = robot.kinematics.choose(&target, *wanted, robot.own_axes(), &start.axes);
-            let axes = found.map_err(|refusal| planner.refused(refusal))?;
-            planner.axes(Joints { axes, external: *external }.completed(start, robot))
-        }
+        Target::Pose { pose, wobj, wanted, external } => planner.axes(planner.choose(pose, wobj, *wanted, external)?),
         Target::Line { pose, wobj, external } | Target::Spline { pose, wobj, external } => {
             planner.line(pose, wobj, external)
         }
@@ -95,6 +94,7 @@ pub fn plan(robot: &Robot, start: &Joints, command: &Command, settings: &Setting
             planner.tool(track, turning, external)
         }
         Target::Circle { .. } => Err(PlanError::LoneCircle),
+        Target::Gate { .. } => Err(PlanError::NotForThisRobot),
     }
 }
 
@@ -203,7 +203,21 @@ impl Planner<'_> {
         Ok(end)
     }
 
-    fn axes(&self, end: Joints) -> Result<Motion, PlanError> {
+    /// The axes at a target pose.
+    pub(super) fn choose(
+        &self,
+        pose: &[f64; 6],
+        wobj: &Frame,
+        wanted: Wanted,
+        external: &[f64; 6],
+    ) -> Result<Joints, PlanError> {
+        let target = self.command.rig.carried.flange_at(&self.target_frame(pose, wobj)?);
+        let found = self.robot.kinematics.choose(&target, wanted, self.robot.own_axes(), &self.start.axes);
+        let axes = found.map_err(|refusal| self.refused(refusal))?;
+        Ok(Joints { axes, external: *external }.completed(self.start, self.robot))
+    }
+
+    pub(super) fn axes(&self, end: Joints) -> Result<Motion, PlanError> {
         let end = self.within_ranges(end)?;
         let curve = Curve::even_axes(self.start, &end);
         let moves = self.moves(&end);
@@ -274,6 +288,8 @@ impl Planner<'_> {
             length: curve.track.length(),
             angle: turned(&curve),
             zone: self.command.zone,
+            corner: None,
+            ends: true,
             line: self.command.line,
             curve: Curve::Tool(curve),
         })
@@ -471,6 +487,8 @@ impl Planner<'_> {
             length,
             angle,
             zone: self.command.zone,
+            corner: None,
+            ends: true,
             line: self.command.line,
         })
     }

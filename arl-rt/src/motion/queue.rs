@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use super::chain::Held;
-use super::command::{Command, Settings};
+use super::command::{Command, Settings, Target};
 use super::course::{Course, Piece};
 use super::error::PlanError;
+use super::gate;
 use super::governor::Pacing;
 use super::joints::Joints;
 use super::plan::{Motion, plan};
@@ -171,6 +172,10 @@ impl Queue {
         self.release(next.as_mut())?;
         if next.is_some() {
             self.held = next;
+        } else if matches!(command.target, Target::Gate { .. }) {
+            for motion in gate::plan(&self.robot, &self.end, command, settings)? {
+                self.append(motion, self.added + 1);
+            }
         } else {
             let motion = plan(&self.robot, &self.end, command, settings)?;
             self.append(motion, self.added + 1);

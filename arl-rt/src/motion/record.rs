@@ -97,7 +97,7 @@ pub struct MotionRecord {
     pub number: u64,
     /// Its program line.
     pub line: u32,
-    /// `movej`, `ptp`, `lin`, `cir`, `ccir` or `spl`.
+    /// `movej`, `ptp`, `lin`, `cir`, `ccir`, `spl` or `jump`.
     pub kind: &'static str,
     /// The programmed speed, under the override of `velset`: % of the axes' limits on axis motions, else mm/s, or deg/s
     /// where only the tool turns; or the programmed duration in s.
@@ -187,6 +187,7 @@ impl Recorder {
         let (kind, along_tool) = match command.target {
             Target::Joints(_) => ("movej", false),
             Target::Pose { .. } => ("ptp", false),
+            Target::Gate { .. } => ("jump", false),
             Target::Line { .. } => ("lin", true),
             Target::Arc { .. } => ("cir", true),
             Target::Circle { .. } => ("ccir", true),

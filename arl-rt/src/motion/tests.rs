@@ -2,6 +2,7 @@
 
 mod blends;
 mod carried;
+mod gates;
 mod plans;
 mod stops;
 mod traces;

@@ -57,6 +57,9 @@ const LARGEST: f64 = 0.5;
 
 /// The parts that a blend takes from the end of one motion and from the start of the next; `None` where none is asked for.
 pub(super) fn parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f64)> {
+    if from.corner.is_some() {
+        return from.corner;
+    }
     let (measure, size, leaving) = leaving(robot, from)?;
     let time = |motion: &Motion, part: f64| part / motion.rate;
     let entering = match extent(robot, to, measure) {

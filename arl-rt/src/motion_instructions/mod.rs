@@ -1,5 +1,6 @@
 //! The motion instructions: they resolve what a program says, and what it leaves out, to a command for the planner.
 
+mod jump;
 mod load;
 mod modal;
 mod resolve;
@@ -10,6 +11,7 @@ use crate::motion::Target;
 use crate::values::{Joint, Pose, Slip, Speed, Tool, Wobj};
 use modal::{Blend, Kind, Modal, Pace};
 
+pub use jump::{Above, Jump, jump};
 pub use load::{EndDetect, StartDetect, ToolLoad, ToolSwitch, enddetect, startdetect, toolload, toolswitch};
 pub(crate) use resolve::wanted;
 

@@ -13,7 +13,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
 /// An argument on its way to the runtime.
-struct Argument<'p> {
+pub(super) struct Argument<'p> {
     param: usize,
     value: Fragment,
     /// A place that has to be written after the call, and the temporary that holds its value until then.
@@ -66,7 +66,7 @@ impl<'p> Body<'p, '_> {
         }
         let mut call = match entry.kind {
             Kind::Function => self.function_call(entry, &arguments),
-            Kind::Instruction => instruction_call(entry, &arguments),
+            Kind::Instruction => instruction_call(entry, &arguments, quote!(run)),
         };
         if matches!(entry.effect, Effect::Plans | Effect::Waits) {
             call = quote!(#call.await);
@@ -99,7 +99,7 @@ impl<'p> Body<'p, '_> {
     }
 
     /// Whether evaluating an argument moves the program pointer away from this line.
-    fn moves_pointer(&self, arg: &'p Bound) -> bool {
+    pub(super) fn moves_pointer(&self, arg: &'p Bound) -> bool {
         let facts = match &arg.value {
             Passed::Value(value) => self.facts(value),
             Passed::Out(place) => facts::of_place(self.scope(), place),
@@ -109,13 +109,15 @@ impl<'p> Body<'p, '_> {
 
     /// The arguments, evaluated in the order of the program; with `ahead`, all that matters is evaluated in statements
     /// of its own.
-    fn arguments(&mut self, builtin: &'p Builtin, ahead: bool) -> (TokenStream, Vec<Argument<'p>>) {
+    pub(super) fn arguments(&mut self, builtin: &'p Builtin, ahead: bool) -> (TokenStream, Vec<Argument<'p>>) {
         let entry = builtin.entry;
         let mut before = TokenStream::new();
         let mut out = Vec::new();
         // Values first, as one sequence; a written variable has no value to be evaluated but its indices.
-        let operands: Vec<Operand<'p>> =
-            builtin.args.iter().flat_map(|arg| self.argument_operands(entry, arg)).collect();
+        // Conditions are evaluated later, by whoever looks at them.
+        let later = |arg: &Bound| entry.params.get(arg.param).is_some_and(|param| param.mode == ParamMode::Condition);
+        let args = || builtin.args.iter().enumerate().filter(|(_, arg)| !later(arg));
+        let operands: Vec<Operand<'p>> = args().flat_map(|(_, arg)| self.argument_operands(entry, arg)).collect();
         let moved = reordered(entry, &builtin.args);
         let loud: Vec<bool> = operands.iter().map(|operand| !self.operand_facts(operand).quiet()).collect();
         let several = loud.iter().filter(|loud| **loud).count() > 1;
@@ -123,7 +125,7 @@ impl<'p> Body<'p, '_> {
         let (first, fragments) = self.sequence(&operands, |at| apart && loud.get(at) == Some(&true));
         before.extend(first);
         let mut fragments = fragments.into_iter();
-        for (at, arg) in builtin.args.iter().enumerate() {
+        for (at, arg) in args() {
             let (value, back) = match &arg.value {
                 Passed::Value(_) => {
                     let value = fragments.next().unwrap_or_else(|| Fragment::settled(quote!(())));
@@ -238,7 +240,7 @@ impl<'p> Body<'p, '_> {
 }
 
 /// `motion::movej(target).vp(20.0).run(cx)`
-fn instruction_call(entry: &Entry, arguments: &[Argument<'_>]) -> TokenStream {
+pub(super) fn instruction_call(entry: &Entry, arguments: &[Argument<'_>], how: TokenStream) -> TokenStream {
     let path = path(entry.path);
     let is_required = |param: usize| entry.params.get(param).is_some_and(|param| param.presence == Presence::Required);
     let mut required: Vec<&Argument<'_>> = arguments.iter().filter(|argument| is_required(argument.param)).collect();
@@ -250,7 +252,7 @@ fn instruction_call(entry: &Entry, arguments: &[Argument<'_>]) -> TokenStream {
         quote!(.#label(#value))
     });
     let cx = (entry.effect != Effect::Pure).then(|| quote!(cx));
-    quote!(#path(#(#required),*)#(#rest)*.run(#cx))
+    quote!(#path(#(#required),*)#(#rest)*.#how(#cx))
 }
 
 /// Whether the arguments are passed in another order than they stand in the program.

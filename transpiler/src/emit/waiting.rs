@@ -2,10 +2,11 @@
 //! program.
 
 use super::body::Body;
+use super::calls::instruction_call;
 use super::fragment::{Fragment, Precedence};
 use super::places::{Calm, Written};
 use super::sequence::Mode;
-use crate::hir::{Builtin, Expr, Passed, Place, Root};
+use crate::hir::{Bound, Builtin, Expr, ExprKind, Passed, Place, Root, Value};
 use arl_lang::catalog::{Effect, Mode as ParamMode};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -25,8 +26,35 @@ impl<'p> Body<'p, '_> {
         if entry.name == "waituntil" {
             return Some(Fragment::settled(quote!(())).after(self.waituntil(builtin)));
         }
+        if entry.name == "jump" {
+            return self.looking(builtin);
+        }
         let text = format!("{} cannot be emitted yet", entry.name);
         Some(Fragment::postfix(quote!(compile_error!(#text))))
+    }
+
+    /// A `jump` that looks at its `sig` above the target; `None` where that is false anyway.
+    fn looking(&mut self, builtin: &'p Builtin) -> Option<Fragment> {
+        let entry = builtin.entry;
+        let is_condition =
+            |arg: &&Bound| entry.params.get(arg.param).map(|param| param.mode) == Some(ParamMode::Condition);
+        let sig = builtin.args.iter().find(is_condition)?;
+        let Passed::Value(condition) = &sig.value else { return None };
+        if matches!(condition.kind, ExprKind::Const(Value::Bool(false))) {
+            return None;
+        }
+        let moved = builtin.args.iter().any(|arg| self.moves_pointer(arg));
+        let (before, arguments) = self.arguments(builtin, moved);
+        let line = moved.then(|| self.line_statement());
+        let call = instruction_call(entry, &arguments, quote!(above));
+        let above = self.checked(quote!(#call.await));
+        let name = self.fresh("jump");
+        let unmet = self.negated(condition);
+        self.acts = true;
+        let (first, unmet) = (&unmet.before, &unmet.tokens);
+        let sink = self.checked(quote!(#name.sink(cx).await));
+        let all = quote!(#before #line let #name = #above; #first if #unmet { #line #sink; });
+        Some(Fragment::settled(quote!(())).after(all))
     }
 
     fn waituntil(&mut self, builtin: &'p Builtin) -> TokenStream {
