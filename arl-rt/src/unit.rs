@@ -11,7 +11,9 @@ use crate::dynamics::{Dynamics, Load};
 use crate::fault::{Alarm, Fault, File};
 use crate::frames::Rig;
 use crate::kinematics::{Axes, Frame, frame_components};
-use crate::motion::{Command, Joints, MotionRecord, PlanError, Progress, Queue, Recorder, Settings, Stop};
+use crate::motion::{
+    Command, Compensation, Joints, MotionRecord, PlanError, Progress, Queue, Recorder, Settings, Stop,
+};
 use crate::robot::Robot;
 use crate::robot_driver::{RobotDriver, settled};
 use crate::values::Joint;
@@ -62,6 +64,8 @@ pub(crate) struct Unit {
     file: File,
     /// Where the robot stands in the world.
     base: Frame,
+    /// How many compensations have been started.
+    compensations: u32,
 }
 
 impl Unit {
@@ -91,6 +95,7 @@ impl Unit {
             recorder: None,
             file: File::new(""),
             base: Frame::identity(),
+            compensations: 0,
         }
     }
 
@@ -115,6 +120,18 @@ impl Unit {
     /// Whether a motion came too late to be blended with the one before it, since this was asked last.
     pub(crate) fn take_late(&mut self) -> bool {
         self.queue.take_late()
+    }
+
+    /// Begins to compensate the motions that are planned from now on, with these limits.
+    pub(crate) fn start_compensation(&mut self, limits: [f64; 6]) {
+        self.compensations += 1;
+        self.settings.compensation = Some(Compensation::new(self.compensations, limits));
+    }
+
+    /// The least part of its programmed speed that a weave or a compensation has left to a motion, since this was asked
+    /// last.
+    pub(crate) fn take_slowed(&mut self) -> f64 {
+        self.queue.take_slowed()
     }
 
     pub(crate) fn robot(&self) -> &Robot {

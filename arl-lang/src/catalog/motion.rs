@@ -116,19 +116,21 @@ entries! { pub(super) MOTION =
     )
         { "3.3.6", motion::jump, plans, fails, exclusive(&[&["v", "vp"]]), only(Family::Scara);
           "pose p = {x 400,y 100,z 50,a 0,b 0,c 0}\njump p,vp:50%,a:30,b:30" }
-    /// Lays a weave over the paths that follow, up to endweave.
+    /// Lays a weave over the lines and circles that follow, up to endweave. It begins and ends on the path; what is too fast
+    /// for the robot slows the path down.
     instr startweave(weave: weavedata "the pattern")
-        { "3.2.7.1", motion::startweave, acts, fails, foreground, only(Family::SixAxis), notyet,
+        { "3.2.7.1", motion::startweave, acts, fails, foreground, only(Family::SixAxis),
           alias(&["startweavelin", "startweavespa"]);
           "weavedata zigzag = {weaveshape simple,frequency 2,amplitude 5}\nstartweave zigzag\nendweave" }
     /// Ends the weave.
     instr endweave()
-        { "3.2.7.2", motion::endweave, acts, fails, foreground, only(Family::SixAxis), notyet; "endweave" }
-    /// Begins to compensate the paths that follow, up to endcompen.
+        { "3.2.7.2", motion::endweave, acts, fails, foreground, only(Family::SixAxis); "endweave" }
+    /// Begins to compensate the lines and circles that follow, up to endcompen. All limits must be above 0.
     instr startcompen(data: compendata "how fast the compensation may grow")
-        { "3.2.11.1", motion::startcompen, acts, fails, foreground, only(Family::SixAxis), notyet;
+        { "3.2.11.1", motion::startcompen, acts, fails, foreground, only(Family::SixAxis);
           "compendata limits = {200,600,1000,200,50,1000}\nstartcompen data:limits\nendcompen" }
-    /// Shifts and turns the paths between startcompen and endcompen. At most 90 deg in all.
+    /// Shifts and turns the lines and circles that follow, up to endcompen, by as much more. At most 90 deg in all about
+    /// each axis.
     instr compen(
         x: double [optional, units(&[Unit::Millimetre])] "shift along x of the frame, mm",
         y: double [optional, units(&[Unit::Millimetre])] "shift along y of the frame, mm",
@@ -138,9 +140,9 @@ entries! { pub(super) MOTION =
         c: double [optional, units(&[Unit::Degree])] "turn about x of the frame, deg",
         type: {compentype, string} [rust("frame")] "the frame, as a constant or as its name in a string",
     )
-        { "3.2.11.2", motion::compen, acts, fails, foreground, only(Family::SixAxis), notyet;
+        { "3.2.11.2", motion::compen, acts, fails, foreground, only(Family::SixAxis);
           "compendata limits = {200,600,1000,200,50,1000}\nstartcompen data:limits\ncompen x:100,y:0,z:0,a:0,b:0,c:0,type:\"WOBJ\"\nendcompen" }
     /// Ends the compensation; the next motion starts from the compensated point.
     instr endcompen()
-        { "3.2.11.3", motion::endcompen, acts, fails, foreground, only(Family::SixAxis), notyet; "endcompen" }
+        { "3.2.11.3", motion::endcompen, acts, fails, foreground, only(Family::SixAxis); "endcompen" }
 }

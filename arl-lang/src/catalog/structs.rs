@@ -100,17 +100,17 @@ structure! { WEAVEDATA =
     /// The weave pattern that is laid over a path.
     Weavedata, "weavedata", "Weavedata", "2.4.8" {
         weaveshape: weaveshape zero "the pattern",
-        frequency: double zero "patterns a second, Hz",
+        frequency: double zero "patterns a second at the speed of the path, stays not counted, Hz, above 0",
         amplitude: double zero "largest distance from the path, mm",
-        dwell_left: double zero "stay at the left end, s (mm where the pattern counts in lengths), 0 or more",
-        dwell_right: double zero "stay at the right end, s (mm where the pattern counts in lengths), 0 or more",
-        dwell_middle: double zero "stay in the middle, s (mm where the pattern counts in lengths), 0 or more",
-        track: bool zero "whether the seam is tracked",
-        swing_angle: double zero "opening angle of the V and triangle patterns, deg",
-        radius: double zero "radius of the round patterns, mm",
+        dwell_left: double zero "stay at the left end, s, 0 or more",
+        dwell_right: double zero "stay at the right end, s, 0 or more",
+        dwell_middle: double zero "stay in the middle each time it is passed, s, 0 or more",
+        track: bool zero "whether the seam is tracked: there is no weld tracking, only false runs",
+        swing_angle: double zero "opening angle of the V and triangle patterns, 0 to 180 deg",
+        radius: double zero "radius of the round patterns along the path, mm, 0 or more",
         weaverotaxis: weaverotaxis zero "the axis about which the plane of the pattern is turned",
         rotation_angle: double zero "how far the plane of the pattern is turned, deg",
-        vibrat: bool zero "whether the vibration is on",
+        vibrat: bool zero "whether the vibration is on: there is none, only false runs",
     }
 }
 

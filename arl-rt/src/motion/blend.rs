@@ -70,7 +70,11 @@ fn attempt(robot: &Robot, from: &Motion, to: &Motion, leaving: f64, joining: f64
         (Curve::Tool(a), Curve::Tool(b)) if go_on(a, leave, b, join) => {
             let curve = tool_blend(a, b, leave, join, slope_from, slope_to);
             let ends = (along(&a.track, leave, vel_from), along(&b.track, join, vel_to));
-            if let Some(even) = Progress::along(&curve.track, ends.0, ends.1) {
+            // What is laid over a motion does not go evenly: it is met best by a parameter that does.
+            if from.laid.is_none()
+                && to.laid.is_none()
+                && let Some(even) = Progress::along(&curve.track, ends.0, ends.1)
+            {
                 (progress, time) = even;
             }
             let start = joints_at(robot, from, leave)?;
@@ -88,7 +92,11 @@ fn attempt(robot: &Robot, from: &Motion, to: &Motion, leaving: f64, joining: f64
                 let place = Place::at(&progress, f64::from(step) / f64::from(PLACES));
                 let moving = [1, 2, 3].map(|order| curve.track.derivative(order, place.at));
                 let turning = curve.rotation_rates(place.at);
-                bounds.moving(&place.vectors(moving), &pace);
+                if from.laid.is_some() || to.laid.is_some() {
+                    bounds.swinging(&place.vectors(moving), &pace);
+                } else {
+                    bounds.moving(&place.vectors(moving), &pace);
+                }
                 if pace.manual {
                     bounds.manual_moving(&place.vectors(moving));
                     bounds.manual_flange(&curve, place.at, place.first);
@@ -133,6 +141,8 @@ fn common_pace(from: &Motion, to: &Motion) -> Pace {
     let faster = |of: fn(&Pace) -> f64| of(&from.pace).max(of(&to.pace));
     let reached = |of: fn(&Motion) -> f64| {
         let speed = |motion: &Motion| match motion.curve {
+            // With what is laid over it the TCP goes faster than the path.
+            Curve::Tool(_) if motion.laid.is_some() => motion.fastest(),
             Curve::Tool(_) => of(motion) * motion.rate,
             Curve::Axes(_) => f64::INFINITY,
         };
@@ -167,6 +177,7 @@ fn tool_blend(from: &ToolCurve, to: &ToolCurve, leave: f64, join: f64, slope_fro
         external: Quintic::between(&external(from, leave, slope_from), &external(to, join, slope_to)).into(),
         cfg: to.cfg,
         passages: Vec::new(),
+        over: None,
     }
 }
 

@@ -111,6 +111,14 @@ impl<'a> Bounds<'a> {
         self.rows.push(along(rates, (tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk)));
     }
 
+    /// The TCP at a place where these are the derivatives of its position, in mm, and where it swings to and fro: all of its
+    /// acceleration counts, not only that along its way.
+    pub(super) fn swinging(&mut self, rates: &[Vector3<f64>; 3], pace: &Pace) {
+        let tcp = &self.robot.tcp;
+        let limits = [tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk];
+        self.rows.push(row(rates.map(|rate| rate.norm()), limits));
+    }
+
     /// The speed of the TCP in manual operation, at a place where these are the derivatives of its position.
     pub(super) fn manual_moving(&mut self, rates: &[Vector3<f64>; 3]) {
         self.rows.push(along(rates, (MANUAL_SPEED, f64::INFINITY, f64::INFINITY)));

@@ -1,5 +1,6 @@
 use super::gate::Gate;
 use super::joints::Joints;
+use super::overlay::{Compensation, Weave};
 use crate::frames::Rig;
 use crate::kinematics::{Frame, Wanted};
 use crate::robot::{EXTERNAL_AXES, VelocityProfile};
@@ -154,6 +155,10 @@ pub struct Settings {
     pub manual: bool,
     /// Whether lines and circles pass the wrist singularity by letting the orientation give way.
     pub wrist: bool,
+    /// The weave that is laid over lines and circles.
+    pub weave: Option<Weave>,
+    /// What shifts and turns lines and circles.
+    pub compensation: Option<Compensation>,
 }
 
 impl Default for Settings {
@@ -166,6 +171,8 @@ impl Default for Settings {
             profile: VelocityProfile::S,
             manual: false,
             wrist: false,
+            weave: None,
+            compensation: None,
         }
     }
 }

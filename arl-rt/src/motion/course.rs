@@ -6,6 +6,7 @@ use super::blend::{Blend, blend};
 use super::curve::Curve;
 use super::governor::{Governor, MARGIN, Pacing};
 use super::joints::Joints;
+use super::overlay::joined;
 use super::plan::Motion;
 use super::profile::{Limits, State};
 use super::progress::Progress;
@@ -141,6 +142,28 @@ pub(super) struct Course {
     tail: Option<(Motion, Limits)>,
 }
 
+/// Two motions and the blend between them.
+struct Blended {
+    from: (Motion, Limits),
+    to: (Motion, Limits),
+    blend: Blend,
+    /// The part of the first motion behind which it would have to be another one for the blend.
+    until: f64,
+}
+
+/// The blend that two motions ask for; a weave goes on through it.
+fn blended(robot: &Robot, from: (Motion, Limits), to: (Motion, Limits)) -> Option<Blended> {
+    let fades_from = from.0.laid.as_ref().map_or(1.0, |laid| laid.fades_from());
+    let limited = |motion: Motion| Some((motion.limits?, motion)).map(|(limits, motion)| (motion, limits));
+    let going_on = joined(robot, &from.0, &to.0).and_then(|(from, to)| Some((limited(from)?, limited(to)?)));
+    if let Some((from, to)) = going_on
+        && let Some(blend) = blend(robot, &from.0, &to.0)
+    {
+        return Some(Blended { from, to, blend, until: fades_from });
+    }
+    blend(robot, &from.0, &to.0).map(|blend| Blended { from, to, blend, until: 1.0 })
+}
+
 impl Course {
     /// The piece that the robot is on.
     pub(super) fn first(&self) -> Option<&Piece> {
@@ -198,47 +221,42 @@ impl Course {
             return false;
         }
         let wanted = match tail {
-            Some((before, before_limits)) if !self.pieces.is_empty() => {
-                blend(robot, &before, &motion).map(|blend| (before, before_limits, blend))
-            }
+            Some(before) if !self.pieces.is_empty() => blended(robot, before, (motion.clone(), limits)),
             _ => None,
         };
         let asked = wanted.is_some() || motion.flows;
-        let rounded = wanted.is_some_and(|(before, before_limits, blend)| {
-            self.round_off((&before, before_limits), (&motion, limits), number, &blend, cycle)
-        });
-        if !rounded {
-            let whole = [Piece::part(&motion, limits, number, 0.0, 1.0)];
-            // In a stretch of its own it asks for nothing that the stop before it did not.
-            if !self.lay(&whole, true, cycle) {
-                self.push(&whole, false);
-            }
+        let rounded = wanted.filter(|wanted| self.round_off(wanted, number, cycle));
+        if let Some(wanted) = rounded {
+            self.tail = Some(wanted.to);
+            self.timing.settle();
+            self.timing.find_entries(MARGIN, cycle);
+            return false;
+        }
+        let whole = [Piece::part(&motion, limits, number, 0.0, 1.0)];
+        // In a stretch of its own it asks for nothing that the stop before it did not.
+        if !self.lay(&whole, true, cycle) {
+            self.push(&whole, false);
         }
         self.timing.settle();
         self.timing.find_entries(MARGIN, cycle);
         self.tail = Some((motion, limits));
-        asked && !rounded
+        asked
     }
 
     /// Puts a blend in place of the end of the last motion and the start of the next; returns whether the robot is still
     /// able to take it.
-    fn round_off(
-        &mut self,
-        (before, before_limits): (&Motion, Limits),
-        (motion, limits): (&Motion, Limits),
-        number: u64,
-        blend: &Blend,
-        cycle: f64,
-    ) -> bool {
+    fn round_off(&mut self, blended: &Blended, number: u64, cycle: f64) -> bool {
+        let Blended { from: (before, before_limits), to: (motion, limits), blend, until } = blended;
         let Some(last) = self.pieces.pop_back() else { return false };
-        if self.pieces.is_empty() && self.at >= (blend.leave - last.from) / before.rate {
+        let at = last.from + self.at * before.rate;
+        if self.pieces.is_empty() && (at >= blend.leave || at > *until) {
             self.pieces.push_back(last);
             return false;
         }
         self.timing.pop();
-        let mut cut = Piece::part(before, before_limits, last.number, last.from, blend.leave);
+        let mut cut = Piece::part(before, *before_limits, last.number, last.from, blend.leave);
         (cut.stops, cut.ends) = (false, false);
-        let rest = Piece::part(motion, limits, number, blend.join, 1.0);
+        let rest = Piece::part(motion, *limits, number, blend.join, 1.0);
         let first = Piece::half(blend, before, last.number, true);
         let second = Piece::half(blend, motion, number, false);
         let pieces: Vec<Piece> = [cut, first, second, rest].into_iter().filter(|piece| piece.time > 1e-12).collect();

@@ -3,6 +3,7 @@
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use super::joints::{ALL, Joints};
+use super::overlay::Overlay;
 use super::quintic::{Quintic, Way};
 use super::rotation;
 use crate::frames::Carried;
@@ -53,6 +54,8 @@ pub(super) struct ToolCurve {
     pub(super) cfg: u8,
     /// Where axis 4 is led through the wrist singularity.
     pub(super) passages: Vec<Passage>,
+    /// What is laid over the way.
+    pub(super) over: Option<Box<Overlay>>,
 }
 
 impl Track {
@@ -88,6 +91,14 @@ impl Track {
         }
     }
 
+    /// How its direction turns, in rad per unit about an axis of the base; `None` where it does not turn evenly.
+    pub(super) fn even_turning(&self) -> Option<Vector3<f64>> {
+        match self {
+            Track::Poly(poly) => poly.is_even().then(Vector3::zeros),
+            Track::Arc(arc) => Some(arc.across.cross(&arc.along).normalize() * arc.sweep),
+        }
+    }
+
     /// Its length in mm.
     pub(super) fn length(&self) -> f64 {
         match self {
@@ -120,7 +131,16 @@ const STENCIL: f64 = 1.0 / 128.0;
 impl ToolCurve {
     /// The TCP's frame at `at`, translation in mm.
     pub(super) fn tcp(&self, at: f64) -> Frame {
-        Frame::from_parts(Translation3::from(self.track.at(at)), self.rotation(at))
+        let [place, ..] = self.moving(at);
+        Frame::from_parts(Translation3::from(place), self.rotation(at))
+    }
+
+    /// The place of the TCP at `at` in mm, with its first three derivatives.
+    pub(super) fn moving(&self, at: f64) -> [Vector3<f64>; 4] {
+        let over = self.over.as_ref().map_or([Vector3::zeros(); 4], |over| over.offset(self, at));
+        let [place, first, second, third] = over;
+        let of = |order| self.track.derivative(order, at);
+        [self.track.at(at) + place, of(1) + first, of(2) + second, of(3) + third]
     }
 
     /// Whether speed and turning of the TCP are the same all along.
@@ -129,11 +149,17 @@ impl ToolCurve {
             Track::Poly(poly) => poly.is_even(),
             Track::Arc(_) => true,
         };
-        even && self.turning.is_even()
+        even && self.turning.is_even() && self.over.is_none()
     }
 
     /// The orientation at `at`.
     pub(super) fn rotation(&self, at: f64) -> UnitQuaternion<f64> {
+        let plain = self.plain_rotation(at);
+        self.over.as_ref().filter(|over| over.turns()).map_or(plain, |over| over.turned(self, at) * plain)
+    }
+
+    /// The orientation at `at` without what is laid over the way.
+    pub(super) fn plain_rotation(&self, at: f64) -> UnitQuaternion<f64> {
         UnitQuaternion::from_scaled_axis(Vector3::from(self.turning.at(at))) * self.base
     }
 
@@ -201,6 +227,13 @@ impl ToolCurve {
 
     /// How the orientation changes at `at`: its speed of rotation in rad per unit, and two derivatives of that.
     pub(super) fn rotation_rates(&self, at: f64) -> [Vector3<f64>; 3] {
+        let Some(over) = self.over.as_ref().filter(|over| over.turns()) else { return self.plain_rotation_rates(at) };
+        let step = STENCIL.min(over.longest_step() / 2.0);
+        measured(|at| self.rotation(at), at, step)
+    }
+
+    /// The same without what is laid over the way.
+    pub(super) fn plain_rotation_rates(&self, at: f64) -> [Vector3<f64>; 3] {
         if self.turning.is_even() {
             return [Vector3::from(self.turning.derivative(1, at)), Vector3::zeros(), Vector3::zeros()];
         }
@@ -210,7 +243,7 @@ impl ToolCurve {
 
     /// How the flange moves at `at`, per unit of the parameter.
     pub(super) fn twist(&self, at: f64) -> Twist {
-        let moving = [1, 2, 3].map(|order| self.track.derivative(order, at));
+        let [_, moving @ ..] = self.moving(at);
         self.carried.twist(&self.tcp(at), &moving, &self.rotation_rates(at))
     }
 
@@ -219,8 +252,21 @@ impl ToolCurve {
         let turned = (self.rotation(at) * origin.inverse()).scaled_axis();
         let [speed, change, _] = self.rotation_rates(at);
         let [first, second] = rotation::of_speeds(&turned, &[speed, change]);
-        [[self.track.at(at), self.track.derivative(1, at), self.track.derivative(2, at)], [turned, first, second]]
+        let [place, velocity, acceleration, _] = self.moving(at);
+        [[place, velocity, acceleration], [turned, first, second]]
     }
+}
+
+/// How `rotation` changes at `at`: its speed in rad per unit, and two derivatives of that.
+fn measured(rotation: impl Fn(f64) -> UnitQuaternion<f64>, at: f64, h: f64) -> [Vector3<f64>; 3] {
+    // The rotation vector from here on, at five places, gives derivatives that hold here.
+    let here = rotation(at).inverse();
+    let turned = |steps: f64| (rotation(at + steps * h) * here).scaled_axis();
+    let (m2, m1, p1, p2) = (turned(-2.0), turned(-1.0), turned(1.0), turned(2.0));
+    let first = (m2 - m1 * 8.0 + p1 * 8.0 - p2) / (12.0 * h);
+    let second = (-m2 + m1 * 16.0 + p1 * 16.0 - p2) / (12.0 * h * h);
+    let third = (-m2 + m1 * 2.0 - p1 * 2.0 + p2) / (2.0 * h * h * h);
+    [first, second, third + first.cross(&second) * 0.5]
 }
 
 impl Curve {
@@ -302,6 +348,7 @@ mod tests {
             external: Quintic::even([0.0; 6], [0.0; 6]).into(),
             cfg: 0,
             passages: Vec::new(),
+            over: None,
         };
         let (at, h) = (0.4, 1e-3);
         let place = |at: f64| curve.flange(at).translation.vector;

@@ -85,6 +85,12 @@ pub enum PlanError {
     },
     /// A component of the target is not a number.
     NotANumber,
+    /// The tool points along the path, so that nothing is beside it.
+    ToolAlongPath,
+    /// The robot holds the workpiece, so that the world turns against it.
+    WorldTurns,
+    /// Nothing can be laid over this kind of path.
+    NoOverlay,
     /// This kind of motion is not there for this robot.
     NotForThisRobot,
     /// The look-ahead is full: ask [`super::Queue::has_room`] first.
@@ -138,6 +144,17 @@ impl fmt::Display for PlanError {
             }
             PlanError::NoSpeed { what, value } => write!(f, "{what} is {value}: it must be a number above 0"),
             PlanError::NotANumber => write!(f, "the target holds a value that is not a number"),
+            PlanError::ToolAlongPath => write!(
+                f,
+                "the tool's z axis points along the path, so that weave and compensation know no side of it: tilt the tool"
+            ),
+            PlanError::WorldTurns => write!(
+                f,
+                "a compensation along the axes of the world has no direction on a workpiece that the robot holds: take WOBJ"
+            ),
+            PlanError::NoOverlay => {
+                write!(f, "a weave or a compensation can be laid over lin and cir only")
+            }
             PlanError::NotForThisRobot => write!(f, "this robot knows no such motion"),
             PlanError::Full => write!(f, "the look-ahead is full"),
             PlanError::Stopping => write!(f, "the robot is still stopping"),

@@ -19,6 +19,7 @@ mod joints;
 mod limits;
 #[doc(hidden)]
 pub mod optimal;
+mod overlay;
 mod plan;
 mod profile;
 mod progress;
@@ -37,6 +38,7 @@ pub use command::{Command, Settings, Speed, Target, Zone};
 pub use error::PlanError;
 pub use gate::{Gate, Lift};
 pub use joints::{Joints, UNSET, is_unset};
+pub use overlay::{Compensation, Reference, Weave, WeaveShape};
 pub use plan::{Motion, plan};
 pub use queue::{LOOK_AHEAD, Progress, Queue, Step, Stop};
 pub(crate) use record::Recorder;
@@ -44,6 +46,8 @@ pub use record::{Closest, Figure, Limited, MotionRecord, Rate};
 pub use zone::Rounding;
 
 pub use crate::motion_instructions::{
-    Above, AccSet, Ccir, Cir, EndDetect, Jump, Lin, MoveJ, Ptp, Spl, StartDetect, ToolLoad, ToolSwitch, VelSet, accset,
-    ccir, cir, enddetect, jump, lin, movej, ptp, spl, startdetect, toolload, toolswitch, velset,
+    Above, AccSet, Ccir, Cir, Compen, CompenFrame, EndCompen, EndDetect, EndWeave, Jump, Lin, MoveJ, Ptp, Spl,
+    StartCompen, StartDetect, StartWeave, ToolLoad, ToolSwitch, VelSet, accset, ccir, cir, compen, endcompen,
+    enddetect, endweave, jump, lin, movej, ptp, spl, startcompen, startdetect, startweave, toolload, toolswitch,
+    velset,
 };

@@ -9,6 +9,7 @@ use super::curve::{Curve, ToolCurve, Track};
 use super::error::PlanError;
 use super::joints::{Joints, is_unset};
 use super::limits::{passing, quickest};
+use super::overlay::{Laid, Led, lay};
 use super::profile::Limits;
 use super::quintic::Quintic;
 use super::spline::turned;
@@ -47,6 +48,8 @@ pub struct Motion {
     /// Whether the instruction ends with it.
     pub(super) ends: bool,
     pub(super) line: u32,
+    /// What is laid over it.
+    pub(super) laid: Option<Box<Laid>>,
 }
 
 impl Motion {
@@ -70,6 +73,21 @@ impl Motion {
         self.limits.is_some()
     }
 
+    /// The part of its speed that is left to it with what is laid over it.
+    pub fn share_of_speed(&self) -> f64 {
+        self.limits.map_or(1.0, |limits| limits.vel / self.rate)
+    }
+
+    /// How fast the TCP may go with what is laid over the motion, in mm/s.
+    pub(super) fn fastest(&self) -> f64 {
+        self.laid.as_ref().map_or(f64::INFINITY, |laid| laid.fastest)
+    }
+
+    /// How a compensation stands at the end, for the motion behind it.
+    pub(super) fn led(&self) -> Led {
+        self.laid.as_ref().map_or_else(Led::default, |laid| laid.led())
+    }
+
     /// The length of the TCP's way in mm; 0 for axis motions.
     pub fn length(&self) -> f64 {
         self.length
@@ -82,6 +100,36 @@ impl Motion {
 /// The target or the way to it is out of reach or of an axis's range, the way passes a singular point, the duration is
 /// too short, a speed is not above zero. Nothing has moved then.
 pub fn plan(robot: &Robot, start: &Joints, command: &Command, settings: &Settings) -> Result<Motion, PlanError> {
+    plan_behind(robot, start, &Led::default(), command, settings)
+}
+
+/// Plans a motion that starts at `start`, where a compensation leads the robot as `before` says.
+pub(super) fn plan_behind(
+    robot: &Robot,
+    start: &Joints,
+    before: &Led,
+    command: &Command,
+    settings: &Settings,
+) -> Result<Motion, PlanError> {
+    let (Target::Line { wobj, .. } | Target::Arc { wobj, .. }) = &command.target else {
+        return plan_plain(robot, start, command, settings);
+    };
+    let before = &before.for_next(settings, &command.rig);
+    let plain = if before.number == 0 { *start } else { not_led(robot, start, before, command)? };
+    let motion = plan_plain(robot, &plain, command, settings)?;
+    lay(robot, motion, start, before, &wobj.rotation, settings)
+}
+
+/// Where the robot would be without the compensation that leads it to `start`.
+fn not_led(robot: &Robot, start: &Joints, before: &Led, command: &Command) -> Result<Joints, PlanError> {
+    let (kinematics, carried) = (&robot.kinematics, &command.rig.carried);
+    let tcp = before.lead.undone(&carried.way_at(&kinematics.forward(&start.axes)));
+    let axes = kinematics.inverse(&carried.flange_at(&tcp), kinematics.cfg(&start.axes), &start.axes);
+    axes.map(|axes| Joints { axes, ..*start }).ok_or(PlanError::Unreachable { beyond: 0.0, along: 0.0 })
+}
+
+/// Plans a motion without what is laid over it.
+fn plan_plain(robot: &Robot, start: &Joints, command: &Command, settings: &Settings) -> Result<Motion, PlanError> {
     let planner = Planner { robot, start, command, settings };
     match &command.target {
         Target::Joints(joints) => planner.axes(joints.completed(start, robot)),
@@ -247,6 +295,7 @@ impl Planner<'_> {
             external: Curve::even_axes(self.start, end).external(),
             cfg: 0,
             passages: Vec::new(),
+            over: None,
         }
     }
 
@@ -292,6 +341,7 @@ impl Planner<'_> {
             ends: true,
             line: self.command.line,
             curve: Curve::Tool(curve),
+            laid: None,
         })
     }
 
@@ -490,6 +540,7 @@ impl Planner<'_> {
             corner: None,
             ends: true,
             line: self.command.line,
+            laid: None,
         })
     }
 }

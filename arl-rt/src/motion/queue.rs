@@ -9,7 +9,8 @@ use super::error::PlanError;
 use super::gate;
 use super::governor::Pacing;
 use super::joints::Joints;
-use super::plan::{Motion, plan};
+use super::overlay::Led;
+use super::plan::{Motion, plan_behind};
 use crate::frames::Rig;
 use crate::kinematics::Frame;
 use crate::robot::Robot;
@@ -103,6 +104,10 @@ pub struct Queue {
     broken: Option<PlanError>,
     /// What was laid on the way, where somebody watches.
     laid: Option<Vec<Laid>>,
+    /// How a compensation stands at the end of the last motion.
+    led: Led,
+    /// The least part of its speed that what is laid over it has left to a motion.
+    slowed: f64,
 }
 
 /// A motion that was laid on the way.
@@ -139,6 +144,8 @@ impl Queue {
             patience: 0.0,
             broken: None,
             laid: None,
+            led: Led::default(),
+            slowed: 1.0,
         }
     }
 
@@ -168,6 +175,10 @@ impl Queue {
         if !self.has_room() {
             return Err(PlanError::Full);
         }
+        let depends = matches!(command.target, Target::Spline { .. } | Target::Circle { .. });
+        if depends && (settings.weave.is_some() || settings.compensation.is_some()) {
+            return Err(PlanError::NoOverlay);
+        }
         let mut next = Held::new(&self.robot, self.end(), command, settings, self.added + 1)?;
         self.release(next.as_mut())?;
         if next.is_some() {
@@ -177,7 +188,7 @@ impl Queue {
                 self.append(motion, self.added + 1);
             }
         } else {
-            let motion = plan(&self.robot, &self.end, command, settings)?;
+            let motion = plan_behind(&self.robot, &self.end, &self.led, command, settings)?;
             self.append(motion, self.added + 1);
         }
         self.added += 1;
@@ -224,6 +235,8 @@ impl Queue {
         self.end = *motion.end();
         self.last_rig = motion.rig;
         let watched = self.laid.is_some().then(|| motion.clone());
+        self.led = motion.led();
+        self.slowed = self.slowed.min(motion.share_of_speed());
         self.late |= self.course.append(&self.robot, motion, number, self.cycle);
         if let (Some(laid), Some(motion)) = (&mut self.laid, watched) {
             let left = self.course.left_before(number).filter(|_| motion.goes());
@@ -246,6 +259,12 @@ impl Queue {
     /// stopped or will stop between the two.
     pub fn take_late(&mut self) -> bool {
         std::mem::take(&mut self.late)
+    }
+
+    /// The least part of its programmed speed, 0 to 1, that a weave or a compensation has left to a motion since this was
+    /// asked last.
+    pub fn take_slowed(&mut self) -> f64 {
+        std::mem::replace(&mut self.slowed, 1.0)
     }
 
     /// Where the last motion of the queue ends: where the next one starts.
@@ -306,6 +325,7 @@ impl Queue {
         let idle = self.idle();
         if idle {
             (self.joints, self.end) = (joints, joints);
+            self.led = Led::default();
         }
         idle
     }
@@ -446,6 +466,7 @@ impl Queue {
             self.finished = self.added;
             self.course.clear();
             self.end = self.joints;
+            self.led = Led::default();
             self.started = None;
             self.progress = None;
             self.dropping = false;

@@ -37,11 +37,14 @@ const GLIMPSE_JUMP: f64 = 0.05;
 struct Walk<'a> {
     robot: &'a Robot,
     curve: &'a ToolCurve,
+    /// The same way without what is laid over it.
+    plain: Option<ToolCurve>,
 }
 
 /// Walks `curve` from `start`.
 pub(super) fn survey(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result<Survey, PlanError> {
-    let walk = Walk { robot, curve };
+    let plain = curve.over.as_ref().map(|_| ToolCurve { over: None, ..curve.clone() });
+    let walk = Walk { robot, curve, plain };
     // The target first: where it cannot be reached, that is what the programmer wants to know.
     walk.reaches_target(&start.axes)?;
 
@@ -51,8 +54,10 @@ pub(super) fn survey(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result
     let glimpse = walk.axes(GLIMPSE, &here)?;
     walk.no_jump(&here, &glimpse, GLIMPSE_JUMP, 0.0)?;
     let mut known = walk.rates(0.0, &here);
+    let longest = curve.over.as_ref().map_or(LONGEST_STEP, |over| over.longest_step().min(LONGEST_STEP));
+    let mut strip = 0.0;
     while at < 1.0 - GLIMPSE {
-        let next = walk.next(at, known.as_ref())?.min(1.0 - GLIMPSE);
+        let next = walk.next(at, &here, known.as_ref(), longest)?.min(1.0 - GLIMPSE);
         let expected = known.as_ref().map_or(here, |known| ahead(&here, known, next - at));
         let found = walk.axes(next, &expected)?;
         walk.no_jump(&expected, &found, JUMP, next)?;
@@ -63,6 +68,15 @@ pub(super) fn survey(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result
         limits.at(next, &found);
         (at, here) = (next, found);
         known = walk.rates(at, &here);
+        // Figures of a weave that are almost alike need not all be walked.
+        if let Some((skip, plain)) = walk.figures_alike(at, at - strip, &here) {
+            limits.between(at, &here, &plain, skip);
+            at += skip;
+            here = walk.axes(at, &here)?;
+            limits.at(at, &here);
+            known = walk.rates(at, &here);
+            strip = at;
+        }
     }
     rates.extend(known.map(|known| (at, known)));
     let end = walk.axes(1.0, &here)?;
@@ -86,16 +100,16 @@ impl Walk<'_> {
     }
 
     /// The next place to look at; never beyond the border of a passage.
-    fn next(&self, at: f64, known: Option<&Rates>) -> Result<f64, PlanError> {
+    fn next(&self, at: f64, axes: &Axes, known: Option<&Rates>, longest: f64) -> Result<f64, PlanError> {
         let step = match (self.curve.passage(at), known) {
             (Some(passage), _) if at < passage.to => (passage.to - passage.from) / PASSAGE_STEPS,
             (_, None) => SINGULAR_SCALE,
             (_, Some(known)) => {
-                let scale = self.scale(known);
+                let scale = self.scale_of_way(known, at, axes);
                 if scale < SINGULAR_SCALE {
                     return Err(self.singular(known, at));
                 }
-                (STEP_OF_SCALE * scale).min(LONGEST_STEP)
+                (STEP_OF_SCALE * scale).min(longest)
             }
         };
         let borders = self.curve.passages.iter().flat_map(|passage| [passage.from, passage.to]);
@@ -125,6 +139,33 @@ impl Walk<'_> {
         let (first, second, third) = (size(&rates.first), size(&rates.second), size(&rates.third));
         let scale = (first / second).min((first / third).sqrt());
         if scale.is_nan() { f64::INFINITY } else { scale }
+    }
+
+    /// The same where something is laid over the way: how the axes change along the plain way tells how near a singular
+    /// point is, while a weave would be at rest now and then.
+    fn scale_of_way(&self, rates: &Rates, at: f64, axes: &Axes) -> f64 {
+        let plain = self.plain.as_ref().and_then(|plain| Some((plain, self.plain_rates(at, axes)?)));
+        let Some((plain, plain_rates)) = plain else { return self.scale(rates) };
+        let ([_, way, ..], [_, whole, ..]) = (plain.moving(at), self.curve.moving(at));
+        let slower = if way.norm() > 0.0 { (way.norm() / whole.norm()).min(1.0) } else { 1.0 };
+        self.scale(&plain_rates) * slower
+    }
+
+    fn plain_rates(&self, at: f64, axes: &Axes) -> Option<Rates> {
+        self.robot.kinematics.rates(axes, &self.plain.as_ref()?.twist(at))
+    }
+
+    /// How far to skip ahead, by whole figures of a weave, when the last one has been walked for `walked`: with the
+    /// derivatives of the axes along the plain way.
+    fn figures_alike(&self, at: f64, walked: f64, axes: &Axes) -> Option<(f64, Rates)> {
+        let (figure, until) = self.curve.over.as_ref()?.figures()?;
+        if walked < figure {
+            return None;
+        }
+        let plain = self.plain_rates(at, axes)?;
+        let room = (STEP_OF_SCALE * self.scale(&plain)).min(LONGEST_STEP).min(until - at - figure);
+        let skip = (room / figure).floor() * figure;
+        (skip > 0.0).then_some((skip, plain))
     }
 
     fn no_jump(&self, expected: &Axes, found: &Axes, most: f64, at: f64) -> Result<(), PlanError> {

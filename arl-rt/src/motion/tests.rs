@@ -2,11 +2,13 @@
 
 mod blends;
 mod carried;
+mod compensations;
 mod gates;
 mod plans;
 mod stops;
 mod traces;
 mod ways;
+mod weaves;
 mod wrist;
 
 use std::sync::Arc;

@@ -1,9 +1,11 @@
 //! The motion instructions: they resolve what a program says, and what it leaves out, to a command for the planner.
 
+mod compensation;
 mod jump;
 mod load;
 mod modal;
 mod resolve;
+mod weave;
 
 use crate::cx::Cx;
 use crate::fault::Fault;
@@ -11,9 +13,11 @@ use crate::motion::Target;
 use crate::values::{Joint, Pose, Slip, Speed, Tool, Wobj};
 use modal::{Blend, Kind, Modal, Pace};
 
+pub use compensation::{Compen, CompenFrame, EndCompen, StartCompen, compen, endcompen, startcompen};
 pub use jump::{Above, Jump, jump};
 pub use load::{EndDetect, StartDetect, ToolLoad, ToolSwitch, enddetect, startdetect, toolload, toolswitch};
 pub(crate) use resolve::wanted;
+pub use weave::{EndWeave, StartWeave, endweave, startweave};
 
 /// Declares an instruction's builder: its target and its optional labels.
 macro_rules! instruction {

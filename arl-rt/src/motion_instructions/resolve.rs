@@ -13,6 +13,9 @@ use crate::values::{Joint, Pose, VelProfile};
 /// What the first motion of a program must not leave open.
 const FIRST: &str = "the first motion of a program must set all components of its target";
 
+/// A motion that keeps less of its speed under a weave or a compensation is warned of.
+const SLOWED: f64 = 0.98;
+
 /// The axes of a target.
 pub(super) fn joints(cx: &Cx, target: &Joint) -> Result<Joints, Fault> {
     let joints = Joints { axes: target.axes(), external: target.external() };
@@ -116,8 +119,13 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
     let mut unit = world.unit.borrow_mut();
     world.system.cjoint.set(joint(unit.target()));
     cx.moved();
+    let (file, line) = (cx.place().0.name(), cx.place().1);
+    let share = unit.take_slowed();
+    if share < SLOWED {
+        let percent = 100.0 * share;
+        world.warn(format!("{file}:{line}: the weave or the compensation is too fast for the robot: the motion goes at {percent:.0} % of its speed"));
+    }
     if unit.take_late() {
-        let file = file.name();
         world.warn(format!("{file}:{line}: the motion came too late to be blended with the one before it: the robot stops between the two"));
     }
     Ok(())

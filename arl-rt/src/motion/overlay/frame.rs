@@ -1,0 +1,109 @@
+//! The frame that goes along with a path: x forward, y to the left, z away from what the tool points at.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::motion::curve::ToolCurve;
+use crate::motion::error::PlanError;
+
+/// A path shorter than this, in mm, has no direction.
+const NO_LENGTH: f64 = 1e-6;
+/// Sines of the angle between tool and path below this leave no plane across the path.
+const PARALLEL: f64 = 1e-3;
+
+/// A value with its first three derivatives by the path parameter.
+pub(super) type Rates = [Vector3<f64>; 4];
+
+/// How something turns: its speed of rotation in rad per unit of the path parameter, and two derivatives of that.
+pub(super) type Turning = [Vector3<f64>; 3];
+
+/// The frame of a path: x along it, y across x and the tool's z axis, z across x and y (manual 3.2.11.2). It turns with the
+/// path and, about the path, evenly with the tool.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct PathFrame {
+    start: UnitQuaternion<f64>,
+    /// How the path turns, in rad per unit about an axis of the base.
+    turning: Vector3<f64>,
+    /// How the tool turns the frame about the path, in rad per unit.
+    roll: f64,
+}
+
+impl PathFrame {
+    /// The frame of a way of the TCP; `None` where it has no direction.
+    ///
+    /// # Errors
+    /// The tool points along the path at its start or its end.
+    pub(super) fn along(curve: &ToolCurve) -> Result<Option<Self>, PlanError> {
+        let Some(turning) = curve.track.even_turning() else { return Err(PlanError::NoOverlay) };
+        let tangent = |at: f64| curve.track.derivative(1, at);
+        if tangent(0.0).norm() < NO_LENGTH {
+            return Ok(None);
+        }
+        let axes = |at: f64| {
+            let (x, tool) = (tangent(at).normalize(), curve.rotation(at) * Vector3::z());
+            let y = x.cross(&tool);
+            if y.norm() < PARALLEL { Err(PlanError::ToolAlongPath) } else { Ok((x, y.normalize())) }
+        };
+        let ((x, y), (_, last_y)) = (axes(0.0)?, axes(1.0)?);
+        let z = x.cross(&y);
+        let start = UnitQuaternion::from_matrix(&nalgebra::Matrix3::from_columns(&[x, y, z]));
+        let carried = UnitQuaternion::from_scaled_axis(turning);
+        let (y, z) = (carried * y, carried * z);
+        Ok(Some(Self { start, turning, roll: last_y.dot(&z).atan2(last_y.dot(&y)) }))
+    }
+
+    /// Its orientation in the base.
+    pub(super) fn rotation(&self, at: f64) -> UnitQuaternion<f64> {
+        let roll = UnitQuaternion::from_scaled_axis(Vector3::x() * (self.roll * at));
+        UnitQuaternion::from_scaled_axis(self.turning * at) * self.start * roll
+    }
+
+    /// How it turns.
+    pub(super) fn turning(&self, at: f64) -> Turning {
+        let ahead = UnitQuaternion::from_scaled_axis(self.turning * at) * self.start * Vector3::x() * self.roll;
+        let first = self.turning.cross(&ahead);
+        [self.turning + ahead, first, self.turning.cross(&first)]
+    }
+}
+
+/// A vector that is given in the axes of something that turns, with its derivatives there: the same in the base.
+pub(super) fn carried(rotation: &UnitQuaternion<f64>, [w, w1, w2]: &Turning, local: &Rates) -> Rates {
+    let [v, v1, v2, v3] = local.map(|vector| rotation * vector);
+    // What is written with a prime in textbooks: the derivative in the base of each of these.
+    let (d, d1, d2) = (w.cross(&v) + v1, w.cross(&v1) + v2, w.cross(&v2) + v3);
+    let second = w1.cross(&v) + w.cross(&d) + d1;
+    let second1 = w1.cross(&v1) + w.cross(&d1) + d2;
+    let third = w2.cross(&v) + w1.cross(&d) * 2.0 + w.cross(&second) + second1;
+    [v, d, second, third]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn derivatives_are_those_of_the_place() {
+        let frame = PathFrame {
+            start: UnitQuaternion::from_euler_angles(0.3, -0.4, 1.0),
+            turning: Vector3::new(0.5, -1.0, 0.8),
+            roll: 0.7,
+        };
+        let local = |u: f64| {
+            let ((s, c), (s2, c2)) = ((3.0 * u).sin_cos(), (2.0 * u).sin_cos());
+            [
+                Vector3::new(s, c2, u),
+                Vector3::new(3.0 * c, -2.0 * s2, 1.0),
+                Vector3::new(-9.0 * s, -4.0 * c2, 0.0),
+                Vector3::new(-27.0 * c, 8.0 * s2, 0.0),
+            ]
+        };
+        let at = |u: f64| carried(&frame.rotation(u), &frame.turning(u), &local(u));
+        let h = 1e-4;
+        for u in [0.0, 0.2, 0.9] {
+            let (before, here, after) = (at(u - h), at(u), at(u + h));
+            for order in 0..3 {
+                let measured = (after[order] - before[order]) / (2.0 * h);
+                assert!((measured - here[order + 1]).norm() < 1e-5, "{order}: {measured} {}", here[order + 1]);
+            }
+        }
+    }
+}
