@@ -316,7 +316,7 @@ fn pages_show_what_the_tables_say() {
     let profile = reference::page("$VEL_PROFILE").expect("$VEL_PROFILE has a page");
     assert!(profile.contains("(enumeration)") && profile.contains("(system variable)"), "{profile}");
     assert!(reference::page("endl").is_some_and(|text| text.contains("`\"\\n\"`")));
-    assert!(reference::page("startweave").is_some_and(|text| text.contains("Not supported yet")));
+    assert!(reference::page("dnwrite").is_some_and(|text| text.contains("Not supported yet")));
     assert_eq!(reference::page("no_such_thing"), None);
     for name in INDEX.split_whitespace() {
         assert!(reference::page(name).is_some(), "{name}");
