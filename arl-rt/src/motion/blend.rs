@@ -10,6 +10,7 @@ use super::bounds::{Bounds, Pace};
 use super::curve::{Curve, ToolCurve, Track};
 use super::joints::{ALL, Joints};
 use super::limits::passing;
+use super::place::Place;
 use super::plan::Motion;
 use super::profile::Limits;
 use super::progress::Progress;
@@ -137,7 +138,7 @@ fn along(track: &Track, at: f64, rate: f64) -> [f64; 2] {
 }
 
 /// The faster of the two motions' speeds, the gentler of their accelerations.
-fn common_pace(from: &Motion, to: &Motion) -> Pace {
+pub(super) fn common_pace(from: &Motion, to: &Motion) -> Pace {
     let faster = |of: fn(&Pace) -> f64| of(&from.pace).max(of(&to.pace));
     let reached = |of: fn(&Motion) -> f64| {
         let speed = |motion: &Motion| match motion.curve {
@@ -240,37 +241,4 @@ fn inverse(progress: &Progress, at: f64) -> f64 {
         if progress.at(middle) < at { low = middle } else { high = middle }
     }
     low
-}
-
-/// A place on the curve: its parameter, and how that changes with the share of the nominal time.
-struct Place {
-    at: f64,
-    first: f64,
-    second: f64,
-    third: f64,
-}
-
-impl Place {
-    fn at(progress: &Progress, share: f64) -> Self {
-        let [first, second, third] = [1, 2, 3].map(|order| progress.derivative(order, share));
-        Self { at: progress.at(share), first, second, third }
-    }
-
-    /// Derivatives by the curve's parameter become derivatives by the share of the time.
-    fn rates<const N: usize>(&self, [p1, p2, p3]: [[f64; N]; 3]) -> [[f64; N]; 3] {
-        let Self { first: a, second: b, third: c, .. } = *self;
-        let mut out = [[0.0; N]; 3];
-        let [first, second, third] = &mut out;
-        let places = first.iter_mut().zip(second).zip(third);
-        for (((first, second), third), ((p1, p2), p3)) in places.zip(p1.iter().zip(&p2).zip(&p3)) {
-            *first = p1 * a;
-            *second = p2 * a * a + p1 * b;
-            *third = p3 * a * a * a + 3.0 * p2 * a * b + p1 * c;
-        }
-        out
-    }
-
-    fn vectors(&self, vectors: [Vector3<f64>; 3]) -> [Vector3<f64>; 3] {
-        self.rates(vectors.map(<[f64; 3]>::from)).map(Vector3::from)
-    }
 }

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use super::curve::{Curve, ToolCurve};
 use super::joints::{ALL, Joints};
 use super::limits::Bound;
+use super::profile::Limits;
 use crate::frames::Carried;
 use crate::kinematics::Axes;
 use crate::robot::{EXTERNAL_AXES, Robot};
@@ -55,17 +56,29 @@ impl Pace {
 pub(super) struct Bounds<'a> {
     robot: &'a Robot,
     pub(super) rows: Vec<Bound>,
+    /// Whether the rows keep the signs of the derivatives.
+    signed: bool,
 }
 
 impl<'a> Bounds<'a> {
+    /// Rows of magnitudes.
     pub(super) fn new(robot: &'a Robot) -> Self {
-        Self { robot, rows: Vec::with_capacity(64) }
+        Self { robot, rows: Vec::with_capacity(64), signed: false }
+    }
+
+    /// Rows that keep the signs of the derivatives, for one place.
+    pub(super) fn signed(robot: &'a Robot) -> Self {
+        Self { signed: true, ..Self::new(robot) }
+    }
+
+    fn push(&mut self, bound: Bound) {
+        self.rows.push(if self.signed { bound } else { bound.size() });
     }
 
     /// All axes go evenly from `start` to `end`.
     pub(super) fn even_axes(&mut self, start: &Joints, end: &Joints, pace: &Pace) {
         for (axis, (start, end)) in self.robot.own_axes().iter().zip(start.axes.iter().zip(&end.axes)) {
-            self.rows.push(Bound::even(end - start, axis.vel * pace.axes, axis.acc * pace.acc, axis.jerk * pace.jerk));
+            self.push(Bound::even(end - start, axis.vel * pace.axes, axis.acc * pace.acc, axis.jerk * pace.jerk));
         }
         self.even_external(start, end, pace);
     }
@@ -76,7 +89,7 @@ impl<'a> Bounds<'a> {
         for (axis, way) in self.robot.external_axes().iter().zip(ways) {
             let programmed = if axis.linear { pace.linear } else { pace.turning };
             let vel = axis.vel.min(programmed);
-            self.rows.push(Bound::even(way, vel, axis.acc * pace.acc, axis.jerk * pace.jerk));
+            self.push(Bound::even(way, vel, axis.acc * pace.acc, axis.jerk * pace.jerk));
         }
     }
 
@@ -85,7 +98,7 @@ impl<'a> Bounds<'a> {
         let derivatives = first.iter().zip(second).zip(third);
         for (axis, ((first, second), third)) in self.robot.own_axes().iter().zip(derivatives) {
             let limits = [axis.vel * pace.axes, axis.acc * pace.acc, axis.jerk * pace.jerk];
-            self.rows.push(row([*first, *second, *third], limits));
+            self.push(row([*first, *second, *third], limits));
         }
     }
 
@@ -95,6 +108,12 @@ impl<'a> Bounds<'a> {
         let [first, second, third] = &parts;
         self.axes(&first.axes, &second.axes, &third.axes, pace);
         self.external(&parts.map(|part| part.external), pace);
+    }
+
+    /// Constant limits of the parameter itself.
+    pub(super) fn cell(&mut self, limits: &Limits) {
+        let Limits { vel, acc, jerk } = *limits;
+        self.push(Bound::even(1.0, vel, acc, jerk));
     }
 
     /// The TCP on its way, and the turning of the tool.
@@ -108,7 +127,7 @@ impl<'a> Bounds<'a> {
     /// The TCP at a place where these are the derivatives of its position, in mm.
     pub(super) fn moving(&mut self, rates: &[Vector3<f64>; 3], pace: &Pace) {
         let tcp = &self.robot.tcp;
-        self.rows.push(along(rates, (tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk)));
+        self.push(along(rates, (tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk)));
     }
 
     /// The TCP at a place where these are the derivatives of its position, in mm, and where it swings to and fro: all of its
@@ -121,7 +140,7 @@ impl<'a> Bounds<'a> {
 
     /// The speed of the TCP in manual operation, at a place where these are the derivatives of its position.
     pub(super) fn manual_moving(&mut self, rates: &[Vector3<f64>; 3]) {
-        self.rows.push(along(rates, (MANUAL_SPEED, f64::INFINITY, f64::INFINITY)));
+        self.push(along(rates, (MANUAL_SPEED, f64::INFINITY, f64::INFINITY)));
     }
 
     /// The tool at a place where it turns so, in rad.
@@ -129,7 +148,7 @@ impl<'a> Bounds<'a> {
         let tcp = &self.robot.tcp;
         let rates = rates.map(|rate| rate.map(f64::to_degrees));
         let limits = (tcp.ori_vel.min(pace.ori), tcp.ori_acc * pace.acc, tcp.ori_jerk * pace.jerk);
-        self.rows.push(along(&rates, limits));
+        self.push(along(&rates, limits));
     }
 
     /// The external axes at a place where these are their derivatives.
@@ -138,7 +157,7 @@ impl<'a> Bounds<'a> {
         let derivatives = first.iter().zip(second).zip(third);
         for (axis, ((first, second), third)) in self.robot.external_axes().iter().zip(derivatives) {
             let vel = axis.vel.min(if axis.linear { pace.linear } else { pace.turning });
-            self.rows.push(row([*first, *second, *third], [vel, axis.acc * pace.acc, axis.jerk * pace.jerk]));
+            self.push(row([*first, *second, *third], [vel, axis.acc * pace.acc, axis.jerk * pace.jerk]));
         }
     }
 
@@ -153,7 +172,7 @@ impl<'a> Bounds<'a> {
     pub(super) fn cap_tool(&mut self, curve: &ToolCurve, vel: f64) {
         for place in places(curve) {
             let first = curve.track.derivative(1, place).norm();
-            self.rows.push(Bound::even(first, vel, f64::INFINITY, f64::INFINITY));
+            self.push(Bound::even(first, vel, f64::INFINITY, f64::INFINITY));
         }
     }
 
@@ -178,7 +197,7 @@ impl<'a> Bounds<'a> {
         let rates = Joints::of(rates).axes;
         let mut point = |place: Vector3<f64>| {
             let speed = kinematics.point_velocity(&joints.axes, &rates, &place).norm() * BETWEEN_SAMPLES;
-            self.rows.push(Bound::even(speed, MANUAL_SPEED, f64::INFINITY, f64::INFINITY));
+            self.push(Bound::even(speed, MANUAL_SPEED, f64::INFINITY, f64::INFINITY));
         };
         match carried {
             Carried::Tool(tool) => point((flange * tool).translation.vector),
@@ -195,7 +214,7 @@ impl<'a> Bounds<'a> {
         if let Carried::Workpiece(_) = curve.carried {
             let [first, ..] = curve.twist(at).of_place(&curve.flange(at).translation.vector);
             let speed = first.norm() * rate * BETWEEN_SAMPLES;
-            self.rows.push(Bound::even(speed, MANUAL_SPEED, f64::INFINITY, f64::INFINITY));
+            self.push(Bound::even(speed, MANUAL_SPEED, f64::INFINITY, f64::INFINITY));
         }
     }
 }
@@ -208,7 +227,7 @@ fn places(curve: &ToolCurve) -> impl Iterator<Item = f64> + use<> {
 
 /// A value with these derivatives, between whose places it changes a little more.
 fn row([first, second, third]: [f64; 3], [vel, acc, jerk]: [f64; 3]) -> Bound {
-    let more = |value: f64| value.abs() * BETWEEN_SAMPLES;
+    let more = |value: f64| value * BETWEEN_SAMPLES;
     Bound { first: more(first), second: more(second), third: more(third), vel, acc, jerk }
 }
 
@@ -221,5 +240,5 @@ fn along(rates: &[Vector3<f64>; 3], (vel, acc, jerk): (f64, f64, f64)) -> Bound 
     }
     let second = p1.dot(p2) / first;
     let third = (p2.norm_squared() + p1.dot(p3) - second * second) / first;
-    Bound { first, second: second.abs(), third: third.abs(), vel, acc, jerk }
+    Bound { first, second, third, vel, acc, jerk }
 }

@@ -2,18 +2,22 @@
 
 use std::collections::VecDeque;
 
-use super::blend::{Blend, blend};
+use super::blend::{Blend, blend, common_pace};
+use super::bounds::{Bounds, Pace};
 use super::curve::Curve;
 use super::governor::{Governor, MARGIN, Pacing};
-use super::joints::Joints;
+use super::joints::{ALL, Joints};
 use super::overlay::joined;
+use super::pilot::{Goal, Pilot};
+use super::place::Place;
 use super::plan::Motion;
 use super::profile::{Limits, State};
 use super::progress::Progress;
+use super::scout::Scout;
 use super::timing::{Cell, Timing};
 use crate::frames::Rig;
 use crate::kinematics::Kinematics;
-use crate::robot::Robot;
+use crate::robot::{Robot, VelocityProfile};
 
 /// A stretch of the way with constant limits. Its own parameter is the time, in s, that it takes at its full speed: so
 /// that motions and blends meet with the same speed.
@@ -44,6 +48,8 @@ pub(super) struct Piece {
     shares: [f64; 2],
     /// The length of the motion in mm.
     pub(super) length: f64,
+    /// The programmed speeds, where every place has limits of its own: in the profile O.
+    pace: Option<Pace>,
 }
 
 impl Piece {
@@ -68,11 +74,14 @@ impl Piece {
             target: motion.end,
             shares: [from, to],
             length: motion.length,
+            pace: is_free(motion).then_some(motion.pace),
         }
     }
 
     /// One half of a blend: the first belongs to the motion that is left, the second to the one that is joined.
-    fn half(blend: &Blend, motion: &Motion, number: u64, first: bool) -> Self {
+    fn half(blend: &Blend, (before, after): (&Motion, &Motion), number: u64, first: bool) -> Self {
+        let motion = if first { before } else { after };
+
         let Limits { vel, acc, jerk } = blend.limits;
         let time = blend.time;
         Self {
@@ -92,14 +101,17 @@ impl Piece {
             // All of the blend counts as the motion that is joined: see `Course::current`.
             shares: if first { [blend.leave; 2] } else { [blend.join / 2.0, blend.join] },
             length: motion.length,
+            pace: (is_free(before) && is_free(after)).then(|| common_pace(before, after)),
         }
     }
 
     /// The joints after `at` s of nominal time.
     pub(super) fn joints(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> Joints {
-        if self.stops && at >= self.time {
-            return self.target;
-        }
+        if self.stops && at >= self.time { self.target } else { self.joints_on(kinematics, at, near) }
+    }
+
+    /// The same, but for the end of a motion as its curve has it.
+    pub(super) fn joints_on(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> Joints {
         let place = self.from + (self.to - self.from) * (at / self.time);
         let place = self.progress.as_ref().map_or(place, |progress| progress.at(place));
         self.curve.joints(kinematics, place, near)
@@ -120,12 +132,61 @@ impl Piece {
         &self.target
     }
 
+    /// The parts between which the derivatives of its curve jump.
+    pub(super) fn parts(&self) -> u32 {
+        if self.progress.is_some() { Progress::PARTS as u32 / 2 } else { 1 }
+    }
+
+    /// Adds what limits the nominal time after `at` s of it, where the joints are `joints`. Returns how these change with
+    /// it: three derivatives; `None` where nothing but constant limits holds, and at a singular point.
+    pub(super) fn limit(
+        &self,
+        robot: &Robot,
+        at: f64,
+        joints: &Joints,
+        bounds: &mut Bounds,
+    ) -> Option<[[f64; ALL]; 3]> {
+        let Some(pace) = &self.pace else {
+            bounds.cell(&self.limits);
+            return None;
+        };
+        let width = (self.to - self.from) / self.time;
+        let share = self.from + at * width;
+        let even = Place { at: share, first: 1.0, second: 0.0, third: 0.0 };
+        let place = self.progress.as_ref().map_or(even, |progress| Place::at(progress, share)).scaled(width);
+        let rates = place.rates(self.curve.rates(&robot.kinematics, place.at, joints)?);
+        bounds.all_axes(&rates, pace);
+        match &self.curve {
+            Curve::Axes(_) if pace.manual => bounds.manual_place(joints, &rates[0], &self.rig.carried),
+            Curve::Axes(_) => {}
+            Curve::Tool(curve) => {
+                let moving = place.vectors([1, 2, 3].map(|order| curve.track.derivative(order, place.at)));
+                bounds.moving(&moving, pace);
+                bounds.turning(&place.vectors(curve.rotation_rates(place.at)), pace);
+                if pace.manual {
+                    bounds.manual_moving(&moving);
+                    bounds.manual_flange(curve, place.at, place.first);
+                }
+            }
+        }
+        Some(rates)
+    }
+
     /// The share of the motion that is done after `at` s of nominal time.
     fn share(&self, at: f64) -> f64 {
         let [from, to] = self.shares;
         from + (to - from) * (at / self.time).clamp(0.0, 1.0)
     }
 }
+
+/// Whether every place of a motion has limits of its own: in the profile O, unless its duration is given or it weaves, which
+/// wants an even speed.
+fn is_free(motion: &Motion) -> bool {
+    motion.profile == VelocityProfile::O && !motion.timed && motion.laid.is_none()
+}
+
+/// What is left of the way to a stop, in s of nominal time, when only rounding is left.
+const NEAR_STOP: f64 = 1e-9;
 
 /// All pieces from the one that the robot is on.
 #[derive(Clone, Debug, Default)]
@@ -138,6 +199,12 @@ pub(super) struct Course {
     state: State,
     /// The share of the speed that the robot has settled to.
     share: f64,
+    /// Who leads the robot in the profile O.
+    pilot: Option<Box<Pilot>>,
+    /// Whether the pilot has found no law from rest here.
+    unled: bool,
+    /// s of nominal time before the first piece, since the course began.
+    passed: f64,
     /// The last motion, with its limits, which the next one may still round off.
     tail: Option<(Motion, Limits)>,
 }
@@ -211,10 +278,13 @@ impl Course {
     }
 
     /// Appends a motion. Returns whether it was asked to round off the motion before it, but came too late for that.
-    pub(super) fn append(&mut self, robot: &Robot, motion: Motion, number: u64, cycle: f64) -> bool {
+    pub(super) fn append(&mut self, robot: &Robot, here: &Joints, motion: Motion, number: u64, cycle: f64) -> bool {
         let Some(limits) = motion.limits else { return false };
         let tail = self.tail.take();
-        if motion.flows && tail.is_some() && self.flow_on(Piece::part(&motion, limits, number, 0.0, 1.0), cycle) {
+        if motion.flows
+            && tail.is_some()
+            && self.flow_on((robot, here), Piece::part(&motion, limits, number, 0.0, 1.0), cycle)
+        {
             self.timing.settle();
             self.timing.find_entries(MARGIN, cycle);
             self.tail = Some((motion, limits));
@@ -225,7 +295,7 @@ impl Course {
             _ => None,
         };
         let asked = wanted.is_some() || motion.flows;
-        let rounded = wanted.filter(|wanted| self.round_off(wanted, number, cycle));
+        let rounded = wanted.filter(|wanted| self.round_off((robot, here), wanted, number, cycle));
         if let Some(wanted) = rounded {
             self.tail = Some(wanted.to);
             self.timing.settle();
@@ -234,7 +304,7 @@ impl Course {
         }
         let whole = [Piece::part(&motion, limits, number, 0.0, 1.0)];
         // In a stretch of its own it asks for nothing that the stop before it did not.
-        if !self.lay(&whole, true, cycle) {
+        if self.pilot.is_some() || !self.lay(&whole, true, cycle) {
             self.push(&whole, false);
         }
         self.timing.settle();
@@ -245,11 +315,11 @@ impl Course {
 
     /// Puts a blend in place of the end of the last motion and the start of the next; returns whether the robot is still
     /// able to take it.
-    fn round_off(&mut self, blended: &Blended, number: u64, cycle: f64) -> bool {
+    fn round_off(&mut self, at: (&Robot, &Joints), blended: &Blended, number: u64, cycle: f64) -> bool {
         let Blended { from: (before, before_limits), to: (motion, limits), blend, until } = blended;
         let Some(last) = self.pieces.pop_back() else { return false };
-        let at = last.from + self.at * before.rate;
-        if self.pieces.is_empty() && (at >= blend.leave || at > *until) {
+        let gone = last.from + self.at * before.rate;
+        if self.pieces.is_empty() && (gone >= blend.leave || gone > *until) {
             self.pieces.push_back(last);
             return false;
         }
@@ -257,33 +327,66 @@ impl Course {
         let mut cut = Piece::part(before, *before_limits, last.number, last.from, blend.leave);
         (cut.stops, cut.ends) = (false, false);
         let rest = Piece::part(motion, *limits, number, blend.join, 1.0);
-        let first = Piece::half(blend, before, last.number, true);
-        let second = Piece::half(blend, motion, number, false);
+        let first = Piece::half(blend, (before, motion), last.number, true);
+        let second = Piece::half(blend, (before, motion), number, false);
+        let start = self.passed + self.pieces.iter().map(|piece| piece.time).sum::<f64>();
+        let same_to = start + (until.min(blend.leave) - last.from).max(0.0) / before.rate;
         let pieces: Vec<Piece> = [cut, first, second, rest].into_iter().filter(|piece| piece.time > 1e-12).collect();
-        if self.lay(&pieces, true, cycle) || self.lay(&pieces, false, cycle) {
+        if self.lay_any(at, &pieces, same_to, cycle) {
             return true;
         }
-        let last = [last];
-        if !self.lay(&last, true, cycle) {
-            self.push(&last, false);
-        }
+        self.lay_again(last, cycle);
         false
     }
 
+    /// Appends pieces in whatever way the robot is able to keep to them; returns whether there is one. Up to `same_to`, in s
+    /// of nominal time since the course began, nothing changes by them.
+    fn lay_any(&mut self, at: (&Robot, &Joints), pieces: &[Piece], same_to: f64, cycle: f64) -> bool {
+        if self.pilot.is_some() {
+            return self.lay_before_pilot(pieces, same_to, at);
+        }
+        self.lay(pieces, true, cycle) || self.lay(pieces, false, cycle)
+    }
+
+    /// Puts a piece back that was taken away.
+    fn lay_again(&mut self, piece: Piece, cycle: f64) {
+        let piece = [piece];
+        if self.pilot.is_some() || !self.lay(&piece, true, cycle) {
+            self.push(&piece, false);
+        }
+    }
+
     /// Goes on from the last motion without a stop; returns whether the robot is still able to.
-    fn flow_on(&mut self, piece: Piece, cycle: f64) -> bool {
+    fn flow_on(&mut self, at: (&Robot, &Joints), piece: Piece, cycle: f64) -> bool {
         let Some(last) = self.pieces.pop_back() else { return false };
         self.timing.pop();
         let through = Piece { stops: false, duration: None, ..last.clone() };
         let pieces = [through, Piece { duration: None, ..piece }];
-        if self.lay(&pieces, true, cycle) || self.lay(&pieces, false, cycle) {
+        let same_to = self.passed + self.pieces.iter().chain(pieces.first()).map(|piece| piece.time).sum::<f64>();
+        if self.lay_any(at, &pieces, same_to, cycle) {
             return true;
         }
-        let last = [last];
-        if !self.lay(&last, true, cycle) {
-            self.push(&last, false);
-        }
+        self.lay_again(last, cycle);
         false
+    }
+
+    /// The same as [`Course::lay`] in the profile O.
+    fn lay_before_pilot(&mut self, pieces: &[Piece], same_to: f64, (robot, here): (&Robot, &Joints)) -> bool {
+        self.push(pieces, true);
+        let Some(mut pilot) = self.pilot.take() else { return true };
+        let laid = pilot.end() <= same_to || pilot.renew(&self.scout(robot, here));
+        self.pilot = Some(pilot);
+        if !laid {
+            for _ in pieces {
+                self.pieces.pop_back();
+                self.timing.pop();
+            }
+        }
+        laid
+    }
+
+    fn scout<'a>(&'a self, robot: &'a Robot, here: &Joints) -> Scout<'a> {
+        Scout { robot, pieces: &self.pieces, passed: self.passed, at: self.passed + self.at, joints: *here }
     }
 
     /// Appends pieces if the robot is able to keep to them, and returns whether it is; `may` they join the last stretch?
@@ -314,12 +417,24 @@ impl Course {
 
     /// Goes on for a cycle; tells of each piece that is left behind. Returns whether the robot has arrived where it had
     /// to stop: at the end of the last piece that was told of.
-    pub(super) fn advance(&mut self, cycle: f64, pacing: Pacing, mut passed: impl FnMut(Piece)) -> bool {
-        let pacing = self.settling(cycle, pacing);
-        let next = self.governor(cycle).next(&self.state, pacing);
-        self.at += next.at - self.state.at;
-        self.state = next;
+    pub(super) fn advance(
+        &mut self,
+        (robot, here): (&Robot, &Joints),
+        cycle: f64,
+        pacing: Pacing,
+        mut passed: impl FnMut(Piece),
+    ) -> bool {
+        self.choose_leader();
+        if !self.follow_pilot(robot, here, cycle, pacing) {
+            let pacing = self.settling(cycle, pacing);
+            let next = self.governor(cycle).next(&self.state, pacing);
+            self.at += next.at - self.state.at;
+            self.state = next;
+        }
         let stands = self.timing.pass(&mut self.state);
+        if stands {
+            (self.pilot, self.unled) = (None, false);
+        }
         while let Some(first) = self.pieces.front() {
             // What rounding leaves of pieces before a stop is passed with it.
             let at_stop = stands && self.at >= first.time - 1e-9;
@@ -331,6 +446,7 @@ impl Course {
                 break;
             }
             self.at = if stops { 0.0 } else { self.at - first.time };
+            self.passed = if stops { 0.0 } else { self.passed + first.time };
             if let Some(piece) = self.pieces.pop_front() {
                 passed(piece);
             }
@@ -339,6 +455,39 @@ impl Course {
             }
         }
         stands
+    }
+
+    /// Whoever leads the robot from rest leads it until it stops: the pilot where the first motion has the profile O.
+    fn choose_leader(&mut self) {
+        if self.state.rests() && self.pilot.is_none() && !self.unled {
+            let optimal = self.pieces.front().is_some_and(|first| first.pace.is_some());
+            self.pilot = optimal.then(Box::default);
+        }
+    }
+
+    /// Goes on for a cycle as the pilot says; `false` where there is none.
+    fn follow_pilot(&mut self, robot: &Robot, here: &Joints, cycle: f64, pacing: Pacing) -> bool {
+        let Some(mut pilot) = self.pilot.take() else { return false };
+        let rested = pilot.rests();
+        let goal = match pacing {
+            Pacing::Go(share) | Pacing::Settle(share) => Goal::Go(share),
+            Pacing::Stop(harder) => Goal::Stop(harder),
+        };
+        let next = pilot.next(&self.scout(robot, here), cycle, goal);
+        if rested && pilot.rests() && matches!(goal, Goal::Go(_)) {
+            self.unled = true;
+            return false;
+        }
+        let mut way = next.at - self.passed - self.at;
+        if pilot.rests() {
+            // Rounding must neither keep it from a stop nor carry it past one.
+            let stop = self.timing.to_stop() - self.state.at;
+            way = if way > stop - NEAR_STOP { stop } else { way };
+        }
+        self.state = State { at: self.state.at + way, vel: next.vel, acc: next.acc };
+        self.at += way;
+        self.pilot = Some(pilot);
+        true
     }
 
     /// The pacing with the way to a share of the speed that is new.
@@ -377,11 +526,15 @@ impl Course {
     /// exact where it begins and ends at rest, else what its pieces take at their speeds.
     pub(super) fn time_to_end(&self, elapsed: f64) -> f64 {
         let (Some(first), Some((current, _))) = (self.pieces.front(), self.current()) else { return 0.0 };
-        if let Some(duration) = current.duration {
+        if let Some(duration) = current.duration.filter(|_| self.pilot.is_none()) {
             return (duration - elapsed).max(0.0);
         }
         let own = |piece: &&Piece| piece.number == current.number && !piece.leaves();
         let later = self.pieces.iter().skip(1).take_while(own);
+        let end = self.passed + first.time + later.clone().map(|piece| piece.time).sum::<f64>();
+        if let Some(time) = self.pilot.as_ref().and_then(|pilot| pilot.time_to(end)) {
+            return time;
+        }
         later.map(|piece| piece.time / piece.limits.vel).sum::<f64>() + (first.time - self.at) / first.limits.vel
     }
 }

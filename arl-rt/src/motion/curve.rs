@@ -6,6 +6,7 @@ use super::joints::{ALL, Joints};
 use super::overlay::Overlay;
 use super::quintic::{Quintic, Way};
 use super::rotation;
+use super::survey::SINGULAR;
 use crate::frames::Carried;
 use crate::kinematics::{Axes, Frame, Kinematics, Passage, Rates, Twist, wrap_degrees};
 use crate::robot::{EXTERNAL_AXES, ROBOT_AXES};
@@ -285,6 +286,24 @@ impl Curve {
             *travel -= from;
         }
         Curve::Axes(Quintic::even(from, travel))
+    }
+
+    /// How all joints change at `at`, where they are `joints`: three derivatives by the parameter. `None` at a singular
+    /// point, where they would be made of rounding errors.
+    pub(super) fn rates(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<[[f64; ALL]; 3]> {
+        match self {
+            Curve::Axes(axes) => Some([1, 2, 3].map(|order| axes.derivative(order, at))),
+            Curve::Tool(tool) => {
+                if tool.passage(at).is_none() && kinematics.clearance(&joints.axes) < SINGULAR {
+                    return None;
+                }
+                let rates = tool.rates(kinematics, at, &joints.axes)?;
+                let external = [1, 2, 3].map(|order| tool.external.derivative(order, at));
+                let [first, second, third] = external;
+                let all = |axes, external| Joints { axes, external }.all();
+                Some([all(rates.first, first), all(rates.second, second), all(rates.third, third)])
+            }
+        }
     }
 
     /// The joints at `at`; `near` are the joints of the cycle before.

@@ -5,7 +5,8 @@ use super::profile::Limits;
 /// One quantity at one place of the path: its derivatives by the path parameter, and how fast it may change in time.
 ///
 /// A parameter that moves with speed v, acceleration a and jerk j moves the quantity with speed `first` v, acceleration
-/// `first` a + `second` v2, and jerk `first` j + 3 `second` v a + `third` v3. All are magnitudes.
+/// `first` a + `second` v2, and jerk `first` j + 3 `second` v a + `third` v3. What works with constant limits of the
+/// parameter takes magnitudes of the derivatives.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Bound {
     pub(super) first: f64,
@@ -20,6 +21,11 @@ impl Bound {
     /// A quantity that changes evenly, by `by` in all.
     pub(super) fn even(by: f64, vel: f64, acc: f64, jerk: f64) -> Self {
         Self { first: by.abs(), second: 0.0, third: 0.0, vel, acc, jerk }
+    }
+
+    /// With the magnitudes of the derivatives.
+    pub(super) fn size(self) -> Self {
+        Self { first: self.first.abs(), second: self.second.abs(), third: self.third.abs(), ..self }
     }
 }
 

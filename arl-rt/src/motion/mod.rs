@@ -20,6 +20,8 @@ mod limits;
 #[doc(hidden)]
 pub mod optimal;
 mod overlay;
+mod pilot;
+mod place;
 mod plan;
 mod profile;
 mod progress;
@@ -27,6 +29,7 @@ mod queue;
 mod quintic;
 mod record;
 mod rotation;
+mod scout;
 mod spline;
 mod survey;
 #[cfg(test)]

@@ -38,6 +38,9 @@ pub struct Motion {
     /// Whether it goes on smoothly from the motion before it, at the same nominal speed.
     pub(super) flows: bool,
     pub(super) pace: Pace,
+    pub(super) profile: VelocityProfile,
+    /// Whether a duration was programmed.
+    pub(super) timed: bool,
     /// The length of the TCP's way in mm, 0 for axis motions.
     pub(super) length: f64,
     /// The angle in deg by which the tool turns on its way, 0 for axis motions.
@@ -312,11 +315,11 @@ impl Planner<'_> {
         let found = survey(self.robot, &curve, self.start).map_err(|error| self.at_the_wrist(error, &curve))?;
         let end = Joints { axes: found.end, external: *external }.completed(self.start, self.robot);
         let end = self.within_ranges(end)?;
-        let pace = self.pace(true)?;
+        let mut pace = self.pace(true)?;
+        pace.tcp = pace.tcp.min(self.programmed_cap()?);
         let mut bounds = Bounds::new(self.robot);
         bounds.tool(&curve, &pace);
         bounds.external_along(&curve, &pace);
-        bounds.cap_tool(&curve, self.programmed_cap()?);
         if self.settings.manual {
             bounds.cap_tool(&curve, super::bounds::MANUAL_SPEED);
             for (at, _) in &found.rates {
@@ -334,6 +337,8 @@ impl Planner<'_> {
             rate: 1.0 / time,
             flows,
             pace,
+            profile: self.settings.profile,
+            timed: self.command.duration.is_some(),
             length: curve.track.length(),
             angle: turned(&curve),
             zone: self.command.zone,
@@ -505,6 +510,7 @@ impl Planner<'_> {
         let limits = match self.command.duration {
             None => {
                 pace = self.pace(is_tool)?;
+                pace.tcp = pace.tcp.min(if is_tool { self.programmed_cap()? } else { f64::INFINITY });
                 collect(&pace, &mut bounds);
                 caps(&mut bounds);
                 moves.then(|| quickest(&bounds.rows))
@@ -534,6 +540,8 @@ impl Planner<'_> {
             rate: limits.map_or(1.0, |limits| limits.vel),
             flows: false,
             pace,
+            profile: self.settings.profile,
+            timed: self.command.duration.is_some(),
             length,
             angle,
             zone: self.command.zone,

@@ -108,6 +108,18 @@ impl Change {
         State { at: state.at + state.vel * left, acc: 0.0, ..state }
     }
 
+    /// The jerk `time` s after the start.
+    pub(super) fn jerk(&self, time: f64) -> f64 {
+        let mut end = 0.0;
+        for phase in self.phases {
+            end += phase.time;
+            if time < end {
+                return phase.jerk;
+            }
+        }
+        0.0
+    }
+
     /// How far the change goes from a start with this speed and acceleration.
     pub(super) fn distance(&self, vel: f64, acc: f64) -> f64 {
         let start = State { at: 0.0, vel, acc };

@@ -16,6 +16,9 @@ const EASING: f64 = 5.0 / 16.0;
 pub(super) struct Progress([Quintic<1>; PARTS]);
 
 impl Progress {
+    /// Parts between which the third derivative jumps, all of the same length.
+    pub(super) const PARTS: usize = PARTS;
+
     /// From one rate of the parameter to another, smoothly.
     pub(super) fn between(start_rate: f64, end_rate: f64) -> Self {
         let knot = |value: f64, first: f64| Knot { value: [value], first: [first], second: [0.0] };

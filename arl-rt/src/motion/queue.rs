@@ -237,7 +237,7 @@ impl Queue {
         let watched = self.laid.is_some().then(|| motion.clone());
         self.led = motion.led();
         self.slowed = self.slowed.min(motion.share_of_speed());
-        self.late |= self.course.append(&self.robot, motion, number, self.cycle);
+        self.late |= self.course.append(&self.robot, &self.joints, motion, number, self.cycle);
         if let (Some(laid), Some(motion)) = (&mut self.laid, watched) {
             let left = self.course.left_before(number).filter(|_| motion.goes());
             laid.push(Laid { number, motion, left });
@@ -373,7 +373,7 @@ impl Queue {
             }
             self.time(if matches!(pacing, Pacing::Go(_)) { dt * speed } else { 0.0 });
             let (mut arrived, mut finished) = (None, self.finished);
-            let stands = self.course.advance(dt, pacing, |passed| {
+            let stands = self.course.advance((&self.robot, &self.joints), dt, pacing, |passed| {
                 finished = if passed.ends { passed.number } else { finished };
                 arrived = Some(passed);
             });

@@ -23,7 +23,7 @@ const STEP_OF_SCALE: f64 = 0.1;
 /// Where the axes' motion changes over so little of the path, the point is singular for all practical speeds.
 const SINGULAR_SCALE: f64 = 1e-3;
 /// Closer to a singular point than this (see [`crate::kinematics::Kinematics::clearance`]) rounding spoils the derivatives.
-const SINGULAR: f64 = 1e-5;
+pub(super) const SINGULAR: f64 = 1e-5;
 /// An axis that is so far (deg) from where it was bound to be has jumped to another solution.
 const JUMP: f64 = 10.0;
 /// Steps through a passage of the wrist singularity.

@@ -181,6 +181,18 @@ impl Timing {
         false
     }
 
+    /// The way in s to the next stop.
+    pub(super) fn to_stop(&self) -> f64 {
+        let mut end = 0.0;
+        for stretch in &self.stretches {
+            end += stretch.cells.iter().map(|cell| cell.length).sum::<f64>();
+            if stretch.stops {
+                break;
+            }
+        }
+        end
+    }
+
     /// The way in s to the end of everything.
     pub(super) fn length(&self) -> f64 {
         self.stretches.iter().flat_map(|stretch| &stretch.cells).map(|cell| cell.length).sum()

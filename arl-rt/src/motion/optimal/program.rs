@@ -86,6 +86,9 @@ pub(super) struct Warped {
     pub(super) jerk: [f64; 3],
 }
 
+/// A share of the highest square of the warped parameter's speed that no motion comes down to, but for one that fails.
+const ALMOST_REST: f64 = 1e-9;
+
 impl Program {
     pub(super) fn new(way: &Way, start: Edge, end: Edge) -> Result<Self, Refusal> {
         let (from, to) = way.span()?;
@@ -246,8 +249,16 @@ impl Program {
         (used, added)
     }
 
-    /// Whether the motion would come to rest on the way.
+    /// Whether the motion would come to rest, or almost, on the way.
     pub(super) fn stops(&self, coefficients: &[f64]) -> bool {
+        let squares = || {
+            let stretches = self.stretches.iter().zip(coefficients.windows(3));
+            stretches.flat_map(|(stretch, three)| stretch.sites.iter().map(move |site| dot(&site.square, three)))
+        };
+        let highest = squares().fold(0.0, f64::max);
+        if squares().any(|square| square.is_nan() || square < ALMOST_REST * highest) {
+            return true;
+        }
         self.stretches.iter().zip(coefficients.windows(3)).any(|(stretch, three)| {
             let [from, to, _] = stretch.sites.map(|site| dot(&site.square, three));
             // The ends and the corner in the middle make a parabola that stays above zero.

@@ -100,49 +100,7 @@ fn random_chains_of_all_kinds_keep_every_limit() {
     for name in ["kr10-r1420", "tx2-60", "irb2400-10"] {
         let robot = with_external_axes(name);
         for round in 0..6 {
-            let mut queue = Queue::new(robot.clone(), random_joints(&robot, &mut random, 0.5));
-            let (mut added, mut tried) = (0_u32, 0);
-            while added < 10 && tried < 400 {
-                tried += 1;
-                let end = *queue.end();
-                let goal = random_joints(&robot, &mut random, 0.5);
-                let mut pose = frame_components(&robot.kinematics.forward(&end.axes));
-                for (index, value) in pose.iter_mut().enumerate() {
-                    *value += if index < 3 { random.between(-150.0, 150.0) } else { random.between(-20.0, 20.0) };
-                }
-                let external = goal.external;
-                let wobj = Frame::identity();
-                let target = match (random.between(0.0, 4.0)) as u32 {
-                    0 => Target::Joints(goal),
-                    1 => Target::Pose { pose, wobj, wanted: Wanted { cfg: None, turn: -1 }, external },
-                    2 => Target::Line { pose, wobj, external },
-                    _ => {
-                        let here = robot.kinematics.forward(&end.axes).translation.vector;
-                        let via = [0, 1, 2].map(|i| (here[i] + pose[i]) / 2.0 + random.between(-60.0, 60.0));
-                        Target::Arc { via, pose, wobj, angle: None, follow: false, external }
-                    }
-                };
-                let size = random.between(1.0, 60.0);
-                let zone = match random.between(0.0, 5.0) as u32 {
-                    0 => Zone::NONE,
-                    1 => Zone { percent: size, ..Zone::NONE },
-                    2 => Zone { tcp: size, ..Zone::NONE },
-                    3 => Zone { tcp: UNSET, ori: size / 3.0, joint: size / 3.0, ..Zone::NONE },
-                    _ => Zone { tcp: size, joint: size / 3.0, ori: size, turning: 5.0, linear: 20.0, ..Zone::NONE },
-                };
-                let speed = Speed {
-                    percent: random.between(5.0, 100.0),
-                    tcp: random.between(20.0, 1500.0),
-                    ori: random.between(20.0, 400.0),
-                    exj: random.between(20.0, 500.0),
-                    exl: random.between(20.0, 500.0),
-                };
-                let command = Command { target, zone, speed, line: added + 1, ..movej([0.0; 6]) };
-                if queue.add(&command, &Settings::default()).is_ok() {
-                    added += 1;
-                }
-            }
-            assert!(added == 10, "{name}: {added} of {tried}");
+            let mut queue = random_chain(&robot, &mut random, &Settings::default());
             let end = *queue.end();
             let rows = run(&mut queue, 100.0);
             assert_within_limits(&robot, &rows, &format!("{name} {round}"));

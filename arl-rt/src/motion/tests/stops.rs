@@ -1,20 +1,24 @@
 use super::*;
 
-fn start() -> Joints {
+pub(super) fn start() -> Joints {
     axes([-60.0, -70.0, 90.0, 0.0, 45.0, 0.0])
 }
 
 /// A queue with a line and an axis motion.
 fn two_motions(robot: &Arc<Robot>) -> Queue {
+    two_motions_with(robot, &Settings::default())
+}
+
+pub(super) fn two_motions_with(robot: &Arc<Robot>, settings: &Settings) -> Queue {
     let mut queue = Queue::new(robot.clone(), start());
     let [x, y, ..] = frame_components(&robot.kinematics.forward(&start().axes));
-    queue.add(&lin([x, -y, UNSET, UNSET, UNSET, UNSET]), &Settings::default()).unwrap();
-    queue.add(&movej([-60.0, -100.0, 110.0, 30.0, 60.0, 90.0]), &Settings::default()).unwrap();
+    queue.add(&lin([x, -y, UNSET, UNSET, UNSET, UNSET]), settings).unwrap();
+    queue.add(&movej([-60.0, -100.0, 110.0, 30.0, 60.0, 90.0]), settings).unwrap();
     queue
 }
 
 /// Every row's joints lie on the path that an undisturbed run takes.
-fn assert_same_path(robot: &Robot, rows: &[Step], reference: &[Step]) {
+pub(super) fn assert_same_path(robot: &Robot, rows: &[Step], reference: &[Step]) {
     let place = |row: &Step| values(robot, &row.joints);
     let mut from = 1;
     for row in rows.iter().skip(1) {

@@ -1,0 +1,44 @@
+//! A place on a curve whose parameter moves with another one.
+
+use nalgebra::Vector3;
+
+use super::progress::Progress;
+
+/// A place on the curve: its parameter, and how that changes with the share of the nominal time.
+pub(super) struct Place {
+    pub(super) at: f64,
+    pub(super) first: f64,
+    pub(super) second: f64,
+    pub(super) third: f64,
+}
+
+impl Place {
+    pub(super) fn at(progress: &Progress, share: f64) -> Self {
+        let [first, second, third] = [1, 2, 3].map(|order| progress.derivative(order, share));
+        Self { at: progress.at(share), first, second, third }
+    }
+
+    /// By a parameter of which `width` is the derivative of the one before.
+    pub(super) fn scaled(self, width: f64) -> Self {
+        let Self { at, first, second, third } = self;
+        Self { at, first: first * width, second: second * width * width, third: third * width * width * width }
+    }
+
+    /// Derivatives by the curve's parameter become derivatives by the share of the time.
+    pub(super) fn rates<const N: usize>(&self, [p1, p2, p3]: [[f64; N]; 3]) -> [[f64; N]; 3] {
+        let Self { first: a, second: b, third: c, .. } = *self;
+        let mut out = [[0.0; N]; 3];
+        let [first, second, third] = &mut out;
+        let places = first.iter_mut().zip(second).zip(third);
+        for (((first, second), third), ((p1, p2), p3)) in places.zip(p1.iter().zip(&p2).zip(&p3)) {
+            *first = p1 * a;
+            *second = p2 * a * a + p1 * b;
+            *third = p3 * a * a * a + 3.0 * p2 * a * b + p1 * c;
+        }
+        out
+    }
+
+    pub(super) fn vectors(&self, vectors: [Vector3<f64>; 3]) -> [Vector3<f64>; 3] {
+        self.rates(vectors.map(<[f64; 3]>::from)).map(Vector3::from)
+    }
+}

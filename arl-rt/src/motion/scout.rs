@@ -1,0 +1,183 @@
+//! Looks along the course for the profile O: how everything moves at places close enough together, and within which limits.
+
+use std::collections::VecDeque;
+
+use super::bounds::Bounds;
+use super::course::Piece;
+use super::joints::{ALL, Joints};
+use super::limits::Bound;
+use super::optimal::{Edge, Row, Way, places};
+use crate::robot::Robot;
+
+/// The longest nominal time, in s, between two places, and how many places there are at least and at most.
+const SPACING: f64 = 0.008;
+const FEWEST: f64 = 48.0;
+const MOST_EVEN: f64 = 250.0;
+const MOST: usize = 900;
+/// Two places are no closer than this part of the spacing.
+const CLOSEST: f64 = 1.0 / 256.0;
+/// A step as part of the way over which the motion changes.
+const STEP_OF_SCALE: f64 = 0.06;
+/// So many places are in each part of a blend, if they do not get too close.
+const PLACES: u32 = 3;
+/// How far beside a place its sides are looked at, as part of the piece.
+const BESIDE: f64 = 1e-9;
+/// With more pieces than this ahead, their ends are no places of their own.
+const MANY: usize = 150;
+/// How often the end is brought nearer because there are too many places before it.
+const ATTEMPTS: usize = 6;
+
+/// The course from where the robot is. Parameters are s of nominal time since the course began.
+pub(super) struct Scout<'a> {
+    pub(super) robot: &'a Robot,
+    pub(super) pieces: &'a VecDeque<Piece>,
+    /// Where the first piece begins.
+    pub(super) passed: f64,
+    /// Where to look from, and the joints there.
+    pub(super) at: f64,
+    pub(super) joints: Joints,
+}
+
+/// A part of the course that is ready to be timed.
+pub(super) struct Prospect {
+    pub(super) way: Way,
+    /// Where it ends; earlier than was asked for where there is too much to be seen.
+    pub(super) end: f64,
+}
+
+impl Scout<'_> {
+    /// Where the robot has to stop next.
+    pub(super) fn stop(&self) -> f64 {
+        let mut end = self.passed;
+        for piece in self.pieces {
+            end += piece.time;
+            if piece.stops {
+                break;
+            }
+        }
+        end
+    }
+
+    /// The way to `to`, with the limits of acceleration and jerk times `harder`.
+    pub(super) fn look(&self, to: f64, start: Edge, end: Edge, harder: f64) -> Option<Prospect> {
+        let mut to = to;
+        for _ in 0..ATTEMPTS {
+            match self.walk(to, start, end, harder) {
+                Ok(way) => return Some(Prospect { way, end: to }),
+                Err(reached) => to = self.at + 0.8 * (reached - self.at),
+            }
+        }
+        None
+    }
+
+    /// The way, or how far it got with as many places as there may be.
+    fn walk(&self, to: f64, start: Edge, end: Edge, harder: f64) -> Result<Way, f64> {
+        let count = ((to - self.at) / SPACING).clamp(FEWEST, MOST_EVEN) as usize;
+        let spacing = (to - self.at) / count as f64;
+        let mut stations: Vec<(f64, bool)> =
+            places(self.at, to, count, start, end).into_iter().map(|at| (at, true)).collect();
+        stations.extend(self.joints(to));
+        stations.sort_by(|a, b| a.0.total_cmp(&b.0));
+        stations.dedup_by(|next, kept| {
+            let same = next.0 - kept.0 <= 1e-9 * spacing;
+            kept.1 |= same && next.1;
+            same
+        });
+
+        let mut way = Way::new();
+        let mut bounds = Bounds::signed(self.robot);
+        let mut walk = Walk { scout: self, joints: self.joints, index: 0, before: self.passed };
+        for (station, next) in stations.iter().zip(stations.iter().skip(1).map(Some).chain([None])) {
+            let mut at = station.0;
+            let mut is_place = station.1;
+            loop {
+                let step = walk.rows(at, spacing, &mut bounds);
+                // A singular point is between places.
+                if is_place && !bounds.rows.is_empty() {
+                    way.push(at, bounds.rows.drain(..).map(|bound| row(bound, harder)));
+                }
+                if way.places().len() > MOST {
+                    return Err(at);
+                }
+                match next {
+                    Some((next, _)) if at + 1.3 * step < *next => (at, is_place) = (at + step, true),
+                    _ => break,
+                }
+            }
+        }
+        Ok(way)
+    }
+
+    /// Where derivatives jump before `to`: between pieces and within them; and whether these are few enough to be places.
+    fn joints(&self, to: f64) -> Vec<(f64, bool)> {
+        let mut joints = Vec::new();
+        let (mut start, mut count) = (self.passed, 0);
+        for piece in self.pieces {
+            if start >= to {
+                break;
+            }
+            count += 1;
+            let parts = piece.parts();
+            let inner = (1..=parts).map(|part| start + piece.time * f64::from(part) / f64::from(parts));
+            joints.extend(inner.filter(|at| *at > self.at && *at < to));
+            start += piece.time;
+        }
+        joints.into_iter().map(|at| (at, count <= MANY)).collect()
+    }
+}
+
+/// Goes along the course.
+struct Walk<'a> {
+    scout: &'a Scout<'a>,
+    joints: Joints,
+    /// The piece that was looked at last, and where it begins.
+    index: usize,
+    before: f64,
+}
+
+impl Walk<'_> {
+    /// Adds the limits at `at`; where a piece begins, those of the one before as well. Returns a step over which the motion
+    /// changes little, no longer than `spacing`.
+    fn rows(&mut self, at: f64, spacing: f64, bounds: &mut Bounds) -> f64 {
+        let mut step = spacing;
+        while let Some(piece) = self.scout.pieces.get(self.index) {
+            let here = (at - self.before).min(piece.time);
+            self.joints = piece.joints_on(&self.scout.robot.kinematics, here, &self.joints);
+            // Where derivatives jump, those of both sides count.
+            let beside = if piece.parts() > 1 { BESIDE * piece.time } else { 0.0 };
+            if beside > 0.0 {
+                step = step.min((piece.time / f64::from(PLACES * piece.parts())).max(spacing / 16.0));
+            }
+            for here in [here - beside, here + beside].iter().take(if beside > 0.0 { 2 } else { 1 }) {
+                let here = here.clamp(0.0, piece.time);
+                if let Some(rates) = piece.limit(self.scout.robot, here, &self.joints, bounds) {
+                    let longest = (STEP_OF_SCALE * scale(self.scout.robot, &rates)).max(CLOSEST * spacing);
+                    step = step.min(longest);
+                }
+            }
+            let end = self.before + piece.time;
+            if at < end || piece.stops || self.index + 1 == self.scout.pieces.len() {
+                break;
+            }
+            (self.before, self.index) = (end, self.index + 1);
+        }
+        step
+    }
+}
+
+/// The time over which the motion changes substantially.
+fn scale(robot: &Robot, rates: &[[f64; ALL]; 3]) -> f64 {
+    let own = robot.own_axes();
+    let [first, second, third] = rates.map(|all| {
+        let joints = Joints::of(&all);
+        let values = joints.axes.iter().take(own.len()).chain(&joints.external);
+        values.zip(&robot.axes).map(|(rate, axis)| rate.abs() / axis.vel).fold(0.0, f64::max)
+    });
+    let scale = (first / second).min((first / third).sqrt());
+    if scale.is_nan() { f64::INFINITY } else { scale }
+}
+
+fn row(bound: Bound, harder: f64) -> Row {
+    let Bound { first, second, third, vel, acc, jerk } = bound;
+    Row { first, second, third, vel: vel.min(1e12), acc: acc * harder, jerk: jerk * harder }
+}
