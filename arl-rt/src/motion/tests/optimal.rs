@@ -117,3 +117,26 @@ fn the_override_changes_time_alone() {
         assert_eq!(rows.last().unwrap().joints, reference.last().unwrap().joints);
     }
 }
+
+#[test]
+fn splines_flow_within_every_limit() {
+    let mut random = Random::new(95);
+    let robot = robot("kr10-r1420");
+    for settings in [optimal(), Settings::default()] {
+        let mut queue = Queue::new(robot.clone(), start());
+        let origin = frame_components(&robot.kinematics.forward(&start().axes));
+        for index in 0..12 {
+            let mut pose = origin;
+            pose[0] += random.between(-60.0, 60.0);
+            pose[1] += 40.0 * f64::from(index + 1);
+            pose[2] += random.between(-60.0, 60.0);
+            let target = Target::Spline { pose, wobj: Frame::identity(), external: [UNSET; 6] };
+            let speed = Speed { tcp: 1000.0, ..fast() };
+            queue.add(&Command { speed, ..command(target) }, &settings).unwrap();
+        }
+        let rows = run(&mut queue, 100.0);
+        eprintln!("{} {:?}", rows.len(), usage(&robot, &rows));
+        assert_within_limits(&robot, &rows, "spline");
+        assert_eq!(rows.last().unwrap().finished, 12);
+    }
+}
