@@ -71,6 +71,8 @@ pub enum Fault {
     Channel(Box<str>),
     /// `ccir`: points that make no arc.
     ArcPlane(Box<str>),
+    /// `jump`: a start or target above the highest place that is allowed (manual 3.3.6).
+    GateHeight(Box<str>),
     /// A motion that cannot be planned or run.
     Motion(Box<str>),
     /// The robot met something that it did not expect.
@@ -94,12 +96,13 @@ pub enum Fault {
 }
 
 impl Fault {
-    /// The alarm's number. 10064, 10065 and 12002 are the manual's; ours begin at 20000.
+    /// The alarm's number. 10064, 10065, 12002 and 12042 are the manual's; ours begin at 20000.
     pub fn number(&self) -> u32 {
         match self {
             Fault::NoSuchFile(_) => 10064,
             Fault::NoSuchLine { .. } => 10065,
             Fault::ArcPlane(_) => 12002,
+            Fault::GateHeight(_) => 12042,
             Fault::DivideByZero => 20001,
             Fault::ShiftCount { .. } => 20002,
             Fault::Index { .. } => 20003,
@@ -141,6 +144,7 @@ impl fmt::Display for Fault {
             }
             Fault::Channel(text)
             | Fault::ArcPlane(text)
+            | Fault::GateHeight(text)
             | Fault::Motion(text)
             | Fault::Collision(text)
             | Fault::Data(text) => {

@@ -375,9 +375,7 @@ fn alarm(error: PlanError, earlier: File, (file, line): (File, u32)) -> Alarm {
         PlanError::NoCircle | PlanError::LoneCircle => {
             Alarm { fault: Fault::ArcPlane(error.to_string().into()), file, line }
         }
-        PlanError::AboveLimit { .. } => {
-            Alarm { fault: Fault::Other { number: 12042, text: error.to_string().into() }, file, line }
-        }
+        PlanError::AboveLimit { .. } => Alarm { fault: Fault::GateHeight(error.to_string().into()), file, line },
         error => Alarm { fault: Fault::Motion(error.to_string().into()), file, line },
     }
 }
