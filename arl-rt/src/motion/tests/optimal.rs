@@ -135,7 +135,6 @@ fn splines_flow_within_every_limit() {
             queue.add(&Command { speed, ..command(target) }, &settings).unwrap();
         }
         let rows = run(&mut queue, 100.0);
-        eprintln!("{} {:?}", rows.len(), usage(&robot, &rows));
         assert_within_limits(&robot, &rows, "spline");
         assert_eq!(rows.last().unwrap().finished, 12);
     }
