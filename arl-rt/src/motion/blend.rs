@@ -6,6 +6,7 @@
 
 use nalgebra::Vector3;
 
+use super::bend::Bend;
 use super::bounds::{Bounds, Pace};
 use super::curve::{Curve, ToolCurve, Track};
 use super::joints::{ALL, Joints};
@@ -14,9 +15,10 @@ use super::place::Place;
 use super::plan::Motion;
 use super::profile::Limits;
 use super::progress::Progress;
-use super::quintic::{Knot, Quintic};
-use super::survey::survey;
-use super::zone::parts;
+use super::quintic::{Knot, Quintic, Way};
+use super::rotation;
+use super::survey::{glance, survey};
+use super::zone::{LARGEST, parts};
 use crate::kinematics::Rates;
 use crate::robot::{ROBOT_AXES, Robot};
 
@@ -25,8 +27,11 @@ use crate::robot::{ROBOT_AXES, Robot};
 const TANGENT: f64 = 2.0;
 /// How often a zone is halved before it is given up: where its blend would leave an axis's range or the reach.
 const HALVINGS: u32 = 4;
-/// Places at which a blend is looked at.
-const PLACES: u32 = 32;
+/// Parts of a blend between which it is looked at; and of one that hardly bends.
+const PARTS: u32 = 32;
+const GENTLE_PARTS: u32 = 4;
+/// Where nothing changes its speed or direction by a larger part than this, a blend hardly bends.
+const GENTLE: f64 = 0.1;
 
 /// The way between two motions.
 #[derive(Clone, PartialEq, Debug)]
@@ -48,7 +53,7 @@ pub(super) struct Blend {
 pub(super) fn blend(robot: &Robot, from: &Motion, to: &Motion) -> Option<Blend> {
     let (mut leaving, mut joining) = parts(robot, from, to)?;
     for _ in 0..=HALVINGS {
-        if let Some(blend) = attempt(robot, from, to, leaving, joining) {
+        if let Some(blend) = (Corner { robot, from, to, leaving, joining, bends: [Bend::NONE; 2] }).blend() {
             return Some(blend);
         }
         (leaving, joining) = (leaving / 2.0, joining / 2.0);
@@ -56,78 +61,219 @@ pub(super) fn blend(robot: &Robot, from: &Motion, to: &Motion) -> Option<Blend> 
     None
 }
 
-fn attempt(robot: &Robot, from: &Motion, to: &Motion, leaving: f64, joining: f64) -> Option<Blend> {
-    let (vel_from, vel_to) = (from.rate, to.rate);
-    let (leave, join) = (1.0 - leaving, joining);
-    let (slope_from, slope_to) = (TANGENT * leaving, TANGENT * joining);
-    // Both ends are met at the speeds that the motions have there.
-    let (start_rate, end_rate) = (vel_from / slope_from, vel_to / slope_to);
-    let mut time = 2.0 / (start_rate + end_rate);
-    let mut progress = Progress::between(start_rate * time, end_rate * time);
+/// The blend from one motion, which is bent in its middle, to another. A bend is only possible where a whole half is taken.
+pub(super) fn bent_blend(robot: &Robot, from: &Motion, to: &Motion, bends: [Bend; 2]) -> Option<Blend> {
+    let (leaving, joining) = parts(robot, from, to)?;
+    let [start, end] = &bends;
+    if (*start != Bend::NONE && leaving != LARGEST) || (*end != Bend::NONE && joining != LARGEST) {
+        return None;
+    }
+    Corner { robot, from, to, leaving, joining, bends }.blend()
+}
 
-    let mut bounds = Bounds::new(robot);
-    let pace = common_pace(from, to);
-    let curve = match (&from.curve, &to.curve) {
-        (Curve::Tool(a), Curve::Tool(b)) if go_on(a, leave, b, join) => {
-            let curve = tool_blend(a, b, leave, join, slope_from, slope_to);
-            let ends = (along(&a.track, leave, vel_from), along(&b.track, join, vel_to));
-            // What is laid over a motion does not go evenly: it is met best by a parameter that does.
-            if from.laid.is_none()
-                && to.laid.is_none()
-                && let Some(even) = Progress::along(&curve.track, ends.0, ends.1)
-            {
-                (progress, time) = even;
+/// Two motions and the parts of them that a blend takes.
+struct Corner<'a> {
+    robot: &'a Robot,
+    from: &'a Motion,
+    to: &'a Motion,
+    leaving: f64,
+    joining: f64,
+    /// How the motions are bent at the ends of the blend.
+    bends: [Bend; 2],
+}
+
+impl Corner<'_> {
+    /// The parameters at which the motions are left and joined, and how long the tangents are there.
+    fn ends(&self) -> [(f64, f64); 2] {
+        [(1.0 - self.leaving, TANGENT * self.leaving), (self.joining, TANGENT * self.joining)]
+    }
+
+    fn blend(&self) -> Option<Blend> {
+        let Self { from, to, .. } = self;
+        let (vel_from, vel_to) = (from.rate, to.rate);
+        let [(leave, slope_from), (join, slope_to)] = self.ends();
+        // Both ends are met at the speeds that the motions have there.
+        let (start_rate, end_rate) = (vel_from / slope_from, vel_to / slope_to);
+        let time = 2.0 / (start_rate + end_rate);
+        let even = || (Progress::between(start_rate * time, end_rate * time), time);
+
+        let mut bounds = Bounds::new(self.robot);
+        let pace = common_pace(from, to);
+        let (curve, progress, time) = match (&from.curve, &to.curve) {
+            (Curve::Tool(a), Curve::Tool(b)) if go_on(a, leave, b, join) => {
+                let curve = self.tool_curve(a, b);
+                let (start, end) = (along(&a.track, leave, vel_from), along(&b.track, join, vel_to));
+                let bends_little = is_gentle(&curve) && !self.swings();
+                let timed = if bends_little {
+                    Progress::gently(&curve.track, start, end)
+                } else if self.swings() {
+                    // What is laid over a motion does not go evenly: it is met best by a parameter that does.
+                    None
+                } else {
+                    Progress::along(&curve.track, start, end)
+                };
+                let (progress, time) = timed.unwrap_or_else(even);
+                if !(bends_little && self.glance_at_tool(&curve, &progress, &mut bounds, &pace)) {
+                    bounds.rows.clear();
+                    self.walk_tool(&curve, &progress, &mut bounds, &pace)?;
+                }
+                (Curve::Tool(curve), progress, time)
             }
-            let start = joints_at(robot, from, leave)?;
-            let found = survey(robot, &curve, &start).ok()?;
-            let there = joints_at(robot, to, join)?;
-            if found.end.iter().zip(&there.axes).any(|(a, b)| (a - b).abs() > 0.01) {
+            _ => {
+                let [start, end] = &self.bends;
+                let from = axes_knot(self.robot, from, leave, slope_from, start)?;
+                let to = axes_knot(self.robot, to, join, slope_to, end)?;
+                let curve = Quintic::between(&from, &to);
+                let (progress, time) = even();
+                self.look_at_axes(&curve, &progress, &mut bounds, &pace)?;
+                (Curve::Axes(curve), progress, time)
+            }
+        };
+        let limits = passing(&bounds.rows, 1.0 / time);
+        Some(Blend { leave, join, curve, progress, time, limits })
+    }
+
+    /// Whether something is laid over a motion.
+    fn swings(&self) -> bool {
+        self.from.laid.is_some() || self.to.laid.is_some()
+    }
+
+    fn tool_curve(&self, from: &ToolCurve, to: &ToolCurve) -> ToolCurve {
+        let [(leave, slope_from), (join, slope_to)] = self.ends();
+        let corner = from.rotation(1.0);
+        let [start, end] = &self.bends;
+        let ([moved_from, turned_from], [moved_to, turned_to]) = (from.place(leave, &corner), to.place(join, &corner));
+        let knot = |[value, first, second]: [Vector3<f64>; 3], slope: f64, bend: Vector3<f64>| Knot {
+            value: value.into(),
+            first: (first * slope).into(),
+            second: ((second + bend) * slope * slope).into(),
+        };
+        let turning = |turned: [Vector3<f64>; 3], slope: f64, bend: &Bend| {
+            let [value, ..] = turned;
+            let [_, second] = rotation::of_speeds(&value, &[Vector3::zeros(), bend.turning]);
+            knot(turned, slope, second)
+        };
+        let external = |curve: &ToolCurve, at: f64, slope: f64, bend: &Bend| {
+            scaled(curve.external.knot(at), slope, &bend.external())
+        };
+        ToolCurve {
+            track: Track::Poly(
+                Quintic::between(
+                    &knot(moved_from, slope_from, start.position),
+                    &knot(moved_to, slope_to, end.position),
+                )
+                .into(),
+            ),
+            base: corner,
+            turning: Quintic::between(&turning(turned_from, slope_from, start), &turning(turned_to, slope_to, end))
+                .into(),
+            carried: from.carried,
+            external: Quintic::between(&external(from, leave, slope_from, start), &external(to, join, slope_to, end))
+                .into(),
+            cfg: to.cfg,
+            passages: Vec::new(),
+            over: None,
+        }
+    }
+
+    /// Collects the limits of a way of the TCP that hardly bends; returns whether a few places are enough to know them.
+    fn glance_at_tool(&self, curve: &ToolCurve, progress: &Progress, bounds: &mut Bounds, pace: &Pace) -> bool {
+        let [(leave, _), _] = self.ends();
+        let places = shares::<{ GENTLE_PARTS as usize + 1 }>().map(|share| Place::at(progress, share));
+        let Some(start) = joints_at(self.robot, self.from, leave) else { return false };
+        let Some(found) = glance(self.robot, curve, &start.axes, &places.map(|place| place.at)) else { return false };
+        if !self.arrives(&found.end) {
+            return false;
+        }
+        for (place, (_, rates)) in places.iter().zip(&found.rates) {
+            let known = bounds.rows.len();
+            let [first, second, third] = place.rates([rates.first, rates.second, rates.third]);
+            bounds.axes(&first, &second, &third, pace);
+            collect(place, curve, self.swings(), bounds, pace);
+            bounds.join(known);
+        }
+        true
+    }
+
+    /// Collects the limits of any way of the TCP; `None` where it cannot be gone.
+    fn walk_tool(&self, curve: &ToolCurve, progress: &Progress, bounds: &mut Bounds, pace: &Pace) -> Option<()> {
+        let [(leave, _), _] = self.ends();
+        let start = joints_at(self.robot, self.from, leave)?;
+        let found = survey(self.robot, curve, &start).ok()?;
+        if !self.arrives(&found.end) {
+            return None;
+        }
+        for (at, rates) in &found.rates {
+            let place = Place::at(progress, inverse(progress, *at));
+            let [first, second, third] = place.rates([rates.first, rates.second, rates.third]);
+            bounds.axes(&first, &second, &third, pace);
+        }
+        for part in 0..=PARTS {
+            let place = Place::at(progress, f64::from(part) / f64::from(PARTS));
+            collect(&place, curve, self.swings(), bounds, pace);
+        }
+        Some(())
+    }
+
+    /// Whether these are the axes where the second motion is joined.
+    fn arrives(&self, end: &[f64; ROBOT_AXES]) -> bool {
+        let [_, (join, _)] = self.ends();
+        let there = joints_at(self.robot, self.to, join);
+        there.is_some_and(|there| end.iter().zip(&there.axes).all(|(a, b)| (a - b).abs() <= 0.01))
+    }
+
+    /// Collects the limits of a way of the axes; `None` where it leaves a range.
+    fn look_at_axes(&self, curve: &Quintic<ALL>, progress: &Progress, bounds: &mut Bounds, pace: &Pace) -> Option<()> {
+        let gentle = changes_little([1, 2].map(|order| [0.0, 1.0].map(|at| curve.derivative(order, at))), 0.0);
+        let parts = if gentle { GENTLE_PARTS } else { PARTS };
+        for part in 0..=parts {
+            let place = Place::at(progress, f64::from(part) / f64::from(parts));
+            let joints = Joints::of(&curve.at(place.at));
+            if !within_ranges(self.robot, &joints) {
                 return None;
             }
-            for (at, rates) in &found.rates {
-                let place = Place::at(&progress, inverse(&progress, *at));
-                let [first, second, third] = place.rates([rates.first, rates.second, rates.third]);
-                bounds.axes(&first, &second, &third, &pace);
+            let known = bounds.rows.len();
+            let derivatives = place.rates([1, 2, 3].map(|order| curve.derivative(order, place.at)));
+            bounds.all_axes(&derivatives, pace);
+            if pace.manual {
+                let [first, ..] = &derivatives;
+                bounds.manual_place(&joints, first, &self.to.rig.carried);
             }
-            for step in 0..=PLACES {
-                let place = Place::at(&progress, f64::from(step) / f64::from(PLACES));
-                let moving = [1, 2, 3].map(|order| curve.track.derivative(order, place.at));
-                let turning = curve.rotation_rates(place.at);
-                if from.laid.is_some() || to.laid.is_some() {
-                    bounds.swinging(&place.vectors(moving), &pace);
-                } else {
-                    bounds.moving(&place.vectors(moving), &pace);
-                }
-                if pace.manual {
-                    bounds.manual_moving(&place.vectors(moving));
-                    bounds.manual_flange(&curve, place.at, place.first);
-                }
-                bounds.turning(&place.vectors(turning), &pace);
-                let external = [1, 2, 3].map(|order| curve.external.derivative(order, place.at));
-                bounds.external(&place.rates(external), &pace);
+            if gentle {
+                bounds.join(known);
             }
-            Curve::Tool(curve)
         }
-        _ => {
-            let curve =
-                Quintic::between(&axes_knot(robot, from, leave, slope_from)?, &axes_knot(robot, to, join, slope_to)?);
-            for step in 0..=PLACES {
-                let place = Place::at(&progress, f64::from(step) / f64::from(PLACES));
-                if !within_ranges(robot, &Joints::of(&curve.at(place.at))) {
-                    return None;
-                }
-                let derivatives = [1, 2, 3].map(|order| curve.derivative(order, place.at));
-                bounds.all_axes(&place.rates(derivatives), &pace);
-                if pace.manual {
-                    let [first, ..] = place.rates(derivatives);
-                    bounds.manual_place(&Joints::of(&curve.at(place.at)), &first, &to.rig.carried);
-                }
-            }
-            Curve::Axes(curve)
-        }
-    };
-    let limits = passing(&bounds.rows, 1.0 / time);
-    Some(Blend { leave, join, curve, progress, time, limits })
+        Some(())
+    }
+}
+
+/// Shares of the whole, from 0 to 1.
+fn shares<const N: usize>() -> [f64; N] {
+    std::array::from_fn(|index| index as f64 / (N - 1) as f64)
+}
+
+/// Whether speeds and directions hardly change on the way.
+fn is_gentle(curve: &ToolCurve) -> bool {
+    let Track::Poly(track) = &curve.track else { return false };
+    // A turn by so little is little, however it changes.
+    const TURN: f64 = 0.01;
+    is_gentle_way(track, 0.0) && is_gentle_way(&curve.turning, TURN) && is_gentle_way(&curve.external, 0.0)
+}
+
+/// The same for one way; changes up to `little` are little.
+fn is_gentle_way<const N: usize>(way: &Way<N>, little: f64) -> bool {
+    changes_little([1, 2].map(|order| [0.0, 1.0].map(|at| way.derivative(order, at))), little)
+}
+
+/// Whether first derivatives, at the two ends, hardly differ, and second ones are small beside them or `little`.
+fn changes_little<const N: usize>([[start, end], seconds]: [[[f64; N]; 2]; 2], little: f64) -> bool {
+    let size = |values: [f64; N]| values.iter().map(|value| value * value).sum::<f64>().sqrt();
+    let mut change = end;
+    for (change, start) in change.iter_mut().zip(start) {
+        *change -= start;
+    }
+    let most = (size(start).min(size(end)) * GENTLE).max(little);
+    size(change) <= most && seconds.into_iter().all(|second| size(second) <= most)
 }
 
 /// The speed and the acceleration along a track in mm/s and mm/s2, at a rate of its parameter.
@@ -161,39 +307,19 @@ pub(super) fn common_pace(from: &Motion, to: &Motion) -> Pace {
     }
 }
 
-fn tool_blend(from: &ToolCurve, to: &ToolCurve, leave: f64, join: f64, slope_from: f64, slope_to: f64) -> ToolCurve {
-    let corner = from.rotation(1.0);
-    let ([moved_from, turned_from], [moved_to, turned_to]) = (from.place(leave, &corner), to.place(join, &corner));
-    let knot = |[value, first, second]: [Vector3<f64>; 3], slope: f64| Knot {
-        value: value.into(),
-        first: (first * slope).into(),
-        second: (second * slope * slope).into(),
-    };
-    let external = |curve: &ToolCurve, at: f64, slope: f64| scaled(curve.external.knot(at), slope);
-    ToolCurve {
-        track: Track::Poly(Quintic::between(&knot(moved_from, slope_from), &knot(moved_to, slope_to)).into()),
-        base: corner,
-        turning: Quintic::between(&knot(turned_from, slope_from), &knot(turned_to, slope_to)).into(),
-        carried: from.carried,
-        external: Quintic::between(&external(from, leave, slope_from), &external(to, join, slope_to)).into(),
-        cfg: to.cfg,
-        passages: Vec::new(),
-        over: None,
-    }
-}
-
-fn scaled<const N: usize>(mut knot: Knot<N>, slope: f64) -> Knot<N> {
+/// A knot that is bent as well, by a parameter that goes 1 by `slope`.
+fn scaled<const N: usize>(mut knot: Knot<N>, slope: f64, bend: &[f64; N]) -> Knot<N> {
     for value in &mut knot.first {
         *value *= slope;
     }
-    for value in &mut knot.second {
-        *value *= slope * slope;
+    for (value, bend) in knot.second.iter_mut().zip(bend) {
+        *value = (*value + bend) * slope * slope;
     }
     knot
 }
 
 /// The axes within a motion with their derivatives.
-fn axes_knot(robot: &Robot, motion: &Motion, at: f64, slope: f64) -> Option<Knot<ALL>> {
+fn axes_knot(robot: &Robot, motion: &Motion, at: f64, slope: f64, bend: &Bend) -> Option<Knot<ALL>> {
     let knot = match &motion.curve {
         Curve::Axes(axes) => axes.knot(at),
         Curve::Tool(tool) => {
@@ -204,12 +330,12 @@ fn axes_knot(robot: &Robot, motion: &Motion, at: f64, slope: f64) -> Option<Knot
             Knot { value: joints.all(), first: all(first, external.first), second: all(second, external.second) }
         }
     };
-    Some(scaled(knot, slope))
+    Some(scaled(knot, slope, &bend.axes))
 }
 
 /// Whether the TCP can go from one way over to another: they lead the same TCP, and no passage makes their orientations
 /// inexact there.
-fn go_on(from: &ToolCurve, leave: f64, to: &ToolCurve, join: f64) -> bool {
+pub(super) fn go_on(from: &ToolCurve, leave: f64, to: &ToolCurve, join: f64) -> bool {
     let exact =
         from.passages.iter().all(|passage| passage.to < leave) && to.passages.iter().all(|passage| passage.from > join);
     exact && from.carried == to.carried && from.cfg_at(1.0) == to.cfg
@@ -217,12 +343,16 @@ fn go_on(from: &ToolCurve, leave: f64, to: &ToolCurve, join: f64) -> bool {
 
 /// The joints within a motion, followed from its nearer end.
 fn joints_at(robot: &Robot, motion: &Motion, at: f64) -> Option<Joints> {
-    const STEPS: u32 = 64;
+    /// Deg (mm) that an axis goes in a step at most.
+    const STEP: f64 = 5.0;
+    const MOST: f64 = 63.0;
     let Curve::Tool(tool) = &motion.curve else { return Some(motion.curve.joints(&robot.kinematics, at, &motion.end)) };
     let (from, near) = if at > 0.5 { (1.0, &motion.end) } else { (0.0, &motion.start) };
     let mut axes = near.axes;
-    for step in 1..=STEPS {
-        axes = tool.axes(&robot.kinematics, from + (at - from) * f64::from(step) / f64::from(STEPS), &axes)?;
+    let ways = motion.end.axes.iter().zip(&motion.start.axes).map(|(end, start)| (end - start).abs());
+    let steps = 1 + if tool.passages.is_empty() { (ways.fold(0.0, f64::max) / STEP).min(MOST) } else { MOST } as u32;
+    for step in 1..=steps {
+        axes = tool.axes(&robot.kinematics, from + (at - from) * f64::from(step) / f64::from(steps), &axes)?;
     }
     Some(Joints { axes, external: tool.external.at(at) })
 }
@@ -241,4 +371,21 @@ fn inverse(progress: &Progress, at: f64) -> f64 {
         if progress.at(middle) < at { low = middle } else { high = middle }
     }
     low
+}
+
+/// Collects what limits the TCP, the tool's turning and the external axes at a place; of a TCP that is `swinging`, all of its
+/// acceleration.
+fn collect(place: &Place, curve: &ToolCurve, swinging: bool, bounds: &mut Bounds, pace: &Pace) {
+    let moving = place.vectors([1, 2, 3].map(|order| curve.track.derivative(order, place.at)));
+    if swinging {
+        bounds.swinging(&moving, pace);
+    } else {
+        bounds.moving(&moving, pace);
+    }
+    if pace.manual {
+        bounds.manual_moving(&moving);
+        bounds.manual_flange(curve, place.at, place.first);
+    }
+    bounds.turning(&place.vectors(curve.rotation_rates(place.at)), pace);
+    bounds.external(&place.rates([1, 2, 3].map(|order| curve.external.derivative(order, place.at))), pace);
 }

@@ -75,6 +75,21 @@ impl<'a> Bounds<'a> {
         self.rows.push(if self.signed { bound } else { bound.size() });
     }
 
+    /// Joins the rows from `known` on, which are of one place, to the first rows, which are of others: limits that hold at
+    /// all of these places.
+    pub(super) fn join(&mut self, known: usize) {
+        if known == 0 {
+            return;
+        }
+        let (joined, new) = self.rows.split_at_mut(known);
+        for (bound, new) in joined.iter_mut().zip(new) {
+            bound.first = bound.first.max(new.first);
+            bound.second = bound.second.max(new.second);
+            bound.third = bound.third.max(new.third);
+        }
+        self.rows.truncate(known);
+    }
+
     /// All axes go evenly from `start` to `end`.
     pub(super) fn even_axes(&mut self, start: &Joints, end: &Joints, pace: &Pace) {
         for (axis, (start, end)) in self.robot.own_axes().iter().zip(start.axes.iter().zip(&end.axes)) {

@@ -2,7 +2,8 @@
 
 use std::collections::VecDeque;
 
-use super::blend::{Blend, blend, common_pace};
+use super::bend::{Bend, bend};
+use super::blend::{Blend, bent_blend, blend, common_pace};
 use super::bounds::{Bounds, Pace};
 use super::curve::Curve;
 use super::governor::{Governor, MARGIN, Pacing};
@@ -18,6 +19,9 @@ use super::timing::{Cell, Timing};
 use crate::frames::Rig;
 use crate::kinematics::Kinematics;
 use crate::robot::{Robot, VelocityProfile};
+
+/// A piece that takes no longer, in s, is none.
+const NO_TIME: f64 = 1e-12;
 
 /// A stretch of the way with constant limits. Its own parameter is the time, in s, that it takes at its full speed: so
 /// that motions and blends meet with the same speed.
@@ -91,9 +95,9 @@ impl Piece {
             curve: blend.curve.clone(),
             from: if first { 0.0 } else { 0.5 },
             to: if first { 0.5 } else { 1.0 },
-            progress: Some(blend.progress),
+            progress: Some(blend.progress.clone()),
             time: time / 2.0,
-            limits: Limits { vel: vel * time, acc: acc * time, jerk: jerk * time },
+            limits: Limits { vel: on_grid(vel * time), acc: acc * time, jerk: jerk * time },
             stops: false,
             ends: first && motion.ends,
             duration: None,
@@ -188,6 +192,15 @@ fn is_free(motion: &Motion) -> bool {
 /// What is left of the way to a stop, in s of nominal time, when only rounding is left.
 const NEAR_STOP: f64 = 1e-9;
 
+/// The next lower speed of a fine grid, on which the full speed lies: so that stretches of almost the same speed can be
+/// taken as one.
+fn on_grid(vel: f64) -> f64 {
+    const STEP: f64 = 1.003;
+    // What rounding takes from a speed must not cost it a step.
+    let steps = (vel.ln() / STEP.ln() + 1e-6).floor();
+    if steps.is_finite() { STEP.powf(steps) } else { vel }
+}
+
 /// All pieces from the one that the robot is on.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Course {
@@ -205,8 +218,27 @@ pub(super) struct Course {
     unled: bool,
     /// s of nominal time before the first piece, since the course began.
     passed: f64,
-    /// The last motion, with its limits, which the next one may still round off.
-    tail: Option<(Motion, Limits)>,
+    /// The last motion, which the next one may still round off.
+    tail: Option<Tail>,
+}
+
+/// The end of the way.
+#[derive(Clone, Debug)]
+struct Tail {
+    motion: Motion,
+    limits: Limits,
+    /// The motion before it, where a blend leads from there.
+    joined: Option<Joined>,
+}
+
+/// A blend whose end, in the middle of a motion, is straight as long as it is not known what comes behind that motion.
+#[derive(Clone, Debug)]
+struct Joined {
+    before: Motion,
+    /// How the motion before is bent where the blend begins.
+    bend: Bend,
+    /// How many pieces there are from the blend's first half on.
+    pieces: usize,
 }
 
 /// Two motions and the blend between them.
@@ -219,16 +251,17 @@ struct Blended {
 }
 
 /// The blend that two motions ask for; a weave goes on through it.
-fn blended(robot: &Robot, from: (Motion, Limits), to: (Motion, Limits)) -> Option<Blended> {
+fn blended(robot: &Robot, from: (&Motion, Limits), to: (&Motion, Limits)) -> Option<Blended> {
     let fades_from = from.0.laid.as_ref().map_or(1.0, |laid| laid.fades_from());
     let limited = |motion: Motion| Some((motion.limits?, motion)).map(|(limits, motion)| (motion, limits));
-    let going_on = joined(robot, &from.0, &to.0).and_then(|(from, to)| Some((limited(from)?, limited(to)?)));
+    let going_on = joined(robot, from.0, to.0).and_then(|(from, to)| Some((limited(from)?, limited(to)?)));
     if let Some((from, to)) = going_on
         && let Some(blend) = blend(robot, &from.0, &to.0)
     {
         return Some(Blended { from, to, blend, until: fades_from });
     }
-    blend(robot, &from.0, &to.0).map(|blend| Blended { from, to, blend, until: 1.0 })
+    let blend = blend(robot, from.0, to.0)?;
+    Some(Blended { from: (from.0.clone(), from.1), to: (to.0.clone(), to.1), blend, until: 1.0 })
 }
 
 impl Course {
@@ -285,58 +318,108 @@ impl Course {
             && tail.is_some()
             && self.flow_on((robot, here), Piece::part(&motion, limits, number, 0.0, 1.0), cycle)
         {
-            self.timing.settle();
+            self.timing.settle(1);
             self.timing.find_entries(MARGIN, cycle);
-            self.tail = Some((motion, limits));
+            self.tail = Some(Tail { motion, limits, joined: None });
             return false;
         }
-        let wanted = match tail {
-            Some(before) if !self.pieces.is_empty() => blended(robot, before, (motion.clone(), limits)),
-            _ => None,
-        };
-        let asked = wanted.is_some() || motion.flows;
-        let rounded = wanted.filter(|wanted| self.round_off((robot, here), wanted, number, cycle));
-        if let Some(wanted) = rounded {
-            self.tail = Some(wanted.to);
-            self.timing.settle();
-            self.timing.find_entries(MARGIN, cycle);
-            return false;
+        let tail = tail.filter(|_| !self.pieces.is_empty());
+        let at = (robot, here);
+        let mut joined = tail.as_ref().and_then(|tail| self.bend_into(at, tail, (&motion, limits), number, cycle));
+        let mut late = motion.flows;
+        let mut end = (motion, limits);
+        let mut before = None;
+        if let Some(tail) = tail {
+            let blended =
+                if joined.is_none() { blended(robot, (&tail.motion, tail.limits), (&end.0, limits)) } else { None };
+            before = Some(tail.motion);
+            if let Some(blended) = blended {
+                joined = self.round_off(at, &blended, number, cycle).map(|pieces| (Bend::NONE, pieces));
+                late = joined.is_none();
+                if joined.is_some() {
+                    (before, end) = (Some(blended.from.0), blended.to);
+                }
+            }
         }
-        let whole = [Piece::part(&motion, limits, number, 0.0, 1.0)];
-        // In a stretch of its own it asks for nothing that the stop before it did not.
-        if self.pilot.is_some() || !self.lay(&whole, true, cycle) {
-            self.push(&whole, false);
+        let (motion, limits) = end;
+        if joined.is_none() {
+            let whole = [Piece::part(&motion, limits, number, 0.0, 1.0)];
+            // In a stretch of its own it asks for nothing that the stop before it did not.
+            if self.pilot.is_some() || !self.lay(&whole, true, cycle) {
+                self.push(&whole, false);
+            }
         }
-        self.timing.settle();
+        let joined = joined.zip(before).map(|((bend, pieces), before)| Joined { before, bend, pieces });
+        self.timing.settle(joined.as_ref().map_or(1, |joined| joined.pieces));
         self.timing.find_entries(MARGIN, cycle);
-        self.tail = Some((motion, limits));
-        asked
+        self.tail = Some(Tail { motion, limits, joined });
+        late
     }
 
-    /// Puts a blend in place of the end of the last motion and the start of the next; returns whether the robot is still
-    /// able to take it.
-    fn round_off(&mut self, at: (&Robot, &Joints), blended: &Blended, number: u64, cycle: f64) -> bool {
-        let Blended { from: (before, before_limits), to: (motion, limits), blend, until } = blended;
-        let Some(last) = self.pieces.pop_back() else { return false };
-        let gone = last.from + self.at * before.rate;
-        if self.pieces.is_empty() && (gone >= blend.leave || gone > *until) {
-            self.pieces.push_back(last);
-            return false;
+    /// Puts a blend behind the last one where the two meet in the middle of the last motion, and bends both there; returns
+    /// the bend and how many pieces there are from the new blend on. `None` where that is not possible any more.
+    fn bend_into(
+        &mut self,
+        at: (&Robot, &Joints),
+        tail: &Tail,
+        (motion, limits): (&Motion, Limits),
+        number: u64,
+        cycle: f64,
+    ) -> Option<(Bend, usize)> {
+        let Joined { before, bend: start, pieces: count } = tail.joined.as_ref()?;
+        // The robot must not be on the blend yet.
+        if self.pieces.len() <= *count {
+            return None;
         }
-        self.timing.pop();
+        let (robot, _) = at;
+        let bend = bend(robot, before, &tail.motion, motion)?;
+        if bend == Bend::NONE {
+            return None;
+        }
+        let bent = bent_blend(robot, before, &tail.motion, [*start, bend])?;
+        let next = bent_blend(robot, &tail.motion, motion, [bend, Bend::NONE])?;
+        let (first, last) = (self.pieces.get(self.pieces.len() - *count)?.number, self.pieces.back()?.number);
+        let mut pieces = vec![
+            Piece::half(&bent, (before, &tail.motion), first, true),
+            Piece::half(&bent, (before, &tail.motion), last, false),
+            Piece::half(&next, (&tail.motion, motion), last, true),
+            Piece::half(&next, (&tail.motion, motion), number, false),
+        ];
+        let rest = Piece::part(motion, limits, number, next.join, 1.0);
+        pieces.extend((rest.time > NO_TIME).then_some(rest));
+        let kept = self.take_back(*count);
+        let same_to = self.end();
+        if self.lay_any(at, &pieces, same_to, cycle) {
+            return Some((bend, pieces.len() - 2));
+        }
+        self.put_back(kept);
+        None
+    }
+
+    /// Puts a blend in place of the end of the last motion and the start of the next; returns how many pieces there are
+    /// from the blend on, `None` where the robot is not able to take it any more.
+    fn round_off(&mut self, at: (&Robot, &Joints), blended: &Blended, number: u64, cycle: f64) -> Option<usize> {
+        let Blended { from: (before, before_limits), to: (motion, limits), blend, until } = blended;
+        let last = self.pieces.back()?;
+        let gone = last.from + self.at * before.rate;
+        if self.pieces.len() == 1 && (gone >= blend.leave || gone > *until) {
+            return None;
+        }
+        let same = (until.min(blend.leave) - last.from).max(0.0) / before.rate;
         let mut cut = Piece::part(before, *before_limits, last.number, last.from, blend.leave);
         (cut.stops, cut.ends) = (false, false);
-        let rest = Piece::part(motion, *limits, number, blend.join, 1.0);
         let first = Piece::half(blend, (before, motion), last.number, true);
         let second = Piece::half(blend, (before, motion), number, false);
-        let start = self.passed + self.pieces.iter().map(|piece| piece.time).sum::<f64>();
-        let same_to = start + (until.min(blend.leave) - last.from).max(0.0) / before.rate;
-        let pieces: Vec<Piece> = [cut, first, second, rest].into_iter().filter(|piece| piece.time > 1e-12).collect();
+        let rest = Piece::part(motion, *limits, number, blend.join, 1.0);
+        let pieces: Vec<Piece> = [cut, first, second, rest].into_iter().filter(|piece| piece.time > NO_TIME).collect();
+        let from_blend = pieces.iter().skip_while(|piece| piece.progress.is_none()).count();
+        let kept = self.take_back(1);
+        let same_to = self.end() + same;
         if self.lay_any(at, &pieces, same_to, cycle) {
-            return true;
+            return Some(from_blend);
         }
-        self.lay_again(last, cycle);
-        false
+        self.put_back(kept);
+        None
     }
 
     /// Appends pieces in whatever way the robot is able to keep to them; returns whether there is one. Up to `same_to`, in s
@@ -348,25 +431,22 @@ impl Course {
         self.lay(pieces, true, cycle) || self.lay(pieces, false, cycle)
     }
 
-    /// Puts a piece back that was taken away.
-    fn lay_again(&mut self, piece: Piece, cycle: f64) {
-        let piece = [piece];
-        if self.pilot.is_some() || !self.lay(&piece, true, cycle) {
-            self.push(&piece, false);
-        }
+    /// Where the last piece ends, in s of nominal time since the course began.
+    fn end(&self) -> f64 {
+        self.passed + self.pieces.iter().map(|piece| piece.time).sum::<f64>()
     }
 
     /// Goes on from the last motion without a stop; returns whether the robot is still able to.
     fn flow_on(&mut self, at: (&Robot, &Joints), piece: Piece, cycle: f64) -> bool {
-        let Some(last) = self.pieces.pop_back() else { return false };
-        self.timing.pop();
+        let Some(last) = self.pieces.back() else { return false };
         let through = Piece { stops: false, duration: None, ..last.clone() };
         let pieces = [through, Piece { duration: None, ..piece }];
-        let same_to = self.passed + self.pieces.iter().chain(pieces.first()).map(|piece| piece.time).sum::<f64>();
+        let kept = self.take_back(1);
+        let same_to = self.end() + pieces[0].time;
         if self.lay_any(at, &pieces, same_to, cycle) {
             return true;
         }
-        self.lay_again(last, cycle);
+        self.put_back(kept);
         false
     }
 
@@ -377,10 +457,7 @@ impl Course {
         let laid = pilot.end() <= same_to || pilot.renew(&self.scout(robot, here));
         self.pilot = Some(pilot);
         if !laid {
-            for _ in pieces {
-                self.pieces.pop_back();
-                self.timing.pop();
-            }
+            self.take_back(pieces.len());
         }
         laid
     }
@@ -391,23 +468,44 @@ impl Course {
 
     /// Appends pieces if the robot is able to keep to them, and returns whether it is; `may` they join the last stretch?
     fn lay(&mut self, pieces: &[Piece], may: bool, cycle: f64) -> bool {
+        let before = self.timing.next_entry();
         self.push(pieces, may);
         self.timing.find_entries(MARGIN, cycle);
-        let holds = self.state.rests() || self.governor(cycle).holds(&self.state);
+        // The governor looks no farther than to the next stretch.
+        let unchanged = before.is_some() && self.timing.next_entry() >= before;
+        let holds = unchanged || self.state.rests() || self.governor(cycle).holds(&self.state);
         if !holds {
-            for _ in pieces {
-                self.pieces.pop_back();
-                self.timing.pop();
-            }
+            self.take_back(pieces.len());
         }
         holds
     }
 
     fn push(&mut self, pieces: &[Piece], may: bool) {
         for (index, piece) in pieces.iter().enumerate() {
-            let cell = Cell { length: piece.time, limits: piece.limits };
-            self.timing.push(cell, piece.stops, may || index > 0);
-            self.pieces.push_back(piece.clone());
+            self.push_one(piece.clone(), may || index > 0);
+        }
+    }
+
+    fn push_one(&mut self, piece: Piece, may: bool) {
+        let cell = Cell { length: piece.time, limits: piece.limits };
+        self.timing.push(cell, piece.stops, may);
+        self.pieces.push_back(piece);
+    }
+
+    /// Takes the last pieces away; returns them, the last one first, each with whether its stretch began with it.
+    fn take_back(&mut self, count: usize) -> Vec<(Piece, bool)> {
+        let mut taken = Vec::with_capacity(count);
+        for _ in 0..count {
+            let began = self.timing.pop();
+            taken.extend(self.pieces.pop_back().map(|piece| (piece, began)));
+        }
+        taken
+    }
+
+    /// Puts pieces back where they were.
+    fn put_back(&mut self, taken: Vec<(Piece, bool)>) {
+        for (piece, began) in taken.into_iter().rev() {
+            self.push_one(piece, !began);
         }
     }
 

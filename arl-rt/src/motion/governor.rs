@@ -44,8 +44,10 @@ const TOO_FAST: f64 = 1e-5;
 const ENDING: f64 = 0.02;
 /// Slack for rounding in s of nominal time, and in full speeds.
 const ROUNDING: f64 = 1e-12;
+/// Slack for a state that was found at the edge of what is possible.
+const EDGE: f64 = 1e-9;
 /// Halvings of the interval in which the jerk is looked for.
-const HALVINGS: u32 = 44;
+const HALVINGS: u32 = 30;
 /// A rest of the way that is so small a part of what a cycle's jerk moves is no way.
 const SNAP: f64 = 0.005;
 
@@ -57,9 +59,9 @@ pub(super) struct Governor<'a> {
 }
 
 impl Governor<'_> {
-    /// Whether the state can go on; see the invariant.
+    /// Whether the state can go on; see the invariant. It is at the edge of that most of the time, but for rounding.
     pub(super) fn holds(&self, state: &State) -> bool {
-        self.feasible(state, FREE)
+        self.possible(state, FREE, EDGE)
     }
 
     /// The state a cycle later. Beyond the end of the first cell `at` goes on into the next ones.
@@ -244,16 +246,21 @@ impl Governor<'_> {
 
     /// Whether the state keeps to the limits where it is, and all demands of the way ahead can be met.
     fn feasible(&self, state: &State, scale: Scale) -> bool {
+        self.possible(state, scale, 0.0)
+    }
+
+    /// The same with a slack for speeds, as a share, and for ways, in s of nominal time.
+    fn possible(&self, state: &State, scale: Scale, slack: f64) -> bool {
         let State { vel, acc, .. } = *state;
         let Some((here, cell)) = self.at(state.at) else { return state.rests() };
         let limits = careful(here, scale);
         let peak = fading(vel, acc.max(0.0), &limits);
-        let highest = cell.limits.vel * scale.vel * (1.0 + TOO_FAST);
-        if vel < 0.0 || acc.abs() * MARGIN > limits.acc * (1.0 + SLACK) || peak > highest {
+        let highest = cell.limits.vel * scale.vel * (1.0 + TOO_FAST + slack);
+        if vel < 0.0 || acc.abs() * MARGIN > limits.acc * (1.0 + SLACK + slack) || peak > highest {
             return false;
         }
         let mut met = true;
-        self.demands(state, scale, |_, _, left| met &= left >= 0.0);
+        self.demands(state, scale, |_, _, left| met &= left >= -slack);
         met
     }
 

@@ -39,6 +39,9 @@ pub(super) fn quickest(bounds: &[Bound]) -> Limits {
     let vel = lowest(bounds.iter().flat_map(|bound| {
         [bound.vel / bound.first, (bound.acc / bound.second).sqrt(), (bound.jerk / bound.third).cbrt()]
     }));
+    if let Some(limits) = hardly_curved(bounds, vel) {
+        return limits;
+    }
     let curved = bounds.iter().any(|bound| bound.second > 0.0 || bound.third > 0.0);
     let (speeds, accs) = if curved { (&SPEED_SHARES[..], &ACC_SHARES[..]) } else { (&[1.0][..], &[1.0][..]) };
     let mut best: Option<(f64, Limits)> = None;
@@ -65,10 +68,37 @@ pub(super) fn quickest(bounds: &[Bound]) -> Limits {
     best.map_or(Limits { vel: 1.0, acc: 1.0, jerk: 1.0 }, |(_, limits)| limits)
 }
 
+/// How much of the acceleration and of the jerk that are there at rest is as good as all.
+const AS_GOOD: f64 = 0.98;
+
+/// The limits of a way on which hardly anything is lost to its curvature at the speed `vel`.
+fn hardly_curved(bounds: &[Bound], vel: f64) -> Option<Limits> {
+    let mut rest = Limits { vel, acc: 1e12, jerk: 1e12 };
+    let mut moving = rest;
+    for bound in bounds.iter().filter(|bound| bound.first > 0.0) {
+        let curve = bound.second * vel;
+        rest.acc = rest.acc.min(bound.acc / bound.first);
+        moving.acc = moving.acc.min((bound.acc - curve * vel) / bound.first);
+    }
+    for bound in bounds.iter().filter(|bound| bound.first > 0.0) {
+        let (curve, twist) = (bound.second * vel, bound.third * vel * vel * vel);
+        rest.jerk = rest.jerk.min(bound.jerk / bound.first);
+        moving.jerk = moving.jerk.min((bound.jerk - 3.0 * curve * moving.acc - twist) / bound.first);
+    }
+    // What does not move at first may yet be curved.
+    let still = bounds.iter().filter(|bound| bound.first <= 0.0);
+    let met = |bound: &Bound| {
+        let (curve, twist) = (bound.second * vel, bound.third * vel * vel * vel);
+        curve * vel <= bound.acc && 3.0 * curve * moving.acc + twist <= bound.jerk
+    };
+    let good = moving.acc >= AS_GOOD * rest.acc && moving.jerk >= AS_GOOD * rest.jerk && still.clone().all(met);
+    good.then_some(moving)
+}
+
 /// Shares of the highest speed, fastest first, of which the first is taken that leaves enough to stop with.
 const PASSING_SHARES: [f64; 8] = [1.0, 0.98, 0.96, 0.94, 0.92, 0.88, 0.8, 0.6];
-/// Shares of the acceleration that is left at that speed.
-const PASSING_ACC_SHARES: [f64; 5] = [1.0, 0.7, 0.4, 0.2, 0.1];
+/// Shares of the acceleration that is left at that speed, among which the one is taken that gets up to it soonest.
+const PASSING_ACC_SHARES: [f64; 9] = [0.95, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1];
 /// How much of the acceleration and of the jerk that are there at rest must be left at speed.
 const LEFT_OVER: f64 = 0.08;
 
@@ -89,13 +119,18 @@ pub(super) fn passing(bounds: &[Bound], fastest: f64) -> Limits {
     for share in PASSING_SHARES {
         let vel = (vel * share).min(fastest);
         // What the acceleration takes of the jerk is shared between the two.
+        let most = acc_at(vel);
+        let mut soonest = f64::INFINITY;
         for acc_share in PASSING_ACC_SHARES {
-            let acc = acc_at(vel) * acc_share;
+            let acc = most * acc_share;
             let jerk = jerk_at(vel, acc);
-            if acc >= LEFT_OVER * acc_at_rest && jerk >= LEFT_OVER * jerk_at_rest {
-                return Limits { vel, acc, jerk };
+            let time = vel / acc + acc / jerk;
+            if acc > 0.0 && jerk > 0.0 && time < soonest {
+                (soonest, found) = (time, Limits { vel, acc, jerk });
             }
-            found = if acc > 0.0 && jerk > 0.0 { Limits { vel, acc, jerk } } else { found };
+        }
+        if found.vel == vel && found.acc >= LEFT_OVER * acc_at_rest && found.jerk >= LEFT_OVER * jerk_at_rest {
+            return found;
         }
     }
     found

@@ -6,6 +6,7 @@
 //! that one parameter and can never leave the path or break a limit.
 
 mod arc;
+mod bend;
 mod blend;
 mod bounds;
 mod chain;

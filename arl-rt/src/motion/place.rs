@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use super::progress::Progress;
 
 /// A place on the curve: its parameter, and how that changes with the share of the nominal time.
+#[derive(Clone, Copy)]
 pub(super) struct Place {
     pub(super) at: f64,
     pub(super) first: f64,

@@ -1,6 +1,8 @@
 //! How the parameter of a blend goes with time: so that the TCP's speed changes smoothly from that of the one motion to
 //! that of the other, whatever the shape of the blend.
 
+use std::sync::Arc;
+
 use super::curve::Track;
 use super::quintic::{Knot, Quintic};
 
@@ -12,8 +14,13 @@ const PLACES: usize = 8;
 const EASING: f64 = 5.0 / 16.0;
 
 /// The parameter of a curve over the share of the nominal time, both from 0 to 1.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) struct Progress([Quintic<1>; PARTS]);
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum Progress {
+    /// By one polynomial.
+    One(Quintic<1>),
+    /// By a polynomial for each part.
+    Many(Arc<[Quintic<1>; PARTS]>),
+}
 
 impl Progress {
     /// Parts between which the third derivative jumps, all of the same length.
@@ -22,12 +29,27 @@ impl Progress {
     /// From one rate of the parameter to another, smoothly.
     pub(super) fn between(start_rate: f64, end_rate: f64) -> Self {
         let knot = |value: f64, first: f64| Knot { value: [value], first: [first], second: [0.0] };
-        let whole = Quintic::between(&knot(0.0, start_rate), &knot(1.0, end_rate));
-        Self::of(|share| {
-            let ([value], [first], [second]) =
-                (whole.at(share), whole.derivative(1, share), whole.derivative(2, share));
-            [value, first, second]
-        })
+        Self::One(Quintic::between(&knot(0.0, start_rate), &knot(1.0, end_rate)))
+    }
+
+    /// As [`Progress::along`], where the track hardly bends and hardly changes its speed.
+    pub(super) fn gently(track: &Track, start: [f64; 2], end: [f64; 2]) -> Option<(Self, f64)> {
+        if start[0] <= 0.0 || end[0] <= 0.0 {
+            return None;
+        }
+        // Gauss's rule with three places.
+        let speed = |at: f64| track.derivative(1, at).norm();
+        let length =
+            (5.0 * (speed(0.112_701_665_379_258_3) + speed(0.887_298_334_620_741_7)) + 8.0 * speed(0.5)) / 18.0;
+        let time = time_along(length, start, end)?;
+        let knot = |at: f64, [vel, acc]: [f64; 2]| {
+            let (first, second) = (track.derivative(1, at), track.derivative(2, at));
+            let rate = time * vel / first.norm();
+            let change = time * time * acc - first.dot(&second) / first.norm() * rate * rate;
+            Knot { value: [at], first: [rate], second: [change / first.norm()] }
+        };
+        let whole = Quintic::between(&knot(0.0, start), &knot(1.0, end));
+        Some((Self::One(whole), time))
     }
 
     /// Along `track`, with a speed in mm/s that goes smoothly from that of `start` to that of `end`, and so do their
@@ -51,12 +73,7 @@ impl Progress {
             return None;
         }
         // The speed over the share of the time is a polynomial of the third degree; its integral is the way.
-        let (mean, gain) = (f64::midpoint(start, end), (start_acc - end_acc) / 12.0);
-        let inside = mean * mean + 4.0 * gain * sum;
-        if inside < 0.0 {
-            return None;
-        }
-        let time = 2.0 * sum / (mean + inside.sqrt());
+        let time = time_along(sum, [start, start_acc], [end, end_acc])?;
         let (rise, fall) = (time * start_acc, time * end_acc);
         let wanted = |x: f64| {
             let easing = x * x * (3.0 - 2.0 * x);
@@ -147,30 +164,42 @@ impl Progress {
             let [value, first, second] = at(index as f64 * width);
             Knot { value: [value], first: [first * width], second: [second * width * width] }
         };
-        Self(std::array::from_fn(|index| Quintic::between(&knot(index), &knot(index + 1))))
+        Self::Many(Arc::new(std::array::from_fn(|index| Quintic::between(&knot(index), &knot(index + 1)))))
     }
 
-    /// The part that `share` is in, and where in it.
-    fn part(&self, share: f64) -> (&Quintic<1>, f64) {
-        let place = share.clamp(0.0, 1.0) * PARTS as f64;
-        let index = (place as usize).min(PARTS - 1);
-        let [first, ..] = &self.0;
-        (self.0.get(index).unwrap_or(first), place - index as f64)
+    /// The part that `share` is in, where in it, and how many there are.
+    fn part(&self, share: f64) -> (&Quintic<1>, f64, f64) {
+        match self {
+            Progress::One(whole) => (whole, share.clamp(0.0, 1.0), 1.0),
+            Progress::Many(parts) => {
+                let place = share.clamp(0.0, 1.0) * PARTS as f64;
+                let index = (place as usize).min(PARTS - 1);
+                let [first, ..] = &**parts;
+                (parts.get(index).unwrap_or(first), place - index as f64, PARTS as f64)
+            }
+        }
     }
 
     /// The parameter.
     pub(super) fn at(&self, share: f64) -> f64 {
-        let (part, place) = self.part(share);
+        let (part, place, _) = self.part(share);
         let [value] = part.at(place);
         value.clamp(0.0, 1.0)
     }
 
     /// The derivative of the order `order`, 1 to 3.
     pub(super) fn derivative(&self, order: usize, share: f64) -> f64 {
-        let (part, place) = self.part(share);
+        let (part, place, parts) = self.part(share);
         let [value] = part.derivative(order, place);
-        value * (PARTS as f64).powi(order as i32)
+        value * parts.powi(order as i32)
     }
+}
+
+/// The time in s for a way in mm from one speed and acceleration, in mm/s and mm/s2, smoothly to others.
+fn time_along(way: f64, [start, start_acc]: [f64; 2], [end, end_acc]: [f64; 2]) -> Option<f64> {
+    let (mean, gain) = (f64::midpoint(start, end), (start_acc - end_acc) / 12.0);
+    let inside = mean * mean + 4.0 * gain * way;
+    (inside >= 0.0).then(|| 2.0 * way / (mean + inside.sqrt())).filter(|time| time.is_finite())
 }
 
 /// The parameter at which the table of ways has reached `way`.

@@ -17,6 +17,9 @@ pub(super) struct Survey {
 
 /// The longest step, as part of the path.
 const LONGEST_STEP: f64 = 1.0 / 16.0;
+/// The same for a path on which no axis moves farther than `SHORT` deg (mm).
+const LONGEST_SHORT_STEP: f64 = 0.5;
+const SHORT: f64 = 3.0;
 /// A step as part of the length over which the axes' motion changes. A singular point is never stepped over: the steps
 /// get shorter in proportion to its distance.
 const STEP_OF_SCALE: f64 = 0.1;
@@ -46,7 +49,9 @@ pub(super) fn survey(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result
     let plain = curve.over.as_ref().map(|_| ToolCurve { over: None, ..curve.clone() });
     let walk = Walk { robot, curve, plain };
     // The target first: where it cannot be reached, that is what the programmer wants to know.
-    walk.reaches_target(&start.axes)?;
+    let target = walk.reaches_target(&start.axes)?;
+    let short = target.iter().zip(&start.axes).all(|(end, start)| (end - start).abs() <= SHORT);
+    let longest = if short { LONGEST_SHORT_STEP } else { LONGEST_STEP };
 
     let mut rates = Vec::with_capacity(32);
     let mut limits = Ranges::new(robot);
@@ -54,7 +59,7 @@ pub(super) fn survey(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result
     let glimpse = walk.axes(GLIMPSE, &here)?;
     walk.no_jump(&here, &glimpse, GLIMPSE_JUMP, 0.0)?;
     let mut known = walk.rates(0.0, &here);
-    let longest = curve.over.as_ref().map_or(LONGEST_STEP, |over| over.longest_step().min(LONGEST_STEP));
+    let longest = curve.over.as_ref().map_or(longest, |over| over.longest_step().min(longest));
     let mut strip = 0.0;
     while at < 1.0 - GLIMPSE {
         let next = walk.next(at, &here, known.as_ref(), longest)?.min(1.0 - GLIMPSE);
@@ -85,6 +90,44 @@ pub(super) fn survey(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result
     limits.broken.map_or(Ok(Survey { end, rates }), Err)
 }
 
+/// An axis may be beside where the place before made it bound to be by this part of what the axes moved since.
+const EXPECTED: f64 = 0.02;
+
+/// Looks at a short way at a few places, the first and the last of which are its ends; `None` where that is not enough to
+/// know how the axes move, or where they must not go: [`survey`] tells then.
+pub(super) fn glance<const N: usize>(
+    robot: &Robot,
+    curve: &ToolCurve,
+    start: &Axes,
+    places: &[f64; N],
+) -> Option<Survey> {
+    let walk = Walk { robot, curve, plain: None };
+    let mut found = Survey { end: *start, rates: Vec::with_capacity(N) };
+    let mut limits = Ranges::new(robot);
+    for at in places {
+        let expected = match found.rates.last() {
+            Some((before, rates)) => ahead(&found.end, rates, at - before),
+            None => *start,
+        };
+        let axes = curve.axes(&robot.kinematics, *at, &expected)?;
+        if let Some((before, rates)) = found.rates.last() {
+            let speeds = || robot.own_axes().iter().map(|axis| axis.vel);
+            let far = |a: &Axes, b: &Axes| {
+                a.iter().zip(b).zip(speeds()).map(|((a, b), vel)| (a - b).abs() / vel).fold(0.0, f64::max)
+            };
+            if far(&axes, &expected) > EXPECTED * far(&axes, &found.end) + 1e-9 {
+                return None;
+            }
+            limits.between(*before, &found.end, rates, at - before);
+        }
+        limits.at(*at, &axes);
+        let rates = walk.rates(*at, &axes)?;
+        found.end = axes;
+        found.rates.push((*at, rates));
+    }
+    limits.broken.is_none().then_some(found)
+}
+
 impl Walk<'_> {
     fn axes(&self, at: f64, near: &Axes) -> Result<Axes, PlanError> {
         let found = self.curve.axes(&self.robot.kinematics, at, near);
@@ -94,9 +137,9 @@ impl Walk<'_> {
         })
     }
 
-    fn reaches_target(&self, near: &Axes) -> Result<(), PlanError> {
+    fn reaches_target(&self, near: &Axes) -> Result<Axes, PlanError> {
         let found = self.robot.kinematics.inverse(&self.curve.flange(1.0), self.curve.cfg_at(1.0), near);
-        found.map(|_| ()).ok_or_else(|| self.unreachable(1.0))
+        found.ok_or_else(|| self.unreachable(1.0))
     }
 
     /// The next place to look at; never beyond the border of a passage.

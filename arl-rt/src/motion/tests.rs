@@ -2,6 +2,7 @@
 
 mod blends;
 mod carried;
+mod chains;
 mod compensations;
 mod gates;
 mod optimal;

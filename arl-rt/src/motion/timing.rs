@@ -28,8 +28,6 @@ pub(super) struct Stretch {
 
 /// Cells whose limits differ by up to this factor share a stretch.
 const ALIKE: f64 = 2.0;
-/// A cell that is faster than the one before it by up to this part joins it and takes on its speed.
-const SAME_SPEED: f64 = 0.01;
 
 /// All stretches from the one that the robot is on.
 #[derive(Clone, Debug, Default)]
@@ -50,10 +48,30 @@ impl Stretch {
     }
 
     fn measure(&mut self) {
-        self.known = false;
         let lowest =
             |of: fn(&Limits) -> f64| self.cells.iter().map(|cell| of(&cell.limits)).fold(f64::INFINITY, f64::min);
         (self.acc, self.jerk) = (lowest(|limits| limits.acc), lowest(|limits| limits.jerk));
+    }
+
+    /// Joins the last cells whose speeds are the same, but for `open` at the end.
+    fn settle(&mut self, open: usize) {
+        /// More than are new.
+        const NEW: usize = 16;
+        let count = self.cells.len();
+        for at in (1..count.saturating_sub(open)).rev().take(NEW) {
+            let (Some(before), Some(cell)) = (self.cells.get(at - 1).copied(), self.cells.get(at).copied()) else {
+                return;
+            };
+            let (a, b) = (before.limits, cell.limits);
+            // Neither may lose speed: the robot may count on both already.
+            if a.vel.to_bits() == b.vel.to_bits() {
+                let limits = Limits { vel: a.vel, acc: a.acc.min(b.acc), jerk: a.jerk.min(b.jerk) };
+                if let Some(place) = self.cells.get_mut(at - 1) {
+                    *place = Cell { length: before.length + cell.length, limits };
+                }
+                self.cells.remove(at);
+            }
+        }
     }
 
     /// Acceleration and jerk, with no limit of the speed.
@@ -96,7 +114,7 @@ impl Timing {
         match self.stretches.back_mut() {
             Some(last) if may && !last.stops && last.takes(&cell) => {
                 last.cells.push_back(cell);
-                last.measure();
+                (last.acc, last.jerk) = (last.acc.min(cell.limits.acc), last.jerk.min(cell.limits.jerk));
             }
             _ => self.stretches.push_back(Stretch::new(cell)),
         }
@@ -105,36 +123,32 @@ impl Timing {
         }
     }
 
-    /// Takes the last cell away.
-    pub(super) fn pop(&mut self) {
-        if let Some(last) = self.stretches.back_mut() {
-            last.cells.pop_back();
-            last.stops = false;
+    /// Takes the last cell away; returns whether its stretch began with it.
+    pub(super) fn pop(&mut self) -> bool {
+        let Some(last) = self.stretches.back_mut() else { return false };
+        let popped = last.cells.pop_back();
+        (last.stops, last.known) = (false, false);
+        if popped.is_none_or(|cell| cell.limits.acc <= last.acc || cell.limits.jerk <= last.jerk) {
             last.measure();
-            if last.cells.is_empty() {
-                self.stretches.pop_back();
-            }
         }
+        let began = last.cells.is_empty();
+        if began {
+            self.stretches.pop_back();
+        }
+        began
     }
 
-    /// Joins cells that are almost the same, but for the last one, which may still be taken away.
-    pub(super) fn settle(&mut self) {
-        let Some(last) = self.stretches.back_mut() else { return };
-        // At most a few cells are new.
-        let count = last.cells.len();
-        for at in (1..count.saturating_sub(1)).rev().take(4) {
-            let (Some(before), Some(cell)) = (last.cells.get(at - 1).copied(), last.cells.get(at).copied()) else {
+    /// Joins cells whose speeds are the same, but for the last ones, `open` in all, which may still be taken away.
+    pub(super) fn settle(&mut self, open: usize) {
+        // The last of them may have begun a stretch of their own.
+        let mut open = open;
+        for stretch in self.stretches.iter_mut().rev() {
+            let count = stretch.cells.len();
+            if open < count {
+                stretch.settle(open);
                 return;
-            };
-            let (a, b) = (before.limits, cell.limits);
-            // Only the later one may lose speed: the robot may count on the earlier one already.
-            if a.vel <= b.vel && b.vel <= a.vel * (1.0 + SAME_SPEED) {
-                let limits = Limits { vel: a.vel, acc: a.acc.min(b.acc), jerk: a.jerk.min(b.jerk) };
-                if let Some(place) = last.cells.get_mut(at - 1) {
-                    *place = Cell { length: before.length + cell.length, limits };
-                }
-                last.cells.remove(at);
             }
+            open -= count;
         }
     }
 
@@ -152,6 +166,11 @@ impl Timing {
             (stretch.entry, stretch.known) = (entry, true);
             exit = entry;
         }
+    }
+
+    /// The speed at which the next stretch may be entered; `None` where that one may still change otherwise.
+    pub(super) fn next_entry(&self) -> Option<f64> {
+        if self.stretches.len() > 2 { self.stretches.get(1).map(|stretch| stretch.entry) } else { None }
     }
 
     /// Leaves behind what the robot has passed; returns whether it stands at a stop.

@@ -53,7 +53,7 @@ pub(super) fn rounding(robot: &Robot, motion: &Motion, leave: f64) -> Option<Rou
 }
 
 /// The largest zone, as part of a motion.
-const LARGEST: f64 = 0.5;
+pub(super) const LARGEST: f64 = 0.5;
 
 /// The parts that a blend takes from the end of one motion and from the start of the next; `None` where none is asked for.
 pub(super) fn parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f64)> {
