@@ -28,7 +28,7 @@ const TANGENT: f64 = 2.0;
 /// How often a zone is halved before it is given up: where its blend would leave an axis's range or the reach.
 const HALVINGS: u32 = 4;
 /// Parts of a blend between which it is looked at; and of one that hardly bends.
-const PARTS: u32 = 32;
+const PARTS: u32 = 48;
 const GENTLE_PARTS: u32 = 4;
 /// Where nothing changes its speed or direction by a larger part than this, a blend hardly bends.
 const GENTLE: f64 = 0.1;
@@ -207,6 +207,7 @@ impl Corner<'_> {
             let place = Place::at(progress, inverse(progress, *at));
             let [first, second, third] = place.rates([rates.first, rates.second, rates.third]);
             bounds.axes(&first, &second, &third, pace);
+            bounds.external(&place.rates([1, 2, 3].map(|order| curve.external.derivative(order, place.at))), pace);
         }
         for part in 0..=PARTS {
             let place = Place::at(progress, f64::from(part) / f64::from(PARTS));

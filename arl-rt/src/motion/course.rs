@@ -201,12 +201,17 @@ fn on_grid(vel: f64) -> f64 {
     if steps.is_finite() { STEP.powf(steps) } else { vel }
 }
 
+/// Cycles in which an acceleration rises at the fastest.
+const RISE: f64 = 4.0;
+
 /// All pieces from the one that the robot is on.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Course {
     pieces: VecDeque<Piece>,
     /// Where the robot is on the first piece, in s of nominal time.
     at: f64,
+    /// The length of a cycle in s.
+    cycle: f64,
     timing: Timing,
     /// Where the robot is on the first cell of the timing, and how it moves.
     state: State,
@@ -313,6 +318,7 @@ impl Course {
     /// Appends a motion. Returns whether it was asked to round off the motion before it, but came too late for that.
     pub(super) fn append(&mut self, robot: &Robot, here: &Joints, motion: Motion, number: u64, cycle: f64) -> bool {
         let Some(limits) = motion.limits else { return false };
+        self.cycle = cycle;
         let tail = self.tail.take();
         if motion.flows
             && tail.is_some()
@@ -486,7 +492,10 @@ impl Course {
         }
     }
 
-    fn push_one(&mut self, piece: Piece, may: bool) {
+    fn push_one(&mut self, mut piece: Piece, may: bool) {
+        // Set-points are those of whole cycles: an acceleration takes a few of them to rise, also without a limit of the jerk.
+        let Limits { acc, jerk, .. } = piece.limits;
+        piece.limits.jerk = jerk.min(acc / (RISE * self.cycle));
         let cell = Cell { length: piece.time, limits: piece.limits };
         self.timing.push(cell, piece.stops, may);
         self.pieces.push_back(piece);

@@ -22,7 +22,7 @@ const LONGEST_SHORT_STEP: f64 = 0.5;
 const SHORT: f64 = 3.0;
 /// A step as part of the length over which the axes' motion changes. A singular point is never stepped over: the steps
 /// get shorter in proportion to its distance.
-const STEP_OF_SCALE: f64 = 0.1;
+const STEP_OF_SCALE: f64 = 0.04;
 /// Where the axes' motion changes over so little of the path, the point is singular for all practical speeds.
 const SINGULAR_SCALE: f64 = 1e-3;
 /// Closer to a singular point than this (see [`crate::kinematics::Kinematics::clearance`]) rounding spoils the derivatives.

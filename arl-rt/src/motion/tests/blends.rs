@@ -151,3 +151,40 @@ fn a_blend_belongs_to_the_motion_that_it_leads_into() {
     queue.step(CYCLE, 100.0);
     assert_eq!(queue.progress(), None);
 }
+
+#[test]
+fn chains_without_jerk_limits_keep_speed_and_acceleration() {
+    let mut random = Random::new(96);
+    let settings = Settings { profile: crate::robot::VelocityProfile::T, ..Settings::default() };
+    for name in ["kr10-r1420", "tx2-60", "irb2400-10"] {
+        let robot = with_external_axes(name);
+        for round in 0..6 {
+            let mut queue = random_chain(&robot, &mut random, &settings);
+            let rows = run(&mut queue, 100.0);
+            let [vel, acc, _] = usage(&robot, &rows);
+            assert!(vel <= 1.01 && acc <= 1.01, "{name} {round}: {vel} {acc}");
+        }
+    }
+}
+
+#[test]
+fn a_zone_close_to_the_wrist_singularity_keeps_every_limit() {
+    let robot = robot("irb2400-10");
+    let start = axes([-9.866352982, -3.718992617, -14.120897326, -64.096022927, 8.775467905, -70.529710321]);
+    let tool =
+        [13.964874795113246, 0.6327020636027498, 68.06807744852545, -62.867796390442265, -20.213236509564048, 0.0];
+    let settings = Settings { wrist: true, ..Settings::default() };
+    let mut queue = Queue::new(robot.clone(), start);
+    let lines = [
+        ([696.2411148, -324.4311161, 1622.6268627, 46.3329882, -74.0838386, 111.1715727], 9.38, 298.4),
+        ([649.4234673, -327.7101403, 1578.2192958, 57.1326654, -75.5742638, 111.1715727], 17.86, 1e4),
+        ([688.9715373, -345.6558374, 1613.7233403, 29.9077851, -82.8908987, 111.1715727], -1.0, 179.0),
+    ];
+    for (pose, zone, tcp) in lines {
+        let mut command = Command { zone: tcp_zone(zone), speed: Speed { tcp, ..fast() }, ..lin(pose) };
+        command.rig = Rig { carried: Carried::Tool(frame(tool)), ..command.rig };
+        queue.add(&command, &settings).unwrap();
+    }
+    let rows = run(&mut queue, 100.0);
+    assert_within_limits(&robot, &rows, "beside the wrist singularity");
+}
