@@ -5,6 +5,7 @@
 
 mod corpus;
 mod expressions;
+mod motions;
 mod programs;
 
 use arl_tests::machine::{Machine, Stop};

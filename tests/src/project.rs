@@ -85,8 +85,30 @@ impl Project {
     /// # Errors
     /// What rustc has to say.
     pub fn build(&self, programs: &[String]) -> Result<PathBuf, String> {
-        self.cargo("build", programs)?;
+        self.cargo("build", programs, &self.all(programs))?;
         Ok(self.target.join("debug").join(self.name()))
+    }
+
+    /// Compiles emitted programs into a command with the command line of a compiled program, that runs the one which
+    /// [`Project::choose`] names.
+    ///
+    /// # Errors
+    /// What rustc has to say.
+    pub fn build_choosing(&self, programs: &[String]) -> Result<PathBuf, String> {
+        let library = self.library();
+        let mut arms = String::new();
+        for at in 0..programs.len() {
+            let _ = writeln!(arms, "        \"{at}\" => run({library}::p{at}::Globals::new, \".\"),");
+        }
+        self.cargo("build", programs, &CHOOSING.replace("CHOICE", CHOICE).replace("ARMS", &arms))?;
+        Ok(self.target.join("debug").join(self.name()))
+    }
+
+    /// A run of the program `at` of a command that [`Project::build_choosing`] made, in the project's folder.
+    pub fn choose(&self, command: &Path, at: usize) -> Command {
+        let mut command = Command::new(command);
+        command.env(CHOICE, at.to_string()).current_dir(&self.folder);
+        command
     }
 
     /// Lets rustc look at emitted programs without compiling them.
@@ -94,14 +116,28 @@ impl Project {
     /// # Errors
     /// What rustc has to say, warnings included.
     pub fn check(&self, programs: &[String]) -> Result<(), String> {
-        self.cargo("check", programs)
+        self.cargo("check", programs, &self.all(programs))
+    }
+
+    /// The main file that runs all programs.
+    fn all(&self, programs: &[String]) -> String {
+        let library = self.library();
+        let mut list = String::new();
+        for at in 0..programs.len() {
+            let _ = writeln!(list, "    run({at}, || Box::new({library}::p{at}::Globals::new()));");
+        }
+        MAIN.replace("LIST", &list)
     }
 
     fn name(&self) -> String {
         self.folder.file_name().expect("a name").to_string_lossy().into_owned()
     }
 
-    fn cargo(&self, what: &str, programs: &[String]) -> Result<(), String> {
+    fn library(&self) -> String {
+        self.name().replace('-', "_")
+    }
+
+    fn cargo(&self, what: &str, programs: &[String], main: &str) -> Result<(), String> {
         let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
         let name = self.name();
         self.write("Cargo.toml", &manifest(&name, workspace));
@@ -113,16 +149,12 @@ impl Project {
         }
         let _ = std::fs::remove_dir_all(self.folder.join("src/programs"));
         let mut modules = String::from("#![deny(warnings)]\n\n");
-
-        let mut list = String::new();
-        let library = name.replace('-', "_");
         for (at, program) in programs.iter().enumerate() {
             self.write(&format!("src/programs/p{at}.rs"), program);
             let _ = write!(modules, "#[path = \"programs/p{at}.rs\"]\npub mod p{at};\n");
-            let _ = writeln!(list, "    run({at}, || Box::new({library}::p{at}::Globals::new()));");
         }
         self.write("src/lib.rs", &modules);
-        self.write("src/main.rs", &MAIN.replace("LIST", &list));
+        self.write("src/main.rs", main);
         let mut command = Command::new(std::env::var_os("CARGO").unwrap_or("cargo".into()));
         command.args([what, "--quiet", "--offline", "--message-format=short"]).current_dir(&self.folder);
         command.env("CARGO_TARGET_DIR", &self.target).env_remove("RUSTFLAGS").env("CARGO_INCREMENTAL", "0");
@@ -190,6 +222,20 @@ fn manifest(name: &str, workspace: &Path) -> String {
          [dependencies]\narl-rt = {{ path = {runtime:?}, default-features = false }}\n\n[profile.dev]\ndebug = false\n"
     )
 }
+
+/// Names the program to run.
+const CHOICE: &str = "ARL_TEST_PROGRAM";
+
+/// Runs one program as its command line says.
+const CHOOSING: &str = r#"use arl_rt::program_main::main as run;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    match std::env::var("CHOICE").unwrap_or_default().as_str() {
+ARMS        other => panic!("there is no program {other}"),
+    }
+}
+"#;
 
 /// Runs every program, each for a minute of the controller's time at most.
 const MAIN: &str = r#"use arl_rt::{Controller, Message, Outcome, Program, State};
