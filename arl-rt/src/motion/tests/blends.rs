@@ -96,11 +96,16 @@ fn dense_points_keep_their_speed() {
 
 #[test]
 fn random_chains_of_all_kinds_keep_every_limit() {
-    let mut random = Random::new(91);
+    run_chains(&Settings::default(), 91, 6);
+}
+
+/// Runs so many random chains on each of three robots.
+pub(super) fn run_chains(settings: &Settings, seed: u64, rounds: u32) {
+    let mut random = Random::new(seed);
     for name in ["kr10-r1420", "tx2-60", "irb2400-10"] {
         let robot = with_external_axes(name);
-        for round in 0..6 {
-            let mut queue = random_chain(&robot, &mut random, &Settings::default());
+        for round in 0..rounds {
+            let mut queue = random_chain(&robot, &mut random, settings);
             let end = *queue.end();
             let rows = run(&mut queue, 100.0);
             assert_within_limits(&robot, &rows, &format!("{name} {round}"));
