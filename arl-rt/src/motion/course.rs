@@ -136,9 +136,18 @@ impl Piece {
         &self.target
     }
 
-    /// The parts between which the derivatives of its curve jump.
+    /// The parts between which the derivatives of its curve jump, one where they do not.
     pub(super) fn parts(&self) -> u32 {
-        if self.progress.is_some() { Progress::PARTS as u32 / 2 } else { 1 }
+        let jumps = self.progress.is_some() || self.curve.is_paced();
+        if jumps { ((self.to - self.from) * Progress::PARTS as f64).ceil() as u32 } else { 1 }
+    }
+
+    /// Where derivatives jump within it and at its end, in s of nominal time from its start.
+    pub(super) fn jumps(&self) -> impl Iterator<Item = f64> {
+        let all = if self.parts() > 1 { Progress::PARTS } else { 0 };
+        let shares = (0..all).map(|part| part as f64 / Progress::PARTS as f64);
+        let inside = shares.filter(|share| *share > self.from && *share < self.to);
+        inside.map(|share| (share - self.from) / (self.to - self.from) * self.time).chain([self.time])
     }
 
     /// Adds what limits the nominal time after `at` s of it, where the joints are `joints`. Returns how these change with

@@ -279,6 +279,11 @@ impl Curve {
         }
     }
 
+    /// Whether the parameter's pace is made of parts, between which third derivatives jump.
+    pub(super) fn is_paced(&self) -> bool {
+        matches!(self, Curve::Tool(ToolCurve { track: Track::Poly(way), .. }) if way.is_paced())
+    }
+
     /// All axes evenly from start to end.
     pub(super) fn even_axes(start: &Joints, end: &Joints) -> Self {
         let (from, mut travel) = (start.all(), end.all());

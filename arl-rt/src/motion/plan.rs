@@ -78,7 +78,10 @@ impl Motion {
 
     /// The part of its speed that is left to it with what is laid over it.
     pub fn share_of_speed(&self) -> f64 {
-        self.limits.map_or(1.0, |limits| limits.vel / self.rate)
+        match (&self.laid, self.limits) {
+            (Some(_), Some(limits)) => limits.vel / self.rate,
+            _ => 1.0,
+        }
     }
 
     /// How fast the TCP may go with what is laid over the motion, in mm/s.

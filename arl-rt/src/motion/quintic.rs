@@ -91,6 +91,11 @@ impl<const N: usize> Way<N> {
         Self { poly, pace: Some(pace) }
     }
 
+    /// Whether it has a pace of its own.
+    pub(super) fn is_paced(&self) -> bool {
+        self.pace.is_some()
+    }
+
     /// The values at `at`.
     pub(super) fn at(&self, at: f64) -> [f64; N] {
         self.poly.at(self.pace.as_ref().map_or(at, |pace| pace.at(at)))

@@ -117,8 +117,7 @@ impl Scout<'_> {
                 break;
             }
             count += 1;
-            let parts = piece.parts();
-            let inner = (1..=parts).map(|part| start + piece.time * f64::from(part) / f64::from(parts));
+            let inner = piece.jumps().map(|at| start + at);
             joints.extend(inner.filter(|at| *at > self.at && *at < to));
             start += piece.time;
         }

@@ -10,10 +10,6 @@ const CYCLE: f64 = 0.001;
 /// How much more than a limit is let pass.
 const SLACK: f64 = 1.01;
 
-/// How much of the axes' jerk splines may use in the profile O, and the motions that are blended with them: the planner
-/// looks at too few places of a sharp bend. [`SLACK`] is right.
-const SPLINE_JERK: f64 = 1.6;
-
 /// What the nine digits of a trace may be off, in deg or mm: half of the last one.
 const ROUNDING: f64 = 0.5e-9;
 
@@ -127,15 +123,10 @@ fn scales(legs: &[Leg<'_>], count: usize) -> Vec<[f64; 3]> {
     };
     for (at, leg) in legs.iter().enumerate() {
         let mut scale = own(leg);
-        let mut sharp = leg.motion.fastest && leg.motion.kind == Kind::Spl;
         let before = at.checked_sub(1).map(|at| &legs[at]).filter(|leg| !leg.motion.rests);
         let behind = legs.get(at + 1).filter(|_| !leg.motion.rests);
         for other in before.into_iter().chain(behind) {
             scale = std::array::from_fn(|i| scale[i].max(own(other)[i]));
-            sharp |= other.motion.fastest && other.motion.kind == Kind::Spl;
-        }
-        if sharp {
-            scale[2] *= SPLINE_JERK / SLACK;
         }
         scales[leg.rows.clone()].fill(scale);
     }

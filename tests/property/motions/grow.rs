@@ -49,8 +49,6 @@ pub(crate) struct Motion {
     pub(crate) speed: f64,
     /// Part of the acceleration and of the jerk that `accset` leaves.
     pub(crate) accset: [f64; 2],
-    /// Led in the profile O.
-    pub(crate) fastest: bool,
     /// The robot stands at the target.
     pub(crate) rests: bool,
 }
@@ -79,13 +77,12 @@ struct Grower<'a> {
     lines: usize,
     accset: [f64; 2],
     velset: f64,
-    fastest: bool,
 }
 
 /// A program of so many motions.
 pub(crate) fn grow(random: &mut Random, room: Room, count: usize) -> Plan {
     let plan = Plan { text: String::new(), motions: Vec::new(), taught: Vec::new() };
-    let mut grower = Grower { random, room, plan, lines: 0, accset: [1.0; 2], velset: 1.0, fastest: false };
+    let mut grower = Grower { random, room, plan, lines: 0, accset: [1.0; 2], velset: 1.0 };
     grower.program(count);
     grower.plan
 }
@@ -141,8 +138,7 @@ impl Grower<'_> {
     }
 
     fn profile(&mut self) {
-        self.fastest = self.random.chance(50);
-        let profile = if self.fastest { "O_type" } else { "S_type" };
+        let profile = if self.random.chance(50) { "O_type" } else { "S_type" };
         self.line(&format!("  $VEL_PROFILE = {profile}"));
     }
 
@@ -271,8 +267,8 @@ impl Grower<'_> {
         self.line(&format!("  {head}{target},{label}:{speed},{rounding}"));
         let rests = zone == Zone::None && !matches!(kind, Kind::CcirVia | Kind::Spl);
         let speed = speed * self.velset;
-        let (line, accset, fastest) = (self.lines, self.accset, self.fastest);
-        self.plan.motions.push(Motion { line, kind, goal, zone, speed, accset, fastest, rests });
+        let (line, accset) = (self.lines, self.accset);
+        self.plan.motions.push(Motion { line, kind, goal, zone, speed, accset, rests });
     }
 }
 
