@@ -22,6 +22,7 @@ mod limits;
 #[doc(hidden)]
 pub mod optimal;
 mod overlay;
+mod piece;
 mod pilot;
 mod place;
 mod plan;

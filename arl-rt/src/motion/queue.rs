@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use super::chain::Held;
 use super::command::{Command, Settings, Target};
-use super::course::{Course, Piece};
+use super::course::Course;
 use super::error::PlanError;
 use super::gate;
 use super::governor::Pacing;
 use super::joints::Joints;
 use super::overlay::Led;
+use super::piece::Piece;
 use super::plan::{Motion, plan_behind};
 use crate::frames::Rig;
 use crate::kinematics::Frame;

@@ -3,10 +3,10 @@
 use std::collections::VecDeque;
 
 use super::bounds::Bounds;
-use super::course::Piece;
 use super::joints::{ALL, Joints};
 use super::limits::Bound;
 use super::optimal::{Edge, Row, Way, places};
+use super::piece::Piece;
 use crate::robot::Robot;
 
 /// The longest nominal time, in s, between two places, and how many places there are at least and at most.

@@ -1,0 +1,202 @@
+//! A part of a motion, or half of a blend, as the course has them in a row.
+
+use super::blend::{Blend, common_pace};
+use super::bounds::{Bounds, Pace};
+use super::curve::Curve;
+use super::joints::{ALL, Joints};
+use super::place::Place;
+use super::plan::Motion;
+use super::profile::Limits;
+use super::progress::Progress;
+use crate::frames::Rig;
+use crate::kinematics::Kinematics;
+use crate::robot::{Robot, VelocityProfile};
+
+/// A stretch of the way with constant limits. Its own parameter is the time, in s, that it takes at its full speed: so
+/// that motions and blends meet with the same speed.
+#[derive(Clone, Debug)]
+pub(super) struct Piece {
+    pub(super) number: u64,
+    pub(super) line: u32,
+    pub(super) rig: Rig,
+    curve: Curve,
+    /// The parameters of the curve at the start and at the end.
+    pub(super) from: f64,
+    to: f64,
+    /// How the curve's parameter goes with the share of the nominal time, where it does not go evenly.
+    pub(super) progress: Option<Progress>,
+    /// The nominal time in s.
+    pub(super) time: f64,
+    /// In s of nominal time.
+    pub(super) limits: Limits,
+    /// Whether the robot has to stand still at the end.
+    pub(super) stops: bool,
+    /// Whether the motion ends here.
+    pub(super) ends: bool,
+    /// How long the whole motion takes, in s, where the piece is all of it, from rest to rest.
+    duration: Option<f64>,
+    /// Where the motion ends, exactly, if it is not blended with the next one.
+    target: Joints,
+    /// Shares of the motion's way that are done at the start and at the end.
+    pub(super) shares: [f64; 2],
+    /// The length of the motion in mm.
+    pub(super) length: f64,
+    /// The programmed speeds, where every place has limits of its own: in the profile O.
+    pub(super) pace: Option<Pace>,
+}
+
+impl Piece {
+    /// A part of a motion.
+    pub(super) fn part(motion: &Motion, limits: Limits, number: u64, from: f64, to: f64) -> Self {
+        // One s of nominal time at full speed.
+        let rate = motion.rate;
+        let scaled = Limits { vel: limits.vel / rate, acc: limits.acc / rate, jerk: limits.jerk / rate };
+        Self {
+            number,
+            line: motion.line,
+            rig: motion.rig,
+            curve: motion.curve.clone(),
+            from,
+            to,
+            progress: None,
+            time: (to - from) / rate,
+            limits: scaled,
+            stops: true,
+            ends: motion.ends,
+            duration: (from == 0.0 && to == 1.0).then(|| limits.duration(1.0)),
+            target: motion.end,
+            shares: [from, to],
+            length: motion.length,
+            pace: is_free(motion).then_some(motion.pace),
+        }
+    }
+
+    /// One half of a blend: the first belongs to the motion that is left, the second to the one that is joined.
+    pub(super) fn half(blend: &Blend, (before, after): (&Motion, &Motion), number: u64, first: bool) -> Self {
+        let motion = if first { before } else { after };
+
+        let Limits { vel, acc, jerk } = blend.limits;
+        let time = blend.time;
+        Self {
+            number,
+            line: motion.line,
+            rig: motion.rig,
+            curve: blend.curve.clone(),
+            from: if first { 0.0 } else { 0.5 },
+            to: if first { 0.5 } else { 1.0 },
+            progress: Some(blend.progress.clone()),
+            time: time / 2.0,
+            limits: Limits { vel: on_grid(vel * time), acc: acc * time, jerk: jerk * time },
+            stops: false,
+            ends: first && motion.ends,
+            duration: None,
+            target: motion.end,
+            // All of the blend counts as the motion that is joined: see `Course::current`.
+            shares: if first { [blend.leave; 2] } else { [blend.join / 2.0, blend.join] },
+            length: motion.length,
+            pace: (is_free(before) && is_free(after)).then(|| common_pace(before, after)),
+        }
+    }
+
+    /// The same, where the robot does not begin or end it at rest.
+    pub(super) fn flowing(self) -> Self {
+        Self { duration: None, ..self }
+    }
+
+    /// The joints after `at` s of nominal time.
+    pub(super) fn joints(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> Joints {
+        if self.stops && at >= self.time { self.target } else { self.joints_on(kinematics, at, near) }
+    }
+
+    /// The same, but for the end of a motion as its curve has it.
+    pub(super) fn joints_on(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> Joints {
+        let place = self.from + (self.to - self.from) * (at / self.time);
+        let place = self.progress.as_ref().map_or(place, |progress| progress.at(place));
+        self.curve.joints(kinematics, place, near)
+    }
+
+    /// Whether this is the half of a blend that leaves its motion.
+    pub(super) fn leaves(&self) -> bool {
+        self.progress.is_some() && self.ends
+    }
+
+    /// How long the whole motion takes, in s, where the piece is all of it, from rest to rest.
+    pub(super) fn duration(&self) -> Option<f64> {
+        self.duration
+    }
+
+    /// Where the motion ends.
+    pub(super) fn target(&self) -> &Joints {
+        &self.target
+    }
+
+    /// The parts between which the derivatives of its curve jump, one where they do not.
+    pub(super) fn parts(&self) -> u32 {
+        let jumps = self.progress.is_some() || self.curve.is_paced();
+        if jumps { ((self.to - self.from) * Progress::PARTS as f64).ceil() as u32 } else { 1 }
+    }
+
+    /// Where derivatives jump within it and at its end, in s of nominal time from its start.
+    pub(super) fn jumps(&self) -> impl Iterator<Item = f64> {
+        let all = if self.parts() > 1 { Progress::PARTS } else { 0 };
+        let shares = (0..all).map(|part| part as f64 / Progress::PARTS as f64);
+        let inside = shares.filter(|share| *share > self.from && *share < self.to);
+        inside.map(|share| (share - self.from) / (self.to - self.from) * self.time).chain([self.time])
+    }
+
+    /// Adds what limits the nominal time after `at` s of it, where the joints are `joints`. Returns how these change with
+    /// it: three derivatives; `None` where nothing but constant limits holds, and at a singular point.
+    pub(super) fn limit(
+        &self,
+        robot: &Robot,
+        at: f64,
+        joints: &Joints,
+        bounds: &mut Bounds,
+    ) -> Option<[[f64; ALL]; 3]> {
+        let Some(pace) = &self.pace else {
+            bounds.cell(&self.limits);
+            return None;
+        };
+        let width = (self.to - self.from) / self.time;
+        let share = self.from + at * width;
+        let even = Place { at: share, first: 1.0, second: 0.0, third: 0.0 };
+        let place = self.progress.as_ref().map_or(even, |progress| Place::at(progress, share)).scaled(width);
+        let rates = place.rates(self.curve.rates(&robot.kinematics, place.at, joints)?);
+        bounds.all_axes(&rates, pace);
+        match &self.curve {
+            Curve::Axes(_) if pace.manual => bounds.manual_place(joints, &rates[0], &self.rig.carried),
+            Curve::Axes(_) => {}
+            Curve::Tool(curve) => {
+                let moving = place.vectors([1, 2, 3].map(|order| curve.track.derivative(order, place.at)));
+                bounds.moving(&moving, pace);
+                bounds.turning(&place.vectors(curve.rotation_rates(place.at)), pace);
+                if pace.manual {
+                    bounds.manual_moving(&moving);
+                    bounds.manual_flange(curve, place.at, place.first);
+                }
+            }
+        }
+        Some(rates)
+    }
+
+    /// The share of the motion that is done after `at` s of nominal time.
+    pub(super) fn share(&self, at: f64) -> f64 {
+        let [from, to] = self.shares;
+        from + (to - from) * (at / self.time).clamp(0.0, 1.0)
+    }
+}
+
+/// Whether every place of a motion has limits of its own: in the profile O, unless its duration is given or it weaves, which
+/// wants an even speed.
+fn is_free(motion: &Motion) -> bool {
+    motion.profile == VelocityProfile::O && !motion.timed && motion.laid.is_none()
+}
+
+/// The next lower speed of a fine grid, on which the full speed lies: so that stretches of almost the same speed can be
+/// taken as one.
+fn on_grid(vel: f64) -> f64 {
+    const STEP: f64 = 1.003;
+    // What rounding takes from a speed must not cost it a step.
+    let steps = (vel.ln() / STEP.ln() + 1e-6).floor();
+    if steps.is_finite() { STEP.powf(steps) } else { vel }
+}
