@@ -17,7 +17,7 @@ import numpy as np
 import pinocchio as pin
 
 ROOT = Path(__file__).resolve().parent.parent
-ROBOTS = ROOT / "arl-lang/src/robots"
+ROBOTS = ROOT / "arl-robot/src/robot/files"
 CASES = 8
 
 

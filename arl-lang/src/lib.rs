@@ -15,7 +15,6 @@ mod nest;
 pub mod number;
 pub mod operators;
 mod parse;
-pub mod robots;
 mod salvage;
 pub mod span;
 pub mod symbol;

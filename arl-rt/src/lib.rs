@@ -22,7 +22,6 @@ pub mod flow;
 pub mod frames;
 pub mod io;
 mod keep;
-pub mod kinematics;
 pub mod math;
 pub mod motion;
 mod motion_instructions;
@@ -34,9 +33,7 @@ pub mod program_main;
 pub mod random;
 pub mod rate;
 mod report;
-pub mod robot;
 pub mod robot_driver;
-pub mod settings;
 pub mod state;
 pub mod strings;
 pub mod system;
@@ -47,13 +44,19 @@ mod unit;
 pub mod values;
 mod world;
 
+/// What can be wrong with a file that users write.
+pub mod settings {
+    pub use arl_robot::settings::SettingsError;
+    pub(crate) use arl_robot::settings::{Section, Source, Value, hint, kind, number, table};
+}
+
+pub use arl_robot::{Family, Robot, kinematics, robot};
 pub use cell::Cell;
 pub use controller::{Builder, Controller, Outcome, SetupError, State};
 pub use cx::Cx;
 pub use fault::{Alarm, Fault, Reason, Stop};
 pub use output::{Captured, Message, Output, Stream};
 pub use program::{BoxFuture, DataFile, DataVar, Program};
-pub use robot::{Family, Robot};
 
 #[cfg(feature = "macros")]
 pub use arl_macros::{arl, arl_file};

@@ -72,9 +72,8 @@ fn family(source: &Path) -> Result<Family, Box<dyn std::error::Error>> {
     let Ok(options) = std::fs::read_to_string(source.with_extension("toml")) else { return Ok(Family::SixAxis) };
     let options: toml::Table = toml::from_str(&options)?;
     let robot = options.get("robot").and_then(toml::Value::as_str).unwrap_or_default();
-    let built_in =
-        arl_lang::robots::ROBOTS.iter().find(|(name, _)| *name == robot).map(|(_, text)| (*text).to_string());
-    let text = built_in.or_else(|| std::fs::read_to_string(source.with_file_name(robot)).ok()).unwrap_or_default();
+    let built_in = std::fs::read_to_string(format!("../../arl-robot/src/robot/files/{robot}.toml"));
+    let text = built_in.or_else(|_| std::fs::read_to_string(source.with_file_name(robot))).unwrap_or_default();
     Ok(if text.contains("family = \"scara\"") { Family::Scara } else { Family::SixAxis })
 }
 

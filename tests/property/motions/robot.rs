@@ -25,7 +25,7 @@ pub(crate) struct Robot {
 impl Robot {
     /// A robot that is built in.
     pub(crate) fn named(name: &str) -> Robot {
-        let (_, text) = arl_lang::robots::ROBOTS.iter().find(|(known, _)| *known == name).expect("a built-in robot");
+        let text = arl_robot::Robot::text(name).expect("a built-in robot");
         Robot::read(name, text)
     }
 

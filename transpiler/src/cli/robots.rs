@@ -3,33 +3,29 @@
 use super::failure::Failure;
 use crate::near::nearest;
 use arl_lang::catalog::Family;
-use arl_lang::robots::ROBOTS;
+use arl_robot::Robot;
 use std::borrow::Cow;
 use std::path::Path;
 
 /// Lists the built-in robots, or prints the file of one.
 pub(super) fn robots(name: Option<&str>) -> Result<String, Failure> {
     let Some(name) = name else {
-        let width = ROBOTS.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
-        let line = |(at, (name, text)): (usize, &(&str, &str))| {
+        let width = Robot::builtin_names().map(str::len).max().unwrap_or(0);
+        let line = |(at, name): (usize, &str)| {
+            let text = Robot::text(name).unwrap_or_default();
             let about = text.lines().next().unwrap_or("").trim_start_matches(['#', ' ']).trim_end_matches('.');
             let default = if at == 0 { " (default)" } else { "" };
             format!("{name:width$}  {about}{default}\n")
         };
-        return Ok(ROBOTS.iter().enumerate().map(line).collect());
+        return Ok(Robot::builtin_names().enumerate().map(line).collect());
     };
-    built_in(name).map(ToString::to_string).ok_or_else(|| Failure::Usage(unknown(name)))
-}
-
-fn built_in(name: &str) -> Option<&'static str> {
-    ROBOTS.iter().find(|(known, _)| known.eq_ignore_ascii_case(name)).map(|(_, text)| *text)
+    Robot::text(name).map(ToString::to_string).ok_or_else(|| Failure::Usage(unknown(name)))
 }
 
 fn unknown(name: &str) -> String {
-    let names = || ROBOTS.iter().map(|(name, _)| *name);
-    let hint = match nearest(name, names()) {
+    let hint = match nearest(name, Robot::builtin_names()) {
         Some(near) => format!("did you mean `{near}`?"),
-        None => format!("built in are {}", names().collect::<Vec<_>>().join(", ")),
+        None => format!("built in are {}", Robot::builtin_names().collect::<Vec<_>>().join(", ")),
     };
     format!("no robot `{name}` is built in, and there is no such file; {hint}")
 }
@@ -46,10 +42,10 @@ pub(super) fn family(robot: Option<&str>) -> Result<Family, Failure> {
 /// The name and the text of the file of the robot that `--robot` names, or of the default one.
 pub(super) fn text(robot: Option<&str>) -> Result<(String, Cow<'static, str>), Failure> {
     let Some(robot) = robot else {
-        let (name, text) = ROBOTS.first().copied().unwrap_or_default();
-        return Ok((name.to_owned(), text.into()));
+        let name = Robot::builtin_names().next().unwrap_or_default();
+        return Ok((name.to_owned(), Robot::text(name).unwrap_or_default().into()));
     };
-    if let Some(text) = built_in(robot) {
+    if let Some(text) = Robot::text(robot) {
         return Ok((robot.to_owned(), text.into()));
     }
     match std::fs::read_to_string(robot) {
@@ -111,7 +107,7 @@ mod tests {
     #[test]
     fn list_and_text() {
         let list = robots(None).expect("a list");
-        assert_eq!(list.lines().count(), ROBOTS.len());
+        assert_eq!(list.lines().count(), Robot::builtin_names().count());
         assert!(list.lines().next().expect("the default").ends_with("(default)"));
         assert!(robots(Some("six-10")).expect("a text").contains("family = \"six-axis\""));
     }

@@ -143,8 +143,7 @@ fn a_plot_shows_external_axes() {
 }
 
 fn crate_robot(name: &str) -> String {
-    let robots = arl_lang::robots::ROBOTS;
-    robots.iter().find(|(known, _)| *known == name).expect("the robot is built in").1.to_owned()
+    arl_robot::Robot::text(name).expect("the robot is built in").to_owned()
 }
 
 #[test]

@@ -77,7 +77,7 @@ pub struct TcpLimits {
 pub struct Link {
     /// Mass in kg.
     pub mass: f64,
-    /// Centre of mass in the link's frame (see [`crate::dynamics`]), in mm.
+    /// Centre of mass in the link's frame (see the runtime's dynamics), in mm.
     pub com: [f64; 3],
     /// Inertia about the centre of mass in the link's frame, in kg mm2: xx, xy, xz, yy, yz, zz.
     pub inertia: [f64; 6],

@@ -15,7 +15,7 @@ pub struct Wanted {
 }
 
 /// What `cfg` may be, in words.
-pub(crate) const CONFIGURATIONS: &str = "six axes have 0 to 7, a SCARA robot has 0 (right-handed) and 4 (left-handed)";
+pub const CONFIGURATIONS: &str = "six axes have 0 to 7, a SCARA robot has 0 (right-handed) and 4 (left-handed)";
 
 /// Why no joint vector for a pose was found.
 #[derive(Clone, PartialEq, Debug)]
@@ -92,7 +92,7 @@ fn turn(solution: &Axes, turn: i32, axes: &[Axis], near: &Axes) -> Result<Axes, 
 }
 
 /// Positions this little (deg, mm) outside a range are brought into it.
-pub(crate) const RANGE_SLACK: f64 = 1e-6;
+pub const RANGE_SLACK: f64 = 1e-6;
 
 fn with_turns(value: f64, below: Option<bool>, axis: &Axis, near: f64) -> Option<f64> {
     let fits = |value: f64| value >= axis.min - RANGE_SLACK && value <= axis.max + RANGE_SLACK;

@@ -6,7 +6,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// What is wrong with a cell or scenario file, and where.
+/// What is wrong with such a file, and where.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct SettingsError {
     /// The file.
@@ -20,7 +20,8 @@ pub struct SettingsError {
 }
 
 impl SettingsError {
-    pub(crate) fn of_file(file: &str, message: String) -> Self {
+    /// An error that concerns the whole file.
+    pub fn of_file(file: &str, message: String) -> Self {
         Self { file: file.to_owned(), line: 0, column: 0, message }
     }
 }
@@ -38,29 +39,36 @@ impl fmt::Display for SettingsError {
 impl std::error::Error for SettingsError {}
 
 /// A value with its place.
-pub(crate) type Value<'a> = Spanned<DeValue<'a>>;
+pub type Value<'a> = Spanned<DeValue<'a>>;
 
 /// The text that spans point into.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Source<'a> {
-    pub(crate) file: &'a str,
-    pub(crate) text: &'a str,
+pub struct Source<'a> {
+    /// The file's name in messages.
+    pub file: &'a str,
+    /// Its contents.
+    pub text: &'a str,
 }
 
 impl<'a> Source<'a> {
     /// The whole text as a table.
-    pub(crate) fn parse(self) -> Result<Spanned<DeTable<'a>>, SettingsError> {
+    ///
+    /// # Errors
+    /// It is no TOML.
+    pub fn parse(self) -> Result<Spanned<DeTable<'a>>, SettingsError> {
         DeTable::parse(self.text).map_err(|error| {
             self.error(error.span().unwrap_or(0..0), format!("this is not TOML: {}", error.message().trim_end()))
         })
     }
 
-    pub(crate) fn line(self, offset: usize) -> u32 {
+    /// The line, from 1, that a byte of the text is on.
+    pub fn line(self, offset: usize) -> u32 {
         let before = self.text.get(..offset).unwrap_or(self.text);
         before.bytes().filter(|byte| *byte == b'\n').count() as u32 + 1
     }
 
-    pub(crate) fn error(self, span: Range<usize>, message: impl Into<String>) -> SettingsError {
+    /// An error at a place of the text.
+    pub fn error(self, span: Range<usize>, message: impl Into<String>) -> SettingsError {
         let before = self.text.get(..span.start).unwrap_or(self.text);
         let column = before.rsplit('\n').next().map_or(0, |start| start.chars().count()) + 1;
         SettingsError {
@@ -74,15 +82,19 @@ impl<'a> Source<'a> {
 
 /// A table with its name in messages.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Section<'a> {
-    pub(crate) source: Source<'a>,
+pub struct Section<'a> {
+    /// The text that it stands in.
+    pub source: Source<'a>,
     name: &'a str,
     table: &'a DeTable<'a>,
 }
 
 impl<'a> Section<'a> {
     /// A table; each key must be one of `known`.
-    pub(crate) fn new(
+    ///
+    /// # Errors
+    /// Another key.
+    pub fn new(
         source: Source<'a>,
         name: &'a str,
         table: &'a DeTable<'a>,
@@ -98,12 +110,13 @@ impl<'a> Section<'a> {
         Ok(Self { source, name, table })
     }
 
-    pub(crate) fn find(&self, key: &str) -> Option<&'a Value<'a>> {
+    /// The value of a key, if it is there.
+    pub fn find(&self, key: &str) -> Option<&'a Value<'a>> {
         self.table.get(key)
     }
 
     /// Every key with its value, in the order of the file.
-    pub(crate) fn entries(&self) -> Vec<(&'a str, Range<usize>, &'a Value<'a>)> {
+    pub fn entries(&self) -> Vec<(&'a str, Range<usize>, &'a Value<'a>)> {
         let mut entries: Vec<_> =
             self.table.iter().map(|(key, value)| (key.get_ref().as_ref(), key.span(), value)).collect();
         entries.sort_by_key(|(_, span, _)| span.start);
@@ -111,20 +124,29 @@ impl<'a> Section<'a> {
     }
 
     /// The table under `key`, if it is there.
-    pub(crate) fn table(&self, key: &str, name: &'a str, known: &[&str]) -> Result<Option<Section<'a>>, SettingsError> {
+    ///
+    /// # Errors
+    /// The value is no table, or has a key that is not `known`.
+    pub fn table(&self, key: &str, name: &'a str, known: &[&str]) -> Result<Option<Section<'a>>, SettingsError> {
         self.find(key).map(|value| table(self.source, value, name, known)).transpose()
     }
 
     /// A number within a range, if it is there.
-    pub(crate) fn number(&self, key: &str, what: &str, low: f64, high: f64) -> Result<Option<f64>, SettingsError> {
+    ///
+    /// # Errors
+    /// The value is no such number.
+    pub fn number(&self, key: &str, what: &str, low: f64, high: f64) -> Result<Option<f64>, SettingsError> {
         let Some(value) = self.find(key) else { return Ok(None) };
         let expected = format!("{what} from {low} to {high}");
         let number = number(value.get_ref()).ok_or_else(|| self.wrong(key, value, &expected))?;
         if (low..=high).contains(&number) { Ok(Some(number)) } else { Err(self.wrong(key, value, &expected)) }
     }
 
-    /// A whole number within a range, if it is there.
-    pub(crate) fn count(&self, key: &str, what: &str, high: u32) -> Result<Option<u32>, SettingsError> {
+    /// A whole number from 0 to `high`, if it is there.
+    ///
+    /// # Errors
+    /// The value is no such number.
+    pub fn count(&self, key: &str, what: &str, high: u32) -> Result<Option<u32>, SettingsError> {
         let Some(value) = self.find(key) else { return Ok(None) };
         let expected = format!("{what} from 0 to {high}");
         match number(value.get_ref()) {
@@ -136,20 +158,26 @@ impl<'a> Section<'a> {
     }
 
     /// A text, if it is there.
-    pub(crate) fn text(&self, key: &str, what: &str) -> Result<Option<&'a str>, SettingsError> {
+    ///
+    /// # Errors
+    /// The value is no text.
+    pub fn text(&self, key: &str, what: &str) -> Result<Option<&'a str>, SettingsError> {
         let Some(value) = self.find(key) else { return Ok(None) };
         value.get_ref().as_str().map(Some).ok_or_else(|| self.wrong(key, value, what))
     }
 
     /// The error for a value that is not what it should be.
-    pub(crate) fn wrong(&self, key: &str, value: &Value<'_>, expected: &str) -> SettingsError {
+    pub fn wrong(&self, key: &str, value: &Value<'_>, expected: &str) -> SettingsError {
         let found = kind(value.get_ref());
         self.source.error(value.span(), format!("`{key}` of {}: expected {expected}, found {found}", self.name))
     }
 }
 
 /// The table that a value must be; each key must be one of `known`.
-pub(crate) fn table<'a>(
+///
+/// # Errors
+/// The value is no table, or has another key.
+pub fn table<'a>(
     source: Source<'a>,
     value: &'a Value<'a>,
     name: &'a str,
@@ -162,7 +190,7 @@ pub(crate) fn table<'a>(
 }
 
 /// A finite number, whole or not.
-pub(crate) fn number(value: &DeValue<'_>) -> Option<f64> {
+pub fn number(value: &DeValue<'_>) -> Option<f64> {
     let number = match value {
         DeValue::Float(float) => float.as_str().parse().ok()?,
         DeValue::Integer(integer) => i64::from_str_radix(integer.as_str(), integer.radix()).ok()? as f64,
@@ -172,7 +200,7 @@ pub(crate) fn number(value: &DeValue<'_>) -> Option<f64> {
 }
 
 /// What a value is, in a reader's words.
-pub(crate) fn kind(value: &DeValue<'_>) -> String {
+pub fn kind(value: &DeValue<'_>) -> String {
     match value {
         DeValue::String(text) => format!("the text \"{text}\""),
         DeValue::Integer(number) => format!("the number {}", number.as_str()),
@@ -185,7 +213,7 @@ pub(crate) fn kind(value: &DeValue<'_>) -> String {
 }
 
 /// `did you mean ...?`, or what there is.
-pub(crate) fn hint(word: &str, known: &[&str]) -> String {
+pub fn hint(word: &str, known: &[&str]) -> String {
     match nearest(word, known) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("known are: {}", known.join(", ")),
@@ -193,7 +221,7 @@ pub(crate) fn hint(word: &str, known: &[&str]) -> String {
 }
 
 /// The known name that `word` may have meant.
-pub(crate) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     let word = word.to_ascii_lowercase();
     let allowed = 1 + word.len() / 4;
     known

@@ -7,17 +7,16 @@ mod choose;
 mod frame;
 mod opw;
 mod passing;
-#[cfg(test)]
-pub(crate) mod random;
+#[doc(hidden)]
+pub mod random;
 mod rates;
 mod scara;
 #[cfg(test)]
 mod tests;
 mod wrist;
 
-pub(crate) use angles::sin_cos;
-pub(crate) use choose::{CONFIGURATIONS, RANGE_SLACK};
-pub use choose::{Refusal, Wanted};
+pub use angles::sin_cos;
+pub use choose::{CONFIGURATIONS, RANGE_SLACK, Refusal, Wanted};
 pub use frame::{Frame, frame, frame_components};
 pub use opw::{Opw, OpwParameters, Solutions};
 pub use passing::{PASSAGE, Passage};
@@ -90,7 +89,7 @@ impl Kinematics {
 }
 
 /// The angle in (-180, 180].
-pub(crate) fn wrap_degrees(angle: f64) -> f64 {
+pub fn wrap_degrees(angle: f64) -> f64 {
     let [wrapped] = angles::wrap([angle]);
     wrapped
 }

@@ -145,7 +145,7 @@ impl Opw {
 
     /// Inner angles in deg.
     #[inline]
-    pub(crate) fn inner(&self, axes: &Axes) -> [f64; 6] {
+    pub fn inner(&self, axes: &Axes) -> [f64; 6] {
         let mut inner = [0.0; 6];
         let parameters = self.parameters.signs.iter().zip(&self.parameters.offsets);
         for ((inner, axis), (sign, offset)) in inner.iter_mut().zip(axes).zip(parameters) {

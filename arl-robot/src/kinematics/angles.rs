@@ -60,7 +60,7 @@ fn either(mask: u64, yes: f64, no: f64) -> f64 {
 
 /// The sines and cosines of angles in deg.
 #[inline(always)]
-pub(crate) fn sin_cos<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
+pub fn sin_cos<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
     let (mut sines, mut cosines) = ([0.0; N], [0.0; N]);
     for (angle, (sine, cosine)) in angles.iter().zip(sines.iter_mut().zip(&mut cosines)) {
         let quarters = angle * (1.0 / 90.0) + ROUND;

@@ -1,0 +1,9 @@
+//! Robots: what a robot file says, the axes with their limits, and kinematics in closed form.
+//!
+//! The runtime moves robots with it, and the command tells before a program runs which targets a robot cannot reach.
+
+pub mod kinematics;
+pub mod robot;
+pub mod settings;
+
+pub use robot::{Family, Robot};
