@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 
 use super::bend::Bend;
 use super::bounds::{Bounds, Pace};
+use super::crossing::{Approach, Crossing, cross};
 use super::curve::{Curve, ToolCurve, Track};
 use super::joints::{ALL, Joints};
 use super::limits::passing;
@@ -45,8 +46,7 @@ pub(super) struct Blend {
     pub(super) progress: Progress,
     /// The nominal time in s.
     pub(super) time: f64,
-    /// In shares of the nominal time per s.
-    pub(super) limits: Limits,
+    pub(super) crossing: Crossing,
 }
 
 /// The blend that the first motion's zone asks for; `None` where it asks for none, or there is no way.
@@ -114,7 +114,7 @@ impl Corner<'_> {
                 };
                 let (progress, time) = timed.unwrap_or_else(even);
                 if !(bends_little && self.glance_at_tool(&curve, &progress, &mut bounds, &pace)) {
-                    bounds.rows.clear();
+                    bounds.clear();
                     self.walk_tool(&curve, &progress, &mut bounds, &pace)?;
                 }
                 (Curve::Tool(curve), progress, time)
@@ -129,8 +129,25 @@ impl Corner<'_> {
                 (Curve::Axes(curve), progress, time)
             }
         };
-        let limits = passing(&bounds.rows, 1.0 / time);
-        Some(Blend { leave, join, curve, progress, time, limits })
+        let crossing = self.crossing(&bounds, time)?;
+        Some(Blend { leave, join, curve, progress, time, crossing })
+    }
+
+    /// How fast it may be crossed: evenly where it hardly bends.
+    fn crossing(&self, bounds: &Bounds, time: f64) -> Option<Crossing> {
+        let places = bounds.by_place();
+        if places.is_empty() {
+            return Some(Crossing::even(passing(&bounds.rows, 1.0 / time)));
+        }
+        let approach = |motion: &Motion, taken: f64| {
+            // From the motion's own parameter to the share of the blend, at the same speed.
+            let scale = 1.0 / (motion.rate * time);
+            let Limits { vel, acc, jerk } = motion.limits?;
+            let limits = Limits { vel: vel * scale, acc: acc * scale, jerk: jerk * scale };
+            Some(Approach { limits, length: (1.0 - 2.0 * taken).max(0.0) * scale })
+        };
+        let approaches = [approach(self.from, self.leaving)?, approach(self.to, self.joining)?];
+        cross(&places, 1.0 / time, &approaches)
     }
 
     /// Whether something is laid over a motion.
@@ -204,13 +221,17 @@ impl Corner<'_> {
             return None;
         }
         for (at, rates) in &found.rates {
-            let place = Place::at(progress, inverse(progress, *at));
+            let share = inverse(progress, *at);
+            let place = Place::at(progress, share);
+            bounds.place(share);
             let [first, second, third] = place.rates([rates.first, rates.second, rates.third]);
             bounds.axes(&first, &second, &third, pace);
             bounds.external(&place.rates([1, 2, 3].map(|order| curve.external.derivative(order, place.at))), pace);
         }
         for part in 0..=PARTS {
-            let place = Place::at(progress, f64::from(part) / f64::from(PARTS));
+            let share = f64::from(part) / f64::from(PARTS);
+            let place = Place::at(progress, share);
+            bounds.place(share);
             collect(&place, curve, self.swings(), bounds, pace);
         }
         Some(())
@@ -228,7 +249,11 @@ impl Corner<'_> {
         let gentle = changes_little([1, 2].map(|order| [0.0, 1.0].map(|at| curve.derivative(order, at))), 0.0);
         let parts = if gentle { GENTLE_PARTS } else { PARTS };
         for part in 0..=parts {
-            let place = Place::at(progress, f64::from(part) / f64::from(parts));
+            let share = f64::from(part) / f64::from(parts);
+            let place = Place::at(progress, share);
+            if !gentle {
+                bounds.place(share);
+            }
             let joints = Joints::of(&curve.at(place.at));
             if !within_ranges(self.robot, &joints) {
                 return None;
@@ -364,14 +389,25 @@ fn within_ranges(robot: &Robot, joints: &Joints) -> bool {
     robot.axes.iter().zip(values).all(|(axis, value)| *value >= axis.min && *value <= axis.max)
 }
 
-/// The share of the nominal time at which the curve's parameter is `at`.
+/// The share of the nominal time at which the curve's parameter is `at`: by Newton's steps, halving where they lead away.
 fn inverse(progress: &Progress, at: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..50 {
-        let middle = f64::midpoint(low, high);
-        if progress.at(middle) < at { low = middle } else { high = middle }
+    let mut share = at;
+    for _ in 0..60 {
+        let off = progress.at(share) - at;
+        if off < 0.0 {
+            low = share
+        } else {
+            high = share
+        }
+        let next = share - off / progress.derivative(1, share);
+        let next = if next > low && next < high { next } else { f64::midpoint(low, high) };
+        if (next - share).abs() < 1e-12 {
+            return next;
+        }
+        share = next;
     }
-    low
+    share
 }
 
 /// Collects what limits the TCP, the tool's turning and the external axes at a place; of a TCP that is `swinging`, all of its

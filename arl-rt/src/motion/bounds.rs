@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use super::crossing::PlaceBounds;
 use super::curve::{Curve, ToolCurve};
 use super::joints::{ALL, Joints};
 use super::limits::Bound;
@@ -58,12 +59,14 @@ pub(super) struct Bounds<'a> {
     pub(super) rows: Vec<Bound>,
     /// Whether the rows keep the signs of the derivatives.
     signed: bool,
+    /// Where the rows of a place begin, with its share of the nominal time.
+    places: Vec<(usize, f64)>,
 }
 
 impl<'a> Bounds<'a> {
     /// Rows of magnitudes.
     pub(super) fn new(robot: &'a Robot) -> Self {
-        Self { robot, rows: Vec::with_capacity(64), signed: false }
+        Self { robot, rows: Vec::with_capacity(64), signed: false, places: Vec::new() }
     }
 
     /// Rows that keep the signs of the derivatives, for one place.
@@ -73,6 +76,32 @@ impl<'a> Bounds<'a> {
 
     fn push(&mut self, bound: Bound) {
         self.rows.push(if self.signed { bound } else { bound.size() });
+    }
+
+    /// Forgets all rows.
+    pub(super) fn clear(&mut self) {
+        self.rows.clear();
+        self.places.clear();
+    }
+
+    /// The rows that follow are those of a place at this share of the nominal time.
+    pub(super) fn place(&mut self, share: f64) {
+        self.places.push((self.rows.len(), share));
+    }
+
+    /// The rows of each place. Places of one kind are told of in order, one kind behind the other.
+    pub(super) fn by_place(&self) -> Vec<PlaceBounds<'_>> {
+        let place = |index: usize, (start, share): (usize, f64)| {
+            let before = index.checked_sub(1).and_then(|index| self.places.get(index));
+            let behind = self.places.get(index + 1);
+            let end = behind.map_or(self.rows.len(), |(end, _)| *end);
+            PlaceBounds {
+                from: before.map(|(_, share)| *share).filter(|before| *before <= share).unwrap_or(0.0),
+                to: behind.map(|(_, share)| *share).filter(|behind| *behind >= share).unwrap_or(1.0),
+                rows: self.rows.get(start..end).unwrap_or_default(),
+            }
+        };
+        self.places.iter().enumerate().map(|(index, known)| place(index, *known)).collect()
     }
 
     /// Joins the rows from `known` on, which are of one place, to the first rows, which are of others: limits that hold at

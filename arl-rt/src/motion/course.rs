@@ -12,7 +12,7 @@ use super::pilot::{Goal, Pilot};
 use super::plan::Motion;
 use super::profile::{Limits, State};
 use super::scout::Scout;
-use super::timing::{Cell, Timing};
+use super::timing::Timing;
 use crate::robot::Robot;
 
 /// A piece that takes no longer, in s, is none.
@@ -144,7 +144,7 @@ impl Course {
             && tail.is_some()
             && self.flow_on((robot, here), Piece::part(&motion, limits, number, 0.0, 1.0), cycle)
         {
-            self.timing.settle(1);
+            self.settle(1);
             self.timing.find_entries(MARGIN, cycle);
             self.tail = Some(Tail { motion, limits, joined: None });
             return false;
@@ -176,7 +176,7 @@ impl Course {
             }
         }
         let joined = joined.zip(before).map(|((bend, pieces), before)| Joined { before, bend, pieces });
-        self.timing.settle(joined.as_ref().map_or(1, |joined| joined.pieces));
+        self.settle(joined.as_ref().map_or(1, |joined| joined.pieces));
         self.timing.find_entries(MARGIN, cycle);
         self.tail = Some(Tail { motion, limits, joined });
         late
@@ -317,17 +317,27 @@ impl Course {
         // Set-points are those of whole cycles: an acceleration takes a few of them to rise, also without a limit of the jerk.
         let Limits { acc, jerk, .. } = piece.limits;
         piece.limits.jerk = jerk.min(acc / (RISE * self.cycle));
-        let cell = Cell { length: piece.time, limits: piece.limits };
-        self.timing.push(cell, piece.stops, may);
+        for (index, cell) in piece.cells().enumerate() {
+            self.timing.push(cell, piece.stops, may || index > 0);
+        }
         self.pieces.push_back(piece);
+    }
+
+    /// Joins what is alike in the timing, but for the last pieces, which may still be taken away.
+    fn settle(&mut self, open: usize) {
+        let open = self.pieces.iter().rev().take(open).map(|piece| piece.cells().count()).sum();
+        self.timing.settle(open);
     }
 
     /// Takes the last pieces away; returns them, the last one first, each with whether its stretch began with it.
     fn take_back(&mut self, count: usize) -> Vec<(Piece, bool)> {
         let mut taken = Vec::with_capacity(count);
-        for _ in 0..count {
-            let began = self.timing.pop();
-            taken.extend(self.pieces.pop_back().map(|piece| (piece, began)));
+        for piece in (0..count).map_while(|_| self.pieces.pop_back()) {
+            let mut began = false;
+            for _ in piece.cells() {
+                began = self.timing.pop();
+            }
+            taken.push((piece, began));
         }
         taken
     }
@@ -463,6 +473,6 @@ impl Course {
         if let Some(time) = self.pilot.as_ref().and_then(|pilot| pilot.time_to(end)) {
             return time;
         }
-        later.map(|piece| piece.time / piece.limits.vel).sum::<f64>() + (first.time - self.at) / first.limits.vel
+        later.map(|piece| piece.time_from(0.0)).sum::<f64>() + first.time_from(self.at)
     }
 }

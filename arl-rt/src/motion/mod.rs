@@ -13,6 +13,7 @@ mod bounds;
 mod chain;
 mod command;
 mod course;
+mod crossing;
 mod curve;
 mod error;
 mod gate;

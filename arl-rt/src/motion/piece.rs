@@ -2,15 +2,20 @@
 
 use super::blend::{Blend, common_pace};
 use super::bounds::{Bounds, Pace};
+use super::crossing::{self, Crossing};
 use super::curve::Curve;
 use super::joints::{ALL, Joints};
 use super::place::Place;
 use super::plan::Motion;
 use super::profile::Limits;
 use super::progress::Progress;
+use super::timing::Cell;
 use crate::frames::Rig;
 use crate::kinematics::Kinematics;
 use crate::robot::{Robot, VelocityProfile};
+
+/// Parts of half a blend.
+const SPEEDS: usize = crossing::PARTS / 2;
 
 /// A stretch of the way with constant limits. Its own parameter is the time, in s, that it takes at its full speed: so
 /// that motions and blends meet with the same speed.
@@ -27,8 +32,10 @@ pub(super) struct Piece {
     pub(super) progress: Option<Progress>,
     /// The nominal time in s.
     pub(super) time: f64,
-    /// In s of nominal time.
+    /// In s of nominal time; the speed is the lowest.
     pub(super) limits: Limits,
+    /// The speeds of its parts, which take the same nominal time each, where they are not all the same.
+    speeds: Option<[f64; SPEEDS]>,
     /// Whether the robot has to stand still at the end.
     pub(super) stops: bool,
     /// Whether the motion ends here.
@@ -61,6 +68,7 @@ impl Piece {
             progress: None,
             time: (to - from) / rate,
             limits: scaled,
+            speeds: None,
             stops: true,
             ends: motion.ends,
             duration: (from == 0.0 && to == 1.0).then(|| limits.duration(1.0)),
@@ -75,8 +83,14 @@ impl Piece {
     pub(super) fn half(blend: &Blend, (before, after): (&Motion, &Motion), number: u64, first: bool) -> Self {
         let motion = if first { before } else { after };
 
-        let Limits { vel, acc, jerk } = blend.limits;
+        let Crossing { speeds, acc, jerk } = &blend.crossing;
         let time = blend.time;
+        let skipped = if first { 0 } else { SPEEDS };
+        let mut own = [0.0; SPEEDS];
+        for (own, speed) in own.iter_mut().zip(speeds.iter().skip(skipped)) {
+            *own = on_grid(speed * time);
+        }
+        let lowest = own.iter().copied().fold(f64::INFINITY, f64::min);
         Self {
             number,
             line: motion.line,
@@ -86,7 +100,8 @@ impl Piece {
             to: if first { 0.5 } else { 1.0 },
             progress: Some(blend.progress.clone()),
             time: time / 2.0,
-            limits: Limits { vel: on_grid(vel * time), acc: acc * time, jerk: jerk * time },
+            limits: Limits { vel: lowest, acc: acc * time, jerk: jerk * time },
+            speeds: own.iter().any(|speed| *speed != lowest).then_some(own),
             stops: false,
             ends: first && motion.ends,
             duration: None,
@@ -101,6 +116,27 @@ impl Piece {
     /// The same, where the robot does not begin or end it at rest.
     pub(super) fn flowing(self) -> Self {
         Self { duration: None, ..self }
+    }
+
+    /// The parts that have a speed of their own, for the timing.
+    pub(super) fn cells(&self) -> impl Iterator<Item = Cell> {
+        let count = if self.speeds.is_some() { SPEEDS } else { 1 };
+        let length = self.time / count as f64;
+        let speed = |part: usize| self.speeds.as_ref().and_then(|speeds| speeds.get(part).copied());
+        (0..count).map(move |part| Cell {
+            length,
+            limits: Limits { vel: speed(part).unwrap_or(self.limits.vel), ..self.limits },
+        })
+    }
+
+    /// How long it takes in s from `at` s of nominal time on, at its full speed.
+    pub(super) fn time_from(&self, at: f64) -> f64 {
+        let mut end = 0.0;
+        let left = |cell: Cell| {
+            end += cell.length;
+            (end - at).clamp(0.0, cell.length) / cell.limits.vel
+        };
+        self.cells().map(left).sum()
     }
 
     /// The joints after `at` s of nominal time.

@@ -27,7 +27,7 @@ pub(super) struct Stretch {
 }
 
 /// Cells whose limits differ by up to this factor share a stretch.
-const ALIKE: f64 = 2.0;
+pub(super) const ALIKE: f64 = 2.0;
 
 /// All stretches from the one that the robot is on.
 #[derive(Clone, Debug, Default)]
@@ -56,7 +56,7 @@ impl Stretch {
     /// Joins the last cells whose speeds are the same, but for `open` at the end.
     fn settle(&mut self, open: usize) {
         /// More than are new.
-        const NEW: usize = 16;
+        const NEW: usize = 80;
         let count = self.cells.len();
         for at in (1..count.saturating_sub(open)).rev().take(NEW) {
             let (Some(before), Some(cell)) = (self.cells.get(at - 1).copied(), self.cells.get(at).copied()) else {

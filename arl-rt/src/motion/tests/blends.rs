@@ -65,6 +65,21 @@ fn a_rounded_corner_is_quicker_than_a_stop() {
 }
 
 #[test]
+fn a_sharp_corner_takes_hardly_longer_than_a_stop() {
+    let robot = robot("kr10-r1420");
+    for (angle, most) in [(30.0_f64, 1.02), (60.0, 1.03), (90.0, 1.05), (120.0, 1.12), (150.0, 1.29), (175.0, 1.24)] {
+        let (sine, cosine) = angle.to_radians().sin_cos();
+        let points = [[0.0, 300.0, 0.0], [0.0, 300.0 + 300.0 * cosine, -300.0 * sine]];
+        let cycles = |zone: f64| corner_run(&robot, &points, tcp_zone(zone), 1000.0).0.len() as f64;
+        let stop = cycles(-1.0);
+        for zone in [0.5, 5.0, 20.0, 100.0] {
+            let ratio = cycles(zone) / stop;
+            assert!(ratio < most, "{angle} deg, {zone} mm: {ratio}");
+        }
+    }
+}
+
+#[test]
 fn dense_points_keep_their_speed() {
     let robot = robot("kr10-r1420");
     let points: Vec<[f64; 3]> = (1..=4000).map(|index| [0.0, 0.1 * f64::from(index), 0.0]).collect();

@@ -1,0 +1,161 @@
+//! How fast to cross a blend that bends: one acceleration and jerk for all of it, and a speed for each of its parts, so that
+//! not all of it is as slow as its sharpest place.
+
+mod time;
+
+use super::limits::Bound;
+use super::profile::Limits;
+pub(super) use time::Approach;
+use time::duration;
+
+/// Parts of a blend, of the same nominal time, with a speed each.
+pub(super) const PARTS: usize = 16;
+
+/// Limits of the share of a blend that is done, per s.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Crossing {
+    /// For each part.
+    pub(super) speeds: [f64; PARTS],
+    pub(super) acc: f64,
+    pub(super) jerk: f64,
+}
+
+impl Crossing {
+    /// The same limits all along.
+    pub(super) fn even(Limits { vel, acc, jerk }: Limits) -> Self {
+        Self { speeds: [vel; PARTS], acc, jerk }
+    }
+}
+
+/// The bounds of one place, and the part of the blend that it speaks for: up to its neighbours.
+pub(super) struct PlaceBounds<'a> {
+    /// Shares of the blend's nominal time.
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) rows: &'a [Bound],
+}
+
+/// Parts of the acceleration, and of the jerk, that are there at rest, among which the quickest are looked for. What is not
+/// taken of them is left for the bend.
+const ACC_SHARES: [f64; 5] = [0.9, 0.5, 0.25, 0.12, 0.06];
+const JERK_SHARES: [f64; 4] = [0.9, 0.6, 0.35, 0.15];
+
+/// The quickest limits to cross with, no faster than `fastest`, under which no bound is broken.
+pub(super) fn cross(places: &[PlaceBounds], fastest: f64, approaches: &[Approach; 2]) -> Option<Crossing> {
+    let rows = || places.iter().flat_map(|place| place.rows).filter(|row| row.first > 0.0);
+    let lowest = |of: fn(&Bound) -> f64| rows().map(of).fold(1e12, f64::min);
+    let (acc, jerk) = (lowest(|row| row.acc / row.first), lowest(|row| row.jerk / row.first));
+    let mut best: Option<(f64, Crossing)> = None;
+    for acc_share in ACC_SHARES {
+        for jerk_share in JERK_SHARES {
+            let (acc, jerk) = (acc * acc_share, jerk * jerk_share);
+            let crossing = Crossing { speeds: speeds(places, fastest, acc, jerk), acc, jerk };
+            let time = duration(&crossing, approaches);
+            if best.as_ref().is_none_or(|(least, _)| time < *least) {
+                best = Some((time, crossing));
+            }
+        }
+    }
+    best.map(|(_, crossing)| crossing).filter(|crossing| crossing.speeds.iter().all(|speed| *speed > 0.0))
+}
+
+/// The highest speed in each part with this acceleration and jerk.
+fn speeds(places: &[PlaceBounds], fastest: f64, acc: f64, jerk: f64) -> [f64; PARTS] {
+    let mut speeds = [fastest; PARTS];
+    for place in places {
+        let [first, last] = [place.from, place.to].map(|share| share.clamp(0.0, 1.0) * PARTS as f64);
+        let (first, last) = (first.floor() as usize, last.ceil() as usize);
+        let touched = speeds.get_mut(first..last).unwrap_or_default();
+        let highest = touched.iter().copied().fold(0.0, f64::max);
+        let speed = place.rows.iter().fold(highest, |speed, row| fastest_within(row, speed, acc, jerk));
+        for part in touched {
+            *part = part.min(speed);
+        }
+    }
+    speeds
+}
+
+/// The highest speed up to `speed` at which a bound holds with this acceleration and jerk.
+fn fastest_within(row: &Bound, speed: f64, acc: f64, jerk: f64) -> f64 {
+    let Bound { first, second, third, .. } = *row;
+    let mut speed = if first * speed > row.vel { row.vel / first } else { speed };
+    let left = row.acc - first * acc;
+    if second * speed * speed > left {
+        speed = (left.max(0.0) / second).sqrt();
+    }
+    let left = (row.jerk - first * jerk).max(0.0);
+    let (line, cube) = (3.0 * second * acc, third);
+    let taken = |speed: f64| speed * (line + cube * speed * speed);
+    if taken(speed) > left {
+        // Newton's steps come down to the root from above: what takes so much grows ever faster.
+        for _ in 0..40 {
+            let next = speed - (taken(speed) - left) / (line + 3.0 * cube * speed * speed);
+            if next >= speed * (1.0 - 1e-9) {
+                break;
+            }
+            speed = next;
+        }
+        speed *= 1.0 - 1e-6;
+    }
+    speed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinematics::random::Random;
+
+    fn random_places(random: &mut Random) -> Vec<(f64, Vec<Bound>)> {
+        let mut some = |low: f64, high: f64| 10.0_f64.powf(random.between(low, high));
+        let mut row = || Bound {
+            first: some(-2.0, 2.0),
+            second: some(-3.0, 3.0),
+            third: some(-3.0, 4.0),
+            vel: some(0.0, 2.0),
+            acc: some(1.0, 3.0),
+            jerk: some(2.0, 4.0),
+        };
+        (0..=30).map(|place| (f64::from(place) / 30.0, (0..6).map(|_| row()).collect())).collect()
+    }
+
+    #[test]
+    fn no_bound_is_broken_by_any_motion_within_the_limits() {
+        let mut random = Random::new(31);
+        for _ in 0..300 {
+            let places = random_places(&mut random);
+            let around = 1.0 / 30.0;
+            let bounds: Vec<_> = places
+                .iter()
+                .map(|(share, rows)| PlaceBounds { from: share - around, to: share + around, rows })
+                .collect();
+            let approach = Approach { limits: Limits { vel: 1.0, acc: 4.0, jerk: 40.0 }, length: 1.0 };
+            let Crossing { speeds, acc, jerk } = cross(&bounds, 1.0, &[approach; 2]).unwrap();
+            assert!(acc > 0.0 && jerk > 0.0);
+            for (share, rows) in &places {
+                let part = ((share * PARTS as f64) as usize).min(PARTS - 1);
+                let vel = speeds[part];
+                for bound in rows {
+                    assert!(bound.first * vel <= bound.vel * 1.000_001);
+                    assert!(bound.first * acc + bound.second * vel * vel <= bound.acc * 1.000_001);
+                    let third = bound.third * vel.powi(3) + 3.0 * bound.second * vel * acc + bound.first * jerk;
+                    assert!(third <= bound.jerk * 1.000_001, "{bound:?} {third}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn only_the_sharp_part_is_slow() {
+        let even = Bound::even(1.0, 1.0, 10.0, 100.0);
+        let sharp = Bound { second: 200.0, third: 2000.0, ..even };
+        let rows = [[even], [sharp], [even]];
+        let shares = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
+        let row = |share: f64| &rows[usize::from((share - 0.5).abs() < 0.05)];
+        let places: Vec<_> =
+            shares.iter().map(|share| PlaceBounds { from: share - 0.1, to: share + 0.1, rows: row(*share) }).collect();
+        let approach = Approach { limits: Limits { vel: 1.0, acc: 10.0, jerk: 100.0 }, length: 1.0 };
+        let crossing = cross(&places, 1.0, &[approach; 2]).unwrap();
+        assert_eq!(crossing.speeds[0], 1.0);
+        assert!(crossing.speeds[PARTS / 2] < 0.25);
+    }
+}

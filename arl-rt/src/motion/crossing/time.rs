@@ -1,0 +1,165 @@
+//! About how long a crossing takes, with what the ways before and behind lose by it: enough to choose among several.
+
+use super::super::profile::{Change, Limits};
+use super::super::timing::ALIKE;
+use super::{Crossing, PARTS};
+
+/// The way before or behind a blend, as far as the robot can change its speed on it for the blend.
+#[derive(Clone, Copy, Debug)]
+pub(in super::super) struct Approach {
+    /// Its limits in shares of the blend per s: with 1 / nominal time it goes as fast as the blend does nominally.
+    pub(in super::super) limits: Limits,
+    /// Its length at the blend's scale.
+    pub(in super::super) length: f64,
+}
+
+/// A part of the way on which one speed is allowed.
+#[derive(Clone, Copy)]
+struct Part {
+    length: f64,
+    speed: f64,
+}
+
+/// Lengths of the parts of an approach as shares of it, the nearest to the blend first.
+const APPROACH: [f64; 6] = [1.0 / 32.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0];
+
+/// About how long it takes to cross, in s, and to go the ways before and behind.
+pub(super) fn duration(crossing: &Crossing, approaches: &[Approach; 2]) -> f64 {
+    let own = Limits { vel: f64::INFINITY, acc: crossing.acc, jerk: crossing.jerk };
+    let [before, behind] = approaches;
+    let [with_before, with_behind] = approaches.map(|approach| alike(&approach.limits, &own));
+    let mut limits = own;
+    let mut parts: Vec<Part> = Vec::with_capacity(PARTS + 2 * APPROACH.len());
+    if with_before {
+        limits = lower(limits, &before.limits);
+        parts.extend(before.parts().rev());
+    }
+    parts.extend(crossing.speeds.iter().map(|speed| Part { length: 1.0 / PARTS as f64, speed: *speed }));
+    if with_behind {
+        limits = lower(limits, &behind.limits);
+        parts.extend(behind.parts());
+    }
+    let ends = approaches.map(|approach| approach.limits.vel);
+    let (time, [first, last]) = time(&parts, ends, &limits);
+    let shared = |joined: bool| joined.then_some(&limits);
+    time + before.outside(shared(with_before), first) + behind.outside(shared(with_behind), last)
+}
+
+/// Whether two become one stretch, with the lower limits: see [`super::super::timing`].
+fn alike(a: &Limits, b: &Limits) -> bool {
+    let alike = |a: f64, b: f64| a <= b * ALIKE && b <= a * ALIKE;
+    alike(a.acc, b.acc) && alike(a.jerk, b.jerk)
+}
+
+fn lower(a: Limits, b: &Limits) -> Limits {
+    Limits { acc: a.acc.min(b.acc), jerk: a.jerk.min(b.jerk), ..a }
+}
+
+impl Approach {
+    fn parts(&self) -> impl DoubleEndedIterator<Item = Part> {
+        APPROACH.iter().map(|share| Part { length: self.length * share, speed: self.limits.vel })
+    }
+
+    /// What it adds to the time: where it shares the blend's limits, what the ramp at its other end loses by them; where it keeps
+    /// its own, all of it, when the blend is met at `speed`.
+    fn outside(&self, shared: Option<&Limits>, speed: f64) -> f64 {
+        match shared {
+            Some(shared) => {
+                let slower = Self { limits: Limits { vel: self.limits.vel, ..*shared }, ..*self };
+                slower.lost(0.0) - self.lost(0.0)
+            }
+            None => self.lost(speed) + self.length / self.limits.vel,
+        }
+    }
+
+    /// The time that it loses by beginning or ending at `speed`.
+    fn lost(&self, speed: f64) -> f64 {
+        let Self { limits, length } = self;
+        if *length <= 0.0 {
+            return 0.0;
+        }
+        let cruise = limits.vel;
+        let ramp = Change::new(speed, 0.0, cruise, limits);
+        let way = ramp.distance(speed, 0.0);
+        if way <= *length {
+            return ramp.duration() - way / cruise;
+        }
+        let top = reach(speed, *length, limits).min(cruise);
+        length / f64::midpoint(speed, top) - length / cruise
+    }
+}
+
+/// How long a way takes that is entered and left at no more than `ends`, and how fast it begins and ends.
+fn time(parts: &[Part], [first, last]: [f64; 2], limits: &Limits) -> (f64, [f64; 2]) {
+    let before = [first].into_iter().chain(parts.iter().map(|part| part.speed));
+    let behind = parts.iter().map(|part| part.speed).chain([last]);
+    let free: Vec<f64> = before.zip(behind).map(|(before, behind)| before.min(behind)).collect();
+    let mut speeds = free.clone();
+    for (from, slow) in free.iter().enumerate() {
+        let (behind, ahead) = parts.split_at(from);
+        // Nothing is bound by a place that is no slower than its neighbours.
+        let neighbours = [from.checked_sub(1), Some(from + 1)].map(|at| at.and_then(|at| free.get(at)));
+        if neighbours.iter().flatten().all(|next| *next <= slow) {
+            continue;
+        }
+        let bind = |way: &mut f64, (speed, part): (&mut f64, &Part)| {
+            *way += part.length;
+            *speed = speed.min(reach(*slow, *way, limits));
+        };
+        let (mut back, mut on) = (0.0, 0.0);
+        let (left, right) = speeds.split_at_mut(from);
+        left.iter_mut().rev().zip(behind.iter().rev()).for_each(|pair| bind(&mut back, pair));
+        right.iter_mut().skip(1).zip(ahead).for_each(|pair| bind(&mut on, pair));
+    }
+    let ends = speeds.iter().zip(speeds.iter().skip(1));
+    let each = |(part, (start, end)): (&Part, (&f64, &f64))| part.length / f64::midpoint(*start, *end).min(part.speed);
+    let whole = parts.iter().zip(ends).map(each).sum();
+    (whole, [speeds.first(), speeds.last()].map(|speed| speed.copied().unwrap_or(0.0)))
+}
+
+/// The highest speed that is reached from `speed` within a way, without acceleration at either end.
+fn reach(speed: f64, way: f64, limits: &Limits) -> f64 {
+    let Limits { acc, jerk, .. } = *limits;
+    // With the full acceleration for a while: way = (2 speed + gain) / 2 (gain / acc + acc / jerk).
+    let ramp = acc * acc / jerk;
+    let half = speed + ramp / 2.0;
+    let gain = (half * half + 2.0 * (acc * way - speed * ramp)).max(0.0).sqrt() - half;
+    if gain >= ramp {
+        return speed + gain;
+    }
+    // Without: way = (2 speed + gain) sqrt(gain / jerk), a cubic equation for the root of the gain.
+    let scaled = way * jerk.sqrt();
+    let mut root = scaled.cbrt().min(scaled / (2.0 * speed));
+    for _ in 0..4 {
+        root -= (root * (root * root + 2.0 * speed) - scaled) / (3.0 * root * root + 2.0 * speed);
+    }
+    speed + root * root
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinematics::random::Random;
+
+    #[test]
+    fn a_change_of_the_speed_takes_the_way_in_which_it_is_reached() {
+        let mut random = Random::new(32);
+        for _ in 0..2000 {
+            let limits = Limits { vel: 1.0, acc: random.between(0.5, 20.0), jerk: random.between(1.0, 500.0) };
+            let (speed, way) = (random.between(0.0, 2.0), 10.0_f64.powf(random.between(-4.0, 1.0)));
+            let goal = reach(speed, way, &limits);
+            let found = Change::new(speed, 0.0, goal, &limits).distance(speed, 0.0);
+            assert!((found - way).abs() < 1e-4 * way, "{speed} {goal} {found} {way} {limits:?}");
+        }
+    }
+
+    #[test]
+    fn a_way_takes_what_its_ramps_and_its_speeds_take() {
+        let limits = Limits { vel: 1.0, acc: 10.0, jerk: 1e9 };
+        let part = |length: f64, speed: f64| Part { length, speed };
+        // Down from 1 to 0.5 and up again, in 0.0375 each.
+        let parts = [part(0.0375, 1.0), part(0.1, 0.5), part(0.0375, 1.0)];
+        let (time, ends) = time(&parts, [2.0; 2], &limits);
+        assert!((time - 0.3).abs() < 1e-6 && ends.iter().all(|end| (end - 1.0).abs() < 1e-6), "{time} {ends:?}");
+    }
+}
