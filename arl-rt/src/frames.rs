@@ -3,15 +3,30 @@
 //! A frame's angles are in deg: a about z, b about the new y, c about the new x. A component that depends on an unset
 //! one of a pose is unset.
 
-mod rig;
-mod setting;
-
-use crate::values::{Frame, Pose, UNSET};
+use crate::kinematics;
+use crate::values::{Frame, Pose, Tool, UNSET, Wobj};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Mul;
 
-pub use rig::{Carried, Rig};
-pub use setting::{Setting, Unmoved};
+pub use arl_robot::frames::{Carried, Mount, Rig, Setting, Unmoved};
+
+impl From<&Tool> for Mount {
+    fn from(tool: &Tool) -> Self {
+        Self { frame: (&tool.t_frame).into(), on_flange: !tool.stationary }
+    }
+}
+
+impl From<&Wobj> for Mount {
+    fn from(wobj: &Wobj) -> Self {
+        Self { frame: (&wobj.w_frame).into(), on_flange: wobj.robhold }
+    }
+}
+
+impl From<&Frame> for kinematics::Frame {
+    fn from(frame: &Frame) -> Self {
+        kinematics::frame(frame.components())
+    }
+}
 
 /// Angles of turns that are closer to zero than this, deg, are rounding noise.
 const ANGLE_NOISE: f64 = 1e-10;

@@ -7,6 +7,7 @@ mod corpus;
 mod expressions;
 mod motions;
 mod programs;
+mod targets;
 
 use arl_tests::machine::{Machine, Stop};
 use arl_tests::project::{Project, Run, compile};

@@ -54,41 +54,8 @@ pub struct CheckOptions {
     /// A file without `main` is fine: it is checked as a module.
     pub library: bool,
     /// The robot, where it is known: targets that it can never reach are warned of.
-    pub robot: Option<RobotLimits>,
-}
-
-/// What the checker knows of a robot beyond its kind.
-#[derive(Clone, PartialEq, Debug)]
-pub struct RobotLimits {
-    /// Its name.
-    pub name: String,
-    /// The ranges of its axes, external ones included.
-    pub axes: Vec<AxisRange>,
-    /// The lengths of its arm, where they are known.
-    pub arm: Option<Arm>,
-}
-
-/// The lengths of an arm in mm, as robot files give them.
-#[derive(Clone, Copy, PartialEq, Debug)]
-#[expect(missing_docs, reason = "the names are those of robot files")]
-pub enum Arm {
-    /// Six axes with a spherical wrist.
-    SixAxis { a1: f64, a2: f64, b: f64, c1: f64, c2: f64, c3: f64, c4: f64 },
-    /// A SCARA.
-    Scara { l1: f64, l2: f64 },
-}
-
-/// The range of an axis.
-#[derive(Clone, PartialEq, Debug)]
-pub struct AxisRange {
-    /// `j1`.. or `ej1`..
-    pub name: String,
-    /// Lowest position, deg (mm where linear).
-    pub min: f64,
-    /// Highest position, deg (mm where linear).
-    pub max: f64,
-    /// Whether it moves along a line.
-    pub linear: bool,
+    #[cfg(feature = "cli")]
+    pub robot: Option<arl_robot::Robot>,
 }
 
 /// What came out of a check.

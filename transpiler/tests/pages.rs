@@ -7,8 +7,9 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::disallowed_methods, reason = "a test, which reads the pages")]
 
+use arl_robot::Robot;
 use arl2rs::diagnostics::{CodeInfo, Diagnostic, registry};
-use arl2rs::{Arm, AxisRange, CheckOptions, Checked, RobotLimits, SourceError, Sources, check_statements, check_text};
+use arl2rs::{CheckOptions, Checked, SourceError, Sources, check_statements, check_text};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -113,8 +114,11 @@ impl Side {
             match (word, if word == "--robot" { words.next() } else { None }) {
                 ("--strict", None) => options.strict = true,
                 ("macro", None) => statements = true,
-                ("--robot", Some("hsr065")) => options.family = arl_lang::catalog::Family::Scara,
-                ("--robot", Some("six-10")) => options.robot = Some(six_10()),
+                ("--robot", Some(name)) => {
+                    let robot = Robot::builtin(name).map_err(|error| error.to_string())?;
+                    options.family = robot.family;
+                    options.robot = Some(robot);
+                }
                 (word, value) => return Err(format!("unknown option {word} {}", value.unwrap_or_default())),
             }
         }
@@ -124,14 +128,6 @@ impl Side {
             false => check_text(path, main, &self.others, &options),
         }))
     }
-}
-
-/// The ranges of the robot six-10.
-fn six_10() -> RobotLimits {
-    let ranges = [(-170.0, 170.0), (-95.0, 130.0), (-120.0, 155.0), (-185.0, 185.0), (-120.0, 120.0), (-350.0, 350.0)];
-    let axis = |(at, (min, max))| AxisRange { name: format!("j{}", at + 1), min, max, linear: false };
-    let arm = Arm::SixAxis { a1: 100.0, a2: -100.0, b: 0.0, c1: 615.0, c2: 705.0, c3: 755.0, c4: 85.0 };
-    RobotLimits { name: "six-10".into(), axes: ranges.into_iter().enumerate().map(axis).collect(), arm: Some(arm) }
 }
 
 fn show(checked: &Checked) -> String {

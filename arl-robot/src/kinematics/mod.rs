@@ -18,9 +18,9 @@ mod wrist;
 pub use angles::sin_cos;
 pub use choose::{CONFIGURATIONS, RANGE_SLACK, Refusal, Wanted};
 pub use frame::{Frame, frame, frame_components};
-pub use opw::{Opw, OpwParameters, Solutions};
+pub use opw::{Opw, OpwParameters, Singularity, Solutions};
 pub use passing::{PASSAGE, Passage};
-pub use rates::{Rates, Twist};
+pub use rates::{Rates, SINGULAR_SCALE, Twist};
 pub use scara::Scara;
 
 /// The axes of a robot in deg (mm where linear); a SCARA leaves the last two at 0.

@@ -75,6 +75,17 @@ impl Solutions {
     }
 }
 
+/// Where axes lose a direction in which they can move the flange.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Singularity {
+    /// Axes 4 and 6 turn about one line.
+    Wrist,
+    /// The arm is stretched, or folded upon itself.
+    Elbow,
+    /// The wrist centre is on axis 1.
+    Shoulder,
+}
+
 /// Where in the arm's plane the wrist centre is: the two halves of `cfg` above its lowest bit.
 #[derive(Clone, Copy)]
 struct Arm {
@@ -306,8 +317,26 @@ impl Opw {
     /// How clear the axes are of a singular point, 0 to 1: the least of the sines of the wrist's middle angle and of the
     /// angle at the elbow, and of the wrist centre's distance from axis 1 as part of the arm's length.
     pub fn clearance(&self, axes: &Axes) -> f64 {
+        let [wrist, elbow, shoulder] = self.clearances(axes);
+        wrist.min(elbow).min(shoulder)
+    }
+
+    /// The clearances of wrist, elbow and shoulder.
+    fn clearances(&self, axes: &Axes) -> [f64; 3] {
         let Stance { depth, bend, wrist } = self.stance(axes);
-        wrist.abs().min(bend.abs()).min(depth.abs() / (self.c2 + self.k))
+        [wrist.abs(), bend.abs(), depth.abs() / (self.c2 + self.k)]
+    }
+
+    /// The singular point that the axes are nearest to, by the measure of [`Opw::clearance`].
+    pub fn nearest_singularity(&self, axes: &Axes) -> Singularity {
+        let [wrist, elbow, shoulder] = self.clearances(axes);
+        if wrist <= elbow.min(shoulder) {
+            Singularity::Wrist
+        } else if elbow <= shoulder {
+            Singularity::Elbow
+        } else {
+            Singularity::Shoulder
+        }
     }
 
     fn stance(&self, axes: &Axes) -> Stance {

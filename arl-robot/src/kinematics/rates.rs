@@ -3,9 +3,10 @@
 use nalgebra::{Matrix6, Vector3};
 
 use super::angles::sin_cos;
-use super::opw::Opw;
+use super::opw::{Opw, Singularity};
 use super::scara::Scara;
 use super::{Axes, Kinematics};
+use crate::robot::Axis;
 
 /// The motion of the flange along a path parameter, with its first and second derivative.
 #[derive(Clone, Copy, Debug)]
@@ -66,6 +67,23 @@ pub struct Rates {
     pub second: Axes,
     /// Third derivative.
     pub third: Axes,
+}
+
+/// Where the axes' motion changes over so little of a path (see [`Rates::scale`]), the point is singular for all practical
+/// speeds.
+pub const SINGULAR_SCALE: f64 = 1e-3;
+
+impl Rates {
+    /// Over which part of the path the motion of `axes`, the robot's, changes substantially: infinity where it does not.
+    pub fn scale(&self, axes: &[Axis]) -> f64 {
+        let size = |rates: &Axes| {
+            let by_speed = rates.iter().zip(axes).map(|(rate, axis)| rate.abs() / axis.vel);
+            by_speed.fold(0.0, f64::max)
+        };
+        let (first, second, third) = (size(&self.first), size(&self.second), size(&self.third));
+        let scale = (first / second).min((first / third).sqrt());
+        if scale.is_nan() { f64::INFINITY } else { scale }
+    }
 }
 
 impl Screw {
@@ -301,6 +319,14 @@ impl Kinematics {
         match self {
             Kinematics::SixAxis(opw) => opw.clearance(axes),
             Kinematics::Scara(scara) => scara.clearance(axes),
+        }
+    }
+
+    /// The singular point that the axes are nearest to, by the measure of [`Kinematics::clearance`].
+    pub fn nearest_singularity(&self, axes: &Axes) -> Singularity {
+        match self {
+            Kinematics::SixAxis(opw) => opw.nearest_singularity(axes),
+            Kinematics::Scara(_) => Singularity::Elbow,
         }
     }
 }

@@ -55,6 +55,21 @@ pub struct Axis {
     pub jerk: f64,
 }
 
+impl Axis {
+    /// The position nearest to the range among those that differ from `value` by whole turns only, and how far beyond the
+    /// range it is; 0 within. A linear axis has no other position.
+    pub fn nearest_to_range(&self, value: f64) -> (f64, f64) {
+        let beyond = |value: f64| (self.min - value).max(value - self.max).max(0.0);
+        if self.linear {
+            return (value, beyond(value));
+        }
+        let middle = 0.5 * (self.min + self.max);
+        let nearest = middle + crate::kinematics::wrap_degrees(value - middle);
+        // Of two positions at the same distance the given one is what a reader knows.
+        if beyond(value) <= beyond(nearest) { (value, beyond(value)) } else { (nearest, beyond(nearest)) }
+    }
+}
+
 /// The limits of the tool centre point along a path.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct TcpLimits {

@@ -4,7 +4,7 @@
 use super::curve::ToolCurve;
 use super::error::PlanError;
 use super::joints::{Joints, is_unset};
-use crate::kinematics::{Axes, RANGE_SLACK, Rates};
+use crate::kinematics::{Axes, RANGE_SLACK, Rates, SINGULAR_SCALE};
 use crate::robot::Robot;
 
 /// What the walk found.
@@ -23,8 +23,6 @@ const SHORT: f64 = 3.0;
 /// A step as part of the length over which the axes' motion changes. A singular point is never stepped over: the steps
 /// get shorter in proportion to its distance.
 const STEP_OF_SCALE: f64 = 0.04;
-/// Where the axes' motion changes over so little of the path, the point is singular for all practical speeds.
-const SINGULAR_SCALE: f64 = 1e-3;
 /// Closer to a singular point than this (see [`crate::kinematics::Kinematics::clearance`]) rounding spoils the derivatives.
 pub(super) const SINGULAR: f64 = 1e-5;
 /// An axis that is so far (deg) from where it was bound to be has jumped to another solution.
@@ -175,13 +173,7 @@ impl Walk<'_> {
 
     /// Over which part of the path the axes' motion changes substantially.
     fn scale(&self, rates: &Rates) -> f64 {
-        let size = |rates: &Axes| {
-            let by_speed = rates.iter().zip(&self.robot.axes).map(|(rate, axis)| rate.abs() / axis.vel);
-            by_speed.fold(0.0, f64::max)
-        };
-        let (first, second, third) = (size(&rates.first), size(&rates.second), size(&rates.third));
-        let scale = (first / second).min((first / third).sqrt());
-        if scale.is_nan() { f64::INFINITY } else { scale }
+        rates.scale(&self.robot.axes)
     }
 
     /// The same where something is laid over the way: how the axes change along the plain way tells how near a singular

@@ -2,7 +2,7 @@
 //!
 //! One file per concern: `load` reads the files, `declare` globals and signatures, `statements` and `expr` (with
 //! `name`, `place`, `operators`, `brace`, `call`, `arguments`, `convert`, `fold`) what functions do, `flow` and
-//! `conditions`, `first_motion` and `targets` (with `reach`) look at the finished functions.
+//! `conditions`, `first_motion` and `targets` look at the finished functions.
 
 mod arguments;
 mod brace;
@@ -19,8 +19,8 @@ mod load;
 mod name;
 mod operators;
 mod place;
-mod reach;
 mod statements;
+#[cfg(feature = "cli")]
 mod targets;
 mod uses;
 
@@ -121,6 +121,7 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
         };
         let mut late = if has_conditions { conditions::check(&built, &locate) } else { Vec::new() };
         late.extend(first_motion::check(&built, &locate));
+        #[cfg(feature = "cli")]
         if let Some(robot) = &options.robot {
             diagnostics.extend(targets::check(&built, robot, &locate));
         }

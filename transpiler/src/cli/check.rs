@@ -3,7 +3,7 @@
 use super::args::{Checking, Format};
 use super::failure::{COMPILE_ERRORS, Failure};
 use super::program::check_options;
-use super::robot::Robot;
+use super::robot;
 use super::show;
 use crate::CheckOptions;
 use crate::compile::{Compiled, check_program};
@@ -19,7 +19,7 @@ pub(super) fn check(files: &[PathBuf], format: Format, checking: &Checking) -> R
     let mut options = check_options(checking)?;
     // A program that runs meets its robot itself, and one that is compiled may meet several.
     if let Some(robot) = &checking.robot {
-        options.robot = Some(Robot::load(Some(robot))?.limits());
+        options.robot = Some(robot::load(Some(robot))?);
     }
     let mut reporter = Reporter { format, said: HashSet::new() };
     let mut used = HashSet::new();

@@ -150,6 +150,8 @@ pub(super) static PAGES: &[(&str, &str)] = pages! {
     "ARL0906"
     "ARL0907"
     "ARL0908"
+    "ARL0909"
+    "ARL0910"
     "ARL0951"
     "ARL0952"
     "ARL0953"

@@ -1,7 +1,6 @@
 //! Functions, statements and their order.
 
 use super::{Code, Problem};
-use crate::AxisRange;
 
 /// What is wrong with a function or statement.
 #[derive(Clone, PartialEq, Debug)]
@@ -42,10 +41,6 @@ pub(crate) enum FlowProblem {
     MissingReturn { name: String, result: String },
     /// An expression whose value is thrown away and which does nothing.
     NoEffect,
-    /// A joint target beyond the range of an axis.
-    BeyondRange { value: f64, axis: AxisRange, robot: String },
-    /// A pose farther away than the arm is long.
-    OutOfReach { by: f64, robot: String },
 }
 
 impl Problem for FlowProblem {
@@ -69,8 +64,6 @@ impl Problem for FlowProblem {
             FlowProblem::UnusedImport { .. } => 904,
             FlowProblem::MissingReturn { .. } => 905,
             FlowProblem::NoEffect => 906,
-            FlowProblem::BeyondRange { .. } => 907,
-            FlowProblem::OutOfReach { .. } => 908,
         })
     }
 
@@ -102,11 +95,6 @@ impl Problem for FlowProblem {
                 format!("the end of `{name}` can be reached without a `return`")
             }
             FlowProblem::NoEffect => "this value is not used for anything".into(),
-            FlowProblem::OutOfReach { by, robot } => format!("this pose is {by:.3} mm out of the reach of {robot}"),
-            FlowProblem::BeyondRange { value, axis, robot } => {
-                let unit = if axis.linear { "mm" } else { "deg" };
-                format!("this target has {} at {value} {unit}, which {robot} cannot reach", axis.name)
-            }
         }
     }
 
@@ -137,15 +125,6 @@ impl Problem for FlowProblem {
             ),
             FlowProblem::MissingReturn { result, .. } => {
                 Some(format!("it then returns the start value of {result}; write a `return` to say so"))
-            }
-            FlowProblem::OutOfReach { .. } => Some(
-                "that holds for the bare flange in the world, as no other tool or workpiece is in the program; the motion \
-                 would end in an alarm"
-                    .into(),
-            ),
-            FlowProblem::BeyondRange { axis, .. } => {
-                let unit = if axis.linear { "mm" } else { "deg" };
-                Some(format!("its range is {} to {} {unit}; the motion would end in an alarm", axis.min, axis.max))
             }
             _ => None,
         }

@@ -7,6 +7,8 @@ pub(crate) mod modules;
 pub(crate) mod names;
 mod registry;
 pub(crate) mod support;
+#[cfg(feature = "cli")]
+pub(crate) mod targets;
 pub(crate) mod types;
 
 pub use registry::{CodeInfo, info, registry};

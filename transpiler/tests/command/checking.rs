@@ -72,9 +72,11 @@ fn strict_warns_and_passes() {
 
 #[test]
 fn the_robot_decides_about_types() {
+    let hsr065 = arl_robot::Robot::text("hsr065").expect("the robot is built in").to_owned();
     let folder = Folder::new("robot")
         .with("a.arl", "func void main()\n    joint p = {1,2,3,4,5,6}\n    movej p\nendfunc\n")
-        .with("mine.toml", "family = \"scara\"\n")
+        .with("mine.toml", &hsr065)
+        .with("half.toml", &hsr065.replacen("l1 = ", "length = ", 1))
         .with("wrong.toml", "name = \"x\"\nfamily = \"delta\"\n");
     folder.arl2rs(&["check", "a.arl"]).is(0, "");
     folder.arl2rs(&["check", "--robot", "six-10", "a.arl"]).is(0, "");
@@ -82,6 +84,7 @@ fn the_robot_decides_about_types() {
     folder.write("a.arl", as_scara);
     folder.arl2rs(&["check", "--robot", "mine.toml", "a.arl"]).is(1, "").says("j5");
     folder.arl2rs(&["check", "--robot", "wrong.toml", "a.arl"]).is(2, "").says("wrong.toml:2: ").says("six-axis");
+    folder.arl2rs(&["check", "--robot", "half.toml", "a.arl"]).is(2, "").says("half.toml:").says("`length`");
     folder.arl2rs(&["check", "--robot", "nothing", "a.arl"]).is(2, "").says("no robot `nothing`");
 }
 
@@ -119,8 +122,9 @@ fn targets_that_a_robot_cannot_reach_are_warned_of() {
     let answer = folder.arl2rs(&["check", "far.arl", "--robot", "kr10-r1420"]);
     answer.is(0, "").says("far.arl:6:").says("ARL0907").says("j1 at 500 deg").says("-170 to 170 deg");
     answer.says("far.arl:9:").says("ARL0908").says("99.697 mm out of the reach of kr10-r1420").says("2 warnings");
-    // With a tool or a point that may be taught anew it is not sure; without a robot nothing is.
-    folder.arl2rs(&["check", "tool.arl", "--robot", "kr10-r1420"]).is(0, "").says("1 warning");
+    // The tool holds from its line on. A point that may be taught anew is not sure; without a robot nothing is.
+    let answer = folder.arl2rs(&["check", "tool.arl", "--robot", "kr10-r1420"]);
+    answer.is(0, "").says("tool.arl:9:").says("tool.arl:10:").says("tool.arl:12:").says("4 warnings");
     folder.arl2rs(&["check", "taught.arl", "--robot", "kr10-r1420"]).is(0, "").says("taught.arl:8:").says("1 warning");
     assert_eq!(folder.arl2rs(&["check", "far.arl"]).err, "");
 }

@@ -121,8 +121,8 @@ impl<'a> Times<'a> {
         }
         self.changes(picture);
         let limit = |area: &Area, y: f64, picture: &mut Picture| picture.line([area.x, y], [area.right(), y], "limit");
-        if let Some(tcp) = self.robot.tcp.filter(|tcp| *tcp <= self.highest) {
-            limit(&self.speed, self.upward.at(tcp), picture);
+        if self.robot.tcp <= self.highest {
+            limit(&self.speed, self.upward.at(self.robot.tcp), picture);
         }
         for share in [-100.0, 100.0] {
             limit(&self.axes, self.shares.at(share), picture);
@@ -158,10 +158,8 @@ impl<'a> Times<'a> {
         let x = self.speed.right() + 18.0;
         let highest = format!("highest {} mm/s", rounded(self.outline.speed));
         picture.text([x, self.speed.y + 10.0], Anchor::Start, "", &highest);
-        if let Some(tcp) = self.robot.tcp {
-            let text = format!("limit on lines {} mm/s", short(tcp));
-            picture.text([x, self.speed.y + 28.0], Anchor::Start, "tick", &text);
-        }
+        let text = format!("limit on lines {} mm/s", short(self.robot.tcp));
+        picture.text([x, self.speed.y + 28.0], Anchor::Start, "tick", &text);
         let apart = f64::min(34.0, self.axes.height / self.robot.axes.len().max(1) as f64);
         for (at, axis) in self.robot.axes.iter().enumerate() {
             let y = self.axes.y + 10.0 + at as f64 * apart;

@@ -5,7 +5,15 @@ use std::fmt;
 
 use super::rig::{Carried, Rig};
 use crate::kinematics::{Frame, frame};
-use crate::values::{Tool, Wobj};
+
+/// A tool or a workpiece: its frame, and whether the robot carries it.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Mount {
+    /// Seen from the flange where the robot carries it, else in the world; translation in mm.
+    pub frame: Frame,
+    /// Whether it is on the flange.
+    pub on_flange: bool,
+}
 
 /// The frames between a programmed pose and the flange. Translations are mm, as in all frames.
 ///
@@ -49,14 +57,14 @@ impl std::error::Error for Unmoved {}
 
 impl Setting {
     /// Tool and workpiece as a program gives them, and where the base stands in the world (`$BASE`).
-    pub fn new(tool: &Tool, wobj: &Wobj, base: &crate::values::Frame) -> Self {
-        let transform = |given: &crate::values::Frame| frame(given.components());
+    pub fn new(tool: impl Into<Mount>, wobj: impl Into<Mount>, base: impl Into<Frame>) -> Self {
+        let (tool, wobj) = (tool.into(), wobj.into());
         Self {
-            tool: transform(&tool.t_frame),
-            stationary: tool.stationary,
-            wobj: transform(&wobj.w_frame),
-            held: wobj.robhold,
-            base: transform(base),
+            tool: tool.frame,
+            stationary: !tool.on_flange,
+            wobj: wobj.frame,
+            held: wobj.on_flange,
+            base: base.into(),
         }
     }
 
@@ -114,18 +122,18 @@ mod tests {
     use crate::kinematics::random::Random;
     use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
-    fn tool(components: [f64; 6], stationary: bool) -> Tool {
-        Tool { t_frame: crate::values::Frame::of_components(components), stationary }
+    fn tool(components: [f64; 6], stationary: bool) -> Mount {
+        Mount { frame: frame(components), on_flange: !stationary }
     }
 
-    fn wobj(components: [f64; 6], robhold: bool) -> Wobj {
-        Wobj { w_frame: crate::values::Frame::of_components(components), robhold, ..Wobj::default() }
+    fn wobj(components: [f64; 6], robhold: bool) -> Mount {
+        Mount { frame: frame(components), on_flange: robhold }
     }
 
     const NOWHERE: [f64; 6] = [0.0; 6];
 
-    fn base(components: [f64; 6]) -> crate::values::Frame {
-        crate::values::Frame::of_components(components)
+    fn base(components: [f64; 6]) -> Frame {
+        frame(components)
     }
 
     fn close(found: &Frame, expected: [f64; 6]) {
@@ -135,14 +143,14 @@ mod tests {
 
     #[test]
     fn the_examples_of_the_offsets_come_out() {
-        let plain = Setting::new(&tool(NOWHERE, false), &wobj(NOWHERE, false), &base(NOWHERE));
+        let plain = Setting::new(tool(NOWHERE, false), wobj(NOWHERE, false), base(NOWHERE));
         let target = frame([400.0, 0.0, 800.0, 0.0, 0.0, 0.0]);
         let moved = plain.with_offsets(&NOWHERE, &[50.0, 50.0, 50.0, 0.0, 0.0, 0.0]).flange_of(&target).unwrap();
         close(&plain.pose_of(&moved), [450.0, 50.0, 850.0, 0.0, 0.0, 0.0]);
         let moved = plain.with_offsets(&[50.0, 0.0, 0.0, 0.0, 0.0, 0.0], &NOWHERE).flange_of(&target).unwrap();
         close(&plain.pose_of(&moved), [350.0, 0.0, 800.0, 0.0, 0.0, 0.0]);
         // Offsets go along the axes of their own frames.
-        let turned = Setting::new(&tool(NOWHERE, false), &wobj([0.0, 0.0, 0.0, 90.0, 0.0, 0.0], false), &base(NOWHERE));
+        let turned = Setting::new(tool(NOWHERE, false), wobj([0.0, 0.0, 0.0, 90.0, 0.0, 0.0], false), base(NOWHERE));
         let moved = turned.with_offsets(&NOWHERE, &[10.0, 0.0, 0.0, 0.0, 0.0, 0.0]).flange_of(&Frame::identity());
         close(&moved.unwrap(), [0.0, 10.0, 0.0, 90.0, 0.0, 0.0]);
     }
@@ -151,7 +159,7 @@ mod tests {
     fn the_base_is_under_the_robot() {
         // The robot hangs head down, 2 m above the floor.
         let hanging = base([0.0, 0.0, 2000.0, 0.0, 0.0, 180.0]);
-        let setting = Setting::new(&tool([0.0, 0.0, 100.0, 0.0, 0.0, 0.0], false), &wobj(NOWHERE, false), &hanging);
+        let setting = Setting::new(tool([0.0, 0.0, 100.0, 0.0, 0.0, 0.0], false), wobj(NOWHERE, false), hanging);
         let flange = setting.flange_of(&frame([500.0, 200.0, 900.0, 0.0, 0.0, 180.0])).unwrap();
         close(&flange, [500.0, -200.0, 1000.0, 0.0, 0.0, 0.0]);
         close(&setting.rig().tcp_at(&flange), [500.0, 200.0, 900.0, 0.0, 0.0, 180.0]);
@@ -162,7 +170,7 @@ mod tests {
         // A grinder stands at x 1000; the corner of the part is 200 in front of the flange.
         let grinder = tool([1000.0, 0.0, 500.0, 0.0, 0.0, 0.0], true);
         let part = wobj([0.0, 0.0, 200.0, 0.0, 0.0, 0.0], true);
-        let setting = Setting::new(&grinder, &part, &base(NOWHERE));
+        let setting = Setting::new(grinder, part, base(NOWHERE));
         let flange = setting.flange_of(&Frame::identity()).unwrap();
         close(&flange, [1000.0, 0.0, 300.0, 0.0, 0.0, 0.0]);
         // 50 further along the part: the part goes back by 50.
@@ -175,10 +183,10 @@ mod tests {
     #[test]
     fn what_does_not_move_is_refused_but_can_be_asked_for() {
         let on_flange = tool([0.0, 0.0, 100.0, 0.0, 0.0, 0.0], false);
-        let both = Setting::new(&on_flange, &wobj([0.0, 0.0, 30.0, 0.0, 0.0, 0.0], true), &base(NOWHERE));
+        let both = Setting::new(on_flange, wobj([0.0, 0.0, 30.0, 0.0, 0.0, 0.0], true), base(NOWHERE));
         assert_eq!(both.flange_of(&Frame::identity()), Err(Unmoved::BothHeld));
         close(&both.pose_of(&frame([7.0, 8.0, 9.0, 10.0, 20.0, 30.0])), [0.0, 0.0, 70.0, 0.0, 0.0, 0.0]);
-        let neither = Setting::new(&tool(NOWHERE, true), &wobj(NOWHERE, false), &base(NOWHERE));
+        let neither = Setting::new(tool(NOWHERE, true), wobj(NOWHERE, false), base(NOWHERE));
         assert_eq!(neither.flange_of(&Frame::identity()), Err(Unmoved::NeitherHeld));
         assert!(Unmoved::NeitherHeld.to_string().contains("robhold"));
     }
@@ -192,8 +200,8 @@ mod tests {
         };
         for round in 0..200 {
             let held = round % 2 == 1;
-            let setting = Setting::new(&tool(place(), held), &wobj(place(), held), &base(place()))
-                .with_offsets(&place(), &place());
+            let setting =
+                Setting::new(tool(place(), held), wobj(place(), held), base(place())).with_offsets(&place(), &place());
             let start = frame(place());
             let flange = setting.flange_of(&start).unwrap();
             let back = setting.pose_of(&flange);

@@ -1,0 +1,9 @@
+//! What stands between a programmed pose and the flange: tool, workpiece, base.
+
+mod rig;
+mod setting;
+mod straight;
+
+pub use rig::{Carried, Rig};
+pub use setting::{Mount, Setting, Unmoved};
+pub use straight::StraightWay;

@@ -1,0 +1,125 @@
+//! What an expression is before the program runs: targets, frames, tools and workpieces made of constants.
+
+use super::super::first_motion::known_structure;
+use super::state::State;
+use crate::hir::{Expr, ExprKind, Func, Program, Root, Value};
+use arl_lang::catalog::Struct;
+use arl_robot::frames::Mount;
+use arl_robot::kinematics::{Frame, frame};
+
+/// Components from here on were not set.
+const UNSET: f64 = 9e9;
+
+/// Where names are looked up.
+#[derive(Clone, Copy)]
+pub(super) struct Scope<'a> {
+    pub(super) program: &'a Program,
+    pub(super) func: &'a Func,
+}
+
+/// A target pose all of whose six components are set.
+pub(super) struct Pose {
+    /// Where the TCP goes, seen from the workpiece.
+    pub(super) frame: Frame,
+    /// `cfg`, where it is constant.
+    pub(super) cfg: Option<i32>,
+}
+
+impl<'a> Scope<'a> {
+    /// The axes of a joint target, in the order of its components: those that are set and constant, with their names.
+    pub(super) fn joints(self, target: &'a Expr) -> Option<Vec<(&'static str, f64)>> {
+        let (Struct::Joint, values) = self.braces(target)? else { return None };
+        let names = Struct::Joint.def(self.program.family).components.iter().map(|component| component.name);
+        let set = |value: &Option<Expr>| value.as_ref().and_then(number).filter(|value| *value < UNSET);
+        Some(names.zip(values).filter_map(|(name, value)| Some((name, set(value)?))).collect())
+    }
+
+    /// A target pose.
+    pub(super) fn pose(self, target: &'a Expr) -> Option<Pose> {
+        let (Struct::Pose, values) = self.braces(target)? else { return None };
+        let place = frame(self.components(Struct::Pose, values, None)?);
+        let cfg = self.component(Struct::Pose, values, "cfg").map_or(Some(0), |cfg| number(cfg).map(|cfg| cfg as i32));
+        Some(Pose { frame: place, cfg })
+    }
+
+    /// A tool or a workpiece; `$DFTOOL` and `$DFWOBJ` are what they are in `state`.
+    pub(super) fn mount(self, value: &'a Expr, state: &State) -> Option<Mount> {
+        if let ExprKind::Place(place) = &value.kind
+            && let Root::System(variable) = place.root
+        {
+            return match variable.name {
+                "FLANGE" => Some(super::state::flange()),
+                "WORLD" => Some(super::state::world()),
+                "DFTOOL" if place.path.is_empty() => state.tool,
+                "DFWOBJ" if place.path.is_empty() => state.wobj,
+                _ => None,
+            };
+        }
+        let (id, values) = self.braces(value)?;
+        let [place, turned, carrier @ ..] = values else { return empty(id, values) };
+        let frame = place.as_ref().map_or(Some(Frame::identity()), |place| self.frame(place))?;
+        let flag = turned.as_ref().map_or(Some(false), flag)?;
+        let alone = carrier.iter().flatten().all(is_empty_text);
+        match id {
+            Struct::Tool => Some(Mount { frame, on_flange: !flag }),
+            Struct::Wobj if alone => Some(Mount { frame, on_flange: flag }),
+            _ => None,
+        }
+    }
+
+    fn frame(self, value: &'a Expr) -> Option<Frame> {
+        let (Struct::Frame, values) = self.braces(value)? else { return None };
+        self.components(Struct::Frame, values, Some(0.0)).map(frame)
+    }
+
+    fn braces(self, value: &'a Expr) -> Option<(Struct, &'a [Option<Expr>])> {
+        known_structure(self.program, self.func, value)
+    }
+
+    /// x, y, z, a, b, c; what is left out is `start`.
+    fn components(self, id: Struct, values: &[Option<Expr>], start: Option<f64>) -> Option<[f64; 6]> {
+        let mut found = [0.0; 6];
+        for (place, name) in found.iter_mut().zip(["x", "y", "z", "a", "b", "c"]) {
+            let given = self.component(id, values, name).map_or(start, number)?;
+            *place = Some(given).filter(|value| value.abs() < UNSET)?;
+        }
+        Some(found)
+    }
+
+    fn component<'v>(self, id: Struct, values: &'v [Option<Expr>], name: &str) -> Option<&'v Expr> {
+        let at = id.def(self.program.family).components.iter().position(|component| component.name == name)?;
+        values.get(at)?.as_ref()
+    }
+}
+
+/// `{}`: a structure of start values.
+fn empty(id: Struct, values: &[Option<Expr>]) -> Option<Mount> {
+    match id {
+        _ if !values.is_empty() => None,
+        Struct::Tool => Some(super::state::flange()),
+        Struct::Wobj => Some(super::state::world()),
+        _ => None,
+    }
+}
+
+fn is_empty_text(value: &Expr) -> bool {
+    matches!(&value.kind, ExprKind::Const(Value::String(text)) if text.is_empty())
+}
+
+fn flag(value: &Expr) -> Option<bool> {
+    match &value.kind {
+        ExprKind::Const(Value::Bool(flag)) => Some(*flag),
+        _ => None,
+    }
+}
+
+fn number(value: &Expr) -> Option<f64> {
+    match &value.kind {
+        ExprKind::Const(Value::Double(value)) => Some(*value),
+        ExprKind::Const(Value::Int(value)) => Some(f64::from(*value)),
+        ExprKind::Const(Value::Uint(value)) => Some(f64::from(*value)),
+        ExprKind::Const(Value::Byte(value)) => Some(f64::from(*value)),
+        ExprKind::Convert(inner) => number(inner),
+        _ => None,
+    }
+}

@@ -1,0 +1,203 @@
+//! What holds for a program as a whole: which system variables it writes, and what its functions may change.
+
+use super::constants::Scope;
+use super::state::{Change, Changes, State};
+use crate::hir::{Builtin, Expr, ExprKind, FuncId, Passed, Place, Program, Root, Stmt};
+use crate::visit;
+use arl_lang::catalog::Effect;
+
+/// What stands between a pose and the flange beside tool and workpiece, or makes parts of a pose count no more.
+const FRAMES: [&str; 4] = ["BASE", "TOOL_OFFSET", "WOBJ_OFFSET", "IGNORE_ORI"];
+
+/// Facts about a program.
+pub(super) struct Facts {
+    /// Whether tool and workpiece alone stand between poses and the flange.
+    pub(super) plain_frames: bool,
+    /// Whether `ptp` goes to the configuration that its target says.
+    pub(super) as_taught: bool,
+    /// Whether lines end in the configuration in which they start, and cannot pass singular points.
+    pub(super) lines_keep_cfg: bool,
+    /// Whether the tool turns to the orientation of the target on arcs.
+    pub(super) arcs_turn_to_targets: bool,
+    /// Whether `main` is called by some function.
+    pub(super) main_is_called: bool,
+    /// Whether lines end exactly at their targets.
+    pub(super) lines_are_exact: bool,
+    /// What each function may change, with all that it calls.
+    pub(super) functions: Vec<Changes>,
+    /// What all functions together may change.
+    pub(super) everywhere: Changes,
+    /// What may change at any time: an event may run it.
+    pub(super) anytime: Changes,
+}
+
+impl Facts {
+    pub(super) fn of(program: &Program) -> Self {
+        let mut facts = Facts {
+            plain_frames: true,
+            as_taught: true,
+            lines_keep_cfg: true,
+            arcs_turn_to_targets: true,
+            main_is_called: false,
+            lines_are_exact: true,
+            functions: Vec::with_capacity(program.funcs.len()),
+            everywhere: Changes::default(),
+            anytime: Changes::default(),
+        };
+        let mut callers: Vec<Vec<usize>> = vec![Vec::new(); program.funcs.len()];
+        let mut in_arguments: Vec<FuncId> = Vec::new();
+        for (at, func) in program.funcs.iter().enumerate() {
+            let scope = Scope { program, func };
+            let mut changes = Changes::default();
+            each_expr(&func.body, &mut |expr| {
+                facts.see(expr);
+                changes.and(&direct(scope, expr));
+                match &expr.kind {
+                    ExprKind::Call(id, _) => {
+                        callers.get_mut(id.0 as usize).into_iter().for_each(|callers| callers.push(at));
+                    }
+                    ExprKind::Builtin(builtin) => in_values(builtin, &mut |inner| {
+                        facts.anytime.and(&direct(scope, inner));
+                        if let ExprKind::Call(id, _) = inner.kind {
+                            in_arguments.push(id);
+                        }
+                    }),
+                    _ => {}
+                }
+            });
+            facts.everywhere.and(&changes);
+            facts.functions.push(changes);
+        }
+        let main = program.main.and_then(|main| callers.get(main.0 as usize));
+        facts.main_is_called = main.is_some_and(|callers| !callers.is_empty());
+        facts.spread(&callers);
+        for id in in_arguments {
+            let changes = facts.of_function(id);
+            facts.anytime.and(&changes);
+        }
+        facts
+    }
+
+    /// What a call may change.
+    pub(super) fn of_function(&self, id: FuncId) -> Changes {
+        self.functions.get(id.0 as usize).copied().unwrap_or_default()
+    }
+
+    /// What an expression may change, calls included.
+    pub(super) fn of_expr(&self, scope: Scope<'_>, expr: &Expr) -> Changes {
+        let mut changes = Changes::default();
+        visit::exprs(expr, &mut |expr| changes.and(&self.of_one(scope, expr)));
+        changes
+    }
+
+    /// What statements may change, calls included.
+    pub(super) fn of_block(&self, scope: Scope<'_>, block: &[Stmt]) -> Changes {
+        let mut changes = Changes::default();
+        each_expr(block, &mut |expr| changes.and(&self.of_one(scope, expr)));
+        changes
+    }
+
+    /// What an expression itself may change, without its parts.
+    pub(super) fn of_one(&self, scope: Scope<'_>, expr: &Expr) -> Changes {
+        match expr.kind {
+            ExprKind::Call(id, _) => self.of_function(id),
+            _ => direct(scope, expr),
+        }
+    }
+
+    /// Callers change what is changed by what they call.
+    fn spread(&mut self, callers: &[Vec<usize>]) {
+        let mut open: Vec<usize> = (0..self.functions.len()).collect();
+        while let Some(at) = open.pop() {
+            let Some(changes) = self.functions.get(at).copied() else { continue };
+            for caller in callers.get(at).into_iter().flatten() {
+                let Some(known) = self.functions.get_mut(*caller) else { continue };
+                let before = *known;
+                known.and(&changes);
+                if *known != before {
+                    open.push(*caller);
+                }
+            }
+        }
+    }
+
+    fn see(&mut self, expr: &Expr) {
+        let mut written = |place: &Place| {
+            let Root::System(variable) = place.root else { return };
+            self.plain_frames &= !FRAMES.contains(&variable.name);
+            self.as_taught &= variable.name != "CONFIG_CHECK";
+            self.lines_keep_cfg &= variable.name != "WRIST";
+            self.arcs_turn_to_targets &= variable.name != "ORI_REF_PATH";
+        };
+        match &expr.kind {
+            ExprKind::Assign(both) => written(&both.0),
+            ExprKind::AssignOp(_, both) => written(&both.0),
+            ExprKind::Step(_, place) => written(place),
+            ExprKind::Builtin(builtin) => {
+                outs(builtin).for_each(written);
+                self.plain_frames &= builtin.entry.name != "getbase_3p";
+                self.lines_are_exact &= builtin.entry.name != "startcompen";
+            }
+            _ => {}
+        }
+    }
+}
+
+/// What one expression itself may change, without its parts and without what it calls.
+fn direct(scope: Scope<'_>, expr: &Expr) -> Changes {
+    let mut changes = Changes::default();
+    // A part of the variable is written, or the whole, with what `value` is.
+    let mut write = |place: &Place, value: Option<&Expr>| {
+        let Root::System(variable) = place.root else { return };
+        let change = || Change::from(value.and_then(|value| scope.mount(value, &State::UNKNOWN)));
+        match variable.name {
+            "DFTOOL" => changes.tool.and(change()),
+            "DFWOBJ" => changes.wobj.and(change()),
+            _ => {}
+        }
+    };
+    match &expr.kind {
+        ExprKind::Assign(both) => write(&both.0, Some(&both.1).filter(|_| both.0.path.is_empty())),
+        ExprKind::AssignOp(_, both) => write(&both.0, None),
+        ExprKind::Step(_, place) => write(place, None),
+        ExprKind::Builtin(builtin) => {
+            outs(builtin).for_each(|place| write(place, None));
+            if builtin.entry.effect == Effect::Plans {
+                let given = |label| argument(builtin, label).map(|value| scope.mount(value, &State::UNKNOWN));
+                changes.moves = true;
+                changes.tool.and(given("t").map_or(Change::Never, Change::from));
+                changes.wobj.and(given("w").map_or(Change::Never, Change::from));
+            }
+        }
+        _ => {}
+    }
+    changes
+}
+
+/// The value that is given for a parameter.
+pub(super) fn argument<'a>(builtin: &'a Builtin, name: &str) -> Option<&'a Expr> {
+    let wanted = builtin.entry.params.iter().position(|param| param.name.eq_ignore_ascii_case(name))?;
+    builtin.args.iter().find(|bound| bound.param == wanted).and_then(|bound| match &bound.value {
+        Passed::Value(value) => Some(value),
+        Passed::Out(_) => None,
+    })
+}
+
+fn outs(builtin: &Builtin) -> impl Iterator<Item = &Place> {
+    builtin.args.iter().filter_map(|bound| match &bound.value {
+        Passed::Out(place) => Some(place),
+        Passed::Value(_) => None,
+    })
+}
+
+fn in_values<'a>(builtin: &'a Builtin, see: &mut impl FnMut(&'a Expr)) {
+    for bound in &builtin.args {
+        if let Passed::Value(value) = &bound.value {
+            visit::exprs(value, see);
+        }
+    }
+}
+
+fn each_expr<'a>(block: &'a [Stmt], see: &mut impl FnMut(&'a Expr)) {
+    block.iter().for_each(|stmt| visit::exprs_in_stmt(stmt, see));
+}

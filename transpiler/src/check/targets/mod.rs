@@ -1,0 +1,29 @@
+//! Targets that a certain robot can never reach, as far as that is sure before the program runs.
+//!
+//! `constants` says which targets, tools and workpieces are known, `facts` what the program as a whole may change of what stands
+//! between a target and the robot, `walk` goes along each function and knows what holds where a motion is planned (`state`),
+//! and `judge` asks the robot's kinematics.
+
+mod constants;
+mod facts;
+mod judge;
+mod state;
+mod walk;
+
+use crate::diagnostics::{Diagnostic, Location, Problem};
+use crate::hir::{ModuleId, Program};
+use arl_lang::span::Span;
+use arl_robot::Robot;
+
+/// Warns of constant targets that end in an alarm: joint targets beyond the ranges of axes, poses out of reach, out of the
+/// axes' ranges or out of the configuration asked for, lines that pass a singular point. Of those only that are written
+/// where the motion stands, or given to something that nothing changes; of poses only where tool and workpiece are known,
+/// too. All others are left to run time.
+pub(crate) fn check(program: &Program, robot: &Robot, locate: &dyn Fn(ModuleId, Span) -> Location) -> Vec<Diagnostic> {
+    let facts = facts::Facts::of(program);
+    let mut found = Vec::new();
+    walk::each_function(program, robot, &facts, &mut |module, span, problem| {
+        found.push(problem.at(locate(module, span)));
+    });
+    found
+}

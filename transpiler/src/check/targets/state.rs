@@ -1,0 +1,116 @@
+//! What is known of tool, workpiece and robot at a place of a program, and what statements may change of it.
+
+use arl_robot::frames::Mount;
+use arl_robot::kinematics::{Axes, Frame};
+
+/// `$FLANGE`, with which a program starts.
+pub(super) fn flange() -> Mount {
+    Mount { frame: Frame::identity(), on_flange: true }
+}
+
+/// `$WORLD`, in which a program starts.
+pub(super) fn world() -> Mount {
+    Mount { frame: Frame::identity(), on_flange: false }
+}
+
+/// What is known when a motion is planned; `None` is not known.
+#[derive(Clone, Debug)]
+pub(super) struct State {
+    /// `$DFTOOL`
+    pub(super) tool: Option<Mount>,
+    /// `$DFWOBJ`
+    pub(super) wobj: Option<Mount>,
+    /// The robot's configuration.
+    pub(super) cfg: Option<u8>,
+    /// Where its axes stand, up to whole turns.
+    pub(super) axes: Option<Axes>,
+    /// Control never comes here.
+    pub(super) dead: bool,
+}
+
+impl State {
+    pub(super) const UNKNOWN: State = State { tool: None, wobj: None, cfg: None, axes: None, dead: false };
+
+    /// What holds where control comes from here or from there.
+    pub(super) fn or(self, other: State) -> State {
+        if self.dead {
+            return other;
+        }
+        if other.dead {
+            return self;
+        }
+        State {
+            tool: self.tool.filter(|tool| other.tool == Some(*tool)),
+            wobj: self.wobj.filter(|wobj| other.wobj == Some(*wobj)),
+            cfg: self.cfg.filter(|cfg| other.cfg == Some(*cfg)),
+            axes: self.axes.filter(|axes| other.axes == Some(*axes)),
+            dead: false,
+        }
+    }
+
+    /// What still holds when `changes` may have happened, none, some or all of them.
+    pub(super) fn may(&mut self, changes: &Changes) {
+        self.tool = self.tool.filter(|tool| changes.tool.leaves(tool));
+        self.wobj = self.wobj.filter(|wobj| changes.wobj.leaves(wobj));
+        if changes.moves {
+            (self.cfg, self.axes) = (None, None);
+        }
+    }
+}
+
+/// What a variable may become.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub(super) enum Change {
+    /// Nothing writes it.
+    #[default]
+    Never,
+    /// This is all that it may become.
+    To(Mount),
+    /// Several values, or one that is not known.
+    Other,
+}
+
+impl Change {
+    pub(super) fn and(&mut self, other: Change) {
+        *self = match (*self, other) {
+            (Change::Never, change) | (change, Change::Never) => change,
+            (Change::To(one), Change::To(two)) if one == two => other,
+            _ => Change::Other,
+        };
+    }
+
+    /// The one value that a variable can have that begins as `start`.
+    pub(super) fn only(self, start: Mount) -> Option<Mount> {
+        Some(start).filter(|start| self.leaves(start))
+    }
+
+    fn leaves(self, value: &Mount) -> bool {
+        match self {
+            Change::Never => true,
+            Change::To(new) => new == *value,
+            Change::Other => false,
+        }
+    }
+}
+
+impl From<Option<Mount>> for Change {
+    fn from(value: Option<Mount>) -> Self {
+        value.map_or(Change::Other, Change::To)
+    }
+}
+
+/// What statements may change.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub(super) struct Changes {
+    pub(super) tool: Change,
+    pub(super) wobj: Change,
+    pub(super) moves: bool,
+}
+
+impl Changes {
+    pub(super) fn and(&mut self, other: &Changes) {
+        self.tool.and(other.tool);
+        self.wobj.and(other.wobj);
+        self.moves |= other.moves;
+    }
+}

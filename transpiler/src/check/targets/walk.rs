@@ -1,0 +1,284 @@
+//! Goes along the statements of each function and looks at its motions, knowing what holds there.
+
+use super::constants::Scope;
+use super::facts::{Facts, argument};
+use super::judge::{self, Line, Verdict};
+use super::state::{State, flange, world};
+use crate::diagnostics::targets::TargetProblem;
+use crate::hir::{Block, Builtin, Expr, ExprKind, For, ModuleId, Place, Program, Root, Stmt, StmtKind};
+use crate::visit;
+use arl_lang::catalog::Effect;
+use arl_lang::span::Span;
+use arl_robot::Robot;
+use arl_robot::frames::Setting;
+use arl_robot::kinematics::Frame;
+
+/// How a motion gets to its target.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Way {
+    /// By the axes, to the configuration that the target says.
+    Axes,
+    /// Along a path, in the configuration of the start.
+    Path,
+}
+
+/// The motions that end at a pose given as their parameter `p`.
+const TO_A_POSE: [(&str, Way); 5] =
+    [("ptp", Way::Axes), ("jump", Way::Axes), ("lin", Way::Path), ("cir", Way::Path), ("spl", Way::Path)];
+
+/// The motions that keep the configuration of their start.
+const KEEPING: [&str; 4] = ["lin", "cir", "ccir", "spl"];
+
+/// Tells what is wrong with a target in a module.
+type Tell<'a> = dyn FnMut(ModuleId, Span, TargetProblem) + 'a;
+
+/// Looks at the motions of all functions.
+pub(super) fn each_function(program: &Program, robot: &Robot, facts: &Facts, tell: &mut Tell<'_>) {
+    for (at, func) in program.funcs.iter().enumerate() {
+        let is_main = program.main.is_some_and(|main| main.0 as usize == at) && !facts.main_is_called;
+        let state = match program.main {
+            _ if is_main => State { tool: Some(flange()), wobj: Some(world()), ..State::UNKNOWN },
+            // From wherever it is called.
+            Some(_) => State {
+                tool: facts.everywhere.tool.only(flange()),
+                wobj: facts.everywhere.wobj.only(world()),
+                ..State::UNKNOWN
+            },
+            // Other programs may call it.
+            None => State::UNKNOWN,
+        };
+        let mut walk = Walk { scope: Scope { program, func }, robot, facts, state, tell: &mut *tell };
+        walk.block(&func.body);
+    }
+}
+
+struct Walk<'a, 't> {
+    scope: Scope<'a>,
+    robot: &'a Robot,
+    facts: &'a Facts,
+    state: State,
+    tell: &'t mut Tell<'t>,
+}
+
+impl<'a> Walk<'a, '_> {
+    fn report(&mut self, span: Span, problem: TargetProblem) {
+        (self.tell)(self.scope.func.module, span, problem);
+    }
+
+    fn block(&mut self, block: &'a Block) {
+        block.iter().for_each(|stmt| self.stmt(stmt));
+    }
+
+    fn stmt(&mut self, stmt: &'a Stmt) {
+        match &stmt.kind {
+            StmtKind::Let(_, init) => init.iter().for_each(|init| self.expr(init)),
+            StmtKind::Eval(expr) => self.expr(expr),
+            StmtKind::If(arms, otherwise) => self.branches(arms, otherwise.as_ref()),
+            StmtKind::Switch(subject, arms) => {
+                self.expr(subject);
+                let before = self.state.clone();
+                let complete = arms.iter().any(|arm| arm.value.is_none());
+                let mut after = State { dead: complete, ..before.clone() };
+                for arm in arms {
+                    self.state = before.clone();
+                    self.block(&arm.body);
+                    after = after.or(self.state.clone());
+                }
+                self.state = after;
+            }
+            StmtKind::While(condition, body, _) | StmtKind::Repeat(body, condition, _) => {
+                self.round(&[condition], body);
+            }
+            StmtKind::Loop(body, _) => self.round(&[], body),
+            StmtKind::For(each) => self.counted(each),
+            StmtKind::Return(value) => {
+                value.iter().for_each(|value| self.expr(value));
+                self.state.dead = true;
+            }
+            StmtKind::Break | StmtKind::Continue | StmtKind::Goto(_) => self.state.dead = true,
+            StmtKind::Label(label) => {
+                if self.scope.func.labels.get(label.0 as usize).is_none_or(|label| label.used) {
+                    self.state = State::UNKNOWN;
+                }
+            }
+        }
+    }
+
+    fn branches(&mut self, arms: &'a [(Expr, Block)], otherwise: Option<&'a Block>) {
+        let mut after: Option<State> = None;
+        for (condition, block) in arms {
+            self.expr(condition);
+            let before = self.state.clone();
+            self.block(block);
+            let there = std::mem::replace(&mut self.state, before);
+            after = Some(match after {
+                Some(after) => after.or(there),
+                None => there,
+            });
+        }
+        otherwise.iter().for_each(|block| self.block(block));
+        if let Some(after) = after {
+            self.state = after.or(self.state.clone());
+        }
+    }
+
+    fn counted(&mut self, each: &'a For) {
+        self.block(&each.init);
+        let ends: Vec<&Expr> = each.condition.iter().chain(&each.step).collect();
+        self.round(&ends, &each.body);
+    }
+
+    /// A loop: what a round may change is not known in it, nor behind it.
+    fn round(&mut self, ends: &[&'a Expr], body: &'a Block) {
+        for end in ends {
+            self.state.may(&self.facts.of_expr(self.scope, end));
+        }
+        self.state.may(&self.facts.of_block(self.scope, body));
+        let before = self.state.clone();
+        ends.iter().for_each(|end| self.expr(end));
+        self.block(body);
+        self.state = before;
+    }
+
+    fn expr(&mut self, expr: &'a Expr) {
+        match &expr.kind {
+            ExprKind::Builtin(builtin) if builtin.entry.effect == Effect::Plans => {
+                self.parts(expr);
+                self.motion(builtin);
+            }
+            ExprKind::Builtin(builtin) if builtin.entry.effect == Effect::Ends => self.state.dead = true,
+            ExprKind::Assign(both) if both.0.path.is_empty() => {
+                self.parts(expr);
+                self.assign(&both.0, &both.1);
+            }
+            _ => {
+                self.parts(expr);
+                self.state.may(&self.facts.of_one(self.scope, expr));
+            }
+        }
+    }
+
+    /// What the parts of an expression may change, and the motions in them.
+    fn parts(&mut self, expr: &'a Expr) {
+        visit::exprs(expr, &mut |part| {
+            if std::ptr::eq(part, expr) {
+                return;
+            }
+            // Nobody knows when it moves.
+            if let ExprKind::Builtin(builtin) = &part.kind
+                && builtin.entry.effect == Effect::Plans
+            {
+                self.state = State::UNKNOWN;
+                self.motion(builtin);
+                self.state = State::UNKNOWN;
+            }
+            self.state.may(&self.facts.of_one(self.scope, part));
+        });
+    }
+
+    fn assign(&mut self, place: &Place, value: &'a Expr) {
+        let Root::System(variable) = place.root else { return };
+        let mount = |state: &State| self.scope.mount(value, state);
+        match variable.name {
+            "DFTOOL" => self.state.tool = mount(&self.state),
+            "DFWOBJ" => self.state.wobj = mount(&self.state),
+            _ => {}
+        }
+    }
+
+    /// A motion: what it says of tool and workpiece stays for those behind it.
+    fn motion(&mut self, motion: &'a Builtin) {
+        if let Some(tool) = argument(motion, "t") {
+            self.state.tool = self.scope.mount(tool, &self.state);
+        }
+        if let Some(wobj) = argument(motion, "w") {
+            self.state.wobj = self.scope.mount(wobj, &self.state);
+        }
+        self.state.may(&self.facts.anytime);
+        let before = (self.state.cfg, self.state.axes);
+        (self.state.cfg, self.state.axes) = (None, None);
+        if KEEPING.contains(&motion.entry.name) && self.facts.lines_keep_cfg {
+            self.state.cfg = before.0;
+        }
+        match TO_A_POSE.iter().find(|(name, _)| *name == motion.entry.name) {
+            Some((_, way)) => self.pose_target(motion, *way, before.1),
+            None if motion.entry.name == "movej" => self.joint_target(motion),
+            None => {}
+        }
+    }
+
+    fn joint_target(&mut self, motion: &'a Builtin) {
+        let Some(target) = argument(motion, "j") else { return };
+        let Some(joints) = self.scope.joints(target) else { return };
+        if let Some(problem) = judge::joints(self.robot, &joints) {
+            self.report(target.span, problem);
+        }
+        let mut axes = [0.0; 6];
+        for (place, axis) in axes.iter_mut().zip(self.robot.own_axes()) {
+            let Some((_, value)) = joints.iter().find(|(name, _)| axis.name.eq_ignore_ascii_case(name)) else { return };
+            *place = *value;
+        }
+        self.stands(axes);
+    }
+
+    fn pose_target(&mut self, motion: &'a Builtin, way: Way, start: Option<[f64; 6]>) {
+        if !self.facts.plain_frames || argument(motion, "ca").is_some() {
+            return;
+        }
+        if motion.entry.name == "cir" && !self.facts.arcs_turn_to_targets {
+            return;
+        }
+        let Some(target) = argument(motion, "p") else { return };
+        let (Some(tool), Some(wobj)) = (self.state.tool, self.state.wobj) else { return };
+        let Some(pose) = self.scope.pose(target) else { return };
+        let setting = Setting::new(tool, wobj, Frame::identity());
+        let Ok(flange) = setting.flange_of(&pose.frame) else { return };
+        let cfg = match way {
+            Way::Path => self.state.cfg,
+            Way::Axes if !self.facts.as_taught => None,
+            Way::Axes => match pose.cfg.map(u8::try_from) {
+                None => None,
+                Some(Ok(cfg)) => Some(cfg),
+                Some(Err(_)) => {
+                    let problem = TargetProblem::no_such_cfg(self.robot, pose.cfg.unwrap_or_default());
+                    return self.report(target.span, problem);
+                }
+            },
+        };
+        match judge::pose(self.robot, &flange, cfg) {
+            Verdict::Refused(problem) => self.report(target.span, problem),
+            Verdict::Open => {}
+            Verdict::Reached(axes) => {
+                let Some(cfg) = cfg else { return };
+                if let (Some(start), "lin", true) = (start, motion.entry.name, self.is_plain_line()) {
+                    let line = Line {
+                        start: &start,
+                        carried: setting.rig().carried,
+                        end: setting.workpiece() * pose.frame,
+                        cfg,
+                    };
+                    if let Some(problem) = judge::line(self.robot, &line) {
+                        self.report(target.span, problem);
+                    }
+                }
+                if (way == Way::Axes || self.is_plain_line()) && argument(motion, "sig").is_none() {
+                    self.stands(axes);
+                }
+            }
+        }
+    }
+
+    /// Whether lines go straight from target to target.
+    fn is_plain_line(&self) -> bool {
+        self.facts.lines_are_exact && self.facts.lines_keep_cfg
+    }
+
+    /// The motion ends where the axes are these; near a singular point some may be elsewhere.
+    fn stands(&mut self, axes: [f64; 6]) {
+        let kinematics = &self.robot.kinematics;
+        if kinematics.clearance(&axes) > judge::OPEN {
+            self.state.cfg = Some(kinematics.cfg(&axes));
+            self.state.axes = Some(axes);
+        }
+    }
+}
