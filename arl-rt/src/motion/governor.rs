@@ -4,10 +4,14 @@
 //! and to rest before the end, within the limits of the pieces in between. So a stop, a change of the override or a motion
 //! that comes late never leads off the path or beyond a limit. Each cycle takes the highest jerk that keeps this true.
 
+mod demands;
+
 use std::collections::VecDeque;
+use std::ops::{ControlFlow, RangeInclusive};
 
 use super::profile::{Change, Limits, State};
 use super::timing::{Cell, Stretch};
+use demands::{ALL_CELLS, Cells, Demand, NO_CELLS};
 
 /// How fast to go.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -61,7 +65,7 @@ pub(super) struct Governor<'a> {
 impl Governor<'_> {
     /// Whether the state can go on; see the invariant. It is at the edge of that most of the time, but for rounding.
     pub(super) fn holds(&self, state: &State) -> bool {
-        self.possible(state, FREE, EDGE)
+        self.possible(state, FREE, EDGE, &ALL_CELLS)
     }
 
     /// The state a cycle later. Beyond the end of the first cell `at` goes on into the next ones.
@@ -143,21 +147,50 @@ impl Governor<'_> {
     fn faster(&self, state: &State, scale: Scale) -> Option<State> {
         let limits = self.touched(state, scale)?;
         let highest = ((limits.acc - state.acc) / self.cycle).min(limits.jerk);
-        let mut low = lowest_jerk(state, self.cycle, &limits)?;
-        let mut high = highest.max(low);
+        let lowest = lowest_jerk(state, self.cycle, &limits)?;
+        let highest = highest.max(lowest);
         let next = |jerk: f64| state.after(jerk, self.cycle);
-        if self.feasible(&next(high), scale) {
-            return Some(next(high));
+        if self.feasible(&next(highest), scale) {
+            return Some(next(highest));
         }
-        if !self.feasible(&next(low), scale) {
-            // What was feasible stays so, if only to the last digits, on the way that was found for it.
-            return self.feasible(state, scale).then(|| self.braking(state, scale));
+        // The more jerk, the longer the way to any speed: what the highest leaves undone is all that counts below it.
+        let undone = self.undone(&next(highest), scale);
+        let quick = Self::highest(lowest..=highest, next, |state| self.possible(state, scale, 0.0, &undone));
+        let found = quick.filter(|quick| self.feasible(quick, scale));
+        let found = found.or_else(|| Self::highest(lowest..=highest, next, |state| self.feasible(state, scale)));
+        // What was feasible stays so, if only to the last digits, on the way that was found for it.
+        found.or_else(|| self.feasible(state, scale).then(|| self.braking(state, scale)))
+    }
+
+    /// The next state with the highest jerk that will do, of a range whose end does not; `None` where none does.
+    fn highest(
+        range: RangeInclusive<f64>,
+        next: impl Fn(f64) -> State,
+        will_do: impl Fn(&State) -> bool,
+    ) -> Option<State> {
+        let (mut low, mut high) = range.into_inner();
+        if !will_do(&next(low)) {
+            return None;
         }
         for _ in 0..HALVINGS {
             let middle = f64::midpoint(low, high);
-            if self.feasible(&next(middle), scale) { low = middle } else { high = middle }
+            if will_do(&next(middle)) { low = middle } else { high = middle }
         }
         Some(next(low))
+    }
+
+    /// The cells whose speeds cannot be reached in time, and those between them.
+    fn undone(&self, state: &State, scale: Scale) -> Cells {
+        let mut undone: Option<Cells> = None;
+        self.demands(state, scale, &ALL_CELLS, |demand| {
+            if demand.left < 0.0
+                && let Some(cell) = demand.cell
+            {
+                undone = Some(undone.take().map_or(cell, |cells| cells.start)..cell + 1);
+            }
+            ControlFlow::Continue(())
+        });
+        undone.unwrap_or(NO_CELLS)
     }
 
     /// As slow as it can be a cycle later, down to rest.
@@ -184,11 +217,12 @@ impl Governor<'_> {
     fn at_its_end(&self, state: &State) -> bool {
         let mut nearest = f64::INFINITY;
         let mut way = f64::INFINITY;
-        self.demands(state, FREE, |goal, limits, left| {
+        self.demands(state, FREE, &ALL_CELLS, |Demand { goal, limits, left, .. }| {
             if goal == 0.0 && left < nearest {
                 nearest = left;
                 way = to_rest(state.vel, state.acc, &limits).map_or(0.0, |(way, _)| way);
             }
+            ControlFlow::Continue(())
         });
         nearest <= ENDING * way
     }
@@ -200,10 +234,11 @@ impl Governor<'_> {
         let highest = (cell.limits.vel * scale.vel).min(state.vel);
         let mut found = (highest, careful(here, scale));
         let mut least = f64::INFINITY;
-        self.demands(state, scale, |vel, limits, left| {
-            if left < least && vel <= highest {
-                (least, found) = (left, (vel, limits));
+        self.demands(state, scale, &ALL_CELLS, |Demand { goal, limits, left, .. }| {
+            if left < least && goal <= highest {
+                (least, found) = (left, (goal, limits));
             }
+            ControlFlow::Continue(())
         });
         let (goal, limits) = found;
         self.toward(state, goal, &limits)
@@ -246,11 +281,12 @@ impl Governor<'_> {
 
     /// Whether the state keeps to the limits where it is, and all demands of the way ahead can be met.
     fn feasible(&self, state: &State, scale: Scale) -> bool {
-        self.possible(state, scale, 0.0)
+        self.possible(state, scale, 0.0, &ALL_CELLS)
     }
 
-    /// The same with a slack for speeds, as a share, and for ways, in s of nominal time.
-    fn possible(&self, state: &State, scale: Scale, slack: f64) -> bool {
+    /// The same, as far as it concerns these cells' speeds, with a slack for speeds, as a share, and for ways, in s of
+    /// nominal time.
+    fn possible(&self, state: &State, scale: Scale, slack: f64, cells: &Cells) -> bool {
         let State { vel, acc, .. } = *state;
         let Some((here, cell)) = self.at(state.at) else { return state.rests() };
         let limits = careful(here, scale);
@@ -260,7 +296,10 @@ impl Governor<'_> {
             return false;
         }
         let mut met = true;
-        self.demands(state, scale, |_, _, left| met &= left >= -slack);
+        self.demands(state, scale, cells, |demand| {
+            met = demand.left >= -slack;
+            if met { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        });
         met
     }
 
@@ -275,67 +314,6 @@ impl Governor<'_> {
             }
         }
         None
-    }
-
-    /// What the rest of the stretch and the entry of the next one demand, as far as a stop would reach: the speed, the
-    /// limits up to there, and how much of the way is left when that speed has been reached.
-    fn demands(&self, state: &State, scale: Scale, mut tell: impl FnMut(f64, Limits, f64)) {
-        let State { at, vel, acc } = *state;
-        let mut end = 0.0;
-        for (index, stretch) in self.stretches.iter().enumerate() {
-            let limits = careful(stretch, scale);
-            let mut lowest = f64::INFINITY;
-            let mut inside = false;
-            let longest = longest_stop(vel, acc, &limits);
-            for cell in &stretch.cells {
-                let start = end;
-                end += cell.length;
-                if at >= end {
-                    continue;
-                }
-                let speed = cell.limits.vel * scale.vel * (1.0 + SLOWER);
-                if inside && start - at > longest {
-                    return;
-                }
-                if inside && speed < lowest {
-                    tell(speed, limits, start - at - way_to_speed(vel, acc, speed, &limits));
-                }
-                inside = true;
-                lowest = lowest.min(speed);
-            }
-            if at >= end && !stretch.stops {
-                continue;
-            }
-            // An acceleration below zero must fade before the speed does.
-            let rest = to_rest(vel, acc, &limits);
-            if rest.is_none() {
-                tell(0.0, limits, f64::NEG_INFINITY);
-            }
-            let next = if stretch.stops { None } else { self.stretches.get(index + 1) };
-            match (next, rest) {
-                (None, rest) => {
-                    let way = rest.map_or(f64::INFINITY, |(way, _)| way);
-                    tell(0.0, limits, end - at + 1e-3 * ROUNDING - way);
-                }
-                (Some(next), _) if end - at <= longest => {
-                    let speed = next.entry * scale.vel * (1.0 + SLOWER);
-                    // A little before, so that no acceleration is left where the limits change.
-                    let early = (end - at - 2.0 * self.cycle * vel).max(0.0);
-                    let fades = fading(vel, acc, &limits);
-                    // Far below the speed of entry the next stretch can bear some acceleration.
-                    let both = lower(limits, careful(next, scale));
-                    let slow = fading(vel, acc, &both) <= speed / 2.0 || (acc <= 0.0 && both.jerk >= limits.jerk);
-                    let bearable = acc.abs() <= both.acc && slow && (acc >= 0.0 || both.jerk >= limits.jerk);
-                    if fades <= speed && !bearable {
-                        let way = Change::new(vel, acc, fades.max(0.0), &limits).distance(vel, acc);
-                        tell(fades.max(0.0), limits, early - way);
-                    }
-                    tell(speed, limits, early - way_to_speed(vel, acc, speed, &limits));
-                }
-                _ => {}
-            }
-            return;
-        }
     }
 }
 
