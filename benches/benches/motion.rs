@@ -3,9 +3,9 @@
 //! `cargo bench -p arl-benches --bench motion [-- MOTIONS [CHAIN...]]`
 
 use std::error::Error;
-use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use arl_benches::chains::{CHAINS, Chain};
 use arl_benches::statistics::processor_time;
 use arl_rt::frames::Rig;
 use arl_rt::kinematics::{Frame, frame_components};
@@ -17,66 +17,6 @@ const CYCLE: f64 = 0.001;
 const REPEATS: usize = 5;
 /// Where the paths begin.
 const START: [f64; 6] = [0.0, -90.0, 90.0, 0.0, 45.0, 0.0];
-
-/// A path of points, and how it is moved along.
-struct Chain {
-    name: &'static str,
-    /// The point of each index, in mm from the start, or in deg of the axes.
-    point: fn(usize) -> [f64; 3],
-    axes: bool,
-    /// The programmed speed in mm/s.
-    speed: f64,
-    /// The robot reaches no more points than these.
-    most: usize,
-}
-
-/// Points on a circle of 100 mm radius, 0.1 mm apart.
-fn circle(index: usize) -> [f64; 3] {
-    let (sine, cosine) = (index as f64 * 0.001).sin_cos();
-    [0.0, 100.0 * sine, 100.0 - 100.0 * cosine]
-}
-
-/// A line, 0.1 mm a point.
-fn line(index: usize) -> [f64; 3] {
-    [0.0, index as f64 * 0.1, 0.0]
-}
-
-/// A spiral from 20 to 150 mm radius.
-fn spiral(index: usize) -> [f64; 3] {
-    // The way goes with the square of the angle.
-    let turns = (index as f64 * 0.1 / (TAU * 2.0) + 100.0).sqrt();
-    let (sine, cosine) = (turns * TAU).sin_cos();
-    let radius = 2.0 * turns;
-    [0.0, radius * cosine - 20.0, radius * sine]
-}
-
-/// Waves of changing curvature, like a path out of a computer-aided design.
-fn waves(index: usize) -> [f64; 3] {
-    let at = index as f64 * 0.1 / 60.0;
-    [20.0 * at.sin(), 120.0 * (at * 0.31).sin(), 40.0 * (at * 0.47).sin()]
-}
-
-/// Corners of 90 deg, 20 mm apart.
-fn corners(index: usize) -> [f64; 3] {
-    let steps = |index: usize| (index % 32) as f64 * 10.0;
-    let across = if index % 4 == 1 || index % 4 == 2 { 20.0 } else { 0.0 };
-    [0.0, steps(index / 2 * 2), across]
-}
-
-/// Three axes, each in its own rhythm.
-fn axes(index: usize) -> [f64; 3] {
-    let at = index as f64 * 0.01;
-    [30.0 * at.sin(), 10.0 * (at * 0.7).sin(), 20.0 * (1.3 * at).sin()]
-}
-
-const CHAINS: [Chain; 6] = [
-    Chain { name: "line", point: line, axes: false, speed: 1000.0, most: 6000 },
-    Chain { name: "circle", point: circle, axes: false, speed: 1000.0, most: usize::MAX },
-    Chain { name: "spiral", point: spiral, axes: false, speed: 300.0, most: usize::MAX },
-    Chain { name: "waves", point: waves, axes: false, speed: 500.0, most: usize::MAX },
-    Chain { name: "corners", point: corners, axes: false, speed: 500.0, most: usize::MAX },
-    Chain { name: "axes", point: axes, axes: true, speed: 30.0, most: usize::MAX },
-];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
@@ -92,24 +32,8 @@ fn main() -> Result<(), Box<dyn Error>> {
             run(&robot, &chain, count.min(chain.most))?;
         }
     }
-    println!();
-    println!("two lines of 300 mm at 1000 mm/s: s with a stop, and with zones of so many mm");
-    print!("angle   stop");
-    for zone in ZONES {
-        print!("{zone:>8}");
-    }
-    println!();
-    for angle in [10.0, 30.0, 60.0, 90.0, 120.0, 150.0, 175.0] {
-        print!("{angle:>5}");
-        for zone in [-1.0].into_iter().chain(ZONES) {
-            print!("  {:.3} ", corner(&robot, angle, zone)?);
-        }
-        println!();
-    }
     Ok(())
 }
-
-const ZONES: [f64; 8] = [0.5, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 150.0];
 
 fn command(origin: &[f64; 6], [x, y, z]: [f64; 3], axes: bool, zone: Zone, tcp: f64) -> Command {
     let external = [UNSET; 6];
@@ -164,7 +88,7 @@ fn once(robot: &Arc<Robot>, chain: &Chain, count: usize) -> Result<Run, Box<dyn 
         let begin = processor_time();
         while next < count && queue.has_room() {
             next += 1;
-            let command = command(&origin, (chain.point)(next), chain.axes, zone, chain.speed);
+            let command = command(&origin, (chain.point)(next as f64), chain.axes, zone, chain.speed);
             queue.add(&command, &Settings::default())?;
         }
         let middle = processor_time();
@@ -198,21 +122,4 @@ fn run(robot: &Arc<Robot>, chain: &Chain, count: usize) -> Result<(), Box<dyn Er
         cycles.last().copied().unwrap_or(f64::NAN),
     );
     Ok(())
-}
-
-/// How long two lines take with a corner between them.
-fn corner(robot: &Arc<Robot>, angle: f64, zone: f64) -> Result<f64, Box<dyn Error>> {
-    let (mut queue, origin) = start(robot);
-    let (sine, cosine) = f64::to_radians(angle).sin_cos();
-    let points = [[0.0, 300.0, 0.0], [0.0, 300.0 + 300.0 * cosine, -300.0 * sine]];
-    for point in points {
-        let zone = Zone { tcp: zone, ..Zone::NONE };
-        queue.add(&command(&origin, point, false, zone, 1000.0), &Settings::default())?;
-    }
-    let mut cycles = 0;
-    while !queue.idle() {
-        queue.step(CYCLE, 100.0);
-        cycles += 1;
-    }
-    Ok(f64::from(cycles) * CYCLE)
 }

@@ -1,8 +1,10 @@
 //! How fast emitted programs run, and how fast programs are checked. See `docs/speed.md` for the figures.
 
+pub mod chains;
 pub mod kernels;
 pub mod lua;
 pub mod programs;
+pub mod random;
 pub mod rivals;
 pub mod run;
 pub mod splines;

@@ -1,5 +1,7 @@
 //! Smooth random paths of six axes.
 
+use crate::random::Random;
+
 /// The limits of the six axes in deg/s: those of the built-in robot kr10-r1420.
 pub const SPEEDS: [f64; 6] = [220.0, 210.0, 270.0, 381.0, 311.0, 492.0];
 /// Acceleration in deg/s2 and jerk in deg/s3 as multiples of the speed.
@@ -18,19 +20,11 @@ pub struct Spline {
 impl Spline {
     /// `count` control points, each at most `step` times the axis's speed in deg/s away from the one before.
     pub fn random(seed: u64, count: usize, step: f64) -> Self {
-        let mut state = seed;
-        let mut random = move || {
-            // SplitMix64.
-            state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let mut z = state;
-            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-        };
+        let mut random = Random::new(seed);
         let mut at = [0.0; 6];
         let points = (0..count.max(DEGREE + 1)).map(|_| {
             for (value, speed) in at.iter_mut().zip(SPEEDS) {
-                *value += (2.0 * random() - 1.0) * step * speed;
+                *value += random.between(-1.0, 1.0) * step * speed;
             }
             at
         });

@@ -40,3 +40,20 @@ pub fn median(mut values: Vec<f64>) -> f64 {
 pub fn geometric_mean(values: &[f64]) -> f64 {
     (values.iter().map(|value| value.ln()).sum::<f64>() / values.len() as f64).exp()
 }
+
+/// The least processor times, in s, of two contenders that take turns for so many rounds.
+pub fn taking_turns(rounds: usize, mut ours: impl FnMut(), mut theirs: impl FnMut()) -> (f64, f64) {
+    let mut least = (f64::INFINITY, f64::INFINITY);
+    for _ in 0..rounds {
+        least.0 = least.0.min(time(&mut ours));
+        least.1 = least.1.min(time(&mut theirs));
+    }
+    least
+}
+
+/// The processor time of some work, in s.
+pub fn time(work: impl FnOnce()) -> f64 {
+    let start = processor_time();
+    work();
+    (processor_time() - start).as_secs_f64()
+}

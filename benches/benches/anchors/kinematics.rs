@@ -1,11 +1,10 @@
 //! How fast the closed forms of six-axis robots are, beside rs-opw-kinematics, and how exact; and how fast the inverse
 //! dynamics is.
-//!
-//! `cargo bench -p arl-benches --bench kinematics`
 
 use std::hint::black_box;
-use std::time::{Duration, Instant};
 
+use arl_benches::random::Random;
+use arl_benches::statistics::taking_turns;
 use arl_rt::dynamics::{Dynamics, Wrench};
 use arl_rt::kinematics::{Axes, Frame, Kinematics, Opw, OpwParameters, Twist, Wanted};
 use arl_rt::robot::Robot;
@@ -14,22 +13,30 @@ use rs_opw_kinematics::kinematic_traits::{Joints, Kinematics as _, Pose};
 use rs_opw_kinematics::kinematics_impl::OPWKinematics;
 use rs_opw_kinematics::parameters::opw_kinematics::Parameters;
 
-const ROBOTS: [&str; 4] = ["kr10-r1420", "kr6-r700", "irb2400-10", "tx2-60"];
+use crate::Rows;
+use crate::table::{Goal, Row};
+
+pub(crate) const ROBOTS: [&str; 4] = ["kr10-r1420", "kr6-r700", "irb2400-10", "tx2-60"];
 /// Poses of each robot that are timed, and that are checked.
 const TIMED: usize = 2_000;
 const CHECKED: usize = 25_000;
 /// The least time of so many rounds counts.
 const ROUNDS: usize = 40;
+/// What the C++ opw_kinematics took for all solutions by what rs-opw-kinematics took, measured side by side.
+const CPP_INVERSE: f64 = 511.0 / 3993.0;
+/// What Pinocchio's rnea took, likewise.
+const PINOCCHIO: f64 = 1120.0 / 3993.0;
+const OPW: &str = "rs-opw-kinematics 3.0";
 
-fn main() -> Result<(), String> {
+pub(crate) fn rows() -> Rows {
     let mut times = [Pair::default(); 4];
     let mut exact = Exactness::default();
     let (mut rates, mut torques) = (0.0, 0.0);
     for (seed, name) in ROBOTS.into_iter().enumerate() {
-        let robot = Robot::builtin(name).map_err(|error| error.to_string())?;
-        let Kinematics::SixAxis(opw) = &robot.kinematics else { return Err(format!("{name} has not six axes")) };
+        let robot = Robot::builtin(name)?;
+        let Kinematics::SixAxis(opw) = &robot.kinematics else { return Err(format!("{name} has not six axes").into()) };
         let other = reference(opw.parameters());
-        let mut random = Random(seed as u64 + 1);
+        let mut random = Random::new(seed as u64 + 1);
         let axes: Vec<Axes> = (0..CHECKED).map(|_| random_axes(&robot, &mut random)).collect();
         for axes in &axes {
             exact.check(opw, &other, axes)?;
@@ -48,29 +55,30 @@ fn main() -> Result<(), String> {
         let solve = || each(timed, |axes| dynamics.torques(axes, axes, axes, &Wrench::default()));
         torques += best(timed.len(), solve, || ()).ours / ROBOTS.len() as f64;
     }
-    println!("ns a call, the mean of {} robots, each the least of {ROUNDS} rounds of {TIMED} poses", ROBOTS.len());
-    println!("job                              arl-rt  rs-opw   ratio    goal");
-    // The goal of the second is 1.05 of the C++ opw_kinematics: 511 ns where rs-opw takes 3993 ns.
-    let jobs = [
-        ("forward", 0.35),
-        ("inverse, all solutions", 1.05 * 511.0 / 3993.0),
-        ("inverse, one, near the last", 0.06),
-        ("the same with turns and limits", 0.06),
-    ];
-    for ((job, goal), Pair { ours, other }) in jobs.into_iter().zip(times) {
-        println!("{job:<31} {ours:>7.1} {other:>7.1} {:>7.4} {goal:>7.4}", ours / other);
-    }
-    println!("{:<31} {rates:>7.1}", "three derivatives of the axes");
-    // Measured side by side, Pinocchio's rnea took 1120 ns where rs-opw took 3993 ns for all solutions.
-    let [_, all, ..] = times;
-    let pinocchio = all.other * 1120.0 / 3993.0;
-    let (job, ratio) = ("inverse dynamics (Pinocchio)", torques / pinocchio);
-    println!("{job:<31} {torques:>7.1} {pinocchio:>7.1} {ratio:>7.4} {:>7.4}", 0.5);
     println!(
-        "{} poses, {} solutions: worst error {:.1e} m, {:.1e} rad (rs-opw: {:.1e} m); {} missing that rs-opw has, {} more",
-        exact.poses, exact.solutions, exact.worst, exact.worst_angle, exact.worst_other, exact.missing, exact.more
+        "kinematics: the mean of {} robots, each the least of {ROUNDS} rounds of {TIMED} poses; {} poses checked, with {} \
+         solutions, {} more than rs-opw finds, worst rotation {:.1e} rad",
+        ROBOTS.len(),
+        exact.poses,
+        exact.solutions,
+        exact.more,
+        exact.worst_angle
     );
-    Ok(())
+    let [forward, all, one, chosen] = times.map(|Pair { ours, other }| (other, ours));
+    Ok(vec![
+        Row::beside("forward kinematics", OPW, forward, "ns", 0.35),
+        // The goal is 1.05 of the C++ opw_kinematics.
+        Row::beside("inverse kinematics, all solutions", OPW, all, "ns", 1.05 * CPP_INVERSE),
+        Row::beside("inverse near the last, singularity handled", OPW, one, "ns", 0.06),
+        Row::beside("the same with turns and axis limits", OPW, chosen, "ns", 0.06),
+        Row {
+            goal: Goal::AtMost(1e-10),
+            ..Row::beside("worst solution of 100 000 poses", OPW, (exact.worst_other, exact.worst), "m", 0.0)
+        },
+        Row::alone("solutions missing that rs-opw has", exact.missing as f64, "", Goal::AtMost(0.0)),
+        Row::alone("three derivatives of the axes", rates, "ns", Goal::None),
+        Row::beside("inverse dynamics", "Pinocchio, by its ratio", (all.0 * PINOCCHIO, torques), "ns", 0.5),
+    ])
 }
 
 /// Times in ns.
@@ -123,18 +131,9 @@ fn each<T, R>(items: &[T], work: impl Fn(&T) -> R) {
 
 /// The least times a call, in ns, of both, in turns.
 fn best(calls: usize, ours: impl Fn(), other: impl Fn()) -> Pair {
-    let time = |work: &dyn Fn()| {
-        let start = Instant::now();
-        work();
-        start.elapsed()
-    };
-    let (mut least, mut least_other) = (Duration::MAX, Duration::MAX);
-    for _ in 0..ROUNDS {
-        least = least.min(time(&ours));
-        least_other = least_other.min(time(&other));
-    }
-    let each = |time: Duration| time.as_secs_f64() * 1e9 / calls as f64;
-    Pair { ours: each(least), other: each(least_other) }
+    let (ours, other) = taking_turns(ROUNDS, ours, other);
+    let each = |time: f64| time * 1e9 / calls as f64;
+    Pair { ours: each(ours), other: each(other) }
 }
 
 /// How exact the solutions are and which are missing.
@@ -205,24 +204,10 @@ fn reference(p: &OpwParameters) -> OPWKinematics {
     })
 }
 
-fn random_axes(robot: &Robot, random: &mut Random) -> Axes {
+pub(crate) fn random_axes(robot: &Robot, random: &mut Random) -> Axes {
     let mut axes = [0.0; 6];
     for (value, axis) in axes.iter_mut().zip(&robot.axes) {
-        *value = axis.min + (axis.max - axis.min) * random.next();
+        *value = random.between(axis.min, axis.max);
     }
     axes
-}
-
-/// The same random numbers in every run (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    /// A number from 0 to 1.
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }
