@@ -2,8 +2,12 @@
 
 use std::borrow::Cow;
 use std::fmt;
+use std::ops::Range;
 
 use encoding_rs::{DecoderResult, GB18030};
+
+/// The byte order mark of UTF-8.
+const MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// Bytes that are text in neither encoding.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -30,7 +34,7 @@ impl std::error::Error for DecodeError {}
 /// # Errors
 /// Bytes that are neither UTF-8 nor GB18030, with the offset of the first of them.
 pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, DecodeError> {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").map_or((bytes, 0), |rest| (rest, 3));
+    let bytes = bytes.strip_prefix(MARK).map_or((bytes, 0), |rest| (rest, MARK.len()));
     let (bytes, mark) = bytes;
     let utf8 = match std::str::from_utf8(bytes) {
         Ok(text) => return Ok(Cow::Borrowed(text)),
@@ -60,6 +64,30 @@ fn decode_gb18030(bytes: &[u8]) -> Result<String, usize> {
         DecoderResult::OutputFull => Err(read),
         DecoderResult::Malformed(bad, behind) => Err(read.saturating_sub(usize::from(bad) + usize::from(behind))),
     }
+}
+
+/// The bytes of a file with a part of its text, as [`decode`] gives it, replaced by plain characters; all other bytes stay.
+/// `None` where the part is none of the text, or its bytes cannot be told.
+///
+/// ```
+/// let file = "\u{feff}pose p = {x 1}\r\n".as_bytes();
+/// let changed = arl_lang::text::splice(file, 12..13, "2.5").unwrap();
+/// assert_eq!(changed, "\u{feff}pose p = {x 2.5}\r\n".as_bytes());
+/// ```
+pub fn splice(bytes: &[u8], part: Range<usize>, with: &str) -> Option<Vec<u8>> {
+    let text = decode(bytes).ok()?;
+    let mark = if bytes.starts_with(MARK) { MARK.len() } else { 0 };
+    let (before, behind) = (text.get(..part.start)?, text.get(part.end..)?);
+    text.get(part)?;
+    let utf8 = matches!(text, Cow::Borrowed(_));
+    let length = |text: &str| if utf8 { text.len() } else { GB18030.encode(text).0.len() };
+    let (start, end) = (mark + length(before), bytes.len().checked_sub(length(behind))?);
+    let mut changed = bytes.get(..start)?.to_vec();
+    changed.extend_from_slice(with.as_bytes());
+    changed.extend_from_slice(bytes.get(end..)?);
+    // Some characters have two encodings: then the lengths above may be wrong.
+    let right = decode(&changed).is_ok_and(|now| now == format!("{before}{with}{behind}"));
+    (right && with.is_ascii()).then_some(changed)
 }
 
 #[cfg(test)]

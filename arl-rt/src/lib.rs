@@ -27,6 +27,7 @@ pub mod motion;
 mod motion_instructions;
 pub mod ops;
 pub mod output;
+pub mod points;
 pub mod pose;
 pub mod program;
 pub mod program_main;

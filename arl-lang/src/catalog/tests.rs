@@ -19,7 +19,7 @@ const INDEX: &str = "\
     offset reltool cjttq cjtcj channeltojoint channeltopose channeljoint channelpose channeljointvel \
     channeltcpvel ctcpforce getwobj_3p getwobj_indi getwobj_flange gettooltcp_ref gettoolrot_world gettoolrot_3p \
     gettool_3p getbase_3p StoEnd savearl savefilepose savefilejoint saveposenow savejointnow switcharl typeof \
-    ctime cdate assert savesv init gettextstr curmpfile curmpline curppfile curppline filesize renamefile \
+    ctime cdate assert savesv init gettextstr curmpfile curmpline curppfile curppline savearl savefilepose savefilejoint filesize renamefile \
     removefile disableint enableint delint $EXT_CTL_ACT_DI $SERVO_ON_DI $SERVO_OFF_DI $START_PROG_DI \
     $PAUSE_PROG_DI $RESET_PROG_DI $CLEAR_ALARM_DI $PGNO_TYPE $PGNO_LENGTH $PGNO_FBIT_DI $PGNO_PARITY_DI \
     $PGNO_VALID_DI $EXT_CTL_ACT_CONF_DO $SERVO_ON_DO $PGNO_REQ_DO $AT_HOME_DO $AT_T1_DO $AT_T2_DO $AT_AUT_DO \
@@ -38,7 +38,7 @@ const WORKS: &str = "\
     getwobj_3p getwobj_indi getwobj_flange gettooltcp_ref gettoolrot_world gettoolrot_3p gettool_3p getbase_3p \
     ctime cdate savesv init gettextstr filesize renamefile removefile toolload toolswitch startdetect enddetect cjttq cjtci ctcpforce \
     channeltojoint channeltopose channeljoint channelpose channeljointvel channeltcpvel T S StoEnd P curmpfile curmpline \
-    curppfile curppline";
+    curppfile curppline savearl savefilepose savefilejoint";
 
 const RUST_WORDS: &str = "as async await break const continue crate do dyn else enum extern false final fn for gen if \
     impl in let loop macro match mod move mut override priv pub ref return self static struct super trait true try type \
