@@ -10,6 +10,6 @@ pub use crate::program::{BoxFuture, DataFile, DataVar, Program};
 pub use crate::robot::Family;
 pub use crate::values::*;
 pub use crate::{
-    bits, calibration, channel, clock, convert, event, files, flow, frames, io, math, motion, points, pose, strings, system,
-    text, time,
+    bits, calibration, channel, clock, convert, event, files, flow, frames, io, math, motion, points, pose, strings,
+    system, text, time,
 };

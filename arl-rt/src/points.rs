@@ -24,7 +24,10 @@ pub async fn savearl(cx: &Cx, file_src: &Str, file_dst: &Str, mode: bool) -> Res
     if to.is_dir() || (to.exists() && !mode) {
         return Ok(false);
     }
-    Ok(fs::read(&from).is_ok_and(|content| write_whole(&to, &content).is_ok()))
+    let copied = fs::read(&from).is_ok_and(|content| write_whole(&to, &content).is_ok());
+    // A disk is slow: one write a cycle.
+    cx.next_cycle().await;
+    Ok(copied)
 }
 
 /// Writes a pose to a point of a data file, whose other text stays as it is; whether it worked. It counts from the next load on.
@@ -60,7 +63,10 @@ async fn save(cx: &Cx, file: &Str, ty: &str, point: &Str, value: Components) -> 
     cx.motion_end().await;
     let path = cx.world().scripts.file(file)?;
     let Some(value) = value.literal() else { return Ok(false) };
-    Ok(replace(&path, ty, &point.to_text(), &value).is_some())
+    let replaced = replace(&path, ty, &point.to_text(), &value).is_some();
+    // A disk is slow: one write a cycle.
+    cx.next_cycle().await;
+    Ok(replaced)
 }
 
 /// A structure's literal in the making.
@@ -163,8 +169,10 @@ mod tests {
 
     #[test]
     fn comments_layout_and_neighbours_stay() {
-        let before = "\u{feff}// points\r\nconst pose P1   =  {x 5,y 6} // the first\r\n\r\n  pose p2, p3 = {z 1}\r\nint n = 3";
-        let first = "\u{feff}// points\r\nconst pose P1   =  {x 1} // the first\r\n\r\n  pose p2, p3 = {z 1}\r\nint n = 3";
+        let before =
+            "\u{feff}// points\r\nconst pose P1   =  {x 5,y 6} // the first\r\n\r\n  pose p2, p3 = {z 1}\r\nint n = 3";
+        let first =
+            "\u{feff}// points\r\nconst pose P1   =  {x 1} // the first\r\n\r\n  pose p2, p3 = {z 1}\r\nint n = 3";
         assert_eq!(text("first", before, "p1").as_deref(), Some(first));
         let second = before.replace("p2,", "p2 = {x 1},");
         assert_eq!(text("second", before, "p2"), Some(second));
