@@ -137,15 +137,16 @@ fn slip(blend: Blend, mut slip: Slip) -> Slip {
                 }
             }
         }
+        // What was left of other measures must not round off what shall be reached exactly.
+        Blend::Percent(percent) if percent < 0.0 => slip = NO_SLIP,
         Blend::Percent(percent) => slip.perdis = percent,
-        Blend::Line(distance) => {
-            slip.pdis = distance;
-            // A percentage that is set goes before all distances.
-            slip.perdis = -1.0;
-        }
+        Blend::Line(distance) => slip = Slip { pdis: distance, ..NO_SLIP },
     }
     slip
 }
+
+/// Nothing is rounded off.
+const NO_SLIP: Slip = Slip { perdis: -1.0, pdis: -1.0, odis: -1.0, ejdis: -1.0, eldis: -1.0, jdis: -1.0 };
 
 /// What carries `$DFTOOL` and `$DFWOBJ`, with the offsets of all tools and workpieces.
 fn setting(system: &System) -> Result<Setting, Fault> {
