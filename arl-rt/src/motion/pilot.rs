@@ -230,6 +230,10 @@ impl Pilot {
         let limits = straight(&way);
         let ramp = |hardness: f64| {
             let limits = Limits { acc: limits.acc * hardness, jerk: limits.jerk * hardness, ..limits };
+            // What brakes harder already would have to turn back.
+            if now.acc < 0.0 && now.acc * now.acc > 2.0 * limits.jerk * now.vel {
+                return None;
+            }
             let ramp = Ramp { start: now, change: Change::new(now.vel, now.acc, 0.0, &limits) };
             let stop = ramp.at(ramp.duration());
             let last = stop.vel.abs() <= 1e-9 * now.vel && stop.at <= end;
