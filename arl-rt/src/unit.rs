@@ -117,6 +117,11 @@ impl Unit {
         self.recorder.as_ref().map_or(&[], |recorder| recorder.records())
     }
 
+    /// The line of a motion whose target should be rounded off but cannot be, since this was asked last.
+    pub(crate) fn take_sharp(&mut self) -> Option<u32> {
+        self.queue.take_sharp()
+    }
+
     /// Whether a motion came too late to be blended with the one before it, since this was asked last.
     pub(crate) fn take_late(&mut self) -> bool {
         self.queue.take_late()

@@ -13,6 +13,7 @@ use super::plan::Motion;
 use super::profile::{Limits, State};
 use super::scout::Scout;
 use super::timing::Timing;
+use super::zone::asks;
 use crate::robot::Robot;
 
 /// A piece that takes no longer, in s, is none.
@@ -45,6 +46,18 @@ pub(super) struct Course {
     passed: f64,
     /// The last motion, which the next one may still round off.
     tail: Option<Tail>,
+}
+
+/// Why the robot stops at a target that should be rounded off.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Sharp {
+    /// The next motion came too late.
+    Late,
+    /// Beside the corner of the motion of this line the robot cannot go, however small the zone.
+    NoWay {
+        /// The program line.
+        line: u32,
+    },
 }
 
 /// The end of the way.
@@ -135,9 +148,16 @@ impl Course {
         self.timing.length() - self.state.at
     }
 
-    /// Appends a motion. Returns whether it was asked to round off the motion before it, but came too late for that.
-    pub(super) fn append(&mut self, robot: &Robot, here: &Joints, motion: Motion, number: u64, cycle: f64) -> bool {
-        let Some(limits) = motion.limits else { return false };
+    /// Appends a motion. Returns why the motion before it is not rounded off, where that was asked for.
+    pub(super) fn append(
+        &mut self,
+        robot: &Robot,
+        here: &Joints,
+        motion: Motion,
+        number: u64,
+        cycle: f64,
+    ) -> Option<Sharp> {
+        let limits = motion.limits?;
         self.cycle = cycle;
         let tail = self.tail.take();
         if motion.flows
@@ -147,21 +167,24 @@ impl Course {
             self.settle(1);
             self.timing.find_entries(MARGIN, cycle);
             self.tail = Some(Tail { motion, limits, joined: None });
-            return false;
+            return None;
         }
         let tail = tail.filter(|_| !self.pieces.is_empty());
         let at = (robot, here);
         let mut joined = tail.as_ref().and_then(|tail| self.bend_into(at, tail, (&motion, limits), number, cycle));
-        let mut late = motion.flows;
+        let mut sharp = motion.flows.then_some(Sharp::Late);
         let mut end = (motion, limits);
         let mut before = None;
         if let Some(tail) = tail {
             let blended =
                 if joined.is_none() { blended(robot, (&tail.motion, tail.limits), (&end.0, limits)) } else { None };
+            if joined.is_none() && blended.is_none() && asks(robot, &tail.motion) {
+                sharp = Some(Sharp::NoWay { line: tail.motion.line });
+            }
             before = Some(tail.motion);
             if let Some(blended) = blended {
                 joined = self.round_off(at, &blended, number, cycle).map(|pieces| (Bend::NONE, pieces));
-                late = joined.is_none();
+                sharp = joined.is_none().then_some(Sharp::Late);
                 if joined.is_some() {
                     (before, end) = (Some(blended.from.0), blended.to);
                 }
@@ -179,7 +202,7 @@ impl Course {
         self.settle(joined.as_ref().map_or(1, |joined| joined.pieces));
         self.timing.find_entries(MARGIN, cycle);
         self.tail = Some(Tail { motion, limits, joined });
-        late
+        sharp
     }
 
     /// Puts a blend behind the last one where the two meet in the middle of the last motion, and bends both there; returns
@@ -227,6 +250,10 @@ impl Course {
     fn round_off(&mut self, at: (&Robot, &Joints), blended: &Blended, number: u64, cycle: f64) -> Option<usize> {
         let Blended { from: (before, before_limits), to: (motion, limits), blend, until } = blended;
         let last = self.pieces.back()?;
+        // Another blend has taken what this one needs.
+        if last.from > blend.leave {
+            return None;
+        }
         let gone = last.from + self.at * before.rate;
         if self.pieces.len() == 1 && (gone >= blend.leave || gone > *until) {
             return None;

@@ -8,6 +8,7 @@ use super::command::{Command, Settings, Speed, Target, Zone};
 use super::error::PlanError;
 use super::joints::{Joints, is_unset};
 use super::plan::{Motion, Planner};
+use super::zone::LARGEST;
 use crate::kinematics::Kinematics;
 use crate::robot::Robot;
 
@@ -109,7 +110,9 @@ pub(super) fn plan(
         push(part(start, up, &lifting(&gate.rising))?, round(rest(top - from, gate.rise), HALF));
     }
     let sinks = top - to > NO_WAY && !gate.stays;
-    let corner = if sinks { round(HALF, rest(top - to, gate.sink)) } else { None };
+    // Where it goes on smoothly, the corner leaves the next blend its part.
+    let most = if gate.smooth { 1.0 - SMOOTH / 100.0 * LARGEST } else { 1.0 };
+    let corner = if sinks { round(HALF, rest(top - to, gate.sink).min(most)) } else { None };
     push(part(&up, over, &(command.clone(), *settings))?, corner);
     if sinks {
         push(part(&over, end, &lifting(&gate.falling))?, None);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::chain::Held;
 use super::command::{Command, Settings, Target};
-use super::course::Course;
+use super::course::{Course, Sharp};
 use super::error::PlanError;
 use super::gate;
 use super::governor::Pacing;
@@ -98,6 +98,8 @@ pub struct Queue {
     progress: Option<Progress>,
     cycle: f64,
     late: bool,
+    /// The line of a motion whose corner could not be rounded off.
+    sharp: Option<u32>,
     /// The last motion, where its way depends on the next one.
     held: Option<Held>,
     /// How long the robot has stood still for it, in s.
@@ -141,6 +143,7 @@ impl Queue {
             progress: None,
             cycle: 0.001,
             late: false,
+            sharp: None,
             held: None,
             patience: 0.0,
             broken: None,
@@ -238,7 +241,11 @@ impl Queue {
         let watched = self.laid.is_some().then(|| motion.clone());
         self.led = motion.led();
         self.slowed = self.slowed.min(motion.share_of_speed());
-        self.late |= self.course.append(&self.robot, &self.joints, motion, number, self.cycle);
+        match self.course.append(&self.robot, &self.joints, motion, number, self.cycle) {
+            Some(Sharp::Late) => self.late = true,
+            Some(Sharp::NoWay { line }) => self.sharp = Some(line),
+            None => {}
+        }
         if let (Some(laid), Some(motion)) = (&mut self.laid, watched) {
             let left = self.course.left_before(number).filter(|_| motion.goes());
             laid.push(Laid { number, motion, left });
@@ -260,6 +267,12 @@ impl Queue {
     /// stopped or will stop between the two.
     pub fn take_late(&mut self) -> bool {
         std::mem::take(&mut self.late)
+    }
+
+    /// The line of a motion, added since this was asked last, whose target should be rounded off but is reached with a stop:
+    /// beside it the robot would leave its reach or an axis's range, or meet a singular point, however small the zone.
+    pub fn take_sharp(&mut self) -> Option<u32> {
+        self.sharp.take()
     }
 
     /// The least part of its programmed speed, 0 to 1, that a weave or a compensation has left to a motion since this was

@@ -52,6 +52,9 @@ pub(super) fn rounding(robot: &Robot, motion: &Motion, leave: f64) -> Option<Rou
     })
 }
 
+/// The smallest part of a motion that a blend can take.
+const LEAST: f64 = 1e-6;
+
 /// The largest zone, as part of a motion.
 pub(super) const LARGEST: f64 = 0.5;
 
@@ -69,7 +72,15 @@ pub(super) fn parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f
         // It does not move that way: it is entered for as long as the other one is left.
         None => time(from, leaving) / time(to, 1.0),
     };
-    Some((leaving, entering.min(LARGEST)))
+    // What the next motion is left by is no longer there to be entered.
+    let free = to.corner.map_or(LARGEST, |(leaving, _)| (1.0 - leaving).min(LARGEST));
+    let entering = entering.min(free);
+    (entering > LEAST).then_some((leaving, entering))
+}
+
+/// Whether the end of a motion shall be rounded off.
+pub(super) fn asks(robot: &Robot, motion: &Motion) -> bool {
+    motion.corner.is_some() || leaving(robot, motion).is_some()
 }
 
 /// What the zone of a motion is measured by, how large it is, and which part of the motion it takes.

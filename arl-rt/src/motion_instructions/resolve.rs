@@ -128,5 +128,8 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
     if unit.take_late() {
         world.warn(format!("{file}:{line}: the motion came too late to be blended with the one before it: the robot stops between the two"));
     }
+    if let Some(corner) = unit.take_sharp() {
+        world.warn(format!("{file}:{line}: the target of the motion of line {corner} is not rounded off but reached with a stop: beside it the robot would leave its reach or an axis's range, or meet a singular point"));
+    }
     Ok(())
 }
