@@ -108,9 +108,11 @@ impl Held {
                     carried(self) == carried(next)
                 }
                 Kind::Spline => {
+                    let from = self.from(robot);
                     self.command.rig.carried == next.command.rig.carried
-                        && self.from(robot).chord(&self.target) > SAME
+                        && from.chord(&self.target) > SAME
                         && self.target.chord(&next.target) > SAME
+                        && !from.turns_back(&self.target, &next.target)
                 }
             }
     }

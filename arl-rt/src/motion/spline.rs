@@ -36,6 +36,10 @@ pub(super) struct Passing {
     pub(super) speed: f64,
 }
 
+/// The cosine of the angle, 150 deg, from which on chords turn back: a way through such a point would almost stop there, and
+/// its tangent would be shorter than `SLOWEST`.
+const BACK: f64 = -0.866_025_404;
+
 /// Where the way is nearly reversed its parameter slows down to this part of the length of the chords, not to nothing.
 const SLOWEST: f64 = 0.25;
 
@@ -43,6 +47,13 @@ impl Place {
     /// The length of the chord to another place in mm.
     pub(super) fn chord(&self, to: &Place) -> f64 {
         (to.tcp.translation.vector - self.tcp.translation.vector).norm()
+    }
+
+    /// Whether the way from here over a point to another one turns back at that point.
+    pub(super) fn turns_back(&self, over: &Place, to: &Place) -> bool {
+        let place = |place: &Place| place.tcp.translation.vector;
+        let (first, second) = (place(over) - place(self), place(to) - place(over));
+        first.dot(&second) < BACK * first.norm() * second.norm()
     }
 
     fn turning(&self, to: &Place) -> Vector3<f64> {

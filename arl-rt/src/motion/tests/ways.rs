@@ -326,3 +326,27 @@ fn splines_and_circles_round_off_into_their_neighbours() {
         }
     }
 }
+
+#[test]
+fn splines_turn_back_at_any_angle() {
+    let robot = robot("kr10-r1420");
+    for (far, near) in [(60.0, 60.0), (90.0, 30.0), (30.0, 90.0)] {
+        for angle in [120.0, 135.0, 145.0, 149.9, 150.1, 165.0, 175.0, 178.0, 180.0_f64] {
+            let (sine, cosine) = angle.to_radians().sin_cos();
+            let mut queue = Queue::new(robot.clone(), at_work());
+            for place in [[0.0, far, 0.0], [0.0, far + near * cosine, near * sine], [50.0, 0.0, 40.0]] {
+                let command = spl(beside(&robot, place));
+                queue.add(&command, &Settings::default()).unwrap_or_else(|error| panic!("{angle} {far}: {error}"));
+            }
+            let rows = run(&mut queue, 100.0);
+            let what = format!("{angle} {far} {near}");
+            assert_within_limits(&robot, &rows, &what);
+            // It goes exactly through the point, with a stop where it turns back, and hardly beyond it.
+            let at = Vector3::from(<[f64; 3]>::try_from(&beside(&robot, [0.0, far, 0.0])[..3]).unwrap());
+            let nearest = rows.iter().map(|row| (place(row) - at).norm()).fold(f64::INFINITY, f64::min);
+            assert!(nearest < 0.5, "{what}: {nearest}");
+            let stop = rows[1..rows.len() - 1].iter().any(|row| row.rests && row.finished == 1);
+            assert_eq!(stop, angle > 150.0, "{what}");
+        }
+    }
+}
