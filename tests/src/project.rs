@@ -24,8 +24,16 @@ impl Sources for Files {
 /// # Errors
 /// The compile errors, a line each.
 pub fn compile(files: &[(String, String)]) -> Result<String, String> {
+    compile_for(files, &CheckOptions::default())
+}
+
+/// The Rust of a program that is checked with these options.
+///
+/// # Errors
+/// The compile errors, a line each.
+pub fn compile_for(files: &[(String, String)], options: &CheckOptions) -> Result<String, String> {
     let sources = Files(files.iter().map(|(name, text)| (name.into(), text.clone().into_bytes())).collect());
-    let checked = check(Path::new(&files[0].0), &sources, &CheckOptions::default());
+    let checked = check(Path::new(&files[0].0), &sources, options);
     match &checked.program {
         Some(program) => Ok(emit(program, &EmitOptions::default())),
         None => {
@@ -85,12 +93,12 @@ impl Project {
     /// # Errors
     /// What rustc has to say.
     pub fn build(&self, programs: &[String]) -> Result<PathBuf, String> {
-        self.cargo("build", programs, &self.all(programs))?;
+        self.cargo(&["build"], programs, &self.all(programs))?;
         Ok(self.target.join("debug").join(self.name()))
     }
 
     /// Compiles emitted programs into a command with the command line of a compiled program, that runs the one which
-    /// [`Project::choose`] names.
+    /// [`Project::choose`] names; optimised where `ARL_PROPERTY_OPTIMISED` is set.
     ///
     /// # Errors
     /// What rustc has to say.
@@ -100,8 +108,10 @@ impl Project {
         for at in 0..programs.len() {
             let _ = writeln!(arms, "        \"{at}\" => run({library}::p{at}::Globals::new, \".\"),");
         }
-        self.cargo("build", programs, &CHOOSING.replace("CHOICE", CHOICE).replace("ARMS", &arms))?;
-        Ok(self.target.join("debug").join(self.name()))
+        let optimised = std::env::var_os(OPTIMISED).is_some();
+        let what: &[&str] = if optimised { &["build", "--release"] } else { &["build"] };
+        self.cargo(what, programs, &CHOOSING.replace("CHOICE", CHOICE).replace("ARMS", &arms))?;
+        Ok(self.target.join(if optimised { "release" } else { "debug" }).join(self.name()))
     }
 
     /// A run of the program `at` of a command that [`Project::build_choosing`] made, in the project's folder.
@@ -116,7 +126,7 @@ impl Project {
     /// # Errors
     /// What rustc has to say, warnings included.
     pub fn check(&self, programs: &[String]) -> Result<(), String> {
-        self.cargo("check", programs, &self.all(programs))
+        self.cargo(&["check"], programs, &self.all(programs))
     }
 
     /// The main file that runs all programs.
@@ -137,7 +147,7 @@ impl Project {
         self.name().replace('-', "_")
     }
 
-    fn cargo(&self, what: &str, programs: &[String], main: &str) -> Result<(), String> {
+    fn cargo(&self, what: &[&str], programs: &[String], main: &str) -> Result<(), String> {
         let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
         let name = self.name();
         self.write("Cargo.toml", &manifest(&name, workspace));
@@ -156,7 +166,7 @@ impl Project {
         self.write("src/lib.rs", &modules);
         self.write("src/main.rs", main);
         let mut command = Command::new(std::env::var_os("CARGO").unwrap_or("cargo".into()));
-        command.args([what, "--quiet", "--offline", "--message-format=short"]).current_dir(&self.folder);
+        command.args(what).args(["--quiet", "--offline", "--message-format=short"]).current_dir(&self.folder);
         command.env("CARGO_TARGET_DIR", &self.target).env_remove("RUSTFLAGS").env("CARGO_INCREMENTAL", "0");
         let output = command.output().expect("cargo runs");
         match output.status.success() {
@@ -219,9 +229,14 @@ fn manifest(name: &str, workspace: &Path) -> String {
     let runtime = workspace.join("arl-rt").display().to_string();
     format!(
         "[package]\nname = \"{name}\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n[workspace]\n\n\
-         [dependencies]\narl-rt = {{ path = {runtime:?}, default-features = false }}\n\n[profile.dev]\ndebug = false\n"
+         [dependencies]\narl-rt = {{ path = {runtime:?}, default-features = false }}\n\n[profile.dev]\ndebug = false\n\n\
+         [profile.dev.package]\narl-rt = {{ opt-level = 1 }}\nnalgebra = {{ opt-level = 2 }}\n\n\
+         [profile.release]\nopt-level = 2\ncodegen-units = 16\n"
     )
 }
+
+/// Says that programs shall be optimised.
+const OPTIMISED: &str = "ARL_PROPERTY_OPTIMISED";
 
 /// Names the program to run.
 const CHOICE: &str = "ARL_TEST_PROGRAM";

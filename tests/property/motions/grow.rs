@@ -1,6 +1,7 @@
-//! Random motion programs, and what is known of their motions.
+//! Random motion programs, of the forms that `plan.rs` reads.
 
-use super::vector::Vector;
+use super::plan::{Goal, Kind, Plan};
+use super::robot::Robot;
 use arl_tests::random::Random;
 use std::fmt::Write as _;
 
@@ -9,221 +10,243 @@ pub(crate) fn between(random: &mut Random, from: f64, to: f64) -> f64 {
     from + (to - from) * (random.next() >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// Where a motion goes.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) enum Goal {
-    /// One of the taught positions.
-    Taught(usize),
-    /// The pose of the first taught position, so much added to each component.
-    Shifted([f64; 6]),
-}
-
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) enum Kind {
-    Movej,
-    Ptp,
-    Lin,
-    /// Through a place that is so far from the first taught one.
-    Cir(Vector),
-    /// The first of two.
-    CcirVia,
-    Ccir,
-    Spl,
-}
-
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) enum Zone {
-    None,
-    Percent(f64),
-    Distance(f64),
-}
-
-/// A motion of a program.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Motion {
-    pub(crate) line: usize,
-    pub(crate) kind: Kind,
-    pub(crate) goal: Goal,
-    pub(crate) zone: Zone,
-    /// In % of the axes' limits with `movej` and `ptp`, in mm/s with others.
-    pub(crate) speed: f64,
-    /// Part of the acceleration and of the jerk that `accset` leaves.
-    pub(crate) accset: [f64; 2],
-    /// The robot stands at the target.
-    pub(crate) rests: bool,
-}
-
-/// A program, its motions, and the positions that its first motions teach.
-#[derive(Clone, Debug)]
-pub(crate) struct Plan {
-    pub(crate) text: String,
-    pub(crate) motions: Vec<Motion>,
-    pub(crate) taught: Vec<[f64; 6]>,
-}
-
 /// Where a kind of robot can move freely, and how far from there the axes may go.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Room {
+    pub(crate) robot: &'static str,
     pub(crate) joints: [f64; 6],
+    /// deg (mm)
     pub(crate) swing: f64,
     /// mm
     pub(crate) reach: f64,
 }
 
+/// Rooms of all built-in robots; the last one is about the wrist singularity, which `$WRIST` passes.
+pub(crate) const ROOMS: [Room; 8] = [
+    Room { robot: "kr10-r1420", joints: [0.0, -90.0, 90.0, 0.0, 45.0, 0.0], swing: 12.0, reach: 120.0 },
+    Room { robot: "kr6-r700", joints: [10.0, -90.0, 100.0, 5.0, 45.0, 0.0], swing: 12.0, reach: 70.0 },
+    Room { robot: "irb2400-10", joints: [0.0, 10.0, 10.0, 5.0, 45.0, 0.0], swing: 12.0, reach: 120.0 },
+    Room { robot: "tx2-60", joints: [0.0, 20.0, 70.0, 5.0, 45.0, 0.0], swing: 12.0, reach: 60.0 },
+    Room { robot: "six-10", joints: [0.0, 10.0, 20.0, 5.0, 45.0, 0.0], swing: 12.0, reach: 120.0 },
+    Room { robot: "hsr065", joints: [20.0, 85.0, 50.0, 10.0, 0.0, 0.0], swing: 12.0, reach: 70.0 },
+    Room { robot: "cobra600", joints: [5.0, 60.0, -105.0, 0.0, 0.0, 0.0], swing: 8.0, reach: 40.0 },
+    Room { robot: "kr10-r1420", joints: [0.0, -80.0, 80.0, 3.0, 6.0, 0.0], swing: 8.0, reach: 80.0 },
+];
+
 struct Grower<'a> {
     random: &'a mut Random,
     room: Room,
-    plan: Plan,
-    lines: usize,
-    accset: [f64; 2],
-    velset: f64,
+    robot: &'a Robot,
+    text: String,
+    count: usize,
+    settings: usize,
+    /// The last motion's kind, goal and setting.
+    last: Option<(Kind, Goal, usize)>,
+    waited: bool,
 }
 
-/// A program of so many motions.
-pub(crate) fn grow(random: &mut Random, room: Room, count: usize) -> Plan {
-    let plan = Plan { text: String::new(), motions: Vec::new(), taught: Vec::new() };
-    let mut grower = Grower { random, room, plan, lines: 0, accset: [1.0; 2], velset: 1.0 };
-    grower.program(count);
-    grower.plan
+/// The text of a program of so many motions; about the wrist singularity where it `passes` that.
+pub(crate) fn grow(random: &mut Random, room: Room, robot: &Robot, count: usize, passes: bool) -> String {
+    let mut grower =
+        Grower { random, room, robot, text: String::new(), count: 0, settings: 1, last: None, waited: false };
+    grower.program(count, passes);
+    grower.text
+}
+
+fn rounded(value: f64) -> f64 {
+    (value * 1e3).round() / 1e3
+}
+
+fn list(values: &[f64]) -> String {
+    format!("{values:?}").replace('[', "{").replace(']', "}").replace(' ', "")
 }
 
 impl Grower<'_> {
     fn line(&mut self, text: &str) {
-        writeln!(self.plan.text, "{text}").unwrap();
-        self.lines += 1;
+        writeln!(self.text, "{text}").unwrap();
     }
 
-    fn program(&mut self, count: usize) {
+    fn about(&mut self, most: f64) -> f64 {
+        rounded(between(self.random, -most, most))
+    }
+
+    fn program(&mut self, count: usize, passes: bool) {
+        self.line(&format!("// robot: {}", self.robot.name));
         self.line("func void main()");
         self.profile();
+        if passes {
+            self.line("  $WRIST = true");
+        }
+        let (exj, exl) = (between(self.random, 20.0, 120.0).round(), between(self.random, 80.0, 800.0).round());
+        let ori = between(self.random, 40.0, 500.0).round();
+        self.line(&format!("  $DFSPEED = {{20,100,{ori},{exj},{exl}}}"));
+        for at in 1..1 + self.random.below(3) {
+            self.setting(at);
+            self.settings += 1;
+        }
         for at in 0..4 {
-            let mut joints = self.room.joints;
-            if at > 0 {
-                for joint in &mut joints {
-                    *joint += between(self.random, -self.room.swing, self.room.swing);
-                }
+            self.teach(at);
+        }
+        for at in 0..4 {
+            self.line(&format!("  movej j{at},vp:40,sl:-1,t:$FLANGE"));
+            self.waited = true;
+            self.line("  waittime 0");
+            for setting in 0..self.settings {
+                let (tool, wobj) = names(setting);
+                self.line(&format!("  pose p{setting}_{at} = cpose({tool},{wobj})"));
             }
-            self.plan.taught.push(joints.map(|joint| (joint * 1e3).round() / 1e3));
-            self.line(&format!("  joint j{at} = {:?}", self.plan.taught[at]).replace('[', "{").replace(']', "}"));
         }
-        for at in 0..4 {
-            self.movej(at, Zone::None);
-            self.wait();
-            self.line(&format!("  pose p{at} = cpose($FLANGE,$WORLD)"));
-        }
-        while self.plan.motions.len() < count {
-            self.setting();
+        self.last = Some((Kind::Movej, Goal::Taught(3), 0));
+        while self.count < count {
+            self.overrides();
             self.motion();
             if self.random.chance(12) {
                 self.wait();
-                if self.random.chance(50) {
-                    self.profile();
-                }
+            }
+            if self.random.chance(6) {
+                self.profile();
             }
         }
-        self.wait();
+        self.line("  waittime 0");
         self.line("endfunc");
-        // Splines stop at the last of a row.
-        let kinds: Vec<Kind> = self.plan.motions.iter().map(|motion| motion.kind).collect();
-        for (motion, next) in self.plan.motions.iter_mut().zip(&kinds[1..]) {
-            motion.rests |= motion.kind == Kind::Spl && *next != Kind::Spl;
+    }
+
+    fn teach(&mut self, at: usize) {
+        let mut joints = self.room.joints[..self.robot.own].to_vec();
+        if at > 0 {
+            for joint in &mut joints {
+                *joint = rounded(*joint + between(self.random, -self.room.swing, self.room.swing));
+            }
         }
+        let external = self.external();
+        joints.extend(external);
+        self.line(&format!("  joint j{at} = {}", list(&joints)));
+    }
+
+    /// How far external axes are from where they begin.
+    fn external(&mut self) -> Vec<f64> {
+        let external = &self.robot.axes[self.robot.own..];
+        let ways: Vec<f64> = external.iter().map(|axis| if axis.linear { 120.0 } else { 25.0 }).collect();
+        ways.into_iter().map(|way| self.about(way)).collect()
+    }
+
+    /// A tool and a workpiece frame.
+    fn setting(&mut self, at: usize) {
+        let tilt = if self.robot.scara { 0.0 } else { 40.0 };
+        let tool = [60.0, 60.0, 90.0, 90.0, tilt, tilt].map(|most| self.about(most));
+        let wobj = [400.0, 400.0, 100.0, 90.0, tilt, tilt].map(|most| self.about(most));
+        self.line(&format!("  tool t{at} = {{{},false}}", list(&tool)));
+        self.line(&format!("  wobj w{at} = {{{},false}}", list(&wobj)));
     }
 
     /// Lets the robot come to rest.
     fn wait(&mut self) {
         let time = *self.random.pick(&["0", "0", "0.02", "0.15"]);
         self.line(&format!("  waittime {time}"));
-        self.plan.motions.last_mut().expect("a motion").rests = true;
+        self.waited = true;
     }
 
     fn profile(&mut self) {
-        let profile = if self.random.chance(50) { "O_type" } else { "S_type" };
+        let profile = *self.random.pick(&["O_type", "O_type", "S_type", "S_type", "S_type", "T_type"]);
         self.line(&format!("  $VEL_PROFILE = {profile}"));
     }
 
-    fn setting(&mut self) {
+    fn overrides(&mut self) {
         if self.random.chance(8) {
             let [acc, ramp] = [0, 1].map(|_| *self.random.pick(&[30, 60, 100, 100]));
-            self.accset = [acc, ramp].map(|part| f64::from(part) / 100.0);
             self.line(&format!("  accset {acc},{ramp}"));
         }
         if self.random.chance(6) {
-            let part = *self.random.pick(&[25, 60, 100, 100]);
-            self.velset = f64::from(part) / 100.0;
-            self.line(&format!("  velset {part},3000"));
+            let (part, most) = (*self.random.pick(&[25, 60, 100, 100]), *self.random.pick(&[150, 600, 3000, 3000]));
+            self.line(&format!("  velset {part},{most}"));
         }
     }
 
-    fn zone(&mut self) -> Zone {
-        match self.random.below(4) {
-            0 => Zone::None,
-            1 => Zone::Percent(between(self.random, 1.0, 100.0).round()),
-            _ => Zone::Distance(between(self.random, 1.0, 60.0).round()),
+    fn zone(&mut self, leads_tool: bool) -> String {
+        let mut size = |most: f64| between(self.random, 1.0, most).round();
+        let (part, way, turn, external, linear) = (size(100.0), size(60.0), size(15.0), size(20.0), size(80.0));
+        match self.random.below(6) {
+            0 => "sl:-1".into(),
+            1 => format!("sp:{part}"),
+            2 if leads_tool => format!("s:{{perdis -1,pdis {way},odis {turn},ejdis {external},eldis {linear}}}"),
+            2 if self.robot.scara => format!("s:{{perdis -1,pdis {way},ejdis {external},eldis {linear}}}"),
+            2 => format!("s:{{perdis -1,jdis {turn},ejdis {external},eldis {linear}}}"),
+            _ => format!("sl:{way}"),
         }
     }
 
     fn motion(&mut self) {
-        let zone = self.zone();
-        match self.random.below(12) {
+        let scara = self.robot.scara;
+        match self.random.below(14) {
             0 | 1 => {
                 let at = self.random.below(4);
-                self.movej(at, zone);
+                self.movej(at);
             }
             2 | 3 => {
                 let goal = self.goal();
-                self.add(Kind::Ptp, "ptp p:", goal, zone);
+                self.add(Kind::Ptp, goal);
             }
             kind @ 4..=6 => {
-                // Four `ccir` in a row would be something else than two times two.
-                if self.plan.motions.last().is_some_and(|last| last.kind == Kind::Ccir) {
-                    self.wait();
-                }
-                let (via, end) = self.arc();
-                if kind == 6 {
-                    self.add(Kind::CcirVia, "ccir p:", Goal::Shifted(via), Zone::None);
-                    self.add(Kind::Ccir, "ccir p:", Goal::Shifted(end), zone);
+                let setting = self.random.below(self.settings);
+                let (via, end) = self.arc(setting);
+                if kind == 6 && !scara {
+                    // Four `ccir` in a row would be something else than two times two.
+                    if matches!(self.last, Some((Kind::Ccir, ..))) && !self.waited {
+                        self.wait();
+                    }
+                    self.add_with(Kind::CcirVia, Goal::Shifted(via, self.no_shift()), None, setting);
+                    self.add_with(Kind::Ccir, end, None, setting);
                 } else {
-                    let head = format!("cir m:{},p:", shifted(via));
-                    self.add(Kind::Cir([via[0], via[1], via[2]]), &head, Goal::Shifted(end), zone);
+                    self.add_with(Kind::Cir([0.0; 3]), end, Some(via), setting);
                 }
             }
             7 => {
+                let setting = self.random.below(self.settings);
                 for _ in 0..2 + self.random.below(3) {
                     let goal = self.goal();
-                    self.add(Kind::Spl, "spl p:", goal, Zone::None);
+                    self.add_with(Kind::Spl, goal, None, setting);
                 }
+            }
+            8 | 9 if scara => {
+                let goal = self.goal();
+                self.add(Kind::Jump([0.0; 2]), goal);
             }
             _ => {
                 let goal = self.goal();
-                self.add(Kind::Lin, "lin p:", goal, zone);
+                self.add(Kind::Lin, goal);
             }
         }
     }
 
-    fn movej(&mut self, at: usize, zone: Zone) {
-        if self.plan.motions.last().is_none_or(|last| last.goal != Goal::Taught(at)) {
-            self.add(Kind::Movej, &format!("movej j{at}"), Goal::Taught(at), zone);
+    fn no_shift(&self) -> Vec<f64> {
+        vec![0.0; self.robot.axes.len() - self.robot.own]
+    }
+
+    fn movej(&mut self, at: usize) {
+        if self.last.as_ref().is_none_or(|(_, goal, _)| *goal != Goal::Taught(at)) {
+            self.add(Kind::Movej, Goal::Taught(at));
         }
     }
 
     /// What is added to the first taught pose.
     fn shift(&mut self) -> [f64; 6] {
         let reach = self.room.reach;
-        let mut shift = [reach, reach, reach, 8.0, 8.0, 8.0].map(|most| between(self.random, -most, most));
+        let tilt = if self.robot.scara { 0.0 } else { 8.0 };
+        let mut shift = [reach, reach, reach, 8.0, tilt, tilt].map(|most| self.about(most));
         if self.random.chance(40) {
             shift[3..].fill(0.0);
         }
-        shift.map(|part| (part * 1e3).round() / 1e3)
+        shift
     }
 
     /// The second and the third point of an arc that stays in the room.
-    fn arc(&mut self) -> ([f64; 6], [f64; 6]) {
-        let start = match self.plan.motions.last().map(|last| last.goal) {
-            Some(Goal::Shifted(start)) => start,
+    fn arc(&mut self, setting: usize) -> ([f64; 6], Goal) {
+        let start = match &self.last {
+            Some((_, Goal::Shifted(start, _), last)) if *last == setting => *start,
             _ => {
                 let start = self.shift();
-                self.add(Kind::Lin, "lin p:", Goal::Shifted(start), Zone::None);
+                let goal = Goal::Shifted(start, self.external());
+                self.add_with(Kind::Lin, goal, None, setting);
                 start
             }
         };
@@ -233,48 +256,97 @@ impl Grower<'_> {
             if way > self.room.reach / 2.0 {
                 // Out of the line by a tenth to a half of its length, for the axis that the line follows least.
                 let across = (0..3).min_by(|a, b| (end[*a] - start[*a]).abs().total_cmp(&(end[*b] - start[*b]).abs()));
-                let mut via: [f64; 6] = std::array::from_fn(|i| (start[i] + end[i]) / 2.0);
+                let mut via: [f64; 6] = std::array::from_fn(|i| f64::midpoint(start[i], end[i]));
                 via[across.expect("three axes")] += way * between(self.random, 0.1, 0.5);
-                return (via.map(|part| (part * 1e3).round() / 1e3), end);
+                return (via.map(rounded), Goal::Shifted(end, self.external()));
             }
         }
     }
 
     fn goal(&mut self) -> Goal {
         let at = self.random.below(16);
-        let last = self.plan.motions.last().map(|last| last.goal);
+        let last = self.last.as_ref().map(|(_, goal, _)| goal.clone());
         match Goal::Taught(at) {
-            goal if at < 4 && Some(goal) != last => goal,
-            _ => Goal::Shifted(self.shift()),
+            goal if at < 4 && Some(&goal) != last.as_ref() => goal,
+            _ => Goal::Shifted(self.shift(), self.external()),
         }
     }
 
-    fn add(&mut self, kind: Kind, head: &str, goal: Goal, zone: Zone) {
-        let axes = matches!(kind, Kind::Movej | Kind::Ptp);
+    /// A motion in any setting; mostly in that of the last one, so that corners of lines have one tool.
+    fn add(&mut self, kind: Kind, goal: Goal) {
+        let last = self.last.as_ref().map_or(0, |(_, _, setting)| *setting);
+        let setting = if self.random.chance(75) { last } else { self.random.below(self.settings) };
+        self.add_with(kind, goal, None, setting);
+    }
+
+    fn add_with(&mut self, kind: Kind, goal: Goal, via: Option<[f64; 6]>, setting: usize) {
+        let head = match kind {
+            Kind::Movej => "movej",
+            Kind::Ptp => "ptp",
+            Kind::Lin => "lin",
+            Kind::Cir(_) => "cir",
+            Kind::CcirVia | Kind::Ccir => "ccir",
+            Kind::Spl => "spl",
+            Kind::Jump(_) => "jump",
+        };
+        let mut parts = Vec::new();
+        if let Some(via) = via {
+            parts.push(format!("m:{}", shifted(setting, &via, &[])));
+        }
+        parts.push(match &goal {
+            Goal::Taught(at) if kind == Kind::Movej => format!("j{at}"),
+            Goal::Taught(at) => format!("p:p{setting}_{at}"),
+            Goal::Shifted(shift, external) => format!("p:{}", shifted(setting, shift, external)),
+        });
+        parts.push(self.speed(kind));
+        if matches!(kind, Kind::Jump(_)) {
+            parts.push(format!("a:{},b:{}", self.random.below(30), self.random.below(30)));
+            parts.push(format!("s:{}", self.random.chance(50)));
+        } else {
+            parts.push(self.zone(kind.leads_tool()));
+        }
+        let (tool, wobj) = names(setting);
+        parts.push(format!("t:{tool}"));
+        if kind != Kind::Movej {
+            parts.push(format!("w:{wobj}"));
+        }
+        self.line(&format!("  {head} {}", parts.join(",")));
+        self.count += 1;
+        self.last = Some((kind, goal, setting));
+        self.waited = false;
+    }
+
+    fn speed(&mut self, kind: Kind) -> String {
         let percent = between(self.random, 10.0, 100.0).round();
         let tcp = between(self.random, 40.0, 1200.0).round();
-        let (speed, label) = if axes { (percent, "vp") } else { (tcp, "vl") };
-        let target = match goal {
-            _ if kind == Kind::Movej => String::new(),
-            Goal::Taught(at) => format!("p{at}"),
-            Goal::Shifted(shift) => shifted(shift),
-        };
-        let rounding = match zone {
-            Zone::None => "sl:-1".to_owned(),
-            Zone::Percent(part) => format!("sp:{part}"),
-            Zone::Distance(size) => format!("sl:{size}"),
-        };
-        self.line(&format!("  {head}{target},{label}:{speed},{rounding}"));
-        let rests = zone == Zone::None && !matches!(kind, Kind::CcirVia | Kind::Spl);
-        let speed = speed * self.velset;
-        let (line, accset) = (self.lines, self.accset);
-        self.plan.motions.push(Motion { line, kind, goal, zone, speed, accset, rests });
+        let timed = !matches!(kind, Kind::CcirVia | Kind::Ccir | Kind::Spl | Kind::Jump(_));
+        match self.random.below(20) {
+            0 if timed => format!("dura:{:.1}", between(self.random, 4.0, 6.0)),
+            1 | 2 => {
+                let [ori, exj, exl] = [(30.0, 400.0), (20.0, 120.0), (80.0, 800.0)]
+                    .map(|(from, to)| between(self.random, from, to).round());
+                format!("v:{{{percent},{tcp},{ori},{exj},{exl}}}")
+            }
+            _ if kind.leads_tool() => format!("vl:{tcp}"),
+            _ => format!("vp:{percent}"),
+        }
     }
 }
 
-/// The first taught pose with so much added.
-fn shifted(shift: [f64; 6]) -> String {
-    let components = ["x", "y", "z", "a", "b", "c"].iter().zip(shift);
-    let components: Vec<String> = components.map(|(name, part)| format!("{name} p0.{name} + ({part})")).collect();
+fn names(setting: usize) -> (String, String) {
+    if setting == 0 { ("$FLANGE".into(), "$WORLD".into()) } else { (format!("t{setting}"), format!("w{setting}")) }
+}
+
+/// The first taught pose in a setting, with so much added.
+fn shifted(setting: usize, shift: &[f64; 6], external: &[f64]) -> String {
+    let names = ["x", "y", "z", "a", "b", "c", "ej1", "ej2"];
+    let components = names.iter().zip(shift.iter().chain(external));
+    let components: Vec<String> =
+        components.map(|(name, part)| format!("{name} p{setting}_0.{name} + ({part:?})")).collect();
     format!("{{{}}}", components.join(","))
+}
+
+/// The plan of a program that is grown anew.
+pub(crate) fn plan(random: &mut Random, room: Room, robot: &Robot, count: usize, passes: bool) -> Plan {
+    Plan::read(&grow(random, room, robot, count, passes))
 }

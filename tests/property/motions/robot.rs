@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 /// What an axis may do, in deg (mm) and s.
 #[derive(Clone, Default, Debug)]
 pub(crate) struct Axis {
+    pub(crate) linear: bool,
     pub(crate) min: f64,
     pub(crate) max: f64,
     pub(crate) vel: f64,
@@ -14,63 +15,107 @@ pub(crate) struct Axis {
     pub(crate) jerk: f64,
 }
 
+/// What the TCP may do, in mm, deg and s.
+#[derive(Clone, Default, Debug)]
+pub(crate) struct Tcp {
+    pub(crate) vel: f64,
+    pub(crate) acc: f64,
+    pub(crate) ori_vel: f64,
+    pub(crate) ori_acc: f64,
+}
+
 /// A robot file, and its limits as this test reads them.
 #[derive(Clone, Debug)]
 pub(crate) struct Robot {
+    /// How this robot is made again: a built-in robot, the seed of its limits (0: its own), the number of external axes.
     pub(crate) name: String,
     pub(crate) text: String,
+    pub(crate) scara: bool,
+    /// Its own axes, then external ones.
     pub(crate) axes: Vec<Axis>,
+    pub(crate) own: usize,
+    pub(crate) tcp: Tcp,
 }
 
+/// External axes, one that turns and one that is linear.
+const EXTERNAL: [&str; 2] = [
+    "\n[[axis]]\nname = \"ej1\"\nmin = -170.0\nmax = 170.0\nvel = 90.0\nacc = 450.0\njerk = 5400.0\n",
+    "\n[[axis]]\nname = \"ej2\"\nlinear = true\nmin = -800.0\nmax = 800.0\nvel = 600.0\nacc = 3000.0\njerk = 36000.0\n",
+];
+
 impl Robot {
-    /// A robot that is built in.
-    pub(crate) fn named(name: &str) -> Robot {
-        let text = arl_robot::Robot::text(name).expect("a built-in robot");
-        Robot::read(name, text)
+    /// A robot as [`Robot::name`] says it.
+    pub(crate) fn of(name: &str) -> Robot {
+        let mut words = name.split_whitespace();
+        let built_in = words.next().expect("a robot");
+        let mut number = || words.next().map_or(0, |word| word.parse::<u64>().expect("a number"));
+        let (seed, external) = (number(), number() as usize);
+        let text = arl_robot::Robot::text(built_in).expect("a built-in robot");
+        let (axes, links) = text
+            .split_once("\n[[link]]")
+            .map_or((text, String::new()), |(axes, links)| (axes, format!("\n[[link]]{links}")));
+        let text = format!("{axes}{}{links}", EXTERNAL[..external].concat());
+        Robot::read(name, if seed == 0 { text } else { varied(&text, &mut Random::new(seed)) })
     }
 
-    fn read(name: &str, text: &str) -> Robot {
-        let mut axes: Vec<Axis> = Vec::new();
-        for (section, key, value) in entries(text) {
+    fn read(name: &str, text: String) -> Robot {
+        let mut robot = Robot {
+            name: name.into(),
+            text: String::new(),
+            scara: false,
+            axes: Vec::new(),
+            own: 0,
+            tcp: Tcp::default(),
+        };
+        for (section, key, value) in entries(&text) {
+            let number = || -> f64 { value.parse().expect("a number") };
             match (section, key) {
-                ("[[axis]]", "name") => axes.push(Axis::default()),
+                ("", "family") => robot.scara = value == "\"scara\"",
+                ("[tcp]", "vel") => robot.tcp.vel = number(),
+                ("[tcp]", "acc") => robot.tcp.acc = number(),
+                ("[tcp]", "ori_vel") => robot.tcp.ori_vel = number(),
+                ("[tcp]", "ori_acc") => robot.tcp.ori_acc = number(),
+                ("[[axis]]", "name") => {
+                    robot.axes.push(Axis::default());
+                    robot.own += usize::from(!value.starts_with("\"e"));
+                }
                 ("[[axis]]", key) => {
-                    let axis = axes.last_mut().expect("the name comes first");
-                    let value: f64 = value.parse().expect("a number");
+                    let axis = robot.axes.last_mut().expect("the name comes first");
                     match key {
-                        "min" => axis.min = value,
-                        "max" => axis.max = value,
-                        "vel" => axis.vel = value,
-                        "acc" => axis.acc = value,
-                        "jerk" => axis.jerk = value,
+                        "linear" => axis.linear = true,
+                        "min" => axis.min = number(),
+                        "max" => axis.max = number(),
+                        "vel" => axis.vel = number(),
+                        "acc" => axis.acc = number(),
+                        "jerk" => axis.jerk = number(),
                         _ => panic!("an axis has {key}"),
                     }
                 }
                 _ => {}
             }
         }
-        Robot { name: name.into(), text: text.into(), axes }
+        Robot { text, ..robot }
     }
+}
 
-    /// The robot with other limits of speed, acceleration and jerk: between 0.4 and 2 times as much each.
-    pub(crate) fn otherwise(&self, random: &mut Random) -> Robot {
-        let mut text = String::new();
-        let mut section = "";
-        for line in self.text.lines() {
-            if line.starts_with('[') {
-                section = line.split_whitespace().next().unwrap_or_default();
-            }
-            let limits = ["vel", "acc", "jerk", "ori_vel", "ori_acc", "ori_jerk"];
-            match line.split_once(" = ") {
-                Some((key, value)) if limits.contains(&key) && matches!(section, "[tcp]" | "[[axis]]") => {
-                    let value: f64 = value.parse().expect("a number");
-                    writeln!(text, "{key} = {:.3}", value * between(random, 0.4, 2.0)).unwrap();
-                }
-                _ => writeln!(text, "{line}").unwrap(),
-            }
+/// A robot file with other limits of speed, acceleration and jerk: between 0.4 and 2 times as much each.
+fn varied(text: &str, random: &mut Random) -> String {
+    let mut varied = String::new();
+    let mut section = "";
+    for line in text.lines() {
+        if line.starts_with('[') {
+            section = line.split_whitespace().next().unwrap_or_default();
         }
-        Robot::read(&self.name, &text)
+        let limits = ["vel", "acc", "jerk", "ori_vel", "ori_acc", "ori_jerk"];
+        match line.split_once(" = ") {
+            Some((key, value)) if limits.contains(&key) && matches!(section, "[tcp]" | "[[axis]]") => {
+                let value: f64 = value.parse().expect("a number");
+                writeln!(varied, "{key} = {:.3}", value * between(random, 0.4, 2.0)).unwrap();
+            }
+            _ => writeln!(varied, "{line}").unwrap(),
+        }
     }
+    varied
 }
 
 /// The settings of a robot file with their sections.

@@ -1,6 +1,6 @@
 //! Traces, read back.
 
-use super::vector::Vector;
+use super::geometry::{Frame, frame};
 
 /// What the robot did in a cycle.
 #[derive(Clone, Debug)]
@@ -9,12 +9,10 @@ pub(crate) struct Row {
     pub(crate) t: f64,
     /// Of the motion being executed; 0 for none.
     pub(crate) line: usize,
-    /// Own axes, in deg (mm).
+    /// The robot's own axes, then external ones, in deg (mm).
     pub(crate) axes: Vec<f64>,
-    /// TCP in mm.
-    pub(crate) tcp: Vector,
-    /// Its turns about z, the new y and the new x in deg.
-    pub(crate) turns: Vector,
+    /// In the world, mm.
+    pub(crate) tcp: Frame,
 }
 
 /// The rows of a trace.
@@ -27,13 +25,11 @@ pub(crate) fn read(text: &str) -> Vec<Row> {
         let fields: Vec<&str> = text.split(',').collect();
         assert_eq!(fields.len(), header.len(), "{text}");
         let number = |at: usize| -> f64 { fields[at].parse().unwrap_or_else(|_| panic!("column {at} of {text}")) };
-        let axes = (first_axis..first_axis + 6).filter(|at| !fields[*at].is_empty()).map(number).collect();
         Row {
             t: number(t),
             line: fields[line].parse().expect("a line"),
-            axes,
-            tcp: [x, x + 1, x + 2].map(number),
-            turns: [x + 3, x + 4, x + 5].map(number),
+            axes: (first_axis..x).filter(|at| !fields[*at].is_empty()).map(number).collect(),
+            tcp: frame(std::array::from_fn(|i| number(x + i))),
         }
     };
     lines.map(row).collect()
