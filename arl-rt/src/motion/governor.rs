@@ -108,10 +108,10 @@ impl Governor<'_> {
                     return next;
                 }
                 // Too fast for this share yet: as soon as can be to the speed that it allows.
-                let slowing = self
-                    .at(state.at)
-                    .map(|(here, cell)| self.toward(state, cell.limits.vel * share, &careful(here, FREE)));
-                slowing.filter(|next| self.feasible(next, FREE)).unwrap_or_else(|| self.braking(state, FREE))
+                let slowing = self.at(state.at).and_then(|(here, cell)| {
+                    self.toward_within(state, cell.limits.vel * share, careful(here, FREE), FREE)
+                });
+                slowing.unwrap_or_else(|| self.braking(state, FREE))
             }
         }
     }
@@ -208,9 +208,17 @@ impl Governor<'_> {
         {
             return next;
         }
-        let next = self.toward(state, 0.0, &scaled(here, scale));
         // Braking hardest may lead into a stretch that allows less.
-        if self.feasible(&next, scale) { next } else { self.braking(state, scale) }
+        let next = self.toward_within(state, 0.0, scaled(here, scale), scale);
+        next.unwrap_or_else(|| self.braking(state, scale))
+    }
+
+    /// The state a cycle later on the quickest way to a speed, with no more than `limits`: within those of all stretches that
+    /// the cycle touches, or of this one, where only that leaves it possible to go on.
+    fn toward_within(&self, state: &State, goal: f64, limits: Limits, scale: Scale) -> Option<State> {
+        let all = self.touched(state, scale).map(|touched| lower(limits, touched));
+        let mut found = all.into_iter().chain([limits]).map(|limits| self.toward(state, goal, &limits));
+        found.find(|next| self.feasible(next, scale))
     }
 
     /// Whether the robot brakes for a stop already.
