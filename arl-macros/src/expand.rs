@@ -405,7 +405,16 @@ fn function(program: &mut Program, here: &Here, types: &[Option<Type>]) -> Optio
     for (at, ty) in types.iter().enumerate().filter_map(|(at, ty)| Some((at, (*ty)?))) {
         let id = LocalId(func.locals.len() as u32);
         let (name, span) = (splice_name(at).to_string(), func.span);
-        func.locals.push(Local { name, ty, constant: false, value: None, mutated: false, read: true, span });
+        func.locals.push(Local {
+            name,
+            ty,
+            constant: false,
+            value: None,
+            mutated: false,
+            read: true,
+            shared: false,
+            span,
+        });
         func.params.push(id);
         names.push(splice_name(at));
     }

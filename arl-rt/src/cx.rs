@@ -1,11 +1,16 @@
 //! What a running program sees of the controller.
 
+use std::any::Any;
 use std::cell::{Cell, RefCell};
+use std::fmt;
 use std::pin::Pin;
 use std::rc::Rc;
 use std::task::{Context, Poll};
 
+use crate::event::Table;
 use crate::fault::{Fault, File};
+use crate::motion::Progress;
+use crate::program::Program;
 use crate::system::System;
 use crate::text::print::Targets;
 use crate::values::Str;
@@ -18,15 +23,13 @@ const BUDGET: u32 = 20_000;
 /// The view of the controller that a program has: passed to every function that acts, moves or waits.
 ///
 /// Everything here happens on the thread of the controller; nothing locks.
-#[derive(Debug)]
 pub struct Cx {
     world: Rc<World>,
     /// Turns of loops that are left in this cycle.
     budget: Cell<u32>,
     /// The address below which the stack must not grow.
     stack_floor: Cell<usize>,
-    /// The program's own file.
-    program: File,
+    program: Rc<dyn Program>,
     file: Cell<File>,
     line: Cell<u32>,
     /// Where `print` sends its messages until it is told otherwise.
@@ -35,20 +38,51 @@ pub struct Cx {
     print_file: RefCell<Str>,
     /// Whether the program has moved the robot.
     moved: Cell<bool>,
+    /// What runs: the program itself, the action of an event, a condition.
+    level: Cell<Level>,
+    /// The interrupts, timers and triggers that the program has declared.
+    events: RefCell<Table>,
+    /// The motion that triggers are asked about, where that is not the one being executed.
+    looked_at: Cell<Option<Progress>>,
+}
+
+/// What of the program runs: which motion it waits for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Level {
+    /// 0 for the program itself, 1 for the action that interrupts it, 2 for one that interrupts that.
+    pub(crate) number: u32,
+    /// For actions: the running number of the last motion of their own, 0 before the first.
+    own_motion: Option<u64>,
+}
+
+impl Level {
+    /// The program itself: it waits for all motion.
+    pub(crate) const PROGRAM: Self = Self { number: 0, own_motion: None };
+    /// A condition that is looked at: it waits for none.
+    pub(crate) const LOOKING: Self = Self { number: u32::MAX, own_motion: Some(0) };
+
+    /// The action of an event, so many levels above the program: it waits for its own motion.
+    pub(crate) fn action(number: u32) -> Self {
+        Self { number, own_motion: Some(0) }
+    }
 }
 
 impl Cx {
-    pub(crate) fn new(world: Rc<World>, file: File) -> Self {
+    pub(crate) fn new(world: Rc<World>, program: Rc<dyn Program>) -> Self {
+        let file = program.file();
         Self {
             world,
             budget: Cell::new(BUDGET),
             stack_floor: Cell::new(0),
-            program: file,
+            program,
             file: Cell::new(file),
             line: Cell::new(0),
             print_to: Cell::default(),
             print_file: RefCell::default(),
             moved: Cell::new(false),
+            level: Cell::new(Level::PROGRAM),
+            events: RefCell::default(),
+            looked_at: Cell::new(None),
         }
     }
 
@@ -120,10 +154,67 @@ impl Cx {
         if stack_pointer() < self.stack_floor.get() { Err(Fault::Depth) } else { Ok(()) }
     }
 
+    /// The global variables of the program that runs: what `G` is must be known, as conditions and actions do that outlive
+    /// the function that declares them.
+    ///
+    /// # Errors
+    /// They are not a `G`.
+    pub fn globals<G: Any>(&self) -> Result<&G, Fault> {
+        let found = self.program.globals().downcast_ref();
+        found.ok_or_else(|| Fault::Event("the interrupt belongs to another program".into()))
+    }
+
     /// Gives the program a whole cycle's budget, and so many bytes of stack below the caller.
     pub(crate) fn start_cycle(&self, stack: usize) {
         self.budget.set(BUDGET);
         self.stack_floor.set(stack_pointer().saturating_sub(stack));
+    }
+
+    /// Gives what runs a whole cycle's budget; returns what was left.
+    pub(crate) fn renew_budget(&self) -> u32 {
+        self.budget.replace(BUDGET)
+    }
+
+    /// Gives back what was left.
+    pub(crate) fn restore_budget(&self, budget: u32) {
+        self.budget.set(budget);
+    }
+
+    /// The interrupts, timers and triggers that the program has declared.
+    pub(crate) fn events(&self) -> &RefCell<Table> {
+        &self.events
+    }
+
+    /// How far the motion has come that is being executed, or that triggers are asked about.
+    pub(crate) fn progress(&self) -> Option<Progress> {
+        self.looked_at.get().or_else(|| self.world.unit.borrow().progress())
+    }
+
+    /// Lets a condition see a motion as it was when it ended.
+    pub(crate) fn look_back<R>(&self, end: Progress, look: impl FnOnce() -> R) -> R {
+        self.looked_at.set(Some(end));
+        self.world.tell_progress(&end);
+        let result = look();
+        self.looked_at.set(None);
+        if let Some(now) = self.progress() {
+            self.world.tell_progress(&now);
+        }
+        result
+    }
+
+    /// What of the program runs.
+    pub(crate) fn level(&self) -> Level {
+        self.level.get()
+    }
+
+    /// Runs something else of the program; returns what ran before, for [`Cx::leave_level`].
+    pub(crate) fn enter_level(&self, level: Level) -> Level {
+        self.level.replace(level)
+    }
+
+    /// Goes back to what ran before.
+    pub(crate) fn leave_level(&self, before: Level) {
+        self.level.set(before);
     }
 
     /// Forgets what the program before has set.
@@ -132,11 +223,18 @@ impl Cx {
         self.print_file.take();
         self.moved.set(false);
         self.line.set(0);
+        self.forget_events();
+    }
+
+    /// Forgets what has been declared; the program itself runs.
+    pub(crate) fn forget_events(&self) {
+        self.events.borrow_mut().clear();
+        self.level.set(Level::PROGRAM);
     }
 
     /// The program's own file.
     pub(crate) fn program(&self) -> File {
-        self.program
+        self.program.file()
     }
 
     /// Whether the program has moved the robot yet.
@@ -144,9 +242,12 @@ impl Cx {
         self.moved.get()
     }
 
-    /// Notes that the program has moved the robot.
-    pub(crate) fn moved(&self) {
+    /// Notes that the program has planned the motion with this running number.
+    pub(crate) fn moved(&self, motion: u64) {
         self.moved.set(true);
+        let level = self.level.get();
+        self.level.set(Level { own_motion: level.own_motion.map(|_| motion), ..level });
+        self.events.borrow_mut().bind(level.number, motion);
     }
 
     pub(crate) fn world(&self) -> &World {
@@ -158,20 +259,41 @@ impl Cx {
         (&self.print_to, &self.print_file)
     }
 
-    /// Waits until all motion that the program has planned has ended. Where there is none, it still counts as a turn
-    /// of a loop, so that a loop of such calls cannot hold up the controller.
+    /// The running number of the motion that the next instruction comes behind; 0: there is none. An action knows of its own
+    /// motions only.
+    pub(crate) fn last_motion(&self) -> u64 {
+        self.level.get().own_motion.unwrap_or_else(|| self.world.unit.borrow().motions().0)
+    }
+
+    /// Whether the motion has ended that is waited for: all of it, by actions their own.
+    #[inline]
+    fn is_motion_over(&self) -> bool {
+        match self.level.get().own_motion {
+            None => self.world.motion_ended(),
+            Some(own) => own == 0 || self.world.motion_ended_up_to(own),
+        }
+    }
+
+    /// Waits until all motion that the program has planned has ended; in the action of an event, all of its own. Where there
+    /// is none, it still counts as a turn of a loop, so that a loop of such calls cannot hold up the controller.
     #[inline]
     pub(crate) async fn motion_end(&self) {
         if self.spend() {
             self.next_cycle().await;
         }
-        if self.world.motion_ended() {
+        if self.is_motion_over() {
             return;
         }
         self.world.conclude_motion();
-        while self.world.in_trouble() || !self.world.motion_ended() {
+        while self.world.in_trouble() || !self.is_motion_over() {
             self.next_cycle().await;
         }
+    }
+}
+
+impl fmt::Debug for Cx {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Cx").field("world", &self.world).field("place", &self.place()).finish_non_exhaustive()
     }
 }
 

@@ -1,6 +1,7 @@
 //! The prelude of emitted code: everything that a compiled program names.
 
 pub use std::cell::Cell;
+pub use std::rc::Rc;
 
 pub use crate::clock::Clock;
 pub use crate::cx::Cx;

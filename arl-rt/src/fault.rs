@@ -86,6 +86,15 @@ pub enum Fault {
     },
     /// A `_data.arl` file that cannot be read back.
     Data(Box<str>),
+    /// An interrupt, timer or trigger that cannot be watched or handled.
+    Event(Box<str>),
+    /// What went wrong in the condition of an interrupt or a trigger.
+    Condition {
+        /// The interrupt or trigger.
+        event: Box<str>,
+        /// What went wrong.
+        fault: Box<Fault>,
+    },
     /// Anything else that has a number of its own.
     Other {
         /// The alarm's number.
@@ -117,6 +126,8 @@ impl Fault {
             Fault::Collision(_) => 20021,
             Fault::NoMasses { .. } => 20022,
             Fault::Data(_) => 20030,
+            Fault::Event(_) => 20040,
+            Fault::Condition { fault, .. } => fault.number(),
             Fault::Other { number, .. } => *number,
         }
     }
@@ -147,7 +158,8 @@ impl fmt::Display for Fault {
             | Fault::GateHeight(text)
             | Fault::Motion(text)
             | Fault::Collision(text)
-            | Fault::Data(text) => {
+            | Fault::Data(text)
+            | Fault::Event(text) => {
                 write!(f, "{text}")
             }
             Fault::NoMasses { function, robot } => write!(
@@ -155,6 +167,7 @@ impl fmt::Display for Fault {
                 "{function}: the file of robot {robot} gives no masses, so that torques and forces are not known; it needs a \
                  [[link]] for each axis"
             ),
+            Fault::Condition { event, fault } => write!(f, "{fault}, in the condition of {event}"),
             Fault::Other { text, .. } => write!(f, "{text}"),
         }
     }

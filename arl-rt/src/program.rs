@@ -1,5 +1,6 @@
 //! What the controller runs: a program, as the emitted code describes it.
 
+use std::any::Any;
 use std::pin::Pin;
 
 use crate::cx::Cx;
@@ -10,8 +11,23 @@ use crate::robot::Family;
 /// A piece of program that the controller polls once a cycle.
 pub type BoxFuture<'a> = Pin<Box<dyn Future<Output = Done<()>> + 'a>>;
 
+/// A piece of program that owns what it borrows from.
+pub(crate) type Running = BoxFuture<'static>;
+
+/// What can be looked for by its type.
+pub trait AsAny: Any {
+    /// The same, of which the type can be asked.
+    fn as_any(&self) -> &dyn Any;
+}
+
+impl<T: Any> AsAny for T {
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+}
+
 /// A program: its global variables and its `main`.
-pub trait Program {
+pub trait Program: AsAny {
     /// The file that has `main`.
     fn file(&self) -> File;
 
@@ -23,6 +39,12 @@ pub trait Program {
 
     /// Runs `main` once.
     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a>;
+
+    /// The global variables, which the conditions and actions of interrupts ask for: the program itself, unless it is made
+    /// around another one.
+    fn globals(&self) -> &dyn Any {
+        self.as_any()
+    }
 
     /// The variables of `_data.arl` files, which are read again before `main` starts.
     fn data(&self) -> Vec<DataFile<'_>> {
@@ -45,6 +67,10 @@ impl Program for Box<dyn Program> {
 
     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
         (**self).main(cx)
+    }
+
+    fn globals(&self) -> &dyn Any {
+        (**self).globals()
     }
 
     fn data(&self) -> Vec<DataFile<'_>> {

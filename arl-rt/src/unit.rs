@@ -244,6 +244,16 @@ impl Unit {
         self.queue.progress()
     }
 
+    /// The running number of the last motion that is not executed any more: it has ended, or a blend leads away from it.
+    pub(crate) fn over(&self) -> u64 {
+        self.queue.over()
+    }
+
+    /// How far a motion had come when it ended, or was left for a blend, in the last cycle.
+    pub(crate) fn left(&self, motion: u64) -> Option<Progress> {
+        self.queue.left(motion)
+    }
+
     /// The commanded pose of the TCP in the world, with the tool of its motion: mm, deg.
     pub(crate) fn commanded_tcp(&self) -> [f64; 6] {
         frame_components(&self.tcp)

@@ -7,6 +7,7 @@ use crate::cell::Sensitivity;
 use crate::fault::{Alarm, Fault, File};
 use crate::files::ScriptDir;
 use crate::io::Image;
+use crate::motion::Progress;
 use crate::output::{Message, Output};
 use crate::random::Random;
 use crate::rate::Rate;
@@ -150,10 +151,7 @@ impl World {
         let system = &self.system;
         // Outside a motion they keep what the last one left.
         if let Some(progress) = unit.progress() {
-            system.traj_elapse_time.set(progress.elapsed_time);
-            system.traj_left_time.set(progress.left_time);
-            system.traj_elapse_dis.set(progress.elapsed_distance);
-            system.traj_left_dis.set(progress.left_distance);
+            self.tell_progress(&progress);
         }
         system.at_home.update(|at_home| {
             for (at, home) in at_home.iter_mut().zip(&self.homes) {
@@ -162,10 +160,27 @@ impl World {
         });
     }
 
+    /// Sets the variables that tell how far the motion has come.
+    pub(crate) fn tell_progress(&self, progress: &Progress) {
+        let system = &self.system;
+        system.traj_elapse_time.set(progress.elapsed_time);
+        system.traj_left_time.set(progress.left_time);
+        system.traj_elapse_dis.set(progress.elapsed_distance);
+        system.traj_left_dis.set(progress.left_distance);
+    }
+
     /// Whether all planned motion has ended and the robot has settled.
     #[inline]
     pub(crate) fn motion_ended(&self) -> bool {
         self.unit.borrow().ended()
+    }
+
+    /// Whether the motion with this running number and all before it have ended, and the robot has settled, unless there are
+    /// others behind it.
+    pub(crate) fn motion_ended_up_to(&self, motion: u64) -> bool {
+        let unit = self.unit.borrow();
+        let (planned, finished) = unit.motions();
+        if planned > motion { finished >= motion } else { unit.ended() }
     }
 
     /// Says that the program waits for the robot: motions that waited for the next one go without it.

@@ -1,5 +1,6 @@
 //! Runs a function of an emitted program on a controller.
 
+use std::any::Any;
 use std::cell::Cell;
 use std::pin::Pin;
 use std::rc::Rc;
@@ -52,7 +53,7 @@ struct Alone<G, F> {
 impl<G, F> Program for Alone<G, F>
 where
     G: Program,
-    F: for<'a> Fn(&'a Cx, &'a G) -> Work<'a>,
+    F: for<'a> Fn(&'a Cx, &'a G) -> Work<'a> + 'static,
 {
     fn file(&self) -> File {
         self.globals.file()
@@ -64,6 +65,10 @@ where
 
     fn init<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
         self.globals.init(cx)
+    }
+
+    fn globals(&self) -> &dyn Any {
+        self.globals.globals()
     }
 
     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {

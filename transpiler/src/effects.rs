@@ -1,5 +1,6 @@
 //! What functions and loops do: wait, fail, need the context, see global variables, call themselves.
 
+pub(crate) mod captures;
 pub(crate) mod facts;
 pub(crate) mod flow;
 pub(crate) mod graph;
@@ -27,10 +28,13 @@ pub(crate) fn pointer_movers(program: &Program) -> Vec<bool> {
     moves
 }
 
-/// For each function, whether `main` or the first value of a variable needs it.
+/// For each function, whether `main`, the first value of a variable or an event needs it.
 pub(crate) fn reached(program: &Program) -> Vec<bool> {
     let direct: Vec<Facts> = program.funcs.iter().map(|func| facts::of_function(program, func)).collect();
-    let calls = calls(&direct);
+    let calls: Vec<Vec<usize>> = direct
+        .iter()
+        .map(|facts| facts.calls.iter().chain(&facts.later_calls).map(|FuncId(callee)| *callee as usize).collect())
+        .collect();
     let ranges = ranges::Ranges::default();
     let scope = facts::Scope { program, func: None, ranges: &ranges };
     let inits = program.globals.iter().filter_map(|global| global.init.as_ref());
@@ -57,6 +61,7 @@ fn calls(direct: &[Facts]) -> Vec<Vec<usize>> {
 /// Fills in the effects of all functions and the findings about their loops.
 pub fn infer(program: &mut Program) {
     for func in &mut program.funcs {
+        captures::mark(func);
         loops::judge(func);
     }
     let direct: Vec<Facts> = program.funcs.iter().map(|func| facts::of_function(program, func)).collect();

@@ -207,6 +207,8 @@ pub struct Local {
     pub mutated: bool,
     /// Whether it is read anywhere.
     pub read: bool,
+    /// Whether an event that the function declares sees it change; filled in by the effects pass.
+    pub shared: bool,
     /// The name in its declaration.
     pub span: Span,
 }
@@ -291,6 +293,8 @@ pub struct For {
     pub info: LoopInfo,
     /// Where the loop is `for(int i = a; i < b; i++)` with `i` written nowhere else and `b` constant, and does not wait.
     pub counted: bool,
+    /// Whether an event may see a variable of the head change; filled in by the effects pass.
+    pub shared: bool,
 }
 
 /// `case value:` or `default:`

@@ -11,26 +11,26 @@ entries! { pub(super) INTERRUPT =
         when: bool [condition] "the event: false before, true now; it may not wait or move",
         do: any [action, rust("action")] "what is done, as a rule a call",
     )
-        { "6.1", event::interrupt, acts, fails, notyet; "interrupt 1,when:getdi(6),do:setdo(1,true)\nwaittime 1" }
+        { "6.1", event::interrupt, acts, fails; "interrupt 1,when:getdi(6),do:setdo(1,true)\nwaittime 1" }
     /// Disables interrupts: they keep watching their conditions, but lose the events. Without arguments all of them. One
     /// that does not exist: alarm.
     instr disableint(
         name: string [optional] "the one with this name",
         priority: int [optional, range(0.0, 255.0)] "those of this priority",
     )
-        { "6.5", event::disableint, acts, fails, notyet; "disableint" }
+        { "6.5", event::disableint, acts, fails; "disableint" }
     /// Enables interrupts again. Without arguments all of them. One that does not exist: alarm.
     instr enableint(
         name: string [optional] "the one with this name",
         priority: int [optional, range(0.0, 255.0)] "those of this priority",
     )
-        { "6.5", event::enableint, acts, fails, notyet; "enableint" }
+        { "6.5", event::enableint, acts, fails; "enableint" }
     /// Deletes interrupts. Without arguments all of them. One that does not exist: alarm.
     instr delint(
         name: string [optional] "the one with this name",
         priority: int [optional, range(0.0, 255.0)] "those of this priority",
     )
-        { "6.5", event::delint, acts, fails, notyet; "delint" }
+        { "6.5", event::delint, acts, fails; "delint" }
     /// Declares an interrupt that time raises, once or again and again.
     instr timer(
         name: string [optional] "a name of its own, to switch it with",
@@ -39,7 +39,7 @@ entries! { pub(super) INTERRUPT =
         rmode: bool [otherwise("false")] "true: again and again; false: once",
         do: any [action, rust("action")] "what is done, as a rule a call",
     )
-        { "6.7", event::timer, acts, fails, notyet;
+        { "6.7", event::timer, acts, fails;
           "timer name:\"t1\",priority:1,interval:1,rmode:true,do:setdo(1,true)\nwaittime 2" }
     /// Declares an event of the next motion: when the condition becomes true while it runs, the action is done.
     instr trigger(
@@ -47,6 +47,6 @@ entries! { pub(super) INTERRUPT =
         when: bool [condition] "the event, as a rule T, S, StoEnd or P",
         do: any [action, rust("action")] "what is done",
     )
-        { "7.1", event::trigger, acts, fails, foreground, notyet;
+        { "7.1", event::trigger, acts, fails, foreground;
           "joint j = {0,-90,90,0,45,0}\ntrigger 1,when:T(0.5),do:setdo(2,true)\nmovej j,vp:20%" }
 }

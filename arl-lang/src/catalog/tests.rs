@@ -38,7 +38,8 @@ const WORKS: &str = "\
     getwobj_3p getwobj_indi getwobj_flange gettooltcp_ref gettoolrot_world gettoolrot_3p gettool_3p getbase_3p \
     ctime cdate savesv init gettextstr filesize renamefile removefile toolload toolswitch startdetect enddetect cjttq cjtci ctcpforce \
     channeltojoint channeltopose channeljoint channelpose channeljointvel channeltcpvel T S StoEnd P curmpfile curmpline \
-    curppfile curppline savearl savefilepose savefilejoint";
+    curppfile curppline savearl savefilepose savefilejoint interrupt enableint disableint delint timer \
+    trigger";
 
 const RUST_WORDS: &str = "as async await break const continue crate do dyn else enum extern false final fn for gen if \
     impl in let loop macro match mod move mut override priv pub ref return self static struct super trait true try type \

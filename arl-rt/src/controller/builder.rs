@@ -210,8 +210,9 @@ impl Builder {
         }));
         world.reset_system();
         world.set_override(self.speed_override);
-        let cx = Rc::new(Cx::new(Rc::clone(&world), program.file()));
-        let channel = Channel::new(Rc::from(program), cx, self.stack);
+        let program: Rc<dyn Program> = Rc::from(program);
+        let cx = Rc::new(Cx::new(Rc::clone(&world), Rc::clone(&program)));
+        let channel = Channel::new(program, cx, self.stack);
         Ok(Controller { world, channel, clock: self.clock, io: self.io, scenario, trace })
     }
 

@@ -1,27 +1,27 @@
 //! A channel: a program and how far it has come.
 
-use std::pin::Pin;
 use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
 
 use super::Outcome;
-use crate::cx::Cx;
+use super::actions::Actions;
+use crate::cx::{Cx, Level};
 use crate::data;
-use crate::fault::{Alarm, Done, Reason, Stop};
-use crate::program::Program;
+use crate::event;
+use crate::fault::{Alarm, Reason, Stop};
+use crate::program::{Program, Running};
 use crate::world::World;
 
 /// How many bytes of stack a program may use in one poll where nobody says otherwise: half of what a thread gets.
 pub(super) const STACK: usize = 1 << 20;
 
-/// A program that owns what it borrows from.
-type Running = Pin<Box<dyn Future<Output = Done<()>>>>;
-
 /// What the program does.
 enum Phase {
     /// Its statements run.
     Running(Running),
-    /// Its statements have ended; its motion and its pulses run to their end.
+    /// Its statements have ended; its motion and its pulses run to their end, and events are still handled.
+    Concluding,
+    /// It was ended; its motion runs to its end.
     RunningOut(Next),
     /// It has ended.
     Ended(Outcome),
@@ -40,18 +40,20 @@ pub(super) struct Channel {
     cx: Rc<Cx>,
     stack: usize,
     phase: Phase,
+    actions: Actions,
 }
 
 impl Channel {
     /// A program that will start with the next cycle.
     pub(super) fn new(program: Rc<dyn Program>, cx: Rc<Cx>, stack: usize) -> Self {
         let phase = Phase::Running(load(Rc::clone(&program), Rc::clone(&cx)));
-        Self { program, cx, stack, phase }
+        Self { program, cx, stack, phase, actions: Actions::default() }
     }
 
     /// Starts the program from its beginning, global variables included.
     pub(super) fn reset(&mut self) {
         self.cx.reset();
+        self.actions.clear();
         self.phase = Phase::Running(load(Rc::clone(&self.program), Rc::clone(&self.cx)));
     }
 
@@ -67,18 +69,13 @@ impl Channel {
         }
     }
 
-    /// Lets the program run until it waits.
+    /// Looks for events, then lets the program and the actions of events run until they wait.
     pub(super) fn poll(&mut self, world: &World) {
-        if let Phase::Running(running) = &mut self.phase {
+        if matches!(self.phase, Phase::Running(_) | Phase::Concluding) {
             self.cx.start_cycle(self.stack);
-            let mut context = Context::from_waker(Waker::noop());
-            if let Poll::Ready(done) = running.as_mut().poll(&mut context) {
-                let next = match done.map_err(Stop::reason) {
-                    Ok(()) | Err(Reason::Exit) => Next::End(Outcome::Ended),
-                    Err(Reason::Restart) => Next::Restart,
-                    Err(Reason::Alarm(alarm)) => failed(world, alarm),
-                };
-                self.phase = Phase::RunningOut(next);
+            let done = event::scan(&self.cx).map_err(Reason::Alarm).and_then(|()| self.run(world));
+            if let Err(reason) = done {
+                self.leave(world, reason);
             }
         }
         if let Phase::RunningOut(next) = &self.phase {
@@ -87,20 +84,81 @@ impl Channel {
                 world.conclude_motion();
             }
             self.phase = match next {
-                Next::Restart if moving => return,
+                _ if moving => return,
                 // It starts in the next cycle, so that a program of nothing but `restart` does not hold up the others.
                 Next::Restart => Phase::Running(again(Rc::clone(&self.program), Rc::clone(&self.cx))),
-                Next::End(Outcome::Ended) if moving || world.io.borrow().pulsing() => return,
-                Next::End(_) if moving => return,
                 Next::End(outcome) => Phase::Ended(outcome.clone()),
             };
         }
     }
 
+    /// Runs what is on top until it waits; what has ended makes room for what it interrupted.
+    fn run(&mut self, world: &World) -> Result<(), Reason> {
+        let mut context = Context::from_waker(Waker::noop());
+        loop {
+            // While the program is paused nothing of it begins.
+            if !world.paused.get() {
+                self.actions.begin(&self.cx);
+            }
+            let polled = match (self.actions.poll(&self.cx, &mut context), &mut self.phase) {
+                (Some(polled), _) => polled,
+                (None, Phase::Running(program)) => {
+                    let polled = program.as_mut().poll(&mut context);
+                    if let Poll::Ready(Ok(())) = polled {
+                        self.phase = Phase::Concluding;
+                    }
+                    polled
+                }
+                (None, _) => {
+                    if self.is_concluded(world) {
+                        self.end_with(Next::End(Outcome::Ended));
+                    }
+                    Poll::Pending
+                }
+            };
+            match polled {
+                Poll::Ready(Ok(())) => {}
+                Poll::Ready(Err(stop)) => return Err(stop.reason()),
+                Poll::Pending => return Ok(()),
+            }
+        }
+    }
+
+    /// Whether nothing is left to be done once the statements have ended.
+    fn is_concluded(&self, world: &World) -> bool {
+        let moving = !world.motion_ended();
+        if moving {
+            world.conclude_motion();
+        }
+        !moving && !world.io.borrow().pulsing() && !self.cx.events().borrow().has_due()
+    }
+
+    /// Ends the program for a reason that came from its statements.
+    fn leave(&mut self, world: &World, reason: Reason) {
+        match reason {
+            // Motion that is planned keeps its triggers.
+            Reason::Exit => {
+                self.cx.events().borrow_mut().keep_to_motions();
+                self.actions.clear();
+                self.cx.leave_level(Level::PROGRAM);
+                self.phase = Phase::Concluding;
+            }
+            Reason::Restart => self.end_with(Next::Restart),
+            Reason::Alarm(alarm) => self.end_with(failed(world, alarm)),
+        }
+    }
+
+    /// Ends the program and all that it has declared.
+    fn end_with(&mut self, next: Next) {
+        self.actions.clear();
+        self.cx.forget_events();
+        self.phase = Phase::RunningOut(next);
+    }
+
     /// Ends the program with an alarm that did not come from its statements.
     pub(super) fn fail(&mut self, world: &World, alarm: Alarm) {
         if !matches!(self.phase, Phase::Ended(_)) {
-            self.phase = Phase::RunningOut(failed(world, alarm));
+            self.end_with(failed(world, alarm));
         }
     }
 
@@ -109,7 +167,7 @@ impl Channel {
         if !matches!(self.phase, Phase::Ended(_)) {
             world.stop_motion();
             world.paused.set(false);
-            self.phase = Phase::RunningOut(Next::End(outcome));
+            self.end_with(Next::End(outcome));
         }
     }
 }

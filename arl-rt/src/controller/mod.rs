@@ -1,5 +1,6 @@
 //! The controller: it owns the program, the robot, io and the clock, and runs them cycle by cycle.
 
+mod actions;
 mod builder;
 mod channel;
 mod outcome;
@@ -27,7 +28,8 @@ use channel::Channel;
 /// 1. the clock says when the cycle begins;
 /// 2. inputs are read, pulses that are over end, the scenario plays;
 /// 3. the pendant's buttons count;
-/// 4. the program runs until it waits;
+/// 4. the conditions of interrupts, timers and triggers are looked at; then the program runs until it waits, the action of
+///    an event on top of what it interrupts;
 /// 5. the motion goes one step: set-point to the robot's driver, feedback back, variables like `$TRAJ_LEFT_DIS`;
 /// 6. outputs that waited for a motion change, all outputs are written, a collision stops robot and program, messages are
 ///    passed on;

@@ -168,7 +168,7 @@ impl SetDoInMotion {
     /// There is no such channel.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         let world = cx.world();
-        let (last, ended) = world.unit.borrow().motions();
+        let (last, ended) = (cx.last_motion(), world.unit.borrow().motions().1);
         let mut io = world.io.borrow_mut();
         io.set_after(last, self.channel, self.value)?;
         io.motion_ended(ended);

@@ -215,6 +215,11 @@ impl Piece {
         Some(rates)
     }
 
+    /// The share of the motion that is done at its end.
+    pub(super) fn share_at_end(&self) -> f64 {
+        self.shares[1]
+    }
+
     /// The share of the motion that is done after `at` s of nominal time.
     pub(super) fn share(&self, at: f64) -> f64 {
         let [from, to] = self.shares;

@@ -74,6 +74,19 @@ pub struct Progress {
     pub share: f64,
 }
 
+impl Progress {
+    /// A motion that goes nowhere, done.
+    const DONE: Self = Self {
+        motion: 0,
+        line: 0,
+        elapsed_time: 0.0,
+        left_time: 0.0,
+        elapsed_distance: 0.0,
+        left_distance: 0.0,
+        share: 1.0,
+    };
+}
+
 /// The motions of one robot, planned ahead and executed cycle by cycle.
 #[derive(Clone, Debug)]
 pub struct Queue {
@@ -96,6 +109,10 @@ pub struct Queue {
     timed: u64,
     elapsed: f64,
     progress: Option<Progress>,
+    /// How far motions had come that were left behind in the last cycle.
+    left: Vec<Progress>,
+    /// The last motion that is not executed any more: it has ended, or a blend leads away from it.
+    over: u64,
     cycle: f64,
     late: bool,
     /// The line of a motion whose corner could not be rounded off.
@@ -141,6 +158,8 @@ impl Queue {
             timed: 0,
             elapsed: 0.0,
             progress: None,
+            left: Vec::with_capacity(LOOK_AHEAD),
+            over: 0,
             cycle: 0.001,
             late: false,
             sharp: None,
@@ -350,6 +369,17 @@ impl Queue {
         self.progress
     }
 
+    /// The running number of the last motion that is not executed any more: it has ended, or a blend leads away from it.
+    pub fn over(&self) -> u64 {
+        self.over
+    }
+
+    /// How far a motion had come when it ended, or was left for a blend, in the last cycle. `None`: neither did it then, or it
+    /// was dropped.
+    pub fn left(&self, motion: u64) -> Option<Progress> {
+        self.left.iter().rev().find(|progress| progress.motion == motion).copied()
+    }
+
     /// Where the motion ends that is being executed, or else the next one.
     pub fn target(&self) -> &Joints {
         self.course.current().map_or(&self.end, |(piece, _)| piece.target())
@@ -364,6 +394,7 @@ impl Queue {
     /// next one ends exactly at its target, and the next one starts with the cycle after.
     pub fn step(&mut self, dt: f64, override_percent: f64) -> Step {
         self.cycle = dt;
+        self.left.clear();
         let speed = if override_percent > 0.0 { override_percent.min(100.0) / 100.0 } else { 0.0 };
         let pacing = match self.stop {
             Some(Stop::Fast) => Pacing::Stop(FAST),
@@ -389,6 +420,15 @@ impl Queue {
             let (mut arrived, mut finished) = (None, self.finished);
             let stands = self.course.advance((&self.robot, &self.joints), dt, pacing, |passed| {
                 finished = if passed.ends { passed.number } else { finished };
+                if !passed.leaves() {
+                    let elapsed = if passed.number == self.timed { self.elapsed } else { 0.0 };
+                    self.left.push(progress_at(
+                        &passed,
+                        passed.share_at_end(),
+                        passed.duration().unwrap_or(elapsed),
+                        0.0,
+                    ));
+                }
                 arrived = Some(passed);
             });
             self.finished = finished;
@@ -414,6 +454,7 @@ impl Queue {
             self.progress = None;
         }
         self.end_empty();
+        self.leave_behind();
         self.drop_at_rest();
         if !matches!(pacing, Pacing::Stop(_)) {
             self.lose_patience(dt);
@@ -438,31 +479,14 @@ impl Queue {
     }
 
     fn at_the_end_of(&self, piece: &Piece) -> Progress {
-        Progress {
-            motion: piece.number,
-            line: piece.line,
-            elapsed_time: piece.duration().unwrap_or(self.elapsed),
-            left_time: 0.0,
-            elapsed_distance: piece.length,
-            left_distance: 0.0,
-            share: 1.0,
-        }
+        progress_at(piece, 1.0, piece.duration().unwrap_or(self.elapsed), 0.0)
     }
 
     fn on_the_way(&self) -> Option<Progress> {
         let (piece, share) = self.course.current()?;
         // A motion that is joined in this very cycle has not run yet.
         let elapsed = if piece.number == self.timed { self.elapsed } else { 0.0 };
-        let done = piece.length * share;
-        Some(Progress {
-            motion: piece.number,
-            line: piece.line,
-            elapsed_time: elapsed,
-            left_time: self.course.time_to_end(elapsed),
-            elapsed_distance: done,
-            left_distance: piece.length - done,
-            share,
-        })
+        Some(progress_at(piece, share, elapsed, self.course.time_to_end(elapsed)))
     }
 
     /// Motions that go nowhere end when those before them have ended.
@@ -475,9 +499,21 @@ impl Queue {
         }
     }
 
+    /// Notes which motions are not executed any more. Those of which nothing is known go nowhere.
+    fn leave_behind(&mut self) {
+        let ahead = self.course.current().map_or(self.finished + 1, |(piece, _)| piece.number);
+        for motion in self.over + 1..ahead {
+            if !self.dropping && self.left(motion).is_none() {
+                self.left.push(Progress { motion, ..Progress::DONE });
+            }
+        }
+        self.over = self.over.max(ahead - 1);
+    }
+
     fn drop_at_rest(&mut self) {
         if self.dropping && self.rests() {
             self.finished = self.added;
+            self.over = self.added;
             self.course.clear();
             self.end = self.joints;
             self.led = Led::default();
@@ -486,5 +522,19 @@ impl Queue {
             self.dropping = false;
             self.braking_hard = false;
         }
+    }
+}
+
+/// How far the motion of a piece has come.
+fn progress_at(piece: &Piece, share: f64, elapsed_time: f64, left_time: f64) -> Progress {
+    let elapsed_distance = piece.length * share;
+    Progress {
+        motion: piece.number,
+        line: piece.line,
+        elapsed_time,
+        left_time,
+        elapsed_distance,
+        left_distance: piece.length - elapsed_distance,
+        share,
     }
 }

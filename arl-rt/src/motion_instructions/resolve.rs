@@ -118,7 +118,7 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
     }
     let mut unit = world.unit.borrow_mut();
     world.system.cjoint.set(joint(unit.target()));
-    cx.moved();
+    cx.moved(unit.motions().0);
     let (file, line) = (cx.place().0.name(), cx.place().1);
     let share = unit.take_slowed();
     if share < SLOWED {

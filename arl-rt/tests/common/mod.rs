@@ -13,7 +13,7 @@ pub struct Script<F>(pub F);
 
 impl<F> Program for Script<F>
 where
-    F: for<'a> Fn(&'a Cx) -> BoxFuture<'a>,
+    F: for<'a> Fn(&'a Cx) -> BoxFuture<'a> + 'static,
 {
     fn file(&self) -> File {
         FILE

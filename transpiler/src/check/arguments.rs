@@ -339,7 +339,7 @@ impl<'a> Checker<'a> {
         }
         let want = match param.ty {
             Some(Wanted::User(ty)) => Some(ty),
-            Some(Wanted::Builtin(ParamType::One(base))) if param.mode != Mode::Action => Some(Type::scalar(base)),
+            Some(Wanted::Builtin(ParamType::One(base))) => Some(Type::scalar(base)),
             _ => None,
         };
         // What takes one type without conversion still tells what a name can mean.
@@ -347,13 +347,13 @@ impl<'a> Checker<'a> {
             Some(Wanted::Builtin(ParamType::AnyOf([only]))) => Some(Type::scalar(*only)),
             _ => want,
         };
+        if param.mode == Mode::Action {
+            return self.action(body, &arg.value).map(Passed::Value);
+        }
         let typed = match typed {
             Some(typed) => typed,
             None => self.expr(body, &arg.value, hint)?,
         };
-        if param.mode == Mode::Action {
-            return Some(Passed::Value(typed.expr));
-        }
         let value = match (param.ty?, want) {
             (Wanted::Builtin(ParamType::One(Base::Handle(_))), Some(want)) if typed.expr.ty == want => typed.expr,
             (_, Some(want)) => self.coerce(body, typed, want, what)?,

@@ -298,6 +298,7 @@ impl<'a> Checker<'a> {
             value,
             mutated: false,
             read: false,
+            shared: false,
             span: name.span,
         };
         let id = body.add_local(local, ty);

@@ -6,11 +6,12 @@ use super::convert::integer;
 use crate::diagnostics::arguments::ArgumentProblem;
 use crate::diagnostics::flow::FlowProblem;
 use crate::diagnostics::names::NameProblem;
-use crate::diagnostics::support::SupportProblem;
 use crate::diagnostics::types::TypeProblem;
-use crate::hir::{self, Arm, Block, Expr, ExprKind, For, FuncId, LabelId, LoopInfo, Stmt, StmtKind, Type, Value};
+use crate::hir::{
+    self, Arm, Block, Bound, Expr, ExprKind, For, FuncId, LabelId, LoopInfo, Passed, Stmt, StmtKind, Type, Value,
+};
 use arl_lang::ast;
-use arl_lang::catalog::{self, Base, Effect, Kind};
+use arl_lang::catalog::{self, Base, Effect, Kind, Mode, Presence};
 use arl_lang::span::Span;
 use arl_lang::symbol::Symbol;
 use std::collections::HashMap;
@@ -111,7 +112,7 @@ impl Checker<'_> {
                 None
             }
             ast::StmtKind::Expr(expr) => self.expression_statement(body, expr),
-            ast::StmtKind::Instr(instr) => self.instruction(body, instr, stmt).map(StmtKind::Eval),
+            ast::StmtKind::Instr(instr) => self.instruction(body, instr, stmt, out).map(StmtKind::Eval),
             ast::StmtKind::If(branches) => self.if_statement(body, branches),
             ast::StmtKind::CompactIf(both) => {
                 let condition = self.condition(body, &both.0);
@@ -148,17 +149,20 @@ impl Checker<'_> {
 
     fn expression_statement(&mut self, body: &mut Body, expr: &ast::Expr) -> Option<StmtKind> {
         let typed = self.expr(body, expr, None)?;
-        let does_something = matches!(
-            expr.kind,
-            ast::ExprKind::Assign(..) | ast::ExprKind::Step(..) | ast::ExprKind::Call(_) | ast::ExprKind::Error
-        );
-        if !does_something {
+        if !does_something(expr) {
             self.report::<()>(body, expr.span, FlowProblem::NoEffect);
         }
         Some(StmtKind::Eval(typed.expr))
     }
 
-    fn instruction(&mut self, body: &mut Body, instr: &ast::Instr, stmt: &ast::Stmt) -> Option<Expr> {
+    /// An instruction; the events of a motion go before it, as triggers.
+    fn instruction(
+        &mut self,
+        body: &mut Body,
+        instr: &ast::Instr,
+        stmt: &ast::Stmt,
+        before: &mut Vec<Stmt>,
+    ) -> Option<Expr> {
         let name = self.names.name(instr.name.symbol);
         let all = catalog::instructions(name);
         let family = self.family();
@@ -170,19 +174,54 @@ impl Checker<'_> {
         };
         self.strict_case(body, instr.name.span, entry.name);
         let args = self.bind(body, &Callee::Builtin(entry), &instr.args, instr.name.span);
-        for (event, action) in &instr.events {
-            self.condition(body, event);
-            self.expr(body, action, None);
+        let triggers: Vec<Option<Expr>> =
+            instr.events.iter().map(|(event, action)| self.trigger(body, event, action)).collect();
+        if let Some((event, _)) = instr.events.first()
+            && entry.effect != Effect::Plans
+        {
+            let callee = entry.name.to_string();
+            return self.report(body, event.span, ArgumentProblem::Events { callee });
         }
-        if let Some((event, _)) = instr.events.first() {
-            if entry.effect != Effect::Plans {
-                let callee = entry.name.to_string();
-                return self.report(body, event.span, ArgumentProblem::Events { callee });
+        let triggers = triggers.into_iter().collect::<Option<Vec<Expr>>>()?;
+        let motion = self.builtin(body, entry, args?, instr.name.span, stmt.span)?;
+        before.extend(triggers.into_iter().map(|trigger| Stmt { kind: StmtKind::Eval(trigger), span: stmt.span }));
+        Some(motion)
+    }
+
+    /// The trigger that an event behind a motion is short for.
+    fn trigger(&mut self, body: &mut Body, event: &ast::Expr, action: &ast::Expr) -> Option<Expr> {
+        let condition = self.condition(body, event);
+        let action = self.action(body, action);
+        self.has_conditions = true;
+        let entry = catalog::instructions("trigger").first()?;
+        let mut args = Vec::new();
+        for (at, param) in entry.params.iter().enumerate() {
+            if let Presence::Default(text) = param.presence {
+                let priority = Expr {
+                    ty: Type::scalar(Base::Int),
+                    kind: ExprKind::Const(Value::Int(text.parse().ok()?)),
+                    span: event.span,
+                };
+                args.push(Bound { param: at, value: Passed::Value(priority) });
             }
-            let name = "trigger".to_string();
-            return self.report(body, event.span, SupportProblem::NotYet { name });
         }
-        self.builtin(body, entry, args?, instr.name.span, stmt.span)
+        let mut pass = |mode: Mode, value: Expr| {
+            let param = entry.params.iter().position(|param| param.mode == mode)?;
+            args.push(Bound { param, value: Passed::Value(value) });
+            Some(())
+        };
+        pass(Mode::Condition, condition?)?;
+        pass(Mode::Action, action?)?;
+        self.builtin(body, entry, args, event.span, event.span)
+    }
+
+    /// Checks what is to be done at an event.
+    pub(crate) fn action(&mut self, body: &mut Body, expr: &ast::Expr) -> Option<Expr> {
+        let typed = self.expr(body, expr, None)?;
+        if !does_something(expr) {
+            self.report::<()>(body, expr.span, FlowProblem::NoEffect);
+        }
+        Some(typed.expr)
     }
 
     fn unknown_instruction<T>(&mut self, body: &mut Body, instr: &ast::Instr) -> Option<T> {
@@ -251,7 +290,7 @@ impl Checker<'_> {
             None => None,
         };
         let info = LoopInfo::default();
-        Some(StmtKind::For(Box::new(For { init, condition, step, body: block, info, counted: false })))
+        Some(StmtKind::For(Box::new(For { init, condition, step, body: block, info, counted: false, shared: false })))
     }
 
     fn switch(&mut self, body: &mut Body, switch: &ast::Switch) -> Option<StmtKind> {
@@ -371,6 +410,12 @@ pub(crate) fn near_instruction(name: &str) -> Option<&'static str> {
 }
 
 /// A text that is equal for equal constants of one type.
+/// Whether an expression may stand for what it does.
+fn does_something(expr: &ast::Expr) -> bool {
+    use ast::ExprKind::{Assign, Call, Error, Step};
+    matches!(expr.kind, Assign(..) | Step(..) | Call(_) | Error)
+}
+
 fn case_key(value: &Value) -> String {
     match (value, integer(value)) {
         (_, Some(number)) => number.to_string(),

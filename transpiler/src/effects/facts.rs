@@ -1,7 +1,7 @@
 //! What evaluating expressions and running statements involves.
 
-use super::flow;
 use super::ranges::Ranges;
+use super::{captures, flow};
 use crate::hir::{
     Effects, Expr, ExprKind, Func, FuncId, LocalId, Passed, Place, Program, Projection, Root, Stmt, StmtKind, Type,
     Value,
@@ -32,6 +32,8 @@ pub(crate) struct Facts {
     pub(crate) globals: bool,
     /// The functions that are called.
     pub(crate) calls: Vec<FuncId>,
+    /// The functions that the conditions and actions of events call.
+    pub(crate) later_calls: Vec<FuncId>,
 }
 
 impl Facts {
@@ -259,6 +261,7 @@ impl Collector<'_> {
             ExprKind::Builtin(builtin) => {
                 for arg in &builtin.args {
                     match &arg.value {
+                        Passed::Value(value) if captures::is_later(builtin.entry, arg) => self.later(value),
                         Passed::Value(value) => self.expr(value),
                         Passed::Out(place) => {
                             self.read(place);
@@ -284,6 +287,14 @@ impl Collector<'_> {
         }
     }
 
+    /// What an event does later: here it takes what it needs of the locals.
+    fn later(&mut self, expr: &Expr) {
+        let mut own = Collector { scope: self.scope, callees: false, facts: Facts::default() };
+        own.expr(expr);
+        self.facts.later_calls.extend(own.facts.calls.into_iter().chain(own.facts.later_calls));
+        self.facts.reads.extend(captures::mentioned(expr));
+    }
+
     fn call(&mut self, id: FuncId) {
         self.facts.calls.push(id);
         let effects = match self.scope.program.funcs.get(id.0 as usize) {
@@ -302,7 +313,10 @@ impl Collector<'_> {
         self.path(place);
         self.root(place);
         match place.root {
-            Root::Local(id) => self.facts.reads.push(id),
+            Root::Local(id) => {
+                self.facts.reads.push(id);
+                self.facts.world |= self.is_shared(id);
+            }
             Root::Global(id) => {
                 let folded = self.scope.program.globals.get(id.0 as usize).is_some_and(|global| global.value.is_some());
                 self.facts.world |= !folded;
@@ -311,10 +325,17 @@ impl Collector<'_> {
         }
     }
 
+    fn is_shared(&self, id: LocalId) -> bool {
+        self.scope.func.is_some_and(|func| func.locals.get(id.0 as usize).is_some_and(|local| local.shared))
+    }
+
     fn write(&mut self, place: &Place, value: Option<&Expr>) {
         self.root(place);
         match place.root {
-            Root::Local(id) => self.facts.writes.push(id),
+            Root::Local(id) => {
+                self.facts.writes.push(id);
+                self.facts.acts |= self.is_shared(id);
+            }
             Root::Global(_) | Root::System(_) => self.facts.acts = true,
         }
         self.facts.fails |= range_check(place, value).is_some();

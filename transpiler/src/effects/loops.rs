@@ -32,7 +32,7 @@ fn drop_unused(block: &mut Block, unused: &[bool]) {
     }
 }
 
-fn inner_blocks(stmt: &mut Stmt) -> Vec<&mut Block> {
+pub(super) fn inner_blocks(stmt: &mut Stmt) -> Vec<&mut Block> {
     match &mut stmt.kind {
         StmtKind::If(arms, otherwise) => arms.iter_mut().map(|(_, block)| block).chain(otherwise).collect(),
         StmtKind::Switch(_, arms) => arms.iter_mut().map(|arm| &mut arm.body).collect(),
@@ -127,6 +127,9 @@ pub(crate) struct Range<'a> {
 /// The range that a loop runs through: `for(int i = a; i < b; i++)` whose body writes neither `i` nor `b`.
 pub(crate) fn range(each: &For) -> Option<Range<'_>> {
     let [Stmt { kind: StmtKind::Let(local, Some(from)), .. }] = each.init.as_slice() else { return None };
+    if each.shared {
+        return None;
+    }
     let ExprKind::Binary(op, sides) = &each.condition.as_ref()?.kind else { return None };
     let to = &sides.1;
     let is_variable = |place: &Place| matches!(place.root, Root::Local(id) if id == *local) && place.path.is_empty();

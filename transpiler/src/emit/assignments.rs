@@ -65,8 +65,8 @@ impl<'p> Body<'p, '_> {
             return self.assign_op(op, place, by, keep);
         }
         let facts = self.facts(value);
-        let item = matches!(place.path.as_slice(), [Projection::Index(..)]) && !matches!(place.root, Root::Local(_));
-        let settle = keep || !(item || (matches!(place.root, Root::Local(_)) && facts.quiet()));
+        let item = matches!(place.path.as_slice(), [Projection::Index(..)]) && self.plain_local(place.root).is_none();
+        let settle = keep || !(item || (self.plain_local(place.root).is_some() && facts.quiet()));
         let (before, reached, value_fragment) = self.sides(place, Some((value, Mode::Placed)), settle);
         let fragment = self.in_range(place, value_fragment, Some(value));
         if let Some(declared) = self.joined_let(place, Some(value)) {
@@ -92,7 +92,7 @@ impl<'p> Body<'p, '_> {
             own.reads.iter().any(|read| facts.writes.contains(read)) || (own.world && (facts.acts || facts.waits));
         let ranged = facts::range_check(place, None).is_some();
         let native = is_native(op, place, value) && !disturbed && !ranged;
-        let settle = keep || !(native && facts.quiet() && matches!(place.root, Root::Local(_)));
+        let settle = keep || !(native && facts.quiet() && self.plain_local(place.root).is_some());
         if disturbed {
             let (mut before, reached, _) = self.sides(place, None, true);
             let old = self.read_reached(&reached);
@@ -187,9 +187,9 @@ impl<'p> Body<'p, '_> {
         place.path.is_empty()
             && parts.iter().all(|part| {
                 let facts = self.facts(part);
-                let untouched = match place.root {
-                    Root::Local(id) => !facts.reads.contains(&id) && !facts.writes.contains(&id),
-                    Root::Global(_) | Root::System(_) => !facts.world && !facts.acts,
+                let untouched = match self.plain_local(place.root) {
+                    Some(id) => !facts.reads.contains(&id) && !facts.writes.contains(&id),
+                    None => !facts.world && !facts.acts,
                 };
                 untouched && (parts.len() == 1 || facts.quiet())
             })

@@ -14,10 +14,10 @@ use quote::quote;
 
 /// An argument on its way to the runtime.
 pub(super) struct Argument<'p> {
-    param: usize,
-    value: Fragment,
+    pub(super) param: usize,
+    pub(super) value: Fragment,
     /// A place that has to be written after the call, and the temporary that holds its value until then.
-    back: Option<(&'p Place, Reached, Ident)>,
+    pub(super) back: Option<(&'p Place, Reached, Ident)>,
 }
 
 impl<'p> Body<'p, '_> {
@@ -114,8 +114,11 @@ impl<'p> Body<'p, '_> {
         let mut before = TokenStream::new();
         let mut out = Vec::new();
         // Values first, as one sequence; a written variable has no value to be evaluated but its indices.
-        // Conditions are evaluated later, by whoever looks at them.
-        let later = |arg: &Bound| entry.params.get(arg.param).is_some_and(|param| param.mode == ParamMode::Condition);
+        // Conditions and actions are evaluated later, by whoever looks at them.
+        let later = |arg: &Bound| {
+            let mode = entry.params.get(arg.param).map(|param| param.mode);
+            matches!(mode, Some(ParamMode::Condition | ParamMode::Action))
+        };
         let args = || builtin.args.iter().enumerate().filter(|(_, arg)| !later(arg));
         let operands: Vec<Operand<'p>> = args().flat_map(|(_, arg)| self.argument_operands(entry, arg)).collect();
         let moved = reordered(entry, &builtin.args);
@@ -173,7 +176,7 @@ impl<'p> Body<'p, '_> {
         if is_handle(place.ty) {
             return (self.handle(place), None);
         }
-        let local = matches!(place.root, Root::Local(_)) && !shared;
+        let local = self.plain_local(place.root).is_some() && !shared;
         if local {
             let reached = self.reached(place, indices);
             let target = self.target(&reached);

@@ -55,6 +55,7 @@ pub(super) fn function(unit: &Unit<'_>, id: FuncId, func: &Func) -> TokenStream 
             shallow => body.deeper(func, shallow, &result),
         }
     };
+    let shared = body.shared_parameters(&func.params);
     let inlined = body.inlined.then(|| quote!(#[inline(always)]));
     let wastes = body.usage.wastes.then(|| quote!(#[allow(unused_assignments)]));
     let unused = (unit.reached.get(id.0 as usize) != Some(&true)).then(|| quote!(#[allow(dead_code)]));
@@ -66,6 +67,7 @@ pub(super) fn function(unit: &Unit<'_>, id: FuncId, func: &Func) -> TokenStream 
         #wastes
         #inlined
         pub #waits fn #name(#cx #g #(#params),*) #result {
+            #shared
             #statements
         }
     }
@@ -87,7 +89,9 @@ impl<'p> Body<'p, '_> {
     /// into the callers, half of all calls are saved.
     fn shallow(&self, func: &Func) -> usize {
         let numbers = func.params.iter().all(|param| {
-            !self.usage.is_mutable(*param) && func.locals.get(param.0 as usize).is_some_and(|local| is_number(local.ty))
+            !self.usage.is_mutable(*param)
+                && !self.is_shared(*param)
+                && func.locals.get(param.0 as usize).is_some_and(|local| is_number(local.ty))
         });
         if !func.effects.recursive || func.effects.waits || !numbers {
             return 0;

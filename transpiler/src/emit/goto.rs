@@ -16,9 +16,9 @@ use super::body::{Body, Exit, Loop, mentions};
 use super::loops::give_back;
 use super::names::ident;
 use super::statements::Tail;
-use super::types::start_value;
+use super::types::{rust_type, shared_type, shared_value, start_value};
 use crate::effects::flow;
-use crate::hir::{Arm, Expr, For, Func, LabelId, LocalId, LoopInfo, Stmt, StmtKind};
+use crate::hir::{Arm, Expr, For, Func, LabelId, Local, LocalId, LoopInfo, Stmt, StmtKind};
 use arl_lang::span::Span;
 use proc_macro2::{Ident, TokenStream, TokenTree};
 use quote::quote;
@@ -101,8 +101,12 @@ impl<'p> Body<'p, '_> {
         hoisted.sort_unstable();
         let variables = hoisted.into_iter().filter_map(|id| {
             let local = func.locals.get(id.0 as usize)?;
-            let (name, start) = (self.local(id), start_value(local.ty, family));
-            let ty = (!local.ty.is_array()).then(|| super::types::rust_type(local.ty, family)).map(|ty| quote!(: #ty));
+            let (name, start) = (self.local(id), self.first_value(local));
+            let ty = match local.shared {
+                true => Some(shared_type(local.ty, family)),
+                false => (!local.ty.is_array()).then(|| rust_type(local.ty, family)),
+            };
+            let ty = ty.map(|ty| quote!(: #ty));
             Some(quote!(let mut #name #ty = #start;))
         });
         let names = states.iter().map(|state| &state.name);
@@ -121,6 +125,12 @@ impl<'p> Body<'p, '_> {
                 match #variable { #(#arms)* }
             }
         }
+    }
+
+    /// What a variable is before its declaration.
+    fn first_value(&self, local: &Local) -> TokenStream {
+        let start = start_value(local.ty, self.family());
+        if local.shared { shared_value(local.ty, start) } else { start }
     }
 
     /// Whether the declaration of a local is an assignment to a variable outside the machine.
@@ -146,14 +156,13 @@ impl<'p> Body<'p, '_> {
     fn departure(&mut self, label: LabelId, span: Span) -> (TokenStream, usize) {
         let state = self.label_state(label);
         let Some(machine) = &self.machine else { return (TokenStream::new(), state) };
-        let family = self.family();
         let seen = machine.visible_at.get(&label).map_or(&[][..], Vec::as_slice);
         let resets: Vec<TokenStream> = seen
             .iter()
             .filter(|id| !machine.trial && machine.hoisted.contains(id) && !self.visible.contains(id))
             .filter_map(|id| {
                 let local = self.func?.locals.get(id.0 as usize)?;
-                let (name, start) = (self.local(*id), start_value(local.ty, family));
+                let (name, start) = (self.local(*id), self.first_value(local));
                 Some(quote!(#name = #start;))
             })
             .collect();

@@ -31,7 +31,7 @@ impl Body<'_, '_> {
     /// `let`, where the assignment to this place is the declaration, too; with the type where the value does not show
     /// it.
     pub(super) fn joined_let(&mut self, place: &Place, value: Option<&Expr>) -> Option<TokenStream> {
-        let Root::Local(id) = place.root else { return None };
+        let id = self.plain_local(place.root)?;
         if !place.path.is_empty() || !self.joined.remove(&id) {
             return None;
         }

@@ -6,6 +6,7 @@ mod calls;
 mod comments;
 mod compound;
 mod consts;
+mod events;
 mod expressions;
 mod fragment;
 mod functions;

@@ -8,7 +8,7 @@ use super::fragment::{Fragment, Precedence};
 use super::sequence::Operand;
 use super::types::{component, differs, is_cells, is_copy, is_handle, type_name};
 use crate::effects::facts::{self, Facts};
-use crate::hir::{Expr, Place, Projection, Root, Type, Value};
+use crate::hir::{Expr, LocalId, Place, Projection, Root, Type, Value};
 use arl_lang::ast::BinaryOp;
 use arl_lang::catalog::{Base, Struct};
 use proc_macro2::{Ident, Literal, TokenStream};
@@ -18,6 +18,8 @@ use quote::quote;
 #[derive(Clone, Debug)]
 pub(super) struct Reached {
     root: Root,
+    /// Whether it is a local variable that events see, too.
+    shared: bool,
     /// The type of the whole variable.
     whole: Type,
     /// The type of what the path leads to.
@@ -83,7 +85,7 @@ pub(super) enum Written<'p> {
 impl Reached {
     fn kept(&self) -> Kept {
         match self.root {
-            Root::Local(_) => Kept::Local,
+            Root::Local(_) if !self.shared => Kept::Local,
             _ if is_handle(self.whole) => Kept::Handle,
             _ if is_copy(self.whole) => Kept::Cell,
             Root::Global(_) if is_cells(self.whole) => Kept::Cells,
@@ -138,7 +140,19 @@ impl<'p> Body<'p, '_> {
                 Projection::Index(..) => Reach::At(indices.next().map_or_else(|| quote!(0), |index| index.tokens)),
             })
             .collect();
-        Reached { root: place.root, whole: self.variable_type(place.root), ty: place.ty, path }
+        let shared = matches!(place.root, Root::Local(_)) && self.plain_local(place.root).is_none();
+        Reached { root: place.root, shared, whole: self.variable_type(place.root), ty: place.ty, path }
+    }
+
+    /// A local variable that is a plain one in Rust, too: that events do not see.
+    pub(super) fn plain_local(&self, root: Root) -> Option<LocalId> {
+        let Root::Local(id) = root else { return None };
+        (!self.is_shared(id)).then_some(id)
+    }
+
+    /// Whether events see a local variable.
+    pub(super) fn is_shared(&self, id: LocalId) -> bool {
+        self.func.and_then(|func| func.locals.get(id.0 as usize)).is_some_and(|local| local.shared)
     }
 
     fn variable_type(&self, root: Root) -> Type {

@@ -4,7 +4,7 @@ use super::body::{Body, Exit};
 use super::fragment::{Fragment, Precedence};
 use super::sequence::Mode;
 use super::switch;
-use super::types::{rust_type, start_value};
+use super::types::{rust_type, shared_type, shared_value, start_value};
 use super::waiting::ending;
 use crate::effects::flow;
 use crate::hir::{Expr, ExprKind, FuncId, LocalId, Stmt, StmtKind, Type, Value};
@@ -92,6 +92,9 @@ impl<'p> Body<'p, '_> {
             return TokenStream::new();
         }
         let (name, family) = (self.local(id), self.family());
+        if local.shared {
+            return self.shared_declaration(id, local.ty, value);
+        }
         let given = value.map(|value| self.expression(value, Mode::Placed));
         let before = given.as_ref().map(|value| value.before.clone());
         let start = start_value(local.ty, family);
@@ -111,6 +114,34 @@ impl<'p> Body<'p, '_> {
         };
         let pointer = self.pointer();
         quote!(#pointer #before #code)
+    }
+
+    /// `let x = Rc::new(Cell::new(value));`: a variable that events see, a new one each time.
+    fn shared_declaration(&mut self, id: LocalId, ty: Type, value: Option<&'p Expr>) -> TokenStream {
+        let (name, family) = (self.local(id), self.family());
+        let given = value.map(|value| self.expression(value, Mode::Placed));
+        let before = given.as_ref().map(|value| value.before.clone());
+        let cell = shared_value(ty, given.map_or_else(|| start_value(ty, family), |value| value.tokens));
+        self.visible.push(id);
+        self.note_declaration(id);
+        let pointer = self.pointer();
+        if self.is_hoisted(id) {
+            return quote!(#pointer #before #name = #cell;);
+        }
+        let of = needs_annotation(ty, value).then(|| shared_type(ty, family)).map(|ty| quote!(: #ty));
+        quote!(#pointer #before let #name #of = #cell;)
+    }
+
+    /// Puts parameters that events see where these can see them.
+    pub(super) fn shared_parameters(&self, params: &[LocalId]) -> TokenStream {
+        let func = self.func;
+        let shared = params.iter().filter(|id| self.is_shared(**id)).filter_map(|id| {
+            let ty = func?.locals.get(id.0 as usize)?.ty;
+            let name = self.local(*id);
+            let cell = shared_value(ty, quote!(#name));
+            Some(quote!(let #name = #cell;))
+        });
+        shared.collect()
     }
 
     /// `: i32`, where the type does not show in the value.
@@ -221,7 +252,7 @@ impl<'p> Body<'p, '_> {
     /// A returned local variable is moved out, not copied.
     fn moved_local(&self, value: &Expr) -> Option<TokenStream> {
         let ExprKind::Place(place) = &value.kind else { return None };
-        let crate::hir::Root::Local(id) = place.root else { return None };
+        let id = self.plain_local(place.root)?;
         let name = self.local(id);
         place.path.is_empty().then(|| quote!(#name))
     }
@@ -245,14 +276,14 @@ impl<'p> Body<'p, '_> {
 }
 
 /// `Ok(call?)` is `call`.
-fn without_detour(value: &Fragment) -> Option<TokenStream> {
+pub(super) fn without_detour(value: &Fragment) -> Option<TokenStream> {
     let mut tokens: Vec<TokenTree> = value.tokens.clone().into_iter().collect();
     let asks = matches!(tokens.last(), Some(TokenTree::Punct(sign)) if sign.as_char() == '?');
     tokens.pop();
     (asks && value.precedence == Precedence::Postfix).then(|| tokens.into_iter().collect())
 }
 
-fn is_unit(tokens: &TokenStream) -> bool {
+pub(super) fn is_unit(tokens: &TokenStream) -> bool {
     tokens.to_string().replace(' ', "") == "()"
 }
 

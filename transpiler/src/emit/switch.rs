@@ -6,7 +6,7 @@ use super::fragment::Fragment;
 use super::sequence::Mode;
 use super::statements::Tail;
 use crate::effects::flow;
-use crate::hir::{Arm, Expr, ExprKind, Root, Stmt, StmtKind, Value};
+use crate::hir::{Arm, Expr, ExprKind, Stmt, StmtKind, Value};
 use arl_lang::catalog::Base;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -67,7 +67,7 @@ impl<'p> Body<'p, '_> {
     /// What a chain compares again and again: a local variable as it is, since the arm is chosen before any of them runs.
     fn chain_subject(&mut self, subject: &'p Expr) -> Fragment {
         match &subject.kind {
-            ExprKind::Place(place) if matches!(place.root, Root::Local(_)) && place.path.is_empty() => {
+            ExprKind::Place(place) if self.plain_local(place.root).is_some() && place.path.is_empty() => {
                 self.expression(subject, Mode::Compared)
             }
             _ => {

@@ -109,6 +109,29 @@ pub(super) fn variable_type(ty: Type, family: Family) -> TokenStream {
     }
 }
 
+/// The variable that a local of this type is which events see, too: `Rc<Cell<i32>>`.
+pub(super) fn shared_type(ty: Type, family: Family) -> TokenStream {
+    let value = rust_type(ty, family);
+    if is_handle(ty) {
+        quote!(Rc<#value>)
+    } else if is_copy(ty) {
+        quote!(Rc<Cell<#value>>)
+    } else {
+        quote!(Rc<Shared<#value>>)
+    }
+}
+
+/// Such a variable with this value.
+pub(super) fn shared_value(ty: Type, value: TokenStream) -> TokenStream {
+    if is_handle(ty) {
+        quote!(Rc::new(#value))
+    } else if is_copy(ty) {
+        quote!(Rc::new(Cell::new(#value)))
+    } else {
+        quote!(Rc::new(Shared::new(#value)))
+    }
+}
+
 /// The start value of a type.
 pub(super) fn start_value(ty: Type, family: Family) -> TokenStream {
     if ty.is_array() {

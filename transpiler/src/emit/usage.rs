@@ -38,6 +38,15 @@ pub(super) struct Usage {
 impl Usage {
     /// Looks through a function; `waits` tells of which functions calls may wait.
     pub(super) fn of_function(func: &Func, waits: &dyn Fn(FuncId) -> bool) -> Self {
+        let mut usage = Self::of_plain_locals(func, waits);
+        // What events see is a cell: nobody knows who reads it, and changing it does not change the variable.
+        for (usage, _) in usage.locals.iter_mut().zip(&func.locals).filter(|(_, local)| local.shared) {
+            *usage = Local { read: true, ..Local::default() };
+        }
+        usage
+    }
+
+    fn of_plain_locals(func: &Func, waits: &dyn Fn(FuncId) -> bool) -> Self {
         let mut usage = Self { locals: vec![Local::default(); func.locals.len()], ..Self::default() };
         usage.block(&func.body);
         if func.has_goto {
@@ -48,19 +57,20 @@ impl Usage {
             usage.wastes = true;
             return usage;
         };
+        let shared = |id: LocalId| func.locals.get(id.0 as usize).is_some_and(|local| local.shared);
         for (id, site) in graph.wasted(Readers::All) {
             if let Some(local) = usage.locals.get_mut(id.0 as usize) {
                 local.late |= site == Site::Declaration && local.read;
             }
         }
-        for (id, site) in graph.wasted(Readers::Others) {
+        for (id, site) in graph.wasted(Readers::Others).into_iter().filter(|(id, _)| !shared(*id)) {
             let local = usage.get(id);
             usage.wastes |= local.read && !(local.late && site == Site::Declaration);
         }
         let wanted = |id: LocalId| {
             let number = func.locals.get(id.0 as usize).is_some_and(|local| is_number(local.ty));
             let own = usage.get(id);
-            number && own.read && own.written && !own.parts
+            number && own.read && own.written && !own.parts && !shared(id)
         };
         usage.kept = graph.kept(&wanted);
         let late = |id: LocalId| usage.locals.get(id.0 as usize).is_some_and(|local| local.late);

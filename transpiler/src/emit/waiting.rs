@@ -6,7 +6,7 @@ use super::calls::instruction_call;
 use super::fragment::{Fragment, Precedence};
 use super::places::{Calm, Written};
 use super::sequence::Mode;
-use crate::hir::{Bound, Builtin, Expr, ExprKind, Passed, Place, Root, Value};
+use crate::hir::{Bound, Builtin, Expr, ExprKind, Passed, Place, Value};
 use arl_lang::catalog::{Effect, Mode as ParamMode};
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -29,8 +29,7 @@ impl<'p> Body<'p, '_> {
         if entry.name == "jump" {
             return self.looking(builtin);
         }
-        let text = format!("{} cannot be emitted yet", entry.name);
-        Some(Fragment::postfix(quote!(compile_error!(#text))))
+        Some(self.event(builtin))
     }
 
     /// A `jump` that looks at its `sig` above the target; `None` where that is false anyway.
@@ -99,9 +98,9 @@ impl<'p> Body<'p, '_> {
         let waiting = Fragment::postfix(quote!(loop { #before if #met { break false; } #late #next }));
         let (flag_before, indices) = self.sequence(&Self::index_operands(flag), |_| true);
         let reached = self.reached(flag, indices);
-        let waiting = match flag.root {
-            Root::Local(_) => waiting,
-            _ => self.settle(waiting, "timed_out"),
+        let waiting = match self.plain_local(flag.root) {
+            Some(_) => waiting,
+            None => self.settle(waiting, "timed_out"),
         };
         if let Some(declared) = self.joined_let(flag, None) {
             return quote!(#start #declared = #waiting;);

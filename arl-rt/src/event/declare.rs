@@ -1,0 +1,163 @@
+//! `interrupt`, `timer`, `trigger`.
+
+use std::rc::Rc;
+
+use super::code::Watched;
+use super::scan::evaluate;
+use super::table::{Declaration, Source, Ticking, priority};
+use crate::cx::Cx;
+use crate::fault::{Done, Fault};
+use crate::values::Str;
+
+/// The shortest interval of a timer that repeats, in s (manual 6.7).
+const SHORTEST: f64 = 0.001;
+
+/// `interrupt`: when the condition becomes true, the action runs. Both get the context.
+pub fn interrupt<C, A>(when: C, action: A) -> Interrupt<C, A>
+where
+    C: AsyncFn(&Cx) -> Done<bool> + 'static,
+    A: AsyncFn(&Cx) -> Done<()> + 'static,
+{
+    Interrupt { name: None, priority: 0, code: Watched { when, action } }
+}
+
+/// `interrupt`, ready to run.
+#[must_use = "an instruction does nothing until it is run"]
+pub struct Interrupt<C, A> {
+    name: Option<Str>,
+    priority: i32,
+    code: Watched<C, A>,
+}
+
+impl<C, A> Interrupt<C, A>
+where
+    C: AsyncFn(&Cx) -> Done<bool> + 'static,
+    A: AsyncFn(&Cx) -> Done<()> + 'static,
+{
+    /// A name of its own.
+    pub fn name(mut self, name: &Str) -> Self {
+        self.name = Some(name.clone());
+        self
+    }
+
+    /// 0 (first) to 255; without it 0.
+    pub fn priority(mut self, priority: i32) -> Self {
+        self.priority = priority;
+        self
+    }
+
+    /// Watches the condition from the next cycle on, until the program ends or `delint`. One that holds now must first be
+    /// false.
+    ///
+    /// # Errors
+    /// The name is taken or empty, the priority is not within 0 to 255, there are too many events; the alarm of the
+    /// condition.
+    pub fn run(self, cx: &Cx) -> Result<(), Fault> {
+        const FUNCTION: &str = "interrupt";
+        let priority = priority(self.priority, FUNCTION)?;
+        let code = Rc::new(self.code);
+        let held = evaluate(cx, &*code).map_err(|problem| problem.fault(&format!("this {FUNCTION}")))?;
+        let new =
+            Declaration { name: self.name, priority, source: Source::Condition { held }, place: cx.place(), code };
+        cx.events().borrow_mut().declare(FUNCTION, new)
+    }
+}
+
+/// `timer`: when the interval is over, the action runs.
+pub fn timer<A>(interval: f64, action: A) -> Timer<A>
+where
+    A: AsyncFn(&Cx) -> Done<()> + 'static,
+{
+    Timer { name: None, priority: 0, interval, repeats: false, action }
+}
+
+/// `timer`, ready to run.
+#[must_use = "an instruction does nothing until it is run"]
+pub struct Timer<A> {
+    name: Option<Str>,
+    priority: i32,
+    interval: f64,
+    repeats: bool,
+    action: A,
+}
+
+impl<A> Timer<A>
+where
+    A: AsyncFn(&Cx) -> Done<()> + 'static,
+{
+    /// A name of its own.
+    pub fn name(mut self, name: &Str) -> Self {
+        self.name = Some(name.clone());
+        self
+    }
+
+    /// 0 (first) to 255; without it 0.
+    pub fn priority(mut self, priority: i32) -> Self {
+        self.priority = priority;
+        self
+    }
+
+    /// Whether it runs again and again, not once.
+    pub fn rmode(mut self, repeats: bool) -> Self {
+        self.repeats = repeats;
+        self
+    }
+
+    /// Counts from now on.
+    ///
+    /// # Errors
+    /// The name is taken or empty, the priority is not within 0 to 255, the interval is below 0 s (below 0.001 s where it
+    /// repeats) or no number, there are too many events.
+    pub fn run(self, cx: &Cx) -> Result<(), Fault> {
+        const FUNCTION: &str = "timer";
+        let priority = priority(self.priority, FUNCTION)?;
+        let (interval, least) = (self.interval, if self.repeats { SHORTEST } else { 0.0 });
+        if !interval.is_finite() || interval < least {
+            let problem = format!("the interval is {interval} s, but must be {least} s or more");
+            return Err(Fault::Domain { function: FUNCTION, problem: problem.into() });
+        }
+        let source = Source::Time(Ticking::new(interval, self.repeats, cx.cycle()));
+        let code = Rc::new(Watched { when: async |_: &Cx| Ok(false), action: self.action });
+        let new = Declaration { name: self.name, priority, source, place: cx.place(), code };
+        cx.events().borrow_mut().declare(FUNCTION, new)
+    }
+}
+
+/// `trigger`: when the condition becomes true during the next motion, the action runs.
+pub fn trigger<C, A>(when: C, action: A) -> Trigger<C, A>
+where
+    C: AsyncFn(&Cx) -> Done<bool> + 'static,
+    A: AsyncFn(&Cx) -> Done<()> + 'static,
+{
+    Trigger { priority: 10, code: Watched { when, action } }
+}
+
+/// `trigger`, ready to run.
+#[must_use = "an instruction does nothing until it is run"]
+pub struct Trigger<C, A> {
+    priority: i32,
+    code: Watched<C, A>,
+}
+
+impl<C, A> Trigger<C, A>
+where
+    C: AsyncFn(&Cx) -> Done<bool> + 'static,
+    A: AsyncFn(&Cx) -> Done<()> + 'static,
+{
+    /// 0 (first) to 255; without it 10.
+    pub fn priority(mut self, priority: i32) -> Self {
+        self.priority = priority;
+        self
+    }
+
+    /// Belongs to the motion that is planned next.
+    ///
+    /// # Errors
+    /// The priority is not within 0 to 255, or there are too many triggers for one motion.
+    pub fn run(self, cx: &Cx) -> Result<(), Fault> {
+        let priority = priority(self.priority, "trigger")?;
+        let source = Source::Motion { number: 0, held: false, over: false };
+        let new = Declaration { name: None, priority, source, place: cx.place(), code: Rc::new(self.code) };
+        cx.events().borrow_mut().declare_trigger(cx.level().number, new)
+    }
+}

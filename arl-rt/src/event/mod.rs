@@ -1,0 +1,19 @@
+//! Interrupts, timers and triggers: what a program declares to be done when something happens (manual 6 and 7).
+//!
+//! Declarations go into one [`Table`] per channel. Each cycle, before the program runs, [`scan`] looks at their conditions;
+//! the channel runs the actions of those that have become true.
+
+mod code;
+mod declare;
+mod progress;
+mod scan;
+mod switch;
+mod table;
+
+pub use declare::{Interrupt, Timer, Trigger, interrupt, timer, trigger};
+pub use progress::{elapsed_distance, elapsed_percent, elapsed_time, left_distance};
+pub use switch::{DelInt, DisableInt, EnableInt, delint, disableint, enableint};
+
+pub(crate) use code::Code;
+pub(crate) use scan::scan;
+pub(crate) use table::{Due, Table};

@@ -1,0 +1,157 @@
+//! Looking at conditions: once a cycle, before the program runs.
+
+use std::rc::Rc;
+use std::task::Poll;
+
+use super::Code;
+use super::table::{Event, Source, Table};
+use crate::cx::{Cx, Level};
+use crate::fault::{Alarm, Fault, Reason, Stop};
+use crate::motion::Progress;
+
+/// Why it is not known whether a condition holds.
+pub(super) enum Unknown {
+    /// An alarm in it.
+    Alarm(Alarm),
+    /// It takes longer than a cycle, or ends the program.
+    Unfit(&'static str),
+}
+
+impl From<Stop> for Unknown {
+    fn from(stop: Stop) -> Self {
+        match stop.reason() {
+            Reason::Alarm(alarm) => Unknown::Alarm(alarm),
+            Reason::Exit | Reason::Restart => Unknown::Unfit("ends the program"),
+        }
+    }
+}
+
+impl Unknown {
+    /// What is wrong with the condition of `event`.
+    pub(super) fn fault(self, event: &str) -> Fault {
+        match self {
+            Unknown::Alarm(alarm) => Fault::Condition { event: event.into(), fault: Box::new(alarm.fault) },
+            Unknown::Unfit(problem) => Fault::Event(format!("the condition of {event} {problem}").into()),
+        }
+    }
+
+    fn alarm(self, event: &Event) -> Alarm {
+        let (file, line) = match &self {
+            Unknown::Alarm(alarm) => (alarm.file, alarm.line),
+            Unknown::Unfit(_) => event.place,
+        };
+        Alarm { fault: self.fault(&event.describe()), file, line }
+    }
+}
+
+/// Whether a condition holds. It has the turns of loops of a whole cycle for itself, waits for no motion, and leaves the
+/// program pointer where it is.
+pub(super) fn evaluate(cx: &Cx, code: &dyn Code) -> Result<bool, Unknown> {
+    let (place, level) = (cx.place(), cx.enter_level(Level::LOOKING));
+    let budget = cx.renew_budget();
+    let held = code.holds(cx);
+    cx.restore_budget(budget);
+    cx.leave_level(level);
+    cx.line(place.0, place.1);
+    match held {
+        Poll::Ready(held) => Ok(held?),
+        Poll::Pending => Err(Unknown::Unfit("takes longer than a cycle")),
+    }
+}
+
+/// Looks at all conditions and timers; notes the events of this cycle.
+///
+/// # Errors
+/// The alarm of a condition.
+pub(crate) fn scan(cx: &Cx) -> Result<(), Alarm> {
+    scan_interrupts(cx)?;
+    scan_triggers(cx)
+}
+
+fn scan_interrupts(cx: &Cx) -> Result<(), Alarm> {
+    let (now, rate) = (cx.cycle(), cx.world().rate);
+    for at in 0.. {
+        let mut table = cx.events().borrow_mut();
+        let Some(event) = table.interrupts.get_mut(at) else { break };
+        let happens = match &mut event.source {
+            Source::Time(ticking) => ticking.is_over(now, rate),
+            Source::Motion { .. } => false,
+            Source::Condition { held } => {
+                let (number, held, code) = (event.number, *held, Rc::clone(&event.code));
+                // A condition may call a function that declares or deletes interrupts.
+                drop(table);
+                let holds = evaluate(cx, &*code);
+                table = cx.events().borrow_mut();
+                let found = table.interrupts.get_mut(at).filter(|event| event.number == number);
+                let Some(event) = found else { continue };
+                let holds = holds.map_err(|unknown| unknown.alarm(event))?;
+                event.source = Source::Condition { held: holds };
+                holds && !held
+            }
+        };
+        let Table { interrupts, arrivals, .. } = &mut *table;
+        if let Some(event) = interrupts.get_mut(at).filter(|event| happens && event.enabled) {
+            // Until it is handled, an event is kept once.
+            event.arrived.get_or_insert(now);
+            *arrivals = true;
+        }
+    }
+    Ok(())
+}
+
+/// What a trigger's motion is doing.
+enum Stage {
+    /// It has not begun.
+    Ahead,
+    /// It is being executed.
+    Executed,
+    /// It is over, and had come so far; `None`: it was dropped, or that has been looked at.
+    Over(Option<Progress>),
+}
+
+fn scan_triggers(cx: &Cx) -> Result<(), Alarm> {
+    let now = cx.cycle();
+    drop_done(&mut cx.events().borrow_mut());
+    for at in 0.. {
+        let table = cx.events().borrow();
+        let Some(event) = table.triggers.get(at) else { break };
+        let Source::Motion { number, held, over } = event.source else { continue };
+        let stage = if over { Stage::Over(None) } else { stage(cx, number) };
+        let (code, ordinal) = (Rc::clone(&event.code), event.number);
+        drop(table);
+        let holds = match stage {
+            // Those behind it belong to later motions.
+            Stage::Ahead => break,
+            Stage::Executed => evaluate(cx, &*code),
+            Stage::Over(Some(end)) => cx.look_back(end, || evaluate(cx, &*code)),
+            Stage::Over(None) => Ok(held),
+        };
+        let Table { triggers, arrivals, .. } = &mut *cx.events().borrow_mut();
+        let Some(event) = triggers.get_mut(at).filter(|event| event.number == ordinal) else { continue };
+        let holds = holds.map_err(|unknown| unknown.alarm(event))?;
+        event.source = Source::Motion { number, held: holds, over: matches!(stage, Stage::Over(_)) };
+        if holds && !held {
+            event.arrived.get_or_insert(now);
+            *arrivals = true;
+        }
+    }
+    drop_done(&mut cx.events().borrow_mut());
+    Ok(())
+}
+
+fn stage(cx: &Cx, motion: u64) -> Stage {
+    let unit = cx.world().unit.borrow();
+    match unit.progress() {
+        _ if motion <= unit.over() => Stage::Over(unit.left(motion)),
+        Some(progress) if progress.motion == motion => Stage::Executed,
+        _ => Stage::Ahead,
+    }
+}
+
+/// Drops the triggers whose motion is over, unless their action is still to run.
+fn drop_done(table: &mut Table) {
+    let is_done = |event: &Event| event.arrived.is_none() && matches!(event.source, Source::Motion { over: true, .. });
+    while table.triggers.front().is_some_and(is_done) {
+        table.triggers.pop_front();
+    }
+}
