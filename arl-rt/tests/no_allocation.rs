@@ -25,6 +25,14 @@ fn cycles_without_statements_allocate_nothing() {
     let builder = builder.trace(std::io::sink());
     let (mut controller, _) = controller(builder, |cx| {
         Box::pin(async move {
+            for priority in 0..20 {
+                let when = async |cx: &Cx| Ok(io::getdi(cx, 20).await.at(FILE, 1)? || event::elapsed_time(cx, 1e9));
+                event::interrupt(when, async |_: &Cx| Ok(())).priority(priority).run(cx).at(FILE, 1)?;
+            }
+            event::timer(1e6, async |_: &Cx| Ok(())).rmode(true).run(cx).at(FILE, 1)?;
+            event::trigger(async |cx: &Cx| Ok(event::elapsed_percent(cx, 101.0)), async |_: &Cx| Ok(()))
+                .run(cx)
+                .at(FILE, 1)?;
             motion::startdetect(1).run(cx).at(FILE, 1)?;
             motion::movej(bent(60.0)).vp(100.0).run(cx).await.at(FILE, 1)?;
             motion::toolload(ToolInertiaPara { m: 500.0, ..Default::default() }).run(cx).at(FILE, 2)?;

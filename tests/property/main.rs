@@ -5,6 +5,7 @@
 
 mod corpus;
 mod expressions;
+mod interrupts;
 mod motions;
 mod programs;
 mod targets;

@@ -73,9 +73,12 @@ impl Channel {
     pub(super) fn poll(&mut self, world: &World) {
         if matches!(self.phase, Phase::Running(_) | Phase::Concluding) {
             self.cx.start_cycle(self.stack);
-            let done = event::scan(&self.cx).map_err(Reason::Alarm).and_then(|()| self.run(world));
-            if let Err(reason) = done {
+            let mut done = event::scan(&self.cx).map_err(Reason::Alarm).and_then(|()| self.run(world));
+            while let Err(reason) = done {
                 self.leave(world, reason);
+                // After `exit` the motion that is left may have triggers.
+                let concludes = matches!(self.phase, Phase::Concluding);
+                done = if concludes { self.run(world) } else { Ok(()) };
             }
         }
         if let Phase::RunningOut(next) = &self.phase {

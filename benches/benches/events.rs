@@ -1,0 +1,75 @@
+//! What a cycle takes with interrupts to watch, while the program waits.
+//!
+//! `cargo bench -p arl-benches --bench events`
+
+use std::error::Error;
+
+use arl_benches::statistics::processor_time;
+use arl_rt::Controller;
+use arl_rt::emit::*;
+
+const FILE: File = File::new("events.arl");
+/// How many cycles are measured.
+const CYCLES: u32 = 200_000;
+
+/// A program that declares interrupts and waits.
+#[derive(Default)]
+struct Watching {
+    interrupts: i32,
+    flag: Cell<bool>,
+}
+
+impl Program for Watching {
+    fn file(&self) -> File {
+        FILE
+    }
+
+    fn family(&self) -> Family {
+        Family::SixAxis
+    }
+
+    fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> {
+        Box::pin(async { Ok(()) })
+    }
+
+    fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+        Box::pin(async move {
+            for number in 0..self.interrupts {
+                let channel = number % 60 + 1;
+                event::interrupt(
+                    async move |cx: &Cx| {
+                        let g: &Watching = cx.globals().at(FILE, 1)?;
+                        Ok(g.flag.get() && io::getdi(cx, 61).await.at(FILE, 1)?
+                            || io::getdi(cx, channel).await.at(FILE, 1)?)
+                    },
+                    async |_: &Cx| Ok(()),
+                )
+                .priority(number)
+                .run(cx)
+                .at(FILE, 1)?;
+            }
+            flow::waittime(1e9).run(cx).await.at(FILE, 2)
+        })
+    }
+}
+
+/// ns of processor time a cycle.
+fn cycle(interrupts: i32) -> Result<f64, Box<dyn Error>> {
+    let mut controller = Controller::builder().build(Box::new(Watching { interrupts, ..Watching::default() }))?;
+    controller.step();
+    let start = processor_time();
+    for _ in 0..CYCLES {
+        controller.step();
+    }
+    Ok((processor_time() - start).as_nanos() as f64 / f64::from(CYCLES))
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let none = cycle(0)?;
+    println!("without interrupts: {none:.0} ns a cycle");
+    for count in [1, 16, 64, 255] {
+        let with = cycle(count)?;
+        println!("{count} interrupts: {with:.0} ns a cycle, {:.1} ns for each", (with - none) / f64::from(count));
+    }
+    Ok(())
+}
