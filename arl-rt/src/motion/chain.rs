@@ -1,7 +1,7 @@
 //! Motions whose way depends on the one behind them: it is planned when that one is known, or none comes.
 
 use super::arc::circle_through;
-use super::command::{Command, Settings, Target};
+use super::command::{Command, Settings, Target, Zone};
 use super::curve::Track;
 use super::error::PlanError;
 use super::joints::Joints;
@@ -107,14 +107,24 @@ impl Held {
                     let carried = |held: &Held| std::mem::discriminant(&held.command.rig.carried);
                     carried(self) == carried(next)
                 }
-                Kind::Spline => {
-                    let from = self.from(robot);
-                    self.command.rig.carried == next.command.rig.carried
-                        && from.chord(&self.target) > SAME
-                        && self.target.chord(&next.target) > SAME
-                        && !from.turns_back(&self.target, &next.target)
-                }
+                Kind::Spline => self.command.rig.carried == next.command.rig.carried && !self.breaks_off(robot, next),
             }
+    }
+
+    /// Whether a spline has to end here and a new one to begin: points are the same, or the way turns back.
+    fn breaks_off(&self, robot: &Robot, next: &Held) -> bool {
+        let from = self.from(robot);
+        from.chord(&self.target) <= SAME
+            || self.target.chord(&next.target) <= SAME
+            || from.turns_back(&self.target, &next.target)
+    }
+
+    /// Ends it with a stop, whatever its zone, where the next one would be of the same spline but for [`Held::breaks_off`]:
+    /// within a spline zones count for nothing.
+    pub(super) fn stop_before(&mut self, robot: &Robot, next: &Held) {
+        if [self.kind, next.kind] == [Kind::Spline; 2] && self.breaks_off(robot, next) {
+            self.command.zone = Zone::NONE;
+        }
     }
 
     fn from(&self, robot: &Robot) -> Place {

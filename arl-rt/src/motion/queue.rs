@@ -243,7 +243,10 @@ impl Queue {
 
     /// Plans the motion that waits, before the next one where there is one.
     fn release(&mut self, next: Option<&mut Held>) -> Result<(), PlanError> {
-        let Some(held) = self.held.take() else { return Ok(()) };
+        let Some(mut held) = self.held.take() else { return Ok(()) };
+        if let Some(next) = &next {
+            held.stop_before(&self.robot, next);
+        }
         let joined = next.as_deref().filter(|next| held.goes_on(&self.robot, next));
         let goes_on = joined.is_some();
         let (motion, before) = held.plan(&self.robot, joined)?;
