@@ -51,8 +51,8 @@ entries! { pub(super) AUXILIARY =
         cid: int [range(0.0, 16.0)] "number of the conditions: 0 for jogging, 1 to 16 for programs",
         mu: string [optional, alias(&["mu_name"])] "name of the mechanical unit; the channel's own without it",
     )
-        { "3.5.8", motion::startdetect, acts, fails, foreground; "startdetect cid:1,mu:\"R1\"" }
+        { "3.5.8", motion::startdetect, acts, fails, foreground; "startdetect cid:1,mu:R1" }
     /// Switches collision detection off.
     instr enddetect(mu: string [optional, alias(&["mu_name"])] "name of the mechanical unit; the channel's own without it")
-        { "3.5.9", motion::enddetect, acts, fails, foreground; "enddetect mu:\"R1\"" }
+        { "3.5.9", motion::enddetect, acts, fails, foreground; "enddetect mu:R1" }
 }

@@ -10,4 +10,10 @@ pub(super) const CONSTANTS: &[Constant] = &[
         section: "10.2.20",
     },
     Constant { name: "endl", value: ConstantValue::String("\n"), doc: "A new line, for print.", section: "3.5.1" },
+    Constant {
+        name: "R1",
+        value: ConstantValue::String("R1"),
+        doc: "The name of the mechanical unit, as in `startdetect cid:1,mu:R1`.",
+        section: "3.5.8",
+    },
 ];

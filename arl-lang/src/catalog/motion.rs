@@ -116,8 +116,8 @@ entries! { pub(super) MOTION =
     )
         { "3.3.6", motion::jump, plans, fails, exclusive(&[&["v", "vp"]]), only(Family::Scara);
           "pose p = {x 400,y 100,z 50,a 0,b 0,c 0}\njump p,vp:50%,a:30,b:30" }
-    /// Lays a weave over the lines and circles that follow, up to endweave. It begins and ends on the path; what is too fast
-    /// for the robot slows the path down.
+    /// Lays a weave over the lines, circles and splines that follow, up to endweave. It begins and ends on the path; what is
+    /// too fast for the robot slows the path down.
     instr startweave(weave: weavedata "the pattern")
         { "3.2.7.1", motion::startweave, acts, fails, foreground, only(Family::SixAxis),
           alias(&["startweavelin", "startweavespa"]);
@@ -125,12 +125,12 @@ entries! { pub(super) MOTION =
     /// Ends the weave.
     instr endweave()
         { "3.2.7.2", motion::endweave, acts, fails, foreground, only(Family::SixAxis); "endweave" }
-    /// Begins to compensate the lines and circles that follow, up to endcompen. All limits must be above 0.
+    /// Begins to compensate the lines, circles and splines that follow, up to endcompen. All limits must be above 0.
     instr startcompen(data: compendata "how fast the compensation may grow")
         { "3.2.11.1", motion::startcompen, acts, fails, foreground, only(Family::SixAxis);
           "compendata limits = {200,600,1000,200,50,1000}\nstartcompen data:limits\nendcompen" }
-    /// Shifts and turns the lines and circles that follow, up to endcompen, by as much more. At most 90 deg in all about
-    /// each axis.
+    /// Shifts and turns the lines, circles and splines that follow, up to endcompen, by as much more. At most 90 deg in all
+    /// about each axis.
     instr compen(
         x: double [optional, units(&[Unit::Millimetre])] "shift along x of the frame, mm",
         y: double [optional, units(&[Unit::Millimetre])] "shift along y of the frame, mm",

@@ -5,6 +5,7 @@ use super::command::{Command, Settings, Target, Zone};
 use super::curve::Track;
 use super::error::PlanError;
 use super::joints::Joints;
+use super::overlay::{Beginning, lay};
 use super::plan::{Motion, Planner};
 use super::spline::{Passing, Place, piece};
 use crate::kinematics::Frame;
@@ -29,9 +30,8 @@ pub(super) struct Held {
     command: Command,
     settings: Settings,
     pub(super) number: u64,
-    /// Where the robot is when it begins.
+    /// Where the robot is when it begins, and where it ends as far as that is known already: without what is laid over it.
     start: Joints,
-    /// Where it ends, as far as that is known already.
     end: Joints,
     target: Place,
     before: Option<Before>,
@@ -111,10 +111,12 @@ impl Held {
             }
     }
 
-    /// Whether a spline has to end here and a new one to begin: points are the same, or the way turns back.
+    /// Whether a spline has to end here and a new one to begin: points are the same, the way turns back, or another
+    /// compensation begins to grow, which would not flow.
     fn breaks_off(&self, robot: &Robot, next: &Held) -> bool {
         let from = self.from(robot);
-        from.chord(&self.target) <= SAME
+        self.settings.compensation != next.settings.compensation
+            || from.chord(&self.target) <= SAME
             || self.target.chord(&next.target) <= SAME
             || from.turns_back(&self.target, &next.target)
     }
@@ -132,7 +134,8 @@ impl Held {
         Place { tcp, external: self.start.external }
     }
 
-    /// Plans it, with the motion of its way that comes next; returns also what it leaves to that one.
+    /// Plans it, without what is laid over it, with the motion of its way that comes next; returns also what it leaves to that
+    /// one.
     ///
     /// # Errors
     /// It cannot be moved; the error tells its line.
@@ -142,7 +145,35 @@ impl Held {
             Kind::Circle => self.circle(&planner, next),
             Kind::Spline => self.spline(&planner, next),
         };
-        planned.map_err(|error| PlanError::Earlier { line: self.command.line, error: Box::new(error) })
+        planned.map_err(|error| self.failed(error))
+    }
+
+    /// Whether its weave goes on into the motion that makes one way with it.
+    pub(super) fn weaves_on(&self, next: &Held) -> bool {
+        self.kind == Kind::Spline && self.settings.weave == next.settings.weave
+    }
+
+    /// Lays over it, planned, what its settings say.
+    ///
+    /// # Errors
+    /// It cannot be moved so; the error tells its line.
+    pub(super) fn laid(&self, robot: &Robot, plain: Motion, beginning: &Beginning<'_>) -> Result<Motion, PlanError> {
+        let Some((_, _, wobj, _)) = self.command.target.chained() else { return Ok(plain) };
+        lay(robot, plain, beginning, &wobj.rotation, &self.settings).map_err(|error| self.failed(error))
+    }
+
+    fn failed(&self, error: PlanError) -> PlanError {
+        PlanError::Earlier { line: self.command.line, error: Box::new(error) }
+    }
+
+    /// The command.
+    pub(super) fn command(&self) -> &Command {
+        &self.command
+    }
+
+    /// What held when it was added.
+    pub(super) fn settings(&self) -> &Settings {
+        &self.settings
     }
 
     /// Takes over what the motion before has left.

@@ -155,9 +155,9 @@ pub struct Settings {
     pub manual: bool,
     /// Whether lines and circles pass the wrist singularity by letting the orientation give way.
     pub wrist: bool,
-    /// The weave that is laid over lines and circles.
+    /// The weave that is laid over ways of the TCP.
     pub weave: Option<Weave>,
-    /// What shifts and turns lines and circles.
+    /// What shifts and turns ways of the TCP.
     pub compensation: Option<Compensation>,
 }
 

@@ -128,6 +128,11 @@ impl Course {
         }
     }
 
+    /// The motion that was appended last.
+    pub(super) fn last(&self) -> Option<&Motion> {
+        self.tail.as_ref().map(|tail| &tail.motion)
+    }
+
     /// Whether nothing is left to go.
     pub(super) fn is_empty(&self) -> bool {
         self.pieces.is_empty()

@@ -9,7 +9,7 @@ use super::curve::{Curve, ToolCurve, Track};
 use super::error::PlanError;
 use super::joints::{Joints, is_unset};
 use super::limits::{passing, quickest};
-use super::overlay::{Laid, Led, lay};
+use super::overlay::{Beginning, Laid, Led, lay};
 use super::profile::Limits;
 use super::quintic::Quintic;
 use super::spline::turned;
@@ -79,7 +79,7 @@ impl Motion {
     /// The part of its speed that is left to it with what is laid over it.
     pub fn share_of_speed(&self) -> f64 {
         match (&self.laid, self.limits) {
-            (Some(_), Some(limits)) => limits.vel / self.rate,
+            (Some(laid), Some(limits)) => limits.vel / laid.plain_speed().unwrap_or(self.rate),
             _ => 1.0,
         }
     }
@@ -121,13 +121,17 @@ pub(super) fn plan_behind(
         return plan_plain(robot, start, command, settings);
     };
     let before = &before.for_next(settings, &command.rig);
-    let plain = if before.number == 0 { *start } else { not_led(robot, start, before, command)? };
+    let plain = not_led(robot, start, before, command)?;
     let motion = plan_plain(robot, &plain, command, settings)?;
-    lay(robot, motion, start, before, &wobj.rotation, settings)
+    let beginning = Beginning { start, before, flows_from: None, goes_on: false };
+    lay(robot, motion, &beginning, &wobj.rotation, settings)
 }
 
 /// Where the robot would be without the compensation that leads it to `start`.
-fn not_led(robot: &Robot, start: &Joints, before: &Led, command: &Command) -> Result<Joints, PlanError> {
+pub(super) fn not_led(robot: &Robot, start: &Joints, before: &Led, command: &Command) -> Result<Joints, PlanError> {
+    if before.number == 0 {
+        return Ok(*start);
+    }
     let (kinematics, carried) = (&robot.kinematics, &command.rig.carried);
     let tcp = before.lead.undone(&carried.way_at(&kinematics.forward(&start.axes)));
     let axes = kinematics.inverse(&carried.flange_at(&tcp), kinematics.cfg(&start.axes), &start.axes);
@@ -521,7 +525,7 @@ impl Planner<'_> {
             Some(duration) => {
                 collect(&pace, &mut bounds);
                 let free = if moves { quickest(&bounds.rows).duration(1.0) } else { 0.0 };
-                if !duration.is_finite() || duration <= 0.0 {
+                if !duration.is_finite() || duration <= 0.0 || is_unset(duration) {
                     return Err(PlanError::NoSpeed { what: "the duration in s", value: duration });
                 }
                 if duration < free * (1.0 - 1e-9) {

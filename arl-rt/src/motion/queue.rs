@@ -9,9 +9,9 @@ use super::error::PlanError;
 use super::gate;
 use super::governor::Pacing;
 use super::joints::Joints;
-use super::overlay::Led;
+use super::overlay::{Beginning, Led};
 use super::piece::Piece;
-use super::plan::{Motion, plan_behind};
+use super::plan::{Motion, not_led, plan_behind};
 use crate::frames::Rig;
 use crate::kinematics::Frame;
 use crate::robot::Robot;
@@ -198,11 +198,12 @@ impl Queue {
         if !self.has_room() {
             return Err(PlanError::Full);
         }
-        let depends = matches!(command.target, Target::Spline { .. } | Target::Circle { .. });
-        if depends && (settings.weave.is_some() || settings.compensation.is_some()) {
-            return Err(PlanError::NoOverlay);
-        }
-        let mut next = Held::new(&self.robot, self.end(), command, settings, self.added + 1)?;
+        let start = match &self.held {
+            Some(held) => *held.end(),
+            None if command.target.chained().is_some() => self.plain_end(command, settings)?,
+            None => self.end,
+        };
+        let mut next = Held::new(&self.robot, &start, command, settings, self.added + 1)?;
         self.release(next.as_mut())?;
         if next.is_some() {
             self.held = next;
@@ -249,12 +250,28 @@ impl Queue {
         }
         let joined = next.as_deref().filter(|next| held.goes_on(&self.robot, next));
         let goes_on = joined.is_some();
-        let (motion, before) = held.plan(&self.robot, joined)?;
+        let (plain, before) = held.plan(&self.robot, joined)?;
+        let end = *plain.end();
+        let flows_from = if plain.flows { self.course.last() } else { None };
+        let beginning = Beginning {
+            start: flows_from.map_or(&self.end, Motion::end),
+            before: &self.led.for_next(held.settings(), &held.command().rig),
+            flows_from,
+            goes_on: joined.is_some_and(|next| held.weaves_on(next)),
+        };
+        let motion = held.laid(&self.robot, plain, &beginning)?;
         self.append(motion, held.number);
-        if let Some(next) = next {
-            next.goes_on_from(&self.end, before.filter(|_| goes_on));
+        match next {
+            Some(next) if goes_on => next.goes_on_from(&end, before),
+            Some(next) => next.goes_on_from(&self.plain_end(next.command(), next.settings())?, None),
+            None => {}
         }
         Ok(())
+    }
+
+    /// Where the last motion on the way ends, as the next one's own way begins: without a compensation that goes on.
+    fn plain_end(&self, command: &Command, settings: &Settings) -> Result<Joints, PlanError> {
+        not_led(&self.robot, &self.end, &self.led.for_next(settings, &command.rig), command)
     }
 
     fn append(&mut self, motion: Motion, number: u64) {

@@ -2,6 +2,7 @@
 
 mod blends;
 mod carried;
+mod chained_overlays;
 mod chains;
 mod compensations;
 mod gates;

@@ -1,8 +1,8 @@
-//! `startcompen`, `compen` and `endcompen`: lines and circles between them are shifted and turned.
+//! `startcompen`, `compen` and `endcompen`: lines, circles and splines between them are shifted and turned.
 
 use crate::cx::Cx;
 use crate::fault::Fault;
-use crate::motion::Reference;
+use crate::motion::{Reference, is_unset};
 use crate::values::{CompenType, Compendata, Str};
 
 /// What may be turned in all, in deg about each axis of a frame.
@@ -150,7 +150,7 @@ impl Compen {
     /// all.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         let reference = self.frame.reference()?;
-        if let Some(value) = self.by.iter().find(|value| !value.is_finite()) {
+        if let Some(value) = self.by.iter().find(|value| !value.is_finite() || is_unset(value.abs())) {
             return Err(domain("compen", format!("{value} is no number to compensate by")));
         }
         let mut unit = cx.world().unit.borrow_mut();

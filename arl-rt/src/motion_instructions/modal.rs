@@ -72,7 +72,7 @@ impl Modal {
             system.dfspeed.set(self.speed(cx, pace, system.dfspeed.get()));
         }
         if let Some(blend) = self.blend {
-            system.dfslip.set(slip(blend, system.dfslip.get()));
+            system.dfslip.set(slip(self.kind, blend, system.dfslip.get()));
         }
         if let Some(tool) = self.tool {
             system.dftool.set(tool);
@@ -120,7 +120,7 @@ impl Modal {
 }
 
 /// `$DFSLIP` with the components that the instruction stands for.
-fn slip(blend: Blend, mut slip: Slip) -> Slip {
+fn slip(kind: Kind, blend: Blend, mut slip: Slip) -> Slip {
     match blend {
         Blend::Slip(new) => {
             let places = [
@@ -135,6 +135,10 @@ fn slip(blend: Blend, mut slip: Slip) -> Slip {
                 if is_set(new) {
                     *place = new;
                 }
+            }
+            // An axis motion that shall not be rounded off is not by a distance of the TCP from before.
+            if kind == Kind::Axes && is_set(new.jdis) && new.jdis <= 0.0 && !is_set(new.pdis) {
+                slip.pdis = new.jdis;
             }
         }
         // What was left of other measures must not round off what shall be reached exactly.

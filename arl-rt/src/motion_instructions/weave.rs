@@ -1,13 +1,13 @@
-//! `startweave` and `endweave`: a figure that is laid over the lines and circles between them.
+//! `startweave` and `endweave`: a figure that is laid over the lines, circles and splines between them.
 
 use nalgebra::Vector3;
 
 use crate::cx::Cx;
 use crate::fault::Fault;
-use crate::motion::{Weave, WeaveShape};
+use crate::motion::{Weave, WeaveShape, is_unset};
 use crate::values::{Weavedata, Weaverotaxis, Weaveshape};
 
-/// `startweave`: lays a weave over the lines and circles that follow.
+/// `startweave`: lays a weave over the lines, circles and splines that follow.
 pub fn startweave(weave: Weavedata) -> StartWeave {
     StartWeave { weave }
 }
@@ -69,10 +69,13 @@ fn figure(weave: &Weavedata) -> Result<Weave, Fault> {
         ("dwell_middle", "s", dwell_middle),
         ("radius", "mm", weave.radius),
     ];
-    if !(frequency > 0.0 && frequency.is_finite()) {
+    if !(frequency > 0.0 && frequency.is_finite()) || is_unset(frequency) {
         return refused(format!("frequency is {frequency} Hz, but must be above 0"));
     }
     for (name, unit, value) in not_negative {
+        if is_unset(value) {
+            return refused(format!("{name} is not set"));
+        }
         if !(value >= 0.0 && value.is_finite()) {
             return refused(format!("{name} is {value} {unit}, but must be 0 or more"));
         }
@@ -80,7 +83,7 @@ fn figure(weave: &Weavedata) -> Result<Weave, Fault> {
     if !(0.0..=180.0).contains(&weave.swing_angle) {
         return refused(format!("swing_angle is {} deg, but must be 0 to 180", weave.swing_angle));
     }
-    if !weave.rotation_angle.is_finite() {
+    if !weave.rotation_angle.is_finite() || is_unset(weave.rotation_angle.abs()) {
         return refused(format!("rotation_angle is {}, which is no angle", weave.rotation_angle));
     }
     if weave.track {

@@ -4,6 +4,8 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::motion::curve::ToolCurve;
 use crate::motion::error::PlanError;
+use crate::motion::quintic::{Knot, Quintic};
+use crate::motion::rotation;
 
 /// A path shorter than this, in mm, has no direction.
 const NO_LENGTH: f64 = 1e-6;
@@ -16,24 +18,38 @@ pub(super) type Rates = [Vector3<f64>; 4];
 /// How something turns: its speed of rotation in rad per unit of the path parameter, and two derivatives of that.
 pub(super) type Turning = [Vector3<f64>; 3];
 
-/// The frame of a path: x along it, y across x and the tool's z axis, z across x and y (manual 3.2.11.2). It turns with the
-/// path and, about the path, evenly with the tool.
+/// Where a path goes slower than this part of its mean speed, it turns back and has no direction.
+const TURNING_BACK: f64 = 0.02;
+
+/// The frame of a path: x along it, y across x and the tool's z axis, z across x and y (manual 3.2.11.2).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct PathFrame {
     start: UnitQuaternion<f64>,
-    /// How the path turns, in rad per unit about an axis of the base.
-    turning: Vector3<f64>,
-    /// How the tool turns the frame about the path, in rad per unit.
-    roll: f64,
+    turns: Turns,
+}
+
+/// How the frame of a path turns.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Turns {
+    /// With a line or a circle and, about the path, evenly with the tool.
+    Evenly {
+        /// How the path turns, in rad per unit about an axis of the base.
+        path: Vector3<f64>,
+        /// How the tool turns the frame about the path, in rad per unit.
+        roll: f64,
+    },
+    /// From the direction at the start to that at the end of a piece of a spline: a rotation vector in rad about axes of the
+    /// base. Where pieces meet it turns evenly, which their directions themselves do not: else acceleration would jump there.
+    Smoothly(Quintic<3>),
 }
 
 impl PathFrame {
     /// The frame of a way of the TCP; `None` where it has no direction.
     ///
     /// # Errors
-    /// The tool points along the path at its start or its end.
+    /// The tool points along the path at its start or its end, or a spline turns back there.
     pub(super) fn along(curve: &ToolCurve) -> Result<Option<Self>, PlanError> {
-        let Some(turning) = curve.track.even_turning() else { return Err(PlanError::NoOverlay) };
+        let Some(turning) = curve.track.even_turning() else { return Self::smoothly(curve).map(Some) };
         let tangent = |at: f64| curve.track.derivative(1, at);
         if tangent(0.0).norm() < NO_LENGTH {
             return Ok(None);
@@ -48,21 +64,71 @@ impl PathFrame {
         let start = UnitQuaternion::from_matrix(&nalgebra::Matrix3::from_columns(&[x, y, z]));
         let carried = UnitQuaternion::from_scaled_axis(turning);
         let (y, z) = (carried * y, carried * z);
-        Ok(Some(Self { start, turning, roll: last_y.dot(&z).atan2(last_y.dot(&y)) }))
+        let roll = last_y.dot(&z).atan2(last_y.dot(&y));
+        Ok(Some(Self { start, turns: Turns::Evenly { path: turning, roll } }))
+    }
+
+    /// The frame of a piece of a spline.
+    fn smoothly(curve: &ToolCurve) -> Result<Self, PlanError> {
+        let ((start, first), (end, last)) = (directed(curve, 0.0)?, directed(curve, 1.0)?);
+        let turned = (end * start.inverse()).scaled_axis();
+        let knot = |value: Vector3<f64>, speed: Vector3<f64>| {
+            let [first, second] = rotation::of_speeds(&value, &[speed, Vector3::zeros()]);
+            Knot { value: value.into(), first: first.into(), second: second.into() }
+        };
+        let turns = Turns::Smoothly(Quintic::between(&knot(Vector3::zeros(), first), &knot(turned, last)));
+        Ok(Self { start, turns })
     }
 
     /// Its orientation in the base.
     pub(super) fn rotation(&self, at: f64) -> UnitQuaternion<f64> {
-        let roll = UnitQuaternion::from_scaled_axis(Vector3::x() * (self.roll * at));
-        UnitQuaternion::from_scaled_axis(self.turning * at) * self.start * roll
+        match &self.turns {
+            Turns::Evenly { path, roll } => {
+                let roll = UnitQuaternion::from_scaled_axis(Vector3::x() * (roll * at));
+                UnitQuaternion::from_scaled_axis(path * at) * self.start * roll
+            }
+            Turns::Smoothly(turned) => UnitQuaternion::from_scaled_axis(turned.at(at).into()) * self.start,
+        }
     }
 
     /// How it turns.
     pub(super) fn turning(&self, at: f64) -> Turning {
-        let ahead = UnitQuaternion::from_scaled_axis(self.turning * at) * self.start * Vector3::x() * self.roll;
-        let first = self.turning.cross(&ahead);
-        [self.turning + ahead, first, self.turning.cross(&first)]
+        match &self.turns {
+            Turns::Evenly { path, roll } => {
+                let ahead = UnitQuaternion::from_scaled_axis(path * at) * self.start * Vector3::x() * *roll;
+                let first = path.cross(&ahead);
+                [path + ahead, first, path.cross(&first)]
+            }
+            Turns::Smoothly(turned) => {
+                let derivatives = [1, 2, 3].map(|order| turned.derivative(order, at).into());
+                rotation::speeds(&turned.at(at).into(), &derivatives)
+            }
+        }
     }
+}
+
+/// The axes along a way of the TCP at `at`, and how fast they turn there, in rad per unit.
+fn directed(curve: &ToolCurve, at: f64) -> Result<(UnitQuaternion<f64>, Vector3<f64>), PlanError> {
+    /// A vector and its derivative, made of length 1.
+    fn unit(vector: Vector3<f64>, change: Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+        let (length, unit) = (vector.norm(), vector.normalize());
+        (unit, (change - unit * unit.dot(&change)) / length)
+    }
+    let way = curve.track.derivative(1, at);
+    if way.norm() < TURNING_BACK * curve.track.length() {
+        return Err(PlanError::TurnsBack);
+    }
+    let (x, dx) = unit(way, curve.track.derivative(2, at));
+    let tool = curve.plain_rotation(at) * Vector3::z();
+    let [turning, ..] = curve.plain_rotation_rates(at);
+    let across = x.cross(&tool);
+    if across.norm() < PARALLEL {
+        return Err(PlanError::ToolAlongPath);
+    }
+    let (y, dy) = unit(across, dx.cross(&tool) + x.cross(&turning.cross(&tool)));
+    let (z, dz) = (x.cross(&y), dx.cross(&y) + x.cross(&dy));
+    let rotation = UnitQuaternion::from_matrix(&nalgebra::Matrix3::from_columns(&[x, y, z]));
+    Ok((rotation, (x.cross(&dx) + y.cross(&dy) + z.cross(&dz)) / 2.0))
 }
 
 /// A vector that is given in the axes of something that turns, with its derivatives there: the same in the base.
@@ -84,8 +150,7 @@ mod tests {
     fn derivatives_are_those_of_the_place() {
         let frame = PathFrame {
             start: UnitQuaternion::from_euler_angles(0.3, -0.4, 1.0),
-            turning: Vector3::new(0.5, -1.0, 0.8),
-            roll: 0.7,
+            turns: Turns::Evenly { path: Vector3::new(0.5, -1.0, 0.8), roll: 0.7 },
         };
         let local = |u: f64| {
             let ((s, c), (s2, c2)) = ((3.0 * u).sin_cos(), (2.0 * u).sin_cos());

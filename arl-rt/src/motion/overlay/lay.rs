@@ -13,7 +13,7 @@ use crate::motion::command::Settings;
 use crate::motion::curve::{Curve, ToolCurve};
 use crate::motion::error::PlanError;
 use crate::motion::joints::Joints;
-use crate::motion::limits::{Bound, quickest};
+use crate::motion::limits::{Bound, passing, quickest};
 use crate::motion::plan::Motion;
 use crate::motion::survey::survey;
 use crate::robot::Robot;
@@ -54,22 +54,33 @@ const GATHERED: usize = 6;
 /// Between the places that are looked at, derivatives are a little larger.
 const BETWEEN: f64 = 1.005;
 
-/// Lays over `plain` what the settings say. `start` is where the robot really is, `before` how a compensation stands there;
-/// `workpiece` is the orientation of the workpiece frame, seen like the way.
+/// Where a motion begins over which something is laid, and what comes before and behind it.
+pub(in crate::motion) struct Beginning<'a> {
+    /// Where the robot really is.
+    pub(in crate::motion) start: &'a Joints,
+    /// How a compensation stands there.
+    pub(in crate::motion) before: &'a Led,
+    /// The piece of a spline from which the motion flows on.
+    pub(in crate::motion) flows_from: Option<&'a Motion>,
+    /// Whether a weave goes on into the motion behind.
+    pub(in crate::motion) goes_on: bool,
+}
+
+/// Lays over `plain` what the settings say. `workpiece` is the orientation of the workpiece frame, seen like the way.
 pub(in crate::motion) fn lay(
     robot: &Robot,
     plain: Motion,
-    start: &Joints,
-    before: &Led,
+    beginning: &Beginning<'_>,
     workpiece: &UnitQuaternion<f64>,
     settings: &Settings,
 ) -> Result<Motion, PlanError> {
+    let Beginning { start, before, flows_from, goes_on } = *beginning;
     let (Curve::Tool(curve), compensation) = (&plain.curve, settings.compensation) else { return Ok(plain) };
     let weave = settings.weave.filter(|weave| weave.amplitude > 0.0 && plain.length > 0.0 && plain.limits.is_some());
     if weave.is_none() && compensation.is_none() {
         return Ok(plain);
     }
-    let seconds = plain.limits.map_or(0.0, |limits| 1.0 / limits.vel);
+    let seconds = if plain.limits.is_some() { 1.0 / plain.rate } else { 0.0 };
     let directed = weave.is_some() || compensation.is_some_and(|compensation| compensation.follows_path());
     let frame = if directed { PathFrame::along(curve)? } else { None };
     let world = match plain.rig.carried {
@@ -85,8 +96,15 @@ pub(in crate::motion) fn lay(
         return Ok(plain);
     }
     let manual = if settings.manual { MANUAL_SPEED } else { f64::INFINITY };
-    let weave = weave.map(|weave| Weaving { weave, rounding: 0.0, begun: 0.0, fades: true });
-    let laid = Laid { start: *start, frame, weave, shift, fastest: settings.max_tcp.min(manual), plain };
+    let weave = weave.map(|weave| Weaving { weave, rounding: 0.0, begun: 0.0, fades: !goes_on });
+    let mut laid = Laid { start: *start, frame, weave, shift, fastest: settings.max_tcp.min(manual), plain };
+    let goes_on_from = flows_from.and_then(|motion| motion.laid.as_ref()?.at_end());
+    if let (Some(weaving), Some(before)) = (weave, goes_on_from)
+        && weaving.weave == before.weave
+    {
+        laid.weave = Some(Weaving { fades: weaving.fades, ..before });
+        return laid.finished(robot);
+    }
     match weave {
         Some(weaving) if weaving.weave.is_cornered() => laid.with_corners(robot, weaving),
         _ => laid.finished(robot),
@@ -100,7 +118,7 @@ pub(in crate::motion) fn joined(robot: &Robot, from: &Motion, to: &Motion) -> Op
     if weaving.weave != next.weave {
         return None;
     }
-    let begun = weaving.begun + 1.0 / first.plain.limits?.vel;
+    let begun = weaving.begun + first.seconds();
     let on = Laid { weave: Some(Weaving { fades: false, ..weaving }), ..Laid::clone(first) };
     let on = on.finished(robot).ok()?;
     let taken = Laid { weave: Some(Weaving { begun, ..next }), start: on.end, ..Laid::clone(second) };
@@ -108,10 +126,26 @@ pub(in crate::motion) fn joined(robot: &Robot, from: &Motion, to: &Motion) -> Op
 }
 
 impl Laid {
+    /// How fast the motion may go without what is laid over it, as part of the motion per s.
+    pub(in crate::motion) fn plain_speed(&self) -> Option<f64> {
+        self.plain.limits.map(|limits| limits.vel)
+    }
+
     /// The part of the motion behind which a blend with the next one comes too late: the weave fades out already.
     pub(in crate::motion) fn fades_from(&self) -> f64 {
         let overlay = self.overlay().woven;
         overlay.map_or(1.0, |woven| 1.0 - woven.fading / woven.seconds)
+    }
+
+    /// How long the motion takes at full speed without what is laid over it, in s.
+    fn seconds(&self) -> f64 {
+        if self.plain.limits.is_some() { 1.0 / self.plain.rate } else { 1.0 }
+    }
+
+    /// The weave that goes on behind the motion.
+    fn at_end(&self) -> Option<Weaving> {
+        let weaving = self.weave.filter(|weaving| !weaving.fades)?;
+        Some(Weaving { begun: weaving.begun + self.seconds(), ..weaving })
     }
 
     /// How the compensation stands at the end.
@@ -123,7 +157,7 @@ impl Laid {
     }
 
     /// With corners that are rounded as little as the speed allows.
-    fn with_corners(mut self, robot: &Robot, weaving: Weaving) -> Result<Motion, PlanError> {
+    fn with_corners(&self, robot: &Robot, weaving: Weaving) -> Result<Motion, PlanError> {
         let swing = 1.0 / weaving.weave.frequency;
         let [shortest, longest] = ROUNDINGS.map(|part| part * swing);
         let pace = &self.plain.pace;
@@ -131,24 +165,23 @@ impl Laid {
         let sharpest = Pattern::new(&weaving.weave, shortest).sharpest();
         let needed = (0.8 * sharpest / acc).max((1.6 * sharpest / jerk).sqrt());
         let mut rounding = needed.clamp(shortest, longest);
-        let mut best: Option<Motion> = None;
-        loop {
-            self.weave = Some(Weaving { rounding, ..weaving });
-            let motion = self.clone().finished(robot)?;
-            let share = motion.share_of_speed();
-            if best.as_ref().is_none_or(|best| share > best.share_of_speed()) {
-                best = Some(motion);
-            }
-            if share >= UNSLOWED || rounding >= longest {
-                break;
-            }
+        let rounded = |rounding: f64| {
+            let weave = Some(Weaving { rounding, ..weaving });
+            Laid { weave, ..self.clone() }.finished(robot)
+        };
+        let mut best = rounded(rounding)?;
+        while best.share_of_speed() < UNSLOWED && rounding < longest {
             rounding = (rounding * LONGER).min(longest);
+            let motion = rounded(rounding)?;
+            if motion.share_of_speed() > best.share_of_speed() {
+                best = motion;
+            }
         }
-        best.ok_or(PlanError::NoOverlay)
+        Ok(best)
     }
 
     fn overlay(&self) -> Overlay {
-        let seconds = self.plain.limits.map_or(1.0, |limits| 1.0 / limits.vel);
+        let seconds = self.seconds();
         let woven = self.weave.map(|Weaving { weave, rounding, begun, fades }| {
             let pattern = Pattern::new(&weave, rounding);
             // A blend with the motion before takes half of this one at most: what it meets must stay as it is.
@@ -173,8 +206,13 @@ impl Laid {
             end = self.plain.end;
         }
         let moves = self.plain.limits.is_some() || self.shift.is_some_and(|shift| shift.grows());
-        let limits = moves.then(|| quickest(&self.bounds(robot, &curve, &found.rates)));
-        let rate = self.plain.limits.or(limits).map_or(1.0, |limits| limits.vel);
+        let limits = moves.then(|| {
+            let bounds = self.bounds(robot, &curve, &found.rates);
+            // A piece of a spline meets its neighbours at full speed.
+            if self.plain.curve.is_paced() { passing(&bounds, self.plain.rate) } else { quickest(&bounds) }
+        });
+        let own = self.plain.limits.map(|_| self.plain.rate);
+        let rate = own.or(limits.map(|limits| limits.vel)).unwrap_or(1.0);
         let motion = Motion { start: self.start, end, limits, rate, laid: None, ..self.plain.clone() };
         Ok(Motion { curve: Curve::Tool(curve), laid: Some(Box::new(self)), ..motion })
     }

@@ -17,7 +17,7 @@ use pattern::Pattern;
 
 pub(super) use compensation::Led;
 pub use compensation::{Compensation, Reference};
-pub(super) use lay::{Laid, joined, lay};
+pub(super) use lay::{Beginning, Laid, joined, lay};
 pub use pattern::{Weave, WeaveShape};
 
 /// What is laid over a way of the TCP.
