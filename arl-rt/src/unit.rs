@@ -134,8 +134,8 @@ impl Unit {
     }
 
     /// The least part of its programmed speed that a weave or a compensation has left to a motion, since this was asked
-    /// last.
-    pub(crate) fn take_slowed(&mut self) -> f64 {
+    /// last, and that motion's line.
+    pub(crate) fn take_slowed(&mut self) -> (f64, u32) {
         self.queue.take_slowed()
     }
 

@@ -11,6 +11,7 @@ use super::piece::Piece;
 use super::pilot::{Goal, Pilot};
 use super::plan::Motion;
 use super::profile::{Limits, State};
+use super::remaining::{self, Leg};
 use super::scout::Scout;
 use super::timing::Timing;
 use super::zone::asks;
@@ -493,7 +494,7 @@ impl Course {
     }
 
     /// How long the motion that counts as being executed still takes, in s, when it has run for `elapsed` s at full speed:
-    /// exact where it begins and ends at rest, else what its pieces take at their speeds.
+    /// exact where it begins and ends at rest, else as its pieces and those behind them allow.
     pub(super) fn time_to_end(&self, elapsed: f64) -> f64 {
         let (Some(first), Some((current, _))) = (self.pieces.front(), self.current()) else { return 0.0 };
         if let Some(duration) = current.duration().filter(|_| self.pilot.is_none()) {
@@ -505,6 +506,18 @@ impl Course {
         if let Some(time) = self.pilot.as_ref().and_then(|pilot| pilot.time_to(end)) {
             return time;
         }
-        later.map(|piece| piece.time_from(0.0)).sum::<f64>() + first.time_from(self.at)
+        let count = 1 + later.count();
+        let mut legs = [Leg { length: 0.0, limits: first.limits, stops: true }; remaining::MOST];
+        let (mut known, mut at) = (0, self.at);
+        for (leg, piece) in legs.iter_mut().zip(&self.pieces) {
+            let length = (piece.time - at).max(0.0);
+            let vel = if length > 0.0 { length / piece.time_from(at) } else { piece.limits.vel };
+            *leg = Leg { length, limits: Limits { vel, ..piece.limits }, stops: piece.stops };
+            (known, at) = (known + 1, 0.0);
+            if piece.stops {
+                break;
+            }
+        }
+        remaining::time_over(legs.get(..known).unwrap_or_default(), count, self.state.vel, self.state.acc)
     }
 }

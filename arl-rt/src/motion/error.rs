@@ -89,8 +89,6 @@ pub enum PlanError {
     ToolAlongPath,
     /// The robot holds the workpiece, so that the world turns against it.
     WorldTurns,
-    /// A spline turns back, so that nothing is beside it.
-    TurnsBack,
     /// This kind of motion is not there for this robot.
     NotForThisRobot,
     /// The look-ahead is full: ask [`super::Queue::has_room`] first.
@@ -152,9 +150,6 @@ impl fmt::Display for PlanError {
                 f,
                 "a compensation along the axes of the world has no direction on a workpiece that the robot holds: take WOBJ"
             ),
-            PlanError::TurnsBack => {
-                write!(f, "the spline turns back at a point, where weave and compensation know no side of it")
-            }
             PlanError::NotForThisRobot => write!(f, "this robot knows no such motion"),
             PlanError::Full => write!(f, "the look-ahead is full"),
             PlanError::Stopping => write!(f, "the robot is still stopping"),

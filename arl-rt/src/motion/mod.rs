@@ -32,6 +32,7 @@ mod progress;
 mod queue;
 mod quintic;
 mod record;
+mod remaining;
 mod rotation;
 mod scout;
 mod spline;

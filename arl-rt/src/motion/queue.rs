@@ -34,6 +34,8 @@ pub enum Stop {
 
 /// How long the robot stands still, in s, before a motion that waits for the next one of its way goes without it.
 const PATIENCE: f64 = 0.1;
+/// For so many cycles what is left of a motion is counted down before it is found anew.
+const FORESEEN: u32 = 16;
 /// How much harder a fast stop is.
 const FAST: f64 = 5.0;
 
@@ -108,6 +110,8 @@ pub struct Queue {
     /// The motion whose time counts, and the s that it has run at an override of 100 %.
     timed: u64,
     elapsed: f64,
+    /// The s that the motion being executed still takes, and for how many cycles that has been counted down.
+    foreseen: Option<(u64, f64, u32)>,
     progress: Option<Progress>,
     /// How far motions had come that were left behind in the last cycle.
     left: Vec<Progress>,
@@ -126,8 +130,8 @@ pub struct Queue {
     laid: Option<Vec<Laid>>,
     /// How a compensation stands at the end of the last motion.
     led: Led,
-    /// The least part of its speed that what is laid over it has left to a motion.
-    slowed: f64,
+    /// The least part of its speed that what is laid over it has left to a motion, and that motion's line.
+    slowed: (f64, u32),
 }
 
 /// A motion that was laid on the way.
@@ -157,6 +161,7 @@ impl Queue {
             started: None,
             timed: 0,
             elapsed: 0.0,
+            foreseen: None,
             progress: None,
             left: Vec::with_capacity(LOOK_AHEAD),
             over: 0,
@@ -168,7 +173,7 @@ impl Queue {
             broken: None,
             laid: None,
             led: Led::default(),
-            slowed: 1.0,
+            slowed: (1.0, 0),
         }
     }
 
@@ -279,7 +284,11 @@ impl Queue {
         self.last_rig = motion.rig;
         let watched = self.laid.is_some().then(|| motion.clone());
         self.led = motion.led();
-        self.slowed = self.slowed.min(motion.share_of_speed());
+        self.foreseen = None;
+        let share = motion.share_of_speed();
+        if share < self.slowed.0 {
+            self.slowed = (share, motion.line);
+        }
         match self.course.append(&self.robot, &self.joints, motion, number, self.cycle) {
             Some(Sharp::Late) => self.late = true,
             Some(Sharp::NoWay { line }) => self.sharp = Some(line),
@@ -315,9 +324,9 @@ impl Queue {
     }
 
     /// The least part of its programmed speed, 0 to 1, that a weave or a compensation has left to a motion since this was
-    /// asked last.
-    pub fn take_slowed(&mut self) -> f64 {
-        std::mem::replace(&mut self.slowed, 1.0)
+    /// asked last, and that motion's program line.
+    pub fn take_slowed(&mut self) -> (f64, u32) {
+        std::mem::replace(&mut self.slowed, (1.0, 0))
     }
 
     /// Where the last motion of the queue ends: where the next one starts.
@@ -436,7 +445,8 @@ impl Queue {
             if let Some(piece) = self.course.first() {
                 (motion, line) = self.enter(piece.number, piece.line, piece.rig);
             }
-            self.time(if matches!(pacing, Pacing::Go(_)) { dt * speed } else { 0.0 });
+            let passed = if matches!(pacing, Pacing::Go(_)) { dt * speed } else { 0.0 };
+            self.time(passed);
             let (mut arrived, mut finished) = (None, self.finished);
             let stands = self.course.advance((&self.robot, &self.joints), dt, pacing, |passed| {
                 finished = if passed.ends { passed.number } else { finished };
@@ -467,7 +477,7 @@ impl Queue {
             }
             self.progress = match arrived.filter(|_| stands) {
                 Some(piece) => Some(self.at_the_end_of(&piece)),
-                None => self.on_the_way(),
+                None => self.on_the_way(passed),
             };
         } else if self.course.rests() && self.course.at() == 0.0 {
             // It stands at a target and not on the way.
@@ -502,11 +512,25 @@ impl Queue {
         progress_at(piece, 1.0, piece.duration().unwrap_or(self.elapsed), 0.0)
     }
 
-    fn on_the_way(&self) -> Option<Progress> {
+    /// How long the motion being executed still takes at full speed, in s, `passed` s of that later than when this was asked
+    /// last.
+    fn time_left(&mut self, motion: u64, elapsed: f64, passed: f64) -> f64 {
+        let (left, age) = match self.foreseen {
+            Some((of, left, age)) if of == motion && age < FORESEEN => ((left - passed).max(0.0), age + 1),
+            _ => (self.course.time_to_end(elapsed), 0),
+        };
+        self.foreseen = Some((motion, left, age));
+        left
+    }
+
+    fn on_the_way(&mut self, passed: f64) -> Option<Progress> {
         let (piece, share) = self.course.current()?;
         // A motion that is joined in this very cycle has not run yet.
         let elapsed = if piece.number == self.timed { self.elapsed } else { 0.0 };
-        Some(progress_at(piece, share, elapsed, self.course.time_to_end(elapsed)))
+        let motion = piece.number;
+        let left = self.time_left(motion, elapsed, passed);
+        let (piece, _) = self.course.current()?;
+        Some(progress_at(piece, share, elapsed, left))
     }
 
     /// Motions that go nowhere end when those before them have ended.

@@ -120,10 +120,10 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
     world.system.cjoint.set(joint(unit.target()));
     cx.moved(unit.motions().0);
     let (file, line) = (cx.place().0.name(), cx.place().1);
-    let share = unit.take_slowed();
+    let (share, slowed) = unit.take_slowed();
     if share < SLOWED {
         let percent = if share < 0.01 { "less than 1".to_owned() } else { format!("{:.0}", 100.0 * share) };
-        world.warn(format!("{file}:{line}: the weave or the compensation is too fast for the robot: the motion goes at {percent} % of its speed"));
+        world.warn(format!("{file}:{slowed}: the weave or the compensation is too fast for the robot: the motion goes at {percent} % of its speed"));
     }
     if unit.take_late() {
         world.warn(format!("{file}:{line}: the motion came too late to be blended with the one before it: the robot stops between the two"));

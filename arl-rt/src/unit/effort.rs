@@ -12,6 +12,13 @@ use crate::robot::{ROBOT_AXES, Robot};
 /// The part of what an axis asks for at most by which it may differ, in %, where the cell file says nothing.
 pub(crate) const SENSITIVITY: f64 = 20.0;
 
+/// What the flange is taken to carry, as part of the weight of all links: about what makers of robots rate. Without a load the
+/// last axes would need next to nothing, and every touch would be a collision.
+const PAYLOAD: f64 = 0.08;
+/// Where its centre of mass is, seen from the flange, in mm, and how far it reaches from there.
+const PAYLOAD_AT: [f64; 3] = [50.0, 0.0, 100.0];
+const PAYLOAD_RADIUS: f64 = 50.0;
+
 /// How much less than a torque counts as exactly that torque, in Nm (N).
 const ROUNDING: f64 = 1e-6;
 
@@ -122,7 +129,10 @@ impl Effort {
     /// By how much the axes may differ from the model at this sensitivity.
     pub(super) fn allowed(&mut self, robot: &Robot, sensitivity: &Sensitivity) -> Option<Axes> {
         if self.greatest.is_none() {
-            self.greatest = Dynamics::new(robot).map(|bare| greatest(&bare, robot));
+            self.greatest = Dynamics::new(robot).map(|mut model| {
+                model.set_load(&payload(robot));
+                greatest(&model, robot)
+            });
         }
         let most = self.greatest?;
         let mut allowed = [f64::INFINITY; ROBOT_AXES];
@@ -136,6 +146,13 @@ impl Effort {
         }
         Some(allowed)
     }
+}
+
+/// What the flange of a robot is taken to carry.
+fn payload(robot: &Robot) -> Load {
+    let mass = PAYLOAD * robot.links.iter().map(|link| link.mass).sum::<f64>();
+    let about = mass * PAYLOAD_RADIUS * PAYLOAD_RADIUS;
+    Load::new(mass, PAYLOAD_AT, [about, 0.0, 0.0, about, 0.0, about])
 }
 
 /// What each axis has to give at most while all axes accelerate as much as they may: in the middle and at the ends of

@@ -18,9 +18,6 @@ pub(super) type Rates = [Vector3<f64>; 4];
 /// How something turns: its speed of rotation in rad per unit of the path parameter, and two derivatives of that.
 pub(super) type Turning = [Vector3<f64>; 3];
 
-/// Where a path goes slower than this part of its mean speed, it turns back and has no direction.
-const TURNING_BACK: f64 = 0.02;
-
 /// The frame of a path: x along it, y across x and the tool's z axis, z across x and y (manual 3.2.11.2).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct PathFrame {
@@ -47,7 +44,7 @@ impl PathFrame {
     /// The frame of a way of the TCP; `None` where it has no direction.
     ///
     /// # Errors
-    /// The tool points along the path at its start or its end, or a spline turns back there.
+    /// The tool points along the path at its start or its end.
     pub(super) fn along(curve: &ToolCurve) -> Result<Option<Self>, PlanError> {
         let Some(turning) = curve.track.even_turning() else { return Self::smoothly(curve).map(Some) };
         let tangent = |at: f64| curve.track.derivative(1, at);
@@ -114,15 +111,14 @@ fn directed(curve: &ToolCurve, at: f64) -> Result<(UnitQuaternion<f64>, Vector3<
         let (length, unit) = (vector.norm(), vector.normalize());
         (unit, (change - unit * unit.dot(&change)) / length)
     }
+    // Where splines turn back they end, so that they go somewhere at each point.
     let way = curve.track.derivative(1, at);
-    if way.norm() < TURNING_BACK * curve.track.length() {
-        return Err(PlanError::TurnsBack);
-    }
     let (x, dx) = unit(way, curve.track.derivative(2, at));
     let tool = curve.plain_rotation(at) * Vector3::z();
     let [turning, ..] = curve.plain_rotation_rates(at);
     let across = x.cross(&tool);
-    if across.norm() < PARALLEL {
+    // What is no number is no side either.
+    if across.norm().is_nan() || across.norm() < PARALLEL {
         return Err(PlanError::ToolAlongPath);
     }
     let (y, dy) = unit(across, dx.cross(&tool) + x.cross(&turning.cross(&tool)));

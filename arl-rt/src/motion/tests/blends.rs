@@ -173,6 +173,32 @@ fn a_blend_belongs_to_the_motion_that_it_leads_into() {
 }
 
 #[test]
+fn the_time_that_is_left_is_what_it_takes() {
+    let mut random = Random::new(97);
+    let (mut off, mut whole, mut motions) = (0.0, 0.0, 0);
+    for name in ["kr10-r1420", "tx2-60"] {
+        let robot = with_external_axes(name);
+        for round in 0..6 {
+            let mut queue = random_chain(&robot, &mut random, &Settings::default());
+            let mut rows: Vec<Progress> = Vec::new();
+            while !queue.idle() {
+                queue.step(CYCLE, 100.0);
+                rows.extend(queue.progress());
+            }
+            for motion in 1..=10 {
+                let of: Vec<&Progress> = rows.iter().filter(|row| row.motion == motion).collect();
+                let Some(first) = of.first() else { continue };
+                let took = of.len() as f64 * CYCLE;
+                let error = (first.left_time - took).abs();
+                assert!(error < 0.25 * took + 0.02, "{name} {round} {motion}: {} of {took}", first.left_time);
+                (off, whole, motions) = (off + error, whole + took, motions + 1);
+            }
+        }
+    }
+    assert!(motions > 100 && off < 0.03 * whole, "{off} s off in {whole} s");
+}
+
+#[test]
 fn chains_without_jerk_limits_keep_speed_and_acceleration() {
     let mut random = Random::new(96);
     let settings = Settings { profile: crate::robot::VelocityProfile::T, ..Settings::default() };

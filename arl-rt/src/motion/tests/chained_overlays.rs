@@ -26,7 +26,12 @@ fn compensated(reference: Reference, by: [f64; 6]) -> Settings {
 }
 
 /// Goes from where the robot is at work through points that are given from there, in mm.
-fn along(robot: &Arc<Robot>, points: &[[f64; 3]], target: impl Fn([f64; 6]) -> Target, settings: &Settings) -> Vec<Step> {
+fn along(
+    robot: &Arc<Robot>,
+    points: &[[f64; 3]],
+    target: impl Fn([f64; 6]) -> Target,
+    settings: &Settings,
+) -> Vec<Step> {
     let mut queue = Queue::new(robot.clone(), at_work());
     let here = frame_components(&robot.kinematics.forward(&at_work().axes));
     for (index, [x, y, z]) in points.iter().enumerate() {
@@ -37,7 +42,7 @@ fn along(robot: &Arc<Robot>, points: &[[f64; 3]], target: impl Fn([f64; 6]) -> T
     }
     queue.conclude().unwrap();
     let rows = run(&mut queue, 100.0);
-    assert!(queue.take_slowed() > 0.98, "it was slowed");
+    assert!(queue.take_slowed().0 > 0.98, "it was slowed");
     rows
 }
 
@@ -164,7 +169,8 @@ fn random_splines_and_circles_under_weaves_and_compensations_keep_every_limit() 
             let mut settings = compensated(Reference::Tool, [0.0; 6]);
             let (mut added, mut tried) = (0_u32, 0);
             let mut pose = frame_components(&robot.kinematics.forward(&queue.end().axes));
-            let mut heading = Vector3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-0.5, 0.5));
+            let mut heading =
+                Vector3::new(random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-0.5, 0.5));
             while added < 10 && tried < 300 {
                 tried += 1;
                 heading += Vector3::from_fn(|_, _| random.between(-0.5, 0.5));

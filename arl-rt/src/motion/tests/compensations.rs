@@ -54,7 +54,7 @@ fn it_grows_within_its_limits_stays_and_is_left_at_its_end() {
     // Then without: from where it is to the plain target.
     queue.add(&slow(a), &Settings::default()).unwrap();
     near(end(&robot, &queue), place(&a));
-    assert_eq!(queue.take_slowed(), 1.0);
+    assert_eq!(queue.take_slowed().0, 1.0);
     let rows = run(&mut queue, 100.0);
     assert_within_limits(&robot, &rows, "shifted");
     let led: Vec<Vector3<f64>> = rows
@@ -165,7 +165,7 @@ fn a_slow_compensation_slows_a_short_motion_down() {
     let (mut queue, from) = queue(&robot);
     let settings = compensated(&[(Reference::Wobj, [0.0, 0.0, 80.0, 0.0, 0.0, 0.0])]);
     queue.add(&slow(moved(&from, [0.0, 10.0, 0.0])), &settings).unwrap();
-    assert!(queue.take_slowed() < 0.2);
+    assert!(queue.take_slowed().0 < 0.2);
     let rows = run(&mut queue, 100.0);
     // 80 mm at no more than 100 mm/s.
     assert!(rows.len() > 1000 && rows.len() < 5000, "{}", rows.len());

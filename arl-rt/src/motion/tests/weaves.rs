@@ -60,7 +60,7 @@ fn weaves_are_as_wide_and_as_long_as_asked_and_begin_and_end_on_the_path() {
         let from = to;
         queue.add(&line(&mut to, [0.0, 300.0, 0.0], 50.0), &woven(weave(shape))).unwrap();
         let rows = run(&mut queue, 100.0);
-        assert_eq!(queue.take_slowed(), 1.0, "{shape:?}");
+        assert_eq!(queue.take_slowed().0, 1.0, "{shape:?}");
         assert_within_limits(&robot, &rows, &format!("{shape:?}"));
         let off = offsets(&rows, &from, &to);
         let widest = off.iter().map(|at| at.yz().norm()).fold(0.0, f64::max);
@@ -160,7 +160,7 @@ fn what_is_too_fast_for_the_robot_slows_the_path_down() {
             let fast = Weave { frequency, amplitude, ..weave(shape) };
             queue.add(&line(&mut to, [0.0, 100.0, 0.0], 100.0), &woven(fast)).unwrap();
             let rows = run(&mut queue, 100.0);
-            let share = queue.take_slowed();
+            let share = queue.take_slowed().0;
             assert!(share < 0.95 && share > 0.01, "{shape:?} {frequency}: {share}");
             assert_within_limits(&robot, &rows, &format!("{shape:?} {frequency}"));
             let mut places: Vec<Vector3<f64>> = rows.iter().map(|row| row.tcp.translation.vector).collect();
