@@ -142,6 +142,30 @@ fn lowest(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 #[cfg(test)]
+impl Bound {
+    /// Any, over orders of magnitude.
+    pub(super) fn random(random: &mut crate::kinematics::random::Random) -> Self {
+        let mut some = |low: f64, high: f64| 10.0_f64.powf(random.between(low, high));
+        Self {
+            first: some(-2.0, 2.0),
+            second: some(-3.0, 3.0),
+            third: some(-3.0, 4.0),
+            vel: some(0.0, 2.0),
+            acc: some(1.0, 3.0),
+            jerk: some(2.0, 4.0),
+        }
+    }
+
+    /// Whatever moves within the limits must not break it.
+    pub(super) fn assert_kept(&self, Limits { vel, acc, jerk }: Limits) {
+        assert!(self.first * vel <= self.vel * 1.000_001);
+        assert!(self.first * acc + self.second * vel * vel <= self.acc * 1.000_001);
+        let third = self.third * vel.powi(3) + 3.0 * self.second * vel * acc + self.first * jerk;
+        assert!(third <= self.jerk * 1.000_001, "{self:?} {third}");
+    }
+}
+
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::kinematics::random::Random;
@@ -150,24 +174,11 @@ mod tests {
     fn no_bound_is_broken_by_any_motion_within_the_limits() {
         let mut random = Random::new(21);
         for _ in 0..2000 {
-            let mut some = |low: f64, high: f64| 10.0_f64.powf(random.between(low, high));
-            let bounds: Vec<Bound> = (0..20)
-                .map(|_| Bound {
-                    first: some(-2.0, 2.0),
-                    second: some(-3.0, 3.0),
-                    third: some(-3.0, 4.0),
-                    vel: some(0.0, 2.0),
-                    acc: some(1.0, 3.0),
-                    jerk: some(2.0, 4.0),
-                })
-                .collect();
-            let Limits { vel, acc, jerk } = quickest(&bounds);
-            assert!(vel > 0.0 && acc > 0.0 && jerk > 0.0);
+            let bounds: Vec<Bound> = (0..20).map(|_| Bound::random(&mut random)).collect();
+            let limits = quickest(&bounds);
+            assert!(limits.vel > 0.0 && limits.acc > 0.0 && limits.jerk > 0.0);
             for bound in &bounds {
-                assert!(bound.first * vel <= bound.vel * 1.000_001);
-                assert!(bound.first * acc + bound.second * vel * vel <= bound.acc * 1.000_001);
-                let third = bound.third * vel.powi(3) + 3.0 * bound.second * vel * acc + bound.first * jerk;
-                assert!(third <= bound.jerk * 1.000_001, "{bound:?} {third}");
+                bound.assert_kept(limits);
             }
         }
     }

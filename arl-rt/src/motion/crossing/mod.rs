@@ -106,16 +106,7 @@ mod tests {
     use crate::kinematics::random::Random;
 
     fn random_places(random: &mut Random) -> Vec<(f64, Vec<Bound>)> {
-        let mut some = |low: f64, high: f64| 10.0_f64.powf(random.between(low, high));
-        let mut row = || Bound {
-            first: some(-2.0, 2.0),
-            second: some(-3.0, 3.0),
-            third: some(-3.0, 4.0),
-            vel: some(0.0, 2.0),
-            acc: some(1.0, 3.0),
-            jerk: some(2.0, 4.0),
-        };
-        (0..=30).map(|place| (f64::from(place) / 30.0, (0..6).map(|_| row()).collect())).collect()
+        (0..=30).map(|place| (f64::from(place) / 30.0, (0..6).map(|_| Bound::random(random)).collect())).collect()
     }
 
     #[test]
@@ -135,10 +126,7 @@ mod tests {
                 let part = ((share * PARTS as f64) as usize).min(PARTS - 1);
                 let vel = speeds[part];
                 for bound in rows {
-                    assert!(bound.first * vel <= bound.vel * 1.000_001);
-                    assert!(bound.first * acc + bound.second * vel * vel <= bound.acc * 1.000_001);
-                    let third = bound.third * vel.powi(3) + 3.0 * bound.second * vel * acc + bound.first * jerk;
-                    assert!(third <= bound.jerk * 1.000_001, "{bound:?} {third}");
+                    bound.assert_kept(Limits { vel, acc, jerk });
                 }
             }
         }

@@ -3,8 +3,7 @@
 use super::{Account, CYCLE, EXACT, Leg, ROUNDING, SLACK, Tally};
 use crate::motions::plan::Profile;
 
-/// How much more than the jerk's limit is let pass where somebody changes the override: known is that for a cycle or two, where
-/// a change meets the end of a piece of the way, it is up to 1.31 of the limit.
+/// How much more than the jerk's limit is let pass where somebody changes the override; up to 1.01 of it has been seen.
 const JERK_OF_CHANGES: f64 = 1.06;
 
 /// What holds in a row: shares of the axes' own limits, and speeds of external axes.
