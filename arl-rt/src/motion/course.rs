@@ -1,21 +1,26 @@
 //! The way ahead: pieces of motions and the blends between them, one behind the other.
 
+mod lead;
+
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use super::bend::{Bend, bend};
 use super::blend::{Blend, bent_blend, blend};
+use super::finder::Finder;
 use super::governor::{Governor, MARGIN, Pacing};
 use super::joints::Joints;
 use super::overlay::joined;
 use super::piece::Piece;
-use super::pilot::{Goal, Pilot};
+use super::pilot::Pilot;
 use super::plan::Motion;
 use super::profile::{Limits, State};
 use super::remaining::{self, Leg};
-use super::scout::Scout;
 use super::timing::Timing;
 use super::zone::asks;
 use crate::robot::Robot;
+pub(super) use lead::Answer;
+use lead::{Next, Sought};
 
 /// A piece that takes no longer, in s, is none.
 const NO_TIME: f64 = 1e-12;
@@ -29,7 +34,7 @@ const RISE: f64 = 4.0;
 /// All pieces from the one that the robot is on.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Course {
-    pieces: VecDeque<Piece>,
+    pieces: VecDeque<Arc<Piece>>,
     /// Where the robot is on the first piece, in s of nominal time.
     at: f64,
     /// The length of a cycle in s.
@@ -43,6 +48,18 @@ pub(super) struct Course {
     pilot: Option<Box<Pilot>>,
     /// Whether the pilot has found no law from rest here.
     unled: bool,
+    /// Who finds laws for the pilot, what is looked for, and the law from the next stop on.
+    finder: Finder,
+    sought: Option<Sought>,
+    next: Option<Next>,
+    /// What became of motions that were offered.
+    answer: Option<Answer>,
+    /// Whether motions are to be appended behind a stop.
+    refusing: bool,
+    /// In a draft: up to where nothing has changed, in s of nominal time.
+    drafted: Option<f64>,
+    /// How many pieces have been left behind.
+    gone: u64,
     /// s of nominal time before the first piece, since the course began.
     passed: f64,
     /// The last motion, which the next one may still round off.
@@ -106,7 +123,7 @@ fn blended(robot: &Robot, from: (&Motion, Limits), to: (&Motion, Limits)) -> Opt
 impl Course {
     /// The piece that the robot is on.
     pub(super) fn first(&self) -> Option<&Piece> {
-        self.pieces.front()
+        self.pieces.front().map(|piece| &**piece)
     }
 
     /// The motion that is blended with the one that was appended last, `number`, and the share at which it is left.
@@ -155,29 +172,18 @@ impl Course {
     }
 
     /// Appends a motion. Returns why the motion before it is not rounded off, where that was asked for.
-    pub(super) fn append(
-        &mut self,
-        robot: &Robot,
-        here: &Joints,
-        motion: Motion,
-        number: u64,
-        cycle: f64,
-    ) -> Option<Sharp> {
+    pub(super) fn append(&mut self, robot: &Robot, motion: Motion, number: u64, cycle: f64) -> Option<Sharp> {
         let limits = motion.limits?;
         self.cycle = cycle;
         let tail = self.tail.take();
-        if motion.flows
-            && tail.is_some()
-            && self.flow_on((robot, here), Piece::part(&motion, limits, number, 0.0, 1.0), cycle)
-        {
+        if motion.flows && tail.is_some() && self.flow_on(Piece::part(&motion, limits, number, 0.0, 1.0), cycle) {
             self.settle(1);
             self.timing.find_entries(MARGIN, cycle);
             self.tail = Some(Tail { motion, limits, joined: None });
             return None;
         }
         let tail = tail.filter(|_| !self.pieces.is_empty());
-        let at = (robot, here);
-        let mut joined = tail.as_ref().and_then(|tail| self.bend_into(at, tail, (&motion, limits), number, cycle));
+        let mut joined = tail.as_ref().and_then(|tail| self.bend_into(robot, tail, (&motion, limits), number, cycle));
         let mut sharp = motion.flows.then_some(Sharp::Late);
         let mut end = (motion, limits);
         let mut before = None;
@@ -189,7 +195,7 @@ impl Course {
             }
             before = Some(tail.motion);
             if let Some(blended) = blended {
-                joined = self.round_off(at, &blended, number, cycle).map(|pieces| (Bend::NONE, pieces));
+                joined = self.round_off(&blended, number, cycle).map(|pieces| (Bend::NONE, pieces));
                 sharp = joined.is_none().then_some(Sharp::Late);
                 if joined.is_some() {
                     (before, end) = (Some(blended.from.0), blended.to);
@@ -200,7 +206,7 @@ impl Course {
         if joined.is_none() {
             let whole = [Piece::part(&motion, limits, number, 0.0, 1.0)];
             // In a stretch of its own it asks for nothing that the stop before it did not.
-            if self.pilot.is_some() || !self.lay(&whole, true, cycle) {
+            if self.is_led() || !self.lay(&whole, true, cycle) {
                 self.push(&whole, false);
             }
         }
@@ -215,7 +221,7 @@ impl Course {
     /// the bend and how many pieces there are from the new blend on. `None` where that is not possible any more.
     fn bend_into(
         &mut self,
-        at: (&Robot, &Joints),
+        robot: &Robot,
         tail: &Tail,
         (motion, limits): (&Motion, Limits),
         number: u64,
@@ -226,7 +232,6 @@ impl Course {
         if self.pieces.len() <= *count {
             return None;
         }
-        let (robot, _) = at;
         let bend = bend(robot, before, &tail.motion, motion)?;
         if bend == Bend::NONE {
             return None;
@@ -244,7 +249,7 @@ impl Course {
         pieces.extend((rest.time > NO_TIME).then_some(rest));
         let kept = self.take_back(*count);
         let same_to = self.end();
-        if self.lay_any(at, &pieces, same_to, cycle) {
+        if self.lay_any(&pieces, same_to, cycle) {
             return Some((bend, pieces.len() - 2));
         }
         self.put_back(kept);
@@ -253,7 +258,7 @@ impl Course {
 
     /// Puts a blend in place of the end of the last motion and the start of the next; returns how many pieces there are
     /// from the blend on, `None` where the robot is not able to take it any more.
-    fn round_off(&mut self, at: (&Robot, &Joints), blended: &Blended, number: u64, cycle: f64) -> Option<usize> {
+    fn round_off(&mut self, blended: &Blended, number: u64, cycle: f64) -> Option<usize> {
         let Blended { from: (before, before_limits), to: (motion, limits), blend, until } = blended;
         let last = self.pieces.back()?;
         // Another blend has taken what this one needs.
@@ -274,7 +279,7 @@ impl Course {
         let from_blend = pieces.iter().skip_while(|piece| piece.progress.is_none()).count();
         let kept = self.take_back(1);
         let same_to = self.end() + same;
-        if self.lay_any(at, &pieces, same_to, cycle) {
+        if self.lay_any(&pieces, same_to, cycle) {
             return Some(from_blend);
         }
         self.put_back(kept);
@@ -283,9 +288,13 @@ impl Course {
 
     /// Appends pieces in whatever way the robot is able to keep to them; returns whether there is one. Up to `same_to`, in s
     /// of nominal time since the course began, nothing changes by them.
-    fn lay_any(&mut self, at: (&Robot, &Joints), pieces: &[Piece], same_to: f64, cycle: f64) -> bool {
-        if self.pilot.is_some() {
-            return self.lay_before_pilot(pieces, same_to, at);
+    fn lay_any(&mut self, pieces: &[Piece], same_to: f64, cycle: f64) -> bool {
+        let may = self.may_change_from(same_to);
+        if self.is_led() {
+            if may {
+                self.push(pieces, true);
+            }
+            return may;
         }
         self.lay(pieces, true, cycle) || self.lay(pieces, false, cycle)
     }
@@ -296,34 +305,23 @@ impl Course {
     }
 
     /// Goes on from the last motion without a stop; returns whether the robot is still able to.
-    fn flow_on(&mut self, at: (&Robot, &Joints), piece: Piece, cycle: f64) -> bool {
+    fn flow_on(&mut self, piece: Piece, cycle: f64) -> bool {
         let Some(last) = self.pieces.back() else { return false };
-        let mut through = last.clone().flowing();
+        let mut through = Piece::clone(last).flowing();
         through.stops = false;
         let pieces = [through, piece.flowing()];
         let kept = self.take_back(1);
         let same_to = self.end() + pieces[0].time;
-        if self.lay_any(at, &pieces, same_to, cycle) {
+        if self.lay_any(&pieces, same_to, cycle) {
             return true;
         }
         self.put_back(kept);
         false
     }
 
-    /// The same as [`Course::lay`] in the profile O.
-    fn lay_before_pilot(&mut self, pieces: &[Piece], same_to: f64, (robot, here): (&Robot, &Joints)) -> bool {
-        self.push(pieces, true);
-        let Some(mut pilot) = self.pilot.take() else { return true };
-        let laid = pilot.end() <= same_to || pilot.renew(&self.scout(robot, here));
-        self.pilot = Some(pilot);
-        if !laid {
-            self.take_back(pieces.len());
-        }
-        laid
-    }
-
-    fn scout<'a>(&'a self, robot: &'a Robot, here: &Joints) -> Scout<'a> {
-        Scout { robot, pieces: &self.pieces, passed: self.passed, at: self.passed + self.at, joints: *here }
+    /// Whether the pilot leads, or would lead, the robot.
+    fn is_led(&self) -> bool {
+        self.pilot.is_some() || self.drafted.is_some()
     }
 
     /// Appends pieces if the robot is able to keep to them, and returns whether it is; `may` they join the last stretch?
@@ -350,6 +348,10 @@ impl Course {
         // Set-points are those of whole cycles: an acceleration takes a few of them to rise, also without a limit of the jerk.
         let Limits { acc, jerk, .. } = piece.limits;
         piece.limits.jerk = jerk.min(acc / (RISE * self.cycle));
+        self.push_shared(Arc::new(piece), may);
+    }
+
+    fn push_shared(&mut self, piece: Arc<Piece>, may: bool) {
         for (index, cell) in piece.cells().enumerate() {
             self.timing.push(cell, piece.stops, may || index > 0);
         }
@@ -363,7 +365,7 @@ impl Course {
     }
 
     /// Takes the last pieces away; returns them, the last one first, each with whether its stretch began with it.
-    fn take_back(&mut self, count: usize) -> Vec<(Piece, bool)> {
+    fn take_back(&mut self, count: usize) -> Vec<(Arc<Piece>, bool)> {
         let mut taken = Vec::with_capacity(count);
         for piece in (0..count).map_while(|_| self.pieces.pop_back()) {
             let mut began = false;
@@ -376,9 +378,9 @@ impl Course {
     }
 
     /// Puts pieces back where they were.
-    fn put_back(&mut self, taken: Vec<(Piece, bool)>) {
+    fn put_back(&mut self, taken: Vec<(Arc<Piece>, bool)>) {
         for (piece, began) in taken.into_iter().rev() {
-            self.push_one(piece, !began);
+            self.push_shared(piece, !began);
         }
     }
 
@@ -390,10 +392,10 @@ impl Course {
     /// to stop: at the end of the last piece that was told of.
     pub(super) fn advance(
         &mut self,
-        (robot, here): (&Robot, &Joints),
+        (robot, here): (&Arc<Robot>, &Joints),
         cycle: f64,
         pacing: Pacing,
-        mut passed: impl FnMut(Piece),
+        mut passed: impl FnMut(Arc<Piece>),
     ) -> bool {
         self.choose_leader();
         if !self.follow_pilot(robot, here, cycle, pacing) {
@@ -404,7 +406,7 @@ impl Course {
         }
         let stands = self.timing.pass(&mut self.state);
         if stands {
-            (self.pilot, self.unled) = (None, false);
+            self.arrive();
         }
         while let Some(first) = self.pieces.front() {
             // What rounding leaves of pieces before a stop is passed with it.
@@ -419,6 +421,7 @@ impl Course {
             self.at = if stops { 0.0 } else { self.at - first.time };
             self.passed = if stops { 0.0 } else { self.passed + first.time };
             if let Some(piece) = self.pieces.pop_front() {
+                self.gone += 1;
                 passed(piece);
             }
             if stops {
@@ -434,31 +437,6 @@ impl Course {
             let optimal = self.pieces.front().is_some_and(|first| first.pace.is_some());
             self.pilot = optimal.then(Box::default);
         }
-    }
-
-    /// Goes on for a cycle as the pilot says; `false` where there is none.
-    fn follow_pilot(&mut self, robot: &Robot, here: &Joints, cycle: f64, pacing: Pacing) -> bool {
-        let Some(mut pilot) = self.pilot.take() else { return false };
-        let rested = pilot.rests();
-        let goal = match pacing {
-            Pacing::Go(share) | Pacing::Settle(share) => Goal::Go(share),
-            Pacing::Stop(harder) => Goal::Stop(harder),
-        };
-        let next = pilot.next(&self.scout(robot, here), cycle, goal);
-        if rested && pilot.rests() && matches!(goal, Goal::Go(_)) {
-            self.unled = true;
-            return false;
-        }
-        let mut way = next.at - self.passed - self.at;
-        if pilot.rests() {
-            // Rounding must neither keep it from a stop nor carry it past one.
-            let stop = self.timing.to_stop() - self.state.at;
-            way = if way > stop - NEAR_STOP { stop } else { way };
-        }
-        self.state = State { at: self.state.at + way, vel: next.vel, acc: next.acc };
-        self.at += way;
-        self.pilot = Some(pilot);
-        true
     }
 
     /// The pacing with the way to a share of the speed that is new.
@@ -486,11 +464,13 @@ impl Course {
         let kept = self.timing.stretches.iter().position(|stretch| stretch.stops).map_or(0, |last| last + 1);
         self.timing.stretches.truncate(kept);
         self.tail = None;
+        self.keep_laws_to_stop();
     }
 
     /// Drops everything.
     pub(super) fn clear(&mut self) {
-        *self = Self::default();
+        self.forsake();
+        *self = Self { finder: std::mem::take(&mut self.finder), ..Self::default() };
     }
 
     /// How long the motion that counts as being executed still takes, in s, when it has run for `elapsed` s at full speed:
@@ -500,7 +480,7 @@ impl Course {
         if let Some(duration) = current.duration().filter(|_| self.pilot.is_none()) {
             return (duration - elapsed).max(0.0);
         }
-        let own = |piece: &&Piece| piece.number == current.number && !piece.leaves();
+        let own = |piece: &&Arc<Piece>| piece.number == current.number && !piece.leaves();
         let later = self.pieces.iter().skip(1).take_while(own);
         let end = self.passed + first.time + later.clone().map(|piece| piece.time).sum::<f64>();
         if let Some(time) = self.pilot.as_ref().and_then(|pilot| pilot.time_to(end)) {

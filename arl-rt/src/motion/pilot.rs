@@ -1,381 +1,353 @@
 //! How the robot goes along the course in the profile O.
 //!
-//! Invariant: the law in hand leads the robot to rest on the course, within all limits. Another one takes its place only
-//! when it has been found to start from the robot's very state; where none is found, the robot keeps to the one it has.
-//! So nothing that comes up, a motion, a stop or another override, can lead it off the course or beyond a limit.
+//! Invariant: the law in hand leads the robot to rest on the course, within all limits, at whatever share of its speed it is
+//! followed. Another one takes its place only when it starts from the robot's very state; where none is found, the robot
+//! keeps to the one it has. So nothing that comes up, a motion, a stop or another override, can lead it off the course or
+//! beyond a limit.
+//!
+//! Laws are found beside the cycle. What has to be done at once, stops and changes of the override, is done with the law in
+//! hand and with the limits that it was found from.
 
-use super::optimal::{Edge, Law, Moment, Way, fastest};
-use super::profile::{Change, Limits, State};
-use super::scout::{Prospect, Scout};
+use super::ease::{Ease, followed};
+use super::finder::{Found, Timed};
+use super::optimal::{Edge, Law, Moment};
+use super::profile::State;
+use super::ramp::Ramp;
 
-/// How many s of nominal time are looked ahead at first.
-const WINDOW: f64 = 2.0;
-/// A law takes so many s at least, if there is so much course.
-const AHEAD: f64 = 1.5;
 /// A law of which a smaller part is left is made longer when there is more course.
 const LEFT: f64 = 0.5;
 /// A new law must be about as quick as the one in hand over the next part of that.
 const AS_QUICK_FOR: f64 = 0.3;
 const AS_QUICK: f64 = 1.1;
-/// After a law was not found, the next attempt is made so many s later.
+/// After something was not found, the next attempt is made so many s later.
 const PAUSE: f64 = 0.02;
-/// A law is looked at every so many s, and may use so much of the limits.
-const SAMPLE: f64 = 0.001;
-const MOST_USED: f64 = 1.008;
-/// Times, in s at full speed, after which a change of the override may be over.
+/// How many s a change of the override, or a stop for which no ramp is found, may take.
 const CHANGES: [f64; 7] = [0.03, 0.06, 0.12, 0.25, 0.5, 1.0, 2.0];
-/// Shares of the acceleration and the jerk at rest that are tried for a stop.
-const HARDNESS: [f64; 14] = [1.0, 0.95, 0.9, 0.85, 0.8, 0.72, 0.64, 0.56, 0.48, 0.4, 0.32, 0.24, 0.16, 0.08];
+/// So long may a change of the override take that follows the law in hand all the time, where there is another way.
+const QUICK: f64 = 0.25;
+/// A rest of a duration, in s, that is none.
+const NO_TIME: f64 = 1e-9;
 
 /// Where the robot is on its law.
 #[derive(Clone, Debug)]
-struct Drive<L> {
-    law: L,
+struct Drive {
+    found: Found,
     /// s on the law.
     time: f64,
-    /// Where the law ends, in s of nominal time.
-    end: f64,
 }
 
-impl<L: Timed> Drive<L> {
+impl Drive {
     fn left(&self) -> f64 {
-        self.law.duration() - self.time
+        self.found.law.duration() - self.time
     }
 
     fn is_over(&self) -> bool {
-        self.left() <= 1e-9
+        self.left() <= NO_TIME
     }
-}
 
-impl Drive<Law> {
     /// Whether another law that starts here goes on about as quickly, before this one slows down for its end.
-    fn is_as_quick(&self, other: &Self) -> bool {
+    fn is_as_quick(&self, other: &Found) -> bool {
         let later = AS_QUICK_FOR * self.left();
-        let there = self.law.at(self.time + later).at.min(other.end);
-        let own = self.law.time_at(there) - self.time;
+        let there = self.found.law.at(self.time + later).at.min(other.end);
+        let own = self.found.law.time_at(there) - self.time;
         other.law.time_at(there) <= AS_QUICK * own
     }
 }
 
-/// A motion along the course over time.
-trait Timed {
-    fn at(&self, time: f64) -> Moment;
-    fn duration(&self) -> f64;
+/// A change of the share at which the law is followed.
+#[derive(Clone, Copy, Debug)]
+struct Easing {
+    ease: Ease,
+    time: f64,
+    /// The time on the law where it began.
+    from: f64,
 }
 
-impl Timed for Law {
+/// A law while the share of its speed changes.
+struct Eased<'a> {
+    law: &'a Law,
+    easing: Easing,
+}
+
+impl Timed for Eased<'_> {
     fn at(&self, time: f64) -> Moment {
-        Law::at(self, time)
+        let Easing { ease, time: begun, from } = self.easing;
+        followed(&self.law.at(from + ease.passed(begun + time)), ease.at(begun + time))
     }
 
     fn duration(&self) -> f64 {
-        Law::duration(self)
+        self.easing.ease.duration() - self.easing.time
     }
 }
 
-/// A change to rest with constant limits.
-#[derive(Clone, Debug)]
-struct Ramp {
-    start: State,
-    change: Change,
-}
-
-impl Timed for Ramp {
-    fn at(&self, time: f64) -> Moment {
-        let State { at, vel, acc } = self.change.after(self.start, time);
-        Moment { at, vel, acc, jerk: self.change.jerk(time) }
-    }
-
-    fn duration(&self) -> f64 {
-        self.change.duration()
-    }
-}
-
-/// What a bridge moves by.
-#[derive(Clone, Debug)]
-enum Line {
-    Law(Law),
-    Ramp(Ramp),
-}
-
-impl Timed for Line {
-    fn at(&self, time: f64) -> Moment {
-        match self {
-            Line::Law(law) => law.at(time),
-            Line::Ramp(ramp) => ramp.at(time),
-        }
-    }
-
-    fn duration(&self) -> f64 {
-        match self {
-            Line::Law(law) => law.duration(),
-            Line::Ramp(ramp) => ramp.duration(),
-        }
-    }
-}
-
-/// What comes after a law that leads from one state to another.
-#[derive(Clone, Debug)]
-enum Then {
-    Rest,
-    /// The full-speed law from a later time on.
-    Go,
+/// How the robot goes on if nothing comes up.
+#[derive(Clone, Debug, Default)]
+struct Ahead {
+    /// The law; `None` at rest.
+    main: Option<Drive>,
+    /// The share of its speed at which it is followed, and the change of that.
+    share: f64,
+    easing: Option<Easing>,
+    /// What leads away from the law, to rest; the law is not followed any more then.
+    ramp: Option<Ramp>,
 }
 
 /// Follows laws, cycle by cycle.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pilot {
-    /// The law at full speed; `None` at rest.
-    main: Option<Drive<Law>>,
-    /// The share of its speed at which it is followed.
-    share: f64,
-    /// A law that leads away from it in real time: to rest, or to another share of the speed.
-    bridge: Option<(Drive<Line>, Then)>,
-    /// The share of the speed that the bridge leads to.
-    next_share: f64,
+    ahead: Ahead,
     /// s until another attempt is made.
     pause: f64,
+    /// The same for another share of the speed.
+    share_pause: f64,
+    /// How hard it brakes, where it does.
+    harder: f64,
+}
+
+/// The state from which another law is wanted, some cycles from now.
+pub(super) struct Wish {
+    /// Where, in s of nominal time.
+    pub(super) at: f64,
+    pub(super) start: Edge,
+    /// The share of its speed at which the law will be followed.
+    pub(super) share: f64,
+    /// How many cycles it is until then.
+    pub(super) cycles: u32,
+}
+
+impl Ahead {
+    fn rests(&self) -> bool {
+        self.main.is_none() && self.ramp.is_none()
+    }
+
+    /// The share of the law's speed, with two derivatives.
+    fn shares(&self) -> [f64; 3] {
+        self.easing.map_or([self.share, 0.0, 0.0], |easing| easing.ease.at(easing.time))
+    }
+
+    /// The state now; `None` at rest.
+    fn state(&self) -> Option<State> {
+        let Moment { at, vel, acc, .. } = match (&self.ramp, &self.main) {
+            (Some(ramp), _) => ramp.at(ramp.time),
+            (None, Some(main)) => followed(&main.found.law.at(main.time), self.shares()),
+            (None, None) => return None,
+        };
+        Some(State { at, vel, acc })
+    }
+
+    /// Goes on for a cycle; returns where it has come to rest, if it has.
+    fn advance(&mut self, cycle: f64) -> Option<f64> {
+        if let Some(ramp) = &mut self.ramp {
+            ramp.time += cycle;
+            let end = (ramp.time >= ramp.duration() - NO_TIME).then_some(ramp.end);
+            if end.is_some() {
+                *self = Self::default();
+            }
+            return end;
+        }
+        let main = self.main.as_mut()?;
+        let mut end = None;
+        match &mut self.easing {
+            Some(easing) => {
+                easing.time += cycle;
+                main.time = easing.from + easing.ease.passed(easing.time);
+                if easing.time >= easing.ease.duration() - NO_TIME {
+                    self.share = easing.ease.to();
+                    self.easing = None;
+                    end = (self.share == 0.0).then(|| main.found.law.at(main.time).at);
+                }
+            }
+            None => main.time += cycle * self.share,
+        }
+        if main.is_over() {
+            end = Some(main.found.end);
+        }
+        if end.is_some() {
+            *self = Self::default();
+        }
+        end
+    }
 }
 
 impl Pilot {
     /// Whether it stands still.
     pub(super) fn rests(&self) -> bool {
-        self.main.is_none() && self.bridge.is_none()
+        self.ahead.rests()
     }
 
-    /// How far the course is laid down by the laws in hand.
+    /// Whether it brakes for a stop, and will not go on by itself.
+    pub(super) fn brakes(&self) -> bool {
+        let stops = |easing: &Easing| easing.ease.to() == 0.0;
+        self.ahead.ramp.is_some() || self.ahead.easing.as_ref().is_some_and(stops)
+    }
+
+    /// How far the course is laid down by what is in hand.
     pub(super) fn end(&self) -> f64 {
-        match (&self.bridge, &self.main) {
-            (Some((bridge, Then::Rest)), _) => bridge.end,
-            (_, Some(main)) => main.end,
-            (Some((bridge, Then::Go)), None) => bridge.end,
+        match (&self.ahead.ramp, &self.ahead.main) {
+            (Some(ramp), _) => ramp.end,
+            (None, Some(main)) => main.found.end,
             (None, None) => f64::NEG_INFINITY,
         }
     }
 
     /// s until the parameter is at `at`, at full speed; `None` where no law leads there.
     pub(super) fn time_to(&self, at: f64) -> Option<f64> {
-        let main = self.main.as_ref().filter(|main| at <= main.end)?;
-        Some((main.law.time_at(at) - main.time).max(0.0))
+        let main = self.ahead.main.as_ref().filter(|main| at <= main.found.end)?;
+        Some((main.found.law.time_at(at) - main.time).max(0.0))
     }
 
-    /// The state a cycle later; `at` is in s of nominal time since the course began.
-    pub(super) fn next(&mut self, scout: &Scout, cycle: f64, goal: Goal) -> State {
+    /// The state a cycle later, in s of nominal time since the course began; `None` where it rests already.
+    pub(super) fn next(&mut self, cycle: f64) -> Option<State> {
         self.pause = (self.pause - cycle).max(0.0);
-        match goal {
-            Goal::Stop(harder) => self.brake(scout, harder),
-            Goal::Go(share) => self.go(scout, share),
+        self.share_pause = (self.share_pause - cycle).max(0.0);
+        match self.ahead.advance(cycle) {
+            Some(at) => Some(State { at, vel: 0.0, acc: 0.0 }),
+            None => self.ahead.state(),
         }
-        self.advance(scout, cycle)
     }
 
-    /// Makes a law for the course as it is now, from the robot's state; returns whether there is one.
-    pub(super) fn renew(&mut self, scout: &Scout) -> bool {
-        if self.rests() {
-            return true;
+    /// Goes off from rest.
+    pub(super) fn start(&mut self, found: Found, share: f64) {
+        self.ahead = Ahead { main: Some(Drive { found, time: 0.0 }), share, ..Ahead::default() };
+    }
+
+    /// Whether the law in hand leads to where the robot has to stop.
+    pub(super) fn stops(&self) -> bool {
+        self.ahead.main.as_ref().is_some_and(|main| main.found.stops)
+    }
+
+    /// The state after so many cycles from which the law is wanted that goes on behind the one in hand, if it is time for
+    /// that.
+    pub(super) fn wish(&self, cycles: u32, cycle: f64) -> Option<Wish> {
+        let main = self.ahead.main.as_ref()?;
+        let short = main.left() < LEFT * main.found.law.duration();
+        if self.pause > 0.0 || main.found.stops || !short {
+            return None;
         }
-        if self.bridge.is_some() {
+        self.state_after(cycles, cycle)
+    }
+
+    /// The state after so many cycles, for another law than the one in hand; `None` where it brakes.
+    pub(super) fn state_after(&self, cycles: u32, cycle: f64) -> Option<Wish> {
+        if self.brakes() {
+            return None;
+        }
+        let then = self.after(cycles, cycle);
+        let main = then.main.as_ref()?;
+        let there = main.found.law.at(main.time);
+        (there.vel > 0.0).then_some(Wish {
+            at: there.at,
+            start: Edge { vel: there.vel, acc: there.acc },
+            share: then.share,
+            cycles,
+        })
+    }
+
+    /// The state after so many cycles where it brakes, to go on at a share of the speed before it rests, or as soon as it does.
+    pub(super) fn wish_to_go_on(&self, cycles: u32, cycle: f64, share: f64) -> Option<Wish> {
+        let ramp = self.ahead.ramp.as_ref().filter(|_| self.pause <= 0.0)?;
+        let (end, cycles) = (ramp.end, cycles.max((ramp.calm() / cycle).ceil() as u32));
+        let then = self.after(cycles, cycle).state();
+        let State { at, vel, acc } = then.unwrap_or(State { at: end, vel: 0.0, acc: 0.0 });
+        let start = if then.is_some() { Edge { vel: vel / share, acc: acc / (share * share) } } else { Edge::REST };
+        Some(Wish { at, start, share, cycles })
+    }
+
+    /// How it will go on from after so many cycles on.
+    fn after(&self, cycles: u32, cycle: f64) -> Ahead {
+        let mut then = self.ahead.clone();
+        for _ in 0..cycles {
+            then.advance(cycle);
+        }
+        then
+    }
+
+    /// Takes over the law for which there was a [`Pilot::wish`] so many cycles ago; returns whether it did.
+    pub(super) fn renew(&mut self, found: Option<Found>) -> bool {
+        let Ahead { main: Some(main), easing, .. } = &mut self.ahead else { return false };
+        let eased = easing.map(|easing| Easing { from: -easing.ease.passed(easing.time), ..easing });
+        let keeps =
+            |found: &Found| eased.is_none_or(|easing| found.plot.keeps(&Eased { law: &found.law, easing }, 1.0));
+        match found.filter(|found| main.is_as_quick(found) && keeps(found)) {
+            Some(found) => {
+                *main = Drive { found, time: 0.0 };
+                *easing = eased;
+                true
+            }
+            None => {
+                self.pause = PAUSE;
+                false
+            }
+        }
+    }
+
+    /// The same for [`Pilot::wish_to_go_on`].
+    pub(super) fn go_on(&mut self, found: Option<Found>, share: f64) {
+        match found {
+            Some(found) => self.start(found, share),
+            None => self.pause = PAUSE,
+        }
+    }
+
+    /// Goes over to another share of the speed: along the law in hand, or, where that leaves too little of the limits, by
+    /// slowing down until another law begins, for which there is [`Pilot::wish_to_go_on`]; that takes `search` s.
+    pub(super) fn go_at(&mut self, share: f64, search: f64) {
+        let Ahead { main: Some(main), easing, ramp: None, .. } = &self.ahead else { return };
+        let leads_to = easing.as_ref().map_or(self.ahead.share, |easing| easing.ease.to());
+        if leads_to == share || self.share_pause > 0.0 {
+            return;
+        }
+        let slower = |now| Ramp::slower(now, &main.found, main.time, share, search);
+        if let Some(easing) = self.easing(main, share, 1.0, QUICK) {
+            self.ahead.easing = Some(easing);
+        } else if let Some(ramp) = self.ahead.state().and_then(slower) {
+            (self.ahead.ramp, self.harder, self.pause) = (Some(ramp), 0.0, 0.0);
+        } else {
+            self.share_pause = PAUSE;
+            let slowly = self.easing(main, share, 1.0, f64::INFINITY);
+            self.ahead.easing = slowly.or(self.ahead.easing);
+        }
+    }
+
+    /// A change of the share that keeps the limits, within `longest` s.
+    fn easing(&self, main: &Drive, to: f64, harder: f64, longest: f64) -> Option<Easing> {
+        let shares = self.ahead.shares();
+        CHANGES.iter().take_while(|duration| **duration <= longest).find_map(|duration| {
+            let easing = Easing { ease: Ease::new(shares, to, *duration), time: 0.0, from: main.time };
+            main.found.plot.keeps(&Eased { law: &main.found.law, easing }, harder).then_some(easing)
+        })
+    }
+
+    /// Brakes to rest as hard as the limits allow, where they are those of the way times `harder`; returns whether that is
+    /// something new.
+    pub(super) fn brake(&mut self, harder: f64) -> bool {
+        let known = self.brakes() && harder <= self.harder;
+        if known || (self.pause > 0.0 && harder <= 1.0) {
             return false;
         }
-        let Some(main) = &self.main else { return true };
-        let now = main.law.at(main.time);
-        let found = law(scout, Edge { vel: now.vel, acc: now.acc });
-        let renewed = found.filter(|found| main.is_as_quick(found));
-        let is_new = renewed.is_some();
-        self.main = renewed.or(self.main.take());
-        is_new
-    }
-
-    fn go(&mut self, scout: &Scout, share: f64) {
-        match (&self.bridge, &self.main) {
-            (None, None) => {
-                self.share = share;
-                self.main = law(scout, Edge::REST);
+        let (Some(main), Some(now)) = (&self.ahead.main, self.ahead.state()) else { return false };
+        // Behind the end of a ramp the course may be another one by now.
+        let end = self.ahead.ramp.as_ref().map_or(main.found.end, |ramp| ramp.end);
+        let found = match Ramp::hardest(now, &main.found.plot, end, harder) {
+            Some(ramp) => {
+                self.ahead.ramp = Some(ramp);
+                true
             }
-            (Some((bridge, Then::Rest)), _) if self.pause <= 0.0 => {
-                // Told to go on before it rests: from the state on the way to rest, if that is one of the new share.
-                let now = bridge.law.at(bridge.time);
-                let edge = Edge { vel: now.vel / share, acc: now.acc / (share * share) };
-                match law(scout, edge) {
-                    Some(found) => (self.main, self.bridge, self.share) = (Some(found), None, share),
-                    None => self.pause = PAUSE,
-                }
+            None if self.ahead.ramp.is_some() => {
+                self.pause = PAUSE;
+                false
             }
-            (None, Some(main)) => {
-                let more = main.end < scout.stop() - 1e-9;
-                let short = main.left() < LEFT * main.law.duration();
-                if self.pause <= 0.0 && more && short && !self.renew(scout) {
-                    self.pause = PAUSE;
-                }
-                if share != self.share && self.pause <= 0.0 && !self.change(scout, share) {
-                    self.pause = PAUSE;
-                }
+            None => {
+                let easing = self.easing(main, 0.0, harder, f64::INFINITY);
+                let found = easing.is_some();
+                self.ahead.easing = easing.or(self.ahead.easing);
+                self.pause = if found { self.pause } else { PAUSE };
+                found
             }
-            _ => {}
-        }
-    }
-
-    /// Looks for the hardest ramp that leads to rest within the limits, where they are those of the way times `harder`.
-    fn brake(&mut self, scout: &Scout, harder: f64) {
-        if self.pause > 0.0 || self.rests() || matches!(&self.bridge, Some((_, Then::Rest))) {
-            return;
-        }
-        self.pause = PAUSE;
-        let (now, end) = (self.state(scout), self.end());
-        let start = Edge { vel: now.vel, acc: now.acc };
-        // The end is one of a moving robot: places need not be close together there.
-        let Some(Prospect { way, end }) = scout.look(end, start, Edge { vel: now.vel, acc: 0.0 }, harder) else {
-            return;
         };
-        let limits = straight(&way);
-        let ramp = |hardness: f64| {
-            let limits = Limits { acc: limits.acc * hardness, jerk: limits.jerk * hardness, ..limits };
-            // What brakes harder already would have to turn back.
-            if now.acc < 0.0 && now.acc * now.acc > 2.0 * limits.jerk * now.vel {
-                return None;
-            }
-            let ramp = Ramp { start: now, change: Change::new(now.vel, now.acc, 0.0, &limits) };
-            let stop = ramp.at(ramp.duration());
-            let last = stop.vel.abs() <= 1e-9 * now.vel && stop.at <= end;
-            (last && keeps(&way, &ramp)).then_some((ramp, stop.at))
-        };
-        if let Some((ramp, end)) = HARDNESS.iter().find_map(|hardness| ramp(*hardness)) {
-            let drive = Drive { law: Line::Ramp(ramp), time: 0.0, end };
-            (self.main, self.bridge) = (None, Some((drive, Then::Rest)));
+        if found {
+            self.harder = harder;
         }
+        found
     }
-
-    /// Looks for a law that leads to another share of the speed; returns whether there is one.
-    fn change(&mut self, scout: &Scout, share: f64) -> bool {
-        let Some(main) = &self.main else { return true };
-        let now = self.state(scout);
-        let start = Edge { vel: now.vel, acc: now.acc };
-        for later in CHANGES {
-            let time = main.time + later;
-            if time >= main.law.duration() {
-                return false;
-            }
-            let there = main.law.at(time);
-            let end = Edge { vel: there.vel * share, acc: there.acc * share * share };
-            let Some(Prospect { way, end: reached }) = scout.look(there.at, start, end, 1.0) else { continue };
-            if reached < there.at {
-                return false;
-            }
-            if let Some(law) = sound(&way, start, end) {
-                let bridge = Drive { law: Line::Law(law), time: 0.0, end: there.at };
-                self.main = Some(Drive { time, ..main.clone() });
-                (self.bridge, self.next_share) = (Some((bridge, Then::Go)), share);
-                return true;
-            }
-        }
-        false
-    }
-
-    /// The state now, in real time.
-    fn state(&self, scout: &Scout) -> State {
-        match (&self.bridge, &self.main) {
-            (Some((bridge, _)), _) => {
-                let now = bridge.law.at(bridge.time);
-                State { at: now.at, vel: now.vel, acc: now.acc }
-            }
-            (None, Some(main)) => {
-                let (now, share) = (main.law.at(main.time), self.share);
-                State { at: now.at, vel: now.vel * share, acc: now.acc * share * share }
-            }
-            (None, None) => State { at: scout.at, vel: 0.0, acc: 0.0 },
-        }
-    }
-
-    fn advance(&mut self, scout: &Scout, cycle: f64) -> State {
-        let mut left = cycle;
-        if let Some((bridge, then)) = &mut self.bridge {
-            bridge.time += left;
-            left = -bridge.left();
-            if left < 0.0 {
-                return self.state(scout);
-            }
-            let end = State { at: bridge.end, vel: 0.0, acc: 0.0 };
-            if let Then::Rest = then {
-                self.bridge = None;
-                return end;
-            }
-            self.share = self.next_share;
-            self.bridge = None;
-        }
-        if let Some(main) = &mut self.main {
-            main.time += left * self.share;
-            if main.is_over() {
-                let end = State { at: main.end, vel: 0.0, acc: 0.0 };
-                self.main = None;
-                return end;
-            }
-        }
-        self.state(scout)
-    }
-}
-
-/// What the robot is to do.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(super) enum Goal {
-    /// On, at a share of the full speed.
-    Go(f64),
-    /// To rest, with so many times the acceleration and jerk.
-    Stop(f64),
-}
-
-/// The fastest law from a state on, to rest at the next stop or as far as is looked ahead.
-fn law(scout: &Scout, start: Edge) -> Option<Drive<Law>> {
-    let stop = scout.stop();
-    let mut window = WINDOW;
-    let mut found = None;
-    loop {
-        let to = if scout.at + 1.2 * window < stop { scout.at + window } else { stop };
-        let Some(Prospect { way, end }) = scout.look(to, start, Edge::REST, 1.0) else { return found };
-        let Some(law) = sound(&way, start, Edge::REST) else { return found };
-        let ahead = law.duration();
-        found = Some(Drive { law, time: 0.0, end });
-        if end < to || to >= stop || ahead >= AHEAD {
-            return found;
-        }
-        // Nominal times are short where constant limits are low: far enough, and not much farther.
-        window *= (1.5 * AHEAD / ahead).clamp(1.5, 8.0);
-    }
-}
-
-/// The fastest law, if it keeps the limits between the places, too: close to rest, from a state that moves, that is not
-/// certain.
-fn sound(way: &Way, start: Edge, end: Edge) -> Option<Law> {
-    fastest(way, start, end).ok().filter(|law| keeps(way, law))
-}
-
-/// Whether a motion along `way` keeps its limits.
-fn keeps(way: &Way, motion: &impl Timed) -> bool {
-    let count = (motion.duration() / SAMPLE).clamp(16.0, 4000.0) as u32;
-    let places = way.places();
-    let used = |index: usize, now: &Moment| {
-        way.rows(index).iter().fold(0.0_f64, |used, row| {
-            let acc = row.first * now.acc + row.second * now.vel * now.vel;
-            let jerk =
-                row.first * now.jerk + 3.0 * row.second * now.vel * now.acc + row.third * now.vel * now.vel * now.vel;
-            used.max((row.first * now.vel / row.vel).abs()).max((acc / row.acc).abs()).max((jerk / row.jerk).abs())
-        })
-    };
-    (0..=count).all(|step| {
-        let now = motion.at(motion.duration() * f64::from(step) / f64::from(count));
-        let next = places.partition_point(|place| *place <= now.at).clamp(1, places.len() - 1);
-        used(next - 1, &now).min(used(next, &now)) <= MOST_USED
-    })
-}
-
-/// The acceleration and jerk that the parameter may have on all of a way where it hardly moves.
-fn straight(way: &Way) -> Limits {
-    let mut limits = Limits { vel: f64::INFINITY, acc: f64::INFINITY, jerk: f64::INFINITY };
-    for row in (0..way.places().len()).flat_map(|index| way.rows(index)) {
-        if row.first != 0.0 {
-            limits.acc = limits.acc.min(row.acc / row.first.abs());
-            limits.jerk = limits.jerk.min(row.jerk / row.first.abs());
-        }
-    }
-    // Without any limit of its own a ramp takes a few cycles.
-    Limits { jerk: limits.jerk.min(1e3 * limits.acc), ..limits }
 }

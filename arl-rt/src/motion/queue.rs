@@ -1,10 +1,11 @@
 //! The look-ahead and the interpolator: motions wait in a queue, and each cycle moves along the first one.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::chain::Held;
 use super::command::{Command, Settings, Target};
-use super::course::{Course, Sharp};
+use super::course::{Answer, Course, Sharp};
 use super::error::PlanError;
 use super::gate;
 use super::governor::Pacing;
@@ -121,6 +122,8 @@ pub struct Queue {
     late: bool,
     /// The line of a motion whose corner could not be rounded off.
     sharp: Option<u32>,
+    /// Motions that wait until the course can take them.
+    waiting: VecDeque<(Motion, u64)>,
     /// The last motion, where its way depends on the next one.
     held: Option<Held>,
     /// How long the robot has stood still for it, in s.
@@ -168,6 +171,7 @@ impl Queue {
             cycle: 0.001,
             late: false,
             sharp: None,
+            waiting: VecDeque::new(),
             held: None,
             patience: 0.0,
             broken: None,
@@ -187,7 +191,8 @@ impl Queue {
     pub fn has_room(&self) -> bool {
         let executing = u64::from(self.started == Some(self.finished + 1));
         let waiting = self.added - self.finished - executing;
-        waiting < LOOK_AHEAD as u64 || (waiting < MOST_AHEAD && self.course.time_left() < TIME_AHEAD)
+        let short = || self.waiting.is_empty() && self.course.time_left() < TIME_AHEAD;
+        waiting < LOOK_AHEAD as u64 || (waiting < MOST_AHEAD && short())
     }
 
     /// Plans a motion from the end of the last one and appends it; returns its running number, from 1. A motion whose way
@@ -257,7 +262,8 @@ impl Queue {
         let goes_on = joined.is_some();
         let (plain, before) = held.plan(&self.robot, joined)?;
         let end = *plain.end();
-        let flows_from = if plain.flows { self.course.last() } else { None };
+        let last = self.waiting.back().map(|(motion, _)| motion).or_else(|| self.course.last());
+        let flows_from = last.filter(|_| plain.flows);
         let beginning = Beginning {
             start: flows_from.map_or(&self.end, Motion::end),
             before: &self.led.for_next(held.settings(), &held.command().rig),
@@ -282,19 +288,65 @@ impl Queue {
     fn append(&mut self, motion: Motion, number: u64) {
         self.end = *motion.end();
         self.last_rig = motion.rig;
-        let watched = self.laid.is_some().then(|| motion.clone());
         self.led = motion.led();
         self.foreseen = None;
         let share = motion.share_of_speed();
         if share < self.slowed.0 {
             self.slowed = (share, motion.line);
         }
-        match self.course.append(&self.robot, &self.joints, motion, number, self.cycle) {
-            Some(Sharp::Late) => self.late = true,
-            Some(Sharp::NoWay { line }) => self.sharp = Some(line),
+        self.waiting.push_back((motion, number));
+        self.lay_waiting();
+    }
+
+    /// Lays the motions that wait on the course, as soon as that can take them.
+    fn lay_waiting(&mut self) {
+        while !self.waiting.is_empty() && !self.course.is_asking() {
+            if self.course.is_laid_down() {
+                self.course.offer((&self.robot, &self.joints), &self.waiting, self.cycle);
+                self.take_answer();
+            } else if let Some((motion, number)) = self.waiting.pop_front() {
+                let watched = self.laid.is_some().then(|| motion.clone());
+                let sharp = self.course.append(&self.robot, motion, number, self.cycle);
+                self.note_sharp(sharp);
+                self.note_laid(watched, number);
+            }
+        }
+    }
+
+    /// Does what the course says about motions that it was offered.
+    fn take_answer(&mut self) {
+        match self.course.take_answer() {
+            Some(Answer::Taken { sharp, count }) => {
+                self.note_sharp(sharp);
+                for _ in 0..count {
+                    if let Some((motion, number)) = self.waiting.pop_front() {
+                        self.note_laid(Some(motion), number);
+                    }
+                }
+            }
+            Some(Answer::Refused) => {
+                if let Some((motion, number)) = self.waiting.pop_front() {
+                    let watched = self.laid.is_some().then(|| motion.clone());
+                    let sharp = self.course.append_behind_stop(&self.robot, (motion, number), self.cycle);
+                    self.note_sharp(sharp);
+                    self.note_laid(watched, number);
+                }
+            }
             None => {}
         }
-        if let (Some(laid), Some(motion)) = (&mut self.laid, watched) {
+    }
+
+    fn note_sharp(&mut self, sharp: impl IntoIterator<Item = Sharp>) {
+        for sharp in sharp {
+            match sharp {
+                Sharp::Late => self.late = true,
+                Sharp::NoWay { line } => self.sharp = Some(line),
+            }
+        }
+    }
+
+    fn note_laid(&mut self, motion: Option<Motion>, number: u64) {
+        if let (Some(laid), Some(motion)) = (&mut self.laid, motion) {
             let left = self.course.left_before(number).filter(|_| motion.goes());
             laid.push(Laid { number, motion, left });
         }
@@ -376,6 +428,7 @@ impl Queue {
     /// rest. Without a stop it goes on to the next target that it reaches exactly first.
     pub fn clear(&mut self) {
         self.course.keep_to_stop();
+        self.waiting.clear();
         self.held = None;
         self.dropping = true;
         self.drop_at_rest();
@@ -442,6 +495,7 @@ impl Queue {
         let (mut motion, mut line) = (0, 0);
         let waits = rested && matches!(pacing, Pacing::Stop(_));
         if !waits && !self.course.is_empty() {
+            let before = (self.started, self.rig, self.timed, self.elapsed);
             if let Some(piece) = self.course.first() {
                 (motion, line) = self.enter(piece.number, piece.line, piece.rig);
             }
@@ -462,11 +516,18 @@ impl Queue {
                 arrived = Some(passed);
             });
             self.finished = finished;
+            let waits = rested && !stands && self.course.awaits_law();
+            if waits {
+                // The motion has not begun.
+                (self.started, self.rig, self.timed, self.elapsed) = before;
+                (motion, line) = (0, 0);
+            }
             match (stands, &arrived, self.course.first()) {
                 (true, Some(piece), _) => {
                     (motion, line) = (piece.number, piece.line);
                     self.joints = piece.joints(&self.robot.kinematics, piece.time, &self.joints);
                 }
+                _ if waits => {}
                 (_, _, Some(piece)) => {
                     self.joints = piece.joints(&self.robot.kinematics, self.course.at(), &self.joints);
                     (motion, line) = (piece.number, piece.line);
@@ -477,12 +538,14 @@ impl Queue {
             }
             self.progress = match arrived.filter(|_| stands) {
                 Some(piece) => Some(self.at_the_end_of(&piece)),
-                None => self.on_the_way(passed),
+                None => self.on_the_way(if waits { 0.0 } else { passed }),
             };
         } else if self.course.rests() && self.course.at() == 0.0 {
             // It stands at a target and not on the way.
             self.progress = None;
         }
+        self.take_answer();
+        self.lay_waiting();
         self.end_empty();
         self.leave_behind();
         self.drop_at_rest();
@@ -535,10 +598,11 @@ impl Queue {
 
     /// Motions that go nowhere end when those before them have ended.
     fn end_empty(&mut self) {
-        let waiting = self.held.as_ref().map_or(self.added + 1, |held| held.number);
+        let held = self.held.as_ref().map_or(self.added + 1, |held| held.number);
+        let waiting = self.waiting.front().map_or(held, |(_, number)| *number);
         let next = self.course.first().map_or(waiting, |piece| piece.number);
         self.finished = self.finished.max(next - 1);
-        if self.course.is_empty() && !self.dropping {
+        if self.course.is_empty() && self.waiting.is_empty() && !self.dropping {
             self.rig = self.last_rig;
         }
     }

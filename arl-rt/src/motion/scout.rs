@@ -1,6 +1,6 @@
 //! Looks along the course for the profile O: how everything moves at places close enough together, and within which limits.
 
-use std::collections::VecDeque;
+use std::sync::Arc;
 
 use super::bounds::Bounds;
 use super::joints::{ALL, Joints};
@@ -27,15 +27,18 @@ const MANY: usize = 150;
 /// How often the end is brought nearer because there are too many places before it.
 const ATTEMPTS: usize = 6;
 
-/// The course from where the robot is. Parameters are s of nominal time since the course began.
-pub(super) struct Scout<'a> {
-    pub(super) robot: &'a Robot,
-    pub(super) pieces: &'a VecDeque<Piece>,
+/// The course from a place on. Parameters are s of nominal time since the course began.
+pub(super) struct Scout {
+    robot: Arc<Robot>,
+    pieces: Vec<Arc<Piece>>,
     /// Where the first piece begins.
-    pub(super) passed: f64,
-    /// Where to look from, and the joints there.
+    passed: f64,
+    /// Where to look from, and joints near there.
     pub(super) at: f64,
-    pub(super) joints: Joints,
+    near: Joints,
+    /// Where the last piece ends, and whether the robot has to stop there.
+    pub(super) end: f64,
+    pub(super) stops: bool,
 }
 
 /// A part of the course that is ready to be timed.
@@ -45,24 +48,46 @@ pub(super) struct Prospect {
     pub(super) end: f64,
 }
 
-impl Scout<'_> {
-    /// Where the robot has to stop next.
-    pub(super) fn stop(&self) -> f64 {
-        let mut end = self.passed;
-        for piece in self.pieces {
-            end += piece.time;
-            if piece.stops {
+impl Scout {
+    /// Of pieces, of which the first begins at `passed`, those from `at` to the next stop, or to `farthest`; without those from
+    /// the index `settled` on where that begins behind `room`.
+    pub(super) fn new<'a>(
+        robot: &Arc<Robot>,
+        (pieces, passed): (impl Iterator<Item = &'a Arc<Piece>>, f64),
+        (at, near): (f64, &Joints),
+        farthest: f64,
+        (settled, room): (usize, f64),
+    ) -> Self {
+        let mut scout =
+            Self { robot: Arc::clone(robot), pieces: Vec::new(), passed, at, near: *near, end: passed, stops: false };
+        let mut settled_at = None;
+        for (index, piece) in pieces.enumerate() {
+            if index == settled {
+                settled_at = Some((scout.pieces.len(), scout.end));
+            }
+            scout.end += piece.time;
+            if scout.pieces.is_empty() && scout.end <= at && !piece.stops {
+                scout.passed = scout.end;
+                continue;
+            }
+            scout.pieces.push(Arc::clone(piece));
+            scout.stops = piece.stops;
+            if piece.stops || scout.end > farthest {
                 break;
             }
         }
-        end
+        if let Some((count, end)) = settled_at.filter(|(count, end)| *count > 0 && *end >= room) {
+            scout.pieces.truncate(count);
+            (scout.end, scout.stops) = (end, false);
+        }
+        scout
     }
 
-    /// The way to `to`, with the limits of acceleration and jerk times `harder`.
-    pub(super) fn look(&self, to: f64, start: Edge, end: Edge, harder: f64) -> Option<Prospect> {
+    /// The way to `to`.
+    pub(super) fn look(&self, to: f64, start: Edge, end: Edge) -> Option<Prospect> {
         let mut to = to;
         for _ in 0..ATTEMPTS {
-            match self.walk(to, start, end, harder) {
+            match self.walk(to, start, end) {
                 Ok(way) => return Some(Prospect { way, end: to }),
                 Err(reached) => to = self.at + 0.8 * (reached - self.at),
             }
@@ -71,7 +96,7 @@ impl Scout<'_> {
     }
 
     /// The way, or how far it got with as many places as there may be.
-    fn walk(&self, to: f64, start: Edge, end: Edge, harder: f64) -> Result<Way, f64> {
+    fn walk(&self, to: f64, start: Edge, end: Edge) -> Result<Way, f64> {
         let count = ((to - self.at) / SPACING).clamp(FEWEST, MOST_EVEN) as usize;
         let spacing = (to - self.at) / count as f64;
         let mut stations: Vec<(f64, bool)> =
@@ -85,8 +110,8 @@ impl Scout<'_> {
         });
 
         let mut way = Way::new();
-        let mut bounds = Bounds::signed(self.robot);
-        let mut walk = Walk { scout: self, joints: self.joints, index: 0, before: self.passed };
+        let mut bounds = Bounds::signed(&self.robot);
+        let mut walk = Walk { scout: self, joints: self.near, index: 0, before: self.passed };
         for (station, next) in stations.iter().zip(stations.iter().skip(1).map(Some).chain([None])) {
             let mut at = station.0;
             let mut is_place = station.1;
@@ -94,7 +119,7 @@ impl Scout<'_> {
                 let step = walk.rows(at, spacing, &mut bounds);
                 // A singular point is between places.
                 if is_place && !bounds.rows.is_empty() {
-                    way.push(at, bounds.rows.drain(..).map(|bound| row(bound, harder)));
+                    way.push(at, bounds.rows.drain(..).map(row));
                 }
                 if way.places().len() > MOST {
                     return Err(at);
@@ -112,7 +137,7 @@ impl Scout<'_> {
     fn joints(&self, to: f64) -> Vec<(f64, bool)> {
         let mut joints = Vec::new();
         let (mut start, mut count) = (self.passed, 0);
-        for piece in self.pieces {
+        for piece in &self.pieces {
             if start >= to {
                 break;
             }
@@ -127,7 +152,7 @@ impl Scout<'_> {
 
 /// Goes along the course.
 struct Walk<'a> {
-    scout: &'a Scout<'a>,
+    scout: &'a Scout,
     joints: Joints,
     /// The piece that was looked at last, and where it begins.
     index: usize,
@@ -149,8 +174,8 @@ impl Walk<'_> {
             }
             for here in [here - beside, here + beside].iter().take(if beside > 0.0 { 2 } else { 1 }) {
                 let here = here.clamp(0.0, piece.time);
-                if let Some(rates) = piece.limit(self.scout.robot, here, &self.joints, bounds) {
-                    let longest = (STEP_OF_SCALE * scale(self.scout.robot, &rates)).max(CLOSEST * spacing);
+                if let Some(rates) = piece.limit(&self.scout.robot, here, &self.joints, bounds) {
+                    let longest = (STEP_OF_SCALE * scale(&self.scout.robot, &rates)).max(CLOSEST * spacing);
                     step = step.min(longest);
                 }
             }
@@ -176,7 +201,7 @@ fn scale(robot: &Robot, rates: &[[f64; ALL]; 3]) -> f64 {
     if scale.is_nan() { f64::INFINITY } else { scale }
 }
 
-fn row(bound: Bound, harder: f64) -> Row {
+fn row(bound: Bound) -> Row {
     let Bound { first, second, third, vel, acc, jerk } = bound;
-    Row { first, second, third, vel: vel.min(1e12), acc: acc * harder, jerk: jerk * harder }
+    Row { first, second, third, vel: vel.min(1e12), acc, jerk }
 }

@@ -73,3 +73,94 @@ fn splines_flow_within_every_limit() {
         assert_eq!(rows.last().unwrap().finished, 12);
     }
 }
+
+/// What comes up beside motions.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Event {
+    Nothing,
+    Stop(Stop),
+    Override(f64),
+}
+
+/// A line, another one that is added while the robot is on it, and an event so many cycles later.
+fn late(delay: usize, event: Event) -> (Vec<Step>, bool) {
+    let robot = robot("kr10-r1420");
+    let mut queue = Queue::new(robot.clone(), start());
+    let mut rows = vec![Step { joints: start(), tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+    let origin = frame_components(&robot.kinematics.forward(&start().axes));
+    let to = |queue: &mut Queue, y: f64, z: f64| {
+        let mut pose = origin;
+        (pose[1], pose[2]) = (origin[1] + y, origin[2] + z);
+        let (speed, zone) = (Speed { tcp: 1000.0, ..fast() }, Zone { tcp: 50.0, ..Zone::NONE });
+        queue.add(&Command { zone, speed, ..lin(pose) }, &optimal()).unwrap();
+    };
+    to(&mut queue, 300.0, 0.0);
+    let mut percent = 100.0;
+    while !queue.idle() {
+        match rows.len() {
+            200 => to(&mut queue, 300.0, -300.0),
+            cycle if cycle == 200 + delay => match event {
+                Event::Nothing => {}
+                Event::Stop(stop) => queue.stop_on_path(stop),
+                Event::Override(share) => percent = share,
+            },
+            // In the middle of a stop, or after it.
+            cycle if cycle == 200 + 40 * delay => queue.resume(),
+            900 => percent = 100.0,
+            _ => {}
+        }
+        rows.push(queue.step(CYCLE, percent));
+        assert!(rows.len() < 20_000, "it does not end");
+    }
+    (rows, queue.take_late())
+}
+
+#[test]
+fn a_motion_that_comes_while_the_robot_moves_is_blended_still() {
+    let (rows, late) = late(0, Event::Nothing);
+    assert!(!late);
+    assert_within_limits(&robot("kr10-r1420"), &rows, "late");
+    let rests = rows.iter().skip_while(|row| row.motion == 0).filter(|row| row.rests).count();
+    assert_eq!(rests, 1, "it rests at the end alone");
+}
+
+#[test]
+fn what_comes_up_while_a_law_is_found_is_within_limits_and_the_same_each_time() {
+    let robot = robot("kr10-r1420");
+    let (reference, _) = late(0, Event::Nothing);
+    for delay in [1, 2, 10, 18, 19, 20, 21] {
+        for event in [Event::Stop(Stop::General), Event::Stop(Stop::Fast), Event::Override(20.0)] {
+            let (rows, _) = late(delay, event);
+            let (again, _) = late(delay, event);
+            assert!(rows == again, "{delay} {event:?}: two runs differ");
+            assert_eq!(rows.last().unwrap().joints, reference.last().unwrap().joints);
+            if event != Event::Stop(Stop::Fast) {
+                assert_within_limits(&robot, &rows, &format!("{delay} {event:?}"));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_stop_and_an_override_work_at_once() {
+    let speed = |rows: &[Step], cycle: usize| {
+        (rows[cycle].tcp.translation.vector - rows[cycle - 1].tcp.translation.vector).norm() / CYCLE
+    };
+    let (reference, _) = late(0, Event::Nothing);
+    // An override that changes while a law is found waits for that.
+    for (event, soon) in [(Event::Stop(Stop::General), 225), (Event::Override(20.0), 275)] {
+        let (rows, _) = late(5, event);
+        let slower = (205..).find(|cycle| speed(&rows, *cycle) < speed(&reference, *cycle) - 1.0).unwrap();
+        assert!(slower < soon, "{event:?}: slower in cycle {slower}");
+    }
+}
+
+#[test]
+fn no_law_is_found_within_a_cycle() {
+    use crate::motion::finder::FOUND_HERE;
+    let before = FOUND_HERE.with(std::cell::Cell::get);
+    let (rows, _) = late(3, Event::Override(40.0));
+    corner(20.0, &optimal());
+    assert!(rows.len() > 500);
+    assert_eq!(FOUND_HERE.with(std::cell::Cell::get), before);
+}

@@ -1,0 +1,391 @@
+//! How the pilot leads the robot along the course, and how motions join the course meanwhile.
+//!
+//! Looking for a law takes some cycles. What changes the course where such a law may lead waits until it is there; what changes it
+//! under the law in hand is an offer: it is made when a law has been found for it, else the robot keeps to what it has.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use super::{Course, MARGIN, NEAR_STOP, Sharp, Tail};
+use crate::motion::finder::{Finder, Found, Search, WINDOW};
+use crate::motion::governor::Pacing;
+use crate::motion::joints::Joints;
+use crate::motion::optimal::Edge;
+use crate::motion::piece::Piece;
+use crate::motion::pilot::{Pilot, Wish};
+use crate::motion::plan::Motion;
+use crate::motion::profile::State;
+use crate::motion::scout::Scout;
+use crate::robot::Robot;
+
+/// A law looks no farther than so many s of nominal time.
+const FARTHEST: f64 = 4.0 * WINDOW;
+/// With a part of this more than the first look ahead, the end of the course may be left out.
+const ROOM: f64 = 1.2;
+
+/// A law that is being looked for, and what for.
+#[derive(Clone, Debug)]
+pub(super) struct Sought {
+    search: Search,
+    purpose: Purpose,
+    /// Where the part of the course ends that it may lead over, in s of nominal time.
+    reach: f64,
+}
+
+#[derive(Clone, Debug)]
+enum Purpose {
+    /// To go off from rest.
+    Start,
+    /// To go on behind the law in hand.
+    Renew,
+    /// To go on, at a share of the speed, in the middle of braking.
+    GoOn(f64),
+    /// To go off from the next stop.
+    Next,
+    /// To go on along another course.
+    Offer(Box<Draft>),
+}
+
+/// A law from the next stop on.
+#[derive(Clone, Debug)]
+pub(super) struct Next {
+    found: Option<Found>,
+    /// As in [`Sought`], counted from the stop.
+    reach: f64,
+}
+
+/// The course as it would be with some motions more.
+#[derive(Clone, Debug)]
+struct Draft {
+    /// The number of pieces, since the course began, that stay.
+    same: u64,
+    pieces: Vec<Arc<Piece>>,
+    tail: Option<Tail>,
+    /// Up to where nothing changes, in s of nominal time.
+    same_to: f64,
+    /// Why targets are not rounded off that should be.
+    sharp: Vec<Sharp>,
+    /// How many motions they are.
+    count: usize,
+}
+
+/// What became of an offer.
+#[derive(Clone, PartialEq, Debug)]
+pub(in crate::motion) enum Answer {
+    /// So many motions joined the course, and why targets are not rounded off that should be.
+    Taken { sharp: Vec<Sharp>, count: usize },
+    /// They have to come behind a stop.
+    Refused,
+}
+
+impl Course {
+    /// Whether the next motion has to wait: a law is being found that might lead over what it changes.
+    pub(in crate::motion) fn is_asking(&self) -> bool {
+        let offers = |sought: &Sought| matches!(sought.purpose, Purpose::Offer(_));
+        self.sought
+            .as_ref()
+            .is_some_and(|sought| offers(sought) || (self.leads_on(sought) && self.changes(sought.reach)))
+    }
+
+    /// Whether a motion that is appended now changes the course where the law in hand leads.
+    pub(in crate::motion) fn is_laid_down(&self) -> bool {
+        self.pilot.as_ref().is_some_and(|pilot| self.changes(pilot.end()))
+    }
+
+    /// Appends a motion behind the stop at the end; returns the same as [`Course::append`].
+    pub(in crate::motion) fn append_behind_stop(
+        &mut self,
+        robot: &Robot,
+        (motion, number): (Motion, u64),
+        cycle: f64,
+    ) -> Option<Sharp> {
+        self.refusing = true;
+        let sharp = self.append(robot, motion, number, cycle);
+        self.refusing = false;
+        sharp
+    }
+
+    /// What became of the motions that were offered, once it is known.
+    pub(in crate::motion) fn take_answer(&mut self) -> Option<Answer> {
+        self.answer.take()
+    }
+
+    /// Whether the robot rests until a law is found.
+    pub(in crate::motion) fn awaits_law(&self) -> bool {
+        !self.unled && self.pilot.as_ref().is_some_and(|pilot| pilot.rests())
+    }
+
+    /// Whether a law is for this part of the course, up to the next stop.
+    fn leads_on(&self, sought: &Sought) -> bool {
+        !matches!(sought.purpose, Purpose::Next)
+    }
+
+    /// Whether the next motion may change the course before `reach`.
+    fn changes(&self, reach: f64) -> bool {
+        let open = self.open();
+        let changed: f64 = self.pieces.iter().rev().take(open).map(|piece| piece.time).sum();
+        reach > self.end() - changed
+    }
+
+    /// How many of the last pieces the next motion may take the place of.
+    fn open(&self) -> usize {
+        self.tail.as_ref().and_then(|tail| tail.joined.as_ref()).map_or(1, |joined| joined.pieces.max(1))
+    }
+
+    /// Offers motions to the course: they join it as soon as a law has been found that leads along them. At once where none is
+    /// needed.
+    pub(in crate::motion) fn offer(
+        &mut self,
+        (robot, here): (&Arc<Robot>, &Joints),
+        motions: &VecDeque<(Motion, u64)>,
+        cycle: f64,
+    ) {
+        let Some(pilot) = &self.pilot else { return };
+        let mut draft = Self {
+            pieces: self.pieces.clone(),
+            at: self.at,
+            passed: self.passed,
+            tail: self.tail.clone(),
+            drafted: Some(f64::INFINITY),
+            ..Self::default()
+        };
+        let mut sharp = Vec::new();
+        for (motion, number) in motions {
+            sharp.extend(draft.append(robot, motion.clone(), *number, cycle));
+        }
+        let same = self.pieces.iter().zip(&draft.pieces).take_while(|(a, b)| Arc::ptr_eq(a, b)).count();
+        let offered = Draft {
+            same: self.gone + same as u64,
+            pieces: draft.pieces.iter().skip(same).cloned().collect(),
+            tail: draft.tail.clone(),
+            same_to: draft.drafted.unwrap_or(f64::NEG_INFINITY),
+            sharp,
+            count: motions.len(),
+        };
+        if pilot.end() <= offered.same_to {
+            self.take(offered);
+            return;
+        }
+        // The cycle in which it is taken over has not begun either.
+        let wish = pilot.state_after(Finder::cycles(cycle) - 1, cycle);
+        match wish.filter(|wish| wish.at < offered.same_to) {
+            Some(wish) => {
+                let purpose = Purpose::Offer(Box::new(offered));
+                let scout = draft.scout(robot, here, wish.at);
+                self.search(scout, wish.start, Finder::cycles(cycle), purpose);
+            }
+            None => self.answer = Some(Answer::Refused),
+        }
+    }
+
+    /// Puts the pieces of a draft in place of those at the end.
+    fn take(&mut self, draft: Draft) {
+        let Some(kept) = draft.same.checked_sub(self.gone) else {
+            self.answer = Some(Answer::Refused);
+            return;
+        };
+        self.take_back(self.pieces.len().saturating_sub(kept as usize));
+        for piece in draft.pieces {
+            self.push_shared(piece, true);
+        }
+        self.tail = draft.tail;
+        self.settle(self.open());
+        self.timing.find_entries(MARGIN, self.cycle);
+        self.answer = Some(Answer::Taken { sharp: draft.sharp, count: draft.count });
+    }
+
+    /// Whether pieces may join the course as far as the pilot is concerned: where nothing changes up to the end of its law. A
+    /// draft takes everything, and notes from where on it changes.
+    pub(super) fn may_change_from(&mut self, same_to: f64) -> bool {
+        if let Some(drafted) = &mut self.drafted {
+            *drafted = drafted.min(same_to);
+            return true;
+        }
+        if self.refusing {
+            return false;
+        }
+        // A law from the next stop on may not hold any more.
+        let sought = self.sought.as_ref().filter(|sought| !self.leads_on(sought)).map(|sought| sought.reach);
+        if let Some(reach) = sought.or(self.next.as_ref().map(|next| next.reach))
+            && reach + if self.pilot.is_some() { self.next_stop() } else { 0.0 } > same_to
+        {
+            self.next = None;
+            if sought.is_some() {
+                self.forsake();
+            }
+        }
+        self.pilot.as_ref().is_none_or(|pilot| pilot.end() <= same_to)
+    }
+
+    /// Where the robot has to stop next, in s of nominal time since the course began.
+    fn next_stop(&self) -> f64 {
+        let mut end = self.passed;
+        for piece in &self.pieces {
+            end += piece.time;
+            if piece.stops {
+                break;
+            }
+        }
+        end
+    }
+
+    /// What a law from `at` on has to know: the course up to the next stop, or as far as a law looks; but for its last pieces
+    /// where it is long enough without.
+    fn scout(&self, robot: &Arc<Robot>, near: &Joints, at: f64) -> Scout {
+        let pieces = self.pieces.iter();
+        let settled = self.pieces.len().saturating_sub(self.open());
+        Scout::new(robot, (pieces, self.passed), (at, near), at + FARTHEST, (settled, at + ROOM * WINDOW))
+    }
+
+    fn search(&mut self, scout: Scout, start: Edge, cycles: u32, purpose: Purpose) {
+        let reach = scout.end;
+        self.sought = Some(Sought { search: self.finder.search(scout, start, cycles), purpose, reach });
+    }
+
+    /// Says that nothing is looked for any more.
+    pub(super) fn forsake(&mut self) {
+        if let Some(sought) = self.sought.take() {
+            sought.search.forsake();
+            if let Purpose::Offer(_) = sought.purpose {
+                self.answer = Some(Answer::Refused);
+            }
+        }
+    }
+
+    /// Drops what goes on behind the next stop.
+    pub(super) fn keep_laws_to_stop(&mut self) {
+        self.next = None;
+        if self.sought.as_ref().is_some_and(|sought| matches!(sought.purpose, Purpose::Next | Purpose::Offer(_))) {
+            self.forsake();
+        }
+        self.answer = None;
+    }
+
+    /// At a stop: what is looked for is of use only if it goes on from there.
+    pub(super) fn arrive(&mut self) {
+        (self.pilot, self.unled) = (None, false);
+        if self.sought.as_ref().is_some_and(|sought| self.leads_on(sought)) {
+            self.forsake();
+        }
+    }
+
+    /// Goes on for a cycle as the pilot says; `false` where there is none.
+    pub(super) fn follow_pilot(&mut self, robot: &Arc<Robot>, here: &Joints, cycle: f64, pacing: Pacing) -> bool {
+        let Some(mut pilot) = self.pilot.take() else { return false };
+        let share = match pacing {
+            Pacing::Go(share) | Pacing::Settle(share) => Some(share),
+            Pacing::Stop(_) => None,
+        };
+        self.take_sought(&mut pilot, share.unwrap_or(1.0));
+        if self.unled {
+            return false;
+        }
+        match pacing {
+            Pacing::Stop(harder) => {
+                let goes_on = self.sought.as_ref().is_some_and(|sought| matches!(sought.purpose, Purpose::GoOn(_)));
+                if pilot.brake(harder) || goes_on {
+                    self.settle_offer(&pilot);
+                }
+            }
+            // Laws that are being looked for count on the share that is known.
+            Pacing::Go(share) | Pacing::Settle(share) => {
+                if !self.sought.as_ref().is_some_and(|sought| self.leads_on(sought)) {
+                    // Two cycles more, so that rounding does not count.
+                    pilot.go_at(share, cycle * f64::from(Finder::cycles(cycle) + 2));
+                    self.ask(&mut pilot, (robot, here), cycle, share);
+                }
+            }
+        }
+        if let Some(next) = pilot.next(cycle) {
+            let mut way = next.at - self.passed - self.at;
+            if pilot.rests() {
+                // Rounding must neither keep it from a stop nor carry it past one.
+                let stop = self.timing.to_stop() - self.state.at;
+                way = if way > stop - NEAR_STOP { stop } else { way };
+            }
+            self.state = State { at: self.state.at + way, vel: next.vel, acc: next.acc };
+            self.at += way;
+        }
+        self.pilot = Some(pilot);
+        true
+    }
+
+    /// Takes over the law that was looked for, when it is time.
+    fn take_sought(&mut self, pilot: &mut Pilot, share: f64) {
+        let Some(found) = self.sought.as_mut().and_then(|sought| sought.search.next()) else { return };
+        let Some(Sought { purpose, reach, .. }) = self.sought.take() else { return };
+        match purpose {
+            Purpose::Start => match found {
+                Some(found) => pilot.start(found, share),
+                None => self.unled = true,
+            },
+            Purpose::Renew => {
+                pilot.renew(found);
+            }
+            Purpose::GoOn(share) => pilot.go_on(found, share),
+            Purpose::Next => self.next = Some(Next { found, reach }),
+            Purpose::Offer(draft) if pilot.renew(found) => self.take(*draft),
+            Purpose::Offer(_) => self.answer = Some(Answer::Refused),
+        }
+    }
+
+    /// When it brakes, no law is needed for what comes behind the place where it will rest.
+    fn settle_offer(&mut self, pilot: &Pilot) {
+        let Some(sought) = self.sought.take() else { return };
+        match sought.purpose {
+            Purpose::Next => self.sought = Some(sought),
+            Purpose::Offer(draft) if pilot.end() <= draft.same_to => {
+                sought.search.forsake();
+                self.take(*draft);
+            }
+            Purpose::Offer(_) => {
+                sought.search.forsake();
+                self.answer = Some(Answer::Refused);
+            }
+            Purpose::Start | Purpose::Renew | Purpose::GoOn(_) => sought.search.forsake(),
+        }
+    }
+
+    /// Asks for the law that will be needed next.
+    fn ask(&mut self, pilot: &mut Pilot, (robot, here): (&Arc<Robot>, &Joints), cycle: f64, share: f64) {
+        if pilot.rests() {
+            // One that is being looked for from this stop on will do.
+            if self.sought.is_some() {
+                return;
+            }
+            // Only at a stop it is where the law from the next stop on begins.
+            let at_stop = self.passed == 0.0 && self.at == 0.0;
+            if let Some(Next { found: Some(found), .. }) = self.next.take_if(|_| at_stop) {
+                pilot.start(found, share);
+            } else {
+                let scout = self.scout(robot, here, self.passed + self.at);
+                self.search(scout, Edge::REST, Finder::cycles(cycle), Purpose::Start);
+            }
+            return;
+        }
+        let cycles = Finder::cycles(cycle);
+        let wish = pilot.wish_to_go_on(cycles, cycle, share).map(|wish| (wish, true));
+        let wish = wish.or_else(|| Some((pilot.wish(cycles, cycle)?, false)));
+        if let Some((Wish { at, start, share, cycles }, braking)) = wish {
+            // What is looked for from the next stop on can wait.
+            self.forsake();
+            let scout = self.scout(robot, here, at);
+            self.search(scout, start, cycles, if braking { Purpose::GoOn(share) } else { Purpose::Renew });
+        } else if self.next.is_none() && self.sought.is_none() && pilot.stops() {
+            self.ask_next(robot, cycle);
+        }
+    }
+
+    /// Asks for the law that leads on from the next stop.
+    fn ask_next(&mut self, robot: &Arc<Robot>, cycle: f64) {
+        let Some(stop) = self.pieces.iter().position(|piece| piece.stops) else { return };
+        let Some(last) = self.pieces.get(stop) else { return };
+        if self.pieces.get(stop + 1).is_none_or(|first| first.pace.is_none()) {
+            return;
+        }
+        let behind = self.pieces.iter().skip(stop + 1);
+        let settled = self.pieces.len().saturating_sub(stop + 1 + self.open());
+        let scout = Scout::new(robot, (behind, 0.0), (0.0, last.target()), FARTHEST, (settled, ROOM * WINDOW));
+        self.search(scout, Edge::REST, Finder::cycles(cycle), Purpose::Next);
+    }
+}

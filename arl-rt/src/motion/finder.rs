@@ -1,0 +1,239 @@
+//! Finds laws for the profile O beside the cycle: on a thread of its own, from a copy of what there is to know.
+//!
+//! A law is asked for in one cycle and taken over a fixed number of cycles later, whenever it was really found: so a run is the
+//! same at every clock, and on every machine. If it is not found by then, that cycle waits for it.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Sender, channel};
+use std::sync::{Arc, OnceLock};
+use std::thread;
+
+use super::optimal::{Edge, Law, Moment, Way, fastest};
+use super::profile::Limits;
+use super::scout::{Prospect, Scout};
+
+/// How long finding a law may take, in s of controller time.
+const TIME: f64 = 0.02;
+/// How many s of nominal time are looked ahead at first.
+pub(super) const WINDOW: f64 = 2.0;
+/// A law takes so many s at least, if there is so much course.
+const AHEAD: f64 = 1.5;
+/// A law is looked at every so many s, and may use so much of the limits.
+const SAMPLE: f64 = 0.001;
+const MOST_USED: f64 = 1.008;
+/// A speed below zero, in s of nominal time per s, that is rounding.
+const BACKWARDS: f64 = 1e-9;
+
+/// A law that keeps all limits, and what it was found from.
+#[derive(Clone, Debug)]
+pub(super) struct Found {
+    pub(super) law: Arc<Law>,
+    pub(super) plot: Arc<Plot>,
+    /// Where it ends, in s of nominal time, and whether the robot has to stop there.
+    pub(super) end: f64,
+    pub(super) stops: bool,
+}
+
+/// The limits along a part of the course.
+#[derive(Debug)]
+pub(super) struct Plot {
+    way: Way,
+    /// Acceleration and jerk that the parameter may have at each place where it hardly moves.
+    straight: Vec<(f64, f64)>,
+}
+
+/// A law that is being looked for.
+#[derive(Clone, Debug)]
+pub(super) struct Search {
+    result: Arc<Outcome>,
+    /// How many cycles are left.
+    left: u32,
+}
+
+#[derive(Debug, Default)]
+struct Outcome {
+    found: OnceLock<Option<Found>>,
+    forsaken: AtomicBool,
+}
+
+struct Task {
+    scout: Scout,
+    start: Edge,
+    result: Arc<Outcome>,
+}
+
+/// The thread that finds laws; it begins with the first one that is asked for.
+#[derive(Debug, Default)]
+pub(super) struct Finder {
+    tasks: Option<Sender<Task>>,
+}
+
+impl Clone for Finder {
+    /// Another one, with a thread of its own.
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl Finder {
+    /// After how many cycles of `cycle` s a law can be taken over at the earliest.
+    pub(super) fn cycles(cycle: f64) -> u32 {
+        (TIME / cycle - 1e-6).ceil().max(1.0) as u32
+    }
+
+    /// Begins to look for the fastest law from a state on, to rest at the end of what the scout sees or as far as is looked
+    /// ahead; it will be taken over after so many cycles.
+    pub(super) fn search(&mut self, scout: Scout, start: Edge, cycles: u32) -> Search {
+        let result = Arc::new(Outcome::default());
+        let task = Task { scout, start, result: Arc::clone(&result) };
+        if self.tasks.is_none() {
+            self.tasks = begin();
+        }
+        let refused = match &self.tasks {
+            Some(tasks) => tasks.send(task).err().map(|refused| refused.0),
+            None => Some(task),
+        };
+        // Without a thread the law has to be found at once.
+        if let Some(task) = refused {
+            self.tasks = None;
+            task.run();
+        }
+        Search { result, left: cycles }
+    }
+}
+
+impl Search {
+    /// Counts a cycle; when it was the last one, what was found.
+    pub(super) fn next(&mut self) -> Option<Option<Found>> {
+        self.left = self.left.saturating_sub(1);
+        (self.left == 0).then(|| self.result.found.wait().clone())
+    }
+
+    /// Says that the law is not needed any more.
+    pub(super) fn forsake(&self) {
+        self.result.forsaken.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Starts the thread; it ends when nobody can ask it any more.
+fn begin() -> Option<Sender<Task>> {
+    let (tasks, asked) = channel::<Task>();
+    let work = move || asked.iter().for_each(Task::run);
+    thread::Builder::new().name("laws".into()).spawn(work).ok().map(|_| tasks)
+}
+
+impl Task {
+    fn run(self) {
+        let Self { scout, start, result } = self;
+        let wanted = || !result.forsaken.load(Ordering::Relaxed);
+        // Whoever waits has to get an answer in any case.
+        let found = catch_unwind(AssertUnwindSafe(|| find(&scout, start, wanted))).unwrap_or(None);
+        // Nobody else sets it.
+        let _ = result.found.set(found);
+    }
+}
+
+#[cfg(test)]
+thread_local! {
+    /// How many laws this thread has looked for.
+    pub(super) static FOUND_HERE: std::cell::Cell<u32> = const { std::cell::Cell::new(0) };
+}
+
+/// The fastest law from a state on.
+fn find(scout: &Scout, start: Edge, wanted: impl Fn() -> bool) -> Option<Found> {
+    #[cfg(test)]
+    FOUND_HERE.with(|count| count.set(count.get() + 1));
+    let stop = scout.end;
+    let mut window = WINDOW;
+    let mut found = None;
+    while wanted() {
+        let to = if scout.at + 1.2 * window < stop { scout.at + window } else { stop };
+        let Some(Prospect { way, end }) = scout.look(to, start, Edge::REST) else { return found };
+        // Close to rest, from a state that moves, the limits between the places are not certain.
+        let law = fastest(&way, start, Edge::REST).ok().filter(|law| keeps(&way, law, 1.0, f64::min));
+        let Some(law) = law else { return found };
+        let ahead = law.duration();
+        let stops = scout.stops && end >= stop;
+        found = Some(Found { law: Arc::new(law), plot: Arc::new(Plot::new(way)), end, stops });
+        if end < to || to >= stop || ahead >= AHEAD {
+            return found;
+        }
+        // Nominal times are short where constant limits are low: far enough, and not much farther.
+        window *= (1.5 * AHEAD / ahead).clamp(1.5, 8.0);
+    }
+    None
+}
+
+/// A motion along the course over time.
+pub(super) trait Timed {
+    fn at(&self, time: f64) -> Moment;
+    fn duration(&self) -> f64;
+}
+
+impl Timed for Law {
+    fn at(&self, time: f64) -> Moment {
+        Law::at(self, time)
+    }
+
+    fn duration(&self) -> f64 {
+        Law::duration(self)
+    }
+}
+
+impl Plot {
+    fn new(way: Way) -> Self {
+        let least = |index: usize| {
+            let rows = way.rows(index).iter().filter(|row| row.first != 0.0);
+            rows.fold((f64::INFINITY, f64::INFINITY), |(acc, jerk), row| {
+                (acc.min(row.acc / row.first.abs()), jerk.min(row.jerk / row.first.abs()))
+            })
+        };
+        Self { straight: (0..way.places().len()).map(least).collect(), way }
+    }
+
+    /// Whether a law that is followed at another share of its speed keeps its limits, those of acceleration and jerk times
+    /// `harder`.
+    pub(super) fn keeps(&self, motion: &impl Timed, harder: f64) -> bool {
+        keeps(&self.way, motion, harder, f64::min)
+    }
+
+    /// The same for a motion that does not follow a law: between two places the limits of both count.
+    pub(super) fn surely_keeps(&self, motion: &impl Timed, harder: f64) -> bool {
+        keeps(&self.way, motion, harder, f64::max)
+    }
+
+    /// The acceleration and jerk that the parameter may have all the way between two places where it hardly moves.
+    pub(super) fn straight(&self, from: f64, to: f64) -> Limits {
+        let places = self.way.places();
+        let first = places.partition_point(|place| *place <= from).saturating_sub(1);
+        let last = places.partition_point(|place| *place < to) + 1;
+        let between = self.straight.get(first..last.min(self.straight.len())).unwrap_or_default();
+        let (acc, jerk) = between
+            .iter()
+            .fold((f64::INFINITY, f64::INFINITY), |least, here| (least.0.min(here.0), least.1.min(here.1)));
+        // Without any limit of its own a ramp takes a few cycles.
+        Limits { vel: f64::INFINITY, acc, jerk: jerk.min(1e3 * acc) }
+    }
+}
+
+/// Whether a motion along `way` goes forwards and keeps the limits, those of acceleration and jerk times `harder`. Between two
+/// places counts what `between` makes of the limits there: a law follows limits that change, from the one to the other.
+fn keeps(way: &Way, motion: &impl Timed, harder: f64, between: fn(f64, f64) -> f64) -> bool {
+    let count = (motion.duration() / SAMPLE).clamp(16.0, 4000.0) as u32;
+    let places = way.places();
+    let used = |index: usize, now: &Moment| {
+        way.rows(index).iter().fold(0.0_f64, |used, row| {
+            let acc = row.first * now.acc + row.second * now.vel * now.vel;
+            let jerk =
+                row.first * now.jerk + 3.0 * row.second * now.vel * now.acc + row.third * now.vel * now.vel * now.vel;
+            let (acc, jerk) = ((acc / row.acc).abs() / harder, (jerk / row.jerk).abs() / harder);
+            used.max((row.first * now.vel / row.vel).abs()).max(acc).max(jerk)
+        })
+    };
+    (0..=count).all(|step| {
+        let now = motion.at(motion.duration() * f64::from(step) / f64::from(count));
+        let next = places.partition_point(|place| *place <= now.at).clamp(1, places.len() - 1);
+        now.vel >= -BACKWARDS && between(used(next - 1, &now), used(next, &now)) <= MOST_USED
+    })
+}
