@@ -49,19 +49,19 @@ entries! { pub(super) IO =
         { "5.5.10", io::getdi_group, waits, fails; "print getdi(6,9)" }
     /// Value of an analog input: V or mA, as the channel is configured.
     fn getai(chan: int "the input") -> double
-        { "5.5.11", io::getai, waits, fails, notyet; "print getai(2)" }
+        { "5.5.11", io::getai, waits, fails; "print getai(2)" }
     /// Level of a digital input now, without waiting for motion: the program may be far ahead of the robot.
     fn getnostopdi(chan: int "the input") -> bool
         { "5.5.12", io::getnostopdi, acts, fails; "print getnostopdi(4)" }
     /// Sets an analog output. A value outside the channel's type: alarm.
     fn setao(chan: int "the output", value: double "-10 to 10 V, or 4 to 20 mA, as the channel is configured")
-        { "5.5.13", io::setao, waits, fails, notyet; "setao(2,5.2)" }
+        { "5.5.13", io::setao, waits, fails; "setao(2,5.2)" }
     /// Sets an analog output and goes on when it has been sent.
     fn syncao(chan: int "the output", value: double "-10 to 10 V, or 4 to 20 mA, as the channel is configured")
-        { "5.5.14", io::syncao, waits, fails, notyet; "syncao(2,5.2)" }
+        { "5.5.14", io::syncao, waits, fails; "syncao(2,5.2)" }
     /// Value of an analog output: V or mA, as the channel is configured.
     fn getao(chan: int "the output") -> double
-        { "5.5.15", io::getao, waits, fails, notyet; "setao(1,5.2)\nprint getao(1)" }
+        { "5.5.15", io::getao, waits, fails; "setao(1,5.2)\nprint getao(1)" }
     /// Level of an internal output signal.
     fn getintdo(chan: int "the signal") -> bool
         { "5.5.16", io::getintdo, waits, fails; "print getintdo(1)" }

@@ -31,7 +31,7 @@ const INDEX: &str = "\
 
 /// What runs: functions and instructions.
 const WORKS: &str = "\
-    movej ptp lin spl cir ccir jump velset accset startweave endweave startcompen compen endcompen getintdi getintdo waittime waituntil pause exit restart print scan assert setdo setdoimv setpwm syncdo pulsedo getdo getdi \
+    movej ptp lin spl cir ccir jump velset accset startweave endweave startcompen compen endcompen getintdi getintdo waittime waituntil pause exit restart print scan assert setdo setdoimv setpwm syncdo pulsedo getdo getdi getai setao syncao getao \
     getnostopdi cjoint cpose getpose getjoint poseinv offset reltool abs sin cos tan asin acos atan atan2 sinh cosh tanh \
     exp pow pow10 log log10 sqrt floor ceil frexp ldexp fmod modf hypot rand norm trunc bitclear bitset bitcheck bitlcs \
     bitrcs clkstart clkstop clkreset clkread strlen substr toascii toint todouble tobytes tostr ftobytes tofloat typeof \

@@ -281,9 +281,9 @@ impl Controller {
     /// Sets an analog input, from 1, in V or mA.
     ///
     /// # Errors
-    /// There is no such channel.
+    /// There is no such channel, or its type cannot carry the value.
     pub fn set_ai(&mut self, channel: i32, value: f64) -> Result<(), Fault> {
-        self.world.io.borrow_mut().set_analog(false, channel, value)
+        self.world.io.borrow_mut().set_ai(channel, value)
     }
 
     /// The value of an analog output, from 1, in V or mA.
@@ -291,7 +291,7 @@ impl Controller {
     /// # Errors
     /// There is no such channel.
     pub fn ao(&self, channel: i32) -> Result<f64, Fault> {
-        self.world.io.borrow().analog(true, channel)
+        self.world.io.borrow().ao(channel)
     }
 
     /// Sets an internal input signal, from 1.

@@ -17,6 +17,22 @@ impl AnalogType {
             AnalogType::Milliampere => (4.0, 20.0),
         }
     }
+
+    /// The value of a channel that carries no signal.
+    pub const fn without_signal(self) -> f64 {
+        match self {
+            AnalogType::Volt => 0.0,
+            AnalogType::Milliampere => 4.0,
+        }
+    }
+
+    /// The unit, as messages write it.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            AnalogType::Volt => "V",
+            AnalogType::Milliampere => "mA",
+        }
+    }
 }
 
 /// The channels of io of a cell.

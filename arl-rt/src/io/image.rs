@@ -4,6 +4,7 @@
 use std::collections::VecDeque;
 
 use super::Channels;
+use super::analog_row::AnalogRow;
 use super::bits::Bits;
 use crate::fault::Fault;
 
@@ -15,8 +16,8 @@ const MOST_AT_ONCE: i64 = 32;
 pub struct Image {
     di: Bits,
     dout: Bits,
-    ai: Vec<f64>,
-    ao: Vec<f64>,
+    ai: AnalogRow,
+    ao: AnalogRow,
     internal_in: Bits,
     internal_out: Bits,
     /// The running pulse of each digital output.
@@ -86,8 +87,8 @@ impl Image {
         Self {
             di: Bits::new(channels.di),
             dout: Bits::new(channels.dout),
-            ai: vec![0.0; channels.ai.len()],
-            ao: vec![0.0; channels.ao.len()],
+            ai: AnalogRow::new("AI", &channels.ai),
+            ao: AnalogRow::new("AO", &channels.ao),
             internal_in: Bits::new(channels.internal),
             internal_out: Bits::new(channels.internal),
             pulses: vec![None; channels.dout as usize],
@@ -189,21 +190,24 @@ impl Image {
         Ok(first..last + 1)
     }
 
-    /// The value of an analog channel: `ai` or `ao`.
-    pub(crate) fn analog(&self, output: bool, channel: i32) -> Result<f64, Fault> {
-        let (name, values) = if output { ("AO", &self.ao) } else { ("AI", &self.ai) };
-        let at = place(name, channel, values.len())?;
-        Ok(values.get(at).copied().unwrap_or_default())
+    /// The value of an analog input in V or mA.
+    pub(crate) fn ai(&self, channel: i32) -> Result<f64, Fault> {
+        self.ai.get(channel)
     }
 
-    /// Sets an analog channel.
-    pub(crate) fn set_analog(&mut self, output: bool, channel: i32, value: f64) -> Result<(), Fault> {
-        let (name, values) = if output { ("AO", &mut self.ao) } else { ("AI", &mut self.ai) };
-        let at = place(name, channel, values.len())?;
-        if let Some(place) = values.get_mut(at) {
-            *place = value;
-        }
-        Ok(())
+    /// Sets an analog input, in V or mA.
+    pub(crate) fn set_ai(&mut self, channel: i32, value: f64) -> Result<(), Fault> {
+        self.ai.set(channel, value)
+    }
+
+    /// The value of an analog output in V or mA.
+    pub(crate) fn ao(&self, channel: i32) -> Result<f64, Fault> {
+        self.ao.get(channel)
+    }
+
+    /// Sets an analog output, in V or mA.
+    pub(crate) fn set_ao(&mut self, channel: i32, value: f64) -> Result<(), Fault> {
+        self.ao.set(channel, value)
     }
 
     /// Starts a pulse of `level` that is over at the start of cycle `ends`.
@@ -279,11 +283,11 @@ impl Image {
 
     /// The outputs, for the driver to pass on.
     pub(crate) fn outputs_all(&self) -> Outputs<'_> {
-        Outputs { dout: &self.dout, ao: &self.ao, internal: &self.internal_out, pwm: &self.pwm }
+        Outputs { dout: &self.dout, ao: self.ao.values(), internal: &self.internal_out, pwm: &self.pwm }
     }
 }
 
-fn place(name: &str, channel: i32, count: usize) -> Result<usize, Fault> {
+pub(super) fn place(name: &str, channel: i32, count: usize) -> Result<usize, Fault> {
     match usize::try_from(channel) {
         Ok(number) if (1..=count).contains(&number) => Ok(number - 1),
         _ if count == 0 => Err(channel_fault(format!("{name} {channel} does not exist: this cell has no {name}"))),
@@ -291,7 +295,7 @@ fn place(name: &str, channel: i32, count: usize) -> Result<usize, Fault> {
     }
 }
 
-fn channel_fault(text: String) -> Fault {
+pub(super) fn channel_fault(text: String) -> Fault {
     Fault::Channel(text.into())
 }
 
@@ -299,7 +303,7 @@ fn channel_fault(text: String) -> Fault {
 #[derive(Debug)]
 pub struct Inputs<'a> {
     di: &'a mut Bits,
-    ai: &'a mut [f64],
+    ai: &'a mut AnalogRow,
     internal: &'a mut Bits,
 }
 
@@ -309,11 +313,9 @@ impl Inputs<'_> {
         self.di.set(channel.wrapping_sub(1), level);
     }
 
-    /// Sets an analog input in V or mA; channels that do not exist are left out.
+    /// Sets an analog input in V or mA, whatever is measured; channels that do not exist are left out.
     pub fn set_ai(&mut self, channel: usize, value: f64) {
-        if let Some(place) = self.ai.get_mut(channel.wrapping_sub(1)) {
-            *place = value;
-        }
+        self.ai.put(channel.wrapping_sub(1), value);
     }
 
     /// Sets an internal input; channels that do not exist are left out.
@@ -382,7 +384,7 @@ mod tests {
             image.digital(Digital::Do, 65).unwrap_err().to_string(),
             image.digitals(Digital::Di, 8, 5).unwrap_err().to_string(),
             image.set_digitals(Digital::Do, 1, 33, 0).unwrap_err().to_string(),
-            image.analog(true, 9).unwrap_err().to_string(),
+            image.ao(9).unwrap_err().to_string(),
         ];
         assert_eq!(texts[0], "DI 0 does not exist: channels 1 to 64 are there");
         assert_eq!(texts[1], "DO 65 does not exist: channels 1 to 64 are there");

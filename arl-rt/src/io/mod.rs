@@ -3,12 +3,15 @@
 //!
 //! The functions that wait do so for the end of all planned motion; then they act in that cycle. Channels count from 1.
 
+mod analog;
+mod analog_row;
 mod bits;
 mod channels;
 mod driver;
 mod image;
 mod scenario;
 
+pub use analog::{getai, getao, setao, syncao};
 pub use channels::{AnalogType, Channels};
 pub use driver::{IoDriver, SimulatedIo};
 pub use image::{Image, Inputs, Outputs, Pwm};

@@ -133,13 +133,13 @@ impl Scenario {
             for action in &event.actions {
                 let done = match *action {
                     Action::Digital(what, channel, level) => image.set_digital(what, channel, level),
-                    Action::Analog(channel, value) => image.set_analog(false, channel, value),
+                    Action::Analog(channel, value) => image.set_ai(channel, value),
                     Action::Deed(deed) => {
                         moves(robot, deed)?;
                         Ok(())
                     }
                 };
-                done.map_err(|fault| format!("the scenario sets an input that is not there: {fault}"))?;
+                done.map_err(|fault| format!("the scenario sets an input to what it cannot have: {fault}"))?;
             }
         }
         Ok(())
@@ -352,7 +352,7 @@ impl Playing {
                 // The channels were checked when the scenario was loaded.
                 let _ = match *action {
                     Action::Digital(what, channel, level) => image.set_digital(what, channel, level),
-                    Action::Analog(channel, value) => image.set_analog(false, channel, value),
+                    Action::Analog(channel, value) => image.set_ai(channel, value),
                     Action::Deed(deed) => {
                         do_it(deed);
                         Ok(())
@@ -407,7 +407,7 @@ mod tests {
         let text = "[[event]]\nat = 0.005\ndi.5 = true\nai.2 = 4.5\n[[event]]\nat = 0.002\ndi.5 = false\ndi.6 = true\n";
         let mut seen = Vec::new();
         play(text, 8, |_, image| {
-            seen.push((image.digitals(Digital::Di, 5, 6).unwrap(), image.analog(false, 2).unwrap()));
+            seen.push((image.digitals(Digital::Di, 5, 6).unwrap(), image.ai(2).unwrap()));
         });
         assert_eq!(seen, [(0, 0.0), (0, 0.0), (2, 0.0), (2, 0.0), (2, 0.0), (3, 4.5), (3, 4.5), (3, 4.5)]);
     }

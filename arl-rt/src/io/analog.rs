@@ -1,0 +1,41 @@
+//! Analog inputs and outputs: values in V or mA, as the cell file gives the channels.
+
+use crate::cx::Cx;
+use crate::fault::Fault;
+
+/// The value of an analog input in V or mA.
+///
+/// # Errors
+/// There is no such channel.
+pub async fn getai(cx: &Cx, chan: i32) -> Result<f64, Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow().ai(chan)
+}
+
+/// Sets an analog output, in V or mA.
+///
+/// # Errors
+/// There is no such channel; a value outside -10 to 10 V or 4 to 20 mA.
+pub async fn setao(cx: &Cx, chan: i32, value: f64) -> Result<(), Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow_mut().set_ao(chan, value)
+}
+
+/// Sets an analog output, in V or mA, and goes on when it has been sent: in the next cycle.
+///
+/// # Errors
+/// There is no such channel; a value outside -10 to 10 V or 4 to 20 mA.
+pub async fn syncao(cx: &Cx, chan: i32, value: f64) -> Result<(), Fault> {
+    setao(cx, chan, value).await?;
+    cx.next_cycle().await;
+    Ok(())
+}
+
+/// The value of an analog output in V or mA.
+///
+/// # Errors
+/// There is no such channel.
+pub async fn getao(cx: &Cx, chan: i32) -> Result<f64, Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow().ao(chan)
+}
