@@ -21,7 +21,9 @@ pub mod files;
 pub mod flow;
 pub mod frames;
 pub mod io;
+mod json;
 mod keep;
+pub mod live;
 pub mod math;
 pub mod motion;
 mod motion_instructions;
@@ -53,7 +55,7 @@ pub mod settings {
 
 pub use arl_robot::{Family, Robot, kinematics, robot};
 pub use cell::Cell;
-pub use controller::{Builder, Controller, Outcome, SetupError, State};
+pub use controller::{Builder, ChannelStatus, Controller, Outcome, SetupError, State, Status};
 pub use cx::Cx;
 pub use fault::{Alarm, Fault, Reason, Stop};
 pub use output::{Captured, Message, Output, Stream};

@@ -12,6 +12,7 @@ use crate::cell::Cell;
 use crate::clock_source::{RealClock, VirtualClock};
 use crate::controller::{Builder, Controller, Outcome, SetupError};
 use crate::io::Scenario;
+use crate::live::{self, Cut, Voice};
 use crate::program::Program;
 use crate::report;
 use crate::robot::Robot;
@@ -45,6 +46,8 @@ Options:
   --trace FILE.csv      write the motion, one row a cycle
   --report[=FILE]       say at the end what each motion did, on the standard error,
                         or one JSON object a line into a file
+  --live                be driven by lines on the standard input (di.5 = true), and
+                        say what happens as JSON lines on the standard output
   --max-time S          end after so many controller seconds, with exit code 4
   --mode MODE           auto (default), manual or manufast
   --override PCT        the speed override in percent, 0 to 100
@@ -61,6 +64,7 @@ struct Options {
     robot: Option<String>,
     cell: Option<PathBuf>,
     real: bool,
+    live: bool,
     script_dir: PathBuf,
     state_dir: Option<PathBuf>,
     io: Option<PathBuf>,
@@ -140,6 +144,7 @@ fn parse(
         robot: None,
         cell: None,
         real: false,
+        live: false,
         script_dir: PathBuf::from(script_dir),
         state_dir: None,
         io: None,
@@ -156,6 +161,7 @@ fn parse(
         match argument {
             Long("robot") => options.robot = Some(parser.value()?.string()?),
             Long("cell") => options.cell = Some(parser.value()?.into()),
+            Long("live") => (options.live, options.real) = (true, true),
             Long("clock") => options.real = word(&mut parser, "--clock", &[("virtual", false), ("real", true)])?,
             Long("script-dir") => options.script_dir = parser.value()?.into(),
             Long("state-dir") => options.state_dir = Some(parser.value()?.into()),
@@ -217,7 +223,14 @@ fn run(program: Box<dyn Program>, options: Options, interrupted: &AtomicBool) ->
             return USAGE;
         }
     };
-    let controller = set_up(options).and_then(|builder| builder.build(program).map_err(SetupFailure::from));
+    let voice = options.live.then(Voice::standard);
+    let controller = set_up(options).and_then(|builder| {
+        let builder = match &voice {
+            Some(voice) => builder.output(voice.messages()),
+            None => builder,
+        };
+        builder.build(program).map_err(SetupFailure::from)
+    });
     let mut controller = match controller {
         Ok(controller) => controller,
         Err(SetupFailure { code, text }) => {
@@ -225,7 +238,10 @@ fn run(program: Box<dyn Program>, options: Options, interrupted: &AtomicBool) ->
             return code;
         }
     };
-    let code = watch(&mut controller, max_time, interrupted);
+    let code = match voice {
+        Some(voice) => code(live::drive(&mut controller, &voice, max_time, interrupted)),
+        None => watch(&mut controller, max_time, interrupted),
+    };
     if let Some(mut report) = report
         && let Err(error) = report(&controller)
     {
@@ -235,6 +251,16 @@ fn run(program: Box<dyn Program>, options: Options, interrupted: &AtomicBool) ->
         warn(&format!("{} control cycles began late: the computer was too busy", controller.overruns()));
     }
     code
+}
+
+/// The exit code of a run that was driven from outside.
+fn code(driven: Result<Option<Outcome>, Cut>) -> u8 {
+    match driven {
+        Ok(Some(Outcome::Alarm(_))) => ALARM,
+        Ok(_) => ENDED,
+        Err(Cut::MaxTime) => MAX_TIME,
+        Err(Cut::Interrupted) => INTERRUPTED,
+    }
 }
 
 /// Writes the report at the end of a run.

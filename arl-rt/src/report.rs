@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::json::quoted;
 use crate::motion::{Closest, MotionRecord, Rate};
 use crate::robot::Robot;
 
@@ -102,21 +103,6 @@ fn executed(records: &[MotionRecord]) -> impl Iterator<Item = &MotionRecord> {
 }
 
 /// A JSON string. Names of axes come from robot files.
-fn quoted(text: &str) -> String {
-    let mut out = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' | '\\' => out.extend(['\\', c]),
-            c if c.is_control() => {
-                let _ = write!(out, "\\u{:04x}", u32::from(c));
-            }
-            c => out.push(c),
-        }
-    }
-    out.push('"');
-    out
-}
-
 /// The motions of one line of the program, and of one kind: in several files, lines have the same numbers.
 struct Line<'a> {
     first: &'a MotionRecord,

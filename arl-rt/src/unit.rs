@@ -271,6 +271,11 @@ impl Unit {
         self.override_percent = percent;
     }
 
+    /// The speed override in %.
+    pub(crate) fn speed_override(&self) -> f64 {
+        self.override_percent
+    }
+
     /// Whether another motion can be planned.
     pub(crate) fn has_room(&self) -> bool {
         self.queue.has_room()

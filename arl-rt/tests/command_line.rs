@@ -2,6 +2,7 @@
 //! set, and is then what `arl2rs build` makes.
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test without the harness by which clippy knows tests")]
 
+use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode, Output, Stdio};
 
@@ -120,6 +121,8 @@ const TESTS: &[(&str, fn())] = &[
     ("ctrl_c_stops_on_the_path", ctrl_c_stops_on_the_path),
     ("traces_are_written", traces_are_written),
     ("wrong_files_name_their_line", wrong_files_name_their_line),
+    ("orders_drive_a_run", orders_drive_a_run),
+    ("after_its_end_a_live_run_waits", after_its_end_a_live_run_waits),
 ];
 
 fn run(program: &str, arguments: &[&str]) -> Output {
@@ -323,4 +326,66 @@ fn wrong_files_name_their_line() {
         "DI 3 does not exist: channels 1 to 2 are there",
     );
     check(&run("hello", &["--cell", "/nowhere.toml"]), 2, "", "cannot read the cell file");
+}
+
+/// A run that is driven by lines.
+struct Live {
+    child: std::process::Child,
+    lines: std::io::Lines<BufReader<std::process::ChildStdout>>,
+}
+
+impl Live {
+    fn start(program: &str) -> Self {
+        let mut command = command(program, &["--live", "--state-dir", "live-state"]);
+        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        let lines = BufReader::new(child.stdout.take().unwrap()).lines();
+        Self { child, lines }
+    }
+
+    fn order(&mut self, order: &str) {
+        writeln!(self.child.stdin.as_mut().unwrap(), "{order}").unwrap();
+    }
+
+    /// The next line with all of these words in it.
+    fn line(&mut self, words: &[&str]) -> String {
+        let found = self.lines.by_ref().map(Result::unwrap).find(|line| words.iter().all(|word| line.contains(word)));
+        found.unwrap_or_else(|| panic!("no line with {words:?}"))
+    }
+
+    /// Ends the orders; the exit code and the last line.
+    fn leave(mut self) -> (Option<i32>, String) {
+        drop(self.child.stdin.take());
+        let last = self.lines.map(Result::unwrap).last().unwrap();
+        (self.child.wait().unwrap().code(), last)
+    }
+}
+
+fn orders_drive_a_run() {
+    let mut live = Live::start("forever");
+    let hello = live.line(&["hello"]);
+    for words in ["\"program\":\"t.arl\"", "\"name\":\"j6\",\"unit\":\"deg\",\"min\":"] {
+        assert!(hello.contains(words), "{hello}");
+    }
+    live.line(&["state", "\"state\":\"running\"", "\"motion_line\":5", "\"override\":100", "\"di\":\"000"]);
+    live.order("override = 50\ndi.3 = true\n\n");
+    live.line(&["state", "\"override\":50", "\"di\":\"0010"]);
+    live.order("do.3 = true");
+    live.line(&["refused", "do.3 = true", "did you mean `di`?"]);
+    live.order("ai.9 = 1");
+    live.line(&["refused", "AI 9 does not exist"]);
+    // Nobody drives any more: the robot stops on its path, and the program with it.
+    let (code, last) = live.leave();
+    assert_eq!(code, Some(130), "{last}");
+    assert!(last.contains("\"state\":\"stopped\""), "{last}");
+}
+
+fn after_its_end_a_live_run_waits() {
+    let mut live = Live::start("hello");
+    let message = live.line(&["message"]);
+    assert!(message.contains("\"hmi\":true,\"console\":false,\"text\":\"hello\""), "{message}");
+    live.line(&["state", "\"state\":\"ended\""]);
+    live.order("di.1 = true");
+    live.line(&["state", "\"state\":\"ended\"", "\"di\":\"10"]);
+    let (code, last) = live.leave();
+    assert_eq!(code, Some(0), "{last}");
 }

@@ -3,13 +3,16 @@
 mod actions;
 mod builder;
 mod channel;
+mod order;
 mod outcome;
+mod status;
 
 use std::rc::Rc;
 use std::sync::Arc;
 
 pub use builder::{Builder, SetupError};
 pub use outcome::{Outcome, State};
+pub use status::{ChannelStatus, Status};
 
 use crate::clock_source::Clock;
 use crate::fault::{Alarm, Fault, File};
@@ -221,6 +224,11 @@ impl Controller {
     /// The file and line of the statement that runs now.
     pub fn place(&self) -> (File, u32) {
         self.channel.cx().place()
+    }
+
+    /// The file that has the program's `main`.
+    pub fn program(&self) -> File {
+        self.channel.cx().program()
     }
 
     /// The system variables.

@@ -28,6 +28,13 @@ impl AnalogRow {
 
     /// Sets a channel, in V or mA, to a value that its type can carry.
     pub(crate) fn set(&mut self, channel: i32, value: f64) -> Result<(), Fault> {
+        let at = self.check(channel, value)?;
+        self.put(at, value);
+        Ok(())
+    }
+
+    /// Whether a channel can have this value, and its place, from 0.
+    pub(crate) fn check(&self, channel: i32, value: f64) -> Result<usize, Fault> {
         let at = place(self.name, channel, self.values.len())?;
         let ty = self.types.get(at).copied().unwrap_or(AnalogType::Volt);
         let (low, high) = ty.range();
@@ -35,8 +42,7 @@ impl AnalogRow {
             let (name, unit) = (self.name, ty.unit());
             return Err(channel_fault(format!("{name} {channel} carries {low} to {high} {unit}, not {value} {unit}")));
         }
-        self.put(at, value);
-        Ok(())
+        Ok(at)
     }
 
     /// Takes over what the outside measures, whatever it is, for the channel at this place, from 0, if there is one.

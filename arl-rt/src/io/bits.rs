@@ -15,6 +15,11 @@ impl Bits {
         self.0.len()
     }
 
+    /// All of them.
+    pub(crate) fn levels(&self) -> &[bool] {
+        &self.0
+    }
+
     /// A signal; off where there is none.
     #[inline]
     pub(crate) fn get(&self, at: usize) -> bool {

@@ -195,6 +195,11 @@ impl Image {
         self.ai.get(channel)
     }
 
+    /// Whether an analog input can have this value.
+    pub(crate) fn check_ai(&self, channel: i32, value: f64) -> Result<(), Fault> {
+        self.ai.check(channel, value).map(drop)
+    }
+
     /// Sets an analog input, in V or mA.
     pub(crate) fn set_ai(&mut self, channel: i32, value: f64) -> Result<(), Fault> {
         self.ai.set(channel, value)
@@ -264,6 +269,12 @@ impl Image {
                 self.drive(Digital::Do, waiting.channel, waiting.level);
             }
         }
+    }
+
+    /// The analog inputs or outputs.
+    pub(crate) fn analogs(&self, output: bool) -> &[f64] {
+        let row = if output { &self.ao } else { &self.ai };
+        row.values()
     }
 
     /// The digital outputs, for edges.

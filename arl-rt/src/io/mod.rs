@@ -18,7 +18,7 @@ pub use image::{Image, Inputs, Outputs, Pwm};
 pub use scenario::{Pendant, Scenario};
 
 pub(crate) use image::Digital;
-pub(crate) use scenario::{Deed, Playing};
+pub(crate) use scenario::{Deed, Order, Playing};
 
 use crate::cx::Cx;
 use crate::fault::Fault;

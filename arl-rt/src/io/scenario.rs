@@ -28,6 +28,9 @@ use crate::settings::{Section, SettingsError, Source, Value, hint, kind, number,
 
 const EVENT: &[&str] = &["at", "when", "after", "di", "ai", "internal", "pendant", "override", "force", "torque"];
 
+/// What an event may change.
+const CHANGES: &str = "`di.N`, `ai.N`, `internal.N`, `pendant`, `override`, `force` or `torque.jN`";
+
 /// A word of the teach pendant.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
@@ -66,6 +69,64 @@ enum Action {
     Digital(Digital, i32, bool),
     Analog(i32, f64),
     Deed(Deed),
+}
+
+impl Action {
+    /// Whether the channel or axis exists, and the masses that it needs.
+    fn check(&self, image: &Image, robot: &Robot) -> Result<(), String> {
+        let found = match *self {
+            Action::Digital(what, channel, _) => image.digital(what, channel).map(drop),
+            Action::Analog(channel, value) => image.check_ai(channel, value),
+            Action::Deed(deed) => return moves(robot, deed),
+        };
+        found.map_err(|fault| format!("sets an input to what it cannot have: {fault}"))
+    }
+
+    /// Does what was checked; hands everything but inputs to `do_it`.
+    fn play(&self, image: &mut Image, do_it: &mut impl FnMut(Deed)) {
+        let _ = match *self {
+            Action::Digital(what, channel, level) => image.set_digital(what, channel, level),
+            Action::Analog(channel, value) => image.set_ai(channel, value),
+            Action::Deed(deed) => {
+                do_it(deed);
+                Ok(())
+            }
+        };
+    }
+}
+
+/// What somebody outside does now: the part of an event that is not its cause.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Order {
+    actions: Vec<Action>,
+}
+
+impl Order {
+    /// Reads lines like `di.5 = true` or `pendant = "pause"`.
+    pub(crate) fn parse(text: &str) -> Result<Self, SettingsError> {
+        let source = Source { file: "order", text };
+        let root = source.parse()?;
+        let known = &EVENT[3..];
+        let actions = actions(source, &Section::new(source, "an order", root.get_ref(), known)?)?;
+        if actions.is_empty() {
+            return Err(SettingsError::of_file("order", format!("an order changes nothing: expected {CHANGES}")));
+        }
+        Ok(Self { actions })
+    }
+
+    /// Sets inputs; hands everything else to `do_it`. Nothing of an order is done that cannot be done in full.
+    pub(crate) fn carry_out(
+        &self,
+        image: &mut Image,
+        robot: &Robot,
+        mut do_it: impl FnMut(Deed),
+    ) -> Result<(), String> {
+        for action in &self.actions {
+            action.check(image, robot).map_err(|problem| format!("the order {problem}"))?;
+        }
+        self.actions.iter().for_each(|action| action.play(image, &mut do_it));
+        Ok(())
+    }
 }
 
 /// What sets an event off.
@@ -122,7 +183,7 @@ impl Scenario {
 
     /// Whether all channels and axes that the scenario names exist, and the masses that it needs.
     pub(crate) fn check(&self, channels: &Channels, robot: &Robot) -> Result<(), String> {
-        let mut image = Image::new(channels);
+        let image = Image::new(channels);
         for event in &self.events {
             if let Cause::Edge { output, channel, level: _ } = event.cause {
                 let (name, count) = if output { ("do", channels.dout) } else { ("di", channels.di) };
@@ -131,15 +192,7 @@ impl Scenario {
                 }
             }
             for action in &event.actions {
-                let done = match *action {
-                    Action::Digital(what, channel, level) => image.set_digital(what, channel, level),
-                    Action::Analog(channel, value) => image.set_ai(channel, value),
-                    Action::Deed(deed) => {
-                        moves(robot, deed)?;
-                        Ok(())
-                    }
-                };
-                done.map_err(|fault| format!("the scenario sets an input to what it cannot have: {fault}"))?;
+                action.check(&image, robot).map_err(|problem| format!("the scenario {problem}"))?;
             }
         }
         Ok(())
@@ -152,10 +205,10 @@ fn moves(robot: &Robot, deed: Deed) -> Result<(), String> {
     match deed {
         Deed::Pendant(_) => Ok(()),
         Deed::Torque(axis, _) if axis >= own => {
-            Err(format!("the scenario turns j{}, but robot {} has j1 to j{own}", axis + 1, robot.name))
+            Err(format!("turns j{}, but robot {} has j1 to j{own}", axis + 1, robot.name))
         }
         Deed::Force(_) | Deed::Torque(..) if robot.links.is_empty() => {
-            Err(format!("the scenario pushes the robot, but the file of robot {} has no [[link]]", robot.name))
+            Err(format!("pushes the robot, but the file of robot {} has no [[link]]", robot.name))
         }
         Deed::Force(_) | Deed::Torque(..) => Ok(()),
     }
@@ -173,8 +226,20 @@ fn event(source: Source<'_>, value: &Value<'_>) -> Result<Event, SettingsError> 
             return Err(source.error(value.span(), message));
         }
     };
+    if let (Cause::At(_), Some((_, span, _))) = (cause, event.entries().into_iter().find(|(key, ..)| *key == "after")) {
+        return Err(source.error(span, "`after` counts from `when`; with `at`, add the seconds there"));
+    }
+    let actions = actions(source, &event)?;
+    if actions.is_empty() {
+        return Err(source.error(value.span(), format!("[[event]] changes nothing: expected {CHANGES}")));
+    }
+    Ok(Event { cause, after: after.unwrap_or(0.0), actions })
+}
+
+/// What an event changes.
+fn actions(source: Source<'_>, event: &Section<'_>) -> Result<Vec<Action>, SettingsError> {
     let mut actions = Vec::new();
-    for (key, span, value) in event.entries() {
+    for (key, _, value) in event.entries() {
         match key {
             "di" => signals(
                 source,
@@ -191,25 +256,17 @@ fn event(source: Source<'_>, value: &Value<'_>) -> Result<Event, SettingsError> 
                 &mut actions,
             )?,
             "ai" => analogs(source, value, &mut actions)?,
-            "pendant" => actions.push(Action::Deed(Deed::Pendant(pendant(&event, source, value)?))),
+            "pendant" => actions.push(Action::Deed(Deed::Pendant(pendant(event, source, value)?))),
             "override" => {
                 let percent = event.number(key, "percent", 0.0, 100.0)?.unwrap_or(100.0);
                 actions.push(Action::Deed(Deed::Pendant(Pendant::Override(percent))));
             }
-            "force" => actions.push(Action::Deed(force(&event, value)?)),
+            "force" => actions.push(Action::Deed(force(event, value)?)),
             "torque" => torques(source, value, &mut actions)?,
-            "after" if matches!(cause, Cause::At(_)) => {
-                return Err(source.error(span, "`after` counts from `when`; with `at`, add the seconds there"));
-            }
             _ => {}
         }
     }
-    if actions.is_empty() {
-        let message = "[[event]] changes nothing: expected `di.N`, `ai.N`, `internal.N`, `pendant`, `override`, \
-                       `force` or `torque.jN`";
-        return Err(source.error(value.span(), message));
-    }
-    Ok(Event { cause, after: after.unwrap_or(0.0), actions })
+    Ok(actions)
 }
 
 fn edge(event: &Section<'_>) -> Result<Cause, SettingsError> {
@@ -349,15 +406,7 @@ impl Playing {
         {
             self.due.remove(0);
             for action in self.events.get(at).map(|event| event.actions.as_slice()).unwrap_or_default() {
-                // The channels were checked when the scenario was loaded.
-                let _ = match *action {
-                    Action::Digital(what, channel, level) => image.set_digital(what, channel, level),
-                    Action::Analog(channel, value) => image.set_ai(channel, value),
-                    Action::Deed(deed) => {
-                        do_it(deed);
-                        Ok(())
-                    }
-                };
+                action.play(image, &mut do_it);
             }
         }
     }

@@ -145,6 +145,10 @@ pub(super) struct RunOptions {
     /// Draw the motion afterwards: the way of the TCP, its speed, the axes' speeds.
     #[arg(long, value_name = "FILE.svg")]
     pub(super) plot: Option<PathBuf>,
+    /// Show a live screen with the program, the robot and io, and keys for start, pause, step, reset, override and inputs.
+    /// The program runs in real time. Where the standard output is no terminal, it runs as without this option.
+    #[arg(long, conflicts_with_all = ["plot", "clock"])]
+    pub(super) pendant: bool,
     /// End after so many controller seconds, with exit code 4.
     #[arg(long, value_name = "S")]
     pub(super) max_time: Option<f64>,

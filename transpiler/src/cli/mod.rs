@@ -9,6 +9,7 @@ mod emit;
 mod explain;
 mod failure;
 mod pages;
+mod pendant;
 mod plot;
 mod program;
 mod progress;

@@ -2,9 +2,11 @@
 
 use super::args::RunOptions;
 use super::failure::Failure;
+use super::pendant;
 use super::plot::{self, Ran};
 use super::program::{Ready, prepare};
 use super::show;
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
@@ -15,6 +17,7 @@ pub(super) fn run(file: &Path, options: &RunOptions) -> Result<ExitCode, Failure
     command.args(options.arguments());
     match &options.plot {
         Some(picture) => run_and_plot(command, ready, file, options, picture),
+        None if options.pendant && std::io::stdout().is_terminal() => pendant::run(command, ready),
         None => start(command, ready),
     }
 }

@@ -1,0 +1,22 @@
+//! Orders from outside, in the words of a scenario.
+
+use super::{Controller, act};
+use crate::io::Order;
+
+impl Controller {
+    /// Does now what an event of an io [`Scenario`](crate::io::Scenario) does, in the same words: `di.5 = true`,
+    /// `ai.2 = 4.2`, `pendant = "start"`, `override = 50`; several of them stand on lines of their own.
+    ///
+    /// # Errors
+    /// The text is no order, or it names what is not there; then nothing of it was done.
+    pub fn order(&mut self, text: &str) -> Result<(), String> {
+        let order = Order::parse(text).map_err(|error| error.message)?;
+        let robot = self.robot();
+        let world = &self.world;
+        // A deed may look at the image itself.
+        let mut deeds = Vec::new();
+        order.carry_out(&mut world.io.borrow_mut(), &robot, |deed| deeds.push(deed))?;
+        deeds.into_iter().for_each(|deed| act(world, deed));
+        Ok(())
+    }
+}

@@ -1,0 +1,50 @@
+//! The orders, as they come on the standard input.
+
+use std::io::{BufRead, Read, stdin};
+use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
+
+/// How many orders may wait for their cycle; whoever sends more waits.
+const WAITING: usize = 256;
+/// The longest line in bytes; what is longer falls apart into several.
+const LINE: u64 = 1 << 16;
+
+/// What has come.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(super) enum Next {
+    /// An order.
+    Order(String),
+    /// Nothing yet.
+    None,
+    /// Nothing more will come.
+    End,
+}
+
+/// The orders, as they come.
+pub(super) struct Orders(Receiver<String>);
+
+impl Orders {
+    /// Reads the standard input on a thread of its own, so that no cycle waits for it.
+    pub(super) fn from_standard_input() -> Self {
+        let (sender, orders) = sync_channel(WAITING);
+        std::thread::spawn(move || {
+            let mut input = stdin().lock();
+            let mut line = Vec::new();
+            while matches!(input.by_ref().take(LINE).read_until(b'\n', &mut line), Ok(1..)) {
+                let order = String::from_utf8_lossy(&line).trim().to_owned();
+                line.clear();
+                if !order.is_empty() && sender.send(order).is_err() {
+                    return;
+                }
+            }
+        });
+        Self(orders)
+    }
+
+    pub(super) fn next(&self) -> Next {
+        match self.0.try_recv() {
+            Ok(order) => Next::Order(order),
+            Err(TryRecvError::Empty) => Next::None,
+            Err(TryRecvError::Disconnected) => Next::End,
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! What the keys do.
+
+use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
+
+use super::model::Model;
+
+/// What a key asks for.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) enum Wish {
+    /// Something for the program, in the words of a scenario.
+    Order(String),
+    /// Stop the robot and leave.
+    Leave,
+}
+
+/// The keys that are orders, and what stands for them on the screen.
+pub(super) const ORDERS: [(char, &str, &str); 7] = [
+    ('s', "start", "pendant = \"start\""),
+    ('p', "pause", "pendant = \"pause\""),
+    ('n', "step", "pendant = \"step\""),
+    ('r', "reset", "pendant = \"reset\""),
+    ('c', "clear", "pendant = \"clear\""),
+    ('o', "servo on", "pendant = \"servo_on\""),
+    ('f', "servo off", "pendant = \"servo_off\""),
+];
+
+/// By how much a key changes the override, in %.
+const OVERRIDE_STEP: f64 = 10.0;
+
+/// Does what a key asks of the screen, and says what it asks of the program.
+pub(super) fn press(key: KeyEvent, model: &mut Model) -> Option<Wish> {
+    if key.kind == KeyEventKind::Release {
+        return None;
+    }
+    if key.code == KeyCode::Char('c') && key.modifiers.contains(KeyModifiers::CONTROL) {
+        return Some(Wish::Leave);
+    }
+    match model.typed.take() {
+        Some(typed) => edit(key.code, typed, model),
+        None => command(key.code, model),
+    }
+}
+
+/// A key while an order is being typed.
+fn edit(key: KeyCode, mut typed: String, model: &mut Model) -> Option<Wish> {
+    match key {
+        KeyCode::Enter if typed.trim().is_empty() => return None,
+        KeyCode::Enter => return Some(Wish::Order(typed)),
+        KeyCode::Esc => return None,
+        KeyCode::Backspace => drop(typed.pop()),
+        KeyCode::Char(letter) => typed.push(letter),
+        _ => {}
+    }
+    model.typed = Some(typed);
+    None
+}
+
+fn command(key: KeyCode, model: &mut Model) -> Option<Wish> {
+    let now = model.state.speed_override;
+    match key {
+        KeyCode::Char('q') => Some(Wish::Leave),
+        KeyCode::Char('+' | '=') => {
+            Some(change_override((now / OVERRIDE_STEP).floor() * OVERRIDE_STEP + OVERRIDE_STEP))
+        }
+        KeyCode::Char('-') => Some(change_override((now / OVERRIDE_STEP).ceil() * OVERRIDE_STEP - OVERRIDE_STEP)),
+        KeyCode::Char('i') => {
+            model.typed = Some("di.".into());
+            None
+        }
+        KeyCode::Char(':') => {
+            model.typed = Some(String::new());
+            None
+        }
+        KeyCode::Tab => {
+            model.show_next();
+            None
+        }
+        KeyCode::Char(letter) => {
+            let order = ORDERS.iter().find(|(key, ..)| *key == letter);
+            order.map(|(.., order)| Wish::Order((*order).to_owned()))
+        }
+        _ => None,
+    }
+}
+
+fn change_override(percent: f64) -> Wish {
+    Wish::Order(format!("override = {}", percent.clamp(0.0, 100.0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn type_in(model: &mut Model, text: &str) -> Option<Wish> {
+        let key = |letter| match letter {
+            '\n' => KeyCode::Enter,
+            '\x08' => KeyCode::Backspace,
+            '\x1b' => KeyCode::Esc,
+            letter => KeyCode::Char(letter),
+        };
+        text.chars().map(|letter| press(key(letter).into(), model)).last().flatten()
+    }
+
+    #[test]
+    fn keys_are_orders() {
+        let mut model = Model::default();
+        assert_eq!(type_in(&mut model, "p"), Some(Wish::Order("pendant = \"pause\"".into())));
+        assert_eq!(type_in(&mut model, "q"), Some(Wish::Leave));
+        assert_eq!(type_in(&mut model, "z"), None);
+    }
+
+    #[test]
+    fn the_override_goes_in_tens() {
+        let mut model = Model::default();
+        for (now, key, then) in
+            [(100.0, "-", 90.0), (95.0, "-", 90.0), (95.0, "+", 100.0), (100.0, "+", 100.0), (5.0, "-", 0.0)]
+        {
+            model.state.speed_override = now;
+            assert_eq!(type_in(&mut model, key), Some(Wish::Order(format!("override = {then}"))), "{now} {key}");
+        }
+    }
+
+    #[test]
+    fn inputs_are_typed() {
+        let mut model = Model::default();
+        assert_eq!(type_in(&mut model, "i5 = tr\x08rue\n"), Some(Wish::Order("di.5 = true".into())));
+        assert_eq!(model.typed, None);
+        assert_eq!(type_in(&mut model, ":ai.2 = 4.2\n"), Some(Wish::Order("ai.2 = 4.2".into())));
+        assert_eq!(type_in(&mut model, "i5\x1b"), None);
+        assert_eq!(model.typed, None);
+        // While something is typed, letters are letters.
+        assert_eq!(type_in(&mut model, ":q"), None);
+        assert_eq!(model.typed.as_deref(), Some("q"));
+    }
+}

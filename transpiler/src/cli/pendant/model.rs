@@ -1,0 +1,69 @@
+//! What the screen knows.
+
+use std::collections::VecDeque;
+
+use super::link::{Hello, Line, State};
+use super::sources::Sources;
+
+/// How many lines of the log are kept.
+const LOG: usize = 500;
+
+/// How much a line of the log matters.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Weight {
+    Message,
+    Warning,
+    Alarm,
+}
+
+/// What the screen knows.
+#[derive(Default)]
+pub(super) struct Model {
+    pub(super) hello: Hello,
+    pub(super) state: State,
+    pub(super) sources: Sources,
+    /// Messages, warnings and alarms, the newest last.
+    pub(super) log: VecDeque<(Weight, String)>,
+    /// The channel that is shown, from 0.
+    pub(super) shown: usize,
+    /// What is being typed, where something is.
+    pub(super) typed: Option<String>,
+    /// Whether the program was told to leave.
+    pub(super) leaving: bool,
+}
+
+impl Model {
+    /// A program of which only the texts are known yet.
+    pub(super) fn new(sources: Sources) -> Self {
+        Self { sources, ..Self::default() }
+    }
+
+    /// Takes in what the program says.
+    pub(super) fn hear(&mut self, line: Line) {
+        match line {
+            Line::Hello(hello) => self.hello = hello,
+            Line::State(state) => self.state = state,
+            Line::Message(message) => {
+                for text in message.text.trim_end_matches('\n').split('\n') {
+                    self.note(Weight::Message, format!("{:9.3}  {text}", message.time));
+                }
+            }
+            Line::Warning(text) => self.note(Weight::Warning, format!("warning: {text}")),
+            Line::Alarm(alarm) => self.note(Weight::Alarm, alarm.text),
+            Line::Refused(refused) => self.note(Weight::Warning, format!("{}: {}", refused.order, refused.why)),
+            Line::Other(text) => self.note(Weight::Warning, text),
+        }
+    }
+
+    fn note(&mut self, weight: Weight, text: String) {
+        if self.log.len() == LOG {
+            self.log.pop_front();
+        }
+        self.log.push_back((weight, text));
+    }
+
+    /// Shows the next channel.
+    pub(super) fn show_next(&mut self) {
+        self.shown = (self.shown + 1) % self.state.channels.len().max(1);
+    }
+}

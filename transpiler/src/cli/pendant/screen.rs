@@ -1,0 +1,264 @@
+//! What the screen looks like.
+
+use ratatui::Frame;
+use ratatui::layout::{Constraint, Layout, Rect};
+use ratatui::style::{Color, Modifier, Style};
+use ratatui::text::{Line, Span};
+use ratatui::widgets::{Block, Paragraph};
+
+use super::keys;
+use super::link::{Axis, Channel, Runs, State};
+use super::model::{Model, Weight};
+
+const QUIET: Style = Style::new().fg(Color::DarkGray);
+const STRONG: Style = Style::new().add_modifier(Modifier::BOLD);
+
+/// How wide the column of axes, TCP and io is.
+const SIDE: u16 = 50;
+/// How many characters show where an axis stands in its range.
+const BAR: usize = 15;
+/// How many signals stand in a row.
+const SIGNALS: usize = 32;
+
+/// Draws everything anew.
+pub(super) fn draw(frame: &mut Frame<'_>, model: &Model) {
+    let rows = [Constraint::Length(1), Constraint::Min(8), Constraint::Percentage(25), Constraint::Length(1)];
+    let [title, middle, log, foot] = Layout::vertical(rows).areas(frame.area());
+    let [source, side] = Layout::horizontal([Constraint::Min(20), Constraint::Length(SIDE)]).areas(middle);
+    let (channel, runs) = shown(model);
+    frame.render_widget(title_line(model, &channel), title);
+    draw_source(frame, source, model, &channel);
+    let height = runs.axes.len() as u16 + 4;
+    let [axes, io] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(side);
+    frame.render_widget(Paragraph::new(axis_lines(&runs, &channel)).block(titled(&robot_title(&runs))), axes);
+    frame.render_widget(Paragraph::new(io_lines(&model.state)).block(titled("io")), io);
+    draw_log(frame, log, model);
+    frame.render_widget(foot_line(model), foot);
+}
+
+/// The channel that is shown.
+fn shown(model: &Model) -> (Channel, Runs) {
+    let channel = model.state.channels.get(model.shown).cloned().unwrap_or_default();
+    let runs = model.hello.channels.get(model.shown).cloned().unwrap_or_default();
+    (channel, runs)
+}
+
+fn titled(title: &str) -> Block<'static> {
+    Block::bordered().title(format!(" {title} ")).border_style(QUIET)
+}
+
+fn title_line(model: &Model, channel: &Channel) -> Line<'static> {
+    let state = &model.state;
+    let word = match channel.state.as_str() {
+        "" => "starting",
+        _ if model.leaving => "leaving",
+        word => word,
+    };
+    let number = match state.channels.len() {
+        0 | 1 => String::new(),
+        count => format!("  channel {} of {count}", model.shown + 1),
+    };
+    let right = format!("  {}  override {:.0} %  {:.1} s{number}", state.mode, state.speed_override, state.time);
+    Line::from(vec![Span::styled(format!(" {word} "), state_style(word)), Span::raw(right)])
+}
+
+/// Each state of a program has a colour of its own.
+fn state_style(word: &str) -> Style {
+    let color = match word {
+        "running" => Color::Green,
+        "alarm" => Color::Red,
+        "ended" | "stopped" => Color::Gray,
+        _ => Color::Yellow,
+    };
+    Style::new().fg(Color::Black).bg(color).add_modifier(Modifier::BOLD)
+}
+
+fn draw_source(frame: &mut Frame<'_>, area: Rect, model: &Model, channel: &Channel) {
+    let block = titled(&channel.file);
+    let inner = block.inner(area);
+    let lines = model.sources.around(&channel.file, channel.line, usize::from(inner.height));
+    let moving = |number| number == channel.motion_line && channel.motion_file == channel.file;
+    let line = |(number, text): (usize, &str)| {
+        let mark = match (number == channel.line, moving(number)) {
+            (true, true) => "▶●",
+            (true, false) => "▶ ",
+            (false, true) => " ●",
+            (false, false) => "  ",
+        };
+        let style = if number == channel.line { STRONG.bg(Color::DarkGray) } else { Style::new() };
+        Line::from(vec![Span::raw(mark), Span::styled(format!("{number:5}  "), QUIET), Span::raw(text.to_owned())])
+            .style(style)
+    };
+    let shown: Vec<Line<'_>> = lines.into_iter().map(line).collect();
+    frame.render_widget(Paragraph::new(shown).block(block), area);
+}
+
+fn robot_title(runs: &Runs) -> String {
+    runs.robot.clone().unwrap_or_else(|| "no robot".into())
+}
+
+fn axis_lines(runs: &Runs, channel: &Channel) -> Vec<Line<'static>> {
+    let axis = |(axis, at): (&Axis, &f64)| {
+        let place = ((at - axis.min) / (axis.max - axis.min)).clamp(0.0, 1.0);
+        let place = (place * (BAR - 1) as f64).round() as usize;
+        let bar: String = (0..BAR).map(|cell| if cell == place { '█' } else { '─' }).collect();
+        Line::from(vec![
+            Span::raw(format!("{:<4}{} {:<4}", axis.name, decimals(*at), axis.unit)),
+            Span::styled(format!("{:>7.0} ", axis.min), QUIET),
+            Span::raw(bar),
+            Span::styled(format!(" {:<.0}", axis.max), QUIET),
+        ])
+    };
+    let mut lines: Vec<Line<'static>> = runs.axes.iter().zip(&channel.axes).map(axis).collect();
+    if let [x, y, z, a, b, c] = channel.tcp[..] {
+        let [x, y, z, a, b, c] = [x, y, z, a, b, c].map(decimals);
+        lines.push(Line::raw(format!("TCP {x} {y} {z} mm")));
+        lines.push(Line::raw(format!("    {a} {b} {c} deg")));
+    }
+    lines
+}
+
+/// Three decimals in ten columns, without a minus before zero.
+fn decimals(value: f64) -> String {
+    let value = if value.abs() < 5e-4 { 0.0 } else { value };
+    format!("{value:10.3}")
+}
+
+fn io_lines(state: &State) -> Vec<Line<'static>> {
+    let mut lines = Vec::new();
+    for (name, levels) in [("DI", &state.di), ("DO", &state.dout)] {
+        lines.extend(levels.as_bytes().chunks(SIGNALS).enumerate().map(|(row, levels)| signals(name, row, levels)));
+    }
+    for (name, values) in [("AI", &state.ai), ("AO", &state.ao)] {
+        if !values.is_empty() {
+            let values: Vec<String> = values.iter().map(|value| format!("{value:.2}")).collect();
+            lines.push(Line::raw(format!("{name}  {}", values.join(" "))));
+        }
+    }
+    lines
+}
+
+/// A row of signals in groups of eight, those that are on in full.
+fn signals(name: &str, row: usize, levels: &[u8]) -> Line<'static> {
+    let mut spans = vec![Span::raw(format!("{name} {:>3} ", row * SIGNALS + 1))];
+    for (at, level) in levels.iter().enumerate() {
+        if at > 0 && at % 8 == 0 {
+            spans.push(Span::raw(" "));
+        }
+        spans.push(match level {
+            b'1' => Span::styled("■", Style::new().fg(Color::Green)),
+            _ => Span::styled("·", QUIET),
+        });
+    }
+    Line::from(spans)
+}
+
+fn draw_log(frame: &mut Frame<'_>, area: Rect, model: &Model) {
+    let block = titled("messages");
+    let height = usize::from(block.inner(area).height);
+    let first = model.log.len().saturating_sub(height);
+    let line = |(weight, text): &(Weight, String)| Line::styled(text.clone(), weight_style(*weight));
+    let lines: Vec<Line<'_>> = model.log.iter().skip(first).map(line).collect();
+    frame.render_widget(Paragraph::new(lines).block(block), area);
+}
+
+fn weight_style(weight: Weight) -> Style {
+    match weight {
+        Weight::Message => Style::new(),
+        Weight::Warning => Style::new().fg(Color::Yellow),
+        Weight::Alarm => Style::new().fg(Color::Red),
+    }
+}
+
+/// The keys, or what is being typed.
+fn foot_line(model: &Model) -> Line<'static> {
+    if let Some(typed) = &model.typed {
+        return Line::from(vec![
+            Span::styled("set ", STRONG),
+            Span::raw(format!("{typed}▏")),
+            Span::styled("  like di.5 = true, ai.2 = 4.2, override = 50; Enter does it, Esc does not", QUIET),
+        ]);
+    }
+    let orders = keys::ORDERS.iter().map(|(key, name, _)| (key.to_string(), *name));
+    let others = [("+-", "override"), ("i", "input"), (":", "order"), ("Tab", "channel"), ("q", "quit")];
+    let all = orders.chain(others.into_iter().map(|(key, name)| (key.to_owned(), name)));
+    let spans = all.flat_map(|(key, name)| [Span::styled(key, STRONG), Span::styled(format!(" {name}  "), QUIET)]);
+    Line::from(spans.collect::<Vec<_>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use ratatui::Terminal;
+    use ratatui::backend::TestBackend;
+
+    use super::super::link::Line;
+    use super::super::sources::Sources;
+    use super::*;
+
+    const HELLO: &str = r#"{"hello":{"channels":[{"program":"pick.arl","robot":"kr10-r1420","axes":[
+        {"name":"j1","unit":"deg","min":-170,"max":170},{"name":"j2","unit":"deg","min":-190,"max":45}]}]}}"#;
+    const STATE: &str = r#"{"state":{"time":12.34,"mode":"AUTO","override":80,"channels":[{"state":"running","file":"pick.arl",
+        "line":3,"motion_file":"pick.arl","motion_line":2,"axes":[-0.0001,-190],"tcp":[1,2.5,3,4,5,6]}],
+        "di":"010000000","do":"1","ai":[4.25],"ao":[]}}"#;
+
+    fn screen(lines: &[&str], change: impl FnOnce(&mut Model)) -> String {
+        let mut model = Model::new(Sources::of("pick.arl", "func void main()\nmovej p1\nlin p2\nendfunc"));
+        for line in lines {
+            model.hear(serde_json::from_str::<Line>(line).unwrap());
+        }
+        change(&mut model);
+        let mut terminal = Terminal::new(TestBackend::new(120, 24)).unwrap();
+        terminal.draw(|frame| draw(frame, &model)).unwrap();
+        terminal.backend().to_string()
+    }
+
+    #[test]
+    fn everything_is_on_the_screen() {
+        let message = r#"{"message":{"time":1.5,"hmi":true,"console":false,"text":"part 1\n"}}"#;
+        let alarm =
+            r#"{"alarm":{"number":20003,"text":"alarm 20003: out of reach (pick.arl:3)","file":"pick.arl","line":3}}"#;
+        let screen = screen(&[HELLO, STATE, message, alarm], |_| {});
+        for words in [
+            " running   AUTO  override 80 %  12.3 s",
+            " ●    2  movej p1",
+            "▶     3  lin p2",
+            "kr10-r1420",
+            "j1       0.000 deg    -170 ───────█─────── 170",
+            "j2    -190.000 deg    -190 █────────────── 45",
+            "TCP      1.000      2.500      3.000 mm",
+            "DI   1 ·■······ ·",
+            "DO   1 ■",
+            "AI  4.25",
+            "    1.500  part 1",
+            "alarm 20003: out of reach (pick.arl:3)",
+            "s start  p pause  n step",
+        ] {
+            assert!(screen.contains(words), "{words}\n{screen}");
+        }
+    }
+
+    #[test]
+    fn before_the_first_word_it_starts() {
+        let screen = screen(&[], |_| {});
+        assert!(screen.contains(" starting "), "{screen}");
+        assert!(screen.contains("no robot"), "{screen}");
+    }
+
+    #[test]
+    fn what_is_typed_takes_the_place_of_the_keys() {
+        let screen = screen(&[HELLO, STATE], |model| model.typed = Some("di.5 = tr".into()));
+        assert!(screen.contains("set di.5 = tr▏"), "{screen}");
+        assert!(!screen.contains("s start"), "{screen}");
+    }
+
+    #[test]
+    fn a_small_terminal_is_no_reason_to_panic() {
+        let mut model = Model::default();
+        model.hear(serde_json::from_str(HELLO).unwrap());
+        model.hear(serde_json::from_str(STATE).unwrap());
+        for (width, height) in [(1, 1), (10, 3), (47, 9)] {
+            let mut terminal = Terminal::new(TestBackend::new(width, height)).unwrap();
+            terminal.draw(|frame| draw(frame, &model)).unwrap();
+        }
+    }
+}
