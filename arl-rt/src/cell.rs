@@ -11,6 +11,9 @@
 //! ao = ["V", "V", "mA"]
 //! internal = 32
 //!
+//! [network]
+//! listen = "program"           # where accept listens: without it on this computer only ("loopback"); or an address
+//!
 //! [home]                       # axis positions in deg (mm where linear); home 1 is `home` of the robot file
 //! tolerance = 0.1              # how near is at home, deg (mm)
 //! home2 = [0, -90, 90, 0, 0, 0]
@@ -25,13 +28,15 @@ use std::path::Path;
 
 use toml::de::DeValue;
 
+use crate::communication::{Listen, NetworkSettings};
 use crate::io::{AnalogType, Channels};
 use crate::rate::Rate;
 use crate::settings::{Section, SettingsError, Source, Value, number, table};
 
-const TOP: &[&str] = &["controller", "io", "home", "collision"];
+const TOP: &[&str] = &["controller", "io", "network", "home", "collision"];
 const CONTROLLER: &[&str] = &["cycle"];
 const IO: &[&str] = &["di", "do", "ai", "ao", "internal"];
+const NETWORK: &[&str] = &["listen"];
 const HOME: &[&str] = &["tolerance", "home2", "home3", "home4", "home5"];
 const COLLISION: &[&str] = &["cid", "percent", "torque"];
 const HOMES: [&str; 4] = ["home2", "home3", "home4", "home5"];
@@ -46,6 +51,8 @@ pub struct Cell {
     pub rate: Rate,
     /// The channels of io.
     pub channels: Channels,
+    /// Where programs listen.
+    pub network: NetworkSettings,
     /// Home points 2 to 5: axis positions in deg (mm where linear).
     pub homes: [Option<Vec<f64>>; 4],
     /// How near to a home point is at home, in deg (mm).
@@ -68,6 +75,7 @@ impl Default for Cell {
         Self {
             rate: Rate::default(),
             channels: Channels::default(),
+            network: NetworkSettings::default(),
             homes: [None, None, None, None],
             home_tolerance: 0.1,
             collisions: Vec::new(),
@@ -105,6 +113,9 @@ impl Cell {
         if let Some(io) = top.table("io", "[io]", IO)? {
             channels(&io, &mut cell.channels)?;
         }
+        if let Some(network) = top.table("network", "[network]", NETWORK)? {
+            cell.network.listen = listen(&network)?;
+        }
         if let Some(home) = top.table("home", "[home]", HOME)? {
             if let Some(tolerance) = home.number("tolerance", "a distance in deg", 0.0, 90.0)? {
                 cell.home_tolerance = tolerance;
@@ -135,6 +146,16 @@ fn channels(io: &Section<'_>, channels: &mut Channels) -> Result<(), SettingsErr
         }
     }
     Ok(())
+}
+
+fn listen(network: &Section<'_>) -> Result<Listen, SettingsError> {
+    let Some(value) = network.find("listen") else { return Ok(Listen::Loopback) };
+    match value.get_ref().as_str() {
+        Some("loopback") => Ok(Listen::Loopback),
+        Some("program") => Ok(Listen::Program),
+        Some(address) if address.parse::<std::net::IpAddr>().is_ok() => Ok(Listen::Address(address.into())),
+        _ => Err(network.wrong("listen", value, "\"loopback\", \"program\", or an address like \"192.168.0.40\"")),
+    }
 }
 
 /// A number of channels, all in V, or a list of their types.
@@ -215,7 +236,7 @@ mod tests {
     fn mistakes_name_line_and_what_was_expected() {
         for (text, line, words) in [
             ("[io]\ndi = 64\ndoo = 3", 3, "did you mean `do`?"),
-            ("\n[inout]\n", 2, "known are: controller, io, home, collision"),
+            ("\n[inout]\n", 2, "known are: controller, io, network, home, collision"),
             ("[io]\ndi = -1", 2, "expected a number of channels from 0 to 10000, found the number -1"),
             ("[io]\ndi = \"many\"", 2, "found the text \"many\""),
             ("[io]\nai = [\"V\",\n \"A\"]", 3, "expected \"V\" or \"mA\""),

@@ -7,6 +7,11 @@ pub trait Clock {
     /// Returns when the cycle with this running number (from 0) may begin. A cycle is `period` seconds long.
     fn wait_for(&mut self, cycle: u64, period: f64);
 
+    /// The program begins to talk to the world: from the next cycle on its time counts. Returns what the user should know.
+    fn meet_outside(&mut self) -> Option<&'static str> {
+        None
+    }
+
     /// How many cycles began late, because the one before them took too long.
     fn overruns(&self) -> u64 {
         0
@@ -14,13 +19,44 @@ pub trait Clock {
 }
 
 /// Cycles follow each other as fast as they can: a run is a function of the program, the robot, the cell and the
-/// scenario alone.
-#[derive(Clone, Copy, Default, Debug)]
-pub struct VirtualClock;
+/// scenario alone. From the first connection on that a program opens, they begin at points of real time: the other side
+/// has no other.
+#[derive(Default, Debug)]
+pub struct VirtualClock {
+    real: Option<RealClock>,
+    asked_for: bool,
+}
+
+impl VirtualClock {
+    /// A clock that makes cycles follow each other as fast as they can.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The same, where the user has asked for it: the end of virtual time is worth a warning.
+    pub fn asked_for() -> Self {
+        Self { real: None, asked_for: true }
+    }
+}
 
 impl Clock for VirtualClock {
     #[inline]
-    fn wait_for(&mut self, _cycle: u64, _period: f64) {}
+    fn wait_for(&mut self, cycle: u64, period: f64) {
+        if let Some(real) = &mut self.real {
+            real.wait_for(cycle, period);
+        }
+    }
+
+    fn meet_outside(&mut self) -> Option<&'static str> {
+        const WARNING: &str = "the program opens a connection: from here on its cycles take real time";
+        let first = self.real.is_none();
+        self.real.get_or_insert_with(RealClock::new);
+        (first && self.asked_for).then_some(WARNING)
+    }
+
+    fn overruns(&self) -> u64 {
+        self.real.as_ref().map_or(0, Clock::overruns)
+    }
 }
 
 /// Each cycle begins at its own point of real time, so that errors do not add up. A cycle that comes more than one

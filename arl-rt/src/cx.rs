@@ -7,6 +7,7 @@ use std::pin::Pin;
 use std::rc::Rc;
 use std::task::{Context, Poll};
 
+use crate::communication::Connections;
 use crate::event::Table;
 use crate::fault::{Fault, File};
 use crate::motion::Progress;
@@ -42,6 +43,8 @@ pub struct Cx {
     level: Cell<Level>,
     /// The interrupts, timers and triggers that the program has declared.
     events: RefCell<Table>,
+    /// The connections that the program has opened.
+    connections: Connections,
     /// The motion that triggers are asked about, where that is not the one being executed.
     looked_at: Cell<Option<Progress>>,
 }
@@ -82,6 +85,7 @@ impl Cx {
             moved: Cell::new(false),
             level: Cell::new(Level::PROGRAM),
             events: RefCell::default(),
+            connections: Connections::default(),
             looked_at: Cell::new(None),
         }
     }
@@ -183,6 +187,11 @@ impl Cx {
     /// The interrupts, timers and triggers that the program has declared.
     pub(crate) fn events(&self) -> &RefCell<Table> {
         &self.events
+    }
+
+    /// The connections that the program has opened.
+    pub(crate) fn connections(&self) -> &Connections {
+        &self.connections
     }
 
     /// How far the motion has come that is being executed, or that triggers are asked about.

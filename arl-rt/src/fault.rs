@@ -88,6 +88,8 @@ pub enum Fault {
     Data(Box<str>),
     /// An interrupt, timer or trigger that cannot be watched or handled.
     Event(Box<str>),
+    /// A connection that is not open, or lost.
+    Connection(Box<str>),
     /// What went wrong in the condition of an interrupt or a trigger.
     Condition {
         /// The interrupt or trigger.
@@ -127,6 +129,7 @@ impl Fault {
             Fault::NoMasses { .. } => 20022,
             Fault::Data(_) => 20030,
             Fault::Event(_) => 20040,
+            Fault::Connection(_) => 20050,
             Fault::Condition { fault, .. } => fault.number(),
             Fault::Other { number, .. } => *number,
         }
@@ -159,7 +162,8 @@ impl fmt::Display for Fault {
             | Fault::Motion(text)
             | Fault::Collision(text)
             | Fault::Data(text)
-            | Fault::Event(text) => {
+            | Fault::Event(text)
+            | Fault::Connection(text) => {
                 write!(f, "{text}")
             }
             Fault::NoMasses { function, robot } => write!(

@@ -9,6 +9,7 @@ pub mod cell;
 pub mod channel;
 pub mod clock;
 pub mod clock_source;
+pub mod communication;
 pub mod controller;
 pub mod convert;
 pub mod cx;

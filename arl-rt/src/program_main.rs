@@ -39,7 +39,8 @@ Runs a robot program on a simulated robot.
 Options:
   --robot NAME|FILE     the robot: a built-in name or a robot file
   --cell FILE           the cell: io, home points, control cycle
-  --clock virtual|real  run as fast as possible (default), or in real time
+  --clock virtual|real  run as fast as possible (default), or in real time; from the
+                        first connection that a program opens it is real time
   --script-dir DIR      the folder of the program's files
   --state-dir DIR       the folder that keeps system variables between runs
   --io FILE             a scenario: what the outside does to the inputs
@@ -63,7 +64,7 @@ Exit codes: 0 ended, 2 usage, 3 alarm, 4 the time was over, 130 interrupted.
 struct Options {
     robot: Option<String>,
     cell: Option<PathBuf>,
-    real: bool,
+    clock: Option<Pace>,
     live: bool,
     script_dir: PathBuf,
     state_dir: Option<PathBuf>,
@@ -75,6 +76,13 @@ struct Options {
     override_percent: f64,
     seed: Option<u64>,
     start_time: Option<i64>,
+}
+
+/// How fast cycles follow each other.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Pace {
+    Virtual,
+    Real,
 }
 
 /// Where to say what the motions did.
@@ -143,7 +151,7 @@ fn parse(
     let mut options = Options {
         robot: None,
         cell: None,
-        real: false,
+        clock: None,
         live: false,
         script_dir: PathBuf::from(script_dir),
         state_dir: None,
@@ -161,8 +169,11 @@ fn parse(
         match argument {
             Long("robot") => options.robot = Some(parser.value()?.string()?),
             Long("cell") => options.cell = Some(parser.value()?.into()),
-            Long("live") => (options.live, options.real) = (true, true),
-            Long("clock") => options.real = word(&mut parser, "--clock", &[("virtual", false), ("real", true)])?,
+            Long("live") => (options.live, options.clock) = (true, Some(Pace::Real)),
+            Long("clock") => {
+                let paces = [("virtual", Pace::Virtual), ("real", Pace::Real)];
+                options.clock = Some(word(&mut parser, "--clock", &paces)?);
+            }
             Long("script-dir") => options.script_dir = parser.value()?.into(),
             Long("state-dir") => options.state_dir = Some(parser.value()?.into()),
             Long("io") => options.io = Some(parser.value()?.into()),
@@ -215,7 +226,7 @@ fn number(parser: &mut lexopt::Parser, option: &str, what: &str, most: f64) -> R
 /// Sets the controller up and runs the program; the exit code.
 fn run(program: Box<dyn Program>, options: Options, interrupted: &AtomicBool) -> u8 {
     let max_time = options.max_time;
-    let real = options.real;
+    let real = options.clock == Some(Pace::Real);
     let report = match options.report.clone().map(report_to).transpose() {
         Ok(report) => report,
         Err(error) => {
@@ -363,13 +374,17 @@ fn set_up(options: Options) -> Result<Builder, SetupFailure> {
         builder = builder.seed(seed);
     }
     // On the real clock the date is the world's.
-    let start = options.start_time.or_else(|| options.real.then(time::of_the_world));
+    let start = options.start_time.or_else(|| (options.clock == Some(Pace::Real)).then(time::of_the_world));
     if let Some(start) = start {
         builder = builder.start_date(start);
     }
     let state_dir = options.state_dir.unwrap_or_else(|| Path::new(&options.script_dir).join(STATE_DIR));
     builder = builder.script_dir(options.script_dir).storage(Directory::new(state_dir));
-    Ok(if options.real { builder.clock(RealClock::new()) } else { builder.clock(VirtualClock) })
+    Ok(match options.clock {
+        Some(Pace::Real) => builder.clock(RealClock::new()),
+        Some(Pace::Virtual) => builder.clock(VirtualClock::asked_for()),
+        None => builder.clock(VirtualClock::new()),
+    })
 }
 
 #[cfg(test)]
@@ -386,7 +401,7 @@ mod tests {
         let options = parsed(&["--robot=six-10", "--clock", "real", "--max-time", "2.5", "--mode", "MANUAL"]);
         let options = options.unwrap().unwrap();
         assert_eq!(options.robot.as_deref(), Some("six-10"));
-        assert_eq!((options.real, options.max_time, options.mode), (true, Some(2.5), Controlmode::Manual));
+        assert_eq!((options.clock, options.max_time, options.mode), (Some(Pace::Real), Some(2.5), Controlmode::Manual));
         assert_eq!(options.script_dir, Path::new("scripts"));
         assert_eq!(parsed(&["--help"]), Ok(None));
         let report = |arguments: &[&str]| parsed(arguments).unwrap().unwrap().report;

@@ -145,6 +145,10 @@ system! {
     wobj_offset: Shared<SmallArray<f64, 6>> = SmallArray::start(), "WOBJ_OFFSET", Reset;
     /// Shift and turn of all tools: mm, deg.
     tool_offset: Shared<SmallArray<f64, 6>> = SmallArray::start(), "TOOL_OFFSET", Reset;
+    /// Whether programs look for lost connections themselves (`geterror`), instead of being ended by an alarm.
+    detect_socket_close: Cell<bool> = false, "DETECT_SOCKET_CLOSE", Reset;
+    /// What `geterror` gives for a lost connection. Read-only.
+    err_socket_closed: Cell<i32> = 1, "ERR_SOCKET_CLOSED", Constant;
     /// Where each mechanical unit believes to be at servo-on.
     reset_pos_type: Shared<Array<Str, 100>> = Array::start(), "RESET_POS_TYPE", Permanent;
     /// How near is near enough for `$RESET_POS_TYPE`, deg.

@@ -4,6 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::fmt;
 
 use crate::cell::Sensitivity;
+use crate::communication::NetworkSettings;
 use crate::fault::{Alarm, Fault, File};
 use crate::files::ScriptDir;
 use crate::io::Image;
@@ -41,6 +42,10 @@ pub(crate) struct World {
     /// What happened that is no alarm but worth a word.
     warnings: RefCell<Vec<String>>,
     pub(crate) state: RefCell<State>,
+    /// What the cell says of the network.
+    pub(crate) network: NetworkSettings,
+    /// Whether a program talks to the world, so that the world's time counts.
+    outside: Cell<bool>,
     /// Home points 1 to 5.
     homes: [Option<Vec<f64>>; 5],
     home_tolerance: f64,
@@ -59,6 +64,7 @@ pub(crate) struct Parts {
     pub(crate) start_date: i64,
     pub(crate) output: Box<dyn Output>,
     pub(crate) state: State,
+    pub(crate) network: NetworkSettings,
     /// Home points 2 to 5.
     pub(crate) homes: [Option<Vec<f64>>; 4],
     pub(crate) home_tolerance: f64,
@@ -74,6 +80,8 @@ impl World {
             home_tolerance: parts.home_tolerance,
             collisions: parts.collisions,
             state: RefCell::new(parts.state),
+            network: parts.network,
+            outside: Cell::new(false),
             now: Cell::new(0),
             rate: parts.rate,
             system: parts.system,
@@ -219,6 +227,17 @@ impl World {
         if self.spoken.replace(false) {
             self.output.borrow_mut().flush();
         }
+    }
+
+    /// Says that the program talks to the world: from now on the world's time counts.
+    pub(crate) fn meet_outside(&self) {
+        self.outside.set(true);
+    }
+
+    /// Whether somebody has said so since the last call.
+    #[inline]
+    pub(crate) fn met_outside(&self) -> bool {
+        self.outside.replace(false)
     }
 
     /// Notes what is no alarm but worth a word.

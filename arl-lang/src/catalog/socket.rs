@@ -20,37 +20,37 @@ entries! { pub(super) SOCKET =
         { "5.6.1.2", socket::getip, waits, fails, notyet; "string ip\nif(getip(ip)) print ip" }
     /// Connects to a server; true when the connection stands.
     fn connect(s: socket "the connection", ip: string "the server's address", port: int "the server's port") -> bool
-        { "5.6.1.3", socket::connect, waits, fails, notyet; "socket s\nwaituntil connect(s,\"192.168.0.40\",2888),maxtime:5" }
+        { "5.6.1.3", socket::connect, waits, fails; "socket s\nwaituntil connect(s,\"192.168.0.40\",2888),maxtime:5" }
     /// Listens for a client; true when one has connected.
     fn accept(s: socket "the connection", ip: string "our own address", port: int "the port to listen on") -> bool
-        { "5.6.1.4", socket::accept, waits, fails, notyet; "socket s\nwaituntil accept(s,\"192.168.0.40\",2888),maxtime:5" }
+        { "5.6.1.4", socket::accept, waits, fails; "socket s\nwaituntil accept(s,\"192.168.0.40\",2888),maxtime:5" }
     /// Error state of a connection: 0, or $ERR_SOCKET_CLOSED when the other side has closed it.
     fn geterror(s: socket "the connection") -> int
-        { "5.6.1.5", socket::geterror, waits, fails, notyet; "socket s\nprint geterror(s)" }
+        { "5.6.1.5", socket::geterror, waits, fails; "socket s\nprint geterror(s)" }
     /// Closes a connection; closing one that is not open does nothing.
     fn close(s: socket "the connection")
-        { "5.6.1.5", socket::close, waits, notyet; "socket s\nclose(s)" }
+        { "5.6.1.5", socket::close, waits; "socket s\nclose(s)" }
     /// Sends a text; true when all of it has been sent.
     fn write(s: socket "the connection", data: string "the text") -> bool
-        { "5.6.1.5", socket::write_string, waits, fails, notyet;
+        { "5.6.1.5", socket::write_string, waits, fails;
           "socket s\nwaituntil connect(s,\"192.168.0.40\",2888)\nwaituntil write(s,\"hello\")" }
     /// Sends bytes; true when all of them have been sent.
     fn write(s: socket "the connection", data: [byte] "the bytes", len: int "how many of them") -> bool
-        { "5.6.1.5", socket::write_bytes, waits, fails, notyet;
+        { "5.6.1.5", socket::write_bytes, waits, fails;
           "socket s\nbyte data[3] = {1,2,3}\nwaituntil connect(s,\"192.168.0.40\",2888)\nwaituntil write(s,data,3)" }
     /// Takes exactly len bytes as a text when so many have come; what is left stays for the next call.
     fn read(s: socket "the connection", data: string [out] "gets the text", len: int "how many bytes") -> bool
-        { "5.6.1.6", socket::read_string, waits, fails, notyet;
+        { "5.6.1.6", socket::read_string, waits, fails;
           "socket s\nstring data\nwaituntil connect(s,\"192.168.0.40\",2888)\nwaituntil read(s,data,5)" }
     /// Takes exactly len bytes when so many have come; what is left stays for the next call.
     fn read(s: socket "the connection", data: [byte] [out] "gets the bytes", len: int "how many bytes") -> bool
-        { "5.6.1.6", socket::read_bytes, waits, fails, notyet;
+        { "5.6.1.6", socket::read_bytes, waits, fails;
           "socket s\nbyte data[3]\nwaituntil connect(s,\"192.168.0.40\",2888)\nwaituntil read(s,data,3)" }
     /// Takes the text in front of a mark when the mark has come; both leave the buffer.
     fn readuntil(s: socket "the connection", data: string [out] "gets the text", cut: string "the mark") -> bool
-        { "5.6.1.7", socket::readuntil, waits, fails, notyet;
+        { "5.6.1.7", socket::readuntil, waits, fails;
           "socket s\nstring line\nwaituntil connect(s,\"192.168.0.40\",2888)\nwaituntil readuntil(s,line,\"\\n\")" }
     /// Throws away what has come and was not read; whether it worked.
     fn clearbuff(s: socket "the connection") -> bool
-        { "5.6.1.8", socket::clearbuff, waits, fails, notyet; "socket s\nprint clearbuff(s)" }
+        { "5.6.1.8", socket::clearbuff, waits, fails; "socket s\nprint clearbuff(s)" }
 }

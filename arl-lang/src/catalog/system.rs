@@ -99,10 +99,10 @@ variables! { pub(super) FUNCTION =
 variables! { pub(super) SOCKETS =
     /// Whether a connection that the other side closes sets the socket's error state instead of raising an alarm.
     DETECT_SOCKET_CLOSE: bool = "false"
-        { "5.6.1.5", reset, notyet, alias(&["DETECT_SOCK_CLOSE"]); "$DETECT_SOCKET_CLOSE = true" }
+        { "5.6.1.5", reset, alias(&["DETECT_SOCK_CLOSE"]); "$DETECT_SOCKET_CLOSE = true" }
     /// What geterror gives for a connection that the other side has closed.
     ERR_SOCKET_CLOSED: int = "1"
-        { "5.6.1.5", permanent, readonly, notyet, alias(&["ERR_SOCKET_CLOSE", "ERR_SOCK_CLOSED"]);
+        { "5.6.1.5", permanent, readonly, alias(&["ERR_SOCKET_CLOSE", "ERR_SOCK_CLOSED"]);
           "socket s\nif(geterror(s) == $ERR_SOCKET_CLOSED) print \"closed\"" }
 }
 

@@ -52,7 +52,7 @@ impl Default for Builder {
         Self {
             robot: None,
             cell: Cell::default(),
-            clock: Box::new(VirtualClock),
+            clock: Box::new(VirtualClock::new()),
             driver: Box::new(SimulatedRobot::new()),
             io: Box::new(SimulatedIo),
             scenario: Scenario::default(),
@@ -204,6 +204,7 @@ impl Builder {
             start_date: self.start_date,
             output: self.output.unwrap_or_else(|| Box::new(Stream::standard())),
             state,
+            network: self.cell.network,
             homes: self.cell.homes,
             home_tolerance: self.cell.home_tolerance,
             collisions: self.cell.collisions,

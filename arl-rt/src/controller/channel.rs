@@ -87,7 +87,7 @@ impl Channel {
                 world.conclude_motion();
             }
             self.phase = match next {
-                _ if moving => return,
+                _ if moving || !self.cx.connections().are_settled() => return,
                 // It starts in the next cycle, so that a program of nothing but `restart` does not hold up the others.
                 Next::Restart => Phase::Running(again(Rc::clone(&self.program), Rc::clone(&self.cx))),
                 Next::End(outcome) => Phase::Ended(outcome.clone()),
@@ -133,7 +133,11 @@ impl Channel {
         if moving {
             world.conclude_motion();
         }
-        !moving && !world.io.borrow().pulsing() && !self.cx.events().borrow().has_due()
+        if moving || world.io.borrow().pulsing() || self.cx.events().borrow().has_due() {
+            return false;
+        }
+        self.cx.connections().close();
+        self.cx.connections().are_settled()
     }
 
     /// Ends the program for a reason that came from its statements.
@@ -155,6 +159,7 @@ impl Channel {
     fn end_with(&mut self, next: Next) {
         self.actions.clear();
         self.cx.forget_events();
+        self.cx.connections().close();
         self.phase = Phase::RunningOut(next);
     }
 

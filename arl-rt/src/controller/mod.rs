@@ -124,6 +124,11 @@ impl Controller {
             self.channel.fail(world, alarm);
         }
         world.flush();
+        if world.met_outside()
+            && let Some(warning) = self.clock.meet_outside()
+        {
+            world.warn(warning.into());
+        }
         if running && self.channel.outcome().is_some() {
             self.ended();
         }

@@ -10,7 +10,7 @@ use crate::diagnostics::support::SupportProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{self, Expr, ExprKind, FuncId, GlobalId, LocalId, MAX_DIMS, ModuleId, Stmt, StmtKind, Type, Value};
 use arl_lang::ast;
-use arl_lang::catalog::{self, Base};
+use arl_lang::catalog::{self, Base, Status};
 use arl_lang::span::Span;
 use arl_lang::symbol::Symbol;
 
@@ -171,7 +171,7 @@ impl<'a> Checker<'a> {
             return self.report(body, name.span, problem);
         }
         if let Base::Handle(id) = base
-            && id != catalog::Handle::Clock
+            && id.def().status == Status::NotYet
         {
             let name_text = self.base_name(base).to_string();
             return self.report(body, name.span, SupportProblem::NotYet { name: name_text });

@@ -1,0 +1,184 @@
+//! What a program's handle holds, and what sockets and serial lines have in common.
+
+use std::cell::{Cell, RefCell};
+use std::time::{Duration, Instant};
+
+use super::inbox::{CAPACITY, Inbox};
+use super::link::{Link, LinkState};
+use super::opening::Opening;
+use crate::cx::Cx;
+use crate::fault::Fault;
+
+/// How long to wait after a failed attempt before the next one.
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// A handle: nothing, or a connection.
+#[derive(Default, Debug)]
+pub(super) struct Handle {
+    held: RefCell<Option<Held>>,
+    /// What the user was told last of failed attempts.
+    told: RefCell<String>,
+}
+
+/// A connection and what the program knows of it.
+#[derive(Debug)]
+struct Held {
+    opening: Opening,
+    link: Link,
+    since: Instant,
+    /// The program was told that the connection stands.
+    known_open: Cell<bool>,
+    /// The program found out that the connection is lost.
+    known_lost: Cell<bool>,
+}
+
+/// What a call found.
+pub(super) enum Found<T> {
+    /// What was asked for.
+    This(T),
+    /// Not enough has come, or there is no room.
+    NotYet,
+    /// The connection is lost, for this reason.
+    Lost(String),
+}
+
+impl Handle {
+    /// Tries to open the connection; true when it stands.
+    pub(super) fn attempt(&self, cx: &Cx, function: &'static str, opening: Opening) -> Result<bool, Fault> {
+        let mut held = self.held.borrow_mut();
+        match held.as_ref().filter(|held| !held.link.is_closing()) {
+            Some(now) if now.known_open.get() => match now.link.state() {
+                // An `&&` of several asks again for those that stand.
+                LinkState::Open if now.opening == opening => return Ok(true),
+                LinkState::Lost(_) if opening.is_free_of_closing() => {}
+                LinkState::Lost(_) => return Err(fault(function, "the connection is lost: close it first")),
+                _ => return Err(fault(function, &format!("it is open already, {}: close it first", now.opening))),
+            },
+            Some(now) if now.opening == opening => match now.link.state() {
+                LinkState::Opening => return Ok(false),
+                LinkState::Open => {
+                    now.known_open.set(true);
+                    self.told.borrow_mut().clear();
+                    return Ok(true);
+                }
+                LinkState::Failed(reason) | LinkState::Lost(reason) => {
+                    self.tell(cx, format!("{function} {opening}: {reason}; it will be tried again"));
+                    if now.since.elapsed() < PAUSE {
+                        return Ok(false);
+                    }
+                }
+            },
+            _ => {}
+        }
+        *held = None;
+        let connections = cx.connections();
+        if connections.are_too_many() || (opening.holds() && !connections.are_settled()) {
+            return Ok(false);
+        }
+        match Link::open(opening.clone()) {
+            Ok(link) => {
+                cx.world().meet_outside();
+                connections.add(&link);
+                let (known_open, known_lost) = (Cell::new(false), Cell::new(false));
+                *held = Some(Held { opening, link, since: Instant::now(), known_open, known_lost });
+            }
+            Err(error) => self.tell(cx, format!("{function} {opening}: {error}")),
+        }
+        Ok(false)
+    }
+
+    /// Closes the connection, if there is one.
+    pub(super) fn close(&self) {
+        self.held.take();
+        self.told.borrow_mut().clear();
+    }
+
+    /// Takes from what has come.
+    pub(super) fn take<T>(
+        &self,
+        function: &'static str,
+        take: impl FnOnce(&mut Inbox) -> Option<T>,
+    ) -> Result<Found<T>, Fault> {
+        self.with(function, |held| {
+            // In this order: what came before the connection was lost is there when that is known.
+            let state = held.link.state();
+            let (taken, full) = held.link.read(|inbox| (take(inbox), inbox.room() == 0));
+            match (taken, state) {
+                (Some(taken), _) => Ok(Found::This(taken)),
+                (None, LinkState::Lost(reason)) => {
+                    held.known_lost.set(true);
+                    Ok(Found::Lost(reason))
+                }
+                (None, _) if full => {
+                    let text = format!("{CAPACITY} bytes have come, and what is looked for is not among them");
+                    Err(fault(function, &text))
+                }
+                (None, _) => Ok(Found::NotYet),
+            }
+        })
+    }
+
+    /// Sends bytes.
+    pub(super) fn send(&self, function: &'static str, bytes: &[u8]) -> Result<Found<()>, Fault> {
+        if bytes.len() > CAPACITY {
+            let text = format!("{} bytes are too many: at most {CAPACITY} at once", bytes.len());
+            return Err(Fault::Domain { function, problem: text.into() });
+        }
+        self.with(function, |held| {
+            if let LinkState::Lost(reason) = held.link.state() {
+                held.known_lost.set(true);
+                return Ok(Found::Lost(reason));
+            }
+            Ok(if held.link.send(bytes) { Found::This(()) } else { Found::NotYet })
+        })
+    }
+
+    /// Throws away what has come; whether the connection stands.
+    pub(super) fn clear(&self) -> bool {
+        let held = self.held.borrow();
+        let held = held.as_ref().filter(|held| held.known_open.get() && !held.link.is_closing());
+        held.is_some_and(|held| {
+            held.link.read(Inbox::clear);
+            held.link.state() == LinkState::Open
+        })
+    }
+
+    /// Whether the connection is lost and nothing is left to be read, or the program knows of it.
+    pub(super) fn is_lost(&self) -> bool {
+        let held = self.held.borrow();
+        let held = held.as_ref().filter(|held| held.known_open.get() && !held.link.is_closing());
+        held.is_some_and(|held| {
+            matches!(held.link.state(), LinkState::Lost(_))
+                && (held.known_lost.get() || held.link.read(|inbox| inbox.waiting().is_empty()))
+        })
+    }
+
+    /// Works with the open connection.
+    fn with<T>(&self, function: &'static str, work: impl FnOnce(&Held) -> Result<T, Fault>) -> Result<T, Fault> {
+        let held = self.held.borrow();
+        match held.as_ref().filter(|held| held.known_open.get() && !held.link.is_closing()) {
+            Some(held) => work(held),
+            None => Err(fault(function, "it is not open")),
+        }
+    }
+
+    /// Tells the user once.
+    fn tell(&self, cx: &Cx, text: String) {
+        let mut told = self.told.borrow_mut();
+        if *told != text {
+            cx.world().warn(text.clone());
+            *told = text;
+        }
+    }
+}
+
+/// An alarm of a connection.
+pub(super) fn fault(function: &'static str, problem: &str) -> Fault {
+    Fault::Connection(format!("{function}: {problem}").into())
+}
+
+/// A number of bytes, from 0 to what an array or the buffer holds.
+pub(super) fn length(function: &'static str, len: i32, most: usize, of: &str) -> Result<usize, Fault> {
+    let length = usize::try_from(len).ok().filter(|length| *length <= most);
+    length.ok_or_else(|| Fault::Domain { function, problem: format!("len {len}: 0 to {most}, {of}").into() })
+}

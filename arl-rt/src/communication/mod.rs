@@ -1,0 +1,19 @@
+//! Connections to the world: sockets and serial lines.
+//!
+//! A `Link` is a stream of bytes that a thread beside the cycle serves. The cycle takes from a bounded buffer and puts
+//! into another one, so that nothing in it waits for the other side, whatever that does. Handles of programs own links;
+//! `Connections` knows all that a program has opened and closes them when it ends.
+
+mod connections;
+mod handle;
+mod inbox;
+mod link;
+mod opening;
+mod settings;
+mod shared;
+mod worker;
+
+pub mod socket;
+
+pub(crate) use connections::Connections;
+pub use settings::{Listen, NetworkSettings};

@@ -1,0 +1,131 @@
+//! Ways to open a connection.
+
+use std::fmt;
+use std::io;
+use std::net::{IpAddr, SocketAddr, ToSocketAddrs};
+use std::time::{Duration, Instant};
+
+use mio::net::{TcpListener, TcpStream};
+use mio::{Events, Interest, Poll};
+
+use super::shared::Shared;
+use super::worker::{STREAM, is_closing, wait};
+
+/// How long one attempt to reach an address may take. A host that was switched off while it was tried is found sooner
+/// by a new attempt than by the repetitions of the old one.
+const ATTEMPT: Duration = Duration::from_secs(3);
+
+/// What a connection is and where it leads.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) enum Opening {
+    /// To a server.
+    Connect {
+        /// Its address or name.
+        host: String,
+        /// Its port.
+        port: u16,
+    },
+    /// From the first client that comes to this port of ours.
+    Accept {
+        /// The address or name to listen on.
+        host: String,
+        /// The port.
+        port: u16,
+    },
+}
+
+impl Opening {
+    /// Whether a port or a device of ours is held while the connection is being opened.
+    pub(super) fn holds(&self) -> bool {
+        !matches!(self, Opening::Connect { .. })
+    }
+
+    /// Whether a lost connection may be opened again without having been closed: that of a client (manual 5.6.1.5).
+    pub(super) fn is_free_of_closing(&self) -> bool {
+        matches!(self, Opening::Connect { .. })
+    }
+}
+
+impl fmt::Display for Opening {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Opening::Connect { host, port } => write!(f, "to {host}:{port}"),
+            Opening::Accept { host, port } => write!(f, "on {host}:{port}"),
+        }
+    }
+}
+
+/// Connects to the first address of a host that answers; nothing where the program wants it closed meanwhile.
+pub(super) fn connect(shared: &Shared, poll: &mut Poll, host: &str, port: u16) -> io::Result<Option<TcpStream>> {
+    let mut last = io::Error::new(io::ErrorKind::NotFound, "the name has no address");
+    for address in resolve(host, port)? {
+        match reach(shared, poll, address) {
+            Ok(stream) => return Ok(stream),
+            Err(error) => last = error,
+        }
+    }
+    Err(last)
+}
+
+fn reach(shared: &Shared, poll: &mut Poll, address: SocketAddr) -> io::Result<Option<TcpStream>> {
+    let mut stream = TcpStream::connect(address)?;
+    poll.registry().register(&mut stream, STREAM, Interest::READABLE | Interest::WRITABLE)?;
+    let deadline = Instant::now() + ATTEMPT;
+    let mut events = Events::with_capacity(4);
+    loop {
+        if is_closing(shared) {
+            return Ok(None);
+        }
+        if let Some(error) = stream.take_error()? {
+            return Err(error);
+        }
+        if stream.peer_addr().is_ok() {
+            return ready(stream).map(Some);
+        }
+        if Instant::now() >= deadline {
+            return Err(io::Error::new(io::ErrorKind::TimedOut, "no answer"));
+        }
+        wait(poll, &mut events, Some(deadline))?;
+    }
+}
+
+/// Waits for the first client; nothing where the program wants it closed meanwhile.
+pub(super) fn accept(shared: &Shared, poll: &mut Poll, host: &str, port: u16) -> io::Result<Option<TcpStream>> {
+    let address = resolve(host, port)?.into_iter().next();
+    let address = address.ok_or_else(|| io::Error::new(io::ErrorKind::NotFound, "the name has no address"))?;
+    let mut listener = TcpListener::bind(address)?;
+    poll.registry().register(&mut listener, STREAM, Interest::READABLE)?;
+    let mut events = Events::with_capacity(4);
+    loop {
+        if is_closing(shared) {
+            return Ok(None);
+        }
+        match listener.accept() {
+            Ok((mut stream, _)) => {
+                poll.registry().deregister(&mut listener)?;
+                poll.registry().register(&mut stream, STREAM, Interest::READABLE | Interest::WRITABLE)?;
+                return ready(stream).map(Some);
+            }
+            Err(error) if error.kind() == io::ErrorKind::WouldBlock => wait(poll, &mut events, None)?,
+            // The client went away again before it was greeted.
+            Err(error) if matches!(error.kind(), io::ErrorKind::ConnectionAborted | io::ErrorKind::Interrupted) => {}
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+/// Messages go at once: they are short, and somebody waits for the answer.
+fn ready(stream: TcpStream) -> io::Result<TcpStream> {
+    stream.set_nodelay(true)?;
+    Ok(stream)
+}
+
+/// The addresses of a host, IPv4 first. Names may take a while.
+fn resolve(host: &str, port: u16) -> io::Result<Vec<SocketAddr>> {
+    if let Ok(address) = host.parse::<IpAddr>() {
+        return Ok(vec![SocketAddr::new(address, port)]);
+    }
+    let mut addresses: Vec<SocketAddr> = (host, port).to_socket_addrs()?.collect();
+    addresses.sort_by_key(SocketAddr::is_ipv6);
+    Ok(addresses)
+}

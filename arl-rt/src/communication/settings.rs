@@ -1,0 +1,34 @@
+//! What the cell says of connections.
+
+/// The address on which programs listen where the cell says nothing: this computer only.
+const LOOPBACK: &str = "127.0.0.1";
+
+/// What the cell says of the network: `[network]`.
+#[derive(Clone, Default, PartialEq, Eq, Debug)]
+pub struct NetworkSettings {
+    /// Where `accept` listens.
+    pub listen: Listen,
+}
+
+/// Where `accept` listens.
+#[derive(Clone, Default, PartialEq, Eq, Debug)]
+pub enum Listen {
+    /// On the loopback address, whatever the program says: only programs of this computer can connect.
+    #[default]
+    Loopback,
+    /// On the address that the program gives.
+    Program,
+    /// On this address, whatever the program says.
+    Address(String),
+}
+
+impl NetworkSettings {
+    /// The address to listen on where the program says this one.
+    pub(crate) fn listen(&self, program: &str) -> String {
+        match &self.listen {
+            Listen::Loopback => LOOPBACK.into(),
+            Listen::Program => program.into(),
+            Listen::Address(address) => address.clone(),
+        }
+    }
+}

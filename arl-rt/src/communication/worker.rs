@@ -1,0 +1,178 @@
+//! The thread of a connection.
+
+use std::io::{self, ErrorKind, Read, Write};
+use std::net::Shutdown;
+use std::time::{Duration, Instant};
+
+use mio::net::TcpStream;
+use mio::{Events, Poll, Token};
+
+use super::link::LinkState;
+use super::opening::{self, Opening};
+use super::shared::Shared;
+
+/// What wakes the thread: the cycle, or the stream.
+pub(super) const WAKE: Token = Token(0);
+pub(super) const STREAM: Token = Token(1);
+
+/// The stack of the thread. Looking up names needs most of it.
+pub(super) const STACK: usize = 512 << 10;
+
+/// How many bytes are received at once.
+const PIECE: usize = 16 << 10;
+
+/// How long a connection that is to be closed waits for the other side to take what was sent.
+const LINGER: Duration = Duration::from_secs(1);
+
+/// A stream that says when it is ready instead of waiting.
+pub(super) trait Stream: Read + Write {
+    /// Says that nothing more will be sent.
+    fn finish(&mut self);
+}
+
+impl Stream for TcpStream {
+    fn finish(&mut self) {
+        // What is not connected any more needs no end.
+        let _ = self.shutdown(Shutdown::Write);
+    }
+}
+
+/// Opens a connection and serves it until it ends.
+pub(super) fn serve(shared: &Shared, mut poll: Poll, opening: &Opening) {
+    let state = match opening {
+        Opening::Connect { host, port } => run(shared, &mut poll, |poll| opening::connect(shared, poll, host, *port)),
+        Opening::Accept { host, port } => run(shared, &mut poll, |poll| opening::accept(shared, poll, host, *port)),
+    };
+    let mut common = shared.lock();
+    common.state = state;
+    common.over = true;
+}
+
+/// Opens a stream and carries bytes both ways; the state that it leaves. The stream is closed then.
+fn run<S: Stream>(
+    shared: &Shared,
+    poll: &mut Poll,
+    open: impl FnOnce(&mut Poll) -> io::Result<Option<S>>,
+) -> LinkState {
+    const CLOSED: &str = "closed by the program";
+    let mut stream = match open(poll) {
+        Ok(Some(stream)) => stream,
+        Ok(None) => return LinkState::Failed(CLOSED.into()),
+        Err(error) => return LinkState::Failed(error.to_string()),
+    };
+    shared.lock().state = LinkState::Open;
+    LinkState::Lost(match exchange(shared, poll, &mut stream) {
+        Ok(()) => CLOSED.into(),
+        Err(error) => error.to_string(),
+    })
+}
+
+/// How far one direction has come.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Flow {
+    /// Bytes went; there may be more.
+    Moving,
+    /// There is nothing to send, or no room for what comes.
+    Nothing,
+    /// The stream is not ready.
+    Blocked,
+}
+
+/// Carries bytes both ways until the cycle wants the stream closed.
+fn exchange<S: Stream>(shared: &Shared, poll: &mut Poll, stream: &mut S) -> io::Result<()> {
+    let mut events = Events::with_capacity(4);
+    let mut piece = vec![0; PIECE];
+    let mut flight = Flight::default();
+    let mut deadline = None;
+    loop {
+        let closing = is_closing(shared);
+        // What comes is taken before anything is sent: a stream that is broken for sending may still hold it.
+        let received = if closing { Flow::Nothing } else { receive(shared, stream, &mut piece)? };
+        let sent = send(shared, stream, &mut flight)?;
+        if closing {
+            let until = *deadline.get_or_insert_with(|| Instant::now() + LINGER);
+            if sent == Flow::Nothing || Instant::now() >= until {
+                discard(stream, &mut piece);
+                stream.finish();
+                return Ok(());
+            }
+        }
+        // Readiness is told once, when it comes: so both directions go on until the stream is not ready.
+        if received != Flow::Moving && sent != Flow::Moving {
+            wait(poll, &mut events, deadline)?;
+        }
+    }
+}
+
+/// Takes what has come, as far as there is room.
+fn receive(shared: &Shared, stream: &mut impl Read, piece: &mut [u8]) -> io::Result<Flow> {
+    let room = shared.lock().inbox.room().min(piece.len());
+    let Some(part) = piece.get_mut(..room).filter(|part| !part.is_empty()) else { return Ok(Flow::Nothing) };
+    Ok(match attempt(|| stream.read(part))? {
+        None => Flow::Blocked,
+        Some(0) => return Err(io::Error::new(ErrorKind::UnexpectedEof, "the other side has closed it")),
+        Some(count) => {
+            shared.lock().inbox.push(part.get(..count).unwrap_or_default());
+            Flow::Moving
+        }
+    })
+}
+
+/// What is on its way to the other side.
+#[derive(Default)]
+struct Flight {
+    bytes: Vec<u8>,
+    gone: usize,
+}
+
+/// Sends the next bytes that wait.
+fn send(shared: &Shared, stream: &mut impl Write, flight: &mut Flight) -> io::Result<Flow> {
+    if flight.gone >= flight.bytes.len() {
+        *flight = Flight { bytes: std::mem::take(&mut shared.lock().outbox), gone: 0 };
+    }
+    let Some(rest) = flight.bytes.get(flight.gone..).filter(|rest| !rest.is_empty()) else { return Ok(Flow::Nothing) };
+    Ok(match attempt(|| stream.write(rest))? {
+        None => Flow::Blocked,
+        Some(count) => {
+            flight.gone += count;
+            Flow::Moving
+        }
+    })
+}
+
+/// Throws away what has come and nobody will read: a socket with such bytes would close with a reset, which may take from
+/// the other side what was sent last.
+fn discard(stream: &mut impl Read, piece: &mut [u8]) {
+    let until = Instant::now() + LINGER;
+    while let Ok(Some(1..)) = attempt(|| stream.read(piece)) {
+        if Instant::now() >= until {
+            return;
+        }
+    }
+}
+
+/// The result of a call that does not wait; nothing where the stream is not ready.
+fn attempt(mut call: impl FnMut() -> io::Result<usize>) -> io::Result<Option<usize>> {
+    loop {
+        match call() {
+            Ok(count) => return Ok(Some(count)),
+            Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => return Ok(None),
+            Err(error) if error.kind() == ErrorKind::Interrupted => {}
+            Err(error) => return Err(error),
+        }
+    }
+}
+
+/// Whether the cycle wants the connection closed.
+pub(super) fn is_closing(shared: &Shared) -> bool {
+    shared.lock().closing
+}
+
+/// Waits until the stream is ready, the cycle wakes the thread, or the deadline has come.
+pub(super) fn wait(poll: &mut Poll, events: &mut Events, deadline: Option<Instant>) -> io::Result<()> {
+    let timeout = deadline.map(|deadline| deadline.saturating_duration_since(Instant::now()));
+    match poll.poll(events, timeout) {
+        Err(error) if error.kind() != ErrorKind::Interrupted => Err(error),
+        _ => Ok(()),
+    }
+}
