@@ -22,6 +22,11 @@
 //! cid = 1                      # 0 to 16
 //! percent = 20                 # how much an axis may differ, of what it needs at most; or for each axis, in Nm (N):
 //! # torque = [60, 60, 40, 15, 15, 10]
+//!
+//! [modbus_tcp]                 # the controller's Modbus TCP server
+//! address = "127.0.0.1"        # "0.0.0.0": reachable from everywhere
+//! port = 502
+//! connections = 8              # at once, 1 to 64
 //! ```
 
 use std::path::Path;
@@ -29,11 +34,12 @@ use std::path::Path;
 use toml::de::DeValue;
 
 use crate::communication::{Listen, NetworkSettings};
+use crate::fieldbus::BusSettings;
 use crate::io::{AnalogType, Channels};
 use crate::rate::Rate;
 use crate::settings::{Section, SettingsError, Source, Value, number, table};
 
-const TOP: &[&str] = &["controller", "io", "network", "home", "collision"];
+const TOP: &[&str] = &["controller", "io", "network", "home", "collision", "modbus_tcp"];
 const CONTROLLER: &[&str] = &["cycle"];
 const IO: &[&str] = &["di", "do", "ai", "ao", "internal"];
 const NETWORK: &[&str] = &["listen"];
@@ -59,6 +65,8 @@ pub struct Cell {
     pub home_tolerance: f64,
     /// The conditions of `startdetect` by their numbers; of those that are not there, 20 %.
     pub collisions: Vec<(u8, Sensitivity)>,
+    /// The field buses.
+    pub buses: BusSettings,
 }
 
 /// By how much the torques of the axes may differ from what the model asks for before that counts as a collision.
@@ -79,6 +87,7 @@ impl Default for Cell {
             homes: [None, None, None, None],
             home_tolerance: 0.1,
             collisions: Vec::new(),
+            buses: BusSettings::default(),
         }
     }
 }
@@ -116,6 +125,7 @@ impl Cell {
         if let Some(network) = top.table("network", "[network]", NETWORK)? {
             cell.network.listen = listen(&network)?;
         }
+        cell.buses = BusSettings::read(&top)?;
         if let Some(home) = top.table("home", "[home]", HOME)? {
             if let Some(tolerance) = home.number("tolerance", "a distance in deg", 0.0, 90.0)? {
                 cell.home_tolerance = tolerance;
@@ -236,7 +246,7 @@ mod tests {
     fn mistakes_name_line_and_what_was_expected() {
         for (text, line, words) in [
             ("[io]\ndi = 64\ndoo = 3", 3, "did you mean `do`?"),
-            ("\n[inout]\n", 2, "known are: controller, io, network, home, collision"),
+            ("\n[inout]\n", 2, "known are: controller, io, network, home, collision, modbus_tcp"),
             ("[io]\ndi = -1", 2, "expected a number of channels from 0 to 10000, found the number -1"),
             ("[io]\ndi = \"many\"", 2, "found the text \"many\""),
             ("[io]\nai = [\"V\",\n \"A\"]", 3, "expected \"V\" or \"mA\""),

@@ -12,6 +12,11 @@ pub trait Clock {
         None
     }
 
+    /// Whether cycles take the time that they stand for.
+    fn is_real(&self) -> bool {
+        true
+    }
+
     /// How many cycles began late, because the one before them took too long.
     fn overruns(&self) -> u64 {
         0
@@ -52,6 +57,10 @@ impl Clock for VirtualClock {
         let first = self.real.is_none();
         self.real.get_or_insert_with(RealClock::new);
         (first && self.asked_for).then_some(WARNING)
+    }
+
+    fn is_real(&self) -> bool {
+        self.real.is_some()
     }
 
     fn overruns(&self) -> u64 {

@@ -7,6 +7,7 @@ pub use crate::clock::Clock;
 pub use crate::communication::socket::{self, Socket};
 pub use crate::cx::Cx;
 pub use crate::fault::{At, Done, Fault, File, Stop};
+pub use crate::fieldbus::{devicenet, modbus_tcp};
 pub use crate::ops::*;
 pub use crate::program::{BoxFuture, DataFile, DataVar, Program};
 pub use crate::robot::Family;

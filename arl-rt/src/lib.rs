@@ -18,6 +18,7 @@ pub mod dynamics;
 pub mod emit;
 pub mod event;
 pub mod fault;
+pub mod fieldbus;
 pub mod files;
 pub mod flow;
 pub mod frames;

@@ -6,6 +6,7 @@ use std::fmt;
 use crate::cell::Sensitivity;
 use crate::communication::NetworkSettings;
 use crate::fault::{Alarm, Fault, File};
+use crate::fieldbus::Buses;
 use crate::files::ScriptDir;
 use crate::io::Image;
 use crate::motion::Progress;
@@ -51,6 +52,9 @@ pub(crate) struct World {
     home_tolerance: f64,
     /// The conditions of `startdetect` that the cell gives.
     collisions: Vec<(u8, Sensitivity)>,
+    pub(crate) buses: Buses,
+    /// Whether cycles take the time that they stand for.
+    real_time: Cell<bool>,
 }
 
 /// What a world is made of.
@@ -69,6 +73,8 @@ pub(crate) struct Parts {
     pub(crate) homes: [Option<Vec<f64>>; 4],
     pub(crate) home_tolerance: f64,
     pub(crate) collisions: Vec<(u8, Sensitivity)>,
+    pub(crate) buses: Buses,
+    pub(crate) real_time: bool,
 }
 
 impl World {
@@ -79,6 +85,8 @@ impl World {
             homes,
             home_tolerance: parts.home_tolerance,
             collisions: parts.collisions,
+            buses: parts.buses,
+            real_time: Cell::new(parts.real_time),
             state: RefCell::new(parts.state),
             network: parts.network,
             outside: Cell::new(false),
@@ -232,12 +240,18 @@ impl World {
     /// Says that the program talks to the world: from now on the world's time counts.
     pub(crate) fn meet_outside(&self) {
         self.outside.set(true);
+        self.real_time.set(true);
     }
 
     /// Whether somebody has said so since the last call.
     #[inline]
     pub(crate) fn met_outside(&self) -> bool {
         self.outside.replace(false)
+    }
+
+    /// Whether cycles take the time that they stand for, or will from the next one on.
+    pub(crate) fn is_real_time(&self) -> bool {
+        self.real_time.get()
     }
 
     /// Notes what is no alarm but worth a word.

@@ -9,7 +9,7 @@ entries! { pub(super) MODBUS_TCP =
         start: int "address of the first register, from 0",
         len: int "how many registers",
     ) -> bool
-        { "5.6.4.1", modbus_tcp::readregisters_string, waits, fails, notyet;
+        { "5.6.4.1", modbus_tcp::readregisters_string, waits, fails;
           "string s\nwaituntil readregisters(s,200,2)\nprint s" }
     /// Reads registers as bytes, two a register, high byte first; whether it worked.
     fn readregisters(
@@ -17,7 +17,7 @@ entries! { pub(super) MODBUS_TCP =
         start: int "address of the first register, from 0",
         len: int "how many registers",
     ) -> bool
-        { "5.6.4.1", modbus_tcp::readregisters_bytes, waits, fails, notyet;
+        { "5.6.4.1", modbus_tcp::readregisters_bytes, waits, fails;
           "byte data[4]\nwaituntil readregisters(data,100,2)\nprint data" }
     /// Writes a text into registers, two bytes a register, high byte first; whether it worked.
     fn writeregisters(
@@ -25,14 +25,14 @@ entries! { pub(super) MODBUS_TCP =
         start: int "address of the first register, from 0",
         len: int [optional] "how many registers; as many as the text needs without it",
     ) -> bool
-        { "5.6.4.2", modbus_tcp::writeregisters_string, waits, fails, notyet; "waituntil writeregisters(\"abcd\",200,2)" }
+        { "5.6.4.2", modbus_tcp::writeregisters_string, waits, fails; "waituntil writeregisters(\"abcd\",200,2)" }
     /// Writes bytes into registers, two a register, high byte first; whether it worked.
     fn writeregisters(
         data: [byte] "the bytes",
         start: int "address of the first register, from 0",
         len: int "how many registers",
     ) -> bool
-        { "5.6.4.2", modbus_tcp::writeregisters_bytes, waits, fails, notyet;
+        { "5.6.4.2", modbus_tcp::writeregisters_bytes, waits, fails;
           "byte data[4] = {1,2,3,4}\nwaituntil writeregisters(data,100,2)" }
     /// Reads coils, eight a byte, lowest bit first; whether it worked.
     fn readcoils(
@@ -40,7 +40,7 @@ entries! { pub(super) MODBUS_TCP =
         start: int "address of the first coil, from 0",
         length: int "how many coils",
     ) -> bool
-        { "5.6.4.3", modbus_tcp::readcoils, waits, fails, notyet;
+        { "5.6.4.3", modbus_tcp::readcoils, waits, fails;
           "byte data[2]\nwaituntil readcoils(data,100,16)\nprint data" }
     /// Writes coils, eight a byte, lowest bit first; whether it worked.
     fn writecoils(
@@ -48,6 +48,6 @@ entries! { pub(super) MODBUS_TCP =
         start: int "address of the first coil, from 0",
         length: int "how many coils",
     ) -> bool
-        { "5.6.4.4", modbus_tcp::writecoils, waits, fails, notyet;
+        { "5.6.4.4", modbus_tcp::writecoils, waits, fails;
           "byte data[2] = {1,2}\nwaituntil writecoils(data,100,16)" }
 }

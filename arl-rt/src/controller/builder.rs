@@ -10,6 +10,8 @@ use super::channel::{Channel, STACK};
 use crate::cell::{Cell, Sensitivity};
 use crate::clock_source::{Clock, VirtualClock};
 use crate::cx::Cx;
+use crate::fieldbus::Buses;
+use crate::fieldbus::devicenet::{DeviceNet, SimulatedDeviceNet};
 use crate::files::ScriptDir;
 use crate::io::{Image, IoDriver, Playing, Scenario, SimulatedIo};
 use crate::kinematics::frame;
@@ -34,6 +36,7 @@ pub struct Builder {
     clock: Box<dyn Clock>,
     driver: Box<dyn RobotDriver>,
     io: Box<dyn IoDriver>,
+    devicenet: Box<dyn DeviceNet>,
     scenario: Scenario,
     output: Option<Box<dyn Output>>,
     storage: Box<dyn Storage>,
@@ -55,6 +58,7 @@ impl Default for Builder {
             clock: Box::new(VirtualClock::new()),
             driver: Box::new(SimulatedRobot::new()),
             io: Box::new(SimulatedIo),
+            devicenet: Box::new(SimulatedDeviceNet::default()),
             scenario: Scenario::default(),
             output: None,
             storage: Box::new(Memory::default()),
@@ -98,6 +102,12 @@ impl Builder {
     /// What exchanges inputs and outputs.
     pub fn io_driver(mut self, driver: impl IoDriver + 'static) -> Self {
         self.io = Box::new(driver);
+        self
+    }
+
+    /// The DeviceNet bus.
+    pub fn devicenet(mut self, bus: impl DeviceNet + 'static) -> Self {
+        self.devicenet = Box::new(bus);
         self
     }
 
@@ -194,6 +204,9 @@ impl Builder {
         unit.set_base(frame(base.components()));
         let image = Image::new(&self.cell.channels);
         let scenario = Playing::new(self.scenario, &image, rate);
+        let buses = Buses::new(self.cell.buses, self.devicenet);
+        buses.start().map_err(SetupError::Outside)?;
+        let (outside, real_time) = (buses.is_outside(), self.clock.is_real());
         let world = Rc::new(World::new(Parts {
             rate,
             system,
@@ -208,7 +221,12 @@ impl Builder {
             homes: self.cell.homes,
             home_tolerance: self.cell.home_tolerance,
             collisions: self.cell.collisions,
+            buses,
+            real_time,
         }));
+        if outside {
+            world.meet_outside();
+        }
         world.reset_system();
         world.set_override(self.speed_override);
         let program: Rc<dyn Program> = Rc::from(program);
@@ -284,6 +302,8 @@ pub enum SetupError {
     },
     /// The cell or the scenario does not fit.
     Cell(String),
+    /// What the cell has of the outside cannot be had.
+    Outside(String),
     /// What was kept is damaged.
     State(StateError),
     /// The trace cannot be written.
@@ -300,7 +320,7 @@ impl fmt::Display for SetupError {
                 word(*program),
                 word(*family)
             ),
-            SetupError::Cell(text) => write!(f, "{text}"),
+            SetupError::Cell(text) | SetupError::Outside(text) => write!(f, "{text}"),
             SetupError::State(error) => write!(f, "{error}"),
             SetupError::Trace(text) => write!(f, "the trace cannot be written: {text}"),
         }

@@ -7,6 +7,7 @@ mod order;
 mod outcome;
 mod status;
 
+use std::net::SocketAddr;
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -250,6 +251,11 @@ impl Controller {
     /// [`Builder::record_motions`].
     pub fn motions(&self) -> Vec<MotionRecord> {
         self.world.unit.borrow().records().to_vec()
+    }
+
+    /// Where the Modbus TCP server listens, if there is one.
+    pub fn modbus_tcp_address(&self) -> Option<SocketAddr> {
+        self.world.buses.modbus_tcp_address()
     }
 
     /// The robot.

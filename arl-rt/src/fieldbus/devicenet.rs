@@ -1,0 +1,120 @@
+//! DeviceNet: a buffer of bytes that is exchanged with the bus.
+
+use std::fmt;
+
+use crate::cx::Cx;
+use crate::fault::Fault;
+
+/// Offset or length lie outside the buffer.
+const OUTSIDE: i32 = 1;
+
+/// The program's array has fewer bytes than the length says.
+const SHORT: i32 = 2;
+
+/// How many bytes the simulated bus has.
+const SIMULATED: usize = 512;
+
+/// What stands between programs and a DeviceNet bus: the bytes that it exchanges with its devices. The calls must return
+/// at once; the exchange happens beside them.
+pub trait DeviceNet {
+    /// How many bytes are exchanged: programs reach the offsets below.
+    fn size(&self) -> usize;
+
+    /// Takes bytes that go to the bus, from `offset` on. They lie within the size.
+    ///
+    /// # Errors
+    /// The bus does not take them: a code that the program gets as it is, 100 or more so that it differs from ours.
+    fn write(&mut self, offset: usize, data: &[u8]) -> Result<(), ErrorCode>;
+
+    /// Gives bytes that came from the bus, from `offset` on. They lie within the size.
+    ///
+    /// # Errors
+    /// The bus has none: a code, as for [`DeviceNet::write`].
+    fn read(&mut self, offset: usize, data: &mut [u8]) -> Result<(), ErrorCode>;
+}
+
+/// What a program gets instead of 0.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct ErrorCode(i32);
+
+impl ErrorCode {
+    /// A code of a driver; those below 100 become 100.
+    pub const fn new(code: i32) -> Self {
+        Self(if code < 100 { 100 } else { code })
+    }
+
+    /// The number.
+    pub const fn number(self) -> i32 {
+        self.0
+    }
+}
+
+/// A bus without devices: what is written can be read again. 512 bytes, all 0 at first.
+#[derive(Clone)]
+pub struct SimulatedDeviceNet([u8; SIMULATED]);
+
+impl Default for SimulatedDeviceNet {
+    fn default() -> Self {
+        Self([0; SIMULATED])
+    }
+}
+
+impl fmt::Debug for SimulatedDeviceNet {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SimulatedDeviceNet").finish_non_exhaustive()
+    }
+}
+
+impl DeviceNet for SimulatedDeviceNet {
+    fn size(&self) -> usize {
+        SIMULATED
+    }
+
+    fn write(&mut self, offset: usize, data: &[u8]) -> Result<(), ErrorCode> {
+        if let Some(place) = self.0.get_mut(offset..offset + data.len()) {
+            place.copy_from_slice(data);
+        }
+        Ok(())
+    }
+
+    fn read(&mut self, offset: usize, data: &mut [u8]) -> Result<(), ErrorCode> {
+        if let Some(place) = self.0.get(offset..offset + data.len()) {
+            data.copy_from_slice(place);
+        }
+        Ok(())
+    }
+}
+
+/// Writes bytes into the bus's buffer. 0: done; 1: offset or length outside the buffer; 2: the array is shorter than the
+/// length; others: the bus's own.
+///
+/// # Errors
+/// None: what goes wrong is told by the result.
+pub async fn dnwrite(cx: &Cx, offset: i32, len: i32, data: &[u8]) -> Result<i32, Fault> {
+    cx.motion_end().await;
+    let mut bus = cx.world().buses.devicenet.borrow_mut();
+    let Some((offset, len)) = place(offset, len, bus.size()) else { return Ok(OUTSIDE) };
+    let Some(data) = data.get(..len) else { return Ok(SHORT) };
+    Ok(code(bus.write(offset, data)))
+}
+
+/// Reads bytes from the bus's buffer; the rest of the array stays. The result is that of [`dnwrite`].
+///
+/// # Errors
+/// None: what goes wrong is told by the result.
+pub async fn dnread(cx: &Cx, offset: i32, len: i32, data: &mut [u8]) -> Result<i32, Fault> {
+    cx.motion_end().await;
+    let mut bus = cx.world().buses.devicenet.borrow_mut();
+    let Some((offset, len)) = place(offset, len, bus.size()) else { return Ok(OUTSIDE) };
+    let Some(data) = data.get_mut(..len) else { return Ok(SHORT) };
+    Ok(code(bus.read(offset, data)))
+}
+
+fn place(offset: i32, len: i32, size: usize) -> Option<(usize, usize)> {
+    let (offset, len) = (usize::try_from(offset).ok()?, usize::try_from(len).ok()?);
+    (offset.checked_add(len)? <= size).then_some((offset, len))
+}
+
+fn code(done: Result<(), ErrorCode>) -> i32 {
+    done.map_or_else(ErrorCode::number, |()| 0)
+}

@@ -1,0 +1,99 @@
+//! The frame of Modbus TCP around a request or an answer.
+
+use super::pdu::LONGEST;
+
+/// The bytes in front: transaction, protocol, length, unit.
+pub(crate) const HEAD: usize = 7;
+
+/// The most bytes of a frame.
+pub(crate) const LONGEST_FRAME: usize = HEAD + LONGEST;
+
+/// What a frame carries, and in what it is sent.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Frame<'a> {
+    /// By which the answer is told from others.
+    pub(crate) transaction: u16,
+    /// The unit behind the address.
+    pub(crate) unit: u8,
+    /// The request or answer, one byte at least.
+    pub(crate) pdu: &'a [u8],
+}
+
+/// What stands at the start of what has come.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Start<'a> {
+    /// A frame, and how many bytes it takes.
+    Frame(Frame<'a>, usize),
+    /// The beginning of a frame.
+    Part,
+    /// No Modbus: what follows cannot be told apart any more.
+    Garbage,
+}
+
+/// The frame at the start of what has come.
+pub(crate) fn first(bytes: &[u8]) -> Start<'_> {
+    // As soon as it can be told: protocol and length may be wrong before the whole frame is there.
+    let protocol = bytes.get(2..4.min(bytes.len())).unwrap_or_default();
+    if protocol.iter().any(|byte| *byte != 0) {
+        return Start::Garbage;
+    }
+    let Some([t1, t2, _, _, l1, l2]) = bytes.first_chunk() else { return Start::Part };
+    let length = usize::from(u16::from_be_bytes([*l1, *l2]));
+    if !(2..=LONGEST + 1).contains(&length) {
+        return Start::Garbage;
+    }
+    match bytes.get(HEAD - 1..HEAD - 1 + length) {
+        Some([unit, pdu @ ..]) => {
+            let frame = Frame { transaction: u16::from_be_bytes([*t1, *t2]), unit: *unit, pdu };
+            Start::Frame(frame, HEAD - 1 + length)
+        }
+        _ => Start::Part,
+    }
+}
+
+/// Appends a frame.
+pub(crate) fn append(out: &mut Vec<u8>, frame: &Frame<'_>) {
+    let length = frame.pdu.len() as u16 + 1;
+    let ([t1, t2], [l1, l2]) = (frame.transaction.to_be_bytes(), length.to_be_bytes());
+    out.extend_from_slice(&[t1, t2, 0, 0, l1, l2, frame.unit]);
+    out.extend_from_slice(frame.pdu);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fieldbus::noise::Noise;
+
+    #[test]
+    fn a_frame_is_found_when_it_is_whole() {
+        let bytes = [0, 5, 0, 0, 0, 6, 9, 3, 0, 100, 0, 2, 0, 6];
+        for end in 0..12 {
+            assert_eq!(first(&bytes[..end]), Start::Part, "{end}");
+        }
+        let frame = Frame { transaction: 5, unit: 9, pdu: &[3, 0, 100, 0, 2] };
+        assert_eq!(first(&bytes), Start::Frame(frame, 12));
+        let mut out = Vec::new();
+        append(&mut out, &frame);
+        assert_eq!(out, bytes[..12]);
+    }
+
+    #[test]
+    fn what_is_no_modbus_is_told_early() {
+        for bytes in [&b"GET / HTTP"[..], b"GET", &[0, 0, 0, 0, 0, 1], &[0, 0, 0, 0, 0, 255], &[0, 0, 0, 1]] {
+            assert_eq!(first(bytes), Start::Garbage, "{bytes:?}");
+        }
+    }
+
+    #[test]
+    fn random_bytes_are_read_without_harm() {
+        let mut noise = Noise::new(2);
+        for _ in 0..20_000 {
+            let bytes = noise.bytes(2 * LONGEST_FRAME);
+            if let Start::Frame(frame, len) = first(&bytes) {
+                assert!(len <= LONGEST_FRAME && len == HEAD + frame.pdu.len() && !frame.pdu.is_empty());
+            } else {
+                assert!(first(&bytes) == Start::Garbage || bytes.len() < LONGEST_FRAME);
+            }
+        }
+    }
+}

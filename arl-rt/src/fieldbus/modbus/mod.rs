@@ -1,0 +1,37 @@
+//! Modbus: registers and coils that others read and write.
+
+pub(crate) mod mbap;
+pub(crate) mod pdu;
+pub(crate) mod server;
+mod tables;
+
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
+
+pub(crate) use tables::{SIZE, Tables};
+
+/// How often the cycle looks again whether the tables are free. Whoever has them copies some hundred bytes.
+const LOOKS: usize = 1000;
+
+/// Tables that a program and its clients share.
+#[derive(Clone, Default)]
+pub(crate) struct SharedTables(Arc<Mutex<Tables>>);
+
+impl SharedTables {
+    /// The tables, as soon as nobody else has them: for threads beside the cycle.
+    pub(crate) fn wait(&self) -> MutexGuard<'_, Tables> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The tables, unless somebody else has them for longer than it takes to copy what one request may ask for: its
+    /// thread was interrupted just then. The cycle does not wait for that.
+    pub(crate) fn at_once(&self) -> Option<MutexGuard<'_, Tables>> {
+        for _ in 0..LOOKS {
+            match self.0.try_lock() {
+                Ok(tables) => return Some(tables),
+                Err(TryLockError::Poisoned(tables)) => return Some(tables.into_inner()),
+                Err(TryLockError::WouldBlock) => std::hint::spin_loop(),
+            }
+        }
+        None
+    }
+}

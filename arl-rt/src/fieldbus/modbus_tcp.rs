@@ -1,0 +1,196 @@
+//! Modbus TCP: the controller is the server; these functions work on its own registers and coils.
+
+use std::cell::{Cell, OnceCell};
+use std::net::SocketAddr;
+
+use super::modbus::server::Server;
+use super::modbus::{SIZE, SharedTables, Tables};
+use super::{ModbusTcpSettings, padded, report};
+use crate::cx::{Cx, Level};
+use crate::fault::Fault;
+use crate::values::Str;
+
+/// The tables, and the server where there is one.
+#[derive(Default)]
+pub(crate) struct ModbusTcp {
+    tables: SharedTables,
+    server: OnceCell<Server>,
+    /// Whether the server was started by default, or tried to be.
+    tried: Cell<bool>,
+}
+
+impl ModbusTcp {
+    /// Starts the server.
+    ///
+    /// # Errors
+    /// It cannot listen: why, and what can be done.
+    pub(super) fn start(&self, settings: &ModbusTcpSettings) -> Result<(), String> {
+        let address = settings.address;
+        let server = Server::start(address, settings.connections, self.tables.clone());
+        let server = server.map_err(|error| {
+            format!(
+                "the Modbus TCP server cannot listen on {address}, so that no PLC reaches the registers: {error}; the \
+                 table [modbus_tcp] of the cell file may name another `address` or `port`{}",
+                if address.port() < 1024 { " (ports below 1024 often need special rights)" } else { "" }
+            )
+        })?;
+        self.server.get_or_init(|| server);
+        Ok(())
+    }
+
+    /// Where the server listens, if there is one.
+    pub(super) fn address(&self) -> Option<SocketAddr> {
+        self.server.get().map(Server::address)
+    }
+
+    /// Where the cell says nothing of it, a program that uses the tables starts the server with all defaults, unless the run
+    /// takes no real time. Once: why it cannot be had.
+    fn start_by_default(&self, real_time: bool) -> Option<String> {
+        let due = real_time && self.server.get().is_none() && !self.tried.replace(true);
+        if due { self.start(&ModbusTcpSettings::default()).err() } else { None }
+    }
+}
+
+/// Reads `len` registers from `start` on as a text of two bytes a register, zeros included.
+///
+/// # Errors
+/// None: false where the registers do not exist.
+pub async fn readregisters_string(cx: &Cx, data: &mut Str, start: i32, len: i32) -> Result<bool, Fault> {
+    let read = with_registers(cx, "readregisters", start, len, |registers| Ok(Str::from(&*registers))).await;
+    Ok(read.map(|text| *data = text).is_some())
+}
+
+/// Reads `len` registers from `start` on as two bytes each; the rest of the array stays.
+///
+/// # Errors
+/// None: false where the registers do not exist, or the array has no room for them.
+pub async fn readregisters_bytes(cx: &Cx, data: &mut [u8], start: i32, len: i32) -> Result<bool, Fault> {
+    let size = data.len();
+    let read = with_registers(cx, "readregisters", start, len, |registers| {
+        let room = data.get_mut(..registers.len()).ok_or_else(|| short(registers.len(), size))?;
+        room.copy_from_slice(registers);
+        Ok(())
+    });
+    Ok(read.await.is_some())
+}
+
+/// Writes a text into registers from `start` on, two bytes a register: all of it, or as much as `len` registers take;
+/// what is left of the last ones becomes 0.
+///
+/// # Errors
+/// None: false where the registers do not exist.
+pub async fn writeregisters_string(cx: &Cx, data: &Str, start: i32, len: Option<i32>) -> Result<bool, Fault> {
+    let all = i32::try_from(data.as_bytes().len().div_ceil(2)).unwrap_or(i32::MAX);
+    let written = with_registers(cx, "writeregisters", start, len.unwrap_or(all), |registers| {
+        registers.copy_from_slice(&padded(data, registers.len()));
+        Ok(())
+    });
+    Ok(written.await.is_some())
+}
+
+/// Writes two bytes each into `len` registers from `start` on.
+///
+/// # Errors
+/// None: false where the registers do not exist, or the array has too few bytes.
+pub async fn writeregisters_bytes(cx: &Cx, data: &[u8], start: i32, len: i32) -> Result<bool, Fault> {
+    let written = with_registers(cx, "writeregisters", start, len, |registers| {
+        registers.copy_from_slice(data.get(..registers.len()).ok_or_else(|| short(registers.len(), data.len()))?);
+        Ok(())
+    });
+    Ok(written.await.is_some())
+}
+
+/// Reads `length` coils from `start` on, eight a byte, the first in the lowest bit; bits left over become 0, the rest of
+/// the array stays.
+///
+/// # Errors
+/// None: false where the coils do not exist, or the array has no room for them.
+pub async fn readcoils(cx: &Cx, data: &mut [u8], start: i32, length: i32) -> Result<bool, Fault> {
+    let size = data.len();
+    let read = with_coils(cx, "readcoils", start, length, |tables, start, count| {
+        tables.read_coils(start, count, data).ok_or_else(|| short(count.div_ceil(8), size))
+    });
+    Ok(read.await.is_some())
+}
+
+/// Sets `length` coils from `start` on, eight a byte, the first from the lowest bit.
+///
+/// # Errors
+/// None: false where the coils do not exist, or the array has too few bytes.
+pub async fn writecoils(cx: &Cx, data: &[u8], start: i32, length: i32) -> Result<bool, Fault> {
+    let written = with_coils(cx, "writecoils", start, length, |tables, start, count| {
+        tables.write_coils(start, count, data).ok_or_else(|| short(count.div_ceil(8), data.len()))
+    });
+    Ok(written.await.is_some())
+}
+
+/// Does something with the bytes of registers.
+async fn with_registers<R>(
+    cx: &Cx,
+    function: &'static str,
+    start: i32,
+    len: i32,
+    act: impl FnOnce(&mut [u8]) -> Result<R, String>,
+) -> Option<R> {
+    exchange(cx, function, "registers", start, len, |tables, start, count| {
+        // They have been checked to be there.
+        act(tables.registers_mut(start, count).unwrap_or_default())
+    })
+    .await
+}
+
+/// Does something with coils.
+async fn with_coils(
+    cx: &Cx,
+    function: &'static str,
+    start: i32,
+    len: i32,
+    act: impl FnOnce(&mut Tables, usize, usize) -> Result<(), String>,
+) -> Option<()> {
+    exchange(cx, function, "coils", start, len, act).await
+}
+
+/// Does something with the tables, once all motion has ended; nothing where it is not possible, which is reported.
+async fn exchange<R>(
+    cx: &Cx,
+    function: &'static str,
+    what: &'static str,
+    start: i32,
+    count: i32,
+    act: impl FnOnce(&mut Tables, usize, usize) -> Result<R, String>,
+) -> Option<R> {
+    cx.motion_end().await;
+    let world = cx.world();
+    let modbus = world.buses.modbus_tcp();
+    if let Some(problem) = modbus.start_by_default(world.is_real_time()) {
+        world.warn(problem);
+    }
+    let done = match range(what, start, count) {
+        Err(problem) => Err(problem),
+        Ok((start, count)) => loop {
+            match modbus.tables.at_once() {
+                Some(mut tables) => break act(&mut tables, start, count),
+                // A condition is looked at now or never.
+                None if cx.level() == Level::LOOKING => return None,
+                None => cx.next_cycle().await,
+            }
+        },
+    };
+    done.map_err(|problem| report(cx, format!("{function}: {problem}"))).ok()
+}
+
+/// Start and count, where these registers or coils exist.
+fn range(what: &str, start: i32, count: i32) -> Result<(usize, usize), String> {
+    if count < 0 {
+        return Err(format!("{count} {what}: 0 or more are possible"));
+    }
+    let wanted = usize::try_from(start).ok().zip(usize::try_from(count).ok());
+    wanted.filter(|(start, count)| start + count <= SIZE).ok_or_else(|| {
+        let last = i64::from(start) + i64::from(count) - 1;
+        format!("{what} {start} to {last} do not exist: 0 to {} are there", SIZE - 1)
+    })
+}
+
+fn short(needed: usize, size: usize) -> String {
+    format!("{needed} bytes are needed, the array has {size}")
+}

@@ -1,0 +1,64 @@
+//! What the cell file says of the buses.
+
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+
+use crate::settings::{Section, SettingsError};
+
+/// The buses of a cell.
+#[derive(Clone, PartialEq, Eq, Default, Debug)]
+#[non_exhaustive]
+pub struct BusSettings {
+    /// The controller's Modbus TCP server, where the cell has one.
+    pub modbus_tcp: Option<ModbusTcpSettings>,
+}
+
+/// The controller's Modbus TCP server.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub struct ModbusTcpSettings {
+    /// Where it listens.
+    pub address: SocketAddr,
+    /// How many clients it serves at once.
+    pub connections: usize,
+}
+
+impl Default for ModbusTcpSettings {
+    fn default() -> Self {
+        Self { address: SocketAddr::new(IpAddr::V4(Ipv4Addr::LOCALHOST), 502), connections: 8 }
+    }
+}
+
+const MODBUS_TCP: &[&str] = &["address", "port", "connections"];
+
+impl BusSettings {
+    /// Reads them from the cell file.
+    pub(crate) fn read(top: &Section<'_>) -> Result<Self, SettingsError> {
+        let modbus_tcp = top.table("modbus_tcp", "[modbus_tcp]", MODBUS_TCP)?;
+        Ok(Self { modbus_tcp: modbus_tcp.as_ref().map(modbus_tcp_server).transpose()? })
+    }
+}
+
+fn modbus_tcp_server(section: &Section<'_>) -> Result<ModbusTcpSettings, SettingsError> {
+    let mut settings = ModbusTcpSettings::default();
+    if let Some(address) = address(section, "address")? {
+        settings.address.set_ip(address);
+    }
+    if let Some(port) = section.count("port", "a TCP port (0: any that is free)", u16::MAX.into())? {
+        settings.address.set_port(port as u16);
+    }
+    if let Some(connections) = section.number("connections", "a whole number", 1.0, 64.0)? {
+        settings.connections = connections as usize;
+    }
+    Ok(settings)
+}
+
+/// An IP address, if it is there.
+fn address(section: &Section<'_>, key: &str) -> Result<Option<IpAddr>, SettingsError> {
+    const WHAT: &str = "an IP address of this computer, like \"127.0.0.1\", or \"0.0.0.0\" for all of them";
+    let Some(text) = section.text(key, WHAT)? else { return Ok(None) };
+    match (text.parse(), section.find(key)) {
+        (Ok(address), _) => Ok(Some(address)),
+        (Err(_), Some(value)) => Err(section.wrong(key, value, WHAT)),
+        (Err(_), None) => Ok(None),
+    }
+}
