@@ -14,17 +14,32 @@ use crate::values::{Joint, Jtci, Jttq, Jvel, Pose, Str, Tcpforce, Tool, UNSET, W
 
 /// A foreground channel, as all channels see it.
 struct Foreground<'a> {
+    /// The channel's own.
     cx: &'a Cx,
     unit: Ref<'a, Unit>,
 }
 
-/// The channel with this number, from 1. There is one, the program's own.
-fn foreground<'a>(cx: &'a Cx, function: &'static str, number: i32) -> Result<Foreground<'a>, Fault> {
-    if number == 1 {
-        return Ok(Foreground { cx, unit: cx.world().unit.borrow() });
+/// Looks at the channel with this number, from 1.
+fn foreground<T>(
+    cx: &Cx,
+    function: &'static str,
+    number: i32,
+    look: impl FnOnce(&Foreground<'_>) -> Result<T, Fault>,
+) -> Result<T, Fault> {
+    let found = cx.world().foreground(number);
+    let unit = found.as_ref().and_then(|cx| Some((cx, cx.lane().robot()?)));
+    match unit {
+        Some((cx, unit)) => look(&Foreground { cx, unit }),
+        None => Err(Fault::Domain { function, problem: no_such(cx, number).into() }),
     }
-    let problem = format!("there is no foreground channel {number}, only channel 1");
-    Err(Fault::Domain { function, problem: problem.into() })
+}
+
+/// That there is no foreground channel with this number.
+pub(crate) fn no_such(cx: &Cx, number: i32) -> String {
+    match cx.world().foreground_count() {
+        1 => format!("there is no foreground channel {number}, only channel 1"),
+        count => format!("there is no foreground channel {number}, only channels 1 to {count}"),
+    }
 }
 
 impl Foreground<'_> {
@@ -67,9 +82,10 @@ impl Foreground<'_> {
 /// There is no such channel, or the robot file has no masses.
 pub fn cjttq(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jttq, Fault> {
     const FUNCTION: &str = "cjttq";
-    let channel = foreground(cx, FUNCTION, chan_no)?;
-    let [jt1, jt2, jt3, jt4, jt5, jt6] = channel.own(channel.torques(FUNCTION, ls_cmd)?);
-    Ok(Jttq { jt1, jt2, jt3, jt4, jt5, jt6, ..Jttq::default() })
+    foreground(cx, FUNCTION, chan_no, |channel| {
+        let [jt1, jt2, jt3, jt4, jt5, jt6] = channel.own(channel.torques(FUNCTION, ls_cmd)?);
+        Ok(Jttq { jt1, jt2, jt3, jt4, jt5, jt6, ..Jttq::default() })
+    })
 }
 
 /// `cjtci`: the currents of the motors in A, as the motion is commanded or as they are measured. Those of external axes are
@@ -79,10 +95,11 @@ pub fn cjttq(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jttq, Fault> {
 /// There is no such channel, or the robot file has no masses.
 pub fn cjtci(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jtci, Fault> {
     const FUNCTION: &str = "cjtci";
-    let channel = foreground(cx, FUNCTION, chan_no)?;
-    let model = channel.known(FUNCTION, channel.unit.model())?;
-    let [ji1, ji2, ji3, ji4, ji5, ji6] = channel.own(model.currents(&channel.torques(FUNCTION, ls_cmd)?));
-    Ok(Jtci { ji1, ji2, ji3, ji4, ji5, ji6, ..Jtci::default() })
+    foreground(cx, FUNCTION, chan_no, |channel| {
+        let model = channel.known(FUNCTION, channel.unit.model())?;
+        let [ji1, ji2, ji3, ji4, ji5, ji6] = channel.own(model.currents(&channel.torques(FUNCTION, ls_cmd)?));
+        Ok(Jtci { ji1, ji2, ji3, ji4, ji5, ji6, ..Jtci::default() })
+    })
 }
 
 /// `channeltojoint`: the axes (deg, mm) of the target of the motion that is being executed; without one, of the last.
@@ -90,7 +107,7 @@ pub fn cjtci(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jtci, Fault> {
 /// # Errors
 /// There is no such channel.
 pub fn channeltojoint(cx: &Cx, chan_no: i32) -> Result<Joint, Fault> {
-    Ok(joint(foreground(cx, "channeltojoint", chan_no)?.unit.current_target()))
+    foreground(cx, "channeltojoint", chan_no, |channel| Ok(joint(channel.unit.current_target())))
 }
 
 /// `channeltopose`: the pose (mm, deg) of the tool in the workpiece frame at the target of the motion that is being
@@ -99,8 +116,7 @@ pub fn channeltojoint(cx: &Cx, chan_no: i32) -> Result<Joint, Fault> {
 /// # Errors
 /// There is no such channel.
 pub fn channeltopose(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
-    let channel = foreground(cx, "channeltopose", chan_no)?;
-    Ok(channel.pose(channel.unit.current_target(), t, w))
+    foreground(cx, "channeltopose", chan_no, |channel| Ok(channel.pose(channel.unit.current_target(), t, w)))
 }
 
 /// `channeljoint`: the axes (deg, mm) now, as commanded or as the robot reports them.
@@ -108,7 +124,7 @@ pub fn channeltopose(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj) -> Result<Pose, F
 /// # Errors
 /// There is no such channel.
 pub fn channeljoint(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Joint, Fault> {
-    Ok(joint(foreground(cx, "channeljoint", chan_no)?.positions(ls_cmd)))
+    foreground(cx, "channeljoint", chan_no, |channel| Ok(joint(channel.positions(ls_cmd))))
 }
 
 /// `channelpose`: the pose (mm, deg) of the tool in the workpiece frame now, as commanded or as the robot reports it.
@@ -116,8 +132,7 @@ pub fn channeljoint(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Joint, Fault>
 /// # Errors
 /// There is no such channel.
 pub fn channelpose(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj, ls_cmd: bool) -> Result<Pose, Fault> {
-    let channel = foreground(cx, "channelpose", chan_no)?;
-    Ok(channel.pose(channel.positions(ls_cmd), t, w))
+    foreground(cx, "channelpose", chan_no, |channel| Ok(channel.pose(channel.positions(ls_cmd), t, w)))
 }
 
 /// `channeljointvel`: the speeds of the axes in rad/s (mm/s of linear axes), as commanded or as the robot reports them.
@@ -125,16 +140,17 @@ pub fn channelpose(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj, ls_cmd: bool) -> Re
 /// # Errors
 /// There is no such channel.
 pub fn channeljointvel(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jvel, Fault> {
-    let channel = foreground(cx, "channeljointvel", chan_no)?;
-    let robot = channel.unit.robot();
-    let moving = channel.unit.moving(ls_cmd);
-    let speed = |axis: &Axis, rate: f64| tidy(if axis.linear { rate } else { rate.to_radians() });
-    let mut speeds = [UNSET; 12];
-    let (own, external) = speeds.split_at_mut(6);
-    let own = own.iter_mut().zip(robot.own_axes().iter().zip(moving.rates));
-    let external = external.iter_mut().zip(robot.external_axes().iter().zip(moving.external_rates));
-    own.chain(external).for_each(|(value, (axis, rate))| *value = speed(axis, rate));
-    Ok(Jvel::from(speeds))
+    foreground(cx, "channeljointvel", chan_no, |channel| {
+        let robot = channel.unit.robot();
+        let moving = channel.unit.moving(ls_cmd);
+        let speed = |axis: &Axis, rate: f64| tidy(if axis.linear { rate } else { rate.to_radians() });
+        let mut speeds = [UNSET; 12];
+        let (own, external) = speeds.split_at_mut(6);
+        let own = own.iter_mut().zip(robot.own_axes().iter().zip(moving.rates));
+        let external = external.iter_mut().zip(robot.external_axes().iter().zip(moving.external_rates));
+        own.chain(external).for_each(|(value, (axis, rate))| *value = speed(axis, rate));
+        Ok(Jvel::from(speeds))
+    })
 }
 
 /// `channeltcpvel`: the speed of the tool in the workpiece frame in mm/s, as commanded or as the robot reports it.
@@ -142,11 +158,12 @@ pub fn channeljointvel(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jvel, Faul
 /// # Errors
 /// There is no such channel.
 pub fn channeltcpvel(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj, ls_cmd: bool) -> Result<f64, Fault> {
-    let channel = foreground(cx, "channeltcpvel", chan_no)?;
-    let (setting, moving) = (setting(cx, &t, w), channel.unit.moving(ls_cmd));
-    let kinematics = &channel.unit.robot().kinematics;
-    let place = |joints: &Joints| setting.pose_of(&kinematics.forward(&joints.axes)).translation.vector;
-    Ok(tidy((place(&moving.at) - place(&moving.before)).norm() / moving.period))
+    foreground(cx, "channeltcpvel", chan_no, |channel| {
+        let (setting, moving) = (setting(channel.cx, &t, w), channel.unit.moving(ls_cmd));
+        let kinematics = &channel.unit.robot().kinematics;
+        let place = |joints: &Joints| setting.pose_of(&kinematics.forward(&joints.axes)).translation.vector;
+        Ok(tidy((place(&moving.at) - place(&moving.before)).norm() / moving.period))
+    })
 }
 
 /// `ctcpforce`: the force (N) and the torque (Nm) with which the robot presses on what is outside, at the TCP and along the
@@ -156,22 +173,23 @@ pub fn channeltcpvel(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj, ls_cmd: bool) -> 
 /// There is no such channel, or the robot file has no masses.
 pub fn ctcpforce(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj) -> Result<Tcpforce, Fault> {
     const FUNCTION: &str = "ctcpforce";
-    let channel = foreground(cx, FUNCTION, chan_no)?;
-    let unit = &channel.unit;
-    let model = channel.known(FUNCTION, unit.model())?;
-    let surplus = channel.known(FUNCTION, unit.surplus())?;
-    let (setting, axes) = (setting(cx, &t, w), &unit.feedback().axes);
-    let flange = unit.robot().kinematics.forward(axes);
-    let rig = setting.rig();
-    let tcp = rig.tcp_at(&flange);
-    let point = (rig.base.inverse() * tcp).translation.vector;
-    let pressing = model.pressing(axes, &surplus, &point).unwrap_or_else(|| model.felt(axes, &surplus, &point));
-    // From the base by the world and the TCP to the workpiece.
-    let turn = setting.pose_of(&flange).rotation * tcp.rotation.inverse() * rig.base.rotation;
-    let [fx, fy, fz]: [f64; 3] = (turn * pressing.force).into();
-    let [tx, ty, tz]: [f64; 3] = (turn * pressing.torque).into();
-    let [fx, fy, fz, tx, ty, tz] = [fx, fy, fz, tx, ty, tz].map(tidy);
-    Ok(Tcpforce { fx, fy, fz, tx, ty, tz })
+    foreground(cx, FUNCTION, chan_no, |channel| {
+        let unit = &channel.unit;
+        let model = channel.known(FUNCTION, unit.model())?;
+        let surplus = channel.known(FUNCTION, unit.surplus())?;
+        let (setting, axes) = (setting(channel.cx, &t, w), &unit.feedback().axes);
+        let flange = unit.robot().kinematics.forward(axes);
+        let rig = setting.rig();
+        let tcp = rig.tcp_at(&flange);
+        let point = (rig.base.inverse() * tcp).translation.vector;
+        let pressing = model.pressing(axes, &surplus, &point).unwrap_or_else(|| model.felt(axes, &surplus, &point));
+        // From the base by the world and the TCP to the workpiece.
+        let turn = setting.pose_of(&flange).rotation * tcp.rotation.inverse() * rig.base.rotation;
+        let [fx, fy, fz]: [f64; 3] = (turn * pressing.force).into();
+        let [tx, ty, tz]: [f64; 3] = (turn * pressing.torque).into();
+        let [fx, fy, fz, tx, ty, tz] = [fx, fy, fz, tx, ty, tz].map(tidy);
+        Ok(Tcpforce { fx, fy, fz, tx, ty, tz })
+    })
 }
 
 /// `curmpfile`: the file of the motion that is being executed, or was last; before the first one the program's own.
@@ -179,7 +197,7 @@ pub fn ctcpforce(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj) -> Result<Tcpforce, F
 /// # Errors
 /// There is no such channel.
 pub fn curmpfile(cx: &Cx, channel_index: i32) -> Result<Str, Fault> {
-    Ok(foreground(cx, "curmpfile", channel_index)?.motion_pointer().0.name().into())
+    foreground(cx, "curmpfile", channel_index, |channel| Ok(channel.motion_pointer().0.name().into()))
 }
 
 /// `curmpline`: the line of the motion that is being executed, or was last; before the first one 0.
@@ -187,7 +205,7 @@ pub fn curmpfile(cx: &Cx, channel_index: i32) -> Result<Str, Fault> {
 /// # Errors
 /// There is no such channel.
 pub fn curmpline(cx: &Cx, channel_index: i32) -> Result<i32, Fault> {
-    Ok(foreground(cx, "curmpline", channel_index)?.motion_pointer().1 as i32)
+    foreground(cx, "curmpline", channel_index, |channel| Ok(channel.motion_pointer().1 as i32))
 }
 
 /// `curppfile`: the file that the program stands in.
@@ -195,7 +213,7 @@ pub fn curmpline(cx: &Cx, channel_index: i32) -> Result<i32, Fault> {
 /// # Errors
 /// There is no such channel.
 pub fn curppfile(cx: &Cx, channel_index: i32) -> Result<Str, Fault> {
-    Ok(foreground(cx, "curppfile", channel_index)?.cx.place().0.name().into())
+    foreground(cx, "curppfile", channel_index, |channel| Ok(channel.cx.place().0.name().into()))
 }
 
 /// `curppline`: the line that the program stands on.
@@ -203,5 +221,5 @@ pub fn curppfile(cx: &Cx, channel_index: i32) -> Result<Str, Fault> {
 /// # Errors
 /// There is no such channel.
 pub fn curppline(cx: &Cx, channel_index: i32) -> Result<i32, Fault> {
-    Ok(foreground(cx, "curppline", channel_index)?.cx.place().1 as i32)
+    foreground(cx, "curppline", channel_index, |channel| Ok(channel.cx.place().1 as i32))
 }

@@ -9,7 +9,8 @@ use std::task::{Context, Poll};
 
 use crate::communication::Connections;
 use crate::event::Table;
-use crate::fault::{Fault, File};
+use crate::fault::{Alarm, Fault, File};
+use crate::lane::Lane;
 use crate::motion::Progress;
 use crate::program::Program;
 use crate::system::System;
@@ -25,7 +26,7 @@ const BUDGET: u32 = 20_000;
 ///
 /// Everything here happens on the thread of the controller; nothing locks.
 pub struct Cx {
-    world: Rc<World>,
+    lane: Rc<Lane>,
     /// Turns of loops that are left in this cycle.
     budget: Cell<u32>,
     /// The address below which the stack must not grow.
@@ -71,10 +72,10 @@ impl Level {
 }
 
 impl Cx {
-    pub(crate) fn new(world: Rc<World>, program: Rc<dyn Program>) -> Self {
+    pub(crate) fn new(lane: Rc<Lane>, program: Rc<dyn Program>) -> Self {
         let file = program.file();
         Self {
-            world,
+            lane,
             budget: Cell::new(BUDGET),
             stack_floor: Cell::new(0),
             program,
@@ -128,25 +129,25 @@ impl Cx {
     /// The running number of the cycle, from 0.
     #[inline]
     pub fn cycle(&self) -> u64 {
-        self.world.now.get()
+        self.lane.world.now.get()
     }
 
     /// The time of the controller in s: that of the start of this cycle.
     #[inline]
     pub fn time(&self) -> f64 {
-        self.world.rate.time(self.cycle())
+        self.lane.world.rate.time(self.cycle())
     }
 
     /// The length of a cycle in s.
     #[inline]
     pub fn period(&self) -> f64 {
-        self.world.rate.period()
+        self.lane.world.rate.period()
     }
 
     /// The system variables.
     #[inline]
     pub fn system(&self) -> &System {
-        &self.world.system
+        &self.lane.system
     }
 
     /// Checks that there is room on the stack for one more function. Functions ask before they call themselves.
@@ -196,17 +197,17 @@ impl Cx {
 
     /// How far the motion has come that is being executed, or that triggers are asked about.
     pub(crate) fn progress(&self) -> Option<Progress> {
-        self.looked_at.get().or_else(|| self.world.unit.borrow().progress())
+        self.looked_at.get().or_else(|| self.lane.robot()?.progress())
     }
 
     /// Lets a condition see a motion as it was when it ended.
     pub(crate) fn look_back<R>(&self, end: Progress, look: impl FnOnce() -> R) -> R {
         self.looked_at.set(Some(end));
-        self.world.tell_progress(&end);
+        self.lane.tell_progress(&end);
         let result = look();
         self.looked_at.set(None);
         if let Some(now) = self.progress() {
-            self.world.tell_progress(&now);
+            self.lane.tell_progress(&now);
         }
         result
     }
@@ -259,8 +260,24 @@ impl Cx {
         self.events.borrow_mut().bind(level.number, motion);
     }
 
+    /// What all channels share.
+    #[inline]
     pub(crate) fn world(&self) -> &World {
-        &self.world
+        &self.lane.world
+    }
+
+    /// What is the channel's own.
+    #[inline]
+    pub(crate) fn lane(&self) -> &Lane {
+        &self.lane
+    }
+
+    /// Ends the program with the alarm that this function needs a robot; it goes on with a start value until it waits.
+    #[cold]
+    pub(crate) fn without_robot<T: Default>(&self, function: &'static str) -> T {
+        let (file, line) = self.place();
+        self.lane.trouble(Alarm::new(Fault::Background { function }, file, line));
+        T::default()
     }
 
     /// Where `print` sends its messages until it is told otherwise, and which file is meant by `file`.
@@ -271,15 +288,15 @@ impl Cx {
     /// The running number of the motion that the next instruction comes behind; 0: there is none. An action knows of its own
     /// motions only.
     pub(crate) fn last_motion(&self) -> u64 {
-        self.level.get().own_motion.unwrap_or_else(|| self.world.unit.borrow().motions().0)
+        self.level.get().own_motion.unwrap_or_else(|| self.lane.motions().0)
     }
 
     /// Whether the motion has ended that is waited for: all of it, by actions their own.
     #[inline]
     fn is_motion_over(&self) -> bool {
         match self.level.get().own_motion {
-            None => self.world.motion_ended(),
-            Some(own) => own == 0 || self.world.motion_ended_up_to(own),
+            None => self.lane.motion_ended(),
+            Some(own) => own == 0 || self.lane.motion_ended_up_to(own),
         }
     }
 
@@ -293,8 +310,8 @@ impl Cx {
         if self.is_motion_over() {
             return;
         }
-        self.world.conclude_motion();
-        while self.world.in_trouble() || !self.is_motion_over() {
+        self.lane.conclude_motion();
+        while self.lane.in_trouble() || !self.is_motion_over() {
             self.next_cycle().await;
         }
     }
@@ -302,7 +319,7 @@ impl Cx {
 
 impl fmt::Debug for Cx {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Cx").field("world", &self.world).field("place", &self.place()).finish_non_exhaustive()
+        f.debug_struct("Cx").field("channel", &self.lane.id).field("place", &self.place()).finish_non_exhaustive()
     }
 }
 

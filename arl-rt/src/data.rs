@@ -21,7 +21,7 @@ pub(crate) fn reload(program: &dyn Program, script_dir: &Path) -> Vec<Alarm> {
 }
 
 fn file(data: &DataFile<'_>, script_dir: &Path) -> Vec<Alarm> {
-    let alarm = |line: u32, text: String| Alarm { fault: Fault::Data(text.into()), file: File::new(data.file), line };
+    let alarm = |line: u32, text: String| Alarm::new(Fault::Data(text.into()), File::new(data.file), line);
     let Some((path, content)) = read(data.file, script_dir) else { return Vec::new() };
     let content = match content {
         Ok(content) => content,

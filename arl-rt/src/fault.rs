@@ -4,6 +4,8 @@ use std::cell::RefCell;
 use std::fmt;
 use std::marker::PhantomData;
 
+use crate::channel_id::ChannelId;
+
 /// A fault without its place; [`At::at`] makes an alarm of it.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
@@ -84,6 +86,11 @@ pub enum Fault {
         /// The robot.
         robot: Box<str>,
     },
+    /// An instruction or function that needs a robot, in a background channel.
+    Background {
+        /// The instruction or function.
+        function: &'static str,
+    },
     /// A `_data.arl` file that cannot be read back.
     Data(Box<str>),
     /// An interrupt, timer or trigger that cannot be watched or handled.
@@ -127,6 +134,7 @@ impl Fault {
             Fault::Motion(_) => 20020,
             Fault::Collision(_) => 20021,
             Fault::NoMasses { .. } => 20022,
+            Fault::Background { .. } => 20023,
             Fault::Data(_) => 20030,
             Fault::Event(_) => 20040,
             Fault::Connection(_) => 20050,
@@ -171,6 +179,9 @@ impl fmt::Display for Fault {
                 "{function}: the file of robot {robot} gives no masses, so that torques and forces are not known; it needs a \
                  [[link]] for each axis"
             ),
+            Fault::Background { function } => {
+                write!(f, "{function} needs a robot, which a background channel does not have")
+            }
             Fault::Condition { event, fault } => write!(f, "{fault}, in the condition of {event}"),
             Fault::Other { text, .. } => write!(f, "{text}"),
         }
@@ -204,11 +215,24 @@ pub struct Alarm {
     pub file: File,
     /// The line, from 1; 0 where no line is to blame.
     pub line: u32,
+    /// The channel whose program it is.
+    pub channel: ChannelId,
+}
+
+impl Alarm {
+    /// An alarm at its place; the controller that runs the program knows the channel.
+    pub fn new(fault: Fault, file: File, line: u32) -> Self {
+        Self { fault, file, line, channel: ChannelId::FIRST }
+    }
 }
 
 impl fmt::Display for Alarm {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "alarm {}: {} ({}:{})", self.fault.number(), self.fault, self.file.name(), self.line)
+        write!(f, "alarm {}: {} ({}:{}", self.fault.number(), self.fault, self.file.name(), self.line)?;
+        match self.channel {
+            ChannelId::FIRST => write!(f, ")"),
+            channel => write!(f, ", {channel})"),
+        }
     }
 }
 
@@ -295,5 +319,5 @@ impl<T> At<T> for Result<T, Fault> {
 #[cold]
 #[inline(never)]
 fn raise(fault: Fault, file: File, line: u32) -> Stop {
-    Stop::alarm(Alarm { fault, file, line })
+    Stop::alarm(Alarm::new(fault, file, line))
 }

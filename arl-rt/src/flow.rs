@@ -97,8 +97,8 @@ impl Pause {
     /// None yet.
     pub async fn run(self, cx: &Cx) -> Result<(), Fault> {
         cx.motion_end().await;
-        cx.world().paused.set(true);
-        while cx.world().paused.get() {
+        cx.lane().paused.set(true);
+        while cx.lane().paused.get() {
             cx.next_cycle().await;
         }
         Ok(())

@@ -7,6 +7,7 @@ pub mod bits;
 pub mod calibration;
 pub mod cell;
 pub mod channel;
+pub mod channel_id;
 pub mod clock;
 pub mod clock_source;
 pub mod communication;
@@ -25,6 +26,7 @@ pub mod frames;
 pub mod io;
 mod json;
 mod keep;
+mod lane;
 pub mod live;
 pub mod math;
 pub mod motion;
@@ -57,7 +59,8 @@ pub mod settings {
 
 pub use arl_robot::{Family, Robot, kinematics, robot};
 pub use cell::Cell;
-pub use controller::{Builder, ChannelStatus, Controller, Outcome, SetupError, State, Status};
+pub use channel_id::ChannelId;
+pub use controller::{Builder, ChannelStatus, Controller, Foreground, Outcome, RobotStatus, SetupError, State, Status};
 pub use cx::Cx;
 pub use fault::{Alarm, Fault, Reason, Stop};
 pub use output::{Captured, Message, Output, Stream};

@@ -5,11 +5,15 @@ use std::fmt;
 use std::io::Write;
 use std::rc::Rc;
 
+use crate::channel_id::ChannelId;
+
 /// A message of a program.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Message<'a> {
     /// Controller time in s.
     pub time: f64,
+    /// The channel whose program says it.
+    pub channel: ChannelId,
     /// Whether it goes to the operator panel.
     pub hmi: bool,
     /// Whether it goes to the terminal.

@@ -13,12 +13,15 @@ use crate::values::{Joint, Pose, Tool, Wobj};
 
 /// The axes as the robot reports them now, in deg (mm); external axes that are not there are unset.
 pub fn cjoint(cx: &Cx) -> Joint {
-    joint(cx.world().unit.borrow().feedback())
+    match cx.lane().robot() {
+        Some(unit) => joint(unit.feedback()),
+        None => cx.without_robot("cjoint"),
+    }
 }
 
 /// The pose of the tool in the workpiece frame as the robot reports it now, in mm and deg, with the external axes.
 pub fn cpose(cx: &Cx, t: Tool, w: &Wobj) -> Pose {
-    let unit = cx.world().unit.borrow();
+    let Some(unit) = cx.lane().robot() else { return cx.without_robot("cpose") };
     let feedback = unit.feedback();
     pose(cx, &unit, &feedback.axes, &joint(feedback), t, w)
 }
@@ -33,7 +36,7 @@ pub fn cpose_default(cx: &Cx) -> Pose {
 /// # Errors
 /// Axes of the robot are unset.
 pub fn getpose(cx: &Cx, j: Joint, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
-    let unit = cx.world().unit.borrow();
+    let unit = cx.lane().unit("getpose")?;
     let mut axes = j.axes();
     let own = unit.robot().own_axes().len();
     if axes.iter().take(own).any(|axis| is_open(*axis)) {
@@ -53,7 +56,7 @@ pub fn getjoint(cx: &Cx, p: Pose, t: Tool, w: &Wobj) -> Result<Joint, Fault> {
     if components.iter().any(|component| is_open(*component)) {
         return Err(domain("getjoint", "components of the pose are not set, or no numbers".to_owned()));
     }
-    let unit = cx.world().unit.borrow();
+    let unit = cx.lane().unit("getjoint")?;
     let robot = unit.robot();
     let target = crate::kinematics::frame(components);
     let flange = setting(cx, &t, w).flange_of(&target).map_err(|unmoved| domain("getjoint", unmoved.to_string()))?;

@@ -1,7 +1,10 @@
 //! The system variables: `$DFSPEED`, `$I`, `$CJOINT` and their like.
 
 use std::cell::Cell;
+use std::ops::Deref;
+use std::rc::Rc;
 
+use crate::channel_id::{ChannelId, MOST_FOREGROUND};
 use crate::cx::Cx;
 use crate::fault::Fault;
 use crate::keep::Keep;
@@ -12,41 +15,43 @@ use crate::values::{
     Wobj,
 };
 
-/// Declares the variables: field, type, default, name, and when the default comes back.
+/// Declares variables: field, type, default, name, and when the default comes back.
 macro_rules! system {
-    ($( $(#[doc = $doc:literal])+ $field:ident: $kind:ident<$ty:ty> = $default:expr, $name:literal, $restore:ident; )*) => {
-        /// The system variables of a controller. Programs read and write them like their own global variables; what is
-        /// said to be read-only is kept current by the controller.
+    (
+        $(#[$meta:meta])*
+        pub struct $Struct:ident { $( $(#[doc = $other_doc:literal])+ $other:ident: $Other:ty, )* }
+        $( $(#[doc = $doc:literal])+ $field:ident: $kind:ident<$ty:ty> = $default:expr, $name:literal, $restore:ident; )*
+    ) => {
+        $(#[$meta])*
         #[derive(Debug)]
-        pub struct System {
+        pub struct $Struct {
+            $( $(#[doc = $other_doc])+ $other: $Other, )*
             $(
                 $(#[doc = $doc])+
                 pub $field: $kind<$ty>,
             )*
         }
 
-        impl System {
-            /// All variables at their defaults.
-            pub fn new() -> Self {
-                Self { $($field: $kind::<$ty>::new($default),)* }
+        impl $Struct {
+            fn at_defaults($($other: $Other),*) -> Self {
+                Self { $($other,)* $($field: $kind::<$ty>::new($default),)* }
             }
 
             /// Sets what chapter 10.2 describes to its defaults, except what the controller keeps current.
-            pub(crate) fn reset(&self) {
+            fn reset_own(&self) {
                 $( system!(@reset $restore self.$field = $default); )*
             }
 
             /// The variables that are kept when the controller is switched off.
-            #[expect(clippy::vec_init_then_push, reason = "which of them are kept is known here only")]
-            pub(crate) fn kept(&self) -> Vec<Kept<'_>> {
-                let mut kept: Vec<Kept<'_>> = Vec::new();
-                $( system!(@keep $restore kept, self.$field, $name, $ty, $default); )*
-                kept
+            pub(crate) fn kept_own(&self) -> Vec<Kept<'_>> {
+                let all: Vec<Option<Kept<'_>>> =
+                    vec![$( system!(@keep $restore self.$field, $name, $ty, $default), )*];
+                all.into_iter().flatten().collect()
             }
 
             /// Name and value of every variable, for tests that compare with the catalog.
             #[cfg(test)]
-            fn all(&self) -> Vec<(&'static str, &'static str, &'static str, String, Str)> {
+            fn all_own(&self) -> Vec<(&'static str, &'static str, &'static str, String, Str)> {
                 use crate::text::{Print, Style};
                 vec![$({
                     let value = self.$field.get();
@@ -57,16 +62,20 @@ macro_rules! system {
     };
     (@reset Reset $self:ident.$field:ident = $default:expr) => { $self.$field.set($default) };
     (@reset $other:ident $self:ident.$field:ident = $default:expr) => {};
-    (@keep Saved $kept:ident, $self:ident.$field:ident, $name:literal, $ty:ty, $default:expr) => {
-        $kept.push(Kept { name: $name, always: false, slot: &$self.$field, default: || encode::<$ty>(&$default) })
+    (@keep Saved $self:ident.$field:ident, $name:literal, $ty:ty, $default:expr) => {
+        Some(Kept::new($name, false, &$self.$field, || encode::<$ty>(&$default)))
     };
-    (@keep Permanent $kept:ident, $self:ident.$field:ident, $name:literal, $ty:ty, $default:expr) => {
-        $kept.push(Kept { name: $name, always: true, slot: &$self.$field, default: || encode::<$ty>(&$default) })
+    (@keep Permanent $self:ident.$field:ident, $name:literal, $ty:ty, $default:expr) => {
+        Some(Kept::new($name, true, &$self.$field, || encode::<$ty>(&$default)))
     };
-    (@keep $other:ident $kept:ident, $self:ident.$field:ident, $name:literal, $ty:ty, $default:expr) => {};
+    (@keep $other:ident $self:ident.$field:ident, $name:literal, $ty:ty, $default:expr) => {
+        None
+    };
 }
 
 system! {
+    /// The system variables of a controller that all its channels share.
+    pub struct Common {}
     /// 100 ints for the user.
     i: Shared<SmallArray<i32, 100>> = SmallArray::start(), "I", Saved;
     /// Names for the elements of `$I`.
@@ -91,14 +100,42 @@ system! {
     wobjs: Shared<Array<Wobj, 32>> = Array::start(), "WOBJS", Saved;
     /// Names for the elements of `$WOBJS`.
     wobjs_name: Shared<Array<Str, 32>> = Array::start(), "WOBJS_NAME", Permanent;
-    /// Where the bases of the mechanical units stand in the world.
-    base: Shared<SmallArray<Wobj, 3>> = SmallArray::start(), "BASE", Saved;
     /// The flange as a tool: no tool at all. Read-only.
     flange: Cell<Tool> = Tool::default(), "FLANGE", Constant;
     /// The world as a workpiece frame. Read-only.
     world: Shared<Wobj> = world(), "WORLD", Constant;
     /// 32 loads.
     tool_inertia: Shared<Array<ToolInertiaPara, 32>> = Array::start(), "TOOL_INERTIA", Saved;
+    /// Whether the external control is active. Read-only.
+    ext_ctl_act: Cell<bool> = false, "EXT_CTL_ACT", Current;
+    /// Whether the external control is asked for a program number.
+    pgno_req: Cell<bool> = false, "PGNO_REQ", Reset;
+    /// The program number that the external control has given; -1: none yet.
+    pgno: Cell<i32> = -1, "PGNO", Current;
+    /// What `geterror` gives for a lost connection. Read-only.
+    err_socket_closed: Cell<i32> = 1, "ERR_SOCKET_CLOSED", Constant;
+    /// The number pi. Read-only.
+    pi: Cell<f64> = std::f64::consts::PI, "PI", Constant;
+    /// The operating mode. Read-only.
+    ctl_mode: Cell<Controlmode> = Controlmode::Auto, "CTL_MODE", Current;
+    /// Where each mechanical unit believes to be at servo-on.
+    reset_pos_type: Shared<Array<Str, 100>> = Array::start(), "RESET_POS_TYPE", Permanent;
+    /// How near is near enough for `$RESET_POS_TYPE`, deg.
+    reset_pos_threshold: Shared<SmallArray<f64, 100>> = SmallArray::start(), "RESET_POS_THRESHOLD", Permanent;
+}
+
+system! {
+    /// The system variables as a channel's program sees them: its own ones, and by [`Deref`] those that all channels share.
+    /// Programs read and write them like their own global variables; what is said to be read-only is kept current by the
+    /// controller.
+    pub struct System {
+        /// Those that all channels share.
+        common: Rc<Common>,
+        /// The channel.
+        channel: ChannelId,
+    }
+    /// Where the bases of the mechanical units stand in the world.
+    base: Shared<SmallArray<Wobj, 3>> = SmallArray::start(), "BASE", Saved;
     /// Whether lines and arcs may pass near the wrist singularity.
     wrist: Cell<bool> = false, "WRIST", Reset;
     /// Whether targets are reached in the configuration that they were taught in.
@@ -131,28 +168,70 @@ system! {
     rpp_enable: Cell<bool> = false, "RPP_ENABLE", Reset;
     /// Whether the robot stands at each of the home points. Read-only.
     at_home: Shared<SmallArray<bool, 5>> = SmallArray::start(), "AT_HOME", Current;
-    /// Whether the external control is active. Read-only.
-    ext_ctl_act: Cell<bool> = false, "EXT_CTL_ACT", Current;
-    /// Whether the external control is asked for a program number.
-    pgno_req: Cell<bool> = false, "PGNO_REQ", Reset;
-    /// The program number that the external control has given; -1: none yet.
-    pgno: Cell<i32> = -1, "PGNO", Current;
-    /// The number pi. Read-only.
-    pi: Cell<f64> = std::f64::consts::PI, "PI", Constant;
-    /// The operating mode. Read-only.
-    ctl_mode: Cell<Controlmode> = Controlmode::Auto, "CTL_MODE", Current;
     /// Shift and turn of all workpiece frames: mm, deg.
     wobj_offset: Shared<SmallArray<f64, 6>> = SmallArray::start(), "WOBJ_OFFSET", Reset;
     /// Shift and turn of all tools: mm, deg.
     tool_offset: Shared<SmallArray<f64, 6>> = SmallArray::start(), "TOOL_OFFSET", Reset;
     /// Whether programs look for lost connections themselves (`geterror`), instead of being ended by an alarm.
     detect_socket_close: Cell<bool> = false, "DETECT_SOCKET_CLOSE", Reset;
-    /// What `geterror` gives for a lost connection. Read-only.
-    err_socket_closed: Cell<i32> = 1, "ERR_SOCKET_CLOSED", Constant;
-    /// Where each mechanical unit believes to be at servo-on.
-    reset_pos_type: Shared<Array<Str, 100>> = Array::start(), "RESET_POS_TYPE", Permanent;
-    /// How near is near enough for `$RESET_POS_TYPE`, deg.
-    reset_pos_threshold: Shared<SmallArray<f64, 100>> = SmallArray::start(), "RESET_POS_THRESHOLD", Permanent;
+}
+
+impl Deref for System {
+    type Target = Common;
+
+    #[inline]
+    fn deref(&self) -> &Common {
+        &self.common
+    }
+}
+
+impl Common {
+    /// All variables at their defaults.
+    pub(crate) fn new() -> Self {
+        Self::at_defaults()
+    }
+}
+
+impl System {
+    /// All variables at their defaults.
+    pub fn new() -> Self {
+        Self::beside(Rc::new(Common::new()), ChannelId::FIRST)
+    }
+
+    /// The variables of one more channel, at their defaults, beside those that are shared.
+    pub(crate) fn beside(common: Rc<Common>, channel: ChannelId) -> Self {
+        Self::at_defaults(common, channel)
+    }
+
+    /// Sets what chapter 10.2 describes to its defaults, except what the controller keeps current. What all channels share is
+    /// the first channel's to reset.
+    pub(crate) fn reset(&self) {
+        self.reset_own();
+        if self.channel == ChannelId::FIRST {
+            self.common.reset_own();
+        }
+    }
+
+    /// The variables that are kept when the controller is switched off, as this channel sees them.
+    pub(crate) fn kept(&self) -> Vec<Kept<'_>> {
+        let mut kept = self.common.kept_own();
+        kept.extend(self.kept_by_channel());
+        kept
+    }
+
+    /// Those of them that are the channel's own: where its robot stands.
+    pub(crate) fn kept_by_channel(&self) -> Vec<Kept<'_>> {
+        let ChannelId::Foreground(number) = self.channel else { return Vec::new() };
+        let own = self.kept_own().into_iter();
+        let stored = |name: &'static str| BASES.get(usize::from(number)).copied().unwrap_or(name);
+        own.map(|kept| Kept { stored: stored(kept.name), ..kept }).collect()
+    }
+
+    /// Name and value of every variable, for tests that compare with the catalog.
+    #[cfg(test)]
+    fn all(&self) -> Vec<(&'static str, &'static str, &'static str, String, Str)> {
+        self.common.all_own().into_iter().chain(self.all_own()).collect()
+    }
 }
 
 /// The variables whose type depends on the robot's family, as the programs of SCARA robots see them.
@@ -187,14 +266,25 @@ impl Default for System {
     }
 }
 
+/// What the files of `$BASE` are called, by the number of the channel.
+const BASES: [&str; MOST_FOREGROUND + 1] = ["BASE", "BASE", "BASE.2", "BASE.3", "BASE.4", "BASE.5", "BASE.6"];
+
 /// A variable that is kept when the controller is switched off.
 pub(crate) struct Kept<'a> {
-    /// The name without `$`; its file is called so.
+    /// The name without `$`.
     pub(crate) name: &'static str,
+    /// What its file is called.
+    stored: &'static str,
     /// Whether every change is kept, not only what `savesv` saves.
     always: bool,
     slot: &'a dyn Slot,
     default: fn() -> String,
+}
+
+impl<'a> Kept<'a> {
+    fn new(name: &'static str, always: bool, slot: &'a dyn Slot, default: fn() -> String) -> Self {
+        Self { name, stored: name, always, slot, default }
+    }
 }
 
 /// A variable as text.
@@ -220,14 +310,14 @@ fn encode<T: Keep>(value: &T) -> String {
     text
 }
 
-/// Gives the kept variables the values that were saved last.
-pub(crate) fn load(system: &System, state: &mut State) -> Result<(), StateError> {
-    for kept in system.kept() {
-        let text = state.load(kept.name)?;
+/// Gives kept variables the values that were saved last.
+pub(crate) fn load(variables: &[Kept<'_>], state: &mut State) -> Result<(), StateError> {
+    for kept in variables {
+        let text = state.load(kept.stored)?;
         if let Some(text) = text
             && !kept.slot.read(&text)
         {
-            return Err(state.damaged(kept.name));
+            return Err(state.damaged(kept.stored));
         }
     }
     Ok(())
@@ -238,12 +328,12 @@ pub(crate) fn keep(system: &System, state: &mut State) -> Result<(), StateError>
     for kept in system.kept() {
         if kept.always {
             let text = kept.slot.write();
-            let same = match state.known(kept.name) {
+            let same = match state.known(kept.stored) {
                 Some(known) => known == text,
                 None => text == (kept.default)(),
             };
             if !same {
-                state.save(kept.name, text)?;
+                state.save(kept.stored, text)?;
             }
         }
     }
@@ -258,7 +348,7 @@ pub fn savesv(cx: &Cx, svname: &Str) -> Result<(), Fault> {
     let text = svname.to_text();
     let name = text.strip_prefix('$').unwrap_or(&text);
     let world = cx.world();
-    let kept = world.system.kept();
+    let kept = cx.system().kept();
     let name = arl_lang::catalog::system_variable(name).map_or(name, |known| known.name);
     let Some(variable) = kept.iter().find(|kept| kept.name.eq_ignore_ascii_case(name)) else {
         let names: Vec<&str> = kept.iter().map(|kept| kept.name).collect();
@@ -266,20 +356,20 @@ pub fn savesv(cx: &Cx, svname: &Str) -> Result<(), Fault> {
             format!("\"{text}\" is no system variable that is saved; {}", crate::settings::hint(name, &names));
         return Err(Fault::Domain { function: "savesv", problem: problem.into() });
     };
-    let saved = world.state.borrow_mut().save(variable.name, variable.slot.write());
+    let saved = world.state.borrow_mut().save(variable.stored, variable.slot.write());
     saved.map_err(|error| Fault::Domain { function: "savesv", problem: error.to_string().into() })
 }
 
 /// `init`: sets the variables of chapter 10.2 to their defaults, and those of chapter 10.1 to what was saved last.
 pub fn init(cx: &Cx) {
-    let world = cx.world();
-    let current = world.system.cjoint.get();
-    world.reset_system();
-    world.system.cjoint.set(current);
-    let state = world.state.borrow();
-    for kept in world.system.kept() {
+    let (lane, system) = (cx.lane(), cx.system());
+    let current = system.cjoint.get();
+    lane.reset_system();
+    system.cjoint.set(current);
+    let state = cx.world().state.borrow();
+    for kept in system.kept() {
         if !kept.always {
-            match state.known(kept.name) {
+            match state.known(kept.stored) {
                 Some(text) => kept.slot.read(text),
                 None => kept.slot.read(&(kept.default)()),
             };

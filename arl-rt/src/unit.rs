@@ -393,10 +393,10 @@ fn alarm(error: PlanError, earlier: File, (file, line): (File, u32)) -> Alarm {
     match error {
         PlanError::Earlier { line, error } => alarm(*error, earlier, (earlier, line)),
         PlanError::NoCircle | PlanError::LoneCircle => {
-            Alarm { fault: Fault::ArcPlane(error.to_string().into()), file, line }
+            Alarm::new(Fault::ArcPlane(error.to_string().into()), file, line)
         }
-        PlanError::AboveLimit { .. } => Alarm { fault: Fault::GateHeight(error.to_string().into()), file, line },
-        error => Alarm { fault: Fault::Motion(error.to_string().into()), file, line },
+        PlanError::AboveLimit { .. } => Alarm::new(Fault::GateHeight(error.to_string().into()), file, line),
+        error => Alarm::new(Fault::Motion(error.to_string().into()), file, line),
     }
 }
 

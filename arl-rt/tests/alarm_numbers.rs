@@ -40,6 +40,6 @@ fn every_alarm_has_a_cause_and_a_remedy() {
 #[test]
 fn the_example_is_what_the_runtime_says() {
     let fault = arl_rt::fault::Fault::Index { index: 5, size: 5 };
-    let alarm = arl_rt::fault::Alarm { fault, file: arl_rt::fault::File::new("stack.arl"), line: 12 };
+    let alarm = arl_rt::fault::Alarm::new(fault, arl_rt::fault::File::new("stack.arl"), 12);
     assert!(include_str!("../../docs/alarms.md").contains(&format!("\n{alarm}\n")));
 }

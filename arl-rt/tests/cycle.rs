@@ -219,7 +219,7 @@ fn a_reset_starts_from_the_beginning() {
             text::print().to(Printto::Off).argtoprint(&"not seen").run(cx).at(FILE, 1)?;
             io::pulsedo(cx, 4, true, 100.0).await.at(FILE, 2)?;
             motion::movej(bent(5.0)).vp(70.0).run(cx).await.at(FILE, 3)?;
-            Err(Stop::alarm(arl_rt::Alarm { fault: Fault::Assertion, file: FILE, line: 4 }))
+            Err(Stop::alarm(arl_rt::Alarm::new(Fault::Assertion, FILE, 4)))
         })
     });
     assert!(controller.reset().is_err(), "it runs");

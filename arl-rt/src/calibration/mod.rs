@@ -184,7 +184,7 @@ impl<'a> Taught<'a> {
     }
 
     fn flange_named(&self, name: &str, joint: &Joint) -> Result<Frame, Fault> {
-        let unit = self.cx.world().unit.borrow();
+        let unit = self.cx.lane().unit(self.function)?;
         let own = unit.robot().own_axes().len();
         let mut axes = joint.axes();
         if axes.iter().take(own).any(|axis| is_unset(*axis)) {

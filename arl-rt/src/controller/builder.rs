@@ -1,5 +1,6 @@
 //! What a controller can be given before it starts.
 
+use std::cell::RefCell;
 use std::fmt;
 use std::io::Write;
 use std::path::PathBuf;
@@ -7,21 +8,24 @@ use std::rc::Rc;
 
 use super::Controller;
 use super::channel::{Channel, STACK};
+use super::channels::Channels;
+use super::foreground::{Body, Foreground};
 use crate::cell::{Cell, Sensitivity};
+use crate::channel_id::{ChannelId, MOST_FOREGROUND};
 use crate::clock_source::{Clock, VirtualClock};
-use crate::cx::Cx;
 use crate::fieldbus::Buses;
 use crate::fieldbus::devicenet::{DeviceNet, SimulatedDeviceNet};
 use crate::files::ScriptDir;
 use crate::io::{Image, IoDriver, Playing, Scenario, SimulatedIo};
 use crate::kinematics::frame;
+use crate::lane::{Lane, Station};
 use crate::output::{Output, Stream};
 use crate::program::Program;
 use crate::random::{self, Random};
 use crate::robot::{Family, Robot, RobotError};
-use crate::robot_driver::{RobotDriver, SimulatedRobot};
+use crate::robot_driver::RobotDriver;
 use crate::state::{Memory, State, StateError, Storage};
-use crate::system::{self, System};
+use crate::system::{self, Common, System};
 use crate::time;
 use crate::trace::Trace;
 use crate::unit::Unit;
@@ -31,17 +35,19 @@ use crate::world::{Parts, World};
 /// What a controller can be given before it starts. Without anything it has the default robot, simulated, the default
 /// cell, and the virtual clock; messages go to the standard output, system variables are kept in memory only.
 pub struct Builder {
-    robot: Option<Robot>,
+    /// The first channel's robot.
+    body: Body,
+    /// The other foreground channels.
+    foreground: Vec<Foreground>,
+    background: Vec<Box<dyn Program>>,
     cell: Cell,
     clock: Box<dyn Clock>,
-    driver: Box<dyn RobotDriver>,
     io: Box<dyn IoDriver>,
     devicenet: Box<dyn DeviceNet>,
     scenario: Scenario,
     output: Option<Box<dyn Output>>,
     storage: Box<dyn Storage>,
     script_dir: PathBuf,
-    trace: Option<Box<dyn Write>>,
     record: bool,
     mode: Controlmode,
     speed_override: f64,
@@ -53,17 +59,17 @@ pub struct Builder {
 impl Default for Builder {
     fn default() -> Self {
         Self {
-            robot: None,
+            body: Body::default(),
+            foreground: Vec::new(),
+            background: Vec::new(),
             cell: Cell::default(),
             clock: Box::new(VirtualClock::new()),
-            driver: Box::new(SimulatedRobot::new()),
             io: Box::new(SimulatedIo),
             devicenet: Box::new(SimulatedDeviceNet::default()),
             scenario: Scenario::default(),
             output: None,
             storage: Box::new(Memory::default()),
             script_dir: PathBuf::from("."),
-            trace: None,
             record: false,
             mode: Controlmode::Auto,
             speed_override: 100.0,
@@ -75,9 +81,22 @@ impl Default for Builder {
 }
 
 impl Builder {
-    /// The robot; without it the default robot of the program's family.
+    /// Adds the next foreground channel, 2 to 6, with its own program and robot. The first one is the program that
+    /// [`Builder::build`] gets.
+    pub fn foreground(mut self, channel: Foreground) -> Self {
+        self.foreground.push(channel);
+        self
+    }
+
+    /// Adds the next background channel: a program without a robot.
+    pub fn background(mut self, program: Box<dyn Program>) -> Self {
+        self.background.push(program);
+        self
+    }
+
+    /// The robot of the first channel; without it the default robot of the program's family.
     pub fn robot(mut self, robot: Robot) -> Self {
-        self.robot = Some(robot);
+        self.body.robot = Some(robot);
         self
     }
 
@@ -93,9 +112,9 @@ impl Builder {
         self
     }
 
-    /// What moves the robot.
+    /// What moves the robot of the first channel.
     pub fn robot_driver(mut self, driver: impl RobotDriver + 'static) -> Self {
-        self.driver = Box::new(driver);
+        self.body.driver = Box::new(driver);
         self
     }
 
@@ -135,9 +154,9 @@ impl Builder {
         self
     }
 
-    /// Where the trace goes, as CSV.
+    /// Where the trace of the first channel's robot goes, as CSV.
     pub fn trace(mut self, writer: impl Write + 'static) -> Self {
-        self.trace = Some(Box::new(writer));
+        self.body.trace = Some(Box::new(writer));
         self
     }
 
@@ -178,88 +197,166 @@ impl Builder {
         self
     }
 
-    /// The controller, with its program at the start of the first cycle.
+    /// The controller, with its programs at the start of the first cycle; this one runs in the first channel.
     ///
     /// # Errors
     /// The parts do not fit each other, or what was kept is damaged.
-    pub fn build(mut self, program: Box<dyn Program>) -> Result<Controller, SetupError> {
-        let robot = match self.robot.take() {
-            Some(robot) => robot,
-            None => default_robot(program.family())?,
-        };
-        self.check(&robot, program.family())?;
-        let system = System::new();
-        let mut state = State::new(self.storage);
-        system::load(&system, &mut state)?;
-        system.ctl_mode.set(self.mode);
-        let rate = self.cell.rate;
-        let trace = self.trace.map(|writer| Trace::new(writer, robot.family)).transpose();
-        let trace = trace.map_err(|error| SetupError::Trace(error.to_string()))?;
-        let mut unit = Unit::new(robot, self.driver);
-        unit.settings.manual = self.mode == Controlmode::Manual;
-        if self.record {
-            unit.record();
+    pub fn build(self, program: Box<dyn Program>) -> Result<Controller, SetupError> {
+        let Builder { cell, background, .. } = self;
+        let count = 1 + self.foreground.len();
+        if count > MOST_FOREGROUND {
+            let text = format!("{count} foreground channels: a controller has at most {MOST_FOREGROUND}");
+            return Err(SetupError::Channels(text));
         }
-        let base = system.base.with(|base| base.first().map_or_else(Default::default, |base| base.w_frame));
-        unit.set_base(frame(base.components()));
-        let image = Image::new(&self.cell.channels);
-        let scenario = Playing::new(self.scenario, &image, rate);
-        let buses = Buses::new(self.cell.buses, self.devicenet);
+        if background.len() > usize::from(u8::MAX) {
+            return Err(SetupError::Channels(format!(
+                "{} background channels: at most 255 are possible",
+                background.len()
+            )));
+        }
+        let common = Rc::new(Common::new());
+        let mut state = State::new(self.storage);
+        system::load(&common.kept_own(), &mut state)?;
+        common.ctl_mode.set(self.mode);
+        let io = Image::new(&cell.channels).for_programs(count + background.len());
+        let rate = cell.rate;
+        let body = Body {
+            homes: cell.homes.clone(),
+            home_tolerance: Some(cell.home_tolerance),
+            collisions: cell.collisions.clone(),
+            ..self.body
+        };
+        let robot = robot_of(&body, &*program)?;
+        self.scenario.check(&cell.channels, &robot).map_err(SetupError::Cell)?;
+        let scenario = Playing::new(self.scenario, &io, rate);
+        let buses = Buses::new(cell.buses, self.devicenet);
         buses.start().map_err(SetupError::Outside)?;
         let (outside, real_time) = (buses.is_outside(), self.clock.is_real());
         let world = Rc::new(World::new(Parts {
             rate,
-            system,
-            io: image,
-            unit,
+            io,
             scripts: ScriptDir::new(self.script_dir),
             random: Random::new(self.seed),
             start_date: self.start_date,
             output: self.output.unwrap_or_else(|| Box::new(Stream::standard())),
             state,
-            network: self.cell.network,
-            homes: self.cell.homes,
-            home_tolerance: self.cell.home_tolerance,
-            collisions: self.cell.collisions,
+            network: cell.network,
             buses,
             real_time,
         }));
         if outside {
             world.meet_outside();
         }
-        world.reset_system();
-        world.set_override(self.speed_override);
-        let program: Rc<dyn Program> = Rc::from(program);
-        let cx = Rc::new(Cx::new(Rc::clone(&world), Rc::clone(&program)));
-        let channel = Channel::new(program, cx, self.stack);
-        Ok(Controller { world, channel, clock: self.clock, io: self.io, scenario, trace })
+        let site = Site {
+            world: Rc::clone(&world),
+            common,
+            home_tolerance: cell.home_tolerance,
+            speed_override: self.speed_override,
+            record: self.record,
+            stack: self.stack,
+        };
+        let (first, unit) = site.foreground(1, program, robot, body)?;
+        let mut others = Vec::new();
+        for (number, Foreground { program, body }) in (2..).zip(self.foreground) {
+            let robot = robot_of(&body, &*program)?;
+            others.push(site.foreground(number, program, robot, body)?.0);
+        }
+        for (number, program) in (1..).zip(background) {
+            let index = 1 + others.len();
+            others.push(site.background(number, index, program));
+        }
+        Ok(Controller { world, channels: Channels::new(first, others), unit, clock: self.clock, io: self.io, scenario })
+    }
+}
+
+/// What channels are set up with.
+struct Site {
+    world: Rc<World>,
+    common: Rc<Common>,
+    home_tolerance: f64,
+    speed_override: f64,
+    record: bool,
+    stack: usize,
+}
+
+impl Site {
+    /// A foreground channel with this number, and its robot.
+    fn foreground(
+        &self,
+        number: u8,
+        program: Box<dyn Program>,
+        robot: Robot,
+        body: Body,
+    ) -> Result<(Channel, Rc<RefCell<Unit>>), SetupError> {
+        let id = ChannelId::Foreground(number);
+        let system = System::beside(Rc::clone(&self.common), id);
+        system::load(&system.kept_by_channel(), &mut self.world.state.borrow_mut())?;
+        let trace = body.trace.map(|writer| Trace::new(writer, robot.family)).transpose();
+        let trace = trace.map_err(|error| SetupError::Trace(error.to_string()))?;
+        let mut unit = Unit::new(robot, body.driver);
+        unit.settings.manual = self.common.ctl_mode.get() == Controlmode::Manual;
+        if self.record {
+            unit.record();
+        }
+        let base = system.base.with(|base| base.first().map_or_else(Default::default, |base| base.w_frame));
+        unit.set_base(frame(base.components()));
+        unit.set_override(self.speed_override);
+        let unit = Rc::new(RefCell::new(unit));
+        let station = Station {
+            unit: Rc::clone(&unit),
+            homes: body.homes,
+            home_tolerance: body.home_tolerance.unwrap_or(self.home_tolerance),
+            collisions: body.collisions,
+        };
+        let index = usize::from(number).saturating_sub(1);
+        let channel =
+            self.channel(Lane::foreground(Rc::clone(&self.world), id, index, system, station), program, trace);
+        self.world.add_foreground(channel.cx());
+        Ok((channel, unit))
     }
 
-    /// Whether the parts fit the robot and a program for this family.
-    fn check(&self, robot: &Robot, program: Family) -> Result<(), SetupError> {
-        if robot.family != program {
-            return Err(SetupError::Family { program, robot: robot.name.clone(), family: robot.family });
-        }
-        for home in self.cell.homes.iter().flatten() {
-            if home.len() != robot.axes.len() {
-                let (found, name, axes) = (home.len(), &robot.name, robot.axes.len());
-                let text = format!("a home point of the cell has {found} positions; robot {name} has {axes} axes");
-                return Err(SetupError::Cell(text));
-            }
-        }
-        for (cid, sensitivity) in &self.cell.collisions {
-            let (own, name) = (robot.own_axes().len(), &robot.name);
-            if let Sensitivity::Torques(torques) = sensitivity
-                && torques.len() != own
-            {
-                let found = torques.len();
-                let text =
-                    format!("collision condition {cid} of the cell has {found} torques; robot {name} has {own} axes");
-                return Err(SetupError::Cell(text));
-            }
-        }
-        self.scenario.check(&self.cell.channels, robot).map_err(SetupError::Cell)
+    /// A background channel with this number, at this place among all channels.
+    fn background(&self, number: u8, index: usize, program: Box<dyn Program>) -> Channel {
+        let id = ChannelId::Background(number);
+        let system = System::beside(Rc::clone(&self.common), id);
+        self.channel(Lane::background(Rc::clone(&self.world), id, index, system), program, None)
     }
+
+    fn channel(&self, lane: Lane, program: Box<dyn Program>, trace: Option<Trace>) -> Channel {
+        lane.reset_system();
+        Channel::new(Rc::new(lane), Rc::from(program), self.stack, trace)
+    }
+}
+
+/// The robot of a program, which fits it and what belongs to it.
+fn robot_of(body: &Body, program: &dyn Program) -> Result<Robot, SetupError> {
+    let family = program.family();
+    let robot = match &body.robot {
+        Some(robot) => robot.clone(),
+        None => default_robot(family)?,
+    };
+    if robot.family != family {
+        return Err(SetupError::Family { program: family, robot: robot.name, family: robot.family });
+    }
+    for home in body.homes.iter().flatten() {
+        if home.len() != robot.axes.len() {
+            let (found, name, axes) = (home.len(), &robot.name, robot.axes.len());
+            let text = format!("a home point of the cell has {found} positions; robot {name} has {axes} axes");
+            return Err(SetupError::Cell(text));
+        }
+    }
+    for (cid, sensitivity) in &body.collisions {
+        let (own, name) = (robot.own_axes().len(), &robot.name);
+        if let Sensitivity::Torques(torques) = sensitivity
+            && torques.len() != own
+        {
+            let found = torques.len();
+            let text =
+                format!("collision condition {cid} of the cell has {found} torques; robot {name} has {own} axes");
+            return Err(SetupError::Cell(text));
+        }
+    }
+    Ok(robot)
 }
 
 /// The first built-in robot of the family.
@@ -300,6 +397,8 @@ pub enum SetupError {
         /// The robot's build.
         family: Family,
     },
+    /// There are too many channels.
+    Channels(String),
     /// The cell or the scenario does not fit.
     Cell(String),
     /// What the cell has of the outside cannot be had.
@@ -320,7 +419,7 @@ impl fmt::Display for SetupError {
                 word(*program),
                 word(*family)
             ),
-            SetupError::Cell(text) | SetupError::Outside(text) => write!(f, "{text}"),
+            SetupError::Channels(text) | SetupError::Cell(text) | SetupError::Outside(text) => write!(f, "{text}"),
             SetupError::State(error) => write!(f, "{error}"),
             SetupError::Trace(text) => write!(f, "the trace cannot be written: {text}"),
         }

@@ -1,16 +1,17 @@
-//! A channel: a program and how far it has come.
+//! A channel: a program, how far it has come, and its robot.
 
 use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
 
-use super::Outcome;
 use super::actions::Actions;
+use super::{Outcome, State};
 use crate::cx::{Cx, Level};
 use crate::data;
 use crate::event;
 use crate::fault::{Alarm, Reason, Stop};
+use crate::lane::Lane;
 use crate::program::{Program, Running};
-use crate::world::World;
+use crate::trace::Trace;
 
 /// How many bytes of stack a program may use in one poll where nobody says otherwise: half of what a thread gets.
 pub(super) const STACK: usize = 1 << 20;
@@ -34,31 +35,58 @@ enum Next {
     End(Outcome),
 }
 
-/// A program and how far it has come.
+/// A program, how far it has come, and its robot.
 pub(super) struct Channel {
+    lane: Rc<Lane>,
     program: Rc<dyn Program>,
     cx: Rc<Cx>,
     stack: usize,
     phase: Phase,
     actions: Actions,
+    /// The alarm of a condition in this cycle.
+    seen: Result<(), Alarm>,
+    trace: Option<Trace>,
+    /// Whether the program ran at the start of this cycle.
+    running: bool,
 }
 
 impl Channel {
     /// A program that will start with the next cycle.
-    pub(super) fn new(program: Rc<dyn Program>, cx: Rc<Cx>, stack: usize) -> Self {
+    pub(super) fn new(lane: Rc<Lane>, program: Rc<dyn Program>, stack: usize, trace: Option<Trace>) -> Self {
+        let cx = Rc::new(Cx::new(Rc::clone(&lane), Rc::clone(&program)));
         let phase = Phase::Running(load(Rc::clone(&program), Rc::clone(&cx)));
-        Self { program, cx, stack, phase, actions: Actions::default() }
+        let actions = Actions::default();
+        Self { lane, program, cx, stack, phase, actions, seen: Ok(()), trace, running: true }
     }
 
-    /// Starts the program from its beginning, global variables included.
+    /// Starts the program from its beginning, global variables included. Pulses end, and the system variables of the manual's
+    /// chapter 10.2 are at their defaults; the robot stays where it is.
     pub(super) fn reset(&mut self) {
+        self.lane.world.io.borrow_mut().end_pulses(self.lane.index);
+        if let Some(mut unit) = self.lane.robot_mut() {
+            unit.reset();
+        }
+        self.lane.reset_system();
         self.cx.reset();
         self.actions.clear();
         self.phase = Phase::Running(load(Rc::clone(&self.program), Rc::clone(&self.cx)));
     }
 
-    pub(super) fn cx(&self) -> &Cx {
+    pub(super) fn cx(&self) -> &Rc<Cx> {
         &self.cx
+    }
+
+    pub(super) fn lane(&self) -> &Lane {
+        &self.lane
+    }
+
+    /// What the program does at the moment.
+    pub(super) fn state(&self) -> State {
+        match self.phase {
+            Phase::Ended(_) => State::Ended,
+            _ if self.lane.paused.get() => State::Paused,
+            _ => State::Running,
+        }
     }
 
     /// How the program ended, when it has.
@@ -69,22 +97,34 @@ impl Channel {
         }
     }
 
-    /// Looks for events, then lets the program and the actions of events run until they wait.
-    pub(super) fn poll(&mut self, world: &World) {
-        if matches!(self.phase, Phase::Running(_) | Phase::Concluding) {
+    /// Looks for events.
+    pub(super) fn look(&mut self) {
+        self.running = self.outcome().is_none();
+        self.seen = if self.has_statements() {
             self.cx.start_cycle(self.stack);
-            let mut done = event::scan(&self.cx).map_err(Reason::Alarm).and_then(|()| self.run(world));
+            event::scan(&self.cx)
+        } else {
+            Ok(())
+        };
+    }
+
+    /// Lets the program and the actions of events run until they wait.
+    pub(super) fn poll(&mut self) {
+        if self.has_statements() {
+            self.cx.start_cycle(self.stack);
+            let seen = std::mem::replace(&mut self.seen, Ok(()));
+            let mut done = seen.map_err(Reason::Alarm).and_then(|()| self.run());
             while let Err(reason) = done {
-                self.leave(world, reason);
+                self.leave(reason);
                 // After `exit` the motion that is left may have triggers.
                 let concludes = matches!(self.phase, Phase::Concluding);
-                done = if concludes { self.run(world) } else { Ok(()) };
+                done = if concludes { self.run() } else { Ok(()) };
             }
         }
         if let Phase::RunningOut(next) = &self.phase {
-            let moving = !world.motion_ended();
+            let moving = !self.lane.motion_ended();
             if moving {
-                world.conclude_motion();
+                self.lane.conclude_motion();
             }
             self.phase = match next {
                 _ if moving || !self.cx.connections().are_settled() => return,
@@ -95,12 +135,59 @@ impl Channel {
         }
     }
 
+    /// Whether statements or the actions of events may run.
+    fn has_statements(&self) -> bool {
+        matches!(self.phase, Phase::Running(_) | Phase::Concluding)
+    }
+
+    /// One step of the robot and of its trace, at `time` seconds; `period` is the length of the cycle.
+    pub(super) fn step_robot(&mut self, time: f64, period: f64) {
+        let Some(mut unit) = self.lane.robot_mut() else { return };
+        unit.step(period);
+        self.lane.update_system(&unit);
+        let mut image = self.lane.world.io.borrow_mut();
+        image.motion_ended(self.lane.index, unit.motions().1);
+        if let Some(trace) = &mut self.trace
+            && self.running
+        {
+            trace.row(time, &unit);
+        }
+    }
+
+    /// Ends the program for what went wrong apart from its statements.
+    pub(super) fn meet_trouble(&mut self) {
+        if let Some(alarm) = self.lane.take_trouble() {
+            self.fail(alarm);
+        }
+    }
+
+    /// Ends the program where the robot has collided.
+    pub(super) fn meet_collision(&mut self) {
+        if let Some(alarm) = self.lane.collision(self.cx.program()) {
+            self.fail(alarm);
+        }
+    }
+
+    /// Does what is due when the program has ended in this cycle.
+    pub(super) fn finish_cycle(&mut self) {
+        if !self.running || self.outcome().is_none() {
+            return;
+        }
+        self.lane.world.io.borrow_mut().end_pulses(self.lane.index);
+        self.lane.keep_state();
+        if let Some(trace) = &mut self.trace
+            && let Err(error) = trace.flush()
+        {
+            self.lane.world.warn(format!("the trace cannot be written: {error}"));
+        }
+    }
+
     /// Runs what is on top until it waits; what has ended makes room for what it interrupted.
-    fn run(&mut self, world: &World) -> Result<(), Reason> {
+    fn run(&mut self) -> Result<(), Reason> {
         let mut context = Context::from_waker(Waker::noop());
         loop {
             // While the program is paused nothing of it begins.
-            if !world.paused.get() {
+            if !self.lane.paused.get() {
                 self.actions.begin(&self.cx);
             }
             let polled = match (self.actions.poll(&self.cx, &mut context), &mut self.phase) {
@@ -113,7 +200,7 @@ impl Channel {
                     polled
                 }
                 (None, _) => {
-                    if self.is_concluded(world) {
+                    if self.is_concluded() {
                         self.end_with(Next::End(Outcome::Ended));
                     }
                     Poll::Pending
@@ -128,12 +215,13 @@ impl Channel {
     }
 
     /// Whether nothing is left to be done once the statements have ended.
-    fn is_concluded(&self, world: &World) -> bool {
-        let moving = !world.motion_ended();
+    fn is_concluded(&self) -> bool {
+        let lane = &self.lane;
+        let moving = !lane.motion_ended();
         if moving {
-            world.conclude_motion();
+            lane.conclude_motion();
         }
-        if moving || world.io.borrow().pulsing() || self.cx.events().borrow().has_due() {
+        if moving || lane.world.io.borrow().pulsing(lane.index) || self.cx.events().borrow().has_due() {
             return false;
         }
         self.cx.connections().close();
@@ -141,7 +229,7 @@ impl Channel {
     }
 
     /// Ends the program for a reason that came from its statements.
-    fn leave(&mut self, world: &World, reason: Reason) {
+    fn leave(&mut self, reason: Reason) {
         match reason {
             // Motion that is planned keeps its triggers.
             Reason::Exit => {
@@ -151,7 +239,7 @@ impl Channel {
                 self.phase = Phase::Concluding;
             }
             Reason::Restart => self.end_with(Next::Restart),
-            Reason::Alarm(alarm) => self.end_with(failed(world, alarm)),
+            Reason::Alarm(alarm) => self.fail(alarm),
         }
     }
 
@@ -163,29 +251,23 @@ impl Channel {
         self.phase = Phase::RunningOut(next);
     }
 
-    /// Ends the program with an alarm that did not come from its statements.
-    pub(super) fn fail(&mut self, world: &World, alarm: Alarm) {
+    /// Ends the program with an alarm: its robot stops on its path.
+    fn fail(&mut self, alarm: Alarm) {
         if !matches!(self.phase, Phase::Ended(_)) {
-            self.end_with(failed(world, alarm));
+            let alarm = Alarm { channel: self.lane.id, ..alarm };
+            self.lane.world.alarms.borrow_mut().insert(0, alarm.clone());
+            self.end(Outcome::Alarm(alarm));
         }
     }
 
     /// Ends the program where it is and stops its motion on the path.
-    pub(super) fn end(&mut self, world: &World, outcome: Outcome) {
+    pub(super) fn end(&mut self, outcome: Outcome) {
         if !matches!(self.phase, Phase::Ended(_)) {
-            world.stop_motion();
-            world.paused.set(false);
+            self.lane.stop_motion();
+            self.lane.paused.set(false);
             self.end_with(Next::End(outcome));
         }
     }
-}
-
-/// Stops for an alarm.
-fn failed(world: &World, alarm: Alarm) -> Next {
-    world.stop_motion();
-    world.paused.set(false);
-    world.alarms.borrow_mut().insert(0, alarm.clone());
-    Next::End(Outcome::Alarm(alarm))
 }
 
 /// The whole life of a program.
@@ -196,7 +278,8 @@ fn load(program: Rc<dyn Program>, cx: Rc<Cx>) -> Running {
         let mut alarms = data::reload(&*program, world.scripts.path()).into_iter();
         if let Some(first) = alarms.next() {
             // The first one ends the program, and is noted then; all of them come to the user.
-            world.alarms.borrow_mut().extend(alarms);
+            let channel = cx.lane().id;
+            world.alarms.borrow_mut().extend(alarms.map(|alarm| Alarm { channel, ..alarm }));
             return Err(Stop::alarm(first));
         }
         program.main(&cx).await

@@ -3,17 +3,21 @@
 mod actions;
 mod builder;
 mod channel;
+mod channels;
+mod foreground;
 mod order;
 mod outcome;
 mod status;
 
+use std::cell::RefCell;
 use std::net::SocketAddr;
 use std::rc::Rc;
 use std::sync::Arc;
 
 pub use builder::{Builder, SetupError};
+pub use foreground::Foreground;
 pub use outcome::{Outcome, State};
-pub use status::{ChannelStatus, Status};
+pub use status::{ChannelStatus, RobotStatus, Status};
 
 use crate::clock_source::Clock;
 use crate::fault::{Alarm, Fault, File};
@@ -21,9 +25,10 @@ use crate::io::{Deed, Digital, IoDriver, Pendant, Playing};
 use crate::motion::{Joints, MotionRecord};
 use crate::robot::Robot;
 use crate::system::System;
-use crate::trace::Trace;
+use crate::unit::Unit;
 use crate::world::World;
 use channel::Channel;
+use channels::Channels;
 
 /// Runs a program.
 ///
@@ -79,11 +84,12 @@ use channel::Channel;
 /// ```
 pub struct Controller {
     world: Rc<World>,
-    channel: Channel,
+    channels: Channels,
+    /// The robot of the first channel.
+    unit: Rc<RefCell<Unit>>,
     clock: Box<dyn Clock>,
     io: Box<dyn IoDriver>,
     scenario: Playing,
-    trace: Option<Trace>,
 }
 
 impl Controller {
@@ -101,57 +107,31 @@ impl Controller {
             let mut image = world.io.borrow_mut();
             self.io.read(image.inputs_mut());
             image.end_pulses_of(cycle);
-            self.scenario.play(cycle, &mut image, |deed| act(world, deed));
+            let channels = &self.channels;
+            self.scenario.play(cycle, &mut image, |deed| act(channels, deed));
         }
-        let running = self.channel.outcome().is_none();
-        self.channel.poll(world);
-        if let Some(alarm) = world.take_trouble() {
-            self.channel.fail(world, alarm);
-        }
-        {
-            let mut unit = world.unit.borrow_mut();
-            unit.step(rate.period());
-            world.update_system(&unit);
-            let mut image = world.io.borrow_mut();
-            image.motion_ended(unit.motions().1);
-            self.io.write(image.outputs_all());
-            if let Some(trace) = &mut self.trace
-                && running
-            {
-                trace.row(rate.time(cycle), &unit);
-            }
-        }
-        if let Some(alarm) = world.collision(self.channel.cx().program()) {
-            self.channel.fail(world, alarm);
-        }
+        self.channels.each(Channel::look);
+        self.channels.each(Channel::poll);
+        self.channels.each(Channel::meet_trouble);
+        self.channels.each(|channel| channel.step_robot(rate.time(cycle), rate.period()));
+        self.io.write(world.io.borrow_mut().outputs_all());
+        self.channels.each(Channel::meet_collision);
         world.flush();
         if world.met_outside()
             && let Some(warning) = self.clock.meet_outside()
         {
             world.warn(warning.into());
         }
-        if running && self.channel.outcome().is_some() {
-            self.ended();
-        }
+        self.channels.each(Channel::finish_cycle);
         self.world.now.set(cycle + 1);
         self.state()
     }
 
-    /// What is due when the program has ended.
-    fn ended(&mut self) {
-        self.world.io.borrow_mut().end_pulses();
-        self.world.keep_state();
-        if let Some(trace) = &mut self.trace
-            && let Err(error) = trace.flush()
-        {
-            self.world.warn(format!("the trace cannot be written: {error}"));
-        }
-    }
-
-    /// Runs until the program has ended: for ever, where it does not.
+    /// Runs until the program has ended, where there are several, those of all foreground channels: for ever, where one does
+    /// not.
     pub fn run(&mut self) -> Outcome {
         loop {
-            if let Some(outcome) = self.channel.outcome() {
+            if let Some(outcome) = self.channels.outcome() {
                 return outcome.clone();
             }
             self.step();
@@ -161,7 +141,7 @@ impl Controller {
     /// Runs so many seconds of controller time, or until the program has ended.
     pub fn run_for(&mut self, seconds: f64) -> State {
         let end = self.world.now.get().saturating_add(self.world.rate.cycles(seconds));
-        while self.world.now.get() < end && self.channel.outcome().is_none() {
+        while self.world.now.get() < end && self.channels.outcome().is_none() {
             self.step();
         }
         self.state()
@@ -169,26 +149,22 @@ impl Controller {
 
     /// What the controller does at the moment.
     pub fn state(&self) -> State {
-        match self.channel.outcome() {
-            Some(_) => State::Ended,
-            None if self.world.paused.get() => State::Paused,
-            None => State::Running,
-        }
+        self.channels.state()
     }
 
     /// How the program ended, when it has.
     pub fn outcome(&self) -> Option<&Outcome> {
-        self.channel.outcome()
+        self.channels.outcome()
     }
 
     /// Ends the program: the robot stops on its path within the cycles that follow.
     pub fn stop(&mut self) {
-        self.channel.end(&self.world, Outcome::Stopped);
+        self.channels.each(|channel| channel.end(Outcome::Stopped));
     }
 
     /// Presses the start button: a program that is paused goes on.
     pub fn resume(&mut self) {
-        self.world.paused.set(false);
+        self.channels.each(|channel| channel.lane().paused.set(false));
     }
 
     /// Resets the program, which starts from its beginning with the next cycle: pulses end, global variables and the
@@ -197,13 +173,10 @@ impl Controller {
     /// # Errors
     /// The program still runs: [`stop`](Controller::stop) it first.
     pub fn reset(&mut self) -> Result<(), StillRunning> {
-        if self.channel.outcome().is_none() {
+        if self.channels.iter().any(|channel| channel.outcome().is_none()) {
             return Err(StillRunning);
         }
-        self.world.io.borrow_mut().end_pulses();
-        self.world.unit.borrow_mut().reset();
-        self.world.reset_system();
-        self.channel.reset();
+        self.channels.each(Channel::reset);
         Ok(())
     }
 
@@ -229,28 +202,28 @@ impl Controller {
 
     /// The file and line of the statement that runs now.
     pub fn place(&self) -> (File, u32) {
-        self.channel.cx().place()
+        self.channels.first().cx().place()
     }
 
     /// The file that has the program's `main`.
     pub fn program(&self) -> File {
-        self.channel.cx().program()
+        self.channels.first().cx().program()
     }
 
     /// The system variables.
     pub fn system(&self) -> &System {
-        &self.world.system
+        &self.channels.first().lane().system
     }
 
     /// The axes as the robot reports them, in deg (mm).
     pub fn joints(&self) -> Joints {
-        *self.world.unit.borrow().feedback()
+        *self.unit.borrow().feedback()
     }
 
     /// What the motions planned so far did, in order; none unless the controller was built with
     /// [`Builder::record_motions`].
     pub fn motions(&self) -> Vec<MotionRecord> {
-        self.world.unit.borrow().records().to_vec()
+        self.unit.borrow().records().to_vec()
     }
 
     /// Where the Modbus TCP server listens, if there is one.
@@ -260,7 +233,7 @@ impl Controller {
 
     /// The robot.
     pub fn robot(&self) -> Arc<Robot> {
-        self.world.unit.borrow().shared_robot()
+        self.unit.borrow().shared_robot()
     }
 
     /// Warnings since the last call.
@@ -330,18 +303,31 @@ impl Controller {
     }
 }
 
-/// Does what a scenario says, inputs aside.
-fn act(world: &World, deed: Deed) {
+/// Does what a scenario says, inputs aside. The pendant's buttons count for all channels; what is pushed is the robot of the
+/// first.
+fn act(channels: &Channels, deed: Deed) {
     match deed {
-        Deed::Pendant(Pendant::Start) => world.paused.set(false),
-        Deed::Pendant(Pendant::Override(percent)) => world.set_override(percent),
-        Deed::Force(force) => world.unit.borrow_mut().outside_mut().force = force,
+        Deed::Pendant(Pendant::Start) => channels.iter().for_each(|channel| channel.lane().paused.set(false)),
+        Deed::Pendant(Pendant::Override(percent)) => set_override(channels, percent),
+        Deed::Force(force) => {
+            if let Some(mut unit) = channels.first().lane().robot_mut() {
+                unit.outside_mut().force = force;
+            }
+        }
         Deed::Torque(axis, torque) => {
-            if let Some(place) = world.unit.borrow_mut().outside_mut().torques.get_mut(axis) {
+            if let Some(mut unit) = channels.first().lane().robot_mut()
+                && let Some(place) = unit.outside_mut().torques.get_mut(axis)
+            {
                 *place = torque;
             }
         }
     }
+}
+
+/// Sets the speed override of all robots, in %.
+fn set_override(channels: &Channels, percent: f64) {
+    let percent = percent.clamp(0.0, 100.0);
+    channels.iter().filter_map(|channel| channel.lane().robot_mut()).for_each(|mut unit| unit.set_override(percent));
 }
 
 /// A program cannot be reset while it runs.

@@ -12,11 +12,10 @@ impl Controller {
     pub fn order(&mut self, text: &str) -> Result<(), String> {
         let order = Order::parse(text).map_err(|error| error.message)?;
         let robot = self.robot();
-        let world = &self.world;
         // A deed may look at the image itself.
         let mut deeds = Vec::new();
-        order.carry_out(&mut world.io.borrow_mut(), &robot, |deed| deeds.push(deed))?;
-        deeds.into_iter().for_each(|deed| act(world, deed));
+        order.carry_out(&mut self.world.io.borrow_mut(), &robot, |deed| deeds.push(deed))?;
+        deeds.into_iter().for_each(|deed| act(&self.channels, deed));
         Ok(())
     }
 }

@@ -1,8 +1,13 @@
 //! How everything stands: what a screen shows.
 
+use std::sync::Arc;
+
+use super::channel::Channel;
 use super::{Controller, Outcome, State};
+use crate::channel_id::ChannelId;
 use crate::fault::File;
 use crate::motion::Joints;
+use crate::robot::Robot;
 use crate::values::Controlmode;
 
 /// How a controller stands between two cycles.
@@ -15,7 +20,7 @@ pub struct Status {
     pub mode: Controlmode,
     /// The speed override in %.
     pub speed_override: f64,
-    /// How the channels stand.
+    /// How the channels stand: the foreground ones by their numbers, then the background ones.
     pub channels: Vec<ChannelStatus>,
     /// The levels of the digital inputs, from channel 1.
     pub di: Vec<bool>,
@@ -31,12 +36,26 @@ pub struct Status {
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub struct ChannelStatus {
+    /// Which one it is.
+    pub channel: ChannelId,
+    /// The file that has the program's `main`.
+    pub program: File,
     /// What it does.
     pub state: State,
     /// How its program ended, when it has.
     pub outcome: Option<Outcome>,
     /// The file and line of the statement that runs.
     pub place: (File, u32),
+    /// How its robot stands; a background channel has none.
+    pub robot: Option<RobotStatus>,
+}
+
+/// How a channel's robot stands.
+#[derive(Clone, PartialEq, Debug)]
+#[non_exhaustive]
+pub struct RobotStatus {
+    /// The robot.
+    pub robot: Arc<Robot>,
     /// The file and line of the motion that is being executed, or was last.
     pub motion: Option<(File, u32)>,
     /// The axes as commanded, in deg (mm).
@@ -48,24 +67,33 @@ pub struct ChannelStatus {
 impl Controller {
     /// How everything stands.
     pub fn status(&self) -> Status {
-        let (unit, io) = (self.world.unit.borrow(), self.world.io.borrow());
-        let channel = ChannelStatus {
-            state: self.state(),
-            outcome: self.outcome().cloned(),
-            place: self.place(),
-            motion: unit.motion_pointer(),
-            joints: *unit.setpoint(),
-            tcp: unit.commanded_tcp(),
-        };
+        let (unit, io) = (self.unit.borrow(), self.world.io.borrow());
         Status {
             time: self.time(),
-            mode: self.world.system.ctl_mode.get(),
+            mode: self.system().ctl_mode.get(),
             speed_override: unit.speed_override(),
-            channels: vec![channel],
+            channels: self.channels.iter().map(of_channel).collect(),
             di: io.inputs().levels().to_vec(),
             dout: io.outputs().levels().to_vec(),
             ai: io.analogs(false).to_vec(),
             ao: io.analogs(true).to_vec(),
         }
+    }
+}
+
+fn of_channel(channel: &Channel) -> ChannelStatus {
+    let lane = channel.lane();
+    ChannelStatus {
+        channel: lane.id,
+        program: channel.cx().program(),
+        state: channel.state(),
+        outcome: channel.outcome().cloned(),
+        place: channel.cx().place(),
+        robot: lane.robot().map(|unit| RobotStatus {
+            robot: unit.shared_robot(),
+            motion: unit.motion_pointer(),
+            joints: *unit.setpoint(),
+            tcp: unit.commanded_tcp(),
+        }),
     }
 }

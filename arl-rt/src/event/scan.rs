@@ -40,7 +40,7 @@ impl Unknown {
             Unknown::Alarm(alarm) => (alarm.file, alarm.line),
             Unknown::Unfit(_) => event.place,
         };
-        Alarm { fault: self.fault(&event.describe()), file, line }
+        Alarm::new(self.fault(&event.describe()), file, line)
     }
 }
 
@@ -140,7 +140,7 @@ fn scan_triggers(cx: &Cx) -> Result<(), Alarm> {
 }
 
 fn stage(cx: &Cx, motion: u64) -> Stage {
-    let unit = cx.world().unit.borrow();
+    let Some(unit) = cx.lane().robot() else { return Stage::Over(None) };
     match unit.progress() {
         _ if motion <= unit.over() => Stage::Over(unit.left(motion)),
         Some(progress) if progress.motion == motion => Stage::Executed,

@@ -24,8 +24,8 @@ pub struct Image {
     pulses: Vec<Option<Pulse>>,
     running_pulses: usize,
     pwm: [Pwm; PWM_CHANNELS],
-    /// Outputs that change when a motion has ended: in the order of the motions.
-    after_motion: VecDeque<AfterMotion>,
+    /// Outputs that change when a motion of a channel has ended: for each channel, in the order of its motions.
+    after_motion: Vec<VecDeque<AfterMotion>>,
 }
 
 /// How many PWM outputs a controller has.
@@ -47,6 +47,8 @@ struct Pulse {
     level: bool,
     /// The cycle at whose start it is over.
     ends: u64,
+    /// The place of the channel whose program began it.
+    owner: usize,
 }
 
 /// `setdoimv`: an output that waits for the end of a motion.
@@ -94,14 +96,22 @@ impl Image {
             pulses: vec![None; channels.dout as usize],
             running_pulses: 0,
             pwm: [Pwm::default(); PWM_CHANNELS],
-            after_motion: VecDeque::with_capacity(64),
+            after_motion: vec![VecDeque::with_capacity(64)],
         }
     }
 
-    /// Ends all pulses at once.
-    pub(crate) fn end_pulses(&mut self) {
+    /// The same, for so many channels with programs.
+    pub(crate) fn for_programs(mut self, count: usize) -> Self {
+        self.after_motion.resize_with(count, || VecDeque::with_capacity(64));
+        self
+    }
+
+    /// Ends all pulses of a program's channel at once.
+    pub(crate) fn end_pulses(&mut self, owner: usize) {
         for at in 0..self.pulses.len() {
-            self.end_pulse(at);
+            if self.pulses.get(at).copied().flatten().is_some_and(|pulse| pulse.owner == owner) {
+                self.end_pulse(at);
+            }
         }
     }
 
@@ -112,9 +122,9 @@ impl Image {
         Ok(())
     }
 
-    /// Drops what waits for the end of a motion.
-    pub(crate) fn forget_motion(&mut self) {
-        self.after_motion.clear();
+    /// Drops what waits for the end of a motion of a program's channel.
+    pub(crate) fn forget_motion(&mut self, owner: usize) {
+        self.after_motion.get_mut(owner).into_iter().for_each(VecDeque::clear);
     }
 
     fn bits(&self, what: Digital) -> &Bits {
@@ -215,12 +225,12 @@ impl Image {
         self.ao.set(channel, value)
     }
 
-    /// Starts a pulse of `level` that is over at the start of cycle `ends`.
-    pub(crate) fn pulse(&mut self, channel: i32, level: bool, ends: u64) -> Result<(), Fault> {
+    /// Starts a pulse of `level` that is over at the start of cycle `ends`, for the program of the channel `owner`.
+    pub(crate) fn pulse(&mut self, owner: usize, channel: i32, level: bool, ends: u64) -> Result<(), Fault> {
         let at = self.place(Digital::Do, channel)?;
         self.drive(Digital::Do, at, level);
         if let Some(place) = self.pulses.get_mut(at) {
-            *place = Some(Pulse { level, ends });
+            *place = Some(Pulse { level, ends, owner });
             self.running_pulses += 1;
         }
         Ok(())
@@ -250,24 +260,27 @@ impl Image {
         }
     }
 
-    /// Whether a pulse is still running.
-    pub(crate) fn pulsing(&self) -> bool {
-        self.running_pulses > 0
+    /// Whether a pulse of a program's channel is still running.
+    pub(crate) fn pulsing(&self, owner: usize) -> bool {
+        self.running_pulses > 0 && self.pulses.iter().flatten().any(|pulse| pulse.owner == owner)
     }
 
-    /// Sets a channel when the motion with this running number has ended.
-    pub(crate) fn set_after(&mut self, motion: u64, channel: i32, level: bool) -> Result<(), Fault> {
+    /// Sets a channel when the motion with this running number, of the program's channel `owner`, has ended.
+    pub(crate) fn set_after(&mut self, owner: usize, motion: u64, channel: i32, level: bool) -> Result<(), Fault> {
         let at = self.place(Digital::Do, channel)?;
-        self.after_motion.push_back(AfterMotion { motion, channel: at, level });
+        if let Some(waiting) = self.after_motion.get_mut(owner) {
+            waiting.push_back(AfterMotion { motion, channel: at, level });
+        }
         Ok(())
     }
 
-    /// Sets the channels that waited for a motion up to `ended`.
-    pub(crate) fn motion_ended(&mut self, ended: u64) {
-        while self.after_motion.front().is_some_and(|waiting| waiting.motion <= ended) {
-            if let Some(waiting) = self.after_motion.pop_front() {
-                self.drive(Digital::Do, waiting.channel, waiting.level);
-            }
+    /// Sets the channels that waited for a motion up to `ended` of the program's channel `owner`.
+    pub(crate) fn motion_ended(&mut self, owner: usize, ended: u64) {
+        while let Some(waiting) = self.after_motion.get_mut(owner)
+            && waiting.front().is_some_and(|first| first.motion <= ended)
+            && let Some(due) = waiting.pop_front()
+        {
+            self.drive(Digital::Do, due.channel, due.level);
         }
     }
 
@@ -418,38 +431,38 @@ mod tests {
     #[test]
     fn a_pulse_ends_with_the_opposite_level() {
         let mut image = image();
-        image.pulse(5, true, 30).unwrap();
-        image.pulse(6, false, 31).unwrap();
+        image.pulse(0, 5, true, 30).unwrap();
+        image.pulse(0, 6, false, 31).unwrap();
         image.end_pulses_of(29);
         assert_eq!(image.digitals(Digital::Do, 5, 6).unwrap(), 0b01);
         image.end_pulses_of(30);
         assert_eq!(image.digitals(Digital::Do, 5, 6).unwrap(), 0b00);
-        assert!(image.pulsing());
+        assert!(image.pulsing(0));
         image.end_pulses_of(31);
         assert_eq!(image.digitals(Digital::Do, 5, 6).unwrap(), 0b10);
-        assert!(!image.pulsing());
+        assert!(!image.pulsing(0));
     }
 
     #[test]
     fn a_new_pulse_ends_the_old_one() {
         let mut image = image();
-        image.pulse(5, true, 3000).unwrap();
-        image.pulse(5, false, 3000).unwrap();
+        image.pulse(0, 5, true, 3000).unwrap();
+        image.pulse(0, 5, false, 3000).unwrap();
         image.end_pulses_of(3000);
         assert!(image.digital(Digital::Do, 5).unwrap());
-        assert!(!image.pulsing());
+        assert!(!image.pulsing(0));
     }
 
     #[test]
     fn outputs_wait_for_the_end_of_their_motion() {
         let mut image = image();
-        image.set_after(3, 1, true).unwrap();
-        image.set_after(4, 2, true).unwrap();
-        image.motion_ended(2);
+        image.set_after(0, 3, 1, true).unwrap();
+        image.set_after(0, 4, 2, true).unwrap();
+        image.motion_ended(0, 2);
         assert_eq!(image.digitals(Digital::Do, 1, 2).unwrap(), 0);
-        image.motion_ended(3);
+        image.motion_ended(0, 3);
         assert_eq!(image.digitals(Digital::Do, 1, 2).unwrap(), 1);
-        image.motion_ended(9);
+        image.motion_ended(0, 9);
         assert_eq!(image.digitals(Digital::Do, 1, 2).unwrap(), 3);
     }
 }

@@ -69,7 +69,7 @@ pub async fn syncdo_group(cx: &Cx, from_chan: i32, to_chan: i32, value: i32) -> 
 pub async fn pulsedo(cx: &Cx, chan: i32, value: bool, width: f64) -> Result<(), Fault> {
     let cycles = cx.world().rate.wait(width, "pulsedo")?;
     cx.motion_end().await;
-    cx.world().io.borrow_mut().pulse(chan, value, cx.cycle() + cycles.max(1))
+    cx.world().io.borrow_mut().pulse(cx.lane().index, chan, value, cx.cycle() + cycles.max(1))
 }
 
 /// The level of a digital output.
@@ -170,11 +170,11 @@ impl SetDoInMotion {
     /// # Errors
     /// There is no such channel.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
-        let world = cx.world();
-        let (last, ended) = (cx.last_motion(), world.unit.borrow().motions().1);
-        let mut io = world.io.borrow_mut();
-        io.set_after(last, self.channel, self.value)?;
-        io.motion_ended(ended);
+        let lane = cx.lane();
+        let (last, ended) = (cx.last_motion(), lane.motions().1);
+        let mut io = cx.world().io.borrow_mut();
+        io.set_after(lane.index, last, self.channel, self.value)?;
+        io.motion_ended(lane.index, ended);
         Ok(())
     }
 }

@@ -4,11 +4,11 @@ use std::io::{Write, stdout};
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
-use crate::controller::{ChannelStatus, Controller, Outcome, State};
+use crate::controller::{ChannelStatus, Controller, Outcome, RobotStatus, State};
 use crate::fault::Alarm;
 use crate::json::{array, number, quoted};
 use crate::output::{Message, Output};
-use crate::robot::{Axis, Robot};
+use crate::robot::Axis;
 
 /// How many lines may wait to be written. Then states are left out, and everything else waits.
 const WAITING: usize = 1024;
@@ -43,18 +43,13 @@ impl Voice {
 
     /// What runs on which robots.
     pub(super) fn hello(&self, controller: &Controller) {
-        let program = quoted(controller.program().name());
-        let robot = controller.robot();
-        let axes = array(&robot.axes, axis);
-        let name = quoted(&robot.name);
-        let channel = format!("{{\"program\":{program},\"robot\":{name},\"axes\":{axes}}}");
-        self.say(format!("{{\"hello\":{{\"channels\":[{channel}]}}}}\n"));
+        let channels = array(&controller.status().channels, runs);
+        self.say(format!("{{\"hello\":{{\"channels\":{channels}}}}}\n"));
     }
 
     /// How everything stands. It is left out where nobody reads as fast.
     pub(super) fn state(&self, controller: &Controller) {
         let status = controller.status();
-        let robot = controller.robot();
         let levels = |levels: &[bool]| levels.iter().map(|on| if *on { '1' } else { '0' }).collect::<String>();
         let line = format!(
             "{{\"state\":{{\"time\":{},\"mode\":\"{}\",\"override\":{},\"channels\":{},\"di\":\"{}\",\"do\":\"{}\",\"ai\":{},\
@@ -62,7 +57,7 @@ impl Voice {
             number(status.time),
             status.mode.name(),
             number(status.speed_override),
-            array(&status.channels, |status| channel(status, &robot)),
+            array(&status.channels, channel),
             levels(&status.di),
             levels(&status.dout),
             array(&status.ai, |value| number(*value)),
@@ -77,7 +72,7 @@ impl Voice {
             self.say(format!("{{\"warning\":{}}}\n", quoted(&text)));
         }
         for alarm in controller.take_alarms() {
-            let Alarm { fault, file, line } = &alarm;
+            let Alarm { fault, file, line, channel: _ } = &alarm;
             let (number, text, file) = (fault.number(), quoted(&alarm.to_string()), quoted(file.name()));
             self.say(format!(
                 "{{\"alarm\":{{\"number\":{number},\"text\":{text},\"file\":{file},\"line\":{line}}}}}\n"
@@ -110,17 +105,33 @@ fn axis(axis: &Axis) -> String {
     format!("{{\"name\":{},\"unit\":\"{unit}\",\"min\":{},\"max\":{}}}", quoted(name), number(*min), number(*max))
 }
 
-fn channel(status: &ChannelStatus, robot: &Robot) -> String {
-    let ((file, line), (motion_file, motion_line)) = (status.place, status.motion.unwrap_or((status.place.0, 0)));
-    let own = status.joints.axes.iter().take(robot.own_axes().len());
-    let external = status.joints.external.iter().take(robot.external_axes().len());
+/// What a channel runs on which robot; in the background there is none.
+fn runs(status: &ChannelStatus) -> String {
+    let program = quoted(status.program.name());
+    let robot = status.robot.as_ref().map(|status| &*status.robot);
+    let name = quoted(robot.map_or("", |robot| &robot.name));
+    let axes = array(robot.map_or(&[][..], |robot| &robot.axes), axis);
+    format!("{{\"program\":{program},\"robot\":{name},\"axes\":{axes}}}")
+}
+
+/// The axes that there are, in deg (mm).
+fn axes(status: &RobotStatus) -> Vec<f64> {
+    let RobotStatus { robot, joints, .. } = status;
+    let own = joints.axes.iter().take(robot.own_axes().len());
+    own.chain(joints.external.iter().take(robot.external_axes().len())).copied().collect()
+}
+
+fn channel(status: &ChannelStatus) -> String {
+    let (robot, (file, line)) = (status.robot.as_ref(), status.place);
+    let (motion_file, motion_line) = robot.and_then(|robot| robot.motion).unwrap_or((file, 0));
+    let tcp = robot.map_or(&[][..], |robot| &robot.tcp);
     format!(
         "{{\"state\":\"{}\",\"file\":{},\"line\":{line},\"motion_file\":{},\"motion_line\":{motion_line},\"axes\":{},\"tcp\":{}}}",
         word(status),
         quoted(file.name()),
         quoted(motion_file.name()),
-        array(own.chain(external), |axis| number(*axis)),
-        array(status.tcp, number),
+        array(&robot.map(axes).unwrap_or_default(), |axis| number(*axis)),
+        array(tcp, |component| number(*component)),
     )
 }
 
@@ -140,7 +151,7 @@ pub(crate) struct Messages(SyncSender<Option<String>>);
 
 impl Output for Messages {
     fn message(&mut self, message: &Message<'_>) {
-        let Message { time, hmi, console, text } = *message;
+        let Message { time, hmi, console, text, channel: _ } = *message;
         let text = quoted(&String::from_utf8_lossy(text));
         let line = format!(
             "{{\"message\":{{\"time\":{},\"hmi\":{hmi},\"console\":{console},\"text\":{text}}}}}\n",

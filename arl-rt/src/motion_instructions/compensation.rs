@@ -41,7 +41,7 @@ impl StartCompen {
             }
         }
         let limits = limits.map(|(_, value)| value);
-        let mut unit = cx.world().unit.borrow_mut();
+        let mut unit = cx.lane().unit_mut("startcompen")?;
         match &mut unit.settings.compensation {
             Some(compensation) => compensation.limits = limits,
             None => unit.start_compensation(limits),
@@ -153,7 +153,7 @@ impl Compen {
         if let Some(value) = self.by.iter().find(|value| !value.is_finite() || is_unset(value.abs())) {
             return Err(domain("compen", format!("{value} is no number to compensate by")));
         }
-        let mut unit = cx.world().unit.borrow_mut();
+        let mut unit = cx.lane().unit_mut("compen")?;
         let Some(compensation) = &mut unit.settings.compensation else {
             return Err(domain("compen", "no compensation has been started: startcompen begins one".to_owned()));
         };
@@ -186,7 +186,7 @@ impl EndCompen {
     /// # Errors
     /// There is no compensation to end.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
-        let ended = cx.world().unit.borrow_mut().settings.compensation.take();
+        let ended = cx.lane().unit_mut("endcompen")?.settings.compensation.take();
         let none = || domain("endcompen", "there is no compensation to end: startcompen begins one".to_owned());
         ended.map(|_| ()).ok_or_else(none)
     }

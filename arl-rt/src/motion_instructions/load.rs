@@ -73,7 +73,7 @@ fn carry(cx: &Cx, function: &'static str, load: &ToolInertiaPara) -> Result<(), 
             return Err(Fault::Domain { function, problem: problem.into() });
         }
     }
-    cx.world().unit.borrow_mut().set_load(Load::from(load));
+    cx.lane().unit_mut(function)?.set_load(Load::from(load));
     Ok(())
 }
 
@@ -108,9 +108,9 @@ impl StartDetect {
             let problem = format!("cid is {}, but must be 0 to 16", self.cid);
             return Err(Fault::Domain { function: FUNCTION, problem: problem.into() });
         };
-        let world = cx.world();
-        let sensitivity = world.sensitivity(cid);
-        let mut unit = world.unit.borrow_mut();
+        let lane = cx.lane();
+        let sensitivity = lane.sensitivity(cid);
+        let mut unit = lane.unit_mut(FUNCTION)?;
         if unit.detect(Some(&sensitivity)) {
             return Ok(());
         }
@@ -143,7 +143,7 @@ impl EndDetect {
     /// There is no such unit.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         unit("enddetect", self.mu.as_ref())?;
-        cx.world().unit.borrow_mut().detect(None);
+        cx.lane().unit_mut("enddetect")?.detect(None);
         Ok(())
     }
 }

@@ -108,10 +108,11 @@ impl Modal {
             }
             (Pace::Percent(percent), Kind::Axes) => speed.per = percent,
             (Pace::Percent(percent), Kind::Line) => {
-                let unit = cx.world().unit.borrow();
-                let tcp = &unit.robot().tcp;
-                speed.tcp = tcp.vel * percent / 100.0;
-                speed.ori = tcp.ori_vel * percent / 100.0;
+                if let Some(unit) = cx.lane().robot() {
+                    let tcp = &unit.robot().tcp;
+                    speed.tcp = tcp.vel * percent / 100.0;
+                    speed.ori = tcp.ori_vel * percent / 100.0;
+                }
             }
             (Pace::Line(millimetres), _) => speed.tcp = millimetres,
         }

@@ -10,6 +10,9 @@ use crate::system::all_set;
 use crate::unit::{Unit, joint};
 use crate::values::{Joint, Pose, VelProfile};
 
+/// What a background channel cannot do.
+const MOTION: &str = "motion";
+
 /// What the first motion of a program must not leave open.
 const FIRST: &str = "the first motion of a program must set all components of its target";
 
@@ -19,7 +22,7 @@ const SLOWED: f64 = 0.98;
 /// The axes of a target.
 pub(super) fn joints(cx: &Cx, target: &Joint) -> Result<Joints, Fault> {
     let joints = Joints { axes: target.axes(), external: target.external() };
-    let unit = cx.world().unit.borrow();
+    let unit = cx.lane().unit(MOTION)?;
     let own = unit.robot().own_axes().len();
     first(cx, &unit, joints.axes.get(..own).unwrap_or_default(), &joints.external)?;
     Ok(joints)
@@ -34,7 +37,7 @@ pub(super) fn pose(
     modal.setting.check().map_err(|unmoved| Fault::Motion(unmoved.to_string().into()))?;
     let system = cx.system();
     let (mut pose, external) = (target.components(), target.external());
-    first(cx, &cx.world().unit.borrow(), &pose, &external)?;
+    first(cx, &*cx.lane().unit(MOTION)?, &pose, &external)?;
     if system.ignore_ori.get() {
         let [x, y, z, ..] = pose;
         pose = [x, y, z, UNSET, UNSET, UNSET];
@@ -72,15 +75,15 @@ fn first(cx: &Cx, unit: &Unit, own: &[f64], external: &[f64]) -> Result<(), Faul
 
 /// Hands a motion to the planner when there is room.
 pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<(), Fault> {
-    let world = cx.world();
+    let lane = cx.lane();
     if cx.spend() {
         cx.next_cycle().await;
     }
-    while !world.unit.borrow().has_room() {
+    while !lane.unit(MOTION)?.has_room() {
         cx.next_cycle().await;
     }
     // The return to the path: the first motion goes at manual speed, and stops.
-    let returns = world.system.rpp_enable.get() && !cx.has_moved();
+    let returns = lane.system.rpp_enable.get() && !cx.has_moved();
     let target = match target {
         Target::Spline { pose, wobj, external } if returns => Target::Line { pose, wobj, external },
         target => target,
@@ -94,42 +97,42 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
         zone: if returns { Zone::NONE } else { modal.zone },
         line,
     };
-    let current = world.unit.borrow().settings;
+    let current = lane.unit(MOTION)?.settings;
     let settings = Settings {
-        profile: match world.system.vel_profile.get() {
+        profile: match lane.system.vel_profile.get() {
             VelProfile::T => VelocityProfile::T,
             VelProfile::S => VelocityProfile::S,
             VelProfile::O => VelocityProfile::O,
         },
-        wrist: world.system.wrist.get(),
+        wrist: lane.system.wrist.get(),
         manual: current.manual || returns,
         ..current
     };
-    let planned = world.unit.borrow_mut().plan(&command, &settings, file);
+    let planned = lane.unit_mut(MOTION)?.plan(&command, &settings, file);
     if let Err(alarm) = planned {
         if (alarm.file, alarm.line) == (file, line) {
             return Err(alarm.fault);
         }
-        world.trouble(alarm);
+        lane.trouble(alarm);
         // The controller ends the program here.
         loop {
             cx.next_cycle().await;
         }
     }
-    let mut unit = world.unit.borrow_mut();
-    world.system.cjoint.set(joint(unit.target()));
+    let mut unit = lane.unit_mut(MOTION)?;
+    lane.system.cjoint.set(joint(unit.target()));
     cx.moved(unit.motions().0);
     let (file, line) = (cx.place().0.name(), cx.place().1);
     let (share, slowed) = unit.take_slowed();
     if share < SLOWED {
         let percent = if share < 0.01 { "less than 1".to_owned() } else { format!("{:.0}", 100.0 * share) };
-        world.warn(format!("{file}:{slowed}: the weave or the compensation is too fast for the robot: the motion goes at {percent} % of its speed"));
+        cx.world().warn(format!("{file}:{slowed}: the weave or the compensation is too fast for the robot: the motion goes at {percent} % of its speed"));
     }
     if unit.take_late() {
-        world.warn(format!("{file}:{line}: the motion came too late to be blended with the one before it: the robot stops between the two"));
+        cx.world().warn(format!("{file}:{line}: the motion came too late to be blended with the one before it: the robot stops between the two"));
     }
     if let Some(corner) = unit.take_sharp() {
-        world.warn(format!("{file}:{line}: the target of the motion of line {corner} is not rounded off but reached with a stop: beside it the robot would leave its reach or an axis's range, or meet a singular point"));
+        cx.world().warn(format!("{file}:{line}: the target of the motion of line {corner} is not rounded off but reached with a stop: beside it the robot would leave its reach or an axis's range, or meet a singular point"));
     }
     Ok(())
 }

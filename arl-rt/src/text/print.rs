@@ -127,7 +127,7 @@ impl<'a> PrintMessage<'a> {
             cx.world().scripts.append(&modal_path.borrow(), &text)?;
         }
         if to.hmi || to.console {
-            cx.world().message(to.hmi, to.console, self.text.as_bytes());
+            cx.world().message(cx.lane().id, to.hmi, to.console, self.text.as_bytes());
         }
         Ok(())
     }

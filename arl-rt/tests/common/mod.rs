@@ -32,6 +32,14 @@ where
     }
 }
 
+/// A closure as a program.
+pub fn script<F>(run: F) -> Script<F>
+where
+    F: for<'a> Fn(&'a Cx) -> BoxFuture<'a> + 'static,
+{
+    Script(run)
+}
+
 /// A controller for a closure, and its messages.
 pub fn controller<F>(builder: Builder, script: F) -> (Controller, Captured)
 where

@@ -1,0 +1,77 @@
+//! What a foreground channel beyond the first is made of.
+
+use std::fmt;
+use std::io::Write;
+
+use crate::cell::Sensitivity;
+use crate::program::Program;
+use crate::robot::Robot;
+use crate::robot_driver::{RobotDriver, SimulatedRobot};
+
+/// A foreground channel: a program and its own robot. Without more it is the default robot of the program's family,
+/// simulated.
+pub struct Foreground {
+    pub(super) program: Box<dyn Program>,
+    pub(super) body: Body,
+}
+
+/// A robot and what belongs to it.
+pub(super) struct Body {
+    pub(super) robot: Option<Robot>,
+    pub(super) driver: Box<dyn RobotDriver>,
+    pub(super) trace: Option<Box<dyn Write>>,
+    /// Home points 2 to 5.
+    pub(super) homes: [Option<Vec<f64>>; 4],
+    pub(super) home_tolerance: Option<f64>,
+    pub(super) collisions: Vec<(u8, Sensitivity)>,
+}
+
+impl Default for Body {
+    fn default() -> Self {
+        Self {
+            robot: None,
+            driver: Box::new(SimulatedRobot::new()),
+            trace: None,
+            homes: [const { None }; 4],
+            home_tolerance: None,
+            collisions: Vec::new(),
+        }
+    }
+}
+
+impl Foreground {
+    /// A channel that runs this program.
+    pub fn new(program: Box<dyn Program>) -> Self {
+        Self { program, body: Body::default() }
+    }
+
+    /// The robot; without it the default robot of the program's family.
+    pub fn robot(mut self, robot: Robot) -> Self {
+        self.body.robot = Some(robot);
+        self
+    }
+
+    /// What moves the robot.
+    pub fn robot_driver(mut self, driver: impl RobotDriver + 'static) -> Self {
+        self.body.driver = Box::new(driver);
+        self
+    }
+
+    /// Where the trace of this robot goes, as CSV.
+    pub fn trace(mut self, writer: impl Write + 'static) -> Self {
+        self.body.trace = Some(Box::new(writer));
+        self
+    }
+
+    /// Home points 2 to 5 of this robot: axis positions in deg (mm where linear).
+    pub fn homes(mut self, homes: [Option<Vec<f64>>; 4]) -> Self {
+        self.body.homes = homes;
+        self
+    }
+}
+
+impl fmt::Debug for Foreground {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Foreground").field("program", &self.program.file().name()).finish_non_exhaustive()
+    }
+}

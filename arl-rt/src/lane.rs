@@ -1,0 +1,216 @@
+//! What is one channel's own: its robot, its modal system variables, and how its program fares.
+
+use std::cell::{Cell, Ref, RefCell, RefMut};
+use std::rc::Rc;
+
+use crate::cell::Sensitivity;
+use crate::channel_id::ChannelId;
+use crate::fault::{Alarm, Fault, File};
+use crate::motion::Progress;
+use crate::robot::VelocityProfile;
+use crate::system::{self, System};
+use crate::unit::{Collision, SENSITIVITY, Unit, joint};
+use crate::values::VelProfile;
+use crate::world::World;
+
+/// What is one channel's own, whatever program it runs. Borrows of the cells end within the call that makes them.
+pub(crate) struct Lane {
+    pub(crate) world: Rc<World>,
+    pub(crate) id: ChannelId,
+    /// Its place among all channels, from 0, the foreground channels first.
+    pub(crate) index: usize,
+    pub(crate) system: System,
+    /// The robot; a background channel has none.
+    unit: Option<Rc<RefCell<Unit>>>,
+    /// Whether the program waits for the start button.
+    pub(crate) paused: Cell<bool>,
+    /// What went wrong apart from the statement that runs, and ends the program.
+    trouble: RefCell<Option<Alarm>>,
+    /// Home points 1 to 5.
+    homes: [Option<Vec<f64>>; 5],
+    home_tolerance: f64,
+    /// The conditions of `startdetect` that the cell gives.
+    collisions: Vec<(u8, Sensitivity)>,
+}
+
+/// The robot of a foreground channel, and what the cell says of it.
+pub(crate) struct Station {
+    pub(crate) unit: Rc<RefCell<Unit>>,
+    /// Home points 2 to 5.
+    pub(crate) homes: [Option<Vec<f64>>; 4],
+    pub(crate) home_tolerance: f64,
+    pub(crate) collisions: Vec<(u8, Sensitivity)>,
+}
+
+impl Lane {
+    /// A foreground channel.
+    pub(crate) fn foreground(world: Rc<World>, id: ChannelId, index: usize, system: System, station: Station) -> Self {
+        let Station { unit, homes: [second, third, fourth, fifth], home_tolerance, collisions } = station;
+        let homes = [Some(unit.borrow().robot().home.clone()), second, third, fourth, fifth];
+        Self { homes, home_tolerance, collisions, unit: Some(unit), ..Self::background(world, id, index, system) }
+    }
+
+    /// A background channel.
+    pub(crate) fn background(world: Rc<World>, id: ChannelId, index: usize, system: System) -> Self {
+        Self {
+            world,
+            id,
+            index,
+            system,
+            unit: None,
+            paused: Cell::new(false),
+            trouble: RefCell::default(),
+            homes: [const { None }; 5],
+            home_tolerance: 0.0,
+            collisions: Vec::new(),
+        }
+    }
+
+    /// The robot, for an instruction or function that a background channel cannot have.
+    ///
+    /// # Errors
+    /// [`Fault::Background`].
+    #[inline]
+    pub(crate) fn unit(&self, function: &'static str) -> Result<Ref<'_, Unit>, Fault> {
+        self.robot().ok_or(Fault::Background { function })
+    }
+
+    /// The robot, to be changed by an instruction that a background channel cannot have.
+    ///
+    /// # Errors
+    /// [`Fault::Background`].
+    #[inline]
+    pub(crate) fn unit_mut(&self, function: &'static str) -> Result<RefMut<'_, Unit>, Fault> {
+        self.robot_mut().ok_or(Fault::Background { function })
+    }
+
+    /// The robot, if there is one.
+    #[inline]
+    pub(crate) fn robot(&self) -> Option<Ref<'_, Unit>> {
+        Some(self.unit.as_ref()?.borrow())
+    }
+
+    /// The robot, if there is one, to be changed.
+    #[inline]
+    pub(crate) fn robot_mut(&self) -> Option<RefMut<'_, Unit>> {
+        Some(self.unit.as_ref()?.borrow_mut())
+    }
+
+    /// Sets the system variables of the manual's chapter 10.2 to their defaults.
+    pub(crate) fn reset_system(&self) {
+        self.system.reset();
+        let Some(unit) = self.robot() else { return };
+        self.system.vel_profile.set(match unit.robot().profile {
+            VelocityProfile::T => VelProfile::T,
+            VelocityProfile::S => VelProfile::S,
+            VelocityProfile::O => VelProfile::O,
+        });
+        self.system.cjoint.set(joint(unit.target()));
+    }
+
+    /// Saves the system variables of which every change is kept.
+    pub(crate) fn keep_state(&self) {
+        if let Err(error) = system::keep(&self.system, &mut self.world.state.borrow_mut()) {
+            self.world.warn(format!("system variables cannot be kept: {error}"));
+        }
+    }
+
+    /// Stops all motion on its path and drops what was to follow.
+    pub(crate) fn stop_motion(&self) {
+        self.world.io.borrow_mut().forget_motion(self.index);
+        if let Some(mut unit) = self.robot_mut() {
+            unit.stop();
+        }
+    }
+
+    /// The sensitivity of a condition of `startdetect`.
+    pub(crate) fn sensitivity(&self, cid: u8) -> Sensitivity {
+        let given = self.collisions.iter().rev().find(|(known, _)| *known == cid);
+        given.map_or(Sensitivity::Percent(SENSITIVITY), |(_, sensitivity)| sensitivity.clone())
+    }
+
+    /// The collision of this cycle, if there was one, as the alarm of the motion that met it. The robot is told to stop.
+    pub(crate) fn collision(&self, program: File) -> Option<Alarm> {
+        let mut unit = self.robot_mut()?;
+        let Collision { axis, surplus, allowed } = unit.take_collision()?;
+        unit.stop_fast();
+        let (file, line) = unit.motion_pointer().unwrap_or((program, 0));
+        let (name, measure) = match unit.robot().own_axes().get(axis) {
+            Some(axis) => (axis.name.as_str(), if axis.linear { "N" } else { "Nm" }),
+            None => ("an axis", "Nm"),
+        };
+        let more = if surplus > 0.0 { "more" } else { "less" };
+        let text = format!(
+            "collision: {name} gives {:.1} {measure} {more} than the motion and the load ask for, {allowed:.1} {measure} \
+             are allowed",
+            surplus.abs()
+        );
+        Some(Alarm::new(Fault::Collision(text.into()), file, line))
+    }
+
+    /// Brings the variables up to date that tell where the robot is.
+    pub(crate) fn update_system(&self, unit: &Unit) {
+        let system = &self.system;
+        // Outside a motion they keep what the last one left.
+        if let Some(progress) = unit.progress() {
+            self.tell_progress(&progress);
+        }
+        system.at_home.update(|at_home| {
+            for (at, home) in at_home.iter_mut().zip(&self.homes) {
+                *at = home.as_ref().is_some_and(|home| unit.is_at(home, self.home_tolerance));
+            }
+        });
+    }
+
+    /// Sets the variables that tell how far the motion has come.
+    pub(crate) fn tell_progress(&self, progress: &Progress) {
+        let system = &self.system;
+        system.traj_elapse_time.set(progress.elapsed_time);
+        system.traj_left_time.set(progress.left_time);
+        system.traj_elapse_dis.set(progress.elapsed_distance);
+        system.traj_left_dis.set(progress.left_distance);
+    }
+
+    /// Whether all planned motion has ended and the robot has settled.
+    #[inline]
+    pub(crate) fn motion_ended(&self) -> bool {
+        self.robot().is_none_or(|unit| unit.ended())
+    }
+
+    /// Whether the motion with this running number and all before it have ended, and the robot has settled, unless there are
+    /// others behind it.
+    pub(crate) fn motion_ended_up_to(&self, motion: u64) -> bool {
+        let Some(unit) = self.robot() else { return true };
+        let (planned, finished) = unit.motions();
+        if planned > motion { finished >= motion } else { unit.ended() }
+    }
+
+    /// The running numbers of the motion planned last and of the one that ended last.
+    pub(crate) fn motions(&self) -> (u64, u64) {
+        self.robot().map_or((0, 0), |unit| unit.motions())
+    }
+
+    /// Says that the program waits for the robot: motions that waited for the next one go without it.
+    pub(crate) fn conclude_motion(&self) {
+        let concluded = self.robot_mut().map_or(Ok(()), |mut unit| unit.conclude());
+        if let Err(alarm) = concluded {
+            self.trouble(alarm);
+        }
+    }
+
+    /// Ends the program with an alarm that is not that of the statement that runs. The first one counts.
+    pub(crate) fn trouble(&self, alarm: Alarm) {
+        self.trouble.borrow_mut().get_or_insert(alarm);
+    }
+
+    /// Whether the program is about to be ended by [`Lane::trouble`].
+    pub(crate) fn in_trouble(&self) -> bool {
+        self.trouble.borrow().is_some()
+    }
+
+    /// What went wrong apart from the statement that runs.
+    pub(crate) fn take_trouble(&self) -> Option<Alarm> {
+        let broken = self.robot_mut().and_then(|mut unit| unit.take_broken());
+        self.trouble.borrow_mut().take().or(broken)
+    }
+}
