@@ -18,6 +18,9 @@
 //! tolerance = 0.1              # how near is at home, deg (mm)
 //! home2 = [0, -90, 90, 0, 0, 0]
 //!
+//! [external]                   # how a PLC is wired: the system variables of external auto control, in small letters
+//! start_prog_di = 4
+//!
 //! [[collision]]                # conditions of startdetect
 //! cid = 1                      # 0 to 16
 //! percent = 20                 # how much an axis may differ, of what it needs at most; or for each axis, in Nm (N):
@@ -29,8 +32,11 @@
 //! connections = 8              # at once, 1 to 64
 //! ```
 
+mod external;
+
 use std::path::Path;
 
+pub use external::Wiring;
 use toml::de::DeValue;
 
 use crate::communication::{Listen, NetworkSettings};
@@ -39,7 +45,7 @@ use crate::io::{AnalogType, Channels};
 use crate::rate::Rate;
 use crate::settings::{Section, SettingsError, Source, Value, number, table};
 
-const TOP: &[&str] = &["controller", "io", "network", "home", "collision", "modbus_tcp"];
+const TOP: &[&str] = &["controller", "io", "network", "home", "external", "collision", "modbus_tcp"];
 const CONTROLLER: &[&str] = &["cycle"];
 const IO: &[&str] = &["di", "do", "ai", "ao", "internal"];
 const NETWORK: &[&str] = &["listen"];
@@ -63,6 +69,8 @@ pub struct Cell {
     pub homes: [Option<Vec<f64>>; 4],
     /// How near to a home point is at home, in deg (mm).
     pub home_tolerance: f64,
+    /// How a PLC is wired to the controller.
+    pub external: Wiring,
     /// The conditions of `startdetect` by their numbers; of those that are not there, 20 %.
     pub collisions: Vec<(u8, Sensitivity)>,
     /// The field buses.
@@ -86,6 +94,7 @@ impl Default for Cell {
             network: NetworkSettings::default(),
             homes: [None, None, None, None],
             home_tolerance: 0.1,
+            external: Wiring::default(),
             collisions: Vec::new(),
             buses: BusSettings::default(),
         }
@@ -126,6 +135,7 @@ impl Cell {
             cell.network.listen = listen(&network)?;
         }
         cell.buses = BusSettings::read(&top)?;
+        cell.external = Wiring::read(&top, &cell.channels)?;
         if let Some(home) = top.table("home", "[home]", HOME)? {
             if let Some(tolerance) = home.number("tolerance", "a distance in deg", 0.0, 90.0)? {
                 cell.home_tolerance = tolerance;
@@ -246,7 +256,7 @@ mod tests {
     fn mistakes_name_line_and_what_was_expected() {
         for (text, line, words) in [
             ("[io]\ndi = 64\ndoo = 3", 3, "did you mean `do`?"),
-            ("\n[inout]\n", 2, "known are: controller, io, network, home, collision, modbus_tcp"),
+            ("\n[inout]\n", 2, "known are: controller, io, network, home, external, collision, modbus_tcp"),
             ("[io]\ndi = -1", 2, "expected a number of channels from 0 to 10000, found the number -1"),
             ("[io]\ndi = \"many\"", 2, "found the text \"many\""),
             ("[io]\nai = [\"V\",\n \"A\"]", 3, "expected \"V\" or \"mA\""),

@@ -97,6 +97,8 @@ pub enum Fault {
     Event(Box<str>),
     /// A connection that is not open, or lost.
     Connection(Box<str>),
+    /// What a PLC gives as a program number is none.
+    ProgramNumber(Box<str>),
     /// What went wrong in the condition of an interrupt or a trigger.
     Condition {
         /// The interrupt or trigger.
@@ -138,6 +140,7 @@ impl Fault {
             Fault::Data(_) => 20030,
             Fault::Event(_) => 20040,
             Fault::Connection(_) => 20050,
+            Fault::ProgramNumber(_) => 20060,
             Fault::Condition { fault, .. } => fault.number(),
             Fault::Other { number, .. } => *number,
         }
@@ -171,7 +174,8 @@ impl fmt::Display for Fault {
             | Fault::Collision(text)
             | Fault::Data(text)
             | Fault::Event(text)
-            | Fault::Connection(text) => {
+            | Fault::Connection(text)
+            | Fault::ProgramNumber(text) => {
                 write!(f, "{text}")
             }
             Fault::NoMasses { function, robot } => write!(

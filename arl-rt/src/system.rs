@@ -122,6 +122,48 @@ system! {
     reset_pos_type: Shared<Array<Str, 100>> = Array::start(), "RESET_POS_TYPE", Permanent;
     /// How near is near enough for `$RESET_POS_TYPE`, deg.
     reset_pos_threshold: Shared<SmallArray<f64, 100>> = SmallArray::start(), "RESET_POS_THRESHOLD", Permanent;
+    /// Input that activates the external control; 0: it is active by itself.
+    ext_ctl_act_di: Cell<i32> = 0, "EXT_CTL_ACT_DI", Saved;
+    /// Input that switches the servos on with a pulse of 30 ms or more; 0: none.
+    servo_on_di: Cell<i32> = 0, "SERVO_ON_DI", Saved;
+    /// Input that switches the servos off with a pulse of 30 ms or more; 0: none.
+    servo_off_di: Cell<i32> = 0, "SERVO_OFF_DI", Saved;
+    /// Input whose rising edge starts the program; 0: none.
+    start_prog_di: Cell<i32> = 0, "START_PROG_DI", Saved;
+    /// Input whose rising edge pauses the program; 0: none.
+    pause_prog_di: Cell<i32> = 0, "PAUSE_PROG_DI", Saved;
+    /// Input that resets the program while it is true; 0: none.
+    reset_prog_di: Cell<i32> = 0, "RESET_PROG_DI", Saved;
+    /// Input whose rising edge clears the alarm; 0: none.
+    clear_alarm_di: Cell<i32> = 0, "CLEAR_ALARM_DI", Saved;
+    /// How the program number is coded: 0 binary, 1 BCD, 2 one input out of n.
+    pgno_type: Cell<i32> = 0, "PGNO_TYPE", Saved;
+    /// How many inputs the program number has, 1 to 16; 4, 8, 12 or 16 in BCD.
+    pgno_length: Cell<i32> = 8, "PGNO_LENGTH", Saved;
+    /// Input of the program number's lowest bit; 0: none.
+    pgno_fbit_di: Cell<i32> = 0, "PGNO_FBIT_DI", Saved;
+    /// Input of the program number's parity bit: positive for even, negative for odd; 0: no parity.
+    pgno_parity_di: Cell<i32> = 0, "PGNO_PARITY_DI", Saved;
+    /// Input whose rising edge says that the program number is there; 0: none.
+    pgno_valid_di: Cell<i32> = 0, "PGNO_VALID_DI", Saved;
+    /// Output that shows that the external control is active; 0: none.
+    ext_ctl_act_conf_do: Cell<i32> = 0, "EXT_CTL_ACT_CONF_DO", Saved;
+    /// Output that shows that the servos are on; 0: none.
+    servo_on_do: Cell<i32> = 0, "SERVO_ON_DO", Saved;
+    /// Output that asks for a program number; 0: none.
+    pgno_req_do: Cell<i32> = 0, "PGNO_REQ_DO", Saved;
+    /// Outputs that show that the robot stands at each of the five home points; 0: none.
+    at_home_do: Shared<SmallArray<i32, 5>> = SmallArray::start(), "AT_HOME_DO", Saved;
+    /// Output that shows manual mode; 0: none.
+    at_t1_do: Cell<i32> = 0, "AT_T1_DO", Saved;
+    /// Output that shows manual mode at full speed; 0: none.
+    at_t2_do: Cell<i32> = 0, "AT_T2_DO", Saved;
+    /// Output that shows automatic mode; 0: none.
+    at_aut_do: Cell<i32> = 0, "AT_AUT_DO", Saved;
+    /// Output of the lowest bit of the program number that was taken; 0: none.
+    pgno_ack_fbit_do: Cell<i32> = 0, "PGNO_ACK_FBIT_DO", Saved;
+    /// First of the two outputs that show the channel's state: 00 not loaded, 10 running, 01 paused, 11 stopped; 0: none.
+    chan_state_do: Cell<i32> = 0, "CHAN_STATE_DO", Saved;
 }
 
 system! {
@@ -304,6 +346,18 @@ impl<T: Keep> Slot for Shared<T> {
     }
 }
 
+impl<T: Keep + Copy> Slot for Cell<T> {
+    fn write(&self) -> String {
+        encode(&self.get())
+    }
+
+    fn read(&self, text: &str) -> bool {
+        let mut words = text.split_ascii_whitespace();
+        let value = T::read(&mut words).filter(|_| words.next().is_none());
+        value.map(|value| self.set(value)).is_some()
+    }
+}
+
 fn encode<T: Keep>(value: &T) -> String {
     let mut text = String::new();
     value.write(&mut text);
@@ -375,6 +429,7 @@ pub fn init(cx: &Cx) {
             };
         }
     }
+    cx.world().wiring.apply(system);
 }
 
 /// Whether a component of a position was set: what the start value is not.

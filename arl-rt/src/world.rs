@@ -4,6 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::fmt;
 use std::rc::{Rc, Weak};
 
+use crate::cell::Wiring;
 use crate::channel_id::ChannelId;
 use crate::communication::NetworkSettings;
 use crate::cx::Cx;
@@ -37,6 +38,8 @@ pub(crate) struct World {
     pub(crate) state: RefCell<State>,
     /// What the cell says of the network.
     pub(crate) network: NetworkSettings,
+    /// How the cell wires a PLC.
+    pub(crate) wiring: Wiring,
     /// Whether a program talks to the world, so that the world's time counts.
     outside: Cell<bool>,
     pub(crate) buses: Buses,
@@ -56,6 +59,7 @@ pub(crate) struct Parts {
     pub(crate) output: Box<dyn Output>,
     pub(crate) state: State,
     pub(crate) network: NetworkSettings,
+    pub(crate) wiring: Wiring,
     pub(crate) buses: Buses,
     pub(crate) real_time: bool,
 }
@@ -66,6 +70,7 @@ impl World {
             buses: parts.buses,
             real_time: Cell::new(parts.real_time),
             network: parts.network,
+            wiring: parts.wiring,
             outside: Cell::new(false),
             now: Cell::new(0),
             rate: parts.rate,

@@ -75,11 +75,11 @@ variables! { pub(super) FUNCTION =
     /// Whether the robot stands at each of the five home points.
     AT_HOME: bool[5] = "{false,false,false,false,false}" { "10.2.16", startup, readonly; "print $AT_HOME[0]" }
     /// Whether the external control is active.
-    EXT_CTL_ACT: bool = "false" { "10.2.17", startup, readonly, notyet; "print $EXT_CTL_ACT" }
+    EXT_CTL_ACT: bool = "false" { "10.2.17", startup, readonly; "print $EXT_CTL_ACT" }
     /// Set to true to ask the external control for a program number; it drives the output $PGNO_REQ_DO.
-    PGNO_REQ: bool = "false" { "10.2.18", reset, notyet; "$PGNO_REQ = true" }
+    PGNO_REQ: bool = "false" { "10.2.18", reset; "$PGNO_REQ = true" }
     /// The program number that the external control has given; -1: none yet.
-    PGNO: int = "-1" { "10.2.19", startup, notyet; "print $PGNO" }
+    PGNO: int = "-1" { "10.2.19", startup; "print $PGNO" }
     /// The number pi.
     PI: double = "3.1415926535897932" { "10.2.20", permanent, readonly; "print $PI" }
     /// The operating mode.
@@ -108,13 +108,13 @@ variables! { pub(super) SOCKETS =
 
 variables! { pub(super) EXTERNAL =
     /// Input that activates the external control; 0: it is active by itself.
-    EXT_CTL_ACT_DI: int = "0" { "9.1.15", saved, notyet; "$EXT_CTL_ACT_DI = 1" }
+    EXT_CTL_ACT_DI: int = "0" { "9.1.15", saved; "$EXT_CTL_ACT_DI = 1" }
     /// Input that switches the servos on with a pulse of 30 ms or more; 0: none.
     SERVO_ON_DI: int = "0" { "9.1.15", saved, notyet; "$SERVO_ON_DI = 2" }
     /// Input that switches the servos off with a pulse of 30 ms or more; 0: none.
     SERVO_OFF_DI: int = "0" { "9.1.15", saved, notyet; "$SERVO_OFF_DI = 3" }
     /// Input whose rising edge starts the program; 0: none.
-    START_PROG_DI: int = "0" { "9.1.15", saved, notyet; "$START_PROG_DI = 4" }
+    START_PROG_DI: int = "0" { "9.1.15", saved; "$START_PROG_DI = 4" }
     /// Input whose rising edge pauses the program; 0: none.
     PAUSE_PROG_DI: int = "0" { "9.1.15", saved, notyet; "$PAUSE_PROG_DI = 5" }
     /// Input that resets the program while it is true; 0: none.
@@ -122,31 +122,31 @@ variables! { pub(super) EXTERNAL =
     /// Input whose rising edge clears the alarm; 0: none.
     CLEAR_ALARM_DI: int = "0" { "9.1.15", saved, notyet; "$CLEAR_ALARM_DI = 7" }
     /// How the program number is coded: 0 binary, 1 BCD, 2 one input out of n.
-    PGNO_TYPE: int = "0" { "9.1.15", saved, notyet, range(0.0, 2.0); "$PGNO_TYPE = 1" }
+    PGNO_TYPE: int = "0" { "9.1.15", saved, range(0.0, 2.0); "$PGNO_TYPE = 1" }
     /// How many inputs the program number has, 1 to 16; 4, 8, 12 or 16 in BCD.
-    PGNO_LENGTH: int = "8" { "9.1.15", saved, notyet, range(1.0, 16.0); "$PGNO_LENGTH = 4" }
+    PGNO_LENGTH: int = "8" { "9.1.15", saved, range(1.0, 16.0); "$PGNO_LENGTH = 4" }
     /// Input of the program number's lowest bit; 0: none.
-    PGNO_FBIT_DI: int = "0" { "9.1.15", saved, notyet; "$PGNO_FBIT_DI = 21" }
+    PGNO_FBIT_DI: int = "0" { "9.1.15", saved; "$PGNO_FBIT_DI = 21" }
     /// Input of the program number's parity bit: positive for even, negative for odd; 0: no parity.
-    PGNO_PARITY_DI: int = "0" { "9.1.15", saved, notyet; "$PGNO_PARITY_DI = -30" }
+    PGNO_PARITY_DI: int = "0" { "9.1.15", saved; "$PGNO_PARITY_DI = -30" }
     /// Input whose rising edge says that the program number is there; 0: none.
-    PGNO_VALID_DI: int = "0" { "9.1.15", saved, notyet; "$PGNO_VALID_DI = 31" }
+    PGNO_VALID_DI: int = "0" { "9.1.15", saved; "$PGNO_VALID_DI = 31" }
     /// Output that shows that the external control is active; 0: none.
-    EXT_CTL_ACT_CONF_DO: int = "0" { "9.1.16", saved, notyet; "$EXT_CTL_ACT_CONF_DO = 1" }
+    EXT_CTL_ACT_CONF_DO: int = "0" { "9.1.16", saved; "$EXT_CTL_ACT_CONF_DO = 1" }
     /// Output that shows that the servos are on; 0: none.
     SERVO_ON_DO: int = "0" { "9.1.16", saved, notyet; "$SERVO_ON_DO = 2" }
     /// Output that asks for a program number; 0: none.
-    PGNO_REQ_DO: int = "0" { "9.1.16", saved, notyet; "$PGNO_REQ_DO = 3" }
+    PGNO_REQ_DO: int = "0" { "9.1.16", saved; "$PGNO_REQ_DO = 3" }
     /// Outputs that show that the robot stands at each of the five home points; 0: none.
-    AT_HOME_DO: int[5] = "{0,0,0,0,0}" { "9.1.16", saved, notyet; "$AT_HOME_DO[0] = 4" }
+    AT_HOME_DO: int[5] = "{0,0,0,0,0}" { "9.1.16", saved; "$AT_HOME_DO[0] = 4" }
     /// Output that shows manual mode; 0: none.
-    AT_T1_DO: int = "0" { "9.1.16", saved, notyet; "$AT_T1_DO = 9" }
+    AT_T1_DO: int = "0" { "9.1.16", saved; "$AT_T1_DO = 9" }
     /// Output that shows manual mode at full speed; 0: none.
-    AT_T2_DO: int = "0" { "9.1.16", saved, notyet; "$AT_T2_DO = 10" }
+    AT_T2_DO: int = "0" { "9.1.16", saved; "$AT_T2_DO = 10" }
     /// Output that shows automatic mode; 0: none.
-    AT_AUT_DO: int = "0" { "9.1.16", saved, notyet; "$AT_AUT_DO = 11" }
+    AT_AUT_DO: int = "0" { "9.1.16", saved; "$AT_AUT_DO = 11" }
     /// Output of the lowest bit of the program number that was taken; 0: none.
-    PGNO_ACK_FBIT_DO: int = "0" { "9.1.16", saved, notyet; "$PGNO_ACK_FBIT_DO = 12" }
+    PGNO_ACK_FBIT_DO: int = "0" { "9.1.16", saved; "$PGNO_ACK_FBIT_DO = 12" }
     /// First of the two outputs that show the channel's state: 00 not loaded, 10 running, 01 paused, 11 stopped; 0: none.
-    CHAN_STATE_DO: int = "0" { "9.1.16", saved, notyet; "$CHAN_STATE_DO = 20" }
+    CHAN_STATE_DO: int = "0" { "9.1.16", saved; "$CHAN_STATE_DO = 20" }
 }

@@ -9,6 +9,7 @@ use std::rc::Rc;
 use super::Controller;
 use super::channel::{Channel, STACK};
 use super::channels::Channels;
+use super::external::External;
 use super::foreground::{Body, Foreground};
 use crate::cell::{Cell, Sensitivity};
 use crate::channel_id::{ChannelId, MOST_FOREGROUND};
@@ -217,6 +218,8 @@ impl Builder {
         let common = Rc::new(Common::new());
         let mut state = State::new(self.storage);
         system::load(&common.kept_own(), &mut state)?;
+        // What the cell wires is so, whatever a program has saved.
+        cell.external.apply(&common);
         common.ctl_mode.set(self.mode);
         let io = Image::new(&cell.channels).for_programs(count + background.len());
         let rate = cell.rate;
@@ -232,6 +235,7 @@ impl Builder {
         let buses = Buses::new(cell.buses, self.devicenet);
         buses.start().map_err(SetupError::Outside)?;
         let (outside, real_time) = (buses.is_outside(), self.clock.is_real());
+        let external = External::new(cell.external.enabled);
         let world = Rc::new(World::new(Parts {
             rate,
             io,
@@ -241,6 +245,7 @@ impl Builder {
             output: self.output.unwrap_or_else(|| Box::new(Stream::standard())),
             state,
             network: cell.network,
+            wiring: cell.external,
             buses,
             real_time,
         }));
@@ -265,7 +270,8 @@ impl Builder {
             let index = 1 + others.len();
             others.push(site.background(number, index, program));
         }
-        Ok(Controller { world, channels: Channels::new(first, others), unit, clock: self.clock, io: self.io, scenario })
+        let channels = Channels::new(first, others);
+        Ok(Controller { world, channels, unit, clock: self.clock, io: self.io, scenario, external })
     }
 }
 

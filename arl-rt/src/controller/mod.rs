@@ -4,6 +4,7 @@ mod actions;
 mod builder;
 mod channel;
 mod channels;
+mod external;
 mod foreground;
 mod order;
 mod outcome;
@@ -29,6 +30,7 @@ use crate::unit::Unit;
 use crate::world::World;
 use channel::Channel;
 use channels::Channels;
+use external::External;
 
 /// Runs a program.
 ///
@@ -36,11 +38,11 @@ use channels::Channels;
 ///
 /// 1. the clock says when the cycle begins;
 /// 2. inputs are read, pulses that are over end, the scenario plays;
-/// 3. the pendant's buttons count;
+/// 3. the pendant's buttons count, then what a PLC says (external auto control);
 /// 4. the conditions of interrupts, timers and triggers are looked at; then the program runs until it waits, the action of
 ///    an event on top of what it interrupts;
 /// 5. the motion goes one step: set-point to the robot's driver, feedback back, variables like `$TRAJ_LEFT_DIS`;
-/// 6. outputs that waited for a motion change, all outputs are written, a collision stops robot and program, messages are
+/// 6. outputs that waited for a motion change, those that tell a PLC the state follow, all outputs are written, a collision stops robot and program, messages are
 ///    passed on;
 /// 7. the trace gets its row.
 ///
@@ -90,6 +92,7 @@ pub struct Controller {
     clock: Box<dyn Clock>,
     io: Box<dyn IoDriver>,
     scenario: Playing,
+    external: External,
 }
 
 impl Controller {
@@ -110,12 +113,15 @@ impl Controller {
             let channels = &self.channels;
             self.scenario.play(cycle, &mut image, |deed| act(channels, deed));
         }
+        self.listen();
         self.channels.each(Channel::look);
         self.channels.each(Channel::poll);
         self.channels.each(Channel::meet_trouble);
         self.channels.each(|channel| channel.step_robot(rate.time(cycle), rate.period()));
-        self.io.write(world.io.borrow_mut().outputs_all());
+        self.show();
+        self.io.write(self.world.io.borrow().outputs_all());
         self.channels.each(Channel::meet_collision);
+        let world = &self.world;
         world.flush();
         if world.met_outside()
             && let Some(warning) = self.clock.meet_outside()
@@ -125,6 +131,28 @@ impl Controller {
         self.channels.each(Channel::finish_cycle);
         self.world.now.set(cycle + 1);
         self.state()
+    }
+
+    /// Does what a PLC says.
+    fn listen(&mut self) {
+        let lane = self.channels.first().lane();
+        let heard = self.external.listen(&self.world.io.borrow(), &lane.system, self.world.now.get());
+        let pressed = match heard {
+            Ok(pressed) => pressed,
+            Err(fault) => {
+                let (file, line) = self.channels.first().cx().place();
+                lane.trouble(Alarm::new(fault, file, line));
+                return;
+            }
+        };
+        pressed.into_iter().flatten().for_each(|button| act(&self.channels, Deed::Pendant(button)));
+    }
+
+    /// Tells a PLC what the controller does.
+    fn show(&mut self) {
+        let state = self.channels.state();
+        let system = &self.channels.first().lane().system;
+        self.external.show(&mut self.world.io.borrow_mut(), system, state);
     }
 
     /// Runs until the program has ended, where there are several, those of all foreground channels: for ever, where one does

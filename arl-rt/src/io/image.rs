@@ -290,6 +290,20 @@ impl Image {
         row.values()
     }
 
+    /// The level of a digital input; `None` where there is no such channel.
+    pub(crate) fn input(&self, channel: i32) -> Option<bool> {
+        let at = usize::try_from(channel).ok()?.checked_sub(1)?;
+        (at < self.di.len()).then(|| self.di.get(at))
+    }
+
+    /// Drives a digital output, where there is one.
+    pub(crate) fn drive_output(&mut self, channel: i32, level: bool) {
+        let place = usize::try_from(channel).ok().and_then(|channel| channel.checked_sub(1));
+        if let Some(at) = place.filter(|at| *at < self.dout.len()) {
+            self.drive(Digital::Do, at, level);
+        }
+    }
+
     /// The digital outputs, for edges.
     pub(crate) fn outputs(&self) -> &Bits {
         &self.dout

@@ -1,0 +1,68 @@
+//! External auto control (chapter 9): a PLC that works the controller through inputs and outputs.
+//!
+//! System variables say which channels mean what. Inputs are looked at when they have been read, outputs follow before they
+//! are written; in between lies the cycle.
+
+mod buttons;
+mod lamps;
+mod number;
+mod program_number;
+mod watch;
+
+use crate::controller::State;
+use crate::fault::Fault;
+use crate::io::Image;
+use crate::system::System;
+use crate::values::Controlmode;
+use buttons::{Buttons, Pressed};
+use lamps::Lamps;
+use program_number::ProgramNumber;
+
+/// The side of the controller that a PLC sees.
+#[derive(Debug)]
+pub(super) struct External {
+    /// Whether the cell has it at all.
+    enabled: bool,
+    buttons: Buttons,
+    number: ProgramNumber,
+    lamps: Lamps,
+}
+
+impl External {
+    pub(super) fn new(enabled: bool) -> Self {
+        let (buttons, number, lamps) = (Buttons::default(), ProgramNumber::default(), Lamps::default());
+        Self { enabled, buttons, number, lamps }
+    }
+
+    /// Looks at the inputs of this cycle: takes over the program number that the PLC gives; returns the buttons that it
+    /// presses, in the order in which they act.
+    ///
+    /// # Errors
+    /// It gives no program number, though it says so.
+    pub(super) fn listen(&mut self, io: &Image, system: &System, cycle: u64) -> Result<Pressed, Fault> {
+        let active = self.enabled && is_activated(io, system);
+        system.ext_ctl_act.set(active);
+        if !self.enabled {
+            return Ok(Pressed::default());
+        }
+        let pressed = self.buttons.listen(io, system, cycle, active);
+        self.number.listen(io, system, cycle, active)?;
+        Ok(pressed)
+    }
+
+    /// Brings the outputs up to date that tell the PLC what the controller does.
+    pub(super) fn show(&mut self, io: &mut Image, system: &System, state: State) {
+        if self.enabled {
+            self.lamps.show(io, system, state, true, self.number.taken());
+        }
+    }
+}
+
+/// Whether the PLC may work the controller: in automatic mode, while its activation input is on, or where none is wired.
+fn is_activated(io: &Image, system: &System) -> bool {
+    let asked = match system.ext_ctl_act_di.get() {
+        0 => true,
+        channel => io.input(channel) == Some(true),
+    };
+    asked && system.ctl_mode.get() == Controlmode::Auto
+}
