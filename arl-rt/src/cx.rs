@@ -295,8 +295,8 @@ impl Cx {
     #[inline]
     fn is_motion_over(&self) -> bool {
         match self.level.get().own_motion {
-            None => self.lane.motion_ended(),
-            Some(own) => own == 0 || self.lane.motion_ended_up_to(own),
+            None => self.lane.motion_ended_for(self.level.get().number),
+            Some(own) => own == 0 || self.lane.has_motion_ended(own),
         }
     }
 

@@ -177,12 +177,21 @@ impl Lane {
         self.robot().is_none_or(|unit| unit.ended())
     }
 
-    /// Whether the motion with this running number and all before it have ended, and the robot has settled, unless there are
-    /// others behind it.
-    pub(crate) fn motion_ended_up_to(&self, motion: u64) -> bool {
+    /// The same for those of a level of the program: they do not wait for what they have stopped.
+    #[inline]
+    pub(crate) fn motion_ended_for(&self, level: u32) -> bool {
+        self.robot().is_none_or(|unit| unit.ended_for(level))
+    }
+
+    /// Whether the motion with this running number has ended, and the robot has settled, unless there are others behind it.
+    pub(crate) fn has_motion_ended(&self, motion: u64) -> bool {
         let Some(unit) = self.robot() else { return true };
-        let (planned, finished) = unit.motions();
-        if planned > motion { finished >= motion } else { unit.ended() }
+        unit.has_ended(motion) && (unit.motions().0 > motion || unit.moves() || unit.is_settled())
+    }
+
+    /// Drops motion that is stopped and that nobody has started again; returns whether there was some.
+    pub(crate) fn drop_aside(&self) -> bool {
+        self.robot_mut().is_some_and(|mut unit| unit.drop_aside())
     }
 
     /// The running numbers of the motion planned last and of the one that ended last.

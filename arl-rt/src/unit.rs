@@ -1,5 +1,6 @@
 //! A mechanical unit: the robot with its planned motion and its driver.
 
+mod changes;
 mod effort;
 mod moving;
 
@@ -12,26 +13,18 @@ use crate::fault::{Alarm, Fault, File};
 use crate::frames::Rig;
 use crate::kinematics::{Axes, Frame, frame_components};
 use crate::motion::{
-    Command, Compensation, Joints, MotionRecord, PlanError, Progress, Queue, Recorder, Settings, Stop,
+    Command, Compensation, Joints, MotionRecord, PlanError, Progress, Queue, Recorder, Settings, Start, Stop,
 };
 use crate::robot::Robot;
 use crate::robot_driver::{RobotDriver, settled};
 use crate::values::Joint;
+use changes::{Change, Changes};
 use effort::Effort;
 pub(crate) use effort::{Collision, Outside, SENSITIVITY};
 pub(crate) use moving::Moving;
 
 /// For how many cycles a robot that never stands quite where it shall must be near enough to count as settled.
 const SETTLING: u32 = 8;
-
-/// What changes with a motion.
-#[derive(Clone, Debug)]
-enum Change {
-    /// What the flange carries.
-    Load(Load),
-    /// By how much the axes may differ from the model; `None`: collisions are not looked for.
-    Detect(Option<Axes>),
-}
 
 /// The robot with its planned motion and its driver.
 pub(crate) struct Unit {
@@ -43,8 +36,8 @@ pub(crate) struct Unit {
     commanded: Moving,
     reported: Moving,
     effort: Effort,
-    /// What changes with motions that are planned: the running number of the first motion it holds for.
-    changes: VecDeque<(u64, Change)>,
+    /// What changes with motions that are planned.
+    changes: Changes,
     driver: Box<dyn RobotDriver>,
     /// The running number of the motion planned last, and of the one that has ended last.
     planned: u64,
@@ -66,6 +59,8 @@ pub(crate) struct Unit {
     base: Frame,
     /// How many compensations have been started.
     compensations: u32,
+    /// The file of the last `startmove`.
+    start_file: File,
 }
 
 impl Unit {
@@ -83,7 +78,8 @@ impl Unit {
             commanded: Moving::resting(start),
             reported: Moving::resting(start),
             effort,
-            changes: VecDeque::new(),
+            changes: Changes::new(),
+            start_file: File::new(""),
             driver,
             planned: 0,
             finished: 0,
@@ -221,6 +217,7 @@ impl Unit {
     pub(crate) fn take_collision(&mut self) -> Option<Collision> {
         let found = self.effort.collision(&self.reported, &self.robot, &self.rig())?;
         self.effort.detect(None);
+        self.changes.detected();
         Some(found)
     }
 
@@ -244,9 +241,19 @@ impl Unit {
         self.queue.progress()
     }
 
-    /// The running number of the last motion that is not executed any more: it has ended, or a blend leads away from it.
-    pub(crate) fn over(&self) -> u64 {
-        self.queue.over()
+    /// Whether a motion is not executed any more: it has ended, or a blend leads away from it.
+    pub(crate) fn is_over(&self, motion: u64) -> bool {
+        self.queue.is_over(motion)
+    }
+
+    /// Whether a motion has ended.
+    pub(crate) fn has_ended(&self, motion: u64) -> bool {
+        self.queue.has_ended(motion)
+    }
+
+    /// Whether motions are set aside, or about to be.
+    pub(crate) fn is_aside(&self) -> bool {
+        self.queue.is_aside()
     }
 
     /// How far a motion had come when it ended, or was left for a blend, in the last cycle.
@@ -276,9 +283,54 @@ impl Unit {
         self.override_percent
     }
 
-    /// Whether another motion can be planned.
-    pub(crate) fn has_room(&self) -> bool {
-        self.queue.has_room()
+    /// Whether another motion can be planned by those of a level of the program.
+    pub(crate) fn takes(&self, level: u32) -> bool {
+        self.queue.takes(level)
+    }
+
+    /// Stops on the path and sets the motions aside: those of this level of the program, and above it, move in between.
+    pub(crate) fn set_aside(&mut self, stop: Stop, level: u32) {
+        self.queue.set_aside(stop, level);
+        self.changes.follow(self.queue.depth(), self.planned, &mut self.effort);
+    }
+
+    /// Goes on with what was set aside last; returns whether there is something.
+    pub(crate) fn start_again(&mut self, start: Start, file: File) -> bool {
+        self.start_file = file;
+        let started = self.queue.start_again(start);
+        self.note_start();
+        started
+    }
+
+    /// Drops what is set aside, where nobody has asked to go on with it; returns whether there was something. A stop on its
+    /// way goes on to rest.
+    pub(crate) fn drop_aside(&mut self) -> bool {
+        self.queue.drop_aside()
+    }
+
+    /// Whether more motions were to be skipped than there were, since this was asked last.
+    pub(crate) fn take_beyond(&mut self) -> bool {
+        self.queue.take_beyond()
+    }
+
+    /// Takes notice of motions that go on, and of the way to them.
+    fn note_start(&mut self) {
+        if let Some((number, command, settings)) = self.queue.take_way_back() {
+            self.planned = number;
+            let file = self.start_file;
+            self.note_planned(number, &command, &settings, file);
+        }
+        self.changes.follow(self.queue.depth(), self.planned, &mut self.effort);
+    }
+
+    /// Takes notice of a motion that was planned.
+    fn note_planned(&mut self, number: u64, command: &Command, settings: &Settings, file: File) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.planned(&mut self.queue, number, command, settings);
+        }
+        if self.files.back().is_none_or(|(_, last)| *last != file) {
+            self.files.push_back((number, file));
+        }
     }
 
     /// Plans a motion of a program file, under [`Unit::settings`] with the changes that it brings along; the alarm where
@@ -287,12 +339,7 @@ impl Unit {
         let planned = self.queue.add(command, settings);
         self.planned = planned.map_err(|error| alarm(error, self.file, (file, command.line)))?;
         self.file = file;
-        if let Some(recorder) = &mut self.recorder {
-            recorder.planned(&mut self.queue, self.planned, command, settings);
-        }
-        if self.files.back().is_none_or(|(_, last)| *last != file) {
-            self.files.push_back((self.planned, file));
-        }
+        self.note_planned(self.planned, command, settings, file);
         Ok(())
     }
 
@@ -303,33 +350,43 @@ impl Unit {
 
     /// The alarm of a motion that waited in vain for the next one.
     pub(crate) fn take_broken(&mut self) -> Option<Alarm> {
+        if let Some(error) = self.queue.take_broken_start() {
+            return Some(alarm(error, self.start_file, (self.start_file, 0)));
+        }
         Some(alarm(self.queue.take_broken()?, self.file, (self.file, 0)))
     }
 
     /// Lets something hold from the motion on that is planned next: at once where there is none before it.
     fn change(&mut self, change: Change) {
-        self.changes.push_back((self.planned + 1, change));
+        self.changes.push(self.planned + 1, change);
         self.change_due();
     }
 
     /// Makes the changes of the motion that comes after the last one that has ended.
     fn change_due(&mut self) {
-        while let Some((from, change)) = self.changes.front()
-            && *from <= self.finished + 1
-        {
-            match change {
-                Change::Load(load) => self.effort.set_load(load),
-                Change::Detect(allowed) => self.effort.detect(*allowed),
-            }
-            self.changes.pop_front();
-        }
+        self.changes.make(self.finished + 1, &mut self.effort);
     }
 
     /// Whether all planned motion has ended and the robot has settled: it stands where it shall, or has been near enough
     /// for some cycles.
     #[inline]
     pub(crate) fn ended(&self) -> bool {
-        self.queue.idle() && (self.settled >= SETTLING || self.commanded.at == self.reported.at)
+        self.queue.idle() && self.is_settled()
+    }
+
+    /// The same for those of a level of the program: they do not wait for what is set aside for them.
+    pub(crate) fn ended_for(&self, level: u32) -> bool {
+        self.queue.idle_for(level) && self.is_settled()
+    }
+
+    /// Whether motion is there that is not set aside.
+    pub(crate) fn moves(&self) -> bool {
+        !self.queue.idle_for(u32::MAX)
+    }
+
+    /// Whether the robot stands where it shall, or was near enough for some cycles.
+    pub(crate) fn is_settled(&self) -> bool {
+        self.settled >= SETTLING || self.commanded.at == self.reported.at
     }
 
     /// One interpolation step, and the exchange with the driver.
@@ -341,6 +398,7 @@ impl Unit {
         self.tcp = step.tcp;
         self.executing = (step.line, step.motion);
         self.finished = step.finished;
+        self.note_start();
         self.point_at(step.motion, step.line);
         if step.motion != 0 {
             self.set_base(self.queue.rig().base);
@@ -349,16 +407,18 @@ impl Unit {
         self.commanded.go_to(step.joints, period);
         self.reported.go_to(self.driver.exchange(&step.joints, period), period);
         self.effort.measured(self.driver.torques());
-        let near = self.queue.idle() && settled(&self.commanded.at, &self.reported.at);
+        let near = self.queue.rests() && settled(&self.commanded.at, &self.reported.at);
         self.settled = if near { self.settled.saturating_add(1) } else { 0 };
     }
 
     /// Sets the motion pointer to the motion that was executed, if there was one.
     fn point_at(&mut self, motion: u64, line: u32) {
-        while self.files.get(1).is_some_and(|(from, _)| *from <= motion) {
+        let oldest = self.queue.oldest().min(motion);
+        while self.files.get(1).is_some_and(|(from, _)| *from <= oldest) {
             self.files.pop_front();
         }
-        if let Some((_, file)) = self.files.front()
+        let files = self.files.partition_point(|(from, _)| *from <= motion);
+        if let Some((_, file)) = self.files.get(files.saturating_sub(1))
             && motion != 0
         {
             self.pointer = Some((*file, line));
@@ -380,10 +440,8 @@ impl Unit {
     /// Lets motion be planned again after [`Unit::stop`], at rest.
     pub(crate) fn reset(&mut self) {
         self.queue.resume();
-        self.changes.clear();
+        self.changes.clear(&mut self.effort);
         self.files.clear();
-        self.effort.set_load(&Load::none());
-        self.effort.detect(None);
         self.settings = Settings { manual: self.settings.manual, ..Settings::default() };
     }
 }

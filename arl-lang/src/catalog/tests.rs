@@ -39,7 +39,7 @@ const WORKS: &str = "\
     ctime cdate savesv init gettextstr filesize renamefile removefile toolload toolswitch startdetect enddetect cjttq cjtci ctcpforce \
     channeltojoint channeltopose channeljoint channelpose channeljointvel channeltcpvel T S StoEnd P curmpfile curmpline \
     curppfile curppline savearl savefilepose savefilejoint interrupt enableint disableint delint timer \
-    trigger connect accept geterror close write read readuntil clearbuff \
+    trigger stopmove startmove connect accept geterror close write read readuntil clearbuff \
     dnwrite dnread readregisters writeregisters readcoils writecoils";
 
 const RUST_WORDS: &str = "as async await break const continue crate do dyn else enum extern false final fn for gen if \

@@ -110,6 +110,9 @@ impl Channel {
 
     /// Lets the program and the actions of events run until they wait.
     pub(super) fn poll(&mut self) {
+        if self.has_statements() && self.lane.robot_mut().is_some_and(|mut unit| unit.take_beyond()) {
+            self.leave(Reason::Restart);
+        }
         if self.has_statements() {
             self.cx.start_cycle(self.stack);
             let seen = std::mem::replace(&mut self.seen, Ok(()));
@@ -146,7 +149,7 @@ impl Channel {
         unit.step(period);
         self.lane.update_system(&unit);
         let mut image = self.lane.world.io.borrow_mut();
-        image.motion_ended(self.lane.index, unit.motions().1);
+        image.motions_ended(self.lane.index, |motion| unit.has_ended(motion));
         if let Some(trace) = &mut self.trace
             && self.running
         {
@@ -217,6 +220,9 @@ impl Channel {
     /// Whether nothing is left to be done once the statements have ended.
     fn is_concluded(&self) -> bool {
         let lane = &self.lane;
+        if !self.cx.events().borrow().watches() && lane.drop_aside() {
+            lane.world.warn("the program has ended while its motion was stopped: that motion is dropped".into());
+        }
         let moving = !lane.motion_ended();
         if moving {
             lane.conclude_motion();
@@ -230,6 +236,8 @@ impl Channel {
 
     /// Ends the program for a reason that came from its statements.
     fn leave(&mut self, reason: Reason) {
+        // Nobody is left who could start what is stopped.
+        self.lane.drop_aside();
         match reason {
             // Motion that is planned keeps its triggers.
             Reason::Exit => {

@@ -103,6 +103,8 @@ fn scan_interrupts(cx: &Cx) -> Result<(), Alarm> {
 enum Stage {
     /// It has not begun.
     Ahead,
+    /// It may have begun, and others come in between.
+    Aside,
     /// It is being executed.
     Executed,
     /// It is over, and had come so far; `None`: it was dropped, or that has been looked at.
@@ -122,6 +124,7 @@ fn scan_triggers(cx: &Cx) -> Result<(), Alarm> {
         let holds = match stage {
             // Those behind it belong to later motions.
             Stage::Ahead => break,
+            Stage::Aside => continue,
             Stage::Executed => evaluate(cx, &*code),
             Stage::Over(Some(end)) => cx.look_back(end, || evaluate(cx, &*code)),
             Stage::Over(None) => Ok(held),
@@ -142,7 +145,9 @@ fn scan_triggers(cx: &Cx) -> Result<(), Alarm> {
 fn stage(cx: &Cx, motion: u64) -> Stage {
     let Some(unit) = cx.lane().robot() else { return Stage::Over(None) };
     match unit.progress() {
-        _ if motion <= unit.over() => Stage::Over(unit.left(motion)),
+        _ if unit.is_over(motion) => Stage::Over(unit.left(motion)),
+        // Those behind it may belong to motions that come in between.
+        _ if unit.is_aside() && unit.progress().is_none_or(|progress| progress.motion != motion) => Stage::Aside,
         Some(progress) if progress.motion == motion => Stage::Executed,
         _ => Stage::Ahead,
     }

@@ -273,6 +273,11 @@ impl Table {
         Some(Due { priority: first.priority, code: Rc::clone(&first.code) })
     }
 
+    /// Whether an interrupt or a timer is declared.
+    pub(crate) fn watches(&self) -> bool {
+        !self.interrupts.is_empty()
+    }
+
     /// Whether an event waits to be handled.
     pub(crate) fn has_due(&self) -> bool {
         self.arrivals && self.interrupts.iter().chain(&self.triggers).any(|event| event.arrived.is_some())

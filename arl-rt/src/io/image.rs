@@ -274,13 +274,18 @@ impl Image {
         Ok(())
     }
 
-    /// Sets the channels that waited for a motion up to `ended` of the program's channel `owner`.
-    pub(crate) fn motion_ended(&mut self, owner: usize, ended: u64) {
+    /// Sets the channels that waited for motions of the program's channel `owner` that have ended, in the order in which they
+    /// were told to.
+    pub(crate) fn motions_ended(&mut self, owner: usize, ended: impl Fn(u64) -> bool) {
+        let mut at = 0;
         while let Some(waiting) = self.after_motion.get_mut(owner)
-            && waiting.front().is_some_and(|first| first.motion <= ended)
-            && let Some(due) = waiting.pop_front()
+            && let Some(next) = waiting.get(at)
         {
-            self.drive(Digital::Do, due.channel, due.level);
+            if !ended(next.motion) {
+                at += 1;
+            } else if let Some(due) = waiting.remove(at) {
+                self.drive(Digital::Do, due.channel, due.level);
+            }
         }
     }
 
@@ -472,11 +477,11 @@ mod tests {
         let mut image = image();
         image.set_after(0, 3, 1, true).unwrap();
         image.set_after(0, 4, 2, true).unwrap();
-        image.motion_ended(0, 2);
+        image.motions_ended(0, |motion| motion <= 2);
         assert_eq!(image.digitals(Digital::Do, 1, 2).unwrap(), 0);
-        image.motion_ended(0, 3);
+        image.motions_ended(0, |motion| motion == 3);
         assert_eq!(image.digitals(Digital::Do, 1, 2).unwrap(), 1);
-        image.motion_ended(0, 9);
+        image.motions_ended(0, |motion| motion <= 9);
         assert_eq!(image.digitals(Digital::Do, 1, 2).unwrap(), 3);
     }
 }

@@ -171,10 +171,9 @@ impl SetDoInMotion {
     /// There is no such channel.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         let lane = cx.lane();
-        let (last, ended) = (cx.last_motion(), lane.motions().1);
         let mut io = cx.world().io.borrow_mut();
-        io.set_after(lane.index, last, self.channel, self.value)?;
-        io.motion_ended(lane.index, ended);
+        io.set_after(lane.index, cx.last_motion(), self.channel, self.value)?;
+        io.motions_ended(lane.index, |motion| lane.robot().is_none_or(|unit| unit.has_ended(motion)));
         Ok(())
     }
 }

@@ -181,6 +181,11 @@ impl Held {
         (self.start, self.before) = (*end, before);
     }
 
+    /// Takes over that a circle began at `start`.
+    pub(super) fn follows_circle_from(&mut self, start: Joints) {
+        self.before.get_or_insert(Before::Circle(start));
+    }
+
     fn circle(&self, planner: &Planner<'_>, next: Option<&Held>) -> Result<(Motion, Option<Before>), PlanError> {
         let Target::Circle { follow, external, .. } = &self.command.target else { return Err(PlanError::NoCircle) };
         let (start, target) = (planner.start_frame(), self.target.tcp);

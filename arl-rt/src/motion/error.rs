@@ -91,6 +91,8 @@ pub enum PlanError {
     WorldTurns,
     /// This kind of motion is not there for this robot.
     NotForThisRobot,
+    /// The robot stands in another configuration, or another turn of an axis, than where it was stopped.
+    NoWayBack,
     /// The look-ahead is full: ask [`super::Queue::has_room`] first.
     Full,
     /// The robot is stopping to drop its motions; where the next one starts is not known yet.
@@ -151,6 +153,10 @@ impl fmt::Display for PlanError {
                 "a compensation along the axes of the world has no direction on a workpiece that the robot holds: take WOBJ"
             ),
             PlanError::NotForThisRobot => write!(f, "this robot knows no such motion"),
+            PlanError::NoWayBack => write!(
+                f,
+                "the robot cannot go straight back to its path: it stands in another configuration, or in another turn of an axis, than where it was stopped; movej it near that place first"
+            ),
             PlanError::Full => write!(f, "the look-ahead is full"),
             PlanError::Stopping => write!(f, "the robot is still stopping"),
         }

@@ -224,7 +224,7 @@ impl Governor<'_> {
     /// Whether the robot brakes for a stop already.
     fn at_its_end(&self, state: &State) -> bool {
         let mut nearest = f64::INFINITY;
-        let mut way = f64::INFINITY;
+        let mut way = 0.0;
         self.demands(state, FREE, &ALL_CELLS, |Demand { goal, limits, left, .. }| {
             if goal == 0.0 && left < nearest {
                 nearest = left;

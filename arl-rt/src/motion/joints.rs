@@ -35,6 +35,12 @@ impl Joints {
         joints
     }
 
+    /// Whether every axis is within so many deg (mm) of another place.
+    pub(super) fn is_at(&self, other: &Self, tolerance: f64) -> bool {
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() <= tolerance;
+        self.axes.iter().zip(&other.axes).all(near) && self.external.iter().zip(&other.external).all(near)
+    }
+
     /// These positions, with what is unset taken from `start`, and what the robot does not have as in `start`.
     pub(super) fn completed(&self, start: &Joints, robot: &Robot) -> Self {
         let mut joints = *start;

@@ -51,7 +51,7 @@ pub use gate::{Gate, Lift};
 pub use joints::{Joints, UNSET, is_unset};
 pub use overlay::{Compensation, Reference, Weave, WeaveShape};
 pub use plan::{Motion, plan};
-pub use queue::{LOOK_AHEAD, Progress, Queue, Step, Stop};
+pub use queue::{LOOK_AHEAD, Progress, Queue, Start, Step, Stop};
 pub(crate) use record::Recorder;
 pub use record::{Closest, Figure, Limited, MotionRecord, Rate};
 pub use zone::Rounding;

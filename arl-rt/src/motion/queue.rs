@@ -1,5 +1,7 @@
 //! The look-ahead and the interpolator: motions wait in a queue, and each cycle moves along the first one.
 
+mod aside;
+
 use std::collections::VecDeque;
 use std::sync::Arc;
 
@@ -16,6 +18,8 @@ use super::plan::{Motion, not_led, plan_behind};
 use crate::frames::Rig;
 use crate::kinematics::Frame;
 use crate::robot::Robot;
+use aside::Aside;
+pub use aside::Start;
 
 /// How many motions can always wait, the one being executed not counted.
 pub const LOOK_AHEAD: usize = 64;
@@ -135,6 +139,7 @@ pub struct Queue {
     led: Led,
     /// The least part of its speed that what is laid over it has left to a motion, and that motion's line.
     slowed: (f64, u32),
+    aside: Aside,
 }
 
 /// A motion that was laid on the way.
@@ -178,6 +183,7 @@ impl Queue {
             laid: None,
             led: Led::default(),
             slowed: (1.0, 0),
+            aside: Aside::default(),
         }
     }
 
@@ -190,7 +196,7 @@ impl Queue {
     /// stopping may take.
     pub fn has_room(&self) -> bool {
         let executing = u64::from(self.started == Some(self.finished + 1));
-        let waiting = self.added - self.finished - executing;
+        let waiting = (self.unfinished() as u64).saturating_sub(executing);
         let short = || self.waiting.is_empty() && self.course.time_left() < TIME_AHEAD;
         waiting < LOOK_AHEAD as u64 || (waiting < MOST_AHEAD && short())
     }
@@ -208,25 +214,33 @@ impl Queue {
         if !self.has_room() {
             return Err(PlanError::Full);
         }
+        self.add_as(command, settings, self.added + 1)?;
+        self.added += 1;
+        Ok(self.added)
+    }
+
+    /// Plans a motion and appends it under a number.
+    fn add_as(&mut self, command: &Command, settings: &Settings, number: u64) -> Result<(), PlanError> {
+        let from = *self.end();
         let start = match &self.held {
             Some(held) => *held.end(),
             None if command.target.chained().is_some() => self.plain_end(command, settings)?,
             None => self.end,
         };
-        let mut next = Held::new(&self.robot, &start, command, settings, self.added + 1)?;
+        let mut next = Held::new(&self.robot, &start, command, settings, number)?;
         self.release(next.as_mut())?;
         if next.is_some() {
             self.held = next;
         } else if matches!(command.target, Target::Gate { .. }) {
             for motion in gate::plan(&self.robot, &self.end, command, settings)? {
-                self.append(motion, self.added + 1);
+                self.append(motion, number);
             }
         } else {
             let motion = plan_behind(&self.robot, &self.end, &self.led, command, settings)?;
-            self.append(motion, self.added + 1);
+            self.append(motion, number);
         }
-        self.added += 1;
-        Ok(self.added)
+        self.note_asked(number, from, command, settings);
+        Ok(())
     }
 
     /// From now on notes the motions that are laid on the way, for [`Queue::take_laid`].
@@ -396,9 +410,9 @@ impl Queue {
         self.rig.tcp_at(&self.robot.kinematics.forward(&self.joints.axes))
     }
 
-    /// Whether no motion is there, running or waiting.
+    /// Whether no motion is there, running, waiting or set aside.
     pub fn idle(&self) -> bool {
-        self.finished == self.added
+        self.is_layer_idle() && self.aside.is_clear()
     }
 
     /// Whether the robot stands still, at the end of a motion or within one.
@@ -427,6 +441,7 @@ impl Queue {
     /// Drops all motions that wait, and the one being executed: at once where the robot rests, else when it has come to
     /// rest. Without a stop it goes on to the next target that it reaches exactly first.
     pub fn clear(&mut self) {
+        self.aside.clear();
         self.course.keep_to_stop();
         self.waiting.clear();
         self.held = None;
@@ -478,7 +493,8 @@ impl Queue {
         self.cycle = dt;
         self.left.clear();
         let speed = if override_percent > 0.0 { override_percent.min(100.0) / 100.0 } else { 0.0 };
-        let pacing = match self.stop {
+        let stop = if self.stop == Some(Stop::Fast) { self.stop } else { self.aside.stop().or(self.stop) };
+        let pacing = match stop {
             Some(Stop::Fast) => Pacing::Stop(FAST),
             Some(Stop::General) => Pacing::Stop(1.0),
             None if speed > 0.0 => Pacing::Go(speed),
@@ -552,6 +568,7 @@ impl Queue {
         if !matches!(pacing, Pacing::Stop(_)) {
             self.lose_patience(dt);
         }
+        self.see_to_aside();
         Step { joints: self.joints, tcp: self.tcp(), motion, line, finished: self.finished, rests: self.rests() }
     }
 
@@ -598,7 +615,8 @@ impl Queue {
 
     /// Motions that go nowhere end when those before them have ended.
     fn end_empty(&mut self) {
-        let held = self.held.as_ref().map_or(self.added + 1, |held| held.number);
+        let anew = self.aside.first_anew().unwrap_or(self.added + 1);
+        let held = self.held.as_ref().map_or(anew, |held| held.number);
         let waiting = self.waiting.front().map_or(held, |(_, number)| *number);
         let next = self.course.first().map_or(waiting, |piece| piece.number);
         self.finished = self.finished.max(next - 1);

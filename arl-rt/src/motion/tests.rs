@@ -1,5 +1,6 @@
 //! Properties of motion, from the sampled trace alone.
 
+mod asides;
 mod blends;
 mod carried;
 mod chained_overlays;

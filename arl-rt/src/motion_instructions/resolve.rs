@@ -79,7 +79,7 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
     if cx.spend() {
         cx.next_cycle().await;
     }
-    while !lane.unit(MOTION)?.has_room() {
+    while !lane.unit(MOTION)?.takes(cx.level().number) {
         cx.next_cycle().await;
     }
     // The return to the path: the first motion goes at manual speed, and stops.

@@ -252,6 +252,21 @@ impl Course {
         }
     }
 
+    /// Takes what is left away, at rest; another course can begin.
+    pub(in crate::motion) fn lay_aside(&mut self) -> Self {
+        self.forsake();
+        (self.pilot, self.unled) = (None, false);
+        (self.next, self.answer) = (None, None);
+        let empty = Self { finder: std::mem::take(&mut self.finder), ..Self::default() };
+        std::mem::replace(self, empty)
+    }
+
+    /// Puts back what was laid aside, in place of a course that has come to its end.
+    pub(in crate::motion) fn take_up(&mut self, course: Self) {
+        self.forsake();
+        *self = Self { finder: std::mem::take(&mut self.finder), ..course };
+    }
+
     /// Drops what goes on behind the next stop.
     pub(super) fn keep_laws_to_stop(&mut self) {
         self.next = None;
