@@ -12,3 +12,5 @@ pub mod fill;
 pub mod greet;
 #[rustfmt::skip]
 pub mod pick_and_place;
+#[rustfmt::skip]
+pub mod plc_cell;

@@ -1,4 +1,4 @@
-//! The conformance cases through the command.
+//! The conformance cases through the command, and the example that a PLC works.
 #![cfg(feature = "cli")]
 #![allow(clippy::disallowed_methods, clippy::expect_used, reason = "tests start processes, and may fail")]
 
@@ -9,7 +9,7 @@ use std::process::Command;
 fn all_cases_pass() {
     let workspace = Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace");
     let output = Command::new(env!("CARGO_BIN_EXE_arl2rs"))
-        .args(["test", "tests/conformance"])
+        .args(["test", "tests/conformance", "examples/plc_cell"])
         .current_dir(workspace)
         .env("ARL2RS_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
         .output()

@@ -32,7 +32,7 @@ entries! { pub(super) IO =
     fn pulsedo(
         chan: int "the output",
         value: bool "true for a high pulse, false for a low one",
-        width: double [units(&[Unit::Second])] "length of the pulse, s, 0 or more",
+        width: double [units(&[Unit::Second])] "length of the pulse, s, 0 or more; at least 0.025 comes out",
     )
         { "5.5.6", io::pulsedo, waits, fails; "pulsedo(5,true,0.2)\nwaittime 0.1\nprint getdo(5)" }
     /// Level of a digital output.

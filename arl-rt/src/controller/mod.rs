@@ -22,7 +22,7 @@ pub use status::{ChannelStatus, RobotStatus, Status};
 
 use crate::clock_source::Clock;
 use crate::fault::{Alarm, Fault, File};
-use crate::io::{Deed, Digital, IoDriver, Pendant, Playing};
+use crate::io::{Deed, Digital, IoDriver, Pendant, Playing, Pwm};
 use crate::motion::{Joints, MotionRecord};
 use crate::robot::Robot;
 use crate::system::System;
@@ -314,12 +314,28 @@ impl Controller {
         self.world.io.borrow().ao(channel)
     }
 
+    /// What a PWM output does, from 1.
+    ///
+    /// # Errors
+    /// There is no such channel.
+    pub fn pwm(&self, channel: i32) -> Result<Pwm, Fault> {
+        self.world.io.borrow().pwm(channel)
+    }
+
     /// Sets an internal input signal, from 1.
     ///
     /// # Errors
     /// There is no such channel.
     pub fn set_internal(&mut self, channel: i32, level: bool) -> Result<(), Fault> {
         self.world.io.borrow_mut().set_digital(Digital::InternalIn, channel, level)
+    }
+
+    /// Sets an internal output signal, from 1: the internal PLC's, which programs can only read.
+    ///
+    /// # Errors
+    /// There is no such channel.
+    pub fn set_internal_output(&mut self, channel: i32, level: bool) -> Result<(), Fault> {
+        self.world.io.borrow_mut().set_digital(Digital::InternalOut, channel, level)
     }
 
     /// The level of an internal output signal, from 1.

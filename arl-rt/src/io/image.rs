@@ -122,6 +122,12 @@ impl Image {
         Ok(())
     }
 
+    /// What a PWM output does.
+    pub(crate) fn pwm(&self, channel: i32) -> Result<Pwm, Fault> {
+        let at = place("PWM", channel, PWM_CHANNELS)?;
+        Ok(self.pwm.get(at).copied().unwrap_or_default())
+    }
+
     /// Drops what waits for the end of a motion of a program's channel.
     pub(crate) fn forget_motion(&mut self, owner: usize) {
         self.after_motion.get_mut(owner).into_iter().for_each(VecDeque::clear);
@@ -321,7 +327,12 @@ impl Image {
 
     /// The inputs, for the driver to fill.
     pub(crate) fn inputs_mut(&mut self) -> Inputs<'_> {
-        Inputs { di: &mut self.di, ai: &mut self.ai, internal: &mut self.internal_in }
+        Inputs {
+            di: &mut self.di,
+            ai: &mut self.ai,
+            internal: &mut self.internal_in,
+            internal_outputs: &mut self.internal_out,
+        }
     }
 
     /// The outputs, for the driver to pass on.
@@ -348,6 +359,7 @@ pub struct Inputs<'a> {
     di: &'a mut Bits,
     ai: &'a mut AnalogRow,
     internal: &'a mut Bits,
+    internal_outputs: &'a mut Bits,
 }
 
 impl Inputs<'_> {
@@ -364,6 +376,12 @@ impl Inputs<'_> {
     /// Sets an internal input; channels that do not exist are left out.
     pub fn set_internal(&mut self, channel: usize, level: bool) {
         self.internal.set(channel.wrapping_sub(1), level);
+    }
+
+    /// Sets an internal output, which programs can only read: it is the internal PLC's; channels that do not exist are left
+    /// out.
+    pub fn set_internal_output(&mut self, channel: usize, level: bool) {
+        self.internal_outputs.set(channel.wrapping_sub(1), level);
     }
 }
 

@@ -61,15 +61,19 @@ pub async fn syncdo_group(cx: &Cx, from_chan: i32, to_chan: i32, value: i32) -> 
     Ok(())
 }
 
-/// Puts a pulse on a digital output: the level for `width` seconds, then the opposite level. The program goes on at
-/// once.
+/// The shortest pulse that an output can give, in s.
+const SHORTEST_PULSE: f64 = 0.025;
+
+/// Puts a pulse on a digital output: the level for `width` seconds, but at least 25 ms, then the opposite level. The program
+/// goes on at once.
 ///
 /// # Errors
 /// There is no such channel; the width is negative or not a number.
 pub async fn pulsedo(cx: &Cx, chan: i32, value: bool, width: f64) -> Result<(), Fault> {
-    let cycles = cx.world().rate.wait(width, "pulsedo")?;
+    let rate = cx.world().rate;
+    let cycles = rate.wait(width, "pulsedo")?.max(rate.cycles(SHORTEST_PULSE));
     cx.motion_end().await;
-    cx.world().io.borrow_mut().pulse(cx.lane().index, chan, value, cx.cycle() + cycles.max(1))
+    cx.world().io.borrow_mut().pulse(cx.lane().index, chan, value, cx.cycle() + cycles)
 }
 
 /// The level of a digital output.

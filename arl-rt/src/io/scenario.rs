@@ -9,6 +9,8 @@
 //! when = "do.3"       # each time the output goes on; "!do.3": off; di.N too
 //! after = 0.5         # seconds later
 //! ai.2 = 4.2
+//! internal.1 = true   # what getintdi reads
+//! internal_do.1 = true   # what getintdo reads
 //! pendant = "start"
 //! override = 50       # %
 //! force = [0, 0, 80]  # N, what pushes the TCP, in the world; until another event says otherwise
@@ -26,10 +28,11 @@ use crate::rate::Rate;
 use crate::robot::Robot;
 use crate::settings::{Section, SettingsError, Source, Value, hint, kind, number, table};
 
-const EVENT: &[&str] = &["at", "when", "after", "di", "ai", "internal", "pendant", "override", "force", "torque"];
+const EVENT: &[&str] =
+    &["at", "when", "after", "di", "ai", "internal", "internal_do", "pendant", "override", "force", "torque"];
 
 /// What an event may change.
-const CHANGES: &str = "`di.N`, `ai.N`, `internal.N`, `pendant`, `override`, `force` or `torque.jN`";
+const CHANGES: &str = "`di.N`, `ai.N`, `internal.N`, `internal_do.N`, `pendant`, `override`, `force` or `torque.jN`";
 
 /// A word of the teach pendant.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -253,6 +256,13 @@ fn actions(source: Source<'_>, event: &Section<'_>) -> Result<Vec<Action>, Setti
                 key,
                 value,
                 |channel, level| Action::Digital(Digital::InternalIn, channel, level),
+                &mut actions,
+            )?,
+            "internal_do" => signals(
+                source,
+                key,
+                value,
+                |channel, level| Action::Digital(Digital::InternalOut, channel, level),
                 &mut actions,
             )?,
             "ai" => analogs(source, value, &mut actions)?,
