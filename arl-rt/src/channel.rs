@@ -3,6 +3,7 @@
 
 use std::cell::Ref;
 
+use crate::channel_id::{ChannelId, MOST_FOREGROUND};
 use crate::cx::Cx;
 use crate::fault::{Fault, File};
 use crate::kinematics::Axes;
@@ -32,6 +33,49 @@ fn foreground<T>(
         Some((cx, unit)) => look(&Foreground { cx, unit }),
         None => Err(Fault::Domain { function, problem: no_such(cx, number).into() }),
     }
+}
+
+/// The number of a foreground channel, as functions take it that need not find one there.
+pub(crate) fn number(function: &'static str, channel: u32) -> Result<i32, Fault> {
+    match i32::try_from(channel) {
+        Ok(number) if (1..=MOST_FOREGROUND as i32).contains(&number) => Ok(number),
+        _ => {
+            let problem = format!("the channel is {channel}, but must be 1 to {MOST_FOREGROUND}");
+            Err(Fault::Domain { function, problem: problem.into() })
+        }
+    }
+}
+
+/// `switcharl`: ends the program of a foreground channel, whose robot stops on its path, and starts another one of those that
+/// the controller can load there; whether it worked. It does so at once, and goes on when the other program is there.
+///
+/// # Errors
+/// The channel is not within 1 to 6, or this is no background channel.
+pub async fn switcharl(cx: &Cx, channel: u32, file_name: &Str) -> Result<bool, Fault> {
+    const FUNCTION: &str = "switcharl";
+    let number = number(FUNCTION, channel)?;
+    if !matches!(cx.lane().id, ChannelId::Background(_)) {
+        let problem = "only the program of a background channel may switch programs";
+        return Err(Fault::Domain { function: FUNCTION, problem: problem.into() });
+    }
+    let Some(there) = cx.world().foreground(number) else { return Ok(false) };
+    let name = file_name.to_text();
+    let refused = match cx.world().programs.load(&name) {
+        None => format!("the controller has no program {name} to load"),
+        Some(program) => match there.lane().load(program) {
+            Ok(()) => String::new(),
+            Err(refused) => refused,
+        },
+    };
+    if !refused.is_empty() {
+        let (file, line) = cx.place();
+        cx.world().warn(format!("{}:{line}: switcharl: {refused}", file.name()));
+        return Ok(false);
+    }
+    while there.lane().is_loading() {
+        cx.next_cycle().await;
+    }
+    Ok(true)
 }
 
 /// That there is no foreground channel with this number.

@@ -247,6 +247,11 @@ impl Cx {
         self.program.file()
     }
 
+    /// The program that runs.
+    pub(crate) fn program_itself(&self) -> &dyn Program {
+        &*self.program
+    }
+
     /// Whether the program has moved the robot yet.
     pub(crate) fn has_moved(&self) -> bool {
         self.moved.get()

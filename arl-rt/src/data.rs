@@ -67,13 +67,23 @@ fn teach(wanted: &DataVar<'_>, declared: &[(&Decl, &Var)], names: &Interner) -> 
         .map_err(|error| (Some(error.span), format!("{name}: {error}")))
 }
 
-/// The content of a data file: at its own path where that is absolute, else in the script directory; there also by its
+/// Where a data file may lie: at its own path where that is absolute, else in the script directory; there also by its
 /// bare name.
-fn read(name: &str, script_dir: &Path) -> Option<(PathBuf, std::io::Result<Vec<u8>>)> {
+fn places(name: &str, script_dir: &Path) -> impl Iterator<Item = PathBuf> {
     let path = Path::new(name);
     let bare = path.file_name().map(|bare| script_dir.join(bare));
     // Joining an absolute path gives that path.
-    for place in [Some(script_dir.join(path)), bare].into_iter().flatten() {
+    [Some(script_dir.join(path)), bare].into_iter().flatten()
+}
+
+/// Where a data file lies, if it is there.
+pub(crate) fn place(name: &str, script_dir: &Path) -> Option<PathBuf> {
+    places(name, script_dir).find(|path| path.is_file())
+}
+
+/// The content of a data file, and where it lies.
+fn read(name: &str, script_dir: &Path) -> Option<(PathBuf, std::io::Result<Vec<u8>>)> {
+    for place in places(name, script_dir) {
         match std::fs::read(&place) {
             Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {}
             content => return Some((place, content)),

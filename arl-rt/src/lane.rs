@@ -7,6 +7,7 @@ use crate::cell::Sensitivity;
 use crate::channel_id::ChannelId;
 use crate::fault::{Alarm, Fault, File};
 use crate::motion::Progress;
+use crate::program::Program;
 use crate::robot::VelocityProfile;
 use crate::system::{self, System};
 use crate::unit::{Collision, SENSITIVITY, Unit, joint};
@@ -24,6 +25,8 @@ pub(crate) struct Lane {
     unit: Option<Rc<RefCell<Unit>>>,
     /// Whether the program waits for the start button.
     pub(crate) paused: Cell<bool>,
+    /// The program that shall run here instead of the one that does.
+    next: RefCell<Option<Rc<dyn Program>>>,
     /// What went wrong apart from the statement that runs, and ends the program.
     trouble: RefCell<Option<Alarm>>,
     /// Home points 1 to 5.
@@ -59,6 +62,7 @@ impl Lane {
             system,
             unit: None,
             paused: Cell::new(false),
+            next: RefCell::default(),
             trouble: RefCell::default(),
             homes: [const { None }; 5],
             home_tolerance: 0.0,
@@ -205,6 +209,32 @@ impl Lane {
         if let Err(alarm) = concluded {
             self.trouble(alarm);
         }
+    }
+
+    /// Wants another program to run here.
+    ///
+    /// # Errors
+    /// It is for another build of robot, or another one is about to be loaded.
+    pub(crate) fn load(&self, program: Rc<dyn Program>) -> Result<(), String> {
+        if self.robot().is_some_and(|unit| unit.robot().family != program.family()) {
+            return Err(format!("{} is for another build of robot than that of {}", program.file().name(), self.id));
+        }
+        let mut next = self.next.borrow_mut();
+        if next.is_some() {
+            return Err(format!("another program is being loaded into {}", self.id));
+        }
+        *next = Some(program);
+        Ok(())
+    }
+
+    /// Whether another program is about to be loaded.
+    pub(crate) fn is_loading(&self) -> bool {
+        self.next.borrow().is_some()
+    }
+
+    /// The program that shall run here now.
+    pub(crate) fn take_next(&self) -> Option<Rc<dyn Program>> {
+        self.next.borrow_mut().take()
     }
 
     /// Ends the program with an alarm that is not that of the statement that runs. The first one counts.

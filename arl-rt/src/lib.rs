@@ -28,6 +28,7 @@ mod json;
 mod keep;
 mod lane;
 pub mod live;
+mod loadable;
 pub mod math;
 pub mod motion;
 mod motion_instructions;

@@ -1,5 +1,9 @@
 //! 5.11: copies of program files, and points that a program writes into data files.
 
+mod now;
+
+pub use now::{savejointnow, saveposenow};
+
 use std::fmt::Write;
 use std::fs;
 use std::ops::Range;
@@ -35,6 +39,11 @@ pub async fn savearl(cx: &Cx, file_src: &Str, file_dst: &Str, mode: bool) -> Res
 /// # Errors
 /// The path leads out of the script directory.
 pub async fn savefilepose(cx: &Cx, file_name: &Str, pose_name: &Str, p: Pose) -> Result<bool, Fault> {
+    save(cx, file_name, "pose", pose_name, of_pose(p)).await
+}
+
+/// The literal of a pose.
+fn of_pose(p: Pose) -> Components {
     let Pose { x, y, z, a, b, c, cfg, turn, ej1, ej2, ej3, ej4, ej5, ej6 } = p;
     let mut value = Components::new();
     value.numbers(&[("x", x), ("y", y), ("z", z), ("a", a), ("b", b), ("c", c)]);
@@ -44,7 +53,7 @@ pub async fn savefilepose(cx: &Cx, file_name: &Str, pose_name: &Str, p: Pose) ->
         value.whole("turn", turn);
     }
     value.numbers(&[("ej1", ej1), ("ej2", ej2), ("ej3", ej3), ("ej4", ej4), ("ej5", ej5), ("ej6", ej6)]);
-    save(cx, file_name, "pose", pose_name, value).await
+    value
 }
 
 /// Writes a joint to a point of a data file, whose other text stays as it is; whether it worked. It counts from the next load on.
@@ -52,11 +61,16 @@ pub async fn savefilepose(cx: &Cx, file_name: &Str, pose_name: &Str, p: Pose) ->
 /// # Errors
 /// The path leads out of the script directory.
 pub async fn savefilejoint(cx: &Cx, file_name: &Str, joint_name: &Str, j: Joint) -> Result<bool, Fault> {
+    save(cx, file_name, "joint", joint_name, of_joint(j)).await
+}
+
+/// The literal of a joint.
+fn of_joint(j: Joint) -> Components {
     let Joint { j1, j2, j3, j4, j5, j6, ej1, ej2, ej3, ej4, ej5, ej6 } = j;
     let mut value = Components::new();
     value.numbers(&[("j1", j1), ("j2", j2), ("j3", j3), ("j4", j4), ("j5", j5), ("j6", j6)]);
     value.numbers(&[("ej1", ej1), ("ej2", ej2), ("ej3", ej3), ("ej4", ej4), ("ej5", ej5), ("ej6", ej6)]);
-    save(cx, file_name, "joint", joint_name, value).await
+    value
 }
 
 async fn save(cx: &Cx, file: &Str, ty: &str, point: &Str, value: Components) -> Result<bool, Fault> {

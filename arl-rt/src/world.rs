@@ -12,6 +12,7 @@ use crate::fault::Alarm;
 use crate::fieldbus::Buses;
 use crate::files::ScriptDir;
 use crate::io::Image;
+use crate::loadable::Loadable;
 use crate::output::{Message, Output};
 use crate::random::Random;
 use crate::rate::Rate;
@@ -45,6 +46,8 @@ pub(crate) struct World {
     pub(crate) buses: Buses,
     /// Whether cycles take the time that they stand for.
     real_time: Cell<bool>,
+    /// The programs that `switcharl` can load.
+    pub(crate) programs: Loadable,
     /// The foreground channels, in order, as the functions see them that ask about channels by number.
     foreground: RefCell<Vec<Weak<Cx>>>,
 }
@@ -60,6 +63,7 @@ pub(crate) struct Parts {
     pub(crate) state: State,
     pub(crate) network: NetworkSettings,
     pub(crate) wiring: Wiring,
+    pub(crate) programs: Loadable,
     pub(crate) buses: Buses,
     pub(crate) real_time: bool,
 }
@@ -67,6 +71,7 @@ pub(crate) struct Parts {
 impl World {
     pub(crate) fn new(parts: Parts) -> Self {
         Self {
+            programs: parts.programs,
             buses: parts.buses,
             real_time: Cell::new(parts.real_time),
             network: parts.network,
@@ -90,6 +95,13 @@ impl World {
     /// Adds the next foreground channel.
     pub(crate) fn add_foreground(&self, cx: &Rc<Cx>) {
         self.foreground.borrow_mut().push(Rc::downgrade(cx));
+    }
+
+    /// Another program runs in the foreground channel at this place.
+    pub(crate) fn exchange_foreground(&self, at: usize, cx: &Rc<Cx>) {
+        if let Some(place) = self.foreground.borrow_mut().get_mut(at) {
+            *place = Rc::downgrade(cx);
+        }
     }
 
     /// The foreground channel with this number, from 1.

@@ -183,3 +183,55 @@ fn a_controller_has_at_most_six_foreground_channels() {
     let error = builder(7).build(Box::new(nothing())).map(drop).unwrap_err();
     assert_eq!(error, SetupError::Channels("7 foreground channels: a controller has at most 6".into()));
 }
+
+/// Moves one after the other way for ever, and says who it is.
+fn swinging(name: &'static str, to: f64) -> Box<dyn Program> {
+    Box::new(script(move |cx| {
+        Box::pin(async move {
+            say(cx, &name)?;
+            loop {
+                motion::movej(bent(to)).vp(100.0).run(cx).await.at(FILE, 1)?;
+                motion::movej(bent(-to)).vp(100.0).run(cx).await.at(FILE, 2)?;
+            }
+        })
+    }))
+}
+
+#[test]
+fn the_background_switches_the_program_of_a_foreground_channel() {
+    let switching = script(|cx| {
+        Box::pin(async move {
+            let switch = |channel: u32, name: &'static str| {
+                let name = Str::literal(name);
+                async move { channel::switcharl(cx, channel, &name).await.at(FILE, 3) }
+            };
+            cx.line(FILE, 3);
+            flow::waittime(1.5).run(cx).await.at(FILE, 1)?;
+            say(cx, &switch(1, "RECIPE.arl").await?)?;
+            flow::waittime(1.0).run(cx).await.at(FILE, 1)?;
+            say(cx, &channel::channeljoint(cx, 1, true).at(FILE, 2)?.j2)?;
+            for (channel, name) in [(1, "nothing.arl"), (2, "recipe.arl")] {
+                say(cx, &switch(channel, name).await?)?;
+            }
+            switch(7, "recipe.arl").await.map(drop)
+        })
+    });
+    let builder = Controller::builder().background(Box::new(switching));
+    let builder = builder.loadable("recipe.arl", || swinging("recipe", 5.0));
+    let messages = Captured::new();
+    let mut controller = builder.output(messages.clone()).build(swinging("first", 40.0)).unwrap();
+    let mut last = controller.joints();
+    for _ in 0..6000 {
+        assert_eq!(controller.step(), State::Running);
+        // The robot stops on its path before the other program moves it.
+        let joints = controller.joints();
+        assert!((joints.axes[0] - last.axes[0]).abs() < 0.4, "{} then {}", last.axes[0], joints.axes[0]);
+        last = joints;
+    }
+    assert_eq!(messages.text(), "first\nrecipe\ntrue\n-90\nfalse\nfalse\n");
+    assert!(last.axes[0].abs() < 5.1, "{}", last.axes[0]);
+    assert_eq!(controller.take_warnings(), ["t.arl:3: switcharl: the controller has no program nothing.arl to load"]);
+    let alarms: Vec<String> = controller.take_alarms().iter().map(ToString::to_string).collect();
+    let text = "alarm 20004: switcharl: the channel is 7, but must be 1 to 6 (t.arl:3, background channel 1)";
+    assert_eq!(alarms, [text]);
+}

@@ -51,6 +51,8 @@ pub struct CheckOptions {
     pub strict: bool,
     /// The folder that `/home/ae/script/` in an import means; the main file's folder if absent.
     pub script_dir: Option<std::path::PathBuf>,
+    /// The program is for a background channel, which has no robot.
+    pub background: bool,
     /// A file without `main` is fine: it is checked as a module.
     pub library: bool,
     /// The robot, where it is known: targets that it can never reach are warned of.

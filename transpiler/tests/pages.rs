@@ -113,6 +113,7 @@ impl Side {
         while let Some(word) = words.next() {
             match (word, if word == "--robot" { words.next() } else { None }) {
                 ("--strict", None) => options.strict = true,
+                ("--background", None) => options.background = true,
                 ("macro", None) => statements = true,
                 ("--robot", Some(name)) => {
                     let robot = Robot::builtin(name).map_err(|error| error.to_string())?;

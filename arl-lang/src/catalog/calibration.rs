@@ -10,7 +10,7 @@ entries! { pub(super) CALIBRATION =
         j3: joint "the tool in the frame's xy plane, on the +y side",
         t: tool "the tool",
     ) -> wobj
-        { "5.9.1", calibration::getwobj_3p, acts, fails;
+        { "5.9.1", calibration::getwobj_3p, acts, fails, foreground;
           "joint j1 = {1,0,120,0,30,0}\njoint j2 = {10,0,120,0,30,0}\njoint j3 = {15,0,110,0,30,0}\nprint getwobj_3p(j1,j2,j3,$TOOL0)" }
     /// Workpiece frame from three taught points whose coordinates in it are known.
     fn getwobj_indi(
@@ -22,7 +22,7 @@ entries! { pub(super) CALIBRATION =
         p3: pos "third point in the workpiece frame, mm",
         t: tool "the tool",
     ) -> wobj
-        { "5.9.2", calibration::getwobj_indi, acts, fails;
+        { "5.9.2", calibration::getwobj_indi, acts, fails, foreground;
           "joint j1 = {1,0,120,0,30,0}\njoint j2 = {10,0,120,0,30,0}\njoint j3 = {15,0,110,0,30,0}\npos p1 = {10,20,20}\npos p2 = {40,60,20}\npos p3 = {50,20,40}\nprint getwobj_indi(j1,j2,j3,p1,p2,p3,$TOOL0)" }
     /// Workpiece frame (or the frame of a tool that stands in the cell) with its directions taken from the flange.
     fn getwobj_flange(
@@ -31,7 +31,7 @@ entries! { pub(super) CALIBRATION =
         t: tool "the tool; its x, y, z count",
         xydefault: bool "true: only z is taken, x and y are chosen; false: all three",
     ) -> wobj
-        { "5.9.3", calibration::getwobj_flange, acts, fails;
+        { "5.9.3", calibration::getwobj_flange, acts, fails, foreground;
           "joint j1 = {4,42,85,88,85,-36}\njoint j2 = {3,42,86,92,85,-37}\nprint getwobj_flange(j1,j2,$TOOL0,true)" }
     /// Position of a tool's TCP from a tool that is known.
     fn gettooltcp_ref(
@@ -40,11 +40,11 @@ entries! { pub(super) CALIBRATION =
         ref: tool [rust("reference")] "the known tool; its x, y, z count",
         t: tool [out] "the new tool: its x, y, z are written",
     )
-        { "5.9.4", calibration::gettooltcp_ref, acts, fails;
+        { "5.9.4", calibration::gettooltcp_ref, acts, fails, foreground;
           "joint j1 = {1,0,120,0,30,0}\njoint j2 = {10,0,120,0,30,0}\ntool known = {{x 10,y 10,z 50},false}\ntool t\ngettooltcp_ref(j1,j2,known,t)\nprint t" }
     /// Orientation of a tool that was turned to the world: +x along the world's -z, +y along +y, +z along +x.
     fn gettoolrot_world(j: joint "the tool in that orientation", t: tool [out] "the tool: its a, b, c are written")
-        { "5.9.5", calibration::gettoolrot_world, acts, fails;
+        { "5.9.5", calibration::gettoolrot_world, acts, fails, foreground;
           "joint j = {1,0,120,0,30,0}\ntool t\ngettoolrot_world(j,t)\nprint t" }
     /// Orientation of a tool from three taught points. The tool's x, y, z must be right before.
     fn gettoolrot_3p(
@@ -53,7 +53,7 @@ entries! { pub(super) CALIBRATION =
         j3: joint "a place in the tool's xy plane, on the -y side, at the same point",
         t: tool [out] "the tool: its a, b, c are written",
     )
-        { "5.9.6", calibration::gettoolrot_3p, acts, fails;
+        { "5.9.6", calibration::gettoolrot_3p, acts, fails, foreground;
           "joint j1 = {1,0,120,0,30,0}\njoint j2 = {10,0,120,0,30,0}\njoint j3 = {15,0,110,0,30,0}\ntool t\ngettoolrot_3p(j1,j2,j3,t)\nprint t" }
     /// Tool frame (or the frame of a workpiece that the robot holds) from a point of the cell that is known.
     fn gettool_3p(
@@ -62,7 +62,7 @@ entries! { pub(super) CALIBRATION =
         j3: joint "a place in the frame's xy plane, on the +y side, at the point",
         w: wobj "the point in the world; its x, y, z count",
     ) -> tool
-        { "5.9.7", calibration::gettool_3p, acts, fails;
+        { "5.9.7", calibration::gettool_3p, acts, fails, foreground;
           "wobj w = {{935,0,1300,0,0,0},false}\njoint j1 = {0,0,90,0,90,0}\njoint j2 = {0,0,90,0,-90,0}\njoint j3 = {0,0,90,90,90,0}\nprint gettool_3p(j1,j2,j3,w)" }
     /// Base frame of a mechanical unit from three taught points of the world; it is written to $BASE.
     fn getbase_3p(
@@ -72,6 +72,6 @@ entries! { pub(super) CALIBRATION =
         t: tool "the tool",
         index: int "number of the mechanical unit, from 1",
     )
-        { "5.9.8", calibration::getbase_3p, acts, fails;
+        { "5.9.8", calibration::getbase_3p, acts, fails, foreground;
           "joint j1 = {1,0,120,0,30,0}\njoint j2 = {10,0,120,0,30,0}\njoint j3 = {15,0,110,0,30,0}\ngetbase_3p(j1,j2,j3,$TOOL0,1)\nprint $BASE" }
 }

@@ -8,16 +8,16 @@ entries! { pub(super) POSE =
         { "5.8.1", pose::cjoint, acts, foreground; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nwaittime 0\nprint cjoint()" }
     /// Pose of the TCP that the robot reports now, with the tool $DFTOOL in the workpiece frame $DFWOBJ.
     fn cpose() -> pose
-        { "5.8.2", pose::cpose_default, acts; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nwaittime 0\nprint cpose()" }
+        { "5.8.2", pose::cpose_default, acts, foreground; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nwaittime 0\nprint cpose()" }
     /// Pose of the TCP that the robot reports now.
     fn cpose(t: tool "the tool", w: wobj "the workpiece frame") -> pose
-        { "5.8.2", pose::cpose, acts; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nwaittime 0\nprint cpose($FLANGE,$WORLD)" }
+        { "5.8.2", pose::cpose, acts, foreground; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nwaittime 0\nprint cpose($FLANGE,$WORLD)" }
     /// Pose of the TCP for given axis positions. Unset axes: alarm.
     fn getpose(j: joint "the axis positions", t: tool "the tool", w: wobj "the workpiece frame") -> pose
-        { "5.8.3", pose::getpose, acts, fails; "joint j = {0,-90,90,0,45,0}\nprint getpose(j,$FLANGE,$WORLD)" }
+        { "5.8.3", pose::getpose, acts, fails, foreground; "joint j = {0,-90,90,0,45,0}\nprint getpose(j,$FLANGE,$WORLD)" }
     /// Axis positions for a pose of the TCP, in its arm configuration. A pose out of reach or not all set: alarm.
     fn getjoint(p: pose "the pose", t: tool "the tool", w: wobj "the workpiece frame") -> joint
-        { "5.8.4", pose::getjoint, acts, fails;
+        { "5.8.4", pose::getjoint, acts, fails, foreground;
           "joint j = {0,-90,90,0,45,0}\npose p = getpose(j,$FLANGE,$WORLD)\nprint getjoint(p,$FLANGE,$WORLD)" }
     /// The inverse: for the pose of a frame A seen from B, the pose of B seen from A.
     fn poseinv(p: pose "the pose") -> pose

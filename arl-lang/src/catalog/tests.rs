@@ -38,7 +38,7 @@ const WORKS: &str = "\
     getwobj_3p getwobj_indi getwobj_flange gettooltcp_ref gettoolrot_world gettoolrot_3p gettool_3p getbase_3p \
     ctime cdate savesv init gettextstr filesize renamefile removefile toolload toolswitch startdetect enddetect cjttq cjtci ctcpforce \
     channeltojoint channeltopose channeljoint channelpose channeljointvel channeltcpvel T S StoEnd P curmpfile curmpline \
-    curppfile curppline savearl savefilepose savefilejoint interrupt enableint disableint delint timer \
+    curppfile curppline savearl savefilepose savefilejoint saveposenow savejointnow switcharl interrupt enableint disableint delint timer \
     trigger stopmove startmove connect accept geterror close write read readuntil clearbuff \
     dnwrite dnread readregisters writeregisters readcoils writecoils";
 

@@ -20,6 +20,7 @@ use crate::files::ScriptDir;
 use crate::io::{Image, IoDriver, Playing, Scenario, SimulatedIo};
 use crate::kinematics::frame;
 use crate::lane::{Lane, Station};
+use crate::loadable::Loadable;
 use crate::output::{Output, Stream};
 use crate::program::Program;
 use crate::random::{self, Random};
@@ -41,6 +42,7 @@ pub struct Builder {
     /// The other foreground channels.
     foreground: Vec<Foreground>,
     background: Vec<Box<dyn Program>>,
+    programs: Loadable,
     cell: Cell,
     clock: Box<dyn Clock>,
     io: Box<dyn IoDriver>,
@@ -63,6 +65,7 @@ impl Default for Builder {
             body: Body::default(),
             foreground: Vec::new(),
             background: Vec::new(),
+            programs: Loadable::default(),
             cell: Cell::default(),
             clock: Box::new(VirtualClock::new()),
             io: Box::new(SimulatedIo),
@@ -92,6 +95,12 @@ impl Builder {
     /// Adds the next background channel: a program without a robot.
     pub fn background(mut self, program: Box<dyn Program>) -> Self {
         self.background.push(program);
+        self
+    }
+
+    /// A program that `switcharl` can load into a foreground channel, by the name of its file.
+    pub fn loadable(mut self, name: impl Into<String>, make: impl Fn() -> Box<dyn Program> + 'static) -> Self {
+        self.programs.add(name.into(), Box::new(make));
         self
     }
 
@@ -246,6 +255,7 @@ impl Builder {
             state,
             network: cell.network,
             wiring: cell.external,
+            programs: self.programs,
             buses,
             real_time,
         }));

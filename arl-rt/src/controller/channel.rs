@@ -83,7 +83,7 @@ impl Channel {
     /// What the program does at the moment.
     pub(super) fn state(&self) -> State {
         match self.phase {
-            Phase::Ended(_) => State::Ended,
+            Phase::Ended(_) if !self.lane.is_loading() => State::Ended,
             _ if self.lane.paused.get() => State::Paused,
             _ => State::Running,
         }
@@ -92,7 +92,7 @@ impl Channel {
     /// How the program ended, when it has.
     pub(super) fn outcome(&self) -> Option<&Outcome> {
         match &self.phase {
-            Phase::Ended(outcome) => Some(outcome),
+            Phase::Ended(outcome) if !self.lane.is_loading() => Some(outcome),
             _ => None,
         }
     }
@@ -108,8 +108,24 @@ impl Channel {
         };
     }
 
+    /// Exchanges the program where another one is wanted and nothing of this one is left.
+    fn exchange(&mut self) {
+        self.end(Outcome::Stopped);
+        if matches!(self.phase, Phase::Ended(_))
+            && let Some(program) = self.lane.take_next()
+        {
+            self.program = program;
+            self.cx = Rc::new(Cx::new(Rc::clone(&self.lane), Rc::clone(&self.program)));
+            self.lane.world.exchange_foreground(self.lane.index, &self.cx);
+            self.reset();
+        }
+    }
+
     /// Lets the program and the actions of events run until they wait.
     pub(super) fn poll(&mut self) {
+        if self.lane.is_loading() {
+            self.exchange();
+        }
         if self.has_statements() && self.lane.robot_mut().is_some_and(|mut unit| unit.take_beyond()) {
             self.leave(Reason::Restart);
         }

@@ -123,6 +123,9 @@ impl Checker<'_> {
         if entry.status == Status::NotYet {
             return self.report(body, name, SupportProblem::NotYet { name: entry.name.into() });
         }
+        if self.options.background && !entry.background {
+            return self.report(body, name, SupportProblem::Background { name: entry.name.into() });
+        }
         let ty = Type::scalar(entry.result);
         Some(Expr { ty, kind: ExprKind::Builtin(Box::new(Builtin { entry, args })), span })
     }

@@ -109,6 +109,9 @@ pub(super) struct Checking {
     /// The robot that the program is for: a built-in name or a robot file.
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) robot: Option<String>,
+    /// The program is for a background channel: it has no robot.
+    #[arg(long)]
+    pub(super) background: bool,
     /// The folder that `/home/ae/script/` in an import means; the program's folder if absent.
     #[arg(long, value_name = "DIR")]
     pub(super) script_dir: Option<PathBuf>,
@@ -219,6 +222,6 @@ impl RunOptions {
 
     /// The part that the compiler needs.
     pub(super) fn checking(&self) -> Checking {
-        Checking { strict: false, robot: self.robot.clone(), script_dir: self.script_dir.clone() }
+        Checking { strict: false, background: false, robot: self.robot.clone(), script_dir: self.script_dir.clone() }
     }
 }

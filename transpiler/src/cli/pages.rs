@@ -136,6 +136,7 @@ pub(super) static PAGES: &[(&str, &str)] = pages! {
     "ARL0701"
     "ARL0702"
     "ARL0703"
+    "ARL0704"
     "ARL0801"
     "ARL0802"
     "ARL0803"

@@ -30,7 +30,13 @@ pub(super) fn check_options(checking: &Checking) -> Result<CheckOptions, Failure
         None => None,
     };
     let family = robots::family(checking.robot.as_deref())?;
-    Ok(CheckOptions { family, strict: checking.strict, script_dir, ..CheckOptions::default() })
+    Ok(CheckOptions {
+        family,
+        strict: checking.strict,
+        background: checking.background,
+        script_dir,
+        ..CheckOptions::default()
+    })
 }
 
 /// Checks and emits a program, and shows what there is to say.
@@ -169,6 +175,6 @@ fn identity(options: &CheckOptions, runtime: &Runtime) -> u64 {
         hash_state(&command, &mut hasher);
     }
     runtime.state().hash(&mut hasher);
-    (options.family, options.strict, &options.script_dir).hash(&mut hasher);
+    (options.family, options.strict, options.background, &options.script_dir).hash(&mut hasher);
     hasher.finish()
 }

@@ -97,6 +97,7 @@ static CODES: &[CodeInfo] = &[
     error(701, "Something that is not supported yet"),
     error(702, "Something for the other kind of robot"),
     error(703, "Something that arl2rs cannot make sense of"),
+    error(704, "Something that needs a robot, in the background"),
     error(801, "A constant division by zero"),
     error(802, "A constant shift out of range"),
     error(803, "A constant index out of range"),

@@ -11,6 +11,8 @@ pub(crate) enum SupportProblem {
     Lost,
     /// Exists for the other robot family only.
     OtherFamily { name: String, family: &'static str },
+    /// Needs a robot, in a program for a background channel.
+    Background { name: String },
 }
 
 impl Problem for SupportProblem {
@@ -19,6 +21,7 @@ impl Problem for SupportProblem {
             SupportProblem::NotYet { .. } => 701,
             SupportProblem::OtherFamily { .. } => 702,
             SupportProblem::Lost => 703,
+            SupportProblem::Background { .. } => 704,
         })
     }
 
@@ -26,6 +29,9 @@ impl Problem for SupportProblem {
         match self {
             SupportProblem::NotYet { name } => format!("`{name}` is not supported yet"),
             SupportProblem::Lost => "arl2rs could not make sense of this, and cannot say why".into(),
+            SupportProblem::Background { name } => {
+                format!("`{name}` needs a robot, which a background channel does not have")
+            }
             SupportProblem::OtherFamily { name, family } => format!("`{name}` exists for {family} robots only"),
         }
     }
@@ -42,6 +48,9 @@ impl Problem for SupportProblem {
             SupportProblem::Lost => Some(
                 "this is a mistake of arl2rs, not of the program: please report it together with the program".into(),
             ),
+            SupportProblem::Background { .. } => {
+                Some("let a foreground channel do it, and tell it by io, `$I` or `$B`".into())
+            }
             SupportProblem::OtherFamily { .. } => Some("name the robot that the program is for with `--robot`".into()),
         }
     }

@@ -38,6 +38,9 @@ pub(super) struct CaseOptions {
     /// A cell file beside the case.
     pub(super) cell: Option<PathBuf>,
     pub(super) mode: Option<String>,
+    /// The program is for a background channel; such a case is only checked.
+    #[serde(default)]
+    pub(super) background: bool,
     /// Controller seconds. A case that sets it may end by it.
     pub(super) max_time: Option<f64>,
     /// Percent.
@@ -133,6 +136,9 @@ fn read(source: &Path, stem: &str, expects: bool) -> Result<Case, String> {
         options,
         source: source.to_path_buf(),
     };
+    if case.options.background && case.errors.is_none() {
+        return Err(format!("a background program does not run alone: {stem}.err says what is wrong with it"));
+    }
     if case.errors.is_some() && (case.out.is_some() || case.alarm.is_some()) {
         return Err(format!("a program with errors does not run: either {stem}.err or {stem}.out and {stem}.alarm"));
     }

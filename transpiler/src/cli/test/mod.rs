@@ -75,7 +75,7 @@ fn find(dirs: &[PathBuf]) -> Result<Vec<Found>, Failure> {
 
 fn options(case: &Case) -> Result<CheckOptions, String> {
     match robots::family(execute::robot(case).as_deref()) {
-        Ok(family) => Ok(CheckOptions { family, ..CheckOptions::default() }),
+        Ok(family) => Ok(CheckOptions { family, background: case.options.background, ..CheckOptions::default() }),
         Err(Failure::Usage(text) | Failure::Other(text)) => Err(text),
         Err(Failure::Shown) => Err(String::new()),
     }
