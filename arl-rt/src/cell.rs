@@ -14,6 +14,9 @@
 //! [network]
 //! listen = "program"           # where accept listens: without it on this computer only ("loopback"); or an address
 //!
+//! [serial]                     # devices behind the names that programs use
+//! "/dev/ttyS0" = "/dev/ttyUSB0"
+//!
 //! [home]                       # axis positions in deg (mm where linear); home 1 is `home` of the robot file
 //! tolerance = 0.1              # how near is at home, deg (mm)
 //! home2 = [0, -90, 90, 0, 0, 0]
@@ -34,6 +37,7 @@
 
 mod external;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 pub use external::Wiring;
@@ -45,7 +49,7 @@ use crate::io::{AnalogType, Channels};
 use crate::rate::Rate;
 use crate::settings::{Section, SettingsError, Source, Value, number, table};
 
-const TOP: &[&str] = &["controller", "io", "network", "home", "external", "collision", "modbus_tcp"];
+const TOP: &[&str] = &["controller", "io", "network", "serial", "home", "external", "collision", "modbus_tcp"];
 const CONTROLLER: &[&str] = &["cycle"];
 const IO: &[&str] = &["di", "do", "ai", "ao", "internal"];
 const NETWORK: &[&str] = &["listen"];
@@ -136,6 +140,9 @@ impl Cell {
         }
         cell.buses = BusSettings::read(&top)?;
         cell.external = Wiring::read(&top, &cell.channels)?;
+        if let Some(value) = top.find("serial") {
+            cell.network.devices = devices(&top, value)?;
+        }
         if let Some(home) = top.table("home", "[home]", HOME)? {
             if let Some(tolerance) = home.number("tolerance", "a distance in deg", 0.0, 90.0)? {
                 cell.home_tolerance = tolerance;
@@ -166,6 +173,17 @@ fn channels(io: &Section<'_>, channels: &mut Channels) -> Result<(), SettingsErr
         }
     }
     Ok(())
+}
+
+fn devices(top: &Section<'_>, value: &Value<'_>) -> Result<BTreeMap<String, String>, SettingsError> {
+    const WHAT: &str = "the path of a device, like \"/dev/ttyUSB0\"";
+    let table = value.get_ref().as_table().ok_or_else(|| top.wrong("serial", value, "the table [serial]"))?;
+    let pairs = table.iter().map(|(name, device)| {
+        let name: &str = name.get_ref().as_ref();
+        let path = device.get_ref().as_str().ok_or_else(|| top.wrong(name, device, WHAT))?;
+        Ok((name.to_owned(), path.to_owned()))
+    });
+    pairs.collect()
 }
 
 fn listen(network: &Section<'_>) -> Result<Listen, SettingsError> {
@@ -256,7 +274,7 @@ mod tests {
     fn mistakes_name_line_and_what_was_expected() {
         for (text, line, words) in [
             ("[io]\ndi = 64\ndoo = 3", 3, "did you mean `do`?"),
-            ("\n[inout]\n", 2, "known are: controller, io, network, home, external, collision, modbus_tcp"),
+            ("\n[inout]\n", 2, "known are: controller, io, network, serial, home, external, collision, modbus_tcp"),
             ("[io]\ndi = -1", 2, "expected a number of channels from 0 to 10000, found the number -1"),
             ("[io]\ndi = \"many\"", 2, "found the text \"many\""),
             ("[io]\nai = [\"V\",\n \"A\"]", 3, "expected \"V\" or \"mA\""),

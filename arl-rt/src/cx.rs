@@ -13,6 +13,7 @@ use crate::fault::{Alarm, Fault, File};
 use crate::lane::Lane;
 use crate::motion::Progress;
 use crate::program::Program;
+use crate::robot::Family;
 use crate::system::System;
 use crate::text::print::Targets;
 use crate::values::Str;
@@ -250,6 +251,11 @@ impl Cx {
     /// The program that runs.
     pub(crate) fn program_itself(&self) -> &dyn Program {
         &*self.program
+    }
+
+    /// The kind of robot that the program is for.
+    pub(crate) fn family(&self) -> Family {
+        self.program.family()
     }
 
     /// Whether the program has moved the robot yet.

@@ -6,7 +6,7 @@ use std::rc::{Rc, Weak};
 
 use crate::cell::Wiring;
 use crate::channel_id::ChannelId;
-use crate::communication::NetworkSettings;
+use crate::communication::{NetworkDriver, NetworkSettings};
 use crate::cx::Cx;
 use crate::fault::Alarm;
 use crate::fieldbus::Buses;
@@ -41,6 +41,8 @@ pub(crate) struct World {
     pub(crate) network: NetworkSettings,
     /// How the cell wires a PLC.
     pub(crate) wiring: Wiring,
+    /// What sets up the network ports of the host, if anything does.
+    pub(crate) network_driver: RefCell<Option<Box<dyn NetworkDriver>>>,
     /// Whether a program talks to the world, so that the world's time counts.
     outside: Cell<bool>,
     pub(crate) buses: Buses,
@@ -66,6 +68,7 @@ pub(crate) struct Parts {
     pub(crate) programs: Loadable,
     pub(crate) buses: Buses,
     pub(crate) real_time: bool,
+    pub(crate) network_driver: Option<Box<dyn NetworkDriver>>,
 }
 
 impl World {
@@ -76,6 +79,7 @@ impl World {
             real_time: Cell::new(parts.real_time),
             network: parts.network,
             wiring: parts.wiring,
+            network_driver: RefCell::new(parts.network_driver),
             outside: Cell::new(false),
             now: Cell::new(0),
             rate: parts.rate,

@@ -28,7 +28,7 @@ static IODEV: HandleDef = HandleDef {
     name: "iodev",
     aliases: &[],
     rust: "Iodev",
-    status: Status::NotYet,
+    status: Status::Works,
     doc: "A serial line: open, then write, read, readuntil, clearbuff, close.",
     section: "2.7.2",
 };

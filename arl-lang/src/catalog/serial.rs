@@ -12,31 +12,31 @@ entries! { pub(super) SERIAL =
         stop_bits: {stopbits} "stop bits",
         prt: {parity} "parity",
     ) -> bool
-        { "5.6.2.1", serial::open, waits, fails, notyet; "iodev s\nprint open(s,\"/dev/ttyS0\",9600,8,one,none)" }
+        { "5.6.2.1", serial::open, waits, fails; "iodev s\nprint open(s,\"/dev/ttyS0\",9600,8,one,none)" }
     /// Closes a serial line; closing one that is not open does nothing.
     fn close(dev: iodev "the line")
-        { "5.6.2.2", serial::close, waits, notyet; "iodev s\nclose(s)" }
+        { "5.6.2.2", serial::close, waits; "iodev s\nclose(s)" }
     /// Sends a text; true when all of it has been sent.
     fn write(dev: iodev "the line", data: string "the text") -> bool
-        { "5.6.2.3", serial::write_string, waits, fails, notyet;
+        { "5.6.2.3", serial::write_string, waits, fails;
           "iodev s\nopen(s,\"/dev/ttyS0\",9600,8,one,none)\nwaituntil write(s,\"hello\")" }
     /// Sends bytes; true when all of them have been sent.
     fn write(dev: iodev "the line", data: [byte] "the bytes", len: int "how many of them") -> bool
-        { "5.6.2.3", serial::write_bytes, waits, fails, notyet;
+        { "5.6.2.3", serial::write_bytes, waits, fails;
           "iodev s\nbyte data[4] = {1,2,3,4}\nopen(s,\"/dev/ttyS0\",9600,8,one,none)\nwaituntil write(s,data,4)" }
     /// Takes exactly len bytes as a text when so many have come; what is left stays for the next call.
     fn read(dev: iodev "the line", data: string [out] "gets the text", len: int "how many bytes") -> bool
-        { "5.6.2.3", serial::read_string, waits, fails, notyet;
+        { "5.6.2.3", serial::read_string, waits, fails;
           "iodev s\nstring data\nopen(s,\"/dev/ttyS0\",9600,8,one,none)\nwaituntil read(s,data,4)" }
     /// Takes exactly len bytes when so many have come; what is left stays for the next call.
     fn read(dev: iodev "the line", data: [byte] [out] "gets the bytes", len: int "how many bytes") -> bool
-        { "5.6.2.3", serial::read_bytes, waits, fails, notyet;
+        { "5.6.2.3", serial::read_bytes, waits, fails;
           "iodev s\nbyte data[4]\nopen(s,\"/dev/ttyS0\",9600,8,one,none)\nwaituntil read(s,data,4)" }
     /// Takes the text in front of a mark when the mark has come; both leave the buffer.
     fn readuntil(dev: iodev "the line", data: string [out] "gets the text", cut: string "the mark") -> bool
-        { "5.6.2.3", serial::readuntil, waits, fails, notyet;
+        { "5.6.2.3", serial::readuntil, waits, fails;
           "iodev s\nstring line\nopen(s,\"/dev/ttyS0\",9600,8,one,none)\nwaituntil readuntil(s,line,\"o\")" }
     /// Throws away what has come and was not read; whether it worked.
     fn clearbuff(dev: iodev "the line") -> bool
-        { "5.6.2.4", serial::clearbuff, waits, fails, notyet; "iodev s\nprint clearbuff(s)" }
+        { "5.6.2.4", serial::clearbuff, waits, fails; "iodev s\nprint clearbuff(s)" }
 }

@@ -10,14 +10,14 @@ entries! { pub(super) SOCKET =
         mask: string "the mask of the subnet",
         if_name: string [otherwise("\"eth1\"")] "the port: eth1 without it",
     ) -> bool
-        { "5.6.1.1", socket::setip, waits, fails, notyet;
+        { "5.6.1.1", socket::setip, waits, fails;
           "print setip(\"10.20.210.93\",\"10.20.210.1\",\"255.255.255.0\",\"eth1\")" }
     /// Reads the address of a network port; whether it worked.
     fn getip(
         ip: string [out] "gets the address",
         if_name: string [otherwise("\"eth1\"")] "the port: eth1 without it",
     ) -> bool
-        { "5.6.1.2", socket::getip, waits, fails, notyet; "string ip\nif(getip(ip)) print ip" }
+        { "5.6.1.2", socket::getip, waits, fails; "string ip\nif(getip(ip)) print ip" }
     /// Connects to a server; true when the connection stands.
     fn connect(s: socket "the connection", ip: string "the server's address", port: int "the server's port") -> bool
         { "5.6.1.3", socket::connect, waits, fails; "socket s\nwaituntil connect(s,\"192.168.0.40\",2888),maxtime:5" }

@@ -42,6 +42,17 @@ pub(super) enum Found<T> {
     Lost(String),
 }
 
+impl<T> Found<T> {
+    /// Does something with what was asked for.
+    pub(super) fn then<R>(self, then: impl FnOnce(T) -> R) -> Found<R> {
+        match self {
+            Found::This(it) => Found::This(then(it)),
+            Found::NotYet => Found::NotYet,
+            Found::Lost(reason) => Found::Lost(reason),
+        }
+    }
+}
+
 impl Handle {
     /// Tries to open the connection; true when it stands.
     pub(super) fn attempt(&self, cx: &Cx, function: &'static str, opening: Opening) -> Result<bool, Fault> {
@@ -72,19 +83,57 @@ impl Handle {
         }
         *held = None;
         let connections = cx.connections();
-        if connections.are_too_many() || (opening.holds() && !connections.are_settled()) {
-            return Ok(false);
+        if !connections.are_too_many() && (!opening.holds() || connections.are_settled()) {
+            *held = self.begin(cx, function, opening);
         }
+        Ok(false)
+    }
+
+    /// Opens the connection and waits for the answer; whether it stands.
+    pub(super) async fn open(&self, cx: &Cx, function: &'static str, opening: Opening) -> Result<bool, Fault> {
+        let state = |held: &Option<Held>| held.as_ref().filter(|it| !it.link.is_closing()).map(|it| it.link.state());
+        if matches!(state(&self.held.borrow()), Some(LinkState::Opening | LinkState::Open)) {
+            return Err(fault(function, "it is open already: close it first"));
+        }
+        self.close();
+        // What was closed just now may still hold the device.
+        while !cx.connections().are_settled() {
+            cx.next_cycle().await;
+        }
+        let begun = self.begin(cx, function, opening.clone());
+        *self.held.borrow_mut() = begun;
+        loop {
+            match state(&self.held.borrow()) {
+                Some(LinkState::Opening) => {}
+                Some(LinkState::Open) => {
+                    self.held.borrow().iter().for_each(|held| held.known_open.set(true));
+                    return Ok(true);
+                }
+                Some(LinkState::Failed(reason) | LinkState::Lost(reason)) => {
+                    self.tell(cx, format!("{function} {opening}: {reason}"));
+                    return Ok(false);
+                }
+                // It was closed meanwhile.
+                None => return Ok(false),
+            }
+            cx.next_cycle().await;
+        }
+    }
+
+    /// Begins to open the connection; nothing where the system cannot.
+    fn begin(&self, cx: &Cx, function: &'static str, opening: Opening) -> Option<Held> {
         match Link::open(opening.clone()) {
             Ok(link) => {
                 cx.world().meet_outside();
-                connections.add(&link);
+                cx.connections().add(&link);
                 let (known_open, known_lost) = (Cell::new(false), Cell::new(false));
-                *held = Some(Held { opening, link, since: Instant::now(), known_open, known_lost });
+                Some(Held { opening, link, since: Instant::now(), known_open, known_lost })
             }
-            Err(error) => self.tell(cx, format!("{function} {opening}: {error}")),
+            Err(error) => {
+                self.tell(cx, format!("{function} {opening}: {error}"));
+                None
+            }
         }
-        Ok(false)
     }
 
     /// Closes the connection, if there is one.

@@ -7,13 +7,18 @@
 mod connections;
 mod handle;
 mod inbox;
+mod line;
 mod link;
+mod network;
 mod opening;
 mod settings;
 mod shared;
+mod transfer;
 mod worker;
 
+pub mod serial;
 pub mod socket;
 
 pub(crate) use connections::Connections;
+pub use network::{NetworkDriver, PortSettings};
 pub use settings::{Listen, NetworkSettings};

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use mio::net::{TcpListener, TcpStream};
 use mio::{Events, Interest, Poll};
 
+use super::line::LineSettings;
 use super::shared::Shared;
 use super::worker::{STREAM, is_closing, wait};
 
@@ -32,6 +33,8 @@ pub(crate) enum Opening {
         /// The port.
         port: u16,
     },
+    /// A serial line.
+    Line(LineSettings),
 }
 
 impl Opening {
@@ -51,6 +54,7 @@ impl fmt::Display for Opening {
         match self {
             Opening::Connect { host, port } => write!(f, "to {host}:{port}"),
             Opening::Accept { host, port } => write!(f, "on {host}:{port}"),
+            Opening::Line(settings) => write!(f, "{settings}"),
         }
     }
 }

@@ -1,5 +1,7 @@
 //! What the cell says of connections.
 
+use std::collections::BTreeMap;
+
 /// The address on which programs listen where the cell says nothing: this computer only.
 const LOOPBACK: &str = "127.0.0.1";
 
@@ -8,6 +10,8 @@ const LOOPBACK: &str = "127.0.0.1";
 pub struct NetworkSettings {
     /// Where `accept` listens.
     pub listen: Listen,
+    /// The names of serial lines in programs, and the devices that they stand for: `[serial]`.
+    pub devices: BTreeMap<String, String>,
 }
 
 /// Where `accept` listens.
@@ -23,6 +27,11 @@ pub enum Listen {
 }
 
 impl NetworkSettings {
+    /// The path of the device that a program calls so.
+    pub(crate) fn device(&self, name: &str) -> String {
+        self.devices.get(name).map_or(name, String::as_str).to_owned()
+    }
+
     /// The address to listen on where the program says this one.
     pub(crate) fn listen(&self, program: &str) -> String {
         match &self.listen {

@@ -2,12 +2,14 @@
 
 use std::rc::Rc;
 
-use super::handle::{Found, Handle, fault, length};
-use super::inbox::CAPACITY;
+use super::handle::{Found, Handle, fault};
 use super::opening::Opening;
+use super::transfer;
 use crate::cx::Cx;
 use crate::fault::Fault;
 use crate::values::Str;
+
+pub use super::network::{getip, setip};
 
 /// A TCP connection. It is closed at first, and when the last that knows it is gone.
 #[derive(Clone, Default, Debug)]
@@ -56,7 +58,7 @@ pub async fn close(cx: &Cx, s: &Socket) {
 /// The socket is not connected, or not any more; the text is longer than 1 MiB.
 pub async fn write_string(cx: &Cx, s: &Socket, data: &Str) -> Result<bool, Fault> {
     cx.motion_end().await;
-    Ok(outcome(cx, "write", s.0.send("write", data.as_bytes())?)?.is_some())
+    done(cx, transfer::write(&s.0, data.as_bytes())?)
 }
 
 /// Sends the first `len` bytes; true when all of them are on their way.
@@ -65,8 +67,7 @@ pub async fn write_string(cx: &Cx, s: &Socket, data: &Str) -> Result<bool, Fault
 /// The socket is not connected, or not any more; a length below 0 or beyond the array.
 pub async fn write_bytes(cx: &Cx, s: &Socket, data: &[u8], len: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
-    let length = length("write", len, data.len(), "the size of the array")?;
-    Ok(outcome(cx, "write", s.0.send("write", data.get(..length).unwrap_or_default())?)?.is_some())
+    done(cx, transfer::write_first(&s.0, data, len)?)
 }
 
 /// Takes exactly `len` bytes when so many have come.
@@ -75,9 +76,7 @@ pub async fn write_bytes(cx: &Cx, s: &Socket, data: &[u8], len: i32) -> Result<b
 /// The socket is not connected, or the other side has closed it before so many came; a length below 0 or above 1 MiB.
 pub async fn read_string(cx: &Cx, s: &Socket, data: &mut Str, len: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
-    let length = length("read", len, CAPACITY, "what the buffer holds")?;
-    let taken = outcome(cx, "read", s.0.take("read", |inbox| inbox.take(length))?)?;
-    Ok(taken.map(|bytes| *data = bytes.as_slice().into()).is_some())
+    done(cx, transfer::read_text(&s.0, data, len)?)
 }
 
 /// Takes exactly `len` bytes when so many have come.
@@ -86,9 +85,7 @@ pub async fn read_string(cx: &Cx, s: &Socket, data: &mut Str, len: i32) -> Resul
 /// The socket is not connected, or the other side has closed it before so many came; a length below 0 or beyond the array.
 pub async fn read_bytes(cx: &Cx, s: &Socket, data: &mut [u8], len: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
-    let length = length("read", len, data.len(), "the size of the array")?;
-    let taken = outcome(cx, "read", s.0.take("read", |inbox| inbox.take(length))?)?;
-    Ok(taken.map(|bytes| data.iter_mut().zip(bytes).for_each(|(to, from)| *to = from)).is_some())
+    done(cx, transfer::read_bytes(&s.0, data, len)?)
 }
 
 /// Takes the text in front of a mark when the mark has come; both leave the buffer.
@@ -97,11 +94,7 @@ pub async fn read_bytes(cx: &Cx, s: &Socket, data: &mut [u8], len: i32) -> Resul
 /// The socket is not connected, or the other side has closed it before the mark came; an empty mark; 1 MiB without it.
 pub async fn readuntil(cx: &Cx, s: &Socket, data: &mut Str, cut: &Str) -> Result<bool, Fault> {
     cx.motion_end().await;
-    if cut.is_empty() {
-        return Err(Fault::Domain { function: "readuntil", problem: "cut is empty: any text ends with that".into() });
-    }
-    let taken = outcome(cx, "readuntil", s.0.take("readuntil", |inbox| inbox.take_until(cut.as_bytes()))?)?;
-    Ok(taken.map(|bytes| *data = bytes.as_slice().into()).is_some())
+    done(cx, transfer::read_until(&s.0, data, cut)?)
 }
 
 /// Throws away what has come and was not read; false where the socket is not connected.
@@ -113,12 +106,12 @@ pub async fn clearbuff(cx: &Cx, s: &Socket) -> Result<bool, Fault> {
     Ok(s.0.clear())
 }
 
-/// What a call found: a lost connection is an alarm, unless the program looks for it itself.
-fn outcome<T>(cx: &Cx, function: &'static str, found: Found<T>) -> Result<Option<T>, Fault> {
+/// A lost connection is an alarm, unless the program looks for it itself.
+fn done(cx: &Cx, (function, found): (&'static str, Found<()>)) -> Result<bool, Fault> {
     match found {
-        Found::This(it) => Ok(Some(it)),
-        Found::NotYet => Ok(None),
-        Found::Lost(_) if cx.system().detect_socket_close.get() => Ok(None),
+        Found::This(()) => Ok(true),
+        Found::NotYet => Ok(false),
+        Found::Lost(_) if cx.system().detect_socket_close.get() => Ok(false),
         Found::Lost(reason) => Err(fault(function, &format!("the connection is lost: {reason}"))),
     }
 }

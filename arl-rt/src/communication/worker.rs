@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 use mio::net::TcpStream;
 use mio::{Events, Poll, Token};
 
+use super::line;
 use super::link::LinkState;
 use super::opening::{self, Opening};
 use super::shared::Shared;
@@ -42,6 +43,7 @@ pub(super) fn serve(shared: &Shared, mut poll: Poll, opening: &Opening) {
     let state = match opening {
         Opening::Connect { host, port } => run(shared, &mut poll, |poll| opening::connect(shared, poll, host, *port)),
         Opening::Accept { host, port } => run(shared, &mut poll, |poll| opening::accept(shared, poll, host, *port)),
+        Opening::Line(settings) => run(shared, &mut poll, |poll| line::open(poll, settings)),
     };
     let mut common = shared.lock();
     common.state = state;

@@ -14,6 +14,7 @@ use super::foreground::{Body, Foreground};
 use crate::cell::{Cell, Sensitivity};
 use crate::channel_id::{ChannelId, MOST_FOREGROUND};
 use crate::clock_source::{Clock, VirtualClock};
+use crate::communication::NetworkDriver;
 use crate::fieldbus::Buses;
 use crate::fieldbus::devicenet::{DeviceNet, SimulatedDeviceNet};
 use crate::files::ScriptDir;
@@ -47,6 +48,7 @@ pub struct Builder {
     clock: Box<dyn Clock>,
     io: Box<dyn IoDriver>,
     devicenet: Box<dyn DeviceNet>,
+    network: Option<Box<dyn NetworkDriver>>,
     scenario: Scenario,
     output: Option<Box<dyn Output>>,
     storage: Box<dyn Storage>,
@@ -70,6 +72,7 @@ impl Default for Builder {
             clock: Box::new(VirtualClock::new()),
             io: Box::new(SimulatedIo),
             devicenet: Box::new(SimulatedDeviceNet::default()),
+            network: None,
             scenario: Scenario::default(),
             output: None,
             storage: Box::new(Memory::default()),
@@ -137,6 +140,12 @@ impl Builder {
     /// The DeviceNet bus.
     pub fn devicenet(mut self, bus: impl DeviceNet + 'static) -> Self {
         self.devicenet = Box::new(bus);
+        self
+    }
+
+    /// What sets up the network ports of the host (`setip`); without it nothing does.
+    pub fn network_driver(mut self, driver: impl NetworkDriver + 'static) -> Self {
+        self.network = Some(Box::new(driver));
         self
     }
 
@@ -258,6 +267,7 @@ impl Builder {
             programs: self.programs,
             buses,
             real_time,
+            network_driver: self.network,
         }));
         if outside {
             world.meet_outside();

@@ -26,10 +26,16 @@ impl Runtime {
     pub(super) fn dependency(&self) -> String {
         match self {
             Runtime::Checkout(folder) => {
-                format!("{{ path = {:?}, default-features = false }}", folder.join("arl-rt").display().to_string())
+                format!(
+                    "{{ path = {:?}, default-features = false, features = [\"serial\"] }}",
+                    folder.join("arl-rt").display().to_string()
+                )
             }
             Runtime::Registry => {
-                format!("{{ version = \"={}\", default-features = false }}", env!("CARGO_PKG_VERSION"))
+                format!(
+                    "{{ version = \"={}\", default-features = false, features = [\"serial\"] }}",
+                    env!("CARGO_PKG_VERSION")
+                )
             }
         }
     }

@@ -1,0 +1,152 @@
+//! `setip` and `getip`: the addresses of the controller's network ports (manual 5.6.1.1, 5.6.1.2).
+
+use std::io;
+use std::net::Ipv4Addr;
+
+use crate::cx::Cx;
+use crate::fault::Fault;
+use crate::robot::Family;
+use crate::state::State;
+use crate::values::Str;
+
+/// The name under which the settings are kept where there is no driver.
+const KEPT: &str = "NETWORK";
+
+/// The network ports of a SCARA robot's cabinet. The others have the first one only.
+const PORTS: [&str; 3] = ["eth1", "eth2", "eth3"];
+
+/// What a network port is set to.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct PortSettings {
+    /// Its address.
+    pub address: Ipv4Addr,
+    /// The gateway of its subnet.
+    pub gateway: Ipv4Addr,
+    /// The mask of its subnet.
+    pub mask: Ipv4Addr,
+}
+
+/// Sets up the network ports of the host. Without one the controller keeps the settings in its state directory, and changes
+/// nothing on the host.
+pub trait NetworkDriver {
+    /// Sets a port up: `eth1` to `eth3`.
+    ///
+    /// # Errors
+    /// It cannot be set so; `setip` is then false.
+    fn set(&mut self, port: &str, settings: PortSettings) -> io::Result<()>;
+
+    /// What a port is set to; nothing where that is not known.
+    ///
+    /// # Errors
+    /// It cannot be found out; `getip` is then false.
+    fn get(&mut self, port: &str) -> io::Result<Option<PortSettings>>;
+}
+
+/// Sets address, gateway and mask of a network port. False where one of them is no address, the mask is none, or there is no
+/// such port.
+///
+/// # Errors
+/// None.
+pub async fn setip(cx: &Cx, ip: &Str, gate: &Str, mask: &Str, if_name: &Str) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    let (Some(port), Some(settings)) = (port(cx, if_name), settings(ip, gate, mask)) else { return Ok(false) };
+    let world = cx.world();
+    let set = match &mut *world.network_driver.borrow_mut() {
+        Some(driver) => driver.set(port, settings),
+        None => keep(&mut world.state.borrow_mut(), port, settings),
+    };
+    Ok(told(cx, "setip", set).is_some())
+}
+
+/// Reads the address of a network port. False, and `ip` stays, where it is not set or there is no such port.
+///
+/// # Errors
+/// None.
+pub async fn getip(cx: &Cx, ip: &mut Str, if_name: &Str) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    let Some(port) = port(cx, if_name) else { return Ok(false) };
+    let world = cx.world();
+    let found = match &mut *world.network_driver.borrow_mut() {
+        Some(driver) => driver.get(port),
+        None => kept(&mut world.state.borrow_mut()).map(|list| list.into_iter().find(|it| it.0 == port).map(|it| it.1)),
+    };
+    let found = told(cx, "getip", found).flatten();
+    Ok(found.map(|settings| *ip = settings.address.to_string().into()).is_some())
+}
+
+/// The port of this name, where the robot's cabinet has it.
+fn port(cx: &Cx, name: &Str) -> Option<&'static str> {
+    let count = match cx.family() {
+        Family::SixAxis => 1,
+        Family::Scara => PORTS.len(),
+    };
+    PORTS.into_iter().take(count).find(|port| name == *port)
+}
+
+fn settings(ip: &Str, gate: &Str, mask: &Str) -> Option<PortSettings> {
+    let address = |text: &Str| text.to_text().parse::<Ipv4Addr>().ok();
+    let (address, gateway, mask) = (address(ip)?, address(gate)?, address(mask)?);
+    let ones = mask.to_bits().leading_ones();
+    (mask.to_bits().count_ones() == ones).then_some(PortSettings { address, gateway, mask })
+}
+
+/// The settings that are kept, by port.
+fn kept(state: &mut State) -> io::Result<Vec<(String, PortSettings)>> {
+    let text = state.load(KEPT).map_err(io::Error::other)?.unwrap_or_default();
+    let read = |line: &str| {
+        let mut words = line.split(' ');
+        let port = words.next()?.to_owned();
+        let mut address = || words.next()?.parse().ok();
+        Some((port, PortSettings { address: address()?, gateway: address()?, mask: address()? }))
+    };
+    Ok(text.lines().filter_map(read).collect())
+}
+
+/// Keeps the settings of a port beside those of the others.
+fn keep(state: &mut State, port: &str, settings: PortSettings) -> io::Result<()> {
+    let mut list = kept(state)?;
+    list.retain(|(known, _)| known != port);
+    list.push((port.to_owned(), settings));
+    let line = |(port, it): &(String, PortSettings)| format!("{port} {} {} {}\n", it.address, it.gateway, it.mask);
+    state.save(KEPT, list.iter().map(line).collect()).map_err(io::Error::other)
+}
+
+/// The result, with a warning of what went wrong.
+fn told<T>(cx: &Cx, function: &str, result: io::Result<T>) -> Option<T> {
+    result.map_err(|error| cx.world().warn(format!("{function}: {error}"))).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::state::Memory;
+
+    #[test]
+    fn masks_have_their_ones_in_front() {
+        let good = |ip: &str, gate: &str, mask: &str| settings(&ip.into(), &gate.into(), &mask.into()).is_some();
+        assert!(good("10.20.210.93", "10.20.210.1", "255.255.255.0"));
+        assert!(good("10.20.210.93", "10.20.210.1", "255.255.255.128"));
+        for (ip, gate, mask) in [
+            ("10.20.210", "10.20.210.1", "255.255.255.0"),
+            ("10.20.210.93", "", "255.255.255.0"),
+            ("10.20.210.93", "10.20.210.1", "255.0.255.0"),
+            ("10.20.210.93", "10.20.210.256", "255.255.255.0"),
+        ] {
+            assert!(!good(ip, gate, mask), "{ip} {gate} {mask}");
+        }
+    }
+
+    #[test]
+    fn each_port_keeps_its_own() {
+        let mut state = State::new(Box::new(Memory::default()));
+        let settings = |last| PortSettings {
+            address: Ipv4Addr::new(10, 0, 0, last),
+            gateway: Ipv4Addr::new(10, 0, 0, 1),
+            mask: Ipv4Addr::new(255, 0, 0, 0),
+        };
+        keep(&mut state, "eth1", settings(2)).unwrap();
+        keep(&mut state, "eth2", settings(3)).unwrap();
+        keep(&mut state, "eth1", settings(4)).unwrap();
+        assert_eq!(kept(&mut state).unwrap(), [("eth2".into(), settings(3)), ("eth1".into(), settings(4))]);
+    }
+}
