@@ -14,7 +14,7 @@ const INDEX: &str = "\
     sinh cosh tanh exp pow pow10 log log10 sqrt floor ceil frexp ldexp fmod modf hypot rand norm trunc bitclear \
     bitset bitcheck bitlcs bitrcs clkstart clkstop clkreset clkread strlen substr toascii setdo setdoimv syncdo \
     pulsedo getdo getdi getai getnostopdi setao syncao getao getintdo getintdi setpwm setip getip connect accept \
-    write read setip getip readuntil clearbuff open open close geterror dnwrite dnread readregisters writeregisters readcoils \
+    write read readuntil clearbuff open close geterror dnwrite dnread readregisters writeregisters readcoils \
     writecoils setcycle toint todouble tobytes tostr ftobytes tofloat cjoint cpose getpose getjoint poseinv \
     offset reltool cjttq cjtcj channeltojoint channeltopose channeljoint channelpose channeljointvel \
     channeltcpvel ctcpforce getwobj_3p getwobj_indi getwobj_flange gettooltcp_ref gettoolrot_world gettoolrot_3p \
@@ -39,7 +39,7 @@ const WORKS: &str = "\
     ctime cdate savesv init gettextstr filesize renamefile removefile toolload toolswitch startdetect enddetect cjttq cjtci ctcpforce \
     channeltojoint channeltopose channeljoint channelpose channeljointvel channeltcpvel T S StoEnd P curmpfile curmpline \
     curppfile curppline savearl savefilepose savefilejoint saveposenow savejointnow switcharl interrupt enableint disableint delint timer \
-    trigger stopmove startmove connect accept geterror close write read readuntil clearbuff \
+    trigger stopmove startmove connect accept geterror close write read readuntil clearbuff setip getip open \
     dnwrite dnread readregisters writeregisters readcoils writecoils";
 
 const RUST_WORDS: &str = "as async await break const continue crate do dyn else enum extern false final fn for gen if \
