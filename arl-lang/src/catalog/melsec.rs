@@ -10,10 +10,10 @@ entries! { pub(super) MELSEC =
         port: int "the PLC's port",
         slave_id: int "station number, 0 to 247; 0 is all stations, 255 the default",
     ) -> bool
-        { "5.6.5.1", melsec::open, waits, fails, notyet; "melsec_dev mc\nwaituntil open(mc,\"10.20.220.92\",8080,255)" }
+        { "5.6.5.1", melsec::open, waits, fails; "melsec_dev mc\nwaituntil open(mc,\"10.20.220.92\",8080,255)" }
     /// Closes a connection; closing one that is not open does nothing.
     fn close(dev: melsec_dev "the connection")
-        { "5.6.5.2", melsec::close, waits, notyet; "melsec_dev mc\nclose(mc)" }
+        { "5.6.5.2", melsec::close, waits; "melsec_dev mc\nclose(mc)" }
     /// Reads D registers as a text; true when it has come.
     fn read(
         dev: melsec_dev "the connection",
@@ -21,7 +21,7 @@ entries! { pub(super) MELSEC =
         start: int "number of the first D register",
         len: int "how many bytes; of an odd number the last register's low byte",
     ) -> bool
-        { "5.6.5.3", melsec::read_string, waits, fails, notyet;
+        { "5.6.5.3", melsec::read_string, waits, fails;
           "melsec_dev mc\nstring data\nwaituntil open(mc,\"10.20.220.92\",8080,255)\nwaituntil read(mc,data,6000,10)" }
     /// Reads D registers as bytes; true when they have come.
     fn read(
@@ -30,7 +30,7 @@ entries! { pub(super) MELSEC =
         start: int "number of the first D register",
         len: int "how many bytes; of an odd number the last register's low byte",
     ) -> bool
-        { "5.6.5.3", melsec::read_bytes, waits, fails, notyet;
+        { "5.6.5.3", melsec::read_bytes, waits, fails;
           "melsec_dev mc\nbyte data[24]\nwaituntil open(mc,\"10.20.220.92\",8080,255)\nwaituntil read(mc,data,6000,24)" }
     /// Writes a text into D registers; true when the PLC has taken it.
     fn write(
@@ -39,7 +39,7 @@ entries! { pub(super) MELSEC =
         start: int "number of the first D register",
         len: int [optional] "how many bytes; all of the text without it; an odd number writes 0 into the high byte left over",
     ) -> bool
-        { "5.6.5.4", melsec::write_string, waits, fails, notyet;
+        { "5.6.5.4", melsec::write_string, waits, fails;
           "melsec_dev mc\nwaituntil open(mc,\"10.20.220.92\",8080,255)\nwaituntil write(mc,\"abcd\",6000)" }
     /// Writes bytes into D registers; true when the PLC has taken them.
     fn write(
@@ -48,6 +48,6 @@ entries! { pub(super) MELSEC =
         start: int "number of the first D register",
         len: int "how many bytes; an odd number writes 0 into the high byte left over",
     ) -> bool
-        { "5.6.5.4", melsec::write_bytes, waits, fails, notyet;
+        { "5.6.5.4", melsec::write_bytes, waits, fails;
           "melsec_dev mc\nbyte data[4] = {1,2,3,4}\nwaituntil open(mc,\"10.20.220.92\",8080,255)\nwaituntil write(mc,data,6000,4)" }
 }

@@ -16,9 +16,13 @@ mod shared;
 mod transfer;
 mod worker;
 
+pub mod melsec;
 pub mod serial;
 pub mod socket;
 
 pub(crate) use connections::Connections;
 pub use network::{NetworkDriver, PortSettings};
 pub use settings::{Listen, NetworkSettings};
+
+/// How many different things a connection may tell the user, so that it never fills the memory.
+const MOST_TOLD: usize = 100;

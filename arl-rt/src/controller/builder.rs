@@ -272,6 +272,9 @@ impl Builder {
         if outside {
             world.meet_outside();
         }
+        if let Some(note) = world.buses.note() {
+            world.warn(note);
+        }
         let site = Site {
             world: Rc::clone(&world),
             common,

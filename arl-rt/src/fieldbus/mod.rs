@@ -55,6 +55,13 @@ impl Buses {
         }
     }
 
+    /// What the user should know: where the server listens, if the cell left that open.
+    pub(crate) fn note(&self) -> Option<String> {
+        let open = self.settings.modbus_tcp.is_some_and(|settings| settings.address.port() == 0);
+        let address = self.modbus_tcp_address().filter(|_| open)?;
+        Some(format!("the Modbus TCP server listens on {address}"))
+    }
+
     /// Where the Modbus TCP server listens, if there is one.
     pub(crate) fn modbus_tcp_address(&self) -> Option<SocketAddr> {
         self.modbus_tcp.get()?.address()

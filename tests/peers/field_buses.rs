@@ -1,0 +1,65 @@
+//! Modbus and the MC protocol with other people's clients and servers.
+
+use std::process::Command;
+
+use crate::peer::{self, Server};
+use crate::robot::{self, End, Robot, run};
+
+const CELL: &str = "[modbus_tcp]\nport = 0\n";
+const LISTENS: &str = "warning: the Modbus TCP server listens on 127.0.0.1:";
+
+#[test]
+fn pymodbus_reads_and_writes_registers_and_coils() {
+    let Some(python) = peer::python(&["pymodbus"]) else { return };
+    let mut robot = Robot::start("modbus_tcp", CELL);
+    let port = robot.told(LISTENS);
+    run(Command::new(python).arg(peer::script("modbus_master.py")).args(["tcp", &port]));
+    let end = robot.end();
+    assert_eq!((end.out.as_str(), end.code), ("{81h,05h}\nabcd\n", Some(0)), "{}", end.said);
+}
+
+#[test]
+fn mbpoll_reads_and_writes_registers_and_coils() {
+    if !peer::command("mbpoll") {
+        return;
+    }
+    let mut robot = Robot::start("modbus_tcp", CELL);
+    let port = robot.told(LISTENS);
+    let poll = |arguments: &[&str]| {
+        let mut command = Command::new("mbpoll");
+        command.args(["-m", "tcp", "-p", &port, "-0", "-1", "-q"]);
+        run(command.args(arguments))
+    };
+    let read = poll(&["-t", "4", "-r", "100", "-c", "2", "127.0.0.1"]);
+    assert!(read.contains("258") && read.contains("772"), "{read}");
+    poll(&["-t", "0", "-r", "10", "127.0.0.1", "1", "0", "0", "0", "0", "0", "0", "1", "1", "0", "1"]);
+    poll(&["-t", "4", "-r", "20", "127.0.0.1", "24930", "25444"]);
+    poll(&["-t", "4", "-r", "0", "127.0.0.1", "7"]);
+    let end = robot.end();
+    assert_eq!((end.out.as_str(), end.code), ("{81h,05h}\nabcd\n", Some(0)), "{}", end.said);
+}
+
+/// The server of the tests' own, which other people's clients have looked at.
+fn melsec_server() -> Option<(Server, std::ffi::OsString)> {
+    let python = peer::python(&["pymcprotocol", "slmp"])?;
+    let server = Server::start(Command::new(&python).arg(peer::script("melsec_server.py")));
+    Some((server, python))
+}
+
+#[test]
+fn the_melsec_server_is_what_other_clients_expect() {
+    let Some((server, python)) = melsec_server() else { return };
+    run(Command::new(python).arg(peer::script("melsec_clients.py")).arg(&server.first_line));
+}
+
+#[test]
+fn d_registers_are_written_and_read() {
+    let Some((server, python)) = melsec_server() else { return };
+    run(Command::new(python).arg(peer::script("melsec_clients.py")).arg(&server.first_line));
+    robot::file("melsec.port", &server.first_line);
+    let End { out, said, code } = Robot::start("melsec", "").end();
+    let printed = "hello\n{01h,02h,03h,04h,05h,00h,09h,09h}\n4 a \u{0}\n4dh\nrefused: true\n";
+    assert_eq!((out.as_str(), code), (printed, Some(3)), "{said}");
+    assert!(said.contains("read: the PLC refuses with code c056h (melsec.arl:25)"), "{said}");
+    assert!(said.contains("alarm 20050: read: it is not open (melsec.arl:29)"), "{said}");
+}
