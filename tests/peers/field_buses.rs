@@ -58,7 +58,7 @@ fn d_registers_are_written_and_read() {
     run(Command::new(python).arg(peer::script("melsec_clients.py")).arg(&server.first_line));
     robot::file("melsec.port", &server.first_line);
     let End { out, said, code } = Robot::start("melsec", "").end();
-    let printed = "hello\n{01h,02h,03h,04h,05h,00h,09h,09h}\n4 a \u{0}\n4dh\nrefused: true\n";
+    let printed = "hello\n{01h,02h,03h,04h,05h,00h,09h,09h}\n4 a z\n4dh\nrefused: true\n";
     assert_eq!((out.as_str(), code), (printed, Some(3)), "{said}");
     assert!(said.contains("read: the PLC refuses with code c056h (melsec.arl:25)"), "{said}");
     assert!(said.contains("alarm 20050: read: it is not open (melsec.arl:29)"), "{said}");

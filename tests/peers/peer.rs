@@ -9,7 +9,7 @@ use std::process::{Child, Command, Stdio};
 ///
 /// # Panics
 /// It is missing though it is required.
-pub fn python(modules: &[&str]) -> Option<OsString> {
+pub(crate) fn python(modules: &[&str]) -> Option<OsString> {
     let python = std::env::var_os("ARL_PEERS_PYTHON").unwrap_or_else(|| "python3".into());
     let import = format!("import {}", modules.join(", "));
     let found = Command::new(&python).args(["-c", &import]).stderr(Stdio::null()).status();
@@ -24,7 +24,7 @@ pub fn python(modules: &[&str]) -> Option<OsString> {
 ///
 /// # Panics
 /// It is missing though it is required.
-pub fn command(name: &str) -> bool {
+pub(crate) fn command(name: &str) -> bool {
     let found = Command::new(name).arg("-h").stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok();
     if !found {
         missing(name);
@@ -38,20 +38,20 @@ fn missing(what: &str) {
 }
 
 /// A script of this test.
-pub fn script(name: &str) -> PathBuf {
+pub(crate) fn script(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("peers/scripts").join(name)
 }
 
 /// A peer that serves until it is dropped.
-pub struct Server {
+pub(crate) struct Server {
     child: Child,
     /// The first line that it said: where it listens.
-    pub first_line: String,
+    pub(crate) first_line: String,
 }
 
 impl Server {
     /// Starts it; its first line on the standard output says that it is ready.
-    pub fn start(command: &mut Command) -> Self {
+    pub(crate) fn start(command: &mut Command) -> Self {
         let mut child = command.stdout(Stdio::piped()).spawn().expect("a peer");
         let mut first_line = String::new();
         BufReader::new(child.stdout.take().unwrap()).read_line(&mut first_line).unwrap();

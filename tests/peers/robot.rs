@@ -32,29 +32,29 @@ impl Programs {
 }
 
 /// Leaves a file for programs.
-pub fn file(name: &str, text: &str) {
+pub(crate) fn file(name: &str, text: &str) {
     std::fs::write(PROGRAMS.project.folder().join(name), text).unwrap();
 }
 
 /// A run of a program on the real clock.
-pub struct Robot {
+pub(crate) struct Robot {
     child: Child,
     said: BufReader<ChildStderr>,
 }
 
 /// How a run ended.
 #[derive(PartialEq, Eq, Debug)]
-pub struct End {
+pub(crate) struct End {
     /// What was printed.
-    pub out: String,
+    pub(crate) out: String,
     /// What stood on the standard error.
-    pub said: String,
-    pub code: Option<i32>,
+    pub(crate) said: String,
+    pub(crate) code: Option<i32>,
 }
 
 impl Robot {
     /// Starts `programs/NAME.arl` in a cell.
-    pub fn start(name: &str, cell: &str) -> Self {
+    pub(crate) fn start(name: &str, cell: &str) -> Self {
         let programs = &*PROGRAMS;
         let at = programs.names.iter().position(|known| known == name).expect("a program of this name");
         let file = programs.project.folder().join(format!("{name}-{:?}.toml", std::thread::current().id()));
@@ -67,7 +67,7 @@ impl Robot {
     }
 
     /// Waits for a line on the standard error that begins so; what follows there.
-    pub fn told(&mut self, start: &str) -> String {
+    pub(crate) fn told(&mut self, start: &str) -> String {
         let mut line = String::new();
         loop {
             line.clear();
@@ -79,7 +79,7 @@ impl Robot {
     }
 
     /// Waits for the end of the run.
-    pub fn end(mut self) -> End {
+    pub(crate) fn end(mut self) -> End {
         let (mut out, mut said) = (String::new(), String::new());
         self.child.stdout.take().unwrap().read_to_string(&mut out).unwrap();
         self.said.read_to_string(&mut said).unwrap();
@@ -98,7 +98,7 @@ impl Drop for Robot {
 ///
 /// # Panics
 /// It fails: what it said.
-pub fn run(command: &mut Command) -> String {
+pub(crate) fn run(command: &mut Command) -> String {
     let output = command.output().unwrap();
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
     assert!(output.status.success(), "{command:?}: {}{}", text(&output.stdout), text(&output.stderr));

@@ -48,7 +48,7 @@ static MELSEC_DEV: HandleDef = HandleDef {
     name: "melsec_dev",
     aliases: &["melsec"],
     rust: "MelsecDev",
-    status: Status::NotYet,
+    status: Status::Works,
     doc: "A connection to a Melsec PLC: open, then read, write, close.",
     section: "5.6.5",
 };
