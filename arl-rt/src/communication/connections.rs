@@ -42,7 +42,12 @@ impl Connections {
         }
     }
 
-    /// Whether nothing that is to be closed is still open: what was sent has gone, ports and devices are free.
+    /// Whether nothing that is to be closed still holds a port to listen on, or a device.
+    pub(crate) fn are_free(&self) -> bool {
+        self.0.borrow().iter().all(|(shared, _)| shared.is_free())
+    }
+
+    /// Whether nothing that is to be closed is still open: what was sent has gone.
     pub(crate) fn are_settled(&self) -> bool {
         self.0.borrow().iter().all(|(shared, _)| shared.is_done() || !shared.lock().closing)
     }

@@ -67,12 +67,13 @@ impl Handle {
             },
             Some(now) if now.opening == opening => match now.link.state() {
                 LinkState::Opening => return Ok(false),
-                LinkState::Open => {
+                // A client that came, sent and went away again in between has still been there.
+                LinkState::Open | LinkState::Lost(_) => {
                     now.known_open.set(true);
                     self.told.borrow_mut().clear();
                     return Ok(true);
                 }
-                LinkState::Failed(reason) | LinkState::Lost(reason) => {
+                LinkState::Failed(reason) => {
                     self.tell(cx, format!("{function} {opening}: {reason}; it will be tried again"));
                     if now.since.elapsed() < PAUSE {
                         return Ok(false);
@@ -83,7 +84,7 @@ impl Handle {
         }
         *held = None;
         let connections = cx.connections();
-        if !connections.are_too_many() && (!opening.holds() || connections.are_settled()) {
+        if !connections.are_too_many() && (!opening.holds() || connections.are_free()) {
             *held = self.begin(cx, function, opening);
         }
         Ok(false)
@@ -97,7 +98,7 @@ impl Handle {
         }
         self.close();
         // What was closed just now may still hold the device.
-        while !cx.connections().are_settled() {
+        while !cx.connections().are_free() {
             cx.next_cycle().await;
         }
         let begun = self.begin(cx, function, opening.clone());

@@ -118,7 +118,9 @@ mod tty {
 
     impl Stream for Line {
         /// The system sends what it has taken, also after the line is closed.
-        fn finish(&mut self) {}
+        fn finish(&mut self) -> bool {
+            false
+        }
     }
 }
 

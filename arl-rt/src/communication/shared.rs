@@ -20,7 +20,7 @@ pub(super) struct Common {
     pub(super) closing: bool,
     /// The thread has nothing to do with the connection any more.
     pub(super) over: bool,
-    /// It holds what others may want, even while it is not open yet: a port or a device.
+    /// It holds what others may want: a port to listen on, or a device.
     holds: bool,
 }
 
@@ -41,6 +41,12 @@ impl Shared {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    /// Whether somebody else may have the port or the device.
+    pub(super) fn is_free(&self) -> bool {
+        let common = self.lock();
+        common.over || !common.holds || !common.closing
+    }
+
     /// Whether the connection need not be waited for: what was sent has gone, and what it held is free. A name that is
     /// still being looked up holds nothing.
     pub(super) fn is_done(&self) -> bool {
@@ -50,6 +56,12 @@ impl Shared {
 }
 
 impl Common {
+    /// Notes that the connection is open; whether it still holds what others may want.
+    pub(super) fn opened(&mut self, holds: bool) {
+        self.state = LinkState::Open;
+        self.holds = holds;
+    }
+
     /// Takes all of it into the buffer, or nothing.
     pub(super) fn put(&mut self, bytes: &[u8]) -> bool {
         let fits = self.outbox.len().saturating_add(bytes.len()) <= CAPACITY;

@@ -25,25 +25,31 @@ const PIECE: usize = 16 << 10;
 /// How long a connection that is to be closed waits for the other side to take what was sent.
 const LINGER: Duration = Duration::from_secs(1);
 
+/// How long it then waits for the other side to close, too.
+const FAREWELL: Duration = Duration::from_millis(200);
+
 /// A stream that says when it is ready instead of waiting.
 pub(super) trait Stream: Read + Write {
-    /// Says that nothing more will be sent.
-    fn finish(&mut self);
+    /// Says that nothing more will be sent; whether the other side can say the same.
+    fn finish(&mut self) -> bool;
 }
 
 impl Stream for TcpStream {
-    fn finish(&mut self) {
-        // What is not connected any more needs no end.
-        let _ = self.shutdown(Shutdown::Write);
+    fn finish(&mut self) -> bool {
+        self.shutdown(Shutdown::Write).is_ok()
     }
 }
 
 /// Opens a connection and serves it until it ends.
 pub(super) fn serve(shared: &Shared, mut poll: Poll, opening: &Opening) {
     let state = match opening {
-        Opening::Connect { host, port } => run(shared, &mut poll, |poll| opening::connect(shared, poll, host, *port)),
-        Opening::Accept { host, port } => run(shared, &mut poll, |poll| opening::accept(shared, poll, host, *port)),
-        Opening::Line(settings) => run(shared, &mut poll, |poll| line::open(poll, settings)),
+        Opening::Connect { host, port } => {
+            run(shared, &mut poll, opening, |poll| opening::connect(shared, poll, host, *port))
+        }
+        Opening::Accept { host, port } => {
+            run(shared, &mut poll, opening, |poll| opening::accept(shared, poll, host, *port))
+        }
+        Opening::Line(settings) => run(shared, &mut poll, opening, |poll| line::open(poll, settings)),
     };
     let mut common = shared.lock();
     common.state = state;
@@ -54,6 +60,7 @@ pub(super) fn serve(shared: &Shared, mut poll: Poll, opening: &Opening) {
 fn run<S: Stream>(
     shared: &Shared,
     poll: &mut Poll,
+    opening: &Opening,
     open: impl FnOnce(&mut Poll) -> io::Result<Option<S>>,
 ) -> LinkState {
     const CLOSED: &str = "closed by the program";
@@ -62,7 +69,7 @@ fn run<S: Stream>(
         Ok(None) => return LinkState::Failed(CLOSED.into()),
         Err(error) => return LinkState::Failed(error.to_string()),
     };
-    shared.lock().state = LinkState::Open;
+    shared.lock().opened(matches!(opening, Opening::Line(_)));
     LinkState::Lost(match exchange(shared, poll, &mut stream) {
         Ok(()) => CLOSED.into(),
         Err(error) => error.to_string(),
@@ -94,9 +101,7 @@ fn exchange<S: Stream>(shared: &Shared, poll: &mut Poll, stream: &mut S) -> io::
         if closing {
             let until = *deadline.get_or_insert_with(|| Instant::now() + LINGER);
             if sent == Flow::Nothing || Instant::now() >= until {
-                discard(stream, &mut piece);
-                stream.finish();
-                return Ok(());
+                return part(poll, &mut events, stream, &mut piece);
             }
         }
         // Readiness is told once, when it comes: so both directions go on until the stream is not ready.
@@ -142,15 +147,21 @@ fn send(shared: &Shared, stream: &mut impl Write, flight: &mut Flight) -> io::Re
     })
 }
 
-/// Throws away what has come and nobody will read: a socket with such bytes would close with a reset, which may take from
-/// the other side what was sent last.
-fn discard(stream: &mut impl Read, piece: &mut [u8]) {
-    let until = Instant::now() + LINGER;
-    while let Ok(Some(1..)) = attempt(|| stream.read(piece)) {
-        if Instant::now() >= until {
-            return;
+/// Ends what is sent, and throws away what still comes until the other side ends it, too: a socket that is closed with
+/// bytes unread takes from the other side what was sent last.
+fn part<S: Stream>(poll: &mut Poll, events: &mut Events, stream: &mut S, piece: &mut [u8]) -> io::Result<()> {
+    let deadline = Instant::now() + FAREWELL;
+    if !stream.finish() {
+        return Ok(());
+    }
+    while Instant::now() < deadline {
+        match attempt(|| stream.read(piece)) {
+            Ok(Some(1..)) => {}
+            Ok(None) => wait(poll, events, Some(deadline))?,
+            Ok(Some(0)) | Err(_) => return Ok(()),
         }
     }
+    Ok(())
 }
 
 /// The result of a call that does not wait; nothing where the stream is not ready.

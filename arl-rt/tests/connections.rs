@@ -1,0 +1,295 @@
+//! What the other side of a connection may do, and what becomes of it: the documented result or alarm, in time, with nothing
+//! left open afterwards. The peers are plain Rust on ports that the system chooses.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "a test")]
+#![cfg(target_os = "linux")]
+
+mod common;
+
+use std::io::{Read, Write};
+use std::net::{TcpListener, TcpStream};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use arl_rt::emit::*;
+use arl_rt::{Controller, Outcome};
+use common::{FILE, alarm, say};
+
+/// Descriptors and threads belong to the process: one test at a time.
+static ALONE: Mutex<()> = Mutex::new(());
+
+/// The address of all peers.
+const HERE: Str = Str::literal("127.0.0.1");
+
+/// Runs a program against a peer: how it ended, what it printed, its warnings. Nothing of it is left afterwards.
+fn against<F>(peer: impl FnOnce(TcpListener) + Send + 'static, program: impl FnOnce(i32) -> F) -> (Outcome, String)
+where
+    F: for<'a> Fn(&'a Cx) -> BoxFuture<'a> + 'static,
+{
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    let before = open();
+    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = i32::from(listener.local_addr().unwrap().port());
+    let peer = std::thread::spawn(move || peer(listener));
+    let (mut controller, messages) = common::controller(Controller::builder(), program(port));
+    controller.run_for(30.0);
+    let outcome = controller.outcome().cloned();
+    let place = controller.place();
+    drop(controller);
+    peer.join().unwrap();
+    let start = Instant::now();
+    while open() != before && start.elapsed() < Duration::from_secs(5) {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert_eq!(open(), before, "descriptors and threads are left");
+    (outcome.unwrap_or_else(|| panic!("still running: {place:?}")), messages.text())
+}
+
+/// Sockets and polls that are open, and threads of connections.
+fn open() -> (usize, usize) {
+    let links = std::fs::read_dir("/proc/self/fd").unwrap().filter_map(|entry| entry.unwrap().path().read_link().ok());
+    let is_ours = |link: &std::path::PathBuf| {
+        let text = link.to_string_lossy().into_owned();
+        text.starts_with("socket:") || text.starts_with("anon_inode:")
+    };
+    let names = std::fs::read_dir("/proc/self/task").unwrap();
+    let names = names.filter_map(|entry| std::fs::read_to_string(entry.unwrap().path().join("comm")).ok());
+    (links.filter(is_ours).count(), names.filter(|name| name.trim() == "connection").count())
+}
+
+/// `waituntil connect(s,"127.0.0.1",port)`
+async fn connect(cx: &Cx, s: &Socket, port: i32) -> Done<()> {
+    while !socket::connect(cx, s, &HERE, port).await.at(FILE, 1)? {
+        cx.next_cycle().await;
+    }
+    Ok(())
+}
+
+/// `waituntil read(s,data,len)`
+async fn read(cx: &Cx, s: &Socket, len: i32) -> Done<Str> {
+    let mut data = Str::new();
+    while !socket::read_string(cx, s, &mut data, len).await.at(FILE, 2)? {
+        cx.next_cycle().await;
+    }
+    Ok(data)
+}
+
+#[test]
+fn the_peer_closes_in_the_middle_of_a_message() {
+    let peer = |listener: TcpListener| listener.accept().unwrap().0.write_all(b"half a mess").unwrap();
+    let (outcome, out) = against(peer, |port| {
+        move |cx: &Cx| {
+            Box::pin(async move {
+                let s = Socket::default();
+                connect(cx, &s, port).await?;
+                say(cx, &read(cx, &s, 4).await?)?;
+                read(cx, &s, 20).await.map(drop)
+            })
+        }
+    });
+    assert_eq!(out, "half\n");
+    let text = alarm(outcome);
+    assert_eq!(text, "alarm 20050: read: the connection is lost: the other side has closed it (t.arl:2)");
+}
+
+#[test]
+fn the_peer_resets_the_connection() {
+    // Closing with bytes unread is a reset.
+    let peer = |listener: TcpListener| {
+        let (mut stream, _) = listener.accept().unwrap();
+        let mut one = [0];
+        stream.read_exact(&mut one).unwrap();
+    };
+    let (outcome, _) = against(peer, |port| {
+        move |cx: &Cx| {
+            Box::pin(async move {
+                let s = Socket::default();
+                connect(cx, &s, port).await?;
+                loop {
+                    socket::write_string(cx, &s, &Str::literal("more and more")).await.at(FILE, 3)?;
+                    cx.next_cycle().await;
+                }
+            })
+        }
+    });
+    assert!(alarm(outcome).starts_with("alarm 20050: write: the connection is lost: "));
+}
+
+#[test]
+fn the_peer_never_answers() {
+    let peer = |listener: TcpListener| {
+        let (mut stream, _) = listener.accept().unwrap();
+        let mut asked = String::new();
+        stream.read_to_string(&mut asked).unwrap();
+        assert_eq!(asked, "are you there?");
+    };
+    let (outcome, out) = against(peer, |port| {
+        move |cx: &Cx| {
+            Box::pin(async move {
+                let s = Socket::default();
+                connect(cx, &s, port).await?;
+                socket::write_string(cx, &s, &Str::literal("are you there?")).await.at(FILE, 3)?;
+                let mut data = Str::literal("nothing");
+                let start = cx.cycle();
+                while !socket::read_string(cx, &s, &mut data, 1).await.at(FILE, 2)? && cx.cycle() < start + 300 {
+                    cx.next_cycle().await;
+                }
+                say(cx, &data)
+            })
+        }
+    });
+    assert_eq!((outcome, out.as_str()), (Outcome::Ended, "nothing\n"));
+}
+
+#[test]
+fn the_peer_answers_byte_by_byte_and_with_garbage() {
+    const LINES: usize = 40;
+    let garbage = |at: usize| ((at * 7919 + at / 11) % 255) as u8 + 1;
+    let peer = move |listener: TcpListener| {
+        let (mut stream, _) = listener.accept().unwrap();
+        stream.set_nodelay(true).unwrap();
+        for line in 0..LINES {
+            for at in 0..line {
+                stream.write_all(&[garbage(line * 100 + at)]).unwrap();
+            }
+            stream.write_all(b"\0").unwrap();
+            stream.write_all(b"\0").unwrap();
+        }
+        let _ = stream.read(&mut [0]);
+    };
+    let (outcome, out) = against(peer, move |port| {
+        move |cx: &Cx| {
+            Box::pin(async move {
+                let s = Socket::default();
+                connect(cx, &s, port).await?;
+                for line in 0..LINES {
+                    let mut data = Str::new();
+                    while !socket::readuntil(cx, &s, &mut data, &Str::literal("\0\0")).await.at(FILE, 4)? {
+                        cx.next_cycle().await;
+                    }
+                    let expected: Vec<u8> = (0..line).map(|at| garbage(line * 100 + at)).collect();
+                    if data.as_bytes() != expected {
+                        say(cx, &(line as i32))?;
+                    }
+                }
+                Ok(())
+            })
+        }
+    });
+    assert_eq!((outcome, out.as_str()), (Outcome::Ended, ""));
+}
+
+#[test]
+fn a_flood_that_nobody_reads_is_held_back() {
+    let peer = |listener: TcpListener| {
+        let (mut stream, _) = listener.accept().unwrap();
+        stream.set_write_timeout(Some(Duration::from_millis(300))).unwrap();
+        let piece: Vec<u8> = (0..=255).cycle().take(1 << 16).collect();
+        let (mut sent, start) = (0, Instant::now());
+        while start.elapsed() < Duration::from_secs(2) {
+            match stream.write(&piece) {
+                Ok(count) => sent += count,
+                Err(_) => break,
+            }
+        }
+        // The buffer of the connection, and those of the system.
+        assert!(sent > 1 << 20 && sent < 32 << 20, "{sent} bytes were taken");
+    };
+    let (outcome, out) = against(peer, |port| {
+        move |cx: &Cx| {
+            Box::pin(async move {
+                let s = Socket::default();
+                connect(cx, &s, port).await?;
+                flow::waittime(1.0).run(cx).await.at(FILE, 3)?;
+                let first = read(cx, &s, 1 << 20).await?;
+                let whole = first.as_bytes().iter().zip((0..=255u8).cycle()).all(|(a, b)| *a == b);
+                say(cx, &whole)?;
+                let mut data = Str::new();
+                while !socket::readuntil(cx, &s, &mut data, &Str::literal("not there")).await.at(FILE, 4)? {
+                    cx.next_cycle().await;
+                }
+                Ok(())
+            })
+        }
+    });
+    assert_eq!(out, "true\n");
+    // Either the buffer is full, or the peer gave up before.
+    assert!(alarm(outcome).starts_with("alarm 20050: readuntil: "));
+}
+
+#[test]
+fn a_thousand_connections_one_after_the_other() {
+    const TIMES: usize = 1000;
+    let peer = |listener: TcpListener| {
+        for _ in 0..TIMES {
+            let (mut stream, _) = listener.accept().unwrap();
+            let mut all = Vec::new();
+            stream.read_to_end(&mut all).unwrap();
+            assert_eq!(all, b"hello");
+        }
+    };
+    let (outcome, out) = against(peer, |port| {
+        move |cx: &Cx| {
+            Box::pin(async move {
+                let s = Socket::default();
+                for _ in 0..TIMES {
+                    connect(cx, &s, port).await?;
+                    socket::write_string(cx, &s, &Str::literal("hello")).await.at(FILE, 3)?;
+                    socket::close(cx, &s).await;
+                }
+                say(cx, &socket::geterror(cx, &s).await.at(FILE, 4)?)
+            })
+        }
+    });
+    assert_eq!((outcome, out.as_str()), (Outcome::Ended, "0\n"));
+}
+
+#[test]
+fn a_port_that_is_taken_is_waited_for() {
+    let peer = |listener: TcpListener| {
+        let address = listener.local_addr().unwrap();
+        std::thread::sleep(Duration::from_millis(300));
+        drop(listener);
+        let start = Instant::now();
+        while TcpStream::connect(address).is_err() {
+            assert!(start.elapsed() < Duration::from_secs(10), "nobody listens");
+            std::thread::sleep(Duration::from_millis(10));
+        }
+    };
+    let (outcome, out) = against(peer, |port| {
+        move |cx: &Cx| {
+            Box::pin(async move {
+                let s = Socket::default();
+                let mut waited = 0;
+                while !socket::accept(cx, &s, &HERE, port).await.at(FILE, 3)? {
+                    waited += 1;
+                    cx.next_cycle().await;
+                }
+                say(cx, &(waited > 100))
+            })
+        }
+    });
+    assert_eq!((outcome, out.as_str()), (Outcome::Ended, "true\n"));
+}
+
+#[test]
+fn what_was_sent_last_arrives_although_the_program_ends() {
+    let peer = |listener: TcpListener| {
+        let (mut stream, _) = listener.accept().unwrap();
+        stream.write_all(b"nobody reads this").unwrap();
+        let mut all = Vec::new();
+        stream.read_to_end(&mut all).unwrap();
+        assert_eq!(all.len(), 500_000);
+    };
+    let (outcome, _) = against(peer, |port| {
+        move |cx: &Cx| {
+            Box::pin(async move {
+                let s = Socket::default();
+                connect(cx, &s, port).await?;
+                let much = Str::from(vec![b'x'; 500_000].as_slice());
+                socket::write_string(cx, &s, &much).await.at(FILE, 3).map(drop)
+            })
+        }
+    });
+    assert_eq!(outcome, Outcome::Ended);
+}
