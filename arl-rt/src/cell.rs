@@ -33,14 +33,25 @@
 //! address = "127.0.0.1"        # "0.0.0.0": reachable from everywhere
 //! port = 502
 //! connections = 8              # at once, 1 to 64
+//!
+//! [[channel]]                  # what runs beside the program of the command line: channel 2, 3, ..
+//! program = "feeder.arl"       # files count from the folder of the cell file
+//! robot = "hsr065"             # a built-in name or a robot file
+//! home2 = [0, 45, 0, 0]
+//!
+//! [[channel]]
+//! program = "watch.arl"
+//! background = true            # it has no robot
 //! ```
 
 mod external;
+mod programs;
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
 pub use external::Wiring;
+pub use programs::CellChannel;
 use toml::de::DeValue;
 
 use crate::communication::{Listen, NetworkSettings};
@@ -49,7 +60,8 @@ use crate::io::{AnalogType, Channels};
 use crate::rate::Rate;
 use crate::settings::{Section, SettingsError, Source, Value, number, table};
 
-const TOP: &[&str] = &["controller", "io", "network", "serial", "home", "external", "collision", "modbus_tcp"];
+const TOP: &[&str] =
+    &["controller", "io", "network", "serial", "home", "external", "collision", "modbus_tcp", "channel", "load"];
 const CONTROLLER: &[&str] = &["cycle"];
 const IO: &[&str] = &["di", "do", "ai", "ao", "internal"];
 const NETWORK: &[&str] = &["listen"];
@@ -79,6 +91,10 @@ pub struct Cell {
     pub collisions: Vec<(u8, Sensitivity)>,
     /// The field buses.
     pub buses: BusSettings,
+    /// The channels beside the first one: what the command line of a program runs, too.
+    pub programs: Vec<CellChannel>,
+    /// The programs that `switcharl` can load into the first channel.
+    pub load: Vec<String>,
 }
 
 /// By how much the torques of the axes may differ from what the model asks for before that counts as a collision.
@@ -101,6 +117,8 @@ impl Default for Cell {
             external: Wiring::default(),
             collisions: Vec::new(),
             buses: BusSettings::default(),
+            programs: Vec::new(),
+            load: Vec::new(),
         }
     }
 }
@@ -139,6 +157,9 @@ impl Cell {
             cell.network.listen = listen(&network)?;
         }
         cell.buses = BusSettings::read(&top)?;
+        let folder = Path::new(file).parent().unwrap_or(Path::new(""));
+        cell.programs = CellChannel::read_all(source, &top, folder)?;
+        cell.load = programs::load(&top)?;
         cell.external = Wiring::read(&top, &cell.channels)?;
         if let Some(value) = top.find("serial") {
             cell.network.devices = devices(&top, value)?;

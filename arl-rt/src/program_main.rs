@@ -1,5 +1,7 @@
 //! The command line of a compiled program.
 
+mod several;
+
 use std::ffi::OsString;
 use std::fs::File;
 use std::io::Write;
@@ -94,11 +96,32 @@ enum Report {
     File(PathBuf),
 }
 
+/// Makes a program.
+pub type Make = fn() -> Box<dyn Program>;
+
+/// A program beside the first one, for the channels of the cell file.
+#[derive(Clone, Copy, Debug)]
+pub struct Other {
+    /// Its file, as the cell file names it.
+    pub file: &'static str,
+    /// What makes it.
+    pub make: Make,
+}
+
 /// Runs a program as its command line says: the `main` of every compiled program.
 ///
 /// The program is made on a thread with a large stack. `script_dir` is the folder of its files where the command line
 /// names none.
 pub fn main<P: Program + 'static>(program: impl FnOnce() -> P + Send, script_dir: &str) -> ExitCode {
+    main_with(program, &[], script_dir)
+}
+
+/// The same for several programs: the first one, and those that the cell file may name.
+pub fn main_with<P: Program + 'static>(
+    program: impl FnOnce() -> P + Send,
+    others: &[Other],
+    script_dir: &str,
+) -> ExitCode {
     let arguments = std::env::args_os().skip(1);
     let options = match parse(arguments, script_dir) {
         Ok(Some(options)) => options,
@@ -115,7 +138,7 @@ pub fn main<P: Program + 'static>(program: impl FnOnce() -> P + Send, script_dir
     }
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(STACK + STACK_ON_TOP);
-        let run = || run(Box::new(program()), options, &interrupted);
+        let run = || run(Box::new(program()), others, options, &interrupted);
         match thread.spawn_scoped(scope, run).map(|thread| thread.join()) {
             Ok(Ok(code)) => ExitCode::from(code),
             // The panic has been reported where it happened.
@@ -224,7 +247,7 @@ fn number(parser: &mut lexopt::Parser, option: &str, what: &str, most: f64) -> R
 }
 
 /// Sets the controller up and runs the program; the exit code.
-fn run(program: Box<dyn Program>, options: Options, interrupted: &AtomicBool) -> u8 {
+fn run(program: Box<dyn Program>, others: &[Other], options: Options, interrupted: &AtomicBool) -> u8 {
     let max_time = options.max_time;
     let real = options.clock == Some(Pace::Real);
     let report = match options.report.clone().map(report_to).transpose() {
@@ -235,7 +258,7 @@ fn run(program: Box<dyn Program>, options: Options, interrupted: &AtomicBool) ->
         }
     };
     let voice = options.live.then(Voice::standard);
-    let controller = set_up(options).and_then(|builder| {
+    let controller = set_up(options, others).and_then(|builder| {
         let builder = match &voice {
             Some(voice) => builder.output(voice.messages()),
             None => builder,
@@ -352,13 +375,14 @@ impl From<SetupError> for SetupFailure {
     }
 }
 
-fn set_up(options: Options) -> Result<Builder, SetupFailure> {
+fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
     let mut builder = Controller::builder().mode(options.mode).speed_override(options.override_percent).stack(STACK);
     if let Some(robot) = &options.robot {
         builder = builder.robot(Robot::load(robot).map_err(SetupFailure::usage)?);
     }
     if let Some(cell) = &options.cell {
-        builder = builder.cell(Cell::load(cell).map_err(SetupFailure::usage)?);
+        let cell = Cell::load(cell).map_err(SetupFailure::usage)?;
+        builder = several::add(builder, &cell, others, options.trace.as_deref())?.cell(cell);
     }
     if let Some(io) = &options.io {
         builder = builder.scenario(Scenario::load(io).map_err(SetupFailure::usage)?);

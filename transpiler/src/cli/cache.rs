@@ -40,8 +40,18 @@ impl Cache {
 
     /// The place of the program whose main file is `main`, an absolute path.
     pub(super) fn program(&self, main: &Path) -> Place {
+        self.place(main, None)
+    }
+
+    /// The place of the programs that run in a cell, `main` first; both are absolute paths.
+    pub(super) fn programs(&self, main: &Path, cell: &Path) -> Place {
+        self.place(main, Some(cell))
+    }
+
+    fn place(&self, main: &Path, cell: Option<&Path>) -> Place {
         let mut hasher = DefaultHasher::new();
         main.hash(&mut hasher);
+        cell.inspect(|cell| cell.hash(&mut hasher));
         let stem: String = main
             .file_stem()
             .map(|stem| stem.to_string_lossy().to_lowercase())
@@ -114,5 +124,6 @@ mod tests {
         let other = cache.program(Path::new("/b/Pick me.arl"));
         assert!(one.name.starts_with("arl-pick_me-"), "{}", one.name);
         assert_ne!(one.folder, other.folder);
+        assert_ne!(cache.programs(Path::new("/a/Pick me.arl"), Path::new("/a/c.toml")).folder, one.folder);
     }
 }

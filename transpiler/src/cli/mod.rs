@@ -18,6 +18,7 @@ mod robot;
 mod robots;
 mod run;
 mod runtime;
+mod several;
 mod show;
 mod stamp;
 mod test;

@@ -13,6 +13,33 @@ pub(super) fn write(place: &Place, runtime: &Runtime, rust: &str, folder: &Path)
     Ok(())
 }
 
+/// Writes the project of several programs: the first one, and others under the names that the cell file gives them.
+pub(super) fn write_several(
+    place: &Place,
+    runtime: &Runtime,
+    first: &str,
+    others: &[(&str, String)],
+    folder: &Path,
+) -> Result<(), Failure> {
+    manifest(&place.folder, &place.name, runtime, PROGRAM_LEVEL)?;
+    let mut modules = String::from("mod program;\n");
+    let mut makers = String::new();
+    write_if_changed(&place.folder.join("src/program.rs"), first.as_bytes())?;
+    for (at, (name, rust)) in others.iter().enumerate() {
+        write_if_changed(&place.folder.join(format!("src/program_{at}.rs")), rust.as_bytes())?;
+        modules += &format!("mod program_{at};\n");
+        makers += &format!("        Other {{ file: {name:?}, make: || Box::new(program_{at}::Globals::new()) }},\n");
+    }
+    let text = format!(
+        "// Written by arl2rs.\n\n{modules}\nuse arl_rt::program_main::{{Other, main_with}};\n\n\
+         fn main() -> std::process::ExitCode {{\n    let others = [\n{makers}    ];\n    \
+         main_with(program::Globals::new, &others, {:?})\n}}\n",
+        folder.display().to_string()
+    );
+    write_if_changed(&place.folder.join("src/main.rs"), text.as_bytes())?;
+    Ok(())
+}
+
 /// How far programs are optimised: far enough for loops, and soon done.
 const PROGRAM_LEVEL: u8 = 1;
 
