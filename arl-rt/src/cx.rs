@@ -35,6 +35,10 @@ pub struct Cx {
     program: Rc<dyn Program>,
     file: Cell<File>,
     line: Cell<u32>,
+    /// Whether the statement that runs has been counted as a step.
+    stepped: Cell<bool>,
+    /// The kind of way that the last motion may go on with the next.
+    chained: Cell<u8>,
     /// Where `print` sends its messages until it is told otherwise.
     print_to: Cell<Targets>,
     /// The file that `print` writes to until it is told otherwise.
@@ -60,6 +64,14 @@ pub(crate) struct Level {
     own_motion: Option<u64>,
 }
 
+/// The program pointer.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pointer {
+    place: (File, u32),
+    /// Whether the statement has been counted as a step.
+    stepped: bool,
+}
+
 impl Level {
     /// The program itself: it waits for all motion.
     pub(crate) const PROGRAM: Self = Self { number: 0, own_motion: None };
@@ -82,6 +94,8 @@ impl Cx {
             program,
             file: Cell::new(file),
             line: Cell::new(0),
+            stepped: Cell::new(false),
+            chained: Cell::new(0),
             print_to: Cell::default(),
             print_file: RefCell::default(),
             moved: Cell::new(false),
@@ -97,12 +111,25 @@ impl Cx {
     pub fn line(&self, file: File, line: u32) {
         self.file.set(file);
         self.line.set(line);
+        self.stepped.set(false);
     }
 
     /// The file and line of the statement that runs now.
     #[inline]
     pub fn place(&self) -> (File, u32) {
         (self.file.get(), self.line.get())
+    }
+
+    /// The program pointer, for [`Cx::point_to`].
+    pub(crate) fn pointer(&self) -> Pointer {
+        Pointer { place: self.place(), stepped: self.stepped.get() }
+    }
+
+    /// Sets the program pointer to where it was.
+    pub(crate) fn point_to(&self, pointer: Pointer) {
+        let (file, line) = pointer.place;
+        self.line(file, line);
+        self.stepped.set(pointer.stepped);
     }
 
     /// Counts one turn of a loop. True when the loop has to give the cycle back:
@@ -271,6 +298,11 @@ impl Cx {
         self.events.borrow_mut().bind(level.number, motion);
     }
 
+    /// Notes the kind of way that a motion may go on with the next, 0 for none; returns that of the one before.
+    pub(crate) fn chain(&self, kind: u8) -> u8 {
+        self.chained.replace(kind)
+    }
+
     /// What all channels share.
     #[inline]
     pub(crate) fn world(&self) -> &World {
@@ -311,10 +343,37 @@ impl Cx {
         }
     }
 
+    /// Before an instruction that moves, waits or touches the outside: in single steps the program waits here until the one before
+    /// it is done, and for the button.
+    pub(crate) async fn step_point(&self) {
+        let stepping = &self.lane.stepping;
+        if !stepping.on.get() || self.level.get().number != 0 || self.stepped.replace(true) {
+            return;
+        }
+        while self.lane.in_trouble() || !self.is_motion_over() {
+            self.lane.conclude_motion();
+            self.next_cycle().await;
+        }
+        if stepping.left.get() == 0 && stepping.on.get() {
+            self.lane.paused.set(true);
+            self.next_cycle().await;
+        }
+        stepping.left.set(0);
+    }
+
+    /// In single steps: another step within the same instruction.
+    pub(crate) async fn next_step(&self) {
+        self.stepped.set(false);
+        self.step_point().await;
+    }
+
     /// Waits until all motion that the program has planned has ended; in the action of an event, all of its own. Where there
     /// is none, it still counts as a turn of a loop, so that a loop of such calls cannot hold up the controller.
     #[inline]
     pub(crate) async fn motion_end(&self) {
+        if self.lane.stepping.on.get() {
+            self.step_point().await;
+        }
         if self.spend() {
             self.next_cycle().await;
         }

@@ -27,6 +27,9 @@ pub(crate) struct Lane {
     pub(crate) paused: Cell<bool>,
     /// The program that shall run here instead of the one that does.
     next: RefCell<Option<Rc<dyn Program>>>,
+    pub(crate) stepping: Stepping,
+    /// Whether an alarm has ended the program and nobody has acknowledged it.
+    pub(crate) alarmed: Cell<bool>,
     /// What went wrong apart from the statement that runs, and ends the program.
     trouble: RefCell<Option<Alarm>>,
     /// Home points 1 to 5.
@@ -34,6 +37,17 @@ pub(crate) struct Lane {
     home_tolerance: f64,
     /// The conditions of `startdetect` that the cell gives.
     collisions: Vec<(u8, Sensitivity)>,
+}
+
+/// Single steps.
+#[derive(Default)]
+pub(crate) struct Stepping {
+    /// Whether the program goes on step by step.
+    pub(crate) on: Cell<bool>,
+    /// How many instructions may still be executed.
+    pub(crate) left: Cell<u32>,
+    /// The motion with which the step ends, where it is planned already.
+    pub(crate) until: Cell<Option<u64>>,
 }
 
 /// The robot of a foreground channel, and what the cell says of it.
@@ -63,6 +77,8 @@ impl Lane {
             unit: None,
             paused: Cell::new(false),
             next: RefCell::default(),
+            stepping: Stepping::default(),
+            alarmed: Cell::new(false),
             trouble: RefCell::default(),
             homes: [const { None }; 5],
             home_tolerance: 0.0,

@@ -21,6 +21,16 @@ pub trait RobotDriver {
     /// Takes the set-point of a cycle of `period` seconds, in deg (mm); says where the robot is.
     fn exchange(&mut self, setpoint: &Joints, period: f64) -> Joints;
 
+    /// Switches the motors on or off. While they are off, the set-point is where the robot reports to be.
+    fn switch(&mut self, on: bool) {
+        let _ = on;
+    }
+
+    /// Says that somebody has moved the robot here while its motors are off: for simulated robots.
+    fn moved_by_hand(&mut self, to: &Joints) {
+        let _ = to;
+    }
+
     /// The torques (Nm; N of linear axes) that the motors of the robot's own axes gave at the axes in the last
     /// [`exchange`](RobotDriver::exchange). `None`: the robot does not measure them; then the controller takes what its
     /// model asks for the motion that the robot reports, and what a scenario does to the robot.
@@ -50,6 +60,10 @@ impl RobotDriver for SimulatedRobot {
     fn start(&mut self, home: &Joints) -> Joints {
         let [position, ..] = self.last.get_or_insert([*home; KEPT]);
         *position
+    }
+
+    fn moved_by_hand(&mut self, to: &Joints) {
+        self.last = Some([*to; KEPT]);
     }
 
     fn exchange(&mut self, setpoint: &Joints, period: f64) -> Joints {

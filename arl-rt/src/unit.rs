@@ -3,6 +3,7 @@
 mod changes;
 mod effort;
 mod moving;
+mod servo;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -13,7 +14,7 @@ use crate::fault::{Alarm, Fault, File};
 use crate::frames::Rig;
 use crate::kinematics::{Axes, Frame, frame_components};
 use crate::motion::{
-    Command, Compensation, Joints, MotionRecord, PlanError, Progress, Queue, Recorder, Settings, Start, Stop,
+    Command, Compensation, Joints, MotionRecord, PlanError, Progress, Queue, Recorder, Settings, Start, Stop, halves,
 };
 use crate::robot::Robot;
 use crate::robot_driver::{RobotDriver, settled};
@@ -61,6 +62,11 @@ pub(crate) struct Unit {
     compensations: u32,
     /// The file of the last `startmove`.
     start_file: File,
+    /// Whether the motors are on.
+    servo: bool,
+    /// Whether it is told to rest until somebody says to go on, and whether it was moved beside its path meanwhile.
+    halted: bool,
+    jogged: bool,
 }
 
 impl Unit {
@@ -80,6 +86,9 @@ impl Unit {
             effort,
             changes: Changes::new(),
             start_file: File::new(""),
+            servo: true,
+            halted: false,
+            jogged: false,
             driver,
             planned: 0,
             finished: 0,
@@ -343,6 +352,11 @@ impl Unit {
         Ok(())
     }
 
+    /// The two motions of a circle that is to be planned, for single steps; `None` for everything else.
+    pub(crate) fn halves(&self, command: &Command, settings: &Settings) -> Option<[Command; 2]> {
+        halves(&self.robot, self.queue.end(), command, settings)
+    }
+
     /// Says that the program waits: motions that waited for the next one go without it. The alarm where that cannot be.
     pub(crate) fn conclude(&mut self) -> Result<(), Alarm> {
         self.queue.conclude().map_err(|error| alarm(error, self.file, (self.file, 0)))
@@ -405,7 +419,10 @@ impl Unit {
         }
         self.change_due();
         self.commanded.go_to(step.joints, period);
-        self.reported.go_to(self.driver.exchange(&step.joints, period), period);
+        // Motors that are off are asked for nothing but to stay.
+        let rests = !self.servo && self.queue.rests();
+        let asked = if rests { self.reported.at } else { step.joints };
+        self.reported.go_to(self.driver.exchange(&asked, period), period);
         self.effort.measured(self.driver.torques());
         let near = self.queue.rests() && settled(&self.commanded.at, &self.reported.at);
         self.settled = if near { self.settled.saturating_add(1) } else { 0 };
@@ -439,7 +456,10 @@ impl Unit {
 
     /// Lets motion be planned again after [`Unit::stop`], at rest.
     pub(crate) fn reset(&mut self) {
-        self.queue.resume();
+        if self.servo {
+            self.queue.resume();
+        }
+        (self.halted, self.jogged) = (!self.servo, false);
         self.changes.clear(&mut self.effort);
         self.files.clear();
         self.settings = Settings { manual: self.settings.manual, ..Settings::default() };

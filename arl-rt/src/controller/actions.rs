@@ -3,9 +3,9 @@
 use std::rc::Rc;
 use std::task::{Context, Poll};
 
-use crate::cx::{Cx, Level};
+use crate::cx::{Cx, Level, Pointer};
 use crate::event::Due;
-use crate::fault::{Done, File};
+use crate::fault::Done;
 use crate::program::Running;
 
 /// An action that has begun.
@@ -15,7 +15,7 @@ struct Action {
     /// What it interrupted.
     level: Level,
     /// The program pointer of what it interrupted.
-    place: (File, u32),
+    pointer: Pointer,
 }
 
 /// The actions that run, the one on top last.
@@ -35,7 +35,7 @@ impl Actions {
         let running = self.stack.last().map(|action| action.priority);
         let Some(Due { priority, code }) = cx.events().borrow_mut().take_due(running) else { return };
         let level = cx.enter_level(Level::action(self.stack.len() as u32 + 1));
-        self.stack.push(Action { priority, running: code.act(Rc::clone(cx)), level, place: cx.place() });
+        self.stack.push(Action { priority, running: code.act(Rc::clone(cx)), level, pointer: cx.pointer() });
     }
 
     /// Lets the action on top run until it waits; one that has ended makes room for what it interrupted. `None`: no action
@@ -47,7 +47,7 @@ impl Actions {
             let ended = cx.level();
             cx.events().borrow_mut().unbind(ended.number);
             cx.leave_level(top.level);
-            cx.line(top.place.0, top.place.1);
+            cx.point_to(top.pointer);
             self.stack.pop();
         }
         Some(polled)

@@ -65,8 +65,12 @@ impl Channel {
         self.lane.world.io.borrow_mut().end_pulses(self.lane.index);
         if let Some(mut unit) = self.lane.robot_mut() {
             unit.reset();
+            self.lane.paused.set(!unit.has_servo());
         }
+        self.lane.stepping.on.set(false);
+        self.lane.stepping.until.set(None);
         self.lane.reset_system();
+        self.lane.alarmed.set(false);
         self.cx.reset();
         self.actions.clear();
         self.phase = Phase::Running(load(Rc::clone(&self.program), Rc::clone(&self.cx)));
@@ -129,6 +133,9 @@ impl Channel {
         if self.has_statements() && self.lane.robot_mut().is_some_and(|mut unit| unit.take_beyond()) {
             self.leave(Reason::Restart);
         }
+        if self.has_statements() && self.lane.paused.get() && self.seen.is_ok() {
+            return;
+        }
         if self.has_statements() {
             self.cx.start_cycle(self.stack);
             let seen = std::mem::replace(&mut self.seen, Ok(()));
@@ -170,6 +177,12 @@ impl Channel {
             && self.running
         {
             trace.row(time, &unit);
+        }
+        // A step over motion that was planned before ends with it.
+        if self.lane.stepping.until.get().is_some_and(|motion| unit.is_over(motion)) {
+            self.lane.stepping.until.set(None);
+            self.lane.paused.set(true);
+            unit.pause();
         }
     }
 
@@ -279,6 +292,7 @@ impl Channel {
     fn fail(&mut self, alarm: Alarm) {
         if !matches!(self.phase, Phase::Ended(_)) {
             let alarm = Alarm { channel: self.lane.id, ..alarm };
+            self.lane.alarmed.set(true);
             self.lane.world.alarms.borrow_mut().insert(0, alarm.clone());
             self.end(Outcome::Alarm(alarm));
         }

@@ -8,6 +8,7 @@ mod external;
 mod foreground;
 mod order;
 mod outcome;
+mod pendant;
 mod status;
 
 use std::cell::RefCell;
@@ -104,15 +105,16 @@ impl Controller {
     /// Runs one cycle.
     pub fn step(&mut self) -> State {
         let world = &self.world;
+        let mut deeds = Vec::new();
         let (cycle, rate) = (world.now.get(), world.rate);
         self.clock.wait_for(cycle, rate.period());
         {
             let mut image = world.io.borrow_mut();
             self.io.read(image.inputs_mut());
             image.end_pulses_of(cycle);
-            let channels = &self.channels;
-            self.scenario.play(cycle, &mut image, |deed| act(channels, deed));
+            self.scenario.play(cycle, &mut image, |deed| deeds.push(deed));
         }
+        deeds.into_iter().for_each(|deed| act(&mut self.channels, deed));
         self.listen();
         self.channels.each(Channel::look);
         self.channels.each(Channel::poll);
@@ -145,7 +147,7 @@ impl Controller {
                 return;
             }
         };
-        pressed.into_iter().flatten().for_each(|button| act(&self.channels, Deed::Pendant(button)));
+        pressed.into_iter().flatten().for_each(|button| act(&mut self.channels, Deed::Pendant(button)));
     }
 
     /// Tells a PLC what the controller does.
@@ -192,7 +194,7 @@ impl Controller {
 
     /// Presses the start button: a program that is paused goes on.
     pub fn resume(&mut self) {
-        self.channels.each(|channel| channel.lane().paused.set(false));
+        self.press(Pendant::Start);
     }
 
     /// Resets the program, which starts from its beginning with the next cycle: pulses end, global variables and the
@@ -349,10 +351,11 @@ impl Controller {
 
 /// Does what a scenario says, inputs aside. The pendant's buttons count for all channels; what is pushed is the robot of the
 /// first.
-fn act(channels: &Channels, deed: Deed) {
+fn act(channels: &mut Channels, deed: Deed) {
     match deed {
-        Deed::Pendant(Pendant::Start) => channels.iter().for_each(|channel| channel.lane().paused.set(false)),
-        Deed::Pendant(Pendant::Override(percent)) => set_override(channels, percent),
+        Deed::Pendant(button) => pendant::press(channels, button),
+        Deed::Jog(axis, by) => pendant::jog(channels.first(), axis + 1, by),
+        Deed::Hand(axis, by) => pendant::move_by_hand(channels.first(), axis + 1, by),
         Deed::Force(force) => {
             if let Some(mut unit) = channels.first().lane().robot_mut() {
                 unit.outside_mut().force = force;

@@ -15,7 +15,7 @@ impl Controller {
         // A deed may look at the image itself.
         let mut deeds = Vec::new();
         order.carry_out(&mut self.world.io.borrow_mut(), &robot, |deed| deeds.push(deed))?;
-        deeds.into_iter().for_each(|deed| act(&self.channels, deed));
+        deeds.into_iter().for_each(|deed| act(&mut self.channels, deed));
         Ok(())
     }
 }

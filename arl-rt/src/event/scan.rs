@@ -47,12 +47,12 @@ impl Unknown {
 /// Whether a condition holds. It has the turns of loops of a whole cycle for itself, waits for no motion, and leaves the
 /// program pointer where it is.
 pub(super) fn evaluate(cx: &Cx, code: &dyn Code) -> Result<bool, Unknown> {
-    let (place, level) = (cx.place(), cx.enter_level(Level::LOOKING));
+    let (pointer, level) = (cx.pointer(), cx.enter_level(Level::LOOKING));
     let budget = cx.renew_budget();
     let held = code.holds(cx);
     cx.restore_budget(budget);
     cx.leave_level(level);
-    cx.line(place.0, place.1);
+    cx.point_to(pointer);
     match held {
         Poll::Ready(held) => Ok(held?),
         Poll::Pending => Err(Unknown::Unfit("takes longer than a cycle")),

@@ -15,6 +15,8 @@
 //! override = 50       # %
 //! force = [0, 0, 80]  # N, what pushes the TCP, in the world; until another event says otherwise
 //! torque.j3 = -20     # Nm (N of a linear axis), what turns an axis
+//! jog.j1 = 5          # deg (mm): somebody jogs an axis by so much, while the program is paused
+//! hand.j1 = 5         # deg (mm): somebody moves an axis by hand, while the servo is off
 //! ```
 
 use std::path::Path;
@@ -28,31 +30,57 @@ use crate::rate::Rate;
 use crate::robot::Robot;
 use crate::settings::{Section, SettingsError, Source, Value, hint, kind, number, table};
 
-const EVENT: &[&str] =
-    &["at", "when", "after", "di", "ai", "internal", "internal_do", "pendant", "override", "force", "torque"];
+const EVENT: &[&str] = &[
+    "at",
+    "when",
+    "after",
+    "di",
+    "ai",
+    "internal",
+    "internal_do",
+    "pendant",
+    "override",
+    "force",
+    "torque",
+    "jog",
+    "hand",
+];
 
 /// What an event may change.
-const CHANGES: &str = "`di.N`, `ai.N`, `internal.N`, `internal_do.N`, `pendant`, `override`, `force` or `torque.jN`";
+const CHANGES: &str = "`di.N`, `ai.N`, `internal.N`, `internal_do.N`, `pendant`, `override`, `force`, `torque.jN`, `jog.jN` \
+                       or `hand.jN`";
 
 /// A word of the teach pendant.
 #[derive(Clone, Copy, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum Pendant {
-    /// The start button: a paused program goes on.
+    /// The start button: a paused program goes on, the robot back on its path first.
     Start,
+    /// The pause button: the robot stops on its path at once, and the program with it.
+    Pause,
+    /// Goes on for one instruction that moves, waits or touches the outside; from then on step by step, until start.
+    Step,
+    /// Ends a program that is paused; one that has ended begins again.
+    Reset,
+    /// Acknowledges an alarm.
+    Clear,
+    /// Switches the motors on.
+    ServoOn,
+    /// Stops the robot on its path and switches the motors off.
+    ServoOff,
     /// The speed override in %.
     Override(f64),
 }
 
-/// The words that a scenario may use, and whether they have a meaning yet.
-const WORDS: [(&str, Option<Pendant>); 7] = [
-    ("start", Some(Pendant::Start)),
-    ("pause", None),
-    ("step", None),
-    ("reset", None),
-    ("clear", None),
-    ("servo_on", None),
-    ("servo_off", None),
+/// The words that a scenario may use.
+const WORDS: [(&str, Pendant); 7] = [
+    ("start", Pendant::Start),
+    ("pause", Pendant::Pause),
+    ("step", Pendant::Step),
+    ("reset", Pendant::Reset),
+    ("clear", Pendant::Clear),
+    ("servo_on", Pendant::ServoOn),
+    ("servo_off", Pendant::ServoOff),
 ];
 
 /// What an event does besides setting inputs.
@@ -64,6 +92,10 @@ pub(crate) enum Deed {
     Force([f64; 3]),
     /// A torque (Nm; N of a linear axis) turns an axis, counted from 0.
     Torque(usize, f64),
+    /// Somebody jogs an axis, counted from 0, by so many deg (mm).
+    Jog(usize, f64),
+    /// Somebody moves an axis by hand, counted from 0, by so many deg (mm).
+    Hand(usize, f64),
 }
 
 /// What an event does.
@@ -207,6 +239,10 @@ fn moves(robot: &Robot, deed: Deed) -> Result<(), String> {
     let own = robot.own_axes().len();
     match deed {
         Deed::Pendant(_) => Ok(()),
+        Deed::Jog(axis, _) | Deed::Hand(axis, _) if axis >= own => {
+            Err(format!("moves j{}, but robot {} has j1 to j{own}", axis + 1, robot.name))
+        }
+        Deed::Jog(..) | Deed::Hand(..) => Ok(()),
         Deed::Torque(axis, _) if axis >= own => {
             Err(format!("turns j{}, but robot {} has j1 to j{own}", axis + 1, robot.name))
         }
@@ -272,7 +308,9 @@ fn actions(source: Source<'_>, event: &Section<'_>) -> Result<Vec<Action>, Setti
                 actions.push(Action::Deed(Deed::Pendant(Pendant::Override(percent))));
             }
             "force" => actions.push(Action::Deed(force(event, value)?)),
-            "torque" => torques(source, value, &mut actions)?,
+            "torque" => axes(source, (key, "a torque in Nm"), value, Deed::Torque, &mut actions)?,
+            "jog" => axes(source, (key, "deg, or mm of a linear axis"), value, Deed::Jog, &mut actions)?,
+            "hand" => axes(source, (key, "deg, or mm of a linear axis"), value, Deed::Hand, &mut actions)?,
             _ => {}
         }
     }
@@ -354,16 +392,22 @@ fn force(event: &Section<'_>, value: &Value<'_>) -> Result<Deed, SettingsError> 
     force.map(Deed::Force).ok_or_else(wrong)
 }
 
-/// Torques on axes.
-fn torques(source: Source<'_>, value: &Value<'_>, actions: &mut Vec<Action>) -> Result<(), SettingsError> {
-    let axes = table(source, value, "torque", &["j1", "j2", "j3", "j4", "j5", "j6"])?;
+/// What is done to axes.
+fn axes(
+    source: Source<'_>,
+    (name, what): (&str, &str),
+    value: &Value<'_>,
+    deed: fn(usize, f64) -> Deed,
+    actions: &mut Vec<Action>,
+) -> Result<(), SettingsError> {
+    let axes = table(source, value, name, &["j1", "j2", "j3", "j4", "j5", "j6"])?;
     for (key, span, value) in axes.entries() {
         let axis = key.trim_start_matches('j').parse::<usize>().unwrap_or(1) - 1;
-        let torque = number(value.get_ref()).ok_or_else(|| {
+        let value = number(value.get_ref()).ok_or_else(|| {
             let found = kind(value.get_ref());
-            source.error(span, format!("`torque.{key}`: expected a torque in Nm, found {found}"))
+            source.error(span, format!("`{name}.{key}`: expected {what}, found {found}"))
         })?;
-        actions.push(Action::Deed(Deed::Torque(axis, torque)));
+        actions.push(Action::Deed(deed(axis, value)));
     }
     Ok(())
 }
@@ -371,10 +415,7 @@ fn torques(source: Source<'_>, value: &Value<'_>, actions: &mut Vec<Action>) -> 
 fn pendant(event: &Section<'_>, source: Source<'_>, value: &Value<'_>) -> Result<Pendant, SettingsError> {
     let word = event.text("pendant", "a word of the teach pendant")?.unwrap_or_default();
     match WORDS.iter().find(|(known, _)| known.eq_ignore_ascii_case(word)) {
-        Some((_, Some(pendant))) => Ok(*pendant),
-        Some((known, None)) => {
-            Err(source.error(value.span(), format!("the pendant's word \"{known}\" is not supported yet")))
-        }
+        Some((_, pendant)) => Ok(*pendant),
         None => {
             let known = WORDS.map(|(known, _)| known);
             Err(source.error(value.span(), format!("the pendant has no word \"{word}\"; {}", hint(word, &known))))
@@ -506,7 +547,8 @@ mod tests {
             ("[[event]]\nwhen = \"do3\"\ndi.5 = true", 2, "expected \"do.3\""),
             ("[[event]]\nat = -1\ndi.5 = true", 2, "expected seconds"),
             ("[[event]]\nat = 1\npendant = \"strat\"", 3, "did you mean `start`?"),
-            ("[[event]]\nat = 1\npendant = \"servo_on\"", 3, "not supported yet"),
+            ("[[event]]\nat = 1\npendant = \"servo\"", 3, "the pendant has no word"),
+            ("[[event]]\nat = 1\njog.j1 = true", 3, "`jog.j1`: expected deg"),
             ("[[event]]\nat = 1\noverride = 101", 3, "expected percent from 0 to 100"),
             ("[[event]]\nat = 1\nforce = [1, 2]", 3, "three components in N"),
             ("[[event]]\nat = 1\nforce = 80", 3, "three components in N"),

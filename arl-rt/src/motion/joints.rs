@@ -36,7 +36,7 @@ impl Joints {
     }
 
     /// Whether every axis is within so many deg (mm) of another place.
-    pub(super) fn is_at(&self, other: &Self, tolerance: f64) -> bool {
+    pub(crate) fn is_at(&self, other: &Self, tolerance: f64) -> bool {
         let near = |(a, b): (&f64, &f64)| (a - b).abs() <= tolerance;
         self.axes.iter().zip(&other.axes).all(near) && self.external.iter().zip(&other.external).all(near)
     }

@@ -20,6 +20,7 @@ mod error;
 mod finder;
 mod gate;
 mod governor;
+mod halves;
 mod joints;
 mod limits;
 #[doc(hidden)]
@@ -48,6 +49,7 @@ mod zone;
 pub use command::{Command, Settings, Speed, Target, Zone};
 pub use error::PlanError;
 pub use gate::{Gate, Lift};
+pub(crate) use halves::halves;
 pub use joints::{Joints, UNSET, is_unset};
 pub use overlay::{Compensation, Reference, Weave, WeaveShape};
 pub use plan::{Motion, plan};

@@ -415,6 +415,11 @@ impl Queue {
         self.is_layer_idle() && self.aside.is_clear()
     }
 
+    /// The running number of the motion that is executed, or comes next; `None` where none is laid.
+    pub fn current(&self) -> Option<u64> {
+        self.course.current().map(|(piece, _)| piece.number)
+    }
+
     /// Whether the robot stands still, at the end of a motion or within one.
     pub fn rests(&self) -> bool {
         self.course.rests()
@@ -452,7 +457,7 @@ impl Queue {
     /// Puts the commanded positions elsewhere, as when a robot is switched on; returns whether it could: not while there
     /// are motions.
     pub fn place(&mut self, joints: Joints) -> bool {
-        let idle = self.idle();
+        let idle = self.is_layer_idle() && self.rests();
         if idle {
             (self.joints, self.end) = (joints, joints);
             self.led = Led::default();

@@ -79,6 +79,15 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
     if cx.spend() {
         cx.next_cycle().await;
     }
+    // Motions that make one way are one step.
+    let kind = match target {
+        Target::Circle { .. } => 1,
+        Target::Spline { .. } => 2,
+        _ => 0,
+    };
+    if cx.chain(kind) != kind || kind == 0 {
+        cx.step_point().await;
+    }
     while !lane.unit(MOTION)?.takes(cx.level().number) {
         cx.next_cycle().await;
     }
@@ -88,13 +97,14 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
         Target::Spline { pose, wobj, external } if returns => Target::Line { pose, wobj, external },
         target => target,
     };
-    let (file, line) = cx.place();
+    let (_, line) = cx.place();
+    let steps = lane.stepping.on.get();
     let command = Command {
         target,
         rig: modal.setting.rig(),
         speed: modal.speed,
         duration: modal.duration,
-        zone: if returns { Zone::NONE } else { modal.zone },
+        zone: if returns || steps { Zone::NONE } else { modal.zone },
         line,
     };
     let current = lane.unit(MOTION)?.settings;
@@ -106,9 +116,28 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
         },
         wrist: lane.system.wrist.get(),
         manual: current.manual || returns,
+        compensation: current.compensation.filter(|_| !steps),
         ..current
     };
-    let planned = lane.unit_mut(MOTION)?.plan(&command, &settings, file);
+    let halves = if steps { lane.unit(MOTION)?.halves(&command, &settings) } else { None };
+    if let Some([first, second]) = halves {
+        add(cx, &first, &settings).await?;
+        cx.next_step().await;
+        add(cx, &second, &settings).await?;
+    } else {
+        add(cx, &command, &settings).await?;
+    }
+    if steps && kind == 0 {
+        cx.motion_end().await;
+    }
+    Ok(())
+}
+
+/// Adds a motion to those that are planned.
+async fn add(cx: &Cx, command: &Command, settings: &Settings) -> Result<(), Fault> {
+    let lane = cx.lane();
+    let (file, line) = cx.place();
+    let planned = lane.unit_mut(MOTION)?.plan(command, settings, file);
     if let Err(alarm) = planned {
         if (alarm.file, alarm.line) == (file, line) {
             return Err(alarm.fault);

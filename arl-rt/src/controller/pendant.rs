@@ -1,0 +1,182 @@
+//! The buttons of the teach pendant, and moving a robot beside its program.
+
+use super::channel::Channel;
+use super::channels::Channels;
+use super::{Controller, Outcome, State};
+use crate::io::Pendant;
+
+impl Controller {
+    /// Presses a button of the teach pendant, for all channels. A button that cannot act now gives a warning
+    /// ([`Controller::take_warnings`]) and changes nothing.
+    ///
+    /// ```
+    /// # use arl_rt::emit::*;
+    /// # struct Turn;
+    /// # impl arl_rt::Program for Turn {
+    /// #     fn file(&self) -> File { File::new("turn.arl") }
+    /// #     fn family(&self) -> Family { Family::SixAxis }
+    /// #     fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> { Box::pin(async { Ok(()) }) }
+    /// #     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+    /// #         let target = Joint { j1: 90.0, j2: -90.0, j3: 90.0, j4: 0.0, j5: 45.0, j6: 0.0, ..Joint::default() };
+    /// #         Box::pin(async move { motion::movej(target).run(cx).await.at(self.file(), 2) })
+    /// #     }
+    /// # }
+    /// use arl_rt::io::Pendant;
+    /// use arl_rt::{Controller, Outcome, State};
+    ///
+    /// let mut controller = Controller::builder().build(Box::new(Turn))?;
+    /// controller.run_for(0.3);
+    /// controller.press(Pendant::Pause);
+    /// controller.run_for(0.5);
+    /// assert_eq!(controller.state(), State::Paused);
+    /// let stopped = controller.joints();
+    /// // Somebody moves the robot: it goes back before it goes on.
+    /// controller.jog(1, 2.0);
+    /// controller.run_for(2.0);
+    /// assert!((controller.joints().axes[0] - stopped.axes[0] - 2.0).abs() < 1e-6);
+    /// controller.press(Pendant::Start);
+    /// assert_eq!(controller.run(), Outcome::Ended);
+    /// assert_eq!(controller.joints().axes[0], 90.0);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn press(&mut self, button: Pendant) {
+        press(&mut self.channels, button);
+    }
+
+    /// Jogs an axis of the first channel's robot, from 1 (external axes come behind its own), by so many deg (mm), at manual speed,
+    /// while the program is paused or has ended. What cannot be is a warning and changes nothing.
+    pub fn jog(&mut self, axis: usize, by: f64) {
+        jog(self.channels.first(), axis, by);
+    }
+
+    /// Says that somebody has moved an axis of the first channel's robot by hand, by so many deg (mm), while its servo is off. With
+    /// a real robot nobody has to say so: its driver reports it.
+    pub fn move_by_hand(&mut self, axis: usize, by: f64) {
+        move_by_hand(self.channels.first(), axis, by);
+    }
+}
+
+/// Presses a button.
+pub(super) fn press(channels: &mut Channels, button: Pendant) {
+    match button {
+        Pendant::Override(percent) => super::set_override(channels, percent),
+        Pendant::Start => channels.each(start),
+        Pendant::Pause => channels.each(|channel| pause(channel)),
+        Pendant::Step => channels.each(step),
+        Pendant::Reset => channels.each(reset),
+        Pendant::Clear => channels.each(|channel| channel.lane().alarmed.set(false)),
+        Pendant::ServoOn => channels.each(|channel| servo_on(channel)),
+        Pendant::ServoOff => channels.each(|channel| servo_off(channel)),
+    }
+}
+
+fn refuse(channel: &Channel, what: &str, why: &str) {
+    channel.lane().world.warn(format!("{what} is refused: {why}"));
+}
+
+/// Whether the program may go on; warns where not.
+fn may_go_on(channel: &Channel, what: &str) -> bool {
+    let servo = channel.lane().robot().is_none_or(|unit| unit.has_servo());
+    if !servo {
+        refuse(channel, what, "the servo is off");
+    }
+    servo && channel.outcome().is_none()
+}
+
+fn start(channel: &mut Channel) {
+    if may_go_on(channel, "start") {
+        channel.lane().stepping.on.set(false);
+        channel.lane().stepping.until.set(None);
+        go_on(channel);
+    }
+}
+
+/// Lets program and robot go on: back to the path first, where the robot was moved.
+fn go_on(channel: &Channel) {
+    let lane = channel.lane();
+    if lane.paused.replace(false)
+        && let Some(mut unit) = lane.robot_mut()
+    {
+        unit.go_on(channel.cx().place());
+    }
+}
+
+fn pause(channel: &Channel) {
+    let lane = channel.lane();
+    if channel.outcome().is_none() && !lane.paused.replace(true) {
+        lane.stepping.until.set(None);
+        if let Some(mut unit) = lane.robot_mut() {
+            unit.pause();
+        }
+    }
+}
+
+fn step(channel: &mut Channel) {
+    let under_way = channel.lane().stepping.on.get() && channel.state() == State::Running;
+    if under_way || !may_go_on(channel, "step") {
+        return;
+    }
+    let lane = channel.lane();
+    lane.stepping.on.set(true);
+    match lane.robot().and_then(|unit| unit.next_motion()) {
+        Some(motion) => lane.stepping.until.set(Some(motion)),
+        None => lane.stepping.left.set(1),
+    }
+    go_on(channel);
+}
+
+fn reset(channel: &mut Channel) {
+    match channel.state() {
+        State::Running => refuse(channel, "reset", "the program runs: pause it first"),
+        State::Paused => channel.end(Outcome::Stopped),
+        State::Ended if channel.lane().robot().is_some_and(|unit| !unit.has_servo()) => {
+            refuse(channel, "reset", "the servo is off");
+        }
+        State::Ended if channel.lane().alarmed.get() => refuse(channel, "reset", "the alarm has not been cleared"),
+        State::Ended => channel.reset(),
+    }
+}
+
+fn servo_off(channel: &Channel) {
+    pause(channel);
+    if let Some(mut unit) = channel.lane().robot_mut() {
+        unit.servo_off();
+    }
+}
+
+fn servo_on(channel: &Channel) {
+    let lane = channel.lane();
+    let Some(mut unit) = lane.robot_mut() else { return };
+    let keeps = lane.system.reset_pos_type.with(|kinds| kinds.first().is_some_and(|kind| *kind == "cmd"));
+    let threshold = lane.system.reset_pos_threshold.with(|all| all.first().copied().unwrap_or_default());
+    if !unit.servo_on(keeps.then_some(threshold)) {
+        lane.world
+            .warn("servo on: the robot was moved by more than $RESET_POS_THRESHOLD: it stays where it is now".into());
+    }
+}
+
+/// Jogs an axis, from 1.
+pub(super) fn jog(channel: &Channel, axis: usize, by: f64) {
+    if channel.state() == State::Running {
+        refuse(channel, "jogging", "the program runs: pause it first");
+        return;
+    }
+    let paused = channel.state() == State::Paused;
+    let jogged = channel.lane().robot_mut().map_or(Ok(()), |mut unit| {
+        if paused {
+            unit.pause();
+        }
+        unit.jog(axis, by)
+    });
+    if let Err(why) = jogged {
+        refuse(channel, "jogging", &why);
+    }
+}
+
+/// Moves an axis, from 1, by hand.
+pub(super) fn move_by_hand(channel: &Channel, axis: usize, by: f64) {
+    let moved = channel.lane().robot_mut().map_or(Ok(()), |mut unit| unit.move_by_hand(axis, by));
+    if let Err(why) = moved {
+        refuse(channel, "moving the robot by hand", &why);
+    }
+}
