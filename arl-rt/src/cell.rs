@@ -52,25 +52,20 @@ use std::path::Path;
 
 pub use external::Wiring;
 pub use programs::CellChannel;
-use toml::de::DeValue;
 
 use crate::communication::{Listen, NetworkSettings};
 use crate::fieldbus::BusSettings;
-use crate::io::{AnalogType, Channels};
+use crate::io::Channels;
 use crate::rate::Rate;
 use crate::settings::{Section, SettingsError, Source, Value, number, table};
 
 const TOP: &[&str] =
     &["controller", "io", "network", "serial", "home", "external", "collision", "modbus_tcp", "channel", "load"];
 const CONTROLLER: &[&str] = &["cycle"];
-const IO: &[&str] = &["di", "do", "ai", "ao", "internal"];
 const NETWORK: &[&str] = &["listen"];
 const HOME: &[&str] = &["tolerance", "home2", "home3", "home4", "home5"];
 const COLLISION: &[&str] = &["cid", "percent", "torque"];
 const HOMES: [&str; 4] = ["home2", "home3", "home4", "home5"];
-
-/// Far more channels than any cell has.
-const MOST_CHANNELS: u32 = 10_000;
 
 /// What stands around the robot.
 #[derive(Clone, PartialEq, Debug)]
@@ -150,9 +145,7 @@ impl Cell {
                 cell.rate = Rate::from_micros((cycle * 1e3).round() as u32);
             }
         }
-        if let Some(io) = top.table("io", "[io]", IO)? {
-            channels(&io, &mut cell.channels)?;
-        }
+        cell.channels = Channels::read(&top)?;
         if let Some(network) = top.table("network", "[network]", NETWORK)? {
             cell.network.listen = listen(&network)?;
         }
@@ -181,21 +174,6 @@ impl Cell {
     }
 }
 
-fn channels(io: &Section<'_>, channels: &mut Channels) -> Result<(), SettingsError> {
-    let digital = [("di", &mut channels.di), ("do", &mut channels.dout), ("internal", &mut channels.internal)];
-    for (key, count) in digital {
-        if let Some(found) = io.count(key, "a number of channels", MOST_CHANNELS)? {
-            *count = found;
-        }
-    }
-    for (key, types) in [("ai", &mut channels.ai), ("ao", &mut channels.ao)] {
-        if let Some(found) = analog(io, key)? {
-            *types = found;
-        }
-    }
-    Ok(())
-}
-
 fn devices(top: &Section<'_>, value: &Value<'_>) -> Result<BTreeMap<String, String>, SettingsError> {
     const WHAT: &str = "the path of a device, like \"/dev/ttyUSB0\"";
     let table = value.get_ref().as_table().ok_or_else(|| top.wrong("serial", value, "the table [serial]"))?;
@@ -215,22 +193,6 @@ fn listen(network: &Section<'_>) -> Result<Listen, SettingsError> {
         Some(address) if address.parse::<std::net::IpAddr>().is_ok() => Ok(Listen::Address(address.into())),
         _ => Err(network.wrong("listen", value, "\"loopback\", \"program\", or an address like \"192.168.0.40\"")),
     }
-}
-
-/// A number of channels, all in V, or a list of their types.
-fn analog(io: &Section<'_>, key: &str) -> Result<Option<Vec<AnalogType>>, SettingsError> {
-    let Some(value) = io.find(key) else { return Ok(None) };
-    let Some(list) = value.get_ref().as_array() else {
-        let what = "a list of \"V\" and \"mA\", or a number of channels";
-        let count = io.count(key, what, MOST_CHANNELS)?.unwrap_or(0);
-        return Ok(Some(vec![AnalogType::Volt; count as usize]));
-    };
-    let types = list.iter().map(|item| match item.get_ref() {
-        DeValue::String(word) if word.eq_ignore_ascii_case("V") => Ok(AnalogType::Volt),
-        DeValue::String(word) if word.eq_ignore_ascii_case("mA") => Ok(AnalogType::Milliampere),
-        _ => Err(io.wrong(key, item, "\"V\" or \"mA\"")),
-    });
-    types.collect::<Result<_, _>>().map(Some)
 }
 
 const POSITIONS: &str = "axis positions in deg, like [0, -90, 90, 0, 0, 0]";
@@ -264,6 +226,7 @@ fn collision(source: Source<'_>, value: &Value<'_>) -> Result<(u8, Sensitivity),
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::io::AnalogType;
 
     #[test]
     fn an_empty_file_is_the_default_cell() {

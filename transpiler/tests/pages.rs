@@ -8,6 +8,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::disallowed_methods, reason = "a test, which reads the pages")]
 
 use arl_robot::Robot;
+use arl_robot::channels::Channels;
 use arl2rs::diagnostics::{CodeInfo, Diagnostic, registry};
 use arl2rs::{CheckOptions, Checked, SourceError, Sources, check_statements, check_text};
 use std::collections::BTreeMap;
@@ -82,10 +83,10 @@ impl Side {
                     program.push_str(line);
                     program.push('\n');
                 }
-            } else if line == "```arl" {
+            } else if line == "```arl" || line == "```toml" {
                 block = Some(String::new());
             } else if line.starts_with("```") {
-                return Err(format!("a block that is not `arl`: {line}"));
+                return Err(format!("a block that is neither `arl` nor `toml`: {line}"));
             } else if let Some(options) = line.strip_prefix("Options: ") {
                 side.options = options.split_whitespace().map(String::from).collect();
             } else if let Some(reason) = line.strip_prefix("Not executed: ") {
@@ -111,7 +112,7 @@ impl Side {
         let mut statements = false;
         let mut words = self.options.iter().map(String::as_str);
         while let Some(word) = words.next() {
-            match (word, if word == "--robot" { words.next() } else { None }) {
+            match (word, if matches!(word, "--robot" | "--cell") { words.next() } else { None }) {
                 ("--strict", None) => options.strict = true,
                 ("--background", None) => options.background = true,
                 ("macro", None) => statements = true,
@@ -119,6 +120,11 @@ impl Side {
                     let robot = Robot::builtin(name).map_err(|error| error.to_string())?;
                     options.family = robot.family;
                     options.robot = Some(robot);
+                }
+                ("--cell", Some(name)) => {
+                    let text = self.others.0.get(Path::new(name)).ok_or("no such cell file")?;
+                    let channels = Channels::of_cell(name, text);
+                    options.channels = Some(channels.map_err(|error| error.to_string())?);
                 }
                 (word, value) => return Err(format!("unknown option {word} {}", value.unwrap_or_default())),
             }

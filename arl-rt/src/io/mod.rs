@@ -6,13 +6,12 @@
 mod analog;
 mod analog_row;
 mod bits;
-mod channels;
 mod driver;
 mod image;
 mod scenario;
 
 pub use analog::{getai, getao, setao, syncao};
-pub use channels::{AnalogType, Channels};
+pub use arl_robot::channels::{AnalogType, Channels};
 pub use driver::{IoDriver, SimulatedIo};
 pub use image::{Image, Inputs, Outputs, Pwm};
 pub use scenario::{Pendant, Scenario};

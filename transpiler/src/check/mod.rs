@@ -7,6 +7,8 @@
 mod arguments;
 mod brace;
 mod call;
+#[cfg(feature = "cli")]
+mod channels;
 mod conditions;
 mod context;
 mod convert;
@@ -121,6 +123,10 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
         };
         let mut late = if has_conditions { conditions::check(&built, &locate) } else { Vec::new() };
         late.extend(first_motion::check(&built, &locate));
+        #[cfg(feature = "cli")]
+        if let Some(cell) = &options.channels {
+            late.extend(channels::check(&built, cell, &locate));
+        }
         #[cfg(feature = "cli")]
         if let Some(robot) = &options.robot {
             diagnostics.extend(targets::check(&built, robot, &locate));

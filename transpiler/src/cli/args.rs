@@ -112,6 +112,9 @@ pub(super) struct Checking {
     /// The program is for a background channel: it has no robot.
     #[arg(long)]
     pub(super) background: bool,
+    /// The cell that the program is for: channels of io that its file does not have are errors.
+    #[arg(long, value_name = "FILE")]
+    pub(super) cell: Option<PathBuf>,
     /// The folder that `/home/ae/script/` in an import means; the program's folder if absent.
     #[arg(long, value_name = "DIR")]
     pub(super) script_dir: Option<PathBuf>,
@@ -222,6 +225,12 @@ impl RunOptions {
 
     /// The part that the compiler needs.
     pub(super) fn checking(&self) -> Checking {
-        Checking { strict: false, background: false, robot: self.robot.clone(), script_dir: self.script_dir.clone() }
+        Checking {
+            strict: false,
+            background: false,
+            robot: self.robot.clone(),
+            cell: None,
+            script_dir: self.script_dir.clone(),
+        }
     }
 }

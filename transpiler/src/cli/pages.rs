@@ -141,6 +141,8 @@ pub(super) static PAGES: &[(&str, &str)] = pages! {
     "ARL0802"
     "ARL0803"
     "ARL0804"
+    "ARL0805"
+    "ARL0806"
     "ARL0851"
     "ARL0852"
     "ARL0901"

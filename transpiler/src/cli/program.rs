@@ -11,6 +11,7 @@ use crate::CheckOptions;
 use crate::compile::{Compiled, compile_program};
 use crate::emit::EmitOptions;
 use crate::sources::FileSystem;
+use arl_robot::channels::Channels;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
@@ -30,13 +31,17 @@ pub(super) fn check_options(checking: &Checking) -> Result<CheckOptions, Failure
         None => None,
     };
     let family = robots::family(checking.robot.as_deref())?;
-    Ok(CheckOptions {
-        family,
-        strict: checking.strict,
-        background: checking.background,
-        script_dir,
-        ..CheckOptions::default()
-    })
+    let channels = checking.cell.as_deref().map(channels_of).transpose()?;
+    let Checking { strict, background, .. } = *checking;
+    Ok(CheckOptions { family, strict, background, script_dir, channels, ..CheckOptions::default() })
+}
+
+/// The channels of a cell file.
+fn channels_of(cell: &Path) -> Result<Channels, Failure> {
+    let name = cell.display().to_string();
+    let text = std::fs::read_to_string(cell)
+        .map_err(|error| Failure::Usage(format!("{name}: cannot read the cell file: {error}")))?;
+    Channels::of_cell(&name, &text).map_err(|error| Failure::Usage(error.to_string()))
 }
 
 /// Checks and emits a program, and shows what there is to say.

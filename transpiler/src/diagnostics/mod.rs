@@ -1,6 +1,8 @@
 //! What the compiler has to say about a program: codes, places, words.
 
 pub(crate) mod arguments;
+#[cfg(feature = "cli")]
+pub(crate) mod channels;
 pub(crate) mod constants;
 pub(crate) mod flow;
 pub(crate) mod modules;

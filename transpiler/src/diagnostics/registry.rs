@@ -102,6 +102,8 @@ static CODES: &[CodeInfo] = &[
     error(802, "A constant shift out of range"),
     error(803, "A constant index out of range"),
     error(804, "A constant that depends on itself"),
+    error(805, "A channel that the cell does not have"),
+    error(806, "An analog value that its channel does not carry"),
     warning(851, "A constant expression that wraps"),
     warning(852, "A double divided by zero"),
     warning(901, "Statements that are never reached"),

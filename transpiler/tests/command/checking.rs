@@ -128,3 +128,22 @@ fn targets_that_a_robot_cannot_reach_are_warned_of() {
     folder.arl2rs(&["check", "taught.arl", "--robot", "kr10-r1420"]).is(0, "").says("taught.arl:8:").says("1 warning");
     assert_eq!(folder.arl2rs(&["check", "far.arl"]).err, "");
 }
+
+#[test]
+fn channels_are_those_of_the_cell() {
+    let folder = Folder::new("check_cell");
+    folder.write(
+        "a.arl",
+        "func void main()\n  setdo(9,true)\n  int channel = 99\n  setao(1,5)\n  setdo(channel,true)\nendfunc\n",
+    );
+    folder.write("small.toml", "[io]\ndo = 8\nao = [\"mA\"]\n[home]\ntolerance = 1\n");
+    folder.write("wrong.toml", "[io]\ndoo = 8\n");
+    folder.arl2rs(&["check", "a.arl"]).is(0, "");
+    folder.arl2rs(&["check", "--cell", "small.toml", "a.arl"]).is(1, "").says("DO 9 does not exist").says("a.arl:2:9");
+    folder
+        .arl2rs(&["check", "--cell", "wrong.toml", "a.arl"])
+        .is(2, "")
+        .says("wrong.toml:2:")
+        .says("did you mean `do`?");
+    folder.arl2rs(&["check", "--cell", "none.toml", "a.arl"]).is(2, "").says("none.toml").says("cannot read");
+}

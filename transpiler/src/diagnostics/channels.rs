@@ -1,0 +1,64 @@
+//! Channels of io that a cell does not have, and values that its channels do not carry.
+
+use super::{Code, Problem};
+use arl_robot::channels::AnalogType;
+
+/// What is wrong with a channel, or with what it is set to.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum ChannelProblem {
+    /// There are `count` channels of this kind, from 1 on.
+    Missing { kind: &'static str, channel: i32, count: u32 },
+    /// The last channel of a range comes first.
+    Reversed { kind: &'static str, from: i32, to: i32 },
+    /// More channels than an int has bits.
+    TooMany { kind: &'static str, from: i32, to: i32 },
+    /// A value that the type of an analog output does not carry.
+    Value { channel: i32, value: f64, ty: AnalogType },
+}
+
+/// What becomes of a call with such a channel.
+const ALARM: &str = "the call would end in an alarm";
+
+impl Problem for ChannelProblem {
+    fn code(&self) -> Code {
+        Code(match self {
+            ChannelProblem::Value { .. } => 806,
+            _ => 805,
+        })
+    }
+
+    fn message(&self) -> String {
+        match self {
+            ChannelProblem::Missing { kind, channel, count: 0 } => {
+                format!("{kind} {channel} does not exist: the cell has no {kind}")
+            }
+            ChannelProblem::Missing { kind, channel, count } => {
+                format!("{kind} {channel} does not exist: the cell has {kind} 1 to {count}")
+            }
+            ChannelProblem::Reversed { kind, from, to } => {
+                format!("{kind} {from} to {to} is a reversed range: the first channel comes first")
+            }
+            ChannelProblem::TooMany { kind, from, to } => {
+                format!("{kind} {from} to {to} are more than 32 channels, which is the most that one int holds")
+            }
+            ChannelProblem::Value { channel, value, ty } => {
+                let ((low, high), unit) = (ty.range(), ty.unit());
+                format!("AO {channel} of the cell carries {low} to {high} {unit}, not {value} {unit}")
+            }
+        }
+    }
+
+    fn label(&self) -> String {
+        String::new()
+    }
+
+    fn help(&self) -> Option<String> {
+        Some(match self {
+            ChannelProblem::Missing { .. } => {
+                format!("[io] of the cell file says how many channels there are; {ALARM}")
+            }
+            ChannelProblem::Value { .. } => format!("[io] of the cell file says what each channel carries; {ALARM}"),
+            ChannelProblem::Reversed { .. } | ChannelProblem::TooMany { .. } => ALARM.to_string(),
+        })
+    }
+}
