@@ -9,3 +9,4 @@
 mod field_buses;
 mod peer;
 mod robot;
+mod streams;
