@@ -28,6 +28,8 @@ pub(crate) struct Lane {
     /// The program that shall run here instead of the one that does.
     next: RefCell<Option<Rc<dyn Program>>>,
     pub(crate) stepping: Stepping,
+    /// Whether a program that comes to its end is reset and begins again.
+    pub(crate) repeats: Cell<bool>,
     /// Whether an alarm has ended the program and nobody has acknowledged it.
     pub(crate) alarmed: Cell<bool>,
     /// What went wrong apart from the statement that runs, and ends the program.
@@ -78,6 +80,7 @@ impl Lane {
             paused: Cell::new(false),
             next: RefCell::default(),
             stepping: Stepping::default(),
+            repeats: Cell::new(false),
             alarmed: Cell::new(false),
             trouble: RefCell::default(),
             homes: [const { None }; 5],

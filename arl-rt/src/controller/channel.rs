@@ -32,6 +32,8 @@ enum Phase {
 #[derive(Clone)]
 enum Next {
     Restart,
+    /// From its beginning after a reset: the loop running mode.
+    Again,
     End(Outcome),
 }
 
@@ -48,6 +50,8 @@ pub(super) struct Channel {
     trace: Option<Trace>,
     /// Whether the program ran at the start of this cycle.
     running: bool,
+    /// Whether it has come to `exit`.
+    exits: bool,
 }
 
 impl Channel {
@@ -56,7 +60,7 @@ impl Channel {
         let cx = Rc::new(Cx::new(Rc::clone(&lane), Rc::clone(&program)));
         let phase = Phase::Running(load(Rc::clone(&program), Rc::clone(&cx)));
         let actions = Actions::default();
-        Self { lane, program, cx, stack, phase, actions, seen: Ok(()), trace, running: true }
+        Self { lane, program, cx, stack, phase, actions, seen: Ok(()), trace, running: true, exits: false }
     }
 
     /// Starts the program from its beginning, global variables included. Pulses end, and the system variables of the manual's
@@ -67,6 +71,7 @@ impl Channel {
             unit.reset();
             self.lane.paused.set(!unit.has_servo());
         }
+        self.exits = false;
         self.lane.stepping.on.set(false);
         self.lane.stepping.until.set(None);
         self.lane.reset_system();
@@ -156,6 +161,12 @@ impl Channel {
                 _ if moving || !self.cx.connections().are_settled() => return,
                 // It starts in the next cycle, so that a program of nothing but `restart` does not hold up the others.
                 Next::Restart => Phase::Running(again(Rc::clone(&self.program), Rc::clone(&self.cx))),
+                Next::Again => {
+                    let steps = self.lane.stepping.on.get();
+                    self.reset();
+                    self.lane.stepping.on.set(steps);
+                    return;
+                }
                 Next::End(outcome) => Phase::Ended(outcome.clone()),
             };
         }
@@ -233,7 +244,8 @@ impl Channel {
                 }
                 (None, _) => {
                     if self.is_concluded() {
-                        self.end_with(Next::End(Outcome::Ended));
+                        let again = self.lane.repeats.get() && !self.exits;
+                        self.end_with(if again { Next::Again } else { Next::End(Outcome::Ended) });
                     }
                     Poll::Pending
                 }
@@ -270,6 +282,7 @@ impl Channel {
         match reason {
             // Motion that is planned keeps its triggers.
             Reason::Exit => {
+                self.exits = true;
                 self.cx.events().borrow_mut().keep_to_motions();
                 self.actions.clear();
                 self.cx.leave_level(Level::PROGRAM);

@@ -43,6 +43,39 @@ impl Controller {
         press(&mut self.channels, button);
     }
 
+    /// Switches the loop running mode on or off, for all channels: a program that comes to its end is reset, as by
+    /// [`Controller::reset`], and begins again. `exit` ends it all the same.
+    ///
+    /// ```
+    /// # use arl_rt::emit::*;
+    /// # struct Beat;
+    /// # impl arl_rt::Program for Beat {
+    /// #     fn file(&self) -> File { File::new("beat.arl") }
+    /// #     fn family(&self) -> Family { Family::SixAxis }
+    /// #     fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> { Box::pin(async { Ok(()) }) }
+    /// #     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+    /// #         Box::pin(async move {
+    /// #             text::print().argtoprint(&cx.time()).argtoprint(&" ").argtoprint(&cx.system().dfspeed.get().tcp).run(cx).at(self.file(), 1)?;
+    /// #             cx.system().dfspeed.set(Speed { tcp: 70.0, ..cx.system().dfspeed.get() });
+    /// #             flow::waittime(1.0).run(cx).await.at(self.file(), 2)
+    /// #         })
+    /// #     }
+    /// # }
+    /// // The program prints the time and `$DFSPEED.tcp`, sets that to 70, and waits for 1 s.
+    /// let messages = arl_rt::Captured::new();
+    /// let mut controller = arl_rt::Controller::builder().output(messages.clone()).build(Box::new(Beat))?;
+    /// controller.set_loop(true);
+    /// controller.run_for(1.5);
+    /// controller.set_loop(false);
+    /// assert_eq!(controller.run(), arl_rt::Outcome::Ended);
+    /// // The reset has set the variable back.
+    /// assert_eq!(messages.text(), "0 50\n1.001 50\n");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn set_loop(&mut self, on: bool) {
+        self.channels.each(|channel| channel.lane().repeats.set(on));
+    }
+
     /// Jogs an axis of the first channel's robot, from 1 (external axes come behind its own), by so many deg (mm), at manual speed,
     /// while the program is paused or has ended. What cannot be is a warning and changes nothing.
     pub fn jog(&mut self, axis: usize, by: f64) {
