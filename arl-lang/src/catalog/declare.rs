@@ -325,8 +325,6 @@ setters! { SystemVariable:
     startup() { restore = Restore::Startup }
     /// Written by the controller only.
     readonly() { access = Access::ReadOnly }
-    /// Declared and checked only.
-    notyet() { status = Status::NotYet }
     /// The least and greatest value.
     range(low: f64, high: f64) { range = Some((low, high)) }
     /// Other spellings.

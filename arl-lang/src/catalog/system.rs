@@ -110,17 +110,17 @@ variables! { pub(super) EXTERNAL =
     /// Input that activates the external control; 0: it is active by itself.
     EXT_CTL_ACT_DI: int = "0" { "9.1.15", saved; "$EXT_CTL_ACT_DI = 1" }
     /// Input that switches the servos on with a pulse of 30 ms or more; 0: none.
-    SERVO_ON_DI: int = "0" { "9.1.15", saved, notyet; "$SERVO_ON_DI = 2" }
+    SERVO_ON_DI: int = "0" { "9.1.15", saved; "$SERVO_ON_DI = 2" }
     /// Input that switches the servos off with a pulse of 30 ms or more; 0: none.
-    SERVO_OFF_DI: int = "0" { "9.1.15", saved, notyet; "$SERVO_OFF_DI = 3" }
+    SERVO_OFF_DI: int = "0" { "9.1.15", saved; "$SERVO_OFF_DI = 3" }
     /// Input whose rising edge starts the program; 0: none.
     START_PROG_DI: int = "0" { "9.1.15", saved; "$START_PROG_DI = 4" }
     /// Input whose rising edge pauses the program; 0: none.
-    PAUSE_PROG_DI: int = "0" { "9.1.15", saved, notyet; "$PAUSE_PROG_DI = 5" }
+    PAUSE_PROG_DI: int = "0" { "9.1.15", saved; "$PAUSE_PROG_DI = 5" }
     /// Input that resets the program while it is true; 0: none.
-    RESET_PROG_DI: int = "0" { "9.1.15", saved, notyet; "$RESET_PROG_DI = 6" }
+    RESET_PROG_DI: int = "0" { "9.1.15", saved; "$RESET_PROG_DI = 6" }
     /// Input whose rising edge clears the alarm; 0: none.
-    CLEAR_ALARM_DI: int = "0" { "9.1.15", saved, notyet; "$CLEAR_ALARM_DI = 7" }
+    CLEAR_ALARM_DI: int = "0" { "9.1.15", saved; "$CLEAR_ALARM_DI = 7" }
     /// How the program number is coded: 0 binary, 1 BCD, 2 one input out of n.
     PGNO_TYPE: int = "0" { "9.1.15", saved, range(0.0, 2.0); "$PGNO_TYPE = 1" }
     /// How many inputs the program number has, 1 to 16; 4, 8, 12 or 16 in BCD.
@@ -134,7 +134,7 @@ variables! { pub(super) EXTERNAL =
     /// Output that shows that the external control is active; 0: none.
     EXT_CTL_ACT_CONF_DO: int = "0" { "9.1.16", saved; "$EXT_CTL_ACT_CONF_DO = 1" }
     /// Output that shows that the servos are on; 0: none.
-    SERVO_ON_DO: int = "0" { "9.1.16", saved, notyet; "$SERVO_ON_DO = 2" }
+    SERVO_ON_DO: int = "0" { "9.1.16", saved; "$SERVO_ON_DO = 2" }
     /// Output that asks for a program number; 0: none.
     PGNO_REQ_DO: int = "0" { "9.1.16", saved; "$PGNO_REQ_DO = 3" }
     /// Outputs that show that the robot stands at each of the five home points; 0: none.

@@ -69,10 +69,6 @@ const KEYS: &[Key] = keys! {
     chan_state_do: Kind::Output { row: Row::Two },
 };
 
-/// What is known, but does not work yet.
-const NOT_YET: [&str; 6] =
-    ["servo_on_di", "servo_off_di", "pause_prog_di", "reset_prog_di", "clear_alarm_di", "servo_on_do"];
-
 /// The one key that has five values.
 const AT_HOME: Key = Key {
     name: "at_home_do",
@@ -113,9 +109,6 @@ impl Wiring {
         }
         for key in all() {
             if let Some(value) = section.find(key.name) {
-                if NOT_YET.contains(&key.name) {
-                    return Err(section.source.error(value.span(), format!("`{}` is not supported yet", key.name)));
-                }
                 wiring.given.push((key.name, values(&section, key, value)?));
             }
         }
@@ -261,7 +254,6 @@ mod tests {
             ("[external]\nat_home_do = 5", 2, "a list of up to five digital outputs"),
             ("[external]\nat_home_do = [1, 2, 3, 4, 5, 6]", 2, "a list of up to five digital outputs"),
             ("[external]\nat_home_do = [1, 1]", 2, "both wired to DO 1"),
-            ("[external]\nservo_on_di = 5", 2, "`servo_on_di` is not supported yet"),
             ("[external]\nenabled = 1", 2, "expected true or false"),
         ] {
             let error = Cell::parse("cell.toml", text).unwrap_err();

@@ -253,7 +253,7 @@ impl Builder {
         let buses = Buses::new(cell.buses, self.devicenet);
         buses.start().map_err(SetupError::Outside)?;
         let (outside, real_time) = (buses.is_outside(), self.clock.is_real());
-        let external = External::new(cell.external.enabled);
+        let external = External::new(cell.external.enabled, rate);
         let world = Rc::new(World::new(Parts {
             rate,
             io,

@@ -147,14 +147,22 @@ impl Controller {
                 return;
             }
         };
-        pressed.into_iter().flatten().for_each(|button| act(&mut self.channels, Deed::Pendant(button)));
+        for button in pressed.into_iter().flatten() {
+            // A program that has ended begins again by the start signal, not by the reset.
+            match (button, self.channels.state()) {
+                (Pendant::Start, State::Ended) => pendant::press(&mut self.channels, Pendant::Reset),
+                (Pendant::Reset, State::Ended) => {}
+                _ => pendant::press(&mut self.channels, button),
+            }
+        }
     }
 
     /// Tells a PLC what the controller does.
     fn show(&mut self) {
         let state = self.channels.state();
         let system = &self.channels.first().lane().system;
-        self.external.show(&mut self.world.io.borrow_mut(), system, state);
+        let servo_on = self.channels.first().lane().robot().is_some_and(|unit| unit.has_servo());
+        self.external.show(&mut self.world.io.borrow_mut(), system, state, servo_on);
     }
 
     /// Runs until the program has ended, where there are several, those of all foreground channels: for ever, where one does

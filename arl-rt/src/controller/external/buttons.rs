@@ -1,22 +1,66 @@
 //! The inputs with which a PLC works the controller like somebody at the pendant.
 
-use super::watch::Watch;
+use super::watch::{Seen, Watch};
 use crate::io::{Image, Pendant};
+use crate::rate::Rate;
 use crate::system::System;
 
+/// How long a pulse must be that switches the servos, in s.
+const SERVO_PULSE: f64 = 0.03;
+
+/// What of an input counts.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Means {
+    /// That it goes on.
+    Edge,
+    /// That it has been on for [`SERVO_PULSE`].
+    Pulse,
+}
+
+/// An input that works a button.
+struct Button {
+    channel: fn(&System) -> i32,
+    means: Means,
+    button: Pendant,
+}
+
+/// In the order in which they act within a cycle: what stops comes last, so that it wins.
+const BUTTONS: [Button; 6] = [
+    Button { channel: |system| system.clear_alarm_di.get(), means: Means::Edge, button: Pendant::Clear },
+    Button { channel: |system| system.reset_prog_di.get(), means: Means::Edge, button: Pendant::Reset },
+    Button { channel: |system| system.servo_on_di.get(), means: Means::Pulse, button: Pendant::ServoOn },
+    Button { channel: |system| system.start_prog_di.get(), means: Means::Edge, button: Pendant::Start },
+    Button { channel: |system| system.pause_prog_di.get(), means: Means::Edge, button: Pendant::Pause },
+    Button { channel: |system| system.servo_off_di.get(), means: Means::Pulse, button: Pendant::ServoOff },
+];
+
 /// The buttons that are pressed in a cycle, in the order in which they act.
-pub(in crate::controller) type Pressed = [Option<Pendant>; 1];
+pub(in crate::controller) type Pressed = [Option<Pendant>; BUTTONS.len()];
 
 /// The inputs that work buttons.
 #[derive(Debug, Default)]
-pub(super) struct Buttons {
-    start: Watch,
-}
+pub(super) struct Buttons([Watch; BUTTONS.len()]);
 
 impl Buttons {
     /// What the inputs of this cycle press.
-    pub(super) fn listen(&mut self, io: &Image, system: &System, cycle: u64, active: bool) -> Pressed {
-        let start = self.start.look(io, system.start_prog_di.get(), cycle, active);
-        [start.rises.then_some(Pendant::Start)]
+    pub(super) fn listen(&mut self, io: &Image, system: &System, cycle: u64, rate: Rate, active: bool) -> Pressed {
+        let pulse = rate.cycles(SERVO_PULSE);
+        let mut pressed = Pressed::default();
+        let mut resetting = false;
+        for ((place, watch), Button { channel, means, button }) in pressed.iter_mut().zip(&mut self.0).zip(&BUTTONS) {
+            let seen = watch.look(io, channel(system), cycle, active);
+            resetting |= *button == Pendant::Reset && seen.on;
+            // A program that is being reset cannot be started: the reset must go first.
+            let held = resetting && *button == Pendant::Start;
+            *place = (is_pressed(*means, seen, pulse) && !held).then_some(*button);
+        }
+        pressed
+    }
+}
+
+fn is_pressed(means: Means, seen: Seen, pulse: u64) -> bool {
+    match means {
+        Means::Edge => seen.rises,
+        Means::Pulse => seen.cycles == pulse,
     }
 }

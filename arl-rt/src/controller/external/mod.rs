@@ -12,6 +12,7 @@ mod watch;
 use crate::controller::State;
 use crate::fault::Fault;
 use crate::io::Image;
+use crate::rate::Rate;
 use crate::system::System;
 use crate::values::Controlmode;
 use buttons::{Buttons, Pressed};
@@ -23,15 +24,16 @@ use program_number::ProgramNumber;
 pub(super) struct External {
     /// Whether the cell has it at all.
     enabled: bool,
+    rate: Rate,
     buttons: Buttons,
     number: ProgramNumber,
     lamps: Lamps,
 }
 
 impl External {
-    pub(super) fn new(enabled: bool) -> Self {
+    pub(super) fn new(enabled: bool, rate: Rate) -> Self {
         let (buttons, number, lamps) = (Buttons::default(), ProgramNumber::default(), Lamps::default());
-        Self { enabled, buttons, number, lamps }
+        Self { enabled, rate, buttons, number, lamps }
     }
 
     /// Looks at the inputs of this cycle: takes over the program number that the PLC gives; returns the buttons that it
@@ -45,15 +47,15 @@ impl External {
         if !self.enabled {
             return Ok(Pressed::default());
         }
-        let pressed = self.buttons.listen(io, system, cycle, active);
+        let pressed = self.buttons.listen(io, system, cycle, self.rate, active);
         self.number.listen(io, system, cycle, active)?;
         Ok(pressed)
     }
 
     /// Brings the outputs up to date that tell the PLC what the controller does.
-    pub(super) fn show(&mut self, io: &mut Image, system: &System, state: State) {
+    pub(super) fn show(&mut self, io: &mut Image, system: &System, state: State, servo_on: bool) {
         if self.enabled {
-            self.lamps.show(io, system, state, true, self.number.taken());
+            self.lamps.show(io, system, state, servo_on, self.number.taken());
         }
     }
 }
