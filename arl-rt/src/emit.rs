@@ -5,6 +5,7 @@ pub use std::rc::Rc;
 
 pub use crate::clock::Clock;
 pub use crate::communication::melsec::{self, MelsecDev};
+pub use crate::communication::modbus_rtu::{self, ModbusDev};
 pub use crate::communication::serial::{self, Iodev};
 pub use crate::communication::socket::{self, Socket};
 pub use crate::cx::Cx;

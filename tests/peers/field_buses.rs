@@ -39,6 +39,40 @@ fn mbpoll_reads_and_writes_registers_and_coils() {
     assert_eq!((end.out.as_str(), end.code), ("{81h,05h}\nabcd\n", Some(0)), "{}", end.said);
 }
 
+/// A pair of pseudo terminals that are connected, by their paths.
+fn lines(name: &str) -> (Server, [String; 2]) {
+    let folder = std::env::temp_dir();
+    let path = |end: &str| folder.join(format!("arl-{name}-{}-{end}", std::process::id())).display().to_string();
+    let paths = [path("a"), path("b")];
+    let pty = |path: &String| format!("pty,raw,echo=0,link={path}");
+    let mut socat = Command::new("socat");
+    let server = Server::spawn(socat.args([pty(&paths[0]), pty(&paths[1])]));
+    while !paths.iter().all(|path| std::fs::exists(path).unwrap_or(false)) {
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    (server, paths)
+}
+
+#[test]
+fn a_master_on_a_serial_line_reads_and_writes_registers() {
+    let Some(python) = peer::python(&["pymodbus", "serial"]) else { return };
+    if !peer::command("socat") || !peer::command("mbpoll") {
+        return;
+    }
+    let (_socat, [ours, theirs]) = lines("rtu");
+    let mut robot = Robot::start("modbus_rtu", &format!("[serial]\nrtserMB0 = \"{ours}\"\n"));
+    assert_eq!(robot.first_line(), "open: true");
+    let mut poll = Command::new("mbpoll");
+    poll.args([
+        "-m", "rtu", "-a", "17", "-b", "19200", "-P", "none", "-0", "-1", "-q", "-t", "4", "-r", "50", "-c", "2",
+    ]);
+    let read = run(poll.arg(&theirs));
+    assert!(read.contains("258") && read.contains("772"), "{read}");
+    run(Command::new(python).arg(peer::script("modbus_master.py")).args(["rtu", &theirs]));
+    let end = robot.end();
+    assert_eq!((end.out.as_str(), end.code), ("abcd\n6162h 6364h\n{00h,00h}\n", Some(0)), "{}", end.said);
+}
+
 /// The server of the tests' own, which other people's clients have looked at.
 fn melsec_server() -> Option<(Server, std::ffi::OsString)> {
     let python = peer::python(&["pymcprotocol", "slmp"])?;

@@ -59,6 +59,13 @@ impl Server {
     }
 }
 
+impl Server {
+    /// Starts one that says nothing.
+    pub(crate) fn spawn(command: &mut Command) -> Self {
+        Self { child: command.spawn().expect("a peer"), first_line: String::new() }
+    }
+}
+
 impl Drop for Server {
     fn drop(&mut self) {
         let _ = self.child.kill();

@@ -78,6 +78,19 @@ impl Robot {
         }
     }
 
+    /// Waits for the first line that the program prints.
+    pub(crate) fn first_line(&mut self) -> String {
+        let mut line = Vec::new();
+        let out = self.child.stdout.as_mut().unwrap();
+        // Not one byte more, for whoever reads on.
+        while line.last() != Some(&b'\n') {
+            let mut byte = [0];
+            assert!(out.read(&mut byte).unwrap() == 1, "the run ended without printing anything");
+            line.push(byte[0]);
+        }
+        String::from_utf8(line).unwrap().trim_end().into()
+    }
+
     /// Waits for the end of the run.
     pub(crate) fn end(mut self) -> End {
         let (mut out, mut said) = (String::new(), String::new());

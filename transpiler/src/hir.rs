@@ -6,8 +6,7 @@
 //! - `Assign` and `AssignOp` values have the type of their place; call arguments the type of their parameter;
 //! - conditions are `bool`;
 //! - indices are `int`, as many as the array has dimensions; constant ones are in range;
-//! - a built-in's arguments stand in source order, each parameter's presence is respected, defaults are filled in;
-//! - nothing marked "not supported yet" is left.
+//! - a built-in's arguments stand in source order, each parameter's presence is respected, defaults are filled in.
 
 use arl_lang::ast::{BinaryOp, Step, UnaryOp};
 use arl_lang::catalog::{Base, Entry, Enum, Family, Struct, SystemVariable};

@@ -15,7 +15,7 @@
 //! of it, `any` everything but handles. The marks in brackets are the methods of [`Param`] below, the marks behind the
 //! path those of [`Entry`].
 
-use super::entry::{Access, Effect, Entry, Kind, Mode, Param, ParamType, Presence, Restore, Status, SystemVariable};
+use super::entry::{Access, Effect, Entry, Kind, Mode, Param, ParamType, Presence, Restore, SystemVariable};
 use super::types::{Base, Component, Family, Start};
 use crate::ast::Unit;
 
@@ -248,7 +248,6 @@ impl Entry {
             fails: false,
             background: true,
             path: "",
-            status: Status::Works,
             doc: trimmed(doc),
             section: "",
             example: "",
@@ -275,8 +274,6 @@ setters! { Entry:
     ends() { effect = Effect::Ends }
     /// An alarm is possible.
     fails() { fails = true }
-    /// Declared and checked only.
-    notyet() { status = Status::NotYet }
     /// Not in background channels.
     foreground() { background = false }
     /// For one robot family only.
@@ -288,7 +285,7 @@ setters! { Entry:
 }
 
 impl SystemVariable {
-    /// A variable that programs may write and that works.
+    /// A variable that programs may write.
     pub(super) const fn declare(name: &'static str, field: &'static str, ty: Base, doc: &'static str) -> Self {
         Self {
             name,
@@ -300,7 +297,6 @@ impl SystemVariable {
             restore: Restore::Reset,
             default: "",
             field,
-            status: Status::Works,
             doc: trimmed(doc),
             section: "",
             example: "",

@@ -27,15 +27,6 @@ pub enum Effect {
     Ends,
 }
 
-/// Whether an entry runs yet.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub enum Status {
-    /// It runs.
-    Works,
-    /// It is declared and checked; using it is a compile error.
-    NotYet,
-}
-
 /// The values a parameter takes.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum ParamType {
@@ -130,8 +121,6 @@ pub struct Entry {
     pub background: bool,
     /// The runtime's function, below `arl_rt`: `math::sqrt`.
     pub path: &'static str,
-    /// Whether it runs yet.
-    pub status: Status,
     /// One sentence or two.
     pub doc: &'static str,
     /// Section of the manual.
@@ -183,8 +172,6 @@ pub struct SystemVariable {
     pub default: &'static str,
     /// The field of the runtime's system variables (`cx.system().field`).
     pub field: &'static str,
-    /// Whether it works yet.
-    pub status: Status,
     /// What it means, with its unit.
     pub doc: &'static str,
     /// Section of the manual.

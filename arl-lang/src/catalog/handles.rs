@@ -1,6 +1,5 @@
 //! The handles: variables that stand for something outside the program.
 
-use super::entry::Status;
 use super::types::{Handle, HandleDef};
 
 static CLOCK: HandleDef = HandleDef {
@@ -8,7 +7,6 @@ static CLOCK: HandleDef = HandleDef {
     name: "clock",
     aliases: &[],
     rust: "Clock",
-    status: Status::Works,
     doc: "A stopwatch: clkstart, clkstop, clkreset, clkread.",
     section: "5.3.1",
 };
@@ -18,7 +16,6 @@ static SOCKET: HandleDef = HandleDef {
     name: "socket",
     aliases: &[],
     rust: "Socket",
-    status: Status::Works,
     doc: "A TCP connection: connect or accept, then write, read, readuntil, clearbuff, geterror, close.",
     section: "2.7.1",
 };
@@ -28,7 +25,6 @@ static IODEV: HandleDef = HandleDef {
     name: "iodev",
     aliases: &[],
     rust: "Iodev",
-    status: Status::Works,
     doc: "A serial line: open, then write, read, readuntil, clearbuff, close.",
     section: "2.7.2",
 };
@@ -38,7 +34,6 @@ static MODBUS_DEV: HandleDef = HandleDef {
     name: "modbus_dev",
     aliases: &[],
     rust: "ModbusDev",
-    status: Status::NotYet,
     doc: "A Modbus slave of ours on a serial line: open, then read, write, clearbuff, setcycle, close.",
     section: "5.6.6",
 };
@@ -48,7 +43,6 @@ static MELSEC_DEV: HandleDef = HandleDef {
     name: "melsec_dev",
     aliases: &["melsec"],
     rust: "MelsecDev",
-    status: Status::Works,
     doc: "A connection to a Melsec PLC: open, then read, write, close.",
     section: "5.6.5",
 };

@@ -13,7 +13,7 @@ entries! { pub(super) MODBUS_RTU =
         databits: int "bits a character, 5 to 8",
         stop_bits: {stopbits} "stop bits",
     ) -> bool
-        { "5.6.6.1", modbus_rtu::open, waits, fails, notyet;
+        { "5.6.6.1", modbus_rtu::open, waits, fails;
           "modbus_dev m\nprint open(m,\"rtserMB0\",1,115200,none,8,one)" }
     /// Opens a serial line as a Modbus slave, with the stop bits in front and the parity at the end.
     fn open(
@@ -25,11 +25,11 @@ entries! { pub(super) MODBUS_RTU =
         databits: int "bits a character, 5 to 8",
         parity: {parity} "parity",
     ) -> bool
-        { "5.6.6.1", modbus_rtu::open_stopbits_first, waits, fails, notyet;
+        { "5.6.6.1", modbus_rtu::open_stopbits_first, waits, fails;
           "modbus_dev m\nprint open(m,\"rtserMB0\",1,115200,one,8,none)" }
     /// Closes the line; closing one that is not open does nothing.
     fn close(dev: modbus_dev "the slave")
-        { "5.6.6.2", modbus_rtu::close, waits, notyet; "modbus_dev m\nclose(m)" }
+        { "5.6.6.2", modbus_rtu::close, waits; "modbus_dev m\nclose(m)" }
     /// Reads holding registers as a text; whether it worked.
     fn read(
         dev: modbus_dev "the slave",
@@ -37,7 +37,7 @@ entries! { pub(super) MODBUS_RTU =
         start: int "offset of the first byte",
         len: int "how many bytes",
     ) -> bool
-        { "5.6.6.3", modbus_rtu::read_string, waits, fails, notyet;
+        { "5.6.6.3", modbus_rtu::read_string, waits, fails;
           "modbus_dev m\nstring data\nopen(m,\"rtserMB0\",1,115200,none,8,one)\nread(m,data,0,4)" }
     /// Reads holding registers as bytes; whether it worked.
     fn read(
@@ -46,11 +46,11 @@ entries! { pub(super) MODBUS_RTU =
         start: int "offset of the first byte",
         len: int "how many bytes",
     ) -> bool
-        { "5.6.6.3", modbus_rtu::read_bytes, waits, fails, notyet;
+        { "5.6.6.3", modbus_rtu::read_bytes, waits, fails;
           "modbus_dev m\nbyte data[4]\nopen(m,\"rtserMB0\",1,115200,none,8,one)\nread(m,data,0,4)" }
     /// Writes a text into holding registers; whether it worked.
     fn write(dev: modbus_dev "the slave", data: string "the text", start: int "offset of the first byte") -> bool
-        { "5.6.6.4", modbus_rtu::write_string, waits, fails, notyet;
+        { "5.6.6.4", modbus_rtu::write_string, waits, fails;
           "modbus_dev m\nopen(m,\"rtserMB0\",1,115200,none,8,one)\nwrite(m,\"abcd\",0)" }
     /// Writes bytes into holding registers; whether it worked.
     fn write(
@@ -59,13 +59,13 @@ entries! { pub(super) MODBUS_RTU =
         start: int "offset of the first byte",
         len: int "how many bytes",
     ) -> bool
-        { "5.6.6.4", modbus_rtu::write_bytes, waits, fails, notyet;
+        { "5.6.6.4", modbus_rtu::write_bytes, waits, fails;
           "modbus_dev m\nbyte data[4] = {31h,32h,33h,34h}\nopen(m,\"rtserMB0\",1,115200,none,8,one)\nwrite(m,data,0,4)" }
     /// Throws away what has come and was not read; whether it worked.
     fn clearbuff(dev: modbus_dev "the slave") -> bool
-        { "5.6.6.5", modbus_rtu::clearbuff, waits, fails, notyet; "modbus_dev m\nprint clearbuff(m)" }
+        { "5.6.6.5", modbus_rtu::clearbuff, waits, fails; "modbus_dev m\nprint clearbuff(m)" }
     /// Sets how often registers and line are exchanged. Below 500000: alarm.
     fn setcycle(dev: modbus_dev "the slave", cycle: int "the period, us, 500000 or more")
-        { "5.6.6.6", modbus_rtu::setcycle, waits, fails, notyet;
+        { "5.6.6.6", modbus_rtu::setcycle, waits, fails;
           "modbus_dev m\nopen(m,\"rtserMB0\",1,115200,none,8,one)\nsetcycle(m,1000000)" }
 }

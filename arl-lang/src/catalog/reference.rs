@@ -3,8 +3,7 @@
 use std::fmt::Write;
 
 use super::entry::{
-    Access, Constant, ConstantValue, Effect, Entry, Kind, Mode, Param, ParamType, Presence, Restore, Status,
-    SystemVariable,
+    Access, Constant, ConstantValue, Effect, Entry, Kind, Mode, Param, ParamType, Presence, Restore, SystemVariable,
 };
 use super::lookup::{self, Chapter};
 use super::types::{Base, Component, Enum, Family, Handle, Start, Struct, StructDef};
@@ -56,7 +55,7 @@ pub fn entries(group: &[Entry]) -> Option<String> {
     Some(text)
 }
 
-/// One overload without a heading: signature, text, parameters, effect, status, example.
+/// One overload without a heading: signature, text, parameters, effect, example.
 pub fn entry(entry: &Entry) -> String {
     let mut text = format!("```text\n{}\n```\n\n{}\n", signature(entry), entry.doc);
     if !entry.params.is_empty() {
@@ -81,7 +80,6 @@ pub fn entry(entry: &Entry) -> String {
         notes.push(format!("Also accepted: {}.", code_list(entry.aliases)));
     }
     notes.push(manual(entry.section));
-    notes.extend(status(entry.status));
     let _ = write!(text, "\n{}\n", notes.join(" "));
     example(&mut text, entry.example);
     text
@@ -278,7 +276,6 @@ pub fn system_variable(variable: &SystemVariable) -> String {
         let names: Vec<String> = variable.aliases.iter().map(|alias| format!("`${alias}`")).collect();
         notes.push(format!("Also accepted: {}.", names.join(", ")));
     }
-    notes.extend(status(variable.status));
     let _ = write!(text, "\n{}\n", notes.join(" "));
     example(&mut text, variable.example);
     text
@@ -307,15 +304,6 @@ fn family_name(family: Family) -> &'static str {
 
 fn manual(section: &str) -> String {
     format!("Manual {section}.")
-}
-
-fn status(status: Status) -> Option<String> {
-    match status {
-        Status::Works => None,
-        Status::NotYet => {
-            Some("**Not supported yet:** it is checked, but a program that uses it is refused.".to_string())
-        }
-    }
 }
 
 fn code_list(names: &[&str]) -> String {

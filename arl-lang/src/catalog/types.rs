@@ -1,7 +1,5 @@
 //! The types that ARL knows by itself.
 
-use super::entry::Status;
-
 /// Which kind of robot a program is checked for; some types and instructions differ.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub enum Family {
@@ -180,8 +178,6 @@ pub struct HandleDef {
     pub aliases: &'static [&'static str],
     /// The runtime's type in `arl_rt::values`.
     pub rust: &'static str,
-    /// Whether there can be variables of it yet.
-    pub status: Status,
     /// What it is for.
     pub doc: &'static str,
     /// Section of the manual.

@@ -13,10 +13,12 @@ mod network;
 mod opening;
 mod settings;
 mod shared;
+mod slave;
 mod transfer;
 mod worker;
 
 pub mod melsec;
+pub mod modbus_rtu;
 pub mod serial;
 pub mod socket;
 

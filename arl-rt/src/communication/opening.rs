@@ -10,6 +10,7 @@ use mio::{Events, Interest, Poll};
 
 use super::line::LineSettings;
 use super::shared::Shared;
+use super::slave::SlaveSettings;
 use super::worker::{STREAM, is_closing, wait};
 
 /// How long one attempt to reach an address may take. A host that was switched off while it was tried is found sooner
@@ -35,6 +36,8 @@ pub(crate) enum Opening {
     },
     /// A serial line.
     Line(LineSettings),
+    /// A serial line on which we are a Modbus slave.
+    Slave(SlaveSettings),
 }
 
 impl Opening {
@@ -55,6 +58,7 @@ impl fmt::Display for Opening {
             Opening::Connect { host, port } => write!(f, "to {host}:{port}"),
             Opening::Accept { host, port } => write!(f, "on {host}:{port}"),
             Opening::Line(settings) => write!(f, "{settings}"),
+            Opening::Slave(settings) => write!(f, "{}", settings.line),
         }
     }
 }

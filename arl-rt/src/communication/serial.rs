@@ -36,7 +36,13 @@ pub async fn open(
     dev.0.open(cx, "open", Opening::Line(settings)).await
 }
 
-fn settings(device: String, baud_rate: i32, size: i32, stop: Stopbits, parity: Parity) -> Result<LineSettings, Fault> {
+pub(super) fn settings(
+    device: String,
+    baud_rate: i32,
+    size: i32,
+    stop: Stopbits,
+    parity: Parity,
+) -> Result<LineSettings, Fault> {
     let wrong = |problem: String| Fault::Domain { function: "open", problem: problem.into() };
     if !BAUD_RATES.contains(&baud_rate) {
         let known: Vec<String> = BAUD_RATES.iter().map(i32::to_string).collect();

@@ -11,6 +11,7 @@ use super::line;
 use super::link::LinkState;
 use super::opening::{self, Opening};
 use super::shared::Shared;
+use super::slave;
 
 /// What wakes the thread: the cycle, or the stream.
 pub(super) const WAKE: Token = Token(0);
@@ -50,6 +51,7 @@ pub(super) fn serve(shared: &Shared, mut poll: Poll, opening: &Opening) {
             run(shared, &mut poll, opening, |poll| opening::accept(shared, poll, host, *port))
         }
         Opening::Line(settings) => run(shared, &mut poll, opening, |poll| line::open(poll, settings)),
+        Opening::Slave(settings) => slave::serve(shared, &mut poll, settings),
     };
     let mut common = shared.lock();
     common.state = state;
@@ -165,7 +167,7 @@ fn part<S: Stream>(poll: &mut Poll, events: &mut Events, stream: &mut S, piece: 
 }
 
 /// The result of a call that does not wait; nothing where the stream is not ready.
-fn attempt(mut call: impl FnMut() -> io::Result<usize>) -> io::Result<Option<usize>> {
+pub(super) fn attempt(mut call: impl FnMut() -> io::Result<usize>) -> io::Result<Option<usize>> {
     loop {
         match call() {
             Ok(count) => return Ok(Some(count)),

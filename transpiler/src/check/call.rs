@@ -8,7 +8,7 @@ use crate::diagnostics::names::NameProblem;
 use crate::diagnostics::support::SupportProblem;
 use crate::hir::{Bound, Builtin, Expr, ExprKind, FuncId, Passed, Type, Value};
 use arl_lang::ast;
-use arl_lang::catalog::{self, Base, Entry, Family, ParamType, Presence, Status};
+use arl_lang::catalog::{self, Base, Entry, Family, ParamType, Presence};
 use arl_lang::span::Span;
 use arl_lang::symbol::Symbol;
 
@@ -111,7 +111,7 @@ impl Checker<'_> {
         self.builtin(body, entry, args, call.name.span, span)
     }
 
-    /// The finished use of a built-in; refuses what does not run yet.
+    /// The finished use of a built-in; refuses what a background channel cannot do.
     pub(crate) fn builtin(
         &mut self,
         body: &Body,
@@ -120,9 +120,6 @@ impl Checker<'_> {
         name: Span,
         span: Span,
     ) -> Option<Expr> {
-        if entry.status == Status::NotYet {
-            return self.report(body, name, SupportProblem::NotYet { name: entry.name.into() });
-        }
         if self.options.background && !entry.background {
             return self.report(body, name, SupportProblem::Background { name: entry.name.into() });
         }

@@ -6,11 +6,10 @@ use super::statements::near_instruction;
 use crate::diagnostics::flow::FlowProblem;
 use crate::diagnostics::modules::ModuleProblem;
 use crate::diagnostics::names::{NameProblem, is_instruction_of_others, is_type_of_others};
-use crate::diagnostics::support::SupportProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{self, Expr, ExprKind, FuncId, GlobalId, LocalId, MAX_DIMS, ModuleId, Stmt, StmtKind, Type, Value};
 use arl_lang::ast;
-use arl_lang::catalog::{self, Base, Status};
+use arl_lang::catalog::{self, Base};
 use arl_lang::span::Span;
 use arl_lang::symbol::Symbol;
 
@@ -169,12 +168,6 @@ impl<'a> Checker<'a> {
             let name_text = self.base_name(base).to_string();
             let problem = TypeProblem::OtherFamily { name: name_text, family: family_name(only) };
             return self.report(body, name.span, problem);
-        }
-        if let Base::Handle(id) = base
-            && id.def().status == Status::NotYet
-        {
-            let name_text = self.base_name(base).to_string();
-            return self.report(body, name.span, SupportProblem::NotYet { name: name_text });
         }
         let declared = self.base_name(base);
         self.strict_case(body, name.span, declared);

@@ -4,11 +4,10 @@ use super::context::{Body, Checker};
 use super::convert::Typed;
 use crate::diagnostics::constants::ConstantProblem;
 use crate::diagnostics::names::NameProblem;
-use crate::diagnostics::support::SupportProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Expr, ExprKind, ModuleId, Place, Projection, Root, Type, Value};
 use arl_lang::ast;
-use arl_lang::catalog::{Access, Base, Status, Struct};
+use arl_lang::catalog::{Access, Base, Struct};
 use arl_lang::span::Span;
 
 const INT: Type = Type::scalar(Base::Int);
@@ -57,10 +56,6 @@ impl Checker<'_> {
             return self.report(body, span, NameProblem::UnknownSystem { name, near });
         };
         self.strict_case(body, Span::new(span.start + 1, span.end), variable.name);
-        if variable.status == Status::NotYet {
-            let name = format!("${}", variable.name);
-            return self.report(body, span, SupportProblem::NotYet { name });
-        }
         let ty = Type::array(variable.ty, variable.dims)?;
         Some(PlaceOrValue::Place(Place { root: Root::System(variable), path: Vec::new(), ty, span }))
     }

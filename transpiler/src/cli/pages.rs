@@ -133,7 +133,6 @@ pub(super) static PAGES: &[(&str, &str)] = pages! {
     "ARL0604"
     "ARL0605"
     "ARL0606"
-    "ARL0701"
     "ARL0702"
     "ARL0703"
     "ARL0704"

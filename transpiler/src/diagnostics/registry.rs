@@ -94,7 +94,6 @@ static CODES: &[CodeInfo] = &[
     error(604, "A file name that cannot name a module"),
     error(605, "Two modules of one name"),
     error(606, "A function in a data file"),
-    error(701, "Something that is not supported yet"),
     error(702, "Something for the other kind of robot"),
     error(703, "Something that arl2rs cannot make sense of"),
     error(704, "Something that needs a robot, in the background"),

@@ -1,12 +1,10 @@
-//! What is known but does not run yet, or not on this robot.
+//! What is known but does not run on this robot, or in the background.
 
 use super::{Code, Problem};
 
 /// What is not supported.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum SupportProblem {
-    /// Declared in the catalog, does not run yet.
-    NotYet { name: String },
     /// Something that the checker gave up on without a reason: a mistake of the compiler.
     Lost,
     /// Exists for the other robot family only.
@@ -18,7 +16,6 @@ pub(crate) enum SupportProblem {
 impl Problem for SupportProblem {
     fn code(&self) -> Code {
         Code(match self {
-            SupportProblem::NotYet { .. } => 701,
             SupportProblem::OtherFamily { .. } => 702,
             SupportProblem::Lost => 703,
             SupportProblem::Background { .. } => 704,
@@ -27,7 +24,6 @@ impl Problem for SupportProblem {
 
     fn message(&self) -> String {
         match self {
-            SupportProblem::NotYet { name } => format!("`{name}` is not supported yet"),
             SupportProblem::Lost => "arl2rs could not make sense of this, and cannot say why".into(),
             SupportProblem::Background { name } => {
                 format!("`{name}` needs a robot, which a background channel does not have")
@@ -42,9 +38,6 @@ impl Problem for SupportProblem {
 
     fn help(&self) -> Option<String> {
         match self {
-            SupportProblem::NotYet { .. } => {
-                Some("it is known and checked, but a program that uses it cannot be run by this version".into())
-            }
             SupportProblem::Lost => Some(
                 "this is a mistake of arl2rs, not of the program: please report it together with the program".into(),
             ),

@@ -2,12 +2,27 @@
 
 pub(crate) mod mbap;
 pub(crate) mod pdu;
+pub(crate) mod rtu;
 pub(crate) mod server;
 mod tables;
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
 pub(crate) use tables::{SIZE, Tables};
+
+impl PartialEq for SharedTables {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl Eq for SharedTables {}
+
+impl std::fmt::Debug for SharedTables {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("SharedTables").finish_non_exhaustive()
+    }
+}
 
 /// How often the cycle looks again whether the tables are free. Whoever has them copies some hundred bytes.
 const LOOKS: usize = 1000;

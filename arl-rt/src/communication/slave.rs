@@ -1,0 +1,134 @@
+//! The thread of a Modbus RTU slave: it answers by itself, so that the master need not wait for the cycle.
+
+use std::fmt;
+use std::io::{Error, ErrorKind};
+use std::time::{Duration, Instant};
+
+use mio::{Events, Poll};
+
+use super::line::{self, LineSettings};
+use super::link::LinkState;
+use super::shared::Shared;
+use super::worker::{Stream, attempt, is_closing, wait};
+use crate::fieldbus::modbus::SharedTables;
+use crate::fieldbus::modbus::pdu::{self, Answer};
+use crate::fieldbus::modbus::rtu::{self, Heard, LONGEST_FRAME, Request};
+use crate::values::{Parity, Stopbits};
+
+/// How long the rest of a request may take. Adapters hand over what they got in pieces, so that 3.5 characters between two
+/// pieces do not mean that a request is over.
+const REST: Duration = Duration::from_millis(50);
+
+/// How long the line may take for an answer, at the lowest speed twice over.
+const SENDING: Duration = Duration::from_secs(2);
+
+/// What a slave is.
+#[derive(Clone, PartialEq, Eq)]
+pub(crate) struct SlaveSettings {
+    pub(crate) line: LineSettings,
+    /// Its station number.
+    pub(crate) unit: u8,
+    pub(crate) tables: SharedTables,
+}
+
+impl fmt::Debug for SlaveSettings {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SlaveSettings").field("line", &self.line).field("unit", &self.unit).finish_non_exhaustive()
+    }
+}
+
+impl SlaveSettings {
+    /// The silence that ends a request: 3.5 characters, 1.75 ms at least.
+    fn silence(&self) -> Duration {
+        let line = &self.line;
+        let extra = u8::from(line.parity != Parity::None) + if line.stop == Stopbits::Two { 2 } else { 1 };
+        let bits = f64::from(1 + line.bits + extra);
+        Duration::from_secs_f64(3.5 * bits / f64::from(line.baud)).max(Duration::from_micros(1750))
+    }
+}
+
+/// Opens the line and serves it; the state that is left.
+pub(super) fn serve(shared: &Shared, poll: &mut Poll, settings: &SlaveSettings) -> LinkState {
+    let mut stream = match line::open(poll, &settings.line) {
+        Ok(Some(stream)) => stream,
+        Ok(None) => return LinkState::Failed("closed by the program".into()),
+        Err(error) => return LinkState::Failed(error.to_string()),
+    };
+    shared.lock().opened(true);
+    LinkState::Lost(match exchange(shared, poll, &mut stream, settings) {
+        Ok(()) => "closed by the program".into(),
+        Err(error) => error.to_string(),
+    })
+}
+
+fn exchange(
+    shared: &Shared,
+    poll: &mut Poll,
+    stream: &mut impl Stream,
+    settings: &SlaveSettings,
+) -> std::io::Result<()> {
+    let mut events = Events::with_capacity(4);
+    let mut heard = Heard::default();
+    let mut last = Instant::now();
+    let mut piece = [0; LONGEST_FRAME];
+    while !is_closing(shared) {
+        match attempt(|| stream.read(&mut piece))? {
+            Some(0) => return Err(Error::new(ErrorKind::UnexpectedEof, "the line is gone")),
+            Some(count) => {
+                heard.hear(piece.get(..count).unwrap_or_default(), last.elapsed() >= settings.silence());
+                last = Instant::now();
+                continue;
+            }
+            None => {}
+        }
+        let silent = last.elapsed();
+        if !heard.is_empty() && silent >= settings.silence() {
+            while let Some(request) = heard.take() {
+                answer(shared, poll, stream, settings, &request)?;
+            }
+            if silent >= REST {
+                heard.clear();
+            }
+        }
+        let patience = if last.elapsed() < settings.silence() { settings.silence() } else { REST };
+        let deadline = (!heard.is_empty()).then(|| last + patience);
+        wait(poll, &mut events, deadline)?;
+    }
+    Ok(())
+}
+
+/// Does what a request asks, and answers it; nothing where it is for another slave.
+fn answer(
+    shared: &Shared,
+    poll: &mut Poll,
+    stream: &mut impl Stream,
+    settings: &SlaveSettings,
+    request: &Request,
+) -> std::io::Result<()> {
+    if request.unit != settings.unit && request.unit != BROADCAST {
+        return Ok(());
+    }
+    let mut answer = Answer::new();
+    pdu::serve(&request.pdu, &mut settings.tables.wait(), &mut answer);
+    match request.unit {
+        BROADCAST => Ok(()),
+        unit => send(shared, poll, stream, &rtu::frame(unit, answer.bytes())),
+    }
+}
+
+/// For every slave; nobody answers.
+const BROADCAST: u8 = 0;
+
+/// Sends an answer; a line that does not take it loses it.
+fn send(shared: &Shared, poll: &mut Poll, stream: &mut impl Stream, bytes: &[u8]) -> std::io::Result<()> {
+    let mut events = Events::with_capacity(4);
+    let deadline = Instant::now() + SENDING;
+    let mut sent = 0;
+    while sent < bytes.len() && Instant::now() < deadline && !is_closing(shared) {
+        match attempt(|| stream.write(bytes.get(sent..).unwrap_or_default()))? {
+            Some(count) => sent += count,
+            None => wait(poll, &mut events, Some(deadline))?,
+        }
+    }
+    Ok(())
+}
