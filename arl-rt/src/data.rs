@@ -27,7 +27,14 @@ fn file(data: &DataFile<'_>, script_dir: &Path) -> Vec<Alarm> {
         Ok(content) => content,
         Err(error) => return vec![alarm(0, format!("{} cannot be read: {error}", path.display()))],
     };
-    let text = match arl_lang::text::decode(&content) {
+    teach_file(data, &content)
+}
+
+/// Gives the variables of a data file the values that stand in `content`. What is wrong comes back as alarms; variables that
+/// it concerns stay as they were.
+pub fn teach_file(data: &DataFile<'_>, content: &[u8]) -> Vec<Alarm> {
+    let alarm = |line: u32, text: String| Alarm::new(Fault::Data(text.into()), File::new(data.file), line);
+    let text = match arl_lang::text::decode(content) {
         Ok(text) => text,
         Err(error) => return vec![alarm(0, error.to_string())],
     };

@@ -23,6 +23,8 @@ pub mod fieldbus;
 pub mod files;
 pub mod flow;
 pub mod frames;
+#[cfg(feature = "fuzzing")]
+pub mod fuzzing;
 pub mod io;
 mod json;
 mod keep;

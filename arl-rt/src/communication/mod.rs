@@ -25,6 +25,8 @@ pub mod socket;
 pub(crate) use connections::Connections;
 pub use network::{NetworkDriver, PortSettings};
 pub use settings::{Listen, NetworkSettings};
+#[cfg(feature = "fuzzing")]
+pub(crate) use {inbox::Inbox, melsec::answer_size as melsec_answer};
 
 /// How many different things a connection may tell the user, so that it never fills the memory.
 const MOST_TOLD: usize = 100;

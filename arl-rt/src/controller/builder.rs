@@ -294,7 +294,8 @@ impl Builder {
             others.push(site.background(number, index, program));
         }
         let channels = Channels::new(first, others);
-        Ok(Controller { world, channels, unit, clock: self.clock, io: self.io, scenario, external })
+        let deeds = Vec::with_capacity(scenario.most_deeds());
+        Ok(Controller { world, channels, unit, clock: self.clock, io: self.io, scenario, deeds, external })
     }
 }
 

@@ -93,6 +93,8 @@ pub struct Controller {
     clock: Box<dyn Clock>,
     io: Box<dyn IoDriver>,
     scenario: Playing,
+    /// What a scenario does in this cycle, inputs aside; empty between cycles, with room for all that can come at once.
+    deeds: Vec<Deed>,
     external: External,
 }
 
@@ -105,16 +107,17 @@ impl Controller {
     /// Runs one cycle.
     pub fn step(&mut self) -> State {
         let world = &self.world;
-        let mut deeds = Vec::new();
         let (cycle, rate) = (world.now.get(), world.rate);
         self.clock.wait_for(cycle, rate.period());
         {
             let mut image = world.io.borrow_mut();
             self.io.read(image.inputs_mut());
             image.end_pulses_of(cycle);
-            self.scenario.play(cycle, &mut image, |deed| deeds.push(deed));
+            self.scenario.play(cycle, &mut image, |deed| self.deeds.push(deed));
         }
-        deeds.into_iter().for_each(|deed| act(&mut self.channels, deed));
+        for deed in self.deeds.drain(..) {
+            act(&mut self.channels, deed);
+        }
         self.listen();
         self.channels.each(Channel::look);
         self.channels.each(Channel::poll);

@@ -446,6 +446,12 @@ impl Playing {
         Self { events, rate, due, before_in: image.inputs().clone(), before_out: image.outputs().clone() }
     }
 
+    /// How many deeds a cycle may have at most, if no event comes twice in it.
+    pub(crate) fn most_deeds(&self) -> usize {
+        let actions = self.events.iter().flat_map(|event| &event.actions);
+        actions.filter(|action| matches!(action, Action::Deed(_))).count()
+    }
+
     /// Sets what is due at the start of `cycle`; hands everything but inputs to `do_it`.
     pub(crate) fn play(&mut self, cycle: u64, image: &mut Image, mut do_it: impl FnMut(Deed)) {
         if self.events.is_empty() {

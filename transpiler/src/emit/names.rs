@@ -108,7 +108,9 @@ impl Names {
         let modules = program
             .modules
             .iter()
-            .map(|module| distinct(&module.name, &mut used, |name| is_keyword(name) || OUTSIDE.contains(&name)))
+            .map(|module| {
+                distinct(&of_file(&module.name), &mut used, |name| is_keyword(name) || OUTSIDE.contains(&name))
+            })
             .collect();
         let mut functions_of = vec![HashSet::new(); program.modules.len()];
         let mut spare = HashSet::new();
@@ -168,6 +170,15 @@ impl Names {
     }
 }
 
+/// The name of a file, in which anything may stand, made fit for Rust.
+fn of_file(name: &str) -> String {
+    let fits = |text: &str| syn::parse_str::<Ident>(text).is_ok();
+    let inner = |c: char| !c.is_whitespace() && fits(&format!("a{c}"));
+    let text: String = name.chars().map(|c| if inner(c) { c } else { '_' }).collect();
+    let begins = text.chars().next().is_some_and(|first| first == '_' || fits(&format!("{first}_")));
+    if begins { text } else { format!("file_{text}") }
+}
+
 fn distinct(name: &str, used: &mut HashSet<String>, taken: impl Fn(&str) -> bool) -> Ident {
     let found = tidy(name, &|name| taken(name) || used.contains(name));
     used.insert(found.clone());
@@ -184,6 +195,21 @@ mod tests {
 
     fn local(name: &str) -> String {
         tidy(name, &|name| is_keyword(name) || is_taken_value(name))
+    }
+
+    #[test]
+    fn files_may_have_any_name() {
+        let names = [
+            ("pick", "pick"),
+            ("my-part 2", "my_part_2"),
+            ("1x", "file_1x"),
+            ("程序", "程序"),
+            ("loop", "loop"),
+            ("", "file_"),
+        ];
+        for (file, name) in names {
+            assert_eq!(of_file(file), name);
+        }
     }
 
     #[test]

@@ -202,3 +202,15 @@ fn range(function: &'static str, start: i32, len: i32, room: usize) -> Result<(u
         _ => Err(wrong(format!("D{start} to D{last}: D0 to D{LAST_REGISTER} can be named"))),
     }
 }
+
+/// How many bytes the answer at the start of what has come takes, where it is whole.
+#[cfg(feature = "fuzzing")]
+pub(crate) fn answer_size(bytes: &[u8]) -> Option<usize> {
+    match frame::first(bytes) {
+        frame::Start::Answer { size, data, .. } => {
+            assert!(data.len() < size);
+            Some(size)
+        }
+        _ => None,
+    }
+}

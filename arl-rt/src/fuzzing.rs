@@ -1,0 +1,60 @@
+//! Doors for `fuzz/` to what reads bytes from outside and is no one else's business. Each panics where something is wrong.
+
+use crate::communication::{Inbox, melsec_answer};
+use crate::fieldbus::modbus::rtu::Heard;
+use crate::fieldbus::modbus::{Tables, mbap, pdu};
+
+/// What a client sends to the Modbus TCP server: each frame is served, its answer fits into a frame.
+pub fn modbus_tcp(mut bytes: &[u8]) {
+    let (mut tables, mut answer, mut out) = (Tables::default(), pdu::Answer::new(), Vec::new());
+    while let mbap::Start::Frame(frame, size) = mbap::first(bytes) {
+        assert!(size <= mbap::LONGEST_FRAME && !frame.pdu.is_empty());
+        pdu::serve(frame.pdu, &mut tables, &mut answer);
+        assert!((2..=pdu::LONGEST).contains(&answer.bytes().len()));
+        out.clear();
+        mbap::append(&mut out, &mbap::Frame { pdu: answer.bytes(), ..frame });
+        assert!(matches!(mbap::first(&out), mbap::Start::Frame(_, size) if size == out.len()));
+        bytes = bytes.get(size..).unwrap_or_default();
+    }
+}
+
+/// What comes over the line of a Modbus RTU slave, in pieces, some of them after a silence.
+pub fn modbus_rtu(pieces: &[(bool, &[u8])]) {
+    let (mut heard, mut tables, mut answer) = (Heard::default(), Tables::default(), pdu::Answer::new());
+    for (after_silence, piece) in pieces {
+        heard.hear(piece, *after_silence);
+        while let Some(request) = heard.take() {
+            pdu::serve(&request.pdu, &mut tables, &mut answer);
+            assert!((2..=pdu::LONGEST).contains(&answer.bytes().len()));
+        }
+    }
+}
+
+/// What a PLC answers over the MC protocol.
+pub fn melsec(mut bytes: &[u8]) {
+    while let Some(size) = melsec_answer(bytes) {
+        assert!(size > 0 && size <= bytes.len());
+        bytes = bytes.get(size..).unwrap_or_default();
+    }
+}
+
+/// What comes over a socket, in pieces, while a program reads up to a mark: what is taken, the marks and what is left are all
+/// that came.
+pub fn read_until(mark: &[u8], pieces: &[&[u8]]) {
+    if mark.is_empty() {
+        return;
+    }
+    let (mut inbox, mut came, mut taken) = (Inbox::default(), Vec::new(), Vec::new());
+    for piece in pieces {
+        inbox.push(piece);
+        came.extend_from_slice(piece);
+        while let Some(text) = inbox.take_until(mark) {
+            assert!(!text.windows(mark.len()).any(|window| window == mark));
+            taken.extend_from_slice(&text);
+            taken.extend_from_slice(mark);
+        }
+        assert!(!inbox.waiting().windows(mark.len()).any(|window| window == mark));
+    }
+    taken.extend_from_slice(inbox.waiting());
+    assert_eq!(taken, came);
+}
