@@ -13,7 +13,7 @@ use std::time::{Duration, Instant};
 
 use arl_rt::emit::*;
 use arl_rt::{Controller, Outcome};
-use common::{FILE, alarm, say};
+use common::{FILE, alarm, open, say};
 
 /// Descriptors and threads belong to the process: one test at a time.
 static ALONE: Mutex<()> = Mutex::new(());
@@ -27,7 +27,7 @@ where
     F: for<'a> Fn(&'a Cx) -> BoxFuture<'a> + 'static,
 {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-    let before = open();
+    let before = open::all();
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let port = i32::from(listener.local_addr().unwrap().port());
     let peer = std::thread::spawn(move || peer(listener));
@@ -37,24 +37,8 @@ where
     let place = controller.place();
     drop(controller);
     peer.join().unwrap();
-    let start = Instant::now();
-    while open() != before && start.elapsed() < Duration::from_secs(5) {
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    assert_eq!(open(), before, "descriptors and threads are left");
+    open::wait_for(before);
     (outcome.unwrap_or_else(|| panic!("still running: {place:?}")), messages.text())
-}
-
-/// Sockets and polls that are open, and threads of connections.
-fn open() -> (usize, usize) {
-    let links = std::fs::read_dir("/proc/self/fd").unwrap().filter_map(|entry| entry.unwrap().path().read_link().ok());
-    let is_ours = |link: &std::path::PathBuf| {
-        let text = link.to_string_lossy().into_owned();
-        text.starts_with("socket:") || text.starts_with("anon_inode:")
-    };
-    let names = std::fs::read_dir("/proc/self/task").unwrap();
-    let names = names.filter_map(|entry| std::fs::read_to_string(entry.unwrap().path().join("comm")).ok());
-    (links.filter(is_ours).count(), names.filter(|name| name.trim() == "connection").count())
 }
 
 /// `waituntil connect(s,"127.0.0.1",port)`

@@ -2,6 +2,9 @@
 #![allow(dead_code, unreachable_pub, reason = "each test file uses its part")]
 #![allow(clippy::unwrap_used, clippy::panic, reason = "these are tests, too")]
 
+#[cfg(target_os = "linux")]
+pub mod open;
+
 use arl_rt::emit::*;
 use arl_rt::{Builder, Captured, Controller, Outcome};
 
