@@ -1,5 +1,6 @@
 //! Modbus and the MC protocol with other people's clients and servers.
 
+use std::path::Path;
 use std::process::Command;
 
 use crate::peer::{self, Server};
@@ -41,9 +42,11 @@ fn mbpoll_reads_and_writes_registers_and_coils() {
 
 /// A pair of pseudo terminals that are connected, by their paths.
 fn lines(name: &str) -> (Server, [String; 2]) {
-    let folder = std::env::temp_dir();
-    let path = |end: &str| folder.join(format!("arl-{name}-{}-{end}", std::process::id())).display().to_string();
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let path = |end: &str| folder.join(format!("{name}-{}-{end}", std::process::id())).display().to_string();
     let paths = [path("a"), path("b")];
+    // A socat that was killed leaves its links.
+    paths.iter().for_each(|path| drop(std::fs::remove_file(path)));
     let pty = |path: &String| format!("pty,raw,echo=0,link={path}");
     let mut socat = Command::new("socat");
     let server = Server::spawn(socat.args([pty(&paths[0]), pty(&paths[1])]));
@@ -71,6 +74,22 @@ fn a_master_on_a_serial_line_reads_and_writes_registers() {
     run(Command::new(python).arg(peer::script("modbus_master.py")).args(["rtu", &theirs]));
     let end = robot.end();
     assert_eq!((end.out.as_str(), end.code), ("abcd\n6162h 6364h\n{00h,00h}\n", Some(0)), "{}", end.said);
+}
+
+#[test]
+fn a_slave_keeps_silent_on_a_bad_line_and_tells_when_it_is_lost() {
+    let Some(python) = peer::python(&["serial"]) else { return };
+    if !peer::command("socat") {
+        return;
+    }
+    let (socat, [ours, theirs]) = lines("noise");
+    let mut robot = Robot::start("modbus_rtu_lost", &format!("[serial]\nrtserMB0 = \"{ours}\"\n"));
+    assert_eq!(robot.first_line(), "open: true");
+    run(Command::new(python).arg(peer::script("rtu_noise.py")).arg(&theirs));
+    drop(socat);
+    let end = robot.end();
+    assert_eq!((end.out.as_str(), end.code), ("", Some(3)), "{}", end.said);
+    assert!(end.said.contains("alarm 20050: read: the line is lost: "), "{}", end.said);
 }
 
 /// The server of the tests' own, which other people's clients have looked at.
