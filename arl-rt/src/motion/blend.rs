@@ -261,9 +261,13 @@ impl Corner<'_> {
             let known = bounds.rows.len();
             let derivatives = place.rates([1, 2, 3].map(|order| curve.derivative(order, place.at)));
             bounds.all_axes(&derivatives, pace);
+            let [first, ..] = &derivatives;
             if pace.manual {
-                let [first, ..] = &derivatives;
                 bounds.manual_place(&joints, first, &self.to.rig.carried);
+            }
+            // Between two motions of the same TCP it is as fast as programmed at most, though it goes by the axes.
+            if pace.tcp.is_finite() && self.from.rig.carried == self.to.rig.carried {
+                bounds.cap_place(&joints, first, &self.to.rig.carried, pace.tcp);
             }
             if gentle {
                 bounds.join(known);

@@ -7,6 +7,7 @@ use super::curve::{Curve, ToolCurve};
 use super::joints::{ALL, Joints};
 use super::limits::Bound;
 use super::profile::Limits;
+use super::progress::Progress;
 use crate::frames::Carried;
 use crate::kinematics::Axes;
 use crate::robot::{EXTERNAL_AXES, Robot};
@@ -15,8 +16,10 @@ use crate::robot::{EXTERNAL_AXES, Robot};
 pub(super) const MANUAL_SPEED: f64 = 250.0;
 /// Between the places where a way is surveyed, derivatives are a little larger than at them.
 const BETWEEN_SAMPLES: f64 = 1.005;
-/// Places at which a curved way of the TCP is looked at.
+/// Places at which a curved way of the TCP is looked at; and of each part of one whose pace is made of parts: there the way may
+/// turn within a small part of its time.
 const PLACES: u32 = 24;
+const PLACES_OF_PART: u32 = 6;
 
 /// How fast a motion may go, and how hard it may accelerate.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -236,20 +239,27 @@ impl<'a> Bounds<'a> {
     /// The speed of the TCP in manual operation, at a place where all axes change by `rates`; of the flange, too, where the
     /// tool stands.
     pub(super) fn manual_place(&mut self, joints: &Joints, rates: &[f64; ALL], carried: &Carried) {
-        let kinematics = &self.robot.kinematics;
-        let flange = kinematics.forward(&joints.axes);
-        let rates = Joints::of(rates).axes;
-        let mut point = |place: Vector3<f64>| {
-            let speed = kinematics.point_velocity(&joints.axes, &rates, &place).norm() * BETWEEN_SAMPLES;
-            self.push(Bound::even(speed, MANUAL_SPEED, f64::INFINITY, f64::INFINITY));
-        };
-        match carried {
-            Carried::Tool(tool) => point((flange * tool).translation.vector),
-            Carried::Workpiece(tool) => {
-                point(tool.translation.vector);
-                point(flange.translation.vector);
-            }
+        self.cap_place(joints, rates, carried, MANUAL_SPEED);
+        if let Carried::Workpiece(_) = carried {
+            let flange = self.robot.kinematics.forward(&joints.axes).translation.vector;
+            self.cap_point(joints, rates, &flange, MANUAL_SPEED);
         }
+    }
+
+    /// A speed of the TCP in mm/s that must not be passed, at a place where all axes change by `rates`.
+    pub(super) fn cap_place(&mut self, joints: &Joints, rates: &[f64; ALL], carried: &Carried, vel: f64) {
+        let place = match carried {
+            Carried::Tool(tool) => (self.robot.kinematics.forward(&joints.axes) * tool).translation.vector,
+            Carried::Workpiece(tool) => tool.translation.vector,
+        };
+        self.cap_point(joints, rates, &place, vel);
+    }
+
+    /// The same for a point, given in the base in mm, that the robot carries.
+    fn cap_point(&mut self, joints: &Joints, rates: &[f64; ALL], place: &Vector3<f64>, vel: f64) {
+        let rates = Joints::of(rates).axes;
+        let speed = self.robot.kinematics.point_velocity(&joints.axes, &rates, place).norm() * BETWEEN_SAMPLES;
+        self.push(Bound::even(speed, vel, f64::INFINITY, f64::INFINITY));
     }
 
     /// The speed of the flange in manual operation at a place of a way whose parameter changes by `rate`, where the tool
@@ -265,8 +275,8 @@ impl<'a> Bounds<'a> {
 
 /// Where to look at a way: once where it is even.
 fn places(curve: &ToolCurve) -> impl Iterator<Item = f64> + use<> {
-    let even = curve.is_even();
-    (0..=if even { 0 } else { PLACES }).map(move |place| f64::from(place) / f64::from(PLACES))
+    let count = if curve.is_paced() { PLACES_OF_PART * Progress::PARTS as u32 } else { PLACES };
+    (0..=if curve.is_even() { 0 } else { count }).map(move |place| f64::from(place) / f64::from(count))
 }
 
 /// A value with these derivatives, between whose places it changes a little more.

@@ -153,6 +153,11 @@ impl ToolCurve {
         even && self.turning.is_even() && self.over.is_none()
     }
 
+    /// Whether the parameter's pace is made of parts, between which third derivatives jump.
+    pub(super) fn is_paced(&self) -> bool {
+        matches!(&self.track, Track::Poly(way) if way.is_paced())
+    }
+
     /// The orientation at `at`.
     pub(super) fn rotation(&self, at: f64) -> UnitQuaternion<f64> {
         let plain = self.plain_rotation(at);
@@ -281,7 +286,7 @@ impl Curve {
 
     /// Whether the parameter's pace is made of parts, between which third derivatives jump.
     pub(super) fn is_paced(&self) -> bool {
-        matches!(self, Curve::Tool(ToolCurve { track: Track::Poly(way), .. }) if way.is_paced())
+        matches!(self, Curve::Tool(curve) if curve.is_paced())
     }
 
     /// All axes evenly from start to end.

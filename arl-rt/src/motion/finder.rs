@@ -22,6 +22,9 @@ const AHEAD: f64 = 1.5;
 /// A law is looked at every so many s, and may use so much of the limits.
 const SAMPLE: f64 = 0.001;
 const MOST_USED: f64 = 1.008;
+/// Parts of the way, and how many times as many places on it, with which a law is looked for until one keeps the limits: where
+/// they change much between the places, closer ones are needed.
+const TRIES: [(f64, f64); 4] = [(1.0, 1.0), (1.0, 2.0), (0.4, 2.0), (0.15, 3.0)];
 /// A speed below zero, in s of nominal time per s, that is rounding.
 const BACKWARDS: f64 = 1e-9;
 
@@ -149,10 +152,13 @@ fn find(scout: &Scout, start: Edge, wanted: impl Fn() -> bool) -> Option<Found> 
     let mut found = None;
     while wanted() {
         let to = if scout.at + 1.2 * window < stop { scout.at + window } else { stop };
-        let Some(Prospect { way, end }) = scout.look(to, start, Edge::REST) else { return found };
-        // Close to rest, from a state that moves, the limits between the places are not certain.
-        let law = fastest(&way, start, Edge::REST).ok().filter(|law| keeps(&way, law, 1.0, f64::min));
-        let Some(law) = law else { return found };
+        let attempt = |(share, density): &(f64, f64)| {
+            let Prospect { way, end } = scout.look(scout.at + share * (to - scout.at), *density, start, Edge::REST)?;
+            // Close to rest, from a state that moves, the limits between the places are not certain.
+            let law = fastest(&way, start, Edge::REST).ok().filter(|law| keeps(&way, law, 1.0, f64::min))?;
+            Some((way, end, law))
+        };
+        let Some((way, end, law)) = TRIES.iter().take_while(|_| wanted()).find_map(attempt) else { return found };
         let ahead = law.duration();
         let stops = scout.stops && end >= stop;
         found = Some(Found { law: Arc::new(law), plot: Arc::new(Plot::new(way)), end, stops });

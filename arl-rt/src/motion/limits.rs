@@ -34,11 +34,16 @@ impl Bound {
 const SPEED_SHARES: [f64; 9] = [1.0, 0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3];
 const ACC_SHARES: [f64; 5] = [1.0, 0.9, 0.75, 0.6, 0.4];
 
+/// The highest speed at which no bound is broken, where there is no acceleration.
+pub(super) fn highest_speed(bounds: &[Bound]) -> f64 {
+    lowest(bounds.iter().flat_map(|bound| {
+        [bound.vel / bound.first, (bound.acc / bound.second).sqrt(), (bound.jerk / bound.third).cbrt()]
+    }))
+}
+
 /// Limits under which the way from 0 to 1 is done soon and no bound is broken, whatever moves within them.
 pub(super) fn quickest(bounds: &[Bound]) -> Limits {
-    let vel = lowest(bounds.iter().flat_map(|bound| {
-        [bound.vel / bound.first, (bound.acc / bound.second).sqrt(), (bound.jerk / bound.third).cbrt()]
-    }));
+    let vel = highest_speed(bounds);
     if let Some(limits) = hardly_curved(bounds, vel) {
         return limits;
     }
@@ -104,9 +109,7 @@ const LEFT_OVER: f64 = 0.08;
 
 /// Limits for passing through without stopping, no faster than `fastest`, under which no bound is broken.
 pub(super) fn passing(bounds: &[Bound], fastest: f64) -> Limits {
-    let vel = lowest(bounds.iter().flat_map(|bound| {
-        [bound.vel / bound.first, (bound.acc / bound.second).sqrt(), (bound.jerk / bound.third).cbrt()]
-    }));
+    let vel = highest_speed(bounds);
     let acc_at = |vel: f64| lowest(bounds.iter().map(|bound| (bound.acc - bound.second * vel * vel) / bound.first));
     let jerk_at =
         |vel: f64, acc: f64| {

@@ -200,8 +200,14 @@ impl Piece {
         let rates = place.rates(self.curve.rates(&robot.kinematics, place.at, joints)?);
         bounds.all_axes(&rates, pace);
         match &self.curve {
-            Curve::Axes(_) if pace.manual => bounds.manual_place(joints, &rates[0], &self.rig.carried),
-            Curve::Axes(_) => {}
+            Curve::Axes(_) => {
+                if pace.manual {
+                    bounds.manual_place(joints, &rates[0], &self.rig.carried);
+                }
+                if pace.tcp.is_finite() {
+                    bounds.cap_place(joints, &rates[0], &self.rig.carried, pace.tcp);
+                }
+            }
             Curve::Tool(curve) => {
                 let moving = place.vectors([1, 2, 3].map(|order| curve.track.derivative(order, place.at)));
                 bounds.moving(&moving, pace);

@@ -8,7 +8,7 @@ use super::command::{Command, Settings, Target, Zone};
 use super::curve::{Curve, ToolCurve, Track};
 use super::error::PlanError;
 use super::joints::{Joints, is_unset};
-use super::limits::{passing, quickest};
+use super::limits::{highest_speed, passing, quickest};
 use super::overlay::{Beginning, Laid, Led, lay};
 use super::profile::Limits;
 use super::quintic::Quintic;
@@ -538,13 +538,19 @@ impl Planner<'_> {
                 })
             }
         };
+        // Where one motion leaves something of its speed for its own ramps, and its neighbour does not, the way through both
+        // is still an even one.
+        let rate = match limits {
+            Some(_) if self.command.duration.is_none() => highest_speed(&bounds.rows),
+            limits => limits.map_or(1.0, |limits| limits.vel),
+        };
         Ok(Motion {
             curve: curve.clone(),
             start: *self.start,
             end,
             rig: self.command.rig,
             limits,
-            rate: limits.map_or(1.0, |limits| limits.vel),
+            rate,
             flows: false,
             pace,
             profile: self.settings.profile,

@@ -83,11 +83,11 @@ impl Scout {
         scout
     }
 
-    /// The way to `to`.
-    pub(super) fn look(&self, to: f64, start: Edge, end: Edge) -> Option<Prospect> {
+    /// The way to `to`, with `density` times as many places as it takes mostly.
+    pub(super) fn look(&self, to: f64, density: f64, start: Edge, end: Edge) -> Option<Prospect> {
         let mut to = to;
         for _ in 0..ATTEMPTS {
-            match self.walk(to, start, end) {
+            match self.walk(to, density, start, end) {
                 Ok(way) => return Some(Prospect { way, end: to }),
                 Err(reached) => to = self.at + 0.8 * (reached - self.at),
             }
@@ -96,8 +96,8 @@ impl Scout {
     }
 
     /// The way, or how far it got with as many places as there may be.
-    fn walk(&self, to: f64, start: Edge, end: Edge) -> Result<Way, f64> {
-        let count = ((to - self.at) / SPACING).clamp(FEWEST, MOST_EVEN) as usize;
+    fn walk(&self, to: f64, density: f64, start: Edge, end: Edge) -> Result<Way, f64> {
+        let count = (density * ((to - self.at) / SPACING).clamp(FEWEST, MOST_EVEN)) as usize;
         let spacing = (to - self.at) / count as f64;
         let mut stations: Vec<(f64, bool)> =
             places(self.at, to, count, start, end).into_iter().map(|at| (at, true)).collect();

@@ -80,6 +80,12 @@ pub(in crate::motion) fn lay(
     if weave.is_none() && compensation.is_none() {
         return Ok(plain);
     }
+    // The time of a figure is counted at the speed that is reached.
+    let mut plain = plain.clone();
+    if let Some(limits) = plain.limits.filter(|_| !curve.is_paced()) {
+        plain.rate = limits.vel;
+    }
+    let Curve::Tool(curve) = &plain.curve else { return Ok(plain) };
     let seconds = if plain.limits.is_some() { 1.0 / plain.rate } else { 0.0 };
     let directed = weave.is_some() || compensation.is_some_and(|compensation| compensation.follows_path());
     let frame = if directed { PathFrame::along(curve)? } else { None };

@@ -92,7 +92,7 @@ impl Account<'_> {
         let took = leg.rows.len() as f64 * CYCLE;
         tally.note("durations: s off", (took - wanted).abs());
         // A speed of velset may make it longer.
-        if took < wanted - 2.0 * CYCLE || (took > wanted + 2.0 * CYCLE && leg.motion.speeds.tcp == f64::INFINITY) {
+        if took < wanted - 2.5 * CYCLE || (took > wanted + 2.5 * CYCLE && leg.motion.speeds.tcp == f64::INFINITY) {
             faults.push(format!("line {}: it takes {took} s, {wanted} are programmed", leg.motion.line));
         }
     }
