@@ -10,10 +10,12 @@ targets=("$@")
 for target in "${targets[@]}"; do
     mkdir -p "corpus/$target"
     case $target in
-        program) cp ../tests/conformance/*/*.arl "corpus/$target/" ;;
-        data_file) cp ../tests/conformance/*/*_data.arl "corpus/$target/" 2>/dev/null || true ;;
-        scenario) cp ../tests/conformance/*/*.io.toml "corpus/$target/" ;;
-        cell) cp ../examples/*/cell*.toml "corpus/$target/" 2>/dev/null || true ;;
+        program) seeds=(../tests/conformance '*.arl') ;;
+        data_file) seeds=(../tests/conformance '*_data.arl') ;;
+        scenario) seeds=(../tests/conformance '*.io.toml') ;;
+        cell) seeds=(../examples 'cell*.toml') ;;
+        *) seeds=() ;;
     esac
+    [ ${#seeds[@]} -eq 0 ] || find "${seeds[0]}" -name "${seeds[1]}" -exec cp -f {} "corpus/$target/" \;
     cargo +nightly fuzz run "$target" -- -max_total_time="$seconds" -max_len=65536 -rss_limit_mb=4096 -timeout=30
 done
