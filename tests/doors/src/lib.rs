@@ -89,7 +89,9 @@ fn prepare(source: &Path, scratch: &Path) -> std::io::Result<()> {
     for entry in std::fs::read_dir(folder)? {
         let path = entry?.path();
         let ending = path.extension().unwrap_or_default().to_string_lossy().into_owned();
-        if path.is_file() && !["arl", "out", "err", "alarm", "toml"].contains(&ending.as_str()) {
+        // Programs write points into their data files.
+        let data = path.file_stem().is_some_and(|stem| stem.to_string_lossy().ends_with("_data"));
+        if path.is_file() && (data || !["arl", "out", "err", "alarm", "toml"].contains(&ending.as_str())) {
             std::fs::copy(&path, scratch.join(path.file_name().unwrap_or_default()))?;
         }
     }
