@@ -1,4 +1,4 @@
-//! A scenario, and an order, are read or refused with their place.
+//! A scenario is read or refused with its place.
 #![no_main]
 
 use arl_rt::io::Scenario;
