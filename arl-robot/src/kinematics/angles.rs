@@ -47,9 +47,15 @@ const RADIAN: f64 = 180.0 / std::f64::consts::PI;
 /// The tangent of 22.5 deg: up to it the polynomial serves, above it the angle to 45 deg is taken.
 const EIGHTH: f64 = 0.414_213_562_373_095_05;
 
+/// The powers are dealt out to `WAYS` (2 or 4) sums that do not wait for each other: the processor works at all at once.
 #[inline(always)]
-fn polynomial<const N: usize>(coefficients: &[f64; N], at: f64) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * at + coefficient)
+fn polynomial<const WAYS: usize, const N: usize>(coefficients: &[f64; N], at: f64) -> f64 {
+    let square = at * at;
+    let step = if WAYS == 2 { square } else { square * square };
+    let sum =
+        |first: usize| coefficients.iter().skip(first).step_by(WAYS).rev().fold(0.0, |sum, each| sum * step + each);
+    let low = sum(0) + at * sum(1);
+    if WAYS == 2 { low } else { low + square * (sum(2) + at * sum(3)) }
 }
 
 /// Takes `yes` where all bits of `mask` are set, `no` where none is.
@@ -67,8 +73,8 @@ pub fn sin_cos<const N: usize>(angles: [f64; N]) -> ([f64; N], [f64; N]) {
         let r = (angle - 90.0 * (quarters - ROUND)) * DEGREE;
         let quarters = quarters.to_bits();
         let z = r * r;
-        let sin = r + r * z * polynomial(&S, z);
-        let cos = 1.0 - (0.5 * z - z * z * polynomial(&C, z));
+        let sin = r + r * z * polynomial::<2, _>(&S, z);
+        let cos = 1.0 - (0.5 * z - z * z * polynomial::<2, _>(&C, z));
         let odd = 0_u64.wrapping_sub(quarters & 1);
         *sine = f64::from_bits(either(odd, cos, sin).to_bits() ^ ((quarters & 2) << 62));
         *cosine = f64::from_bits(either(odd, sin, cos).to_bits() ^ ((quarters.wrapping_add(1) & 2) << 62));
@@ -88,7 +94,7 @@ pub(super) fn atan2<const N: usize>(y: [f64; N], x: [f64; N]) -> [f64; N] {
         let (above, below) = if wide { (low - high, low + high) } else { (low, high) };
         let r = above / if below > 0.0 { below } else { 1.0 };
         let z = r * r;
-        let mut turned = (r + r * z * polynomial(&T, z)) * RADIAN + if wide { 45.0 } else { 0.0 };
+        let mut turned = (r + r * z * polynomial::<4, _>(&T, z)) * RADIAN + if wide { 45.0 } else { 0.0 };
         turned = if steep { 90.0 - turned } else { turned };
         turned = if *x < 0.0 { 180.0 - turned } else { turned };
         *angle = turned.copysign(*y);
