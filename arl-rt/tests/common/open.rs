@@ -6,12 +6,15 @@ use std::time::{Duration, Instant};
 /// The names that our threads have.
 const THREADS: [&str; 2] = ["connection", "modbus-tcp"];
 
-/// Sockets and polls that are open, and our threads beside the cycle.
+/// What descriptors of connections lead to.
+const KINDS: [&str; 4] = ["socket:", "anon_inode:", "/dev/pts/", "/dev/ptmx"];
+
+/// Sockets, polls and terminals that are open, and our threads beside the cycle.
 pub fn all() -> (usize, usize) {
     let links = std::fs::read_dir("/proc/self/fd").unwrap().filter_map(|entry| entry.unwrap().path().read_link().ok());
     let is_ours = |link: &Path| {
         let text = link.to_string_lossy();
-        text.starts_with("socket:") || text.starts_with("anon_inode:")
+        KINDS.iter().any(|kind| text.starts_with(kind))
     };
     let names = std::fs::read_dir("/proc/self/task").unwrap();
     let names = names.filter_map(|entry| std::fs::read_to_string(entry.unwrap().path().join("comm")).ok());

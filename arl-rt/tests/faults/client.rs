@@ -1,22 +1,14 @@
-//! What the other side of a connection may do, and what becomes of it: the documented result or alarm, in time, with nothing
-//! left open afterwards. The peers are plain Rust on ports that the system chooses.
-
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test")]
-#![cfg(target_os = "linux")]
-
-mod common;
+//! Sockets of a program that connects: what differs from one that accepts (`sockets.rs`), and what a peer may do late.
 
 use std::io::{Read, Write};
-use std::net::{TcpListener, TcpStream};
-use std::sync::{Mutex, PoisonError};
+use std::net::TcpListener;
 use std::time::{Duration, Instant};
 
 use arl_rt::emit::*;
 use arl_rt::{Controller, Outcome};
-use common::{FILE, alarm, open, say};
 
-/// Descriptors and threads belong to the process: one test at a time.
-static ALONE: Mutex<()> = Mutex::new(());
+use crate::common::{self, FILE, alarm, say};
+use crate::watch::watched;
 
 /// The address of all peers.
 const HERE: Str = Str::literal("127.0.0.1");
@@ -26,19 +18,18 @@ fn against<F>(peer: impl FnOnce(TcpListener) + Send + 'static, program: impl FnO
 where
     F: for<'a> Fn(&'a Cx) -> BoxFuture<'a> + 'static,
 {
-    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-    let before = open::all();
-    let listener = TcpListener::bind("127.0.0.1:0").unwrap();
-    let port = i32::from(listener.local_addr().unwrap().port());
-    let peer = std::thread::spawn(move || peer(listener));
-    let (mut controller, messages) = common::controller(Controller::builder(), program(port));
-    controller.run_for(30.0);
-    let outcome = controller.outcome().cloned();
-    let place = controller.place();
-    drop(controller);
-    peer.join().unwrap();
-    open::wait_for(before);
-    (outcome.unwrap_or_else(|| panic!("still running: {place:?}")), messages.text())
+    watched(|| {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let port = i32::from(listener.local_addr().unwrap().port());
+        let peer = std::thread::spawn(move || peer(listener));
+        let (mut controller, messages) = common::controller(Controller::builder(), program(port));
+        controller.run_for(30.0);
+        let outcome = controller.outcome().cloned();
+        let place = controller.place();
+        drop(controller);
+        peer.join().unwrap();
+        (outcome.unwrap_or_else(|| panic!("still running: {place:?}")), messages.text())
+    })
 }
 
 /// `waituntil connect(s,"127.0.0.1",port)`
@@ -56,24 +47,6 @@ async fn read(cx: &Cx, s: &Socket, len: i32) -> Done<Str> {
         cx.next_cycle().await;
     }
     Ok(data)
-}
-
-#[test]
-fn the_peer_closes_in_the_middle_of_a_message() {
-    let peer = |listener: TcpListener| listener.accept().unwrap().0.write_all(b"half a mess").unwrap();
-    let (outcome, out) = against(peer, |port| {
-        move |cx: &Cx| {
-            Box::pin(async move {
-                let s = Socket::default();
-                connect(cx, &s, port).await?;
-                say(cx, &read(cx, &s, 4).await?)?;
-                read(cx, &s, 20).await.map(drop)
-            })
-        }
-    });
-    assert_eq!(out, "half\n");
-    let text = alarm(outcome);
-    assert_eq!(text, "alarm 20050: read: the connection is lost: the other side has closed it (t.arl:2)");
 }
 
 #[test]
@@ -97,32 +70,6 @@ fn the_peer_resets_the_connection() {
         }
     });
     assert!(alarm(outcome).starts_with("alarm 20050: write: the connection is lost: "));
-}
-
-#[test]
-fn the_peer_never_answers() {
-    let peer = |listener: TcpListener| {
-        let (mut stream, _) = listener.accept().unwrap();
-        let mut asked = String::new();
-        stream.read_to_string(&mut asked).unwrap();
-        assert_eq!(asked, "are you there?");
-    };
-    let (outcome, out) = against(peer, |port| {
-        move |cx: &Cx| {
-            Box::pin(async move {
-                let s = Socket::default();
-                connect(cx, &s, port).await?;
-                socket::write_string(cx, &s, &Str::literal("are you there?")).await.at(FILE, 3)?;
-                let mut data = Str::literal("nothing");
-                let start = cx.cycle();
-                while !socket::read_string(cx, &s, &mut data, 1).await.at(FILE, 2)? && cx.cycle() < start + 300 {
-                    cx.next_cycle().await;
-                }
-                say(cx, &data)
-            })
-        }
-    });
-    assert_eq!((outcome, out.as_str()), (Outcome::Ended, "nothing\n"));
 }
 
 #[test]
@@ -199,61 +146,6 @@ fn a_flood_that_nobody_reads_is_held_back() {
     assert_eq!(out, "true\n");
     // Either the buffer is full, or the peer gave up before.
     assert!(alarm(outcome).starts_with("alarm 20050: readuntil: "));
-}
-
-#[test]
-fn a_thousand_connections_one_after_the_other() {
-    const TIMES: usize = 1000;
-    let peer = |listener: TcpListener| {
-        for _ in 0..TIMES {
-            let (mut stream, _) = listener.accept().unwrap();
-            let mut all = Vec::new();
-            stream.read_to_end(&mut all).unwrap();
-            assert_eq!(all, b"hello");
-        }
-    };
-    let (outcome, out) = against(peer, |port| {
-        move |cx: &Cx| {
-            Box::pin(async move {
-                let s = Socket::default();
-                for _ in 0..TIMES {
-                    connect(cx, &s, port).await?;
-                    socket::write_string(cx, &s, &Str::literal("hello")).await.at(FILE, 3)?;
-                    socket::close(cx, &s).await;
-                }
-                say(cx, &socket::geterror(cx, &s).await.at(FILE, 4)?)
-            })
-        }
-    });
-    assert_eq!((outcome, out.as_str()), (Outcome::Ended, "0\n"));
-}
-
-#[test]
-fn a_port_that_is_taken_is_waited_for() {
-    let peer = |listener: TcpListener| {
-        let address = listener.local_addr().unwrap();
-        std::thread::sleep(Duration::from_millis(300));
-        drop(listener);
-        let start = Instant::now();
-        while TcpStream::connect(address).is_err() {
-            assert!(start.elapsed() < Duration::from_secs(10), "nobody listens");
-            std::thread::sleep(Duration::from_millis(10));
-        }
-    };
-    let (outcome, out) = against(peer, |port| {
-        move |cx: &Cx| {
-            Box::pin(async move {
-                let s = Socket::default();
-                let mut waited = 0;
-                while !socket::accept(cx, &s, &HERE, port).await.at(FILE, 3)? {
-                    waited += 1;
-                    cx.next_cycle().await;
-                }
-                say(cx, &(waited > 100))
-            })
-        }
-    });
-    assert_eq!((outcome, out.as_str()), (Outcome::Ended, "true\n"));
 }
 
 #[test]

@@ -1,0 +1,222 @@
+//! Serial lines.
+
+use std::cell::Cell;
+use std::io::Write;
+use std::rc::Rc;
+use std::time::{Duration, Instant};
+
+use arl_rt::emit::*;
+use arl_rt::{Controller, Outcome};
+
+use crate::common::{FILE, say};
+use crate::manners::{Manner, until_it_goes};
+use crate::terminal::{Outlet, Plug};
+use crate::watch::{Robot, watched};
+
+const QUESTION: Str = Str::literal("question\n");
+const ANSWER: &[u8] = b"the whole message\n";
+
+async fn open(cx: &Cx, line: &Iodev, name: &Str) -> Done<bool> {
+    serial::open(cx, line, name, 115_200, 8, Stopbits::One, Parity::None).await.at(FILE, 1)
+}
+
+/// Asks, and prints what comes back in 0.3 s, if it is a line.
+async fn ask(cx: &Cx, line: &Iodev) -> Done<()> {
+    let mut answer = Str::literal("-");
+    serial::write_string(cx, line, &QUESTION).await.at(FILE, 2)?;
+    let until = cx.cycle() + 300;
+    while cx.cycle() < until && !serial::readuntil(cx, line, &mut answer, &Str::literal("\n")).await.at(FILE, 3)? {
+        cx.next_cycle().await;
+    }
+    say(cx, &answer)
+}
+
+/// Answers the next question as it should.
+fn behave(mut plug: Plug) {
+    let mut asked = Vec::new();
+    while asked.len() < QUESTION.as_bytes().len() {
+        asked.extend(plug.hears());
+    }
+    plug.write_all(ANSWER).unwrap();
+    until_it_goes(plug);
+}
+
+/// Runs a program that asks on a line of this manner, and then, from its beginning again, on a new one that answers as it
+/// should.
+fn ask_twice(manner: Manner) -> String {
+    watched(|| {
+        let outlet = Outlet::new();
+        let name = outlet.name();
+        let mut robot = Robot::new(Controller::builder(), move |cx: &Cx| {
+            let name = name.clone();
+            Box::pin(async move {
+                let line = Iodev::default();
+                say(cx, &open(cx, &line, &name).await?)?;
+                ask(cx, &line).await
+            })
+        });
+        let plug = outlet.plug();
+        let peer = std::thread::spawn(move || manner.play(plug, QUESTION.as_bytes().len(), ANSWER));
+        let told = robot.run().told();
+        peer.join().unwrap();
+        let plug = outlet.plug();
+        let peer = std::thread::spawn(move || behave(plug));
+        assert_eq!(robot.run().told(), "true\nthe whole message\n", "the program goes on after {manner:?}");
+        peer.join().unwrap();
+        told
+    })
+}
+
+#[test]
+fn whatever_the_other_end_does_the_program_is_told_and_goes_on() {
+    for manner in Manner::ALL {
+        let told = ask_twice(manner);
+        match manner {
+            // Of a line that is unplugged the system says so, or it ends: as it comes.
+            Manner::LeavesHalfway | Manner::Resets => {
+                let (start, end) = ("true\nalarm 20050: readuntil: the line is lost: ", " (t.arl:3)");
+                assert!(told.starts_with(start) && told.ends_with(end), "{manner:?}: {told}");
+            }
+            Manner::Silent | Manner::Garbage => assert_eq!(told, "true\n-\n", "{manner:?}"),
+            Manner::ByteByByte => assert_eq!(told, "true\nthe whole message\n"),
+            // A pseudo terminal is slow: not every flood reaches 1 MiB in 0.3 s.
+            Manner::Floods => assert!(told == "true\n-\n" || told.contains("1048576 bytes have come"), "{told}"),
+        }
+    }
+}
+
+/// A program reads a flood line by line.
+fn flooded(seconds: u64) {
+    watched(|| {
+        let outlet = Outlet::new();
+        let name = outlet.name();
+        let lines = Rc::new(Cell::new(0_usize));
+        let counted = Rc::clone(&lines);
+        let mut robot = Robot::new(Controller::builder(), move |cx: &Cx| {
+            let (name, counted) = (name.clone(), Rc::clone(&counted));
+            Box::pin(async move {
+                let line = Iodev::default();
+                say(cx, &open(cx, &line, &name).await?)?;
+                serial::write_string(cx, &line, &Str::literal("go\n")).await.at(FILE, 2)?;
+                let mut text = Str::new();
+                while text != "end" {
+                    for _ in 0..100 {
+                        if serial::readuntil(cx, &line, &mut text, &Str::literal("\n")).await.at(FILE, 3)? {
+                            counted.set(counted.get() + usize::from(text == "0123456789abcde"));
+                        }
+                    }
+                    cx.next_cycle().await;
+                }
+                Ok(())
+            })
+        });
+        let mut plug = outlet.plug();
+        let peer = std::thread::spawn(move || {
+            plug.hears();
+            let lines = b"0123456789abcde\n".repeat(64);
+            let (mut sent, start) = (0, Instant::now());
+            while start.elapsed() < Duration::from_secs(seconds) {
+                plug.write_all(&lines).unwrap();
+                sent += 64;
+            }
+            plug.write_all(b"end\n").unwrap();
+            until_it_goes(plug);
+            sent
+        });
+        let end = robot.run();
+        assert_eq!((end.outcome, end.out.as_str()), (Outcome::Ended, "true\n"));
+        assert_eq!(lines.get(), peer.join().unwrap(), "lines were lost");
+    });
+}
+
+#[test]
+fn a_flood_that_the_program_reads_loses_nothing() {
+    flooded(1);
+}
+
+#[test]
+#[ignore = "long"]
+fn a_long_flood_that_the_program_reads_loses_nothing() {
+    flooded(10);
+}
+
+#[test]
+fn a_line_is_opened_and_closed_a_thousand_times() {
+    const TIMES: i32 = 1000;
+    watched(|| {
+        let outlet = Outlet::new();
+        let name = outlet.name();
+        let mut robot = Robot::new(Controller::builder(), move |cx: &Cx| {
+            let name = name.clone();
+            Box::pin(async move {
+                let line = Iodev::default();
+                let mut opened = 0;
+                for _ in 0..TIMES {
+                    opened += i32::from(open(cx, &line, &name).await?);
+                    serial::close(cx, &line).await;
+                }
+                say(cx, &opened)?;
+                open(cx, &line, &name).await?;
+                ask(cx, &line).await
+            })
+        });
+        let plug = outlet.plug();
+        let peer = std::thread::spawn(move || behave(plug));
+        assert_eq!(robot.run().told(), format!("{TIMES}\nthe whole message\n"));
+        peer.join().unwrap();
+    });
+}
+
+#[test]
+fn a_line_that_is_taken_is_false_until_it_is_free() {
+    watched(|| {
+        let outlet = Outlet::new();
+        let name = outlet.name();
+        let mut robot = Robot::new(Controller::builder(), move |cx: &Cx| {
+            let name = name.clone();
+            Box::pin(async move {
+                let (first, second) = (Iodev::default(), Iodev::default());
+                say(cx, &open(cx, &first, &name).await?)?;
+                say(cx, &open(cx, &second, &name).await?)?;
+                serial::close(cx, &first).await;
+                say(cx, &open(cx, &second, &name).await?)?;
+                ask(cx, &second).await
+            })
+        });
+        let plug = outlet.plug();
+        let peer = std::thread::spawn(move || behave(plug));
+        assert_eq!(robot.run().told(), "true\nfalse\ntrue\nthe whole message\n");
+        peer.join().unwrap();
+    });
+}
+
+/// A program that does not read is told by `clearbuff`, and opens the line again when it is back.
+#[test]
+fn a_line_that_is_unplugged_is_opened_again_when_it_is_back() {
+    watched(|| {
+        let outlet = Rc::new(Outlet::new());
+        let plug = Rc::new(Cell::new(Some(outlet.plug())));
+        let mut robot = Robot::new(Controller::builder(), {
+            let (outlet, plug) = (Rc::clone(&outlet), Rc::clone(&plug));
+            move |cx: &Cx| {
+                let (outlet, plug, name) = (Rc::clone(&outlet), Rc::clone(&plug), outlet.name());
+                Box::pin(async move {
+                    let line = Iodev::default();
+                    say(cx, &open(cx, &line, &name).await?)?;
+                    say(cx, &serial::clearbuff(cx, &line).await.at(FILE, 4)?)?;
+                    drop(plug.take());
+                    while serial::clearbuff(cx, &line).await.at(FILE, 4)? {
+                        cx.next_cycle().await;
+                    }
+                    serial::close(cx, &line).await;
+                    say(cx, &open(cx, &line, &name).await?)?;
+                    let new = outlet.plug();
+                    std::thread::spawn(move || behave(new));
+                    say(cx, &open(cx, &line, &name).await?)?;
+                    ask(cx, &line).await
+                })
+            }
+        });
+        assert_eq!(robot.run().told(), "true\ntrue\nfalse\ntrue\nthe whole message\n");
+    });
+}
