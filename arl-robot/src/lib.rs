@@ -4,6 +4,7 @@
 
 pub mod channels;
 pub mod frames;
+pub mod islands;
 pub mod kinematics;
 pub mod robot;
 pub mod settings;

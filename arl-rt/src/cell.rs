@@ -34,6 +34,10 @@
 //! port = 502
 //! connections = 8              # at once, 1 to 64
 //!
+//! [[island]]                   # inputs and outputs behind Modbus TCP: arl_rt::islands
+//! address = "192.168.0.20"
+//! di = [{ channel = 1, count = 8, discrete_input = 0 }]
+//!
 //! [[channel]]                  # what runs beside the program of the command line: channel 2, 3, ..
 //! program = "feeder.arl"       # files count from the folder of the cell file
 //! robot = "hsr065"             # a built-in name or a robot file
@@ -50,6 +54,8 @@ mod programs;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use arl_robot::islands::Island;
+
 pub use external::Wiring;
 pub use programs::CellChannel;
 
@@ -59,8 +65,19 @@ use crate::io::Channels;
 use crate::rate::Rate;
 use crate::settings::{Section, SettingsError, Source, Value, number, table};
 
-const TOP: &[&str] =
-    &["controller", "io", "network", "serial", "home", "external", "collision", "modbus_tcp", "channel", "load"];
+const TOP: &[&str] = &[
+    "controller",
+    "io",
+    "network",
+    "serial",
+    "home",
+    "external",
+    "collision",
+    "modbus_tcp",
+    "island",
+    "channel",
+    "load",
+];
 const CONTROLLER: &[&str] = &["cycle"];
 const NETWORK: &[&str] = &["listen"];
 const HOME: &[&str] = &["tolerance", "home2", "home3", "home4", "home5"];
@@ -86,6 +103,8 @@ pub struct Cell {
     pub collisions: Vec<(u8, Sensitivity)>,
     /// The field buses.
     pub buses: BusSettings,
+    /// The servers of Modbus TCP that have inputs and outputs of the cell.
+    pub islands: Vec<Island>,
     /// The channels beside the first one: what the command line of a program runs, too.
     pub programs: Vec<CellChannel>,
     /// The programs that `switcharl` can load into the first channel.
@@ -112,6 +131,7 @@ impl Default for Cell {
             external: Wiring::default(),
             collisions: Vec::new(),
             buses: BusSettings::default(),
+            islands: Vec::new(),
             programs: Vec::new(),
             load: Vec::new(),
         }
@@ -150,6 +170,7 @@ impl Cell {
             cell.network.listen = listen(&network)?;
         }
         cell.buses = BusSettings::read(&top)?;
+        cell.islands = Island::read_all(source, top.find("island"), &cell.channels)?;
         let folder = Path::new(file).parent().unwrap_or(Path::new(""));
         cell.programs = CellChannel::read_all(source, &top, folder)?;
         cell.load = programs::load(&top)?;

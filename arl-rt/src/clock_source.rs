@@ -53,7 +53,7 @@ impl Clock for VirtualClock {
     }
 
     fn meet_outside(&mut self) -> Option<&'static str> {
-        const WARNING: &str = "the program opens a connection: from here on its cycles take real time";
+        const WARNING: &str = "the run is connected to the outside: from here on its cycles take real time";
         let first = self.real.is_none();
         self.real.get_or_insert_with(RealClock::new);
         (first && self.asked_for).then_some(WARNING)

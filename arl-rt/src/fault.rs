@@ -97,6 +97,8 @@ pub enum Fault {
     Event(Box<str>),
     /// A connection that is not open, or lost.
     Connection(Box<str>),
+    /// Inputs and outputs without which no robot may move are lost.
+    IoLost(Box<str>),
     /// What a PLC gives as a program number is none.
     ProgramNumber(Box<str>),
     /// What went wrong in the condition of an interrupt or a trigger.
@@ -140,6 +142,7 @@ impl Fault {
             Fault::Data(_) => 20030,
             Fault::Event(_) => 20040,
             Fault::Connection(_) => 20050,
+            Fault::IoLost(_) => 20051,
             Fault::ProgramNumber(_) => 20060,
             Fault::Condition { fault, .. } => fault.number(),
             Fault::Other { number, .. } => *number,
@@ -175,6 +178,7 @@ impl fmt::Display for Fault {
             | Fault::Data(text)
             | Fault::Event(text)
             | Fault::Connection(text)
+            | Fault::IoLost(text)
             | Fault::ProgramNumber(text) => {
                 write!(f, "{text}")
             }

@@ -2,7 +2,8 @@
 
 use crate::communication::{Inbox, melsec_answer};
 use crate::fieldbus::modbus::rtu::Heard;
-use crate::fieldbus::modbus::{Tables, mbap, pdu};
+use crate::fieldbus::modbus::{Tables, client, mbap, pdu};
+use arl_robot::islands::Table;
 
 /// What a client sends to the Modbus TCP server: each frame is served, its answer fits into a frame.
 pub fn modbus_tcp(mut bytes: &[u8]) {
@@ -15,6 +16,20 @@ pub fn modbus_tcp(mut bytes: &[u8]) {
         mbap::append(&mut out, &mbap::Frame { pdu: answer.bytes(), ..frame });
         assert!(matches!(mbap::first(&out), mbap::Start::Frame(_, size) if size == out.len()));
         bytes = bytes.get(size..).unwrap_or_default();
+    }
+}
+
+/// What an island answers to a request for so many coils or registers: what is taken of it has their size.
+pub fn island(table: u8, count: u16, bytes: &[u8]) {
+    let tables = [Table::Coil, Table::DiscreteInput, Table::HoldingRegister, Table::InputRegister];
+    let table = tables.get(usize::from(table % 4)).copied().unwrap_or(Table::Coil);
+    let count = usize::from(count) % client::most_read(table) + 1;
+    let mut request = Vec::new();
+    client::read_request(&mut request, table, 0, count as u16);
+    if let mbap::Start::Frame(frame, _) = mbap::first(bytes)
+        && let Ok(data) = client::read_answer(table, request.first().copied().unwrap_or_default(), count, frame.pdu)
+    {
+        assert_eq!(data.len(), client::size(table, count));
     }
 }
 

@@ -60,7 +60,7 @@ pub mod settings {
     pub(crate) use arl_robot::settings::{Section, Source, Value, hint, kind, number, table};
 }
 
-pub use arl_robot::{Family, Robot, kinematics, robot};
+pub use arl_robot::{Family, Robot, islands, kinematics, robot};
 pub use cell::Cell;
 pub use channel_id::ChannelId;
 pub use controller::{Builder, ChannelStatus, Controller, Foreground, Outcome, RobotStatus, SetupError, State, Status};

@@ -7,6 +7,7 @@
 #![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test")]
 
 mod field_buses;
+mod islands;
 mod peer;
 mod robot;
 mod streams;

@@ -17,6 +17,7 @@ use crate::clock_source::{Clock, VirtualClock};
 use crate::communication::NetworkDriver;
 use crate::fieldbus::Buses;
 use crate::fieldbus::devicenet::{DeviceNet, SimulatedDeviceNet};
+use crate::fieldbus::islands::Islands;
 use crate::files::ScriptDir;
 use crate::io::{Image, IoDriver, Playing, Scenario, SimulatedIo};
 use crate::kinematics::frame;
@@ -131,7 +132,7 @@ impl Builder {
         self
     }
 
-    /// What exchanges inputs and outputs.
+    /// What exchanges inputs and outputs, beside the islands of the cell.
     pub fn io_driver(mut self, driver: impl IoDriver + 'static) -> Self {
         self.io = Box::new(driver);
         self
@@ -252,7 +253,8 @@ impl Builder {
         let scenario = Playing::new(self.scenario, &io, rate);
         let buses = Buses::new(cell.buses, self.devicenet);
         buses.start().map_err(SetupError::Outside)?;
-        let (outside, real_time) = (buses.is_outside(), self.clock.is_real());
+        let islands = Islands::start(&cell.islands).map_err(SetupError::Outside)?;
+        let (outside, real_time) = (buses.is_outside() || !islands.is_empty(), self.clock.is_real());
         let external = External::new(cell.external.enabled, rate);
         let world = Rc::new(World::new(Parts {
             rate,
@@ -295,7 +297,7 @@ impl Builder {
         }
         let channels = Channels::new(first, others);
         let deeds = Vec::with_capacity(scenario.most_deeds());
-        Ok(Controller { world, channels, unit, clock: self.clock, io: self.io, scenario, deeds, external })
+        Ok(Controller { world, channels, unit, clock: self.clock, islands, io: self.io, scenario, deeds, external })
     }
 }
 

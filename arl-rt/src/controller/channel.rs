@@ -8,7 +8,7 @@ use super::{Outcome, State};
 use crate::cx::{Cx, Level};
 use crate::data;
 use crate::event;
-use crate::fault::{Alarm, Reason, Stop};
+use crate::fault::{Alarm, Fault, Reason, Stop};
 use crate::lane::Lane;
 use crate::program::{Program, Running};
 use crate::trace::Trace;
@@ -201,6 +201,14 @@ impl Channel {
     pub(super) fn meet_trouble(&mut self) {
         if let Some(alarm) = self.lane.take_trouble() {
             self.fail(alarm);
+        }
+    }
+
+    /// Ends the program before it acts on inputs that are lost. One without a robot goes on.
+    pub(super) fn lose_io(&mut self, why: &str) {
+        if self.lane.robot().is_some() && self.has_statements() {
+            let (file, line) = self.cx.place();
+            self.fail(Alarm::new(Fault::IoLost(why.into()), file, line));
         }
     }
 

@@ -23,6 +23,7 @@ pub use status::{ChannelStatus, RobotStatus, Status};
 
 use crate::clock_source::Clock;
 use crate::fault::{Alarm, Fault, File};
+use crate::fieldbus::islands::Islands;
 use crate::io::{Deed, Digital, IoDriver, Pendant, Playing, Pwm};
 use crate::motion::{Joints, MotionRecord};
 use crate::robot::Robot;
@@ -39,7 +40,8 @@ use external::External;
 ///
 /// 1. the clock says when the cycle begins;
 /// 2. inputs are read, pulses that are over end, the scenario plays;
-/// 3. the pendant's buttons count, then what a PLC says (external auto control);
+/// 3. the pendant's buttons count, then what a PLC says (external auto control); programs with robots end with an alarm
+///    where inputs are lost that they need;
 /// 4. the conditions of interrupts, timers and triggers are looked at; then the program runs until it waits, the action of
 ///    an event on top of what it interrupts;
 /// 5. the motion goes one step: set-point to the robot's driver, feedback back, variables like `$TRAJ_LEFT_DIS`;
@@ -91,6 +93,8 @@ pub struct Controller {
     /// The robot of the first channel.
     unit: Rc<RefCell<Unit>>,
     clock: Box<dyn Clock>,
+    /// What the cell file has of real inputs and outputs.
+    islands: Islands,
     io: Box<dyn IoDriver>,
     scenario: Playing,
     /// What a scenario does in this cycle, inputs aside; empty between cycles, with room for all that can come at once.
@@ -111,6 +115,7 @@ impl Controller {
         self.clock.wait_for(cycle, rate.period());
         {
             let mut image = world.io.borrow_mut();
+            self.islands.read(image.inputs_mut());
             self.io.read(image.inputs_mut());
             image.end_pulses_of(cycle);
             self.scenario.play(cycle, &mut image, |deed| self.deeds.push(deed));
@@ -119,11 +124,13 @@ impl Controller {
             act(&mut self.channels, deed);
         }
         self.listen();
+        self.hear_io();
         self.channels.each(Channel::look);
         self.channels.each(Channel::poll);
         self.channels.each(Channel::meet_trouble);
         self.channels.each(|channel| channel.step_robot(rate.time(cycle), rate.period()));
         self.show();
+        self.islands.write(self.world.io.borrow().outputs_all());
         self.io.write(self.world.io.borrow().outputs_all());
         self.channels.each(Channel::meet_collision);
         let world = &self.world;
@@ -157,6 +164,16 @@ impl Controller {
                 (Pendant::Reset, State::Ended) => {}
                 _ => pendant::press(&mut self.channels, button),
             }
+        }
+    }
+
+    /// Passes on what those tell who exchange inputs and outputs.
+    fn hear_io(&mut self) {
+        while let Some(warning) = self.islands.take_warning().or_else(|| self.io.take_warning()) {
+            self.world.warn(warning);
+        }
+        if let Some(why) = self.islands.fault().or_else(|| self.io.fault()) {
+            self.channels.each(|channel| channel.lose_io(why));
         }
     }
 

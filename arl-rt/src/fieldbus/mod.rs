@@ -4,6 +4,7 @@
 //! functions, which take any bytes without harm.
 
 pub mod devicenet;
+pub(crate) mod islands;
 pub(crate) mod modbus;
 pub mod modbus_tcp;
 #[cfg(test)]

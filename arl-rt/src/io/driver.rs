@@ -2,13 +2,79 @@
 
 use super::{Inputs, Outputs};
 
-/// Exchanges inputs and outputs with the outside, once a cycle. Both calls must return at once.
+/// Exchanges inputs and outputs with the outside, once a cycle. All calls must return at once: what takes time, like a
+/// field bus, has a thread of its own, and an image that both copy. The islands of a cell file work like this.
+///
+/// A whole plant can run in the process, too:
+///
+/// ```
+/// use arl_rt::io::{Inputs, IoDriver, Outputs};
+///
+/// /// A tank: output 1 opens the valve above it; input 1 is on while it is full, analog input 1 tells the level in V.
+/// #[derive(Default)]
+/// struct Tank {
+///     litres: f64,
+///     open: bool,
+/// }
+///
+/// impl IoDriver for Tank {
+///     fn read(&mut self, mut inputs: Inputs<'_>) {
+///         // Called once a cycle, of 1 ms here.
+///         self.litres += if self.open { 0.05 } else { 0.0 };
+///         inputs.set_di(1, self.litres >= 10.0);
+///         inputs.set_ai(1, self.litres.min(10.0));
+///     }
+///
+///     fn write(&mut self, outputs: Outputs<'_>) {
+///         self.open = outputs.dout(1);
+///     }
+/// }
+///
+/// # use arl_rt::emit::*;
+/// # struct Fill;
+/// # impl arl_rt::Program for Fill {
+/// #     fn file(&self) -> File { File::new("fill.arl") }
+/// #     fn family(&self) -> Family { Family::SixAxis }
+/// #     fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> { Box::pin(async { Ok(()) }) }
+/// #     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+/// #         Box::pin(async move {
+/// #             let file = self.file();
+/// #             io::setdo(cx, 1, true).await.at(file, 2)?;
+/// #             while !io::getdi(cx, 1).await.at(file, 3)? { cx.next_cycle().await; }
+/// #             io::setdo(cx, 1, false).await.at(file, 4)?;
+/// #             text::print().argtoprint(&"full after ").argtoprint(&cx.time()).run(cx).at(file, 5)
+/// #         })
+/// #     }
+/// # }
+/// // `Fill` is what this program becomes:
+/// //     setdo(1,true)
+/// //     waituntil getdi(1)
+/// //     setdo(1,false)
+/// //     print "full after ", ...
+/// let messages = arl_rt::Captured::new();
+/// let builder = arl_rt::Controller::builder().output(messages.clone()).io_driver(Tank::default());
+/// let mut controller = builder.build(Box::new(Fill))?;
+/// assert_eq!(controller.run(), arl_rt::Outcome::Ended);
+/// assert_eq!(messages.text(), "full after 0.2\n");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub trait IoDriver {
     /// Fills the inputs, at the start of a cycle. What it leaves alone keeps its level.
     fn read(&mut self, inputs: Inputs<'_>);
 
     /// Passes the outputs on, at the end of a cycle.
     fn write(&mut self, outputs: Outputs<'_>);
+
+    /// What the user should know, once; asked for in each cycle until there is nothing more.
+    fn take_warning(&mut self) -> Option<String> {
+        None
+    }
+
+    /// Why no robot may move on, as long as that is so: the inputs are not those of the outside any more. It is alarm 20051
+    /// for each program with a robot, as soon as it runs.
+    fn fault(&self) -> Option<&str> {
+        None
+    }
 }
 
 /// Io without an outside: inputs keep what a scenario or the embedding program gave them.

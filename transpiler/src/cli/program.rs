@@ -12,6 +12,8 @@ use crate::compile::{Compiled, compile_program};
 use crate::emit::EmitOptions;
 use crate::sources::FileSystem;
 use arl_robot::channels::Channels;
+use arl_robot::islands::Island;
+use arl_robot::settings::SettingsError;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
@@ -36,12 +38,15 @@ pub(super) fn check_options(checking: &Checking) -> Result<CheckOptions, Failure
     Ok(CheckOptions { family, strict, background, script_dir, channels, ..CheckOptions::default() })
 }
 
-/// The channels of a cell file.
+/// The channels of a cell file, whose islands are right, too.
 fn channels_of(cell: &Path) -> Result<Channels, Failure> {
     let name = cell.display().to_string();
     let text = std::fs::read_to_string(cell)
         .map_err(|error| Failure::Usage(format!("{name}: cannot read the cell file: {error}")))?;
-    Channels::of_cell(&name, &text).map_err(|error| Failure::Usage(error.to_string()))
+    let wrong = |error: SettingsError| Failure::Usage(error.to_string());
+    let channels = Channels::of_cell(&name, &text).map_err(wrong)?;
+    Island::of_cell(&name, &text).map_err(wrong)?;
+    Ok(channels)
 }
 
 /// Checks and emits a program, and shows what there is to say.

@@ -1,5 +1,6 @@
 //! Modbus: registers and coils that others read and write.
 
+pub(crate) mod client;
 pub(crate) mod mbap;
 pub(crate) mod pdu;
 pub(crate) mod rtu;

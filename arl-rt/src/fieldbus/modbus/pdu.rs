@@ -9,8 +9,8 @@ use super::tables::Tables;
 pub(crate) const LONGEST: usize = 253;
 
 /// The most that one request may ask for or bring, by the specification.
-const MOST_READ_COILS: usize = 2000;
-const MOST_WRITTEN_COILS: usize = 1968;
+pub(crate) const MOST_READ_COILS: usize = 2000;
+pub(crate) const MOST_WRITTEN_COILS: usize = 1968;
 pub(crate) const MOST_READ_REGISTERS: usize = 125;
 pub(crate) const MOST_WRITTEN_REGISTERS: usize = 123;
 const MOST_EXCHANGED_REGISTERS: usize = 121;

@@ -1,0 +1,83 @@
+//! A connection to an island: one request, one answer.
+
+use std::io::{ErrorKind, Read, Write};
+use std::net::{SocketAddr, TcpStream};
+use std::time::{Duration, Instant};
+
+use crate::fieldbus::modbus::mbap::{self, Frame, HEAD, LONGEST_FRAME, Start};
+
+/// A connection to a Modbus TCP server, for a thread that may wait.
+pub(super) struct Link {
+    stream: TcpStream,
+    unit: u8,
+    timeout: Duration,
+    transaction: u16,
+    frame: Vec<u8>,
+    buffer: [u8; LONGEST_FRAME],
+}
+
+impl Link {
+    /// Connects.
+    ///
+    /// # Errors
+    /// Why that is not possible, as a part of a message.
+    pub(super) fn open(address: SocketAddr, unit: u8, timeout: Duration) -> Result<Self, String> {
+        let open = || {
+            let stream = TcpStream::connect_timeout(&address, timeout)?;
+            stream.set_nodelay(true)?;
+            stream.set_write_timeout(Some(timeout))?;
+            Ok(stream)
+        };
+        let stream = open().map_err(|error: std::io::Error| format!("it cannot be connected to: {error}"))?;
+        let frame = Vec::with_capacity(LONGEST_FRAME);
+        Ok(Self { stream, unit, timeout, transaction: 0, frame, buffer: [0; LONGEST_FRAME] })
+    }
+
+    /// Sends a request and waits for the answer.
+    ///
+    /// # Errors
+    /// There is none, as a part of a message; the connection is of no use any more.
+    pub(super) fn ask(&mut self, request: &[u8]) -> Result<&[u8], String> {
+        self.transaction = self.transaction.wrapping_add(1);
+        self.frame.clear();
+        mbap::append(&mut self.frame, &Frame { transaction: self.transaction, unit: self.unit, pdu: request });
+        let start = Instant::now();
+        self.stream.write_all(&self.frame).map_err(|error| self.problem(&error))?;
+        let mut filled = 0;
+        loop {
+            match mbap::first(self.buffer.get(..filled).unwrap_or_default()) {
+                Start::Part => {}
+                // What comes before it is asked for, or answers another request, is no answer to this one.
+                Start::Frame(frame, len)
+                    if len == filled && frame.transaction == self.transaction && frame.unit == self.unit =>
+                {
+                    break;
+                }
+                Start::Frame(..) | Start::Garbage => return Err("what it sends is no answer of Modbus TCP".into()),
+            }
+            let left = self.timeout.saturating_sub(start.elapsed());
+            if left.is_zero() {
+                return Err(self.silence());
+            }
+            self.stream.set_read_timeout(Some(left)).map_err(|error| error.to_string())?;
+            match self.stream.read(self.buffer.get_mut(filled..).unwrap_or_default()) {
+                Ok(0) => return Err("it has closed the connection".into()),
+                Ok(count) => filled += count,
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(error) => return Err(self.problem(&error)),
+            }
+        }
+        Ok(self.buffer.get(HEAD..filled).unwrap_or_default())
+    }
+
+    fn problem(&self, error: &std::io::Error) -> String {
+        match error.kind() {
+            ErrorKind::WouldBlock | ErrorKind::TimedOut => self.silence(),
+            _ => format!("the connection is broken: {error}"),
+        }
+    }
+
+    fn silence(&self) -> String {
+        format!("it has not answered for {} ms", self.timeout.as_millis())
+    }
+}

@@ -1,0 +1,172 @@
+//! Io islands: servers of Modbus TCP that have inputs and outputs of the cell. A thread for each exchanges them; the cycle
+//! copies images.
+
+mod link;
+mod plan;
+mod poller;
+mod shared;
+
+use std::sync::Arc;
+use std::thread::JoinHandle;
+
+use arl_robot::islands::{Island, Lost, Rest};
+
+use self::plan::Signals;
+use self::poller::Poller;
+use self::shared::Shared;
+use crate::io::{Inputs, IoDriver, Outputs};
+
+/// The islands of a cell. Their outputs are written a last time when this is dropped, which takes as long as a request
+/// may.
+#[derive(Default)]
+pub(crate) struct Islands {
+    ports: Vec<Port>,
+}
+
+/// The cycle's side of an island.
+struct Port {
+    island: Island,
+    shared: Arc<Shared>,
+    thread: Option<JoinHandle<()>>,
+    inputs: Signals,
+    /// How often the island was found or lost when the cycle last looked.
+    turns: u64,
+    lost: Option<Arc<str>>,
+    /// What the user should know.
+    news: Option<String>,
+}
+
+impl Islands {
+    /// Starts to exchange with islands; returns when each has answered once, or is known to be lost.
+    ///
+    /// # Errors
+    /// An island without which no robot may move is lost: which, and why.
+    pub(crate) fn start(islands: &[Island]) -> Result<Self, String> {
+        let mut ports = Vec::with_capacity(islands.len());
+        for island in islands {
+            ports.push(Port::start(island)?);
+        }
+        // Whoever is lost ends all of them again.
+        let islands = Self { ports };
+        for port in &islands.ports {
+            if let Some(why) = port.shared.first_turn().filter(|_| port.island.lost == Lost::Alarm) {
+                let title = title(&port.island);
+                return Err(format!(
+                    "{title} is not there: {why}; start it, or correct the table [[island]] of the cell file \
+                     (`lost = \"warning\"` lets programs run without it)"
+                ));
+            }
+        }
+        Ok(islands)
+    }
+
+    /// Whether there is any.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.ports.is_empty()
+    }
+}
+
+impl IoDriver for Islands {
+    fn read(&mut self, mut inputs: Inputs<'_>) {
+        self.ports.iter_mut().for_each(|port| port.read(&mut inputs));
+    }
+
+    fn write(&mut self, outputs: Outputs<'_>) {
+        self.ports.iter().for_each(|port| port.write(outputs));
+    }
+
+    fn take_warning(&mut self) -> Option<String> {
+        self.ports.iter_mut().find_map(|port| port.news.take())
+    }
+
+    fn fault(&self) -> Option<&str> {
+        self.ports.iter().filter(|port| port.island.lost == Lost::Alarm).find_map(|port| port.lost.as_deref())
+    }
+}
+
+impl Drop for Islands {
+    fn drop(&mut self) {
+        for port in &self.ports {
+            port.shared.stop();
+            port.thread.iter().for_each(|thread| thread.thread().unpark());
+        }
+        for port in &mut self.ports {
+            // It has nothing to tell that nobody knows.
+            port.thread.take().into_iter().for_each(|thread| drop(thread.join()));
+        }
+    }
+}
+
+impl Port {
+    fn start(island: &Island) -> Result<Self, String> {
+        let points = &island.points;
+        let values = |analogs: &[arl_robot::islands::Analog]| {
+            analogs.iter().map(|analog| analog.scale.without_signal()).collect::<Vec<_>>()
+        };
+        let inputs = Signals::at_rest(points.di.len(), &values(&points.ai));
+        let outputs = Signals::at_rest(points.dout.len(), &values(&points.ao));
+        let shared = Arc::new(Shared::new(inputs.clone(), outputs.clone()));
+        let poller = Poller::new(island.clone(), Arc::clone(&shared), [inputs.clone(), outputs]);
+        let thread = std::thread::Builder::new().name("island".into()).spawn(move || poller.run());
+        let thread = thread.map_err(|error| format!("{} has no thread: {error}", title(island)))?;
+        Ok(Self { island: island.clone(), shared, thread: Some(thread), inputs, turns: 0, lost: None, news: None })
+    }
+
+    fn read(&mut self, inputs: &mut Inputs<'_>) {
+        if let Some(state) = self.shared.at_once() {
+            self.inputs.copy_from(&state.inputs);
+            if state.turns != self.turns {
+                let lost = state.lost.as_ref().map(|why| format!("{} is lost: {why}", title(&self.island)));
+                self.news = news(&self.island, lost.as_deref(), self.turns == 0);
+                self.lost = lost.map(Into::into);
+                self.turns = state.turns;
+            }
+        }
+        for (bit, level) in self.island.points.di.iter().zip(&self.inputs.bits) {
+            inputs.set_di(bit.channel + 1, *level);
+        }
+        for (analog, value) in self.island.points.ai.iter().zip(&self.inputs.values) {
+            inputs.set_ai(analog.channel + 1, *value);
+        }
+    }
+
+    fn write(&self, outputs: Outputs<'_>) {
+        // Whoever copies them just now gets these in the next cycle.
+        let Some(mut state) = self.shared.at_once() else { return };
+        let points = &self.island.points;
+        for (bit, level) in points.dout.iter().zip(&mut state.outputs.bits) {
+            *level = outputs.dout(bit.channel + 1);
+        }
+        for (analog, value) in points.ao.iter().zip(&mut state.outputs.values) {
+            *value = outputs.ao(analog.channel + 1);
+        }
+        state.given = true;
+    }
+}
+
+/// What the user should know when an island is found or lost; of one that stops the robots the alarm tells the loss.
+fn news(island: &Island, lost: Option<&str>, first: bool) -> Option<String> {
+    match (lost, island.lost) {
+        (None, _) if first => None,
+        (None, _) => Some(format!("{} is back", title(island))),
+        (Some(_), Lost::Alarm) => None,
+        (Some(lost), Lost::Warning) => Some(match island.inputs {
+            _ if island.points.di.is_empty() && island.points.ai.is_empty() => lost.to_owned(),
+            Rest::Zero => format!("{lost}; its inputs go to 0"),
+            Rest::Hold => format!("{lost}; its inputs stay as they were"),
+        }),
+    }
+}
+
+/// An island in a message.
+fn title(island: &Island) -> String {
+    let address = island.address.to_string();
+    if island.name == address {
+        format!("the island {address}")
+    } else {
+        format!("the island {} ({address})", island.name)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,113 @@
+//! The thread of an island: it exchanges inputs and outputs, and comes back when the island is lost.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use arl_robot::islands::{Island, Rest};
+
+use super::link::Link;
+use super::plan::{Plan, Run, Signals};
+use super::shared::Shared;
+use crate::fieldbus::modbus::client::{self, Refusal};
+
+/// How long the thread waits before it connects again: first, and at most. Each time is twice the one before.
+const SHORTEST_PAUSE: Duration = Duration::from_millis(100);
+const LONGEST_PAUSE: Duration = Duration::from_secs(5);
+
+/// What the thread works with.
+pub(super) struct Poller {
+    island: Island,
+    plan: Plan,
+    shared: Arc<Shared>,
+    inputs: Signals,
+    outputs: Signals,
+    /// Without signal.
+    resting: [Signals; 2],
+    request: Vec<u8>,
+}
+
+impl Poller {
+    /// For an island, whose signals are at rest so far: inputs, outputs.
+    pub(super) fn new(island: Island, shared: Arc<Shared>, resting: [Signals; 2]) -> Self {
+        let (plan, [inputs, outputs]) = (Plan::new(&island.points), resting.clone());
+        Self { island, plan, shared, inputs, outputs, resting, request: Vec::with_capacity(256) }
+    }
+
+    /// Exchanges until it is told to stop.
+    pub(super) fn run(mut self) {
+        let mut pause = SHORTEST_PAUSE;
+        while !self.shared.stops() {
+            let begin = Instant::now();
+            let Err(why) = self.visit() else { return };
+            let resting = (self.island.inputs == Rest::Zero).then_some(&self.resting[0]);
+            self.shared.lose(why, resting);
+            // One that comes and goes is not met more often than one that is gone.
+            if begin.elapsed() > LONGEST_PAUSE {
+                pause = SHORTEST_PAUSE;
+            }
+            self.sleep_until(Instant::now() + pause);
+            pause = (2 * pause).min(LONGEST_PAUSE);
+        }
+    }
+
+    /// Connects, and exchanges until it is told to stop.
+    fn visit(&mut self) -> Result<(), String> {
+        let mut link = Link::open(self.island.address, self.island.unit, self.island.timeout)?;
+        let mut next = Instant::now();
+        while !self.shared.stops() {
+            if self.shared.take_outputs(&mut self.outputs) {
+                self.write(&mut link)?;
+            }
+            for run in &self.plan.reads {
+                client::read_request(&mut self.request, run.table, run.start, run.count);
+                let answer = link.ask(&self.request).map_err(|why| about(run, &why))?;
+                let function = self.request.first().copied().unwrap_or_default();
+                let data = client::read_answer(run.table, function, run.count.into(), answer);
+                run.take(data.map_err(|refusal| refused(run, refusal))?, &mut self.inputs);
+            }
+            self.shared.bring_inputs(&self.inputs);
+            // What took longer than it should does not make the next ones come closer together.
+            next = (next + self.island.poll).max(Instant::now());
+            self.sleep_until(next);
+        }
+        if self.shared.take_outputs(&mut self.outputs) {
+            if self.island.end == Rest::Zero {
+                self.outputs.copy_from(&self.resting[1]);
+            }
+            self.write(&mut link)?;
+        }
+        Ok(())
+    }
+
+    fn write(&mut self, link: &mut Link) -> Result<(), String> {
+        for run in &self.plan.writes {
+            let data = client::write_request(&mut self.request, run.table, run.start, run.count);
+            run.put(&self.outputs, data);
+            let answer = link.ask(&self.request).map_err(|why| about(run, &why))?;
+            client::write_answer(&self.request, answer).map_err(|refusal| refused(run, refusal))?;
+        }
+        Ok(())
+    }
+
+    /// Sleeps, unless it is told to stop.
+    fn sleep_until(&self, end: Instant) {
+        while !self.shared.stops()
+            && let Some(left) = end.checked_duration_since(Instant::now()).filter(|left| !left.is_zero())
+        {
+            std::thread::park_timeout(left);
+        }
+    }
+}
+
+fn about(run: &Run, why: &str) -> String {
+    format!("{why} (it was asked for {})", run.describe())
+}
+
+fn refused(run: &Run, refusal: Refusal) -> String {
+    match refusal {
+        Refusal::Exception(code) => {
+            format!("it refuses {} with exception {code}: {}", run.describe(), client::exception(code))
+        }
+        Refusal::Garbage => about(run, "what it sends is no answer of Modbus TCP"),
+    }
+}
