@@ -41,7 +41,7 @@
 //! [[channel]]                  # what runs beside the program of the command line: channel 2, 3, ..
 //! program = "feeder.arl"       # files count from the folder of the cell file
 //! robot = "hsr065"             # a built-in name or a robot file
-//! home2 = [0, 45, 0, 0]
+//! home2 = [0, 45, 0, 0]        # [[channel.collision]] below it: conditions of startdetect
 //!
 //! [[channel]]
 //! program = "watch.arl"
@@ -49,21 +49,21 @@
 //! ```
 
 mod external;
-mod programs;
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use arl_robot::cell::collisions;
 use arl_robot::islands::Island;
 
+pub use arl_robot::cell::{CellChannel, Homes, Programs, Sensitivity};
 pub use external::Wiring;
-pub use programs::CellChannel;
 
 use crate::communication::{Listen, NetworkSettings};
 use crate::fieldbus::BusSettings;
 use crate::io::Channels;
 use crate::rate::Rate;
-use crate::settings::{Section, SettingsError, Source, Value, number, table};
+use crate::settings::{Section, SettingsError, Source, Value};
 
 const TOP: &[&str] = &[
     "controller",
@@ -80,12 +80,9 @@ const TOP: &[&str] = &[
 ];
 const CONTROLLER: &[&str] = &["cycle"];
 const NETWORK: &[&str] = &["listen"];
-const HOME: &[&str] = &["tolerance", "home2", "home3", "home4", "home5"];
-const COLLISION: &[&str] = &["cid", "percent", "torque"];
-const HOMES: [&str; 4] = ["home2", "home3", "home4", "home5"];
 
 /// What stands around the robot.
-#[derive(Clone, PartialEq, Debug)]
+#[derive(Clone, PartialEq, Default, Debug)]
 pub struct Cell {
     /// The length of the control cycle.
     pub rate: Rate,
@@ -93,49 +90,18 @@ pub struct Cell {
     pub channels: Channels,
     /// Where programs listen.
     pub network: NetworkSettings,
-    /// Home points 2 to 5: axis positions in deg (mm where linear).
-    pub homes: [Option<Vec<f64>>; 4],
-    /// How near to a home point is at home, in deg (mm).
-    pub home_tolerance: f64,
+    /// The home points of the first channel's robot.
+    pub homes: Homes,
     /// How a PLC is wired to the controller.
     pub external: Wiring,
-    /// The conditions of `startdetect` by their numbers; of those that are not there, 20 %.
+    /// The conditions of `startdetect` of the first channel's robot by their numbers; of those that are not there, 20 %.
     pub collisions: Vec<(u8, Sensitivity)>,
     /// The field buses.
     pub buses: BusSettings,
     /// The servers of Modbus TCP that have inputs and outputs of the cell.
     pub islands: Vec<Island>,
     /// The channels beside the first one: what the command line of a program runs, too.
-    pub programs: Vec<CellChannel>,
-    /// The programs that `switcharl` can load into the first channel.
-    pub load: Vec<String>,
-}
-
-/// By how much the torques of the axes may differ from what the model asks for before that counts as a collision.
-#[derive(Clone, PartialEq, Debug)]
-pub enum Sensitivity {
-    /// Percent of what each axis of the robot, without load, needs at most.
-    Percent(f64),
-    /// Nm (N of linear axes), for each of the robot's own axes.
-    Torques(Vec<f64>),
-}
-
-impl Default for Cell {
-    fn default() -> Self {
-        Self {
-            rate: Rate::default(),
-            channels: Channels::default(),
-            network: NetworkSettings::default(),
-            homes: [None, None, None, None],
-            home_tolerance: 0.1,
-            external: Wiring::default(),
-            collisions: Vec::new(),
-            buses: BusSettings::default(),
-            islands: Vec::new(),
-            programs: Vec::new(),
-            load: Vec::new(),
-        }
-    }
+    pub programs: Programs,
 }
 
 impl Cell {
@@ -172,25 +138,13 @@ impl Cell {
         cell.buses = BusSettings::read(&top)?;
         cell.islands = Island::read_all(source, top.find("island"), &cell.channels)?;
         let folder = Path::new(file).parent().unwrap_or(Path::new(""));
-        cell.programs = CellChannel::read_all(source, &top, folder)?;
-        cell.load = programs::load(&top)?;
+        cell.programs = Programs::read(&top, folder)?;
         cell.external = Wiring::read(&top, &cell.channels)?;
         if let Some(value) = top.find("serial") {
             cell.network.devices = devices(&top, value)?;
         }
-        if let Some(home) = top.table("home", "[home]", HOME)? {
-            if let Some(tolerance) = home.number("tolerance", "a distance in deg", 0.0, 90.0)? {
-                cell.home_tolerance = tolerance;
-            }
-            for (place, key) in cell.homes.iter_mut().zip(HOMES) {
-                *place = numbers(&home, key, POSITIONS)?;
-            }
-        }
-        if let Some(found) = top.find("collision") {
-            let what = "tables that begin with [[collision]]";
-            let tables = found.get_ref().as_array().ok_or_else(|| top.wrong("collision", found, what))?;
-            cell.collisions = tables.iter().map(|table| collision(source, table)).collect::<Result<_, _>>()?;
-        }
+        cell.homes = Homes::of_cell(&top)?;
+        cell.collisions = collisions(&top)?;
         Ok(cell)
     }
 }
@@ -214,34 +168,6 @@ fn listen(network: &Section<'_>) -> Result<Listen, SettingsError> {
         Some(address) if address.parse::<std::net::IpAddr>().is_ok() => Ok(Listen::Address(address.into())),
         _ => Err(network.wrong("listen", value, "\"loopback\", \"program\", or an address like \"192.168.0.40\"")),
     }
-}
-
-const POSITIONS: &str = "axis positions in deg, like [0, -90, 90, 0, 0, 0]";
-const TORQUES: &str = "a torque above 0 in Nm for each axis, like [60, 60, 40, 15, 15, 10]";
-
-fn numbers(section: &Section<'_>, key: &str, what: &str) -> Result<Option<Vec<f64>>, SettingsError> {
-    let Some(value) = section.find(key) else { return Ok(None) };
-    let array = value.get_ref().as_array().ok_or_else(|| section.wrong(key, value, what))?;
-    let items = array.iter().map(|item| number(item.get_ref()).ok_or_else(|| section.wrong(key, item, what)));
-    items.collect::<Result<_, _>>().map(Some)
-}
-
-fn collision(source: Source<'_>, value: &Value<'_>) -> Result<(u8, Sensitivity), SettingsError> {
-    let section = table(source, value, "[[collision]]", COLLISION)?;
-    let cid = section.count("cid", "the number of a condition", 16)?;
-    let cid = cid.ok_or_else(|| source.error(value.span(), "[[collision]] lacks `cid`: a number from 0 to 16"))?;
-    let percent = section.number("percent", "percent", 0.1, 1000.0)?;
-    let sensitivity = match (percent, numbers(&section, "torque", TORQUES)?) {
-        (Some(percent), None) => Sensitivity::Percent(percent),
-        (None, Some(torques)) if torques.iter().all(|torque| *torque > 0.0) => Sensitivity::Torques(torques),
-        (None, Some(_)) => return Err(source.error(value.span(), format!("`torque`: expected {TORQUES}"))),
-        (percent, _) => {
-            let found =
-                if percent.is_some() { "both `percent` and `torque`" } else { "neither `percent` nor `torque`" };
-            return Err(source.error(value.span(), format!("[[collision]] has {found}: expected one of them")));
-        }
-    };
-    Ok((cid as u8, sensitivity))
 }
 
 #[cfg(test)]
@@ -269,8 +195,8 @@ mod tests {
         assert_eq!((cell.channels.di, cell.channels.dout, cell.channels.internal), (16, 8, 0));
         assert_eq!(cell.channels.ai, [AnalogType::Volt, AnalogType::Milliampere]);
         assert_eq!(cell.channels.ao, [AnalogType::Volt; 2]);
-        assert_eq!(cell.homes[1].as_deref(), Some(&[0.0, 1.5, 2.0, 3.0, 4.0, 5.0][..]));
-        assert_eq!((cell.homes[0].as_ref(), cell.home_tolerance), (None, 0.5));
+        assert_eq!(cell.homes.points[1].as_deref(), Some(&[0.0, 1.5, 2.0, 3.0, 4.0, 5.0][..]));
+        assert_eq!((cell.homes.points[0].as_ref(), cell.homes.tolerance), (None, Some(0.5)));
         let torques = Sensitivity::Torques(vec![1.0, 2.5]);
         assert_eq!(cell.collisions, [(2, Sensitivity::Percent(10.0)), (3, torques)]);
     }

@@ -95,3 +95,15 @@ pub struct DataVar<'a> {
     /// The variable.
     pub slot: &'a dyn Teach,
 }
+
+/// Makes a program.
+pub type Make = fn() -> Box<dyn Program>;
+
+/// A program beside the first one, for the channels of a cell file.
+#[derive(Clone, Copy, Debug)]
+pub struct Other {
+    /// Its file, as the cell file names it.
+    pub file: &'static str,
+    /// What makes it.
+    pub make: Make,
+}

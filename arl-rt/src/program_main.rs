@@ -16,6 +16,7 @@ use crate::controller::{Builder, Controller, Outcome, SetupError};
 use crate::io::Scenario;
 use crate::live::{self, Cut, Voice};
 use crate::program::Program;
+pub use crate::program::{Make, Other};
 use crate::report;
 use crate::robot::Robot;
 use crate::state::Directory;
@@ -94,18 +95,6 @@ enum Report {
     Table,
     /// As JSON in a file.
     File(PathBuf),
-}
-
-/// Makes a program.
-pub type Make = fn() -> Box<dyn Program>;
-
-/// A program beside the first one, for the channels of the cell file.
-#[derive(Clone, Copy, Debug)]
-pub struct Other {
-    /// Its file, as the cell file names it.
-    pub file: &'static str,
-    /// What makes it.
-    pub make: Make,
 }
 
 /// Runs a program as its command line says: the `main` of every compiled program.
@@ -382,7 +371,8 @@ fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
     }
     if let Some(cell) = &options.cell {
         let cell = Cell::load(cell).map_err(SetupFailure::usage)?;
-        builder = several::add(builder, &cell, others, options.trace.as_deref())?.cell(cell);
+        builder = builder.cell_with(cell, others)?;
+        builder = several::trace(builder, options.trace.as_deref())?;
     }
     if let Some(io) = &options.io {
         builder = builder.scenario(Scenario::load(io).map_err(SetupFailure::usage)?);

@@ -14,16 +14,29 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     cases.sort();
 
     let mut builds: BTreeMap<bool, arl2rs::Build> = BTreeMap::new();
-    let mut built = String::from("// The cases through the build script.\n");
-    let mut expanded = String::from("// The cases through the macro.\n");
+    let mut built = String::from("// The cases through the build script.\nuse arl_rt::program::Other;\n");
+    let mut expanded = String::from("// The cases through the macro.\nuse arl_rt::program::Other;\n");
     let mut tables = (String::new(), String::new());
     for (number, source) in cases.iter().enumerate() {
         let name = format!("case_{number}");
-        let scara = family(source)? == Family::Scara;
+        let options = options(source)?;
+        let scara = is_scara(source, text(&options, "robot"));
+        let mut others = (String::new(), String::new());
+        for (at, other) in others_of(source, text(&options, "cell"))?.into_iter().enumerate() {
+            let module = format!("{name}_beside_{at}");
+            let robot = if other.scara { "scara" } else { "six_axis" };
+            let build = builds.entry(other.scara).or_default();
+            *build = std::mem::take(build).program_as(&module, &other.path);
+            writeln!(built, "mod {module} {{ arl_rt::include_arl!(\"{module}\"); }}")?;
+            writeln!(expanded, "mod {module} {{ arl_rt::arl_file!({:?}, {robot}); }}", other.path)?;
+            let entry = format!("Other {{ file: {:?}, make: || Box::new({module}::Globals::new()) }},", other.file);
+            others.0 += &entry;
+            others.1 += &entry;
+        }
         let build = builds.entry(scara).or_default();
         *build = std::mem::take(build).program_as(&name, source);
         writeln!(built, "mod {name} {{ arl_rt::include_arl!(\"{name}\"); }}")?;
-        writeln!(tables.0, "    (|| Box::new({name}::Globals::new()), {source:?}, 0),")?;
+        writeln!(tables.0, "    (|| Box::new({name}::Globals::new()), {source:?}, 0, &[{}]),", others.0)?;
 
         let text = std::fs::read(source)?;
         let robot = if scara { "scara" } else { "six_axis" };
@@ -39,7 +52,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 0
             }
         };
-        writeln!(tables.1, "    (|| Box::new({name}::Globals::new()), {source:?}, {offset}),")?;
+        writeln!(tables.1, "    (|| Box::new({name}::Globals::new()), {source:?}, {offset}, &[{}]),", others.1)?;
     }
     for (scara, build) in builds {
         build.family(if scara { Family::Scara } else { Family::SixAxis }).warnings(false).compile();
@@ -67,14 +80,54 @@ fn find(folder: &Path, cases: &mut Vec<PathBuf>) -> std::io::Result<()> {
     Ok(())
 }
 
-/// The family of the robot that NAME.toml names.
-fn family(source: &Path) -> Result<Family, Box<dyn std::error::Error>> {
-    let Ok(options) = std::fs::read_to_string(source.with_extension("toml")) else { return Ok(Family::SixAxis) };
-    let options: toml::Table = toml::from_str(&options)?;
-    let robot = options.get("robot").and_then(toml::Value::as_str).unwrap_or_default();
+/// NAME.toml
+fn options(source: &Path) -> Result<toml::Table, Box<dyn std::error::Error>> {
+    Ok(toml::from_str(&std::fs::read_to_string(source.with_extension("toml")).unwrap_or_default())?)
+}
+
+fn text<'a>(table: &'a toml::Table, key: &str) -> Option<&'a str> {
+    table.get(key).and_then(toml::Value::as_str)
+}
+
+/// Whether a robot, built in or beside the case, is a SCARA.
+fn is_scara(source: &Path, robot: Option<&str>) -> bool {
+    let robot = robot.unwrap_or_default();
     let built_in = std::fs::read_to_string(format!("../../arl-robot/src/robot/files/{robot}.toml"));
     let text = built_in.or_else(|_| std::fs::read_to_string(source.with_file_name(robot))).unwrap_or_default();
-    Ok(if text.contains("family = \"scara\"") { Family::Scara } else { Family::SixAxis })
+    text.contains("family = \"scara\"")
+}
+
+/// A program beside the first one.
+struct Beside {
+    file: String,
+    path: PathBuf,
+    scara: bool,
+}
+
+/// The programs that the cell of a case names.
+fn others_of(source: &Path, cell: Option<&str>) -> Result<Vec<Beside>, Box<dyn std::error::Error>> {
+    let Some(cell) = cell else { return Ok(Vec::new()) };
+    let cell: toml::Table = toml::from_str(&std::fs::read_to_string(source.with_file_name(cell))?)?;
+    let own = options(source)?;
+    let mut all: Vec<Beside> = Vec::new();
+    let mut add = |file: &str, robot: Option<&str>| {
+        if !all.iter().any(|known| known.file == file) {
+            let path = source.with_file_name(file);
+            all.push(Beside { file: file.into(), path, scara: is_scara(source, robot) });
+        }
+    };
+    let load = |table: &toml::Table| match table.get("load").and_then(toml::Value::as_array) {
+        Some(files) => files.iter().filter_map(|file| Some(file.as_str()?.to_owned())).collect(),
+        None => Vec::new(),
+    };
+    load(&cell).iter().for_each(|file| add(file, text(&own, "robot")));
+    let channels = cell.get("channel").and_then(toml::Value::as_array).into_iter().flatten();
+    for channel in channels.filter_map(toml::Value::as_table) {
+        let robot = text(channel, "robot");
+        add(text(channel, "program").unwrap_or_default(), robot);
+        load(channel).iter().for_each(|file| add(file, robot));
+    }
+    Ok(all)
 }
 
 /// Whether the text can stand in a Rust file, and needs no file beside it.

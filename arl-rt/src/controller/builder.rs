@@ -217,6 +217,16 @@ impl Builder {
         self
     }
 
+    /// The foreground channels beyond the first.
+    pub(super) fn others_mut(&mut self) -> &mut [Foreground] {
+        &mut self.foreground
+    }
+
+    /// How many foreground channels there are, with the first one.
+    pub(crate) fn foreground_count(&self) -> u8 {
+        u8::try_from(self.foreground.len()).unwrap_or(u8::MAX).saturating_add(1)
+    }
+
     /// The controller, with its programs at the start of the first cycle; this one runs in the first channel.
     ///
     /// # Errors
@@ -242,12 +252,7 @@ impl Builder {
         common.ctl_mode.set(self.mode);
         let io = Image::new(&cell.channels).for_programs(count + background.len());
         let rate = cell.rate;
-        let body = Body {
-            homes: cell.homes.clone(),
-            home_tolerance: Some(cell.home_tolerance),
-            collisions: cell.collisions.clone(),
-            ..self.body
-        };
+        let body = Body { homes: cell.homes.clone(), collisions: cell.collisions.clone(), ..self.body };
         let robot = robot_of(&body, &*program)?;
         self.scenario.check(&cell.channels, &robot).map_err(SetupError::Cell)?;
         let scenario = Playing::new(self.scenario, &io, rate);
@@ -280,7 +285,7 @@ impl Builder {
         let site = Site {
             world: Rc::clone(&world),
             common,
-            home_tolerance: cell.home_tolerance,
+            home_tolerance: cell.homes.tolerance.unwrap_or(HOME_TOLERANCE),
             speed_override: self.speed_override,
             record: self.record,
             stack: self.stack,
@@ -300,6 +305,9 @@ impl Builder {
         Ok(Controller { world, channels, unit, clock: self.clock, islands, io: self.io, scenario, deeds, external })
     }
 }
+
+/// How near to a home point is at home where nobody says it, in deg (mm).
+const HOME_TOLERANCE: f64 = 0.1;
 
 /// What channels are set up with.
 struct Site {
@@ -336,8 +344,8 @@ impl Site {
         let unit = Rc::new(RefCell::new(unit));
         let station = Station {
             unit: Rc::clone(&unit),
-            homes: body.homes,
-            home_tolerance: body.home_tolerance.unwrap_or(self.home_tolerance),
+            homes: body.homes.points,
+            home_tolerance: body.homes.tolerance.unwrap_or(self.home_tolerance),
             collisions: body.collisions,
         };
         let index = usize::from(number).saturating_sub(1);
@@ -370,7 +378,7 @@ fn robot_of(body: &Body, program: &dyn Program) -> Result<Robot, SetupError> {
     if robot.family != family {
         return Err(SetupError::Family { program: family, robot: robot.name, family: robot.family });
     }
-    for home in body.homes.iter().flatten() {
+    for home in body.homes.points.iter().flatten() {
         if home.len() != robot.axes.len() {
             let (found, name, axes) = (home.len(), &robot.name, robot.axes.len());
             let text = format!("a home point of the cell has {found} positions; robot {name} has {axes} axes");
@@ -429,7 +437,7 @@ pub enum SetupError {
         /// The robot's build.
         family: Family,
     },
-    /// There are too many channels.
+    /// There are too many channels, or programs for them are not there.
     Channels(String),
     /// The cell or the scenario does not fit.
     Cell(String),

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::io::Write;
 
-use crate::cell::Sensitivity;
+use crate::cell::{Homes, Sensitivity};
 use crate::program::Program;
 use crate::robot::Robot;
 use crate::robot_driver::{RobotDriver, SimulatedRobot};
@@ -20,9 +20,7 @@ pub(super) struct Body {
     pub(super) robot: Option<Robot>,
     pub(super) driver: Box<dyn RobotDriver>,
     pub(super) trace: Option<Box<dyn Write>>,
-    /// Home points 2 to 5.
-    pub(super) homes: [Option<Vec<f64>>; 4],
-    pub(super) home_tolerance: Option<f64>,
+    pub(super) homes: Homes,
     pub(super) collisions: Vec<(u8, Sensitivity)>,
 }
 
@@ -32,8 +30,7 @@ impl Default for Body {
             robot: None,
             driver: Box::new(SimulatedRobot::new()),
             trace: None,
-            homes: [const { None }; 4],
-            home_tolerance: None,
+            homes: Homes::default(),
             collisions: Vec::new(),
         }
     }
@@ -63,9 +60,15 @@ impl Foreground {
         self
     }
 
-    /// Home points 2 to 5 of this robot: axis positions in deg (mm where linear).
-    pub fn homes(mut self, homes: [Option<Vec<f64>>; 4]) -> Self {
+    /// The home points of this robot.
+    pub fn homes(mut self, homes: Homes) -> Self {
         self.body.homes = homes;
+        self
+    }
+
+    /// The conditions of `startdetect` of this robot by their numbers; of those that are not there, 20 %.
+    pub fn collisions(mut self, conditions: Vec<(u8, Sensitivity)>) -> Self {
+        self.body.collisions = conditions;
         self
     }
 }

@@ -6,6 +6,7 @@ mod channel;
 mod channels;
 mod external;
 mod foreground;
+mod of_cell;
 mod order;
 mod outcome;
 mod pendant;

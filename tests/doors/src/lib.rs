@@ -1,12 +1,14 @@
 //! Runs conformance cases inside the process, as Rust programs that embed ARL do.
 
 use arl_rt::io::Scenario;
+use arl_rt::program::{Make, Other};
 use arl_rt::values::Controlmode;
-use arl_rt::{Captured, Controller, Outcome, Program, Robot};
+use arl_rt::{Captured, Controller, Outcome, Robot};
 use std::path::Path;
 
-/// How to make a program, its ARL file, and the lines above its text in the file that rustc read.
-pub type Entry = (fn() -> Box<dyn Program>, &'static str, u32);
+/// How to make a program, its ARL file, the lines above its text in the file that rustc read, and the programs that its
+/// cell names.
+pub type Entry = (Make, &'static str, u32, &'static [Other]);
 
 /// Controller seconds after which a case without a limit of its own is given up.
 const LONGEST: f64 = 3600.0;
@@ -24,7 +26,7 @@ pub fn run_all(cases: &'static [Entry]) -> Vec<String> {
     }
 }
 
-fn run((make, source, lines_above): &Entry) -> Result<(), String> {
+fn run((make, source, lines_above, others): &Entry) -> Result<(), String> {
     let source = Path::new(source);
     let text = |error: &dyn std::fmt::Display| error.to_string();
     let options = std::fs::read_to_string(source.with_extension("toml")).unwrap_or_default();
@@ -44,7 +46,7 @@ fn run((make, source, lines_above): &Entry) -> Result<(), String> {
     }
     if let Some(cell) = word("cell") {
         let cell = arl_rt::cell::Cell::load(&source.with_file_name(cell)).map_err(|error| text(&error))?;
-        builder = builder.cell(cell);
+        builder = builder.cell_with(cell, others).map_err(|error| text(&error))?;
     }
     let scenario = source.with_extension("io.toml");
     if scenario.is_file() {

@@ -4,6 +4,7 @@ use super::args::{Checking, Format};
 use super::failure::{COMPILE_ERRORS, Failure};
 use super::program::check_options;
 use super::robot;
+use super::several;
 use super::show;
 use crate::CheckOptions;
 use crate::compile::{Compiled, check_program};
@@ -14,19 +15,29 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Checks each file as a program. A data file, and a file that an earlier one uses, is a module and needs no `main`.
+/// Checks each file as a program, and those that the cell names. A data file, and a file that an earlier one uses, is a
+/// module and needs no `main`.
 pub(super) fn check(files: &[PathBuf], format: Format, checking: &Checking) -> Result<ExitCode, Failure> {
-    let mut options = check_options(checking)?;
-    // A program that runs meets its robot itself, and one that is compiled may meet several.
-    if let Some(robot) = &checking.robot {
-        options.robot = Some(robot::load(Some(robot))?);
-    }
+    let options = options(checking)?;
+    let others = several::named(checking.cell.as_deref(), checking.robot.as_deref())?;
     let mut reporter = Reporter { format, said: HashSet::new() };
     let mut used = HashSet::new();
     let (programs, modules): (Vec<&PathBuf>, Vec<&PathBuf>) = files.iter().partition(|file| !is_data(file));
+    let same =
+        |one: &Path, other: &Path| one.canonicalize().is_ok_and(|one| other.canonicalize().is_ok_and(|it| it == one));
+    let mut all: Vec<(&Path, CheckOptions)> = Vec::new();
+    for file in programs {
+        // What the cell names is checked as the cell has it.
+        if !others.iter().any(|other| same(&other.path, file)) {
+            all.push((file, options.clone()));
+        }
+    }
+    for other in &others {
+        all.push((&other.path, self::options(&other.checking(checking))?));
+    }
     let mut refused = false;
     let mut later = Vec::new();
-    for file in programs {
+    for (file, options) in all {
         let compiled = check_program(file, &FileSystem, &options)?;
         used.extend(compiled.read().skip(1).filter_map(|path| path.canonicalize().ok()));
         later.push((file, compiled));
@@ -41,6 +52,16 @@ pub(super) fn check(files: &[PathBuf], format: Format, checking: &Checking) -> R
         refused |= reporter.report(as_module(file, &options)?);
     }
     Ok(if refused { ExitCode::from(COMPILE_ERRORS) } else { ExitCode::SUCCESS })
+}
+
+/// The options of a check that is all there is to come. A program that runs meets its robot itself, and one that is
+/// compiled may meet several.
+fn options(checking: &Checking) -> Result<CheckOptions, Failure> {
+    let mut options = check_options(checking)?;
+    if let Some(robot) = &checking.robot {
+        options.robot = Some(robot::load(Some(robot))?);
+    }
+    Ok(options)
 }
 
 fn as_module(file: &Path, options: &CheckOptions) -> Result<Compiled, Failure> {

@@ -3,14 +3,20 @@
 use super::args::Checking;
 use super::cache::{Cache, write_if_changed};
 use super::failure::Failure;
-use super::program::{check_options, compile, compile_rust};
+use super::program::{Job, check_options, compile_rust};
 use super::runtime::Runtime;
+use super::show;
+use crate::compile::compile_program;
+use crate::emit::EmitOptions;
+use crate::sources::FileSystem;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Writes the Rust of a program to standard output, or to NAME.rs in a folder.
 pub(super) fn emit(file: &Path, out: Option<&Path>, checking: &Checking) -> Result<(), Failure> {
-    let (compiled, rust) = compile(file, &check_options(checking)?)?;
+    let mut compiled = compile_program(file, &FileSystem, &check_options(checking)?, &EmitOptions::default())?;
+    show::diagnostics(&compiled);
+    let rust = compiled.rust.take().ok_or(Failure::Shown)?;
     let Some(folder) = out else {
         let mut out = std::io::stdout().lock();
         return match out.write_all(rust.as_bytes()).and_then(|()| out.flush()) {
@@ -25,14 +31,14 @@ pub(super) fn emit(file: &Path, out: Option<&Path>, checking: &Checking) -> Resu
     Ok(())
 }
 
-/// Makes a native program.
+/// Makes a native program, with the programs that the cell names.
 pub(super) fn build(file: &Path, out: Option<&Path>, release: bool, checking: &Checking) -> Result<(), Failure> {
-    let (_, rust) = compile(file, &check_options(checking)?)?;
-    let main = std::path::absolute(file).map_err(|error| Failure::io("use", file, &error))?;
+    let job = Job::new(file, checking.cell.as_deref(), checking)?;
+    let done = job.compile(&FileSystem)?;
     let cache = Cache::find()?;
-    let place = cache.program(&main);
+    let place = job.place(&cache)?;
     let lock = place.lock(false)?;
-    let executable = compile_rust(&cache, &place, &Runtime::find(), &rust, &main, release)?;
+    let executable = compile_rust(&cache, &place, &Runtime::find(), &done.rust, &job.main()?, release)?;
     drop(lock);
     let to = out.map_or_else(|| default_name(file), Path::to_path_buf);
     if let Some(folder) = to.parent().filter(|folder| !folder.as_os_str().is_empty()) {

@@ -4,10 +4,13 @@ use super::args::Checking;
 use super::cache::{Cache, Lock, Place, write_if_changed};
 use super::failure::Failure;
 use super::progress::Progress;
+use super::project::Emitted;
 use super::runtime::{Runtime, hash_state};
+use super::several::{self, Other};
 use super::stamp::{Freshness, Recording, Stamp};
 use super::{cargo, project, robots, show};
 use crate::CheckOptions;
+use crate::Sources;
 use crate::compile::{Compiled, compile_program};
 use crate::emit::EmitOptions;
 use crate::sources::FileSystem;
@@ -49,25 +52,93 @@ fn channels_of(cell: &Path) -> Result<Channels, Failure> {
     Ok(channels)
 }
 
-/// Checks and emits a program, and shows what there is to say.
-///
-/// # Errors
-/// [`Failure::Shown`] where the program has errors.
-pub(super) fn compile(file: &Path, options: &CheckOptions) -> Result<(Compiled, String), Failure> {
-    let mut compiled = compile_program(file, &FileSystem, options, &EmitOptions::default())?;
-    show::diagnostics(&compiled);
-    let rust = compiled.rust.take().ok_or(Failure::Shown)?;
-    Ok((compiled, rust))
+/// What becomes one program: that of the command line, and those that its cell names.
+#[derive(Debug)]
+pub(super) struct Job<'a> {
+    file: &'a Path,
+    cell: Option<&'a Path>,
+    options: CheckOptions,
+    others: Vec<(Other, CheckOptions)>,
 }
 
-/// Compiles a program unless that was done before.
-pub(super) fn prepare(file: &Path, checking: &Checking) -> Result<Ready, Failure> {
-    let options = check_options(checking)?;
-    let main = std::path::absolute(file).map_err(|error| Failure::io("use", file, &error))?;
+/// A job that was done: what was found out about the programs, the first one in front, and the Rust that they became.
+pub(super) struct Done {
+    programs: Vec<Compiled>,
+    pub(super) rust: Emitted,
+    /// What there was to say, rendered.
+    said: String,
+}
+
+impl<'a> Job<'a> {
+    /// A program and what the cell has beside it.
+    pub(super) fn new(file: &'a Path, cell: Option<&'a Path>, checking: &Checking) -> Result<Self, Failure> {
+        let others = several::named(cell, checking.robot.as_deref())?;
+        let with_options = |other: Other| check_options(&other.checking(checking)).map(|options| (other, options));
+        Ok(Self {
+            file,
+            cell: cell.filter(|_| !others.is_empty()),
+            options: check_options(checking)?,
+            others: others.into_iter().map(with_options).collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// The main file as an absolute path.
+    pub(super) fn main(&self) -> Result<PathBuf, Failure> {
+        absolute(self.file)
+    }
+
+    /// Where the program is kept.
+    pub(super) fn place(&self, cache: &Cache) -> Result<Place, Failure> {
+        Ok(match self.cell {
+            Some(cell) => cache.programs(&self.main()?, &absolute(cell)?),
+            None => cache.program(&self.main()?),
+        })
+    }
+
+    /// Checks and emits all programs, and shows what there is to say of any of them.
+    ///
+    /// # Errors
+    /// [`Failure::Shown`] where one has errors.
+    pub(super) fn compile(&self, sources: &dyn Sources) -> Result<Done, Failure> {
+        let emit = |file: &Path, options| compile_program(file, sources, options, &EmitOptions::default());
+        let mut programs = vec![emit(self.file, &self.options)?];
+        for (other, options) in &self.others {
+            programs.push(emit(&other.path, options)?);
+        }
+        let said: String = programs.iter().map(show::rendered).collect();
+        show::again(&said);
+        let rust: Option<Vec<String>> = programs.iter_mut().map(|compiled| compiled.rust.take()).collect();
+        let mut rust = rust.ok_or(Failure::Shown)?.into_iter();
+        let first = rust.next().ok_or(Failure::Shown)?;
+        let others = self.others.iter().map(|(other, _)| other.file.clone()).zip(rust).collect();
+        Ok(Done { programs, rust: Emitted { first, others }, said })
+    }
+
+    /// A number that changes with everything but the sources: this command, the runtime, the options, the channels.
+    fn identity(&self, runtime: &Runtime) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        if let Ok(command) = std::env::current_exe() {
+            hash_state(&command, &mut hasher);
+        }
+        runtime.state().hash(&mut hasher);
+        let of_options = |options: &CheckOptions| (options.family, options.strict, options.background);
+        (of_options(&self.options), &self.options.script_dir).hash(&mut hasher);
+        self.others.iter().for_each(|(other, options)| (other, of_options(options)).hash(&mut hasher));
+        hasher.finish()
+    }
+}
+
+fn absolute(path: &Path) -> Result<PathBuf, Failure> {
+    std::path::absolute(path).map_err(|error| Failure::io("use", path, &error))
+}
+
+/// Compiles a program, with those that its cell names, unless that was done before.
+pub(super) fn prepare(file: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Ready, Failure> {
+    let job = Job::new(file, cell, checking)?;
     let cache = Cache::find()?;
-    let place = cache.program(&main);
+    let place = job.place(&cache)?;
     let runtime = Runtime::find();
-    let identity = identity(&options, &runtime);
+    let identity = job.identity(&runtime);
     let lock = place.lock(true)?;
     if let (Freshness::Fresh, Some(stamp)) = state(&place, identity) {
         return start_again(&place, &stamp, lock);
@@ -80,27 +151,25 @@ pub(super) fn prepare(file: &Path, checking: &Checking) -> Result<Ready, Failure
     }
 
     let read = Recording::new(&FileSystem);
-    let mut compiled = compile_program(file, &read, &options, &EmitOptions::default())?;
-    let said = show::rendered(&compiled);
-    show::again(&said);
-    let rust = compiled.rust.take().ok_or(Failure::Shown)?;
-    // The runtime reads data files again in the script directory: here it must be the program's own folder.
-    let read_again = options.script_dir.is_none() && freshness == Freshness::DataChanged;
-    let kept = stamp.filter(|stamp| read_again && only_values(stamp, &compiled, &read));
+    let done = job.compile(&read)?;
+    // The runtime reads data files again in the script directory: here it must be the folder of every program.
+    let folders = job.others.iter().all(|(other, _)| other.path.parent() == file.parent());
+    let read_again = checking.script_dir.is_none() && folders && freshness == Freshness::DataChanged;
+    let kept = stamp.filter(|stamp| read_again && only_values(stamp, &done.programs, &read));
     let program = match kept {
         Some(stamp) => stamp.program,
-        None => build(&cache, &place, &runtime, &rust, &main, &compiled)?,
+        None => build(&cache, &place, &runtime, &done, &job.main()?)?,
     };
-    write_if_changed(&place.folder.join("said"), said.as_bytes())?;
+    write_if_changed(&place.folder.join("said"), done.said.as_bytes())?;
     let path = place.folder.join(&program);
-    let stamp = Stamp::of(&compiled, &read, identity, program);
+    let stamp = Stamp::of(&done.programs, &read, identity, program);
     if let Some(stamp) = &stamp {
         write_if_changed(&place.stamp(), stamp.text().as_bytes())?;
     }
     Ok(Ready { program: path, lock, sources: stamp.as_ref().map(sources).unwrap_or_default() })
 }
 
-fn only_values(stamp: &Stamp, compiled: &Compiled, read: &Recording<'_>) -> bool {
+fn only_values(stamp: &Stamp, compiled: &[Compiled], read: &Recording<'_>) -> bool {
     Stamp::of(compiled, read, stamp.identity, stamp.program.clone()).is_some_and(|now| stamp.same_but_values(&now))
 }
 
@@ -123,18 +192,12 @@ fn sources(stamp: &Stamp) -> Vec<PathBuf> {
 }
 
 /// Compiles the Rust and puts the program into its place under a name of its own, so that older ones run on.
-fn build(
-    cache: &Cache,
-    place: &Place,
-    runtime: &Runtime,
-    rust: &str,
-    main: &Path,
-    compiled: &Compiled,
-) -> Result<String, Failure> {
-    let executable = compile_rust(cache, place, runtime, rust, main, false)?;
+fn build(cache: &Cache, place: &Place, runtime: &Runtime, done: &Done, main: &Path) -> Result<String, Failure> {
+    let executable = compile_rust(cache, place, runtime, &done.rust, main, false)?;
     let mut hasher = DefaultHasher::new();
-    (rust, runtime.state()).hash(&mut hasher);
-    let stem = compiled.checked.program.as_ref().map_or("program", |program| program.name.as_str());
+    (&done.rust.first, &done.rust.others, runtime.state()).hash(&mut hasher);
+    let checked = done.programs.first().and_then(|compiled| compiled.checked.program.as_ref());
+    let stem = checked.map_or("program", |program| program.name.as_str());
     let name = format!("{stem}-{:016x}{}", hasher.finish(), std::env::consts::EXE_SUFFIX);
     let path = place.folder.join(&name);
     remove_old(place, &name);
@@ -147,7 +210,7 @@ pub(super) fn compile_rust(
     cache: &Cache,
     place: &Place,
     runtime: &Runtime,
-    rust: &str,
+    rust: &Emitted,
     main: &Path,
     release: bool,
 ) -> Result<PathBuf, Failure> {
@@ -176,15 +239,4 @@ fn remove_old(place: &Place, keep: &str) {
             let _ = std::fs::remove_file(entry.path());
         }
     }
-}
-
-/// A number that changes with everything but the sources: this command, the runtime, the options.
-fn identity(options: &CheckOptions, runtime: &Runtime) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    if let Ok(command) = std::env::current_exe() {
-        hash_state(&command, &mut hasher);
-    }
-    runtime.state().hash(&mut hasher);
-    (options.family, options.strict, options.background, &options.script_dir).hash(&mut hasher);
-    hasher.finish()
 }

@@ -5,39 +5,41 @@ use super::failure::Failure;
 use super::runtime::Runtime;
 use std::path::Path;
 
-/// Writes the project of one program.
-pub(super) fn write(place: &Place, runtime: &Runtime, rust: &str, folder: &Path) -> Result<(), Failure> {
+/// The emitted Rust of what becomes one program.
+#[derive(Clone, Default, Debug)]
+pub(super) struct Emitted {
+    /// The first program.
+    pub(super) first: String,
+    /// The others, with the names that the cell file gives them.
+    pub(super) others: Vec<(String, String)>,
+}
+
+/// Writes the project of a program. `folder` is that of its files.
+pub(super) fn write(place: &Place, runtime: &Runtime, rust: &Emitted, folder: &Path) -> Result<(), Failure> {
     manifest(&place.folder, &place.name, runtime, PROGRAM_LEVEL)?;
-    write_if_changed(&place.folder.join("src/main.rs"), main_rs(folder).as_bytes())?;
-    write_if_changed(&place.folder.join("src/program.rs"), rust.as_bytes())?;
+    let source = |name: &str| place.folder.join("src").join(name);
+    write_if_changed(&source("program.rs"), rust.first.as_bytes())?;
+    let mut modules = String::from("mod program;\n");
+    let mut others = String::new();
+    for (at, (file, rust)) in rust.others.iter().enumerate() {
+        let name = format!("program_{at}");
+        write_if_changed(&source(&format!("{name}.rs")), rust.as_bytes())?;
+        modules += &format!("mod {name};\n");
+        others += &format!("        {}\n", other(file, &name));
+    }
+    let main = format!(
+        "// Written by arl2rs.\n\n{modules}\n\
+         fn main() -> std::process::ExitCode {{\n    \
+         arl_rt::program_main::main_with(program::Globals::new, &[\n{others}    ], {:?})\n}}\n",
+        folder.display().to_string()
+    );
+    write_if_changed(&source("main.rs"), main.as_bytes())?;
     Ok(())
 }
 
-/// Writes the project of several programs: the first one, and others under the names that the cell file gives them.
-pub(super) fn write_several(
-    place: &Place,
-    runtime: &Runtime,
-    first: &str,
-    others: &[(&str, String)],
-    folder: &Path,
-) -> Result<(), Failure> {
-    manifest(&place.folder, &place.name, runtime, PROGRAM_LEVEL)?;
-    let mut modules = String::from("mod program;\n");
-    let mut makers = String::new();
-    write_if_changed(&place.folder.join("src/program.rs"), first.as_bytes())?;
-    for (at, (name, rust)) in others.iter().enumerate() {
-        write_if_changed(&place.folder.join(format!("src/program_{at}.rs")), rust.as_bytes())?;
-        modules += &format!("mod program_{at};\n");
-        makers += &format!("        Other {{ file: {name:?}, make: || Box::new(program_{at}::Globals::new()) }},\n");
-    }
-    let text = format!(
-        "// Written by arl2rs.\n\n{modules}\nuse arl_rt::program_main::{{Other, main_with}};\n\n\
-         fn main() -> std::process::ExitCode {{\n    let others = [\n{makers}    ];\n    \
-         main_with(program::Globals::new, &others, {:?})\n}}\n",
-        folder.display().to_string()
-    );
-    write_if_changed(&place.folder.join("src/main.rs"), text.as_bytes())?;
-    Ok(())
+/// The entry of a program beside the first one: its name in the cell file, and the module that it became.
+pub(super) fn other(file: &str, module: &str) -> String {
+    format!("arl_rt::program_main::Other {{ file: {file:?}, make: || Box::new({module}::Globals::new()) }},")
 }
 
 /// How far programs are optimised: far enough for loops, and soon done.
@@ -77,12 +79,4 @@ pub(super) fn manifest(folder: &Path, name: &str, runtime: &Runtime, level: u8) 
             .map_err(|error| Failure::io("write", &folder.join("Cargo.lock"), &error))?;
     }
     Ok(())
-}
-
-fn main_rs(folder: &Path) -> String {
-    format!(
-        "// Written by arl2rs.\n\nmod program;\n\nfn main() -> std::process::ExitCode {{\n    \
-         arl_rt::program_main::main(program::Globals::new, {:?})\n}}\n",
-        folder.display().to_string()
-    )
 }

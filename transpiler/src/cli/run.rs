@@ -5,18 +5,14 @@ use super::failure::Failure;
 use super::pendant;
 use super::plot::{self, Ran};
 use super::program::{Ready, prepare};
-use super::{several, show};
+use super::show;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
 /// Compiles where needed, then lets the program take over.
 pub(super) fn run(file: &Path, options: &RunOptions) -> Result<ExitCode, Failure> {
-    let others = options.cell.as_deref().map(|cell| several::named(cell, options.robot.as_deref())).unwrap_or_default();
-    let ready = match &options.cell {
-        Some(cell) if !others.is_empty() => several::prepare(file, cell, &others, &options.checking())?,
-        _ => prepare(file, &options.checking())?,
-    };
+    let ready = prepare(file, options.cell.as_deref(), &options.checking())?;
     let mut command = Command::new(&ready.program);
     command.args(options.arguments());
     match &options.plot {

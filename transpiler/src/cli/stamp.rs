@@ -66,8 +66,8 @@ impl Sources for Recording<'_> {
 }
 
 impl Stamp {
-    /// The stamp of a compiled program. `None` where a path cannot be written into a stamp.
-    pub(super) fn of(compiled: &Compiled, read: &Recording<'_>, identity: u64, program: String) -> Option<Self> {
+    /// The stamp of what was compiled together. `None` where a path cannot be written into a stamp.
+    pub(super) fn of(compiled: &[Compiled], read: &Recording<'_>, identity: u64, program: String) -> Option<Self> {
         let mut stamp = Self { identity, program, files: Vec::new(), missing: Vec::new() };
         for (path, content) in read.seen.borrow().iter() {
             let path = std::path::absolute(path).ok()?;
@@ -79,12 +79,11 @@ impl Stamp {
                 None => stamp.missing.push(path),
             }
         }
-        if let Some(program) = &compiled.checked.program {
+        for (compiled, program) in compiled.iter().filter_map(|it| Some((it, it.checked.program.as_ref()?))) {
             for (name, shape) in shapes(program) {
                 let path = std::path::absolute(compiled.folder.join(name)).ok()?;
-                if let Some(file) = stamp.files.iter_mut().find(|file| file.path == path) {
-                    file.shape = Some(shape);
-                }
+                // A file that several programs use was read several times.
+                stamp.files.iter_mut().filter(|file| file.path == path).for_each(|file| file.shape = Some(shape));
             }
         }
         Some(stamp)

@@ -5,6 +5,7 @@
 mod checking;
 mod killing;
 mod running;
+mod several;
 mod telling;
 mod testing;
 

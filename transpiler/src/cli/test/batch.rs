@@ -4,18 +4,18 @@ use crate::cli::cache::{Cache, Place, write_if_changed};
 use crate::cli::cargo::{self, RustError};
 use crate::cli::failure::Failure;
 use crate::cli::progress::Progress;
-use crate::cli::project;
+use crate::cli::project::{self, Emitted};
 use crate::cli::runtime::Runtime;
 use std::collections::{BTreeMap, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 /// A case as Rust.
-pub(super) struct Emitted {
+pub(super) struct Case {
     /// The ARL file.
     pub(super) source: PathBuf,
-    /// What it became.
-    pub(super) rust: String,
+    /// What it became, with the programs that its cell names.
+    pub(super) rust: Emitted,
 }
 
 /// The program that has a case, and the name to start it by.
@@ -32,7 +32,7 @@ pub(super) const CASE: &str = "ARL2RS_CASE";
 pub(super) fn compile(
     place: &Place,
     cache: &Cache,
-    cases: &[Emitted],
+    cases: &[Case],
     progress: &Progress,
 ) -> Result<Vec<Result<Compiled, String>>, Failure> {
     let runtime = Runtime::find();
@@ -67,10 +67,15 @@ pub(super) fn compile(
     Err(Failure::Other("bug in arl2rs: the emitted Rust does not compile, whatever is left out".into()))
 }
 
+/// Stands between the name of a case and the number of a program beside it.
+const BESIDE: &str = "__beside_";
+
 /// Notes an error for the case whose file it is in.
 fn blame(error: &RustError, names: &[String], refused: &mut HashMap<usize, String>) {
     let stem = error.file.as_deref().and_then(|file| Path::new(file).file_stem()).unwrap_or_default();
-    if let Some(at) = names.iter().position(|name| stem == name.as_str()) {
+    let stem = stem.to_string_lossy();
+    let stem = stem.split(BESIDE).next().unwrap_or_default();
+    if let Some(at) = names.iter().position(|name| stem == name) {
         *refused.entry(at).or_default() += &error.rendered;
     }
 }
@@ -104,7 +109,7 @@ fn name(source: &Path) -> String {
 fn write(
     place: &Place,
     runtime: &Runtime,
-    cases: &[Emitted],
+    cases: &[Case],
     names: &[String],
     kept: impl Iterator<Item = usize>,
     parts: usize,
@@ -114,23 +119,34 @@ fn write(
     let mut programs: BTreeMap<usize, (String, String)> = (0..parts).map(|part| (part, Default::default())).collect();
     for at in kept {
         let (Some(case), Some(name)) = (cases.get(at), names.get(at)) else { continue };
-        write_if_changed(&place.folder.join(format!("src/cases/{name}.rs")), case.rust.as_bytes())?;
         let (modules, arms) = programs.entry(part(name, parts)).or_default();
+        let mut add = |name: &str, rust: &str| {
+            *modules += &format!("#[path = \"../cases/{name}.rs\"]\nmod {name};\n");
+            write_if_changed(&place.folder.join(format!("src/cases/{name}.rs")), rust.as_bytes())
+        };
+        add(name, &case.rust.first)?;
+        let mut others = String::new();
+        for (at, (file, rust)) in case.rust.others.iter().enumerate() {
+            let beside = format!("{name}{BESIDE}{at}");
+            add(&beside, rust)?;
+            others += &project::other(file, &beside);
+        }
         let folder = case.source.parent().unwrap_or(Path::new("/")).display().to_string();
-        *modules += &format!("#[path = \"../cases/{name}.rs\"]\nmod {name};\n");
-        *arms += &format!("        \"{name}\" => (|| Box::new({name}::Globals::new()), {folder:?}),\n");
+        *arms += &format!("        \"{name}\" => (|| Box::new({name}::Globals::new()), &[{others}], {folder:?}),\n");
     }
     for (part, (modules, arms)) in &programs {
         let text = format!(
-            "// Written by arl2rs.\n#![allow(warnings)]\n\n{modules}\ntype Make = fn() -> Box<dyn arl_rt::Program>;\n\n\
+            "// Written by arl2rs.\n#![allow(warnings)]\n\n{modules}\n\
+             use arl_rt::program_main::{{Make, Other, main_with}};\n\n\
              fn main() -> std::process::ExitCode {{\n    let case = std::env::var(\"{CASE}\").unwrap_or_default();\n    \
-             let (make, folder): (Make, &str) = match case.as_str() {{\n{arms}        \
-             _ => return std::process::ExitCode::from(2),\n    }};\n    arl_rt::program_main::main(make, folder)\n}}\n"
+             let (make, others, folder): (Make, &[Other], &str) = match case.as_str() {{\n{arms}        \
+             _ => return std::process::ExitCode::from(2),\n    }};\n    main_with(make, others, folder)\n}}\n"
         );
         write_if_changed(&bin.join(format!("{}.rs", part_name(*part))), text.as_bytes())?;
     }
     remove_others(&bin, |name| programs.keys().any(|part| name == format!("{}.rs", part_name(*part))));
-    remove_others(&place.folder.join("src/cases"), |name| names.iter().any(|case| name == format!("{case}.rs")));
+    let case = |file: &str| file.strip_suffix(".rs").and_then(|stem| stem.split(BESIDE).next()).map(str::to_owned);
+    remove_others(&place.folder.join("src/cases"), |file| case(file).is_some_and(|case| names.contains(&case)));
     Ok(())
 }
 
@@ -162,8 +178,9 @@ mod tests {
         let mut refused = HashMap::new();
         let error = |file: Option<&str>| RustError { file: file.map(Into::into), rendered: "E".into() };
         blame(&error(Some("src/bin/../cases/case_b_2.rs")), &names, &mut refused);
+        blame(&error(Some("src/bin/../cases/case_a_1__beside_0.rs")), &names, &mut refused);
         blame(&error(Some("src/bin/part0.rs")), &names, &mut refused);
         blame(&error(None), &names, &mut refused);
-        assert_eq!(refused, HashMap::from([(1, "E".to_string())]));
+        assert_eq!(refused, HashMap::from([(0, "E".to_string()), (1, "E".to_string())]));
     }
 }

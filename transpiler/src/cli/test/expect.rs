@@ -86,6 +86,8 @@ pub(super) fn find_alarm(said: &str) -> Option<(u32, u32)> {
         let (number, rest) = line.strip_prefix("alarm ")?.split_once(':')?;
         let (_, place) = rest.rsplit_once(" (")?;
         let (_, line) = place.strip_suffix(')')?.rsplit_once(':')?;
+        // The channel stands behind the line where there are several.
+        let line = line.split(',').next()?;
         Some((number.parse().ok()?, line.parse().ok()?))
     })
 }

@@ -6,21 +6,23 @@ mod diff;
 mod execute;
 mod expect;
 
+use super::args::Checking;
 use super::cache::Cache;
 use super::failure::{COMPILE_ERRORS, Failure};
+use super::program::check_options;
 use super::progress::Progress;
-use super::robots;
+use super::project::Emitted;
+use super::several;
 use crate::CheckOptions;
 use crate::compile::{Compiled, check_program, compile_program};
 use crate::diagnostics::Files;
 use crate::emit::EmitOptions;
 use crate::render::{Position, human};
 use crate::sources::FileSystem;
-use batch::Emitted;
 use case::{Case, Found};
 use execute::Outcome;
 use expect::FoundError;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -41,7 +43,7 @@ pub(super) fn test(dirs: &[PathBuf]) -> Result<ExitCode, Failure> {
             Ok(case) if case.runs() => match emit(case) {
                 Ok(rust) => {
                     runs.push((at, case));
-                    emitted.push(Emitted { source: found.source.clone(), rust });
+                    emitted.push(batch::Case { source: found.source.clone(), rust });
                     None
                 }
                 Err(failure) => Some(Err(failure)),
@@ -73,17 +75,38 @@ fn find(dirs: &[PathBuf]) -> Result<Vec<Found>, Failure> {
     Ok(all)
 }
 
-fn options(case: &Case) -> Result<CheckOptions, String> {
-    match robots::family(execute::robot(case).as_deref()) {
-        Ok(family) => Ok(CheckOptions { family, background: case.options.background, ..CheckOptions::default() }),
-        Err(Failure::Usage(text) | Failure::Other(text)) => Err(text),
-        Err(Failure::Shown) => Err(String::new()),
+/// How a case's program is checked.
+fn checking(case: &Case) -> Checking {
+    Checking { robot: execute::robot(case), background: case.options.background, ..Checking::default() }
+}
+
+fn options(checking: &Checking) -> Result<CheckOptions, String> {
+    check_options(checking).map_err(said)
+}
+
+fn said(failure: Failure) -> String {
+    match failure {
+        Failure::Usage(text) | Failure::Other(text) => text,
+        Failure::Shown => String::new(),
     }
 }
 
-/// The Rust of a case that is to run.
-fn emit(case: &Case) -> Result<String, String> {
-    let compiled = compile_program(&case.source, &FileSystem, &options(case)?, &EmitOptions::default())
+/// The Rust of a case that is to run, with the programs that its cell names.
+fn emit(case: &Case) -> Result<Emitted, String> {
+    let checking = checking(case);
+    let cell = case.options.cell.as_ref().map(|cell| case.source.with_file_name(cell));
+    let first = rust(&case.source, &checking)?;
+    let mut others = Vec::new();
+    for other in several::named(cell.as_deref(), checking.robot.as_deref()).map_err(said)? {
+        let rust =
+            rust(&other.path, &other.checking(&checking)).map_err(|problem| format!("{}: {problem}", other.file))?;
+        others.push((other.file, rust));
+    }
+    Ok(Emitted { first, others })
+}
+
+fn rust(file: &Path, checking: &Checking) -> Result<String, String> {
+    let compiled = compile_program(file, &FileSystem, &options(checking)?, &EmitOptions::default())
         .map_err(|bug| bug.to_string())?;
     match &compiled.rust {
         Some(rust) => Ok(rust.clone()),
@@ -97,7 +120,8 @@ fn shown_errors(compiled: &Compiled) -> String {
 
 /// Checks a case that is to have errors.
 fn check(case: &Case) -> Verdict {
-    let compiled = check_program(&case.source, &FileSystem, &options(case)?).map_err(|bug| bug.to_string())?;
+    let compiled =
+        check_program(&case.source, &FileSystem, &options(&checking(case))?).map_err(|bug| bug.to_string())?;
     let expected = case.errors.as_deref().unwrap_or_default();
     let difference = expect::compare_errors(expected, &found_errors(&compiled, &compiled.checked.files));
     difference.map_or(Ok(()), |lines| Err(format!("other errors than expected (- expected, + came):\n{lines}")))
@@ -119,7 +143,7 @@ fn found_errors(compiled: &Compiled, files: &Files) -> Vec<FoundError> {
 fn run_all(
     dirs: &[PathBuf],
     runs: &[(usize, &Case)],
-    emitted: &[Emitted],
+    emitted: &[batch::Case],
     progress: &Progress,
 ) -> Result<Vec<Verdict>, Failure> {
     if runs.is_empty() {
@@ -233,7 +257,6 @@ fn indented(text: &str) -> String {
 mod tests {
     use super::*;
     use expect::ExpectedAlarm;
-    use std::path::Path;
 
     fn case() -> Case {
         Case {

@@ -1,0 +1,63 @@
+//! The channels of a cell file: which of the given programs run where.
+
+use std::io::Write;
+use std::path::Path;
+
+use super::builder::{Builder, SetupError};
+use super::foreground::Foreground;
+use crate::cell::{Cell, CellChannel};
+use crate::program::{Make, Other};
+use crate::robot::Robot;
+
+impl Builder {
+    /// What stands around the robot, with the channels that the cell has: `programs` are the files that it names.
+    ///
+    /// # Errors
+    /// The cell names a file that is not among them, or a robot that is not there.
+    pub fn cell_with(mut self, cell: Cell, programs: &[Other]) -> Result<Self, SetupError> {
+        for channel in &cell.programs.channels {
+            let CellChannel { program, robot, background, load, homes, collisions } = channel;
+            let make = find(programs, program)?;
+            self = if *background {
+                self.background(make())
+            } else {
+                let mut channel = Foreground::new(make()).homes(homes.clone()).collisions(collisions.clone());
+                if let Some(robot) = robot {
+                    channel = channel.robot(Robot::load(robot)?);
+                }
+                self.foreground(channel)
+            };
+            self = loadable(self, load, programs)?;
+        }
+        self = loadable(self, &cell.programs.load, programs)?;
+        Ok(self.cell(cell))
+    }
+
+    /// Where the trace of the robot of a foreground channel goes, as CSV. Of a channel that there is not, none is written.
+    pub fn trace_of(mut self, number: u8, writer: impl Write + 'static) -> Self {
+        if number == 1 {
+            return self.trace(writer);
+        }
+        if let Some(channel) = self.others_mut().get_mut(usize::from(number).wrapping_sub(2)) {
+            channel.body.trace = Some(Box::new(writer));
+        }
+        self
+    }
+}
+
+fn loadable(mut builder: Builder, files: &[String], programs: &[Other]) -> Result<Builder, SetupError> {
+    for file in files {
+        let make = find(programs, file)?;
+        let name = Path::new(file).file_name().map(|name| name.to_string_lossy().into_owned());
+        builder = builder.loadable(name.unwrap_or_else(|| file.clone()), make);
+    }
+    Ok(builder)
+}
+
+fn find(programs: &[Other], file: &str) -> Result<Make, SetupError> {
+    let found = programs.iter().find(|other| other.file == file).map(|other| other.make);
+    found.ok_or_else(|| {
+        let text = format!("the cell names the program {file}, which was not compiled together with this one");
+        SetupError::Channels(text)
+    })
+}
