@@ -210,13 +210,43 @@ fn state_is_kept() {
     assert!(scripts.path().join(".arl-state/I.state").is_file());
 }
 
+/// Whoever damages a state file by hand, and in whatever way: the run does not begin, says which file it is and leaves it as it is,
+/// so that the last good value is still there once it is put right.
 fn damaged_state_is_refused() {
     let folder = Folder::new("damaged");
-    check(&run("count", &["--state-dir", folder.text()]), 0, "1\n", "");
+    let run = || run("count", &["--state-dir", folder.text()]);
+    check(&run(), 0, "1\n", "");
     let file = folder.path().join("I.state");
-    let text = std::fs::read_to_string(&file).unwrap();
-    std::fs::write(&file, &text[..text.len() / 2]).unwrap();
-    check(&run("count", &["--state-dir", folder.text()]), 3, "", "I.state: the file is damaged");
+    let good = std::fs::read(&file).unwrap();
+    let text = String::from_utf8(good.clone()).unwrap();
+    let first_line_gone = text.split_once('\n').unwrap().1.to_owned();
+    let damages: [(&str, Vec<u8>); 11] = [
+        ("cut in half", good[..good.len() / 2].to_vec()),
+        ("without its last line", text.rsplit_once("check").unwrap().0.into()),
+        ("empty", Vec::new()),
+        ("a digit changed", text.replacen('1', "7", 1).into()),
+        ("a word for a number", text.replacen('1', "one", 1).into()),
+        ("a line gone", first_line_gone.into()),
+        ("a line too many", format!("5\n{text}").into()),
+        ("something behind it", format!("{text}5\n").into()),
+        ("other line ends", text.replace('\n', "\r\n").into()),
+        ("no text", [&[0xff, 0xfe, 0], &good[..]].concat()),
+        ("zeros, as after a power failure", vec![0; good.len()]),
+    ];
+    for (what, content) in damages {
+        assert_ne!(content, good, "{what}");
+        std::fs::write(&file, &content).unwrap();
+        let output = run();
+        println!("{what}");
+        check(&output, 3, "", "I.state: the file is damaged; remove it to start with the default");
+        assert_eq!(std::fs::read(&file).unwrap(), content, "{what}: it is left as it is");
+    }
+    std::fs::remove_file(&file).unwrap();
+    std::fs::create_dir(&file).unwrap();
+    check(&run(), 3, "", "I.state: cannot be read");
+    std::fs::remove_dir(&file).unwrap();
+    std::fs::write(&file, &good).unwrap();
+    check(&run(), 0, "2\n", "");
 }
 
 fn state_survives_a_kill() {

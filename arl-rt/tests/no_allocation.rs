@@ -1,10 +1,10 @@
-//! A cycle in which the program only waits allocates nothing, whatever else goes on.
+//! A cycle in which no motion is planned allocates nothing, whatever else goes on.
 
 mod common;
 
-use arl_rt::Controller;
 use arl_rt::emit::*;
 use arl_rt::io::Scenario;
+use arl_rt::{Controller, Foreground};
 use common::*;
 
 /// How often a closure allocates.
@@ -63,4 +63,62 @@ fn cycles_without_statements_allocate_nothing() {
     }
     assert!(cycles > 1500, "{cycles}");
     assert_eq!(controller.outcome(), Some(&arl_rt::Outcome::Ended));
+}
+
+/// A robot goes to and fro, with interrupts that stop it and let it go on, and a timer.
+fn busy(cx: &Cx) -> BoxFuture<'_> {
+    Box::pin(async move {
+        for priority in 0..20 {
+            let when = async |cx: &Cx| io::getdi(cx, 3).await.at(FILE, 1);
+            let action = async |cx: &Cx| flow::waittime(0.002).run(cx).await.at(FILE, 2);
+            event::interrupt(when, action).priority(priority).run(cx).at(FILE, 1)?;
+        }
+        let (stop, go) =
+            (async |cx: &Cx| io::getdi(cx, 1).await.at(FILE, 3), async |cx: &Cx| io::getdi(cx, 2).await.at(FILE, 4));
+        event::interrupt(stop, async |cx: &Cx| event::stopmove().run(cx).at(FILE, 3)).run(cx).at(FILE, 3)?;
+        event::interrupt(go, async |cx: &Cx| event::startmove().run(cx).at(FILE, 4)).run(cx).at(FILE, 4)?;
+        event::timer(0.01, async |cx: &Cx| io::setdo(cx, 1, true).await.at(FILE, 5)).rmode(true).run(cx).at(FILE, 5)?;
+        motion::movej(bent(60.0)).vp(30.0).run(cx).await.at(FILE, 6)?;
+        let at_half = async |cx: &Cx| Ok(event::elapsed_percent(cx, 50.0));
+        event::trigger(at_half, async |cx: &Cx| io::setdoimv(2, true).run(cx).at(FILE, 7)).run(cx).at(FILE, 7)?;
+        motion::movej(bent(-60.0)).vp(30.0).run(cx).await.at(FILE, 8)?;
+        flow::waituntil(cx).start().await.at(FILE, 9)?;
+        while !io::getdi(cx, 9).await.at(FILE, 9)? {
+            cx.next_cycle().await;
+        }
+        Ok(())
+    })
+}
+
+#[test]
+fn events_stops_and_pauses_of_several_channels_allocate_nothing() {
+    let scenario = "[[event]]\nat = 0.1\ndi.1 = true\n[[event]]\nat = 0.5\ndi.2 = true\n[[event]]\nat = 0.7\ndi.3 = true\n\
+                    [[event]]\nat = 0.8\npendant = \"pause\"\n[[event]]\nat = 1.1\npendant = \"start\"\n\
+                    [[event]]\nat = 1.2\ndi.3 = false\n[[event]]\nat = 1.3\ndi.3 = true\n[[event]]\nat = 5\ndi.9 = true\n";
+    let builder = Controller::builder().scenario(Scenario::parse("s.toml", scenario).unwrap());
+    let others = (1..6).map(|_| Foreground::new(Box::new(script(busy))));
+    let builder = others.fold(builder, |builder, other| builder.foreground(other));
+    let (mut controller, _) = controller(builder, busy);
+    controller.step();
+    let mut cycles = 0;
+    let mut speeds = Vec::with_capacity(10_000);
+    while controller.outcome().is_none() {
+        let before = controller.joints().axes[0];
+        let count = allocations(|| {
+            controller.step();
+        });
+        cycles += 1;
+        speeds.push((controller.joints().axes[0] - before).abs());
+        if controller.outcome().is_none() {
+            assert_eq!(count, 0, "in cycle {cycles}, line {:?}", controller.place());
+        }
+    }
+    assert_eq!(controller.outcome(), Some(&arl_rt::Outcome::Ended));
+    for (still, from, to) in [("stopped", 400, 490), ("paused", 1000, 1090)] {
+        assert!(speeds[from..to].iter().all(|speed| *speed == 0.0), "the robot is {still}");
+    }
+    for (moving, at) in [("goes before", 90), ("goes on after the stop", 700), ("goes on after the pause", 1250)] {
+        assert!(speeds[at] > 0.0, "the robot {moving}");
+    }
+    assert!(controller.dout(1).unwrap() && controller.dout(2).unwrap(), "the timer and the trigger did their work");
 }

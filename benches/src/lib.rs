@@ -1,5 +1,6 @@
 //! How fast emitted programs run, and how fast programs are checked. See `docs/speed.md` for the figures.
 
+pub mod cell;
 pub mod chains;
 pub mod kernels;
 pub mod lua;

@@ -16,6 +16,6 @@ pub use halt::{Skip, StartMove, StopMove, startmove, stopmove};
 pub use progress::{elapsed_distance, elapsed_percent, elapsed_time, left_distance};
 pub use switch::{DelInt, DisableInt, EnableInt, delint, disableint, enableint};
 
-pub(crate) use code::Code;
+pub(crate) use code::{Act, Code};
 pub(crate) use scan::scan;
 pub(crate) use table::{Due, Table};

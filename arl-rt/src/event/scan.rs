@@ -89,11 +89,9 @@ fn scan_interrupts(cx: &Cx) -> Result<(), Alarm> {
                 holds && !held
             }
         };
-        let Table { interrupts, arrivals, .. } = &mut *table;
+        let Table { interrupts, due, .. } = &mut *table;
         if let Some(event) = interrupts.get_mut(at).filter(|event| happens && event.enabled) {
-            // Until it is handled, an event is kept once.
-            event.arrived.get_or_insert(now);
-            *arrivals = true;
+            event.happen(now, due);
         }
     }
     Ok(())
@@ -129,13 +127,12 @@ fn scan_triggers(cx: &Cx) -> Result<(), Alarm> {
             Stage::Over(Some(end)) => cx.look_back(end, || evaluate(cx, &*code)),
             Stage::Over(None) => Ok(held),
         };
-        let Table { triggers, arrivals, .. } = &mut *cx.events().borrow_mut();
+        let Table { triggers, due, .. } = &mut *cx.events().borrow_mut();
         let Some(event) = triggers.get_mut(at).filter(|event| event.number == ordinal) else { continue };
         let holds = holds.map_err(|unknown| unknown.alarm(event))?;
         event.source = Source::Motion { number, held: holds, over: matches!(stage, Stage::Over(_)) };
         if holds && !held {
-            event.arrived.get_or_insert(now);
-            *arrivals = true;
+            event.happen(now, due);
         }
     }
     drop_done(&mut cx.events().borrow_mut());

@@ -1,9 +1,10 @@
 //! What has been declared, in the order of declaration, and what is due.
 
-use std::collections::VecDeque;
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, VecDeque};
 use std::rc::Rc;
 
-use super::Code;
+use super::{Act, Code};
 use crate::fault::{Fault, File};
 use crate::rate::Rate;
 use crate::values::Str;
@@ -71,6 +72,8 @@ pub(super) struct Event {
     /// The declaration.
     pub(super) place: (File, u32),
     pub(super) code: Rc<dyn Code>,
+    /// Where its action runs; none while it does.
+    room: Option<Box<dyn Act>>,
 }
 
 impl Event {
@@ -87,10 +90,25 @@ impl Event {
         }
     }
 
-    /// What decides which of several events is handled first.
-    fn rank(&self) -> Option<(u8, u64, u64)> {
-        Some((self.priority, self.arrived?, self.number))
+    /// It happens now: until it is handled, an event is kept once.
+    pub(super) fn happen(&mut self, now: u64, due: &mut BinaryHeap<Reverse<Rank>>) {
+        if self.arrived.is_none() {
+            self.arrived = Some(now);
+            due.extend(self.rank().map(Reverse));
+        }
     }
+
+    fn rank(&self) -> Option<Rank> {
+        Some(Rank { priority: self.priority, arrived: self.arrived?, number: self.number })
+    }
+}
+
+/// What decides which of several events is handled first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) struct Rank {
+    priority: u8,
+    arrived: u64,
+    number: u64,
 }
 
 /// A priority that a program gives.
@@ -101,12 +119,14 @@ pub(super) fn priority(value: i32, function: &'static str) -> Result<u8, Fault> 
     })
 }
 
-/// An event whose action is to run.
+/// An event whose action is to run, or runs.
 pub(crate) struct Due {
+    /// Its place in the order of declaration.
+    number: u64,
     /// Its priority.
     pub(crate) priority: u8,
     /// Its action.
-    pub(crate) code: Rc<dyn Code>,
+    pub(crate) action: Box<dyn Act>,
 }
 
 /// Which interrupts and timers are meant.
@@ -127,8 +147,8 @@ pub(crate) struct Table {
     waiting: Vec<(u32, Event)>,
     /// How many events have been declared.
     declared: u64,
-    /// Whether an event may wait to be handled.
-    pub(super) arrivals: bool,
+    /// The events that wait to be handled, all of them, the first one on top; with room for all that are declared.
+    pub(super) due: BinaryHeap<Reverse<Rank>>,
 }
 
 /// A declaration.
@@ -150,6 +170,7 @@ impl Table {
     pub(crate) fn keep_to_motions(&mut self) {
         self.interrupts.clear();
         self.waiting.clear();
+        self.find_due();
     }
 
     /// Adds an interrupt or a timer.
@@ -187,9 +208,11 @@ impl Table {
 
     fn event(&mut self, new: Declaration) -> Event {
         self.declared += 1;
+        self.due.reserve(self.interrupts.len() + self.triggers.len() + self.waiting.len() + 1);
         let Declaration { name, priority, source, place, code } = new;
         let name = name.unwrap_or_default();
-        Event { number: self.declared, name, priority, source, enabled: true, arrived: None, place, code }
+        let room = Some(Rc::clone(&code).room());
+        Event { number: self.declared, name, priority, source, enabled: true, arrived: None, place, code, room }
     }
 
     /// Binds the triggers that a level of the program has declared to a motion.
@@ -249,28 +272,51 @@ impl Table {
                 event.arrived = None;
             }
         }
+        self.find_due();
     }
 
     /// Deletes interrupts.
     pub(super) fn delete(&mut self, found: &[usize]) {
         found.iter().rev().for_each(|at| drop(self.interrupts.remove(*at)));
+        self.find_due();
+    }
+
+    /// Finds the events that wait to be handled, where some may have gone.
+    fn find_due(&mut self) {
+        if !self.due.is_empty() {
+            self.due.clear();
+            let all = self.interrupts.iter().chain(&self.triggers);
+            self.due.extend(all.filter_map(Event::rank).map(Reverse));
+        }
+    }
+
+    /// The event with this place in the order of declaration, in which the interrupts lie.
+    fn numbered(&mut self, number: u64) -> Option<&mut Event> {
+        match self.interrupts.binary_search_by_key(&number, |event| event.number) {
+            Ok(at) => self.interrupts.get_mut(at),
+            Err(_) => self.triggers.iter_mut().find(|event| event.number == number),
+        }
     }
 
     /// Takes the event that is to be handled next, if it has a higher priority than `running`.
     pub(crate) fn take_due(&mut self, running: Option<u8>) -> Option<Due> {
-        if !self.arrivals {
-            return None;
-        }
-        let all = self.interrupts.iter_mut().chain(&mut self.triggers);
-        let Some(first) = all.filter(|event| event.arrived.is_some()).min_by_key(|event| event.rank()) else {
-            self.arrivals = false;
-            return None;
-        };
+        let Reverse(first) = *self.due.peek()?;
         if running.is_some_and(|running| first.priority >= running) {
             return None;
         }
+        self.due.pop();
+        let first = self.numbered(first.number)?;
         first.arrived = None;
-        Some(Due { priority: first.priority, code: Rc::clone(&first.code) })
+        // It is missing only where an action was dropped while it ran.
+        let action = first.room.take().unwrap_or_else(|| Rc::clone(&first.code).room());
+        Some(Due { number: first.number, priority: first.priority, action })
+    }
+
+    /// Takes the memory of an action back that has ended, unless its event is gone.
+    pub(crate) fn give_back(&mut self, due: Due) {
+        if let Some(event) = self.numbered(due.number) {
+            event.room = Some(due.action);
+        }
     }
 
     /// Whether an interrupt or a timer is declared.
@@ -280,6 +326,6 @@ impl Table {
 
     /// Whether an event waits to be handled.
     pub(crate) fn has_due(&self) -> bool {
-        self.arrivals && self.interrupts.iter().chain(&self.triggers).any(|event| event.arrived.is_some())
+        !self.due.is_empty()
     }
 }

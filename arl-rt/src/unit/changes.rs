@@ -36,6 +36,9 @@ impl Held {
     }
 }
 
+/// Room for so many changes that wait, and so many stops within each other, takes no memory in the cycle.
+const ROOM: usize = 8;
+
 /// Changes that wait for their motion, in the order of the motions.
 #[derive(Debug)]
 pub(super) struct Changes {
@@ -48,7 +51,7 @@ pub(super) struct Changes {
 impl Changes {
     pub(super) fn new() -> Self {
         let now = Held { load: Load::none(), allowed: None };
-        Self { waiting: VecDeque::new(), now, aside: Vec::new() }
+        Self { waiting: VecDeque::with_capacity(ROOM), now, aside: Vec::with_capacity(ROOM) }
     }
 
     /// Forgets everything: nothing is carried, and collisions are not looked for.

@@ -24,6 +24,8 @@ const SAME: f64 = 1e-6;
 const SLOW: f64 = 5.0;
 /// How many motions are planned anew in a cycle.
 const AT_ONCE: usize = 4;
+/// Room for so many stops within each other takes no memory in the cycle.
+const DEPTH: usize = 4;
 
 /// A motion as it was asked for.
 #[derive(Clone, Debug)]
@@ -87,7 +89,7 @@ struct Shelf {
 }
 
 /// What is set aside, and what setting aside needs to know of the motions.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(super) struct Aside {
     /// The motions that are not over, and the last one that is.
     asked: VecDeque<Asked>,
@@ -107,6 +109,23 @@ pub(super) struct Aside {
     /// Whether more motions were to be dropped than there were.
     beyond: bool,
     broken: Option<PlanError>,
+}
+
+impl Default for Aside {
+    fn default() -> Self {
+        Self {
+            asked: VecDeque::new(),
+            early: Vec::with_capacity(2 * DEPTH),
+            stopping: None,
+            shelves: Vec::with_capacity(DEPTH),
+            starts: VecDeque::with_capacity(DEPTH),
+            going: false,
+            anew: VecDeque::new(),
+            way_back: None,
+            beyond: false,
+            broken: None,
+        }
+    }
 }
 
 impl Aside {
@@ -145,7 +164,40 @@ impl Aside {
 
     /// Drops everything.
     pub(super) fn clear(&mut self) {
-        *self = Self::default();
+        self.asked.clear();
+        self.early.clear();
+        self.shelves.clear();
+        self.starts.clear();
+        self.anew.clear();
+        (self.stopping, self.way_back, self.broken) = (None, None, None);
+        (self.going, self.beyond) = (false, false);
+    }
+
+    /// Takes what was said of going on; an empty list keeps its memory.
+    fn take_starts(&mut self) -> VecDeque<Start> {
+        if self.starts.is_empty() { VecDeque::new() } else { std::mem::take(&mut self.starts) }
+    }
+
+    /// Puts what was said of going on in front again.
+    fn put_back(&mut self, mut starts: VecDeque<Start>) {
+        if !starts.is_empty() {
+            starts.append(&mut self.starts);
+            self.starts = starts;
+        }
+    }
+
+    /// Takes the motions that ended early; an empty list keeps its memory.
+    fn take_early(&mut self) -> Vec<(u64, u64)> {
+        if self.early.is_empty() { Vec::new() } else { std::mem::take(&mut self.early) }
+    }
+
+    /// Exchanges the motions that ended early for others.
+    fn exchange_early(&mut self, early: Vec<(u64, u64)>) {
+        if early.is_empty() {
+            self.early.clear();
+        } else {
+            self.early = early;
+        }
     }
 
     /// Whether a motion with a number up to that of the last one that has ended, has ended, too.
@@ -174,7 +226,7 @@ impl Queue {
         if again && self.is_layer_idle() && self.aside.is_settled() {
             return;
         }
-        let starts = std::mem::take(&mut self.aside.starts);
+        let starts = self.aside.take_starts();
         let going = std::mem::take(&mut self.aside.going);
         self.aside.stopping = Some(Stopping { stop, level, starts, going, drops: false });
         self.lay_aside_at_rest();
@@ -295,6 +347,7 @@ impl Queue {
             return;
         }
         let Some(Stopping { level, starts, going, drops, .. }) = self.aside.stopping.take() else { return };
+        let early = self.aside.take_early();
         self.aside.shelves.push(Shelf {
             level,
             joints: self.joints,
@@ -313,7 +366,7 @@ impl Queue {
             elapsed: self.elapsed,
             progress: self.progress.take(),
             asked: std::mem::take(&mut self.aside.asked),
-            early: std::mem::take(&mut self.aside.early),
+            early,
             starts,
             going,
             anew: std::mem::take(&mut self.aside.anew),
@@ -377,8 +430,7 @@ impl Queue {
             if let Some(first) = shelf.starts.front_mut() {
                 first.skip = first.skip.max(start.skip);
             }
-            shelf.starts.append(&mut self.aside.starts);
-            self.aside.starts = shelf.starts;
+            self.aside.put_back(shelf.starts);
         }
     }
 
@@ -412,14 +464,12 @@ impl Queue {
     fn take_up(&mut self, skipped: Option<u64>) {
         let Some(shelf) = self.aside.shelves.pop() else { return };
         let early = (shelf.added + 1, self.added);
-        self.aside.early = shelf.early;
+        self.aside.exchange_early(shelf.early);
         self.aside.early.push(early);
         self.aside.asked = shelf.asked;
         self.aside.anew = shelf.anew;
         self.aside.going = shelf.going;
-        let mut starts = shelf.starts;
-        starts.append(&mut self.aside.starts);
-        self.aside.starts = starts;
+        self.aside.put_back(shelf.starts);
         self.foreseen = None;
         match skipped {
             None => {
