@@ -2,7 +2,7 @@
 
 use toml::de::DeValue;
 
-use crate::settings::{Section, SettingsError, Source, table};
+use crate::settings::{Section, SettingsError};
 
 const IO: &[&str] = &["di", "do", "ai", "ao", "internal"];
 
@@ -77,20 +77,6 @@ impl Channels {
         }
         Ok(channels)
     }
-
-    /// The channels of the cell file with this text; `file` names it in errors. Nothing else of the file is looked at.
-    ///
-    /// # Errors
-    /// The text is not TOML, or its `[io]` describes no channels: with line, column and what was expected.
-    pub fn of_cell(file: &str, text: &str) -> Result<Channels, SettingsError> {
-        let source = Source { file, text };
-        let root = source.parse()?;
-        let mut channels = Channels::default();
-        if let Some(io) = root.get_ref().get("io") {
-            fill(&table(source, io, "[io]", IO)?, &mut channels)?;
-        }
-        Ok(channels)
-    }
 }
 
 fn fill(io: &Section<'_>, channels: &mut Channels) -> Result<(), SettingsError> {
@@ -122,25 +108,4 @@ fn analog(io: &Section<'_>, key: &str) -> Result<Option<Vec<AnalogType>>, Settin
         _ => Err(io.wrong(key, item, "\"V\" or \"mA\"")),
     });
     types.collect::<Result<_, _>>().map(Some)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn of_a_cell_file_only_the_channels_count() {
-        let text = "[controller]\nwhatever = 1\n[io]\ndi = 16\nao = [\"mA\"]\n";
-        let channels = Channels::of_cell("cell.toml", text).unwrap();
-        assert_eq!((channels.di, channels.dout, channels.ao), (16, 64, vec![AnalogType::Milliampere]));
-        assert_eq!(Channels::of_cell("cell.toml", ""), Ok(Channels::default()));
-    }
-
-    #[test]
-    fn mistakes_name_their_line() {
-        for (text, line, words) in [("[io]\ndoo = 3", 2, "did you mean `do`?"), ("io = 3", 1, "the table [io]")] {
-            let error = Channels::of_cell("cell.toml", text).unwrap_err();
-            assert!(error.line == line && error.message.contains(words), "{error}");
-        }
-    }
 }

@@ -249,18 +249,6 @@ impl Island {
         let mut taken = Taken::default();
         tables.iter().map(|value| island(source, value, channels, &mut taken)).collect()
     }
-
-    /// The islands of the cell file with this text; `file` names it in errors. Nothing else of the file is looked at but
-    /// its channels.
-    ///
-    /// # Errors
-    /// The text is not TOML, or what it says of channels and islands is wrong: with line, column and what was expected.
-    pub fn of_cell(file: &str, text: &str) -> Result<Vec<Island>, SettingsError> {
-        let channels = Channels::of_cell(file, text)?;
-        let source = Source { file, text };
-        let root = source.parse()?;
-        Self::read_all(source, root.get_ref().get("island"), &channels)
-    }
 }
 
 /// What may be there once only.
@@ -499,10 +487,11 @@ fn raw(entry: &Section<'_>) -> Result<Option<(i32, i32)>, SettingsError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::outline::Outline;
 
     fn one(text: &str) -> Island {
-        let islands = Island::of_cell("cell.toml", text).unwrap();
-        islands.into_iter().next().unwrap()
+        let outline = Outline::of_cell("cell.toml", text).unwrap();
+        outline.islands.into_iter().next().unwrap()
     }
 
     #[test]
@@ -604,7 +593,7 @@ mod tests {
                 "another island with the name \"10.0.0.7:502\"",
             ),
         ] {
-            let error = Island::of_cell("cell.toml", text).unwrap_err();
+            let error = Outline::of_cell("cell.toml", text).unwrap_err();
             assert_eq!(error.line, line, "{text}: {error}");
             assert!(error.message.contains(words), "{text}: {error}");
         }

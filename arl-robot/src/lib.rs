@@ -7,6 +7,7 @@ pub mod channels;
 pub mod frames;
 pub mod islands;
 pub mod kinematics;
+pub mod outline;
 pub mod robot;
 pub mod settings;
 

@@ -34,6 +34,9 @@
 //! port = 502
 //! connections = 8              # at once, 1 to 64
 //!
+//! [devicenet]
+//! size = 512                   # bytes that the bus exchanges
+//!
 //! [[island]]                   # inputs and outputs behind Modbus TCP: arl_rt::islands
 //! address = "192.168.0.20"
 //! di = [{ channel = 1, count = 8, discrete_input = 0 }]
@@ -50,11 +53,11 @@
 
 mod external;
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use arl_robot::cell::collisions;
 use arl_robot::islands::Island;
+use arl_robot::outline;
 
 pub use arl_robot::cell::{CellChannel, Homes, Programs, Sensitivity};
 pub use external::Wiring;
@@ -63,7 +66,7 @@ use crate::communication::{Listen, NetworkSettings};
 use crate::fieldbus::BusSettings;
 use crate::io::Channels;
 use crate::rate::Rate;
-use crate::settings::{Section, SettingsError, Source, Value};
+use crate::settings::{Section, SettingsError, Source};
 
 const TOP: &[&str] = &[
     "controller",
@@ -75,6 +78,7 @@ const TOP: &[&str] = &[
     "collision",
     "modbus_tcp",
     "island",
+    "devicenet",
     "channel",
     "load",
 ];
@@ -140,24 +144,11 @@ impl Cell {
         let folder = Path::new(file).parent().unwrap_or(Path::new(""));
         cell.programs = Programs::read(&top, folder)?;
         cell.external = Wiring::read(&top, &cell.channels)?;
-        if let Some(value) = top.find("serial") {
-            cell.network.devices = devices(&top, value)?;
-        }
+        cell.network.devices = outline::lines(&top)?;
         cell.homes = Homes::of_cell(&top)?;
         cell.collisions = collisions(&top)?;
         Ok(cell)
     }
-}
-
-fn devices(top: &Section<'_>, value: &Value<'_>) -> Result<BTreeMap<String, String>, SettingsError> {
-    const WHAT: &str = "the path of a device, like \"/dev/ttyUSB0\"";
-    let table = value.get_ref().as_table().ok_or_else(|| top.wrong("serial", value, "the table [serial]"))?;
-    let pairs = table.iter().map(|(name, device)| {
-        let name: &str = name.get_ref().as_ref();
-        let path = device.get_ref().as_str().ok_or_else(|| top.wrong(name, device, WHAT))?;
-        Ok((name.to_owned(), path.to_owned()))
-    });
-    pairs.collect()
 }
 
 fn listen(network: &Section<'_>) -> Result<Listen, SettingsError> {
@@ -202,8 +193,41 @@ mod tests {
     }
 
     #[test]
+    fn network_lines_buses_and_islands_are_read() {
+        for (word, listen) in [
+            ("loopback", Listen::Loopback),
+            ("program", Listen::Program),
+            ("192.168.0.40", Listen::Address("192.168.0.40".into())),
+            ("::", Listen::Address("::".into())),
+        ] {
+            let cell = Cell::parse("cell.toml", &format!("[network]\nlisten = \"{word}\"\n")).unwrap();
+            assert_eq!(cell.network.listen, listen);
+        }
+        let text = "[serial]\n\"/dev/ttyS0\" = \"/dev/ttyUSB0\"\nrtserMB0 = \"/dev/ttyUSB1\"\n[devicenet]\nsize = 16\n\
+                    [modbus_tcp]\naddress = \"0.0.0.0\"\nport = 1502\nconnections = 2\n\
+                    [[island]]\naddress = \"10.0.0.7\"\ndo = [{ channel = 1, coil = 0 }]\n";
+        let cell = Cell::parse("cell.toml", text).unwrap();
+        let devices: Vec<(&str, &str)> = cell.network.devices.iter().map(|(name, path)| (&**name, &**path)).collect();
+        assert_eq!(devices, [("/dev/ttyS0", "/dev/ttyUSB0"), ("rtserMB0", "/dev/ttyUSB1")]);
+        assert_eq!((cell.buses.devicenet, cell.islands.len()), (16, 1));
+        let server = cell.buses.modbus_tcp.unwrap();
+        assert_eq!((server.address.to_string(), server.connections), ("0.0.0.0:1502".into(), 2));
+    }
+
+    #[test]
     fn mistakes_name_line_and_what_was_expected() {
         for (text, line, words) in [
+            ("[network]\nlisten = \"everywhere\"", 2, "\"loopback\", \"program\", or an address"),
+            ("[network]\nlisten = 3", 2, "found the number 3"),
+            ("[network]\nlistens = \"program\"", 2, "did you mean `listen`?"),
+            ("network = \"program\"", 1, "expected the table [network]"),
+            ("serial = \"/dev/ttyS0\"", 1, "expected the table [serial]"),
+            ("[serial]\ncom1 = 1", 2, "the path of a device, like \"/dev/ttyUSB0\", found the number 1"),
+            ("[devicenet]\nsize = 70000", 2, "how many bytes the bus exchanges from 0 to 65536"),
+            ("[modbus_tcp]\nport = 65536", 2, "a TCP port"),
+            ("[modbus_tcp]\naddress = \"plc\"", 2, "an IP address of this computer"),
+            ("[modbus_tcp]\nconnections = 0", 2, "a whole number from 1 to 64"),
+            ("[[island]]\naddress = \"10.0.0.7\"\ndo = [{ channel = 65, coil = 0 }]", 3, "the cell has DO 1 to 64"),
             ("[io]\ndi = 64\ndoo = 3", 3, "did you mean `do`?"),
             ("\n[inout]\n", 2, "known are: controller, io, network, serial, home, external, collision, modbus_tcp"),
             ("[io]\ndi = -1", 2, "expected a number of channels from 0 to 10000, found the number -1"),

@@ -112,6 +112,46 @@ fn without_its_island_no_controller_starts() {
     assert!(text.contains("the island plc") && text.contains("is not there"), "{text}");
 }
 
+/// A driver whose outputs take five cycles.
+#[derive(Default)]
+struct Slow(u64);
+
+impl arl_rt::io::IoDriver for Slow {
+    fn read(&mut self, _: arl_rt::io::Inputs<'_>) {}
+
+    fn write(&mut self, outputs: arl_rt::io::Outputs<'_>) {
+        self.0 = outputs.cycle();
+    }
+
+    fn has_reached(&self, output: arl_rt::io::Output, cycle: u64) -> bool {
+        output == arl_rt::io::Output::Digital(9) || self.0 >= cycle + 5
+    }
+}
+
+#[test]
+fn synchronous_outputs_wait_until_they_are_out() {
+    let (mut controller, messages) = controller(Controller::builder().io_driver(Slow::default()), |cx| {
+        Box::pin(async move {
+            let cycles = |cx: &Cx, start: f64| ((cx.time() - start) * 1000.0).round();
+            let start = cx.time();
+            io::setdo(cx, 1, true).await.at(FILE, 1)?;
+            let set = cycles(cx, start);
+            io::syncdo(cx, 1, true).await.at(FILE, 1)?;
+            let sync = cycles(cx, start);
+            io::syncdo_group(cx, 1, 32, 0).await.at(FILE, 2)?;
+            let group = cycles(cx, start);
+            io::syncao(cx, 3, 5.0).await.at(FILE, 3)?;
+            let analog = cycles(cx, start);
+            io::syncdo(cx, 9, true).await.at(FILE, 4)?;
+            let other = cycles(cx, start);
+            let steps = [set, sync, group, analog, other];
+            text::print().argtoprint(&Str::from(format!("{steps:?}"))).run(cx).at(FILE, 5)
+        })
+    });
+    assert_eq!(controller.run(), Outcome::Ended);
+    assert_eq!(messages.text(), "[0.0, 6.0, 12.0, 18.0, 19.0]\n");
+}
+
 /// A driver whose inputs are lost from its tenth cycle on.
 struct Broken(u32);
 

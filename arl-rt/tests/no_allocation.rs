@@ -4,7 +4,7 @@ mod common;
 
 use arl_rt::emit::*;
 use arl_rt::io::Scenario;
-use arl_rt::{Controller, Foreground};
+use arl_rt::{Cell, Controller, Foreground};
 use common::*;
 
 /// How often a closure allocates.
@@ -121,4 +121,39 @@ fn events_stops_and_pauses_of_several_channels_allocate_nothing() {
         assert!(speeds[at] > 0.0, "the robot {moving}");
     }
     assert!(controller.dout(1).unwrap() && controller.dout(2).unwrap(), "the timer and the trigger did their work");
+}
+
+#[test]
+fn cycles_with_an_island_allocate_nothing() {
+    let cell = Cell::parse("plc.toml", "[modbus_tcp]\nport = 0\n").unwrap();
+    let (plc, _) = controller(Controller::builder().cell(cell), |_| Box::pin(async { Ok(()) }));
+    let port = plc.modbus_tcp_address().unwrap().port();
+    let text = format!(
+        "[[island]]\naddress = \"127.0.0.1\"\nport = {port}\npoll = 1\n\
+         di = [{{ channel = 1, count = 16, coil = 0 }}]\nai = [{{ channel = 1, count = 2, holding_register = 0 }}]\n\
+         do = [{{ channel = 1, count = 16, coil = 0 }}]\nao = [{{ channel = 1, count = 2, holding_register = 0 }}]\n"
+    );
+    let builder = Controller::builder().cell(Cell::parse("cell.toml", &text).unwrap());
+    let (mut controller, _) = controller(builder, |cx| {
+        Box::pin(async move {
+            for round in 0..20 {
+                io::syncdo(cx, 3, round % 2 == 0).await.at(FILE, 1)?;
+                io::syncao(cx, 2, f64::from(round) / 2.0).await.at(FILE, 2)?;
+                while io::getdi(cx, 3).await.at(FILE, 3)? != (round % 2 == 0) {
+                    cx.next_cycle().await;
+                }
+            }
+            Ok(())
+        })
+    });
+    controller.step();
+    while controller.outcome().is_none() {
+        let count = allocations(|| {
+            controller.step();
+        });
+        if controller.outcome().is_none() {
+            assert_eq!(count, 0, "in line {:?}", controller.place());
+        }
+    }
+    assert_eq!(controller.outcome(), Some(&arl_rt::Outcome::Ended));
 }

@@ -58,9 +58,9 @@ pub struct CheckOptions {
     /// The robot, where it is known: targets that it can never reach are warned of.
     #[cfg(feature = "cli")]
     pub robot: Option<arl_robot::Robot>,
-    /// The channels of io, where the cell is known: those that it does not have are errors.
+    /// The cell, where it is known: channels, lines and bytes that it does not have are errors.
     #[cfg(feature = "cli")]
-    pub channels: Option<arl_robot::channels::Channels>,
+    pub cell: Option<arl_robot::outline::Outline>,
 }
 
 /// What came out of a check.

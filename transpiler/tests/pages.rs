@@ -8,7 +8,7 @@
 #![allow(clippy::unwrap_used, clippy::panic, clippy::disallowed_methods, reason = "a test, which reads the pages")]
 
 use arl_robot::Robot;
-use arl_robot::channels::Channels;
+use arl_robot::outline::Outline;
 use arl2rs::diagnostics::{CodeInfo, Diagnostic, registry};
 use arl2rs::{CheckOptions, Checked, SourceError, Sources, check_statements, check_text};
 use std::collections::BTreeMap;
@@ -123,8 +123,8 @@ impl Side {
                 }
                 ("--cell", Some(name)) => {
                     let text = self.others.0.get(Path::new(name)).ok_or("no such cell file")?;
-                    let channels = Channels::of_cell(name, text);
-                    options.channels = Some(channels.map_err(|error| error.to_string())?);
+                    let cell = Outline::of_cell(name, text);
+                    options.cell = Some(cell.map_err(|error| error.to_string())?);
                 }
                 (word, value) => return Err(format!("unknown option {word} {}", value.unwrap_or_default())),
             }

@@ -48,7 +48,7 @@ pub struct Builder {
     cell: Cell,
     clock: Box<dyn Clock>,
     io: Box<dyn IoDriver>,
-    devicenet: Box<dyn DeviceNet>,
+    devicenet: Option<Box<dyn DeviceNet>>,
     network: Option<Box<dyn NetworkDriver>>,
     scenario: Scenario,
     output: Option<Box<dyn Output>>,
@@ -72,7 +72,7 @@ impl Default for Builder {
             cell: Cell::default(),
             clock: Box::new(VirtualClock::new()),
             io: Box::new(SimulatedIo),
-            devicenet: Box::new(SimulatedDeviceNet::default()),
+            devicenet: None,
             network: None,
             scenario: Scenario::default(),
             output: None,
@@ -138,9 +138,9 @@ impl Builder {
         self
     }
 
-    /// The DeviceNet bus.
+    /// The DeviceNet bus; without it a simulated one, of the size that the cell gives.
     pub fn devicenet(mut self, bus: impl DeviceNet + 'static) -> Self {
-        self.devicenet = Box::new(bus);
+        self.devicenet = Some(Box::new(bus));
         self
     }
 
@@ -256,7 +256,9 @@ impl Builder {
         let robot = robot_of(&body, &*program)?;
         self.scenario.check(&cell.channels, &robot).map_err(SetupError::Cell)?;
         let scenario = Playing::new(self.scenario, &io, rate);
-        let buses = Buses::new(cell.buses, self.devicenet);
+        let simulated = || Box::new(SimulatedDeviceNet::new(cell.buses.devicenet)) as Box<dyn DeviceNet>;
+        let devicenet = self.devicenet.unwrap_or_else(simulated);
+        let buses = Buses::new(cell.buses, devicenet);
         buses.start().map_err(SetupError::Outside)?;
         let islands = Islands::start(&cell.islands).map_err(SetupError::Outside)?;
         let (outside, real_time) = (buses.is_outside() || !islands.is_empty(), self.clock.is_real());

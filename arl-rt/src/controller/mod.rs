@@ -118,6 +118,9 @@ impl Controller {
             let mut image = world.io.borrow_mut();
             self.islands.read(image.inputs_mut());
             self.io.read(image.inputs_mut());
+            image.outputs_reached(|output, since| {
+                self.islands.has_reached(output, since) && self.io.has_reached(output, since)
+            });
             image.end_pulses_of(cycle);
             self.scenario.play(cycle, &mut image, |deed| self.deeds.push(deed));
         }
@@ -131,8 +134,8 @@ impl Controller {
         self.channels.each(Channel::meet_trouble);
         self.channels.each(|channel| channel.step_robot(rate.time(cycle), rate.period()));
         self.show();
-        self.islands.write(self.world.io.borrow().outputs_all());
-        self.io.write(self.world.io.borrow().outputs_all());
+        self.islands.write(self.world.io.borrow().outputs_all(cycle));
+        self.io.write(self.world.io.borrow().outputs_all(cycle));
         self.channels.each(Channel::meet_collision);
         let world = &self.world;
         world.flush();

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use arl_robot::outline;
+
 use crate::cx::Cx;
 use crate::fault::Fault;
 
@@ -10,9 +12,6 @@ const OUTSIDE: i32 = 1;
 
 /// The program's array has fewer bytes than the length says.
 const SHORT: i32 = 2;
-
-/// How many bytes the simulated bus has.
-const SIMULATED: usize = 512;
 
 /// What stands between programs and a DeviceNet bus: the bytes that it exchanges with its devices. The calls must return
 /// at once; the exchange happens beside them.
@@ -49,13 +48,21 @@ impl ErrorCode {
     }
 }
 
-/// A bus without devices: what is written can be read again. 512 bytes, all 0 at first.
+/// A bus without devices: what is written can be read again. All bytes are 0 at first.
 #[derive(Clone)]
-pub struct SimulatedDeviceNet([u8; SIMULATED]);
+pub struct SimulatedDeviceNet(Box<[u8]>);
+
+impl SimulatedDeviceNet {
+    /// A bus that exchanges so many bytes.
+    pub fn new(size: usize) -> Self {
+        Self(vec![0; size].into())
+    }
+}
 
 impl Default for SimulatedDeviceNet {
+    /// 512 bytes.
     fn default() -> Self {
-        Self([0; SIMULATED])
+        Self::new(outline::DEVICENET as usize)
     }
 }
 
@@ -67,7 +74,7 @@ impl fmt::Debug for SimulatedDeviceNet {
 
 impl DeviceNet for SimulatedDeviceNet {
     fn size(&self) -> usize {
-        SIMULATED
+        self.0.len()
     }
 
     fn write(&mut self, offset: usize, data: &[u8]) -> Result<(), ErrorCode> {

@@ -2,14 +2,24 @@
 
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 
+use arl_robot::outline;
+
 use crate::settings::{Section, SettingsError};
 
 /// The buses of a cell.
-#[derive(Clone, PartialEq, Eq, Default, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub struct BusSettings {
+    /// How many bytes the simulated DeviceNet bus exchanges; another one knows that itself.
+    pub devicenet: usize,
     /// The controller's Modbus TCP server, where the cell has one.
     pub modbus_tcp: Option<ModbusTcpSettings>,
+}
+
+impl Default for BusSettings {
+    fn default() -> Self {
+        Self { devicenet: outline::DEVICENET as usize, modbus_tcp: None }
+    }
 }
 
 /// The controller's Modbus TCP server.
@@ -34,7 +44,8 @@ impl BusSettings {
     /// Reads them from the cell file.
     pub(crate) fn read(top: &Section<'_>) -> Result<Self, SettingsError> {
         let modbus_tcp = top.table("modbus_tcp", "[modbus_tcp]", MODBUS_TCP)?;
-        Ok(Self { modbus_tcp: modbus_tcp.as_ref().map(modbus_tcp_server).transpose()? })
+        let devicenet = outline::devicenet(top)? as usize;
+        Ok(Self { devicenet, modbus_tcp: modbus_tcp.as_ref().map(modbus_tcp_server).transpose()? })
     }
 }
 

@@ -1,5 +1,6 @@
 //! Analog inputs and outputs: values in V or mA, as the cell file gives the channels.
 
+use super::{Output, sent};
 use crate::cx::Cx;
 use crate::fault::Fault;
 
@@ -21,13 +22,14 @@ pub async fn setao(cx: &Cx, chan: i32, value: f64) -> Result<(), Fault> {
     cx.world().io.borrow_mut().set_ao(chan, value)
 }
 
-/// Sets an analog output, in V or mA, and goes on when it has been sent: in the next cycle.
+/// Sets an analog output, in V or mA, and goes on when it has been sent: in the next cycle, or when the island that has it
+/// has taken it.
 ///
 /// # Errors
 /// There is no such channel; a value outside -10 to 10 V or 4 to 20 mA.
 pub async fn syncao(cx: &Cx, chan: i32, value: f64) -> Result<(), Fault> {
     setao(cx, chan, value).await?;
-    cx.next_cycle().await;
+    sent(cx, std::iter::once(Output::Analog(chan.unsigned_abs() as usize))).await;
     Ok(())
 }
 

@@ -65,6 +65,12 @@ pub trait IoDriver {
     /// Passes the outputs on, at the end of a cycle.
     fn write(&mut self, outputs: Outputs<'_>);
 
+    /// Whether an output of this cycle ([`Outputs::cycle`]), or of a later one, has got to where it goes: `syncdo` and `syncao`
+    /// wait for it. Asked after [`read`](IoDriver::read).
+    fn has_reached(&self, _output: Output, _cycle: u64) -> bool {
+        true
+    }
+
     /// What the user should know, once; asked for in each cycle until there is nothing more.
     fn take_warning(&mut self) -> Option<String> {
         None
@@ -75,6 +81,15 @@ pub trait IoDriver {
     fn fault(&self) -> Option<&str> {
         None
     }
+}
+
+/// An output, by its channel from 1.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Output {
+    /// A digital one.
+    Digital(usize),
+    /// An analog one.
+    Analog(usize),
 }
 
 /// Io without an outside: inputs keep what a scenario or the embedding program gave them.

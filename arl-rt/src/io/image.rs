@@ -6,6 +6,7 @@ use std::collections::VecDeque;
 use super::Channels;
 use super::analog_row::AnalogRow;
 use super::bits::Bits;
+use super::driver::Output;
 use crate::fault::Fault;
 
 /// The most channels that one call may name.
@@ -24,6 +25,8 @@ pub struct Image {
     pulses: Vec<Option<Pulse>>,
     running_pulses: usize,
     pwm: [Pwm; PWM_CHANNELS],
+    /// Outputs that a program waits for, and the cycle in which it set them.
+    awaited: Vec<(Output, u64)>,
     /// Outputs that change when a motion of a channel has ended: for each channel, in the order of its motions.
     after_motion: Vec<VecDeque<AfterMotion>>,
 }
@@ -96,6 +99,7 @@ impl Image {
             pulses: vec![None; channels.dout as usize],
             running_pulses: 0,
             pwm: [Pwm::default(); PWM_CHANNELS],
+            awaited: Vec::with_capacity(channels.dout as usize + channels.ao.len()),
             after_motion: vec![VecDeque::with_capacity(64)],
         }
     }
@@ -126,6 +130,31 @@ impl Image {
     pub(crate) fn pwm(&self, channel: i32) -> Result<Pwm, Fault> {
         let at = place("PWM", channel, PWM_CHANNELS)?;
         Ok(self.pwm.get(at).copied().unwrap_or_default())
+    }
+
+    /// Waits for outputs that were set in this cycle to get to where they go.
+    pub(crate) fn await_outputs(&mut self, outputs: impl Iterator<Item = Output>, cycle: u64) {
+        for output in outputs {
+            match self.awaited.iter_mut().find(|(known, _)| *known == output) {
+                Some((_, since)) => *since = cycle,
+                None => self.awaited.push((output, cycle)),
+            }
+        }
+    }
+
+    /// Whether one of these is waited for.
+    pub(crate) fn awaits(&self, mut outputs: impl Iterator<Item = Output>) -> bool {
+        !self.awaited.is_empty() && outputs.any(|output| self.awaited.iter().any(|(awaited, _)| *awaited == output))
+    }
+
+    /// Those are not waited for any more that have got to where they go.
+    pub(crate) fn outputs_reached(&mut self, has: impl Fn(Output, u64) -> bool) {
+        self.awaited.retain(|(output, since)| !has(*output, *since));
+    }
+
+    /// What all PWM outputs do.
+    pub(crate) fn pwms(&self) -> [Pwm; PWM_CHANNELS] {
+        self.pwm
     }
 
     /// Drops what waits for the end of a motion of a program's channel.
@@ -335,9 +364,9 @@ impl Image {
         }
     }
 
-    /// The outputs, for the driver to pass on.
-    pub(crate) fn outputs_all(&self) -> Outputs<'_> {
-        Outputs { dout: &self.dout, ao: self.ao.values(), internal: &self.internal_out, pwm: &self.pwm }
+    /// The outputs of a cycle, for the driver to pass on.
+    pub(crate) fn outputs_all(&self, cycle: u64) -> Outputs<'_> {
+        Outputs { cycle, dout: &self.dout, ao: self.ao.values(), internal: &self.internal_out, pwm: &self.pwm }
     }
 }
 
@@ -388,6 +417,7 @@ impl Inputs<'_> {
 /// The outputs of a cycle, as an [`IoDriver`](super::IoDriver) gets them. Channels count from 1 here, too.
 #[derive(Clone, Copy, Debug)]
 pub struct Outputs<'a> {
+    cycle: u64,
     dout: &'a Bits,
     ao: &'a [f64],
     internal: &'a Bits,
@@ -395,6 +425,11 @@ pub struct Outputs<'a> {
 }
 
 impl Outputs<'_> {
+    /// The running number of their cycle, for [`IoDriver::has_reached`](super::IoDriver::has_reached).
+    pub fn cycle(&self) -> u64 {
+        self.cycle
+    }
+
     /// The level of a digital output; false where there is none.
     pub fn dout(&self, channel: usize) -> bool {
         self.dout.get(channel.wrapping_sub(1))
@@ -457,11 +492,11 @@ mod tests {
     #[test]
     fn pwm_outputs_are_off_until_they_are_set() {
         let mut image = image();
-        assert_eq!(image.outputs_all().pwm(2), Pwm::default());
+        assert_eq!(image.outputs_all(0).pwm(2), Pwm::default());
         let pwm = Pwm { frequency: 20, duty: 50 };
         image.set_pwm(2, pwm).unwrap();
-        assert_eq!(image.outputs_all().pwm(2), pwm);
-        assert_eq!(image.outputs_all().pwm(4), Pwm::default());
+        assert_eq!(image.outputs_all(0).pwm(2), pwm);
+        assert_eq!(image.outputs_all(0).pwm(4), Pwm::default());
         assert!(image.set_pwm(0, pwm).is_err() && image.set_pwm(4, pwm).is_err());
     }
 

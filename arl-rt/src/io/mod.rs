@@ -12,7 +12,7 @@ mod scenario;
 
 pub use analog::{getai, getao, setao, syncao};
 pub use arl_robot::channels::{AnalogType, Channels};
-pub use driver::{IoDriver, SimulatedIo};
+pub use driver::{IoDriver, Output, SimulatedIo};
 pub use image::{Image, Inputs, Outputs, Pwm};
 pub use scenario::{Pendant, Scenario};
 
@@ -40,23 +40,37 @@ pub async fn setdo_group(cx: &Cx, from_chan: i32, to_chan: i32, value: i32) -> R
     cx.world().io.borrow_mut().set_digitals(Digital::Do, from_chan, to_chan, value)
 }
 
-/// Sets a digital output and goes on when it has been sent: in the next cycle.
+/// Sets a digital output and goes on when it has been sent: in the next cycle, or when the island that has it has taken it.
 ///
 /// # Errors
 /// There is no such channel.
 pub async fn syncdo(cx: &Cx, chan: i32, value: bool) -> Result<(), Fault> {
     setdo(cx, chan, value).await?;
-    cx.next_cycle().await;
+    sent(cx, digital_outputs(chan, chan)).await;
     Ok(())
 }
 
-/// Sets up to 32 neighbouring digital outputs and goes on when they have been sent: in the next cycle.
+/// Digital outputs from the one to the other, which are there.
+fn digital_outputs(from: i32, to: i32) -> impl Iterator<Item = Output> + Clone {
+    (from..=to).map(|channel| Output::Digital(channel.unsigned_abs() as usize))
+}
+
+/// Waits until outputs of this cycle have got to where they go, one cycle at least.
+async fn sent(cx: &Cx, outputs: impl Iterator<Item = Output> + Clone) {
+    cx.world().io.borrow_mut().await_outputs(outputs.clone(), cx.cycle());
+    cx.next_cycle().await;
+    while cx.world().io.borrow().awaits(outputs.clone()) {
+        cx.next_cycle().await;
+    }
+}
+
+/// Sets up to 32 neighbouring digital outputs and goes on when they have been sent, as [`syncdo`] does.
 ///
 /// # Errors
 /// Channels that do not exist, a reversed range, more than 32 channels.
 pub async fn syncdo_group(cx: &Cx, from_chan: i32, to_chan: i32, value: i32) -> Result<(), Fault> {
     setdo_group(cx, from_chan, to_chan, value).await?;
-    cx.next_cycle().await;
+    sent(cx, digital_outputs(from_chan, to_chan)).await;
     Ok(())
 }
 

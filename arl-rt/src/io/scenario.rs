@@ -25,7 +25,8 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::bits::Bits;
-use super::{Channels, Digital, Image};
+use super::image::PWM_CHANNELS;
+use super::{Channels, Digital, Image, Pwm};
 use crate::rate::Rate;
 use crate::robot::Robot;
 use crate::settings::{Section, SettingsError, Source, Value, hint, kind, number, table};
@@ -171,6 +172,8 @@ enum Cause {
     At(f64),
     /// An edge of a signal: input or output, channel from 0, level after the edge.
     Edge { output: bool, channel: usize, level: bool },
+    /// Another frequency or duty cycle of a PWM output, from 0.
+    Pwm(usize),
 }
 
 #[derive(Clone, PartialEq, Debug)]
@@ -225,6 +228,11 @@ impl Scenario {
                 if channel >= count as usize {
                     return Err(format!("the scenario waits for {name}.{}, but there are {count}", channel + 1));
                 }
+            }
+            if let Cause::Pwm(channel) = event.cause
+                && channel >= PWM_CHANNELS
+            {
+                return Err(format!("the scenario waits for pwm.{}, but there are {PWM_CHANNELS}", channel + 1));
             }
             for action in &event.actions {
                 action.check(&image, robot).map_err(|problem| format!("the scenario {problem}"))?;
@@ -318,7 +326,7 @@ fn actions(source: Source<'_>, event: &Section<'_>) -> Result<Vec<Action>, Setti
 }
 
 fn edge(event: &Section<'_>) -> Result<Cause, SettingsError> {
-    const WHAT: &str = "\"do.3\" (goes on) or \"!do.3\" (goes off), or di";
+    const WHAT: &str = "\"do.3\" (goes on) or \"!do.3\" (goes off), or di, or \"pwm.1\" (is set to something else)";
     let word = event.text("when", WHAT)?.unwrap_or_default();
     let (name, level) = word.strip_prefix('!').map_or((word, true), |name| (name, false));
     let parts = name.split_once('.').and_then(|(kind, channel)| Some((kind, channel.parse::<usize>().ok()?)));
@@ -326,6 +334,7 @@ fn edge(event: &Section<'_>) -> Result<Cause, SettingsError> {
         Some((kind @ ("do" | "di"), channel @ 1..)) => {
             Ok(Cause::Edge { output: kind == "do", channel: channel - 1, level })
         }
+        Some(("pwm", channel @ 1..)) if level => Ok(Cause::Pwm(channel - 1)),
         _ => match event.find("when") {
             Some(value) => Err(event.wrong("when", value, WHAT)),
             None => Ok(Cause::At(0.0)),
@@ -432,6 +441,7 @@ pub(crate) struct Playing {
     due: Vec<(u64, usize)>,
     before_in: Bits,
     before_out: Bits,
+    before_pwm: [Pwm; PWM_CHANNELS],
 }
 
 impl Playing {
@@ -443,7 +453,8 @@ impl Playing {
                 insert(&mut due, rate.cycles(time), at);
             }
         }
-        Self { events, rate, due, before_in: image.inputs().clone(), before_out: image.outputs().clone() }
+        let (before_in, before_out) = (image.inputs().clone(), image.outputs().clone());
+        Self { events, rate, due, before_in, before_out, before_pwm: image.pwms() }
     }
 
     /// How many deeds a cycle may have at most, if no event comes twice in it.
@@ -470,16 +481,22 @@ impl Playing {
 
     fn find_edges(&mut self, cycle: u64, image: &Image) {
         for (at, event) in self.events.iter().enumerate() {
-            if let Cause::Edge { output, channel, level } = event.cause {
-                let (before, now) =
-                    if output { (&self.before_out, image.outputs()) } else { (&self.before_in, image.inputs()) };
-                if before.get(channel) != level && now.get(channel) == level {
-                    // The outside has seen the edge at the end of the cycle before.
-                    let due = cycle.saturating_sub(1) + self.rate.cycles(event.after);
-                    insert(&mut self.due, due, at);
+            let happens = match event.cause {
+                Cause::At(_) => false,
+                Cause::Edge { output, channel, level } => {
+                    let (before, now) =
+                        if output { (&self.before_out, image.outputs()) } else { (&self.before_in, image.inputs()) };
+                    before.get(channel) != level && now.get(channel) == level
                 }
+                Cause::Pwm(channel) => self.before_pwm.get(channel) != image.pwms().get(channel),
+            };
+            if happens {
+                // The outside has seen the edge at the end of the cycle before.
+                let due = cycle.saturating_sub(1) + self.rate.cycles(event.after);
+                insert(&mut self.due, due, at);
             }
         }
+        self.before_pwm = image.pwms();
         self.before_in.copy_from(image.inputs());
         self.before_out.copy_from(image.outputs());
     }
@@ -551,6 +568,7 @@ mod tests {
             ("[[event]]\nat = 1\nafter = 1\ndi.5 = true", 3, "counts from `when`"),
             ("[[event]]\nat = 1", 1, "changes nothing"),
             ("[[event]]\nwhen = \"do3\"\ndi.5 = true", 2, "expected \"do.3\""),
+            ("[[event]]\nwhen = \"!pwm.1\"\ndi.5 = true", 2, "\"pwm.1\" (is set to something else)"),
             ("[[event]]\nat = -1\ndi.5 = true", 2, "expected seconds"),
             ("[[event]]\nat = 1\npendant = \"strat\"", 3, "did you mean `start`?"),
             ("[[event]]\nat = 1\npendant = \"servo\"", 3, "the pendant has no word"),
@@ -595,6 +613,7 @@ mod tests {
             ("[[event]]\nat = 1\ndi.65 = true", "DI 65 does not exist"),
             ("[[event]]\nat = 1\nai.9 = 1", "AI 9 does not exist"),
             ("[[event]]\nwhen = \"do.65\"\ndi.1 = true", "do.65, but there are 64"),
+            ("[[event]]\nwhen = \"pwm.4\"\ndi.1 = true", "pwm.4, but there are 3"),
         ] {
             let scenario = Scenario::parse("io.toml", text).unwrap();
             let error = scenario.check(&Channels::default(), &Robot::builtin("kr10-r1420").unwrap()).unwrap_err();

@@ -8,7 +8,7 @@ mod arguments;
 mod brace;
 mod call;
 #[cfg(feature = "cli")]
-mod channels;
+mod cell;
 mod conditions;
 mod context;
 mod convert;
@@ -124,8 +124,12 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
         let mut late = if has_conditions { conditions::check(&built, &locate) } else { Vec::new() };
         late.extend(first_motion::check(&built, &locate));
         #[cfg(feature = "cli")]
-        if let Some(cell) = &options.channels {
-            late.extend(channels::check(&built, cell, &locate));
+        if let Some(cell) = &options.cell {
+            let (errors, warnings): (Vec<_>, Vec<_>) = cell::check(&built, cell, &locate)
+                .into_iter()
+                .partition(|diagnostic| diagnostic.severity == Severity::Error);
+            late.extend(errors);
+            diagnostics.extend(warnings);
         }
         #[cfg(feature = "cli")]
         if let Some(robot) = &options.robot {

@@ -112,7 +112,7 @@ pub(super) struct Checking {
     /// The program is for a background channel: it has no robot.
     #[arg(long)]
     pub(super) background: bool,
-    /// The cell that the program is for: channels of io that its file does not have are errors.
+    /// The cell that the program is for: channels, lines and bytes that its file does not have are errors.
     #[arg(long, value_name = "FILE")]
     pub(super) cell: Option<PathBuf>,
     /// The folder that `/home/ae/script/` in an import means; the program's folder if absent.

@@ -14,9 +14,7 @@ use crate::Sources;
 use crate::compile::{Compiled, compile_program};
 use crate::emit::EmitOptions;
 use crate::sources::FileSystem;
-use arl_robot::channels::Channels;
-use arl_robot::islands::Island;
-use arl_robot::settings::SettingsError;
+use arl_robot::outline::Outline;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
@@ -36,20 +34,17 @@ pub(super) fn check_options(checking: &Checking) -> Result<CheckOptions, Failure
         None => None,
     };
     let family = robots::family(checking.robot.as_deref())?;
-    let channels = checking.cell.as_deref().map(channels_of).transpose()?;
+    let cell = checking.cell.as_deref().map(outline).transpose()?;
     let Checking { strict, background, .. } = *checking;
-    Ok(CheckOptions { family, strict, background, script_dir, channels, ..CheckOptions::default() })
+    Ok(CheckOptions { family, strict, background, script_dir, cell, ..CheckOptions::default() })
 }
 
-/// The channels of a cell file, whose islands are right, too.
-fn channels_of(cell: &Path) -> Result<Channels, Failure> {
+/// What a cell file has for programs.
+fn outline(cell: &Path) -> Result<Outline, Failure> {
     let name = cell.display().to_string();
     let text = std::fs::read_to_string(cell)
         .map_err(|error| Failure::Usage(format!("{name}: cannot read the cell file: {error}")))?;
-    let wrong = |error: SettingsError| Failure::Usage(error.to_string());
-    let channels = Channels::of_cell(&name, &text).map_err(wrong)?;
-    Island::of_cell(&name, &text).map_err(wrong)?;
-    Ok(channels)
+    Outline::of_cell(&name, &text).map_err(|error| Failure::Usage(error.to_string()))
 }
 
 /// What becomes one program: that of the command line, and those that its cell names.

@@ -3,6 +3,8 @@
 pub(crate) mod arguments;
 #[cfg(feature = "cli")]
 pub(crate) mod channels;
+#[cfg(feature = "cli")]
+pub(crate) mod connections;
 pub(crate) mod constants;
 pub(crate) mod flow;
 pub(crate) mod modules;

@@ -14,7 +14,7 @@ use arl_robot::islands::{Island, Lost, Rest};
 use self::plan::Signals;
 use self::poller::Poller;
 use self::shared::Shared;
-use crate::io::{Inputs, IoDriver, Outputs};
+use crate::io::{Inputs, IoDriver, Output, Outputs};
 
 /// The islands of a cell. Their outputs are written a last time when this is dropped, which takes as long as a request
 /// may.
@@ -29,6 +29,8 @@ struct Port {
     shared: Arc<Shared>,
     thread: Option<JoinHandle<()>>,
     inputs: Signals,
+    /// The last cycle whose outputs the island has taken.
+    written: Option<u64>,
     /// How often the island was found or lost when the cycle last looked.
     turns: u64,
     lost: Option<Arc<str>>,
@@ -75,6 +77,11 @@ impl IoDriver for Islands {
         self.ports.iter().for_each(|port| port.write(outputs));
     }
 
+    fn has_reached(&self, output: Output, cycle: u64) -> bool {
+        let done = |port: &Port| port.written.is_some_and(|written| written >= cycle);
+        self.ports.iter().all(|port| !port.has(output) || done(port))
+    }
+
     fn take_warning(&mut self) -> Option<String> {
         self.ports.iter_mut().find_map(|port| port.news.take())
     }
@@ -109,12 +116,31 @@ impl Port {
         let poller = Poller::new(island.clone(), Arc::clone(&shared), [inputs.clone(), outputs]);
         let thread = std::thread::Builder::new().name("island".into()).spawn(move || poller.run());
         let thread = thread.map_err(|error| format!("{} has no thread: {error}", title(island)))?;
-        Ok(Self { island: island.clone(), shared, thread: Some(thread), inputs, turns: 0, lost: None, news: None })
+        Ok(Self {
+            island: island.clone(),
+            shared,
+            thread: Some(thread),
+            inputs,
+            written: None,
+            turns: 0,
+            lost: None,
+            news: None,
+        })
+    }
+
+    /// Whether the island has this output.
+    fn has(&self, output: Output) -> bool {
+        let points = &self.island.points;
+        match output {
+            Output::Digital(channel) => points.dout.iter().any(|bit| bit.channel + 1 == channel),
+            Output::Analog(channel) => points.ao.iter().any(|analog| analog.channel + 1 == channel),
+        }
     }
 
     fn read(&mut self, inputs: &mut Inputs<'_>) {
         if let Some(state) = self.shared.at_once() {
             self.inputs.copy_from(&state.inputs);
+            self.written = state.written;
             if state.turns != self.turns {
                 let lost = state.lost.as_ref().map(|why| format!("{} is lost: {why}", title(&self.island)));
                 self.news = news(&self.island, lost.as_deref(), self.turns == 0);
@@ -140,7 +166,7 @@ impl Port {
         for (analog, value) in points.ao.iter().zip(&mut state.outputs.values) {
             *value = outputs.ao(analog.channel + 1);
         }
-        state.given = true;
+        state.given = Some(outputs.cycle());
     }
 }
 

@@ -155,11 +155,11 @@ impl Run {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use arl_robot::islands::Island;
+    use arl_robot::outline::Outline;
 
     fn plan(points: &str) -> Plan {
         let text = format!("[io]\ndi = 5000\ndo = 5000\nai = 200\n[[island]]\naddress = \"10.0.0.7\"\n{points}\n");
-        Plan::new(&Island::of_cell("cell.toml", &text).unwrap()[0].points)
+        Plan::new(&Outline::of_cell("cell.toml", &text).unwrap().islands[0].points)
     }
 
     fn shapes(runs: &[Run]) -> Vec<(Table, u16, u16)> {

@@ -55,8 +55,9 @@ impl Poller {
         let mut link = Link::open(self.island.address, self.island.unit, self.island.timeout)?;
         let mut next = Instant::now();
         while !self.shared.stops() {
-            if self.shared.take_outputs(&mut self.outputs) {
+            if let Some(cycle) = self.shared.take_outputs(&mut self.outputs) {
                 self.write(&mut link)?;
+                self.shared.wrote(cycle);
             }
             for run in &self.plan.reads {
                 client::read_request(&mut self.request, run.table, run.start, run.count);
@@ -70,7 +71,7 @@ impl Poller {
             next = (next + self.island.poll).max(Instant::now());
             self.sleep_until(next);
         }
-        if self.shared.take_outputs(&mut self.outputs) {
+        if self.shared.take_outputs(&mut self.outputs).is_some() {
             if self.island.end == Rest::Zero {
                 self.outputs.copy_from(&self.resting[1]);
             }

@@ -19,8 +19,10 @@ pub(super) struct State {
     pub(super) inputs: Signals,
     /// What is to be written.
     pub(super) outputs: Signals,
-    /// Whether a cycle has given outputs.
-    pub(super) given: bool,
+    /// The cycle that gave them, if one has.
+    pub(super) given: Option<u64>,
+    /// The last cycle whose outputs the island has taken.
+    pub(super) written: Option<u64>,
     /// How often the island was found or lost.
     pub(super) turns: u64,
     /// Why the island is lost, if it is.
@@ -30,7 +32,7 @@ pub(super) struct State {
 impl Shared {
     /// Images with these signals, of an island that nobody has met.
     pub(super) fn new(inputs: Signals, outputs: Signals) -> Self {
-        let state = State { inputs, outputs, given: false, turns: 0, lost: None };
+        let state = State { inputs, outputs, given: None, written: None, turns: 0, lost: None };
         Self { state: Mutex::new(state), changed: Condvar::new(), stop: AtomicBool::new(false) }
     }
 
@@ -54,11 +56,16 @@ impl Shared {
         state.unwrap_or_else(PoisonError::into_inner).lost.clone()
     }
 
-    /// Takes the outputs; false: no cycle has given any.
-    pub(super) fn take_outputs(&self, into: &mut Signals) -> bool {
+    /// Takes the outputs; of which cycle they are, if one has given any.
+    pub(super) fn take_outputs(&self, into: &mut Signals) -> Option<u64> {
         let state = self.wait();
         into.copy_from(&state.outputs);
         state.given
+    }
+
+    /// Tells that the island has taken the outputs of this cycle.
+    pub(super) fn wrote(&self, cycle: u64) {
+        self.wait().written = Some(cycle);
     }
 
     /// Brings what was read.

@@ -4,6 +4,8 @@ use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::time::{Duration, Instant};
 
+use arl_robot::outline::Outline;
+
 use super::*;
 use crate::fieldbus::modbus::SharedTables;
 use crate::fieldbus::modbus::server::Server;
@@ -17,7 +19,7 @@ fn settings(address: SocketAddr, more: &str) -> Vec<Island> {
     let text = format!(
         "[[island]]\nname = \"valves\"\naddress = \"{ip}\"\nport = {port}\npoll = 1\ntimeout = 300\n{POINTS}{more}"
     );
-    Island::of_cell("cell.toml", &text).unwrap()
+    Outline::of_cell("cell.toml", &text).unwrap().islands
 }
 
 fn server(address: &str) -> (Server, SharedTables) {
@@ -30,18 +32,20 @@ struct Run {
     islands: Islands,
     image: Image,
     warnings: Vec<String>,
+    cycle: u64,
 }
 
 impl Run {
     fn start(address: SocketAddr, more: &str) -> Self {
         let islands = Islands::start(&settings(address, more)).unwrap();
-        Self { islands, image: Image::new(&Channels::default()), warnings: Vec::new() }
+        Self { islands, image: Image::new(&Channels::default()), warnings: Vec::new(), cycle: 0 }
     }
 
     fn cycle(&mut self) {
         self.islands.read(self.image.inputs_mut());
         self.warnings.extend(self.islands.take_warning());
-        self.islands.write(self.image.outputs_all());
+        self.islands.write(self.image.outputs_all(self.cycle));
+        self.cycle += 1;
     }
 
     /// Runs cycles until something is so.
@@ -86,6 +90,21 @@ fn signals_go_both_ways() {
     set_inputs(&tables, 0b010, [0x80, 0x01]);
     run.until("the inputs", |run| run.inputs() == (0b010, -10.0));
     assert_eq!((run.warnings.len(), run.islands.fault()), (0, None));
+}
+
+#[test]
+fn it_is_known_when_the_island_has_an_output() {
+    let (server, tables) = server("127.0.0.1:0");
+    let mut run = Run::start(server.address(), "");
+    assert!(!run.islands.has_reached(Output::Digital(1), 0) && run.islands.has_reached(Output::Digital(4), 0));
+    for level in [1, 0, 1, 0, 1] {
+        run.image.set_digitals(Digital::Do, 1, 1, level).unwrap();
+        let cycle = run.cycle;
+        run.until("the output", |run| {
+            run.islands.has_reached(Output::Digital(1), cycle) && run.islands.has_reached(Output::Analog(2), cycle)
+        });
+        assert_eq!(i32::from(outputs(&tables).0), level);
+    }
 }
 
 #[test]

@@ -1,9 +1,8 @@
 //! Channels of io that a certain cell does not have, as far as they are constant.
 
+use super::{argument, constant, constant_int};
 use crate::diagnostics::channels::ChannelProblem;
-use crate::diagnostics::{Diagnostic, Location, Problem};
-use crate::hir::{Builtin, Expr, ExprKind, ModuleId, Passed, Program, Value};
-use crate::visit;
+use crate::hir::Builtin;
 use arl_lang::span::Span;
 use arl_robot::channels::Channels;
 
@@ -36,31 +35,8 @@ const NAMES: [(&str, Kind); 13] = [
     ("getintdo", INTERNAL),
 ];
 
-/// Reports constant channels that the cell does not have, and constant values that its analog outputs do not carry.
-pub(crate) fn check(
-    program: &Program,
-    cell: &Channels,
-    locate: &dyn Fn(ModuleId, Span) -> Location,
-) -> Vec<Diagnostic> {
-    let mut found = Vec::new();
-    let mut look = |module: ModuleId, expr: &Expr| {
-        if let ExprKind::Builtin(builtin) = &expr.kind
-            && let Some((span, problem)) = problem(builtin, cell)
-        {
-            found.push(problem.at(locate(module, span)));
-        }
-    };
-    for global in &program.globals {
-        global.init.iter().for_each(|init| visit::exprs(init, &mut |expr| look(global.module, expr)));
-    }
-    for func in &program.funcs {
-        func.body.iter().for_each(|stmt| visit::exprs_in_stmt(stmt, &mut |expr| look(func.module, expr)));
-    }
-    found
-}
-
 /// What is wrong with the channels of a call, and where.
-fn problem(builtin: &Builtin, cell: &Channels) -> Option<(Span, ChannelProblem)> {
+pub(super) fn problem(builtin: &Builtin, cell: &Channels) -> Option<(Span, ChannelProblem)> {
     let (_, (kind, count)) = NAMES.iter().find(|(name, _)| *name == builtin.entry.name)?;
     let (kind, count) = (*kind, count(cell) as u32);
     let named = |at: usize| builtin.entry.params.get(at).is_some_and(|param| param.name.contains("chan"));
@@ -82,30 +58,4 @@ fn problem(builtin: &Builtin, cell: &Channels) -> Option<(Span, ChannelProblem)>
     let (value, span) = constant(argument(builtin, 1)?)?;
     let (low, high) = ty.range();
     (!(low..=high).contains(&value)).then_some((span, ChannelProblem::Value { channel, value, ty }))
-}
-
-fn argument(builtin: &Builtin, param: usize) -> Option<&Expr> {
-    let bound = builtin.args.iter().find(|bound| bound.param == param)?;
-    match &bound.value {
-        Passed::Value(value) => Some(value),
-        Passed::Out(_) => None,
-    }
-}
-
-fn constant_int(expr: &Expr) -> Option<(i32, Span)> {
-    let (value, span) = constant(expr)?;
-    (value.fract() == 0.0).then_some((value as i32, span))
-}
-
-/// A constant number and its place.
-fn constant(expr: &Expr) -> Option<(f64, Span)> {
-    let value = match &expr.kind {
-        ExprKind::Const(Value::Double(value)) => *value,
-        ExprKind::Const(Value::Int(value)) => f64::from(*value),
-        ExprKind::Const(Value::Uint(value)) => f64::from(*value),
-        ExprKind::Const(Value::Byte(value)) => f64::from(*value),
-        ExprKind::Convert(inner) => constant(inner)?.0,
-        _ => return None,
-    };
-    Some((value, expr.span))
 }

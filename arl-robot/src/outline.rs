@@ -1,0 +1,115 @@
+//! What a program can be held against before it runs: that part of a cell file which says what there is around the robot.
+
+use std::collections::BTreeMap;
+
+use crate::channels::Channels;
+use crate::islands::Island;
+use crate::settings::{Section, SettingsError, Source};
+
+/// What a cell has for programs.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Outline {
+    /// The channels of io.
+    pub channels: Channels,
+    /// The servers of Modbus TCP that have some of them.
+    pub islands: Vec<Island>,
+    /// The names of serial lines in programs, and the devices that they stand for.
+    pub lines: BTreeMap<String, String>,
+    /// How many bytes the DeviceNet bus exchanges.
+    pub devicenet: u32,
+    /// Whether the controller serves registers and coils over Modbus TCP.
+    pub modbus_tcp: bool,
+}
+
+/// How many bytes a DeviceNet bus exchanges where the cell does not say.
+pub const DEVICENET: u32 = 512;
+
+/// The most that it can be told to.
+const MOST_DEVICENET: u32 = 65536;
+
+impl Outline {
+    /// That of the cell file with this text; `file` names it in errors. Nothing else of the file is looked at.
+    ///
+    /// # Errors
+    /// The text is not TOML, or what it says of these things is wrong: with line, column and what was expected.
+    pub fn of_cell(file: &str, text: &str) -> Result<Outline, SettingsError> {
+        let source = Source { file, text };
+        let root = source.parse()?;
+        let keys: Vec<&str> = root.get_ref().keys().map(|key| key.get_ref().as_ref()).collect();
+        let top = Section::new(source, "the cell file", root.get_ref(), &keys)?;
+        let channels = Channels::read(&top)?;
+        Ok(Outline {
+            islands: Island::read_all(source, top.find("island"), &channels)?,
+            channels,
+            lines: lines(&top)?,
+            devicenet: devicenet(&top)?,
+            modbus_tcp: top.find("modbus_tcp").is_some(),
+        })
+    }
+}
+
+/// The serial lines of a cell file: `[serial]`, where there is one.
+///
+/// # Errors
+/// What stands there are no devices.
+pub fn lines(top: &Section<'_>) -> Result<BTreeMap<String, String>, SettingsError> {
+    const WHAT: &str = "the path of a device, like \"/dev/ttyUSB0\"";
+    let Some(value) = top.find("serial") else { return Ok(BTreeMap::new()) };
+    let table = value.get_ref().as_table().ok_or_else(|| top.wrong("serial", value, "the table [serial]"))?;
+    let pairs = table.iter().map(|(name, device)| {
+        let name: &str = name.get_ref().as_ref();
+        let path = device.get_ref().as_str().filter(|path| !path.is_empty());
+        Ok((name.to_owned(), path.ok_or_else(|| top.wrong(name, device, WHAT))?.to_owned()))
+    });
+    pairs.collect()
+}
+
+/// How many bytes the DeviceNet bus of a cell file exchanges: `size` of `[devicenet]`.
+///
+/// # Errors
+/// What stands there is no size.
+pub fn devicenet(top: &Section<'_>) -> Result<u32, SettingsError> {
+    let Some(section) = top.table("devicenet", "[devicenet]", &["size"])? else { return Ok(DEVICENET) };
+    Ok(section.count("size", "how many bytes the bus exchanges", MOST_DEVICENET)?.unwrap_or(DEVICENET))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::channels::AnalogType;
+
+    #[test]
+    fn of_a_cell_file_only_what_programs_see_counts() {
+        let text = "[controller]\nwhatever = 1\n[io]\ndi = 16\nao = [\"mA\"]\n[serial]\n\"/dev/ttyS0\" = \"/dev/ttyUSB0\"\n\
+                    [devicenet]\nsize = 16\n[modbus_tcp]\n";
+        let outline = Outline::of_cell("cell.toml", text).unwrap();
+        let channels = &outline.channels;
+        assert_eq!((channels.di, channels.dout, channels.ao.as_slice()), (16, 64, &[AnalogType::Milliampere][..]));
+        assert_eq!(outline.lines.get("/dev/ttyS0").map(String::as_str), Some("/dev/ttyUSB0"));
+        assert_eq!((outline.devicenet, outline.modbus_tcp), (16, true));
+        let empty = Outline::of_cell("cell.toml", "").unwrap();
+        assert_eq!((empty.channels, empty.devicenet, empty.modbus_tcp), (Channels::default(), 512, false));
+        assert!(empty.lines.is_empty() && empty.islands.is_empty());
+    }
+
+    #[test]
+    fn mistakes_name_their_line() {
+        for (text, line, words) in [
+            ("[io]\ndoo = 3", 2, "did you mean `do`?"),
+            ("io = 3", 1, "the table [io]"),
+            ("serial = 3", 1, "expected the table [serial], found the number 3"),
+            (
+                "[serial]\n\"/dev/ttyS0\" = 1",
+                2,
+                "expected the path of a device, like \"/dev/ttyUSB0\", found the number 1",
+            ),
+            ("[serial]\ncom1 = \"\"", 2, "`com1` of the cell file: expected the path of a device"),
+            ("devicenet = 8", 1, "expected the table [devicenet]"),
+            ("[devicenet]\nsize = -1", 2, "how many bytes the bus exchanges from 0 to 65536"),
+            ("[devicenet]\nsizes = 1", 2, "did you mean `size`?"),
+        ] {
+            let error = Outline::of_cell("cell.toml", text).unwrap_err();
+            assert!(error.line == line && error.message.contains(words), "{error}");
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! What a certain cell does not have or take, as far as it is constant.
+
+mod channels;
+mod connections;
+
+use crate::diagnostics::{Diagnostic, Location, Problem};
+use crate::hir::{Builtin, Expr, ExprKind, ModuleId, Passed, Program, Value};
+use crate::visit;
+use arl_lang::span::Span;
+use arl_robot::outline::Outline;
+
+/// Holds the calls of a program against a cell.
+pub(crate) fn check(program: &Program, cell: &Outline, locate: &dyn Fn(ModuleId, Span) -> Location) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    // What is true of every call is said at the first one.
+    let mut unseen = !cell.modbus_tcp;
+    let mut look = |module: ModuleId, expr: &Expr| {
+        let ExprKind::Builtin(builtin) = &expr.kind else { return };
+        if let Some((span, problem)) = channels::problem(builtin, &cell.channels) {
+            found.push(problem.at(locate(module, span)));
+        }
+        if let Some((span, problem)) = connections::problem(builtin, cell) {
+            found.push(problem.at(locate(module, span)));
+        } else if unseen && let Some(problem) = connections::unseen(builtin) {
+            unseen = false;
+            found.push(problem.at(locate(module, expr.span)));
+        }
+    };
+    for global in &program.globals {
+        global.init.iter().for_each(|init| visit::exprs(init, &mut |expr| look(global.module, expr)));
+    }
+    for func in &program.funcs {
+        func.body.iter().for_each(|stmt| visit::exprs_in_stmt(stmt, &mut |expr| look(func.module, expr)));
+    }
+    found
+}
+
+/// The value that is passed to the parameter with this index.
+fn argument(builtin: &Builtin, param: usize) -> Option<&Expr> {
+    let bound = builtin.args.iter().find(|bound| bound.param == param)?;
+    match &bound.value {
+        Passed::Value(value) => Some(value),
+        Passed::Out(_) => None,
+    }
+}
+
+/// The value that is passed to the parameter with this name.
+fn named<'a>(builtin: &'a Builtin, param: &str) -> Option<&'a Expr> {
+    argument(builtin, builtin.entry.params.iter().position(|known| known.name == param)?)
+}
+
+/// A constant whole number and its place.
+fn constant_int(expr: &Expr) -> Option<(i32, Span)> {
+    let (value, span) = constant(expr)?;
+    (value.fract() == 0.0).then_some((value as i32, span))
+}
+
+/// A constant number and its place.
+fn constant(expr: &Expr) -> Option<(f64, Span)> {
+    let value = match &expr.kind {
+        ExprKind::Const(Value::Double(value)) => *value,
+        ExprKind::Const(Value::Int(value)) => f64::from(*value),
+        ExprKind::Const(Value::Uint(value)) => f64::from(*value),
+        ExprKind::Const(Value::Byte(value)) => f64::from(*value),
+        ExprKind::Convert(inner) => constant(inner)?.0,
+        _ => return None,
+    };
+    Some((value, expr.span))
+}

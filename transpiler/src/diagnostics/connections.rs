@@ -1,0 +1,67 @@
+//! Ports, stations, lines, registers and bytes that connections and buses do not have.
+
+use super::{Code, Problem};
+
+/// What is wrong with an argument.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum ConnectionProblem {
+    /// A value that the parameter does not take.
+    Value { param: &'static str, value: i32, allowed: String },
+    /// So many of these from `start` on: there are `size`, from 0 on. `result` is what becomes of the call.
+    Missing { unit: &'static str, start: i64, count: i64, size: i64, result: &'static str },
+    /// A serial line to which the cell gives no device; it knows others.
+    Line { name: String, known: Vec<String> },
+    /// Registers or coils in a cell without a server.
+    Unseen { name: &'static str },
+}
+
+impl Problem for ConnectionProblem {
+    fn code(&self) -> Code {
+        Code(match self {
+            ConnectionProblem::Value { .. } => 807,
+            ConnectionProblem::Missing { .. } => 808,
+            ConnectionProblem::Line { .. } => 809,
+            ConnectionProblem::Unseen { .. } => 853,
+        })
+    }
+
+    fn message(&self) -> String {
+        match self {
+            ConnectionProblem::Value { param, value, allowed } => {
+                format!("`{param}` cannot be {value}: it is {allowed}")
+            }
+            ConnectionProblem::Missing { unit, start, count: 0 | 1, .. } => format!("{unit} {start} are not there"),
+            ConnectionProblem::Missing { unit, start, count: ..0, .. } => {
+                format!("fewer than 0 {unit} from {start} on cannot be named")
+            }
+            ConnectionProblem::Missing { unit, start, count, .. } => {
+                format!("{unit} {start} to {} are not all there", start + count - 1)
+            }
+            ConnectionProblem::Line { name, .. } => format!("the cell has no device for the serial line \"{name}\""),
+            ConnectionProblem::Unseen { name } => {
+                format!("`{name}` in a cell without Modbus TCP server: no PLC reaches these registers and coils")
+            }
+        }
+    }
+
+    fn label(&self) -> String {
+        String::new()
+    }
+
+    fn help(&self) -> Option<String> {
+        Some(match self {
+            ConnectionProblem::Value { .. } => "the call would end in an alarm".into(),
+            ConnectionProblem::Missing { size: 0, result, .. } => format!("there are none; {result}"),
+            ConnectionProblem::Missing { size, result, .. } => format!("there are 0 to {}; {result}", size - 1),
+            ConnectionProblem::Line { known, .. } if known.is_empty() => {
+                "[serial] of the cell file gives names their devices; a path, like /dev/ttyS0, needs none".into()
+            }
+            ConnectionProblem::Line { known, .. } => {
+                format!("[serial] of the cell file has devices for: {}", known.join(", "))
+            }
+            ConnectionProblem::Unseen { .. } => {
+                "[modbus_tcp] in the cell file starts the server; without it only `--clock real` does".into()
+            }
+        })
+    }
+}
