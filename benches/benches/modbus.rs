@@ -1,0 +1,169 @@
+//! Requests a second that a Modbus TCP server answers: the controller's own, and that of pymodbus, each in a process of its
+//! own, for the same client.
+//!
+//! `cargo bench -p arl-benches --bench modbus`; pymodbus is looked for in the Python that `ARL_PEERS_PYTHON` names (`python3`
+//! where it names none). In turns: the median of the rounds. With it, on Linux, the processor time that the server takes for a
+//! request, which does not depend on what the client can do.
+
+#![allow(missing_docs, clippy::unwrap_used, clippy::expect_used, reason = "a bench")]
+
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use arl_rt::emit::*;
+use arl_rt::{Builder, Cell, Program};
+
+/// What makes this very program the server.
+const SERVE: &str = "--serve";
+
+const ROUNDS: usize = 5;
+
+/// How long a round lasts.
+const ROUND: Duration = Duration::from_millis(1000);
+
+fn main() {
+    if std::env::args().any(|argument| argument == SERVE) {
+        return serve();
+    }
+    let ours = Server::start(Command::new(std::env::current_exe().unwrap()).arg(SERVE)).expect("our own server");
+    let python = std::env::var_os("ARL_PEERS_PYTHON").unwrap_or_else(|| "python3".into());
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/modbus_server.py");
+    let Some(pymodbus) = Server::start(Command::new(&python).arg(script).stderr(Stdio::null())) else {
+        println!("skipped: {} has no pymodbus (ARL_PEERS_PYTHON names another one)", python.to_string_lossy());
+        return;
+    };
+    for (name, clients, registers) in
+        [("1 client, 10 registers", 1, 10), ("1 client, 125 registers", 1, 125), ("8 clients, 10 registers", 8, 10)]
+    {
+        let (mut our_rounds, mut their_rounds) = (Rounds::default(), Rounds::default());
+        for _ in 0..ROUNDS {
+            our_rounds.add(&ours, clients, registers);
+            their_rounds.add(&pymodbus, clients, registers);
+        }
+        let (ours, theirs) = (median(our_rounds.rates), median(their_rounds.rates));
+        println!("{name:26} ours {ours:9.0}/s   pymodbus {theirs:9.0}/s   ours / pymodbus = {:.1}", ours / theirs);
+        let (ours, theirs) = (median(our_rounds.costs), median(their_rounds.costs));
+        println!(
+            "{:26} ours {ours:9.1} us   pymodbus {theirs:7.1} us   pymodbus / ours = {:.1}",
+            "  processor",
+            theirs / ours
+        );
+    }
+    println!("goal: 5 or more");
+}
+
+/// What came out of the rounds with a server.
+#[derive(Default)]
+struct Rounds {
+    /// Requests a second.
+    rates: Vec<f64>,
+    /// Processor time of the server for a request, in us.
+    costs: Vec<f64>,
+}
+
+impl Rounds {
+    fn add(&mut self, server: &Server, clients: usize, registers: u8) {
+        let (before, start) = (server.processor(), Instant::now());
+        let answers = answers(server.port, clients, registers) as f64;
+        self.rates.push(answers / start.elapsed().as_secs_f64());
+        self.costs.push((server.processor() - before) * 1e6 / answers);
+    }
+}
+
+fn median(mut rounds: Vec<f64>) -> f64 {
+    rounds.sort_by(f64::total_cmp);
+    rounds[rounds.len() / 2]
+}
+
+/// How many answers so many clients get in a round, each of which waits for its answer before it asks again.
+fn answers(port: u16, clients: usize, registers: u8) -> usize {
+    let threads: Vec<_> = (0..clients).map(|_| std::thread::spawn(move || ask(port, registers))).collect();
+    threads.into_iter().map(|thread| thread.join().unwrap()).sum()
+}
+
+/// Reads registers for a round; how often.
+fn ask(port: u16, registers: u8) -> usize {
+    let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
+    stream.set_nodelay(true).unwrap();
+    let mut answer = vec![0; 9 + 2 * usize::from(registers)];
+    let (start, mut count) = (Instant::now(), 0_usize);
+    while start.elapsed() < ROUND {
+        count += 1;
+        let [high, low] = (count as u16).to_be_bytes();
+        stream.write_all(&[high, low, 0, 0, 0, 6, 1, 3, 0, 100, 0, registers]).unwrap();
+        stream.read_exact(&mut answer).unwrap();
+        assert_eq!(answer[..2], [high, low]);
+        assert_eq!(answer[6..9], [1, 3, 2 * registers]);
+    }
+    count
+}
+
+/// A server in a process of its own.
+struct Server {
+    child: Child,
+    port: u16,
+}
+
+impl Server {
+    /// Starts a command that says its port first; nothing where it does not.
+    fn start(command: &mut Command) -> Option<Self> {
+        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().ok()?;
+        let mut line = String::new();
+        BufReader::new(child.stdout.take()?).read_line(&mut line).ok()?;
+        let port = line.trim().parse();
+        if port.is_err() {
+            let _ = child.wait();
+        }
+        Some(Self { child, port: port.ok()? })
+    }
+}
+
+impl Server {
+    /// The processor time that it has taken, in s; not a number where the system does not tell.
+    fn processor(&self) -> f64 {
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.child.id())).unwrap_or_default();
+        // Behind the name, which may have blanks: its own time and that of the system for it, in hundredths.
+        let fields: Vec<&str> = stat.rsplit(')').next().unwrap_or_default().split_whitespace().collect();
+        let ticks = |at: usize| fields.get(at).and_then(|field| field.parse::<f64>().ok()).unwrap_or(f64::NAN);
+        (ticks(11) + ticks(12)) / 100.0
+    }
+}
+
+impl Drop for Server {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
+
+/// A program that does nothing.
+struct Nothing;
+
+impl Program for Nothing {
+    fn file(&self) -> File {
+        File::new("nothing.arl")
+    }
+
+    fn family(&self) -> Family {
+        Family::SixAxis
+    }
+
+    fn init<'a>(&'a self, _: &'a Cx) -> BoxFuture<'a> {
+        Box::pin(async { Ok(()) })
+    }
+
+    fn main<'a>(&'a self, _: &'a Cx) -> BoxFuture<'a> {
+        Box::pin(async { Ok(()) })
+    }
+}
+
+/// Serves until the standard input ends.
+fn serve() {
+    let cell = Cell::parse("cell.toml", "[modbus_tcp]\nport = 0\n").unwrap();
+    let controller = Builder::default().cell(cell).build(Box::new(Nothing)).unwrap();
+    println!("{}", controller.modbus_tcp_address().unwrap().port());
+    let _ = std::io::stdin().read(&mut [0]);
+}
