@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use super::Folder;
 
-/// Saves ever higher numbers, in a state file and in a point; says which were there at first, and which have been saved.
+/// Saves ever higher numbers: in a state file, in a pose, in a joint and as a copy of a program. Says which were there at first,
+/// and which have been saved.
 const PROGRAM: &str = "\
 func void main()
     string f = \"points_data.arl\"
@@ -19,6 +20,10 @@ func void main()
         endfor
         savesv(\"I\")
         bool written = savefilepose(f, \"p\", {x n,y n,z n,a n,b n,c n,ej1 n,ej2 n,ej3 n,ej4 n,ej5 n,ej6 n})
+        written = savefilejoint(f, \"q\", {n,n,n,n,n,n,n,n,n,n,n,n}) && written
+        string recipe = \"even.arl\"
+        if(n % 2 == 1) recipe = \"odd.arl\"
+        written = savearl(recipe, \"copy.arl\", true) && written
         print \"saved \",n,\" \",written
         waittime 0.001
     endloop
@@ -26,18 +31,44 @@ endfunc
 ";
 
 /// So many times it is killed.
-const KILLS: u32 = 200;
+const KILLS: u32 = 240;
+/// The data file: what stands before, between and behind the points.
+const TAUGHT: [&str; 3] =
+    ["// taught on Monday\njoint q = ", " // over the belt\n  pose p = ", " // above the table\n"];
+
+/// A program file that is copied: more than goes to the disk at once.
+fn recipe(name: &str) -> String {
+    (0..2000).map(|line| format!("// {name}, line {line}\n")).collect()
+}
+
+/// The number that all components of a point have; the turn and the configuration, which stay 0, do not count.
+#[track_caller]
+fn number(point: &str) -> i32 {
+    let components = point.strip_prefix('{').and_then(|rest| rest.strip_suffix('}')).expect("a whole point");
+    let words: Vec<&str> = components.split(',').filter_map(|word| word.split(' ').next_back()).collect();
+    assert!(words.iter().all(|word| *word == words[0] || *word == "0"), "{point}");
+    words[0].parse().expect("a number")
+}
+
+/// The numbers in both points of the data file, whose other text has stayed.
+#[track_caller]
+fn points(file: &str) -> [i32; 2] {
+    let [before, between, behind] = TAUGHT;
+    let inner = file.strip_prefix(before).and_then(|rest| rest.strip_suffix(behind)).expect("the other text stays");
+    let (joint, pose) = inner.split_once(between).expect("the text between stays");
+    [number(joint), number(pose)]
+}
 
 #[cfg(unix)]
 #[test]
 fn a_kill_leaves_the_old_or_the_new_value_whole() {
-    const BEFORE: &str = "// taught on Monday\njoint q = {1,2}\n  pose p = ";
-    const BEHIND: &str = " // above the table\n";
-    let folder = Folder::new("kill").with("a.arl", PROGRAM);
-    folder.write("points_data.arl", &format!("{BEFORE}{{x 0}}{BEHIND}"));
+    let [before, between, behind] = TAUGHT;
+    let (even, odd) = (recipe("even"), recipe("odd"));
+    let folder = Folder::new("kill").with("a.arl", PROGRAM).with("even.arl", &even).with("odd.arl", &odd);
+    folder.write("points_data.arl", &format!("{before}{{0,0}}{between}{{x 0}}{behind}"));
     folder.arl2rs(&["build", "a.arl", "-o", "a"]).is(0, "");
     let mut delays = 12345_u32;
-    let (mut saved, mut found) = (0, 0);
+    let mut saved = 0;
     for kill in 0..KILLS {
         let mut child = Command::new(folder.path.join("a"))
             .args(["--state-dir", "state", "--script-dir", "."])
@@ -54,27 +85,34 @@ fn a_kill_leaves_the_old_or_the_new_value_whole() {
         let numbers: Vec<i32> = first.split(' ').skip(1).map(|word| word.parse().expect("a number")).collect();
         assert!(matches!(numbers[..], [a, b] if a == b && a >= saved), "{kill}: {first}, but {saved} was saved");
         for line in lines.map_while(Result::ok) {
-            let Some(number) = line.strip_prefix("saved ").and_then(|rest| rest.strip_suffix(" true")) else {
-                // The last line may be cut.
+            // The last line may be cut.
+            let Some((number, written)) = line.strip_prefix("saved ").and_then(|rest| rest.split_once(' ')) else {
                 continue;
             };
-            saved = number.parse().expect("a number");
+            assert!(!written.starts_with('f'), "{kill}: {line}");
+            if written == "true" {
+                saved = number.parse().expect("a number");
+            }
         }
         child.wait().expect("it has ended");
-        let file = folder.read("points_data.arl");
-        let value = file.strip_prefix(BEFORE).and_then(|rest| rest.strip_suffix(BEHIND)).expect("the other text stays");
-        let values: Vec<&str> = value
-            .trim_matches(['{', '}'])
-            .split(',')
-            .map(|word| word.split(' ').next_back().expect("a word"))
-            .collect();
-        let point: i32 = values[0].parse().expect("a number");
-        assert!(
-            value.ends_with('}') && values.iter().all(|word| *word == values[0] || *word == "0"),
-            "{kill}: {value}"
-        );
-        assert!(point >= saved, "{kill}: {value}, but {saved} was saved");
-        found = found.max(point);
+        // In each round the pose is saved before the joint, and the joint before the copy.
+        let [joint, pose] = points(&folder.read("points_data.arl"));
+        assert!(pose >= joint && joint >= saved, "{kill}: {joint} and {pose}, but {saved} was saved");
+        if saved > 0 {
+            let copy = folder.read("copy.arl");
+            assert!(copy == even || copy == odd, "{kill}: {copy}");
+            let kept = i32::from(copy == odd);
+            assert!(kept == saved % 2 || joint > saved, "{kill}: the copy that was saved as {saved} is lost");
+        }
     }
-    assert!(saved > 0 && found > 0, "it has saved something between the kills");
+    // What was being written at a kill lies beside its file.
+    let beside = |name: &str| {
+        let files = std::fs::read_dir(folder.path.join(name)).expect("a folder");
+        files.filter_map(Result::ok).filter(|file| file.file_name().to_string_lossy().ends_with(".new")).count()
+    };
+    let (states, files) = (beside("state"), beside("."));
+    println!(
+        "{KILLS} kills, {saved} rounds saved; {states} kills while a state file was written, {files} others while a file was"
+    );
+    assert!(saved > 0 && states > 0 && files > 0, "{saved} {states} {files}: it was killed while it saved");
 }
