@@ -14,7 +14,7 @@ use super::overlay::joined;
 use super::piece::Piece;
 use super::pilot::Pilot;
 use super::plan::Motion;
-use super::profile::{Limits, State};
+use super::profile::{Change, Limits, State};
 use super::remaining::{self, Leg};
 use super::timing::Timing;
 use super::zone::asks;
@@ -42,6 +42,8 @@ pub(super) struct Course {
     timing: Timing,
     /// Where the robot is on the first cell of the timing, and how it moves.
     state: State,
+    /// The governor's backup for that state; of no meaning where the pilot leads.
+    backup: Change,
     /// The share of the speed that the robot has settled to.
     share: f64,
     /// Who leads the robot in the profile O.
@@ -329,13 +331,27 @@ impl Course {
         let before = self.timing.next_entry();
         self.push(pieces, may);
         self.timing.find_entries(MARGIN, cycle);
-        // The governor looks no farther than to the next stretch.
-        let unchanged = before.is_some() && self.timing.next_entry() >= before;
-        let holds = unchanged || self.state.rests() || self.governor(cycle).holds(&self.state);
-        if !holds {
-            self.take_back(pieces.len());
+        // The governor looks no farther than to the stretch behind the one where its backup ends.
+        let unchanged = before.is_some() && self.timing.next_entry() >= before && self.backup_ends_here();
+        if unchanged || self.state.rests() {
+            return true;
         }
-        holds
+        match self.governor(cycle).holds(&self.state) {
+            Some(backup) => {
+                self.backup = backup;
+                true
+            }
+            None => {
+                self.take_back(pieces.len());
+                false
+            }
+        }
+    }
+
+    /// Whether the backup ends on the stretch on which the robot is.
+    fn backup_ends_here(&self) -> bool {
+        let State { at, vel, acc } = self.state;
+        self.timing.is_on_first(at + self.backup.distance(vel, acc))
     }
 
     fn push(&mut self, pieces: &[Piece], may: bool) {
@@ -400,12 +416,15 @@ impl Course {
         self.choose_leader();
         if !self.follow_pilot(robot, here, cycle, pacing) {
             let pacing = self.settling(cycle, pacing);
-            let next = self.governor(cycle).next(&self.state, pacing);
+            let mut backup = self.backup;
+            let next = self.governor(cycle).next(&self.state, &mut backup, pacing);
+            self.backup = backup;
             self.at += next.at - self.state.at;
             self.state = next;
         }
         let stands = self.timing.pass(&mut self.state);
         if stands {
+            self.backup = Change::default();
             self.arrive();
         }
         while let Some(first) = self.pieces.front() {

@@ -1,13 +1,16 @@
 //! The governor: how fast to go along the course, cycle by cycle.
 //!
-//! Invariant: from the state that it returns, the robot can come to the speed of every piece ahead before it gets there,
-//! and to rest before the end, within the limits of the pieces in between. So a stop, a change of the override or a motion
-//! that comes late never leads off the path or beyond a limit. Each cycle takes the highest jerk that keeps this true.
+//! Invariant: there is a change of speed in hand, the backup, that keeps the limits of all the way that it goes, and at whose
+//! end, without acceleration, the robot can come to the speed of every piece ahead before it gets there, and to rest before
+//! the end, within the limits of the pieces in between. So a stop, a change of the override or a motion that comes late never
+//! leads off the path or beyond a limit: each cycle takes the highest jerk behind which another backup is found, and where
+//! none is, goes on along the one in hand.
 
+mod aim;
 mod demands;
 
 use std::collections::VecDeque;
-use std::ops::{ControlFlow, RangeInclusive};
+use std::ops::ControlFlow;
 
 use super::profile::{Change, Limits, State};
 use super::timing::{Cell, Stretch};
@@ -63,19 +66,23 @@ pub(super) struct Governor<'a> {
 }
 
 impl Governor<'_> {
-    /// Whether the state can go on; see the invariant. It is at the edge of that most of the time, but for rounding.
-    pub(super) fn holds(&self, state: &State) -> bool {
-        self.possible(state, FREE, EDGE, &ALL_CELLS)
+    /// A backup for the state, where it can go on; see the invariant. It is at the edge of that most of the time, but for
+    /// rounding.
+    pub(super) fn holds(&self, state: &State) -> Option<Change> {
+        self.possible(state, FREE, EDGE, &ALL_CELLS).map(|aim| aim.change(state))
     }
 
-    /// The state a cycle later. Beyond the end of the first cell `at` goes on into the next ones.
-    pub(super) fn next(&self, state: &State, pacing: Pacing) -> State {
-        let next = self.paced(state, pacing);
+    /// The state a cycle later, with a backup for that state in place of the one for this state. Beyond the end of the first
+    /// cell `at` goes on into the next ones.
+    pub(super) fn next(&self, state: &State, backup: &mut Change, pacing: Pacing) -> State {
+        let step = self.paced(state, backup, pacing);
         // Rounding must not carry it past a stop.
-        match self.stop_end(next.at) {
-            Some(end) => State { at: end, vel: 0.0, acc: 0.0 },
-            None => next,
-        }
+        let Step { state, backup: next } = match self.stop_end(step.state.at) {
+            Some(end) => Step::rest(end),
+            None => step,
+        };
+        *backup = next;
+        state
     }
 
     /// Where the robot stops, if it is up to `at`.
@@ -93,14 +100,14 @@ impl Governor<'_> {
         Some(end)
     }
 
-    fn paced(&self, state: &State, pacing: Pacing) -> State {
+    fn paced(&self, state: &State, backup: &Change, pacing: Pacing) -> Step {
         match pacing {
-            Pacing::Stop(harder) => self.slower(state, Scale { vel: 1.0, acc: harder, jerk: harder }),
+            Pacing::Stop(harder) => self.slower(state, backup, Scale { vel: 1.0, acc: harder, jerk: harder }),
             Pacing::Go(share) => {
                 let slowed = slowed(share);
                 let ends = self.arrives(state, slowed).or_else(|| self.arrives(state, FREE));
                 let next = ends.or_else(|| self.faster(state, slowed));
-                next.unwrap_or_else(|| self.paced(state, Pacing::Settle(share)))
+                next.unwrap_or_else(|| self.paced(state, backup, Pacing::Settle(share)))
             }
             Pacing::Settle(share) => {
                 let quick = Scale { vel: share, ..FREE };
@@ -111,9 +118,17 @@ impl Governor<'_> {
                 let slowing = self.at(state.at).and_then(|(here, cell)| {
                     self.toward_within(state, cell.limits.vel * share, careful(here, FREE), FREE)
                 });
-                slowing.unwrap_or_else(|| self.braking(state, FREE))
+                slowing.unwrap_or_else(|| self.along(state, backup))
             }
         }
+    }
+
+    /// The state a cycle later along the backup in hand, or along another one where that is over.
+    fn along(&self, state: &State, backup: &Change) -> Step {
+        let another = if backup.duration() > 0.0 { None } else { self.holds(state) };
+        let backup = another.as_ref().unwrap_or(backup);
+        let next = backup.after(*state, self.cycle);
+        Step { state: State { vel: next.vel.max(0.0), ..next }, backup: backup.later(self.cycle) }
     }
 
     /// Whether the state is one that a motion at this share of the speed may have.
@@ -124,7 +139,7 @@ impl Governor<'_> {
     }
 
     /// The state at a stop, where it is reached within the cycle.
-    fn arrives(&self, state: &State, scale: Scale) -> Option<State> {
+    fn arrives(&self, state: &State, scale: Scale) -> Option<Step> {
         let here = self.stretches.front()?;
         let limits = careful(here, scale);
         let length: f64 = here.cells.iter().map(|cell| cell.length).take(4).sum();
@@ -134,7 +149,7 @@ impl Governor<'_> {
         let left = length - state.at;
         let jerk = limits.jerk.min(limits.acc / self.cycle);
         let nothing = SNAP * jerk * self.cycle * self.cycle * self.cycle;
-        let end = State { at: length, vel: 0.0, acc: 0.0 };
+        let end = Step::rest(length);
         if state.rests() {
             return (left <= nothing).then_some(end);
         }
@@ -144,39 +159,34 @@ impl Governor<'_> {
     }
 
     /// The quickest way on for a cycle; `None` where there is none.
-    fn faster(&self, state: &State, scale: Scale) -> Option<State> {
+    fn faster(&self, state: &State, scale: Scale) -> Option<Step> {
         let limits = self.touched(state, scale)?;
         let highest = ((limits.acc - state.acc) / self.cycle).min(limits.jerk);
         let lowest = lowest_jerk(state, self.cycle, &limits)?;
         let highest = highest.max(lowest);
         let next = |jerk: f64| state.after(jerk, self.cycle);
-        if self.feasible(&next(highest), scale) {
-            return Some(next(highest));
+        if let Some(step) = self.step(next(highest), scale, 0.0) {
+            return Some(step);
         }
         // The more jerk, the longer the way to any speed: what the highest leaves undone is all that counts below it.
         let undone = self.undone(&next(highest), scale);
-        let quick = Self::highest(lowest..=highest, next, |state| self.possible(state, scale, 0.0, &undone));
-        let found = quick.filter(|quick| self.feasible(quick, scale));
-        let found = found.or_else(|| Self::highest(lowest..=highest, next, |state| self.feasible(state, scale)));
+        let some = |jerk: f64| self.possible(&next(jerk), scale, 0.0, &undone).is_some();
+        let quick = farthest(lowest, highest, some).and_then(|jerk| self.step(next(jerk), scale, 0.0));
+        let every = |jerk: f64| self.feasible(&next(jerk), scale);
+        let found =
+            quick.or_else(|| farthest(lowest, highest, every).and_then(|jerk| self.step(next(jerk), scale, 0.0)));
         // What was feasible stays so, if only to the last digits, on the way that was found for it.
-        found.or_else(|| self.feasible(state, scale).then(|| self.braking(state, scale)))
+        found.or_else(|| {
+            let aim = self.possible(state, scale, 0.0, &ALL_CELLS)?;
+            let along = || self.along(state, &aim.change(state));
+            Some(self.step(self.braking(state, scale), scale, EDGE).unwrap_or_else(along))
+        })
     }
 
-    /// The next state with the highest jerk that will do, of a range whose end does not; `None` where none does.
-    fn highest(
-        range: RangeInclusive<f64>,
-        next: impl Fn(f64) -> State,
-        will_do: impl Fn(&State) -> bool,
-    ) -> Option<State> {
-        let (mut low, mut high) = range.into_inner();
-        if !will_do(&next(low)) {
-            return None;
-        }
-        for _ in 0..HALVINGS {
-            let middle = f64::midpoint(low, high);
-            if will_do(&next(middle)) { low = middle } else { high = middle }
-        }
-        Some(next(low))
+    /// A state with the backup that is found for it.
+    fn step(&self, state: State, scale: Scale, slack: f64) -> Option<Step> {
+        let aim = self.possible(&state, scale, slack, &ALL_CELLS)?;
+        Some(Step { state, backup: aim.change(&state) })
     }
 
     /// The cells whose speeds cannot be reached in time, and those between them.
@@ -194,10 +204,10 @@ impl Governor<'_> {
     }
 
     /// As slow as it can be a cycle later, down to rest.
-    fn slower(&self, state: &State, scale: Scale) -> State {
-        let Some(here) = self.stretches.front() else { return State { vel: 0.0, acc: 0.0, ..*state } };
+    fn slower(&self, state: &State, backup: &Change, scale: Scale) -> Step {
+        let Some(here) = self.stretches.front() else { return Step::rest(state.at) };
         if state.rests() {
-            return *state;
+            return Step::rest(state.at);
         }
         // On the way to a stop that is hardly farther than braking takes, that is where to stop.
         if let Some(end) = self.arrives(state, FREE) {
@@ -210,15 +220,25 @@ impl Governor<'_> {
         }
         // Braking hardest may lead into a stretch that allows less.
         let next = self.toward_within(state, 0.0, scaled(here, scale), scale);
-        next.unwrap_or_else(|| self.braking(state, scale))
+        next.or_else(|| self.hardest(state, backup, scale)).unwrap_or_else(|| self.along(state, backup))
+    }
+
+    /// The state a cycle later with the lowest jerk that leaves a backup, where more than the backup in hand asks for does.
+    fn hardest(&self, state: &State, backup: &Change, scale: Scale) -> Option<Step> {
+        let limits = self.touched(state, scale)?;
+        let lowest = lowest_jerk(state, self.cycle, &limits)?;
+        let known = (backup.after(*state, self.cycle).acc - state.acc) / self.cycle;
+        let next = |jerk: f64| state.after(jerk, self.cycle);
+        let found = farthest(known, lowest.min(known), |jerk| self.feasible(&next(jerk), scale))?;
+        self.step(next(found), scale, 0.0)
     }
 
     /// The state a cycle later on the quickest way to a speed, with no more than `limits`: within those of all stretches that
     /// the cycle touches, or of this one, where only that leaves it possible to go on.
-    fn toward_within(&self, state: &State, goal: f64, limits: Limits, scale: Scale) -> Option<State> {
+    fn toward_within(&self, state: &State, goal: f64, limits: Limits, scale: Scale) -> Option<Step> {
         let all = self.touched(state, scale).map(|touched| lower(limits, touched));
         let mut found = all.into_iter().chain([limits]).map(|limits| self.toward(state, goal, &limits));
-        found.find(|next| self.feasible(next, scale))
+        found.find_map(|next| self.step(next, scale, 0.0))
     }
 
     /// Whether the robot brakes for a stop already.
@@ -287,28 +307,9 @@ impl Governor<'_> {
         Some(found)
     }
 
-    /// Whether the state keeps to the limits where it is, and all demands of the way ahead can be met.
+    /// Whether there is a backup for the state.
     fn feasible(&self, state: &State, scale: Scale) -> bool {
-        self.possible(state, scale, 0.0, &ALL_CELLS)
-    }
-
-    /// The same, as far as it concerns these cells' speeds, with a slack for speeds, as a share, and for ways, in s of
-    /// nominal time.
-    fn possible(&self, state: &State, scale: Scale, slack: f64, cells: &Cells) -> bool {
-        let State { vel, acc, .. } = *state;
-        let Some((here, cell)) = self.at(state.at) else { return state.rests() };
-        let limits = careful(here, scale);
-        let peak = fading(vel, acc.max(0.0), &limits);
-        let highest = cell.limits.vel * scale.vel * (1.0 + TOO_FAST + slack);
-        if vel < 0.0 || acc.abs() * MARGIN > limits.acc * (1.0 + SLACK + slack) || peak > highest {
-            return false;
-        }
-        let mut met = true;
-        self.demands(state, scale, cells, |demand| {
-            met = demand.left >= -slack;
-            if met { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-        });
-        met
+        self.possible(state, scale, 0.0, &ALL_CELLS).is_some()
     }
 
     fn at(&self, at: f64) -> Option<(&Stretch, &Cell)> {
@@ -322,6 +323,20 @@ impl Governor<'_> {
             }
         }
         None
+    }
+}
+
+/// A state with a backup for it.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    state: State,
+    backup: Change,
+}
+
+impl Step {
+    /// Rest at a place.
+    fn rest(at: f64) -> Self {
+        Self { state: State { at, vel: 0.0, acc: 0.0 }, backup: Change::default() }
     }
 }
 
@@ -364,6 +379,19 @@ fn lower(a: Limits, b: Limits) -> Limits {
     Limits { vel: a.vel.min(b.vel), acc: a.acc.min(b.acc), jerk: a.jerk.min(b.jerk) }
 }
 
+/// The value nearest to `goal`, which will not do, from `start` on, that will; `None` where the first does not.
+fn farthest(start: f64, goal: f64, will_do: impl Fn(f64) -> bool) -> Option<f64> {
+    let (mut found, mut beyond) = (start, goal);
+    if !will_do(found) {
+        return None;
+    }
+    for _ in 0..HALVINGS {
+        let middle = f64::midpoint(found, beyond);
+        if will_do(middle) { found = middle } else { beyond = middle }
+    }
+    Some(found)
+}
+
 /// The speed that is left when the acceleration has faded out.
 fn fading(vel: f64, acc: f64, limits: &Limits) -> f64 {
     vel + acc * acc.abs() / (2.0 * limits.jerk)
@@ -378,6 +406,15 @@ fn to_rest(vel: f64, acc: f64, limits: &Limits) -> Option<(f64, f64)> {
     }
     let change = Change::new(vel, acc, 0.0, limits);
     Some((change.distance(vel, acc), change.duration()))
+}
+
+/// The way until the acceleration has faded out, or until rest where [`to_rest`] lets it fade a little quicker.
+fn way_of_fading(vel: f64, acc: f64, limits: &Limits) -> f64 {
+    let left = fading(vel, acc, limits);
+    if left < 0.0 {
+        return 2.0 * vel * vel / (-3.0 * acc);
+    }
+    Change::new(vel, acc, left, limits).distance(vel, acc)
 }
 
 /// At least as long as the way to rest.
@@ -414,109 +451,4 @@ fn lowest_jerk(state: &State, cycle: f64, limits: &Limits) -> Option<f64> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::kinematics::random::Random;
-    use crate::motion::timing::Timing;
-
-    fn timing(cells: &[(f64, Limits)]) -> Timing {
-        let mut timing = Timing::default();
-        for (index, (length, limits)) in cells.iter().enumerate() {
-            timing.push(Cell { length: *length, limits: *limits }, index + 1 == cells.len(), true);
-        }
-        timing.find_entries(MARGIN, 0.001);
-        timing
-    }
-
-    /// Runs until the end; every cycle the state must keep to the limits where it is. Returns the cycles.
-    fn run(cells: &[(f64, Limits)], pacing: impl Fn(u32) -> Pacing) -> u32 {
-        let mut timing = timing(cells);
-        let (mut state, mut cycle, mut done) = (State::default(), 0, 0.0);
-        let whole: f64 = cells.iter().map(|(length, _)| length).sum();
-        loop {
-            let before = state;
-            let pace = pacing(cycle);
-            state = Governor { stretches: &timing.stretches, cycle: 0.001 }.next(&state, pace);
-            cycle += 1;
-            let told = format!("{cycle}: {done} {before:?} {state:?} {cells:?}");
-            assert!(cycle < 100_000, "{told}");
-            done += state.at - before.at;
-            let harder = if let Pacing::Stop(harder) = pace { harder } else { 1.0 };
-            let mut end = 0.0;
-            let here = cells.iter().position(|(length, _)| {
-                end += length;
-                done - state.vel * 0.001 < end
-            });
-            let Some((_, Limits { vel, acc, jerk })) = here.and_then(|here| cells.get(here)) else {
-                assert!(state.rests(), "{told}");
-                return cycle;
-            };
-            let before_end = done < end;
-            if before_end {
-                assert!(state.vel >= 0.0 && state.vel <= vel * 1.000_2, "{told}");
-                assert!(state.acc.abs() <= acc * harder * 1.001, "{told}");
-                let change = (state.acc - before.acc).abs() / 0.001;
-                assert!(change <= jerk * harder * 1.02, "{change} {told}");
-            }
-            let mut rest = state;
-            if timing.pass(&mut rest) {
-                assert!(state.rests() && (done - whole).abs() < 1e-9, "{told}");
-                return cycle;
-            }
-            state = rest;
-        }
-    }
-
-    #[test]
-    fn rest_to_rest_takes_hardly_longer_than_the_shortest() {
-        let mut random = Random::new(81);
-        for _ in 0..100 {
-            let (acc, time) = (random.between(1.0, 20.0), 10.0_f64.powf(random.between(-2.0, 0.5)));
-            let limits = Limits { vel: 1.0, acc, jerk: acc * random.between(2.0, 60.0) };
-            let cycles = run(&[(time, limits)], |_| Pacing::Go(1.0));
-            let shortest = limits.duration(time);
-            assert!(f64::from(cycles) * 0.001 <= shortest * 1.002 + 0.002, "{cycles} {shortest} {limits:?}");
-            assert!(f64::from(cycles) * 0.001 >= shortest - 0.001, "{cycles} {shortest}");
-        }
-    }
-
-    #[test]
-    fn stops_and_overrides_keep_to_the_limits_and_the_end() {
-        let mut random = Random::new(82);
-        for round in 0..60 {
-            let acc = random.between(1.0, 20.0);
-            let limits = Limits { vel: 1.0, acc, jerk: acc * random.between(2.0, 60.0) };
-            let cells = [(random.between(0.05, 2.0), limits)];
-            let (stop, harder) = (random.between(1.0, 1500.0) as u32, if round % 2 == 0 { 1.0 } else { 5.0 });
-            let share = random.between(0.01, 1.0);
-            run(
-                &cells,
-                |cycle| {
-                    if cycle >= stop && cycle < stop + 1500 { Pacing::Stop(harder) } else { Pacing::Go(1.0) }
-                },
-            );
-            run(&cells, |cycle| if cycle >= stop { Pacing::Settle(share) } else { Pacing::Go(1.0) });
-            // A slider that moves all the time.
-            let shares: Vec<f64> = (0..100).map(|_| random.between(0.01, 1.0)).collect();
-            run(&cells, |cycle| Pacing::Settle(shares[(cycle as usize / (1 + round % 7)) % shares.len()]));
-        }
-    }
-
-    #[test]
-    fn slower_cells_are_entered_at_their_speed() {
-        let mut random = Random::new(83);
-        for round in 0..60 {
-            let mut some = || {
-                let vel = random.between(0.1, 1.0);
-                let acc = if round % 2 == 0 { random.between(1.0, 20.0) } else { random.between(5.0, 8.0) };
-                let limits =
-                    Limits { vel, acc, jerk: acc * random.between(5.0, if round % 4 < 2 { 60.0 } else { 8.0 }) };
-                (10.0_f64.powf(random.between(-2.5, 0.0)), limits)
-            };
-            let cells: Vec<_> = (0..8).map(|_| some()).collect();
-            run(&cells, |_| Pacing::Go(1.0));
-            let stop = 100 + round * 3;
-            run(&cells, |cycle| if cycle >= stop && cycle < stop + 900 { Pacing::Stop(1.0) } else { Pacing::Go(1.0) });
-        }
-    }
-}
+mod tests;

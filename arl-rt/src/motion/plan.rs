@@ -7,6 +7,7 @@ use super::bounds::{Bounds, Pace};
 use super::command::{Command, Settings, Target, Zone};
 use super::curve::{Curve, ToolCurve, Track};
 use super::error::PlanError;
+use super::governor::MARGIN;
 use super::joints::{Joints, is_unset};
 use super::limits::{highest_speed, passing, quickest};
 use super::overlay::{Beginning, Laid, Led, lay};
@@ -68,7 +69,7 @@ impl Motion {
 
     /// How long it takes from rest to rest at an override of 100 %, in s.
     pub fn duration(&self) -> f64 {
-        self.limits.map_or(0.0, |limits| limits.duration(1.0))
+        self.limits.map_or(0.0, |limits| limits.duration_braking(1.0, MARGIN))
     }
 
     /// Whether anything moves.
@@ -524,7 +525,7 @@ impl Planner<'_> {
             }
             Some(duration) => {
                 collect(&pace, &mut bounds);
-                let free = if moves { quickest(&bounds.rows).duration(1.0) } else { 0.0 };
+                let free = if moves { quickest(&bounds.rows).duration_braking(1.0, MARGIN) } else { 0.0 };
                 if !duration.is_finite() || duration <= 0.0 || is_unset(duration) {
                     return Err(PlanError::NoSpeed { what: "the duration in s", value: duration });
                 }
@@ -534,7 +535,7 @@ impl Planner<'_> {
                 caps(&mut bounds);
                 moves.then(|| {
                     let capped = quickest(&bounds.rows);
-                    capped.slowed((capped.duration(1.0) / duration).min(1.0))
+                    capped.slowed((capped.duration_braking(1.0, MARGIN) / duration).min(1.0))
                 })
             }
         };

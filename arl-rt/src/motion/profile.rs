@@ -31,6 +31,26 @@ impl Limits {
         let rest = (distance - 2.0 * ramp.distance(0.0, 0.0)).max(0.0);
         2.0 * ramp.duration() + if peak > 0.0 { rest / peak } else { 0.0 }
     }
+
+    /// The same where slowing down counts on `braking` times the acceleration and jerk only.
+    pub(super) fn duration_braking(&self, distance: f64, braking: f64) -> f64 {
+        let gently = Self { acc: self.acc * braking, jerk: self.jerk * braking, ..*self };
+        let ramps = |peak: f64| [Change::new(0.0, 0.0, peak, self), Change::new(peak, 0.0, 0.0, &gently)];
+        let way = |peak: f64| {
+            let [up, down] = ramps(peak);
+            up.distance(0.0, 0.0) + down.distance(peak, 0.0)
+        };
+        let mut peak = self.vel;
+        if way(peak) > distance {
+            let mut low = 0.0;
+            for _ in 0..60 {
+                let middle = f64::midpoint(low, peak);
+                if way(middle) <= distance { low = middle } else { peak = middle }
+            }
+        }
+        let rest = (distance - way(peak)).max(0.0);
+        ramps(peak).iter().map(Change::duration).sum::<f64>() + if peak > 0.0 { rest / peak } else { 0.0 }
+    }
 }
 
 /// Where the parameter is and how it moves.
@@ -63,7 +83,7 @@ struct Phase {
 }
 
 /// The quickest change from one speed and acceleration to another speed without acceleration.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(super) struct Change {
     phases: [Phase; 3],
 }
@@ -106,6 +126,17 @@ impl Change {
             }
         }
         State { at: state.at + state.vel * left, acc: 0.0, ..state }
+    }
+
+    /// What is left of it `time` s after the start.
+    pub(super) fn later(&self, time: f64) -> Self {
+        let mut passed = time;
+        let phases = self.phases.map(|phase| {
+            let here = phase.time.min(passed);
+            passed -= here;
+            Phase { time: phase.time - here, ..phase }
+        });
+        Self { phases }
     }
 
     /// The jerk `time` s after the start.

@@ -173,6 +173,17 @@ impl Timing {
         if self.stretches.len() > 2 { self.stretches.get(1).map(|stretch| stretch.entry) } else { None }
     }
 
+    /// Whether a place, as a state has it, is on the first stretch.
+    pub(super) fn is_on_first(&self, at: f64) -> bool {
+        let mut end = 0.0;
+        self.stretches.front().is_some_and(|first| {
+            first.cells.iter().any(|cell| {
+                end += cell.length;
+                at < end
+            })
+        })
+    }
+
     /// Leaves behind what the robot has passed; returns whether it stands at a stop.
     pub(super) fn pass(&mut self, state: &mut State) -> bool {
         while let Some(first) = self.stretches.front_mut() {

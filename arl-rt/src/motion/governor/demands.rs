@@ -2,8 +2,8 @@
 
 use std::ops::{ControlFlow, Range};
 
-use super::{Governor, ROUNDING, SLOWER, Scale, careful, fading, longest_stop, lower, to_rest, way_to_speed};
-use crate::motion::profile::{Change, Limits, State};
+use super::{Governor, ROUNDING, SLOWER, Scale, careful, fading, longest_stop, to_rest, way_of_fading, way_to_speed};
+use crate::motion::profile::{Limits, State};
 
 /// Cells, counted from the first one of all.
 pub(super) type Cells = Range<usize>;
@@ -58,6 +58,10 @@ impl Governor<'_> {
                 if at >= end {
                     continue;
                 }
+                // An acceleration below zero must fade before the speed does.
+                if !inside && to_rest(vel, acc, &limits).is_none() {
+                    tell(0.0, limits, f64::NEG_INFINITY, None)?;
+                }
                 let speed = cell.limits.vel * scale.vel * (1.0 + SLOWER);
                 if inside && start - at > longest {
                     return ControlFlow::Continue(());
@@ -72,31 +76,22 @@ impl Governor<'_> {
             if at >= end && !stretch.stops {
                 continue;
             }
-            // An acceleration below zero must fade before the speed does.
-            let rest = to_rest(vel, acc, &limits);
-            if rest.is_none() {
-                tell(0.0, limits, f64::NEG_INFINITY, None)?;
-            }
             let next = if stretch.stops { None } else { self.stretches.get(index + 1) };
-            match (next, rest) {
-                (None, rest) => {
-                    let way = rest.map_or(f64::INFINITY, |(way, _)| way);
+            match next {
+                None => {
+                    let way = to_rest(vel, acc, &limits).map_or(f64::INFINITY, |(way, _)| way);
                     tell(0.0, limits, end - at + 1e-3 * ROUNDING - way, None)?;
                 }
-                (Some(next), _) if end - at <= longest => {
+                Some(next) if end - at <= longest => {
                     let speed = next.entry * scale.vel * (1.0 + SLOWER);
-                    // A little before, so that no acceleration is left where the limits change.
-                    let early = (end - at - 2.0 * self.cycle * vel).max(0.0);
+                    // No acceleration is left where the limits change. The last cycle may end a little behind it.
+                    let early = |vel: f64| (end - at - self.cycle * vel).max(0.0);
                     let fades = fading(vel, acc, &limits);
-                    // Far below the speed of entry the next stretch can bear some acceleration.
-                    let both = lower(limits, careful(next, scale));
-                    let slow = fading(vel, acc, &both) <= speed / 2.0 || (acc <= 0.0 && both.jerk >= limits.jerk);
-                    let bearable = acc.abs() <= both.acc && slow && (acc >= 0.0 || both.jerk >= limits.jerk);
-                    if fades <= speed && !bearable {
-                        let way = Change::new(vel, acc, fades.max(0.0), &limits).distance(vel, acc);
-                        tell(fades.max(0.0), limits, early - way, None)?;
+                    if fades <= speed {
+                        let fades = fades.max(0.0);
+                        tell(fades, limits, early(fades) - way_of_fading(vel, acc, &limits), None)?;
                     }
-                    tell(speed, limits, early - way_to_speed(vel, acc, speed, &limits), None)?;
+                    tell(speed, limits, early(speed) - way_to_speed(vel, acc, speed, &limits), None)?;
                 }
                 _ => {}
             }
