@@ -179,6 +179,11 @@ impl ToolCurve {
         self.passages.iter().find(|passage| passage.from <= at && at <= passage.to)
     }
 
+    /// Where passages begin and end: third derivatives of the axes jump there.
+    pub(super) fn borders(&self) -> impl Iterator<Item = f64> {
+        self.passages.iter().flat_map(|passage| [passage.from, passage.to])
+    }
+
     /// The configuration at `at`; within a passage, that before it.
     pub(super) fn cfg_at(&self, at: f64) -> u8 {
         self.passages.iter().rev().find(|passage| passage.to < at).map_or(self.cfg, |passage| passage.cfg_behind)

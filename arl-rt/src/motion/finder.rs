@@ -9,7 +9,7 @@ use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, OnceLock};
 use std::thread;
 
-use super::optimal::{Edge, Law, Moment, Way, fastest};
+use super::optimal::{Edge, Law, Moment, Row, Way, fastest};
 use super::profile::Limits;
 use super::scout::{Prospect, Scout};
 
@@ -155,7 +155,7 @@ fn find(scout: &Scout, start: Edge, wanted: impl Fn() -> bool) -> Option<Found> 
         let attempt = |(share, density): &(f64, f64)| {
             let Prospect { way, end } = scout.look(scout.at + share * (to - scout.at), *density, start, Edge::REST)?;
             // Close to rest, from a state that moves, the limits between the places are not certain.
-            let law = fastest(&way, start, Edge::REST).ok().filter(|law| keeps(&way, law, 1.0, f64::min))?;
+            let law = fastest(&way, start, Edge::REST).ok().filter(|law| keeps(&way, law, 1.0, Between::Least))?;
             Some((way, end, law))
         };
         let Some((way, end, law)) = TRIES.iter().take_while(|_| wanted()).find_map(attempt) else { return found };
@@ -201,12 +201,12 @@ impl Plot {
     /// Whether a law that is followed at another share of its speed keeps its limits, those of acceleration and jerk times
     /// `harder`.
     pub(super) fn keeps(&self, motion: &impl Timed, harder: f64) -> bool {
-        keeps(&self.way, motion, harder, f64::min)
+        keeps(&self.way, motion, harder, Between::Even)
     }
 
-    /// The same for a motion that does not follow a law: between two places the limits of both count.
+    /// The same for a motion that does not follow a law.
     pub(super) fn surely_keeps(&self, motion: &impl Timed, harder: f64) -> bool {
-        keeps(&self.way, motion, harder, f64::max)
+        keeps(&self.way, motion, harder, Between::Most)
     }
 
     /// The acceleration and jerk that the parameter may have all the way between two places where it hardly moves.
@@ -223,13 +223,23 @@ impl Plot {
     }
 }
 
-/// Whether a motion along `way` goes forwards and keeps the limits, those of acceleration and jerk times `harder`. Between two
-/// places counts what `between` makes of the limits there: a law follows limits that change, from the one to the other.
-fn keeps(way: &Way, motion: &impl Timed, harder: f64, between: fn(f64, f64) -> f64) -> bool {
+/// What counts between two places of a way.
+#[derive(Clone, Copy)]
+enum Between {
+    /// The less that is used of the limits of either, for a law: it was found for what lies between.
+    Least,
+    /// What lies between what is used of the limits of both: derivatives change evenly from place to place.
+    Even,
+    /// The more.
+    Most,
+}
+
+/// Whether a motion along `way` goes forwards and keeps the limits, those of acceleration and jerk times `harder`.
+fn keeps(way: &Way, motion: &impl Timed, harder: f64, between: Between) -> bool {
     let count = (motion.duration() / SAMPLE).clamp(16.0, 4000.0) as u32;
     let places = way.places();
-    let used = |index: usize, now: &Moment| {
-        way.rows(index).iter().fold(0.0_f64, |used, row| {
+    let used = |rows: &[Row], now: &Moment| {
+        rows.iter().fold(0.0_f64, |used, row| {
             let acc = row.first * now.acc + row.second * now.vel * now.vel;
             let jerk =
                 row.first * now.jerk + 3.0 * row.second * now.vel * now.acc + row.third * now.vel * now.vel * now.vel;
@@ -240,6 +250,15 @@ fn keeps(way: &Way, motion: &impl Timed, harder: f64, between: fn(f64, f64) -> f
     (0..=count).all(|step| {
         let now = motion.at(motion.duration() * f64::from(step) / f64::from(count));
         let next = places.partition_point(|place| *place <= now.at).clamp(1, places.len() - 1);
-        now.vel >= -BACKWARDS && between(used(next - 1, &now), used(next, &now)) <= MOST_USED
+        let used = match between {
+            Between::Least => used(way.rows(next - 1), &now).min(used(way.rows(next), &now)),
+            Between::Even => {
+                let part = (now.at - places[next - 1]) / (places[next] - places[next - 1]);
+                let [before, behind] = [way.rows_behind(next - 1), way.rows_before(next)].map(|rows| used(rows, &now));
+                before + part.clamp(0.0, 1.0) * (behind - before)
+            }
+            Between::Most => used(way.rows_behind(next - 1), &now).max(used(way.rows_before(next), &now)),
+        };
+        now.vel >= -BACKWARDS && used <= MOST_USED
     })
 }

@@ -176,8 +176,21 @@ impl Piece {
     pub(super) fn jumps(&self) -> impl Iterator<Item = f64> {
         let all = if self.parts() > 1 { Progress::PARTS } else { 0 };
         let shares = (0..all).map(|part| part as f64 / Progress::PARTS as f64);
-        let inside = shares.filter(|share| *share > self.from && *share < self.to);
+        let inside = shares.chain(self.borders()).filter(|share| *share > self.from && *share < self.to);
         inside.map(|share| (share - self.from) / (self.to - self.from) * self.time).chain([self.time])
+    }
+
+    /// Whether derivatives of its curve jump within `near` s of nominal time beside a place.
+    pub(super) fn jumps_beside(&self, at: f64, near: f64) -> bool {
+        let width = (self.to - self.from) / self.time;
+        let share = self.from + at * width;
+        self.parts() > 1 || self.borders().any(|border| (border - share).abs() <= near * width)
+    }
+
+    /// Where passages through a singularity begin and end. What is laid down by a progress of its own has none.
+    fn borders(&self) -> impl Iterator<Item = f64> {
+        let curve = if let Curve::Tool(curve) = &self.curve { Some(curve) } else { None };
+        curve.into_iter().flat_map(|curve| curve.borders())
     }
 
     /// Adds what limits the nominal time after `at` s of it, where the joints are `joints`. Returns how these change with

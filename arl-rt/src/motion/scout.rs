@@ -111,7 +111,7 @@ impl Scout {
 
         let mut way = Way::new();
         let mut bounds = Bounds::signed(&self.robot);
-        let mut walk = Walk { scout: self, joints: self.near, index: 0, before: self.passed };
+        let mut walk = Walk { scout: self, joints: self.near, index: 0, before: self.passed, jump: None };
         for (station, next) in stations.iter().zip(stations.iter().skip(1).map(Some).chain([None])) {
             let mut at = station.0;
             let mut is_place = station.1;
@@ -119,7 +119,11 @@ impl Scout {
                 let step = walk.rows(at, spacing, &mut bounds);
                 // A singular point is between places.
                 if is_place && !bounds.rows.is_empty() {
-                    way.push(at, bounds.rows.drain(..).map(row));
+                    let rows = bounds.rows.drain(..).map(row);
+                    match walk.jump {
+                        Some(before) => way.push_jump(at, rows, before),
+                        None => way.push(at, rows),
+                    }
                 }
                 if way.places().len() > MOST {
                     return Err(at);
@@ -157,6 +161,8 @@ struct Walk<'a> {
     /// The piece that was looked at last, and where it begins.
     index: usize,
     before: f64,
+    /// Where derivatives jump: how many of the rows are those of the side before.
+    jump: Option<usize>,
 }
 
 impl Walk<'_> {
@@ -164,17 +170,23 @@ impl Walk<'_> {
     /// changes little, no longer than `spacing`.
     fn rows(&mut self, at: f64, spacing: f64, bounds: &mut Bounds) -> f64 {
         let mut step = spacing;
+        self.jump = None;
         while let Some(piece) = self.scout.pieces.get(self.index) {
             let here = (at - self.before).min(piece.time);
             self.joints = piece.joints_on(&self.scout.robot.kinematics, here, &self.joints);
             // Where derivatives jump, those of both sides count.
-            let beside = if piece.parts() > 1 { BESIDE * piece.time } else { 0.0 };
-            if beside > 0.0 {
+            let beside = BESIDE * piece.time;
+            let jumps = piece.jumps_beside(here, 2.0 * beside);
+            if piece.parts() > 1 {
                 step = step.min((piece.time / f64::from(PLACES * piece.parts())).max(spacing / 16.0));
             }
-            for here in [here - beside, here + beside].iter().take(if beside > 0.0 { 2 } else { 1 }) {
-                let here = here.clamp(0.0, piece.time);
-                if let Some(rates) = piece.limit(&self.scout.robot, here, &self.joints, bounds) {
+            let sides = if jumps { [here - beside, here + beside] } else { [here; 2] };
+            for (side, at) in sides.iter().take(if jumps { 2 } else { 1 }).enumerate() {
+                if side > 0 && here > 0.0 {
+                    self.jump = Some(bounds.rows.len());
+                }
+                let at = at.clamp(0.0, piece.time);
+                if let Some(rates) = piece.limit(&self.scout.robot, at, &self.joints, bounds) {
                     let longest = (STEP_OF_SCALE * scale(&self.scout.robot, &rates)).max(CLOSEST * spacing);
                     step = step.min(longest);
                 }
@@ -184,6 +196,7 @@ impl Walk<'_> {
                 break;
             }
             (self.before, self.index) = (end, self.index + 1);
+            self.jump = Some(bounds.rows.len());
         }
         step
     }

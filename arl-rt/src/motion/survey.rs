@@ -153,8 +153,7 @@ impl Walk<'_> {
                 (STEP_OF_SCALE * scale).min(longest)
             }
         };
-        let borders = self.curve.passages.iter().flat_map(|passage| [passage.from, passage.to]);
-        Ok(borders.filter(|border| *border > at).fold(at + step, f64::min))
+        Ok(self.curve.borders().filter(|border| *border > at).fold(at + step, f64::min))
     }
 
     /// Out of reach from here on: how far at worst?

@@ -47,6 +47,8 @@ pub struct Way {
     at: Vec<f64>,
     rows: Vec<Row>,
     ends: Vec<usize>,
+    /// Where the rows end that hold before a place, and where those begin that hold behind it.
+    sides: Vec<[usize; 2]>,
 }
 
 impl Way {
@@ -60,13 +62,40 @@ impl Way {
         self.at.clear();
         self.rows.clear();
         self.ends.clear();
+        self.sides.clear();
     }
 
     /// Adds the next place, at the path parameter `at`, with its rows.
     pub fn push(&mut self, at: f64, rows: impl IntoIterator<Item = Row>) {
+        let start = self.rows.len();
         self.at.push(at);
         self.rows.extend(rows);
         self.ends.push(self.rows.len());
+        self.sides.push([self.rows.len(), start]);
+    }
+
+    /// Adds the next place, where derivatives jump: with the rows of the side before it, then of the one behind it, of which
+    /// the first has so many.
+    pub fn push_jump(&mut self, at: f64, rows: impl IntoIterator<Item = Row>, before: usize) {
+        let start = self.rows.len();
+        self.push(at, rows);
+        if let Some(sides) = self.sides.last_mut() {
+            *sides = [start + before; 2];
+        }
+    }
+
+    /// The rows of the place `index` that hold up to it; none past the end.
+    pub fn rows_before(&self, index: usize) -> &[Row] {
+        let start = if index == 0 { 0 } else { self.ends.get(index - 1).copied().unwrap_or(self.rows.len()) };
+        let end = self.sides.get(index).map_or(start, |[end, _]| *end);
+        self.rows.get(start..end).unwrap_or_default()
+    }
+
+    /// The rows of the place `index` that hold from it on; none past the end.
+    pub fn rows_behind(&self, index: usize) -> &[Row] {
+        let (start, end) =
+            self.sides.get(index).zip(self.ends.get(index)).map_or((0, 0), |([_, start], end)| (*start, *end));
+        self.rows.get(start..end).unwrap_or_default()
     }
 
     /// The places' path parameters.
@@ -111,5 +140,25 @@ impl Way {
             return Err(Refusal::Still);
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_has_the_rows_of_both_sides() {
+        let row = |first: f64| Row { first, second: 0.0, third: 0.0, vel: 1.0, acc: 1.0, jerk: 1.0 };
+        let mut way = Way::new();
+        way.push(0.0, [row(1.0)]);
+        way.push_jump(1.0, [row(2.0), row(3.0), row(4.0)], 1);
+        way.push(2.0, [row(5.0), row(6.0)]);
+        let firsts = |rows: &[Row]| rows.iter().map(|row| row.first).collect::<Vec<f64>>();
+        let sides = |index: usize| [way.rows_before(index), way.rows(index), way.rows_behind(index)].map(firsts);
+        assert_eq!(sides(0), [vec![1.0], vec![1.0], vec![1.0]]);
+        assert_eq!(sides(1), [vec![2.0], vec![2.0, 3.0, 4.0], vec![3.0, 4.0]]);
+        assert_eq!(sides(2), [vec![5.0, 6.0], vec![5.0, 6.0], vec![5.0, 6.0]]);
+        assert_eq!(sides(3), [vec![], vec![], vec![]]);
     }
 }

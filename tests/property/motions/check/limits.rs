@@ -3,9 +3,6 @@
 use super::{Account, CYCLE, EXACT, Leg, ROUNDING, SLACK, Tally};
 use crate::motions::plan::Profile;
 
-/// How much more than the jerk's limit is let pass where somebody changes the override; up to 1.01 of it has been seen.
-const JERK_OF_CHANGES: f64 = 1.06;
-
 /// What holds in a row: shares of the axes' own limits, and speeds of external axes.
 #[derive(Clone, Copy, PartialEq, Debug)]
 struct Scale {
@@ -76,8 +73,7 @@ impl Account<'_> {
                 let note =
                     if order == 2 && self.disturbed { "limits: jerk of an axis / limit, disturbed" } else { note };
                 tally.note_many(note, series.len(), share);
-                let slack = if order == 2 && self.disturbed { JERK_OF_CHANGES } else { SLACK };
-                if share > slack {
+                if share > SLACK {
                     let row = &rows[end];
                     faults.push(format!("line {}, {} s: {share:.4} of the {what} of {name}", row.line, row.t));
                 }
