@@ -250,7 +250,7 @@ impl Course {
         let rest = Piece::part(motion, limits, number, next.join, 1.0);
         pieces.extend((rest.time > NO_TIME).then_some(rest));
         let kept = self.take_back(*count);
-        let same_to = self.end();
+        let same_to = self.unchanged_to(0.0);
         if self.lay_any(&pieces, same_to, cycle) {
             return Some((bend, pieces.len() - 2));
         }
@@ -280,7 +280,7 @@ impl Course {
         let pieces: Vec<Piece> = [cut, first, second, rest].into_iter().filter(|piece| piece.time > NO_TIME).collect();
         let from_blend = pieces.iter().skip_while(|piece| piece.progress.is_none()).count();
         let kept = self.take_back(1);
-        let same_to = self.end() + same;
+        let same_to = self.unchanged_to(same);
         if self.lay_any(&pieces, same_to, cycle) {
             return Some(from_blend);
         }
@@ -301,6 +301,11 @@ impl Course {
         self.lay(pieces, true, cycle) || self.lay(pieces, false, cycle)
     }
 
+    /// Where changes begin that come so many s of nominal time behind the last piece, for whom that may concern.
+    fn unchanged_to(&self, behind: f64) -> f64 {
+        if self.is_watched() { self.end() + behind } else { f64::INFINITY }
+    }
+
     /// Where the last piece ends, in s of nominal time since the course began.
     fn end(&self) -> f64 {
         self.passed + self.pieces.iter().map(|piece| piece.time).sum::<f64>()
@@ -313,7 +318,7 @@ impl Course {
         through.stops = false;
         let pieces = [through, piece.flowing()];
         let kept = self.take_back(1);
-        let same_to = self.end() + pieces[0].time;
+        let same_to = self.unchanged_to(pieces[0].time);
         if self.lay_any(&pieces, same_to, cycle) {
             return true;
         }
@@ -480,8 +485,7 @@ impl Course {
     pub(super) fn keep_to_stop(&mut self) {
         let kept = self.pieces.iter().position(|piece| piece.stops).map_or(0, |last| last + 1);
         self.pieces.truncate(kept);
-        let kept = self.timing.stretches.iter().position(|stretch| stretch.stops).map_or(0, |last| last + 1);
-        self.timing.stretches.truncate(kept);
+        self.timing.keep_to_stop();
         self.tail = None;
         self.keep_laws_to_stop();
     }

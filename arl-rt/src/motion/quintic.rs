@@ -4,6 +4,10 @@ use std::sync::Arc;
 
 use super::progress::Progress;
 
+/// What the powers get by the first, second and third derivative.
+const FACTORS: [[f64; 6]; 3] =
+    [[0.0, 1.0, 2.0, 3.0, 4.0, 5.0], [0.0, 0.0, 2.0, 6.0, 12.0, 20.0], [0.0, 0.0, 0.0, 6.0, 24.0, 60.0]];
+
 /// A polynomial of up to the fifth degree for each of `N` values, lowest power first.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Quintic<const N: usize>(pub(super) [[f64; N]; 6]);
@@ -52,10 +56,15 @@ impl<const N: usize> Quintic<N> {
 
     /// The derivative of the order `order`, 1 to 3, at `at`.
     pub(super) fn derivative(&self, order: usize, at: f64) -> [f64; N] {
-        let factor = |power: usize| (0..order).map(|step| (power - step) as f64).product::<f64>();
+        let [first, second, third] = &FACTORS;
+        let factors = match order {
+            1 => first,
+            2 => second,
+            _ => third,
+        };
         let mut sum = [0.0; N];
-        for (power, values) in self.0.iter().enumerate().skip(order).rev() {
-            sum = times_plus(sum, at, &values.map(|value| value * factor(power)));
+        for (values, factor) in self.0.iter().zip(factors).skip(order).rev() {
+            sum = times_plus(sum, at, &values.map(|value| value * factor));
         }
         sum
     }

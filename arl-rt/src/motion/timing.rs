@@ -33,6 +33,8 @@ pub(super) const ALIKE: f64 = 2.0;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Timing {
     pub(super) stretches: VecDeque<Stretch>,
+    /// The length of all cells.
+    length: f64,
 }
 
 impl Stretch {
@@ -97,20 +99,47 @@ impl Stretch {
                 }
                 continue;
             }
-            let (mut low, mut high) = (speed, entry);
-            for _ in 0..50 {
-                let middle = f64::midpoint(low, high);
-                if distance(middle) <= way { low = middle } else { high = middle }
-            }
-            entry = low;
+            entry = highest(speed, entry, |vel| distance(vel) - way);
         }
         entry
     }
 }
 
+/// The highest value of a range, whose end is too high, up to which what grows over it is not above 0.
+fn highest(low: f64, high: f64, excess: impl Fn(f64) -> f64) -> f64 {
+    /// As many as halving alone would take; mostly a few are enough.
+    const STEPS: u32 = 50;
+    const CLOSE: f64 = 1e-14;
+    let (mut low, mut high) = (low, high);
+    let (mut below, mut above) = (excess(low), excess(high));
+    let mut stays = 0_i32;
+    for step in 0..STEPS {
+        if below >= 0.0 || high - low <= CLOSE * high {
+            break;
+        }
+        // Where the secant is 0; an end that stays once more counts half, and now and then a half of the range is taken.
+        let secant = low - below * (high - low) / (above - below);
+        let inside = secant > low && secant < high && step % 4 != 3;
+        let middle = if inside { secant } else { f64::midpoint(low, high) };
+        let found = excess(middle);
+        if found <= 0.0 {
+            (low, below, stays) = (middle, found, stays.max(0) + 1);
+        } else {
+            (high, above, stays) = (middle, found, stays.min(0) - 1);
+        }
+        if stays > 1 {
+            above /= 2.0;
+        } else if stays < -1 {
+            below /= 2.0;
+        }
+    }
+    low
+}
+
 impl Timing {
     /// Appends a cell, at whose end the robot has to stand still if `stops`; it joins the last stretch if it `may`.
     pub(super) fn push(&mut self, cell: Cell, stops: bool, may: bool) {
+        self.length += cell.length;
         match self.stretches.back_mut() {
             Some(last) if may && !last.stops && last.takes(&cell) => {
                 last.cells.push_back(cell);
@@ -127,6 +156,7 @@ impl Timing {
     pub(super) fn pop(&mut self) -> bool {
         let Some(last) = self.stretches.back_mut() else { return false };
         let popped = last.cells.pop_back();
+        self.length -= popped.map_or(0.0, |cell| cell.length);
         (last.stops, last.known) = (false, false);
         if popped.is_none_or(|cell| cell.limits.acc <= last.acc || cell.limits.jerk <= last.jerk) {
             last.measure();
@@ -156,7 +186,8 @@ impl Timing {
     /// that is counted on, `cycle` the length of a cycle in s.
     pub(super) fn find_entries(&mut self, margin: f64, cycle: f64) {
         let (mut exit, mut changed) = (0.0, true);
-        for stretch in self.stretches.iter_mut().rev() {
+        // Nobody asks for that of the first one.
+        for stretch in self.stretches.iter_mut().skip(1).rev() {
             // What ends like before is entered like before.
             if stretch.known && !changed {
                 return;
@@ -201,6 +232,7 @@ impl Timing {
                 return false;
             }
             state.at -= cell.length;
+            self.length -= cell.length;
             first.cells.pop_front();
             if last && first.stops {
                 *state = State::default();
@@ -209,6 +241,13 @@ impl Timing {
             }
         }
         false
+    }
+
+    /// Drops what is behind the next stop.
+    pub(super) fn keep_to_stop(&mut self) {
+        let kept = self.stretches.iter().position(|stretch| stretch.stops).map_or(0, |last| last + 1);
+        self.stretches.truncate(kept);
+        self.length = self.stretches.iter().flat_map(|stretch| &stretch.cells).map(|cell| cell.length).sum();
     }
 
     /// The way in s to the next stop.
@@ -225,6 +264,50 @@ impl Timing {
 
     /// The way in s to the end of everything.
     pub(super) fn length(&self) -> f64 {
-        self.stretches.iter().flat_map(|stretch| &stretch.cells).map(|cell| cell.length).sum()
+        self.length
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kinematics::random::Random;
+
+    #[test]
+    fn the_highest_value_is_found_from_below() {
+        let mut random = Random::new(51);
+        for _ in 0..2000 {
+            let (root, power) = (random.between(0.01, 0.99), random.between(0.3, 6.0));
+            let found = highest(0.0, 1.0, |value| value.powf(power) - root.powf(power));
+            assert!(found <= root * (1.0 + 1e-12) && found >= root * (1.0 - 1e-12), "{found} {root} {power}");
+        }
+        assert_eq!(highest(0.2, 1.0, |value| value), 0.2);
+    }
+
+    #[test]
+    fn the_length_is_that_of_all_cells() {
+        let mut random = Random::new(52);
+        let mut timing = Timing::default();
+        let mut state = State::default();
+        for _ in 0..2000 {
+            match random.between(0.0, 4.0) as u32 {
+                0 => drop(timing.pop()),
+                1 => {
+                    state.at = random.between(0.0, 0.3);
+                    timing.pass(&mut state);
+                }
+                _ => {
+                    let limits = Limits { vel: 1.0, acc: random.between(1.0, 9.0), jerk: 10.0 };
+                    timing.push(
+                        Cell { length: random.between(0.01, 0.1), limits },
+                        random.between(0.0, 1.0) > 0.9,
+                        true,
+                    );
+                }
+            }
+            timing.settle(2);
+            let cells = timing.stretches.iter().flat_map(|stretch| &stretch.cells);
+            assert!((timing.length() - cells.map(|cell| cell.length).sum::<f64>()).abs() < 1e-9);
+        }
     }
 }

@@ -194,6 +194,11 @@ impl Course {
         self.answer = Some(Answer::Taken { sharp: draft.sharp, count: draft.count });
     }
 
+    /// Whether somebody counts on the course as it is.
+    pub(super) fn is_watched(&self) -> bool {
+        self.drafted.is_some() || self.sought.is_some() || self.next.is_some() || self.pilot.is_some()
+    }
+
     /// Whether pieces may join the course as far as the pilot is concerned: where nothing changes up to the end of its law. A
     /// draft takes everything, and notes from where on it changes.
     pub(super) fn may_change_from(&mut self, same_to: f64) -> bool {
