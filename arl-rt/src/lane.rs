@@ -107,6 +107,11 @@ impl Lane {
         self.robot_mut().ok_or(Fault::Background { function })
     }
 
+    /// The robot, if there is one, to be held on to.
+    pub(crate) fn shared_unit(&self) -> Option<&Rc<RefCell<Unit>>> {
+        self.unit.as_ref()
+    }
+
     /// The robot, if there is one.
     #[inline]
     pub(crate) fn robot(&self) -> Option<Ref<'_, Unit>> {

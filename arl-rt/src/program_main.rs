@@ -52,6 +52,8 @@ Options:
                         or one JSON object a line into a file
   --live                be driven by lines on the standard input (di.5 = true), and
                         say what happens as JSON lines on the standard output
+  --loop                the loop running mode: a program that ends is reset and begins
+                        again, until the time is over or it calls exit
   --max-time S          end after so many controller seconds, with exit code 4
   --mode MODE           auto (default), manual or manufast
   --override PCT        the speed override in percent, 0 to 100
@@ -69,6 +71,7 @@ struct Options {
     cell: Option<PathBuf>,
     clock: Option<Pace>,
     live: bool,
+    repeats: bool,
     script_dir: PathBuf,
     state_dir: Option<PathBuf>,
     io: Option<PathBuf>,
@@ -165,6 +168,7 @@ fn parse(
         cell: None,
         clock: None,
         live: false,
+        repeats: false,
         script_dir: PathBuf::from(script_dir),
         state_dir: None,
         io: None,
@@ -186,6 +190,7 @@ fn parse(
                 let paces = [("virtual", Pace::Virtual), ("real", Pace::Real)];
                 options.clock = Some(word(&mut parser, "--clock", &paces)?);
             }
+            Long("loop") => options.repeats = true,
             Long("script-dir") => options.script_dir = parser.value()?.into(),
             Long("state-dir") => options.state_dir = Some(parser.value()?.into()),
             Long("io") => options.io = Some(parser.value()?.into()),
@@ -246,6 +251,7 @@ fn run(program: Box<dyn Program>, others: &[Other], options: Options, interrupte
             return USAGE;
         }
     };
+    let repeats = options.repeats;
     let voice = options.live.then(Voice::standard);
     let controller = set_up(options, others).and_then(|builder| {
         let builder = match &voice {
@@ -261,6 +267,7 @@ fn run(program: Box<dyn Program>, others: &[Other], options: Options, interrupte
             return code;
         }
     };
+    controller.set_loop(repeats);
     let code = match voice {
         Some(voice) => code(live::drive(&mut controller, &voice, max_time, interrupted)),
         None => watch(&mut controller, max_time, interrupted),
@@ -293,23 +300,29 @@ type WriteReport = Box<dyn FnMut(&Controller) -> std::io::Result<()>>;
 fn report_to(report: Report) -> Result<WriteReport, String> {
     Ok(match report {
         Report::Table => Box::new(|controller| {
-            let text = report::table(&controller.motions(), &controller.robot(), controller.time());
+            let text = report::tables(&controller.all_motions(), controller.time());
             std::io::stderr().write_all(text.as_bytes())
         }),
         Report::File(path) => {
             let mut file = File::create(&path).map_err(|error| format!("{}: {error}", path.display()))?;
             Box::new(move |controller| {
-                file.write_all(report::json(&controller.motions(), &controller.robot(), controller.time()).as_bytes())
+                let text = report::all_json(&controller.all_motions(), controller.time());
+                file.write_all(text.as_bytes())
             })
         }
     })
 }
 
-/// Steps until the program has ended, its time is over, or somebody pressed Ctrl-C.
+/// Steps until the run is over, its time is, or somebody pressed Ctrl-C.
 fn watch(controller: &mut Controller, max_time: Option<f64>, interrupted: &AtomicBool) -> u8 {
     let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
     let mut code = None;
-    while controller.outcome().is_none() {
+    // Who was told to stop does not begin again.
+    let is_over = |controller: &Controller, stopped: bool| match stopped {
+        true => controller.outcome().is_some(),
+        false => controller.is_over(),
+    };
+    while !is_over(controller, code.is_some()) {
         if code.is_none() && interrupted.load(Ordering::Relaxed) {
             code = Some(INTERRUPTED);
             controller.stop();
@@ -412,6 +425,7 @@ mod tests {
 
     #[test]
     fn options_are_read() {
+        assert!(parsed(&["--loop"]).unwrap().unwrap().repeats);
         let options = parsed(&["--robot=six-10", "--clock", "real", "--max-time", "2.5", "--mode", "MANUAL"]);
         let options = options.unwrap().unwrap();
         assert_eq!(options.robot.as_deref(), Some("six-10"));

@@ -1,6 +1,7 @@
 //! What the motions of a run did, as a table for people and as JSON.
 
 use std::fmt::Write;
+use std::sync::Arc;
 
 use crate::json::quoted;
 use crate::motion::{Closest, MotionRecord, Rate};
@@ -10,9 +11,29 @@ use crate::robot::Robot;
 const HEAD: [&str; 10] =
     ["line", "motion", "runs", "programmed", "reached", "each", "blend", "closest vel", "acc", "jerk"];
 
+/// The table of each robot; with several, each has a headline. `time` is how long the programs ran, in s.
+pub(crate) fn tables(robots: &[(Arc<Robot>, Vec<MotionRecord>)], time: f64) -> String {
+    match robots {
+        [(robot, records)] => table(records, robot, time),
+        robots => {
+            let headed = |(at, (robot, records)): (usize, &(Arc<Robot>, Vec<MotionRecord>))| {
+                format!("channel {}, robot {}:\n{}", at + 1, robot.name, table(records, robot, time))
+            };
+            robots.iter().enumerate().map(headed).collect()
+        }
+    }
+}
+
+/// The same as JSON, robot by robot.
+pub(crate) fn all_json(robots: &[(Arc<Robot>, Vec<MotionRecord>)], time: f64) -> String {
+    let of_robot =
+        |(at, (robot, records)): (usize, &(Arc<Robot>, Vec<MotionRecord>))| json(at + 1, records, robot, time);
+    robots.iter().enumerate().map(of_robot).collect()
+}
+
 /// A table with one row for each line of the program, in the order of their first motions, and the figures of the cycle
 /// time: `time` is how long the program ran, in s.
-pub(crate) fn table(records: &[MotionRecord], robot: &Robot, time: f64) -> String {
+fn table(records: &[MotionRecord], robot: &Robot, time: f64) -> String {
     let mut lines: Vec<Line<'_>> = Vec::new();
     for record in executed(records) {
         match lines.iter_mut().find(|line| line.is(record)) {
@@ -54,15 +75,15 @@ fn summary(records: &[MotionRecord], time: f64) -> String {
     )
 }
 
-/// One JSON object a line: each motion that began, then the figures of the cycle time.
-pub(crate) fn json(records: &[MotionRecord], robot: &Robot, time: f64) -> String {
+/// One JSON object a line: each motion of a channel that began, then the figures of its cycle time.
+fn json(channel: usize, records: &[MotionRecord], robot: &Robot, time: f64) -> String {
     let mut text = String::new();
     for record in executed(records) {
         let MotionRecord { number, line, kind, programmed, reached, duration, way, .. } = record;
         let start = record.start.unwrap_or_default();
         let _ = write!(
             text,
-            "{{\"motion\":{number},\"line\":{line},\"kind\":\"{kind}\",\"unit\":\"{}\",\"programmed\":{:.6},\
+            "{{\"channel\":{channel},\"motion\":{number},\"line\":{line},\"kind\":\"{kind}\",\"unit\":\"{}\",\"programmed\":{:.6},\
              \"reached\":{reached:.6},\"start\":{start:.6},\"duration\":{duration:.6},\"way\":{way:.6}",
             programmed.unit, programmed.value
         );
@@ -82,7 +103,7 @@ pub(crate) fn json(records: &[MotionRecord], robot: &Robot, time: f64) -> String
     let moving: f64 = executed(records).map(|record| record.duration).sum();
     let _ = writeln!(
         text,
-        "{{\"cycle_time\":{time:.6},\"moving\":{moving:.6},\"standing\":{:.6},\"motions\":{}}}",
+        "{{\"channel\":{channel},\"cycle_time\":{time:.6},\"moving\":{moving:.6},\"standing\":{:.6},\"motions\":{}}}",
         (time - moving).max(0.0),
         executed(records).count()
     );
@@ -102,7 +123,6 @@ fn executed(records: &[MotionRecord]) -> impl Iterator<Item = &MotionRecord> {
     records.iter().filter(|record| record.start.is_some())
 }
 
-/// A JSON string. Names of axes come from robot files.
 /// The motions of one line of the program, and of one kind: in several files, lines have the same numbers.
 struct Line<'a> {
     first: &'a MotionRecord,

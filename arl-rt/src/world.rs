@@ -33,9 +33,11 @@ pub(crate) struct World {
     /// Whether messages came in this cycle.
     spoken: Cell<bool>,
     /// Alarms that nobody has asked for yet.
-    pub(crate) alarms: RefCell<Vec<Alarm>>,
+    alarms: RefCell<Vec<Alarm>>,
     /// What happened that is no alarm but worth a word.
     warnings: RefCell<Vec<String>>,
+    /// Who wants to hear of alarms and warnings at once.
+    listeners: RefCell<Listeners>,
     pub(crate) state: RefCell<State>,
     /// What the cell says of the network.
     pub(crate) network: NetworkSettings,
@@ -54,6 +56,16 @@ pub(crate) struct World {
     foreground: RefCell<Vec<Weak<Cx>>>,
 }
 
+/// Somebody who wants to hear of something.
+type Listener<T> = Box<dyn FnMut(&T)>;
+
+/// Who wants to hear of alarms and warnings as they come up.
+#[derive(Default)]
+pub(crate) struct Listeners {
+    pub(crate) alarm: Option<Listener<Alarm>>,
+    pub(crate) warning: Option<Listener<str>>,
+}
+
 /// What a world is made of.
 pub(crate) struct Parts {
     pub(crate) rate: Rate,
@@ -62,6 +74,7 @@ pub(crate) struct Parts {
     pub(crate) random: Random,
     pub(crate) start_date: i64,
     pub(crate) output: Box<dyn Output>,
+    pub(crate) listeners: Listeners,
     pub(crate) state: State,
     pub(crate) network: NetworkSettings,
     pub(crate) wiring: Wiring,
@@ -90,6 +103,7 @@ impl World {
             output: RefCell::new(parts.output),
             spoken: Cell::new(false),
             alarms: RefCell::default(),
+            listeners: RefCell::new(parts.listeners),
             warnings: RefCell::default(),
             state: RefCell::new(parts.state),
             foreground: RefCell::default(),
@@ -150,8 +164,26 @@ impl World {
         self.real_time.get()
     }
 
+    /// Notes an alarm; the one that ends a program stands before others of it.
+    pub(crate) fn alarm(&self, alarm: Alarm, ends: bool) {
+        if let Some(listener) = &mut self.listeners.borrow_mut().alarm {
+            listener(&alarm);
+        }
+        let mut alarms = self.alarms.borrow_mut();
+        let place = if ends { 0 } else { alarms.len() };
+        alarms.insert(place, alarm);
+    }
+
+    /// The alarms since the last call.
+    pub(crate) fn take_alarms(&self) -> Vec<Alarm> {
+        std::mem::take(&mut self.alarms.borrow_mut())
+    }
+
     /// Notes what is no alarm but worth a word.
     pub(crate) fn warn(&self, text: String) {
+        if let Some(listener) = &mut self.listeners.borrow_mut().warning {
+            listener(&text);
+        }
         self.warnings.borrow_mut().push(text);
     }
 

@@ -15,6 +15,7 @@ use crate::cell::{Cell, Sensitivity};
 use crate::channel_id::{ChannelId, MOST_FOREGROUND};
 use crate::clock_source::{Clock, VirtualClock};
 use crate::communication::NetworkDriver;
+use crate::fault::Alarm;
 use crate::fieldbus::Buses;
 use crate::fieldbus::devicenet::{DeviceNet, SimulatedDeviceNet};
 use crate::fieldbus::islands::Islands;
@@ -34,7 +35,7 @@ use crate::time;
 use crate::trace::Trace;
 use crate::unit::Unit;
 use crate::values::Controlmode;
-use crate::world::{Parts, World};
+use crate::world::{Listeners, Parts, World};
 
 /// What a controller can be given before it starts. Without anything it has the default robot, simulated, the default
 /// cell, and the virtual clock; messages go to the standard output, system variables are kept in memory only.
@@ -52,6 +53,7 @@ pub struct Builder {
     network: Option<Box<dyn NetworkDriver>>,
     scenario: Scenario,
     output: Option<Box<dyn Output>>,
+    listeners: Listeners,
     storage: Box<dyn Storage>,
     script_dir: PathBuf,
     record: bool,
@@ -76,6 +78,7 @@ impl Default for Builder {
             network: None,
             scenario: Scenario::default(),
             output: None,
+            listeners: Listeners::default(),
             storage: Box::new(Memory::default()),
             script_dir: PathBuf::from("."),
             record: false,
@@ -159,6 +162,64 @@ impl Builder {
     /// What takes the messages of `print`.
     pub fn output(mut self, output: impl Output + 'static) -> Self {
         self.output = Some(Box::new(output));
+        self
+    }
+
+    /// What is told every alarm, of all channels, in the cycle in which it comes up. It runs within that cycle and must be quick.
+    /// [`Controller::take_alarms`] gives them as well.
+    ///
+    /// ```
+    /// use arl_rt::emit::*;
+    /// use arl_rt::{Captured, ChannelId, Controller, Foreground, Outcome};
+    ///
+    /// /// Divides by a number, by hand what the compiler emits.
+    /// struct Divide(i32);
+    ///
+    /// impl arl_rt::Program for Divide {
+    ///     fn file(&self) -> File {
+    ///         File::new("divide.arl")
+    ///     }
+    ///     fn family(&self) -> Family {
+    ///         Family::SixAxis
+    ///     }
+    ///     fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> {
+    ///         Box::pin(async { Ok(()) })
+    ///     }
+    ///     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+    ///         Box::pin(async move {
+    ///             flow::waittime(0.5).run(cx).await.at(self.file(), 2)?;
+    ///             let parts = arl_rt::ops::div(12, self.0).at(self.file(), 3)?;
+    ///             text::print().argtoprint(&parts).run(cx).at(self.file(), 4)
+    ///         })
+    ///     }
+    /// }
+    ///
+    /// let (alarms, messages) = (std::rc::Rc::default(), Captured::new());
+    /// let heard: std::rc::Rc<std::cell::RefCell<Vec<(ChannelId, u32)>>> = std::rc::Rc::clone(&alarms);
+    /// let mut controller = Controller::builder()
+    ///     .output(messages.clone())
+    ///     .on_alarm(move |alarm| heard.borrow_mut().push((alarm.channel, alarm.line)))
+    ///     .foreground(Foreground::new(Box::new(Divide(0))))
+    ///     .build(Box::new(Divide(3)))?;
+    /// controller.run_for(0.4);
+    /// controller.press(arl_rt::io::Pendant::Pause);
+    /// controller.run_for(1.0);
+    /// assert_eq!(controller.state(), arl_rt::State::Paused);
+    /// controller.resume();
+    /// assert!(matches!(controller.run(), Outcome::Alarm(_)));
+    /// assert_eq!(*alarms.borrow(), [(ChannelId::Foreground(2), 3)]);
+    /// assert_eq!(messages.text(), "4\n");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn on_alarm(mut self, listener: impl FnMut(&Alarm) + 'static) -> Self {
+        self.listeners.alarm = Some(Box::new(listener));
+        self
+    }
+
+    /// What is told every warning when it comes up: what is no alarm but worth a word, such as a button that cannot act
+    /// now. [`Controller::take_warnings`] gives them as well.
+    pub fn on_warning(mut self, listener: impl FnMut(&str) + 'static) -> Self {
+        self.listeners.warning = Some(Box::new(listener));
         self
     }
 
@@ -254,7 +315,10 @@ impl Builder {
         let rate = cell.rate;
         let body = Body { homes: cell.homes.clone(), collisions: cell.collisions.clone(), ..self.body };
         let robot = robot_of(&body, &*program)?;
-        self.scenario.check(&cell.channels, &robot).map_err(SetupError::Cell)?;
+        let others = self.foreground.into_iter().map(|it| Ok((robot_of(&it.body, &*it.program)?, it)));
+        let others: Vec<(Robot, Foreground)> = others.collect::<Result<_, SetupError>>()?;
+        let robots: Vec<&Robot> = std::iter::once(&robot).chain(others.iter().map(|(robot, _)| robot)).collect();
+        self.scenario.check(&cell.channels, &robots).map_err(SetupError::Cell)?;
         let scenario = Playing::new(self.scenario, &io, rate);
         let simulated = || Box::new(SimulatedDeviceNet::new(cell.buses.devicenet)) as Box<dyn DeviceNet>;
         let devicenet = self.devicenet.unwrap_or_else(simulated);
@@ -270,6 +334,7 @@ impl Builder {
             random: Random::new(self.seed),
             start_date: self.start_date,
             output: self.output.unwrap_or_else(|| Box::new(Stream::standard())),
+            listeners: self.listeners,
             state,
             network: cell.network,
             wiring: cell.external,
@@ -293,16 +358,15 @@ impl Builder {
             stack: self.stack,
         };
         let (first, unit) = site.foreground(1, program, robot, body)?;
-        let mut others = Vec::new();
-        for (number, Foreground { program, body }) in (2..).zip(self.foreground) {
-            let robot = robot_of(&body, &*program)?;
-            others.push(site.foreground(number, program, robot, body)?.0);
+        let mut channels = Vec::new();
+        for (number, (robot, Foreground { program, body })) in (2..).zip(others) {
+            channels.push(site.foreground(number, program, robot, body)?.0);
         }
         for (number, program) in (1..).zip(background) {
-            let index = 1 + others.len();
-            others.push(site.background(number, index, program));
+            let index = 1 + channels.len();
+            channels.push(site.background(number, index, program));
         }
-        let channels = Channels::new(first, others);
+        let channels = Channels::new(first, channels);
         let deeds = Vec::with_capacity(scenario.most_deeds());
         Ok(Controller { world, channels, unit, clock: self.clock, islands, io: self.io, scenario, deeds, external })
     }

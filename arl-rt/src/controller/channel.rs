@@ -314,7 +314,7 @@ impl Channel {
         if !matches!(self.phase, Phase::Ended(_)) {
             let alarm = Alarm { channel: self.lane.id, ..alarm };
             self.lane.alarmed.set(true);
-            self.lane.world.alarms.borrow_mut().insert(0, alarm.clone());
+            self.lane.world.alarm(alarm.clone(), true);
             self.end(Outcome::Alarm(alarm));
         }
     }
@@ -338,7 +338,7 @@ fn load(program: Rc<dyn Program>, cx: Rc<Cx>) -> Running {
         if let Some(first) = alarms.next() {
             // The first one ends the program, and is noted then; all of them come to the user.
             let channel = cx.lane().id;
-            world.alarms.borrow_mut().extend(alarms.map(|alarm| Alarm { channel, ..alarm }));
+            alarms.for_each(|alarm| world.alarm(Alarm { channel, ..alarm }, false));
             return Err(Stop::alarm(first));
         }
         program.main(&cx).await

@@ -1,8 +1,12 @@
 //! All channels of a controller.
 
+use std::cell::RefCell;
+use std::rc::Rc;
+
 use super::channel::Channel;
 use super::{Outcome, State};
 use crate::channel_id::ChannelId;
+use crate::unit::Unit;
 
 /// All channels of a controller: the foreground ones by their numbers, then the background ones. There is at least one
 /// foreground channel.
@@ -29,6 +33,16 @@ impl Channels {
     /// Those with a robot.
     fn foreground(&self) -> impl Iterator<Item = &Channel> {
         self.iter().filter(|channel| matches!(channel.lane().id, ChannelId::Foreground(_)))
+    }
+
+    /// The foreground channel with this number, from 1.
+    pub(super) fn numbered(&self, number: u8) -> Option<&Channel> {
+        self.foreground().find(|channel| channel.lane().id == ChannelId::Foreground(number))
+    }
+
+    /// The robots of the foreground channels, in their order.
+    pub(super) fn units(&self) -> impl Iterator<Item = &Rc<RefCell<Unit>>> {
+        self.iter().filter_map(|channel| channel.lane().shared_unit())
     }
 
     /// Does something to each of them, in their order.

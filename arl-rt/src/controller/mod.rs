@@ -25,7 +25,7 @@ pub use status::{ChannelStatus, RobotStatus, Status};
 use crate::clock_source::Clock;
 use crate::fault::{Alarm, Fault, File};
 use crate::fieldbus::islands::Islands;
-use crate::io::{Deed, Digital, IoDriver, Pendant, Playing, Pwm};
+use crate::io::{Deed, Digital, IoDriver, Pendant, Playing, Pwm, Touch};
 use crate::motion::{Joints, MotionRecord};
 use crate::robot::Robot;
 use crate::system::System;
@@ -189,21 +189,20 @@ impl Controller {
         self.external.show(&mut self.world.io.borrow_mut(), system, state, servo_on);
     }
 
-    /// Runs until the program has ended, where there are several, those of all foreground channels: for ever, where one does
-    /// not.
+    /// Runs until it [is over](Controller::is_over): for ever, where a program does not end.
     pub fn run(&mut self) -> Outcome {
         loop {
-            if let Some(outcome) = self.channels.outcome() {
-                return outcome.clone();
-            }
-            self.step();
+            match self.channels.outcome() {
+                Some(outcome) if self.is_over() => return outcome.clone(),
+                _ => self.step(),
+            };
         }
     }
 
-    /// Runs so many seconds of controller time, or until the program has ended.
+    /// Runs so many seconds of controller time, or until it [is over](Controller::is_over).
     pub fn run_for(&mut self, seconds: f64) -> State {
         let end = self.world.now.get().saturating_add(self.world.rate.cycles(seconds));
-        while self.world.now.get() < end && self.channels.outcome().is_none() {
+        while self.world.now.get() < end && !self.is_over() {
             self.step();
         }
         self.state()
@@ -212,6 +211,18 @@ impl Controller {
     /// What the controller does at the moment.
     pub fn state(&self) -> State {
         self.channels.state()
+    }
+
+    /// Whether the programs have ended, those of all foreground channels where there are several, and nothing will start them
+    /// again. The scenario does where it presses the pendant's reset button, or plays a PLC that is wired to start programs
+    /// (external auto control): as long as an event of it is on its way, the run is not over.
+    pub fn is_over(&self) -> bool {
+        self.channels.outcome().is_some() && !(self.can_begin_again() && self.scenario.goes_on(&self.world.io.borrow()))
+    }
+
+    /// Whether somebody outside can start programs that have ended.
+    fn can_begin_again(&self) -> bool {
+        self.scenario.resets() || self.external.starts(self.system())
     }
 
     /// How the program ended, when it has.
@@ -282,10 +293,17 @@ impl Controller {
         *self.unit.borrow().feedback()
     }
 
-    /// What the motions planned so far did, in order; none unless the controller was built with
+    /// What the motions of the first channel planned so far did, in order; none unless the controller was built with
     /// [`Builder::record_motions`].
     pub fn motions(&self) -> Vec<MotionRecord> {
         self.unit.borrow().records().to_vec()
+    }
+
+    /// The robots of the foreground channels by their numbers, each with what its motions did, like
+    /// [`motions`](Controller::motions).
+    pub fn all_motions(&self) -> Vec<(Arc<Robot>, Vec<MotionRecord>)> {
+        let of_unit = |unit: &Unit| (unit.shared_robot(), unit.records().to_vec());
+        self.channels.units().map(|unit| of_unit(&unit.borrow())).collect()
     }
 
     /// Where the Modbus TCP server listens, if there is one.
@@ -293,7 +311,7 @@ impl Controller {
         self.world.buses.modbus_tcp_address()
     }
 
-    /// The robot.
+    /// The robot of the first channel.
     pub fn robot(&self) -> Arc<Robot> {
         self.unit.borrow().shared_robot()
     }
@@ -305,7 +323,7 @@ impl Controller {
 
     /// Alarms since the last call, the one that stopped the program first.
     pub fn take_alarms(&mut self) -> Vec<Alarm> {
-        std::mem::take(&mut self.world.alarms.borrow_mut())
+        self.world.take_alarms()
     }
 
     /// Sets a digital input, from 1.
@@ -381,20 +399,24 @@ impl Controller {
     }
 }
 
-/// Does what a scenario says, inputs aside. The pendant's buttons count for all channels; what is pushed is the robot of the
-/// first.
+/// Does what a scenario says, inputs aside. The pendant's buttons count for all channels.
 fn act(channels: &mut Channels, deed: Deed) {
-    match deed {
-        Deed::Pendant(button) => pendant::press(channels, button),
-        Deed::Jog(axis, by) => pendant::jog(channels.first(), axis + 1, by),
-        Deed::Hand(axis, by) => pendant::move_by_hand(channels.first(), axis + 1, by),
-        Deed::Force(force) => {
-            if let Some(mut unit) = channels.first().lane().robot_mut() {
+    let (number, touch) = match deed {
+        Deed::Pendant(button) => return pendant::press(channels, button),
+        Deed::Robot(number, touch) => (number, touch),
+    };
+    // That there is such a channel was checked.
+    let Some(channel) = channels.numbered(number) else { return };
+    match touch {
+        Touch::Jog(axis, by) => pendant::jog(channel, axis + 1, by),
+        Touch::Hand(axis, by) => pendant::move_by_hand(channel, axis + 1, by),
+        Touch::Force(force) => {
+            if let Some(mut unit) = channel.lane().robot_mut() {
                 unit.outside_mut().force = force;
             }
         }
-        Deed::Torque(axis, torque) => {
-            if let Some(mut unit) = channels.first().lane().robot_mut()
+        Touch::Torque(axis, torque) => {
+            if let Some(mut unit) = channel.lane().robot_mut()
                 && let Some(place) = unit.outside_mut().torques.get_mut(axis)
             {
                 *place = torque;

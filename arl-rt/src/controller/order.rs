@@ -11,10 +11,11 @@ impl Controller {
     /// The text is no order, or it names what is not there; then nothing of it was done.
     pub fn order(&mut self, text: &str) -> Result<(), String> {
         let order = Order::parse(text).map_err(|error| error.message)?;
-        let robot = self.robot();
+        let robots: Vec<_> = self.channels.units().map(|unit| unit.borrow().shared_robot()).collect();
+        let robots: Vec<_> = robots.iter().map(|robot| &**robot).collect();
         // A deed may look at the image itself.
         let mut deeds = Vec::new();
-        order.carry_out(&mut self.world.io.borrow_mut(), &robot, |deed| deeds.push(deed))?;
+        order.carry_out(&mut self.world.io.borrow_mut(), &robots, |deed| deeds.push(deed))?;
         deeds.into_iter().for_each(|deed| act(&mut self.channels, deed));
         Ok(())
     }

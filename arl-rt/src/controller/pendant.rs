@@ -77,7 +77,8 @@ impl Controller {
     }
 
     /// Jogs an axis of the first channel's robot, from 1 (external axes come behind its own), by so many deg (mm), at manual speed,
-    /// while the program is paused or has ended. What cannot be is a warning and changes nothing.
+    /// while the program is paused or has ended. What cannot be is a warning and changes nothing. For other robots there is
+    /// [`Controller::order`].
     pub fn jog(&mut self, axis: usize, by: f64) {
         jog(self.channels.first(), axis, by);
     }
@@ -96,7 +97,10 @@ pub(super) fn press(channels: &mut Channels, button: Pendant) {
         Pendant::Start => channels.each(start),
         Pendant::Pause => channels.each(|channel| pause(channel)),
         Pendant::Step => channels.each(step),
-        Pendant::Reset => channels.each(reset),
+        Pendant::Reset => {
+            let ended = channels.state() == State::Ended;
+            channels.each(|channel| reset(channel, ended));
+        }
         Pendant::Clear => channels.each(|channel| channel.lane().alarmed.set(false)),
         Pendant::ServoOn => channels.each(|channel| servo_on(channel)),
         Pendant::ServoOff => channels.each(|channel| servo_off(channel)),
@@ -158,8 +162,11 @@ fn step(channel: &mut Channel) {
     go_on(channel);
 }
 
-fn reset(channel: &mut Channel) {
+/// Resets a program; `ended` says that those of all foreground channels have ended.
+fn reset(channel: &mut Channel, ended: bool) {
     match channel.state() {
+        // What runs in the background stays when the others begin again.
+        State::Running if ended => {}
         State::Running => refuse(channel, "reset", "the program runs: pause it first"),
         State::Paused => channel.end(Outcome::Stopped),
         State::Ended if channel.lane().robot().is_some_and(|unit| !unit.has_servo()) => {

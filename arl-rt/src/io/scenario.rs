@@ -17,6 +17,7 @@
 //! torque.j3 = -20     # Nm (N of a linear axis), what turns an axis
 //! jog.j1 = 5          # deg (mm): somebody jogs an axis by so much, while the program is paused
 //! hand.j1 = 5         # deg (mm): somebody moves an axis by hand, while the servo is off
+//! channel = 2         # whose robot is pushed, jogged or moved; without it that of channel 1
 //! ```
 
 use std::path::Path;
@@ -27,6 +28,7 @@ use toml::de::{DeTable, DeValue};
 use super::bits::Bits;
 use super::image::PWM_CHANNELS;
 use super::{Channels, Digital, Image, Pwm};
+use crate::channel_id::MOST_FOREGROUND;
 use crate::rate::Rate;
 use crate::robot::Robot;
 use crate::settings::{Section, SettingsError, Source, Value, hint, kind, number, table};
@@ -45,6 +47,7 @@ const EVENT: &[&str] = &[
     "torque",
     "jog",
     "hand",
+    "channel",
 ];
 
 /// What an event may change.
@@ -89,6 +92,13 @@ const WORDS: [(&str, Pendant); 7] = [
 pub(crate) enum Deed {
     /// Somebody uses the pendant.
     Pendant(Pendant),
+    /// Somebody touches the robot of a foreground channel, counted from 1.
+    Robot(u8, Touch),
+}
+
+/// What is done to a robot.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Touch {
     /// A force pushes the TCP: in the world, N.
     Force([f64; 3]),
     /// A torque (Nm; N of a linear axis) turns an axis, counted from 0.
@@ -109,11 +119,12 @@ enum Action {
 
 impl Action {
     /// Whether the channel or axis exists, and the masses that it needs.
-    fn check(&self, image: &Image, robot: &Robot) -> Result<(), String> {
+    fn check(&self, image: &Image, robots: &[&Robot]) -> Result<(), String> {
         let found = match *self {
             Action::Digital(what, channel, _) => image.digital(what, channel).map(drop),
             Action::Analog(channel, value) => image.check_ai(channel, value),
-            Action::Deed(deed) => return moves(robot, deed),
+            Action::Deed(Deed::Pendant(_)) => return Ok(()),
+            Action::Deed(Deed::Robot(channel, touch)) => return moves(robots, channel, touch),
         };
         found.map_err(|fault| format!("sets an input to what it cannot have: {fault}"))
     }
@@ -154,11 +165,11 @@ impl Order {
     pub(crate) fn carry_out(
         &self,
         image: &mut Image,
-        robot: &Robot,
+        robots: &[&Robot],
         mut do_it: impl FnMut(Deed),
     ) -> Result<(), String> {
         for action in &self.actions {
-            action.check(image, robot).map_err(|problem| format!("the order {problem}"))?;
+            action.check(image, robots).map_err(|problem| format!("the order {problem}"))?;
         }
         self.actions.iter().for_each(|action| action.play(image, &mut do_it));
         Ok(())
@@ -219,8 +230,9 @@ impl Scenario {
         Ok(Scenario { events })
     }
 
-    /// Whether all channels and axes that the scenario names exist, and the masses that it needs.
-    pub(crate) fn check(&self, channels: &Channels, robot: &Robot) -> Result<(), String> {
+    /// Whether all channels and axes that the scenario names exist, and the masses that it needs; `robots` are those of the
+    /// foreground channels.
+    pub(crate) fn check(&self, channels: &Channels, robots: &[&Robot]) -> Result<(), String> {
         let image = Image::new(channels);
         for event in &self.events {
             if let Cause::Edge { output, channel, level: _ } = event.cause {
@@ -235,29 +247,32 @@ impl Scenario {
                 return Err(format!("the scenario waits for pwm.{}, but there are {PWM_CHANNELS}", channel + 1));
             }
             for action in &event.actions {
-                action.check(&image, robot).map_err(|problem| format!("the scenario {problem}"))?;
+                action.check(&image, robots).map_err(|problem| format!("the scenario {problem}"))?;
             }
         }
         Ok(())
     }
 }
 
-/// Whether a deed can be done to the robot.
-fn moves(robot: &Robot, deed: Deed) -> Result<(), String> {
+/// Whether something can be done to the robot of a channel.
+fn moves(robots: &[&Robot], channel: u8, touch: Touch) -> Result<(), String> {
+    let Some(robot) = robots.get(usize::from(channel).wrapping_sub(1)) else {
+        let count = robots.len();
+        return Err(format!("is about the robot of channel {channel}, but there are {count} channels with a robot"));
+    };
     let own = robot.own_axes().len();
-    match deed {
-        Deed::Pendant(_) => Ok(()),
-        Deed::Jog(axis, _) | Deed::Hand(axis, _) if axis >= own => {
+    match touch {
+        Touch::Jog(axis, _) | Touch::Hand(axis, _) if axis >= own => {
             Err(format!("moves j{}, but robot {} has j1 to j{own}", axis + 1, robot.name))
         }
-        Deed::Jog(..) | Deed::Hand(..) => Ok(()),
-        Deed::Torque(axis, _) if axis >= own => {
+        Touch::Jog(..) | Touch::Hand(..) => Ok(()),
+        Touch::Torque(axis, _) if axis >= own => {
             Err(format!("turns j{}, but robot {} has j1 to j{own}", axis + 1, robot.name))
         }
-        Deed::Force(_) | Deed::Torque(..) if robot.links.is_empty() => {
+        Touch::Force(_) | Touch::Torque(..) if robot.links.is_empty() => {
             Err(format!("pushes the robot, but the file of robot {} has no [[link]]", robot.name))
         }
-        Deed::Force(_) | Deed::Torque(..) => Ok(()),
+        Touch::Force(_) | Touch::Torque(..) => Ok(()),
     }
 }
 
@@ -283,9 +298,22 @@ fn event(source: Source<'_>, value: &Value<'_>) -> Result<Event, SettingsError> 
     Ok(Event { cause, after: after.unwrap_or(0.0), actions })
 }
 
+/// By how much an axis is moved.
+const LENGTH: &str = "deg, or mm of a linear axis";
+
 /// What an event changes.
 fn actions(source: Source<'_>, event: &Section<'_>) -> Result<Vec<Action>, SettingsError> {
     let mut actions = Vec::new();
+    let most = MOST_FOREGROUND as u32;
+    let channel = match event.count("channel", "a channel with a robot", most)? {
+        Some(0) => {
+            return Err(event.find("channel").map_or_else(
+                || source.error(0..0, "channel"),
+                |value| event.wrong("channel", value, &format!("a channel with a robot from 1 to {most}")),
+            ));
+        }
+        channel => channel.unwrap_or(1) as u8,
+    };
     for (key, _, value) in event.entries() {
         match key {
             "di" => signals(
@@ -315,10 +343,10 @@ fn actions(source: Source<'_>, event: &Section<'_>) -> Result<Vec<Action>, Setti
                 let percent = event.number(key, "percent", 0.0, 100.0)?.unwrap_or(100.0);
                 actions.push(Action::Deed(Deed::Pendant(Pendant::Override(percent))));
             }
-            "force" => actions.push(Action::Deed(force(event, value)?)),
-            "torque" => axes(source, (key, "a torque in Nm"), value, Deed::Torque, &mut actions)?,
-            "jog" => axes(source, (key, "deg, or mm of a linear axis"), value, Deed::Jog, &mut actions)?,
-            "hand" => axes(source, (key, "deg, or mm of a linear axis"), value, Deed::Hand, &mut actions)?,
+            "force" => actions.push(Action::Deed(Deed::Robot(channel, force(event, value)?))),
+            "torque" => axes(source, (key, "a torque in Nm"), value, (channel, Touch::Torque), &mut actions)?,
+            "jog" => axes(source, (key, LENGTH), value, (channel, Touch::Jog), &mut actions)?,
+            "hand" => axes(source, (key, LENGTH), value, (channel, Touch::Hand), &mut actions)?,
             _ => {}
         }
     }
@@ -393,12 +421,12 @@ fn analogs(source: Source<'_>, value: &Value<'_>, actions: &mut Vec<Action>) -> 
 }
 
 /// A force on the TCP.
-fn force(event: &Section<'_>, value: &Value<'_>) -> Result<Deed, SettingsError> {
+fn force(event: &Section<'_>, value: &Value<'_>) -> Result<Touch, SettingsError> {
     let wrong = || event.wrong("force", value, "three components in N, like [0, 0, 80]");
     let components = value.get_ref().as_array().ok_or_else(wrong)?;
     let components: Option<Vec<f64>> = components.iter().map(|component| number(component.get_ref())).collect();
     let force = components.and_then(|components| <[f64; 3]>::try_from(components).ok());
-    force.map(Deed::Force).ok_or_else(wrong)
+    force.map(Touch::Force).ok_or_else(wrong)
 }
 
 /// What is done to axes.
@@ -406,7 +434,7 @@ fn axes(
     source: Source<'_>,
     (name, what): (&str, &str),
     value: &Value<'_>,
-    deed: fn(usize, f64) -> Deed,
+    (channel, touch): (u8, fn(usize, f64) -> Touch),
     actions: &mut Vec<Action>,
 ) -> Result<(), SettingsError> {
     let axes = table(source, value, name, &["j1", "j2", "j3", "j4", "j5", "j6"])?;
@@ -416,7 +444,7 @@ fn axes(
             let found = kind(value.get_ref());
             source.error(span, format!("`{name}.{key}`: expected {what}, found {found}"))
         })?;
-        actions.push(Action::Deed(deed(axis, value)));
+        actions.push(Action::Deed(Deed::Robot(channel, touch(axis, value))));
     }
     Ok(())
 }
@@ -479,18 +507,33 @@ impl Playing {
         }
     }
 
+    /// Whether somebody at the pendant makes programs begin again that have ended.
+    pub(crate) fn resets(&self) -> bool {
+        let reset = Action::Deed(Deed::Pendant(Pendant::Reset));
+        self.events.iter().any(|event| event.actions.contains(&reset))
+    }
+
+    /// Whether an event is on its way, or will be in the next cycle by what has changed in this one.
+    pub(crate) fn goes_on(&self, image: &Image) -> bool {
+        !self.due.is_empty() || self.events.iter().any(|event| self.has_edge(event, image))
+    }
+
+    /// Whether an event is set off by what has changed since the last cycle.
+    fn has_edge(&self, event: &Event, image: &Image) -> bool {
+        match event.cause {
+            Cause::At(_) => false,
+            Cause::Edge { output, channel, level } => {
+                let (before, now) =
+                    if output { (&self.before_out, image.outputs()) } else { (&self.before_in, image.inputs()) };
+                before.get(channel) != level && now.get(channel) == level
+            }
+            Cause::Pwm(channel) => self.before_pwm.get(channel) != image.pwms().get(channel),
+        }
+    }
+
     fn find_edges(&mut self, cycle: u64, image: &Image) {
         for (at, event) in self.events.iter().enumerate() {
-            let happens = match event.cause {
-                Cause::At(_) => false,
-                Cause::Edge { output, channel, level } => {
-                    let (before, now) =
-                        if output { (&self.before_out, image.outputs()) } else { (&self.before_in, image.inputs()) };
-                    before.get(channel) != level && now.get(channel) == level
-                }
-                Cause::Pwm(channel) => self.before_pwm.get(channel) != image.pwms().get(channel),
-            };
-            if happens {
+            if self.has_edge(event, image) {
                 // The outside has seen the edge at the end of the cycle before.
                 let due = cycle.saturating_sub(1) + self.rate.cycles(event.after);
                 insert(&mut self.due, due, at);
@@ -514,7 +557,7 @@ mod tests {
 
     fn play(text: &str, cycles: u64, mut each: impl FnMut(u64, &mut Image)) -> Vec<Deed> {
         let scenario = Scenario::parse("io.toml", text).unwrap();
-        scenario.check(&Channels::default(), &Robot::builtin("kr10-r1420").unwrap()).unwrap();
+        scenario.check(&Channels::default(), &[&Robot::builtin("kr10-r1420").unwrap()]).unwrap();
         let mut image = Image::new(&Channels::default());
         let mut playing = Playing::new(scenario, &image, Rate::default());
         let mut deeds = Vec::new();
@@ -592,18 +635,51 @@ mod tests {
     #[test]
     fn forces_and_torques_are_told_in_order() {
         let text = "[[event]]\nat = 0\ntorque.j3 = -20.5\nforce = [1, 2.5, -3]\ntorque.j1 = 7\n";
-        let deeds = [Deed::Torque(2, -20.5), Deed::Torque(0, 7.0), Deed::Force([1.0, 2.5, -3.0])];
-        assert_eq!(play(text, 1, |_, _| {}), deeds);
+        let deeds = [Touch::Torque(2, -20.5), Touch::Torque(0, 7.0), Touch::Force([1.0, 2.5, -3.0])];
+        assert_eq!(play(text, 1, |_, _| {}), deeds.map(|touch| Deed::Robot(1, touch)));
+    }
+
+    #[test]
+    fn events_name_the_channel_of_their_robot() {
+        let scenario = Scenario::parse("io.toml", "[[event]]\nat = 1\nchannel = 2\ntorque.j5 = 1").unwrap();
+        let (six, four) = (Robot::builtin("kr10-r1420").unwrap(), Robot::builtin("hsr065").unwrap());
+        let check = |robots: &[&Robot]| scenario.check(&Channels::default(), robots);
+        assert_eq!(check(&[&four, &six]), Ok(()));
+        assert!(check(&[&six, &four]).unwrap_err().contains("robot hsr065 has j1 to j4"));
+        assert!(check(&[&six]).unwrap_err().contains("channel 2, but there are 1 channels"));
+        for channel in [0, 7] {
+            let text = format!("[[event]]\nat = 1\nchannel = {channel}\ntorque.j5 = 1");
+            let error = Scenario::parse("io.toml", &text).unwrap_err();
+            assert!(error.line == 3 && error.message.contains("a channel with a robot from"), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_scenario_goes_on_until_nothing_is_on_its_way() {
+        let text =
+            "[[event]]\nat = 0.002\ndi.1 = true\n[[event]]\nwhen = \"di.1\"\nafter = 0.003\npendant = \"reset\"\n";
+        let scenario = Scenario::parse("io.toml", text).unwrap();
+        let mut image = Image::new(&Channels::default());
+        let mut playing = Playing::new(scenario, &image, Rate::default());
+        assert!(playing.resets());
+        let on_its_way: Vec<bool> = (0..8)
+            .map(|cycle| {
+                playing.play(cycle, &mut image, |_| {});
+                playing.goes_on(&image)
+            })
+            .collect();
+        // In cycle 2 the input goes on, in 3 that is seen, and 3 ms behind cycle 2 the button is pressed.
+        assert_eq!(on_its_way, [true, true, true, true, true, false, false, false]);
     }
 
     #[test]
     fn axes_and_masses_must_exist() {
         let scenario = Scenario::parse("io.toml", "[[event]]\nat = 1\ntorque.j5 = 1").unwrap();
         let scara = Robot::builtin("hsr065").unwrap();
-        let error = scenario.check(&Channels::default(), &scara).unwrap_err();
+        let error = scenario.check(&Channels::default(), &[&scara]).unwrap_err();
         assert!(error.contains("turns j5, but robot hsr065 has j1 to j4"), "{error}");
         let robot = Robot { links: Vec::new(), ..Robot::builtin("kr10-r1420").unwrap() };
-        let error = scenario.check(&Channels::default(), &robot).unwrap_err();
+        let error = scenario.check(&Channels::default(), &[&robot]).unwrap_err();
         assert!(error.contains("has no [[link]]"), "{error}");
     }
 
@@ -616,7 +692,7 @@ mod tests {
             ("[[event]]\nwhen = \"pwm.4\"\ndi.1 = true", "pwm.4, but there are 3"),
         ] {
             let scenario = Scenario::parse("io.toml", text).unwrap();
-            let error = scenario.check(&Channels::default(), &Robot::builtin("kr10-r1420").unwrap()).unwrap_err();
+            let error = scenario.check(&Channels::default(), &[&Robot::builtin("kr10-r1420").unwrap()]).unwrap_err();
             assert!(error.contains(words), "{error}");
         }
     }

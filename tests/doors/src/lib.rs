@@ -61,6 +61,7 @@ fn run((make, source, lines_above, others): &Entry) -> Result<(), String> {
         builder = builder.speed_override(percent);
     }
     let mut controller = builder.build(make()).map_err(|error| text(&error))?;
+    controller.set_loop(options.get("loop").and_then(toml::Value::as_bool).unwrap_or_default());
     controller.run_for(number("max_time").unwrap_or(LONGEST));
     let outcome = controller.outcome().cloned();
     let cleaned = std::fs::remove_dir_all(&scratch);

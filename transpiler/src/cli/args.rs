@@ -155,6 +155,9 @@ pub(super) struct RunOptions {
     /// The program runs in real time. Where the standard output is no terminal, it runs as without this option.
     #[arg(long, conflicts_with_all = ["plot", "clock"])]
     pub(super) pendant: bool,
+    /// The loop running mode: a program that ends is reset and begins again.
+    #[arg(long = "loop")]
+    pub(super) repeats: bool,
     /// End after so many controller seconds, with exit code 4.
     #[arg(long, value_name = "S")]
     pub(super) max_time: Option<f64>,
@@ -212,6 +215,9 @@ impl RunOptions {
         ];
         let mut arguments: Vec<std::ffi::OsString> =
             all.into_iter().filter_map(|(name, value)| value.map(|value| [name.into(), value])).flatten().collect();
+        if self.repeats {
+            arguments.push("--loop".into());
+        }
         if let Some(file) = &self.report {
             let mut report = std::ffi::OsString::from("--report");
             if file.as_os_str() != "-" {

@@ -52,6 +52,11 @@ impl External {
         Ok(pressed)
     }
 
+    /// Whether a PLC is wired that may start programs.
+    pub(super) fn starts(&self, system: &System) -> bool {
+        self.enabled && system.start_prog_di.get() > 0 && system.ctl_mode.get() == Controlmode::Auto
+    }
+
     /// Brings the outputs up to date that tell the PLC what the controller does.
     pub(super) fn show(&mut self, io: &mut Image, system: &System, state: State, servo_on: bool) {
         if self.enabled {

@@ -41,6 +41,9 @@ pub(super) struct CaseOptions {
     /// The program is for a background channel; such a case is only checked.
     #[serde(default)]
     pub(super) background: bool,
+    /// Whether it runs in the loop running mode.
+    #[serde(default, rename = "loop")]
+    pub(super) repeats: bool,
     /// Controller seconds. A case that sets it may end by it.
     pub(super) max_time: Option<f64>,
     /// Percent.

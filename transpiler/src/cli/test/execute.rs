@@ -66,6 +66,10 @@ fn arguments(case: &Case) -> Vec<OsString> {
     if let Some(percent) = options.override_percent {
         add("--override", percent.to_string().into());
     }
+    if options.repeats {
+        arguments.push("--loop".into());
+    }
+    let mut add = |name: &str, value: OsString| arguments.extend([name.into(), value]);
     add("--max-time", options.max_time.unwrap_or(CONTROLLER_SECONDS).to_string().into());
     arguments
 }
