@@ -1,7 +1,7 @@
 //! Operators that ARL and Rust do not share.
 
 use crate::fault::Fault;
-use crate::values::{Joint, JointScara, UNSET};
+use crate::values::{Array, Joint, JointScara, Store, UNSET};
 use std::ops::{Add, Neg, Sub};
 
 /// The integers of ARL.
@@ -164,14 +164,42 @@ fn outside(index: i32, size: usize) -> Fault {
     Fault::Index { index, size: u32::try_from(size).unwrap_or(u32::MAX) }
 }
 
-/// A value for a system variable that takes `low` to `high`.
+/// What a system variable with a range can be given: a number, or an array of them.
+pub trait Ranged {
+    /// The first number that is not within `low` to `high`.
+    fn beyond(&self, low: f64, high: f64) -> Option<f64>;
+}
+
+macro_rules! ranged {
+    ($($ty:ty)*) => { $(
+        impl Ranged for $ty {
+            #[inline]
+            fn beyond(&self, low: f64, high: f64) -> Option<f64> {
+                let number = f64::from(*self);
+                (!(low..=high).contains(&number)).then_some(number)
+            }
+        }
+    )* };
+}
+
+ranged!(i32 u32 u8 f64);
+
+impl<T: Ranged, const N: usize, S: Store<T, N>> Ranged for Array<T, N, S> {
+    fn beyond(&self, low: f64, high: f64) -> Option<f64> {
+        self.iter().find_map(|element| element.beyond(low, high))
+    }
+}
+
+/// A value for a system variable that takes `low` to `high`, of each element where it is an array.
 ///
 /// # Errors
 /// [`Fault::Range`]
 #[inline]
-pub fn in_range<T: Copy + Into<f64>>(value: T, low: f64, high: f64) -> Result<T, Fault> {
-    let number = value.into();
-    if (low..=high).contains(&number) { Ok(value) } else { Err(Fault::Range { value: number, low, high }) }
+pub fn in_range<T: Ranged>(value: T, low: f64, high: f64) -> Result<T, Fault> {
+    match value.beyond(low, high) {
+        None => Ok(value),
+        Some(value) => Err(Fault::Range { value, low, high }),
+    }
 }
 
 /// Sums, differences and negation by component; an unset component stays unset.
@@ -215,6 +243,7 @@ fn both(a: f64, b: f64, result: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::values::SmallArray;
 
     #[test]
     fn division() {
@@ -261,6 +290,9 @@ mod tests {
         assert_eq!(in_range(5, 0.0, 5.0), Ok(5));
         assert_eq!(in_range(5.5, 0.0, 5.0), Err(Fault::Range { value: 5.5, low: 0.0, high: 5.0 }));
         assert!(in_range(f64::NAN, 0.0, 5.0).is_err());
+        let array: SmallArray<f64, 3> = [1.0, 5.0, 6.5].into();
+        assert_eq!(in_range(array.clone(), 0.0, 5.0).map(drop), Err(Fault::Range { value: 6.5, low: 0.0, high: 5.0 }));
+        assert!(in_range(array, 0.0, 6.5).is_ok());
     }
 
     #[test]

@@ -111,7 +111,7 @@ system! {
     /// Whether the external control is asked for a program number.
     pgno_req: Cell<bool> = false, "PGNO_REQ", Reset;
     /// The program number that the external control has given; -1: none yet.
-    pgno: Cell<i32> = -1, "PGNO", Current;
+    pgno: Cell<i32> = NO_PROGRAM_NUMBER, "PGNO", Current;
     /// What `geterror` gives for a lost connection. Read-only.
     err_socket_closed: Cell<i32> = 1, "ERR_SOCKET_CLOSED", Constant;
     /// The number pi. Read-only.
@@ -294,6 +294,9 @@ impl System {
     }
 }
 
+/// `$PGNO` while no program number was given.
+const NO_PROGRAM_NUMBER: i32 = -1;
+
 /// The default of `$DFSPEED`.
 pub(crate) const DFSPEED: Speed = Speed { per: 5.0, tcp: 50.0, ori: 400.0, exj: 5.0, exl: 5.0 };
 
@@ -420,9 +423,16 @@ pub fn init(cx: &Cx) {
     let current = system.cjoint.get();
     lane.reset_system();
     system.cjoint.set(current);
+    system.pgno.set(NO_PROGRAM_NUMBER);
     let state = cx.world().state.borrow();
     for kept in system.kept() {
-        if !kept.always {
+        if kept.always {
+            // Names have been saved with every change, so they stay.
+            let known = arl_lang::catalog::system_variable(kept.name);
+            if known.is_some_and(|variable| variable.section.starts_with("10.2.")) {
+                kept.slot.read(&(kept.default)());
+            }
+        } else {
             match state.known(kept.stored) {
                 Some(text) => kept.slot.read(text),
                 None => kept.slot.read(&(kept.default)()),

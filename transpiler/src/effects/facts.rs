@@ -404,7 +404,7 @@ pub(crate) fn constant<'a>(program: &'a Program, func: Option<&'a Func>, expr: &
 /// The least and greatest value of a system variable, where writing this place (this value) has to be checked.
 pub(crate) fn range_check(place: &Place, value: Option<&Expr>) -> Option<(f64, f64)> {
     let Root::System(variable) = place.root else { return None };
-    let number = matches!(place.ty.base, Base::Int | Base::Uint | Base::Byte | Base::Double) && !place.ty.is_array();
+    let number = matches!(place.ty.base, Base::Int | Base::Uint | Base::Byte | Base::Double);
     let inside = |value: f64, (low, high)| value >= low && value <= high;
     let range = variable.range.filter(|_| number)?;
     let known = match value.map(|value| &value.kind) {

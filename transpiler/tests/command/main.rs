@@ -7,6 +7,7 @@ mod killing;
 mod repeating;
 mod running;
 mod several;
+mod system_variables;
 mod telling;
 mod testing;
 

@@ -49,7 +49,7 @@ pub(super) fn compile(
             return Ok(names
                 .iter()
                 .enumerate()
-                .map(|(at, name)| match (refused.get(&at), programs.get(&part_name(part(name, parts)))) {
+                .map(|(at, name)| match (refused.get(&at), programs.get(&part_name(place, part(name, parts)))) {
                     (Some(errors), _) => Err(errors.clone()),
                     (None, Some(program)) => Ok(Compiled { program: program.clone(), name: name.clone() }),
                     (None, None) => Err("cargo did not make its program".into()),
@@ -93,8 +93,9 @@ fn part(name: &str, parts: usize) -> usize {
     (hasher.finish() % parts as u64) as usize
 }
 
-fn part_name(part: usize) -> String {
-    format!("part{part}")
+/// All places compile into one folder, so that each needs names of its own.
+fn part_name(place: &Place, part: usize) -> String {
+    format!("{}-part{part}", place.name)
 }
 
 /// A Rust name for a case: readable, and different for every path.
@@ -142,9 +143,9 @@ fn write(
              let (make, others, folder): (Make, &[Other], &str) = match case.as_str() {{\n{arms}        \
              _ => return std::process::ExitCode::from(2),\n    }};\n    main_with(make, others, folder)\n}}\n"
         );
-        write_if_changed(&bin.join(format!("{}.rs", part_name(*part))), text.as_bytes())?;
+        write_if_changed(&bin.join(format!("{}.rs", part_name(place, *part))), text.as_bytes())?;
     }
-    remove_others(&bin, |name| programs.keys().any(|part| name == format!("{}.rs", part_name(*part))));
+    remove_others(&bin, |name| programs.keys().any(|part| name == format!("{}.rs", part_name(place, *part))));
     let case = |file: &str| file.strip_suffix(".rs").and_then(|stem| stem.split(BESIDE).next()).map(str::to_owned);
     remove_others(&place.folder.join("src/cases"), |file| case(file).is_some_and(|case| names.contains(&case)));
     Ok(())
