@@ -1,6 +1,6 @@
 //! What interrupts and timers do, cycle by cycle, from the rules of the language alone.
 
-use super::plan::{Action, Cause, Condition, Declaration, Plan, SIGNALS, Signal, Step, Switch};
+use super::plan::{Action, Cause, Condition, Declaration, LOCALS, Plan, SIGNALS, Signal, Step, Switch};
 use std::fmt::Write as _;
 
 /// How a run ended.
@@ -17,6 +17,8 @@ pub(super) enum End {
 /// An interrupt or a timer.
 struct Interrupt {
     declared: Declaration,
+    /// The locals of the run of a script that declared it.
+    locals: usize,
     enabled: bool,
     /// The cycle of the event that waits.
     event: Option<u64>,
@@ -30,18 +32,33 @@ struct Interrupt {
 struct Running {
     script: usize,
     next: usize,
+    /// Its locals.
+    locals: usize,
     waits_until: u64,
+    /// What ends the wait before that.
+    waits_for: Option<Condition>,
     /// None for `main`.
     priority: Option<i32>,
     /// For an action that is no script.
-    turns: Option<usize>,
+    turns: Option<Action>,
 }
+
+impl Running {
+    fn new(script: usize, next: usize, locals: usize) -> Self {
+        Self { script, next, locals, waits_until: 0, waits_for: None, priority: None, turns: None }
+    }
+}
+
+/// At the end of its script.
+const DONE: usize = usize::MAX;
 
 pub(super) struct Model<'a> {
     plan: &'a Plan,
     now: u64,
     inputs: [bool; SIGNALS],
     flags: [bool; SIGNALS],
+    /// Of each run of a script; interrupts use them when it is over, too.
+    locals: Vec<[bool; LOCALS]>,
     /// In the order of declaration.
     interrupts: Vec<Interrupt>,
     running: Vec<Running>,
@@ -50,9 +67,9 @@ pub(super) struct Model<'a> {
 
 impl<'a> Model<'a> {
     pub(super) fn new(plan: &'a Plan) -> Self {
-        let main = Running { script: 0, next: 0, waits_until: 0, priority: None, turns: None };
         let (inputs, flags) = ([false; SIGNALS], [false; SIGNALS]);
-        Self { plan, now: 0, inputs, flags, interrupts: Vec::new(), running: vec![main], out: String::new() }
+        let (locals, running) = (vec![[false; LOCALS]], vec![Running::new(0, 0, 0)]);
+        Self { plan, now: 0, inputs, flags, locals, interrupts: Vec::new(), running, out: String::new() }
     }
 
     /// Runs until the program ends; none where it does not within so many cycles.
@@ -73,17 +90,22 @@ impl<'a> Model<'a> {
         self.scan();
         loop {
             self.interrupt();
+            let (waits_for, locals) = self.running.last().map(|top| (top.waits_for, top.locals))?;
+            let holds = waits_for.is_some_and(|condition| self.holds(condition, locals));
             let top = self.running.last_mut()?;
-            if top.waits_until > self.now {
+            if top.waits_until > self.now && !holds {
                 return None;
             }
-            if let Some(flag) = top.turns.take() {
-                self.flags[flag] = !self.flags[flag];
+            (top.waits_until, top.waits_for) = (0, None);
+            let (script, step, at_end) = (top.script, top.next, top.next == DONE);
+            match top.turns.take() {
+                Some(Action::Turn(flag)) => self.flags[flag] = !self.flags[flag],
+                Some(Action::TurnLocal(local)) => self.locals[locals][local] = !self.locals[locals][local],
+                Some(Action::Run(_)) | None => {}
             }
-            let (script, step) = (top.script, top.next);
-            match self.plan.scripts[script].get(step).filter(|_| top.next != usize::MAX) {
+            match self.plan.scripts[script].get(step).filter(|_| !at_end) {
                 Some(_) => {
-                    top.next += 1;
+                    self.running.last_mut()?.next += 1;
                     if let Some(end) = self.step(script, step) {
                         return Some(end);
                     }
@@ -93,32 +115,25 @@ impl<'a> Model<'a> {
                     if self.running.is_empty() {
                         // The program is alive as long as events wait.
                         let Some(_) = self.first_event() else { return Some(End::Ended) };
-                        self.running.push(Running {
-                            script: 0,
-                            next: usize::MAX,
-                            waits_until: 0,
-                            priority: None,
-                            turns: None,
-                        });
+                        self.running.push(Running::new(0, DONE, 0));
                     }
                 }
             }
         }
     }
 
-    fn signal(&self, signal: Signal) -> bool {
-        match signal {
+    /// Whether a condition holds where the locals are these.
+    fn holds(&self, condition: Condition, locals: usize) -> bool {
+        let is = |signal: Signal| match signal {
             Signal::Input(input) => self.inputs[input],
             Signal::Flag(flag) => self.flags[flag],
-        }
-    }
-
-    fn holds(&self, condition: Condition) -> bool {
+            Signal::Local(local) => self.locals[locals][local],
+        };
         match condition {
-            Condition::Is(a) => self.signal(a),
-            Condition::Not(a) => !self.signal(a),
-            Condition::Both(a, b) => self.signal(a) && self.signal(b),
-            Condition::Either(a, b) => self.signal(a) || self.signal(b),
+            Condition::Is(a) => is(a),
+            Condition::Not(a) => !is(a),
+            Condition::Both(a, b) => is(a) && is(b),
+            Condition::Either(a, b) => is(a) || is(b),
         }
     }
 
@@ -126,7 +141,7 @@ impl<'a> Model<'a> {
     fn scan(&mut self) {
         for at in 0..self.interrupts.len() {
             let is = match self.interrupts[at].declared.cause {
-                Cause::Condition(condition) => self.holds(condition),
+                Cause::Condition(condition) => self.holds(condition, self.interrupts[at].locals),
                 Cause::Time { .. } => false,
             };
             let (now, interrupt) = (self.now, &mut self.interrupts[at]);
@@ -162,14 +177,21 @@ impl<'a> Model<'a> {
             return;
         }
         self.interrupts[first].event = None;
-        let (script, next, turns) = match self.interrupts[first].declared.action {
-            Action::Run(script) => (script, 0, None),
-            Action::Turn(flag) => (0, usize::MAX, Some(flag)),
+        let (action, declared_in) = (self.interrupts[first].declared.action, self.interrupts[first].locals);
+        let running = match action {
+            Action::Run(script) => {
+                self.locals.push([false; LOCALS]);
+                Running::new(script, 0, self.locals.len() - 1)
+            }
+            Action::Turn(_) | Action::TurnLocal(_) => {
+                Running { turns: Some(action), ..Running::new(0, DONE, declared_in) }
+            }
         };
-        self.running.push(Running { script, next, waits_until: 0, priority: Some(priority), turns });
+        self.running.push(Running { priority: Some(priority), ..running });
     }
 
     fn step(&mut self, script: usize, step: usize) -> Option<End> {
+        let locals = self.running.last()?.locals;
         let alarm = Some(End::Alarm { script, step });
         match self.plan.scripts[script][step] {
             Step::Note(number) => _ = writeln!(self.out, "{number} {}", self.now),
@@ -177,7 +199,13 @@ impl<'a> Model<'a> {
                 let until = self.now + ms;
                 self.running.last_mut()?.waits_until = until;
             }
+            Step::Await(condition, ms) => {
+                let until = self.now + ms;
+                let top = self.running.last_mut()?;
+                (top.waits_until, top.waits_for) = (until, Some(condition));
+            }
             Step::Set(flag, level) => self.flags[flag] = level,
+            Step::SetLocal(local, level) => self.locals[locals][local] = level,
             Step::Exit => return Some(End::Ended),
             Step::Declare(declared) => {
                 let taken = self.interrupts.iter().any(|it| it.declared.name == declared.name);
@@ -185,11 +213,11 @@ impl<'a> Model<'a> {
                     return alarm;
                 }
                 let was = match declared.cause {
-                    Cause::Condition(condition) => self.holds(condition),
+                    Cause::Condition(condition) => self.holds(condition, locals),
                     Cause::Time { .. } => false,
                 };
                 let counts_from = Some(self.now);
-                self.interrupts.push(Interrupt { declared, enabled: true, event: None, was, counts_from });
+                self.interrupts.push(Interrupt { declared, locals, enabled: true, event: None, was, counts_from });
             }
             Step::Switch { what, name, priority } => {
                 let named = |it: &Interrupt| name.is_some() && it.declared.name == name;

@@ -5,14 +5,17 @@ use std::fmt::Write as _;
 
 /// How many inputs and flags conditions look at.
 pub(super) const SIGNALS: usize = 4;
-/// The names that interrupts may have.
-const NAMES: usize = 60;
+/// How many locals each script has, which conditions and actions that it declares may use.
+pub(super) const LOCALS: usize = 2;
+/// The names that interrupts may have: few, so that they are given again.
+const NAMES: usize = 40;
 
-/// What a condition looks at, an input or a flag of the program.
+/// What a condition looks at: an input, a flag of the program, a local of the script that runs.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Signal {
     Input(usize),
     Flag(usize),
+    Local(usize),
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +42,8 @@ pub(super) enum Action {
     Run(usize),
     /// Turns a flag over.
     Turn(usize),
+    /// Turns a local of the declaring script over.
+    TurnLocal(usize),
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -62,7 +67,10 @@ pub(super) enum Step {
     Note(usize),
     /// Waits so many ms.
     Wait(u64),
+    /// Waits for a condition, so many ms at most.
+    Await(Condition, u64),
     Set(usize, bool),
+    SetLocal(usize, bool),
     Declare(Declaration),
     Switch {
         what: Switch,
@@ -109,6 +117,7 @@ impl Plan {
             if number == 0 {
                 lines.push("  clkstart(c)".into());
             }
+            lines.extend((0..LOCALS).map(|local| format!("  bool l{local}")));
             for step in script {
                 lines.push(format!("  {}", written(step)));
                 places[number].push(lines.len() as u32);
@@ -141,13 +150,17 @@ fn main(random: &mut Random, count: usize) -> Vec<Step> {
         let known: Vec<Declaration> = steps.iter().filter_map(declared).collect();
         steps.push(match random.below(10) {
             0..5 => Step::Declare(declaration(random, 1, count)),
-            5..7 => Step::Wait(1 + random.below(60) as u64),
+            5 => Step::Wait(1 + random.below(60) as u64),
+            6 => Step::Await(condition(random), 1 + random.below(60) as u64),
             7 => Step::Note(number),
-            8 => Step::Set(random.below(SIGNALS), random.chance(50)),
+            8 => set(random),
             _ => switch(random, &known),
         });
     }
-    steps.push(Step::Wait(200 + random.below(400) as u64));
+    for _ in 0..4 {
+        steps.push(Step::Wait(50 + random.below(100) as u64));
+        steps.push(set(random));
+    }
     steps.push(Step::Note(99));
     steps
 }
@@ -157,10 +170,11 @@ fn handler(random: &mut Random, own: usize, count: usize, known: &[Declaration])
     let mut steps = vec![Step::Note(own * 100)];
     for number in 1..1 + random.below(5) {
         steps.push(match random.below(20) {
-            0..9 => Step::Wait(random.below(20) as u64),
-            9..12 => Step::Set(random.below(SIGNALS), random.chance(50)),
+            0..7 => Step::Wait(random.below(20) as u64),
+            7..9 => Step::Await(condition(random), random.below(20) as u64),
+            9..12 => set(random),
             12..15 => switch(random, known),
-            15 if random.chance(30) => Step::Declare(declaration(random, own, count)),
+            15 if random.chance(45) => Step::Declare(declaration(random, own, count)),
             16 if random.chance(20) => Step::Exit,
             _ => Step::Note(own * 100 + number),
         });
@@ -169,33 +183,53 @@ fn handler(random: &mut Random, own: usize, count: usize, known: &[Declaration])
     steps
 }
 
+fn set(random: &mut Random) -> Step {
+    let level = random.chance(50);
+    if random.chance(60) {
+        Step::Set(random.below(SIGNALS), level)
+    } else {
+        Step::SetLocal(random.below(LOCALS), level)
+    }
+}
+
+fn condition(random: &mut Random) -> Condition {
+    let mut signal = || match random.below(8) {
+        0..5 => Signal::Input(random.below(SIGNALS)),
+        5..7 => Signal::Flag(random.below(SIGNALS)),
+        _ => Signal::Local(random.below(LOCALS)),
+    };
+    let (a, b) = (signal(), signal());
+    match random.below(5) {
+        0..2 => Condition::Is(a),
+        2 => Condition::Not(a),
+        3 => Condition::Both(a, b),
+        _ => Condition::Either(a, b),
+    }
+}
+
 fn declaration(random: &mut Random, from: usize, count: usize) -> Declaration {
     let cause = if random.chance(70) {
-        let mut signal = || {
-            if random.chance(75) { Signal::Input(random.below(SIGNALS)) } else { Signal::Flag(random.below(SIGNALS)) }
-        };
-        let (a, b) = (signal(), signal());
-        Cause::Condition(match random.below(5) {
-            0..2 => Condition::Is(a),
-            2 => Condition::Not(a),
-            3 => Condition::Both(a, b),
-            _ => Condition::Either(a, b),
-        })
+        Cause::Condition(condition(random))
     } else {
         let repeats = random.chance(50);
         Cause::Time { interval: if repeats { 30 + random.below(90) as u64 } else { random.below(150) as u64 }, repeats }
     };
-    let action = match random.chance(80) {
-        true => Action::Run(from + random.below(count - from)),
-        false => Action::Turn(random.below(SIGNALS)),
+    let action = match random.below(10) {
+        0..8 => Action::Run(from + random.below(count - from)),
+        8 => Action::Turn(random.below(SIGNALS)),
+        _ => Action::TurnLocal(random.below(LOCALS)),
     };
     let name = random.chance(35).then(|| random.below(NAMES));
     Declaration { name, priority: priority(random), cause, action }
 }
 
-/// Few priorities, so that there are equal ones; now and then one that is none.
+/// Mostly few priorities, so that there are equal ones; now and then one that is none.
 fn priority(random: &mut Random) -> i32 {
-    if random.below(300) == 0 { 256 } else { *random.pick(&[0, 1, 1, 2, 7, 255]) }
+    match random.below(300) {
+        0 => 256,
+        1..80 => random.below(256) as i32,
+        _ => *random.pick(&[0, 1, 1, 2, 7, 255]),
+    }
 }
 
 /// Mostly of what is there.
@@ -228,7 +262,11 @@ fn written(step: &Step) -> String {
     match step {
         Step::Note(number) => format!("note({number})"),
         Step::Wait(ms) => format!("waittime {}", *ms as f64 / 1000.0),
+        Step::Await(condition, ms) => {
+            format!("waituntil {},maxtime:{}", condition_text(condition), *ms as f64 / 1000.0)
+        }
         Step::Set(flag, level) => format!("f{flag} = {level}"),
+        Step::SetLocal(local, level) => format!("l{local} = {level}"),
         Step::Exit => "exit".into(),
         Step::Switch { what, name, priority } => {
             let word = match what {
@@ -245,6 +283,7 @@ fn written(step: &Step) -> String {
             let action = match action {
                 Action::Run(script) => format!("h{script}()"),
                 Action::Turn(flag) => format!("f{flag} = !f{flag}"),
+                Action::TurnLocal(local) => format!("l{local} = !l{local}"),
             };
             // A constant beyond the range would be refused.
             let priority = if *priority > 255 { "255 + over".into() } else { priority.to_string() };
@@ -265,6 +304,7 @@ fn condition_text(condition: &Condition) -> String {
     let text = |signal: &Signal| match signal {
         Signal::Input(input) => format!("getdi({})", input + 1),
         Signal::Flag(flag) => format!("f{flag}"),
+        Signal::Local(local) => format!("l{local}"),
     };
     match condition {
         Condition::Is(a) => text(a),
