@@ -3,6 +3,7 @@
 //! The compiler turns an ARL program into an implementation of [`Program`]; a [`Controller`] runs it. Emitted code names
 //! everything through the prelude [`emit`].
 
+mod at_once;
 pub mod bits;
 pub mod calibration;
 pub mod cell;

@@ -1,54 +1,101 @@
 //! The connections that a program has opened.
 
 use std::cell::RefCell;
+use std::io;
 use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::Builder;
 
-use mio::Waker;
+use mio::{Poll, Waker};
 
-use super::link::Link;
+use super::link::LinkState;
+use super::opening::Opening;
 use super::shared::Shared;
+use super::worker;
 
 /// How many connections may be on their way to being closed.
 const MOST_CLOSING: usize = 32;
 
 /// The connections that a program has opened: those of global variables and of local ones, too.
 #[derive(Default, Debug)]
-pub(crate) struct Connections(RefCell<Vec<(Arc<Shared>, Arc<Waker>)>>);
+pub(crate) struct Connections {
+    list: RefCell<Vec<Arc<Shared>>>,
+    opener: RefCell<Option<Sender<Order>>>,
+}
+
+/// What the thread that opens connections is to do. To ask the system for a thread and descriptors, and to give them
+/// back, takes longer than a cycle should.
+struct Order {
+    shared: Arc<Shared>,
+    opening: Opening,
+    /// Connections that are over, to be given back.
+    over: Vec<Arc<Shared>>,
+}
 
 impl Connections {
-    /// Notes a connection, and forgets those that are over.
-    pub(crate) fn add(&self, link: &Link) {
-        let mut list = self.0.borrow_mut();
-        list.retain(|(shared, _)| !shared.lock().over);
-        list.push(link.shared());
+    /// Has a connection opened, and forgets those that are over.
+    ///
+    /// # Errors
+    /// The system has no threads left.
+    pub(super) fn open(&self, shared: Arc<Shared>, opening: Opening) -> io::Result<()> {
+        let mut opener = self.opener.borrow_mut();
+        let sender = match opener.take() {
+            Some(sender) => sender,
+            None => start_opener()?,
+        };
+        let mut list = self.list.borrow_mut();
+        let over = list.extract_if(.., |shared| shared.is_over()).collect();
+        list.push(Arc::clone(&shared));
+        let sent = sender.send(Order { shared, opening, over });
+        *opener = Some(sender);
+        sent.map_err(|_| io::Error::other("the thread that opens connections is gone"))
     }
 
     /// Whether so many are on their way to being closed that new ones have to wait: a program that opens and closes in a
     /// loop does not pile up threads.
     pub(crate) fn are_too_many(&self) -> bool {
-        let closing = |(shared, _): &&(Arc<Shared>, Arc<Waker>)| {
-            let common = shared.lock();
-            common.closing && !common.over
-        };
-        self.0.borrow().iter().filter(closing).count() >= MOST_CLOSING
+        let closing = |shared: &&Arc<Shared>| shared.is_closing() && !shared.is_over();
+        self.list.borrow().iter().filter(closing).count() >= MOST_CLOSING
     }
 
     /// Closes all of them: the program has ended.
     pub(crate) fn close(&self) {
-        for (shared, waker) in self.0.borrow().iter() {
-            shared.lock().closing = true;
-            // It fails only where the thread is gone, which then needs no waking.
-            let _ = waker.wake();
-        }
+        self.list.borrow().iter().for_each(|shared| shared.close());
     }
 
     /// Whether nothing that is to be closed still holds a port to listen on, or a device.
     pub(crate) fn are_free(&self) -> bool {
-        self.0.borrow().iter().all(|(shared, _)| shared.is_free())
+        self.list.borrow().iter().all(|shared| shared.is_free())
     }
 
     /// Whether nothing that is to be closed is still open: what was sent has gone.
     pub(crate) fn are_settled(&self) -> bool {
-        self.0.borrow().iter().all(|(shared, _)| shared.is_done() || !shared.lock().closing)
+        self.list.borrow().iter().all(|shared| shared.is_done() || !shared.is_closing())
     }
+}
+
+/// Starts the thread that opens connections. It ends with whoever sends it orders.
+fn start_opener() -> io::Result<Sender<Order>> {
+    let (sender, orders) = channel();
+    Builder::new().name("connections".into()).stack_size(worker::STACK).spawn(move || carry_out(&orders))?;
+    Ok(sender)
+}
+
+fn carry_out(orders: &Receiver<Order>) {
+    for Order { shared, opening, over } in orders {
+        drop(over);
+        if let Err(error) = start(&shared, opening) {
+            shared.end(LinkState::Failed(error.to_string()));
+        }
+    }
+}
+
+/// Starts the thread of a connection.
+fn start(shared: &Arc<Shared>, opening: Opening) -> io::Result<()> {
+    let poll = Poll::new()?;
+    shared.wakes_by(Waker::new(poll.registry(), worker::WAKE)?);
+    let served = Arc::clone(shared);
+    let thread = Builder::new().name("connection".into()).stack_size(worker::STACK);
+    thread.spawn(move || worker::serve(&served, poll, &opening))?;
+    Ok(())
 }

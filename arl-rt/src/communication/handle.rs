@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::inbox::{CAPACITY, Inbox};
 use super::link::{Link, LinkState};
 use super::opening::Opening;
-use crate::cx::Cx;
+use crate::cx::{Cx, Level};
 use crate::fault::Fault;
 
 /// How long to wait after a failed attempt before the next one.
@@ -36,7 +36,7 @@ struct Held {
 pub(super) enum Found<T> {
     /// What was asked for.
     This(T),
-    /// Not enough has come, or there is no room.
+    /// Not enough has come, there is no room, or the thread has the bytes just now.
     NotYet,
     /// The connection is lost, for this reason.
     Lost(String),
@@ -123,10 +123,9 @@ impl Handle {
 
     /// Begins to open the connection; nothing where the system cannot.
     fn begin(&self, cx: &Cx, function: &'static str, opening: Opening) -> Option<Held> {
-        match Link::open(opening.clone()) {
+        match Link::open(cx.connections(), opening.clone()) {
             Ok(link) => {
                 cx.world().meet_outside();
-                cx.connections().add(&link);
                 let (known_open, known_lost) = (Cell::new(false), Cell::new(false));
                 Some(Held { opening, link, since: Instant::now(), known_open, known_lost })
             }
@@ -152,7 +151,9 @@ impl Handle {
         self.with(function, |held| {
             // In this order: what came before the connection was lost is there when that is known.
             let state = held.link.state();
-            let (taken, full) = held.link.read(|inbox| (take(inbox), inbox.room() == 0));
+            let Some((taken, full)) = held.link.read(|inbox| (take(inbox), inbox.room() == 0)) else {
+                return Ok(Found::NotYet);
+            };
             match (taken, state) {
                 (Some(taken), _) => Ok(Found::This(taken)),
                 (None, LinkState::Lost(reason)) => {
@@ -184,32 +185,38 @@ impl Handle {
     }
 
     /// Throws away what has come; whether the connection stands.
-    pub(super) fn clear(&self) -> bool {
-        let held = self.held.borrow();
-        let held = held.as_ref().filter(|held| held.known_open.get() && !held.link.is_closing());
-        held.is_some_and(|held| {
-            held.link.read(Inbox::clear);
-            held.link.state() == LinkState::Open
-        })
+    pub(super) async fn clear(&self, cx: &Cx) -> bool {
+        loop {
+            let cleared =
+                self.standing(|held| held.link.read(Inbox::clear).map(|()| held.link.state() == LinkState::Open));
+            match cleared {
+                None => return false,
+                Some(Some(stands)) => return stands,
+                // A condition is looked at now or never.
+                Some(None) if cx.level() == Level::LOOKING => return false,
+                Some(None) => cx.next_cycle().await,
+            }
+        }
     }
 
     /// Whether the connection is lost and nothing is left to be read, or the program knows of it.
     pub(super) fn is_lost(&self) -> bool {
-        let held = self.held.borrow();
-        let held = held.as_ref().filter(|held| held.known_open.get() && !held.link.is_closing());
-        held.is_some_and(|held| {
+        let is_lost = |held: &Held| {
             matches!(held.link.state(), LinkState::Lost(_))
-                && (held.known_lost.get() || held.link.read(|inbox| inbox.waiting().is_empty()))
-        })
+                && (held.known_lost.get() || held.link.read(|inbox| inbox.waiting().is_empty()) == Some(true))
+        };
+        self.standing(is_lost) == Some(true)
     }
 
     /// Works with the open connection.
     fn with<T>(&self, function: &'static str, work: impl FnOnce(&Held) -> Result<T, Fault>) -> Result<T, Fault> {
+        self.standing(work).unwrap_or_else(|| Err(fault(function, "it is not open")))
+    }
+
+    /// Works with the connection that the program knows to be open; nothing where there is none.
+    fn standing<T>(&self, work: impl FnOnce(&Held) -> T) -> Option<T> {
         let held = self.held.borrow();
-        match held.as_ref().filter(|held| held.known_open.get() && !held.link.is_closing()) {
-            Some(held) => work(held),
-            None => Err(fault(function, "it is not open")),
-        }
+        held.as_ref().filter(|held| held.known_open.get() && !held.link.is_closing()).map(work)
     }
 
     /// Tells the user once.

@@ -3,12 +3,10 @@
 use std::io;
 use std::sync::Arc;
 
-use mio::{Poll, Waker};
-
+use super::connections::Connections;
 use super::inbox::Inbox;
 use super::opening::Opening;
 use super::shared::Shared;
-use super::worker;
 
 /// How far a connection has come.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -26,78 +24,56 @@ pub(crate) enum LinkState {
 /// A connection: a stream of bytes that a thread of its own serves. Nothing here waits. It closes when it is dropped,
 /// after what was sent has gone (or one second later).
 #[derive(Debug)]
-pub(crate) struct Link {
-    shared: Arc<Shared>,
-    waker: Arc<Waker>,
-}
+pub(crate) struct Link(Arc<Shared>);
 
 impl Link {
     /// Begins to open a connection.
     ///
     /// # Errors
-    /// The system has no threads or descriptors left.
-    pub(crate) fn open(opening: Opening) -> io::Result<Self> {
-        let poll = Poll::new()?;
-        let waker = Arc::new(Waker::new(poll.registry(), worker::WAKE)?);
+    /// The system has no threads left.
+    pub(crate) fn open(connections: &Connections, opening: Opening) -> io::Result<Self> {
         let shared = Arc::new(Shared::new(opening.holds()));
-        let served = Arc::clone(&shared);
-        let thread = std::thread::Builder::new().name("connection".into()).stack_size(worker::STACK);
-        thread.spawn(move || worker::serve(&served, poll, &opening))?;
-        Ok(Self { shared, waker })
+        connections.open(Arc::clone(&shared), opening)?;
+        Ok(Self(shared))
     }
 
     /// How far it has come.
     pub(crate) fn state(&self) -> LinkState {
-        self.shared.lock().state.clone()
+        self.0.state()
     }
 
     /// Whether the program has ended since, and the connection with it.
     pub(crate) fn is_closing(&self) -> bool {
-        self.shared.lock().closing
+        self.0.is_closing()
     }
 
-    /// Reads from what has come.
-    pub(crate) fn read<R>(&self, read: impl FnOnce(&mut Inbox) -> R) -> R {
+    /// Reads from what has come; nothing where the thread has the bytes just now.
+    pub(crate) fn read<R>(&self, read: impl FnOnce(&mut Inbox) -> R) -> Option<R> {
         let (result, more) = {
-            let mut common = self.shared.lock();
-            let full = common.inbox.room() == 0;
-            let result = read(&mut common.inbox);
-            (result, full && common.inbox.room() > 0)
+            let mut bytes = self.0.at_once()?;
+            let full = bytes.inbox.room() == 0;
+            let result = read(&mut bytes.inbox);
+            (result, full && bytes.inbox.room() > 0)
         };
         if more {
-            self.wake();
+            self.0.wake();
         }
-        result
+        Some(result)
     }
 
-    /// Sends bytes behind those sent before. False, and nothing is sent, where they have no room yet.
+    /// Sends bytes behind those sent before. False, and nothing is sent, where they have no room yet, or the thread has the
+    /// bytes just now.
     pub(crate) fn send(&self, bytes: &[u8]) -> bool {
-        let sent = self.shared.lock().put(bytes);
+        let sent = self.0.at_once().is_some_and(|mut common| common.put(bytes));
         if sent {
-            self.wake();
+            self.0.wake();
         }
         sent
-    }
-
-    /// Closes the connection once everything sent has gone.
-    pub(crate) fn close(&self) {
-        self.shared.lock().closing = true;
-        self.wake();
-    }
-
-    /// The connection for whoever closes it in the end.
-    pub(super) fn shared(&self) -> (Arc<Shared>, Arc<Waker>) {
-        (Arc::clone(&self.shared), Arc::clone(&self.waker))
-    }
-
-    fn wake(&self) {
-        // It fails only where the thread is gone, which then needs no waking.
-        let _ = self.waker.wake();
     }
 }
 
 impl Drop for Link {
     fn drop(&mut self) {
-        self.close();
+        self.0.close();
     }
 }

@@ -117,7 +117,7 @@ pub async fn write_bytes(cx: &Cx, dev: &ModbusDev, data: &[u8], start: i32, len:
 /// None.
 pub async fn clearbuff(cx: &Cx, dev: &ModbusDev) -> Result<bool, Fault> {
     cx.motion_end().await;
-    if !dev.handle.clear() {
+    if !dev.handle.clear(cx).await {
         return Ok(false);
     }
     let all = 2 * SIZE as i32;

@@ -11,7 +11,7 @@ use mio::{Events, Interest, Poll};
 use super::line::LineSettings;
 use super::shared::Shared;
 use super::slave::SlaveSettings;
-use super::worker::{STREAM, is_closing, wait};
+use super::worker::{STREAM, wait};
 
 /// How long one attempt to reach an address may take. A host that was switched off while it was tried is found sooner
 /// by a new attempt than by the repetitions of the old one.
@@ -81,7 +81,7 @@ fn reach(shared: &Shared, poll: &mut Poll, address: SocketAddr) -> io::Result<Op
     let deadline = Instant::now() + ATTEMPT;
     let mut events = Events::with_capacity(4);
     loop {
-        if is_closing(shared) {
+        if shared.is_closing() {
             return Ok(None);
         }
         if let Some(error) = stream.take_error()? {
@@ -105,7 +105,7 @@ pub(super) fn accept(shared: &Shared, poll: &mut Poll, host: &str, port: u16) ->
     poll.registry().register(&mut listener, STREAM, Interest::READABLE)?;
     let mut events = Events::with_capacity(4);
     loop {
-        if is_closing(shared) {
+        if shared.is_closing() {
             return Ok(None);
         }
         match listener.accept() {

@@ -111,7 +111,7 @@ pub async fn readuntil(cx: &Cx, dev: &Iodev, data: &mut Str, cut: &Str) -> Resul
 /// None.
 pub async fn clearbuff(cx: &Cx, dev: &Iodev) -> Result<bool, Fault> {
     cx.motion_end().await;
-    Ok(dev.0.clear())
+    Ok(dev.0.clear(cx).await)
 }
 
 /// A lost line is an alarm.

@@ -1,73 +1,151 @@
 //! What the cycle and the thread of a connection share.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::atomic::{AtomicBool, Ordering, fence};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+
+use mio::Waker;
 
 use super::inbox::{CAPACITY, Inbox};
 use super::link::LinkState;
+use crate::at_once::at_once;
 
-/// What the cycle and the thread of a connection share. Both hold the lock for the copying of bytes only.
+/// What the cycle and the thread of a connection share. The bytes are behind a lock that both hold for copying only, and that
+/// the cycle does not wait for; how far the connection has come is seen without it.
 #[derive(Debug)]
-pub(super) struct Shared(Mutex<Common>);
+pub(super) struct Shared {
+    bytes: Mutex<Bytes>,
+    /// What wakes the thread, as soon as there is one.
+    waker: OnceLock<Waker>,
+    /// The cycle wants the connection closed; what waits in the outbox goes first.
+    closing: AtomicBool,
+    /// It holds what others may want: a port to listen on, or a device.
+    holds: AtomicBool,
+    /// Bytes can go both ways, or could.
+    open: AtomicBool,
+    /// How it ended: the thread has nothing to do with it any more.
+    end: OnceLock<LinkState>,
+}
 
-/// The state of a connection and its buffers.
-#[derive(Debug)]
-pub(super) struct Common {
-    pub(super) state: LinkState,
+/// The bytes of a connection.
+#[derive(Default, Debug)]
+pub(super) struct Bytes {
     pub(super) inbox: Inbox,
     /// What the thread has not taken yet.
     pub(super) outbox: Vec<u8>,
-    /// The cycle wants the connection closed; what waits in `outbox` goes first.
-    pub(super) closing: bool,
-    /// The thread has nothing to do with the connection any more.
-    pub(super) over: bool,
-    /// It holds what others may want: a port to listen on, or a device.
-    holds: bool,
 }
 
 impl Shared {
     pub(super) fn new(holds: bool) -> Self {
-        Self(Mutex::new(Common {
-            state: LinkState::Opening,
-            inbox: Inbox::default(),
-            outbox: Vec::new(),
-            closing: false,
-            over: false,
-            holds,
-        }))
+        Self {
+            bytes: Mutex::default(),
+            waker: OnceLock::new(),
+            closing: AtomicBool::new(false),
+            holds: AtomicBool::new(holds),
+            open: AtomicBool::new(false),
+            end: OnceLock::new(),
+        }
     }
 
-    /// The common state. What a thread that panicked has left behind is whole: nothing between two changes can panic.
-    pub(super) fn lock(&self) -> MutexGuard<'_, Common> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    /// The bytes, for the thread.
+    pub(super) fn lock(&self) -> MutexGuard<'_, Bytes> {
+        self.bytes.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The bytes, for the cycle: nothing where it would have to wait.
+    pub(super) fn at_once(&self) -> Option<MutexGuard<'_, Bytes>> {
+        at_once(&self.bytes)
+    }
+
+    /// How far the connection has come. What had come before it ended is in the inbox when that is seen.
+    pub(super) fn state(&self) -> LinkState {
+        match self.end.get() {
+            Some(end) => end.clone(),
+            None if self.open.load(Ordering::Acquire) => LinkState::Open,
+            None => LinkState::Opening,
+        }
+    }
+
+    /// Notes that the connection is open; whether it still holds what others may want.
+    pub(super) fn opened(&self, holds: bool) {
+        self.holds.store(holds, Ordering::Release);
+        self.open.store(true, Ordering::Release);
+    }
+
+    /// Notes how it ended. Once: the thread does it, or whoever could not start one.
+    pub(super) fn end(&self, state: LinkState) {
+        self.end.get_or_init(|| state);
+    }
+
+    /// Whether the thread has nothing to do with the connection any more.
+    pub(super) fn is_over(&self) -> bool {
+        self.end.get().is_some()
+    }
+
+    /// Whether the cycle wants it closed.
+    pub(super) fn is_closing(&self) -> bool {
+        // Either the thread sees this, or whoever closes sees the waker.
+        fence(Ordering::SeqCst);
+        self.closing.load(Ordering::Acquire)
+    }
+
+    /// Closes the connection once everything sent has gone.
+    pub(super) fn close(&self) {
+        self.closing.store(true, Ordering::Release);
+        fence(Ordering::SeqCst);
+        self.wake();
+    }
+
+    /// Gives it what wakes its thread, which is about to start.
+    pub(super) fn wakes_by(&self, waker: Waker) {
+        let _ = self.waker.set(waker);
+    }
+
+    /// Wakes the thread. One that has not started yet looks by itself.
+    pub(super) fn wake(&self) {
+        // It fails only where the thread is gone, which then needs no waking.
+        let _ = self.waker.get().map(Waker::wake);
     }
 
     /// Whether somebody else may have the port or the device.
     pub(super) fn is_free(&self) -> bool {
-        let common = self.lock();
-        common.over || !common.holds || !common.closing
+        self.is_over() || !self.holds.load(Ordering::Acquire) || !self.closing.load(Ordering::Acquire)
     }
 
     /// Whether the connection need not be waited for: what was sent has gone, and what it held is free. A name that is
     /// still being looked up holds nothing.
     pub(super) fn is_done(&self) -> bool {
-        let common = self.lock();
-        common.over || (common.state == LinkState::Opening && !common.holds)
+        self.is_over() || !(self.open.load(Ordering::Acquire) || self.holds.load(Ordering::Acquire))
     }
 }
 
-impl Common {
-    /// Notes that the connection is open; whether it still holds what others may want.
-    pub(super) fn opened(&mut self, holds: bool) {
-        self.state = LinkState::Open;
-        self.holds = holds;
-    }
-
-    /// Takes all of it into the buffer, or nothing.
+impl Bytes {
+    /// Takes all of it into the outbox, or nothing.
     pub(super) fn put(&mut self, bytes: &[u8]) -> bool {
         let fits = self.outbox.len().saturating_add(bytes.len()) <= CAPACITY;
         if fits {
             self.outbox.extend_from_slice(bytes);
         }
         fits
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_cycle_does_not_wait_for_the_thread() {
+        let shared = Shared::new(true);
+        let held = shared.lock();
+        assert!(shared.at_once().is_none());
+        assert_eq!(shared.state(), LinkState::Opening);
+        shared.opened(false);
+        assert!(shared.state() == LinkState::Open && shared.is_free() && !shared.is_done());
+        shared.close();
+        assert!(shared.is_closing() && !shared.is_over());
+        shared.end(LinkState::Lost("gone".into()));
+        assert!(shared.is_over() && shared.is_done());
+        drop(held);
+        assert!(shared.at_once().is_some_and(|mut bytes| bytes.put(b"x") && !bytes.put(&[0; CAPACITY])));
     }
 }

@@ -9,7 +9,7 @@ use mio::{Events, Poll};
 use super::line::{self, LineSettings};
 use super::link::LinkState;
 use super::shared::Shared;
-use super::worker::{Stream, attempt, is_closing, wait};
+use super::worker::{Stream, attempt, wait};
 use crate::fieldbus::modbus::SharedTables;
 use crate::fieldbus::modbus::pdu::{self, Answer};
 use crate::fieldbus::modbus::rtu::{self, Heard, LONGEST_FRAME, Request};
@@ -54,7 +54,7 @@ pub(super) fn serve(shared: &Shared, poll: &mut Poll, settings: &SlaveSettings) 
         Ok(None) => return LinkState::Failed("closed by the program".into()),
         Err(error) => return LinkState::Failed(error.to_string()),
     };
-    shared.lock().opened(true);
+    shared.opened(true);
     LinkState::Lost(match exchange(shared, poll, &mut stream, settings) {
         Ok(()) => "closed by the program".into(),
         Err(error) => error.to_string(),
@@ -71,7 +71,7 @@ fn exchange(
     let mut heard = Heard::default();
     let mut last = Instant::now();
     let mut piece = [0; LONGEST_FRAME];
-    while !is_closing(shared) {
+    while !shared.is_closing() {
         match attempt(|| stream.read(&mut piece))? {
             Some(0) => return Err(Error::new(ErrorKind::UnexpectedEof, "the line is gone")),
             Some(count) => {
@@ -124,7 +124,7 @@ fn send(shared: &Shared, poll: &mut Poll, stream: &mut impl Stream, bytes: &[u8]
     let mut events = Events::with_capacity(4);
     let deadline = Instant::now() + SENDING;
     let mut sent = 0;
-    while sent < bytes.len() && Instant::now() < deadline && !is_closing(shared) {
+    while sent < bytes.len() && Instant::now() < deadline && !shared.is_closing() {
         match attempt(|| stream.write(bytes.get(sent..).unwrap_or_default()))? {
             Some(count) => sent += count,
             None => wait(poll, &mut events, Some(deadline))?,

@@ -103,7 +103,7 @@ pub async fn readuntil(cx: &Cx, s: &Socket, data: &mut Str, cut: &Str) -> Result
 /// None.
 pub async fn clearbuff(cx: &Cx, s: &Socket) -> Result<bool, Fault> {
     cx.motion_end().await;
-    Ok(s.0.clear())
+    Ok(s.0.clear(cx).await)
 }
 
 /// A lost connection is an alarm, unless the program looks for it itself.

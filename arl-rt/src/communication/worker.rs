@@ -53,9 +53,7 @@ pub(super) fn serve(shared: &Shared, mut poll: Poll, opening: &Opening) {
         Opening::Line(settings) => run(shared, &mut poll, opening, |poll| line::open(poll, settings)),
         Opening::Slave(settings) => slave::serve(shared, &mut poll, settings),
     };
-    let mut common = shared.lock();
-    common.state = state;
-    common.over = true;
+    shared.end(state);
 }
 
 /// Opens a stream and carries bytes both ways; the state that it leaves. The stream is closed then.
@@ -71,7 +69,7 @@ fn run<S: Stream>(
         Ok(None) => return LinkState::Failed(CLOSED.into()),
         Err(error) => return LinkState::Failed(error.to_string()),
     };
-    shared.lock().opened(matches!(opening, Opening::Line(_)));
+    shared.opened(matches!(opening, Opening::Line(_)));
     LinkState::Lost(match exchange(shared, poll, &mut stream) {
         Ok(()) => CLOSED.into(),
         Err(error) => error.to_string(),
@@ -96,7 +94,7 @@ fn exchange<S: Stream>(shared: &Shared, poll: &mut Poll, stream: &mut S) -> io::
     let mut flight = Flight::default();
     let mut deadline = None;
     loop {
-        let closing = is_closing(shared);
+        let closing = shared.is_closing();
         // What comes is taken before anything is sent: a stream that is broken for sending may still hold it.
         let received = if closing { Flow::Nothing } else { receive(shared, stream, &mut piece)? };
         let sent = send(shared, stream, &mut flight)?;
@@ -176,11 +174,6 @@ pub(super) fn attempt(mut call: impl FnMut() -> io::Result<usize>) -> io::Result
             Err(error) => return Err(error),
         }
     }
-}
-
-/// Whether the cycle wants the connection closed.
-pub(super) fn is_closing(shared: &Shared) -> bool {
-    shared.lock().closing
 }
 
 /// Waits until the stream is ready, the cycle wakes the thread, or the deadline has come.

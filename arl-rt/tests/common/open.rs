@@ -4,7 +4,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 /// The names that our threads have.
-const THREADS: [&str; 2] = ["connection", "modbus-tcp"];
+const THREADS: [&str; 3] = ["connection", "connections", "modbus-tcp"];
 
 /// What descriptors of connections lead to.
 const KINDS: [&str; 4] = ["socket:", "anon_inode:", "/dev/pts/", "/dev/ptmx"];

@@ -23,6 +23,14 @@ impl Manner {
     pub(crate) const ALL: [Manner; 6] =
         [Manner::LeavesHalfway, Manner::Resets, Manner::Silent, Manner::ByteByByte, Manner::Garbage, Manner::Floods];
 
+    /// How many cycles a program waits for the answer: for one that comes, as long as a busy computer may need.
+    pub(crate) fn patience(self) -> u64 {
+        match self {
+            Manner::LeavesHalfway | Manner::Resets | Manner::ByteByByte => 30_000,
+            Manner::Silent | Manner::Garbage | Manner::Floods => 300,
+        }
+    }
+
     /// Takes a question of so many bytes and answers it in this manner. Returns when the other side has gone, or goes itself.
     pub(crate) fn play(self, mut stream: impl Read + Write, question: usize, answer: &[u8]) {
         let mut asked = vec![0; if self == Manner::Resets { 1 } else { question }];

@@ -20,11 +20,11 @@ async fn open(cx: &Cx, line: &Iodev, name: &Str) -> Done<bool> {
     serial::open(cx, line, name, 115_200, 8, Stopbits::One, Parity::None).await.at(FILE, 1)
 }
 
-/// Asks, and prints what comes back in 0.3 s, if it is a line.
-async fn ask(cx: &Cx, line: &Iodev) -> Done<()> {
+/// Asks, and prints what comes back in so many cycles, if it is a line.
+async fn ask(cx: &Cx, line: &Iodev, patience: u64) -> Done<()> {
     let mut answer = Str::literal("-");
     serial::write_string(cx, line, &QUESTION).await.at(FILE, 2)?;
-    let until = cx.cycle() + 300;
+    let until = cx.cycle() + patience;
     while cx.cycle() < until && !serial::readuntil(cx, line, &mut answer, &Str::literal("\n")).await.at(FILE, 3)? {
         cx.next_cycle().await;
     }
@@ -47,12 +47,14 @@ fn ask_twice(manner: Manner) -> String {
     watched(|| {
         let outlet = Outlet::new();
         let name = outlet.name();
+        let patience = Rc::new(Cell::new(manner.patience()));
+        let given = Rc::clone(&patience);
         let mut robot = Robot::new(Controller::builder(), move |cx: &Cx| {
-            let name = name.clone();
+            let (name, patience) = (name.clone(), given.get());
             Box::pin(async move {
                 let line = Iodev::default();
                 say(cx, &open(cx, &line, &name).await?)?;
-                ask(cx, &line).await
+                ask(cx, &line, patience).await
             })
         });
         let plug = outlet.plug();
@@ -61,6 +63,7 @@ fn ask_twice(manner: Manner) -> String {
         peer.join().unwrap();
         let plug = outlet.plug();
         let peer = std::thread::spawn(move || behave(plug));
+        patience.set(Manner::ByteByByte.patience());
         assert_eq!(robot.run().told(), "true\nthe whole message\n", "the program goes on after {manner:?}");
         peer.join().unwrap();
         told
@@ -157,7 +160,7 @@ fn a_line_is_opened_and_closed_a_thousand_times() {
                 }
                 say(cx, &opened)?;
                 open(cx, &line, &name).await?;
-                ask(cx, &line).await
+                ask(cx, &line, Manner::ByteByByte.patience()).await
             })
         });
         let plug = outlet.plug();
@@ -180,7 +183,7 @@ fn a_line_that_is_taken_is_false_until_it_is_free() {
                 say(cx, &open(cx, &second, &name).await?)?;
                 serial::close(cx, &first).await;
                 say(cx, &open(cx, &second, &name).await?)?;
-                ask(cx, &second).await
+                ask(cx, &second, Manner::ByteByByte.patience()).await
             })
         });
         let plug = outlet.plug();
@@ -213,7 +216,7 @@ fn a_line_that_is_unplugged_is_opened_again_when_it_is_back() {
                     let new = outlet.plug();
                     std::thread::spawn(move || behave(new));
                     say(cx, &open(cx, &line, &name).await?)?;
-                    ask(cx, &line).await
+                    ask(cx, &line, Manner::ByteByByte.patience()).await
                 })
             }
         });

@@ -70,10 +70,10 @@ async fn open(cx: &Cx, s: &Socket, side: Side, port: i32) -> Done<()> {
     }
 }
 
-/// Asks, and prints what comes back in 0.3 s, if it is a line, and the state of the connection.
-async fn ask(cx: &Cx, s: &Socket) -> Done<()> {
+/// Asks, and prints what comes back in so many cycles, if it is a line, and the state of the connection.
+async fn ask(cx: &Cx, s: &Socket, patience: u64) -> Done<()> {
     let mut answer = Str::literal("-");
-    let (mut asked, until) = (false, cx.cycle() + 300);
+    let (mut asked, until) = (false, cx.cycle() + patience);
     let detect = cx.system().detect_socket_close.get();
     while cx.cycle() < until && !(detect && socket::geterror(cx, s).await.at(FILE, 2)? != 0) {
         asked = asked || socket::write_string(cx, s, &QUESTION).await.at(FILE, 3)?;
@@ -95,17 +95,21 @@ fn ask_twice(side: Side, manner: Manner, detect: bool) -> String {
                 manner.play(meeting.meet(), QUESTION.as_bytes().len(), ANSWER);
             }
         });
+        let patience = Rc::new(Cell::new(manner.patience()));
+        let given = Rc::clone(&patience);
         let mut robot = Robot::new(Controller::builder(), move |cx: &Cx| {
+            let patience = given.get();
             Box::pin(async move {
                 cx.system().detect_socket_close.set(detect);
                 let s = Socket::default();
                 open(cx, &s, side, port).await?;
-                ask(cx, &s).await?;
+                ask(cx, &s, patience).await?;
                 socket::close(cx, &s).await;
                 say(cx, &socket::geterror(cx, &s).await.at(FILE, 6)?)
             })
         });
         let told = robot.run().told();
+        patience.set(Manner::ByteByByte.patience());
         assert_eq!(robot.run().told(), "the whole message\n0\n0\n", "the program goes on after {manner:?}");
         drop(robot);
         peer.join().unwrap();
@@ -178,7 +182,7 @@ fn flooded(seconds: u64) {
                     }
                     socket::close(cx, &s).await;
                     open(cx, &s, side, port).await?;
-                    ask(cx, &s).await
+                    ask(cx, &s, Manner::ByteByByte.patience()).await
                 })
             });
             let end = robot.run();
@@ -258,7 +262,7 @@ fn a_port_that_is_taken_is_waited_for() {
                 let start = cx.cycle();
                 open(cx, &s, Side::Server, port).await?;
                 say(cx, &(cx.cycle() > start + 100))?;
-                ask(cx, &s).await
+                ask(cx, &s, Manner::ByteByByte.patience()).await
             })
         });
         assert_eq!(robot.run().told(), "true\nthe whole message\n0\n");

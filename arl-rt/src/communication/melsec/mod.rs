@@ -158,10 +158,14 @@ impl MelsecDev {
                 _ => Some(Vec::new()),
             });
         }
-        if self.has_waiting(function)? {
-            // It would be taken for the answer.
-            self.handle.close();
-            return Err(fault(function, "the PLC has sent more than it was asked for"));
+        // What is there already would be taken for the answer.
+        match self.handle.take(function, |inbox| Some(inbox.waiting().is_empty()))? {
+            Found::This(true) => {}
+            Found::NotYet => return Ok(None),
+            Found::This(false) | Found::Lost(_) => {
+                self.handle.close();
+                return Err(fault(function, "the PLC has sent more than it was asked for"));
+            }
         }
         match self.handle.send(function, &request)? {
             Found::This(()) => talk.asked = Some(Asked { request, since: Instant::now() }),
@@ -169,12 +173,6 @@ impl MelsecDev {
             Found::Lost(reason) => return Err(lost(function, &reason)),
         }
         Ok(None)
-    }
-
-    /// Whether something has come that was not asked for.
-    fn has_waiting(&self, function: &'static str) -> Result<bool, Fault> {
-        let found = self.handle.take(function, |inbox| Some(!inbox.waiting().is_empty()))?;
-        Ok(matches!(found, Found::This(true)))
     }
 
     /// The answer, as code and data, if it has come.

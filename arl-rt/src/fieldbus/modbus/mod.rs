@@ -7,8 +7,9 @@ pub(crate) mod rtu;
 pub(crate) mod server;
 mod tables;
 
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use crate::at_once::at_once;
 pub(crate) use tables::{SIZE, Tables};
 
 impl PartialEq for SharedTables {
@@ -25,9 +26,6 @@ impl std::fmt::Debug for SharedTables {
     }
 }
 
-/// How often the cycle looks again whether the tables are free. Whoever has them copies some hundred bytes.
-const LOOKS: usize = 1000;
-
 /// Tables that a program and its clients share.
 #[derive(Clone, Default)]
 pub(crate) struct SharedTables(Arc<Mutex<Tables>>);
@@ -41,13 +39,6 @@ impl SharedTables {
     /// The tables, unless somebody else has them for longer than it takes to copy what one request may ask for: its
     /// thread was interrupted just then. The cycle does not wait for that.
     pub(crate) fn at_once(&self) -> Option<MutexGuard<'_, Tables>> {
-        for _ in 0..LOOKS {
-            match self.0.try_lock() {
-                Ok(tables) => return Some(tables),
-                Err(TryLockError::Poisoned(tables)) => return Some(tables.into_inner()),
-                Err(TryLockError::WouldBlock) => std::hint::spin_loop(),
-            }
-        }
-        None
+        at_once(&self.0)
     }
 }
