@@ -140,14 +140,14 @@ impl State {
     pub(crate) fn load(&mut self, name: &'static str) -> Result<Option<String>, StateError> {
         let content = self.storage.load(name).map_err(|error| self.error(name, format!("cannot be read: {error}")))?;
         let Some(content) = content else { return Ok(None) };
-        let text = unseal(&content).ok_or_else(|| self.damaged(name))?;
+        let text = unseal(name, &content).ok_or_else(|| self.damaged(name))?;
         self.known.insert(name, text.to_owned());
         Ok(Some(text.to_owned()))
     }
 
     /// Writes a value.
     pub(crate) fn save(&mut self, name: &'static str, text: String) -> Result<(), StateError> {
-        let stored = self.storage.store(name, seal(&text).as_bytes());
+        let stored = self.storage.store(name, seal(name, &text).as_bytes());
         stored.map_err(|error| self.error(name, format!("cannot be written: {error}")))?;
         self.known.insert(name, text);
         Ok(())
@@ -162,20 +162,23 @@ impl State {
     }
 }
 
-/// The text with a last line that tells whether it is whole.
-fn seal(text: &str) -> String {
-    format!("{text}check {:016x}\n", check(text))
+/// The text with a last line that tells whether it is whole, and this variable's.
+fn seal(name: &str, text: &str) -> String {
+    format!("{text}check {:016x}\n", check(name, text))
 }
 
-fn unseal(content: &[u8]) -> Option<&str> {
+fn unseal<'a>(name: &str, content: &'a [u8]) -> Option<&'a str> {
     let text = std::str::from_utf8(content).ok()?.strip_suffix('\n')?;
     let (body, sum) = text.rsplit_once("check ")?;
-    (u64::from_str_radix(sum, 16) == Ok(check(body))).then_some(body)
+    (u64::from_str_radix(sum, 16) == Ok(check(name, body))).then_some(body)
 }
 
 /// FNV-1a.
-fn check(text: &str) -> u64 {
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, |sum, byte| (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
+fn check(name: &str, text: &str) -> u64 {
+    name.bytes()
+        .chain([0])
+        .chain(text.bytes())
+        .fold(0xcbf2_9ce4_8422_2325, |sum, byte| (sum ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 #[cfg(test)]
@@ -184,15 +187,16 @@ mod tests {
 
     #[test]
     fn what_is_damaged_is_noticed() {
-        let whole = seal("1\n2\n3\n");
-        assert_eq!(unseal(whole.as_bytes()), Some("1\n2\n3\n"));
+        let whole = seal("$A", "1\n2\n3\n");
+        assert_eq!(unseal("$A", whole.as_bytes()), Some("1\n2\n3\n"));
+        assert_eq!(unseal("$B", whole.as_bytes()), None, "another variable's");
         for cut in 0..whole.len() {
-            assert_eq!(unseal(&whole.as_bytes()[..cut]), None, "cut at {cut}");
+            assert_eq!(unseal("$A", &whole.as_bytes()[..cut]), None, "cut at {cut}");
         }
         for at in 0..whole.len() - 1 {
             let mut changed = whole.clone().into_bytes();
             changed[at] ^= 1;
-            assert_eq!(unseal(&changed), None, "changed at {at}");
+            assert_eq!(unseal("$A", &changed), None, "changed at {at}");
         }
     }
 

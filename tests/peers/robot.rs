@@ -47,7 +47,7 @@ pub(crate) struct Robot {
 pub(crate) struct End {
     /// What was printed.
     pub(crate) out: String,
-    /// What stood on the standard error.
+    /// What stood on the standard error, but for how busy the computer was.
     pub(crate) said: String,
     pub(crate) code: Option<i32>,
 }
@@ -96,6 +96,7 @@ impl Robot {
         let (mut out, mut said) = (String::new(), String::new());
         self.child.stdout.take().unwrap().read_to_string(&mut out).unwrap();
         self.said.read_to_string(&mut said).unwrap();
+        let said = said.split_inclusive('\n').filter(|line| !line.contains(" control cycles began late: ")).collect();
         End { out, said, code: self.child.wait().unwrap().code() }
     }
 }

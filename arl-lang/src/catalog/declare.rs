@@ -268,6 +268,8 @@ setters! { Entry:
     acts() { effect = Effect::Acts }
     /// Plans motion; not in the background.
     plans() { effect = Effect::Plans, background = false }
+    /// Takes its time; motion goes on.
+    lasts() { effect = Effect::Lasts }
     /// Waits until all earlier motion has ended.
     waits() { effect = Effect::Waits }
     /// Ends the program or starts it again.

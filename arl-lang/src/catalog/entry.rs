@@ -21,10 +21,19 @@ pub enum Effect {
     Acts,
     /// Plans motion: waits only while the look-ahead is full.
     Plans,
+    /// Takes the cycles that its work takes, whatever the robot does meanwhile.
+    Lasts,
     /// Waits until all earlier motion has ended, and maybe longer. Stops the look-ahead.
     Waits,
     /// Ends the program or starts it again.
     Ends,
+}
+
+impl Effect {
+    /// Whether the call may take longer than its cycle: the runtime's function is `async`.
+    pub fn takes_time(self) -> bool {
+        matches!(self, Self::Plans | Self::Lasts | Self::Waits)
+    }
 }
 
 /// The values a parameter takes.

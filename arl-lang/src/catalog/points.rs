@@ -33,7 +33,7 @@ entries! { pub(super) POINTS =
         pose_name: string "name of the pose in it",
         p: pose "the value",
     ) -> bool
-        { "5.11.4", points::saveposenow, waits, fails;
+        { "5.11.4", points::saveposenow, lasts, fails;
           "pose a = {x 0,y 10,z 15,a 0,b 90,c 0}\nprint saveposenow(1,\"prog1.arl\",\"p1\",a)" }
     /// Writes a joint to a point of the program of a foreground channel; it counts at once.
     fn savejointnow(
@@ -42,13 +42,13 @@ entries! { pub(super) POINTS =
         joint_name: string [alias(&["pose_name"])] "name of the joint in it",
         j: joint "the value",
     ) -> bool
-        { "5.11.5", points::savejointnow, waits, fails;
+        { "5.11.5", points::savejointnow, lasts, fails;
           "joint a = {0,10,20,30,40,50}\nprint savejointnow(1,\"prog1.arl\",\"j1\",a)" }
     /// Stops and unloads the program of a foreground channel and runs another one there; from background channels only.
     fn switcharl(
         channel: uint [range(1.0, 6.0)] "the channel, 1 to 6",
         file_name: string "the program",
     ) -> bool
-        { "5.11.6", channel::switcharl, waits, fails, alias(&["switchar"]);
+        { "5.11.6", channel::switcharl, lasts, fails, alias(&["switchar"]);
           "print switcharl(1,\"recipe1.arl\")" }
 }

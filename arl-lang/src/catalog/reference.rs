@@ -164,6 +164,7 @@ fn effect(entry: &Entry) -> &'static str {
         Effect::Pure => "It computes only.",
         Effect::Acts => "It takes effect at once and does not wait for the robot.",
         Effect::Plans => "It plans motion ahead: the program goes on while the robot moves.",
+        Effect::Lasts => "The program goes on when it is done; motion goes on meanwhile.",
         Effect::Waits => "It waits until all motion so far has ended: the robot stops at its last target.",
         Effect::Ends => "All motion so far runs to its end first.",
     }

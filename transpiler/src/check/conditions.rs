@@ -87,7 +87,7 @@ fn culprits(facts: &[Facts<'_>]) -> Vec<Option<&'static str>> {
 fn instruction(expr: &Expr) -> Option<&'static str> {
     let ExprKind::Builtin(builtin) = &expr.kind else { return None };
     let entry = builtin.entry;
-    let waits = matches!(entry.effect, Effect::Waits | Effect::Plans | Effect::Ends);
+    let waits = entry.effect.takes_time() || entry.effect == Effect::Ends;
     (entry.kind == Kind::Instruction && waits).then_some(entry.name)
 }
 

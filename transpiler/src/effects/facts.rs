@@ -279,7 +279,7 @@ impl Collector<'_> {
                 let context = (!pure && entry.effect != Effect::Ends) || conditions;
                 self.facts.context |= context;
                 self.facts.points |= context;
-                self.facts.waits |= matches!(entry.effect, Effect::Plans | Effect::Waits);
+                self.facts.waits |= entry.effect.takes_time();
                 self.facts.fails |= entry.fails || entry.effect == Effect::Ends;
             }
             ExprKind::Struct(_, values) => values.iter().flatten().for_each(|value| self.expr(value)),

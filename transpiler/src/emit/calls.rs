@@ -68,7 +68,7 @@ impl<'p> Body<'p, '_> {
             Kind::Function => self.function_call(entry, &arguments),
             Kind::Instruction => instruction_call(entry, &arguments, quote!(run)),
         };
-        if matches!(entry.effect, Effect::Plans | Effect::Waits) {
+        if entry.effect.takes_time() {
             call = quote!(#call.await);
         }
         if entry.fails {

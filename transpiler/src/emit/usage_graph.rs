@@ -9,7 +9,7 @@ use crate::effects::facts::{self, children};
 use crate::effects::{flow, loops};
 use crate::hir::{Expr, ExprKind, Func, FuncId, LocalId, LoopInfo, Passed, Place, Root, Stmt, StmtKind};
 use arl_lang::ast::BinaryOp;
-use arl_lang::catalog::{Effect, Entry, Mode};
+use arl_lang::catalog::{Entry, Mode};
 use std::collections::HashMap;
 
 /// More bits than this for one analysis are not worth it.
@@ -522,7 +522,7 @@ impl Builder<'_> {
             }
             ExprKind::Builtin(builtin) => {
                 children(expr).into_iter().for_each(|child| self.expr(child, true));
-                if matches!(builtin.entry.effect, Effect::Plans | Effect::Waits) {
+                if builtin.entry.effect.takes_time() {
                     self.op(Op::Wait);
                 }
                 for arg in &builtin.args {
