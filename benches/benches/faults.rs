@@ -39,9 +39,11 @@ enum Talk {
     Registers,
 }
 
+/// What a peer does with a connection.
+type Manner = fn(TcpStream);
+
 /// What a peer does.
-const PEERS: [(&str, fn(TcpStream)); 4] =
-    [("answers", answers), ("floods", floods), ("silent", silent), ("leaves", leaves)];
+const PEERS: [(&str, Manner); 4] = [("answers", answers), ("floods", floods), ("silent", silent), ("leaves", leaves)];
 
 /// Name, the program, its peer, and the scenario that it is compared with.
 const SCENARIOS: [(&str, Talk, &str, &str); 6] = [
