@@ -13,10 +13,11 @@ use std::process::{Child, Command, Stdio};
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
+use arl_benches::script::script;
 use arl_benches::statistics::{median, processor_time};
 use arl_rt::clock_source::Clock;
 use arl_rt::emit::*;
-use arl_rt::{Builder, Controller, Program};
+use arl_rt::{Builder, Controller};
 
 const FILE: File = File::new("talk.arl");
 const HERE: Str = Str::literal("127.0.0.1");
@@ -151,79 +152,40 @@ impl Clock for Meter {
 }
 
 /// Moves to and fro for ever.
-struct Moves;
-
-impl Program for Moves {
-    fn file(&self) -> File {
-        FILE
-    }
-
-    fn family(&self) -> Family {
-        Family::SixAxis
-    }
-
-    fn init<'a>(&'a self, _: &'a Cx) -> BoxFuture<'a> {
-        Box::pin(async { Ok(()) })
-    }
-
-    fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
-        Box::pin(async move {
-            loop {
-                for j1 in [150.0, -150.0] {
-                    let target = Joint::of_axes([j1, -90.0, 90.0, 0.0, 45.0, 0.0]);
-                    motion::movej(target).vp(2.0).run(cx).await.at(FILE, 1)?;
-                }
-            }
-        })
+async fn moves(cx: &Cx) -> Done<()> {
+    loop {
+        for j1 in [150.0, -150.0] {
+            let target = Joint::of_axes([j1, -90.0, 90.0, 0.0, 45.0, 0.0]);
+            motion::movej(target).vp(2.0).run(cx).await.at(FILE, 1)?;
+        }
     }
 }
 
-struct Talks {
-    talk: Talk,
-    port: i32,
-}
-
-impl Program for Talks {
-    fn file(&self) -> File {
-        FILE
+async fn talks(cx: &Cx, talk: Talk, port: i32) -> Done<()> {
+    if talk == Talk::Registers {
+        return registers(cx).await;
     }
-
-    fn family(&self) -> Family {
-        Family::SixAxis
-    }
-
-    fn init<'a>(&'a self, _: &'a Cx) -> BoxFuture<'a> {
-        Box::pin(async { Ok(()) })
-    }
-
-    fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
-        Box::pin(async move {
-            if self.talk == Talk::Registers {
-                return registers(cx).await;
-            }
-            let s = Socket::default();
-            let (request, mut answer) = (Str::from([b'x'; 64].as_slice()), Str::new());
-            loop {
-                while !socket::connect(cx, &s, &HERE, self.port).await.at(FILE, 3)? {
+    let s = Socket::default();
+    let (request, mut answer) = (Str::from([b'x'; 64].as_slice()), Str::new());
+    loop {
+        while !socket::connect(cx, &s, &HERE, port).await.at(FILE, 3)? {
+            cx.next_cycle().await;
+        }
+        loop {
+            if talk != Talk::Read {
+                while !socket::write_string(cx, &s, &request).await.at(FILE, 4)? {
                     cx.next_cycle().await;
                 }
-                loop {
-                    if self.talk != Talk::Read {
-                        while !socket::write_string(cx, &s, &request).await.at(FILE, 4)? {
-                            cx.next_cycle().await;
-                        }
-                    }
-                    while !socket::read_string(cx, &s, &mut answer, 64).await.at(FILE, 5)? {
-                        cx.next_cycle().await;
-                    }
-                    if self.talk == Talk::Reconnect {
-                        break;
-                    }
-                    cx.next_cycle().await;
-                }
-                socket::close(cx, &s).await;
             }
-        })
+            while !socket::read_string(cx, &s, &mut answer, 64).await.at(FILE, 5)? {
+                cx.next_cycle().await;
+            }
+            if talk == Talk::Reconnect {
+                break;
+            }
+            cx.next_cycle().await;
+        }
+        socket::close(cx, &s).await;
     }
 }
 
@@ -264,7 +226,9 @@ fn run(talk: Talk, peer: &str, seconds: f64) -> Result {
         port = peer.1;
         started = Some(peer);
     }
-    let mut controller = builder.background(Box::new(Talks { talk, port })).build(Box::new(Moves)).unwrap();
+    let talks = script(FILE, move |cx| Box::pin(talks(cx, talk, port)));
+    let moves = script(FILE, |cx| Box::pin(moves(cx)));
+    let mut controller = builder.background(talks).build(moves).unwrap();
     if let Some(address) = controller.modbus_tcp_address() {
         started = Some(Peer::start(peer, address.port()));
     }

@@ -13,8 +13,9 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use arl_rt::emit::*;
-use arl_rt::{Builder, Cell, Program};
+use arl_benches::script::script;
+use arl_rt::emit::File;
+use arl_rt::{Builder, Cell};
 
 /// What makes this very program the server.
 const SERVE: &str = "--serve";
@@ -139,31 +140,11 @@ impl Drop for Server {
     }
 }
 
-/// A program that does nothing.
-struct Nothing;
-
-impl Program for Nothing {
-    fn file(&self) -> File {
-        File::new("nothing.arl")
-    }
-
-    fn family(&self) -> Family {
-        Family::SixAxis
-    }
-
-    fn init<'a>(&'a self, _: &'a Cx) -> BoxFuture<'a> {
-        Box::pin(async { Ok(()) })
-    }
-
-    fn main<'a>(&'a self, _: &'a Cx) -> BoxFuture<'a> {
-        Box::pin(async { Ok(()) })
-    }
-}
-
 /// Serves until the standard input ends.
 fn serve() {
     let cell = Cell::parse("cell.toml", "[modbus_tcp]\nport = 0\n").unwrap();
-    let controller = Builder::default().cell(cell).build(Box::new(Nothing)).unwrap();
+    let nothing = script(File::new("nothing.arl"), |_| Box::pin(async { Ok(()) }));
+    let controller = Builder::default().cell(cell).build(nothing).unwrap();
     println!("{}", controller.modbus_tcp_address().unwrap().port());
     let _ = std::io::stdin().read(&mut [0]);
 }

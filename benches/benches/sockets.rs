@@ -10,52 +10,32 @@ use std::net::{TcpListener, TcpStream};
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
+use arl_benches::script::script;
 use arl_rt::emit::*;
-use arl_rt::{Builder, Controller, Program};
+use arl_rt::{Builder, Controller};
 
 const ROUNDS: usize = 2000;
 const FILE: File = File::new("ask.arl");
 
 /// What a program in ARL that asks and waits for the answer becomes, with a clock around each exchange.
-struct Ask {
-    port: i32,
-    times: Rc<RefCell<Vec<Duration>>>,
-}
-
-impl Program for Ask {
-    fn file(&self) -> File {
-        FILE
+async fn ask(cx: &Cx, port: i32, times: &RefCell<Vec<Duration>>) -> Done<()> {
+    let s = Socket::default();
+    while !socket::connect(cx, &s, &Str::literal("127.0.0.1"), port).await.at(FILE, 3)? {
+        cx.next_cycle().await;
     }
-
-    fn family(&self) -> Family {
-        Family::SixAxis
+    let request = Str::from([b'x'; 64].as_slice());
+    let mut answer = Str::new();
+    for _ in 0..ROUNDS {
+        let start = Instant::now();
+        while !socket::write_string(cx, &s, &request).await.at(FILE, 4)? {
+            cx.next_cycle().await;
+        }
+        while !socket::read_string(cx, &s, &mut answer, 64).await.at(FILE, 5)? {
+            cx.next_cycle().await;
+        }
+        times.borrow_mut().push(start.elapsed());
     }
-
-    fn init<'a>(&'a self, _: &'a Cx) -> BoxFuture<'a> {
-        Box::pin(async { Ok(()) })
-    }
-
-    fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
-        Box::pin(async move {
-            let s = Socket::default();
-            while !socket::connect(cx, &s, &Str::literal("127.0.0.1"), self.port).await.at(FILE, 3)? {
-                cx.next_cycle().await;
-            }
-            let request = Str::from([b'x'; 64].as_slice());
-            let mut answer = Str::new();
-            for _ in 0..ROUNDS {
-                let start = Instant::now();
-                while !socket::write_string(cx, &s, &request).await.at(FILE, 4)? {
-                    cx.next_cycle().await;
-                }
-                while !socket::read_string(cx, &s, &mut answer, 64).await.at(FILE, 5)? {
-                    cx.next_cycle().await;
-                }
-                self.times.borrow_mut().push(start.elapsed());
-            }
-            Ok(())
-        })
-    }
+    Ok(())
 }
 
 /// A server that sends back what comes, for one client.
@@ -89,8 +69,12 @@ fn plain() -> Vec<Duration> {
 
 fn ours() -> Vec<Duration> {
     let times = Rc::new(RefCell::new(Vec::with_capacity(ROUNDS)));
-    let program = Ask { port: i32::from(echo()), times: Rc::clone(&times) };
-    let mut controller = Builder::default().build(Box::new(program)).unwrap();
+    let (port, kept) = (i32::from(echo()), Rc::clone(&times));
+    let program = script(FILE, move |cx| {
+        let times = Rc::clone(&kept);
+        Box::pin(async move { ask(cx, port, &times).await })
+    });
+    let mut controller = Builder::default().build(program).unwrap();
     controller.run_for(60.0);
     drop::<Controller>(controller);
     times.take()

@@ -8,5 +8,6 @@ pub mod programs;
 pub mod random;
 pub mod rivals;
 pub mod run;
+pub mod script;
 pub mod splines;
 pub mod statistics;

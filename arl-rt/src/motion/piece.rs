@@ -71,7 +71,7 @@ impl Piece {
             speeds: None,
             stops: true,
             ends: motion.ends,
-            duration: (from == 0.0 && to == 1.0).then(|| whole(motion, limits)),
+            duration: (from == 0.0 && to == 1.0).then(|| motion.duration_with(&limits)),
             target: motion.end,
             shares: [from, to],
             length: motion.length,
@@ -244,11 +244,6 @@ impl Piece {
         let [from, to] = self.shares;
         from + (to - from) * (at / self.time).clamp(0.0, 1.0)
     }
-}
-
-/// How long a motion takes from rest to rest, in s: where it has a duration, to the last digits.
-fn whole(motion: &Motion, limits: Limits) -> f64 {
-    if motion.timed { motion.duration() } else { limits.duration(1.0) }
 }
 
 /// Whether every place of a motion has limits of its own: in the profile O, unless its duration is given or it weaves, which

@@ -67,9 +67,15 @@ impl Motion {
         &self.end
     }
 
-    /// How long it takes from rest to rest at an override of 100 %, in s.
+    /// How long it takes from rest to rest at an override of 100 %, in s: where its duration is given, as it is executed, braking a
+    /// little more gently than its limits allow; else as the limits allow.
     pub fn duration(&self) -> f64 {
-        self.limits.map_or(0.0, |limits| limits.duration_braking(1.0, MARGIN))
+        self.limits.map_or(0.0, |limits| self.duration_with(&limits))
+    }
+
+    /// The same with these limits.
+    pub(super) fn duration_with(&self, limits: &Limits) -> f64 {
+        if self.timed { limits.duration_braking(1.0, MARGIN) } else { limits.duration(1.0) }
     }
 
     /// Whether anything moves.

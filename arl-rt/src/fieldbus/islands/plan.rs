@@ -147,8 +147,11 @@ impl Run {
 
     /// What it is, for messages.
     pub(super) fn describe(&self) -> String {
-        let (name, start, last) = (self.table.plural(), self.start, u32::from(self.start) + u32::from(self.count) - 1);
-        if self.count == 1 { format!("{name} {start}") } else { format!("{name} {start} to {last}") }
+        let (start, last) = (self.start, u32::from(self.start) + u32::from(self.count) - 1);
+        match self.count {
+            1 => format!("{} {start}", self.table.singular()),
+            _ => format!("{}s {start} to {last}", self.table.singular()),
+        }
     }
 }
 
@@ -186,7 +189,7 @@ mod tests {
         );
         assert_eq!(shapes(&plan.writes), [(Table::HoldingRegister, 3, 3)]);
         assert_eq!(plan.reads[1].describe(), "discrete inputs 0 to 15");
-        assert_eq!(plan.reads[0].describe(), "coils 0");
+        assert_eq!(plan.reads[0].describe(), "coil 0");
     }
 
     #[test]

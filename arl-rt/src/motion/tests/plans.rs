@@ -186,7 +186,8 @@ fn durations_are_kept_or_refused() {
     let least = plan_one(&movej(goal), &Settings::default()).unwrap().duration();
     match plan_one(&Command { duration: Some(least * 0.9), ..movej(goal) }, &Settings::default()) {
         Err(PlanError::Duration { wanted, least: told }) => {
-            assert!((told - least).abs() < 1e-9 && wanted < told);
+            // A duration counts on braking a little more gently.
+            assert!(told >= least && told < 1.001 * least && wanted < told);
         }
         other => panic!("{other:?}"),
     }
