@@ -177,7 +177,7 @@ fn a_refusal_names_what_is_refused() {
     islands[0].points.di[0].table = arl_robot::islands::Table::DiscreteInput;
     let error = Islands::start(&islands).err().unwrap();
     assert!(
-        error.contains("it refuses discrete inputs 100 with exception 1: it does not have this function"),
+        error.contains("it refuses discrete input 100 with exception 1: it does not have this function"),
         "{error}"
     );
 }
