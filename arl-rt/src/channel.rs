@@ -5,9 +5,10 @@ use std::cell::Ref;
 
 use crate::channel_id::{ChannelId, MOST_FOREGROUND};
 use crate::cx::Cx;
-use crate::fault::{Fault, File};
+use crate::fault::Fault;
 use crate::kinematics::Axes;
 use crate::motion::Joints;
+use crate::pointers::Spot;
 use crate::pose::{pose, setting};
 use crate::robot::Axis;
 use crate::unit::{Unit, joint, tidy};
@@ -113,9 +114,18 @@ impl Foreground<'_> {
         own
     }
 
-    /// Where the motion stands that is being executed, or was last.
-    fn motion_pointer(&self) -> (File, u32) {
-        self.unit.motion_pointer().unwrap_or((self.cx.program(), 0))
+    /// Where the motion stands that is being executed, or was last, if only before the controller was switched on.
+    fn motion_pointer(&self) -> Spot {
+        let kept = || self.cx.lane().kept().motion.clone();
+        let now = self.unit.motion_pointer().map(Spot::from);
+        now.or_else(kept).unwrap_or_else(|| (self.cx.program(), 0).into())
+    }
+
+    /// Where the program stands, or stood before the controller was switched on.
+    fn program_pointer(&self) -> Spot {
+        let lane = self.cx.lane();
+        let kept = lane.kept().program.clone().filter(|_| !lane.begun.get());
+        kept.unwrap_or_else(|| self.cx.place().into())
     }
 }
 
@@ -236,34 +246,38 @@ pub fn ctcpforce(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj) -> Result<Tcpforce, F
     })
 }
 
-/// `curmpfile`: the file of the motion that is being executed, or was last; before the first one the program's own.
+/// `curmpfile`: the file of the motion that is being executed, or was last, if only before the controller was switched on;
+/// before the first one ever the program's own.
 ///
 /// # Errors
 /// There is no such channel.
 pub fn curmpfile(cx: &Cx, channel_index: i32) -> Result<Str, Fault> {
-    foreground(cx, "curmpfile", channel_index, |channel| Ok(channel.motion_pointer().0.name().into()))
+    foreground(cx, "curmpfile", channel_index, |channel| Ok(channel.motion_pointer().file))
 }
 
-/// `curmpline`: the line of the motion that is being executed, or was last; before the first one 0.
+/// `curmpline`: the line of the motion that is being executed, or was last, if only before the controller was switched on;
+/// before the first one ever 0.
 ///
 /// # Errors
 /// There is no such channel.
 pub fn curmpline(cx: &Cx, channel_index: i32) -> Result<i32, Fault> {
-    foreground(cx, "curmpline", channel_index, |channel| Ok(channel.motion_pointer().1 as i32))
+    foreground(cx, "curmpline", channel_index, |channel| Ok(channel.motion_pointer().line as i32))
 }
 
-/// `curppfile`: the file that the program stands in.
+/// `curppfile`: the file that the program stands in; until it runs, the one in which the channel's program stood when the
+/// controller was switched off.
 ///
 /// # Errors
 /// There is no such channel.
 pub fn curppfile(cx: &Cx, channel_index: i32) -> Result<Str, Fault> {
-    foreground(cx, "curppfile", channel_index, |channel| Ok(channel.cx.place().0.name().into()))
+    foreground(cx, "curppfile", channel_index, |channel| Ok(channel.program_pointer().file))
 }
 
-/// `curppline`: the line that the program stands on.
+/// `curppline`: the line that the program stands on; until it runs, the one on which the channel's program stood when the
+/// controller was switched off.
 ///
 /// # Errors
 /// There is no such channel.
 pub fn curppline(cx: &Cx, channel_index: i32) -> Result<i32, Fault> {
-    foreground(cx, "curppline", channel_index, |channel| Ok(channel.cx.place().1 as i32))
+    foreground(cx, "curppline", channel_index, |channel| Ok(channel.program_pointer().line as i32))
 }

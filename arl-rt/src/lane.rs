@@ -7,6 +7,7 @@ use crate::cell::Sensitivity;
 use crate::channel_id::ChannelId;
 use crate::fault::{Alarm, Fault, File};
 use crate::motion::Progress;
+use crate::pointers::Kept;
 use crate::program::Program;
 use crate::robot::VelocityProfile;
 use crate::system::{self, System};
@@ -23,6 +24,10 @@ pub(crate) struct Lane {
     pub(crate) system: System,
     /// The robot; a background channel has none.
     unit: Option<Rc<RefCell<Unit>>>,
+    /// Where a program stood here before the controller was switched on.
+    kept: Kept,
+    /// Whether a program has run here since.
+    pub(crate) begun: Cell<bool>,
     /// Whether the program waits for the start button.
     pub(crate) paused: Cell<bool>,
     /// The program that shall run here instead of the one that does.
@@ -59,14 +64,15 @@ pub(crate) struct Station {
     pub(crate) homes: [Option<Vec<f64>>; 4],
     pub(crate) home_tolerance: f64,
     pub(crate) collisions: Vec<(u8, Sensitivity)>,
+    pub(crate) kept: Kept,
 }
 
 impl Lane {
     /// A foreground channel.
     pub(crate) fn foreground(world: Rc<World>, id: ChannelId, index: usize, system: System, station: Station) -> Self {
-        let Station { unit, homes: [second, third, fourth, fifth], home_tolerance, collisions } = station;
+        let Station { unit, homes: [second, third, fourth, fifth], home_tolerance, collisions, kept } = station;
         let homes = [Some(unit.borrow().robot().home.clone()), second, third, fourth, fifth];
-        Self { homes, home_tolerance, collisions, unit: Some(unit), ..Self::background(world, id, index, system) }
+        Self { homes, home_tolerance, collisions, kept, unit: Some(unit), ..Self::background(world, id, index, system) }
     }
 
     /// A background channel.
@@ -77,6 +83,8 @@ impl Lane {
             index,
             system,
             unit: None,
+            kept: Kept::default(),
+            begun: Cell::new(false),
             paused: Cell::new(false),
             next: RefCell::default(),
             stepping: Stepping::default(),
@@ -87,6 +95,11 @@ impl Lane {
             home_tolerance: 0.0,
             collisions: Vec::new(),
         }
+    }
+
+    /// Where a program stood here before the controller was switched on.
+    pub(crate) fn kept(&self) -> &Kept {
+        &self.kept
     }
 
     /// The robot, for an instruction or function that a background channel cannot have.

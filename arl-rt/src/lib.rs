@@ -37,6 +37,7 @@ pub mod motion;
 mod motion_instructions;
 pub mod ops;
 pub mod output;
+mod pointers;
 pub mod points;
 pub mod pose;
 pub mod program;

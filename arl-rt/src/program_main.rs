@@ -45,7 +45,8 @@ Options:
   --clock virtual|real  run as fast as possible (default), or in real time; from the
                         first connection that a program opens it is real time
   --script-dir DIR      the folder of the program's files
-  --state-dir DIR       the folder that keeps system variables between runs
+  --state-dir DIR       the folder that keeps system variables, and where
+                        the programs stood, between runs
   --io FILE             a scenario: what the outside does to the inputs
   --trace FILE.csv      write the motion, one row a cycle
   --report[=FILE]       say at the end what each motion did, on the standard error,
@@ -340,6 +341,7 @@ fn watch(controller: &mut Controller, max_time: Option<f64>, interrupted: &Atomi
         controller.step();
         say(controller);
     }
+    controller.settle_state();
     say(controller);
     match (code, controller.outcome()) {
         (Some(code), _) => code,

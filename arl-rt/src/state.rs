@@ -1,4 +1,4 @@
-//! What is kept when the controller is switched off: one file for each system variable.
+//! What is kept when the controller is switched off: one file for each system variable, and one for where the programs stand.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -19,6 +19,12 @@ pub trait Storage {
     /// # Errors
     /// It cannot be stored; then the old content is still there.
     fn store(&mut self, name: &str, content: &[u8]) -> io::Result<()>;
+
+    /// Another way to the same values, for a thread that stores beside the cycle. Without one, what changes all the time is not
+    /// kept: where the programs stand.
+    fn another(&self) -> Option<Box<dyn Storage + Send>> {
+        None
+    }
 
     /// How messages name the place of this name.
     fn place(&self, name: &str) -> String {
@@ -68,6 +74,10 @@ impl Storage for Directory {
     fn store(&mut self, name: &str, content: &[u8]) -> io::Result<()> {
         fs::create_dir_all(&self.0)?;
         write_whole(&self.path(name), content)
+    }
+
+    fn another(&self) -> Option<Box<dyn Storage + Send>> {
+        Some(Box::new(self.clone()))
     }
 
     fn place(&self, name: &str) -> String {
@@ -147,10 +157,14 @@ impl State {
 
     /// Writes a value.
     pub(crate) fn save(&mut self, name: &'static str, text: String) -> Result<(), StateError> {
-        let stored = self.storage.store(name, seal(name, &text).as_bytes());
-        stored.map_err(|error| self.error(name, format!("cannot be written: {error}")))?;
+        store(&mut *self.storage, name, &text)?;
         self.known.insert(name, text);
         Ok(())
+    }
+
+    /// Another way to the same values, for a thread.
+    pub(crate) fn another(&self) -> Option<Box<dyn Storage + Send>> {
+        self.storage.another()
     }
 
     pub(crate) fn damaged(&self, name: &str) -> StateError {
@@ -160,6 +174,14 @@ impl State {
     fn error(&self, name: &str, problem: String) -> StateError {
         StateError { place: self.storage.place(name), problem }
     }
+}
+
+/// Stores a text so that damage is noticed when it is read.
+pub(crate) fn store(storage: &mut dyn Storage, name: &str, text: &str) -> Result<(), StateError> {
+    storage.store(name, seal(name, text).as_bytes()).map_err(|error| {
+        let problem = format!("cannot be written: {error}");
+        StateError { place: storage.place(name), problem }
+    })
 }
 
 /// The text with a last line that tells whether it is whole, and this variable's.

@@ -68,6 +68,18 @@ impl Program for Small {
                         text::print().argtoprint(&"round").run(cx).at(FILE, 7)?;
                     }
                 }
+                "swing" => loop {
+                    for (line, j1) in [(5, 40.0), (6, -40.0)] {
+                        cx.line(FILE, line);
+                        let there = Joint::of_axes([j1, -90.0, 90.0, 0.0, 45.0, 0.0]);
+                        motion::movej(there).vp(50.0).run(cx).await.at(FILE, line)?;
+                    }
+                },
+                "where" => {
+                    let file = channel::curmpfile(cx, 1).at(FILE, 10)?;
+                    let line = channel::curmpline(cx, 1).at(FILE, 10)?;
+                    text::print().argtoprint(&file).argtoprint(&" ").argtoprint(&line).run(cx).at(FILE, 10)
+                }
                 "when" => text::print()
                     .argtoprint(&time::cdate(cx))
                     .argtoprint(&" ")
@@ -103,6 +115,7 @@ fn main() -> ExitCode {
                 test();
                 println!("test {name} ... ok");
             }
+            let _ = std::fs::remove_dir_all(place());
             ExitCode::SUCCESS
         }
     }
@@ -114,6 +127,8 @@ const TESTS: &[(&str, fn())] = &[
     ("state_is_kept", state_is_kept),
     ("damaged_state_is_refused", damaged_state_is_refused),
     ("state_survives_a_kill", state_survives_a_kill),
+    ("pointers_survive_a_kill", pointers_survive_a_kill),
+    ("pointers_that_cannot_be_kept_are_a_warning", pointers_that_cannot_be_kept_are_a_warning),
     ("the_time_is_over", the_time_is_over),
     ("virtual_time_is_the_same_every_time", virtual_time_is_the_same_every_time),
     ("recursion_without_end_is_an_alarm", recursion_without_end_is_an_alarm),
@@ -132,8 +147,15 @@ fn run(program: &str, arguments: &[&str]) -> Output {
 fn command(program: &str, arguments: &[&str]) -> Command {
     let mut command = Command::new(std::env::current_exe().unwrap());
     command.env(PROGRAM, program).args(arguments).stdin(Stdio::null());
-    command.current_dir(std::env::temp_dir());
+    let place = place();
+    std::fs::create_dir_all(&place).unwrap();
+    command.current_dir(place);
     command
+}
+
+/// Where the programs run; what they keep without being told where lies below.
+fn place() -> PathBuf {
+    std::env::temp_dir().join(format!("arl-rt-command-line-{}", std::process::id()))
 }
 
 fn check(output: &Output, code: i32, stdout: &str, stderr: &str) {
@@ -247,7 +269,60 @@ fn damaged_state_is_refused() {
     std::fs::remove_dir(&file).unwrap();
     std::fs::write(&file, &good).unwrap();
     check(&run(), 0, "2\n", "");
+    // So it is with where the programs stood.
+    let file = folder.path().join("POINTERS.state");
+    let good = std::fs::read_to_string(&file).unwrap();
+    for content in [good.replace("t.arl", "u.arl"), good.replace("program", "motion"), String::new()] {
+        assert_ne!(content, good);
+        std::fs::write(&file, &content).unwrap();
+        check(&run(), 3, "", "POINTERS.state: the file is damaged; remove it to start with the default");
+        assert_eq!(std::fs::read_to_string(&file).unwrap(), content, "it is left as it is");
+    }
+    std::fs::remove_file(&file).unwrap();
+    check(&run(), 0, "3\n", "");
 }
+
+/// Whenever a program is killed that moves the robot to and fro: afterwards one of its two motions was the last one.
+fn pointers_survive_a_kill() {
+    let folder = Folder::new("kill-pointers");
+    let file = folder.path().join("POINTERS.state");
+    let (mut lines, mut last) = ([0, 0], String::new());
+    for _ in 0..6 {
+        let _ = std::fs::remove_file(&file);
+        let mut child = command("swing", &["--state-dir", folder.text()]).stdout(Stdio::null()).spawn().unwrap();
+        while !file.exists() {
+            assert_eq!(child.try_wait().unwrap(), None, "it runs until it is killed");
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let after = run("where", &["--state-dir", folder.text()]);
+        assert_eq!(after.status.code(), Some(0), "{}", String::from_utf8_lossy(&after.stderr));
+        last = String::from_utf8_lossy(&after.stdout).into_owned();
+        match last.as_str() {
+            "t.arl 5\n" => lines[0] += 1,
+            "t.arl 6\n" => lines[1] += 1,
+            other => panic!("{other}"),
+        }
+    }
+    println!("the last motion was that of line 5, of line 6: {lines:?}");
+    // It stays so until another motion is executed.
+    check(&run("where", &["--state-dir", folder.text()]), 0, &last, "");
+    assert_eq!(std::fs::read_to_string(&file).unwrap().lines().next(), Some("program 1 \"t.arl\" 0"));
+}
+
+#[cfg(unix)]
+fn pointers_that_cannot_be_kept_are_a_warning() {
+    let folder = Folder::new("no-pointers");
+    let nowhere = folder.path().join("nowhere");
+    std::os::unix::fs::symlink(folder.path().join("missing"), &nowhere).unwrap();
+    let output = run("hello", &["--state-dir", nowhere.to_str().unwrap()]);
+    check(&output, 0, "hello\n", "warning: where the programs stand cannot be kept: ");
+    assert_eq!(String::from_utf8_lossy(&output.stderr).lines().count(), 1, "it is said once");
+}
+
+#[cfg(not(unix))]
+fn pointers_that_cannot_be_kept_are_a_warning() {}
 
 fn state_survives_a_kill() {
     use std::io::{BufRead, BufReader};

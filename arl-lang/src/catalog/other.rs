@@ -26,16 +26,18 @@ entries! { pub(super) OTHER =
     ) -> string
         { "5.12.7", files::gettextstr, waits, fails;
           "print to:file,filepath:\"notes.txt\",\"first line\",endl\nprint to:hmi,gettextstr(\"notes.txt\",1)" }
-    /// Name of the file that the motion being executed stands in.
+    /// Name of the file that the motion being executed stands in, or the last one, if only before the controller was switched on.
     fn curmpfile(channel_index: int "the foreground channel, from 1") -> string
         { "5.12.8", channel::curmpfile, acts, fails; "print curmpfile(1)" }
-    /// Line of the motion being executed.
+    /// Line of the motion being executed, or the last one, if only before the controller was switched on.
     fn curmpline(channel_index: int "the foreground channel, from 1") -> int
         { "5.12.9", channel::curmpline, acts, fails; "print curmpline(1)" }
-    /// Name of the file that the program stands in.
+    /// Name of the file that the program stands in; until it runs, the one in which the channel's program stood when the controller
+    /// was switched off.
     fn curppfile(channel_index: int "the foreground channel, from 1") -> string
         { "5.12.10", channel::curppfile, acts, fails; "print curppfile(1)" }
-    /// Line that the program stands on.
+    /// Line that the program stands on; until it runs, the one on which the channel's program stood when the controller was switched
+    /// off.
     fn curppline(channel_index: int "the foreground channel, from 1") -> int
         { "5.12.11", channel::curppline, acts, fails; "print curppline(1)" }
     /// Size of a file in the script directory, bytes. A file that is missing: alarm.

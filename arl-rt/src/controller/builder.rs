@@ -11,6 +11,7 @@ use super::channel::{Channel, STACK};
 use super::channels::Channels;
 use super::external::External;
 use super::foreground::{Body, Foreground};
+use super::keeper::Keeper;
 use crate::cell::{Cell, Sensitivity};
 use crate::channel_id::{ChannelId, MOST_FOREGROUND};
 use crate::clock_source::{Clock, VirtualClock};
@@ -25,6 +26,7 @@ use crate::kinematics::frame;
 use crate::lane::{Lane, Station};
 use crate::loadable::Loadable;
 use crate::output::{Output, Stream};
+use crate::pointers::{self, Table};
 use crate::program::Program;
 use crate::random::{self, Random};
 use crate::robot::{Family, Robot, RobotError};
@@ -308,6 +310,11 @@ impl Builder {
         let common = Rc::new(Common::new());
         let mut state = State::new(self.storage);
         system::load(&common.kept_own(), &mut state)?;
+        let pointers = match state.load(pointers::STORED)? {
+            Some(text) => pointers::read(&text).ok_or_else(|| state.damaged(pointers::STORED))?,
+            None => Table::default(),
+        };
+        let beside = state.another();
         // What the cell wires is so, whatever a program has saved.
         cell.external.apply(&common);
         common.ctl_mode.set(self.mode);
@@ -356,6 +363,7 @@ impl Builder {
             speed_override: self.speed_override,
             record: self.record,
             stack: self.stack,
+            pointers: pointers.clone(),
         };
         let (first, unit) = site.foreground(1, program, robot, body)?;
         let mut channels = Vec::new();
@@ -368,7 +376,13 @@ impl Builder {
         }
         let channels = Channels::new(first, channels);
         let deeds = Vec::with_capacity(scenario.most_deeds());
-        Ok(Controller { world, channels, unit, clock: self.clock, islands, io: self.io, scenario, deeds, external })
+        let keeper = beside.map(|storage| Keeper::start(storage, pointers)).transpose();
+        let keeper = keeper.map_err(|error| {
+            let problem = format!("the thread that keeps where the programs stand cannot be started: {error}");
+            SetupError::Outside(problem)
+        })?;
+        let (clock, io) = (self.clock, self.io);
+        Ok(Controller { world, channels, unit, clock, islands, io, scenario, deeds, external, keeper })
     }
 }
 
@@ -383,6 +397,7 @@ struct Site {
     speed_override: f64,
     record: bool,
     stack: usize,
+    pointers: Table,
 }
 
 impl Site {
@@ -408,13 +423,14 @@ impl Site {
         unit.set_base(frame(base.components()));
         unit.set_override(self.speed_override);
         let unit = Rc::new(RefCell::new(unit));
+        let index = usize::from(number).saturating_sub(1);
         let station = Station {
             unit: Rc::clone(&unit),
             homes: body.homes.points,
             home_tolerance: body.homes.tolerance.unwrap_or(self.home_tolerance),
             collisions: body.collisions,
+            kept: self.pointers.get(index).cloned().unwrap_or_default(),
         };
-        let index = usize::from(number).saturating_sub(1);
         let channel =
             self.channel(Lane::foreground(Rc::clone(&self.world), id, index, system, station), program, trace);
         self.world.add_foreground(channel.cx());

@@ -10,6 +10,7 @@ use crate::data;
 use crate::event;
 use crate::fault::{Alarm, Fault, Reason, Stop};
 use crate::lane::Lane;
+use crate::pointers::Now;
 use crate::program::{Program, Running};
 use crate::trace::Trace;
 
@@ -89,6 +90,12 @@ impl Channel {
         &self.lane
     }
 
+    /// The program and motion pointers, as far as they are not those that were kept.
+    pub(super) fn pointers(&self) -> Now {
+        let motion = self.lane.robot().and_then(|unit| unit.motion_pointer());
+        Now { program: self.lane.begun.get().then(|| self.cx.place()), motion }
+    }
+
     /// What the program does at the moment.
     pub(super) fn state(&self) -> State {
         match self.phase {
@@ -142,6 +149,7 @@ impl Channel {
             return;
         }
         if self.has_statements() {
+            self.lane.begun.set(true);
             self.cx.start_cycle(self.stack);
             let seen = std::mem::replace(&mut self.seen, Ok(()));
             let mut done = seen.map_err(Reason::Alarm).and_then(|()| self.run());

@@ -30,8 +30,8 @@ impl Channels {
         std::iter::once(&self.first).chain(&self.others)
     }
 
-    /// Those with a robot.
-    fn foreground(&self) -> impl Iterator<Item = &Channel> {
+    /// Those with a robot, in their order.
+    pub(super) fn foreground(&self) -> impl Iterator<Item = &Channel> {
         self.iter().filter(|channel| matches!(channel.lane().id, ChannelId::Foreground(_)))
     }
 

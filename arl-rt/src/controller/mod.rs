@@ -6,6 +6,7 @@ mod channel;
 mod channels;
 mod external;
 mod foreground;
+mod keeper;
 mod of_cell;
 mod order;
 mod outcome;
@@ -34,6 +35,7 @@ use crate::world::World;
 use channel::Channel;
 use channels::Channels;
 use external::External;
+use keeper::Keeper;
 
 /// Runs a program.
 ///
@@ -101,6 +103,8 @@ pub struct Controller {
     /// What a scenario does in this cycle, inputs aside; empty between cycles, with room for all that can come at once.
     deeds: Vec<Deed>,
     external: External,
+    /// What stores where the programs stand, if it is stored at all.
+    keeper: Option<Keeper>,
 }
 
 impl Controller {
@@ -145,8 +149,26 @@ impl Controller {
             world.warn(warning.into());
         }
         self.channels.each(Channel::finish_cycle);
+        self.keep_pointers();
         self.world.now.set(cycle + 1);
         self.state()
+    }
+
+    /// Leaves word of where the programs stand.
+    fn keep_pointers(&mut self) {
+        let Some(keeper) = &mut self.keeper else { return };
+        let pointers = self.channels.foreground().map(Channel::pointers);
+        if let Some(problem) = keeper.note(pointers, self.channels.outcome().is_some()) {
+            self.world.warn(problem);
+        }
+    }
+
+    /// Waits until everything is stored that is stored beside the cycles: where the programs stand. What goes wrong is a
+    /// warning. [`run`](Controller::run) does so at its end; dropping the controller does, too, but then nobody hears of it.
+    pub fn settle_state(&mut self) {
+        if let Some(problem) = self.keeper.as_mut().and_then(Keeper::settle) {
+            self.world.warn(problem);
+        }
     }
 
     /// Does what a PLC says.
@@ -192,8 +214,11 @@ impl Controller {
     /// Runs until it [is over](Controller::is_over): for ever, where a program does not end.
     pub fn run(&mut self) -> Outcome {
         loop {
-            match self.channels.outcome() {
-                Some(outcome) if self.is_over() => return outcome.clone(),
+            match self.channels.outcome().cloned() {
+                Some(outcome) if self.is_over() => {
+                    self.settle_state();
+                    return outcome;
+                }
                 _ => self.step(),
             };
         }

@@ -58,6 +58,8 @@ pub(crate) fn drive(
             voice.state(controller);
         }
     }
+    controller.settle_state();
+    voice.news(controller);
     voice.state(controller);
     cut.map_or_else(|| Ok(controller.outcome().cloned()), Err)
 }

@@ -4,6 +4,7 @@
 
 mod checking;
 mod killing;
+mod pointers;
 mod repeating;
 mod running;
 mod several;

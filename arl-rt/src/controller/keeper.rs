@@ -1,0 +1,156 @@
+//! Stores where the programs stand, beside the cycle.
+
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use crate::at_once::at_once;
+use crate::channel_id::MOST_FOREGROUND;
+use crate::pointers::{self, Now, Table};
+use crate::state::{self, Storage};
+
+/// How long the thread waits before it stores what has changed, unless the programs have ended: what a kill may cost.
+const PAUSE: Duration = Duration::from_secs(1);
+
+/// How often who waits for the thread looks whether it is still there.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// Stores the pointers of the foreground channels on a thread of its own. The cycle leaves there what they are and goes on.
+pub(super) struct Keeper {
+    desk: Arc<Desk>,
+    thread: Option<JoinHandle<()>>,
+    /// What they were in the last cycle.
+    noted: [Now; MOST_FOREGROUND],
+    /// Whether the thread does not know that yet.
+    news: bool,
+    /// Whether the thread was told that the programs have ended.
+    hurried: bool,
+}
+
+/// What the cycle and the thread share: a lock that both hold for copying only, and that the cycle does not wait for.
+struct Desk {
+    sheet: Mutex<Sheet>,
+    /// Rings when the thread shall not wait, and when it has stored something.
+    bell: Condvar,
+}
+
+#[derive(Default)]
+struct Sheet {
+    now: [Now; MOST_FOREGROUND],
+    /// Whether the thread shall store this without waiting.
+    hurry: bool,
+    /// Whether it shall end then.
+    last: bool,
+    /// What went wrong and has not been told.
+    problem: Option<String>,
+}
+
+impl Desk {
+    fn lock(&self) -> MutexGuard<'_, Sheet> {
+        self.sheet.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The thread: stores what has changed since `kept`, which is there already.
+    fn run(&self, storage: &mut dyn Storage, kept: &Table) {
+        let mut stored = pointers::written(kept);
+        let mut told = None;
+        let mut sheet = self.lock();
+        loop {
+            (sheet, _) = self
+                .bell
+                .wait_timeout_while(sheet, PAUSE, |sheet| !sheet.hurry)
+                .unwrap_or_else(PoisonError::into_inner);
+            let (now, last) = (sheet.now, sheet.last);
+            drop(sheet);
+            let mut table = kept.clone();
+            table.iter_mut().zip(&now).for_each(|(kept, now)| *kept = kept.renewed(now));
+            let text = pointers::written(&table);
+            let done = if text == stored { Ok(()) } else { state::store(storage, pointers::STORED, &text) };
+            sheet = self.lock();
+            match done {
+                Ok(()) => (stored, told) = (text, None),
+                // Once, however often it is tried.
+                Err(error) if told.as_ref() != Some(&error) => {
+                    sheet.problem = Some(format!("where the programs stand cannot be kept: {error}"));
+                    told = Some(error);
+                }
+                Err(_) => {}
+            }
+            if sheet.now == now && sheet.last == last {
+                sheet.hurry = false;
+                self.bell.notify_all();
+            }
+            if last {
+                return;
+            }
+        }
+    }
+}
+
+impl Keeper {
+    /// Starts the thread. `kept` is what this storage has.
+    ///
+    /// # Errors
+    /// The system gives no thread.
+    pub(super) fn start(mut storage: Box<dyn Storage + Send>, kept: Table) -> std::io::Result<Self> {
+        let desk = Arc::new(Desk { sheet: Mutex::default(), bell: Condvar::new() });
+        let shared = Arc::clone(&desk);
+        let thread = std::thread::Builder::new().name("arl-pointers".into());
+        let thread = thread.spawn(move || shared.run(&mut *storage, &kept))?;
+        let noted = Default::default();
+        Ok(Self { desk, thread: Some(thread), noted, news: false, hurried: false })
+    }
+
+    /// Notes the pointers as they are at the end of a cycle, of each channel from the first; `ended`: no program with a robot
+    /// runs. Never waits. Gives what went wrong since the last call.
+    #[inline]
+    pub(super) fn note(&mut self, now: impl Iterator<Item = Now>, ended: bool) -> Option<String> {
+        for (noted, now) in self.noted.iter_mut().zip(now) {
+            if *noted != now {
+                *noted = now;
+                self.news = true;
+            }
+        }
+        self.hurried &= ended;
+        if !self.news && self.hurried == ended {
+            return None;
+        }
+        let mut sheet = at_once(&self.desk.sheet)?;
+        sheet.now = self.noted;
+        self.news = false;
+        if ended && !self.hurried {
+            sheet.hurry = true;
+            self.hurried = true;
+            self.desk.bell.notify_all();
+        }
+        sheet.problem.take()
+    }
+
+    /// Waits until everything is stored. Gives what went wrong since the last call.
+    pub(super) fn settle(&mut self) -> Option<String> {
+        self.hurry(false);
+        self.desk.lock().problem.take()
+    }
+
+    /// Has the thread store what was noted, and waits until it has.
+    fn hurry(&mut self, last: bool) {
+        self.news = false;
+        let mut sheet = self.desk.lock();
+        (sheet.now, sheet.hurry, sheet.last) = (self.noted, true, last);
+        self.desk.bell.notify_all();
+        // A storage that panics takes the thread along.
+        while sheet.hurry && self.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
+            (sheet, _) = self.desk.bell.wait_timeout(sheet, LOOK).unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+}
+
+impl Drop for Keeper {
+    fn drop(&mut self) {
+        self.hurry(true);
+        if let Some(thread) = self.thread.take() {
+            // A panic there has been reported.
+            let _ = thread.join();
+        }
+    }
+}
