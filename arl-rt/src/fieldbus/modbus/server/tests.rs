@@ -104,6 +104,33 @@ fn who_comes_when_all_places_are_taken_is_sent_away() {
 }
 
 #[test]
+fn who_is_silent_for_long_makes_room() {
+    let tables = SharedTables::default();
+    let patience = Duration::from_millis(300);
+    let server = Server::with_patience(patience, "127.0.0.1:0".parse().unwrap(), 2, tables.clone()).unwrap();
+    set(&tables);
+    let (mut silent, mut speaks) = (client(&server), client(&server));
+    for stream in [&mut silent, &mut speaks] {
+        stream.write_all(&request(1)).unwrap();
+        expect_answer(stream, 1);
+    }
+    // Those that are sent away come again until there is room.
+    let mut third = loop {
+        speaks.write_all(&request(2)).unwrap();
+        expect_answer(&mut speaks, 2);
+        let mut stream = client(&server);
+        let mut byte = [0];
+        if stream.write_all(&request(3)).is_ok() && matches!(stream.read(&mut byte), Ok(1)) {
+            break stream;
+        }
+    };
+    expect(&mut third, &[3, 0, 0, 0, 7, 9, 3, 4, 1, 2, 3, 4]);
+    expect_end(&mut silent);
+    speaks.write_all(&request(4)).unwrap();
+    expect_answer(&mut speaks, 4);
+}
+
+#[test]
 fn garbage_ends_its_connection_only() {
     let (server, tables) = server(4);
     set(&tables);

@@ -1,0 +1,94 @@
+//! A connection of the server to a client, and what its thread does.
+
+use std::io::{ErrorKind, Read, Result, Write};
+use std::net::{Shutdown, TcpStream};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+use crate::fieldbus::modbus::SharedTables;
+use crate::fieldbus::modbus::mbap::{self, LONGEST_FRAME, Start};
+use crate::fieldbus::modbus::pdu::{self, Answer};
+
+/// What is kept of a connection's bytes before the rest has to wait in the system's buffers. Whole frames are answered at
+/// once, so that there is always room for the rest of one.
+const BUFFER: usize = 4 * LONGEST_FRAME;
+
+/// A connection to a client.
+pub(super) struct Connection {
+    stream: TcpStream,
+    since: Instant,
+    /// How long after that something came the last time, in ms.
+    heard: AtomicU64,
+}
+
+impl Connection {
+    /// A connection that a client has asked for.
+    ///
+    /// # Errors
+    /// The client has gone again.
+    pub(super) fn new(stream: mio::net::TcpStream) -> Result<Self> {
+        let stream = TcpStream::from(stream);
+        stream.set_nonblocking(false)?;
+        stream.set_nodelay(true)?;
+        Ok(Self { stream, since: Instant::now(), heard: AtomicU64::new(0) })
+    }
+
+    /// How long nothing has come.
+    pub(super) fn silence(&self) -> Duration {
+        self.since.elapsed().saturating_sub(Duration::from_millis(self.heard.load(Ordering::Relaxed)))
+    }
+
+    /// Ends it, whatever its thread waits for just now.
+    pub(super) fn end(&self) {
+        // One that is over already cannot be ended.
+        let _ = self.stream.shutdown(Shutdown::Both);
+    }
+
+    /// Answers requests until the client goes, sends what is no Modbus, or the connection is ended. A client that does not
+    /// take its answers is not read on.
+    pub(super) fn serve(&self, tables: &SharedTables) {
+        let (mut input, mut filled) = ([0; BUFFER], 0);
+        let mut answers = Vec::with_capacity(BUFFER + LONGEST_FRAME);
+        while let Some(count @ 1..) = self.receive(input.get_mut(filled..).unwrap_or_default()) {
+            filled += count;
+            let (done, sound) = answer(input.get(..filled).unwrap_or_default(), tables, &mut answers);
+            if (&self.stream).write_all(&answers).is_err() || !sound {
+                return;
+            }
+            answers.clear();
+            input.copy_within(done..filled, 0);
+            filled -= done;
+        }
+    }
+
+    /// Waits for bytes: how many have come, 0 at the end; nothing where the connection is broken.
+    fn receive(&self, room: &mut [u8]) -> Option<usize> {
+        loop {
+            match (&self.stream).read(room) {
+                Ok(count) => {
+                    self.heard.store(self.since.elapsed().as_millis() as u64, Ordering::Relaxed);
+                    return Some(count);
+                }
+                Err(error) if error.kind() == ErrorKind::Interrupted => {}
+                Err(_) => return None,
+            }
+        }
+    }
+}
+
+/// Answers all requests that are whole: how many bytes they take, and whether what follows can be Modbus.
+fn answer(bytes: &[u8], tables: &SharedTables, answers: &mut Vec<u8>) -> (usize, bool) {
+    let mut done = 0;
+    let mut answer = Answer::new();
+    loop {
+        match mbap::first(bytes.get(done..).unwrap_or_default()) {
+            Start::Frame(frame, len) => {
+                pdu::serve(frame.pdu, &mut tables.wait(), &mut answer);
+                mbap::append(answers, &mbap::Frame { pdu: answer.bytes(), ..frame });
+                done += len;
+            }
+            Start::Part => return (done, true),
+            Start::Garbage => return (done, false),
+        }
+    }
+}
