@@ -49,6 +49,13 @@ pub enum Fault {
         /// The greatest allowed.
         high: f64,
     },
+    /// A text that a system variable does not take.
+    Word {
+        /// The text.
+        text: Box<str>,
+        /// Those that it takes.
+        taken: &'static [&'static str],
+    },
     /// Functions call each other too deep.
     Depth,
     /// `assert` of something false.
@@ -130,7 +137,7 @@ impl Fault {
             Fault::Index { .. } => 20003,
             Fault::Domain { .. } => 20004,
             Fault::Text { .. } => 20005,
-            Fault::Range { .. } => 20006,
+            Fault::Range { .. } | Fault::Word { .. } => 20006,
             Fault::Depth => 20007,
             Fault::Assertion => 20008,
             Fault::File { .. } => 20009,
@@ -163,6 +170,13 @@ impl fmt::Display for Fault {
             Fault::Domain { function, problem } => write!(f, "{function}: {problem}"),
             Fault::Text { text, wanted } => write!(f, "\"{text}\" is not a value of type {wanted}"),
             Fault::Range { value, low, high } => write!(f, "{value} is outside the allowed range {low} to {high}"),
+            Fault::Word { text, taken } => {
+                write!(f, "\"{text}\" is not among the values that are allowed: ")?;
+                for (at, word) in taken.iter().enumerate() {
+                    write!(f, "{}\"{word}\"", if at == 0 { "" } else { " or " })?;
+                }
+                Ok(())
+            }
             Fault::Depth => write!(f, "functions call each other too deep"),
             Fault::Assertion => write!(f, "assertion failed"),
             Fault::File { path, problem } => write!(f, "file \"{path}\": {problem}"),

@@ -1,7 +1,7 @@
 //! Operators that ARL and Rust do not share.
 
 use crate::fault::Fault;
-use crate::values::{Array, Joint, JointScara, Store, UNSET};
+use crate::values::{Array, Joint, JointScara, Store, Str, UNSET};
 use std::ops::{Add, Neg, Sub};
 
 /// The integers of ARL.
@@ -199,6 +199,35 @@ pub fn in_range<T: Ranged>(value: T, low: f64, high: f64) -> Result<T, Fault> {
     match value.beyond(low, high) {
         None => Ok(value),
         Some(value) => Err(Fault::Range { value, low, high }),
+    }
+}
+
+/// What a system variable that takes some texts only can be given: a text, or an array of them.
+pub trait Worded {
+    /// The first text that is none of these.
+    fn other_than(&self, words: &[&str]) -> Option<&Str>;
+}
+
+impl Worded for Str {
+    fn other_than(&self, words: &[&str]) -> Option<&Str> {
+        (!words.iter().any(|word| self == *word)).then_some(self)
+    }
+}
+
+impl<T: Worded, const N: usize, S: Store<T, N>> Worded for Array<T, N, S> {
+    fn other_than(&self, words: &[&str]) -> Option<&Str> {
+        self.iter().find_map(|element| element.other_than(words))
+    }
+}
+
+/// A value for a system variable that takes these texts only, for each element where it is an array.
+///
+/// # Errors
+/// [`Fault::Word`]
+pub fn one_of<T: Worded>(value: T, words: &'static [&'static str]) -> Result<T, Fault> {
+    match value.other_than(words) {
+        None => Ok(value),
+        Some(text) => Err(Fault::Word { text: text.to_text().into(), taken: words }),
     }
 }
 

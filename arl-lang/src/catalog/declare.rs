@@ -15,7 +15,7 @@
 //! of it, `any` everything but handles. The marks in brackets are the methods of [`Param`] below, the marks behind the
 //! path those of [`Entry`].
 
-use super::entry::{Access, Effect, Entry, Kind, Mode, Param, ParamType, Presence, Restore, SystemVariable};
+use super::entry::{Access, Effect, Entry, Kind, Mode, Param, ParamType, Presence, Restore, SystemVariable, Takes};
 use super::types::{Base, Component, Family, Start};
 use crate::ast::Unit;
 
@@ -295,7 +295,7 @@ impl SystemVariable {
             ty,
             dims: &[],
             access: Access::ReadWrite,
-            range: None,
+            takes: Takes::All,
             restore: Restore::Reset,
             default: "",
             field,
@@ -324,7 +324,9 @@ setters! { SystemVariable:
     /// Written by the controller only.
     readonly() { access = Access::ReadOnly }
     /// The least and greatest value.
-    range(low: f64, high: f64) { range = Some((low, high)) }
+    range(low: f64, high: f64) { takes = Takes::Range(low, high) }
+    /// The texts that it takes.
+    words(words: &'static [&'static str]) { takes = Takes::Words(words) }
     /// Other spellings.
     alias(names: &'static [&'static str]) { aliases = names }
 }

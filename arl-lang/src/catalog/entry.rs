@@ -160,6 +160,17 @@ pub enum Restore {
     Startup,
 }
 
+/// What a system variable takes of the values that its type has.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Takes {
+    /// All of them.
+    All,
+    /// Numbers from the least to the greatest.
+    Range(f64, f64),
+    /// These texts, as they are spelled here.
+    Words(&'static [&'static str]),
+}
+
 /// A system variable or constant, used as `$NAME`.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct SystemVariable {
@@ -173,8 +184,8 @@ pub struct SystemVariable {
     pub dims: &'static [u32],
     /// Who may write it.
     pub access: Access,
-    /// The least and greatest value; beyond is an alarm.
-    pub range: Option<(f64, f64)>,
+    /// What it takes; anything else is an alarm.
+    pub takes: Takes,
     /// When it goes back to its default.
     pub restore: Restore,
     /// Its default, as ARL text.

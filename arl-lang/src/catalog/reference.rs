@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::entry::{
     Access, Constant, ConstantValue, Effect, Entry, Kind, Mode, Param, ParamType, Presence, Restore, SystemVariable,
+    Takes,
 };
 use super::lookup::{self, Chapter};
 use super::types::{Base, Component, Enum, Family, Handle, Start, Struct, StructDef};
@@ -259,7 +260,7 @@ pub fn system_variable(variable: &SystemVariable) -> String {
         let _ = write!(ty, "[{size}]");
     }
     let mut text = format!("### `${}` (system variable)\n\n{}\n\n", variable.name, variable.doc);
-    text.push_str("| type | default | range | access | goes back to its default |\n|---|---|---|---|---|\n");
+    text.push_str("| type | default | takes | access | goes back to its default |\n|---|---|---|---|---|\n");
     let access = match variable.access {
         Access::ReadWrite => "programs may write it",
         Access::ReadOnly => "read only",
@@ -270,8 +271,7 @@ pub fn system_variable(variable: &SystemVariable) -> String {
         Restore::Permanent => "never",
         Restore::Startup => "at start-up",
     };
-    let range = variable.range.map(|(low, high)| format!("{low} to {high}")).unwrap_or_default();
-    row(&mut text, &[&ty, &format!("`{}`", variable.default), &range, access, restore]);
+    row(&mut text, &[&ty, &format!("`{}`", variable.default), &taken(variable.takes), access, restore]);
     let mut notes = vec![manual(variable.section)];
     if !variable.aliases.is_empty() {
         let names: Vec<String> = variable.aliases.iter().map(|alias| format!("`${alias}`")).collect();
@@ -280,6 +280,15 @@ pub fn system_variable(variable: &SystemVariable) -> String {
     let _ = write!(text, "\n{}\n", notes.join(" "));
     example(&mut text, variable.example);
     text
+}
+
+/// What a system variable takes; nothing where it takes all.
+fn taken(takes: Takes) -> String {
+    match takes {
+        Takes::All => String::new(),
+        Takes::Range(low, high) => format!("{low} to {high}"),
+        Takes::Words(words) => words.iter().map(|word| format!("`\"{word}\"`")).collect::<Vec<_>>().join(" or "),
+    }
 }
 
 /// A constant with a plain name.

@@ -90,7 +90,8 @@ variables! { pub(super) FUNCTION =
     TOOL_OFFSET: double[6] = "{0,0,0,0,0,0}" { "10.2.23", reset; "$TOOL_OFFSET = {50,0,0,0,0,0}\nprint $TOOL_OFFSET" }
     /// Where each mechanical unit believes to be at servo-on: "feedback", where it is; "cmd", where it was sent last, if it
     /// is near enough.
-    RESET_POS_TYPE: string[100] = "{\"\"}" { "10.2.24", permanent; "$RESET_POS_TYPE[0] = \"feedback\"" }
+    RESET_POS_TYPE: string[100] = "{\"\"}"
+        { "10.2.24", permanent, words(&["", "feedback", "cmd"]); "$RESET_POS_TYPE[0] = \"feedback\"" }
     /// How near is near enough for $RESET_POS_TYPE, deg.
     RESET_POS_THRESHOLD: double[100] = "{0}"
         { "10.2.25", permanent, range(0.0, 0.5), alias(&["RESET_POS_THESHOLD"]); "$RESET_POS_THRESHOLD[0] = 0.1" }

@@ -13,7 +13,7 @@ const NAMES: &str = "\
     Option Vec Box1 div rem shl shr index index2 math bits strings convert flow motion init new it values drop \
     Clone Default1 Printed std core alloc arl_rt depth _depth main first next last left right it_2 old_2 value2 \
     at_1 i2 i_2 a_1 a1 ffh each beach dah fast odd j1 cfg t_frame Rust assert_eq panic vec format include line \
-    enter spend late Future Pin Program Family Pos1 Double1 Teach Fixed rem_double in_range is_true loop1 Start \
+    enter spend late Future Pin Program Family Pos1 Double1 Teach Fixed rem_double in_range one_of is_true loop1 Start \
     End label start";
 
 /// Names of files.

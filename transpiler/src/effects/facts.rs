@@ -7,7 +7,7 @@ use crate::hir::{
     Value,
 };
 use arl_lang::ast::{BinaryOp, UnaryOp};
-use arl_lang::catalog::{Base, Effect, Mode};
+use arl_lang::catalog::{Base, Effect, Mode, Takes};
 
 /// What an expression (or several) does.
 #[derive(Default, Debug)]
@@ -338,7 +338,7 @@ impl Collector<'_> {
             }
             Root::Global(_) | Root::System(_) => self.facts.acts = true,
         }
-        self.facts.fails |= range_check(place, value).is_some();
+        self.facts.fails |= limit(place, value).is_some();
     }
 
     fn root(&mut self, place: &Place) {
@@ -401,18 +401,33 @@ pub(crate) fn constant<'a>(program: &'a Program, func: Option<&'a Func>, expr: &
     }
 }
 
-/// The least and greatest value of a system variable, where writing this place (this value) has to be checked.
-pub(crate) fn range_check(place: &Place, value: Option<&Expr>) -> Option<(f64, f64)> {
+/// What a system variable takes, where writing this place (this value) has to be checked.
+pub(crate) fn limit(place: &Place, value: Option<&Expr>) -> Option<Takes> {
     let Root::System(variable) = place.root else { return None };
-    let number = matches!(place.ty.base, Base::Int | Base::Uint | Base::Byte | Base::Double);
-    let inside = |value: f64, (low, high)| value >= low && value <= high;
-    let range = variable.range.filter(|_| number)?;
     let known = match value.map(|value| &value.kind) {
-        Some(ExprKind::Const(Value::Int(value))) => Some(f64::from(*value)),
-        Some(ExprKind::Const(Value::Uint(value))) => Some(f64::from(*value)),
-        Some(ExprKind::Const(Value::Byte(value))) => Some(f64::from(*value)),
-        Some(ExprKind::Const(Value::Double(value))) => Some(*value),
+        Some(ExprKind::Const(value)) => Some(value),
         _ => None,
     };
-    if known.is_some_and(|value| inside(value, range)) { None } else { Some(range) }
+    let fits = match variable.takes {
+        Takes::All => true,
+        Takes::Range(low, high) if is_number(place.ty.base) => {
+            let inside = |value: f64| value >= low && value <= high;
+            match known {
+                Some(Value::Int(value)) => inside(f64::from(*value)),
+                Some(Value::Uint(value)) => inside(f64::from(*value)),
+                Some(Value::Byte(value)) => inside(f64::from(*value)),
+                Some(Value::Double(value)) => inside(*value),
+                _ => false,
+            }
+        }
+        Takes::Words(words) if place.ty.base == Base::String => {
+            matches!(known, Some(Value::String(text)) if words.contains(&&**text))
+        }
+        Takes::Range(..) | Takes::Words(_) => true,
+    };
+    (!fits).then_some(variable.takes)
+}
+
+fn is_number(base: Base) -> bool {
+    matches!(base, Base::Int | Base::Uint | Base::Byte | Base::Double)
 }

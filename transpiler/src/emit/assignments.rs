@@ -68,7 +68,7 @@ impl<'p> Body<'p, '_> {
         let item = matches!(place.path.as_slice(), [Projection::Index(..)]) && self.plain_local(place.root).is_none();
         let settle = keep || !(item || (self.plain_local(place.root).is_some() && facts.quiet()));
         let (before, reached, value_fragment) = self.sides(place, Some((value, Mode::Placed)), settle);
-        let fragment = self.in_range(place, value_fragment, Some(value));
+        let fragment = self.limited(place, value_fragment, Some(value));
         if let Some(declared) = self.joined_let(place, Some(value)) {
             let (first, tokens) = (&fragment.before, &fragment.tokens);
             return (quote!(#before #first #declared = #tokens;), reached);
@@ -90,8 +90,8 @@ impl<'p> Body<'p, '_> {
         let own = facts::of_place(self.scope(), place);
         let disturbed =
             own.reads.iter().any(|read| facts.writes.contains(read)) || (own.world && (facts.acts || facts.waits));
-        let ranged = facts::range_check(place, None).is_some();
-        let native = is_native(op, place, value) && !disturbed && !ranged;
+        let limited = facts::limit(place, None).is_some();
+        let native = is_native(op, place, value) && !disturbed && !limited;
         let settle = keep || !(native && facts.quiet() && self.plain_local(place.root).is_some());
         if disturbed {
             let (mut before, reached, _) = self.sides(place, None, true);
@@ -102,17 +102,17 @@ impl<'p> Body<'p, '_> {
             before.extend(right.before.clone());
             let known = self.constant(value);
             let new = self.operation(op, place.ty, Fragment { before: TokenStream::new(), ..old }, &right, known);
-            let new = self.in_range(place, new, None);
+            let new = self.limited(place, new, None);
             let write = self.write(&reached, Written::Value(new), Calm::No);
             return (quote!(#before #write), reached);
         }
         let (before, reached, right) = self.sides(place, Some((value, Mode::Value)), settle);
         let known = self.constant(value);
-        let fails = ranged || may_fail(op, place.ty, known);
+        let fails = limited || may_fail(op, place.ty, known);
         let written = if fails || !is_copy(place.ty) {
             let old = self.read_reached(&reached);
             let new = self.operation(op, place.ty, old, &right, known);
-            Written::Value(self.in_range(place, new, None).after(right.before))
+            Written::Value(self.limited(place, new, None).after(right.before))
         } else {
             Written::Step { op, value: right, known, native }
         };
@@ -126,7 +126,7 @@ impl<'p> Body<'p, '_> {
     fn step(&mut self, step: Step, place: &'p Place, keep: bool) -> (TokenStream, Reached, Option<Fragment>) {
         let simple = place.path.is_empty();
         let (before, reached, _) = self.sides(place, None, !simple || keep);
-        if step.prefix && facts::range_check(place, None).is_none() {
+        if step.prefix && facts::limit(place, None).is_none() {
             let op = if step.up { BinaryOp::Add } else { BinaryOp::Subtract };
             let one = constant(&Value::Int(1));
             let written = Written::Step { op, value: one, known: None, native: false };
@@ -138,7 +138,7 @@ impl<'p> Body<'p, '_> {
         let (old_before, receiver) = (&old.before, old.receiver());
         let method = if step.up { quote!(wrapping_add) } else { quote!(wrapping_sub) };
         let new = Fragment::postfix(quote!(#receiver.#method(1)));
-        let new = self.in_range(place, new, None);
+        let new = self.limited(place, new, None);
         let write = self.write(&reached, Written::Value(new), Calm::No);
         let old_value = (!step.prefix).then(|| Fragment { before: TokenStream::new(), ..old.clone() });
         (quote!(#before #old_before #write), reached, old_value)

@@ -92,7 +92,7 @@ impl<'p> Body<'p, '_> {
             Fragment::settled(quote!(#name))
         };
         for (place, reached, name) in backs {
-            let value = self.in_range(place, Fragment::settled(quote!(#name)), None);
+            let value = self.limited(place, Fragment::settled(quote!(#name)), None);
             before.extend(self.write(&reached, Written::Value(value), Calm::Local));
         }
         result.after(before)

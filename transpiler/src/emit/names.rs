@@ -16,7 +16,8 @@ const KEYWORDS: &[&str] = &[
 ];
 
 /// Functions of the prelude, and the names that emitted functions give to what they are passed.
-const VALUES: &[&str] = &["cx", "g", "div", "rem", "rem_double", "shl", "shr", "index", "index2", "in_range", "truth"];
+const VALUES: &[&str] =
+    &["cx", "g", "div", "rem", "rem_double", "shl", "shr", "index", "index2", "in_range", "one_of", "truth"];
 
 /// What a module must not hide: crates, and what the functions of the program as a whole are passed.
 const OUTSIDE: &[&str] = &["arl_rt", "core", "std", "alloc", "cx", "g"];

@@ -10,7 +10,7 @@ use super::types::{component, differs, is_cells, is_copy, is_handle, type_name};
 use crate::effects::facts::{self, Facts};
 use crate::hir::{Expr, LocalId, Place, Projection, Root, Type, Value};
 use arl_lang::ast::BinaryOp;
-use arl_lang::catalog::{Base, Struct};
+use arl_lang::catalog::{Base, Struct, Takes};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 
@@ -339,12 +339,18 @@ impl<'p> Body<'p, '_> {
         quote!(#name { #field: #inner, ..#it })
     }
 
-    /// A value on its way into a system variable that has a range.
-    pub(super) fn in_range(&self, place: &Place, value: Fragment, expr: Option<&Expr>) -> Fragment {
-        let Some((low, high)) = facts::range_check(place, expr) else { return value };
-        let (low, high) = (Literal::f64_unsuffixed(low), Literal::f64_unsuffixed(high));
+    /// A value on its way into a system variable that does not take all of its type.
+    pub(super) fn limited(&self, place: &Place, value: Fragment, expr: Option<&Expr>) -> Fragment {
         let tokens = &value.tokens;
-        let tokens = self.checked(quote!(in_range(#tokens, #low, #high)));
+        let call = match facts::limit(place, expr) {
+            None | Some(Takes::All) => return value,
+            Some(Takes::Range(low, high)) => {
+                let (low, high) = (Literal::f64_unsuffixed(low), Literal::f64_unsuffixed(high));
+                quote!(in_range(#tokens, #low, #high))
+            }
+            Some(Takes::Words(words)) => quote!(one_of(#tokens, &[#(#words),*])),
+        };
+        let tokens = self.checked(call);
         Fragment { tokens, precedence: Precedence::Postfix, settled: false, ..value }
     }
 }

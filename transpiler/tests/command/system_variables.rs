@@ -2,7 +2,7 @@
 //! against a program that runs.
 
 use super::Folder;
-use arl_lang::catalog::{Access, system_variables};
+use arl_lang::catalog::{Access, Takes, system_variables};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -109,6 +109,10 @@ const BEYOND: &[(&str, &str)] = &[
     ("RESET_POS_THRESHOLD", "$RESET_POS_THRESHOLD[99] = -0.01"),
     ("RESET_POS_THRESHOLD", "$RESET_POS_THRESHOLD = {0, 0.6}"),
     ("RESET_POS_THRESHOLD", "$RESET_POS_THRESHOLD[0] = pow(10, 400)"),
+    ("RESET_POS_TYPE", "$RESET_POS_TYPE[0] = \"comand\""),
+    ("RESET_POS_TYPE", "$RESET_POS_TYPE[99] = \"CMD\""),
+    ("RESET_POS_TYPE", "$RESET_POS_TYPE = {\"cmd\", \"feed\"}"),
+    ("RESET_POS_TYPE", "$RESET_POS_TYPE[1] += \" \""),
     ("PGNO_TYPE", "$PGNO_TYPE = 3"),
     ("PGNO_TYPE", "$PGNO_TYPE = -1"),
     ("PGNO_TYPE", "$PGNO_TYPE--"),
@@ -135,7 +139,7 @@ fn the_catalog_says_what_the_table_says() {
         };
         assert_eq!(format!("{:?}", variable.restore), expected, "${name}");
         let limited = BEYOND.iter().any(|(beyond, _)| beyond == name);
-        assert_eq!(variable.range.is_some(), limited, "${name}");
+        assert_eq!(variable.takes != Takes::All, limited, "${name}");
     }
     assert!(rows.is_empty(), "{:?} are not in the catalog", rows.keys());
 }
