@@ -27,6 +27,8 @@ pub struct Programs {
 /// A channel beside the first one.
 #[derive(Clone, PartialEq, Debug)]
 pub struct CellChannel {
+    /// Where its table begins in the cell file: the line, from 1.
+    pub line: u32,
     /// The program's file, as the cell file names it.
     pub program: String,
     /// The robot's name or file; none: the default one.
@@ -141,6 +143,7 @@ fn channel(source: Source<'_>, value: &Value<'_>, folder: &Path) -> Result<CellC
     }
     let robot = section.text("robot", "the name or the file of a robot")?;
     Ok(CellChannel {
+        line: source.line(value.span().start),
         program: program.to_owned(),
         robot: robot.map(|robot| beside(folder, robot)),
         background,

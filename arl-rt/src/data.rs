@@ -17,12 +17,13 @@ use crate::values::teach_variable;
 /// there leaves the values that were compiled in. What is wrong comes back as alarms; variables that it concerns stay as
 /// they were.
 pub(crate) fn reload(program: &dyn Program, script_dir: &Path) -> Vec<Alarm> {
-    program.data().iter().flat_map(|data| file(data, script_dir)).collect()
+    let folder = script_dir.join(program.folder());
+    program.data().iter().flat_map(|data| file(data, &folder)).collect()
 }
 
-fn file(data: &DataFile<'_>, script_dir: &Path) -> Vec<Alarm> {
+fn file(data: &DataFile<'_>, folder: &Path) -> Vec<Alarm> {
     let alarm = |line: u32, text: String| Alarm::new(Fault::Data(text.into()), File::new(data.file), line);
-    let Some((path, content)) = read(data.file, script_dir) else { return Vec::new() };
+    let Some((path, content)) = read(data.file, folder) else { return Vec::new() };
     let content = match content {
         Ok(content) => content,
         Err(error) => return vec![alarm(0, format!("{} cannot be read: {error}", path.display()))],
@@ -74,23 +75,23 @@ fn teach(wanted: &DataVar<'_>, declared: &[(&Decl, &Var)], names: &Interner) -> 
         .map_err(|error| (Some(error.span), format!("{name}: {error}")))
 }
 
-/// Where a data file may lie: at its own path where that is absolute, else in the script directory; there also by its
+/// Where a data file may lie: at its own path where that is absolute, else in the folder of its program; there also by its
 /// bare name.
-fn places(name: &str, script_dir: &Path) -> impl Iterator<Item = PathBuf> {
+fn places(name: &str, folder: &Path) -> impl Iterator<Item = PathBuf> {
     let path = Path::new(name);
-    let bare = path.file_name().map(|bare| script_dir.join(bare));
+    let bare = path.file_name().map(|bare| folder.join(bare));
     // Joining an absolute path gives that path.
-    [Some(script_dir.join(path)), bare].into_iter().flatten()
+    [Some(folder.join(path)), bare].into_iter().flatten()
 }
 
-/// Where a data file lies, if it is there.
-pub(crate) fn place(name: &str, script_dir: &Path) -> Option<PathBuf> {
-    places(name, script_dir).find(|path| path.is_file())
+/// Where a data file of a program lies, if it is there.
+pub(crate) fn place(name: &str, program: &dyn Program, script_dir: &Path) -> Option<PathBuf> {
+    places(name, &script_dir.join(program.folder())).find(|path| path.is_file())
 }
 
 /// The content of a data file, and where it lies.
-fn read(name: &str, script_dir: &Path) -> Option<(PathBuf, std::io::Result<Vec<u8>>)> {
-    for place in places(name, script_dir) {
+fn read(name: &str, folder: &Path) -> Option<(PathBuf, std::io::Result<Vec<u8>>)> {
+    for place in places(name, folder) {
         match std::fs::read(&place) {
             Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {}
             content => return Some((place, content)),

@@ -170,12 +170,13 @@ impl Lane {
         given.map_or(Sensitivity::Percent(SENSITIVITY), |(_, sensitivity)| sensitivity.clone())
     }
 
-    /// The collision of this cycle, if there was one, as the alarm of the motion that met it. The robot is told to stop.
-    pub(crate) fn collision(&self, program: File) -> Option<Alarm> {
+    /// The collision of this cycle, if there was one, as the alarm of the motion that met it; where the robot stands, as that of
+    /// the instruction that the program is at. The robot is told to stop.
+    pub(crate) fn collision(&self, place: (File, u32)) -> Option<Alarm> {
         let mut unit = self.robot_mut()?;
         let Collision { axis, surplus, allowed } = unit.take_collision()?;
+        let (file, line) = unit.motion_pointer().filter(|_| !unit.ended()).unwrap_or(place);
         unit.stop_fast();
-        let (file, line) = unit.motion_pointer().unwrap_or((program, 0));
         let (name, measure) = match unit.robot().own_axes().get(axis) {
             Some(axis) => (axis.name.as_str(), if axis.linear { "N" } else { "Nm" }),
             None => ("an axis", "Nm"),

@@ -69,7 +69,7 @@ pub use controller::{Builder, ChannelStatus, Controller, Foreground, Outcome, Ro
 pub use cx::Cx;
 pub use fault::{Alarm, Fault, Reason, Stop};
 pub use output::{Captured, Message, Output, Stream};
-pub use program::{BoxFuture, DataFile, DataVar, Program};
+pub use program::{BoxFuture, DataFile, DataVar, Elsewhere, Program};
 
 #[cfg(feature = "macros")]
 pub use arl_macros::{arl, arl_file};

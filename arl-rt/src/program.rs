@@ -1,6 +1,8 @@
 //! What the controller runs: a program, as the emitted code describes it.
 
 use std::any::Any;
+use std::fmt;
+use std::path::{Path, PathBuf};
 use std::pin::Pin;
 
 use crate::cx::Cx;
@@ -50,6 +52,11 @@ pub trait Program: AsAny {
     fn data(&self) -> Vec<DataFile<'_>> {
         Vec::new()
     }
+
+    /// The folder of these files, counted from the script directory; without more that directory itself.
+    fn folder(&self) -> &Path {
+        Path::new("")
+    }
 }
 
 impl Program for Box<dyn Program> {
@@ -75,6 +82,55 @@ impl Program for Box<dyn Program> {
 
     fn data(&self) -> Vec<DataFile<'_>> {
         (**self).data()
+    }
+
+    fn folder(&self) -> &Path {
+        (**self).folder()
+    }
+}
+
+/// A program whose data files lie in another folder than the script directory: one of several that one controller runs.
+pub struct Elsewhere<P> {
+    /// The program.
+    pub program: P,
+    /// The folder, counted from the script directory.
+    pub folder: PathBuf,
+}
+
+impl<P: Program + 'static> Program for Elsewhere<P> {
+    fn file(&self) -> File {
+        self.program.file()
+    }
+
+    fn family(&self) -> Family {
+        self.program.family()
+    }
+
+    fn init<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+        self.program.init(cx)
+    }
+
+    fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+        self.program.main(cx)
+    }
+
+    fn globals(&self) -> &dyn Any {
+        self.program.globals()
+    }
+
+    fn data(&self) -> Vec<DataFile<'_>> {
+        self.program.data()
+    }
+
+    fn folder(&self) -> &Path {
+        &self.folder
+    }
+}
+
+impl<P: Program> fmt::Debug for Elsewhere<P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let file = self.program.file();
+        f.debug_struct("Elsewhere").field("program", &file.name()).field("folder", &self.folder).finish()
     }
 }
 
@@ -104,6 +160,8 @@ pub type Make = fn() -> Box<dyn Program>;
 pub struct Other {
     /// Its file, as the cell file names it.
     pub file: &'static str,
+    /// The folder of its data files, counted from the script directory.
+    pub folder: &'static str,
     /// What makes it.
     pub make: Make,
 }

@@ -8,6 +8,9 @@ use std::path::{Path, PathBuf};
 
 /// Where kept values live, by name.
 pub trait Storage {
+    /// Called when a controller starts, before anything is loaded: removes what a process that was killed has left behind.
+    fn begin(&mut self) {}
+
     /// What was stored under this name last; nothing where nothing was.
     ///
     /// # Errors
@@ -62,7 +65,23 @@ impl Directory {
     }
 }
 
+/// What the files are called that [`write_whole`] makes for state files: `NAME.state.PROCESS.new`.
+fn is_in_the_making(name: &str) -> bool {
+    let process = name.strip_suffix(BESIDE).and_then(|name| name.rsplit_once(".state."));
+    process.is_some_and(|(_, process)| !process.is_empty() && process.bytes().all(|byte| byte.is_ascii_digit()))
+}
+
 impl Storage for Directory {
+    fn begin(&mut self) {
+        // What cannot be looked at or removed stays: it does no harm.
+        let Ok(entries) = fs::read_dir(&self.0) else { return };
+        for entry in entries.filter_map(Result::ok) {
+            if is_in_the_making(&entry.file_name().to_string_lossy()) {
+                remove_abandoned(&entry.path());
+            }
+        }
+    }
+
     fn load(&self, name: &str) -> io::Result<Option<Vec<u8>>> {
         match fs::read(self.path(name)) {
             Ok(content) => Ok(Some(content)),
@@ -85,6 +104,9 @@ impl Storage for Directory {
     }
 }
 
+/// How the name of a file ends that is to take the place of another one.
+const BESIDE: &str = ".new";
+
 /// Writes a file so that a kill at any moment leaves the old or the new content, whole: to a file beside it, which
 /// then takes its name.
 ///
@@ -93,10 +115,10 @@ impl Storage for Directory {
 pub(crate) fn write_whole(path: &Path, content: &[u8]) -> io::Result<()> {
     let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut beside = path.as_os_str().to_owned();
-    beside.push(format!(".{}.new", std::process::id()));
+    beside.push(format!(".{}{BESIDE}", std::process::id()));
     let beside = PathBuf::from(beside);
     let written = (|| {
-        let mut file = fs::File::create(&beside)?;
+        let mut file = create_held(&beside)?;
         file.write_all(content)?;
         file.sync_all()?;
         fs::rename(&beside, path)
@@ -111,6 +133,27 @@ pub(crate) fn write_whole(path: &Path, content: &[u8]) -> io::Result<()> {
         let _ = directory.sync_all();
     }
     Ok(())
+}
+
+/// Makes a file and holds its lock: as long as this process lives and has the file open, nobody takes it for abandoned.
+fn create_held(path: &Path) -> io::Result<fs::File> {
+    loop {
+        let file = fs::File::create(path)?;
+        // Where files cannot be locked none is taken for abandoned.
+        if file.lock().is_err() || path.exists() {
+            return Ok(file);
+        }
+        // Somebody has removed it before it was locked.
+    }
+}
+
+/// Removes a file that nobody holds.
+fn remove_abandoned(path: &Path) {
+    if let Ok(file) = fs::File::open(path)
+        && file.try_lock().is_ok()
+    {
+        let _ = fs::remove_file(path);
+    }
 }
 
 /// Why the state of the controller cannot be read or written.
@@ -137,7 +180,8 @@ pub(crate) struct State {
 }
 
 impl State {
-    pub(crate) fn new(storage: Box<dyn Storage>) -> Self {
+    pub(crate) fn new(mut storage: Box<dyn Storage>) -> Self {
+        storage.begin();
         Self { storage, known: BTreeMap::new() }
     }
 
@@ -220,6 +264,30 @@ mod tests {
             changed[at] ^= 1;
             assert_eq!(unseal("$A", &changed), None, "changed at {at}");
         }
+    }
+
+    #[test]
+    fn what_the_dead_have_left_is_removed_and_what_the_living_make_is_not() {
+        let path = std::env::temp_dir().join(format!("arl-rt-left-{}", std::process::id()));
+        fs::create_dir_all(&path).unwrap();
+        // This process stands for another one that lives: it holds its file.
+        let alive = create_held(&path.join("I.state.17.new")).unwrap();
+        for name in ["I.state.1.new", "BASE.2.state.12345678.new", "I.state", "I.new", "I.state.new", "I.state.1a.new"]
+        {
+            fs::write(path.join(name), "part").unwrap();
+        }
+        let names = || {
+            let names = fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+            names.collect::<std::collections::BTreeSet<String>>()
+        };
+        State::new(Box::new(Directory::new(&path)));
+        let others = ["I.new", "I.state", "I.state.17.new", "I.state.1a.new", "I.state.new"];
+        assert_eq!(names(), others.map(String::from).into());
+        drop(alive);
+        Directory::new(&path).begin();
+        assert!(!names().contains("I.state.17.new"));
+        Directory::new(path.join("nowhere")).begin();
+        fs::remove_dir_all(&path).unwrap();
     }
 
     #[test]

@@ -29,7 +29,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             *build = std::mem::take(build).program_as(&module, &other.path);
             writeln!(built, "mod {module} {{ arl_rt::include_arl!(\"{module}\"); }}")?;
             writeln!(expanded, "mod {module} {{ arl_rt::arl_file!({:?}, {robot}); }}", other.path)?;
-            let entry = format!("Other {{ file: {:?}, make: || Box::new({module}::Globals::new()) }},", other.file);
+            let make = format!("|| Box::new({module}::Globals::new())");
+            let entry = format!("Other {{ file: {:?}, folder: \"\", make: {make} }},", other.file);
             others.0 += &entry;
             others.1 += &entry;
         }

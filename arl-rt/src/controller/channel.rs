@@ -222,7 +222,7 @@ impl Channel {
 
     /// Ends the program where the robot has collided.
     pub(super) fn meet_collision(&mut self) {
-        if let Some(alarm) = self.lane.collision(self.cx.program()) {
+        if let Some(alarm) = self.lane.collision(self.cx.place()) {
             self.fail(alarm);
         }
     }

@@ -1,12 +1,12 @@
 //! The channels of a cell file: which of the given programs run where.
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::builder::{Builder, SetupError};
 use super::foreground::Foreground;
 use crate::cell::{Cell, CellChannel};
-use crate::program::{Make, Other};
+use crate::program::{Elsewhere, Other, Program};
 use crate::robot::Robot;
 
 impl Builder {
@@ -16,12 +16,12 @@ impl Builder {
     /// The cell names a file that is not among them, or a robot that is not there.
     pub fn cell_with(mut self, cell: Cell, programs: &[Other]) -> Result<Self, SetupError> {
         for channel in &cell.programs.channels {
-            let CellChannel { program, robot, background, load, homes, collisions } = channel;
-            let make = find(programs, program)?;
+            let CellChannel { program, robot, background, load, homes, collisions, line: _ } = channel;
+            let program = find(programs, program)?.make();
             self = if *background {
-                self.background(make())
+                self.background(program)
             } else {
-                let mut channel = Foreground::new(make()).homes(homes.clone()).collisions(collisions.clone());
+                let mut channel = Foreground::new(program).homes(homes.clone()).collisions(collisions.clone());
                 if let Some(robot) = robot {
                     channel = channel.robot(Robot::load(robot)?);
                 }
@@ -47,17 +47,27 @@ impl Builder {
 
 fn loadable(mut builder: Builder, files: &[String], programs: &[Other]) -> Result<Builder, SetupError> {
     for file in files {
-        let make = find(programs, file)?;
+        let program = find(programs, file)?;
         let name = Path::new(file).file_name().map(|name| name.to_string_lossy().into_owned());
-        builder = builder.loadable(name.unwrap_or_else(|| file.clone()), make);
+        builder = builder.loadable(name.unwrap_or_else(|| file.clone()), move || program.make());
     }
     Ok(builder)
 }
 
-fn find(programs: &[Other], file: &str) -> Result<Make, SetupError> {
-    let found = programs.iter().find(|other| other.file == file).map(|other| other.make);
-    found.ok_or_else(|| {
+fn find(programs: &[Other], file: &str) -> Result<Other, SetupError> {
+    programs.iter().find(|other| other.file == file).copied().ok_or_else(|| {
         let text = format!("the cell names the program {file}, which was not compiled together with this one");
         SetupError::Channels(text)
     })
+}
+
+impl Other {
+    /// A new one, with its data files in its own folder.
+    fn make(&self) -> Box<dyn Program> {
+        let program = (self.make)();
+        if self.folder.is_empty() {
+            return program;
+        }
+        Box::new(Elsewhere { program, folder: PathBuf::from(self.folder) })
+    }
 }

@@ -58,7 +58,7 @@ fn write(program: &dyn Program, file: &str, ty: &str, point: &str, value: &str, 
     let var = data.vars.iter().find(is_point)?;
     let mut names = Interner::default();
     let parsed = arl_lang::parse_expression(value, &mut names, arl_lang::ParseOptions::default());
-    let path = data::place(data.file, scripts)?;
+    let path = data::place(data.file, program, scripts)?;
     replace(&path, ty, point, value)?;
     var.slot.teach(&parsed.expr, &names).ok()
 }

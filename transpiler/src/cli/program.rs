@@ -4,7 +4,7 @@ use super::args::Checking;
 use super::cache::{Cache, Lock, Place, write_if_changed};
 use super::failure::Failure;
 use super::progress::Progress;
-use super::project::Emitted;
+use super::project::{Emitted, EmittedOther};
 use super::runtime::{Runtime, hash_state};
 use super::several::{self, Other};
 use super::stamp::{Freshness, Recording, Stamp};
@@ -105,7 +105,11 @@ impl<'a> Job<'a> {
         let rust: Option<Vec<String>> = programs.iter_mut().map(|compiled| compiled.rust.take()).collect();
         let mut rust = rust.ok_or(Failure::Shown)?.into_iter();
         let first = rust.next().ok_or(Failure::Shown)?;
-        let others = self.others.iter().map(|(other, _)| other.file.clone()).zip(rust).collect();
+        let main = self.main()?;
+        let beside = |((other, _), rust): (&(Other, CheckOptions), String)| {
+            Ok(EmittedOther { file: other.file.clone(), folder: other.folder(&main)?, rust })
+        };
+        let others = self.others.iter().zip(rust).map(beside).collect::<Result<_, Failure>>()?;
         Ok(Done { programs, rust: Emitted { first, others }, said })
     }
 
@@ -123,7 +127,7 @@ impl<'a> Job<'a> {
     }
 }
 
-fn absolute(path: &Path) -> Result<PathBuf, Failure> {
+pub(super) fn absolute(path: &Path) -> Result<PathBuf, Failure> {
     std::path::absolute(path).map_err(|error| Failure::io("use", path, &error))
 }
 
@@ -147,9 +151,8 @@ pub(super) fn prepare(file: &Path, cell: Option<&Path>, checking: &Checking) -> 
 
     let read = Recording::new(&FileSystem);
     let done = job.compile(&read)?;
-    // The runtime reads data files again in the script directory: here it must be the folder of every program.
-    let folders = job.others.iter().all(|(other, _)| other.path.parent() == file.parent());
-    let read_again = checking.script_dir.is_none() && folders && freshness == Freshness::DataChanged;
+    // The runtime reads data files again below the script directory: here it must be the folder of the main file.
+    let read_again = checking.script_dir.is_none() && freshness == Freshness::DataChanged;
     let kept = stamp.filter(|stamp| read_again && only_values(stamp, &done.programs, &read));
     let program = match kept {
         Some(stamp) => stamp.program,

@@ -10,8 +10,18 @@ use std::path::Path;
 pub(super) struct Emitted {
     /// The first program.
     pub(super) first: String,
-    /// The others, with the names that the cell file gives them.
-    pub(super) others: Vec<(String, String)>,
+    /// The others.
+    pub(super) others: Vec<EmittedOther>,
+}
+
+/// The emitted Rust of a program beside the first one.
+#[derive(Clone, Hash, Debug)]
+pub(super) struct EmittedOther {
+    /// The name that the cell file gives it.
+    pub(super) file: String,
+    /// The folder of its files, counted from that of the first program.
+    pub(super) folder: String,
+    pub(super) rust: String,
 }
 
 /// Writes the project of a program. `folder` is that of its files.
@@ -21,11 +31,11 @@ pub(super) fn write(place: &Place, runtime: &Runtime, rust: &Emitted, folder: &P
     write_if_changed(&source("program.rs"), rust.first.as_bytes())?;
     let mut modules = String::from("mod program;\n");
     let mut others = String::new();
-    for (at, (file, rust)) in rust.others.iter().enumerate() {
+    for (at, beside) in rust.others.iter().enumerate() {
         let name = format!("program_{at}");
-        write_if_changed(&source(&format!("{name}.rs")), rust.as_bytes())?;
+        write_if_changed(&source(&format!("{name}.rs")), beside.rust.as_bytes())?;
         modules += &format!("mod {name};\n");
-        others += &format!("        {}\n", other(file, &name));
+        others += &format!("        {}\n", other(beside, &name));
     }
     let main = format!(
         "// Written by arl2rs.\n\n{modules}\n\
@@ -37,9 +47,11 @@ pub(super) fn write(place: &Place, runtime: &Runtime, rust: &Emitted, folder: &P
     Ok(())
 }
 
-/// The entry of a program beside the first one: its name in the cell file, and the module that it became.
-pub(super) fn other(file: &str, module: &str) -> String {
-    format!("arl_rt::program_main::Other {{ file: {file:?}, make: || Box::new({module}::Globals::new()) }},")
+/// The entry of a program beside the first one, which became this module.
+pub(super) fn other(other: &EmittedOther, module: &str) -> String {
+    let EmittedOther { file, folder, .. } = other;
+    let make = format!("|| Box::new({module}::Globals::new())");
+    format!("arl_rt::program_main::Other {{ file: {file:?}, folder: {folder:?}, make: {make} }},")
 }
 
 /// How far programs are optimised: far enough for loops, and soon done.

@@ -2,7 +2,10 @@
 
 use super::args::Checking;
 use super::failure::Failure;
-use arl_robot::cell::Programs;
+use super::program::absolute;
+use super::robots;
+use arl_robot::Family;
+use arl_robot::cell::{CellChannel, Programs};
 use std::path::{Path, PathBuf};
 
 /// A program beside the first one.
@@ -20,6 +23,14 @@ impl Other {
     pub(super) fn checking(&self, first: &Checking) -> Checking {
         Checking { robot: self.robot.clone(), background: self.background, ..first.clone() }
     }
+
+    /// The folder of its files, counted from that of the main file where it is below.
+    pub(super) fn folder(&self, main: &Path) -> Result<String, Failure> {
+        let (main, file) = (absolute(main)?, absolute(&self.path)?);
+        let folder = file.parent().unwrap_or(Path::new(""));
+        let below = main.parent().and_then(|main| folder.strip_prefix(main).ok());
+        Ok(below.unwrap_or(folder).display().to_string())
+    }
 }
 
 /// The programs that a cell file names; `robot` is that of the first program.
@@ -32,19 +43,66 @@ pub(super) fn named(cell: Option<&Path>, robot: Option<&str>) -> Result<Vec<Othe
         .map_err(|error| Failure::Usage(format!("{}: cannot read the cell file: {error}", cell.display())))?;
     let programs = Programs::of_cell(cell, &text).map_err(|error| Failure::Usage(error.to_string()))?;
     let folder = cell.parent().unwrap_or(Path::new(""));
-    let mut all: Vec<Other> = Vec::new();
-    let mut add =
-        |file: String, robot: Option<String>, background: bool| match all.iter_mut().find(|it| it.file == file) {
-            // What runs in the background somewhere may do there only what it may do everywhere.
-            Some(known) => known.background |= background,
-            None => all.push(Other { path: folder.join(&file), file, robot, background }),
-        };
-    programs.load.into_iter().for_each(|file| add(file, robot.map(String::from), false));
-    for channel in programs.channels {
-        add(channel.program, channel.robot.clone(), channel.background);
-        channel.load.into_iter().for_each(|file| add(file, channel.robot.clone(), false));
+    let mut all = All { cell, folder, others: Vec::new() };
+    for file in programs.load {
+        all.add(file, Some(robot), None)?;
     }
-    Ok(all)
+    for CellChannel { line, program, robot, background, load, .. } in programs.channels {
+        all.add(program, (!background).then_some(robot.as_deref()), Some(line))?;
+        for file in load {
+            all.add(file, Some(robot.as_deref()), Some(line))?;
+        }
+    }
+    Ok(all.others.into_iter().map(|(other, _)| other).collect())
+}
+
+/// The programs that were named so far, each with the build of the robots that it is for, where one runs it.
+struct All<'a> {
+    cell: &'a Path,
+    folder: &'a Path,
+    others: Vec<(Other, Option<Family>)>,
+}
+
+impl All<'_> {
+    /// Adds a program that a channel runs or can load: one with this robot (none: the default one), or one in the background.
+    /// `line` is that of the channel.
+    fn add(&mut self, file: String, robot: Option<Option<&str>>, line: Option<u32>) -> Result<(), Failure> {
+        let family = robot.map(robots::family).transpose()?;
+        let Some((known, before)) = self.others.iter_mut().find(|(it, _)| it.file == file) else {
+            let path = self.folder.join(&file);
+            let (robot, background) = (robot.flatten().map(String::from), robot.is_none());
+            self.others.push((Other { file, path, robot, background }, family));
+            return Ok(());
+        };
+        // What runs in the background somewhere may do there only what it may do everywhere.
+        known.background |= robot.is_none();
+        match (*before, family) {
+            (Some(before), Some(family)) if before != family => {
+                let place = line.map_or_else(String::new, |line| format!(":{line}"));
+                let text = format!(
+                    "{}{place}: {file} is for {} here, but for {} elsewhere in this file, and a program is checked for one build of \
+                     robot: give each of them a program of its own",
+                    self.cell.display(),
+                    kind(family),
+                    kind(before),
+                );
+                return Err(Failure::Usage(text));
+            }
+            (None, Some(family)) => {
+                known.robot = robot.flatten().map(String::from);
+                *before = Some(family);
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}
+
+fn kind(family: Family) -> &'static str {
+    match family {
+        Family::SixAxis => "a six-axis robot",
+        Family::Scara => "a SCARA robot",
+    }
 }
 
 #[cfg(test)]
@@ -55,7 +113,7 @@ mod tests {
     fn a_cell_names_programs_once() {
         let path = std::env::temp_dir().join(format!("arl2rs-several-{}.toml", std::process::id()));
         let text = "load = [\"r.arl\"]\n[io]\ndi = 3\n[[channel]]\nprogram = \"a.arl\"\nrobot = \"hsr065\"\nload = [\"s.arl\"]\n\
-                    [[channel]]\nprogram = \"w.arl\"\nbackground = true\n[[channel]]\nprogram = \"a.arl\"\n";
+                    [[channel]]\nprogram = \"w.arl\"\nbackground = true\n[[channel]]\nprogram = \"a.arl\"\nrobot = \"cobra600\"\n";
         std::fs::write(&path, text).expect("written");
         let found = named(Some(&path), Some("six-10")).expect("a cell");
         std::fs::remove_file(&path).expect("removed");
@@ -69,5 +127,34 @@ mod tests {
         assert_eq!(short, expected);
         assert_eq!(named(None, None).expect("none"), []);
         assert!(matches!(named(Some(Path::new("nowhere.toml")), None), Err(Failure::Usage(_))));
+    }
+
+    #[test]
+    fn a_program_is_for_one_build_of_robot() {
+        let channel = |file: &str, more: &str| format!("[[channel]]\nprogram = \"{file}\"\n{more}\n");
+        let (scara, background) = ("robot = \"hsr065\"", "background = true");
+        let named = |name: &str, text: &str| {
+            let path = std::env::temp_dir().join(format!("arl2rs-builds-{name}-{}.toml", std::process::id()));
+            std::fs::write(&path, text).expect("written");
+            let found = named(Some(&path), None);
+            std::fs::remove_file(&path).expect("removed");
+            found
+        };
+        for (name, text, line) in [
+            ("channels", channel("a.arl", scara) + &channel("a.arl", "robot = \"six-10\""), ":4: "),
+            ("default", channel("a.arl", "") + &channel("a.arl", scara), ":4: "),
+            ("load", channel("a.arl", "load = [\"b.arl\"]") + &channel("b.arl", scara), ":4: "),
+            ("first", format!("load = [\"a.arl\"]\n{}", channel("a.arl", scara)), ":2: "),
+        ] {
+            let Err(Failure::Usage(text)) = named(name, &text) else { panic!("{name} passes") };
+            assert!(text.contains(line) && text.contains("arl is for a"), "{name}: {text}");
+        }
+        // The background has no robot, so its program is checked for that of the other channel.
+        let found = named("background", &(channel("a.arl", background) + &channel("a.arl", scara))).expect("a cell");
+        let short: Vec<_> = found.iter().map(|it| (it.robot.as_deref(), it.background)).collect();
+        assert_eq!(short, [(Some("hsr065"), true)]);
+        let same =
+            channel("a.arl", "robot = \"six-10\"") + &channel("a.arl", "") + &channel("a.arl", "robot = \"kr6-r700\"");
+        assert_eq!(named("same", &same).expect("a cell").len(), 1);
     }
 }

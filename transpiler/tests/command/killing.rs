@@ -59,6 +59,13 @@ fn points(file: &str) -> [i32; 2] {
     [number(joint), number(pose)]
 }
 
+/// How many files of a folder were being written.
+#[cfg(unix)]
+fn beside(folder: &Folder, name: &str) -> usize {
+    let files = std::fs::read_dir(folder.path.join(name)).expect("a folder");
+    files.filter_map(Result::ok).filter(|file| file.file_name().to_string_lossy().ends_with(".new")).count()
+}
+
 #[cfg(unix)]
 #[test]
 fn a_kill_leaves_the_old_or_the_new_value_whole() {
@@ -68,7 +75,7 @@ fn a_kill_leaves_the_old_or_the_new_value_whole() {
     folder.write("points_data.arl", &format!("{before}{{0,0}}{between}{{x 0}}{behind}"));
     folder.arl2rs(&["build", "a.arl", "-o", "a"]).is(0, "");
     let mut delays = 12345_u32;
-    let mut saved = 0;
+    let (mut saved, mut states) = (0, 0);
     for kill in 0..KILLS {
         let mut child = Command::new(folder.path.join("a"))
             .args(["--state-dir", "state", "--script-dir", "."])
@@ -95,6 +102,10 @@ fn a_kill_leaves_the_old_or_the_new_value_whole() {
             }
         }
         child.wait().expect("it has ended");
+        // What was being written lies beside its file until the next start.
+        let left = beside(&folder, "state");
+        assert!(left <= 2, "{kill}: {left} files, but one was being written, and where the program stood");
+        states += left;
         // In each round the pose is saved before the joint, and the joint before the copy.
         let [joint, pose] = points(&folder.read("points_data.arl"));
         assert!(pose >= joint && joint >= saved, "{kill}: {joint} and {pose}, but {saved} was saved");
@@ -105,12 +116,7 @@ fn a_kill_leaves_the_old_or_the_new_value_whole() {
             assert!(kept == saved % 2 || joint > saved, "{kill}: the copy that was saved as {saved} is lost");
         }
     }
-    // What was being written at a kill lies beside its file.
-    let beside = |name: &str| {
-        let files = std::fs::read_dir(folder.path.join(name)).expect("a folder");
-        files.filter_map(Result::ok).filter(|file| file.file_name().to_string_lossy().ends_with(".new")).count()
-    };
-    let (states, files) = (beside("state"), beside("."));
+    let files = beside(&folder, ".");
     println!(
         "{KILLS} kills, {saved} rounds saved; {states} kills while a state file was written, {files} others while a file was"
     );

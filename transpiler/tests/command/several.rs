@@ -36,7 +36,7 @@ fn several_unchanged_programs_and_new_values_need_no_compilation() {
     // What the cell says of channels is compiled in, the rest is not.
     folder.write("cell.toml", &format!("{CELL}[io]\ndi = 8\n"));
     without_cargo(&folder, &run).is(0, "second 50\nfirst 3\n");
-    folder.write("cell.toml", &format!("{CELL}\n[[channel]]\nprogram = \"second.arl\"\n"));
+    folder.write("cell.toml", &format!("{CELL}\n[[channel]]\nprogram = \"second.arl\"\nrobot = \"hsr065\"\n"));
     without_cargo(&folder, &run).is(0, "second 50\nsecond 50\nfirst 3\n");
     folder.write("cell.toml", &format!("load = [\"first.arl\"]\n{CELL}"));
     without_cargo(&folder, &run).is(1, "").says("cargo was not found");
@@ -44,6 +44,40 @@ fn several_unchanged_programs_and_new_values_need_no_compilation() {
     folder.write("second.arl", &SECOND.replace("second", "other"));
     without_cargo(&folder, &run).is(1, "").says("cargo was not found");
     folder.arl2rs(&run).is(0, "other 50\nfirst 3\n");
+}
+
+#[test]
+fn data_files_lie_beside_their_own_program() {
+    // The first program has a file of that name, too, and a program of the same name stands elsewhere.
+    let cell = "[[channel]]\nprogram = \"second/second.arl\"\n[[channel]]\nprogram = \"../third/second.arl\"\n";
+    let waiting =
+        |seconds: u32| format!("func void main()\n    waittime {seconds}\n    print \"second \", many\nendfunc\n");
+    let folder = Folder::new("several_folders")
+        .with("first/first.arl", &FIRST.replace("waituntil getdo(1)", "waittime 3"))
+        .with("first/first_data.arl", "int count = 3\n")
+        .with("first/second_data.arl", "int many = 1\n")
+        .with("first/second/second.arl", &waiting(1))
+        .with("first/second/second_data.arl", "int many = 5\n")
+        .with("third/second.arl", &waiting(2))
+        .with("third/second_data.arl", "int many = 7\n")
+        .with("first/cell.toml", cell);
+    let run = ["run", "first/first.arl", "--cell", "first/cell.toml"];
+    folder.arl2rs(&run).is(0, "second 5\nsecond 7\nfirst 3\n");
+    folder.write("first/second/second_data.arl", "int many = 50\n");
+    folder.write("third/second_data.arl", "int many = 70\n");
+    without_cargo(&folder, &run).is(0, "second 50\nsecond 70\nfirst 3\n");
+    folder.write("third/second_data.arl", "int many = \"seven\"\n");
+    folder.arl2rs(&run).is(1, "").says("second_data.arl:1:");
+}
+
+#[test]
+fn a_program_cannot_be_for_robots_of_two_builds() {
+    let folder = folder("several_builds");
+    folder.write("cell.toml", &format!("{CELL}[[channel]]\nprogram = \"second.arl\"\n"));
+    for words in [&["check", "first.arl"][..], &["run", "first.arl"], &["build", "first.arl", "-o", "first"]] {
+        let answer = folder.arl2rs(&[words, &["--cell", "cell.toml"]].concat());
+        answer.is(2, "").says("cell.toml:4: second.arl is for a six-axis robot here, but for a SCARA robot elsewhere");
+    }
 }
 
 #[test]

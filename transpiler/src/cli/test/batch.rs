@@ -127,10 +127,10 @@ fn write(
         };
         add(name, &case.rust.first)?;
         let mut others = String::new();
-        for (at, (file, rust)) in case.rust.others.iter().enumerate() {
+        for (at, other) in case.rust.others.iter().enumerate() {
             let beside = format!("{name}{BESIDE}{at}");
-            add(&beside, rust)?;
-            others += &project::other(file, &beside);
+            add(&beside, &other.rust)?;
+            others += &project::other(other, &beside);
         }
         let folder = case.source.parent().unwrap_or(Path::new("/")).display().to_string();
         *arms += &format!("        \"{name}\" => (|| Box::new({name}::Globals::new()), &[{others}], {folder:?}),\n");

@@ -11,7 +11,7 @@ use super::cache::Cache;
 use super::failure::{COMPILE_ERRORS, Failure};
 use super::program::check_options;
 use super::progress::Progress;
-use super::project::Emitted;
+use super::project::{Emitted, EmittedOther};
 use super::several;
 use crate::CheckOptions;
 use crate::compile::{Compiled, check_program, compile_program};
@@ -100,7 +100,8 @@ fn emit(case: &Case) -> Result<Emitted, String> {
     for other in several::named(cell.as_deref(), checking.robot.as_deref()).map_err(said)? {
         let rust =
             rust(&other.path, &other.checking(&checking)).map_err(|problem| format!("{}: {problem}", other.file))?;
-        others.push((other.file, rust));
+        let folder = other.folder(&case.source).map_err(said)?;
+        others.push(EmittedOther { file: other.file, folder, rust });
     }
     Ok(Emitted { first, others })
 }
