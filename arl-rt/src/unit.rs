@@ -428,7 +428,7 @@ impl Unit {
         self.settled = if near { self.settled.saturating_add(1) } else { 0 };
     }
 
-    /// Sets the motion pointer to the motion that was executed, if there was one.
+    /// Sets the motion pointer to the motion of a program that was executed, if there was one.
     fn point_at(&mut self, motion: u64, line: u32) {
         let oldest = self.queue.oldest().min(motion);
         while self.files.get(1).is_some_and(|(from, _)| *from <= oldest) {
@@ -437,6 +437,7 @@ impl Unit {
         let files = self.files.partition_point(|(from, _)| *from <= motion);
         if let Some((_, file)) = self.files.get(files.saturating_sub(1))
             && motion != 0
+            && line != 0
         {
             self.pointer = Some((*file, line));
         }

@@ -26,7 +26,7 @@ pub use status::{ChannelStatus, RobotStatus, Status};
 use crate::clock_source::Clock;
 use crate::fault::{Alarm, Fault, File};
 use crate::fieldbus::islands::Islands;
-use crate::io::{Deed, Digital, IoDriver, Pendant, Playing, Pwm, Touch};
+use crate::io::{AxisName, Deed, Digital, IoDriver, Pendant, Playing, Pwm, Touch};
 use crate::motion::{Joints, MotionRecord};
 use crate::robot::Robot;
 use crate::system::System;
@@ -424,6 +424,11 @@ impl Controller {
     }
 }
 
+/// The place of an axis of a channel's robot, counted from 0. That there is such an axis was checked.
+fn place(channel: &Channel, axis: AxisName) -> Option<usize> {
+    channel.lane().robot().and_then(|unit| axis.place(unit.robot()))
+}
+
 /// Does what a scenario says, inputs aside. The pendant's buttons count for all channels.
 fn act(channels: &mut Channels, deed: Deed) {
     let (number, touch) = match deed {
@@ -433,8 +438,16 @@ fn act(channels: &mut Channels, deed: Deed) {
     // That there is such a channel was checked.
     let Some(channel) = channels.numbered(number) else { return };
     match touch {
-        Touch::Jog(axis, by) => pendant::jog(channel, axis + 1, by),
-        Touch::Hand(axis, by) => pendant::move_by_hand(channel, axis + 1, by),
+        Touch::Jog(axis, by) => {
+            if let Some(place) = place(channel, axis) {
+                pendant::jog(channel, place + 1, by);
+            }
+        }
+        Touch::Hand(axis, by) => {
+            if let Some(place) = place(channel, axis) {
+                pendant::move_by_hand(channel, place + 1, by);
+            }
+        }
         Touch::Force(force) => {
             if let Some(mut unit) = channel.lane().robot_mut() {
                 unit.outside_mut().force = force;

@@ -17,7 +17,7 @@ pub use image::{Image, Inputs, Outputs, Pwm};
 pub use scenario::{Pendant, Scenario};
 
 pub(crate) use image::Digital;
-pub(crate) use scenario::{Deed, Order, Playing, Touch};
+pub(crate) use scenario::{AxisName, Deed, Order, Playing, Touch};
 
 use crate::cx::Cx;
 use crate::fault::Fault;

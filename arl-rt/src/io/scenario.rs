@@ -15,11 +15,12 @@
 //! override = 50       # %
 //! force = [0, 0, 80]  # N, what pushes the TCP, in the world; until another event says otherwise
 //! torque.j3 = -20     # Nm (N of a linear axis), what turns an axis
-//! jog.j1 = 5          # deg (mm): somebody jogs an axis by so much, while the program is paused
+//! jog.j1 = 5          # deg (mm): somebody jogs an axis (j1.., ej1..) by so much, while the program is paused
 //! hand.j1 = 5         # deg (mm): somebody moves an axis by hand, while the servo is off
 //! channel = 2         # whose robot is pushed, jogged or moved; without it that of channel 1
 //! ```
 
+use std::fmt;
 use std::path::Path;
 
 use toml::Spanned;
@@ -103,10 +104,47 @@ pub(crate) enum Touch {
     Force([f64; 3]),
     /// A torque (Nm; N of a linear axis) turns an axis, counted from 0.
     Torque(usize, f64),
-    /// Somebody jogs an axis, counted from 0, by so many deg (mm).
-    Jog(usize, f64),
-    /// Somebody moves an axis by hand, counted from 0, by so many deg (mm).
-    Hand(usize, f64),
+    /// Somebody jogs an axis by so many deg (mm).
+    Jog(AxisName, f64),
+    /// Somebody moves an axis by hand, by so many deg (mm).
+    Hand(AxisName, f64),
+}
+
+/// An axis by its name.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum AxisName {
+    /// One of the robot's own, counted from 0: `j1`.
+    Own(usize),
+    /// An external one, counted from 0: `ej1`.
+    External(usize),
+}
+
+impl AxisName {
+    /// Its place among all axes of a robot, counted from 0, where that has it.
+    pub(crate) fn place(self, robot: &Robot) -> Option<usize> {
+        let own = robot.own_axes().len();
+        match self {
+            AxisName::Own(axis) => Some(axis).filter(|axis| *axis < own),
+            AxisName::External(axis) => Some(own + axis).filter(|axis| *axis < robot.axes.len()),
+        }
+    }
+
+    fn of(key: &str) -> Self {
+        let number = |digits: &str| digits.parse::<usize>().unwrap_or(1).saturating_sub(1);
+        match key.strip_prefix("ej") {
+            Some(digits) => AxisName::External(number(digits)),
+            None => AxisName::Own(number(key.trim_start_matches('j'))),
+        }
+    }
+}
+
+impl fmt::Display for AxisName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            AxisName::Own(axis) => write!(f, "j{}", axis + 1),
+            AxisName::External(axis) => write!(f, "ej{}", axis + 1),
+        }
+    }
 }
 
 /// What an event does.
@@ -262,8 +300,12 @@ fn moves(robots: &[&Robot], channel: u8, touch: Touch) -> Result<(), String> {
     };
     let own = robot.own_axes().len();
     match touch {
-        Touch::Jog(axis, _) | Touch::Hand(axis, _) if axis >= own => {
-            Err(format!("moves j{}, but robot {} has j1 to j{own}", axis + 1, robot.name))
+        Touch::Jog(axis, _) | Touch::Hand(axis, _) if axis.place(robot).is_none() => {
+            let external = match robot.external_axes().len() {
+                0 => String::new(),
+                count => format!(" and ej1 to ej{count}"),
+            };
+            Err(format!("moves {axis}, but robot {} has j1 to j{own}{external}", robot.name))
         }
         Touch::Jog(..) | Touch::Hand(..) => Ok(()),
         Touch::Torque(axis, _) if axis >= own => {
@@ -299,6 +341,8 @@ fn event(source: Source<'_>, value: &Value<'_>) -> Result<Event, SettingsError> 
 }
 
 /// By how much an axis is moved.
+const OWN_AXES: &[&str] = &["j1", "j2", "j3", "j4", "j5", "j6"];
+const ALL_AXES: &[&str] = &["j1", "j2", "j3", "j4", "j5", "j6", "ej1", "ej2", "ej3", "ej4", "ej5", "ej6"];
 const LENGTH: &str = "deg, or mm of a linear axis";
 
 /// What an event changes.
@@ -344,9 +388,17 @@ fn actions(source: Source<'_>, event: &Section<'_>) -> Result<Vec<Action>, Setti
                 actions.push(Action::Deed(Deed::Pendant(Pendant::Override(percent))));
             }
             "force" => actions.push(Action::Deed(Deed::Robot(channel, force(event, value)?))),
-            "torque" => axes(source, (key, "a torque in Nm"), value, (channel, Touch::Torque), &mut actions)?,
-            "jog" => axes(source, (key, LENGTH), value, (channel, Touch::Jog), &mut actions)?,
-            "hand" => axes(source, (key, LENGTH), value, (channel, Touch::Hand), &mut actions)?,
+            "torque" => {
+                for (key, torque) in axes(source, (key, "a torque in Nm"), value, OWN_AXES)? {
+                    let axis = key.trim_start_matches('j').parse::<usize>().unwrap_or(1) - 1;
+                    actions.push(Action::Deed(Deed::Robot(channel, Touch::Torque(axis, torque))));
+                }
+            }
+            "jog" | "hand" => {
+                let touch = if key == "jog" { Touch::Jog } else { Touch::Hand };
+                let moved = axes(source, (key, LENGTH), value, ALL_AXES)?.into_iter();
+                actions.extend(moved.map(|(key, by)| Action::Deed(Deed::Robot(channel, touch(AxisName::of(key), by)))));
+            }
             _ => {}
         }
     }
@@ -430,23 +482,21 @@ fn force(event: &Section<'_>, value: &Value<'_>) -> Result<Touch, SettingsError>
 }
 
 /// What is done to axes.
-fn axes(
-    source: Source<'_>,
-    (name, what): (&str, &str),
-    value: &Value<'_>,
-    (channel, touch): (u8, fn(usize, f64) -> Touch),
-    actions: &mut Vec<Action>,
-) -> Result<(), SettingsError> {
-    let axes = table(source, value, name, &["j1", "j2", "j3", "j4", "j5", "j6"])?;
-    for (key, span, value) in axes.entries() {
-        let axis = key.trim_start_matches('j').parse::<usize>().unwrap_or(1) - 1;
-        let value = number(value.get_ref()).ok_or_else(|| {
+fn axes<'a>(
+    source: Source<'a>,
+    (name, what): (&'a str, &str),
+    value: &'a Value<'a>,
+    known: &'static [&'static str],
+) -> Result<Vec<(&'a str, f64)>, SettingsError> {
+    let axes = table(source, value, name, known)?;
+    let read = |(key, span, value): (&'a str, std::ops::Range<usize>, &'a Value<'a>)| {
+        let number = number(value.get_ref()).ok_or_else(|| {
             let found = kind(value.get_ref());
             source.error(span, format!("`{name}.{key}`: expected {what}, found {found}"))
-        })?;
-        actions.push(Action::Deed(Deed::Robot(channel, touch(axis, value))));
-    }
-    Ok(())
+        });
+        Ok((key, number?))
+    };
+    axes.entries().into_iter().map(read).collect()
 }
 
 fn pendant(event: &Section<'_>, source: Source<'_>, value: &Value<'_>) -> Result<Pendant, SettingsError> {

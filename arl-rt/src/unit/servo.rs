@@ -90,7 +90,9 @@ impl Unit {
         if self.halted {
             self.step_beside();
         }
-        let speed = Speed { percent: JOGGING, tcp: 1.0, ori: 1.0, exj: 1.0, exl: 1.0 };
+        // External axes have speeds of their own in place of a share.
+        let own = self.robot.axes.get(axis - 1).map_or(1.0, |axis| axis.vel * JOGGING / 100.0);
+        let speed = Speed { percent: JOGGING, tcp: 1.0, ori: 1.0, exj: own, exl: own };
         let command = Command {
             target: Target::Joints(target),
             rig: Rig { base: self.base, ..Rig::bare() },
