@@ -286,6 +286,7 @@ impl Queue {
         };
         let motion = held.laid(&self.robot, plain, &beginning)?;
         self.append(motion, held.number);
+        self.note_released(held.number);
         match next {
             Some(next) if goes_on => next.goes_on_from(&end, before),
             Some(next) => next.goes_on_from(&self.plain_end(next.command(), next.settings())?, None),

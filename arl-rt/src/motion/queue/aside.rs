@@ -35,6 +35,8 @@ pub(super) struct Asked {
     settings: Settings,
     start: Joints,
     end: Joints,
+    /// How a compensation stands at its end.
+    led: Led,
 }
 
 /// A stop on its way to rest.
@@ -47,6 +49,14 @@ struct Stopping {
     going: bool,
     /// Whether nobody will go on with it.
     drops: bool,
+}
+
+/// A stop that came while the robot was braking and was to go on then: at rest it comes before that.
+#[derive(Clone, Debug)]
+struct Again {
+    level: u32,
+    /// How to go on with what was set aside before.
+    starts: VecDeque<Start>,
 }
 
 /// How to go on with what was set aside last.
@@ -96,6 +106,7 @@ pub(super) struct Aside {
     /// Motions, from a number to another, that ended before others with lower numbers.
     early: Vec<(u64, u64)>,
     stopping: Option<Stopping>,
+    again: Vec<Again>,
     /// What is set aside, the last one on top.
     shelves: Vec<Shelf>,
     /// How to go on, as soon as the robot rests where nothing is left to go.
@@ -117,6 +128,7 @@ impl Default for Aside {
             asked: VecDeque::new(),
             early: Vec::with_capacity(2 * DEPTH),
             stopping: None,
+            again: Vec::with_capacity(DEPTH),
             shelves: Vec::with_capacity(DEPTH),
             starts: VecDeque::with_capacity(DEPTH),
             going: false,
@@ -153,8 +165,9 @@ impl Aside {
     fn waits_for_start(&self) -> bool {
         let below = |shelf: &Shelf| shelf.starts.len();
         let stopping = self.stopping.as_ref().map_or(0, |stopping| stopping.starts.len());
-        let asked = self.starts.len() + self.shelves.iter().map(below).sum::<usize>() + stopping;
-        self.shelves.len() + usize::from(self.stopping.is_some()) > asked
+        let again = self.again.iter().map(|again| again.starts.len()).sum::<usize>();
+        let asked = self.starts.len() + self.shelves.iter().map(below).sum::<usize>() + stopping + again;
+        self.shelves.len() + usize::from(self.stopping.is_some()) + self.again.len() > asked
     }
 
     /// The first motion to be planned anew.
@@ -166,6 +179,7 @@ impl Aside {
     pub(super) fn clear(&mut self) {
         self.asked.clear();
         self.early.clear();
+        self.again.clear();
         self.shelves.clear();
         self.starts.clear();
         self.anew.clear();
@@ -219,7 +233,12 @@ impl Queue {
             if stop == Stop::Fast {
                 stopping.stop = stop;
             }
-            stopping.level = stopping.level.max(level);
+            if self.aside.starts.is_empty() {
+                stopping.level = stopping.level.max(level);
+            } else {
+                let starts = self.aside.take_starts();
+                self.aside.again.push(Again { level, starts });
+            }
             return;
         }
         let again = self.aside.shelves.last().is_some_and(|shelf| shelf.level >= level);
@@ -253,6 +272,7 @@ impl Queue {
             self.aside.going = false;
             if let Some(stopping) = &mut self.aside.stopping {
                 stopping.starts.clear();
+                self.aside.again.clear();
                 (stopping.going, stopping.drops) = (false, true);
             }
         }
@@ -323,8 +343,16 @@ impl Queue {
             self.aside.asked.pop_front();
         }
         let end = *self.end();
+        let led = if self.held.is_some() { Led::default() } else { self.led };
         let (command, settings) = (command.clone(), *settings);
-        self.aside.asked.push_back(Asked { number, command, settings, start, end });
+        self.aside.asked.push_back(Asked { number, command, settings, start, end, led });
+    }
+
+    /// Notes where a motion ends that had waited for the next one, now that it has been planned.
+    pub(super) fn note_released(&mut self, number: u64) {
+        if let Some(asked) = self.aside.asked.iter_mut().rev().find(|asked| asked.number == number) {
+            (asked.end, asked.led) = (self.end, self.led);
+        }
     }
 
     /// The motions of this layer that have been added and have not ended, the one being executed included.
@@ -347,6 +375,24 @@ impl Queue {
             return;
         }
         let Some(Stopping { level, starts, going, drops, .. }) = self.aside.stopping.take() else { return };
+        self.lay_aside(level, starts, going);
+        for at in 0..self.aside.again.len() {
+            if let Some(again) = self.aside.again.get_mut(at) {
+                let (level, starts) = (again.level, std::mem::take(&mut again.starts));
+                self.lay_aside(level, starts, false);
+            }
+        }
+        self.aside.again.clear();
+        self.foreseen = None;
+        self.braking_hard = false;
+        self.patience = 0.0;
+        if drops {
+            self.aside.shelves.pop();
+        }
+    }
+
+    /// Sets everything aside.
+    fn lay_aside(&mut self, level: u32, starts: VecDeque<Start>, going: bool) {
         let early = self.aside.take_early();
         self.aside.shelves.push(Shelf {
             level,
@@ -371,12 +417,6 @@ impl Queue {
             going,
             anew: std::mem::take(&mut self.aside.anew),
         });
-        self.foreseen = None;
-        self.braking_hard = false;
-        self.patience = 0.0;
-        if drops {
-            self.aside.shelves.pop();
-        }
     }
 
     /// Goes on with what was set aside, where the robot is there already; else adds the way to it.
@@ -389,8 +429,8 @@ impl Queue {
                 self.aside.starts.clear();
                 return;
             };
-            if !self.aside.going && shelf.going && start.skip > 0 {
-                // It was stopped on its way to another one, whose motions are meant.
+            if !self.aside.going && start.skip > 0 && shelf.leads_on() {
+                // It was stopped on its way to another one, or before that, whose motions are meant.
                 self.pass_on(start);
                 continue;
             }
@@ -416,7 +456,7 @@ impl Queue {
                     return;
                 }
             }
-            let skipped = if let Skipped::To(last) = skipped { Some(last.number) } else { None };
+            let skipped = if let Skipped::To(last) = skipped { Some((last.number, last.led)) } else { None };
             self.aside.starts.pop_front();
             self.aside.going = false;
             self.take_up(skipped);
@@ -460,8 +500,9 @@ impl Queue {
         Ok(())
     }
 
-    /// Goes on with what was set aside last: behind the motion `skipped`, or where it was stopped.
-    fn take_up(&mut self, skipped: Option<u64>) {
+    /// Goes on with what was set aside last: where it was stopped, or behind the motion `skipped`, at whose end the
+    /// compensation stands so.
+    fn take_up(&mut self, skipped: Option<(u64, Led)>) {
         let Some(shelf) = self.aside.shelves.pop() else { return };
         let early = (shelf.added + 1, self.added);
         self.aside.exchange_early(shelf.early);
@@ -480,10 +521,9 @@ impl Queue {
                 (self.started, self.timed, self.elapsed) = (shelf.started, shelf.timed, shelf.elapsed);
                 self.progress = shelf.progress;
             }
-            Some(last) => {
+            Some((last, led)) => {
                 (self.finished, self.over) = (last, last);
-                self.end = self.joints;
-                self.led = Led::default();
+                (self.end, self.led) = (self.joints, led);
                 self.started = None;
                 // What was to be planned anew and is dropped now was asked for last.
                 let left = self.aside.asked.iter().chain(&self.aside.anew).filter(|asked| asked.number > last);
@@ -553,6 +593,11 @@ impl Shelf {
         let executed = self.course.current().map_or(0, |(piece, _)| piece.number);
         let first = executed.max(self.finished + 1);
         self.asked.iter().chain(&self.anew).filter(move |asked| asked.number >= first)
+    }
+
+    /// Whether nothing of its own is left to go, and something below is to go on.
+    fn leads_on(&self) -> bool {
+        self.going || (!self.starts.is_empty() && self.left().next().is_none())
     }
 
     fn skipped(&self, skip: u32) -> Skipped<'_> {
