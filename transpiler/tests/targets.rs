@@ -42,6 +42,26 @@ fn kr10(body: &str) {
 }
 
 #[test]
+fn targets_moved_from_constant_ones_are_looked_at() {
+    kr10(
+        "pose near = {1100,0,450,0,90,0}
+        pose over = offset(near,0,0,200,0,0,0)
+        movej start
+        lin over
+        lin offset(near,600,0,0,0,0,0) // 908 199.697 mm out of the reach
+        lin reltool(near,0,0,600,0,0,0) // 908 199.697 mm out of the reach
+        lin offset(offset(near,300,0,0,0,0,0),300,0,0,0,0,0) // 908 199.697 mm
+        ptp offset(near,0,0,0,90,0,0)
+        lin reltool(offset(near,0,0,0,90,0,0),0,0,1500,0,0,0) // 908
+        over.z = 450
+        lin offset(over,600,0,0,0,0,0)
+        double far = 600
+        far = far + 1
+        lin offset(near,far,0,0,0,0,0)",
+    );
+}
+
+#[test]
 fn tools_and_workpieces_of_labels_hold_until_the_next_ones() {
     kr10(
         "const tool long = {{0,0,300,0,0,0},false}

@@ -67,6 +67,7 @@ impl Modal {
 
     /// Updates the modal system variables with what the instruction says, and takes from them what it does not.
     pub(super) fn apply(&self, cx: &Cx) -> Result<Resolved, Fault> {
+        self.check()?;
         let system = cx.system();
         if let Some(pace) = self.pace {
             system.dfspeed.set(self.speed(cx, pace, system.dfspeed.get()));
@@ -87,6 +88,29 @@ impl Modal {
             duration: self.duration,
             zone: zone(&system.dfslip.get())?,
         })
+    }
+
+    /// A label that is given one number must be given one that is set.
+    fn check(&self) -> Result<(), Fault> {
+        let speed = match self.pace {
+            Some(Pace::Percent(value)) => Some(("vp", value)),
+            Some(Pace::Line(value)) => Some(("vl", value)),
+            Some(Pace::Speed(_)) | None => None,
+        };
+        let zone = match self.blend {
+            Some(Blend::Percent(value)) => Some(("sp", value)),
+            Some(Blend::Line(value)) => Some(("sl", value)),
+            Some(Blend::Slip(_)) | None => None,
+        };
+        match speed.into_iter().chain(zone).find(|(_, value)| !is_set(*value)) {
+            Some((label, _)) => Err(Fault::Motion(
+                format!(
+                    "{label} is 9e+09, which stands for a value that was not set: give a number, or leave {label} out"
+                )
+                .into(),
+            )),
+            None => Ok(()),
+        }
     }
 
     /// `$DFSPEED` with the components that the instruction stands for.

@@ -65,28 +65,30 @@ pub(super) fn known_structure<'a>(
     func: &'a Func,
     target: &'a Expr,
 ) -> Option<(Struct, &'a [Option<Expr>])> {
-    match &target.kind {
+    match &known_value(program, func, target)?.kind {
         ExprKind::Struct(id, values) => Some((*id, values)),
-        ExprKind::Place(place) if place.path.is_empty() => {
-            let init = match place.root {
-                Root::Local(id) if !func.locals.get(id.0 as usize)?.mutated => {
-                    func.body.iter().find_map(|stmt| match &stmt.kind {
-                        StmtKind::Let(local, init) if *local == id => init.as_ref(),
-                        _ => None,
-                    })
-                }
-                Root::Global(id) => {
-                    let global = program.globals.get(id.0 as usize)?;
-                    // A data file may set it at load.
-                    let data = program.modules.get(global.module.0 as usize)?.data;
-                    if global.constant && !data { global.init.as_ref() } else { None }
-                }
+        _ => None,
+    }
+}
+
+/// What is written here, or was given to a variable that nothing changes.
+pub(super) fn known_value<'a>(program: &'a Program, func: &'a Func, value: &'a Expr) -> Option<&'a Expr> {
+    let ExprKind::Place(place) = &value.kind else { return Some(value) };
+    if !place.path.is_empty() {
+        return None;
+    }
+    match place.root {
+        Root::Local(id) if !func.locals.get(id.0 as usize)?.mutated => {
+            func.body.iter().find_map(|stmt| match &stmt.kind {
+                StmtKind::Let(local, init) if *local == id => init.as_ref(),
                 _ => None,
-            }?;
-            match &init.kind {
-                ExprKind::Struct(id, values) => Some((*id, values)),
-                _ => None,
-            }
+            })
+        }
+        Root::Global(id) => {
+            let global = program.globals.get(id.0 as usize)?;
+            // A data file may set it at load.
+            let data = program.modules.get(global.module.0 as usize)?.data;
+            if global.constant && !data { global.init.as_ref() } else { None }
         }
         _ => None,
     }

@@ -1,8 +1,9 @@
 //! What an expression is before the program runs: targets, frames, tools and workpieces made of constants.
 
-use super::super::first_motion::known_structure;
+use super::super::first_motion::{known_structure, known_value};
+use super::facts::argument;
 use super::state::State;
-use crate::hir::{Expr, ExprKind, Func, Program, Root, Value};
+use crate::hir::{Builtin, Expr, ExprKind, Func, Program, Root, Value};
 use arl_lang::catalog::Struct;
 use arl_robot::frames::Mount;
 use arl_robot::kinematics::{Frame, frame};
@@ -34,12 +35,38 @@ impl<'a> Scope<'a> {
         Some(names.zip(values).filter_map(|(name, value)| Some((name, set(value)?))).collect())
     }
 
-    /// A target pose.
+    /// A target pose: made of constants, or moved from such a one.
     pub(super) fn pose(self, target: &'a Expr) -> Option<Pose> {
+        let target = known_value(self.program, self.func, target)?;
+        if let ExprKind::Builtin(function) = &target.kind {
+            return self.moved(function);
+        }
         let (Struct::Pose, values) = self.braces(target)? else { return None };
         let place = frame(self.components(Struct::Pose, values, None)?);
         let cfg = self.component(Struct::Pose, values, "cfg").map_or(Some(0), |cfg| number(cfg).map(|cfg| cfg as i32));
         Some(Pose { frame: place, cfg })
+    }
+
+    /// What `offset` and `reltool` make of a pose.
+    fn moved(self, function: &'a Builtin) -> Option<Pose> {
+        let along_the_tool = match function.entry.name {
+            "offset" => false,
+            "reltool" => true,
+            _ => return None,
+        };
+        let pose = self.pose(argument(function, "p")?)?;
+        let mut by = [0.0; 6];
+        for (place, name) in by.iter_mut().zip(["dx", "dy", "dz", "rz", "ry", "rx"]) {
+            *place = argument(function, name).and_then(number).filter(|by| by.is_finite())?;
+        }
+        let by = frame(by);
+        let frame = if along_the_tool {
+            pose.frame * by
+        } else {
+            let place = pose.frame.translation.vector + by.translation.vector;
+            Frame::from_parts(place.into(), by.rotation * pose.frame.rotation)
+        };
+        Some(Pose { frame, ..pose })
     }
 
     /// A tool or a workpiece; `$DFTOOL` and `$DFWOBJ` are what they are in `state`.
