@@ -118,7 +118,11 @@ pub(super) fn passing(bounds: &[Bound], fastest: f64) -> Limits {
             }))
         };
     let (acc_at_rest, jerk_at_rest) = (acc_at(0.0), jerk_at(0.0, 0.0));
-    let mut found = Limits { vel: vel * 0.5, acc: acc_at_rest * 0.1, jerk: jerk_at_rest * 0.1 };
+    // At half the speed something is left of both in any case, if no more than what the jerk leaves of the acceleration.
+    let half = (vel * 0.5).min(fastest);
+    let by_jerk = |bound: &Bound| (bound.jerk - bound.third * half * half * half) / (3.0 * bound.second * half);
+    let acc = 0.5 * lowest(bounds.iter().map(by_jerk)).min(acc_at(half));
+    let mut found = Limits { vel: half, acc, jerk: jerk_at(half, acc) };
     for share in PASSING_SHARES {
         let vel = (vel * share).min(fastest);
         // What the acceleration takes of the jerk is shared between the two.
@@ -180,6 +184,20 @@ mod tests {
             let bounds: Vec<Bound> = (0..20).map(|_| Bound::random(&mut random)).collect();
             let limits = quickest(&bounds);
             assert!(limits.vel > 0.0 && limits.acc > 0.0 && limits.jerk > 0.0);
+            for bound in &bounds {
+                bound.assert_kept(limits);
+            }
+        }
+    }
+
+    #[test]
+    fn no_bound_is_broken_by_whatever_passes() {
+        let mut random = Random::new(22);
+        for round in 0..3000 {
+            let bounds: Vec<Bound> = (0..1 + round % 20).map(|_| Bound::random(&mut random)).collect();
+            let fastest = highest_speed(&bounds) * 10.0_f64.powf(random.between(-1.0, 1.0));
+            let limits = passing(&bounds, fastest);
+            assert!(limits.vel > 0.0 && limits.acc > 0.0 && limits.jerk > 0.0 && limits.vel <= fastest);
             for bound in &bounds {
                 bound.assert_kept(limits);
             }
