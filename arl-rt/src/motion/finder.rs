@@ -27,6 +27,8 @@ const MOST_USED: f64 = 1.008;
 const TRIES: [(f64, f64); 4] = [(1.0, 1.0), (1.0, 2.0), (0.4, 2.0), (0.15, 3.0)];
 /// A speed below zero, in s of nominal time per s, that is rounding.
 const BACKWARDS: f64 = 1e-9;
+/// No limits.
+const FREE: Limits = Limits { vel: f64::INFINITY, acc: f64::INFINITY, jerk: f64::INFINITY };
 
 /// A law that keeps all limits, and what it was found from.
 #[derive(Clone, Debug)]
@@ -42,8 +44,8 @@ pub(super) struct Found {
 #[derive(Debug)]
 pub(super) struct Plot {
     way: Way,
-    /// Acceleration and jerk that the parameter may have at each place where it hardly moves.
-    straight: Vec<(f64, f64)>,
+    /// What the parameter may have at each place where it hardly moves.
+    straight: Vec<Limits>,
 }
 
 /// A law that is being looked for.
@@ -175,6 +177,11 @@ fn find(scout: &Scout, start: Edge, wanted: impl Fn() -> bool) -> Option<Found> 
 pub(super) trait Timed {
     fn at(&self, time: f64) -> Moment;
     fn duration(&self) -> f64;
+
+    /// Another motion at the same place, which is known to be within the limits.
+    fn known(&self, _time: f64) -> Option<Moment> {
+        None
+    }
 }
 
 impl Timed for Law {
@@ -188,11 +195,16 @@ impl Timed for Law {
 }
 
 impl Plot {
-    fn new(way: Way) -> Self {
+    pub(super) fn new(way: Way) -> Self {
         let least = |index: usize| {
             let rows = way.rows(index).iter().filter(|row| row.first != 0.0);
-            rows.fold((f64::INFINITY, f64::INFINITY), |(acc, jerk), row| {
-                (acc.min(row.acc / row.first.abs()), jerk.min(row.jerk / row.first.abs()))
+            rows.fold(FREE, |Limits { vel, acc, jerk }, row| {
+                let first = row.first.abs();
+                Limits {
+                    vel: vel.min(row.vel / first),
+                    acc: acc.min(row.acc / first),
+                    jerk: jerk.min(row.jerk / first),
+                }
             })
         };
         Self { straight: (0..way.places().len()).map(least).collect(), way }
@@ -209,17 +221,19 @@ impl Plot {
         keeps(&self.way, motion, harder, Between::Most)
     }
 
-    /// The acceleration and jerk that the parameter may have all the way between two places where it hardly moves.
+    /// The limits that the parameter has all the way between two places where it hardly moves.
     pub(super) fn straight(&self, from: f64, to: f64) -> Limits {
         let places = self.way.places();
         let first = places.partition_point(|place| *place <= from).saturating_sub(1);
         let last = places.partition_point(|place| *place < to) + 1;
         let between = self.straight.get(first..last.min(self.straight.len())).unwrap_or_default();
-        let (acc, jerk) = between
-            .iter()
-            .fold((f64::INFINITY, f64::INFINITY), |least, here| (least.0.min(here.0), least.1.min(here.1)));
+        let Limits { vel, acc, jerk } = between.iter().fold(FREE, |least, here| Limits {
+            vel: least.vel.min(here.vel),
+            acc: least.acc.min(here.acc),
+            jerk: least.jerk.min(here.jerk),
+        });
         // Without any limit of its own a ramp takes a few cycles.
-        Limits { vel: f64::INFINITY, acc, jerk: jerk.min(1e3 * acc) }
+        Limits { vel, acc, jerk: jerk.min(1e3 * acc) }
     }
 }
 
@@ -247,18 +261,23 @@ fn keeps(way: &Way, motion: &impl Timed, harder: f64, between: Between) -> bool 
             used.max((row.first * now.vel / row.vel).abs()).max(acc).max(jerk)
         })
     };
-    (0..=count).all(|step| {
-        let now = motion.at(motion.duration() * f64::from(step) / f64::from(count));
+    let used_at = |now: &Moment| {
         let next = places.partition_point(|place| *place <= now.at).clamp(1, places.len() - 1);
-        let used = match between {
-            Between::Least => used(way.rows(next - 1), &now).min(used(way.rows(next), &now)),
+        match between {
+            Between::Least => used(way.rows(next - 1), now).min(used(way.rows(next), now)),
             Between::Even => {
                 let part = (now.at - places[next - 1]) / (places[next] - places[next - 1]);
-                let [before, behind] = [way.rows_behind(next - 1), way.rows_before(next)].map(|rows| used(rows, &now));
+                let [before, behind] = [way.rows_behind(next - 1), way.rows_before(next)].map(|rows| used(rows, now));
                 before + part.clamp(0.0, 1.0) * (behind - before)
             }
-            Between::Most => used(way.rows_behind(next - 1), &now).max(used(way.rows_before(next), &now)),
-        };
-        now.vel >= -BACKWARDS && used <= MOST_USED
+            Between::Most => used(way.rows_behind(next - 1), now).max(used(way.rows_before(next), now)),
+        }
+    };
+    (0..=count).all(|step| {
+        let time = motion.duration() * f64::from(step) / f64::from(count);
+        let now = motion.at(time);
+        let used = used_at(&now);
+        let may = || used <= MOST_USED || motion.known(time).is_some_and(|known| used <= used_at(&known));
+        now.vel >= -BACKWARDS && may()
     })
 }

@@ -5,14 +5,19 @@
 //! keeps to the one it has. So nothing that comes up, a motion, a stop or another override, can lead it off the course or
 //! beyond a limit.
 //!
+//! From rest the robot sets off before it has a law, on a ramp that would come to rest again: it joins the law on the way.
+//!
 //! Laws are found beside the cycle. What has to be done at once, stops and changes of the override, is done with the law in
 //! hand and with the limits that it was found from.
 
+use std::sync::Arc;
+
 use super::ease::{Ease, followed};
-use super::finder::{Found, Timed};
+use super::finder::{Found, Plot, Timed};
 use super::optimal::{Edge, Law, Moment};
 use super::profile::State;
 use super::ramp::Ramp;
+use super::scout::{Prospect, Scout};
 
 /// A law of which a smaller part is left is made longer when there is more course.
 const LEFT: f64 = 0.5;
@@ -25,7 +30,9 @@ const PAUSE: f64 = 0.02;
 const CHANGES: [f64; 7] = [0.03, 0.06, 0.12, 0.25, 0.5, 1.0, 2.0];
 /// So long may a change of the override take that follows the law in hand all the time, where there is another way.
 const QUICK: f64 = 0.25;
-/// A rest of a duration, in s, that is none.
+/// What sets off from rest looks ahead for so many times the time in which it does.
+const GLIMPSED: f64 = 2.5;
+/// A rest of a duration or of the way, in s, that is none.
 const NO_TIME: f64 = 1e-9;
 
 /// Where the robot is on its law.
@@ -52,6 +59,14 @@ impl Drive {
         let own = self.found.law.time_at(there) - self.time;
         other.law.time_at(there) <= AS_QUICK * own
     }
+
+    /// A change of the share of its speed, from one with two derivatives, that keeps the limits, within `longest` s.
+    fn easing(&self, shares: [f64; 3], to: f64, harder: f64, longest: f64) -> Option<Easing> {
+        CHANGES.iter().take_while(|duration| **duration <= longest).find_map(|duration| {
+            let easing = Easing { ease: Ease::new(shares, to, *duration), time: 0.0, from: self.time };
+            self.found.plot.keeps(&Eased { law: &self.found.law, easing }, harder).then_some(easing)
+        })
+    }
 }
 
 /// A change of the share at which the law is followed.
@@ -63,6 +78,18 @@ struct Easing {
     from: f64,
 }
 
+impl Easing {
+    /// How long it goes on, in s.
+    fn left(&self) -> f64 {
+        self.ease.duration() - self.time
+    }
+
+    /// Whether it leads to rest.
+    fn stops(&self) -> bool {
+        self.ease.to() == 0.0
+    }
+}
+
 /// A law while the share of its speed changes.
 struct Eased<'a> {
     law: &'a Law,
@@ -71,12 +98,24 @@ struct Eased<'a> {
 
 impl Timed for Eased<'_> {
     fn at(&self, time: f64) -> Moment {
-        let Easing { ease, time: begun, from } = self.easing;
-        followed(&self.law.at(from + ease.passed(begun + time)), ease.at(begun + time))
+        let Easing { ease, time: begun, .. } = self.easing;
+        followed(&self.of_law(time), ease.at(begun + time))
     }
 
     fn duration(&self) -> f64 {
-        self.easing.ease.duration() - self.easing.time
+        self.easing.left()
+    }
+
+    fn known(&self, time: f64) -> Option<Moment> {
+        Some(self.of_law(time))
+    }
+}
+
+impl Eased<'_> {
+    /// The law at the same place.
+    fn of_law(&self, time: f64) -> Moment {
+        let Easing { ease, time: begun, from } = self.easing;
+        self.law.at(from + ease.passed(begun + time))
     }
 }
 
@@ -102,6 +141,8 @@ pub(super) struct Pilot {
     share_pause: f64,
     /// How hard it brakes, where it does.
     harder: f64,
+    /// Whether it last set off in vain.
+    in_vain: bool,
 }
 
 /// The state from which another law is wanted, some cycles from now.
@@ -177,8 +218,7 @@ impl Pilot {
 
     /// Whether it brakes for a stop, and will not go on by itself.
     pub(super) fn brakes(&self) -> bool {
-        let stops = |easing: &Easing| easing.ease.to() == 0.0;
-        self.ahead.ramp.is_some() || self.ahead.easing.as_ref().is_some_and(stops)
+        self.ahead.ramp.is_some() || self.ahead.easing.as_ref().is_some_and(Easing::stops)
     }
 
     /// How far the course is laid down by what is in hand.
@@ -209,6 +249,42 @@ impl Pilot {
     /// Goes off from rest.
     pub(super) fn start(&mut self, found: Found, share: f64) {
         self.ahead = Ahead { main: Some(Drive { found, time: 0.0 }), share, ..Ahead::default() };
+    }
+
+    /// Sets off from rest before there is a law, for `time` s in which it is found, and would rest again soon if it were not:
+    /// not where it has just done so in vain.
+    pub(super) fn set_off(&mut self, scout: &Scout, share: f64, time: f64) {
+        if std::mem::take(&mut self.in_vain) {
+            return;
+        }
+        let start = State { at: scout.at, ..State::default() };
+        let glimpsed = scout.glimpse(scout.at + GLIMPSED * time);
+        let ramp = glimpsed.and_then(|Prospect { way, end }| {
+            let mut ramp = Ramp::setting_off(start, &Arc::new(Plot::new(way)), end, share, time)?;
+            ramp.arrives = scout.stops && scout.end - ramp.end <= NO_TIME;
+            // It must not rest on its way before the law is there.
+            (ramp.arrives || ramp.duration() > time).then_some(ramp)
+        });
+        (self.harder, self.pause) = (0.0, 0.0);
+        self.ahead = Ahead { ramp, share, ..Ahead::default() };
+    }
+
+    /// Takes over the law that leads on from where it has set off, which it reaches smoothly; where it is not able to, it comes to
+    /// rest again.
+    pub(super) fn join(&mut self, found: Option<Found>) {
+        let joined = found.zip(self.ahead.state()).and_then(|(found, now)| {
+            let time = found.law.time_at(now.at);
+            let there = found.law.at(time);
+            let share = now.vel / there.vel;
+            let shares = [share, (now.acc - share * share * there.acc) / there.vel, 0.0];
+            let main = Drive { found, time };
+            let easing = main.easing(shares, self.ahead.share, 1.0, f64::INFINITY)?;
+            Some(Ahead { main: Some(main), share: self.ahead.share, easing: Some(easing), ramp: None })
+        });
+        self.in_vain = joined.is_none();
+        if let Some(ahead) = joined {
+            self.ahead = ahead;
+        }
     }
 
     /// Whether the law in hand leads to where the robot has to stop.
@@ -248,6 +324,9 @@ impl Pilot {
         let ramp = self.ahead.ramp.as_ref().filter(|_| self.pause <= 0.0)?;
         let (end, cycles) = (ramp.end, cycles.max((ramp.calm() / cycle).ceil() as u32));
         let then = self.after(cycles, cycle).state();
+        if then.is_none() && ramp.arrives {
+            return None;
+        }
         let State { at, vel, acc } = then.unwrap_or(State { at: end, vel: 0.0, acc: 0.0 });
         let start = if then.is_some() { Edge { vel: vel / share, acc: acc / (share * share) } } else { Edge::REST };
         Some(Wish { at, start, share, cycles })
@@ -298,51 +377,49 @@ impl Pilot {
             return;
         }
         let slower = |now| Ramp::slower(now, &main.found, main.time, share, search);
-        if let Some(easing) = self.easing(main, share, 1.0, QUICK) {
+        if let Some(easing) = main.easing(self.ahead.shares(), share, 1.0, QUICK) {
             self.ahead.easing = Some(easing);
         } else if let Some(ramp) = self.ahead.state().and_then(slower) {
             (self.ahead.ramp, self.harder, self.pause) = (Some(ramp), 0.0, 0.0);
         } else {
             self.share_pause = PAUSE;
-            let slowly = self.easing(main, share, 1.0, f64::INFINITY);
+            let slowly = main.easing(self.ahead.shares(), share, 1.0, f64::INFINITY);
             self.ahead.easing = slowly.or(self.ahead.easing);
         }
-    }
-
-    /// A change of the share that keeps the limits, within `longest` s.
-    fn easing(&self, main: &Drive, to: f64, harder: f64, longest: f64) -> Option<Easing> {
-        let shares = self.ahead.shares();
-        CHANGES.iter().take_while(|duration| **duration <= longest).find_map(|duration| {
-            let easing = Easing { ease: Ease::new(shares, to, *duration), time: 0.0, from: main.time };
-            main.found.plot.keeps(&Eased { law: &main.found.law, easing }, harder).then_some(easing)
-        })
     }
 
     /// Brakes to rest as hard as the limits allow, where they are those of the way times `harder`; returns whether that is
     /// something new.
     pub(super) fn brake(&mut self, harder: f64) -> bool {
-        let known = self.brakes() && harder <= self.harder;
+        // A long way to rest, which is taken where there is no other one, may get shorter by and by.
+        let easing = self.ahead.easing.filter(|easing| easing.stops() && harder <= self.harder);
+        let longest = easing.as_ref().map_or(f64::INFINITY, Easing::left);
+        let known = self.brakes() && harder <= self.harder && !(self.ahead.ramp.is_none() && longest > QUICK);
         if known || (self.pause > 0.0 && harder <= 1.0) {
             return false;
         }
-        let (Some(main), Some(now)) = (&self.ahead.main, self.ahead.state()) else { return false };
+        let Some(now) = self.ahead.state() else { return false };
         // Behind the end of a ramp the course may be another one by now.
-        let end = self.ahead.ramp.as_ref().map_or(main.found.end, |ramp| ramp.end);
-        let found = match Ramp::hardest(now, &main.found.plot, end, harder) {
-            Some(ramp) => {
+        let (plot, end) = match (&self.ahead.ramp, &self.ahead.main) {
+            (Some(ramp), _) => (&ramp.plot, ramp.end),
+            (None, Some(main)) => (&main.found.plot, main.found.end),
+            (None, None) => return false,
+        };
+        let found = match (Ramp::hardest(now, plot, end, harder), &self.ahead) {
+            (Some(ramp), _) => {
                 self.ahead.ramp = Some(ramp);
                 true
             }
-            None if self.ahead.ramp.is_some() => {
-                self.pause = PAUSE;
-                false
-            }
-            None => {
-                let easing = self.easing(main, 0.0, harder, f64::INFINITY);
+            (None, Ahead { ramp: None, main: Some(main), .. }) => {
+                let easing = main.easing(self.ahead.shares(), 0.0, harder, longest);
                 let found = easing.is_some();
                 self.ahead.easing = easing.or(self.ahead.easing);
                 self.pause = if found { self.pause } else { PAUSE };
                 found
+            }
+            (None, _) => {
+                self.pause = PAUSE;
+                false
             }
         };
         if found {

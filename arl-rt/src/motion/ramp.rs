@@ -1,5 +1,7 @@
 //! Ramps of the profile O: ways to rest with constant limits, which need neither a look along the course nor a solver.
 
+use std::sync::Arc;
+
 use super::finder::{Found, Plot, Timed};
 use super::optimal::Moment;
 use super::profile::{Change, Limits, State};
@@ -10,6 +12,14 @@ const HARDNESS: [f64; 14] = [1.0, 0.95, 0.9, 0.85, 0.8, 0.72, 0.64, 0.56, 0.48, 
 /// later.
 const SLOWER: f64 = 0.9;
 const LATER: f64 = 0.15;
+/// A robot that sets off uses so much of the speed, the acceleration and the jerk at most, a little less than the law that it
+/// will join; and so many shares of these are tried.
+const MOST_VEL: f64 = 0.9;
+const MOST_ACC: f64 = 0.95;
+const MOST_JERK: f64 = 0.98;
+const FEW: usize = 6;
+/// Halvings of the time for which it speeds up on a short way: as many as it takes to end it exactly.
+const HALVINGS: u32 = 52;
 
 /// A change of speed with constant limits.
 #[derive(Clone, Debug)]
@@ -21,6 +31,11 @@ struct Leg {
 impl Leg {
     fn new(start: State, goal: f64, limits: &Limits) -> Self {
         Self { start, change: Change::new(start.vel, start.acc, goal, limits) }
+    }
+
+    /// Where it ends.
+    fn end(&self) -> f64 {
+        self.start.at + self.change.distance(self.start.vel, self.start.acc)
     }
 
     fn at(&self, time: f64) -> Moment {
@@ -37,30 +52,65 @@ impl Leg {
 /// A way to rest.
 #[derive(Clone, Debug)]
 pub(super) struct Ramp {
-    /// What leads to a lower speed first, and for how many s this goes on.
-    slowing: Option<(Leg, f64)>,
+    /// What leads to another speed first, and for how many s this goes on.
+    first: Option<(Leg, f64)>,
     /// What leads to rest.
     stopping: Leg,
+    /// From which time in s on another law can begin on it.
+    calm: f64,
     /// How many s of it are over.
     pub(super) time: f64,
     /// Where it ends.
     pub(super) end: f64,
+    /// Whether it leads to where the robot has to stop.
+    pub(super) arrives: bool,
+    /// The limits that it was found from.
+    pub(super) plot: Arc<Plot>,
 }
 
 impl Ramp {
-    fn new(slowing: Option<(Leg, f64)>, start: State, limits: &Limits) -> Self {
+    fn new(first: Option<(Leg, f64)>, start: State, limits: &Limits, plot: &Arc<Plot>) -> Self {
         let stopping = Leg::new(start, 0.0, limits);
-        let end = stopping.after(stopping.change.duration()).at;
-        Self { slowing, stopping, time: 0.0, end }
+        let end = stopping.end();
+        Self { first, stopping, calm: 0.0, time: 0.0, end, arrives: false, plot: Arc::clone(plot) }
+    }
+
+    /// One that sets off from rest, speeds up for `time` s, or as long as the way up to `end` allows, and rests before `end`: with
+    /// the limits of the way at a share of the speed.
+    pub(super) fn setting_off(start: State, plot: &Arc<Plot>, end: f64, share: f64, time: f64) -> Option<Self> {
+        let sets_off = |hardness: &f64| {
+            let ramp = |limits: &Limits, time: f64| {
+                let leg = Leg::new(start, limits.vel, limits);
+                Self::new(Some((leg.clone(), time)), leg.after(time), limits, plot)
+            };
+            let limits = |to: f64| {
+                let Limits { vel, acc, jerk } = scaled(plot.straight(start.at, to), *hardness);
+                Limits { vel: vel * MOST_VEL, acc: acc * MOST_ACC, jerk: jerk * MOST_JERK }.slowed(share)
+            };
+            // What lies behind the farthest end does not count.
+            let farthest = ramp(&limits(start.at), time).end.min(end);
+            let limits = limits(farthest);
+            let mut found = ramp(&limits, time);
+            if found.end > end {
+                let (mut short, mut long) = (0.0, time);
+                for _ in 0..HALVINGS {
+                    let middle = f64::midpoint(short, long);
+                    if ramp(&limits, middle).end <= end { short = middle } else { long = middle }
+                }
+                found = ramp(&limits, short);
+            }
+            found.will_do(plot, end, 1.0).then_some(found)
+        };
+        HARDNESS.iter().take(FEW).find_map(sets_off)
     }
 
     /// The hardest one that keeps the limits times `harder` and rests before `end`.
-    pub(super) fn hardest(start: State, plot: &Plot, end: f64, harder: f64) -> Option<Self> {
+    pub(super) fn hardest(start: State, plot: &Arc<Plot>, end: f64, harder: f64) -> Option<Self> {
         let limits = braking(start, plot, end, harder);
         // What brakes harder already would have to turn back.
         let turns = |limits: &Limits| start.acc < 0.0 && start.acc * start.acc > 2.0 * limits.jerk * start.vel;
         let scales = HARDNESS.iter().map(|hardness| scaled(limits, *hardness)).filter(|limits| !turns(limits));
-        let mut ramps = scales.map(|limits| Self::new(None, start, &limits));
+        let mut ramps = scales.map(|limits| Self::new(None, start, &limits, plot));
         ramps.find(|ramp| ramp.will_do(plot, end, harder))
     }
 
@@ -81,14 +131,16 @@ impl Ramp {
             }
             let until = leg.change.duration().max(search);
             let slow = State { acc: 0.0, ..leg.after(until) };
-            (goal > 0.0 && goal < start.vel).then(|| Self::new(Some((leg, until)), slow, &limits))
+            let calm = leg.change.duration();
+            (goal > 0.0 && goal < start.vel)
+                .then(|| Self { calm, ..Self::new(Some((leg, until)), slow, &limits, plot) })
         };
         HARDNESS.iter().filter_map(ramp).find(|ramp| ramp.will_do(plot, *end, 1.0))
     }
 
     /// s until another law can begin on it.
     pub(super) fn calm(&self) -> f64 {
-        self.slowing.as_ref().map_or(0.0, |(leg, _)| leg.change.duration() - self.time).max(0.0)
+        (self.calm - self.time).max(0.0)
     }
 
     /// Whether it rests before `end` and keeps the limits times `harder`.
@@ -100,7 +152,7 @@ impl Ramp {
 
 impl Timed for Ramp {
     fn at(&self, time: f64) -> Moment {
-        match &self.slowing {
+        match &self.first {
             Some((leg, until)) if time < *until => leg.at(time),
             Some((_, until)) => self.stopping.at(time - until),
             None => self.stopping.at(time),
@@ -108,13 +160,13 @@ impl Timed for Ramp {
     }
 
     fn duration(&self) -> f64 {
-        self.slowing.as_ref().map_or(0.0, |(_, until)| *until) + self.stopping.change.duration()
+        self.first.as_ref().map_or(0.0, |(_, until)| *until) + self.stopping.change.duration()
     }
 }
 
 /// Acceleration and jerk for braking to rest, times `harder`: what lies behind the longest stop does not count.
 fn braking(start: State, plot: &Plot, end: f64, harder: f64) -> Limits {
-    let farthest = Ramp::new(None, start, &scaled(plot.straight(start.at, end), harder)).end.min(end);
+    let farthest = Leg::new(start, 0.0, &scaled(plot.straight(start.at, end), harder)).end().min(end);
     scaled(plot.straight(start.at, farthest), harder)
 }
 

@@ -14,6 +14,9 @@ const SPACING: f64 = 0.008;
 const FEWEST: f64 = 48.0;
 const MOST_EVEN: f64 = 250.0;
 const MOST: usize = 900;
+/// The density of places for a short part, and how many there are at most.
+const GLIMPSE: f64 = 0.2;
+const MOST_GLIMPSED: usize = 40;
 /// Two places are no closer than this part of the spacing.
 const CLOSEST: f64 = 1.0 / 256.0;
 /// A step as part of the way over which the motion changes.
@@ -85,9 +88,19 @@ impl Scout {
 
     /// The way to `to`, with `density` times as many places as it takes mostly.
     pub(super) fn look(&self, to: f64, density: f64, start: Edge, end: Edge) -> Option<Prospect> {
+        self.look_at(to, (density, MOST), start, end)
+    }
+
+    /// A short part of the way from rest on, up to `to` at most, at a few places.
+    pub(super) fn glimpse(&self, to: f64) -> Option<Prospect> {
+        let end = if to < self.end { Edge { vel: 1.0, acc: 0.0 } } else { Edge::REST };
+        self.look_at(to.min(self.end), (GLIMPSE, MOST_GLIMPSED), Edge::REST, end)
+    }
+
+    fn look_at(&self, to: f64, fineness: (f64, usize), start: Edge, end: Edge) -> Option<Prospect> {
         let mut to = to;
         for _ in 0..ATTEMPTS {
-            match self.walk(to, density, start, end) {
+            match self.walk(to, fineness, start, end) {
                 Ok(way) => return Some(Prospect { way, end: to }),
                 Err(reached) => to = self.at + 0.8 * (reached - self.at),
             }
@@ -95,8 +108,8 @@ impl Scout {
         None
     }
 
-    /// The way, or how far it got with as many places as there may be.
-    fn walk(&self, to: f64, density: f64, start: Edge, end: Edge) -> Result<Way, f64> {
+    /// The way with a density of places, or how far it got with as many as there may be.
+    fn walk(&self, to: f64, (density, most): (f64, usize), start: Edge, end: Edge) -> Result<Way, f64> {
         let count = (density * ((to - self.at) / SPACING).clamp(FEWEST, MOST_EVEN)) as usize;
         let spacing = (to - self.at) / count as f64;
         let mut stations: Vec<(f64, bool)> =
@@ -125,7 +138,7 @@ impl Scout {
                         None => way.push(at, rows),
                     }
                 }
-                if way.places().len() > MOST {
+                if way.places().len() > most {
                     return Err(at);
                 }
                 match next {

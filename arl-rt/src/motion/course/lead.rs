@@ -310,8 +310,7 @@ impl Course {
             // Laws that are being looked for count on the share that is known.
             Pacing::Go(share) | Pacing::Settle(share) => {
                 if !self.sought.as_ref().is_some_and(|sought| self.leads_on(sought)) {
-                    // Two cycles more, so that rounding does not count.
-                    pilot.go_at(share, cycle * f64::from(Finder::cycles(cycle) + 2));
+                    pilot.go_at(share, searching(cycle));
                     self.ask(&mut pilot, (robot, here), cycle, share);
                 }
             }
@@ -335,6 +334,7 @@ impl Course {
         let Some(found) = self.sought.as_mut().and_then(|sought| sought.search.next()) else { return };
         let Some(Sought { purpose, reach, .. }) = self.sought.take() else { return };
         match purpose {
+            Purpose::Start if !pilot.rests() => pilot.join(found),
             Purpose::Start => match found {
                 Some(found) => pilot.start(found, share),
                 None => self.unled = true,
@@ -377,10 +377,11 @@ impl Course {
             let at_stop = self.passed == 0.0 && self.at == 0.0;
             if let Some(Next { found: Some(found), .. }) = self.next.take_if(|_| at_stop) {
                 pilot.start(found, share);
-            } else {
-                let scout = self.scout(robot, here, self.passed + self.at);
-                self.search(scout, Edge::REST, Finder::cycles(cycle), Purpose::Start);
+                return;
             }
+            let scout = self.scout(robot, here, self.passed + self.at);
+            pilot.set_off(&scout, share, searching(cycle));
+            self.search(scout, Edge::REST, Finder::cycles(cycle), Purpose::Start);
             return;
         }
         let cycles = Finder::cycles(cycle);
@@ -408,4 +409,9 @@ impl Course {
         let scout = Scout::new(robot, (behind, 0.0), (0.0, last.target()), FARTHEST, (settled, ROOM * WINDOW));
         self.search(scout, Edge::REST, Finder::cycles(cycle), Purpose::Next);
     }
+}
+
+/// How long a search takes, in s, and two cycles more, so that rounding does not count.
+fn searching(cycle: f64) -> f64 {
+    cycle * f64::from(Finder::cycles(cycle) + 2)
 }

@@ -98,14 +98,14 @@ fn late(delay: usize, event: Event) -> (Vec<Step>, bool) {
     let mut percent = 100.0;
     while !queue.idle() {
         match rows.len() {
-            200 => to(&mut queue, 300.0, -300.0),
-            cycle if cycle == 200 + delay => match event {
+            180 => to(&mut queue, 300.0, -300.0),
+            cycle if cycle == 180 + delay => match event {
                 Event::Nothing => {}
                 Event::Stop(stop) => queue.stop_on_path(stop),
                 Event::Override(share) => percent = share,
             },
             // In the middle of a stop, or after it.
-            cycle if cycle == 200 + 40 * delay => queue.resume(),
+            cycle if cycle == 180 + 40 * delay => queue.resume(),
             900 => percent = 100.0,
             _ => {}
         }
@@ -148,10 +148,54 @@ fn a_stop_and_an_override_work_at_once() {
     };
     let (reference, _) = late(0, Event::Nothing);
     // An override that changes while a law is found waits for that.
-    for (event, soon) in [(Event::Stop(Stop::General), 225), (Event::Override(20.0), 275)] {
+    for (event, soon) in [(Event::Stop(Stop::General), 205), (Event::Override(20.0), 255)] {
         let (rows, _) = late(5, event);
-        let slower = (205..).find(|cycle| speed(&rows, *cycle) < speed(&reference, *cycle) - 1.0).unwrap();
+        let slower = (185..).find(|cycle| speed(&rows, *cycle) < speed(&reference, *cycle) - 1.0).unwrap();
         assert!(slower < soon, "{event:?}: slower in cycle {slower}");
+    }
+}
+
+#[test]
+fn a_robot_at_rest_sets_off_at_once() {
+    let robot = robot("kr10-r1420");
+    for percent in [100.0, 30.0] {
+        for degrees in [0.001, 0.01, 0.1, 0.5, 2.0, 10.0, 60.0] {
+            // Where all limits are constant, no profile is quicker than S.
+            let [constant, optimal] = [Settings::default(), optimal()].map(|settings| {
+                let mut queue = Queue::new(robot.clone(), start());
+                queue.add(&movej([degrees, -90.0, 90.0, 0.0, 45.0, 0.0]), &settings).unwrap();
+                let rows = run(&mut queue, percent);
+                assert_within_limits(&robot, &rows, "set off");
+                rows.len()
+            });
+            assert!(optimal as f64 <= 1.01 * constant as f64 + 3.0, "{degrees} deg: {constant} {optimal}");
+        }
+    }
+}
+
+#[test]
+fn a_stop_works_while_the_robot_sets_off() {
+    let robot = robot("kr10-r1420");
+    let motion = movej([60.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+    for cycles in [1, 5, 12, 19, 20, 21] {
+        for stop in [Stop::General, Stop::Fast] {
+            let mut queue = Queue::new(robot.clone(), start());
+            queue.add(&motion, &optimal()).unwrap();
+            let mut rows =
+                vec![Step { joints: start(), tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+            rows.extend((0..cycles).map(|_| queue.step(CYCLE, 100.0)));
+            queue.stop_on_path(stop);
+            while !queue.rests() {
+                rows.push(queue.step(CYCLE, 100.0));
+                assert!(rows.len() < 120, "{cycles} {stop:?}: it does not stop");
+            }
+            queue.resume();
+            rows.extend(run(&mut queue, 100.0));
+            if stop == Stop::General {
+                assert_within_limits(&robot, &rows, "stop while setting off");
+            }
+            assert_eq!(rows.last().unwrap().joints, axes([60.0, -90.0, 90.0, 0.0, 45.0, 0.0]));
+        }
     }
 }
 
