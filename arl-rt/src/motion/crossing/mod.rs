@@ -3,10 +3,12 @@
 
 mod time;
 
+use std::ops::Range;
+
 use super::limits::Bound;
 use super::profile::Limits;
 pub(super) use time::Approach;
-use time::duration;
+use time::{duration, shortest};
 
 /// Parts of a blend, of the same nominal time, with a speed each.
 pub(super) const PARTS: usize = 16;
@@ -37,42 +39,93 @@ pub(super) struct PlaceBounds<'a> {
 
 /// Parts of the acceleration, and of the jerk, that are there at rest, among which the quickest are looked for. What is not
 /// taken of them is left for the bend.
-const ACC_SHARES: [f64; 5] = [0.9, 0.5, 0.25, 0.12, 0.06];
-const JERK_SHARES: [f64; 4] = [0.9, 0.6, 0.35, 0.15];
+const ACC_SHARES: [f64; 5] = [0.06, 0.12, 0.25, 0.5, 0.9];
+const JERK_SHARES: [f64; 4] = [0.15, 0.35, 0.6, 0.9];
 
 /// The quickest limits to cross with, no faster than `fastest`, under which no bound is broken.
 pub(super) fn cross(places: &[PlaceBounds], fastest: f64, approaches: &[Approach; 2]) -> Option<Crossing> {
     let rows = || places.iter().flat_map(|place| place.rows).filter(|row| row.first > 0.0);
     let lowest = |of: fn(&Bound) -> f64| rows().map(of).fold(1e12, f64::min);
     let (acc, jerk) = (lowest(|row| row.acc / row.first), lowest(|row| row.jerk / row.first));
+    let sites: Vec<Site> = places.iter().map(Site::new).collect();
     let mut best: Option<(f64, Crossing)> = None;
+    // Speeds only fall with the acceleration and the jerk: those of the pairs before are a bound, which is often enough to know
+    // that a pair is slower than another one.
+    let mut with_less_acc = [[fastest; PARTS]; JERK_SHARES.len()];
     for acc_share in ACC_SHARES {
-        for jerk_share in JERK_SHARES {
-            let (acc, jerk) = (acc * acc_share, jerk * jerk_share);
-            let crossing = Crossing { speeds: speeds(places, fastest, acc, jerk), acc, jerk };
-            let time = duration(&crossing, approaches);
-            if best.as_ref().is_none_or(|(least, _)| time < *least) {
-                best = Some((time, crossing));
+        let mut with_less_jerk = [fastest; PARTS];
+        for (jerk_share, known) in JERK_SHARES.iter().zip(&mut with_less_acc) {
+            for (speed, other) in known.iter_mut().zip(with_less_jerk) {
+                *speed = speed.min(other);
             }
+            let may_be_best =
+                |speeds: &[f64; PARTS]| best.as_ref().is_none_or(|(least, _)| shortest(speeds, approaches) < *least);
+            let (acc, jerk) = (acc * acc_share, jerk * jerk_share);
+            if may_be_best(known) {
+                lower_speeds(known, &sites, acc, jerk);
+                if may_be_best(known) {
+                    let crossing = Crossing { speeds: *known, acc, jerk };
+                    let time = duration(&crossing, approaches);
+                    if best.as_ref().is_none_or(|(least, _)| time < *least) {
+                        best = Some((time, crossing));
+                    }
+                }
+            }
+            with_less_jerk = *known;
         }
     }
     best.map(|(_, crossing)| crossing).filter(|crossing| crossing.speeds.iter().all(|speed| *speed > 0.0))
 }
 
-/// The highest speed in each part with this acceleration and jerk.
-fn speeds(places: &[PlaceBounds], fastest: f64, acc: f64, jerk: f64) -> [f64; PARTS] {
-    let mut speeds = [fastest; PARTS];
-    for place in places {
+/// A place with the parts that it speaks for, and bounds that are as strict as all of its own together.
+struct Site<'a> {
+    parts: Range<usize>,
+    rows: &'a [Bound],
+    /// What the speed, the acceleration and its square, the jerk, the product of both and the cube use of the limits.
+    vel: f64,
+    acc: [f64; 2],
+    jerk: [f64; 3],
+}
+
+impl<'a> Site<'a> {
+    fn new(place: &PlaceBounds<'a>) -> Self {
         let [first, last] = [place.from, place.to].map(|share| share.clamp(0.0, 1.0) * PARTS as f64);
-        let (first, last) = (first.floor() as usize, last.ceil() as usize);
-        let touched = speeds.get_mut(first..last).unwrap_or_default();
+        let most = |of: fn(&Bound) -> f64| place.rows.iter().map(of).fold(0.0, f64::max);
+        Self {
+            parts: first.floor() as usize..last.ceil() as usize,
+            rows: place.rows,
+            vel: most(|row| row.first / row.vel),
+            acc: [most(|row| row.first / row.acc), most(|row| row.second / row.acc)],
+            jerk: [
+                most(|row| row.first / row.jerk),
+                most(|row| row.second / row.jerk),
+                most(|row| row.third / row.jerk),
+            ],
+        }
+    }
+
+    /// Whether all bounds hold up to this speed, without a look at each.
+    fn surely_allows(&self, speed: f64, acc: f64, jerk: f64) -> bool {
+        let square = speed * speed;
+        self.vel * speed <= 1.0
+            && self.acc[0] * acc + self.acc[1] * square <= 1.0
+            && self.jerk[0] * jerk + 3.0 * self.jerk[1] * acc * speed + self.jerk[2] * square * speed <= 1.0
+    }
+}
+
+/// Lowers the speed in each part to the highest one with this acceleration and jerk.
+fn lower_speeds(speeds: &mut [f64; PARTS], sites: &[Site], acc: f64, jerk: f64) {
+    for site in sites {
+        let touched = speeds.get_mut(site.parts.clone()).unwrap_or_default();
         let highest = touched.iter().copied().fold(0.0, f64::max);
-        let speed = place.rows.iter().fold(highest, |speed, row| fastest_within(row, speed, acc, jerk));
+        if site.surely_allows(highest, acc, jerk) {
+            continue;
+        }
+        let speed = site.rows.iter().fold(highest, |speed, row| fastest_within(row, speed, acc, jerk));
         for part in touched {
             *part = part.min(speed);
         }
     }
-    speeds
 }
 
 /// The highest speed up to `speed` at which a bound holds with this acceleration and jerk.
@@ -128,6 +181,38 @@ mod tests {
                 for bound in rows {
                     bound.assert_kept(Limits { vel, acc, jerk });
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn no_pair_of_shares_is_quicker() {
+        let mut random = Random::new(33);
+        for _ in 0..300 {
+            let places = random_places(&mut random);
+            let around = 1.0 / 30.0;
+            let bounds: Vec<_> = places
+                .iter()
+                .map(|(share, rows)| PlaceBounds { from: share - around, to: share + around, rows })
+                .collect();
+            let sites: Vec<Site> = bounds.iter().map(Site::new).collect();
+            let approach = |random: &mut Random| Approach {
+                limits: Limits { vel: 1.0, acc: random.between(1.0, 40.0), jerk: random.between(10.0, 4000.0) },
+                length: random.between(0.0, 2.0),
+            };
+            let approaches = [approach(&mut random), approach(&mut random)];
+            let found = cross(&bounds, 1.0, &approaches).unwrap();
+            let least = duration(&found, &approaches);
+            let most = |of: fn(&Bound) -> f64| {
+                places.iter().flat_map(|(_, rows)| rows).filter(|row| row.first > 0.0).map(of).fold(1e12, f64::min)
+            };
+            let (acc, jerk) = (most(|row| row.acc / row.first), most(|row| row.jerk / row.first));
+            for (acc_share, jerk_share) in ACC_SHARES.iter().flat_map(|acc| JERK_SHARES.map(|jerk| (acc, jerk))) {
+                let (acc, jerk) = (acc * acc_share, jerk * jerk_share);
+                let mut speeds = [1.0; PARTS];
+                lower_speeds(&mut speeds, &sites, acc, jerk);
+                let time = duration(&Crossing { speeds, acc, jerk }, &approaches);
+                assert!(least <= time * (1.0 + 1e-5), "{least} {time} {acc_share} {jerk_share}");
             }
         }
     }

@@ -45,6 +45,13 @@ pub(super) fn duration(crossing: &Crossing, approaches: &[Approach; 2]) -> f64 {
     time + before.outside(shared(with_before), first) + behind.outside(shared(with_behind), last)
 }
 
+/// A time in s that [`duration`] is no less than with these speeds, or lower ones, whatever the acceleration and the jerk.
+pub(super) fn shortest(speeds: &[f64; PARTS], approaches: &[Approach; 2]) -> f64 {
+    let own: f64 = speeds.iter().map(|speed| 1.0 / speed).sum();
+    let around: f64 = approaches.iter().map(|approach| approach.length / approach.limits.vel).sum();
+    own / PARTS as f64 + around
+}
+
 /// Whether two become one stretch, with the lower limits: see [`super::super::timing`].
 fn alike(a: &Limits, b: &Limits) -> bool {
     let alike = |a: f64, b: f64| a <= b * ALIKE && b <= a * ALIKE;
@@ -94,27 +101,49 @@ fn time(parts: &[Part], [first, last]: [f64; 2], limits: &Limits) -> (f64, [f64;
     let before = [first].into_iter().chain(parts.iter().map(|part| part.speed));
     let behind = parts.iter().map(|part| part.speed).chain([last]);
     let free: Vec<f64> = before.zip(behind).map(|(before, behind)| before.min(behind)).collect();
+    let fastest = free.iter().copied().fold(0.0, f64::max);
     let mut speeds = free.clone();
     for (from, slow) in free.iter().enumerate() {
-        let (behind, ahead) = parts.split_at(from);
         // Nothing is bound by a place that is no slower than its neighbours.
         let neighbours = [from.checked_sub(1), Some(from + 1)].map(|at| at.and_then(|at| free.get(at)));
         if neighbours.iter().flatten().all(|next| *next <= slow) {
             continue;
         }
-        let bind = |way: &mut f64, (speed, part): (&mut f64, &Part)| {
-            *way += part.length;
-            *speed = speed.min(reach(*slow, *way, limits));
-        };
-        let (mut back, mut on) = (0.0, 0.0);
         let (left, right) = speeds.split_at_mut(from);
-        left.iter_mut().rev().zip(behind.iter().rev()).for_each(|pair| bind(&mut back, pair));
-        right.iter_mut().skip(1).zip(ahead).for_each(|pair| bind(&mut on, pair));
+        let (left, right) = (left.iter_mut().rev(), right.iter_mut().skip(1));
+        let (behind, ahead) = parts.split_at(from);
+        let beside = free.split_at(from);
+        bind(*slow, left.zip(beside.0.iter().rev()).zip(behind.iter().rev()), (fastest, limits));
+        bind(*slow, right.zip(beside.1.iter().skip(1)).zip(ahead), (fastest, limits));
     }
     let ends = speeds.iter().zip(speeds.iter().skip(1));
     let each = |(part, (start, end)): (&Part, (&f64, &f64))| part.length / f64::midpoint(*start, *end).min(part.speed);
     let whole = parts.iter().zip(ends).map(each).sum();
     (whole, [speeds.first(), speeds.last()].map(|speed| speed.copied().unwrap_or(0.0)))
+}
+
+/// Lowers speeds one way from a place at the speed `slow`, each with what it would be without that, and with the way to it from
+/// the one before, to what can be reached from there; none is above `fastest`.
+fn bind<'a>(
+    slow: f64,
+    speeds: impl Iterator<Item = ((&'a mut f64, &'a f64), &'a Part)>,
+    (fastest, limits): (f64, &Limits),
+) {
+    let mut way = 0.0;
+    for ((speed, free), part) in speeds {
+        // From a place that is as slow what lies behind is bound more strictly.
+        if *free <= slow {
+            return;
+        }
+        way += part.length;
+        if *speed > slow {
+            let most = reach(slow, way, limits);
+            *speed = speed.min(most);
+            if most >= fastest {
+                return;
+            }
+        }
+    }
 }
 
 /// The highest speed that is reached from `speed` within a way, without acceleration at either end.
