@@ -1,8 +1,11 @@
 //! Random motion programs, of the forms that `plan.rs` reads.
 
-use super::plan::{Goal, Kind, Plan};
+mod handlers;
+
+use super::plan::{Goal, Kind, Mode, Plan};
 use super::robot::Robot;
 use arl_tests::random::Random;
+pub(crate) use handlers::HANDLERS;
 use std::fmt::Write as _;
 
 /// A number between two others.
@@ -33,6 +36,18 @@ pub(crate) const ROOMS: [Room; 8] = [
     Room { robot: "kr10-r1420", joints: [0.0, -80.0, 80.0, 3.0, 6.0, 0.0], swing: 8.0, reach: 80.0 },
 ];
 
+/// What a program shall be like.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Wishes {
+    /// How many motions, about.
+    pub(crate) count: usize,
+    /// Whether it is about the wrist singularity.
+    pub(crate) passes: bool,
+    /// Whether inputs let it stop its motion and go on.
+    pub(crate) stops: bool,
+    pub(crate) mode: Mode,
+}
+
 struct Grower<'a> {
     random: &'a mut Random,
     room: Room,
@@ -40,16 +55,19 @@ struct Grower<'a> {
     text: String,
     count: usize,
     settings: usize,
+    /// The setting whose tool stands, where there is one.
+    standing: Option<usize>,
     /// The last motion's kind, goal and setting.
     last: Option<(Kind, Goal, usize)>,
     waited: bool,
 }
 
-/// The text of a program of so many motions; about the wrist singularity where it `passes` that.
-pub(crate) fn grow(random: &mut Random, room: Room, robot: &Robot, count: usize, passes: bool) -> String {
-    let mut grower =
-        Grower { random, room, robot, text: String::new(), count: 0, settings: 1, last: None, waited: false };
-    grower.program(count, passes);
+/// The text of a program.
+pub(crate) fn grow(random: &mut Random, room: Room, robot: &Robot, wishes: Wishes) -> String {
+    let text = String::new();
+    let (count, settings, standing) = (0, 1, None);
+    let mut grower = Grower { random, room, robot, text, count, settings, standing, last: None, waited: false };
+    grower.program(wishes);
     grower.text
 }
 
@@ -70,11 +88,9 @@ impl Grower<'_> {
         rounded(between(self.random, -most, most))
     }
 
-    fn program(&mut self, count: usize, passes: bool) {
-        self.line(&format!("// robot: {}", self.robot.name));
-        self.line("func void main()");
+    fn program(&mut self, wishes: Wishes) {
         self.profile();
-        if passes {
+        if wishes.passes {
             self.line("  $WRIST = true");
         }
         let (exj, exl) = (between(self.random, 20.0, 120.0).round(), between(self.random, 80.0, 800.0).round());
@@ -91,13 +107,22 @@ impl Grower<'_> {
             self.line(&format!("  movej j{at},vp:40,sl:-1,t:$FLANGE"));
             self.waited = true;
             self.line("  waittime 0");
+            if at == 0 && self.random.chance(35) {
+                self.standing_tool();
+            }
             for setting in 0..self.settings {
                 let (tool, wobj) = names(setting);
                 self.line(&format!("  pose p{setting}_{at} = cpose({tool},{wobj})"));
             }
         }
         self.last = Some((Kind::Movej, Goal::Taught(3), 0));
-        while self.count < count {
+        let mut functions = String::new();
+        if wishes.stops {
+            let declarations;
+            (functions, declarations) = self.handlers(wishes.mode);
+            self.text.push_str(&declarations);
+        }
+        while self.count < wishes.count {
             self.overrides();
             self.motion();
             if self.random.chance(12) {
@@ -109,6 +134,22 @@ impl Grower<'_> {
         }
         self.line("  waittime 0");
         self.line("endfunc");
+        let (robot, mode, main) = (&self.robot.name, wishes.mode.word(), &self.text);
+        self.text = format!("// robot: {robot}\n// mode: {mode}\n{functions}func void main()\n{main}");
+    }
+
+    /// A tool that stands near where the flange is, and a workpiece on the flange.
+    fn standing_tool(&mut self) {
+        let at = self.settings;
+        let tilt = if self.robot.scara { 0.0 } else { 40.0 };
+        let tool = [60.0, 60.0, 90.0, 90.0, tilt, tilt].map(|most| self.about(most));
+        let wobj = [60.0, 60.0, 60.0, 90.0, tilt, tilt].map(|most| self.about(most));
+        let shift = list(&tool).replace(['{', '}'], "");
+        self.line(&format!("  pose c{at} = reltool(cpose($FLANGE,$WORLD),{shift})"));
+        self.line(&format!("  tool t{at} = {{{{c{at}.x,c{at}.y,c{at}.z,c{at}.a,c{at}.b,c{at}.c}},true}}"));
+        self.line(&format!("  wobj w{at} = {{{},true}}", list(&wobj)));
+        self.standing = Some(at);
+        self.settings += 1;
     }
 
     fn teach(&mut self, at: usize) {
@@ -208,8 +249,10 @@ impl Grower<'_> {
                 }
             }
             8 | 9 if scara => {
-                let goal = self.goal();
-                self.add(Kind::Jump([0.0; 2]), goal);
+                // The height of a tool that stands says nothing.
+                let (goal, setting) = (self.goal(), self.random.below(self.settings));
+                let setting = if self.standing == Some(setting) { 0 } else { setting };
+                self.add_with(Kind::Jump([0.0; 2]), goal, None, setting);
             }
             _ => {
                 let goal = self.goal();
@@ -327,6 +370,7 @@ impl Grower<'_> {
                     .map(|(from, to)| between(self.random, from, to).round());
                 format!("v:{{{percent},{tcp},{ori},{exj},{exl}}}")
             }
+            3..=5 if kind.leads_tool() => format!("vp:{}", between(self.random, 3.0, 70.0).round()),
             _ if kind.leads_tool() => format!("vl:{tcp}"),
             _ => format!("vp:{percent}"),
         }
@@ -347,6 +391,6 @@ fn shifted(setting: usize, shift: &[f64; 6], external: &[f64]) -> String {
 }
 
 /// The plan of a program that is grown anew.
-pub(crate) fn plan(random: &mut Random, room: Room, robot: &Robot, count: usize, passes: bool) -> Plan {
-    Plan::read(&grow(random, room, robot, count, passes))
+pub(crate) fn plan(random: &mut Random, room: Room, robot: &Robot, wishes: Wishes) -> Plan {
+    Plan::read(&grow(random, room, robot, wishes), &robot.tcp)
 }

@@ -2,6 +2,10 @@
 //! person can shorten.
 
 use super::geometry::{Frame, frame};
+use super::robot::Tcp;
+
+/// mm/s that the TCP keeps to in manual operation.
+pub(crate) const MANUAL: f64 = 250.0;
 
 /// What a motion is told about its target.
 #[derive(Clone, PartialEq, Debug)]
@@ -84,10 +88,24 @@ pub(crate) enum Profile {
 /// What is carried, and where the targets are.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Setting {
-    /// In the flange.
+    /// In the flange. Of one that stands: in the flange at the first taught position, there in the world from then on.
     pub(crate) tool: Frame,
-    /// In the world.
+    /// In the world, or in the flange.
     pub(crate) wobj: Frame,
+    /// Whether the tool stands, and the robot holds the workpiece.
+    pub(crate) held: bool,
+}
+
+impl Setting {
+    /// The TCP as ways are seen: in the world, or in the flange.
+    pub(crate) fn tcp(&self, flange: &Frame) -> Frame {
+        if self.held { flange.inverse() * self.tool } else { flange * self.tool }
+    }
+
+    /// The flange where the TCP is so.
+    pub(crate) fn flange(&self, tcp: &Frame) -> Frame {
+        if self.held { self.tool * tcp.inverse() } else { tcp * self.tool.inverse() }
+    }
 }
 
 /// A motion of a program.
@@ -108,20 +126,64 @@ pub(crate) struct Motion {
     pub(crate) wrist: bool,
     /// The robot stands at the target.
     pub(crate) rests: bool,
+    /// The program waits there.
+    pub(crate) waits: bool,
+    /// No point of the robot's tool goes faster than in manual operation.
+    pub(crate) manual: bool,
+}
+
+/// What the program does when an input goes on: it stops its motion, moves, and goes on.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Handler {
+    pub(crate) input: usize,
+    pub(crate) fast: bool,
+    pub(crate) motions: Vec<Motion>,
+    /// The line of `startmove`.
+    pub(crate) start: usize,
+    /// How many motions are dropped.
+    pub(crate) skip: usize,
+}
+
+/// The operating mode.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Mode {
+    Auto,
+    Manual,
+    ManualFast,
+}
+
+impl Mode {
+    const WORDS: [(&str, Mode); 3] = [("auto", Mode::Auto), ("manual", Mode::Manual), ("manufast", Mode::ManualFast)];
+
+    /// As the command line has it.
+    pub(crate) fn word(self) -> &'static str {
+        Self::WORDS.iter().find(|(_, mode)| *mode == self).expect("a word for each mode").0
+    }
+
+    fn of(word: &str) -> Mode {
+        Self::WORDS.iter().find(|(known, _)| *known == word).unwrap_or_else(|| panic!("mode {word}")).1
+    }
 }
 
 /// A program, its motions, and the positions that its first motions teach.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
     pub(crate) text: String,
+    pub(crate) mode: Mode,
+    pub(crate) handlers: Vec<Handler>,
     pub(crate) motions: Vec<Motion>,
     pub(crate) taught: Vec<Vec<f64>>,
     pub(crate) settings: Vec<Setting>,
 }
 
 /// What instructions leave to those behind them.
-struct Reader {
+struct Reader<'a> {
     plan: Plan,
+    tcp: &'a Tcp,
+    /// The function that is being read, where that is not `main`.
+    handler: Option<Handler>,
+    /// A tool to come, in the flange at the first taught position.
+    standing: Frame,
     speeds: Speeds,
     velset: [f64; 2],
     accset: [f64; 2],
@@ -132,13 +194,30 @@ struct Reader {
 }
 
 impl Plan {
-    /// Reads a program.
-    pub(crate) fn read(text: &str) -> Plan {
-        let world = Setting { tool: Frame::identity(), wobj: Frame::identity() };
-        let plan = Plan { text: text.to_owned(), motions: Vec::new(), taught: Vec::new(), settings: vec![world] };
-        let speeds = Speeds { axes: 0.05, tcp: 50.0, ori: 400.0, exj: 5.0, exl: 5.0 };
-        let (velset, accset) = ([1.0, f64::INFINITY], [1.0; 2]);
-        let mut reader = Reader { plan, speeds, velset, accset, profile: Profile::S, wrist: false, circles: 0 };
+    /// Reads a program for a robot with such limits.
+    pub(crate) fn read(text: &str, tcp: &Tcp) -> Plan {
+        let world = Setting { tool: Frame::identity(), wobj: Frame::identity(), held: false };
+        let mode = text.lines().find_map(|line| line.strip_prefix("// mode: ")).map_or(Mode::Auto, Mode::of);
+        let plan = Plan {
+            text: text.to_owned(),
+            mode,
+            handlers: Vec::new(),
+            motions: Vec::new(),
+            taught: Vec::new(),
+            settings: vec![world],
+        };
+        let mut reader = Reader {
+            plan,
+            tcp,
+            handler: None,
+            standing: Frame::identity(),
+            speeds: Speeds { axes: 0.05, tcp: 50.0, ori: 400.0, exj: 5.0, exl: 5.0 },
+            velset: [1.0, f64::INFINITY],
+            accset: [1.0; 2],
+            profile: Profile::S,
+            wrist: false,
+            circles: 0,
+        };
         for (at, line) in text.lines().enumerate() {
             let line = line.split("//").next().unwrap_or_default().trim();
             let (head, rest) = line.split_once(' ').unwrap_or((line, ""));
@@ -147,20 +226,34 @@ impl Plan {
         reader.finish()
     }
 
-    /// The setting whose motions have no other.
-    pub(crate) fn setting(&self, motion: &Motion) -> &Setting {
-        &self.settings[motion.setting]
+    /// How many motions are planned ahead from one on: up to where the program waits.
+    pub(crate) fn ahead(&self, from: usize) -> usize {
+        let left = self.motions.get(from..).unwrap_or_default();
+        left.iter().position(|motion| motion.waits).map_or(left.len(), |at| at + 1)
     }
 }
 
-impl Reader {
+impl Reader<'_> {
     fn line(&mut self, line: usize, head: &str, rest: &str) {
         match head {
-            "" | "func" | "endfunc" | "pose" => {}
+            "" | "interrupt" => {}
+            "func" => self.function(rest),
+            "endfunc" => self.plan.handlers.extend(self.handler.take()),
+            "stopmove" => self.handler_here().fast = rest == "fast",
+            "startmove" => {
+                let handler = self.handler_here();
+                (handler.start, handler.skip) = (line, skip(rest));
+            }
+            "pose" => {
+                if let Some(numbers) = numbers(rest).first_chunk() {
+                    self.standing = frame(*numbers);
+                }
+            }
             "joint" => self.plan.taught.push(numbers(rest)),
             "tool" => {
-                let tool = frame_of(&numbers(rest));
-                self.plan.settings.push(Setting { tool, wobj: Frame::identity() });
+                let held = rest.ends_with("true}");
+                let tool = if held { self.standing } else { frame_of(&numbers(rest)) };
+                self.plan.settings.push(Setting { tool, wobj: Frame::identity(), held });
             }
             "wobj" => self.plan.settings.last_mut().expect("a setting").wobj = frame_of(&numbers(rest)),
             "$VEL_PROFILE" => {
@@ -181,10 +274,28 @@ impl Reader {
                 let parts = numbers(rest);
                 self.velset = [parts[0] / 100.0, parts[1]];
             }
-            "waittime" => self.plan.motions.last_mut().expect("a motion").rests = true,
+            "waittime" => {
+                let motions = self.handler.as_mut().map_or(&mut self.plan.motions, |handler| &mut handler.motions);
+                if let Some(last) = motions.last_mut() {
+                    (last.rests, last.waits) = (true, true);
+                }
+            }
             _ => self.motion(line, head, rest),
         }
         self.circles = if head == "ccir" { self.circles + 1 } else { 0 };
+    }
+
+    /// `void stop2(pose p1_0)`: what is done when the second input goes on.
+    fn function(&mut self, rest: &str) {
+        let name = rest.split_once(' ').and_then(|(_, name)| name.split('(').next()).unwrap_or_default();
+        if let Some(input) = name.strip_prefix("stop") {
+            let input = input.parse().expect("the number of an input");
+            self.handler = Some(Handler { input, fast: false, motions: Vec::new(), start: 0, skip: 0 });
+        }
+    }
+
+    fn handler_here(&mut self) -> &mut Handler {
+        self.handler.as_mut().expect("a function that is called stop and a number")
     }
 
     fn default_speeds(&mut self, parts: &[f64]) {
@@ -204,7 +315,10 @@ impl Reader {
             profile: self.profile,
             wrist: self.wrist,
             rests: false,
+            waits: false,
+            manual: self.plan.mode == Mode::Manual,
         };
+        let before = self.speeds;
         let (mut via, mut gate, mut through) = ([0.0; 3], [25.0; 2], false);
         for argument in split(rest) {
             let (label, value) = match argument.split_once(':') {
@@ -222,6 +336,10 @@ impl Reader {
                 }
                 "t" => motion.setting = if value == "$FLANGE" { 0 } else { number_at_end(value) },
                 "w" => {}
+                "vp" if leads_tool(head) => {
+                    self.speeds.tcp = self.tcp.vel * number() / 100.0;
+                    self.speeds.ori = self.tcp.ori_vel * number() / 100.0;
+                }
                 "vp" => self.speeds.axes = number() / 100.0,
                 "vl" => self.speeds.tcp = number(),
                 "v" => self.default_speeds(&numbers(value)),
@@ -262,11 +380,26 @@ impl Reader {
         if motion.dura.is_some() {
             motion.speeds = Speeds { axes: 1.0, tcp: most, ori: f64::INFINITY, exj: f64::INFINITY, exl: f64::INFINITY };
         }
-        self.plan.motions.push(motion);
+        if motion.manual {
+            motion.speeds.tcp = motion.speeds.tcp.min(MANUAL);
+        }
+        let Some(handler) = &mut self.handler else {
+            self.plan.motions.push(motion);
+            return;
+        };
+        // When it runs, the program has said other things, which nobody knows here.
+        motion.speeds = Speeds { ori: f64::INFINITY, exj: f64::INFINITY, exl: f64::INFINITY, ..motion.speeds };
+        (motion.rests, motion.profile) = (true, Profile::T);
+        handler.motions.push(motion);
+        self.speeds = before;
     }
 
     /// Says where the robot rests.
     fn finish(mut self) -> Plan {
+        if !self.plan.text.contains("T_type") {
+            let motions = self.plan.handlers.iter_mut().flat_map(|handler| &mut handler.motions);
+            motions.for_each(|motion| motion.profile = Profile::S);
+        }
         let next: Vec<Option<(Kind, usize)>> =
             self.plan.motions.iter().skip(1).map(|motion| Some((motion.kind, motion.setting))).chain([None]).collect();
         for (motion, next) in self.plan.motions.iter_mut().zip(next) {
@@ -275,6 +408,20 @@ impl Reader {
             motion.rests |= next.is_none() || motion.zone == Zone::None && !goes_on;
         }
         self.plan
+    }
+}
+
+/// Whether instructions lead the TCP.
+fn leads_tool(head: &str) -> bool {
+    matches!(head, "lin" | "cir" | "ccir" | "spl")
+}
+
+/// What `startmove` says: how many motions, or whether the stopped one.
+fn skip(text: &str) -> usize {
+    match text {
+        "" | "false" => 0,
+        "true" => 1,
+        count => count.parse().expect("a number of motions"),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Robot files: what they allow, and others made of them at random.
 
+use super::geometry::Frame;
 use super::grow::between;
 use arl_tests::random::Random;
 use std::fmt::Write as _;
@@ -35,6 +36,8 @@ pub(crate) struct Robot {
     pub(crate) axes: Vec<Axis>,
     pub(crate) own: usize,
     pub(crate) tcp: Tcp,
+    /// What says where the flange is: the TCP of a tool that stands does not move in the trace.
+    model: arl_robot::Robot,
 }
 
 /// External axes, one that turns and one that is linear.
@@ -58,6 +61,12 @@ impl Robot {
         Robot::read(name, if seed == 0 { text } else { varied(&text, &mut Random::new(seed)) })
     }
 
+    /// The flange in the world.
+    pub(crate) fn flange(&self, axes: &[f64]) -> Frame {
+        let own = std::array::from_fn(|i| if i < self.own { axes[i] } else { 0.0 });
+        self.model.kinematics.forward(&own)
+    }
+
     fn read(name: &str, text: String) -> Robot {
         let mut robot = Robot {
             name: name.into(),
@@ -66,6 +75,7 @@ impl Robot {
             axes: Vec::new(),
             own: 0,
             tcp: Tcp::default(),
+            model: arl_robot::Robot::parse(name, &text).expect("a robot file"),
         };
         for (section, key, value) in entries(&text) {
             let number = || -> f64 { value.parse().expect("a number") };

@@ -1,72 +1,206 @@
-//! Stops and other overrides at the pendant while a program runs.
+//! What happens at the pendant and at the inputs while a program runs.
 
-use super::grow::between;
+use super::grow::{HANDLERS, between};
+use super::robot::Robot;
 use arl_tests::random::Random;
 use std::fmt::Write as _;
 
-/// The override is put to so much.
+/// What somebody does.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Deed {
+    /// The override is put to so much, 0 to 1; at 0 the robot stops on its path.
+    Share(f64),
+    /// An input goes on.
+    Input(usize),
+    Pause,
+    Start,
+    Step,
+    /// An axis, from 0, is jogged by so much, in deg (mm).
+    Jog(usize, f64),
+}
+
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Event {
     /// s
     pub(crate) at: f64,
-    /// 0 to 1; at 0 the robot stops on its path.
+    pub(crate) deed: Deed,
+}
+
+/// The share of its speed that the robot may have from a time on; at 0 it stops on its path.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Share {
+    /// s
+    pub(crate) at: f64,
     pub(crate) share: f64,
 }
 
 /// Events, the earliest first; the last ones let the program go on at full speed.
-#[derive(Clone, Debug)]
+#[derive(Clone, Default, Debug)]
 pub(crate) struct Scenario {
     pub(crate) text: String,
     pub(crate) events: Vec<Event>,
 }
 
+/// What kind of things happen.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Disturbance {
+    /// Stops by the override, and other overrides.
+    Overrides,
+    /// Inputs at which the program stops its motion.
+    Inputs,
+    /// Pauses, in which axes may be jogged.
+    Pauses,
+    /// Single steps from the beginning, then a start.
+    Steps,
+}
+
+/// For so long, in s, things happen; a program may take longer.
+const LONG: f64 = 60.0;
+
 impl Scenario {
-    /// Stops and other overrides, for as long as a program may run.
-    pub(crate) fn grow(random: &mut Random) -> Scenario {
-        let (mut t, mut text) = (0.0, String::new());
-        let mut add = |at: f64, percent: usize| {
-            writeln!(text, "[[event]]\nat = {at:.3}\noverride = {percent}\n").unwrap();
-        };
-        let eager = random.chance(30);
-        while t < 60.0 {
-            t += between(random, 0.05, if eager { 0.4 } else { 2.0 });
-            match random.below(5) {
-                0 | 1 => {
-                    add(t, 0);
-                    let longest = if random.chance(40) { 0.1 } else { 0.6 };
-                    t += between(random, 0.002, longest);
-                    add(t, if random.chance(70) { 100 } else { 1 + random.below(100) });
-                }
-                2 => {
-                    // One after the other, while the robot still minds the last.
-                    for _ in 0..2 + random.below(6) {
-                        add(t, 1 + random.below(100));
-                        t += between(random, 0.001, 0.05);
-                    }
-                }
-                3 => {
-                    add(t, 1 + random.below(8));
-                    t += between(random, 0.05, 0.5);
-                    add(t, 100);
-                }
-                _ => add(t, 30 + random.below(71)),
-            }
+    /// A scenario of a kind.
+    pub(crate) fn grow(random: &mut Random, kind: Disturbance, robot: &Robot) -> Scenario {
+        let mut text = String::new();
+        let mut add = |at: f64, what: &str| write!(text, "[[event]]\nat = {at:.3}\n{what}\n\n").unwrap();
+        match kind {
+            Disturbance::Overrides => overrides(random, &mut add),
+            Disturbance::Inputs => inputs(random, &mut add),
+            Disturbance::Pauses => pauses(random, robot, &mut add),
+            Disturbance::Steps => steps(random, &mut add),
         }
-        add(t + 1.0, 100);
-        Scenario::read(&text)
+        Scenario::read(&text, robot)
     }
 
     /// Reads a scenario of this kind.
-    pub(crate) fn read(text: &str) -> Scenario {
+    pub(crate) fn read(text: &str, robot: &Robot) -> Scenario {
         let (mut events, mut at) = (Vec::new(), 0.0);
         for line in text.lines() {
             let Some((key, value)) = line.split_once(" = ") else { continue };
-            match key {
-                "at" => at = value.parse().expect("a time"),
-                "override" => events.push(Event { at, share: value.parse::<f64>().expect("a number") / 100.0 }),
-                _ => panic!("{line}"),
-            }
+            let number = || value.parse::<f64>().unwrap_or_else(|_| panic!("{line}"));
+            let of = |name: &str| key.strip_prefix(name).and_then(|rest| rest.parse::<usize>().ok());
+            let deed = match (key, value) {
+                ("at", _) => {
+                    at = number();
+                    continue;
+                }
+                ("override", _) => Deed::Share(number() / 100.0),
+                ("pendant", "\"pause\"") => Deed::Pause,
+                ("pendant", "\"start\"") => Deed::Start,
+                ("pendant", "\"step\"") => Deed::Step,
+                (_, "false") if of("di.").is_some() => continue,
+                (_, "true") => Deed::Input(of("di.").unwrap_or_else(|| panic!("{line}"))),
+                _ => {
+                    let external = of("jog.ej").map(|axis| robot.own + axis);
+                    Deed::Jog(of("jog.j").or(external).unwrap_or_else(|| panic!("{line}")) - 1, number())
+                }
+            };
+            events.push(Event { at, deed });
         }
         Scenario { text: text.to_owned(), events }
     }
+
+    /// The shares of the speed; a pause is like an override of 0.
+    pub(crate) fn shares(&self) -> Vec<Share> {
+        let shares = self.events.iter().filter_map(|event| {
+            let share = match event.deed {
+                Deed::Share(share) => share,
+                Deed::Pause => 0.0,
+                Deed::Start | Deed::Step => 1.0,
+                Deed::Input(_) | Deed::Jog(..) => return None,
+            };
+            Some(Share { at: event.at, share })
+        });
+        shares.collect()
+    }
+
+    /// When inputs went on.
+    pub(crate) fn inputs(&self) -> impl Iterator<Item = (f64, usize)> {
+        self.events.iter().filter_map(|event| match event.deed {
+            Deed::Input(input) => Some((event.at, input)),
+            _ => None,
+        })
+    }
+
+    /// When the program was single-stepped: at its beginning, up to the start. Nothing where it was not.
+    pub(crate) fn stepped_until(&self) -> Option<f64> {
+        let steps = self.events.first().is_some_and(|first| first.deed == Deed::Step && first.at == 0.0);
+        let start = || self.events.iter().find(|event| event.deed == Deed::Start);
+        steps.then(|| start().map_or(f64::INFINITY, |event| event.at))
+    }
+}
+
+fn overrides(random: &mut Random, add: &mut impl FnMut(f64, &str)) {
+    let mut t = 0.0;
+    let mut put = |at: f64, percent: usize| add(at, &format!("override = {percent}"));
+    let eager = random.chance(30);
+    while t < LONG {
+        t += between(random, 0.05, if eager { 0.4 } else { 2.0 });
+        match random.below(5) {
+            0 | 1 => {
+                put(t, 0);
+                let longest = if random.chance(40) { 0.1 } else { 0.6 };
+                t += between(random, 0.002, longest);
+                put(t, if random.chance(70) { 100 } else { 1 + random.below(100) });
+            }
+            2 => {
+                // One after the other, while the robot still minds the last.
+                for _ in 0..2 + random.below(6) {
+                    put(t, 1 + random.below(100));
+                    t += between(random, 0.001, 0.05);
+                }
+            }
+            3 => {
+                put(t, 1 + random.below(8));
+                t += between(random, 0.05, 0.5);
+                put(t, 100);
+            }
+            _ => put(t, 30 + random.below(71)),
+        }
+    }
+    put(t + 1.0, 100);
+}
+
+fn inputs(random: &mut Random, add: &mut impl FnMut(f64, &str)) {
+    let mut t = 0.0;
+    while t < LONG {
+        t += between(random, 1.0, 7.0);
+        let input = 1 + random.below(HANDLERS);
+        add(t, &format!("di.{input} = true"));
+        t += 0.05;
+        add(t, &format!("di.{input} = false"));
+    }
+}
+
+fn pauses(random: &mut Random, robot: &Robot, add: &mut impl FnMut(f64, &str)) {
+    let mut t = 0.0;
+    while t < LONG {
+        t += between(random, 0.1, 4.0);
+        add(t, "pendant = \"pause\"");
+        if random.chance(60) {
+            for _ in 0..1 + random.below(3) {
+                t += between(random, 1.0, 2.0);
+                let axis = random.below(robot.axes.len());
+                let most = if robot.axes[axis].linear { 20.0 } else { 5.0 };
+                let by = (between(random, -most, most) * 100.0).round() / 100.0;
+                let name =
+                    if axis < robot.own { format!("j{}", axis + 1) } else { format!("ej{}", axis + 1 - robot.own) };
+                add(t, &format!("jog.{name} = {by:?}"));
+            }
+            // Sometimes while it still moves.
+            t += if random.chance(20) { 0.1 } else { 2.0 };
+        } else {
+            t += between(random, 0.002, 0.6);
+        }
+        add(t, "pendant = \"start\"");
+    }
+}
+
+fn steps(random: &mut Random, add: &mut impl FnMut(f64, &str)) {
+    let (mut t, until) = (0.0, between(random, 5.0, LONG));
+    let longest = between(random, 0.4, 2.0);
+    while t < until {
+        add(t, "pendant = \"step\"");
+        t += between(random, 0.3, longest);
+    }
+    add(t, "pendant = \"start\"");
 }

@@ -7,7 +7,7 @@ use crate::motions::robot::Robot;
 use crate::motions::trace::Row;
 
 pub(super) struct Corner<'a> {
-    leg: &'a Leg<'a>,
+    leg: &'a Leg,
     robot: &'a Robot,
     /// How far a blend may be from it.
     reach: Reach,
@@ -30,10 +30,10 @@ enum Reach {
 type Measured = [(&'static str, Option<f64>, f64); 5];
 
 impl<'a> Corner<'a> {
-    pub(super) fn new(account: &'a Account<'a>, at: usize) -> Corner<'a> {
+    pub(super) fn new(account: &'a Account<'_>, at: usize) -> Corner<'a> {
         let legs = &account.legs;
         let (leg, next) = (&legs[at], &legs[at + 1]);
-        let is_gate = |leg: &Leg<'_>| matches!(leg.motion.kind, Kind::Jump(_));
+        let is_gate = |leg: &Leg| matches!(leg.motion.kind, Kind::Jump(_));
         let reach = match leg.motion.zone {
             _ if leg.rests => Reach::None,
             Zone::None => Reach::None,
@@ -67,7 +67,7 @@ impl<'a> Corner<'a> {
     }
 
     /// Whether a row of a motion may be off its path for this corner.
-    pub(super) fn holds(&self, row: &Row, of: &Leg<'_>) -> bool {
+    pub(super) fn holds(&self, row: &Row, of: &Leg) -> bool {
         match &self.reach {
             Reach::None => false,
             Reach::Tcp(size) => distance(&row.tcp, &of.own_tcp(self.leg)) <= size + PATH,
@@ -85,7 +85,7 @@ impl<'a> Corner<'a> {
     }
 
     /// What is wrong with a row at which the path is left: the zone is the nearest of what was asked for.
-    pub(super) fn left_too_early(&self, row: &Row, of: &Leg<'_>, tally: &mut Tally) -> Option<String> {
+    pub(super) fn left_too_early(&self, row: &Row, of: &Leg, tally: &mut Tally) -> Option<String> {
         let slip = match &self.reach {
             Reach::Tcp(size) => Slip { pdis: *size, ..Slip::default() },
             Reach::OneOf(slip) => *slip,
@@ -103,7 +103,7 @@ impl<'a> Corner<'a> {
         fault
     }
 
-    fn measured(&self, slip: &Slip, row: &Row, of: &Leg<'_>) -> Measured {
+    fn measured(&self, slip: &Slip, row: &Row, of: &Leg) -> Measured {
         let corner = of.own_tcp(self.leg);
         let own = self.robot.own;
         let external = |linear: bool| {
@@ -121,7 +121,7 @@ impl<'a> Corner<'a> {
         ]
     }
 
-    pub(super) fn tell(&self, row: &Row, of: &Leg<'_>) -> String {
+    pub(super) fn tell(&self, row: &Row, of: &Leg) -> String {
         let far = distance(&row.tcp, &of.own_tcp(self.leg));
         let line = self.leg.motion.line;
         match &self.reach {

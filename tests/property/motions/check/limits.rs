@@ -17,8 +17,8 @@ struct Scale {
 const NOTHING: Scale = Scale { own: [0.0; 3], exj: 0.0, exl: 0.0 };
 
 impl Scale {
-    fn of(leg: &Leg<'_>) -> Scale {
-        let motion = leg.motion;
+    fn of(leg: &Leg) -> Scale {
+        let motion = &leg.motion;
         let axes = if leg.leads_tool() { 1.0 } else { motion.speeds.axes.min(1.0) };
         let [acc, ramp] = motion.accset;
         let jerk = if motion.profile == Profile::T { f64::INFINITY } else { ramp };
@@ -33,7 +33,7 @@ impl Scale {
 
 impl Account<'_> {
     pub(super) fn limits(&self, faults: &mut Vec<String>, tally: &mut Tally) {
-        let (rows, scales) = (self.rows, self.scales());
+        let (rows, scales) = (&self.rows, self.scales());
         for (index, axis) in self.robot.axes.iter().enumerate() {
             let name = if index < self.robot.own {
                 format!("j{}", index + 1)
@@ -63,9 +63,9 @@ impl Account<'_> {
                 };
                 let share = |at: usize| {
                     let end = (at + order + 1).min(rows.len() - 1);
-                    let near = scales[at.min(end)..=end].iter().zip(&self.shares[at.min(end)..=end]);
-                    let part = |share: &f64| if order == 0 { *share } else { 1.0 };
-                    let allowed = near.map(|(scale, share)| allowed(scale) * part(share)).fold(0.0, f64::max);
+                    let near = at.min(end)..=end;
+                    let factor = |row: usize| if order == 0 { self.shares[row] } else { self.hard[row] };
+                    let allowed = near.map(|row| allowed(&scales[row]) * factor(row)).fold(0.0, f64::max);
                     ((series[at].abs() - noise) / allowed, end)
                 };
                 let worst = (0..series.len()).map(share).max_by(|a, b| a.0.total_cmp(&b.0));
@@ -84,6 +84,10 @@ impl Account<'_> {
     /// What holds in each row: the most that the motion, and those that it is blended with, may use.
     fn scales(&self) -> Vec<Scale> {
         let (legs, count) = (&self.legs, self.rows.len());
+        // Of a trace of which nothing else is known.
+        if legs.iter().all(|leg| leg.rows.is_empty()) {
+            return vec![legs.iter().map(Scale::of).fold(NOTHING, Scale::max); count];
+        }
         let mut scales = vec![NOTHING; count];
         for (at, leg) in legs.iter().enumerate() {
             let before = at.checked_sub(1).map(|at| &legs[at]).filter(|leg| !leg.rests);

@@ -22,6 +22,9 @@ impl Account<'_> {
     fn on_path(&self, at: usize, faults: &mut Vec<String>, tally: &mut Tally) {
         let leg = &self.legs[at];
         let line = leg.motion.line;
+        if leg.rows.is_empty() {
+            return;
+        }
         let Some((note, off)) = self.path(at) else { return };
         let tolerance = if leg.leads_tool() { PATH } else { EXACT };
         let entered = Corner::new(self, at - 1);
@@ -49,7 +52,7 @@ impl Account<'_> {
             faults.push(format!("line {line}, {} s: {far} off the path; {}", row.t, corners.join("; ")));
         }
         // Where the path is left for good, all that the zone asks for must be met.
-        if let (Some(row), Some(corner)) = (beside, &left)
+        if let (Some(row), Some(corner)) = (beside.filter(|_| leg.reached), &left)
             && let Some(fault) = corner.left_too_early(row, leg, tally)
         {
             faults.push(format!("line {line}, {} s: {fault}", row.t));
@@ -71,7 +74,18 @@ impl Account<'_> {
         match leg.motion.kind {
             Kind::Lin => {
                 let path = move |row: &Row| {
-                    let share = share_of_line(&from, &to, &row.tcp.translation.vector);
+                    let share = match ((to - from).norm() > ALONG, turned(&start, &end)) {
+                        (true, _) => share_of_line(&from, &to, &row.tcp.translation.vector),
+                        // A way on the spot.
+                        (false, turn) if turn > ALONG => (turned(&start, &row.tcp) / turn).min(1.0),
+                        _ => {
+                            let ways = before.external.iter().zip(&leg.external).map(|(from, to)| to - from);
+                            let done =
+                                row.axes[self.robot.own..].iter().zip(&before.external).map(|(is, from)| is - from);
+                            let all = ways.zip(done).max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+                            all.map_or(0.0, |(way, done)| if way == 0.0 { 0.0 } else { (done / way).clamp(0.0, 1.0) })
+                        }
+                    };
                     let mut place = start.lerp_slerp(&end, share);
                     if leg.motion.wrist {
                         place.rotation = row.tcp.rotation;
@@ -111,7 +125,7 @@ impl Account<'_> {
         let place = |at: usize| legs.get(at).map(|other| leg.own_tcp(other).translation.vector);
         match leg.motion.kind {
             Kind::Cir([x, y, z]) => {
-                let first = leg.setting.wobj.inverse() * legs[0].flange * leg.setting.tool;
+                let first = leg.setting.wobj.inverse() * leg.own_tcp(&legs[0]);
                 let via = leg.setting.wobj
                     * nalgebra::Point3::from(first.translation.vector + nalgebra::Vector3::new(x, y, z));
                 Some(Circle::through(place(at - 1)?, via.coords, place(at)?))
@@ -146,7 +160,7 @@ fn off_joint_line(from: &[f64], to: &[f64], at: &[f64]) -> f64 {
     largest(at.iter().zip(from).zip(&way).map(|((at, from), way)| at - from - way * share))
 }
 
-impl Leg<'_> {
+impl Leg {
     /// How far this motion's axes are from the target of another, in deg (mm).
     pub(super) fn axes_from(&self, row: &Row, own: usize) -> Option<f64> {
         let axes = self.axes.as_ref()?;
