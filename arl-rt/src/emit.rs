@@ -12,7 +12,7 @@ pub use crate::cx::Cx;
 pub use crate::fault::{At, Done, Fault, File, Stop};
 pub use crate::fieldbus::{devicenet, modbus_tcp};
 pub use crate::ops::*;
-pub use crate::program::{BoxFuture, DataFile, DataVar, Program};
+pub use crate::program::{Beside, BoxFuture, DataFile, DataVar, Program};
 pub use crate::robot::Family;
 pub use crate::values::*;
 pub use crate::{

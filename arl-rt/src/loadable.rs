@@ -1,8 +1,9 @@
 //! The programs that `switcharl` can load.
 
+use std::ops::BitOr;
 use std::rc::Rc;
 
-use crate::program::Program;
+use crate::program::{Beside, Program};
 
 /// What makes a program.
 type Make = Box<dyn Fn() -> Box<dyn Program>>;
@@ -14,6 +15,11 @@ pub(crate) struct Loadable(Vec<(String, Make)>);
 impl Loadable {
     pub(crate) fn add(&mut self, name: String, make: Make) {
         self.0.push((name, make));
+    }
+
+    /// What any of them uses of what runs beside the cycle.
+    pub(crate) fn beside(&self) -> Beside {
+        self.0.iter().map(|(_, make)| make().beside()).fold(Beside::default(), Beside::bitor)
     }
 
     /// A program by the name of its file, in any case.

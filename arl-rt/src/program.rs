@@ -57,6 +57,11 @@ pub trait Program: AsAny {
     fn folder(&self) -> &Path {
         Path::new("")
     }
+
+    /// What it uses of what runs beside the cycle: that is started before the program is.
+    fn beside(&self) -> Beside {
+        Beside::default()
+    }
 }
 
 impl Program for Box<dyn Program> {
@@ -86,6 +91,10 @@ impl Program for Box<dyn Program> {
 
     fn folder(&self) -> &Path {
         (**self).folder()
+    }
+
+    fn beside(&self) -> Beside {
+        (**self).beside()
     }
 }
 
@@ -125,12 +134,36 @@ impl<P: Program + 'static> Program for Elsewhere<P> {
     fn folder(&self) -> &Path {
         &self.folder
     }
+
+    fn beside(&self) -> Beside {
+        self.program.beside()
+    }
 }
 
 impl<P: Program> fmt::Debug for Elsewhere<P> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let file = self.program.file();
         f.debug_struct("Elsewhere").field("program", &file.name()).field("folder", &self.folder).finish()
+    }
+}
+
+/// What runs beside the cycle, as far as programs use it.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub struct Beside {
+    /// Sockets, serial lines, Modbus RTU or Melsec: the thread that opens connections. Without it, it is started when the
+    /// first one is opened.
+    pub connections: bool,
+    /// Registers and coils of the controller's Modbus TCP server. Without it, and where the cell has none, they are there, but
+    /// nobody else sees them.
+    pub modbus_tcp: bool,
+}
+
+impl std::ops::BitOr for Beside {
+    type Output = Self;
+
+    /// What either of them uses.
+    fn bitor(self, other: Self) -> Self {
+        Self { connections: self.connections | other.connections, modbus_tcp: self.modbus_tcp | other.modbus_tcp }
     }
 }
 

@@ -6,7 +6,7 @@ use std::rc::{Rc, Weak};
 
 use crate::cell::Wiring;
 use crate::channel_id::ChannelId;
-use crate::communication::{NetworkDriver, NetworkSettings};
+use crate::communication::{NetworkDriver, NetworkSettings, Opener};
 use crate::cx::Cx;
 use crate::fault::Alarm;
 use crate::fieldbus::Buses;
@@ -48,8 +48,8 @@ pub(crate) struct World {
     /// Whether a program talks to the world, so that the world's time counts.
     outside: Cell<bool>,
     pub(crate) buses: Buses,
-    /// Whether cycles take the time that they stand for.
-    real_time: Cell<bool>,
+    /// What opens the connections of programs.
+    pub(crate) opener: Opener,
     /// The programs that `switcharl` can load.
     pub(crate) programs: Loadable,
     /// The foreground channels, in order, as the functions see them that ask about channels by number.
@@ -80,7 +80,6 @@ pub(crate) struct Parts {
     pub(crate) wiring: Wiring,
     pub(crate) programs: Loadable,
     pub(crate) buses: Buses,
-    pub(crate) real_time: bool,
     pub(crate) network_driver: Option<Box<dyn NetworkDriver>>,
 }
 
@@ -89,7 +88,7 @@ impl World {
         Self {
             programs: parts.programs,
             buses: parts.buses,
-            real_time: Cell::new(parts.real_time),
+            opener: Opener::default(),
             network: parts.network,
             wiring: parts.wiring,
             network_driver: RefCell::new(parts.network_driver),
@@ -150,18 +149,12 @@ impl World {
     /// Says that the program talks to the world: from now on the world's time counts.
     pub(crate) fn meet_outside(&self) {
         self.outside.set(true);
-        self.real_time.set(true);
     }
 
     /// Whether somebody has said so since the last call.
     #[inline]
     pub(crate) fn met_outside(&self) -> bool {
         self.outside.replace(false)
-    }
-
-    /// Whether cycles take the time that they stand for, or will from the next one on.
-    pub(crate) fn is_real_time(&self) -> bool {
-        self.real_time.get()
     }
 
     /// Notes an alarm; the one that ends a program stands before others of it.

@@ -362,6 +362,28 @@ pub struct Builtin {
     pub args: Vec<Bound>,
 }
 
+/// What opens connections.
+const OPENERS: [&str; 6] = [
+    "socket::connect",
+    "socket::accept",
+    "serial::open",
+    "modbus_rtu::open",
+    "modbus_rtu::open_stopbits_first",
+    "melsec::open",
+];
+
+impl Builtin {
+    /// Whether it opens a connection.
+    pub(crate) fn connects(&self) -> bool {
+        OPENERS.contains(&self.entry.path)
+    }
+
+    /// Whether it uses registers or coils of the controller's Modbus TCP server.
+    pub(crate) fn is_served(&self) -> bool {
+        self.entry.path.starts_with("modbus_tcp::")
+    }
+}
+
 /// An argument and the parameter that it is for.
 #[derive(Debug)]
 pub struct Bound {

@@ -18,13 +18,15 @@ const MOST_CLOSING: usize = 32;
 
 /// The connections that a program has opened: those of global variables and of local ones, too.
 #[derive(Default, Debug)]
-pub(crate) struct Connections {
-    list: RefCell<Vec<Arc<Shared>>>,
-    opener: RefCell<Option<Sender<Order>>>,
-}
+pub(crate) struct Connections(RefCell<Vec<Arc<Shared>>>);
 
-/// What the thread that opens connections is to do. To ask the system for a thread and descriptors, and to give them
-/// back, takes longer than a cycle should.
+/// The thread that opens the connections of all programs. To ask the system for a thread and descriptors, and to give them
+/// back, takes longer than a cycle should. It ends with whoever sends it orders.
+#[derive(Default, Debug)]
+pub(crate) struct Opener(RefCell<Option<Sender<Order>>>);
+
+/// What that thread is to do.
+#[derive(Debug)]
 struct Order {
     shared: Arc<Shared>,
     opening: Opening,
@@ -32,53 +34,62 @@ struct Order {
     over: Vec<Arc<Shared>>,
 }
 
+impl Opener {
+    /// Starts the thread, unless it runs.
+    ///
+    /// # Errors
+    /// The system has no threads left.
+    pub(crate) fn start(&self) -> io::Result<()> {
+        let mut opener = self.0.borrow_mut();
+        if opener.is_none() {
+            let (sender, orders) = channel();
+            Builder::new().name("connections".into()).stack_size(worker::STACK).spawn(move || carry_out(&orders))?;
+            *opener = Some(sender);
+        }
+        Ok(())
+    }
+
+    fn send(&self, order: Order) -> io::Result<()> {
+        self.start()?;
+        let sent = self.0.borrow().as_ref().is_some_and(|sender| sender.send(order).is_ok());
+        sent.then_some(()).ok_or_else(|| io::Error::other("the thread that opens connections is gone"))
+    }
+}
+
 impl Connections {
     /// Has a connection opened, and forgets those that are over.
     ///
     /// # Errors
     /// The system has no threads left.
-    pub(super) fn open(&self, shared: Arc<Shared>, opening: Opening) -> io::Result<()> {
-        let mut opener = self.opener.borrow_mut();
-        let sender = match opener.take() {
-            Some(sender) => sender,
-            None => start_opener()?,
-        };
-        let mut list = self.list.borrow_mut();
+    pub(super) fn open(&self, opener: &Opener, shared: Arc<Shared>, opening: Opening) -> io::Result<()> {
+        let mut list = self.0.borrow_mut();
         let over = list.extract_if(.., |shared| shared.is_over()).collect();
-        list.push(Arc::clone(&shared));
-        let sent = sender.send(Order { shared, opening, over });
-        *opener = Some(sender);
-        sent.map_err(|_| io::Error::other("the thread that opens connections is gone"))
+        opener.send(Order { shared: Arc::clone(&shared), opening, over })?;
+        list.push(shared);
+        Ok(())
     }
 
     /// Whether so many are on their way to being closed that new ones have to wait: a program that opens and closes in a
     /// loop does not pile up threads.
     pub(crate) fn are_too_many(&self) -> bool {
         let closing = |shared: &&Arc<Shared>| shared.is_closing() && !shared.is_over();
-        self.list.borrow().iter().filter(closing).count() >= MOST_CLOSING
+        self.0.borrow().iter().filter(closing).count() >= MOST_CLOSING
     }
 
     /// Closes all of them: the program has ended.
     pub(crate) fn close(&self) {
-        self.list.borrow().iter().for_each(|shared| shared.close());
+        self.0.borrow().iter().for_each(|shared| shared.close());
     }
 
     /// Whether nothing that is to be closed still holds a port to listen on, or a device.
     pub(crate) fn are_free(&self) -> bool {
-        self.list.borrow().iter().all(|shared| shared.is_free())
+        self.0.borrow().iter().all(|shared| shared.is_free())
     }
 
     /// Whether nothing that is to be closed is still open: what was sent has gone.
     pub(crate) fn are_settled(&self) -> bool {
-        self.list.borrow().iter().all(|shared| shared.is_done() || !shared.is_closing())
+        self.0.borrow().iter().all(|shared| shared.is_done() || !shared.is_closing())
     }
-}
-
-/// Starts the thread that opens connections. It ends with whoever sends it orders.
-fn start_opener() -> io::Result<Sender<Order>> {
-    let (sender, orders) = channel();
-    Builder::new().name("connections".into()).stack_size(worker::STACK).spawn(move || carry_out(&orders))?;
-    Ok(sender)
 }
 
 fn carry_out(orders: &Receiver<Order>) {

@@ -123,7 +123,7 @@ impl Handle {
 
     /// Begins to open the connection; nothing where the system cannot.
     fn begin(&self, cx: &Cx, function: &'static str, opening: Opening) -> Option<Held> {
-        match Link::open(cx.connections(), opening.clone()) {
+        match Link::open(cx.connections(), &cx.world().opener, opening.clone()) {
             Ok(link) => {
                 cx.world().meet_outside();
                 let (known_open, known_lost) = (Cell::new(false), Cell::new(false));

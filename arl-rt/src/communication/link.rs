@@ -3,7 +3,7 @@
 use std::io;
 use std::sync::Arc;
 
-use super::connections::Connections;
+use super::connections::{Connections, Opener};
 use super::inbox::Inbox;
 use super::opening::Opening;
 use super::shared::Shared;
@@ -31,9 +31,9 @@ impl Link {
     ///
     /// # Errors
     /// The system has no threads left.
-    pub(crate) fn open(connections: &Connections, opening: Opening) -> io::Result<Self> {
+    pub(crate) fn open(connections: &Connections, opener: &Opener, opening: Opening) -> io::Result<Self> {
         let shared = Arc::new(Shared::new(opening.holds()));
-        connections.open(Arc::clone(&shared), opening)?;
+        connections.open(opener, Arc::clone(&shared), opening)?;
         Ok(Self(shared))
     }
 

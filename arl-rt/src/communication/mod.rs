@@ -22,7 +22,7 @@ pub mod modbus_rtu;
 pub mod serial;
 pub mod socket;
 
-pub(crate) use connections::Connections;
+pub(crate) use connections::{Connections, Opener};
 pub use network::{NetworkDriver, PortSettings};
 pub use settings::{Listen, NetworkSettings};
 #[cfg(feature = "fuzzing")]

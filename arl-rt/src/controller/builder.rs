@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::fmt;
 use std::io::Write;
+use std::ops::BitOr;
 use std::path::PathBuf;
 use std::rc::Rc;
 
@@ -27,7 +28,7 @@ use crate::lane::{Lane, Station};
 use crate::loadable::Loadable;
 use crate::output::{Output, Stream};
 use crate::pointers::{self, Table};
-use crate::program::Program;
+use crate::program::{Beside, Program};
 use crate::random::{self, Random};
 use crate::robot::{Family, Robot, RobotError};
 use crate::robot_driver::RobotDriver;
@@ -329,10 +330,12 @@ impl Builder {
         let scenario = Playing::new(self.scenario, &io, rate);
         let simulated = || Box::new(SimulatedDeviceNet::new(cell.buses.devicenet)) as Box<dyn DeviceNet>;
         let devicenet = self.devicenet.unwrap_or_else(simulated);
+        let programs = std::iter::once(&program).chain(others.iter().map(|(_, it)| &it.program)).chain(&background);
+        let uses = programs.map(|program| program.beside()).fold(self.programs.beside(), Beside::bitor);
         let buses = Buses::new(cell.buses, devicenet);
-        buses.start().map_err(SetupError::Outside)?;
+        let note = buses.start(uses.modbus_tcp && self.clock.is_real()).map_err(SetupError::Outside)?;
         let islands = Islands::start(&cell.islands).map_err(SetupError::Outside)?;
-        let (outside, real_time) = (buses.is_outside() || !islands.is_empty(), self.clock.is_real());
+        let outside = buses.is_outside() || !islands.is_empty();
         let external = External::new(cell.external.enabled, rate);
         let world = Rc::new(World::new(Parts {
             rate,
@@ -347,14 +350,17 @@ impl Builder {
             wiring: cell.external,
             programs: self.programs,
             buses,
-            real_time,
             network_driver: self.network,
         }));
         if outside {
             world.meet_outside();
         }
-        if let Some(note) = world.buses.note() {
+        if let Some(note) = note {
             world.warn(note);
+        }
+        if uses.connections {
+            // Where the system has no thread for it now, whoever opens the first connection tries again.
+            let _ = world.opener.start();
         }
         let site = Site {
             world: Rc::clone(&world),

@@ -45,22 +45,20 @@ impl Buses {
         self.modbus_tcp.get_or_init(ModbusTcp::default)
     }
 
-    /// Starts what the cell asks for, whether the program uses it or not.
+    /// Starts what the cell asks for, whether a program uses it or not. Where the cell says nothing of it, a server with all
+    /// defaults is tried, if programs want one. What the user should know: where the server listens, if the cell left that
+    /// open; why there is none.
     ///
     /// # Errors
-    /// Why some of it cannot be had.
-    pub(crate) fn start(&self) -> Result<(), String> {
-        match &self.settings.modbus_tcp {
-            Some(settings) => self.modbus_tcp().start(settings),
-            None => Ok(()),
-        }
-    }
-
-    /// What the user should know: where the server listens, if the cell left that open.
-    pub(crate) fn note(&self) -> Option<String> {
-        let open = self.settings.modbus_tcp.is_some_and(|settings| settings.address.port() == 0);
-        let address = self.modbus_tcp_address().filter(|_| open)?;
-        Some(format!("the Modbus TCP server listens on {address}"))
+    /// Why some of what the cell asks for cannot be had.
+    pub(crate) fn start(&self, wanted: bool) -> Result<Option<String>, String> {
+        let Some(settings) = &self.settings.modbus_tcp else {
+            let tried = wanted.then(|| self.modbus_tcp().start(&ModbusTcpSettings::default()));
+            return Ok(tried.and_then(Result::err));
+        };
+        self.modbus_tcp().start(settings)?;
+        let address = self.modbus_tcp_address().filter(|_| settings.address.port() == 0);
+        Ok(address.map(|address| format!("the Modbus TCP server listens on {address}")))
     }
 
     /// Where the Modbus TCP server listens, if there is one.

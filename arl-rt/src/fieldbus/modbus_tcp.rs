@@ -1,6 +1,6 @@
 //! Modbus TCP: the controller is the server; these functions work on its own registers and coils.
 
-use std::cell::{Cell, OnceCell};
+use std::cell::OnceCell;
 use std::net::SocketAddr;
 
 use super::modbus::server::Server;
@@ -15,8 +15,6 @@ use crate::values::Str;
 pub(crate) struct ModbusTcp {
     tables: SharedTables,
     server: OnceCell<Server>,
-    /// Whether the server was started by default, or tried to be.
-    tried: Cell<bool>,
 }
 
 impl ModbusTcp {
@@ -41,13 +39,6 @@ impl ModbusTcp {
     /// Where the server listens, if there is one.
     pub(super) fn address(&self) -> Option<SocketAddr> {
         self.server.get().map(Server::address)
-    }
-
-    /// Where the cell says nothing of it, a program that uses the tables starts the server with all defaults, unless the run
-    /// takes no real time. Once: why it cannot be had.
-    fn start_by_default(&self, real_time: bool) -> Option<String> {
-        let due = real_time && self.server.get().is_none() && !self.tried.replace(true);
-        if due { self.start(&ModbusTcpSettings::default()).err() } else { None }
     }
 }
 
@@ -132,7 +123,7 @@ async fn with_registers<R>(
     len: i32,
     act: impl FnOnce(&mut [u8]) -> Result<R, String>,
 ) -> Option<R> {
-    exchange(cx, function, "registers", start, len, |tables, start, count| {
+    exchange(cx, function, "register", start, len, |tables, start, count| {
         // They have been checked to be there.
         act(tables.registers_mut(start, count).unwrap_or_default())
     })
@@ -147,7 +138,7 @@ async fn with_coils(
     len: i32,
     act: impl FnOnce(&mut Tables, usize, usize) -> Result<(), String>,
 ) -> Option<()> {
-    exchange(cx, function, "coils", start, len, act).await
+    exchange(cx, function, "coil", start, len, act).await
 }
 
 /// Does something with the tables, once all motion has ended; nothing where it is not possible, which is reported.
@@ -160,11 +151,7 @@ async fn exchange<R>(
     act: impl FnOnce(&mut Tables, usize, usize) -> Result<R, String>,
 ) -> Option<R> {
     cx.motion_end().await;
-    let world = cx.world();
-    let modbus = world.buses.modbus_tcp();
-    if let Some(problem) = modbus.start_by_default(world.is_real_time()) {
-        world.warn(problem);
-    }
+    let modbus = cx.world().buses.modbus_tcp();
     let done = match range(what, start, count) {
         Err(problem) => Err(problem),
         Ok((start, count)) => loop {
@@ -182,15 +169,37 @@ async fn exchange<R>(
 /// Start and count, where these registers or coils exist.
 fn range(what: &str, start: i32, count: i32) -> Result<(usize, usize), String> {
     if count < 0 {
-        return Err(format!("{count} {what}: 0 or more are possible"));
+        return Err(format!("{count} {what}s: 0 or more are possible"));
     }
     let wanted = usize::try_from(start).ok().zip(usize::try_from(count).ok());
     wanted.filter(|(start, count)| start + count <= SIZE).ok_or_else(|| {
-        let last = i64::from(start) + i64::from(count) - 1;
-        format!("{what} {start} to {last} do not exist: 0 to {} are there", SIZE - 1)
+        let named = match i64::from(start) + i64::from(count) - 1 {
+            last if last > i64::from(start) => format!("{what}s {start} to {last} do not exist"),
+            _ => format!("{what} {start} does not exist"),
+        };
+        format!("{named}: 0 to {} are there", SIZE - 1)
     })
 }
 
 fn short(needed: usize, size: usize) -> String {
     format!("{needed} bytes are needed, the array has {size}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_does_not_exist_is_named() {
+        let named = |start, count| range("coil", start, count).unwrap_err();
+        assert_eq!(named(65_536, 1), "coil 65536 does not exist: 0 to 65535 are there");
+        assert_eq!(named(-1, 0), "coil -1 does not exist: 0 to 65535 are there");
+        assert_eq!(named(65_535, 2), "coils 65535 to 65536 do not exist: 0 to 65535 are there");
+        assert_eq!(named(0, -1), "-1 coils: 0 or more are possible");
+        assert_eq!(range("coil", 65_535, 1), Ok((65_535, 1)));
+        assert_eq!(
+            range("coil", i32::MAX, i32::MAX).unwrap_err(),
+            "coils 2147483647 to 4294967293 do not exist: 0 to 65535 are there"
+        );
+    }
 }

@@ -63,7 +63,12 @@ impl Robot {
     where
         F: for<'a> Fn(&'a Cx) -> BoxFuture<'a> + 'static,
     {
-        let (controller, messages) = common::controller(builder, program);
+        Self::of(builder, Box::new(common::script(program)))
+    }
+
+    pub(crate) fn of(builder: Builder, program: Box<dyn Program>) -> Self {
+        let messages = Captured::new();
+        let controller = builder.output(messages.clone()).build(program).unwrap();
         Self { controller, messages, read: 0 }
     }
 

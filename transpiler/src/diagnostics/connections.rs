@@ -8,11 +8,18 @@ pub(crate) enum ConnectionProblem {
     /// A value that the parameter does not take.
     Value { param: &'static str, value: i32, allowed: String },
     /// So many of these from `start` on: there are `size`, from 0 on. `result` is what becomes of the call.
-    Missing { unit: &'static str, start: i64, count: i64, size: i64, result: &'static str },
+    Missing { unit: Unit, start: i64, count: i64, size: i64, result: &'static str },
     /// A serial line to which the cell gives no device; it knows others.
     Line { name: String, known: Vec<String> },
     /// Registers or coils in a cell without a server.
     Unseen { name: &'static str },
+}
+
+/// What a call names, one of them and several.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Unit {
+    pub(crate) one: &'static str,
+    pub(crate) many: &'static str,
 }
 
 impl Problem for ConnectionProblem {
@@ -30,12 +37,12 @@ impl Problem for ConnectionProblem {
             ConnectionProblem::Value { param, value, allowed } => {
                 format!("`{param}` cannot be {value}: it is {allowed}")
             }
-            ConnectionProblem::Missing { unit, start, count: 0 | 1, .. } => format!("{unit} {start} are not there"),
+            ConnectionProblem::Missing { unit, start, count: 0 | 1, .. } => format!("there is no {} {start}", unit.one),
             ConnectionProblem::Missing { unit, start, count: ..0, .. } => {
-                format!("fewer than 0 {unit} from {start} on cannot be named")
+                format!("fewer than 0 {} from {start} on cannot be named", unit.many)
             }
             ConnectionProblem::Missing { unit, start, count, .. } => {
-                format!("{unit} {start} to {} are not all there", start + count - 1)
+                format!("{} {start} to {} are not all there", unit.many, start + count - 1)
             }
             ConnectionProblem::Line { name, .. } => format!("the cell has no device for the serial line \"{name}\""),
             ConnectionProblem::Unseen { name } => {

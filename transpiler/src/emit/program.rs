@@ -3,7 +3,8 @@
 use super::body::{Unit, mentions};
 use super::variables::{self, Init};
 use super::{functions, names};
-use crate::hir::{FuncId, Module, ModuleId};
+use crate::hir::{Expr, ExprKind, FuncId, Module, ModuleId};
+use crate::visit;
 use arl_lang::catalog::Family;
 use proc_macro2::TokenStream;
 use quote::quote;
@@ -147,6 +148,7 @@ fn program(unit: &Unit<'_>, parts: &[Parts]) -> TokenStream {
             }
         }
     });
+    let beside = beside(unit);
     let (init_cx, init_body) = init;
     let (main_cx, main_body) = main;
     let blank = blank(unit);
@@ -169,8 +171,33 @@ fn program(unit: &Unit<'_>, parts: &[Parts]) -> TokenStream {
                 #main_body
             }
             #data
+            #beside
         }
     }
+}
+
+/// `fn beside(&self) -> Beside`, where the program uses something that runs beside the cycle.
+fn beside(unit: &Unit<'_>) -> Option<TokenStream> {
+    let (mut connections, mut modbus_tcp) = (false, false);
+    let mut look = |expr: &Expr| {
+        if let ExprKind::Builtin(builtin) = &expr.kind {
+            connections |= builtin.connects();
+            modbus_tcp |= builtin.is_served();
+        }
+    };
+    let inits = unit.program.globals.iter().filter_map(|global| global.init.as_ref());
+    inits.for_each(|init| visit::exprs(init, &mut look));
+    let reached = unit.program.funcs.iter().zip(&unit.reached).filter(|(_, reached)| **reached);
+    reached.flat_map(|(func, _)| &func.body).for_each(|stmt| visit::exprs_in_stmt(stmt, &mut look));
+    let blank = blank(unit);
+    (connections || modbus_tcp).then(|| {
+        quote! {
+            #blank
+            fn beside(&self) -> arl_rt::emit::Beside {
+                arl_rt::emit::Beside { connections: #connections, modbus_tcp: #modbus_tcp }
+            }
+        }
+    })
 }
 
 /// The modules in the order in which their variables get their first values.

@@ -1,7 +1,7 @@
 //! Ports, stations, lines, registers and bytes that connections and buses do not have.
 
 use super::{constant_int, named};
-use crate::diagnostics::connections::ConnectionProblem;
+use crate::diagnostics::connections::{ConnectionProblem, Unit};
 use crate::hir::{Builtin, ExprKind, Value};
 use arl_lang::span::Span;
 use arl_robot::outline::Outline;
@@ -66,7 +66,7 @@ struct Stretch {
     start: &'static str,
     len: &'static str,
     /// What they are called.
-    unit: &'static str,
+    unit: Unit,
     /// How many there are.
     size: fn(&Outline) -> i64,
     /// How many of them so many of `len` are.
@@ -88,7 +88,7 @@ const STRETCHES: [Stretch; 5] = [
         ],
         start: "start",
         len: "len",
-        unit: "registers",
+        unit: Unit { one: "register", many: "registers" },
         size: |_| 1 << 16,
         count: |len| len,
         result: FALSE,
@@ -97,7 +97,7 @@ const STRETCHES: [Stretch; 5] = [
         paths: &["modbus_tcp::readcoils", "modbus_tcp::writecoils"],
         start: "start",
         len: "length",
-        unit: "coils",
+        unit: Unit { one: "coil", many: "coils" },
         size: |_| 1 << 16,
         count: |len| len,
         result: FALSE,
@@ -111,7 +111,7 @@ const STRETCHES: [Stretch; 5] = [
         ],
         start: "start",
         len: "len",
-        unit: "bytes of the slave",
+        unit: Unit { one: "byte of the slave", many: "bytes of the slave" },
         size: |_| 1 << 17,
         count: |len| len,
         result: ALARM,
@@ -120,7 +120,7 @@ const STRETCHES: [Stretch; 5] = [
         paths: &["melsec::read_string", "melsec::read_bytes", "melsec::write_string", "melsec::write_bytes"],
         start: "start",
         len: "len",
-        unit: "D registers",
+        unit: Unit { one: "D register", many: "D registers" },
         size: |_| 1 << 24,
         // Two bytes a register, the last one's low byte alone.
         count: |len| (len + 1) / 2,
@@ -130,7 +130,7 @@ const STRETCHES: [Stretch; 5] = [
         paths: &["devicenet::dnwrite", "devicenet::dnread"],
         start: "offset",
         len: "len",
-        unit: "bytes of the DeviceNet bus",
+        unit: Unit { one: "byte of the DeviceNet bus", many: "bytes of the DeviceNet bus" },
         size: |cell| cell.devicenet.into(),
         count: |len| len,
         result: "the call would give 1",
@@ -177,6 +177,5 @@ fn line(builtin: &Builtin, cell: &Outline) -> Option<(Span, ConnectionProblem)> 
 
 /// Registers and coils are used that no PLC can reach.
 pub(super) fn unseen(builtin: &Builtin) -> Option<ConnectionProblem> {
-    let name = builtin.entry.path.starts_with("modbus_tcp::").then_some(builtin.entry.name)?;
-    Some(ConnectionProblem::Unseen { name })
+    builtin.is_served().then_some(ConnectionProblem::Unseen { name: builtin.entry.name })
 }
