@@ -188,6 +188,7 @@ impl Param {
             bare: true,
             units: &[],
             range: None,
+            counts: None,
             doc,
         }
     }
@@ -227,6 +228,8 @@ setters! { Param:
     units(units: &'static [Unit]) { units = units }
     /// The least and greatest constant.
     range(low: f64, high: f64) { range = Some((low, high)) }
+    /// A number of parts of the array beside it, of so many bits each.
+    counts(bits: u32) { counts = Some(bits) }
     /// Other labels.
     alias(names: &'static [&'static str]) { aliases = names }
     /// The builder's method, where the folded name is a word of Rust.

@@ -6,14 +6,14 @@ entries! { pub(super) DEVICENET =
     /// Writes bytes into the bus's buffer: 0, or an error code (offset or length outside the buffer).
     fn dnwrite(
         offset: int "offset of the first byte in the buffer",
-        len: int "how many bytes",
+        len: int [counts(8)] "how many bytes",
         data: [byte] "the bytes",
     ) -> int
         { "5.6.3.1", devicenet::dnwrite, waits, fails; "byte data[3] = {1,2,3}\nprint dnwrite(0,3,data)" }
     /// Reads bytes from the bus's buffer: 0, or an error code (offset or length outside the buffer).
     fn dnread(
         offset: int "offset of the first byte in the buffer",
-        len: int "how many bytes",
+        len: int [counts(8)] "how many bytes",
         data: [byte] [out] "gets the bytes",
     ) -> int
         { "5.6.3.2", devicenet::dnread, waits, fails, alias(&["dhread"]); "byte data[3]\nprint dnread(0,3,data)" }

@@ -101,6 +101,8 @@ pub struct Param {
     pub units: &'static [Unit],
     /// The least and greatest constant that make sense; values beyond are an error where known.
     pub range: Option<(f64, f64)>,
+    /// How many bits each of what it counts takes in the array that is given beside it.
+    pub counts: Option<u32>,
     /// What it means, with its unit and what happens without it.
     pub doc: &'static str,
 }

@@ -28,7 +28,7 @@ entries! { pub(super) MELSEC =
         dev: melsec_dev "the connection",
         data: [byte] [out] "gets the bytes",
         start: int "number of the first D register",
-        len: int "how many bytes; of an odd number the last register's low byte",
+        len: int [counts(8)] "how many bytes; of an odd number the last register's low byte",
     ) -> bool
         { "5.6.5.3", melsec::read_bytes, waits, fails;
           "melsec_dev mc\nbyte data[24]\nwaituntil open(mc,\"10.20.220.92\",8080,255)\nwaituntil read(mc,data,6000,24)" }
@@ -46,7 +46,7 @@ entries! { pub(super) MELSEC =
         dev: melsec_dev "the connection",
         data: [byte] "the bytes",
         start: int "number of the first D register",
-        len: int "how many bytes; an odd number writes 0 into the high byte left over",
+        len: int [counts(8)] "how many bytes; an odd number writes 0 into the high byte left over",
     ) -> bool
         { "5.6.5.4", melsec::write_bytes, waits, fails;
           "melsec_dev mc\nbyte data[4] = {1,2,3,4}\nwaituntil open(mc,\"10.20.220.92\",8080,255)\nwaituntil write(mc,data,6000,4)" }

@@ -44,7 +44,7 @@ entries! { pub(super) MODBUS_RTU =
         dev: modbus_dev "the slave",
         data: [byte] [out] "gets the bytes",
         start: int "offset of the first byte",
-        len: int "how many bytes",
+        len: int [counts(8)] "how many bytes",
     ) -> bool
         { "5.6.6.3", modbus_rtu::read_bytes, waits, fails;
           "modbus_dev m\nbyte data[4]\nopen(m,\"rtserMB0\",1,115200,none,8,one)\nread(m,data,0,4)" }
@@ -57,7 +57,7 @@ entries! { pub(super) MODBUS_RTU =
         dev: modbus_dev "the slave",
         data: [byte] "the bytes",
         start: int "offset of the first byte",
-        len: int "how many bytes",
+        len: int [counts(8)] "how many bytes",
     ) -> bool
         { "5.6.6.4", modbus_rtu::write_bytes, waits, fails;
           "modbus_dev m\nbyte data[4] = {31h,32h,33h,34h}\nopen(m,\"rtserMB0\",1,115200,none,8,one)\nwrite(m,data,0,4)" }

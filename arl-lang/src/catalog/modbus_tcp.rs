@@ -15,7 +15,7 @@ entries! { pub(super) MODBUS_TCP =
     fn readregisters(
         data: [byte] [out] "gets the bytes",
         start: int "address of the first register, from 0",
-        len: int "how many registers",
+        len: int [counts(16)] "how many registers",
     ) -> bool
         { "5.6.4.1", modbus_tcp::readregisters_bytes, waits, fails;
           "byte data[4]\nwaituntil readregisters(data,100,2)\nprint data" }
@@ -30,7 +30,7 @@ entries! { pub(super) MODBUS_TCP =
     fn writeregisters(
         data: [byte] "the bytes",
         start: int "address of the first register, from 0",
-        len: int "how many registers",
+        len: int [counts(16)] "how many registers",
     ) -> bool
         { "5.6.4.2", modbus_tcp::writeregisters_bytes, waits, fails;
           "byte data[4] = {1,2,3,4}\nwaituntil writeregisters(data,100,2)" }
@@ -38,7 +38,7 @@ entries! { pub(super) MODBUS_TCP =
     fn readcoils(
         data: [byte] [out] "gets the coils",
         start: int "address of the first coil, from 0",
-        length: int "how many coils",
+        length: int [counts(1)] "how many coils",
     ) -> bool
         { "5.6.4.3", modbus_tcp::readcoils, waits, fails;
           "byte data[2]\nwaituntil readcoils(data,100,16)\nprint data" }
@@ -46,7 +46,7 @@ entries! { pub(super) MODBUS_TCP =
     fn writecoils(
         data: [byte] "the coils",
         start: int "address of the first coil, from 0",
-        length: int "how many coils",
+        length: int [counts(1)] "how many coils",
     ) -> bool
         { "5.6.4.4", modbus_tcp::writecoils, waits, fails;
           "byte data[2] = {1,2}\nwaituntil writecoils(data,100,16)" }

@@ -21,7 +21,7 @@ entries! { pub(super) SERIAL =
         { "5.6.2.3", serial::write_string, waits, fails;
           "iodev s\nopen(s,\"/dev/ttyS0\",9600,8,one,none)\nwaituntil write(s,\"hello\")" }
     /// Sends bytes; true when all of them have been sent.
-    fn write(dev: iodev "the line", data: [byte] "the bytes", len: int "how many of them") -> bool
+    fn write(dev: iodev "the line", data: [byte] "the bytes", len: int [counts(8)] "how many of them") -> bool
         { "5.6.2.3", serial::write_bytes, waits, fails;
           "iodev s\nbyte data[4] = {1,2,3,4}\nopen(s,\"/dev/ttyS0\",9600,8,one,none)\nwaituntil write(s,data,4)" }
     /// Takes exactly len bytes as a text when so many have come; what is left stays for the next call.
@@ -29,7 +29,7 @@ entries! { pub(super) SERIAL =
         { "5.6.2.3", serial::read_string, waits, fails;
           "iodev s\nstring data\nopen(s,\"/dev/ttyS0\",9600,8,one,none)\nwaituntil read(s,data,4)" }
     /// Takes exactly len bytes when so many have come; what is left stays for the next call.
-    fn read(dev: iodev "the line", data: [byte] [out] "gets the bytes", len: int "how many bytes") -> bool
+    fn read(dev: iodev "the line", data: [byte] [out] "gets the bytes", len: int [counts(8)] "how many bytes") -> bool
         { "5.6.2.3", serial::read_bytes, waits, fails;
           "iodev s\nbyte data[4]\nopen(s,\"/dev/ttyS0\",9600,8,one,none)\nwaituntil read(s,data,4)" }
     /// Takes the text in front of a mark when the mark has come; both leave the buffer.

@@ -35,7 +35,7 @@ entries! { pub(super) SOCKET =
         { "5.6.1.5", socket::write_string, waits, fails;
           "socket s\nwaituntil connect(s,\"192.168.0.40\",2888)\nwaituntil write(s,\"hello\")" }
     /// Sends bytes; true when all of them have been sent.
-    fn write(s: socket "the connection", data: [byte] "the bytes", len: int "how many of them") -> bool
+    fn write(s: socket "the connection", data: [byte] "the bytes", len: int [counts(8)] "how many of them") -> bool
         { "5.6.1.5", socket::write_bytes, waits, fails;
           "socket s\nbyte data[3] = {1,2,3}\nwaituntil connect(s,\"192.168.0.40\",2888)\nwaituntil write(s,data,3)" }
     /// Takes exactly len bytes as a text when so many have come; what is left stays for the next call.
@@ -43,7 +43,7 @@ entries! { pub(super) SOCKET =
         { "5.6.1.6", socket::read_string, waits, fails;
           "socket s\nstring data\nwaituntil connect(s,\"192.168.0.40\",2888)\nwaituntil read(s,data,5)" }
     /// Takes exactly len bytes when so many have come; what is left stays for the next call.
-    fn read(s: socket "the connection", data: [byte] [out] "gets the bytes", len: int "how many bytes") -> bool
+    fn read(s: socket "the connection", data: [byte] [out] "gets the bytes", len: int [counts(8)] "how many bytes") -> bool
         { "5.6.1.6", socket::read_bytes, waits, fails;
           "socket s\nbyte data[3]\nwaituntil connect(s,\"192.168.0.40\",2888)\nwaituntil read(s,data,3)" }
     /// Takes the text in front of a mark when the mark has come; both leave the buffer.

@@ -93,6 +93,9 @@ impl<'a> Checker<'a> {
                 bound.push(Bound { param: at, value: Passed::Value(value) });
             }
         }
+        if let Callee::Builtin(entry) = callee {
+            good &= self.check_length(body, entry, &bound).is_some();
+        }
         good.then_some(bound)
     }
 
@@ -450,6 +453,27 @@ impl<'a> Checker<'a> {
         let problem =
             ArgumentProblem::WrongUnit { parameter: param.name.into(), unit: unit.text(), units: units.join(" or ") };
         self.report(body, span, problem)
+    }
+
+    /// Whether the array that is given has what a constant length says.
+    fn check_length(&mut self, body: &Body, entry: &Entry, bound: &[Bound]) -> Option<()> {
+        let mut pairs = bound.iter().filter_map(|bound| Some((bound, entry.params.get(bound.param)?)));
+        let counting = pairs.find_map(|(bound, param)| Some((&bound.value, param.name, param.counts?)));
+        let Some((Passed::Value(length), parameter, bits)) = counting else { return Some(()) };
+        let ExprKind::Const(constant) = &length.kind else { return Some(()) };
+        let mut types = bound.iter().map(|bound| match &bound.value {
+            Passed::Value(value) => value.ty,
+            Passed::Out(place) => place.ty,
+        });
+        let (Some(value), Some(array)) = (integer(constant), types.find(Type::is_array)) else {
+            return Some(());
+        };
+        let most = (array.len() * 8) as i64 / i64::from(bits);
+        if (0..=most).contains(&value) {
+            return Some(());
+        }
+        let problem = ArgumentProblem::Length { parameter: parameter.into(), value, bytes: array.len(), most };
+        self.report(body, length.span, problem)
     }
 
     fn check_range(&mut self, body: &Body, param: &Parameter<'_>, value: &Expr) -> Option<()> {

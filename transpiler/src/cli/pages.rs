@@ -115,6 +115,7 @@ pub(super) static PAGES: &[(&str, &str)] = pages! {
     "ARL0411"
     "ARL0412"
     "ARL0413"
+    "ARL0414"
     "ARL0501"
     "ARL0502"
     "ARL0503"

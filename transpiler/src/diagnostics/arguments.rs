@@ -27,6 +27,8 @@ pub(crate) enum ArgumentProblem {
     UnitOfNoNumber,
     /// A constant outside the parameter's range.
     Range { parameter: String, value: String, low: String, high: String },
+    /// A constant length that the array beside it does not have, which has so many bytes.
+    Length { parameter: String, value: i64, bytes: usize, most: i64 },
     /// No overload takes these types.
     NoOverload { callee: String, types: String, signatures: String },
     /// Events behind an instruction that is not a motion.
@@ -49,6 +51,7 @@ impl Problem for ArgumentProblem {
             ArgumentProblem::Range { .. } => 411,
             ArgumentProblem::NoOverload { .. } => 412,
             ArgumentProblem::Events { .. } => 413,
+            ArgumentProblem::Length { .. } => 414,
         })
     }
 
@@ -87,6 +90,12 @@ impl Problem for ArgumentProblem {
             ArgumentProblem::Range { parameter, value, low, high } => {
                 format!("`{parameter}` is {value}, but must be in {low} to {high}")
             }
+            ArgumentProblem::Length { parameter, value, bytes: 1, .. } => {
+                format!("`{parameter}` is {value}, but the array has 1 byte")
+            }
+            ArgumentProblem::Length { parameter, value, bytes, .. } => {
+                format!("`{parameter}` is {value}, but the array has {bytes} bytes")
+            }
             ArgumentProblem::NoOverload { callee, types, .. } => {
                 format!("`{callee}` does not take ({types})")
             }
@@ -113,6 +122,8 @@ impl Problem for ArgumentProblem {
             ArgumentProblem::WrongUnit { units, .. } if units.is_empty() => Some("it has no unit".into()),
             ArgumentProblem::WrongUnit { units, .. } => Some(format!("write {units}, or no unit")),
             ArgumentProblem::NoOverload { signatures, .. } => Some(format!("it takes {signatures}")),
+            ArgumentProblem::Length { most: 0, .. } => Some("only 0 is possible".into()),
+            ArgumentProblem::Length { most, .. } => Some(format!("0 to {most} are possible")),
             ArgumentProblem::Exclusive { .. } => Some("give one of them".into()),
             _ => None,
         }

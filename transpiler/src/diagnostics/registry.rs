@@ -76,6 +76,7 @@ static CODES: &[CodeInfo] = &[
     error(411, "A constant argument out of range"),
     error(412, "Argument types that the function does not take"),
     error(413, "Events behind something that is not a motion"),
+    error(414, "A length that an array does not have"),
     error(501, "A program without main"),
     error(502, "A main with parameters or a result"),
     error(503, "A function defined twice"),
