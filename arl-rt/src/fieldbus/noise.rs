@@ -1,25 +1,19 @@
 //! Random bytes for tests of what reads bytes from outside.
 
-/// A sequence that is the same each time: splitmix64.
-pub(crate) struct Noise(u64);
+use crate::random::Random;
+
+/// A sequence that is the same each time.
+pub(crate) struct Noise(Random);
 
 impl Noise {
     /// The sequence of a seed.
     pub(crate) fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        Self(Random::new(seed))
     }
 
     /// A number below `end`.
     pub(crate) fn below(&mut self, end: usize) -> usize {
-        (self.next() % end.max(1) as u64) as usize
+        self.0.next() as usize % end.max(1)
     }
 
     /// Up to `most` bytes; small numbers more often than large ones.

@@ -11,7 +11,7 @@ use arl_rt::{Controller, Outcome};
 use crate::common::{FILE, say};
 use crate::manners::{Manner, until_it_goes};
 use crate::terminal::{Outlet, Plug};
-use crate::watch::{Robot, watched};
+use crate::watch::{Robot, TIMES, again_and_again, watched};
 
 const QUESTION: Str = Str::literal("question\n");
 const ANSWER: &[u8] = b"the whole message\n";
@@ -145,7 +145,6 @@ fn a_long_flood_that_the_program_reads_loses_nothing() {
 
 #[test]
 fn a_line_is_opened_and_closed_a_thousand_times() {
-    const TIMES: i32 = 1000;
     watched(|| {
         let outlet = Outlet::new();
         let name = outlet.name();
@@ -153,12 +152,9 @@ fn a_line_is_opened_and_closed_a_thousand_times() {
             let name = name.clone();
             Box::pin(async move {
                 let line = Iodev::default();
-                let mut opened = 0;
-                for _ in 0..TIMES {
-                    opened += i32::from(open(cx, &line, &name).await?);
-                    serial::close(cx, &line).await;
-                }
-                say(cx, &opened)?;
+                let opened =
+                    again_and_again(async || open(cx, &line, &name).await, async || serial::close(cx, &line).await);
+                say(cx, &opened.await?)?;
                 open(cx, &line, &name).await?;
                 ask(cx, &line, Manner::ByteByByte.patience()).await
             })

@@ -12,7 +12,7 @@ use arl_rt::{Controller, Outcome};
 
 use crate::common::{FILE, say};
 use crate::manners::{Manner, until_it_goes};
-use crate::watch::{Robot, soon, watched};
+use crate::watch::{Robot, TIMES, again_and_again, soon, watched};
 
 const HERE: Str = Str::literal("127.0.0.1");
 const QUESTION: Str = Str::literal("question\n");
@@ -209,7 +209,6 @@ fn a_long_flood_that_the_program_reads_loses_nothing() {
 
 #[test]
 fn a_thousand_connections_one_after_the_other() {
-    const TIMES: usize = 1000;
     for side in [Side::Client, Side::Server] {
         watched(|| {
             let (meeting, port) = Meeting::new(side);
@@ -226,19 +225,19 @@ fn a_thousand_connections_one_after_the_other() {
             let mut robot = Robot::new(Controller::builder(), move |cx: &Cx| {
                 Box::pin(async move {
                     let s = Socket::default();
-                    let mut answer = Str::new();
-                    for _ in 0..TIMES {
+                    let greet = async || {
+                        let mut answer = Str::new();
                         open(cx, &s, side, port).await?;
                         socket::write_string(cx, &s, &Str::literal("hello")).await.at(FILE, 7)?;
                         while !socket::read_string(cx, &s, &mut answer, 5).await.at(FILE, 8)? {
                             cx.next_cycle().await;
                         }
-                        socket::close(cx, &s).await;
-                    }
-                    say(cx, &answer)
+                        Ok(answer == "world")
+                    };
+                    say(cx, &again_and_again(greet, async || socket::close(cx, &s).await).await?)
                 })
             });
-            assert_eq!(robot.run().told(), "world\n", "{side:?}");
+            assert_eq!(robot.run().told(), format!("{TIMES}\n"), "{side:?}");
             drop(robot);
             peer.join().unwrap();
         });

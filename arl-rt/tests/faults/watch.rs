@@ -92,6 +92,19 @@ impl Robot {
     }
 }
 
+/// How often connections are opened and closed one after the other.
+pub(crate) const TIMES: i32 = 1000;
+
+/// Opens and closes a connection again and again: how often it was opened.
+pub(crate) async fn again_and_again(open: impl AsyncFn() -> Done<bool>, close: impl AsyncFn()) -> Done<i32> {
+    let mut opened = 0;
+    for _ in 0..TIMES {
+        opened += i32::from(open().await?);
+        close().await;
+    }
+    Ok(opened)
+}
+
 /// Tries until it works; the world may take some seconds.
 pub(crate) fn soon<R>(what: &str, mut attempt: impl FnMut() -> Option<R>) -> R {
     for _ in 0..20_000 {

@@ -42,7 +42,7 @@ impl Heard {
         if self.bytes.len() >= LONGEST_FRAME {
             self.clear();
         }
-        if after_silence && !self.bytes.is_empty() {
+        if after_silence && !self.bytes.is_empty() && !piece.is_empty() {
             self.starts.push(self.bytes.len());
         }
         self.bytes.extend_from_slice(piece);
