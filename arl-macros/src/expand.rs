@@ -6,7 +6,7 @@ use crate::report::{self, Place};
 use crate::stub;
 use crate::text::Text;
 use arl_lang::catalog::{Base, Family, Struct};
-use arl2rs::compile::{Bug, Compiled, check_program, guard, spliced_types};
+use arl2rs::compile::{Bug, Compiled, check_program, events_use_globals, guard, spliced_types};
 use arl2rs::diagnostics::{Diagnostic, FileId, Files, Label};
 use arl2rs::hir::{Local, LocalId, Program, Type};
 use arl2rs::render::{Position, plain_block};
@@ -19,6 +19,13 @@ use std::path::{Path, PathBuf};
 
 /// The name of the module that a program in Rust text becomes.
 const MODULE: &str = "program";
+
+/// The name of the function that statements become.
+const FRAGMENT: &str = "fragment";
+/// What statements cannot have: the variables of the modules that they use are theirs, and gone when they have run.
+const GLOBALS_IN_EVENTS: &str = "the condition or the action of an interrupt, timer or trigger uses a global variable of a module; statements in Rust \
+    have such variables only as long as they run, but the event goes on\n\
+    help: use local variables, or declare the event in a program: arl! { .. } with functions, or arl_file!(\"..\")";
 
 /// Expands `arl!`.
 pub(crate) fn arl(input: proc_macro::TokenStream) -> TokenStream {
@@ -363,6 +370,11 @@ fn statements(
         let stub = stub::statements(context);
         return quote!({ #said #stub });
     };
+    if events_use_globals(program, FRAGMENT) {
+        let (error, stub) =
+            (report::error(GLOBALS_IN_EVENTS, Place::one(Span::call_site())), stub::statements(context));
+        return quote!({ #said #error; #stub });
+    }
     let types = spliced_types(program, splices.len());
     let names: Vec<Ident> = (0..splices.len()).map(splice_name).collect();
     let values = splices.iter().zip(&types).map(|(value, ty)| match ty {
@@ -400,7 +412,7 @@ fn converted(value: Option<Spliced>) -> TokenStream {
 
 /// Gives the function of the statements a parameter for each spliced value; its call and its items.
 fn function(program: &mut Program, here: &Here, types: &[Option<Type>]) -> Option<(TokenStream, TokenStream)> {
-    let func = program.funcs.iter_mut().find(|func| func.name == "fragment")?;
+    let func = program.funcs.iter_mut().find(|func| func.name == FRAGMENT)?;
     let mut names = Vec::new();
     for (at, ty) in types.iter().enumerate().filter_map(|(at, ty)| Some((at, (*ty)?))) {
         let id = LocalId(func.locals.len() as u32);

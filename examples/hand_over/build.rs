@@ -1,5 +1,6 @@
 //! Compiles the ARL programs of this project.
 
 fn main() {
-    arl2rs::Build::new().program("robot/giver.arl").program("robot/taker.arl").compile();
+    let programs = arl2rs::Build::new().program("robot/giver.arl").program("robot/taker.arl");
+    programs.program("robot/watcher.arl").compile();
 }

@@ -11,6 +11,8 @@ pub mod fill;
 #[rustfmt::skip]
 pub mod greet;
 #[rustfmt::skip]
+pub mod light_curtain;
+#[rustfmt::skip]
 pub mod pick_and_place;
 #[rustfmt::skip]
 pub mod plc_cell;

@@ -1,6 +1,8 @@
 //! What every door does: one program checked, and turned into Rust when it is right.
 
 use crate::diagnostics::{Diagnostic, FileId, Files, Severity};
+use crate::effects::facts::{self, Scope};
+use crate::effects::{captures, ranges::Ranges};
 use crate::emit::{EmitOptions, emit};
 use crate::hir::{Expr, ExprKind, Program, Type};
 use crate::visit::exprs_in_stmt;
@@ -100,6 +102,34 @@ pub fn spliced_types(program: &Program, count: usize) -> Vec<Option<Type>> {
         exprs_in_stmt(stmt, &mut see);
     }
     types
+}
+
+/// Whether an interrupt, timer or trigger that the function of this name declares, or one that it calls, uses global variables
+/// in its condition or action.
+pub fn events_use_globals(program: &Program, function: &str) -> bool {
+    let Some(start) = program.funcs.iter().position(|func| func.name == function) else { return false };
+    let (mut open, mut seen) = (vec![start], vec![false; program.funcs.len()]);
+    while let Some(at) = open.pop() {
+        let (Some(func), Some(seen)) = (program.funcs.get(at), seen.get_mut(at)) else { continue };
+        if std::mem::replace(seen, true) {
+            continue;
+        }
+        let ranges = Ranges::default();
+        let scope = Scope { program, func: Some(func), ranges: &ranges };
+        let mut found = false;
+        let mut see = |expr: &Expr| {
+            if let ExprKind::Builtin(builtin) = &expr.kind {
+                found |= captures::later(builtin).any(|later| facts::of_expr(scope, later).globals);
+            }
+        };
+        func.body.iter().for_each(|stmt| exprs_in_stmt(stmt, &mut see));
+        if found {
+            return true;
+        }
+        let facts = facts::of_function(program, func);
+        open.extend(facts.calls.iter().chain(&facts.later_calls).map(|callee| callee.0 as usize));
+    }
+    false
 }
 
 /// A panic inside the compiler.

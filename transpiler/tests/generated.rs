@@ -7,10 +7,11 @@ use arl2rs::emit::EmitOptions;
 use arl2rs::sources::FileSystem;
 use std::path::Path;
 
-const EXAMPLES: [&str; 5] = [
+const EXAMPLES: [&str; 6] = [
     "examples/build_door/robot/drain.arl",
     "examples/build_door/robot/fill.arl",
     "examples/macro_door/robot/greet.arl",
+    "examples/light_curtain/light_curtain.arl",
     "examples/pick_and_place/pick_and_place.arl",
     "examples/plc_cell/plc_cell.arl",
 ];

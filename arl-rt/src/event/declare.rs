@@ -12,40 +12,72 @@ use crate::values::Str;
 /// The shortest interval of a timer that repeats, in s (manual 6.7).
 const SHORTEST: f64 = 0.001;
 
-/// `interrupt`: when the condition becomes true, the action runs. Both get the context.
-pub fn interrupt<C, A>(when: C, action: A) -> Interrupt<C, A>
-where
-    C: AsyncFn(&Cx) -> Done<bool> + 'static,
-    A: AsyncFn(&Cx) -> Done<()> + 'static,
-{
-    Interrupt { name: None, priority: 0, code: Watched { when, action } }
-}
-
-/// `interrupt`, ready to run.
+/// An event as it is declared: [`interrupt`], [`timer`] or [`trigger`].
 #[must_use = "an instruction does nothing until it is run"]
-pub struct Interrupt<C, A> {
+pub struct Event<W, A> {
     name: Option<Str>,
     priority: i32,
-    code: Watched<C, A>,
+    when: W,
+    action: A,
 }
 
-impl<C, A> Interrupt<C, A>
+/// What an interrupt waits for: its condition.
+pub struct Holds<C>(C);
+
+/// What a timer waits for: an interval in s, once or again and again.
+pub struct Every {
+    interval: f64,
+    repeats: bool,
+}
+
+/// What a trigger waits for: its condition, during the next motion.
+pub struct DuringMotion<C>(C);
+
+/// `interrupt`: when the condition becomes true, the action runs. Both get the context.
+pub fn interrupt<C, A>(when: C, action: A) -> Event<Holds<C>, A>
 where
     C: AsyncFn(&Cx) -> Done<bool> + 'static,
     A: AsyncFn(&Cx) -> Done<()> + 'static,
 {
-    /// A name of its own.
+    Event { name: None, priority: 0, when: Holds(when), action }
+}
+
+/// `timer`: when the interval is over, the action runs.
+pub fn timer<A>(interval: f64, action: A) -> Event<Every, A>
+where
+    A: AsyncFn(&Cx) -> Done<()> + 'static,
+{
+    Event { name: None, priority: 0, when: Every { interval, repeats: false }, action }
+}
+
+/// `trigger`: when the condition becomes true during the next motion, the action runs.
+pub fn trigger<C, A>(when: C, action: A) -> Event<DuringMotion<C>, A>
+where
+    C: AsyncFn(&Cx) -> Done<bool> + 'static,
+    A: AsyncFn(&Cx) -> Done<()> + 'static,
+{
+    Event { name: None, priority: 10, when: DuringMotion(when), action }
+}
+
+impl<W, A> Event<W, A> {
+    /// A name of its own. Triggers have none.
     pub fn name(mut self, name: &Str) -> Self {
         self.name = Some(name.clone());
         self
     }
 
-    /// 0 (first) to 255; without it 0.
+    /// 0 (first) to 255; without it 0, that of a trigger 10.
     pub fn priority(mut self, priority: i32) -> Self {
         self.priority = priority;
         self
     }
+}
 
+impl<C, A> Event<Holds<C>, A>
+where
+    C: AsyncFn(&Cx) -> Done<bool> + 'static,
+    A: AsyncFn(&Cx) -> Done<()> + 'static,
+{
     /// Watches the condition from the next cycle on, until the program ends or `delint`. One that holds now must first be
     /// false.
     ///
@@ -55,7 +87,7 @@ where
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         const FUNCTION: &str = "interrupt";
         let priority = priority(self.priority, FUNCTION)?;
-        let code = Rc::new(self.code);
+        let code = Rc::new(Watched { when: self.when.0, action: self.action });
         let held = evaluate(cx, &*code).map_err(|problem| problem.fault(&format!("this {FUNCTION}")))?;
         let new =
             Declaration { name: self.name, priority, source: Source::Condition { held }, place: cx.place(), code };
@@ -63,43 +95,13 @@ where
     }
 }
 
-/// `timer`: when the interval is over, the action runs.
-pub fn timer<A>(interval: f64, action: A) -> Timer<A>
+impl<A> Event<Every, A>
 where
     A: AsyncFn(&Cx) -> Done<()> + 'static,
 {
-    Timer { name: None, priority: 0, interval, repeats: false, action }
-}
-
-/// `timer`, ready to run.
-#[must_use = "an instruction does nothing until it is run"]
-pub struct Timer<A> {
-    name: Option<Str>,
-    priority: i32,
-    interval: f64,
-    repeats: bool,
-    action: A,
-}
-
-impl<A> Timer<A>
-where
-    A: AsyncFn(&Cx) -> Done<()> + 'static,
-{
-    /// A name of its own.
-    pub fn name(mut self, name: &Str) -> Self {
-        self.name = Some(name.clone());
-        self
-    }
-
-    /// 0 (first) to 255; without it 0.
-    pub fn priority(mut self, priority: i32) -> Self {
-        self.priority = priority;
-        self
-    }
-
     /// Whether it runs again and again, not once.
     pub fn rmode(mut self, repeats: bool) -> Self {
-        self.repeats = repeats;
+        self.when.repeats = repeats;
         self
     }
 
@@ -111,45 +113,24 @@ where
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         const FUNCTION: &str = "timer";
         let priority = priority(self.priority, FUNCTION)?;
-        let (interval, least) = (self.interval, if self.repeats { SHORTEST } else { 0.0 });
+        let Every { interval, repeats } = self.when;
+        let least = if repeats { SHORTEST } else { 0.0 };
         if !interval.is_finite() || interval < least {
             let problem = format!("the interval is {interval} s, but must be {least} s or more");
             return Err(Fault::Domain { function: FUNCTION, problem: problem.into() });
         }
-        let source = Source::Time(Ticking::new(interval, self.repeats, cx.cycle()));
+        let source = Source::Time(Ticking::new(interval, repeats, cx.cycle()));
         let code = Rc::new(Watched { when: async |_: &Cx| Ok(false), action: self.action });
         let new = Declaration { name: self.name, priority, source, place: cx.place(), code };
         cx.events().borrow_mut().declare(FUNCTION, new)
     }
 }
 
-/// `trigger`: when the condition becomes true during the next motion, the action runs.
-pub fn trigger<C, A>(when: C, action: A) -> Trigger<C, A>
+impl<C, A> Event<DuringMotion<C>, A>
 where
     C: AsyncFn(&Cx) -> Done<bool> + 'static,
     A: AsyncFn(&Cx) -> Done<()> + 'static,
 {
-    Trigger { priority: 10, code: Watched { when, action } }
-}
-
-/// `trigger`, ready to run.
-#[must_use = "an instruction does nothing until it is run"]
-pub struct Trigger<C, A> {
-    priority: i32,
-    code: Watched<C, A>,
-}
-
-impl<C, A> Trigger<C, A>
-where
-    C: AsyncFn(&Cx) -> Done<bool> + 'static,
-    A: AsyncFn(&Cx) -> Done<()> + 'static,
-{
-    /// 0 (first) to 255; without it 10.
-    pub fn priority(mut self, priority: i32) -> Self {
-        self.priority = priority;
-        self
-    }
-
     /// Belongs to the motion that is planned next.
     ///
     /// # Errors
@@ -157,7 +138,8 @@ where
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         let priority = priority(self.priority, "trigger")?;
         let source = Source::Motion { number: 0, held: false, over: false };
-        let new = Declaration { name: None, priority, source, place: cx.place(), code: Rc::new(self.code) };
+        let code = Rc::new(Watched { when: self.when.0, action: self.action });
+        let new = Declaration { name: None, priority, source, place: cx.place(), code };
         cx.events().borrow_mut().declare_trigger(cx.level().number, new)
     }
 }

@@ -11,7 +11,7 @@ mod scan;
 mod switch;
 mod table;
 
-pub use declare::{Interrupt, Timer, Trigger, interrupt, timer, trigger};
+pub use declare::{DuringMotion, Event, Every, Holds, interrupt, timer, trigger};
 pub use halt::{Skip, StartMove, StopMove, startmove, stopmove};
 pub use progress::{elapsed_distance, elapsed_percent, elapsed_time, left_distance};
 pub use switch::{DelInt, DisableInt, EnableInt, delint, disableint, enableint};

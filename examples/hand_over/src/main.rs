@@ -14,14 +14,25 @@ mod taking {
     arl_rt::include_arl!("taker");
 }
 
+/// `robot/watcher.arl`
+#[allow(dead_code, unreachable_pub, reason = "emitted: what is not used here is there all the same")]
+mod watching {
+    arl_rt::include_arl!("watcher");
+}
+
 type Failure = Box<dyn std::error::Error>;
 
-/// A controller with both robots: the giver in channel 1, the taker in channel 2.
+/// A controller with both robots.
 fn cell() -> Result<(Captured, Controller), Failure> {
     let messages = Captured::new();
     let taker = Foreground::new(Box::new(taking::Globals::new())).robot(Robot::builtin("six-10")?);
-    let builder = Controller::builder().output(messages.clone()).foreground(taker);
-    let controller = builder.robot(Robot::builtin("six-10")?).build(Box::new(giving::Globals::new()))?;
+    let controller = Controller::builder()
+        .output(messages.clone())
+        .robot(Robot::builtin("six-10")?)
+        .foreground(taker) // channel 2, with a robot of its own
+        .background(Box::new(watching::Globals::new())) // no robot
+        .loadable("giver.arl", || Box::new(giving::Globals::new())) // what switcharl can load
+        .build(Box::new(giving::Globals::new()))?; // channel 1
     Ok((messages, controller))
 }
 
@@ -64,10 +75,26 @@ mod tests {
         assert_eq!(offered, 3);
         let text = messages.text();
         let lines: Vec<&str> = text.lines().collect();
-        assert_eq!(lines.len(), 3, "{text}");
-        for (part, line) in (1..).zip(lines) {
+        assert_eq!(lines.len(), 6, "{text}");
+        let of = |words: &'static str| lines.iter().filter(move |line| line.starts_with(words));
+        for (part, line) in (1..).zip(of("part ")) {
             assert!(line.starts_with(&format!("part {part} placed")), "{line}");
         }
+        for (part, line) in (1..).zip(of("handed over: ")) {
+            assert_eq!(**line, format!("handed over: {part}"));
+        }
         Ok(())
+    }
+
+    /// docs/embedding.md shows `cell`, word for word.
+    #[test]
+    fn the_book_shows_what_is_compiled_here() {
+        let (book, code) = (include_str!("../../../docs/embedding.md"), include_str!("main.rs"));
+        let shown = book
+            .split("```rust,ignore\n")
+            .find(|block| block.starts_with("fn cell()"))
+            .and_then(|block| block.split("```").next());
+        let shown = shown.unwrap_or("nothing");
+        assert!(code.contains(shown), "{shown}");
     }
 }

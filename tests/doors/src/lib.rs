@@ -89,6 +89,16 @@ fn run((make, source, lines_above, others): &Entry) -> Result<(), String> {
 fn prepare(source: &Path, scratch: &Path) -> std::io::Result<()> {
     std::fs::create_dir_all(scratch)?;
     let Some(folder) = source.parent() else { return Ok(()) };
+    copy(folder, scratch)?;
+    // What stands for the USB store (`gettextstr`).
+    if folder.join("USB").is_dir() {
+        std::fs::create_dir_all(scratch.join("USB"))?;
+        copy(&folder.join("USB"), &scratch.join("USB"))?;
+    }
+    Ok(())
+}
+
+fn copy(folder: &Path, scratch: &Path) -> std::io::Result<()> {
     for entry in std::fs::read_dir(folder)? {
         let path = entry?.path();
         let ending = path.extension().unwrap_or_default().to_string_lossy().into_owned();

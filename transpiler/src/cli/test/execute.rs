@@ -27,6 +27,9 @@ pub(super) struct Outcome {
     pub(super) late: bool,
 }
 
+/// The folder below the script directory that stands for the USB store.
+const USB: &str = "USB";
+
 /// Runs a case in a folder of its own, so that files that it writes do not meet those of others.
 pub(super) fn execute(case: &Case, compiled: &Compiled, scratch: &Path) -> std::io::Result<Outcome> {
     let folder = scratch.join(&compiled.name);
@@ -34,6 +37,11 @@ pub(super) fn execute(case: &Case, compiled: &Compiled, scratch: &Path) -> std::
     std::fs::create_dir_all(&script)?;
     if let Some(beside) = case.source.parent() {
         copy_files(beside, &script)?;
+        // What stands for the USB store (`gettextstr`).
+        if beside.join(USB).is_dir() {
+            std::fs::create_dir_all(script.join(USB))?;
+            copy_files(&beside.join(USB), &script.join(USB))?;
+        }
     }
     let mut command = Command::new(&compiled.program);
     command.env(CASE, &compiled.name).args(arguments(case));
