@@ -509,18 +509,17 @@ impl Course {
         if let Some(time) = self.pilot.as_ref().and_then(|pilot| pilot.time_to(end)) {
             return time;
         }
-        let count = 1 + later.count();
-        let mut legs = [Leg { length: 0.0, limits: first.limits, stops: true }; remaining::MOST];
-        let (mut known, mut at) = (0, self.at);
-        for (leg, piece) in legs.iter_mut().zip(&self.pieces) {
+        let mut legs = [Leg { length: 0.0, limits: first.limits }; remaining::MOST];
+        let (mut known, mut at, mut stops) = (0, self.at, false);
+        for (leg, piece) in legs.iter_mut().zip([first].into_iter().chain(later)) {
             let length = (piece.time - at).max(0.0);
             let vel = if length > 0.0 { length / piece.time_from(at) } else { piece.limits.vel };
-            *leg = Leg { length, limits: Limits { vel, ..piece.limits }, stops: piece.stops };
-            (known, at) = (known + 1, 0.0);
-            if piece.stops {
-                break;
-            }
+            *leg = Leg { length, limits: Limits { vel, ..piece.limits } };
+            (known, at, stops) = (known + 1, 0.0, piece.stops);
         }
-        remaining::time_over(legs.get(..known).unwrap_or_default(), count, self.state.vel, self.state.acc)
+        let legs = legs.get(..known).unwrap_or_default();
+        let way: f64 = legs.iter().map(|leg| leg.length).sum();
+        let exit = if stops { 0.0 } else { self.timing.highest_speed(self.state.at + way, MARGIN, self.cycle) };
+        remaining::time_over(legs, exit, self.state.vel, self.state.acc)
     }
 }

@@ -13,8 +13,9 @@ use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
 use super::profile::{Change, Limits, State};
+use super::search::{self, Enough};
 use super::timing::{Cell, Stretch};
-use demands::{ALL_CELLS, Cells, Demand, NO_CELLS};
+use demands::{ALL_CELLS, Cells, NO_CELLS};
 
 /// How fast to go.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -53,8 +54,10 @@ const ENDING: f64 = 0.02;
 const ROUNDING: f64 = 1e-12;
 /// Slack for a state that was found at the edge of what is possible.
 const EDGE: f64 = 1e-9;
-/// Halvings of the interval in which the jerk is looked for.
-const HALVINGS: u32 = 30;
+/// The part of the interval in which the jerk is looked for that is near enough.
+const NEAR: f64 = 1e-9;
+/// Halvings of that interval, where nothing better leads to it.
+const HALVINGS: u32 = 16;
 /// A rest of the way that is so small a part of what a cycle's jerk moves is no way.
 const SNAP: f64 = 0.005;
 
@@ -163,23 +166,30 @@ impl Governor<'_> {
         let limits = self.touched(state, scale)?;
         let highest = ((limits.acc - state.acc) / self.cycle).min(limits.jerk);
         let lowest = lowest_jerk(state, self.cycle, &limits)?;
-        let highest = highest.max(lowest);
         let next = |jerk: f64| state.after(jerk, self.cycle);
+        let highest = highest.min(self.highest_jerk(state, &next(highest), scale)).max(lowest);
         if let Some(step) = self.step(next(highest), scale, 0.0) {
             return Some(step);
         }
         // The more jerk, the longer the way to any speed: what the highest leaves undone is all that counts below it.
         let undone = self.undone(&next(highest), scale);
-        let some = |jerk: f64| self.possible(&next(jerk), scale, 0.0, &undone).is_some();
-        let quick = farthest(lowest, highest, some).and_then(|jerk| self.step(next(jerk), scale, 0.0));
-        let every = |jerk: f64| self.feasible(&next(jerk), scale);
-        let found =
-            quick.or_else(|| farthest(lowest, highest, every).and_then(|jerk| self.step(next(jerk), scale, 0.0)));
+        let enough = Enough { value: NEAR * (highest - lowest), excess: ROUNDING };
+        let within = search::highest(lowest, highest, enough, |jerk| self.excess(&next(jerk), scale, &undone));
+        let quick = if self.fades_across(&next(highest), scale) {
+            halved(within, highest, |jerk| self.across(&next(jerk), scale, 0.0).is_some())
+        } else {
+            within
+        };
+        let found = self.step(next(quick), scale, 0.0).or_else(|| {
+            let some = farthest(lowest, highest, |jerk| self.feasible(&next(jerk), scale))?;
+            self.step(next(some), scale, 0.0)
+        });
         // What was feasible stays so, if only to the last digits, on the way that was found for it.
         found.or_else(|| {
             let aim = self.possible(state, scale, 0.0, &ALL_CELLS)?;
             let along = || self.along(state, &aim.change(state));
-            Some(self.step(self.braking(state, scale), scale, EDGE).unwrap_or_else(along))
+            let braking = Some(self.braking(state, scale)).filter(|next| next.at >= state.at);
+            Some(braking.and_then(|next| self.step(next, scale, EDGE)).unwrap_or_else(along))
         })
     }
 
@@ -189,12 +199,31 @@ impl Governor<'_> {
         Some(Step { state, backup: aim.change(&state) })
     }
 
+    /// The highest jerk of a cycle, which ends about at `next`, behind which the acceleration can fade before the speed is
+    /// too high.
+    fn highest_jerk(&self, state: &State, next: &State, scale: Scale) -> f64 {
+        let fastest = |at: f64| self.at(at).map_or((0.0, f64::INFINITY), |(here, cell)| (cell.limits.vel, here.jerk));
+        let (here, there) = (fastest(state.at), fastest(next.at));
+        let fastest = here.0.max(there.0) * scale.vel * (1.0 + TOO_FAST - SLACK);
+        let jerk = here.1.max(there.1) * scale.jerk * MARGIN;
+        // With x the acceleration afterwards: vel + (acc + x) cycle / 2 + x2 / (2 jerk) = fastest where x > 0.
+        let short = fastest - state.vel - state.acc * self.cycle / 2.0;
+        let ramp = jerk * self.cycle;
+        let acc = if short > 0.0 {
+            4.0 * jerk * short / (ramp + (ramp * ramp + 8.0 * jerk * short).sqrt())
+        } else {
+            2.0 * short / self.cycle
+        };
+        (acc - state.acc) / self.cycle
+    }
+
     /// The cells whose speeds cannot be reached in time, and those between them.
     fn undone(&self, state: &State, scale: Scale) -> Cells {
         let mut undone: Option<Cells> = None;
         self.demands(state, scale, &ALL_CELLS, |demand| {
-            if demand.left < 0.0
-                && let Some(cell) = demand.cell
+            if let Some(cell) = demand.cell
+                && !demand.surely_met
+                && demand.left(state) < 0.0
             {
                 undone = Some(undone.take().map_or(cell, |cells| cells.start)..cell + 1);
             }
@@ -237,18 +266,21 @@ impl Governor<'_> {
     /// the cycle touches, or of this one, where only that leaves it possible to go on.
     fn toward_within(&self, state: &State, goal: f64, limits: Limits, scale: Scale) -> Option<Step> {
         let all = self.touched(state, scale).map(|touched| lower(limits, touched));
-        let mut found = all.into_iter().chain([limits]).map(|limits| self.toward(state, goal, &limits));
-        found.find_map(|next| self.step(next, scale, 0.0))
+        let found = all.into_iter().chain([limits]).map(|limits| self.toward(state, goal, &limits));
+        found.filter(|next| next.at >= state.at).find_map(|next| self.step(next, scale, 0.0))
     }
 
     /// Whether the robot brakes for a stop already.
     fn at_its_end(&self, state: &State) -> bool {
         let mut nearest = f64::INFINITY;
         let mut way = 0.0;
-        self.demands(state, FREE, &ALL_CELLS, |Demand { goal, limits, left, .. }| {
-            if goal == 0.0 && left < nearest {
+        self.demands(state, FREE, &ALL_CELLS, |demand| {
+            if demand.goal == 0.0
+                && let left = demand.left(state)
+                && left < nearest
+            {
                 nearest = left;
-                way = to_rest(state.vel, state.acc, &limits).map_or(0.0, |(way, _)| way);
+                way = to_rest(state.vel, state.acc, &demand.limits).map_or(0.0, |(way, _)| way);
             }
             ControlFlow::Continue(())
         });
@@ -262,9 +294,12 @@ impl Governor<'_> {
         let highest = (cell.limits.vel * scale.vel).min(state.vel);
         let mut found = (highest, careful(here, scale));
         let mut least = f64::INFINITY;
-        self.demands(state, scale, &ALL_CELLS, |Demand { goal, limits, left, .. }| {
-            if left < least && goal <= highest {
-                (least, found) = (left, (goal, limits));
+        self.demands(state, scale, &ALL_CELLS, |demand| {
+            if demand.goal <= highest
+                && let left = demand.left(state)
+                && left < least
+            {
+                (least, found) = (left, (demand.goal, demand.limits));
             }
             ControlFlow::Continue(())
         });
@@ -287,14 +322,15 @@ impl Governor<'_> {
         if goal == 0.0 && change.duration() <= self.cycle {
             return State { at: next.at.max(at), vel: 0.0, acc: 0.0 };
         }
-        State { vel: next.vel.max(0.0), ..next }
+        // What would turn back is none; rounding does not count.
+        State { vel: if next.vel < -ROUNDING { next.vel } else { next.vel.max(0.0) }, ..next }
     }
 
     /// Acceleration and jerk of all stretches that the robot is on within the cycle.
     fn touched(&self, state: &State, scale: Scale) -> Option<Limits> {
         let here = self.stretches.front()?;
         let limits = scaled(here, scale);
-        let reach = state.at + (state.vel + limits.acc * self.cycle) * self.cycle;
+        let reach = state.after(limits.jerk, self.cycle).at;
         let mut found = limits;
         let mut end = 0.0;
         for (stretch, next) in self.stretches.iter().zip(self.stretches.iter().skip(1)) {
@@ -381,15 +417,17 @@ fn lower(a: Limits, b: Limits) -> Limits {
 
 /// The value nearest to `goal`, which will not do, from `start` on, that will; `None` where the first does not.
 fn farthest(start: f64, goal: f64, will_do: impl Fn(f64) -> bool) -> Option<f64> {
+    will_do(start).then(|| halved(start, goal, will_do))
+}
+
+/// The same from a start that will do.
+fn halved(start: f64, goal: f64, will_do: impl Fn(f64) -> bool) -> f64 {
     let (mut found, mut beyond) = (start, goal);
-    if !will_do(found) {
-        return None;
-    }
     for _ in 0..HALVINGS {
         let middle = f64::midpoint(found, beyond);
         if will_do(middle) { found = middle } else { beyond = middle }
     }
-    Some(found)
+    found
 }
 
 /// The speed that is left when the acceleration has faded out.
@@ -445,7 +483,9 @@ fn lowest_jerk(state: &State, cycle: f64, limits: &Limits) -> Option<f64> {
     // With x the acceleration afterwards: vel + (acc + x) cycle / 2 >= x2 / (2 jerk) where x < 0.
     let inner = jerk * jerk * cycle * cycle + 4.0 * jerk * (2.0 * vel + acc * cycle);
     let fades = if inner >= 0.0 { (jerk * cycle - inner.sqrt()) / 2.0 } else { return None };
-    let least = if fades < 0.0 { fades } else { (-2.0 * vel / cycle - acc).max(0.0) };
+    // Where it stays above zero, neither the speed nor the place may be behind what they were at rest and at the start.
+    let least =
+        if fades < 0.0 { fades } else { (-2.0 * vel / cycle - acc).max(-6.0 * vel / cycle - 2.0 * acc).max(0.0) };
     let lowest = ((least.max(-limits.acc) - acc) / cycle).max(-limits.jerk);
     (lowest <= limits.jerk).then_some(lowest)
 }

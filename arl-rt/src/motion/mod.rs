@@ -39,6 +39,7 @@ mod record;
 mod remaining;
 mod rotation;
 mod scout;
+mod search;
 mod spline;
 mod survey;
 #[cfg(test)]

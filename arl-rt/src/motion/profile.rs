@@ -14,6 +14,14 @@ impl Limits {
         Self { vel: self.vel * factor, acc: self.acc * factor * factor, jerk: self.jerk * factor * factor * factor }
     }
 
+    /// The way of the change from one speed, without acceleration, to a lower one without: the mean speed times the time.
+    pub(super) fn slowing(&self, from: f64, to: f64) -> f64 {
+        let Self { acc, jerk, .. } = *self;
+        let change = (from - to).max(0.0);
+        let time = if change * jerk > acc * acc { change / acc + acc / jerk } else { 2.0 * (change / jerk).sqrt() };
+        f64::midpoint(from, to) * time
+    }
+
     /// The highest speed of the shortest profile from rest to rest over `distance`.
     fn peak(&self, distance: f64) -> f64 {
         let Limits { vel, acc, jerk } = *self;
@@ -189,6 +197,8 @@ mod tests {
             }
             assert!((state.vel - goal).abs() < 1e-9 && state.acc.abs() < 1e-9, "{state:?}");
             assert!((state.at - change.distance(vel, acc)).abs() < 1e-12);
+            let slowing = Change::new(vel, 0.0, goal, &limits).distance(vel, 0.0);
+            assert!(goal > vel || (slowing - limits.slowing(vel, goal)).abs() < 1e-12);
         }
     }
 }

@@ -3,7 +3,8 @@
 
 use std::collections::VecDeque;
 
-use super::profile::{Change, Limits, State};
+use super::profile::{Limits, State};
+use super::search::{self, Enough};
 
 /// A part of a stretch on which one speed is allowed.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -25,6 +26,9 @@ pub(super) struct Stretch {
     /// Whether `entry` has been found since the stretch was changed last.
     known: bool,
 }
+
+/// How near to the highest speed of entry is near enough, as a part of it.
+const CLOSE: f64 = 1e-14;
 
 /// Cells whose limits differ by up to this factor share a stretch.
 pub(super) const ALIKE: f64 = 2.0;
@@ -83,57 +87,37 @@ impl Stretch {
 
     /// The speed at which it may be entered, where `exit` is the highest speed at its end.
     fn entry(&self, exit: f64, margin: f64, cycle: f64) -> f64 {
+        self.highest_speed(0.0, exit, margin, cycle)
+    }
+
+    /// The highest speed, without acceleration, so far behind its start, where `exit` is that at its end.
+    fn highest_speed(&self, from: f64, exit: f64, margin: f64, cycle: f64) -> f64 {
         let limits = Limits { vel: 0.0, acc: self.acc * margin, jerk: self.jerk * margin };
-        let Some(first) = self.cells.front() else { return exit };
-        let mut entry = first.limits.vel;
-        let mut way = 0.0;
+        let mut way = -from;
+        let mut found: Option<(f64, f64)> = None;
         let speeds = self.cells.iter().skip(1).map(|cell| cell.limits.vel).chain([exit]);
         for (cell, speed) in self.cells.iter().zip(speeds) {
             way += cell.length;
+            if way <= 0.0 {
+                continue;
+            }
+            let first = || (cell.limits.vel, limits.slowing(cell.limits.vel, 0.0));
+            let (highest, stop) = *found.get_or_insert_with(first);
             // It is entered in the middle of a cycle, and braking begins with the next one.
-            let distance = |vel: f64| Change::new(vel, 0.0, speed, &limits).distance(vel, 0.0) + 2.0 * cycle * vel;
-            if speed >= entry || distance(entry) <= way {
+            let needed = |vel: f64| limits.slowing(vel, speed) + 2.0 * cycle * vel;
+            if speed >= highest || needed(highest) <= way {
                 // Nothing farther away than a stop from here matters.
-                if way > Change::new(entry, 0.0, 0.0, &limits).distance(entry, 0.0) {
+                if way > stop {
                     break;
                 }
                 continue;
             }
-            entry = highest(speed, entry, |vel| distance(vel) - way);
+            let enough = Enough { value: CLOSE * highest, excess: 0.0 };
+            let entry = search::highest(speed, highest, enough, |vel| needed(vel) - way);
+            found = Some((entry, limits.slowing(entry, 0.0)));
         }
-        entry
+        found.map_or(exit, |(highest, _)| highest)
     }
-}
-
-/// The highest value of a range, whose end is too high, up to which what grows over it is not above 0.
-fn highest(low: f64, high: f64, excess: impl Fn(f64) -> f64) -> f64 {
-    /// As many as halving alone would take; mostly a few are enough.
-    const STEPS: u32 = 50;
-    const CLOSE: f64 = 1e-14;
-    let (mut low, mut high) = (low, high);
-    let (mut below, mut above) = (excess(low), excess(high));
-    let mut stays = 0_i32;
-    for step in 0..STEPS {
-        if below >= 0.0 || high - low <= CLOSE * high {
-            break;
-        }
-        // Where the secant is 0; an end that stays once more counts half, and now and then a half of the range is taken.
-        let secant = low - below * (high - low) / (above - below);
-        let inside = secant > low && secant < high && step % 4 != 3;
-        let middle = if inside { secant } else { f64::midpoint(low, high) };
-        let found = excess(middle);
-        if found <= 0.0 {
-            (low, below, stays) = (middle, found, stays.max(0) + 1);
-        } else {
-            (high, above, stays) = (middle, found, stays.min(0) - 1);
-        }
-        if stays > 1 {
-            above /= 2.0;
-        } else if stays < -1 {
-            below /= 2.0;
-        }
-    }
-    low
 }
 
 impl Timing {
@@ -204,6 +188,20 @@ impl Timing {
         if self.stretches.len() > 2 { self.stretches.get(1).map(|stretch| stretch.entry) } else { None }
     }
 
+    /// The highest speed, without acceleration, at a place, as a state has it.
+    pub(super) fn highest_speed(&self, at: f64, margin: f64, cycle: f64) -> f64 {
+        let mut start = 0.0;
+        let nexts = self.stretches.iter().skip(1).map(|next| next.entry).chain([0.0]);
+        for (stretch, next) in self.stretches.iter().zip(nexts) {
+            let end = start + stretch.cells.iter().map(|cell| cell.length).sum::<f64>();
+            if at < end {
+                return stretch.highest_speed(at - start, if stretch.stops { 0.0 } else { next }, margin, cycle);
+            }
+            start = end;
+        }
+        0.0
+    }
+
     /// Whether a place, as a state has it, is on the first stretch.
     pub(super) fn is_on_first(&self, at: f64) -> bool {
         let mut end = 0.0;
@@ -272,17 +270,6 @@ impl Timing {
 mod tests {
     use super::*;
     use crate::kinematics::random::Random;
-
-    #[test]
-    fn the_highest_value_is_found_from_below() {
-        let mut random = Random::new(51);
-        for _ in 0..2000 {
-            let (root, power) = (random.between(0.01, 0.99), random.between(0.3, 6.0));
-            let found = highest(0.0, 1.0, |value| value.powf(power) - root.powf(power));
-            assert!(found <= root * (1.0 + 1e-12) && found >= root * (1.0 - 1e-12), "{found} {root} {power}");
-        }
-        assert_eq!(highest(0.2, 1.0, |value| value), 0.2);
-    }
 
     #[test]
     fn the_length_is_that_of_all_cells() {

@@ -10,7 +10,9 @@
 
 use std::ops::ControlFlow;
 
-use super::{Cells, Governor, MARGIN, SLACK, Scale, TOO_FAST, careful, fading, lower, way_of_fading, way_to_speed};
+use super::{
+    Cells, Governor, MARGIN, SLACK, Scale, TOO_FAST, TakeWhileSum, careful, fading, lower, way_of_fading, way_to_speed,
+};
 use crate::motion::governor::demands::ALL_CELLS;
 use crate::motion::profile::{Change, Limits, State};
 
@@ -56,15 +58,36 @@ impl Governor<'_> {
         let mut goal = fading(vel, acc, &limits).max(0.0);
         let mut met = true;
         self.demands(state, scale, cells, |demand| {
-            met = demand.left >= -slack;
+            met = demand.surely_met || demand.left(state) >= -slack;
             goal = goal.min(demand.goal);
             if met { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
         met.then_some(Aim { goal, limits })
     }
 
+    /// By how much, in full speeds or in s of nominal time, a state is beyond what the first kind allows, as far as it
+    /// concerns these cells' speeds; below 0 there is as much room.
+    pub(super) fn excess(&self, state: &State, scale: Scale, cells: &Cells) -> f64 {
+        let Some((here, cell)) = self.at(state.at) else { return f64::INFINITY };
+        let peak = fading(state.vel, state.acc.max(0.0), &careful(here, scale));
+        let mut excess = peak - cell.limits.vel * scale.vel * (1.0 + TOO_FAST);
+        self.demands(state, scale, cells, |demand| {
+            excess = excess.max(-demand.left(state));
+            ControlFlow::Continue(())
+        });
+        excess
+    }
+
+    /// Whether the acceleration of a state fades no sooner than about where its stretch ends.
+    pub(super) fn fades_across(&self, state: &State, scale: Scale) -> bool {
+        let Some(first) = self.stretches.front() else { return false };
+        let way = way_of_fading(state.vel, state.acc, &careful(first, scale));
+        let end = first.cells.iter().map(|cell| cell.length).take_while_sum(state.at + way);
+        !first.stops && state.at + way + self.cycle * state.vel >= end
+    }
+
     /// The second kind: the acceleration fades across ends of stretches.
-    fn across(&self, state: &State, scale: Scale, slack: f64) -> Option<Aim> {
+    pub(super) fn across(&self, state: &State, scale: Scale, slack: f64) -> Option<Aim> {
         let State { at, vel, acc } = *state;
         if vel < 0.0 {
             return None;

@@ -16,10 +16,40 @@ pub(super) struct Demand {
     pub(super) goal: f64,
     /// The limits up to there.
     pub(super) limits: Limits,
-    /// How much of the way is left when it has been reached.
-    pub(super) left: f64,
+    /// How much of the way there is, in s of nominal time.
+    room: f64,
+    kind: Kind,
+    /// Whether it is known without a closer look that something is left of the way.
+    pub(super) surely_met: bool,
     /// The cell whose speed it is.
     pub(super) cell: Option<usize>,
+}
+
+/// What has to be over at the end of the way.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Kind {
+    /// The speed has come down to the goal, and stays there.
+    Slower,
+    /// The acceleration has faded out.
+    Faded,
+    /// The robot rests.
+    Rest,
+    /// Nothing helps.
+    Never,
+}
+
+impl Demand {
+    /// How much of the way is left when a robot in this state has reached the speed.
+    pub(super) fn left(&self, &State { vel, acc, .. }: &State) -> f64 {
+        let limits = &self.limits;
+        self.room
+            - match self.kind {
+                Kind::Slower => way_to_speed(vel, acc, self.goal, limits),
+                Kind::Faded => way_of_fading(vel, acc, limits),
+                Kind::Rest => to_rest(vel, acc, limits).map_or(f64::INFINITY, |(way, _)| way),
+                Kind::Never => f64::INFINITY,
+            }
+    }
 }
 
 impl Governor<'_> {
@@ -33,8 +63,7 @@ impl Governor<'_> {
         mut tell: impl FnMut(Demand) -> ControlFlow<()>,
     ) {
         // What is told decides alone whether to go on.
-        let _ =
-            self.try_demands(state, scale, cells, |goal, limits, left, cell| tell(Demand { goal, limits, left, cell }));
+        let _ = self.try_demands(state, scale, cells, &mut tell);
     }
 
     fn try_demands(
@@ -42,12 +71,18 @@ impl Governor<'_> {
         state: &State,
         scale: Scale,
         cells: &Cells,
-        mut tell: impl FnMut(f64, Limits, f64, Option<usize>) -> ControlFlow<()>,
+        tell: &mut impl FnMut(Demand) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let State { at, vel, acc } = *state;
         let (mut end, mut count) = (0.0, 0_usize);
         for (index, stretch) in self.stretches.iter().enumerate() {
             let limits = careful(stretch, scale);
+            let demand =
+                |goal: f64, room: f64, kind: Kind| Demand { goal, limits, room, kind, surely_met: false, cell: None };
+            let (rising, most) = (acc.max(0.0), fading(vel, acc.max(0.0), &limits));
+            let longest_way = |goal: f64| {
+                if goal >= most { 0.0 } else { most * rising / limits.jerk + limits.slowing(most, goal) }
+            };
             let mut lowest = f64::INFINITY;
             let mut inside = false;
             let longest = longest_stop(vel, acc, &limits);
@@ -60,15 +95,16 @@ impl Governor<'_> {
                 }
                 // An acceleration below zero must fade before the speed does.
                 if !inside && to_rest(vel, acc, &limits).is_none() {
-                    tell(0.0, limits, f64::NEG_INFINITY, None)?;
+                    tell(demand(0.0, 0.0, Kind::Never))?;
                 }
                 let speed = cell.limits.vel * scale.vel * (1.0 + SLOWER);
-                if inside && start - at > longest {
+                let room = start - at;
+                if inside && room > longest {
                     return ControlFlow::Continue(());
                 }
                 if inside && speed < lowest && cells.contains(&count) {
-                    let way = way_to_speed(vel, acc, speed, &limits);
-                    tell(speed, limits, start - at - way, Some(count))?;
+                    let surely_met = room >= longest_way(speed);
+                    tell(Demand { surely_met, cell: Some(count), ..demand(speed, room, Kind::Slower) })?;
                 }
                 inside = true;
                 lowest = lowest.min(speed);
@@ -78,10 +114,7 @@ impl Governor<'_> {
             }
             let next = if stretch.stops { None } else { self.stretches.get(index + 1) };
             match next {
-                None => {
-                    let way = to_rest(vel, acc, &limits).map_or(f64::INFINITY, |(way, _)| way);
-                    tell(0.0, limits, end - at + 1e-3 * ROUNDING - way, None)?;
-                }
+                None => tell(demand(0.0, end - at + 1e-3 * ROUNDING, Kind::Rest))?,
                 Some(next) if end - at <= longest => {
                     let speed = next.entry * scale.vel * (1.0 + SLOWER);
                     // No acceleration is left where the limits change. The last cycle may end a little behind it.
@@ -89,9 +122,9 @@ impl Governor<'_> {
                     let fades = fading(vel, acc, &limits);
                     if fades <= speed {
                         let fades = fades.max(0.0);
-                        tell(fades, limits, early(fades) - way_of_fading(vel, acc, &limits), None)?;
+                        tell(demand(fades, early(fades), Kind::Faded))?;
                     }
-                    tell(speed, limits, early(speed) - way_to_speed(vel, acc, speed, &limits), None)?;
+                    tell(demand(speed, early(speed), Kind::Slower))?;
                 }
                 _ => {}
             }

@@ -276,3 +276,25 @@ fn whatever_comes_up_on_whatever_course_every_limit_is_kept() {
         }
     }
 }
+
+#[test]
+fn the_hardest_braking_leads_neither_back_nor_below_rest() {
+    let mut random = Random::new(84);
+    let mut found = [0, 0];
+    for _ in 0..20_000 {
+        let acc = 10.0_f64.powf(random.between(0.0, 2.5));
+        let limits = Limits { vel: 1.0, acc, jerk: acc * 10.0_f64.powf(random.between(0.7, 2.4)) };
+        let vel = 10.0_f64.powf(random.between(-7.0, 0.0));
+        // An acceleration that can fade before the speed does, or hardly not.
+        let state = State { at: 0.0, vel, acc: random.between(-1.1, 0.5) * (2.0 * vel * limits.jerk).sqrt().min(acc) };
+        let Some(jerk) = lowest_jerk(&state, CYCLE, &limits) else {
+            found[0] += 1;
+            continue;
+        };
+        found[1] += 1;
+        let next = state.after(jerk, CYCLE);
+        let fades = next.vel - next.acc.min(0.0).powi(2) / (2.0 * limits.jerk);
+        assert!(next.at >= -1e-18 && fades >= -1e-12 && jerk.abs() <= limits.jerk, "{state:?} {next:?} {limits:?}");
+    }
+    assert!(found[0] > 100 && found[1] > 1000, "{found:?}");
+}
