@@ -222,7 +222,7 @@ impl Governor<'_> {
         let mut undone: Option<Cells> = None;
         self.demands(state, scale, &ALL_CELLS, |demand| {
             if let Some(cell) = demand.cell
-                && !demand.surely_met
+                && demand.surely_left < 0.0
                 && demand.left(state) < 0.0
             {
                 undone = Some(undone.take().map_or(cell, |cells| cells.start)..cell + 1);
@@ -435,12 +435,20 @@ fn fading(vel: f64, acc: f64, limits: &Limits) -> f64 {
     vel + acc * acc.abs() / (2.0 * limits.jerk)
 }
 
+/// Whether the acceleration can fade before the speed ends, with the whole jerk if need be.
+fn can_fade(vel: f64, acc: f64, limits: &Limits) -> bool {
+    let whole = Limits { jerk: limits.jerk / MARGIN, ..*limits };
+    acc >= 0.0 || fading(vel, acc, &whole) >= -ROUNDING
+}
+
 /// The way to rest and the time that it takes; `None` where the speed ends before the acceleration can fade.
 fn to_rest(vel: f64, acc: f64, limits: &Limits) -> Option<(f64, f64)> {
+    if !can_fade(vel, acc, limits) {
+        return None;
+    }
     if acc < 0.0 && fading(vel, acc, limits) < 0.0 {
-        // With the whole jerk it may still fade in time: evenly until rest.
-        let whole = Limits { jerk: limits.jerk / MARGIN, ..*limits };
-        return (fading(vel, acc, &whole) >= -ROUNDING).then(|| (2.0 * vel * vel / (-3.0 * acc), -2.0 * vel / acc));
+        // With the whole jerk it fades evenly until rest.
+        return Some((2.0 * vel * vel / (-3.0 * acc), -2.0 * vel / acc));
     }
     let change = Change::new(vel, acc, 0.0, limits);
     Some((change.distance(vel, acc), change.duration()))

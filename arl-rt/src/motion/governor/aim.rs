@@ -58,7 +58,7 @@ impl Governor<'_> {
         let mut goal = fading(vel, acc, &limits).max(0.0);
         let mut met = true;
         self.demands(state, scale, cells, |demand| {
-            met = demand.surely_met || demand.left(state) >= -slack;
+            met = demand.surely_left >= 0.0 || demand.left(state) >= -slack;
             goal = goal.min(demand.goal);
             if met { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
@@ -72,7 +72,8 @@ impl Governor<'_> {
         let peak = fading(state.vel, state.acc.max(0.0), &careful(here, scale));
         let mut excess = peak - cell.limits.vel * scale.vel * (1.0 + TOO_FAST);
         self.demands(state, scale, cells, |demand| {
-            excess = excess.max(-demand.left(state));
+            let surely = demand.surely_left;
+            excess = excess.max(if surely > 0.0 { -surely } else { -demand.left(state) });
             ControlFlow::Continue(())
         });
         excess

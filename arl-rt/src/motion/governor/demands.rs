@@ -2,7 +2,9 @@
 
 use std::ops::{ControlFlow, Range};
 
-use super::{Governor, ROUNDING, SLOWER, Scale, careful, fading, longest_stop, to_rest, way_of_fading, way_to_speed};
+use super::{
+    Governor, ROUNDING, SLOWER, Scale, can_fade, careful, fading, longest_stop, to_rest, way_of_fading, way_to_speed,
+};
 use crate::motion::profile::{Limits, State};
 
 /// Cells, counted from the first one of all.
@@ -19,8 +21,8 @@ pub(super) struct Demand {
     /// How much of the way there is, in s of nominal time.
     room: f64,
     kind: Kind,
-    /// Whether it is known without a closer look that something is left of the way.
-    pub(super) surely_met: bool,
+    /// How much of the way is left at least, as far as that is known without a closer look.
+    pub(super) surely_left: f64,
     /// The cell whose speed it is.
     pub(super) cell: Option<usize>,
 }
@@ -77,8 +79,14 @@ impl Governor<'_> {
         let (mut end, mut count) = (0.0, 0_usize);
         for (index, stretch) in self.stretches.iter().enumerate() {
             let limits = careful(stretch, scale);
-            let demand =
-                |goal: f64, room: f64, kind: Kind| Demand { goal, limits, room, kind, surely_met: false, cell: None };
+            let demand = |goal: f64, room: f64, kind: Kind| Demand {
+                goal,
+                limits,
+                room,
+                kind,
+                surely_left: f64::NEG_INFINITY,
+                cell: None,
+            };
             let (rising, most) = (acc.max(0.0), fading(vel, acc.max(0.0), &limits));
             let longest_way = |goal: f64| {
                 if goal >= most { 0.0 } else { most * rising / limits.jerk + limits.slowing(most, goal) }
@@ -94,7 +102,7 @@ impl Governor<'_> {
                     continue;
                 }
                 // An acceleration below zero must fade before the speed does.
-                if !inside && to_rest(vel, acc, &limits).is_none() {
+                if !inside && !can_fade(vel, acc, &limits) {
                     tell(demand(0.0, 0.0, Kind::Never))?;
                 }
                 let speed = cell.limits.vel * scale.vel * (1.0 + SLOWER);
@@ -103,8 +111,8 @@ impl Governor<'_> {
                     return ControlFlow::Continue(());
                 }
                 if inside && speed < lowest && cells.contains(&count) {
-                    let surely_met = room >= longest_way(speed);
-                    tell(Demand { surely_met, cell: Some(count), ..demand(speed, room, Kind::Slower) })?;
+                    let surely_left = room - longest_way(speed);
+                    tell(Demand { surely_left, cell: Some(count), ..demand(speed, room, Kind::Slower) })?;
                 }
                 inside = true;
                 lowest = lowest.min(speed);
