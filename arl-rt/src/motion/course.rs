@@ -175,6 +175,7 @@ impl Course {
 
     /// Appends a motion. Returns why the motion before it is not rounded off, where that was asked for.
     pub(super) fn append(&mut self, robot: &Robot, motion: Motion, number: u64, cycle: f64) -> Option<Sharp> {
+        let motion = motion.rising_in(RISE * cycle);
         let limits = motion.limits?;
         self.cycle = cycle;
         let tail = self.tail.take();
@@ -367,8 +368,7 @@ impl Course {
 
     fn push_one(&mut self, mut piece: Piece, may: bool) {
         // Set-points are those of whole cycles: an acceleration takes a few of them to rise, also without a limit of the jerk.
-        let Limits { acc, jerk, .. } = piece.limits;
-        piece.limits.jerk = jerk.min(acc / (RISE * self.cycle));
+        piece.limits = piece.limits.rising_in(RISE * self.cycle);
         self.push_shared(Arc::new(piece), may);
     }
 

@@ -249,7 +249,7 @@ impl Piece {
 /// Whether every place of a motion has limits of its own: in the profile O, unless its duration is given or it weaves, which
 /// wants an even speed.
 fn is_free(motion: &Motion) -> bool {
-    motion.profile == VelocityProfile::O && !motion.timed && motion.laid.is_none()
+    motion.profile == VelocityProfile::O && motion.timed.is_none() && motion.laid.is_none()
 }
 
 /// The next lower speed of a fine grid, on which the full speed lies: so that stretches of almost the same speed can be

@@ -13,6 +13,7 @@ use super::limits::{highest_speed, passing, quickest};
 use super::overlay::{Beginning, Laid, Led, lay};
 use super::profile::Limits;
 use super::quintic::Quintic;
+use super::search::{self, Enough};
 use super::spline::turned;
 use super::survey::survey;
 use crate::frames::Rig;
@@ -40,8 +41,8 @@ pub struct Motion {
     pub(super) flows: bool,
     pub(super) pace: Pace,
     pub(super) profile: VelocityProfile,
-    /// Whether a duration was programmed.
-    pub(super) timed: bool,
+    /// How many times as fast it could go, where a duration was programmed.
+    pub(super) timed: Option<f64>,
     /// The length of the TCP's way in mm, 0 for axis motions.
     pub(super) length: f64,
     /// The angle in deg by which the tool turns on its way, 0 for axis motions.
@@ -75,7 +76,23 @@ impl Motion {
 
     /// The same with these limits.
     pub(super) fn duration_with(&self, limits: &Limits) -> f64 {
-        if self.timed { limits.duration_braking(1.0, MARGIN) } else { limits.duration(1.0) }
+        if self.timed.is_some() { limits.duration_braking(1.0, MARGIN) } else { limits.duration(1.0) }
+    }
+
+    /// The same where an acceleration takes `rise` s to rise: a programmed duration is kept for all that, as long as the robot
+    /// can go a little faster.
+    pub(super) fn rising_in(mut self, rise: f64) -> Self {
+        /// How near to the duration is near enough, in s, and how near to the factor on its speed.
+        const ENOUGH: Enough = Enough { value: 1e-12, excess: 1e-9 };
+        if let (Some(spare), Some(limits)) = (self.timed, self.limits) {
+            let wanted = limits.duration_braking(1.0, MARGIN);
+            let sooner = |factor: f64| wanted - limits.slowed(factor).rising_in(rise).duration_braking(1.0, MARGIN);
+            if sooner(1.0) < -ENOUGH.excess {
+                let factor = if sooner(spare) <= 0.0 { spare } else { search::highest(1.0, spare, ENOUGH, sooner) };
+                self.limits = Some(limits.slowed(factor));
+            }
+        }
+        self
     }
 
     /// Whether anything moves.
@@ -352,7 +369,7 @@ impl Planner<'_> {
             flows,
             pace,
             profile: self.settings.profile,
-            timed: self.command.duration.is_some(),
+            timed: self.command.duration.map(|_| 1.0),
             length: curve.track.length(),
             angle: turned(&curve),
             zone: self.command.zone,
@@ -521,6 +538,7 @@ impl Planner<'_> {
     ) -> Result<Motion, PlanError> {
         let is_tool = matches!(curve, Curve::Tool(_));
         let (mut pace, mut bounds) = (self.free(), Bounds::new(self.robot));
+        let mut spare = 1.0;
         let limits = match self.command.duration {
             None => {
                 pace = self.pace(is_tool)?;
@@ -541,7 +559,9 @@ impl Planner<'_> {
                 caps(&mut bounds);
                 moves.then(|| {
                     let capped = quickest(&bounds.rows);
-                    capped.slowed((capped.duration_braking(1.0, MARGIN) / duration).min(1.0))
+                    let share = (capped.duration_braking(1.0, MARGIN) / duration).min(1.0);
+                    spare = 1.0 / share;
+                    capped.slowed(share)
                 })
             }
         };
@@ -561,7 +581,7 @@ impl Planner<'_> {
             flows: false,
             pace,
             profile: self.settings.profile,
-            timed: self.command.duration.is_some(),
+            timed: self.command.duration.map(|_| spare),
             length,
             angle,
             zone: self.command.zone,

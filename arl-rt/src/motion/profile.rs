@@ -14,6 +14,11 @@ impl Limits {
         Self { vel: self.vel * factor, acc: self.acc * factor * factor, jerk: self.jerk * factor * factor * factor }
     }
 
+    /// With a jerk so low that the acceleration takes at least `time` s to rise.
+    pub(super) fn rising_in(self, time: f64) -> Self {
+        Self { jerk: self.jerk.min(self.acc / time), ..self }
+    }
+
     /// The way of the change from one speed, without acceleration, to a lower one without: the mean speed times the time.
     pub(super) fn slowing(&self, from: f64, to: f64) -> f64 {
         let Self { acc, jerk, .. } = *self;
