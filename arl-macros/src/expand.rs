@@ -6,7 +6,7 @@ use crate::report::{self, Place};
 use crate::stub;
 use crate::text::Text;
 use arl_lang::catalog::{Base, Family, Struct};
-use arl2rs::compile::{Bug, Compiled, check_program, events_use_globals, guard, spliced_types};
+use arl2rs::compile::{Bug, check_program, events_use_globals, guard, has_variables, spliced_types};
 use arl2rs::diagnostics::{Diagnostic, FileId, Files, Label};
 use arl2rs::hir::{Local, LocalId, Program, Type};
 use arl2rs::render::{Position, plain_block};
@@ -90,6 +90,14 @@ impl Here {
             files.add(name, file.text.clone());
         }
         files
+    }
+
+    /// Makes rustc look at the files beside it again when they change.
+    fn watched(&self, checked: &Checked) -> TokenStream {
+        let folder = self.folder.iter();
+        let read = folder.flat_map(|folder| checked.read.iter().map(|path| folder.join(path)));
+        // The Rust file itself is looked at anyway.
+        watched(read.filter(|path| path.file_name() != Some(self.name().as_os_str())))
     }
 
     /// The name that the text gets among its neighbours.
@@ -187,9 +195,9 @@ fn program_in_tokens(tokens: &[TokenTree]) -> TokenStream {
     let checked = guard(|| check_text(&here.name(), &spanned.text.text, &Beside(&here), &options(spanned.family)));
     match checked {
         Ok(mut checked) => {
-            let shown = spanned.shown(&checked, &here);
+            let (shown, watched) = (spanned.shown(&checked, &here), here.watched(&checked));
             let items = checked.program.as_mut().map_or_else(stub::program, |program| items(program, &here));
-            quote!(#shown #items)
+            quote!(#shown #watched #items)
         }
         Err(error) => bug(&error),
     }
@@ -229,8 +237,9 @@ fn program_in_literal(literal: &Literal) -> TokenStream {
     match guard(|| check_text(&here.name(), &text, &Beside(&here), &options(Family::default()))) {
         Ok(mut checked) => {
             let shown = shown_in_words(&checked, &here.files(&checked), literal.span());
+            let watched = here.watched(&checked);
             let items = checked.program.as_mut().map_or_else(stub::program, |program| items(program, &here));
-            quote!(#shown #items)
+            quote!(#shown #watched #items)
         }
         Err(error) => bug(&error),
     }
@@ -252,16 +261,16 @@ fn program_in_file(literal: &Literal, family: Family) -> TokenStream {
                 Some(Err(error)) => bug(&error),
                 None => stub::program(),
             };
-            let watched = watched(&compiled);
+            let watched = watched(compiled.read());
             quote!(#shown #watched #items)
         }
         Err(error) => bug(&error),
     }
 }
 
-/// Makes rustc look at the files again when they change.
-fn watched(compiled: &Compiled) -> TokenStream {
-    let there = compiled.read().filter_map(|path| std::path::absolute(path).ok()).filter(|path| path.is_file());
+/// Makes rustc look at files again when they change.
+fn watched(read: impl Iterator<Item = PathBuf>) -> TokenStream {
+    let there = read.filter_map(|path| std::path::absolute(path).ok()).filter(|path| path.is_file());
     there
         .map(|path| {
             let path = path.display().to_string();
@@ -366,14 +375,15 @@ fn statements(
         }
     };
     let said = shown(&checked).unwrap_or_default();
+    let watched = here.watched(&checked);
     let Some(program) = &mut checked.program else {
         let stub = stub::statements(context);
-        return quote!({ #said #stub });
+        return quote!({ #said #watched #stub });
     };
     if events_use_globals(program, FRAGMENT) {
         let (error, stub) =
             (report::error(GLOBALS_IN_EVENTS, Place::one(Span::call_site())), stub::statements(context));
-        return quote!({ #said #error; #stub });
+        return quote!({ #said #watched #error; #stub });
     }
     let types = spliced_types(program, splices.len());
     let names: Vec<Ident> = (0..splices.len()).map(splice_name).collect();
@@ -386,6 +396,7 @@ fn statements(
     quote! {
         {
             #said
+            #watched
             mod arl_statements {
                 #items
             }
@@ -433,11 +444,17 @@ fn function(program: &mut Program, here: &Here, types: &[Option<Type>]) -> Optio
     let effects = func.effects;
     let items = spliced_in(items(program, here), types);
     let cx = effects.context.then(|| quote!(_cx,));
-    let g = effects.globals.then(|| quote!(&arl_statements::Globals::new(),));
+    let variables = has_variables(program).then(|| {
+        quote! {
+            let globals = arl_statements::Globals::new();
+            globals.init(_cx).await?;
+        }
+    });
+    let g = effects.globals.then(|| quote!(&globals,));
     let wait = effects.waits.then(|| quote!(.await));
     let fail = effects.fails.then(|| quote!(?));
     let module = Ident::new(MODULE, proc_macro2::Span::call_site());
-    Some((quote!(arl_statements::#module::fragment(#cx #g #(#names),*) #wait #fail;), items))
+    Some((quote!(#variables arl_statements::#module::fragment(#cx #g #(#names),*) #wait #fail;), items))
 }
 
 /// The emitter knows the parameters by name only: it takes them for unused, and their uses for the last ones. A value

@@ -87,34 +87,10 @@ fn alarms_name_the_line_of_the_rust_file() {
     }
 }
 
-/// A program in Rust that does everything with statements in ARL.
-struct Statements;
+/// A program in Rust.
+struct InRust(for<'a> fn(&'a Cx) -> BoxFuture<'a>);
 
-impl Statements {
-    async fn go(&self, cx: &Cx) -> Done<()> {
-        let words = ["one".to_string(), "two".to_string()];
-        let mut sum = 0.5;
-        let start = cx.time();
-        for (at, word) in words.iter().enumerate() {
-            sum += 1.0;
-            let index = at as i32;
-            arl!(cx, {
-                for(int i = 0; i < #(index + 1); i++)
-                    print #(word.as_str() as string), " ", i, " ", #(sum * 2.0 as double)
-                    waittime 0.25
-                endfor
-            })
-            .await?;
-        }
-        let waited = cx.time() - start;
-        arl!(cx, r#"print "waited ", #(waited as double) > 0ah / 20.0, #(words.len() == 2 as bool)"#).await?;
-        let stopped = arl!(cx, { exit }).await;
-        assert!(stopped.is_err(), "exit ends the whole program");
-        stopped
-    }
-}
-
-impl Program for Statements {
+impl Program for InRust {
     fn file(&self) -> File {
         File::new(file!())
     }
@@ -128,12 +104,100 @@ impl Program for Statements {
     }
 
     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
-        Box::pin(self.go(cx))
+        (self.0)(cx)
     }
+}
+
+/// Does everything with statements in ARL.
+async fn statements(cx: &Cx) -> Done<()> {
+    let words = ["one".to_string(), "two".to_string()];
+    let mut sum = 0.5;
+    let start = cx.time();
+    for (at, word) in words.iter().enumerate() {
+        sum += 1.0;
+        let index = at as i32;
+        arl!(cx, {
+            for(int i = 0; i < #(index + 1); i++)
+                print #(word.as_str() as string), " ", i, " ", #(sum * 2.0 as double)
+                waittime 0.25
+            endfor
+        })
+        .await?;
+    }
+    let waited = cx.time() - start;
+    arl!(cx, r#"print "waited ", #(waited as double) > 0ah / 20.0, #(words.len() == 2 as bool)"#).await?;
+    let stopped = arl!(cx, { exit }).await;
+    assert!(stopped.is_err(), "exit ends the whole program");
+    stopped
 }
 
 #[test]
 fn statements_take_rust_values() {
     let expected = "one 0 3\ntwo 0 5\ntwo 1 5\nwaited truetrue\n";
-    assert_eq!(run(Statements), (Outcome::Ended, expected.into()));
+    let program = InRust(|cx| Box::pin(statements(cx)));
+    assert_eq!(run(program), (Outcome::Ended, expected.into()));
+}
+
+/// Uses the variables of a module: twice, and not at all.
+async fn with_a_module(cx: &Cx) -> Done<()> {
+    for _ in 0..2 {
+        arl!(cx, {
+            tally::count++
+            print tally::count, " ", tally::places[1].x, " ", tally::name
+        })
+        .await?;
+    }
+    arl!(cx, {
+        print "most ", tally::most
+    })
+    .await
+}
+
+#[test]
+fn variables_of_modules_have_their_first_values_each_time() {
+    let program = InRust(|cx| Box::pin(with_a_module(cx)));
+    let expected = "named\n8 20 tally of 7\nnamed\n8 20 tally of 7\nnamed\nmost 7\n";
+    assert_eq!(run(program), (Outcome::Ended, expected.into()));
+}
+
+#[test]
+fn alarms_of_first_values_name_the_line_of_the_module() {
+    let program = InRust(|cx| {
+        Box::pin(async move {
+            arl!(cx, {
+                print "not reached ", broken::half
+            })
+            .await
+        })
+    });
+    let (outcome, printed) = run(program);
+    assert_eq!(printed, "");
+    let Outcome::Alarm(alarm) = outcome else { panic!("it divides by zero: {outcome:?}") };
+    assert!(alarm.file.name().ends_with("broken.arl") && alarm.line == 3, "{alarm}");
+}
+
+mod library {
+    arl_rt::arl! {
+        int base = 40
+        func int above(int n)
+            base++
+            return base + n
+        endfunc
+    }
+}
+
+#[test]
+fn functions_without_main_have_their_variables() {
+    let program = InRust(|cx| {
+        Box::pin(async move {
+            let globals = library::Globals::new();
+            globals.init(cx).await?;
+            assert_eq!(library::program::above(&globals, 2), 43);
+            assert_eq!(library::program::above(&globals, 2), 44);
+            globals.init(cx).await?;
+            assert_eq!(library::program::above(&globals, 2), 43);
+            Ok(())
+        })
+    });
+    assert_eq!(run(program).0, Outcome::Ended);
 }

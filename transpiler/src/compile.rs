@@ -104,18 +104,27 @@ pub fn spliced_types(program: &Program, count: usize) -> Vec<Option<Type>> {
     types
 }
 
-/// Whether an interrupt, timer or trigger that the function of this name declares, or one that it calls, uses global variables
-/// in its condition or action.
+/// Whether there are global variables in Rust, too: constants with a known value are written where they are used. A program
+/// with such variables and without `main` has `Globals::init`.
+pub fn has_variables(program: &Program) -> bool {
+    program.globals.iter().any(|global| global.value.is_none())
+}
+
+/// Whether an interrupt, timer or trigger that the function of this name or a first value of a variable declares, or a function
+/// that they call, uses global variables in its condition or action.
 pub fn events_use_globals(program: &Program, function: &str) -> bool {
-    let Some(start) = program.funcs.iter().position(|func| func.name == function) else { return false };
-    let (mut open, mut seen) = (vec![start], vec![false; program.funcs.len()]);
+    let ranges = Ranges::default();
+    let outside = Scope { program, func: None, ranges: &ranges };
+    let inits = program.globals.iter().filter_map(|global| global.init.as_ref());
+    let called = inits.flat_map(|init| facts::of_expr(outside, init).calls).map(|callee| callee.0 as usize);
+    let start = program.funcs.iter().position(|func| func.name == function);
+    let (mut open, mut seen): (Vec<usize>, _) = (called.chain(start).collect(), vec![false; program.funcs.len()]);
     while let Some(at) = open.pop() {
         let (Some(func), Some(seen)) = (program.funcs.get(at), seen.get_mut(at)) else { continue };
         if std::mem::replace(seen, true) {
             continue;
         }
-        let ranges = Ranges::default();
-        let scope = Scope { program, func: Some(func), ranges: &ranges };
+        let scope = Scope { func: Some(func), ..outside };
         let mut found = false;
         let mut see = |expr: &Expr| {
             if let ExprKind::Builtin(builtin) = &expr.kind {

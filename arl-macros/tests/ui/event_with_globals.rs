@@ -16,4 +16,11 @@ async fn global(cx: &Cx) -> Done<()> {
     .await
 }
 
+async fn global_of_a_first_value(cx: &Cx) -> Done<()> {
+    arl!(cx, {
+        print armed::armed
+    })
+    .await
+}
+
 fn main() {}

@@ -30,8 +30,9 @@ pub(super) fn items(unit: &Unit<'_>) -> TokenStream {
         modules.extend(tokens);
         parts.push(part);
     }
-    let globals = globals(unit, &parts);
-    let program = program(unit, &parts);
+    let inits = init_calls(unit, &parts);
+    let globals = globals(unit, &parts, &inits);
+    let program = program(unit, &parts, &inits);
     quote!(#modules #globals #program)
 }
 
@@ -96,8 +97,9 @@ fn one_module(unit: &Unit<'_>, id: ModuleId, module: &Module) -> (TokenStream, P
 }
 
 /// `pub struct Globals { .. }`
-fn globals(unit: &Unit<'_>, parts: &[Parts]) -> TokenStream {
+fn globals(unit: &Unit<'_>, parts: &[Parts], inits: &TokenStream) -> TokenStream {
     let with: Vec<_> = parts.iter().filter(|part| part.variables).map(|part| unit.names.module(part.id)).collect();
+    let init = initialised_by_rust(unit, inits);
     let blank = blank(unit);
     quote! {
         /// All global variables of the program.
@@ -111,12 +113,31 @@ fn globals(unit: &Unit<'_>, parts: &[Parts]) -> TokenStream {
             pub fn new() -> Self {
                 Self::default()
             }
+            #init
         }
     }
 }
 
+/// `Globals::init`, where there are variables but no `main`: no controller runs such a program and would set them.
+fn initialised_by_rust(unit: &Unit<'_>, inits: &TokenStream) -> Option<TokenStream> {
+    let blank = blank(unit);
+    let cx = context(inits);
+    (unit.program.main.is_none() && !inits.is_empty()).then(|| {
+        quote! {
+            #blank
+            /// Gives all variables their first values.
+            #[allow(dead_code)]
+            pub async fn init(&self, #cx: &arl_rt::emit::Cx) -> arl_rt::emit::Done<()> {
+                let g = self;
+                #inits
+                Ok(())
+            }
+        }
+    })
+}
+
 /// `impl arl_rt::Program for Globals`
-fn program(unit: &Unit<'_>, parts: &[Parts]) -> TokenStream {
+fn program(unit: &Unit<'_>, parts: &[Parts], inits: &TokenStream) -> TokenStream {
     let Some(main) = unit.program.main else { return TokenStream::new() };
     let Some(func) = unit.program.funcs.get(main.0 as usize) else { return TokenStream::new() };
     let file = unit.program.modules.get(func.module.0 as usize).map_or("", |module| module.file.as_str());
@@ -124,13 +145,6 @@ fn program(unit: &Unit<'_>, parts: &[Parts]) -> TokenStream {
         Family::SixAxis => quote!(SixAxis),
         Family::Scara => quote!(Scara),
     };
-    let inits: TokenStream = order_of_init(unit, parts)
-        .into_iter()
-        .filter_map(|part| {
-            let module = unit.names.module(part.id);
-            Some(variables::init_call(&quote!(#module::Variables), "init", part.init?))
-        })
-        .collect();
     let init = future(quote!(#inits Ok(())));
     let (module, name, effects) = (unit.names.module(func.module), unit.names.func(main.0), func.effects);
     let cx = effects.context.then(|| quote!(cx,));
@@ -200,6 +214,15 @@ fn beside(unit: &Unit<'_>) -> Option<TokenStream> {
     })
 }
 
+/// The calls that give all variables their first values, module after module.
+fn init_calls(unit: &Unit<'_>, parts: &[Parts]) -> TokenStream {
+    let call = |part: &Parts| {
+        let module = unit.names.module(part.id);
+        Some(variables::init_call(&quote!(#module::Variables), "init", part.init?))
+    };
+    order_of_init(unit, parts).into_iter().filter_map(call).collect()
+}
+
 /// The modules in the order in which their variables get their first values.
 fn order_of_init<'a>(unit: &Unit<'_>, parts: &'a [Parts]) -> Vec<&'a Parts> {
     let mut order: Vec<&Parts> = Vec::new();
@@ -213,9 +236,14 @@ fn order_of_init<'a>(unit: &Unit<'_>, parts: &'a [Parts]) -> Vec<&'a Parts> {
     order
 }
 
-/// `Box::pin(async move { .. })`, with the name that the context has: `_cx` where it is not used.
+/// The name that the context has: `_cx` where it is not used.
+fn context(code: &TokenStream) -> TokenStream {
+    if mentions(code, "cx") { quote!(cx) } else { quote!(_cx) }
+}
+
+/// `Box::pin(async move { .. })`, with the name that the context has.
 fn future(code: TokenStream) -> (TokenStream, TokenStream) {
-    let cx = if mentions(&code, "cx") { quote!(cx) } else { quote!(_cx) };
+    let cx = context(&code);
     let g = mentions(&code, "g").then(|| quote!(let g = self;));
     (cx, quote!(Box::pin(async move { #g #code })))
 }
