@@ -390,8 +390,9 @@ fn actions(source: Source<'_>, event: &Section<'_>) -> Result<Vec<Action>, Setti
             "force" => actions.push(Action::Deed(Deed::Robot(channel, force(event, value)?))),
             "torque" => {
                 for (key, torque) in axes(source, (key, "a torque in Nm"), value, OWN_AXES)? {
-                    let axis = key.trim_start_matches('j').parse::<usize>().unwrap_or(1) - 1;
-                    actions.push(Action::Deed(Deed::Robot(channel, Touch::Torque(axis, torque))));
+                    if let AxisName::Own(axis) = AxisName::of(key) {
+                        actions.push(Action::Deed(Deed::Robot(channel, Touch::Torque(axis, torque))));
+                    }
                 }
             }
             "jog" | "hand" => {

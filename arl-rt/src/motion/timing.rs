@@ -188,7 +188,8 @@ impl Timing {
         if self.stretches.len() > 2 { self.stretches.get(1).map(|stretch| stretch.entry) } else { None }
     }
 
-    /// The highest speed, without acceleration, at a place, as a state has it.
+    /// The highest speed, without acceleration, at a place, as a state has it, from which everything behind it can be kept.
+    /// `margin` and `cycle` as in [`Self::find_entries`], which comes first.
     pub(super) fn highest_speed(&self, at: f64, margin: f64, cycle: f64) -> f64 {
         let mut start = 0.0;
         let nexts = self.stretches.iter().skip(1).map(|next| next.entry).chain([0.0]);

@@ -162,16 +162,18 @@ mod tests {
         (0..=30).map(|place| (f64::from(place) / 30.0, (0..6).map(|_| Bound::random(random)).collect())).collect()
     }
 
+    /// Each speaks for the way to its neighbours.
+    fn bounds_of(places: &[(f64, Vec<Bound>)]) -> Vec<PlaceBounds<'_>> {
+        let around = 1.0 / 30.0;
+        places.iter().map(|(share, rows)| PlaceBounds { from: share - around, to: share + around, rows }).collect()
+    }
+
     #[test]
     fn no_bound_is_broken_by_any_motion_within_the_limits() {
         let mut random = Random::new(31);
         for _ in 0..300 {
             let places = random_places(&mut random);
-            let around = 1.0 / 30.0;
-            let bounds: Vec<_> = places
-                .iter()
-                .map(|(share, rows)| PlaceBounds { from: share - around, to: share + around, rows })
-                .collect();
+            let bounds = bounds_of(&places);
             let approach = Approach { limits: Limits { vel: 1.0, acc: 4.0, jerk: 40.0 }, length: 1.0 };
             let Crossing { speeds, acc, jerk } = cross(&bounds, 1.0, &[approach; 2]).unwrap();
             assert!(acc > 0.0 && jerk > 0.0);
@@ -190,11 +192,7 @@ mod tests {
         let mut random = Random::new(33);
         for _ in 0..300 {
             let places = random_places(&mut random);
-            let around = 1.0 / 30.0;
-            let bounds: Vec<_> = places
-                .iter()
-                .map(|(share, rows)| PlaceBounds { from: share - around, to: share + around, rows })
-                .collect();
+            let bounds = bounds_of(&places);
             let sites: Vec<Site> = bounds.iter().map(Site::new).collect();
             let approach = |random: &mut Random| Approach {
                 limits: Limits { vel: 1.0, acc: random.between(1.0, 40.0), jerk: random.between(10.0, 4000.0) },
