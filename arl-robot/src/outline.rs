@@ -1,7 +1,9 @@
 //! What a program can be held against before it runs: that part of a cell file which says what there is around the robot.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
+use crate::cell::Programs;
 use crate::channels::Channels;
 use crate::islands::Island;
 use crate::settings::{Section, SettingsError, Source};
@@ -19,6 +21,8 @@ pub struct Outline {
     pub devicenet: u32,
     /// Whether the controller serves registers and coils over Modbus TCP.
     pub modbus_tcp: bool,
+    /// How many programs with a robot run beside each other: foreground channels, from 1.
+    pub foreground: u32,
 }
 
 /// How many bytes a DeviceNet bus exchanges where the cell does not say.
@@ -38,12 +42,14 @@ impl Outline {
         let keys: Vec<&str> = root.get_ref().keys().map(|key| key.get_ref().as_ref()).collect();
         let top = Section::new(source, "the cell file", root.get_ref(), &keys)?;
         let channels = Channels::read(&top)?;
+        let programs = Programs::read(&top, Path::new(""))?;
         Ok(Outline {
             islands: Island::read_all(source, top.find("island"), &channels)?,
             channels,
             lines: lines(&top)?,
             devicenet: devicenet(&top)?,
             modbus_tcp: top.find("modbus_tcp").is_some(),
+            foreground: 1 + programs.channels.iter().filter(|channel| !channel.background).count() as u32,
         })
     }
 }
@@ -90,6 +96,19 @@ mod tests {
         let empty = Outline::of_cell("cell.toml", "").unwrap();
         assert_eq!((empty.channels, empty.devicenet, empty.modbus_tcp), (Channels::default(), 512, false));
         assert!(empty.lines.is_empty() && empty.islands.is_empty());
+    }
+
+    #[test]
+    fn foreground_channels_are_the_first_and_those_with_robots() {
+        let channel = |more: &str| format!("[[channel]]\nprogram = \"a.arl\"\n{more}");
+        for (text, count) in [
+            (String::new(), 1),
+            (channel(""), 2),
+            (channel("background = true\n"), 1),
+            (channel("background = true\n") + &channel("robot = \"hsr065\"\n") + &channel(""), 3),
+        ] {
+            assert_eq!(Outline::of_cell("cell.toml", &text).unwrap().foreground, count, "{text}");
+        }
     }
 
     #[test]

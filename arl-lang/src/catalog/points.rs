@@ -28,7 +28,7 @@ entries! { pub(super) POINTS =
           "joint a = {0,10,20,30,40,50}\nprint savefilejoint(\"recipe1_data.arl\",\"j1\",a)" }
     /// Writes a pose to a point of the program of a foreground channel; it counts at once.
     fn saveposenow(
-        channel: uint "the channel, from 1",
+        channel: uint [range(1.0, 6.0)] "the channel, 1 to 6",
         file_name: string "the program",
         pose_name: string "name of the pose in it",
         p: pose "the value",
@@ -37,7 +37,7 @@ entries! { pub(super) POINTS =
           "pose a = {x 0,y 10,z 15,a 0,b 90,c 0}\nprint saveposenow(1,\"prog1.arl\",\"p1\",a)" }
     /// Writes a joint to a point of the program of a foreground channel; it counts at once.
     fn savejointnow(
-        channel: uint "the channel, from 1",
+        channel: uint [range(1.0, 6.0)] "the channel, 1 to 6",
         file_name: string "the program",
         joint_name: string [alias(&["pose_name"])] "name of the joint in it",
         j: joint "the value",

@@ -15,17 +15,20 @@ const SHORTEST: f64 = 0.001;
 /// An event as it is declared: [`interrupt`], [`timer`] or [`trigger`].
 #[must_use = "an instruction does nothing until it is run"]
 pub struct Event<W, A> {
-    name: Option<Str>,
     priority: i32,
     when: W,
     action: A,
 }
 
 /// What an interrupt waits for: its condition.
-pub struct Holds<C>(C);
+pub struct Holds<C> {
+    name: Option<Str>,
+    condition: C,
+}
 
 /// What a timer waits for: an interval in s, once or again and again.
 pub struct Every {
+    name: Option<Str>,
     interval: f64,
     repeats: bool,
 }
@@ -39,7 +42,7 @@ where
     C: AsyncFn(&Cx) -> Done<bool> + 'static,
     A: AsyncFn(&Cx) -> Done<()> + 'static,
 {
-    Event { name: None, priority: 0, when: Holds(when), action }
+    Event { priority: 0, when: Holds { name: None, condition: when }, action }
 }
 
 /// `timer`: when the interval is over, the action runs.
@@ -47,25 +50,24 @@ pub fn timer<A>(interval: f64, action: A) -> Event<Every, A>
 where
     A: AsyncFn(&Cx) -> Done<()> + 'static,
 {
-    Event { name: None, priority: 0, when: Every { interval, repeats: false }, action }
+    Event { priority: 0, when: Every { name: None, interval, repeats: false }, action }
 }
 
-/// `trigger`: when the condition becomes true during the next motion, the action runs.
+/// `trigger`: when the condition becomes true during the next motion, the action runs. It has no name:
+///
+/// ```compile_fail,E0599
+/// use arl_rt::emit::*;
+/// event::trigger(async |_| Ok(true), async |_| Ok(())).name(&Str::new());
+/// ```
 pub fn trigger<C, A>(when: C, action: A) -> Event<DuringMotion<C>, A>
 where
     C: AsyncFn(&Cx) -> Done<bool> + 'static,
     A: AsyncFn(&Cx) -> Done<()> + 'static,
 {
-    Event { name: None, priority: 10, when: DuringMotion(when), action }
+    Event { priority: 10, when: DuringMotion(when), action }
 }
 
 impl<W, A> Event<W, A> {
-    /// A name of its own. Triggers have none.
-    pub fn name(mut self, name: &Str) -> Self {
-        self.name = Some(name.clone());
-        self
-    }
-
     /// 0 (first) to 255; without it 0, that of a trigger 10.
     pub fn priority(mut self, priority: i32) -> Self {
         self.priority = priority;
@@ -78,6 +80,12 @@ where
     C: AsyncFn(&Cx) -> Done<bool> + 'static,
     A: AsyncFn(&Cx) -> Done<()> + 'static,
 {
+    /// A name of its own.
+    pub fn name(mut self, name: &Str) -> Self {
+        self.when.name = Some(name.clone());
+        self
+    }
+
     /// Watches the condition from the next cycle on, until the program ends or `delint`. One that holds now must first be
     /// false.
     ///
@@ -87,10 +95,10 @@ where
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         const FUNCTION: &str = "interrupt";
         let priority = priority(self.priority, FUNCTION)?;
-        let code = Rc::new(Watched { when: self.when.0, action: self.action });
+        let code = Rc::new(Watched { when: self.when.condition, action: self.action });
         let held = evaluate(cx, &*code).map_err(|problem| problem.fault(&format!("this {FUNCTION}")))?;
-        let new =
-            Declaration { name: self.name, priority, source: Source::Condition { held }, place: cx.place(), code };
+        let source = Source::Condition { held };
+        let new = Declaration { name: self.when.name, priority, source, place: cx.place(), code };
         cx.events().borrow_mut().declare(FUNCTION, new)
     }
 }
@@ -99,6 +107,12 @@ impl<A> Event<Every, A>
 where
     A: AsyncFn(&Cx) -> Done<()> + 'static,
 {
+    /// A name of its own.
+    pub fn name(mut self, name: &Str) -> Self {
+        self.when.name = Some(name.clone());
+        self
+    }
+
     /// Whether it runs again and again, not once.
     pub fn rmode(mut self, repeats: bool) -> Self {
         self.when.repeats = repeats;
@@ -113,7 +127,7 @@ where
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         const FUNCTION: &str = "timer";
         let priority = priority(self.priority, FUNCTION)?;
-        let Every { interval, repeats } = self.when;
+        let Every { name, interval, repeats } = self.when;
         let least = if repeats { SHORTEST } else { 0.0 };
         if !interval.is_finite() || interval < least {
             let problem = format!("the interval is {interval} s, but must be {least} s or more");
@@ -121,7 +135,7 @@ where
         }
         let source = Source::Time(Ticking::new(interval, repeats, cx.cycle()));
         let code = Rc::new(Watched { when: async |_: &Cx| Ok(false), action: self.action });
-        let new = Declaration { name: self.name, priority, source, place: cx.place(), code };
+        let new = Declaration { name, priority, source, place: cx.place(), code };
         cx.events().borrow_mut().declare(FUNCTION, new)
     }
 }

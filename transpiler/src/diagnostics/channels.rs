@@ -1,4 +1,4 @@
-//! Channels of io that a cell does not have, and values that its channels do not carry.
+//! Channels that a cell does not have, of io and those of programs, and values that its channels do not carry.
 
 use super::{Code, Problem};
 use arl_robot::channels::AnalogType;
@@ -8,6 +8,8 @@ use arl_robot::channels::AnalogType;
 pub(crate) enum ChannelProblem {
     /// There are `count` channels of this kind, from 1 on.
     Missing { kind: &'static str, channel: i32, count: u32 },
+    /// There are `count` foreground channels, from 1 on.
+    NoForeground { channel: i32, count: u32 },
     /// The last channel of a range comes first.
     Reversed { kind: &'static str, from: i32, to: i32 },
     /// More channels than an int has bits.
@@ -35,6 +37,12 @@ impl Problem for ChannelProblem {
             ChannelProblem::Missing { kind, channel, count } => {
                 format!("{kind} {channel} does not exist: the cell has {kind} 1 to {count}")
             }
+            ChannelProblem::NoForeground { channel, count: 1 } => {
+                format!("foreground channel {channel} does not exist: the cell has one, channel 1")
+            }
+            ChannelProblem::NoForeground { channel, count } => {
+                format!("foreground channel {channel} does not exist: the cell has channels 1 to {count}")
+            }
             ChannelProblem::Reversed { kind, from, to } => {
                 format!("{kind} {from} to {to} is a reversed range: the first channel comes first")
             }
@@ -56,6 +64,9 @@ impl Problem for ChannelProblem {
         Some(match self {
             ChannelProblem::Missing { .. } => {
                 format!("[io] of the cell file says how many channels there are; {ALARM}")
+            }
+            ChannelProblem::NoForeground { .. } => {
+                format!("each [[channel]] of the cell file that is not in the background adds one; {ALARM}")
             }
             ChannelProblem::Value { .. } => format!("[io] of the cell file says what each channel carries; {ALARM}"),
             ChannelProblem::Reversed { .. } | ChannelProblem::TooMany { .. } => ALARM.to_string(),

@@ -147,3 +147,22 @@ fn channels_are_those_of_the_cell() {
         .says("did you mean `do`?");
     folder.arl2rs(&["check", "--cell", "none.toml", "a.arl"]).is(2, "").says("none.toml").says("cannot read");
 }
+
+#[test]
+fn foreground_channels_are_those_of_the_cell() {
+    let folder = Folder::new("check_foreground");
+    folder.write(
+        "a.arl",
+        "func void main()\n  print curppline(2)\n  print curppline(3)\n  print curppline(1)\nendfunc\n",
+    );
+    folder.write("b.arl", "func void main()\n  waittime 1\nendfunc\n");
+    let behind = "[[channel]]\nprogram = \"b.arl\"\nbackground = true\n";
+    folder.write("one.toml", behind);
+    folder.write("two.toml", &format!("{behind}[[channel]]\nprogram = \"b.arl\"\n"));
+    folder.arl2rs(&["check", "a.arl"]).is(0, "");
+    let one = folder.arl2rs(&["check", "--cell", "one.toml", "a.arl"]);
+    one.is(1, "").says("a.arl:2:19").says("foreground channel 2 does not exist: the cell has one").says("a.arl:3:19");
+    let two = folder.arl2rs(&["check", "--cell", "two.toml", "a.arl"]);
+    two.is(1, "").says("a.arl:3:19").says("foreground channel 3 does not exist: the cell has channels 1 to 2");
+    assert!(!two.err.contains("a.arl:2:"), "{}", two.err);
+}

@@ -1,4 +1,4 @@
-//! Channels of io that a certain cell does not have, as far as they are constant.
+//! Channels that a certain cell does not have, of io and those of programs, as far as they are constant.
 
 use super::{argument, constant, constant_int};
 use crate::diagnostics::channels::ChannelProblem;
@@ -35,7 +35,34 @@ const NAMES: [(&str, Kind); 13] = [
     ("getintdo", INTERNAL),
 ];
 
-/// What is wrong with the channels of a call, and where.
+/// The built-ins that ask the foreground channel in their first parameter.
+const ASKING: [&str; 13] = [
+    "cjttq",
+    "cjtci",
+    "channeltojoint",
+    "channeltopose",
+    "channeljoint",
+    "channelpose",
+    "channeljointvel",
+    "channeltcpvel",
+    "ctcpforce",
+    "curmpfile",
+    "curmpline",
+    "curppfile",
+    "curppline",
+];
+
+/// A foreground channel of a call that a cell with so many does not have, and where.
+pub(super) fn no_foreground(builtin: &Builtin, count: u32) -> Option<(Span, ChannelProblem)> {
+    if !ASKING.contains(&builtin.entry.name) {
+        return None;
+    }
+    let (channel, span) = constant_int(argument(builtin, 0)?)?;
+    let exists = (1..=i64::from(count)).contains(&i64::from(channel));
+    (!exists).then_some((span, ChannelProblem::NoForeground { channel, count }))
+}
+
+/// What is wrong with the channels of io of a call, and where.
 pub(super) fn problem(builtin: &Builtin, cell: &Channels) -> Option<(Span, ChannelProblem)> {
     let (_, (kind, count)) = NAMES.iter().find(|(name, _)| *name == builtin.entry.name)?;
     let (kind, count) = (*kind, count(cell) as u32);

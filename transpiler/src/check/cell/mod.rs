@@ -16,7 +16,8 @@ pub(crate) fn check(program: &Program, cell: &Outline, locate: &dyn Fn(ModuleId,
     let mut unseen = !cell.modbus_tcp;
     let mut look = |module: ModuleId, expr: &Expr| {
         let ExprKind::Builtin(builtin) = &expr.kind else { return };
-        if let Some((span, problem)) = channels::problem(builtin, &cell.channels) {
+        let channel = channels::problem(builtin, &cell.channels);
+        if let Some((span, problem)) = channel.or_else(|| channels::no_foreground(builtin, cell.foreground)) {
             found.push(problem.at(locate(module, span)));
         }
         if let Some((span, problem)) = connections::problem(builtin, cell) {
