@@ -9,7 +9,7 @@ use crate::fault::Fault;
 use crate::kinematics::Axes;
 use crate::motion::Joints;
 use crate::pointers::Spot;
-use crate::pose::{pose, setting};
+use crate::pose::{known, pose, setting};
 use crate::robot::Axis;
 use crate::unit::{Unit, joint, tidy};
 use crate::values::{Joint, Jtci, Jttq, Jvel, Pose, Str, Tcpforce, Tool, UNSET, Wobj};
@@ -168,8 +168,9 @@ pub fn channeltojoint(cx: &Cx, chan_no: i32) -> Result<Joint, Fault> {
 /// executed; without one, of the last.
 ///
 /// # Errors
-/// There is no such channel.
+/// There is no such channel, or the tool or the workpiece frame holds what is no number.
 pub fn channeltopose(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
+    known("channeltopose", &t, w)?;
     foreground(cx, "channeltopose", chan_no, |channel| Ok(channel.pose(channel.unit.current_target(), t, w)))
 }
 
@@ -184,8 +185,9 @@ pub fn channeljoint(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Joint, Fault>
 /// `channelpose`: the pose (mm, deg) of the tool in the workpiece frame now, as commanded or as the robot reports it.
 ///
 /// # Errors
-/// There is no such channel.
+/// There is no such channel, or the tool or the workpiece frame holds what is no number.
 pub fn channelpose(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj, ls_cmd: bool) -> Result<Pose, Fault> {
+    known("channelpose", &t, w)?;
     foreground(cx, "channelpose", chan_no, |channel| Ok(channel.pose(channel.positions(ls_cmd), t, w)))
 }
 
@@ -210,8 +212,9 @@ pub fn channeljointvel(cx: &Cx, chan_no: i32, ls_cmd: bool) -> Result<Jvel, Faul
 /// `channeltcpvel`: the speed of the tool in the workpiece frame in mm/s, as commanded or as the robot reports it.
 ///
 /// # Errors
-/// There is no such channel.
+/// There is no such channel, or the tool or the workpiece frame holds what is no number.
 pub fn channeltcpvel(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj, ls_cmd: bool) -> Result<f64, Fault> {
+    known("channeltcpvel", &t, w)?;
     foreground(cx, "channeltcpvel", chan_no, |channel| {
         let (setting, moving) = (setting(channel.cx, &t, w), channel.unit.moving(ls_cmd));
         let kinematics = &channel.unit.robot().kinematics;
@@ -224,9 +227,10 @@ pub fn channeltcpvel(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj, ls_cmd: bool) -> 
 /// axes of the workpiece frame. What the axes cannot feel at a singular point is 0.
 ///
 /// # Errors
-/// There is no such channel, or the robot file has no masses.
+/// There is no such channel, the robot file has no masses, or the tool or the workpiece frame holds what is no number.
 pub fn ctcpforce(cx: &Cx, chan_no: i32, t: Tool, w: &Wobj) -> Result<Tcpforce, Fault> {
     const FUNCTION: &str = "ctcpforce";
+    known(FUNCTION, &t, w)?;
     foreground(cx, FUNCTION, chan_no, |channel| {
         let unit = &channel.unit;
         let model = channel.known(FUNCTION, unit.model())?;

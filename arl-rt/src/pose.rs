@@ -34,9 +34,10 @@ pub fn cpose_default(cx: &Cx) -> Pose {
 /// The pose of the tool in the workpiece frame for given axes.
 ///
 /// # Errors
-/// Axes of the robot are unset.
+/// Axes of the robot are unset, or they, the tool or the workpiece frame hold what is no number.
 pub fn getpose(cx: &Cx, j: Joint, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
     let unit = cx.lane().unit("getpose")?;
+    known("getpose", &t, w)?;
     let mut axes = j.axes();
     let own = unit.robot().own_axes().len();
     if axes.iter().take(own).any(|axis| is_open(*axis)) {
@@ -50,12 +51,13 @@ pub fn getpose(cx: &Cx, j: Joint, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
 /// axes stay.
 ///
 /// # Errors
-/// Components of the pose are unset, or it cannot be reached so.
+/// Components of the pose are unset, it, the tool or the workpiece frame hold what is no number, or it cannot be reached so.
 pub fn getjoint(cx: &Cx, p: Pose, t: Tool, w: &Wobj) -> Result<Joint, Fault> {
     let components = p.components();
     if components.iter().any(|component| is_open(*component)) {
         return Err(domain("getjoint", "components of the pose are not set, or no numbers".to_owned()));
     }
+    known("getjoint", &t, w)?;
     let unit = cx.lane().unit("getjoint")?;
     let robot = unit.robot();
     let target = crate::kinematics::frame(components);
@@ -85,8 +87,18 @@ pub(crate) fn setting(cx: &Cx, tool: &Tool, wobj: &Wobj) -> Setting {
     Setting::new(tool, wobj, &base)
 }
 
+/// Whether the frames of tool and workpiece are numbers.
+pub(crate) fn known(function: &'static str, tool: &Tool, wobj: &Wobj) -> Result<(), Fault> {
+    for (name, frame) in [("tool", tool.t_frame), ("workpiece", wobj.w_frame)] {
+        if let Some(value) = frame.components().into_iter().find(|component| is_open(*component)) {
+            return Err(domain(function, format!("the {name} frame holds {value}, which is no length or angle")));
+        }
+    }
+    Ok(())
+}
+
 /// Whether nothing can be computed from a component.
-fn is_open(component: f64) -> bool {
+pub(crate) fn is_open(component: f64) -> bool {
     is_unset(component) || !component.is_finite()
 }
 

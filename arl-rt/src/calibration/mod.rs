@@ -1,7 +1,7 @@
 //! Frames of tools, workpieces and the base from places that were taught (manual 5.9).
 //!
-//! A place is given by the axes that the robot had there. Places too near to each other, or in a line, give no frame:
-//! an alarm.
+//! A place is given by the axes that the robot had there. Places too near to each other, or in a line, give no frame, and
+//! neither does what is not set or no number: an alarm.
 
 mod geometry;
 
@@ -10,7 +10,7 @@ use nalgebra::{Point3, UnitQuaternion, Vector3};
 use crate::cx::Cx;
 use crate::fault::Fault;
 use crate::kinematics::{Frame, frame, frame_components};
-use crate::motion::is_unset;
+use crate::pose::is_open;
 use crate::unit::tidy;
 use crate::values::{self, Joint, Pos, Tool, Wobj};
 use geometry::{Flaw, Triangle};
@@ -50,8 +50,8 @@ pub fn getwobj_indi(
 ) -> Result<Wobj, Fault> {
     let taught = Taught::new(cx, "getwobj_indi");
     let known = [p1, p2, p3].map(|p| [p.x, p.y, p.z]);
-    if let Some(at) = known.iter().position(|point| point.iter().any(|component| is_unset(*component))) {
-        return Err(taught.refusal(format!("components of p{} are not set", at + 1)));
+    if let Some(at) = known.iter().position(|point| point.iter().any(|component| is_open(*component))) {
+        return Err(taught.refusal(format!("components of p{} are not set, or no numbers", at + 1)));
     }
     let found = taught.touched([j1, j2, j3], &t)?;
     let (frame, off) = geometry::fitted(known.map(Point3::from), found).map_err(|(triangle, flaw)| {
@@ -118,7 +118,7 @@ pub fn gettoolrot_world(cx: &Cx, j: Joint, t: &mut Tool) -> Result<(), Fault> {
 pub fn gettoolrot_3p(cx: &Cx, j1: Joint, j2: Joint, j3: Joint, t: &mut Tool) -> Result<(), Fault> {
     let taught = Taught::new(cx, "gettoolrot_3p");
     let point = taught.tip_in_world(1, &j1, t)?;
-    let tip = tip(t);
+    let tip = taught.tip(t)?;
     // Seen from the TCP, the opposite of a place on -x is on +x, and that of one on the -y side is on the +y side.
     let opposite = |place: Point3<f64>| tip + (tip - place);
     let on_x = opposite(taught.seen_from_flange(2, &j2, &point)?);
@@ -138,7 +138,7 @@ pub fn gettool_3p(cx: &Cx, j1: Joint, j2: Joint, j3: Joint, w: &Wobj) -> Result<
     if w.robhold {
         return Err(taught.refusal("w must be a point of the world, but the robot holds it (robhold)".to_owned()));
     }
-    let point = Point3::new(w.w_frame.x, w.w_frame.y, w.w_frame.z);
+    let point = taught.origin(&w.w_frame, "w")?;
     let place = |number: u8, joint: &Joint| taught.seen_from_flange(number, joint, &point);
     let frame = taught.through([place(1, &j1)?, place(2, &j2)?, place(3, &j3)?])?;
     Ok(Tool { t_frame: given(&frame), stationary: false })
@@ -187,8 +187,8 @@ impl<'a> Taught<'a> {
         let unit = self.cx.lane().unit(self.function)?;
         let own = unit.robot().own_axes().len();
         let mut axes = joint.axes();
-        if axes.iter().take(own).any(|axis| is_unset(*axis)) {
-            return Err(self.refusal(format!("axes of {name} are not set")));
+        if axes.iter().take(own).any(|axis| is_open(*axis)) {
+            return Err(self.refusal(format!("axes of {name} are not set, or no numbers")));
         }
         axes.iter_mut().skip(own).for_each(|axis| *axis = 0.0);
         Ok(self.base * unit.robot().kinematics.forward(&axes))
@@ -200,7 +200,21 @@ impl<'a> Taught<'a> {
             let problem = "the tool is stationary, so that the robot cannot touch points with it";
             return Err(self.refusal(problem.to_owned()));
         }
-        Ok(self.flange(number, joint)? * tip(tool))
+        Ok(self.flange(number, joint)? * self.tip(tool)?)
+    }
+
+    /// The TCP, seen from the flange.
+    fn tip(&self, tool: &Tool) -> Result<Point3<f64>, Fault> {
+        self.origin(&tool.t_frame, "the tool")
+    }
+
+    /// The origin of a frame that is given.
+    fn origin(&self, frame: &values::Frame, what: &str) -> Result<Point3<f64>, Fault> {
+        let [x, y, z, ..] = frame.components();
+        match [x, y, z].into_iter().find(|component| is_open(*component)) {
+            None => Ok(Point3::new(x, y, z)),
+            Some(value) => Err(self.refusal(format!("{what} has its origin at {value}, which is no length"))),
+        }
     }
 
     /// Where the TCP is in the world at three places.
@@ -221,12 +235,6 @@ impl<'a> Taught<'a> {
     fn refusal(&self, problem: String) -> Fault {
         Fault::Domain { function: self.function, problem: problem.into() }
     }
-}
-
-/// The TCP, seen from the flange.
-fn tip(tool: &Tool) -> Point3<f64> {
-    let values::Frame { x, y, z, .. } = tool.t_frame;
-    Point3::new(x, y, z)
 }
 
 /// Gives a tool another orientation.

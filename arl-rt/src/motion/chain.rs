@@ -75,7 +75,7 @@ impl Held {
         let kinematics = &robot.kinematics;
         let axes = kinematics
             .inverse(&flange, kinematics.cfg(&start.axes), &start.axes)
-            .ok_or_else(|| PlanError::Unreachable { beyond: kinematics.beyond_reach(&flange), along: 1.0 })?;
+            .ok_or_else(|| planner.refused(kinematics.refusal(&flange)))?;
         let end = Joints { axes, ..end };
         Ok(Some(Self {
             kind,

@@ -20,9 +20,16 @@ pub enum PlanError {
     },
     /// The arm does not reach the pose.
     Unreachable {
-        /// How far it falls short, in mm; 0 where not the distance but the configuration or the tilt does not fit.
+        /// How far it falls short, in mm; 0 where not the distance but the configuration does not fit.
         beyond: f64,
         /// Where on the path, 0 to 1; 1 is the target.
+        along: f64,
+    },
+    /// The pose tilts the flange, which a SCARA robot cannot do.
+    Tilted {
+        /// By how much, in deg.
+        by: f64,
+        /// Where on the path it begins to, 0 to 1; 1 is the target.
         along: f64,
     },
     /// The line passes a singular point, where axes would have to turn at once.
@@ -112,6 +119,10 @@ impl fmt::Display for PlanError {
             }
             PlanError::Unreachable { along, .. } => {
                 write!(f, "the pose cannot be reached in this configuration; ")?;
+                place(f, *along)
+            }
+            PlanError::Tilted { by, along } => {
+                write!(f, "the pose tilts the flange by {by:.3} deg, which a SCARA robot cannot do; ")?;
                 place(f, *along)
             }
             PlanError::Singular { axis, along } => {

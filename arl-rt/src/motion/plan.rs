@@ -256,11 +256,12 @@ impl Planner<'_> {
         Ok((Track::Arc(arc), turning))
     }
 
-    fn refused(&self, refusal: Refusal) -> PlanError {
+    /// Why a target has no axes.
+    pub(super) fn refused(&self, refusal: Refusal) -> PlanError {
         match refusal {
             Refusal::NoSuchCfg { cfg } => PlanError::NoSuchCfg { cfg },
             Refusal::Unreachable { beyond } => PlanError::Unreachable { beyond, along: 1.0 },
-            Refusal::Tilted { .. } => PlanError::Unreachable { beyond: 0.0, along: 1.0 },
+            Refusal::Tilted { by } => PlanError::Tilted { by, along: 1.0 },
             Refusal::AxisLimit { axis, value } => match self.robot.axes.get(axis) {
                 Some(axis) => limit(axis, value),
                 None => PlanError::NotForThisRobot,

@@ -4,7 +4,7 @@
 use super::curve::ToolCurve;
 use super::error::PlanError;
 use super::joints::{Joints, is_unset};
-use crate::kinematics::{Axes, RANGE_SLACK, Rates, SINGULAR_SCALE};
+use crate::kinematics::{Axes, RANGE_SLACK, Rates, Refusal, SINGULAR_SCALE};
 use crate::robot::Robot;
 
 /// What the walk found.
@@ -158,9 +158,20 @@ impl Walk<'_> {
 
     /// Out of reach from here on: how far at worst?
     fn unreachable(&self, along: f64) -> PlanError {
-        let beyond = |at: f64| self.robot.kinematics.beyond_reach(&self.curve.flange(at));
-        let rest = (0..=32).map(|step| beyond(along + (1.0 - along) * f64::from(step) / 32.0));
-        PlanError::Unreachable { beyond: rest.fold(0.0, f64::max), along }
+        let (mut farthest, mut tilt) = (0.0_f64, 0.0_f64);
+        for step in 0..=32 {
+            let flange = self.curve.flange(along + (1.0 - along) * f64::from(step) / 32.0);
+            match self.robot.kinematics.refusal(&flange) {
+                Refusal::Unreachable { beyond } => farthest = farthest.max(beyond),
+                Refusal::Tilted { by } => tilt = tilt.max(by),
+                Refusal::NoSuchCfg { .. } | Refusal::AxisLimit { .. } => {}
+            }
+        }
+        if tilt > 0.0 {
+            PlanError::Tilted { by: tilt, along }
+        } else {
+            PlanError::Unreachable { beyond: farthest, along }
+        }
     }
 
     /// The derivatives of the axes; `None` at a singular point, where they would be made of rounding errors.

@@ -3,6 +3,7 @@
 use crate::cx::Cx;
 use crate::dynamics::Load;
 use crate::fault::Fault;
+use crate::pose::is_open;
 use crate::values::{Str, ToolInertiaPara};
 
 /// The name of the one mechanical unit that there is.
@@ -24,7 +25,7 @@ impl ToolLoad {
     /// Holds from the next motion on, until another load is said or the program is reset.
     ///
     /// # Errors
-    /// The mass or a moment of inertia is below 0.
+    /// The mass or a moment of inertia is below 0, or a component is no number.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         carry(cx, "toolload", &self.toolinertia)
     }
@@ -53,7 +54,7 @@ impl ToolSwitch {
     /// Holds from the next motion on, until another load is said or the program is reset.
     ///
     /// # Errors
-    /// There is no such element or unit, or the mass or a moment of inertia is below 0.
+    /// There is no such element or unit, the mass or a moment of inertia is below 0, or a component is no number.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         unit("toolswitch", self.mu.as_ref())?;
         let load = cx.system().tool_inertia.with(|loads| {
@@ -66,11 +67,28 @@ impl ToolSwitch {
 }
 
 fn carry(cx: &Cx, function: &'static str, load: &ToolInertiaPara) -> Result<(), Fault> {
-    let inertia = &load.inertiatensor;
-    for (what, value) in [("mass", load.m), ("Ixx", inertia.ixx), ("Iyy", inertia.iyy), ("Izz", inertia.izz)] {
-        if !(0.0..f64::INFINITY).contains(&value) {
-            let problem = format!("the load's {what} is {value}, but must be 0 or more");
-            return Err(Fault::Domain { function, problem: problem.into() });
+    let (centre, inertia) = (&load.centroidpos, &load.inertiatensor);
+    let not_negative = [("mass", load.m), ("Ixx", inertia.ixx), ("Iyy", inertia.iyy), ("Izz", inertia.izz)];
+    let any = [
+        ("x of the centre of mass", centre.x),
+        ("y of the centre of mass", centre.y),
+        ("z of the centre of mass", centre.z),
+        ("Ixy", inertia.ixy),
+        ("Ixz", inertia.ixz),
+        ("Iyz", inertia.iyz),
+    ];
+    let refused = |what: &str, value: f64, wanted: &str| {
+        let problem = format!("the load's {what} is {value}, but must be {wanted}");
+        Err(Fault::Domain { function, problem: problem.into() })
+    };
+    for (what, value) in not_negative {
+        if is_open(value) || value < 0.0 {
+            return refused(what, value, "0 or more");
+        }
+    }
+    for (what, value) in any {
+        if is_open(value) {
+            return refused(what, value, "a number");
         }
     }
     cx.lane().unit_mut(function)?.set_load(Load::from(load));

@@ -152,10 +152,9 @@ instruction! {
     /// `cir`: the TCP along a circle through an auxiliary point, the tool turning evenly along with it or, with
     /// `$ORI_REF_PATH`, with the path.
     cir Cir (m: Pose, p: Pose) Line { v vl vp s sl sp t w ca dura }
-    -> |this, modal, cx| resolve::pose(cx, &this.p, &modal).map(|(pose, _, external)| {
-        let [x, y, z, ..] = this.m.components();
-        let follow = cx.system().ori_ref_path.get();
-        Target::Arc { via: [x, y, z], pose, wobj: modal.setting.workpiece(), angle: this.modal.angle, follow, external }
+    -> |this, modal, cx| resolve::pose(cx, &this.p, &modal).and_then(|(pose, _, external)| {
+        let (via, follow) = (resolve::via(&this.m)?, cx.system().ori_ref_path.get());
+        Ok(Target::Arc { via, pose, wobj: modal.setting.workpiece(), angle: this.modal.angle, follow, external })
     })
 }
 

@@ -102,7 +102,9 @@ impl Modal {
             Some(Blend::Line(value)) => Some(("sl", value)),
             Some(Blend::Slip(_)) | None => None,
         };
-        match speed.into_iter().chain(zone).find(|(_, value)| !is_set(*value)) {
+        let others = [("dura", self.duration), ("CA", self.angle)];
+        let others = others.into_iter().filter_map(|(label, value)| Some((label, value?)));
+        match speed.into_iter().chain(zone).chain(others).find(|(_, value)| !is_set(*value)) {
             Some((label, _)) => Err(Fault::Motion(
                 format!(
                     "{label} is 9e+09, which stands for a value that was not set: give a number, or leave {label} out"

@@ -8,13 +8,16 @@ use crate::motion::{Command, Joints, Settings, Target, UNSET, Zone};
 use crate::robot::{EXTERNAL_AXES, VelocityProfile};
 use crate::system::all_set;
 use crate::unit::{Unit, joint};
-use crate::values::{Joint, Pose, VelProfile};
+use crate::values::{Joint, Pose, VelProfile, is_set};
 
 /// What a background channel cannot do.
 const MOTION: &str = "motion";
 
 /// What the first motion of a program must not leave open.
 const FIRST: &str = "the first motion of a program must set all components of its target";
+
+/// Beyond this, mm or deg, a component is what became of 9e+09 in a calculation.
+const FARTHEST: f64 = 1e9;
 
 /// A motion that keeps less of its speed under a weave or a compensation is warned of.
 const SLOWED: f64 = 0.98;
@@ -23,8 +26,10 @@ const SLOWED: f64 = 0.98;
 pub(super) fn joints(cx: &Cx, target: &Joint) -> Result<Joints, Fault> {
     let joints = Joints { axes: target.axes(), external: target.external() };
     let unit = cx.lane().unit(MOTION)?;
-    let own = unit.robot().own_axes().len();
-    first(cx, &unit, joints.axes.get(..own).unwrap_or_default(), &joints.external)?;
+    let own = joints.axes.get(..unit.robot().own_axes().len()).unwrap_or_default();
+    first(cx, &unit, own, &joints.external)?;
+    sensible(own)?;
+    sensible(there(&unit, &joints.external))?;
     Ok(joints)
 }
 
@@ -37,7 +42,10 @@ pub(super) fn pose(
     modal.setting.check().map_err(|unmoved| Fault::Motion(unmoved.to_string().into()))?;
     let system = cx.system();
     let (mut pose, external) = (target.components(), target.external());
-    first(cx, &*cx.lane().unit(MOTION)?, &pose, &external)?;
+    let unit = cx.lane().unit(MOTION)?;
+    first(cx, &unit, &pose, &external)?;
+    sensible(&pose)?;
+    sensible(there(&unit, &external))?;
     if system.ignore_ori.get() {
         let [x, y, z, ..] = pose;
         pose = [x, y, z, UNSET, UNSET, UNSET];
@@ -45,6 +53,13 @@ pub(super) fn pose(
     // Lines keep the configuration of their start, whatever their target says.
     let as_taught = system.config_check.get() && modal.kind == Kind::Axes;
     Ok((pose, wanted(target, as_taught)?, external))
+}
+
+/// The place of a point that a circle leads through.
+pub(super) fn via(point: &Pose) -> Result<[f64; 3], Fault> {
+    let [x, y, z, ..] = point.components();
+    sensible(&[x, y, z])?;
+    Ok([x, y, z])
 }
 
 /// Which solution of a pose is wanted: the one it was taught in, or the nearest.
@@ -65,11 +80,26 @@ fn first(cx: &Cx, unit: &Unit, own: &[f64], external: &[f64]) -> Result<(), Faul
     if cx.has_moved() {
         return Ok(());
     }
-    let there = unit.robot().external_axes().len();
-    if all_set(own) && all_set(external.get(..there).unwrap_or_default()) {
-        Ok(())
-    } else {
-        Err(Fault::Motion(FIRST.into()))
+    if all_set(own) && all_set(there(unit, external)) { Ok(()) } else { Err(Fault::Motion(FIRST.into())) }
+}
+
+/// The external axes that the robot has.
+fn there<'a>(unit: &Unit, external: &'a [f64]) -> &'a [f64] {
+    external.get(..unit.robot().external_axes().len()).unwrap_or_default()
+}
+
+/// A component that is not set stays as it is, but nothing can be calculated with it: a sum of it would be left out of the
+/// target in silence, a difference would turn the tool to wherever it leads.
+fn sensible(components: &[f64]) -> Result<(), Fault> {
+    let calculated = |value: &f64| is_set(*value) && value.is_finite() && value.abs() > FARTHEST;
+    match components.iter().copied().find(calculated) {
+        None => Ok(()),
+        Some(value) => {
+            let problem = format!(
+                "the target holds {value}, which comes of calculating with a component that is not set (9e+09): set it first"
+            );
+            Err(Fault::Motion(problem.into()))
+        }
     }
 }
 

@@ -69,6 +69,31 @@ fn what_is_out_of_reach_or_range_says_so() {
 }
 
 #[test]
+fn a_target_that_tilts_the_flange_of_a_scara_says_so() {
+    let robot = robot("hsr065");
+    let from = axes([10.0, 40.0, 50.0, 30.0, 0.0, 0.0]);
+    let [x, y, z, a, ..] = frame_components(&robot.kinematics.forward(&from.axes));
+    let tilted = [x, y, z, a, 20.0, 0.0];
+    let spline = |pose: [f64; 6]| command(Target::Spline { pose, wobj: Frame::identity(), external: [UNSET; 6] });
+    let refused = |command: &Command| match Queue::new(robot.clone(), from).add(command, &Settings::default()) {
+        Err(PlanError::Tilted { by, along }) => (by, along),
+        other => panic!("{other:?}"),
+    };
+    for command in [ptp(tilted, 0), lin(tilted), spline(tilted)] {
+        let (by, along) = refused(&command);
+        assert!((by - 20.0).abs() < 1e-9 && along == 1.0, "{by} {along}");
+    }
+    // A circle that stands upright, with the tool turning along: only its ends are upright.
+    let (via, pose) = ([x + 10.0, y, z - 10.0], [x, y, z - 20.0, a, 0.0, 0.0]);
+    let circle =
+        Target::Arc { via, pose, wobj: Frame::identity(), angle: Some(360.0), follow: true, external: [UNSET; 6] };
+    let (by, along) = refused(&command(circle));
+    assert!(by > 170.0 && along < 0.1, "{by} {along}");
+    let words = PlanError::Tilted { by: 20.0, along: 1.0 }.to_string();
+    assert!(words.contains("20.000 deg"), "{words}");
+}
+
+#[test]
 fn a_line_that_leaves_the_reach_between_its_ends_says_where_and_how_far() {
     let robot = robot("kr10-r1420");
     // The hand turns from one side to the other over the side that faces the robot: there the wrist is too far out.
