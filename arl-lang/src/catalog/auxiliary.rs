@@ -27,7 +27,7 @@ entries! { pub(super) AUXILIARY =
     /// Scales the programmed speeds of the motions that follow and limits their TCP speed.
     instr velset(
         override: int [units(&[Unit::Percent]), range(0.0, 100.0), rust("percent")] "part of the programmed speed, %, 0 to 100",
-        max: int [units(&[Unit::MillimetrePerSecond]), range(0.0, f64::INFINITY)] "largest TCP speed on paths, mm/s",
+        max: int [units(&[Unit::MillimetrePerSecond]), at_least(0.0)] "largest TCP speed on paths, mm/s",
     )
         { "3.5.4", motion::velset, acts, fails, foreground; "velset 50,800" }
     /// Scales the acceleration and jerk of the motions that follow. Below 20 counts as 20.
@@ -42,7 +42,7 @@ entries! { pub(super) AUXILIARY =
           "ToolInertiaPara load = {30,{15,25,100},{10,20,30,40,50,60}}\ntoolload load\ntoolload $TOOL_INERTIA[3]" }
     /// Takes a load of $TOOL_INERTIA by its index.
     instr toolswitch(
-        toolindex: int "the index",
+        toolindex: int [range(0.0, 31.0)] "the index, 0 to 31",
         mu: string [optional, alias(&["mu_name"])] "name of the mechanical unit; the channel's own without it",
     )
         { "3.5.7", motion::toolswitch, acts, fails, foreground; "toolswitch toolindex:2" }

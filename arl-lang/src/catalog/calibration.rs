@@ -70,7 +70,7 @@ entries! { pub(super) CALIBRATION =
         j2: joint "the tool on the world's +x axis",
         j3: joint "the tool in the world's xy plane, on the +y side",
         t: tool "the tool",
-        index: int "number of the mechanical unit, from 1",
+        index: int [at_least(1.0)] "number of the mechanical unit, from 1",
     )
         { "5.9.8", calibration::getbase_3p, acts, fails, foreground;
           "joint j1 = {1,0,120,0,30,0}\njoint j2 = {10,0,120,0,30,0}\njoint j3 = {15,0,110,0,30,0}\ngetbase_3p(j1,j2,j3,$TOOL0,1)\nprint $BASE" }

@@ -5,12 +5,12 @@ use crate::ast::Unit;
 
 entries! { pub(super) CONTROL =
     /// Waits until the robot stands, then for a time. A negative time: alarm.
-    instr waittime(time: double [units(&[Unit::Second]), range(0.0, f64::INFINITY)] "how long, s")
+    instr waittime(time: double [units(&[Unit::Second]), at_least(0.0)] "how long, s")
         { "3.4.1", flow::waittime, waits, fails; "waittime 0.5" }
     /// Waits until the robot stands, then until a condition holds or a time is over.
     instr waituntil(
         cond: bool [condition] "what is waited for, looked at in every cycle",
-        maxtime: double [optional, units(&[Unit::Second]), range(0.0, f64::INFINITY)] "longest wait, s; for ever without it",
+        maxtime: double [optional, units(&[Unit::Second]), at_least(0.0)] "longest wait, s; for ever without it",
         timeoutflag: bool [optional, out] "gets true when the time was over first, false when the condition held",
     )
         { "3.4.2", flow::waituntil, waits, fails; "bool late\nwaituntil getdi(6),maxtime:0.5,timeoutflag:late\nprint late" }

@@ -15,7 +15,9 @@
 //! of it, `any` everything but handles. The marks in brackets are the methods of [`Param`] below, the marks behind the
 //! path those of [`Entry`].
 
-use super::entry::{Access, Effect, Entry, Kind, Mode, Param, ParamType, Presence, Restore, SystemVariable, Takes};
+use super::entry::{
+    Access, Effect, Entry, Kind, Mode, Param, ParamType, Presence, Range, Restore, SystemVariable, Takes,
+};
 use super::types::{Base, Component, Family, Start};
 use crate::ast::Unit;
 
@@ -188,6 +190,7 @@ impl Param {
             bare: true,
             units: &[],
             range: None,
+            set: false,
             counts: None,
             doc,
         }
@@ -227,7 +230,15 @@ setters! { Param:
     /// The units that may follow a number.
     units(units: &'static [Unit]) { units = units }
     /// The least and greatest constant.
-    range(low: f64, high: f64) { range = Some((low, high)) }
+    range(low: f64, high: f64) { range = Some(Range::Within(low, high)) }
+    /// Constants above this one.
+    above(low: f64) { range = Some(Range::Above(low)) }
+    /// The least constant.
+    at_least(low: f64) { range = Some(Range::AtLeast(low)) }
+    /// The greatest constant.
+    at_most(high: f64) { range = Some(Range::AtMost(high)) }
+    /// Not 9e+09, which stands for what is not set.
+    set() { set = true }
     /// A number of parts of the array beside it, of so many bits each.
     counts(bits: u32) { counts = Some(bits) }
     /// Other labels.
@@ -337,7 +348,7 @@ setters! { SystemVariable:
 impl Component {
     /// A component that values by position reach.
     pub(super) const fn declare(name: &'static str, ty: Base, start: Start, doc: &'static str) -> Self {
-        Self { name, aliases: &[], ty, start, doc, by_position: true }
+        Self { name, aliases: &[], ty, start, range: None, doc, by_position: true }
     }
 }
 
@@ -346,4 +357,12 @@ setters! { Component:
     alias(names: &'static [&'static str]) { aliases = names }
     /// Set by name only.
     named() { by_position = false }
+    /// The least and greatest number that make sense.
+    range(low: f64, high: f64) { range = Some(Range::Within(low, high)) }
+    /// Only numbers above this one make sense.
+    above(low: f64) { range = Some(Range::Above(low)) }
+    /// The least number that makes sense.
+    at_least(low: f64) { range = Some(Range::AtLeast(low)) }
+    /// The greatest number that makes sense.
+    at_most(high: f64) { range = Some(Range::AtMost(high)) }
 }

@@ -1,5 +1,7 @@
 //! How a built-in is declared.
 
+use std::fmt;
+
 use super::types::{Base, Family};
 use crate::ast::Unit;
 
@@ -80,6 +82,43 @@ pub enum Presence {
     },
 }
 
+/// The numbers that make sense somewhere.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Range {
+    /// From the least to the greatest.
+    Within(f64, f64),
+    /// Those above this one.
+    Above(f64),
+    /// This one and those above it.
+    AtLeast(f64),
+    /// This one and those below it.
+    AtMost(f64),
+}
+
+impl Range {
+    /// Whether a number is one of them.
+    pub fn holds(self, number: f64) -> bool {
+        match self {
+            Self::Within(low, high) => (low..=high).contains(&number),
+            Self::Above(low) => number > low,
+            Self::AtLeast(low) => number >= low,
+            Self::AtMost(high) => number <= high,
+        }
+    }
+}
+
+impl fmt::Display for Range {
+    /// As the end of "must be".
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Within(low, high) => write!(f, "in {low} to {high}"),
+            Self::Above(low) => write!(f, "above {low}"),
+            Self::AtLeast(low) => write!(f, "{low} or more"),
+            Self::AtMost(high) => write!(f, "{high} or less"),
+        }
+    }
+}
+
 /// A parameter.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Param {
@@ -99,8 +138,10 @@ pub struct Param {
     pub bare: bool,
     /// Units that may follow a number here; the value itself is in the first one.
     pub units: &'static [Unit],
-    /// The least and greatest constant that make sense; values beyond are an error where known.
-    pub range: Option<(f64, f64)>,
+    /// The constants that make sense; others are an error where known.
+    pub range: Option<Range>,
+    /// Whether 9e+09, which stands for what is not set, is an error where known.
+    pub set: bool,
     /// How many bits each of what it counts takes in the array that is given beside it.
     pub counts: Option<u32>,
     /// What it means, with its unit and what happens without it.

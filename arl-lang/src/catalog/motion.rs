@@ -14,12 +14,12 @@ entries! { pub(super) MOTION =
     instr movej(
         j: joint "the target as axis positions",
         v: speed [optional] "speed: per and exj count; its set components go to $DFSPEED, which stands in without it",
-        vp: double [optional, units(&[Unit::Percent]), range(0.001, 100.0)] "speed, % of the axes' limits",
+        vp: double [optional, units(&[Unit::Percent]), range(0.001, 100.0), set()] "speed, % of the axes' limits",
         s: slip [optional] "blending: perdis, jdis and ejdis count; its set components go to $DFSLIP, which stands in without it",
-        sp: double [optional, units(&[Unit::Percent]), range(f64::NEG_INFINITY, 100.0)] "blending zone, % of the largest; 0 or less: none",
-        sl: double [optional, units(&[Unit::Millimetre])] "blending distance, mm; 0 or less: none",
+        sp: double [optional, units(&[Unit::Percent]), at_most(100.0), set()] "blending zone, % of the largest; 0 or less: none",
+        sl: double [optional, units(&[Unit::Millimetre]), set()] "blending distance, mm; 0 or less: none",
         t: tool [optional] "the tool, whose speed is limited in manual mode; it goes to $DFTOOL, which stands in without it",
-        dura: double [optional, units(&[Unit::Second]), range(0.0, f64::INFINITY)] "how long the motion takes, s; the speed is then ignored",
+        dura: double [optional, units(&[Unit::Second]), above(0.0), set()] "how long the motion takes, s; the speed is then ignored",
     )
         { "3.2.1", motion::movej, plans, fails, exclusive(AXIS);
           "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nmovej j:{j1 30},v:{per 10},sp:-1%" }
@@ -28,13 +28,13 @@ entries! { pub(super) MOTION =
     instr ptp(
         p: pose "the target; cfg and turn choose among the solutions",
         v: speed [optional] "speed: per and exj count; its set components go to $DFSPEED, which stands in without it",
-        vp: double [optional, units(&[Unit::Percent]), range(0.001, 100.0)] "speed, % of the axes' limits",
+        vp: double [optional, units(&[Unit::Percent]), range(0.001, 100.0), set()] "speed, % of the axes' limits",
         s: slip [optional] "blending: perdis, jdis and ejdis count; its set components go to $DFSLIP, which stands in without it",
-        sl: double [optional, units(&[Unit::Millimetre])] "blending distance, mm; 0 or less: none",
-        sp: double [optional, units(&[Unit::Percent]), range(f64::NEG_INFINITY, 100.0)] "blending zone, % of the largest; 0 or less: none",
+        sl: double [optional, units(&[Unit::Millimetre]), set()] "blending distance, mm; 0 or less: none",
+        sp: double [optional, units(&[Unit::Percent]), at_most(100.0), set()] "blending zone, % of the largest; 0 or less: none",
         t: tool [optional] "the tool whose TCP moves; it goes to $DFTOOL, which stands in without it",
         w: wobj [optional] "the frame of the target; it goes to $DFWOBJ, which stands in without it",
-        dura: double [optional, units(&[Unit::Second]), range(0.0, f64::INFINITY)] "how long the motion takes, s; the speed is then ignored",
+        dura: double [optional, units(&[Unit::Second]), above(0.0), set()] "how long the motion takes, s; the speed is then ignored",
     )
         { "3.2.2", motion::ptp, plans, fails, exclusive(AXIS);
           "joint j = {0,-90,90,0,45,0}\npose p = getpose(j,$FLANGE,$WORLD)\nptp p,vp:20%" }
@@ -42,14 +42,14 @@ entries! { pub(super) MOTION =
     instr lin(
         p: pose "the target; its cfg is ignored",
         v: speed [optional] "speed: tcp, ori, exj and exl count; its set components go to $DFSPEED, which stands in without it",
-        vl: double [optional, units(&[Unit::MillimetrePerSecond])] "speed of the TCP, mm/s",
-        vp: double [optional, units(&[Unit::Percent]), range(0.001, 100.0)] "speed, % of the robot's TCP limits",
+        vl: double [optional, units(&[Unit::MillimetrePerSecond]), above(0.0), set()] "speed of the TCP, mm/s",
+        vp: double [optional, units(&[Unit::Percent]), range(0.001, 100.0), set()] "speed, % of the robot's TCP limits",
         s: slip [optional] "blending: perdis, pdis, odis and ejdis count; its set components go to $DFSLIP, which stands in without it",
-        sl: double [optional, units(&[Unit::Millimetre])] "blending distance, mm; 0 or less: none",
-        sp: double [optional, units(&[Unit::Percent]), range(f64::NEG_INFINITY, 100.0)] "blending zone, % of the largest; 0 or less: none",
+        sl: double [optional, units(&[Unit::Millimetre]), set()] "blending distance, mm; 0 or less: none",
+        sp: double [optional, units(&[Unit::Percent]), at_most(100.0), set()] "blending zone, % of the largest; 0 or less: none",
         t: tool [optional] "the tool whose TCP moves; it goes to $DFTOOL, which stands in without it",
         w: wobj [optional] "the frame of the target; it goes to $DFWOBJ, which stands in without it",
-        dura: double [optional, units(&[Unit::Second]), range(0.0, f64::INFINITY)] "how long the motion takes, s; the speed is then ignored",
+        dura: double [optional, units(&[Unit::Second]), above(0.0), set()] "how long the motion takes, s; the speed is then ignored",
     )
         { "3.2.3", motion::lin, plans, fails, exclusive(PATH);
           "joint j = {0,-90,90,0,45,0}\npose p = getpose(j,$FLANGE,$WORLD)\nptp p,vp:20%\np.z = p.z - 50\nlin p,vl:100mm/s" }
@@ -57,11 +57,11 @@ entries! { pub(super) MOTION =
     instr spl(
         p: pose "the target; its cfg is ignored",
         v: speed [optional] "speed: tcp, ori and exj count; its set components go to $DFSPEED, which stands in without it",
-        vl: double [optional, units(&[Unit::MillimetrePerSecond])] "speed of the TCP, mm/s",
-        vp: double [optional, units(&[Unit::Percent]), range(0.001, 100.0)] "speed, % of the robot's TCP limits",
+        vl: double [optional, units(&[Unit::MillimetrePerSecond]), above(0.0), set()] "speed of the TCP, mm/s",
+        vp: double [optional, units(&[Unit::Percent]), range(0.001, 100.0), set()] "speed, % of the robot's TCP limits",
         s: slip [optional] "blending: perdis, pdis, odis and ejdis count; its set components go to $DFSLIP, which stands in without it",
-        sl: double [optional, units(&[Unit::Millimetre])] "blending distance, mm; 0 or less: none",
-        sp: double [optional, units(&[Unit::Percent]), range(f64::NEG_INFINITY, 100.0)] "blending zone, % of the largest; 0 or less: none",
+        sl: double [optional, units(&[Unit::Millimetre]), set()] "blending distance, mm; 0 or less: none",
+        sp: double [optional, units(&[Unit::Percent]), at_most(100.0), set()] "blending zone, % of the largest; 0 or less: none",
         t: tool [optional] "the tool whose TCP moves; it goes to $DFTOOL, which stands in without it",
         w: wobj [optional] "the frame of the target; it goes to $DFWOBJ, which stands in without it",
     )
@@ -72,15 +72,15 @@ entries! { pub(super) MOTION =
         m: pose "a point on the arc; its x, y, z count",
         p: pose "the target; its cfg is ignored",
         v: speed [optional] "speed: tcp, ori and exj count; its set components go to $DFSPEED, which stands in without it",
-        vl: double [optional, units(&[Unit::MillimetrePerSecond])] "speed of the TCP, mm/s",
-        vp: double [optional, units(&[Unit::Percent]), range(0.001, 100.0)] "speed, % of the robot's TCP limits",
+        vl: double [optional, units(&[Unit::MillimetrePerSecond]), above(0.0), set()] "speed of the TCP, mm/s",
+        vp: double [optional, units(&[Unit::Percent]), range(0.001, 100.0), set()] "speed, % of the robot's TCP limits",
         s: slip [optional] "blending: perdis, pdis, odis and ejdis count; its set components go to $DFSLIP, which stands in without it",
-        sl: double [optional, units(&[Unit::Millimetre])] "blending distance, mm; 0 or less: none",
-        sp: double [optional, units(&[Unit::Percent]), range(f64::NEG_INFINITY, 100.0)] "blending zone, % of the largest; 0 or less: none",
+        sl: double [optional, units(&[Unit::Millimetre]), set()] "blending distance, mm; 0 or less: none",
+        sp: double [optional, units(&[Unit::Percent]), at_most(100.0), set()] "blending zone, % of the largest; 0 or less: none",
         t: tool [optional] "the tool whose TCP moves; it goes to $DFTOOL, which stands in without it",
         w: wobj [optional] "the frame of the points; it goes to $DFWOBJ, which stands in without it",
-        CA: double [optional, units(&[Unit::Degree])] "angle of the arc, deg: the motion ends there, p only shapes the circle",
-        dura: double [optional, units(&[Unit::Second]), range(0.0, f64::INFINITY)] "how long the motion takes, s; the speed is then ignored",
+        CA: double [optional, units(&[Unit::Degree]), range(-7200.0, 7200.0), set()] "angle of the arc, deg: the motion ends there, p only shapes the circle",
+        dura: double [optional, units(&[Unit::Second]), above(0.0), set()] "how long the motion takes, s; the speed is then ignored",
     )
         { "3.2.5", motion::cir, plans, fails, exclusive(PATH);
           "joint j = {0,-90,90,0,45,0}\npose p = getpose(j,$FLANGE,$WORLD)\nptp p,vp:20%\npose m = offset(p,50,50,0,0,0,0)\np.x = p.x + 100\ncir m,p,vl:100mm/s" }
@@ -89,11 +89,11 @@ entries! { pub(super) MOTION =
     instr ccir(
         p: pose "the target; its cfg is ignored",
         v: speed [optional] "speed: tcp, ori and exj count; its set components go to $DFSPEED, which stands in without it",
-        vl: double [optional, units(&[Unit::MillimetrePerSecond])] "speed of the TCP, mm/s",
-        vp: double [optional, units(&[Unit::Percent]), range(0.001, 100.0)] "speed, % of the robot's TCP limits",
+        vl: double [optional, units(&[Unit::MillimetrePerSecond]), above(0.0), set()] "speed of the TCP, mm/s",
+        vp: double [optional, units(&[Unit::Percent]), range(0.001, 100.0), set()] "speed, % of the robot's TCP limits",
         s: slip [optional] "blending: perdis, pdis, odis and ejdis count; its set components go to $DFSLIP, which stands in without it",
-        sl: double [optional, units(&[Unit::Millimetre])] "blending distance, mm; 0 or less: none",
-        sp: double [optional, units(&[Unit::Percent]), range(f64::NEG_INFINITY, 100.0)] "blending zone, % of the largest; 0 or less: none",
+        sl: double [optional, units(&[Unit::Millimetre]), set()] "blending distance, mm; 0 or less: none",
+        sp: double [optional, units(&[Unit::Percent]), at_most(100.0), set()] "blending zone, % of the largest; 0 or less: none",
         t: tool [optional] "the tool whose TCP moves; it goes to $DFTOOL, which stands in without it",
         w: wobj [optional] "the frame of the target; it goes to $DFWOBJ, which stands in without it",
     )
@@ -104,11 +104,11 @@ entries! { pub(super) MOTION =
     instr jump(
         p: pose "the target",
         v: speed [optional] "speed: per and exj count; its set components go to $DFSPEED, which stands in without it",
-        vp: double [optional, units(&[Unit::Percent]), range(0.001, 100.0)] "speed, % of the axes' limits",
+        vp: double [optional, units(&[Unit::Percent]), range(0.001, 100.0), set()] "speed, % of the axes' limits",
         t: tool [optional] "the tool whose TCP moves; it goes to $DFTOOL, which stands in without it",
         w: wobj [optional] "the frame of the target; it goes to $DFWOBJ, which stands in without it",
-        a: double [otherwise("25"), units(&[Unit::Millimetre])] "how far it rises straight up, mm; 25 without it",
-        b: double [otherwise("25"), units(&[Unit::Millimetre])] "how far it sinks straight down, mm; 25 without it",
+        a: double [otherwise("25"), units(&[Unit::Millimetre]), at_least(0.0), set()] "how far it rises straight up, mm; 25 without it",
+        b: double [otherwise("25"), units(&[Unit::Millimetre]), at_least(0.0), set()] "how far it sinks straight down, mm; 25 without it",
         Z: double [otherwise("0"), units(&[Unit::Millimetre])] "height that is not exceeded, mm; 0 without it: the robot's own limit",
         ctr: control [optional] "speeds and accelerations of rising and sinking; the motion's own without it",
         s: bool [otherwise("false")] "true: goes on to the next motion without stopping at the target",
@@ -132,12 +132,12 @@ entries! { pub(super) MOTION =
     /// Shifts and turns the lines, circles and splines that follow, up to endcompen, by as much more. At most 90 deg in all
     /// about each axis.
     instr compen(
-        x: double [optional, units(&[Unit::Millimetre])] "shift along x of the frame, mm",
-        y: double [optional, units(&[Unit::Millimetre])] "shift along y of the frame, mm",
-        z: double [optional, units(&[Unit::Millimetre])] "shift along z of the frame, mm",
-        a: double [optional, units(&[Unit::Degree])] "turn about z of the frame, deg",
-        b: double [optional, units(&[Unit::Degree])] "turn about y of the frame, deg",
-        c: double [optional, units(&[Unit::Degree])] "turn about x of the frame, deg",
+        x: double [optional, units(&[Unit::Millimetre]), set()] "shift along x of the frame, mm",
+        y: double [optional, units(&[Unit::Millimetre]), set()] "shift along y of the frame, mm",
+        z: double [optional, units(&[Unit::Millimetre]), set()] "shift along z of the frame, mm",
+        a: double [optional, units(&[Unit::Degree]), range(-180.0, 180.0), set()] "turn about z of the frame, deg",
+        b: double [optional, units(&[Unit::Degree]), range(-180.0, 180.0), set()] "turn about y of the frame, deg",
+        c: double [optional, units(&[Unit::Degree]), range(-180.0, 180.0), set()] "turn about x of the frame, deg",
         type: {compentype, string} [rust("frame")] "the frame, as a constant or as its name in a string",
     )
         { "3.2.11.2", motion::compen, acts, fails, foreground, only(Family::SixAxis);

@@ -56,7 +56,7 @@ structure! { POSE =
         b: double unset "turn of the tool about the new y, deg",
         c: double unset "turn of the tool about the new x, deg",
         cfg: int zero "arm configuration: six axes 0 to 7; SCARA 0 right-handed, 4 left-handed",
-        turn: int starts(-1) "bit i set: axis i+1 stands below 0; -1 takes the solution nearest to the start",
+        turn: int starts(-1) [range(-1.0, 63.0)] "bit i set: axis i+1 stands below 0; -1 takes the solution nearest to the start",
         ej1 ej2 ej3 ej4 ej5 ej6: double unset "position of the external axis, deg (mm for a linear one)",
     }
 }
@@ -100,14 +100,14 @@ structure! { WEAVEDATA =
     /// The weave pattern that is laid over a path.
     Weavedata, "weavedata", "Weavedata", "2.4.8" {
         weaveshape: weaveshape zero "the pattern",
-        frequency: double zero "patterns a second at the speed of the path, stays not counted, Hz, above 0",
-        amplitude: double zero "largest distance from the path, mm",
-        dwell_left: double zero "stay at the left end, s, 0 or more",
-        dwell_right: double zero "stay at the right end, s, 0 or more",
-        dwell_middle: double zero "stay in the middle each time it is passed, s, 0 or more",
+        frequency: double zero [above(0.0)] "patterns a second at the speed of the path, stays not counted, Hz, above 0",
+        amplitude: double zero [at_least(0.0)] "largest distance from the path, mm",
+        dwell_left: double zero [at_least(0.0)] "stay at the left end, s, 0 or more",
+        dwell_right: double zero [at_least(0.0)] "stay at the right end, s, 0 or more",
+        dwell_middle: double zero [at_least(0.0)] "stay in the middle each time it is passed, s, 0 or more",
         track: bool zero "whether the seam is tracked: there is no weld tracking, only false runs",
-        swing_angle: double zero "opening angle of the V and triangle patterns, 0 to 180 deg",
-        radius: double zero "radius of the round patterns along the path, mm, 0 or more",
+        swing_angle: double zero [range(0.0, 180.0)] "opening angle of the V and triangle patterns, 0 to 180 deg",
+        radius: double zero [at_least(0.0)] "radius of the round patterns along the path, mm, 0 or more",
         weaverotaxis: weaverotaxis zero "the axis about which the plane of the pattern is turned",
         rotation_angle: double zero "how far the plane of the pattern is turned, deg",
         vibrat: bool zero "whether the vibration is on: there is none, only false runs",
@@ -117,11 +117,11 @@ structure! { WEAVEDATA =
 structure! { SPEED =
     /// How fast a motion is programmed.
     Speed, "speed", "Speed", "2.4.9" {
-        per: double unset "axis speed of movej and ptp, % of the axes' limits, 0.001 to 100",
-        tcp: double unset "TCP speed on lines and arcs, mm/s",
-        ori: double unset "turning speed of the tool on lines and arcs, deg/s",
-        exj: double unset "speed of rotary external axes, deg/s",
-        exl: double unset "speed of linear external axes, mm/s",
+        per: double unset [range(0.001, 100.0)] "axis speed of movej and ptp, % of the axes' limits, 0.001 to 100",
+        tcp: double unset [at_least(0.0)] "TCP speed on lines and arcs, mm/s",
+        ori: double unset [at_least(0.0)] "turning speed of the tool on lines and arcs, deg/s",
+        exj: double unset [at_least(0.0)] "speed of rotary external axes, deg/s",
+        exl: double unset [at_least(0.0)] "speed of linear external axes, mm/s",
     }
 }
 
@@ -129,7 +129,7 @@ structure! { SLIP =
     /// How early a motion may leave its path for the next one. A `perdis` of 0 or more overrules the others; of the
     /// others, the one that comes nearest to the target counts.
     Slip, "slip", "Slip", "2.4.10" {
-        perdis: double unset "blending zone, % of the largest one possible",
+        perdis: double unset [at_most(100.0)] "blending zone, % of the largest one possible",
         pdis: double unset "distance of the TCP from the target where blending begins, mm; at most half of the path",
         odis: double unset "angle of the tool from the target where blending begins, deg; at most half of the turn",
         ejdis: double unset "distance of the slowest rotary external axis from its target, deg",
@@ -146,7 +146,7 @@ structure! { SLIP_SCARA =
         ejdis: double unset "distance of the slowest rotary external axis from its target, deg",
         eldis: double unset "distance of the slowest linear external axis from its target, mm",
         odis: double unset "angle of the tool from the target where blending begins, deg; at most half of the turn",
-        perdis: double unset "blending zone, % of the largest one possible",
+        perdis: double unset [at_most(100.0)] "blending zone, % of the largest one possible",
     }
 }
 
@@ -178,19 +178,19 @@ structure! { CENTROID_POS =
 structure! { INERTIA_TENSOR =
     /// The inertia of a load about its centre of mass.
     InertiaTensor, "Inertia_Tensor" | "InertiaTensor", "InertiaTensor", "2.4.13" {
-        Ixx: double zero [alias(&["lxx"])] "xx of the inertia matrix, g*mm^2",
+        Ixx: double zero [at_least(0.0), alias(&["lxx"])] "xx of the inertia matrix, g*mm^2",
         Ixy: double zero [alias(&["lxy"])] "xy of the inertia matrix, g*mm^2",
         Ixz: double zero [alias(&["lxz"])] "xz of the inertia matrix, g*mm^2",
-        Iyy: double zero [alias(&["lyy"])] "yy of the inertia matrix, g*mm^2",
+        Iyy: double zero [at_least(0.0), alias(&["lyy"])] "yy of the inertia matrix, g*mm^2",
         Iyz: double zero [alias(&["lyz"])] "yz of the inertia matrix, g*mm^2",
-        Izz: double zero [alias(&["lzz"])] "zz of the inertia matrix, g*mm^2",
+        Izz: double zero [at_least(0.0), alias(&["lzz"])] "zz of the inertia matrix, g*mm^2",
     }
 }
 
 structure! { TOOL_INERTIA_PARA =
     /// A load: mass, centre of mass, inertia.
     ToolInertiaPara, "ToolInertiaPara", "ToolInertiaPara", "2.4.14" {
-        m: double zero "mass, g",
+        m: double zero [at_least(0.0)] "mass, g",
         centroidpos: centroid_pos zero "centre of mass",
         inertiatensor: inertia_tensor zero "inertia",
     }
@@ -200,24 +200,24 @@ structure! { CONTROL =
     /// Speeds and accelerations of the lifting and the lowering part of a jump. What is not set follows the motion's own
     /// values.
     Control, "control", "Control", "2.5.11", Scara {
-        rising_vel: double unset "speed going up, % of the axis's limit",
-        rising_acc: double unset "acceleration going up, % of the axis's limit",
-        rising_dec: double unset "deceleration going up, % of the axis's limit",
-        falling_vel: double unset "speed going down, % of the axis's limit",
-        falling_acc: double unset "acceleration going down, % of the axis's limit",
-        falling_dec: double unset "deceleration going down, % of the axis's limit",
+        rising_vel: double unset [range(0.0, 100.0)] "speed going up, % of the axis's limit",
+        rising_acc: double unset [range(0.0, 100.0)] "acceleration going up, % of the axis's limit",
+        rising_dec: double unset [range(0.0, 100.0)] "deceleration going up, % of the axis's limit",
+        falling_vel: double unset [range(0.0, 100.0)] "speed going down, % of the axis's limit",
+        falling_acc: double unset [range(0.0, 100.0)] "acceleration going down, % of the axis's limit",
+        falling_dec: double unset [range(0.0, 100.0)] "deceleration going down, % of the axis's limit",
     }
 }
 
 structure! { COMPENDATA =
     /// How fast a path compensation may grow.
     Compendata, "compendata", "Compendata", "3.2.11.1" {
-        tcp_max_vel: double zero "largest speed of the shift, mm/s",
-        tcp_max_acc: double zero "largest acceleration of the shift, mm/s^2",
-        tcp_max_jerk: double zero "largest jerk of the shift, mm/s^3",
-        ori_max_vel: double zero "largest speed of the turn, deg/s",
-        ori_max_acc: double zero "largest acceleration of the turn, deg/s^2",
-        ori_max_jerk: double zero "largest jerk of the turn, deg/s^3",
+        tcp_max_vel: double zero [above(0.0)] "largest speed of the shift, mm/s",
+        tcp_max_acc: double zero [above(0.0)] "largest acceleration of the shift, mm/s^2",
+        tcp_max_jerk: double zero [above(0.0)] "largest jerk of the shift, mm/s^3",
+        ori_max_vel: double zero [above(0.0)] "largest speed of the turn, deg/s",
+        ori_max_acc: double zero [above(0.0)] "largest acceleration of the turn, deg/s^2",
+        ori_max_jerk: double zero [above(0.0)] "largest jerk of the turn, deg/s^3",
     }
 }
 

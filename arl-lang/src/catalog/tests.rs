@@ -161,6 +161,15 @@ fn every_entry_is_whole() {
     }
 }
 
+/// Whether it leaves numbers out, and others not.
+fn is_range(range: Range) -> bool {
+    let bounds: &[f64] = match &range {
+        Range::Within(low, high) => &[*low, *high],
+        Range::Above(bound) | Range::AtLeast(bound) | Range::AtMost(bound) => &[*bound],
+    };
+    bounds.is_sorted_by(|low, high| low < high) && bounds.iter().all(|bound| bound.is_finite())
+}
+
 #[test]
 fn parameters_are_sound() {
     for entry in all_entries() {
@@ -183,7 +192,7 @@ fn parameters_are_sound() {
                 Presence::Repeat { min, max } => assert!(min <= max && max > 1),
                 Presence::Required | Presence::Optional => {}
             }
-            assert!(param.range.is_none_or(|(low, high)| low < high), "{name}: {}", param.name);
+            assert!(param.range.is_none_or(is_range), "{name}: {}", param.name);
             if param.mode == Mode::Out {
                 let handle = matches!(param.ty, ParamType::One(Base::Handle(_)));
                 assert!(!handle && !matches!(param.presence, Presence::Default(_)), "{name}: {}", param.name);
@@ -249,6 +258,7 @@ fn structures_have_the_components_of_their_family() {
                 assert!(names.insert(component.name.to_ascii_lowercase()) && !component.doc.is_empty(), "{}", def.name);
                 assert!(is_rust_name(&component.name.to_ascii_lowercase()), "{}.{}", def.name, component.name);
                 assert!(component.start != Start::Unset || component.ty == Base::Double, "{}", def.name);
+                assert!(component.range.is_none_or(is_range), "{}.{}", def.name, component.name);
             }
         }
     }

@@ -1,5 +1,7 @@
 //! The types that ARL knows by itself.
 
+use super::entry::Range;
+
 /// Which kind of robot a program is checked for; some types and instructions differ.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]
 pub enum Family {
@@ -86,10 +88,13 @@ pub enum Handle {
     MelsecDev,
 }
 
+/// What a component is that was not set.
+pub const UNSET: f64 = 9e9;
+
 /// What a component is before anything was assigned.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Start {
-    /// 9e+09: "not set", keeps what was.
+    /// [`UNSET`]: keeps what was.
     Unset,
     /// 0, false, "", an enumeration's first constant, a structure of start values.
     Zero,
@@ -108,6 +113,8 @@ pub struct Component {
     pub ty: Base,
     /// Its start value.
     pub start: Start,
+    /// The numbers that make sense in it, beside 9e+09 where that is its start value; others are warned of where known.
+    pub range: Option<Range>,
     /// What it means, with its unit.
     pub doc: &'static str,
     /// Whether a value by position may reach it; `jdis` of slip is set by name only.

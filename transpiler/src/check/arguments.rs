@@ -5,13 +5,13 @@
 //! goes to the first free one and takes its type.
 
 use super::context::{Body, Checker};
-use super::convert::{Typed, integer};
+use super::convert::{Typed, integer, number};
 use super::name::constant;
 use crate::diagnostics::arguments::ArgumentProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Bound, Expr, ExprKind, FuncId, Passed, Type, Value};
 use arl_lang::ast::{self, Arg, Unit};
-use arl_lang::catalog::{Base, Entry, Kind, Mode, ParamType, Presence};
+use arl_lang::catalog::{Base, Entry, Kind, Mode, ParamType, Presence, Range, UNSET};
 use arl_lang::span::Span;
 use std::fmt;
 
@@ -34,7 +34,8 @@ struct Parameter<'a> {
     presence: Presence,
     bare: bool,
     units: &'static [Unit],
-    range: Option<(f64, f64)>,
+    range: Option<Range>,
+    set: bool,
 }
 
 #[derive(Clone, Copy)]
@@ -136,6 +137,7 @@ impl<'a> Checker<'a> {
                     bare: param.bare || entry.kind == Kind::Function,
                     units: param.units,
                     range: param.range,
+                    set: param.set,
                 })
                 .collect(),
             Callee::User(func) => {
@@ -152,6 +154,7 @@ impl<'a> Checker<'a> {
                         bare: true,
                         units: &[],
                         range: None,
+                        set: false,
                     })
                     .collect()
             }
@@ -477,22 +480,18 @@ impl<'a> Checker<'a> {
     }
 
     fn check_range(&mut self, body: &Body, param: &Parameter<'_>, value: &Expr) -> Option<()> {
-        let (Some((low, high)), ExprKind::Const(constant)) = (param.range, &value.kind) else { return Some(()) };
-        let number = match (constant, integer(constant)) {
-            (Value::Double(number), _) => *number,
-            (_, Some(number)) => number as f64,
-            _ => return Some(()),
-        };
-        if (low..=high).contains(&number) {
-            return Some(());
+        let Some(number) = number(value) else { return Some(()) };
+        let parameter = String::from(param.name);
+        if param.set && number == UNSET {
+            return self.report(body, value.span, ArgumentProblem::NotSet { parameter });
         }
-        let problem = ArgumentProblem::Range {
-            parameter: param.name.into(),
-            value: self.excerpt(body.module, value.span),
-            low: low.to_string(),
-            high: high.to_string(),
-        };
-        self.report(body, value.span, problem)
+        match param.range.filter(|range| !range.holds(number)) {
+            None => Some(()),
+            Some(range) => {
+                let problem = ArgumentProblem::Range { parameter, value: self.excerpt(body.module, value.span), range };
+                self.report(body, value.span, problem)
+            }
+        }
     }
 }
 

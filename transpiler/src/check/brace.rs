@@ -1,10 +1,12 @@
 //! Values in braces: structures by position or by name, arrays flat or nested.
 
 use super::context::{Body, Checker};
+use super::convert::number;
+use crate::diagnostics::components::ComponentRange;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Expr, ExprKind, Type, Value};
 use arl_lang::ast::{self, BinaryOp, BraceItem, UnaryOp};
-use arl_lang::catalog::{Base, Struct};
+use arl_lang::catalog::{Base, Start, Struct, UNSET};
 use arl_lang::span::Span;
 
 impl Checker<'_> {
@@ -75,6 +77,7 @@ impl Checker<'_> {
             let what = format_args!("`{}`", component.name);
             match self.expr_as(body, value, Type::scalar(component.ty), what) {
                 Some(checked) => {
+                    self.check_component(body, id, index, &checked);
                     if let Some(slot) = values.get_mut(index) {
                         *slot = Some(checked);
                     }
@@ -83,6 +86,19 @@ impl Checker<'_> {
             }
         }
         good.then(|| Expr { ty: Type::scalar(Base::Struct(id)), kind: ExprKind::Struct(id, values), span })
+    }
+
+    /// Warns of a constant that makes no sense in a component.
+    pub(crate) fn check_component(&mut self, body: &Body, id: Struct, index: usize, value: &Expr) {
+        let def = id.def(self.family());
+        let Some(component) = def.components.get(index) else { return };
+        let (Some(range), Some(number)) = (component.range, number(value)) else { return };
+        if range.holds(number) || component.start == Start::Unset && number == UNSET {
+            return;
+        }
+        let value_text = self.excerpt(body.module, value.span);
+        let problem = ComponentRange { structure: def.name, component, value: value_text };
+        let _: Option<()> = self.report(body, value.span, problem);
     }
 
     /// A name before a value is a component where the structure has it; otherwise `{n -1}` is a difference.

@@ -107,6 +107,18 @@ pub(crate) fn integer(value: &Value) -> Option<i64> {
     }
 }
 
+/// The value of a constant number, of whichever type.
+pub(crate) fn number(value: &Expr) -> Option<f64> {
+    match &value.kind {
+        ExprKind::Const(Value::Double(value)) => Some(*value),
+        ExprKind::Const(Value::Int(value)) => Some(f64::from(*value)),
+        ExprKind::Const(Value::Uint(value)) => Some(f64::from(*value)),
+        ExprKind::Const(Value::Byte(value)) => Some(f64::from(*value)),
+        ExprKind::Convert(inner) => number(inner),
+        _ => None,
+    }
+}
+
 fn enum_constant(id: Enum, number: i64) -> Option<Value> {
     let index = u16::try_from(number).ok()?;
     id.def().constants.get(index as usize).map(|_| Value::Enum(id, index))

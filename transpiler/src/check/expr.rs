@@ -6,7 +6,7 @@ use super::name::constant;
 use super::place::PlaceOrValue;
 use crate::diagnostics::constants::ConstantProblem;
 use crate::diagnostics::types::TypeProblem;
-use crate::hir::{Expr, ExprKind, Place, Type, Value};
+use crate::hir::{Expr, ExprKind, Place, Projection, Type, Value};
 use arl_lang::ast::{self, BinaryOp, Radix};
 use arl_lang::catalog::Base;
 use arl_lang::span::Span;
@@ -125,6 +125,9 @@ impl Checker<'_> {
         let (place, value) = (place?, value?);
         let ty = place.ty;
         let value = self.coerce(body, value, ty, "the value")?;
+        if let Some(Projection::Field(id, index)) = place.path.last() {
+            self.check_component(body, *id, *index, &value);
+        }
         Some(Expr { ty, kind: ExprKind::Assign(Box::new((place, value))), span })
     }
 

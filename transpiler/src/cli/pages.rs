@@ -159,6 +159,7 @@ pub(super) static PAGES: &[(&str, &str)] = pages! {
     "ARL0908"
     "ARL0909"
     "ARL0910"
+    "ARL0911"
     "ARL0951"
     "ARL0952"
     "ARL0953"

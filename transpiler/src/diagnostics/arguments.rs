@@ -1,6 +1,7 @@
 //! Arguments that do not fit their instruction or function.
 
 use super::{Code, Problem};
+use arl_lang::catalog::Range;
 
 /// What is wrong with an argument.
 #[derive(Clone, PartialEq, Debug)]
@@ -26,7 +27,9 @@ pub(crate) enum ArgumentProblem {
     /// A unit behind something that is not a number.
     UnitOfNoNumber,
     /// A constant outside the parameter's range.
-    Range { parameter: String, value: String, low: String, high: String },
+    Range { parameter: String, value: String, range: Range },
+    /// 9e+09 for a parameter that takes numbers that are set.
+    NotSet { parameter: String },
     /// A constant length that the array beside it does not have, which has so many bytes.
     Length { parameter: String, value: i64, bytes: usize, most: i64 },
     /// No overload takes these types.
@@ -48,7 +51,7 @@ impl Problem for ArgumentProblem {
             ArgumentProblem::NotAVariable { .. } => 408,
             ArgumentProblem::WrongUnit { .. } => 409,
             ArgumentProblem::UnitOfNoNumber => 410,
-            ArgumentProblem::Range { .. } => 411,
+            ArgumentProblem::Range { .. } | ArgumentProblem::NotSet { .. } => 411,
             ArgumentProblem::NoOverload { .. } => 412,
             ArgumentProblem::Events { .. } => 413,
             ArgumentProblem::Length { .. } => 414,
@@ -87,8 +90,11 @@ impl Problem for ArgumentProblem {
                 format!("`{parameter}` is not given in {unit}")
             }
             ArgumentProblem::UnitOfNoNumber => "a unit may follow a number only".into(),
-            ArgumentProblem::Range { parameter, value, low, high } => {
-                format!("`{parameter}` is {value}, but must be in {low} to {high}")
+            ArgumentProblem::Range { parameter, value, range } => {
+                format!("`{parameter}` is {value}, but must be {range}")
+            }
+            ArgumentProblem::NotSet { parameter } => {
+                format!("`{parameter}` is 9e+09, which stands for a value that was not set")
             }
             ArgumentProblem::Length { parameter, value, bytes: 1, .. } => {
                 format!("`{parameter}` is {value}, but the array has 1 byte")
@@ -125,6 +131,7 @@ impl Problem for ArgumentProblem {
             ArgumentProblem::Length { most: 0, .. } => Some("only 0 is possible".into()),
             ArgumentProblem::Length { most, .. } => Some(format!("0 to {most} are possible")),
             ArgumentProblem::Exclusive { .. } => Some("give one of them".into()),
+            ArgumentProblem::NotSet { parameter } => Some(format!("give a number, or leave `{parameter}` out")),
             _ => None,
         }
     }

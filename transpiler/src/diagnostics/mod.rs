@@ -3,6 +3,7 @@
 pub(crate) mod arguments;
 #[cfg(feature = "cli")]
 pub(crate) mod channels;
+pub(crate) mod components;
 #[cfg(feature = "cli")]
 pub(crate) mod connections;
 pub(crate) mod constants;

@@ -120,6 +120,7 @@ static CODES: &[CodeInfo] = &[
     warning(908, "A pose that the robot cannot reach"),
     warning(909, "A configuration that does not reach its pose"),
     warning(910, "A line that passes a singular point"),
+    warning(911, "A component out of its range"),
     warning(951, "A name in another case than declared"),
     warning(952, "A conversion beyond the manual"),
     warning(953, "A form beyond the manual"),

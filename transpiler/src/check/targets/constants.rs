@@ -1,15 +1,13 @@
 //! What an expression is before the program runs: targets, frames, tools and workpieces made of constants.
 
+use super::super::convert::number;
 use super::super::first_motion::{known_structure, known_value};
 use super::facts::argument;
 use super::state::State;
 use crate::hir::{Builtin, Expr, ExprKind, Func, Program, Root, Value};
-use arl_lang::catalog::Struct;
+use arl_lang::catalog::{Struct, UNSET};
 use arl_robot::frames::Mount;
 use arl_robot::kinematics::{Frame, frame};
-
-/// Components from here on were not set.
-const UNSET: f64 = 9e9;
 
 /// Where names are looked up.
 #[derive(Clone, Copy)]
@@ -136,17 +134,6 @@ fn is_empty_text(value: &Expr) -> bool {
 fn flag(value: &Expr) -> Option<bool> {
     match &value.kind {
         ExprKind::Const(Value::Bool(flag)) => Some(*flag),
-        _ => None,
-    }
-}
-
-fn number(value: &Expr) -> Option<f64> {
-    match &value.kind {
-        ExprKind::Const(Value::Double(value)) => Some(*value),
-        ExprKind::Const(Value::Int(value)) => Some(f64::from(*value)),
-        ExprKind::Const(Value::Uint(value)) => Some(f64::from(*value)),
-        ExprKind::Const(Value::Byte(value)) => Some(f64::from(*value)),
-        ExprKind::Convert(inner) => number(inner),
         _ => None,
     }
 }

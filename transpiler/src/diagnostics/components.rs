@@ -1,0 +1,35 @@
+//! Components of structures.
+
+use super::{Code, Problem};
+use arl_lang::catalog::Component;
+
+/// A constant that makes no sense in a component.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct ComponentRange {
+    /// The structure's name.
+    pub(crate) structure: &'static str,
+    /// The component, which has a range.
+    pub(crate) component: &'static Component,
+    /// The constant as it is written.
+    pub(crate) value: String,
+}
+
+impl Problem for ComponentRange {
+    fn code(&self) -> Code {
+        Code(911)
+    }
+
+    fn message(&self) -> String {
+        let Self { structure, component, value } = self;
+        let range = component.range.map_or_else(|| "another number".to_owned(), |range| range.to_string());
+        format!("`{}` of this `{structure}` is {value}, but should be {range}", component.name)
+    }
+
+    fn label(&self) -> String {
+        String::new()
+    }
+
+    fn help(&self) -> Option<String> {
+        Some(format!("`{}` is: {}", self.component.name, self.component.doc))
+    }
+}
