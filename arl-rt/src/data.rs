@@ -77,16 +77,16 @@ fn teach(wanted: &DataVar<'_>, declared: &[(&Decl, &Var)], names: &Interner) -> 
 
 /// Where a data file may lie: at its own path where that is absolute, else in the folder of its program; there also by its
 /// bare name.
-fn places(name: &str, folder: &Path) -> impl Iterator<Item = PathBuf> {
+pub(crate) fn places(name: &str, folder: &Path) -> impl Iterator<Item = PathBuf> + use<> {
     let path = Path::new(name);
     let bare = path.file_name().map(|bare| folder.join(bare));
     // Joining an absolute path gives that path.
     [Some(folder.join(path)), bare].into_iter().flatten()
 }
 
-/// Where a data file of a program lies, if it is there.
-pub(crate) fn place(name: &str, program: &dyn Program, script_dir: &Path) -> Option<PathBuf> {
-    places(name, &script_dir.join(program.folder())).find(|path| path.is_file())
+/// The one of these places where a file is.
+pub(crate) fn place(mut places: impl Iterator<Item = PathBuf>) -> Option<PathBuf> {
+    places.find(|path| path.is_file())
 }
 
 /// The content of a data file, and where it lies.

@@ -10,7 +10,7 @@ use crate::motion::Progress;
 use crate::pointers::Kept;
 use crate::program::Program;
 use crate::robot::VelocityProfile;
-use crate::system::{self, System};
+use crate::system::System;
 use crate::unit::{Collision, SENSITIVITY, Unit, joint};
 use crate::values::VelProfile;
 use crate::world::World;
@@ -147,13 +147,6 @@ impl Lane {
             VelocityProfile::O => VelProfile::O,
         });
         self.system.cjoint.set(joint(unit.target()));
-    }
-
-    /// Saves the system variables of which every change is kept.
-    pub(crate) fn keep_state(&self) {
-        if let Err(error) = system::keep(&self.system, &mut self.world.state.borrow_mut()) {
-            self.world.warn(format!("system variables cannot be kept: {error}"));
-        }
     }
 
     /// Stops all motion on its path and drops what was to follow.

@@ -16,6 +16,7 @@ pub mod controller;
 pub mod convert;
 pub mod cx;
 pub mod data;
+mod disk;
 pub mod dynamics;
 pub mod emit;
 pub mod event;
@@ -54,6 +55,7 @@ pub mod time;
 mod trace;
 mod unit;
 pub mod values;
+mod whole;
 mod world;
 
 /// What can be wrong with a file that users write.

@@ -4,7 +4,7 @@ mod now;
 
 pub use now::{savejointnow, saveposenow};
 
-use std::fmt::Write;
+use std::fmt::Write as _;
 use std::fs;
 use std::ops::Range;
 use std::path::Path;
@@ -14,10 +14,11 @@ use arl_lang::symbol::Interner;
 
 use crate::cx::Cx;
 use crate::fault::Fault;
-use crate::state::write_whole;
 use crate::values::{Joint, Pose, Str, UNSET};
+use crate::whole;
 
 /// Copies a program file in the script directory; whether it worked. A kill at any moment leaves the old or the new copy, whole.
+/// The work is done beside the cycle, and the program goes on when it is.
 ///
 /// # Errors
 /// A path leads out of the script directory.
@@ -25,13 +26,23 @@ pub async fn savearl(cx: &Cx, file_src: &Str, file_dst: &Str, mode: bool) -> Res
     cx.motion_end().await;
     let scripts = &cx.world().scripts;
     let (from, to) = (scripts.file(file_src)?, scripts.file(file_dst)?);
-    if to.is_dir() || (to.exists() && !mode) {
-        return Ok(false);
+    let work = cx.world().disk.begin(move || copy(&from, &to, mode).is_some());
+    Ok(work.end(cx).await.unwrap_or(false))
+}
+
+/// Copies a file. `None` where there is none, where the copy is there and may not be replaced, and where it cannot be written.
+fn copy(from: &Path, to: &Path, replaces: bool) -> Option<()> {
+    if to.is_dir() || (to.exists() && !replaces) {
+        return None;
     }
-    let copied = fs::read(&from).is_ok_and(|content| write_whole(&to, &content).is_ok());
-    // A disk is slow: one write a cycle.
-    cx.next_cycle().await;
-    Ok(copied)
+    let content = fs::read(from).ok()?;
+    write(to, &content)
+}
+
+/// Writes a file whole, and clears its directory of what the dead have left.
+fn write(path: &Path, content: &[u8]) -> Option<()> {
+    whole::sweep(whole::directory_of(path));
+    whole::write(path, content).ok()
 }
 
 /// Writes a pose to a point of a data file, whose other text stays as it is; whether it worked. It counts from the next load on.
@@ -73,14 +84,13 @@ fn of_joint(j: Joint) -> Components {
     value
 }
 
-async fn save(cx: &Cx, file: &Str, ty: &str, point: &Str, value: Components) -> Result<bool, Fault> {
+async fn save(cx: &Cx, file: &Str, ty: &'static str, point: &Str, value: Components) -> Result<bool, Fault> {
     cx.motion_end().await;
     let path = cx.world().scripts.file(file)?;
     let Some(value) = value.literal() else { return Ok(false) };
-    let replaced = replace(&path, ty, &point.to_text(), &value).is_some();
-    // A disk is slow: one write a cycle.
-    cx.next_cycle().await;
-    Ok(replaced)
+    let point = point.to_text().into_owned();
+    let work = cx.world().disk.begin(move || replace(&path, ty, &point, &value).is_some());
+    Ok(work.end(cx).await.unwrap_or(false))
 }
 
 /// A structure's literal in the making.
@@ -128,7 +138,7 @@ fn replace(path: &Path, ty: &str, variable: &str, value: &str) -> Option<()> {
         Place::Behind(at) => (at..at, format!(" = {value}")),
     };
     let changed = arl_lang::text::splice(&content, place, &value)?;
-    write_whole(path, &changed).ok()
+    write(path, &changed)
 }
 
 /// Where a value goes in a text.

@@ -1,10 +1,17 @@
 //! What is kept when the controller is switched off: one file for each system variable, and one for where the programs stand.
 
+use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::fmt;
 use std::fs;
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::io;
+use std::path::PathBuf;
+use std::rc::Rc;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::cx::Cx;
+use crate::disk::{Disk, Stage, Work};
+use crate::whole;
 
 /// Where kept values live, by name.
 pub trait Storage {
@@ -23,8 +30,8 @@ pub trait Storage {
     /// It cannot be stored; then the old content is still there.
     fn store(&mut self, name: &str, content: &[u8]) -> io::Result<()>;
 
-    /// Another way to the same values, for a thread that stores beside the cycle. Without one, what changes all the time is not
-    /// kept: where the programs stand.
+    /// Another way to the same values, for threads that store beside the cycle. Without one, values are stored in the cycle that
+    /// saves them, and what changes all the time is not kept: where the programs stand.
     fn another(&self) -> Option<Box<dyn Storage + Send>> {
         None
     }
@@ -65,21 +72,9 @@ impl Directory {
     }
 }
 
-/// What the files are called that [`write_whole`] makes for state files: `NAME.state.PROCESS.new`.
-fn is_in_the_making(name: &str) -> bool {
-    let process = name.strip_suffix(BESIDE).and_then(|name| name.rsplit_once(".state."));
-    process.is_some_and(|(_, process)| !process.is_empty() && process.bytes().all(|byte| byte.is_ascii_digit()))
-}
-
 impl Storage for Directory {
     fn begin(&mut self) {
-        // What cannot be looked at or removed stays: it does no harm.
-        let Ok(entries) = fs::read_dir(&self.0) else { return };
-        for entry in entries.filter_map(Result::ok) {
-            if is_in_the_making(&entry.file_name().to_string_lossy()) {
-                remove_abandoned(&entry.path());
-            }
-        }
+        whole::sweep(&self.0);
     }
 
     fn load(&self, name: &str) -> io::Result<Option<Vec<u8>>> {
@@ -92,7 +87,7 @@ impl Storage for Directory {
 
     fn store(&mut self, name: &str, content: &[u8]) -> io::Result<()> {
         fs::create_dir_all(&self.0)?;
-        write_whole(&self.path(name), content)
+        whole::write(&self.path(name), content)
     }
 
     fn another(&self) -> Option<Box<dyn Storage + Send>> {
@@ -101,58 +96,6 @@ impl Storage for Directory {
 
     fn place(&self, name: &str) -> String {
         self.path(name).display().to_string()
-    }
-}
-
-/// How the name of a file ends that is to take the place of another one.
-const BESIDE: &str = ".new";
-
-/// Writes a file so that a kill at any moment leaves the old or the new content, whole: to a file beside it, which
-/// then takes its name.
-///
-/// # Errors
-/// What the file system says; the old content is still there.
-pub(crate) fn write_whole(path: &Path, content: &[u8]) -> io::Result<()> {
-    let directory = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut beside = path.as_os_str().to_owned();
-    beside.push(format!(".{}{BESIDE}", std::process::id()));
-    let beside = PathBuf::from(beside);
-    let written = (|| {
-        let mut file = create_held(&beside)?;
-        file.write_all(content)?;
-        file.sync_all()?;
-        fs::rename(&beside, path)
-    })();
-    if written.is_err() {
-        // It is of no use to anybody; that it cannot be removed changes nothing.
-        let _ = fs::remove_file(&beside);
-        return written;
-    }
-    // The new name is on the disk when its directory is. Some systems cannot sync a directory; they do it themselves.
-    if let Ok(directory) = fs::File::open(directory) {
-        let _ = directory.sync_all();
-    }
-    Ok(())
-}
-
-/// Makes a file and holds its lock: as long as this process lives and has the file open, nobody takes it for abandoned.
-fn create_held(path: &Path) -> io::Result<fs::File> {
-    loop {
-        let file = fs::File::create(path)?;
-        // Where files cannot be locked none is taken for abandoned.
-        if file.lock().is_err() || path.exists() {
-            return Ok(file);
-        }
-        // Somebody has removed it before it was locked.
-    }
-}
-
-/// Removes a file that nobody holds.
-fn remove_abandoned(path: &Path) {
-    if let Ok(file) = fs::File::open(path)
-        && file.try_lock().is_ok()
-    {
-        let _ = fs::remove_file(path);
     }
 }
 
@@ -176,13 +119,43 @@ impl std::error::Error for StateError {}
 /// The kept values, with what is known to be stored.
 pub(crate) struct State {
     storage: Box<dyn Storage>,
+    /// Another way to them, for the thread that stores; without one they are stored at once.
+    beside: Option<Arc<Mutex<Box<dyn Storage + Send>>>>,
     known: BTreeMap<&'static str, String>,
+    /// What is being stored, in order.
+    saving: Vec<Saving>,
+}
+
+/// A value that is being stored.
+struct Saving {
+    name: &'static str,
+    text: String,
+    work: Work<Result<(), StateError>>,
+    asker: Saved,
+}
+
+/// What becomes of a value that is being stored, for who asks: nothing before it is known, and once.
+pub(crate) type Saved = Rc<Cell<Option<Result<(), StateError>>>>;
+
+/// Waits until a value is stored: one cycle at least.
+///
+/// # Errors
+/// It cannot be stored; the old one is still there.
+pub(crate) async fn end(saved: Saved, cx: &Cx) -> Result<(), StateError> {
+    loop {
+        cx.world().disk.wait_for();
+        cx.next_cycle().await;
+        if let Some(result) = saved.take() {
+            return result;
+        }
+    }
 }
 
 impl State {
     pub(crate) fn new(mut storage: Box<dyn Storage>) -> Self {
         storage.begin();
-        Self { storage, known: BTreeMap::new() }
+        let beside = storage.another().map(|storage| Arc::new(Mutex::new(storage)));
+        Self { storage, beside, known: BTreeMap::new(), saving: Vec::new() }
     }
 
     /// The value that was saved last, as far as this controller knows.
@@ -199,11 +172,56 @@ impl State {
         Ok(Some(text.to_owned()))
     }
 
-    /// Writes a value.
-    pub(crate) fn save(&mut self, name: &'static str, text: String) -> Result<(), StateError> {
-        store(&mut *self.storage, name, &text)?;
-        self.known.insert(name, text);
-        Ok(())
+    /// Begins to write a value; [`State::collect`] tells when it is there.
+    pub(crate) fn save(&mut self, name: &'static str, text: String, disk: &Disk) -> Saved {
+        let asker = Saved::default();
+        match &self.beside {
+            Some(beside) => {
+                let (beside, stored) = (Arc::clone(beside), text.clone());
+                let work = disk.begin(move || {
+                    let mut storage = beside.lock().unwrap_or_else(PoisonError::into_inner);
+                    store(&mut **storage, name, &stored)
+                });
+                self.saving.push(Saving { name, text, work, asker: Rc::clone(&asker) });
+            }
+            None => {
+                let stored = store(&mut *self.storage, name, &text);
+                if stored.is_ok() {
+                    self.known.insert(name, text);
+                }
+                asker.set(Some(stored));
+            }
+        }
+        asker
+    }
+
+    /// Whether something is being stored.
+    #[inline]
+    pub(crate) fn is_saving(&self) -> bool {
+        !self.saving.is_empty()
+    }
+
+    /// Takes note of what has been stored meanwhile. Gives what went wrong and nobody asks for.
+    pub(crate) fn collect(&mut self) -> Vec<StateError> {
+        let mut problems = Vec::new();
+        for Saving { name, text, work, asker } in std::mem::take(&mut self.saving) {
+            let stored = match work.stage() {
+                Stage::UnderWay => {
+                    self.saving.push(Saving { name, text, work, asker });
+                    continue;
+                }
+                Stage::Done(stored) => stored,
+                Stage::Lost => Err(self.error(name, "cannot be written: the storage has panicked".to_owned())),
+            };
+            if stored.is_ok() {
+                self.known.insert(name, text);
+            }
+            match stored {
+                Err(error) if Rc::strong_count(&asker) == 1 => problems.push(error),
+                stored => asker.set(Some(stored)),
+            }
+        }
+        problems
     }
 
     /// Another way to the same values, for a thread.
@@ -264,30 +282,6 @@ mod tests {
             changed[at] ^= 1;
             assert_eq!(unseal("$A", &changed), None, "changed at {at}");
         }
-    }
-
-    #[test]
-    fn what_the_dead_have_left_is_removed_and_what_the_living_make_is_not() {
-        let path = std::env::temp_dir().join(format!("arl-rt-left-{}", std::process::id()));
-        fs::create_dir_all(&path).unwrap();
-        // This process stands for another one that lives: it holds its file.
-        let alive = create_held(&path.join("I.state.17.new")).unwrap();
-        for name in ["I.state.1.new", "BASE.2.state.12345678.new", "I.state", "I.new", "I.state.new", "I.state.1a.new"]
-        {
-            fs::write(path.join(name), "part").unwrap();
-        }
-        let names = || {
-            let names = fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
-            names.collect::<std::collections::BTreeSet<String>>()
-        };
-        State::new(Box::new(Directory::new(&path)));
-        let others = ["I.new", "I.state", "I.state.17.new", "I.state.1a.new", "I.state.new"];
-        assert_eq!(names(), others.map(String::from).into());
-        drop(alive);
-        Directory::new(&path).begin();
-        assert!(!names().contains("I.state.17.new"));
-        Directory::new(path.join("nowhere")).begin();
-        fs::remove_dir_all(&path).unwrap();
     }
 
     #[test]

@@ -6,13 +6,14 @@ use std::rc::Rc;
 
 use crate::channel_id::{ChannelId, MOST_FOREGROUND};
 use crate::cx::Cx;
+use crate::disk::Disk;
 use crate::fault::Fault;
 use crate::keep::Keep;
 use crate::motion::is_unset;
-use crate::state::{State, StateError};
+use crate::state::{self, State, StateError};
 use crate::values::{
     Array, AsScara, Controlmode, Joint, Pose, Shared, Slip, SmallArray, Speed, Str, Tool, ToolInertiaPara, VelProfile,
-    Wobj,
+    Watched, Wobj,
 };
 
 /// Declares variables: field, type, default, name, and when the default comes back.
@@ -49,6 +50,11 @@ macro_rules! system {
                 all.into_iter().flatten().collect()
             }
 
+            #[inline]
+            fn has_changed_own(&self) -> bool {
+                false $(|| system!(@changed $restore self.$field))*
+            }
+
             /// Name and value of every variable, for tests that compare with the catalog.
             #[cfg(test)]
             fn all_own(&self) -> Vec<(&'static str, &'static str, &'static str, String, Str)> {
@@ -62,6 +68,8 @@ macro_rules! system {
     };
     (@reset Reset $self:ident.$field:ident = $default:expr) => { $self.$field.set($default) };
     (@reset $other:ident $self:ident.$field:ident = $default:expr) => {};
+    (@changed Permanent $self:ident.$field:ident) => { $self.$field.is_changed() };
+    (@changed $other:ident $self:ident.$field:ident) => { false };
     (@keep Saved $self:ident.$field:ident, $name:literal, $ty:ty, $default:expr) => {
         Some(Kept::new($name, false, &$self.$field, || encode::<$ty>(&$default)))
     };
@@ -79,15 +87,15 @@ system! {
     /// 100 ints for the user.
     i: Shared<SmallArray<i32, 100>> = SmallArray::start(), "I", Saved;
     /// Names for the elements of `$I`.
-    i_name: Shared<Array<Str, 100>> = Array::start(), "I_NAME", Permanent;
+    i_name: Watched<Array<Str, 100>> = Array::start(), "I_NAME", Permanent;
     /// 100 bools for the user.
     b: Shared<SmallArray<bool, 100>> = SmallArray::start(), "B", Saved;
     /// Names for the elements of `$B`.
-    b_name: Shared<Array<Str, 100>> = Array::start(), "B_NAME", Permanent;
+    b_name: Watched<Array<Str, 100>> = Array::start(), "B_NAME", Permanent;
     /// 100 doubles for the user.
     d: Shared<SmallArray<f64, 100>> = SmallArray::start(), "D", Saved;
     /// Names for the elements of `$D`.
-    d_name: Shared<Array<Str, 100>> = Array::start(), "D_NAME", Permanent;
+    d_name: Watched<Array<Str, 100>> = Array::start(), "D_NAME", Permanent;
     /// 100 poses for the user.
     p: Shared<Array<Pose, 100>> = Array::start(), "P", Saved;
     /// 100 joints for the user.
@@ -95,11 +103,11 @@ system! {
     /// 32 tools for the user.
     tools: Shared<Array<Tool, 32>> = Array::start(), "TOOLS", Saved;
     /// Names for the elements of `$TOOLS`.
-    tools_name: Shared<Array<Str, 32>> = Array::start(), "TOOLS_NAME", Permanent;
+    tools_name: Watched<Array<Str, 32>> = Array::start(), "TOOLS_NAME", Permanent;
     /// 32 workpiece frames for the user.
     wobjs: Shared<Array<Wobj, 32>> = Array::start(), "WOBJS", Saved;
     /// Names for the elements of `$WOBJS`.
-    wobjs_name: Shared<Array<Str, 32>> = Array::start(), "WOBJS_NAME", Permanent;
+    wobjs_name: Watched<Array<Str, 32>> = Array::start(), "WOBJS_NAME", Permanent;
     /// The flange as a tool: no tool at all. Read-only.
     flange: Cell<Tool> = Tool::default(), "FLANGE", Constant;
     /// The world as a workpiece frame. Read-only.
@@ -119,9 +127,9 @@ system! {
     /// The operating mode. Read-only.
     ctl_mode: Cell<Controlmode> = Controlmode::Auto, "CTL_MODE", Current;
     /// Where each mechanical unit believes to be at servo-on.
-    reset_pos_type: Shared<Array<Str, 100>> = Array::start(), "RESET_POS_TYPE", Permanent;
+    reset_pos_type: Watched<Array<Str, 100>> = Array::start(), "RESET_POS_TYPE", Permanent;
     /// How near is near enough for `$RESET_POS_TYPE`, deg.
-    reset_pos_threshold: Shared<SmallArray<f64, 100>> = SmallArray::start(), "RESET_POS_THRESHOLD", Permanent;
+    reset_pos_threshold: Watched<SmallArray<f64, 100>> = SmallArray::start(), "RESET_POS_THRESHOLD", Permanent;
     /// Input that activates the external control; 0: it is active by itself.
     ext_ctl_act_di: Cell<i32> = 0, "EXT_CTL_ACT_DI", Saved;
     /// Input that switches the servos on with a pulse of 30 ms or more; 0: none.
@@ -254,6 +262,12 @@ impl System {
         }
     }
 
+    /// Whether a variable may have changed of which every change is kept.
+    #[inline]
+    pub(crate) fn has_changed(&self) -> bool {
+        self.has_changed_own() || self.common.has_changed_own()
+    }
+
     /// The variables that are kept when the controller is switched off, as this channel sees them.
     pub(crate) fn kept(&self) -> Vec<Kept<'_>> {
         let mut kept = self.common.kept_own();
@@ -336,6 +350,11 @@ impl<'a> Kept<'a> {
 trait Slot {
     fn write(&self) -> String;
     fn read(&self, text: &str) -> bool;
+
+    /// Whether it may have changed since the last call.
+    fn take_changed(&self) -> bool {
+        true
+    }
 }
 
 impl<T: Keep> Slot for Shared<T> {
@@ -346,6 +365,21 @@ impl<T: Keep> Slot for Shared<T> {
     fn read(&self, text: &str) -> bool {
         let value = T::read(&mut text.split_ascii_whitespace());
         value.map(|value| self.set(value)).is_some()
+    }
+}
+
+impl<T: Keep> Slot for Watched<T> {
+    fn write(&self) -> String {
+        self.with(encode)
+    }
+
+    fn read(&self, text: &str) -> bool {
+        let value = T::read(&mut text.split_ascii_whitespace());
+        value.map(|value| self.set(value)).is_some()
+    }
+
+    fn take_changed(&self) -> bool {
+        Watched::take_changed(self)
     }
 }
 
@@ -376,44 +410,49 @@ pub(crate) fn load(variables: &[Kept<'_>], state: &mut State) -> Result<(), Stat
         {
             return Err(state.damaged(kept.stored));
         }
+        kept.slot.take_changed();
     }
     Ok(())
 }
 
-/// Saves the variables of which every change is kept, where they have changed.
-pub(crate) fn keep(system: &System, state: &mut State) -> Result<(), StateError> {
+/// Begins to save the variables of which every change is kept, where they have changed.
+pub(crate) fn keep(system: &System, state: &mut State, disk: &Disk) -> Result<(), StateError> {
     for kept in system.kept() {
-        if kept.always {
+        if kept.always && kept.slot.take_changed() {
             let text = kept.slot.write();
             let same = match state.known(kept.stored) {
                 Some(known) => known == text,
                 None => text == (kept.default)(),
             };
-            if !same {
-                state.save(kept.stored, text)?;
+            if !same && let Some(Err(error)) = state.save(kept.stored, text, disk).take() {
+                return Err(error);
             }
         }
     }
     Ok(())
 }
 
-/// `savesv`: saves a system variable, so that its value is there again at the next start.
+/// `savesv`: saves a system variable, so that its value is there again at the next start. It is stored beside the cycle, and
+/// the program goes on when it is; robots go on meanwhile.
 ///
 /// # Errors
 /// There is no such variable, it is none of those that are saved, or it cannot be written.
-pub fn savesv(cx: &Cx, svname: &Str) -> Result<(), Fault> {
+pub async fn savesv(cx: &Cx, svname: &Str) -> Result<(), Fault> {
     let text = svname.to_text();
     let name = text.strip_prefix('$').unwrap_or(&text);
-    let world = cx.world();
-    let kept = cx.system().kept();
-    let name = arl_lang::catalog::system_variable(name).map_or(name, |known| known.name);
-    let Some(variable) = kept.iter().find(|kept| kept.name.eq_ignore_ascii_case(name)) else {
-        let names: Vec<&str> = kept.iter().map(|kept| kept.name).collect();
-        let problem =
-            format!("\"{text}\" is no system variable that is saved; {}", crate::settings::hint(name, &names));
-        return Err(Fault::Domain { function: "savesv", problem: problem.into() });
+    let saved = {
+        let kept = cx.system().kept();
+        let name = arl_lang::catalog::system_variable(name).map_or(name, |known| known.name);
+        let Some(variable) = kept.iter().find(|kept| kept.name.eq_ignore_ascii_case(name)) else {
+            let names: Vec<&str> = kept.iter().map(|kept| kept.name).collect();
+            let problem =
+                format!("\"{text}\" is no system variable that is saved; {}", crate::settings::hint(name, &names));
+            return Err(Fault::Domain { function: "savesv", problem: problem.into() });
+        };
+        let world = cx.world();
+        world.state.borrow_mut().save(variable.stored, variable.slot.write(), &world.disk)
     };
-    let saved = world.state.borrow_mut().save(variable.stored, variable.slot.write());
+    let saved = state::end(saved, cx).await;
     saved.map_err(|error| Fault::Domain { function: "savesv", problem: error.to_string().into() })
 }
 

@@ -8,6 +8,7 @@ use crate::cell::Wiring;
 use crate::channel_id::ChannelId;
 use crate::communication::{NetworkDriver, NetworkSettings, Opener};
 use crate::cx::Cx;
+use crate::disk::Disk;
 use crate::fault::Alarm;
 use crate::fieldbus::Buses;
 use crate::files::ScriptDir;
@@ -39,6 +40,8 @@ pub(crate) struct World {
     /// Who wants to hear of alarms and warnings at once.
     listeners: RefCell<Listeners>,
     pub(crate) state: RefCell<State>,
+    /// What writes files, beside the cycle.
+    pub(crate) disk: Disk,
     /// What the cell says of the network.
     pub(crate) network: NetworkSettings,
     /// How the cell wires a PLC.
@@ -105,6 +108,7 @@ impl World {
             listeners: RefCell::new(parts.listeners),
             warnings: RefCell::default(),
             state: RefCell::new(parts.state),
+            disk: Disk::default(),
             foreground: RefCell::default(),
         }
     }

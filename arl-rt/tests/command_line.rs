@@ -41,7 +41,7 @@ impl Program for Small {
                         i[0]
                     });
                     cx.system().i_name.update(|names| names[0] = "runs".into());
-                    system::savesv(cx, &"I".into()).at(FILE, 2)?;
+                    system::savesv(cx, &"I".into()).await.at(FILE, 2)?;
                     text::print().argtoprint(&count).run(cx).at(FILE, 3)
                 }
                 "save" => loop {
@@ -50,7 +50,7 @@ impl Program for Small {
                         i[99] = i[0];
                         i[0]
                     });
-                    system::savesv(cx, &"I".into()).at(FILE, 2)?;
+                    system::savesv(cx, &"I".into()).await.at(FILE, 2)?;
                     text::print().argtoprint(&count).run(cx).at(FILE, 3)?;
                     cx.next_cycle().await;
                 },

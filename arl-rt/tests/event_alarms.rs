@@ -33,7 +33,7 @@ type Wrong = Option<fn(&Cx) -> Result<(), Fault>>;
 fn program(cx: &Cx, wrong: Wrong) -> BoxFuture<'_> {
     Box::pin(async move {
         cx.system().i.set_item(1, 5);
-        system::savesv(cx, &"I".into()).at(FILE, 1)?;
+        system::savesv(cx, &"I".into()).await.at(FILE, 1)?;
         motion::movej(bent(0.0)).vp(100.0).run(cx).await.at(FILE, 2)?;
         flow::waittime(0.0).run(cx).await.at(FILE, 3)?;
         let when = async move |cx: &Cx| {

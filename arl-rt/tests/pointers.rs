@@ -151,7 +151,7 @@ fn what_cannot_be_stored_beside_the_cycle_is_not_kept() {
 
     let here = Here::default();
     let (mut only, _) = controller(Controller::builder().storage(here.clone()), |cx| {
-        Box::pin(async move { system::savesv(cx, &"I".into()).at(FILE, 1) })
+        Box::pin(async move { system::savesv(cx, &"I".into()).await.at(FILE, 1) })
     });
     assert_eq!(only.run(), Outcome::Ended);
     assert_eq!(here.0.borrow().keys().collect::<Vec<_>>(), ["I"]);

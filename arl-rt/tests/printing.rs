@@ -163,14 +163,14 @@ fn saved_variables_come_back_at_the_next_start_and_with_init() {
             let system = cx.system();
             system.d.update(|d| d[0] = 1.5);
             system.i.update(|i| i[0] = 7);
-            system::savesv(cx, &"D".into()).at(FILE, 1)?;
+            system::savesv(cx, &"D".into()).await.at(FILE, 1)?;
             system.d.update(|d| d[0] = 2.5);
             system::init(cx);
             say(cx, &system.d.with(|d| d[0]))?;
             say(cx, &system.i.with(|i| i[0]))?;
             system.i.update(|i| i[0] = 7);
             system.i_name.update(|names| names[0] = "parts".into());
-            system::savesv(cx, &"DFSPEEED".into()).at(FILE, 2)
+            system::savesv(cx, &"DFSPEEED".into()).await.at(FILE, 2)
         })
     });
     let text = alarm(first.run());

@@ -4,9 +4,10 @@ use std::io;
 use std::net::Ipv4Addr;
 
 use crate::cx::Cx;
+use crate::disk::Disk;
 use crate::fault::Fault;
 use crate::robot::Family;
-use crate::state::State;
+use crate::state::{self, Saved, State};
 use crate::values::Str;
 
 /// The name under which the settings are kept where there is no driver.
@@ -50,10 +51,9 @@ pub trait NetworkDriver {
 pub async fn setip(cx: &Cx, ip: &Str, gate: &Str, mask: &Str, if_name: &Str) -> Result<bool, Fault> {
     cx.motion_end().await;
     let (Some(port), Some(settings)) = (port(cx, if_name), settings(ip, gate, mask)) else { return Ok(false) };
-    let world = cx.world();
-    let set = match &mut *world.network_driver.borrow_mut() {
-        Some(driver) => driver.set(port, settings),
-        None => keep(&mut world.state.borrow_mut(), port, settings),
+    let set = match with_driver(cx, |driver| driver.set(port, settings)) {
+        Some(set) => set,
+        None => keep(cx, port, settings).await,
     };
     Ok(told(cx, "setip", set).is_some())
 }
@@ -65,13 +65,17 @@ pub async fn setip(cx: &Cx, ip: &Str, gate: &Str, mask: &Str, if_name: &Str) -> 
 pub async fn getip(cx: &Cx, ip: &mut Str, if_name: &Str) -> Result<bool, Fault> {
     cx.motion_end().await;
     let Some(port) = port(cx, if_name) else { return Ok(false) };
-    let world = cx.world();
-    let found = match &mut *world.network_driver.borrow_mut() {
-        Some(driver) => driver.get(port),
-        None => kept(&mut world.state.borrow_mut()).map(|list| list.into_iter().find(|it| it.0 == port).map(|it| it.1)),
-    };
+    let find = |list: Vec<(String, PortSettings)>| list.into_iter().find(|it| it.0 == port).map(|it| it.1);
+    let found = with_driver(cx, |driver| driver.get(port));
+    let found = found.unwrap_or_else(|| kept(&mut cx.world().state.borrow_mut()).map(find));
     let found = told(cx, "getip", found).flatten();
     Ok(found.map(|settings| *ip = settings.address.to_string().into()).is_some())
+}
+
+/// What the driver makes of it, if there is one.
+fn with_driver<T>(cx: &Cx, ask: impl FnOnce(&mut dyn NetworkDriver) -> T) -> Option<T> {
+    let mut driver = cx.world().network_driver.borrow_mut();
+    driver.as_mut().map(|driver| ask(&mut **driver))
 }
 
 /// The port of this name, where the robot's cabinet has it.
@@ -103,12 +107,17 @@ fn kept(state: &mut State) -> io::Result<Vec<(String, PortSettings)>> {
 }
 
 /// Keeps the settings of a port beside those of the others.
-fn keep(state: &mut State, port: &str, settings: PortSettings) -> io::Result<()> {
+async fn keep(cx: &Cx, port: &str, settings: PortSettings) -> io::Result<()> {
+    let saved = begin_to_keep(&mut cx.world().state.borrow_mut(), &cx.world().disk, port, settings)?;
+    state::end(saved, cx).await.map_err(io::Error::other)
+}
+
+fn begin_to_keep(state: &mut State, disk: &Disk, port: &str, settings: PortSettings) -> io::Result<Saved> {
     let mut list = kept(state)?;
     list.retain(|(known, _)| known != port);
     list.push((port.to_owned(), settings));
     let line = |(port, it): &(String, PortSettings)| format!("{port} {} {} {}\n", it.address, it.gateway, it.mask);
-    state.save(KEPT, list.iter().map(line).collect()).map_err(io::Error::other)
+    Ok(state.save(KEPT, list.iter().map(line).collect(), disk))
 }
 
 /// The result, with a warning of what went wrong.
@@ -144,9 +153,10 @@ mod tests {
             gateway: Ipv4Addr::new(10, 0, 0, 1),
             mask: Ipv4Addr::new(255, 0, 0, 0),
         };
-        keep(&mut state, "eth1", settings(2)).unwrap();
-        keep(&mut state, "eth2", settings(3)).unwrap();
-        keep(&mut state, "eth1", settings(4)).unwrap();
+        let disk = Disk::default();
+        for (port, last) in [("eth1", 2), ("eth2", 3), ("eth1", 4)] {
+            begin_to_keep(&mut state, &disk, port, settings(last)).unwrap().take().unwrap().unwrap();
+        }
         assert_eq!(kept(&mut state).unwrap(), [("eth2".into(), settings(3)), ("eth1".into(), settings(4))]);
     }
 }

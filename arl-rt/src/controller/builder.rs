@@ -38,6 +38,7 @@ use crate::time;
 use crate::trace::Trace;
 use crate::unit::Unit;
 use crate::values::Controlmode;
+use crate::whole;
 use crate::world::{Listeners, Parts, World};
 
 /// What a controller can be given before it starts. Without anything it has the default robot, simulated, the default
@@ -308,6 +309,10 @@ impl Builder {
                 background.len()
             )));
         }
+        for program in std::iter::once(&program).chain(self.foreground.iter().map(|it| &it.program)).chain(&background)
+        {
+            whole::sweep(&self.script_dir.join(program.folder()));
+        }
         let common = Rc::new(Common::new());
         let mut state = State::new(self.storage);
         system::load(&common.kept_own(), &mut state)?;
@@ -388,7 +393,7 @@ impl Builder {
             SetupError::Outside(problem)
         })?;
         let (clock, io) = (self.clock, self.io);
-        Ok(Controller { world, channels, unit, clock, islands, io, scenario, deeds, external, keeper })
+        Ok(Controller { world, channels, unit, clock, islands, io, scenario, deeds, external, keeper, keeps_from: 0 })
     }
 }
 

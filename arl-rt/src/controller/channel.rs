@@ -233,7 +233,6 @@ impl Channel {
             return;
         }
         self.lane.world.io.borrow_mut().end_pulses(self.lane.index);
-        self.lane.keep_state();
         if let Some(trace) = &mut self.trace
             && let Err(error) = trace.flush()
         {

@@ -29,13 +29,17 @@ use crate::fieldbus::islands::Islands;
 use crate::io::{AxisName, Deed, Digital, IoDriver, Pendant, Playing, Pwm, Touch};
 use crate::motion::{Joints, MotionRecord};
 use crate::robot::Robot;
-use crate::system::System;
+use crate::state::StateError;
+use crate::system::{self, System};
 use crate::unit::Unit;
 use crate::world::World;
 use channel::Channel;
 use channels::Channels;
 use external::External;
 use keeper::Keeper;
+
+/// How often changes of system variables are stored of which every one is kept, in s: what a kill may cost.
+const KEEP_EVERY: f64 = 1.0;
 
 /// Runs a program.
 ///
@@ -105,6 +109,8 @@ pub struct Controller {
     external: External,
     /// What stores where the programs stand, if it is stored at all.
     keeper: Option<Keeper>,
+    /// The cycle from which on changes of system variables may be stored again of which every one is kept.
+    keeps_from: u64,
 }
 
 impl Controller {
@@ -118,6 +124,8 @@ impl Controller {
         let world = &self.world;
         let (cycle, rate) = (world.now.get(), world.rate);
         self.clock.wait_for(cycle, rate.period());
+        self.meet_disk();
+        let world = &self.world;
         {
             let mut image = world.io.borrow_mut();
             self.islands.read(image.inputs_mut());
@@ -149,9 +157,49 @@ impl Controller {
             world.warn(warning.into());
         }
         self.channels.each(Channel::finish_cycle);
+        self.keep_variables();
         self.keep_pointers();
         self.world.now.set(cycle + 1);
         self.state()
+    }
+
+    /// Takes note of what was stored beside the cycles. Where cycles take no time of the world, what programs wait for is
+    /// stored before the next one, so that a run does not depend on the disk.
+    fn meet_disk(&mut self) {
+        let world = &self.world;
+        if world.disk.is_waited_for() && !self.clock.is_real() {
+            world.disk.settle();
+        }
+        if world.state.borrow().is_saving() {
+            self.collect_saved();
+        }
+    }
+
+    fn collect_saved(&self) {
+        let problems = self.world.state.borrow_mut().collect();
+        problems.into_iter().for_each(|problem| self.warn_of_kept(&problem));
+    }
+
+    fn warn_of_kept(&self, problem: &StateError) {
+        self.world.warn(format!("system variables cannot be kept: {problem}"));
+    }
+
+    /// Begins to store the changes of system variables of which every one is kept: once a second at most, and when the
+    /// programs have ended.
+    fn keep_variables(&mut self) {
+        let now = self.world.now.get();
+        let due = || now >= self.keeps_from || self.channels.outcome().is_some();
+        if self.system().has_changed() && due() && !self.world.state.borrow().is_saving() {
+            self.keeps_from = now + self.world.rate.cycles(KEEP_EVERY);
+            self.begin_to_keep();
+        }
+    }
+
+    fn begin_to_keep(&self) {
+        let kept = system::keep(self.system(), &mut self.world.state.borrow_mut(), &self.world.disk);
+        if let Err(problem) = kept {
+            self.warn_of_kept(&problem);
+        }
     }
 
     /// Leaves word of where the programs stand.
@@ -163,9 +211,17 @@ impl Controller {
         }
     }
 
-    /// Waits until everything is stored that is stored beside the cycles: where the programs stand. What goes wrong is a
-    /// warning. [`run`](Controller::run) does so at its end; dropping the controller does, too, but then nobody hears of it.
+    /// Waits until everything is stored that is stored beside the cycles: system variables, points of programs, and where the
+    /// programs stand. What goes wrong is a warning. [`run`](Controller::run) does so at its end; dropping the controller does,
+    /// too, but then nobody hears of it.
     pub fn settle_state(&mut self) {
+        self.world.disk.settle();
+        self.collect_saved();
+        if self.system().has_changed() {
+            self.begin_to_keep();
+            self.world.disk.settle();
+            self.collect_saved();
+        }
         if let Some(problem) = self.keeper.as_mut().and_then(Keeper::settle) {
             self.world.warn(problem);
         }
@@ -421,6 +477,12 @@ impl Controller {
     /// There is no such channel.
     pub fn internal(&self, channel: i32) -> Result<bool, Fault> {
         self.world.io.borrow().digital(Digital::InternalOut, channel)
+    }
+}
+
+impl Drop for Controller {
+    fn drop(&mut self) {
+        self.settle_state();
     }
 }
 

@@ -1,7 +1,5 @@
 //! `saveposenow` and `savejointnow`: points of a running program, in its data file and in its memory.
 
-use std::path::Path;
-
 use arl_lang::symbol::Interner;
 
 use super::{Components, of_joint, of_pose, replace};
@@ -9,11 +7,11 @@ use crate::channel::number;
 use crate::cx::Cx;
 use crate::data;
 use crate::fault::Fault;
-use crate::program::{DataVar, Program};
+use crate::program::{DataFile, DataVar, Program};
 use crate::values::{Joint, Pose, Str};
 
 /// Writes a pose to a point of the program that a foreground channel runs, in its data file and in the program itself,
-/// where it counts at once; whether it worked. It does not wait for motion.
+/// where it counts as soon as it is in the file; whether it worked. It does not wait for motion, and the robot goes on meanwhile.
 ///
 /// # Errors
 /// The channel is not within 1 to 6.
@@ -22,7 +20,7 @@ pub async fn saveposenow(cx: &Cx, channel: u32, file_name: &Str, pose_name: &Str
 }
 
 /// Writes a joint to a point of the program that a foreground channel runs, in its data file and in the program itself,
-/// where it counts at once; whether it worked. It does not wait for motion.
+/// where it counts as soon as it is in the file; whether it worked. It does not wait for motion, and the robot goes on meanwhile.
 ///
 /// # Errors
 /// The channel is not within 1 to 6.
@@ -35,31 +33,48 @@ async fn save(
     function: &'static str,
     channel: u32,
     file: &Str,
-    ty: &str,
+    ty: &'static str,
     point: &Str,
     value: Components,
 ) -> Result<bool, Fault> {
     let number = number(function, channel)?;
     let (Some(there), Some(value)) = (cx.world().foreground(number), value.literal()) else { return Ok(false) };
-    let scripts = cx.world().scripts.path();
-    let saved = write(there.program_itself(), &file.to_text(), ty, &point.to_text(), &value, scripts).is_some();
-    // A disk is slow: one write a cycle.
-    cx.next_cycle().await;
-    Ok(saved)
+    let point = Point { file: file.to_text().into_owned(), ty, name: point.to_text().into_owned() };
+    let program = there.program_itself();
+    let Some(data) = point.find(program, |data, _| data.file) else { return Ok(false) };
+    let places = data::places(data, &cx.world().scripts.path().join(program.folder()));
+    let (written, name) = (value.clone(), point.name.clone());
+    let work = cx.world().disk.begin(move || replace(&data::place(places)?, ty, &name, &written));
+    if work.end(cx).await.flatten().is_none() {
+        return Ok(false);
+    }
+    Ok(point.find(program, |_, var| teach(var, &value)).flatten().is_some())
 }
 
-/// Writes a value to the file and then to the variable. `None` where there is no such point, or where it cannot be written.
-fn write(program: &dyn Program, file: &str, ty: &str, point: &str, value: &str, scripts: &Path) -> Option<()> {
-    let files = program.data();
-    let data = files.iter().find(|data| is_meant(file, data.file))?;
-    let is_point = |var: &&DataVar<'_>| {
-        var.name.eq_ignore_ascii_case(point) && var.sizes.is_empty() && var.slot.type_name().eq_ignore_ascii_case(ty)
-    };
-    let var = data.vars.iter().find(is_point)?;
+/// What a program calls a point.
+struct Point {
+    file: String,
+    ty: &'static str,
+    name: String,
+}
+
+impl Point {
+    /// What is to be said of the variable of a program that is meant, and its file; `None` where there is none.
+    fn find<T>(&self, program: &dyn Program, say: impl FnOnce(&DataFile<'_>, &DataVar<'_>) -> T) -> Option<T> {
+        let files = program.data();
+        let data = files.iter().find(|data| is_meant(&self.file, data.file))?;
+        let var = data.vars.iter().find(|var| {
+            let same_type = var.sizes.is_empty() && var.slot.type_name().eq_ignore_ascii_case(self.ty);
+            same_type && var.name.eq_ignore_ascii_case(&self.name)
+        })?;
+        Some(say(data, var))
+    }
+}
+
+/// Gives a variable the value of a literal.
+fn teach(var: &DataVar<'_>, value: &str) -> Option<()> {
     let mut names = Interner::default();
     let parsed = arl_lang::parse_expression(value, &mut names, arl_lang::ParseOptions::default());
-    let path = data::place(data.file, program, scripts)?;
-    replace(&path, ty, point, value)?;
     var.slot.teach(&parsed.expr, &names).ok()
 }
 

@@ -10,6 +10,7 @@ mod shared;
 mod str;
 mod structs;
 mod teach;
+mod watched;
 
 pub use array::{Array, SmallArray, Store};
 pub use cells::{Cells, SmallCells};
@@ -20,6 +21,7 @@ pub use shared::Shared;
 pub use str::Str;
 pub use structs::*;
 pub use teach::{Fixed, Teach, TeachError, TeachProblem, teach_variable};
+pub use watched::Watched;
 
 /// What a component is that nobody has set: "keep what was".
 pub const UNSET: f64 = 9e9;

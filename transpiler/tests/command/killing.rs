@@ -6,18 +6,20 @@ use std::time::Duration;
 
 use super::Folder;
 
-/// Saves ever higher numbers: in a state file, in a pose, in a joint and as a copy of a program. Says which were there at first,
-/// and which have been saved.
+/// Saves ever higher numbers: in a state file, in a pose, in a joint and as a copy of a program, and changes a variable of which
+/// every change is kept. Says which were there at first, and which have been saved.
 const PROGRAM: &str = "\
 func void main()
     string f = \"points_data.arl\"
-    print \"begins \",$I[1],\" \",$I[99]
+    if($I_NAME[99] == \"\") $I_NAME[99] = \"0\"
+    print \"begins \",$I[1],\" \",$I[99],\" \",$I_NAME[99]
     int n = $I[1]
     loop
         n++
         for(int i = 1; i <= 99; i++)
             $I[i] = n
         endfor
+        $I_NAME[99] = tostr(n)
         savesv(\"I\")
         bool written = savefilepose(f, \"p\", {x n,y n,z n,a n,b n,c n,ej1 n,ej2 n,ej3 n,ej4 n,ej5 n,ej6 n})
         written = savefilejoint(f, \"q\", {n,n,n,n,n,n,n,n,n,n,n,n}) && written
@@ -59,11 +61,12 @@ fn points(file: &str) -> [i32; 2] {
     [number(joint), number(pose)]
 }
 
-/// How many files of a folder were being written.
+/// The files of a folder that were being written.
 #[cfg(unix)]
-fn beside(folder: &Folder, name: &str) -> usize {
+fn beside(folder: &Folder, name: &str) -> Vec<String> {
     let files = std::fs::read_dir(folder.path.join(name)).expect("a folder");
-    files.filter_map(Result::ok).filter(|file| file.file_name().to_string_lossy().ends_with(".new")).count()
+    let names = files.filter_map(Result::ok).map(|file| file.file_name().to_string_lossy().into_owned());
+    names.filter(|name| name.ends_with(".arl-new")).collect()
 }
 
 #[cfg(unix)]
@@ -75,7 +78,7 @@ fn a_kill_leaves_the_old_or_the_new_value_whole() {
     folder.write("points_data.arl", &format!("{before}{{0,0}}{between}{{x 0}}{behind}"));
     folder.arl2rs(&["build", "a.arl", "-o", "a"]).is(0, "");
     let mut delays = 12345_u32;
-    let (mut saved, mut states) = (0, 0);
+    let (mut saved, mut named, mut states, mut files) = (0, 0, 0, 0);
     for kill in 0..KILLS {
         let mut child = Command::new(folder.path.join("a"))
             .args(["--state-dir", "state", "--script-dir", "."])
@@ -90,7 +93,10 @@ fn a_kill_leaves_the_old_or_the_new_value_whole() {
         std::thread::sleep(Duration::from_micros(u64::from(delays >> 17)));
         child.kill().expect("it is killed");
         let numbers: Vec<i32> = first.split(' ').skip(1).map(|word| word.parse().expect("a number")).collect();
-        assert!(matches!(numbers[..], [a, b] if a == b && a >= saved), "{kill}: {first}, but {saved} was saved");
+        assert!(matches!(numbers[..], [a, b, _] if a == b && a >= saved), "{kill}: {first}, but {saved} was saved");
+        // What is kept by itself may be a second old, but is never lost.
+        assert!(numbers[2] >= named && numbers[2] <= numbers[0] + 1, "{kill}: {first}, but {named} was kept");
+        named = numbers[2];
         for line in lines.map_while(Result::ok) {
             // The last line may be cut.
             let Some((number, written)) = line.strip_prefix("saved ").and_then(|rest| rest.split_once(' ')) else {
@@ -104,8 +110,11 @@ fn a_kill_leaves_the_old_or_the_new_value_whole() {
         child.wait().expect("it has ended");
         // What was being written lies beside its file until the next start.
         let left = beside(&folder, "state");
-        assert!(left <= 2, "{kill}: {left} files, but one was being written, and where the program stood");
-        states += left;
+        assert!(left.len() <= 2, "{kill}: {left:?}, but one was being written, and where the program stood");
+        states += left.len();
+        let left = beside(&folder, ".");
+        assert!(left.len() <= 1, "{kill}: {left:?}, but one file was being written");
+        files += left.len();
         // In each round the pose is saved before the joint, and the joint before the copy.
         let [joint, pose] = points(&folder.read("points_data.arl"));
         assert!(pose >= joint && joint >= saved, "{kill}: {joint} and {pose}, but {saved} was saved");
@@ -116,9 +125,11 @@ fn a_kill_leaves_the_old_or_the_new_value_whole() {
             assert!(kept == saved % 2 || joint > saved, "{kill}: the copy that was saved as {saved} is lost");
         }
     }
-    let files = beside(&folder, ".");
     println!(
         "{KILLS} kills, {saved} rounds saved; {states} kills while a state file was written, {files} others while a file was"
     );
-    assert!(saved > 0 && states > 0 && files > 0, "{saved} {states} {files}: it was killed while it saved");
+    assert!(
+        saved > 0 && named > 0 && states > 0 && files > 0,
+        "{saved} {named} {states} {files}: it was killed while it saved"
+    );
 }
