@@ -2,11 +2,13 @@
 //! were damaged are dealt with in peace.
 
 use crate::{report, times};
+use arl_lang::catalog::{all_entries, constants, system_variables, type_names};
 use arl_tests::project::Project;
 use arl_tests::random::Random;
 use arl2rs::compile::{compile_program, on_large_stack};
 use arl2rs::emit::EmitOptions;
 use arl2rs::{CheckOptions, SourceError, Sources};
+use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -145,6 +147,34 @@ fn what_is_emitted_for_the_corpus_gives_no_warning() {
         let errors: String = errors.lines().take(60).map(|line| format!("{line}\n")).collect();
         panic!("rustc has something to say in {}\n{errors}\n{}", project.folder().display(), named.join("\n"));
     }
+}
+
+/// The words of the corpus's programs, in lower case, those of system variables with their `$`.
+fn words_of_the_corpus() -> HashSet<String> {
+    let mut found = HashSet::new();
+    for entry in entries() {
+        let text = std::fs::read(corpus().join(&entry.path)).unwrap();
+        for line in String::from_utf8_lossy(&text).lines() {
+            // What is not in texts, up to a comment.
+            let code: String = line.split('"').step_by(2).collect::<Vec<_>>().join(" ");
+            let code = code.split("//").next().unwrap_or_default().to_ascii_lowercase();
+            let parts = code.split(|letter: char| !letter.is_ascii_alphanumeric() && letter != '_' && letter != '$');
+            found.extend(parts.map(str::to_owned));
+        }
+    }
+    found
+}
+
+#[test]
+fn all_that_is_built_in_has_a_case() {
+    let words = words_of_the_corpus();
+    let callees = all_entries().iter().map(|entry| entry.name.to_owned());
+    let variables = system_variables().map(|variable| format!("${}", variable.name));
+    let types = type_names().map(|(_, base)| base.name().to_owned());
+    let constants = constants().iter().map(|constant| constant.name.to_owned());
+    let all = callees.chain(variables).chain(types).chain(constants);
+    let missing: Vec<String> = all.filter(|name| !words.contains(&name.to_ascii_lowercase())).collect();
+    assert!(missing.is_empty(), "no case of the corpus uses {missing:?}");
 }
 
 #[test]

@@ -157,7 +157,8 @@ impl<'a> Checker<'a> {
                 let name_text = self.text(body.module, name.span).to_string();
                 return self.report(body, name.span, NameProblem::Renamed { name: name_text, now: now.into() });
             }
-            let near = near_type(folded).map(Into::into);
+            // One that lacks its `$`, or has one too many, is meant before those of similar names.
+            let near = catalog::base_type(folded).map(Base::name).or_else(|| near_type(folded)).map(Into::into);
             let text = self.text(body.module, name.span).to_string();
             return self.report(body, name.span, NameProblem::UnknownType { name: text, near });
         };
