@@ -191,6 +191,7 @@ impl Param {
             units: &[],
             range: None,
             set: false,
+            keeps: false,
             counts: None,
             doc,
         }
@@ -239,6 +240,8 @@ setters! { Param:
     at_most(high: f64) { range = Some(Range::AtMost(high)) }
     /// Not 9e+09, which stands for what is not set.
     set() { set = true }
+    /// The name of a system variable that can be saved.
+    keeps() { keeps = true }
     /// A number of parts of the array beside it, of so many bits each.
     counts(bits: u32) { counts = Some(bits) }
     /// Other labels.

@@ -142,6 +142,8 @@ pub struct Param {
     pub range: Option<Range>,
     /// Whether 9e+09, which stands for what is not set, is an error where known.
     pub set: bool,
+    /// Whether it names a system variable that can be saved; other constants are an error.
+    pub keeps: bool,
     /// How many bits each of what it counts takes in the array that is given beside it.
     pub counts: Option<u32>,
     /// What it means, with its unit and what happens without it.

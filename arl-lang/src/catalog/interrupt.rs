@@ -35,7 +35,7 @@ entries! { pub(super) INTERRUPT =
     instr timer(
         name: string [optional] "a name of its own, to switch it with",
         priority: int [otherwise("0"), range(0.0, 255.0)] "0 (first) to 255; 0 without it",
-        interval: double [units(&[Unit::Second])] "the time, s; below a cycle it is a cycle; repeated, below 0.001: alarm",
+        interval: double [units(&[Unit::Second]), at_least(0.0)] "the time, s; below a cycle it is a cycle; repeated, below 0.001: alarm",
         rmode: bool [otherwise("false")] "true: again and again; false: once",
         do: any [action, rust("action")] "what is done, as a rule a call",
     )

@@ -14,7 +14,7 @@ entries! { pub(super) OTHER =
         { "5.12.4", flow::assert, pure, fails; "int a = 6\nassert(a == 6)" }
     /// Saves a system variable: its value is there again at the next start. The program goes on when it is saved; robots go on
     /// meanwhile. A name that does not exist: alarm.
-    fn savesv(svname: string "the variable's name, without $")
+    fn savesv(svname: string [keeps] "the variable's name, without $")
         { "5.12.5", system::savesv, lasts, fails; "$TOOLS[0].t_frame.z = 120\nsavesv(\"TOOLS\")" }
     /// Sets the system variables of chapter 10.2 to their defaults and those of 10.1 to what was saved last.
     fn init()

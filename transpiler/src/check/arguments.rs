@@ -11,7 +11,9 @@ use crate::diagnostics::arguments::ArgumentProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Bound, Expr, ExprKind, FuncId, Passed, Type, Value};
 use arl_lang::ast::{self, Arg, Unit};
-use arl_lang::catalog::{Base, Entry, Kind, Mode, ParamType, Presence, Range, UNSET};
+use arl_lang::catalog::{
+    self, Access, Base, Entry, Kind, Mode, ParamType, Presence, Range, Restore, SystemVariable, UNSET,
+};
 use arl_lang::span::Span;
 use std::fmt;
 
@@ -36,6 +38,7 @@ struct Parameter<'a> {
     units: &'static [Unit],
     range: Option<Range>,
     set: bool,
+    keeps: bool,
 }
 
 #[derive(Clone, Copy)]
@@ -138,6 +141,7 @@ impl<'a> Checker<'a> {
                     units: param.units,
                     range: param.range,
                     set: param.set,
+                    keeps: param.keeps,
                 })
                 .collect(),
             Callee::User(func) => {
@@ -155,6 +159,7 @@ impl<'a> Checker<'a> {
                         units: &[],
                         range: None,
                         set: false,
+                        keeps: false,
                     })
                     .collect()
             }
@@ -367,6 +372,7 @@ impl<'a> Checker<'a> {
             (Wanted::User(_), None) => return None,
         };
         self.check_range(body, param, &value)?;
+        self.check_kept(body, param, &value)?;
         unit?;
         Some(Passed::Value(value))
     }
@@ -477,6 +483,23 @@ impl<'a> Checker<'a> {
         }
         let problem = ArgumentProblem::Length { parameter: parameter.into(), value, bytes: array.len(), most };
         self.report(body, length.span, problem)
+    }
+
+    /// Whether a constant name is that of a system variable that can be saved.
+    fn check_kept(&mut self, body: &Body, param: &Parameter<'_>, value: &Expr) -> Option<()> {
+        let ExprKind::Const(Value::String(text)) = &value.kind else { return Some(()) };
+        let is_kept = |variable: &SystemVariable| match variable.restore {
+            Restore::Saved => true,
+            Restore::Permanent => variable.access == Access::ReadWrite,
+            Restore::Reset | Restore::Startup => false,
+        };
+        let name = text.strip_prefix('$').unwrap_or(text);
+        if !param.keeps || catalog::system_variable(name).is_some_and(is_kept) {
+            return Some(());
+        }
+        let kept = catalog::system_variables().filter(|variable| is_kept(variable)).map(|variable| variable.name);
+        let near = crate::near::nearest(name, kept).map(Into::into);
+        self.report(body, value.span, ArgumentProblem::NotKept { name: name.into(), near })
     }
 
     fn check_range(&mut self, body: &Body, param: &Parameter<'_>, value: &Expr) -> Option<()> {

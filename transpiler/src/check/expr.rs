@@ -5,8 +5,10 @@ use super::convert::{Literal, Typed};
 use super::name::constant;
 use super::place::PlaceOrValue;
 use crate::diagnostics::constants::ConstantProblem;
+use crate::diagnostics::system::NotTaken;
 use crate::diagnostics::types::TypeProblem;
-use crate::hir::{Expr, ExprKind, Place, Projection, Type, Value};
+use crate::effects::facts::limit;
+use crate::hir::{Expr, ExprKind, Place, Projection, Root, Type, Value};
 use arl_lang::ast::{self, BinaryOp, Radix};
 use arl_lang::catalog::Base;
 use arl_lang::span::Span;
@@ -128,7 +130,18 @@ impl Checker<'_> {
         if let Some(Projection::Field(id, index)) = place.path.last() {
             self.check_component(body, *id, *index, &value);
         }
+        self.check_taken(body, &place, &value);
         Some(Expr { ty, kind: ExprKind::Assign(Box::new((place, value))), span })
+    }
+
+    /// Warns of a constant that a system variable does not take.
+    fn check_taken(&mut self, body: &Body, place: &Place, value: &Expr) {
+        let (Root::System(variable), ExprKind::Const(_)) = (&place.root, &value.kind) else { return };
+        if let Some(takes) = limit(place, Some(value)) {
+            let value_text = self.excerpt(body.module, value.span);
+            let problem = NotTaken { variable: variable.name, value: value_text, takes };
+            let _: Option<()> = self.report(body, value.span, problem);
+        }
     }
 
     fn assign_op(

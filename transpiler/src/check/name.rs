@@ -95,7 +95,20 @@ impl Checker<'_> {
             return self.unknown_constant(body, id, span);
         }
         let name = self.text(body.module, span).to_string();
-        self.report(body, span, NameProblem::UnknownVariable { name, near, is_function })
+        let quoted = self.unquoted(body, span, want).filter(|_| near.is_none());
+        let ty = want.filter(|want| !want.is_array()).map_or("int".into(), |want| self.type_name(want));
+        self.report(body, span, NameProblem::UnknownVariable { name, near, is_function, quoted, ty })
+    }
+
+    /// The text that is probably meant by a name that is not known: a file's, or any where a string is wanted.
+    fn unquoted(&self, body: &Body, span: Span, want: Option<Type>) -> Option<String> {
+        const FILES: [&str; 3] = [".arl", ".txt", ".log"];
+        let name = self.text(body.module, span);
+        let behind = self.text(body.module, Span::new(span.end, span.end + FILES[0].len() as u32));
+        if FILES.iter().any(|ending| behind.eq_ignore_ascii_case(ending)) {
+            return Some(format!("{name}{behind}"));
+        }
+        (want == Some(Type::scalar(Base::String))).then(|| name.to_owned())
     }
 
     /// A global of this module or of its data file, and whether it is declared above.

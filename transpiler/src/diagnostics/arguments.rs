@@ -32,6 +32,8 @@ pub(crate) enum ArgumentProblem {
     NotSet { parameter: String },
     /// A constant length that the array beside it does not have, which has so many bytes.
     Length { parameter: String, value: i64, bytes: usize, most: i64 },
+    /// A name that is none of a system variable that can be saved.
+    NotKept { name: String, near: Option<String> },
     /// No overload takes these types.
     NoOverload { callee: String, types: String, signatures: String },
     /// Events behind an instruction that is not a motion.
@@ -55,6 +57,7 @@ impl Problem for ArgumentProblem {
             ArgumentProblem::NoOverload { .. } => 412,
             ArgumentProblem::Events { .. } => 413,
             ArgumentProblem::Length { .. } => 414,
+            ArgumentProblem::NotKept { .. } => 415,
         })
     }
 
@@ -102,6 +105,7 @@ impl Problem for ArgumentProblem {
             ArgumentProblem::Length { parameter, value, bytes, .. } => {
                 format!("`{parameter}` is {value}, but the array has {bytes} bytes")
             }
+            ArgumentProblem::NotKept { name, .. } => format!("\"{name}\" is no system variable that can be saved"),
             ArgumentProblem::NoOverload { callee, types, .. } => {
                 format!("`{callee}` does not take ({types})")
             }
@@ -131,6 +135,10 @@ impl Problem for ArgumentProblem {
             ArgumentProblem::Length { most: 0, .. } => Some("only 0 is possible".into()),
             ArgumentProblem::Length { most, .. } => Some(format!("0 to {most} are possible")),
             ArgumentProblem::Exclusive { .. } => Some("give one of them".into()),
+            ArgumentProblem::NotKept { near: Some(near), .. } => Some(format!("did you mean \"{near}\"?")),
+            ArgumentProblem::NotKept { near: None, .. } => Some(
+                "those of chapter 10.1 can be saved, such as \"I\" and \"TOOLS\", and the settings of chapter 9".into(),
+            ),
             ArgumentProblem::NotSet { parameter } => Some(format!("give a number, or leave `{parameter}` out")),
             _ => None,
         }

@@ -12,6 +12,7 @@ pub(crate) mod modules;
 pub(crate) mod names;
 mod registry;
 pub(crate) mod support;
+pub(crate) mod system;
 #[cfg(feature = "cli")]
 pub(crate) mod targets;
 pub(crate) mod types;

@@ -6,7 +6,8 @@ use super::{Code, Problem};
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum NameProblem {
     /// No variable or constant of this name.
-    UnknownVariable { name: String, near: Option<String>, is_function: bool },
+    /// `quoted`: the text that is probably meant; `ty`: a type that would do.
+    UnknownVariable { name: String, near: Option<String>, is_function: bool, quoted: Option<String>, ty: String },
     /// No function of this name.
     UnknownFunction { name: String, near: Option<String>, is_instruction: bool },
     /// Neither a module nor an enumeration.
@@ -90,8 +91,11 @@ impl Problem for NameProblem {
             NameProblem::UnknownVariable { name, is_function: true, .. } => {
                 Some(format!("`{name}` is a function: call it with parentheses, `{name}(...)`"))
             }
-            NameProblem::UnknownVariable { near, name, .. } => {
-                meant(near).or_else(|| Some(format!("declare it first, for example `int {name}`")))
+            NameProblem::UnknownVariable { quoted: Some(text), .. } => {
+                Some(format!("a text, such as the name of a file or of a point, stands in quotes: `\"{text}\"`"))
+            }
+            NameProblem::UnknownVariable { near, name, ty, .. } => {
+                meant(near).or_else(|| Some(format!("declare it first, for example `{ty} {name}`")))
             }
             NameProblem::UnknownFunction { name, is_instruction: true, .. } => {
                 Some(format!("`{name}` is an instruction: write its arguments without parentheses around them"))
