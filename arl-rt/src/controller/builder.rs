@@ -341,7 +341,7 @@ impl Builder {
         let note = buses.start(uses.modbus_tcp && self.clock.is_real()).map_err(SetupError::Outside)?;
         let islands = Islands::start(&cell.islands).map_err(SetupError::Outside)?;
         let outside = buses.is_outside() || !islands.is_empty();
-        let external = External::new(cell.external.enabled, rate);
+        let external = External::new(cell.external.enabled);
         let world = Rc::new(World::new(Parts {
             rate,
             io,

@@ -230,7 +230,14 @@ impl Controller {
     /// Does what a PLC says.
     fn listen(&mut self) {
         let lane = self.channels.first().lane();
-        let heard = self.external.listen(&self.world.io.borrow(), &lane.system, self.world.now.get());
+        let world = &self.world;
+        let heard = self.external.listen(&external::Now {
+            io: &world.io.borrow(),
+            system: &lane.system,
+            cycle: world.now.get(),
+            rate: world.rate,
+            paused: self.channels.state() == State::Paused,
+        });
         let pressed = match heard {
             Ok(pressed) => pressed,
             Err(fault) => {

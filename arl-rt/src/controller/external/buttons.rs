@@ -1,8 +1,8 @@
 //! The inputs with which a PLC works the controller like somebody at the pendant.
 
+use super::Now;
 use super::watch::{Seen, Watch};
-use crate::io::{Image, Pendant};
-use crate::rate::Rate;
+use crate::io::Pendant;
 use crate::system::System;
 
 /// How long a pulse must be that switches the servos, in s.
@@ -13,6 +13,8 @@ const SERVO_PULSE: f64 = 0.03;
 enum Means {
     /// That it goes on.
     Edge,
+    /// That it goes on, and that it still is when the programs pause.
+    Level,
     /// That it has been on for [`SERVO_PULSE`].
     Pulse,
 }
@@ -27,7 +29,7 @@ struct Button {
 /// In the order in which they act within a cycle: what stops comes last, so that it wins.
 const BUTTONS: [Button; 6] = [
     Button { channel: |system| system.clear_alarm_di.get(), means: Means::Edge, button: Pendant::Clear },
-    Button { channel: |system| system.reset_prog_di.get(), means: Means::Edge, button: Pendant::Reset },
+    Button { channel: |system| system.reset_prog_di.get(), means: Means::Level, button: Pendant::Reset },
     Button { channel: |system| system.servo_on_di.get(), means: Means::Pulse, button: Pendant::ServoOn },
     Button { channel: |system| system.start_prog_di.get(), means: Means::Edge, button: Pendant::Start },
     Button { channel: |system| system.pause_prog_di.get(), means: Means::Edge, button: Pendant::Pause },
@@ -43,7 +45,8 @@ pub(super) struct Buttons([Watch; BUTTONS.len()]);
 
 impl Buttons {
     /// What the inputs of this cycle press.
-    pub(super) fn listen(&mut self, io: &Image, system: &System, cycle: u64, rate: Rate, active: bool) -> Pressed {
+    pub(super) fn listen(&mut self, now: &Now<'_>, active: bool) -> Pressed {
+        let Now { io, system, cycle, rate, paused } = *now;
         let pulse = rate.cycles(SERVO_PULSE);
         let mut pressed = Pressed::default();
         let mut resetting = false;
@@ -52,15 +55,16 @@ impl Buttons {
             resetting |= *button == Pendant::Reset && seen.on;
             // A program that is being reset cannot be started: the reset must go first.
             let held = resetting && *button == Pendant::Start;
-            *place = (is_pressed(*means, seen, pulse) && !held).then_some(*button);
+            *place = (is_pressed(*means, seen, pulse, paused) && !held).then_some(*button);
         }
         pressed
     }
 }
 
-fn is_pressed(means: Means, seen: Seen, pulse: u64) -> bool {
+fn is_pressed(means: Means, seen: Seen, pulse: u64, paused: bool) -> bool {
     match means {
         Means::Edge => seen.rises,
+        Means::Level => seen.rises || paused && seen.cycles > 0,
         Means::Pulse => seen.cycles == pulse,
     }
 }

@@ -24,16 +24,29 @@ use program_number::ProgramNumber;
 pub(super) struct External {
     /// Whether the cell has it at all.
     enabled: bool,
-    rate: Rate,
     buttons: Buttons,
     number: ProgramNumber,
     lamps: Lamps,
 }
 
+/// What is looked at in a cycle.
+pub(super) struct Now<'a> {
+    /// The inputs.
+    pub(super) io: &'a Image,
+    /// What says which of them mean what.
+    pub(super) system: &'a System,
+    /// The running number of the cycle.
+    pub(super) cycle: u64,
+    /// How long cycles are.
+    pub(super) rate: Rate,
+    /// Whether the programs are paused.
+    pub(super) paused: bool,
+}
+
 impl External {
-    pub(super) fn new(enabled: bool, rate: Rate) -> Self {
+    pub(super) fn new(enabled: bool) -> Self {
         let (buttons, number, lamps) = (Buttons::default(), ProgramNumber::default(), Lamps::default());
-        Self { enabled, rate, buttons, number, lamps }
+        Self { enabled, buttons, number, lamps }
     }
 
     /// Looks at the inputs of this cycle: takes over the program number that the PLC gives; returns the buttons that it
@@ -41,13 +54,14 @@ impl External {
     ///
     /// # Errors
     /// It gives no program number, though it says so.
-    pub(super) fn listen(&mut self, io: &Image, system: &System, cycle: u64) -> Result<Pressed, Fault> {
+    pub(super) fn listen(&mut self, now: &Now<'_>) -> Result<Pressed, Fault> {
+        let Now { io, system, cycle, .. } = *now;
         let active = self.enabled && is_activated(io, system);
         system.ext_ctl_act.set(active);
         if !self.enabled {
             return Ok(Pressed::default());
         }
-        let pressed = self.buttons.listen(io, system, cycle, self.rate, active);
+        let pressed = self.buttons.listen(now, active);
         self.number.listen(io, system, cycle, active)?;
         Ok(pressed)
     }
