@@ -7,6 +7,7 @@
 use super::context::{Body, Checker};
 use super::convert::{Typed, integer, number};
 use super::name::constant;
+use super::statements::does_something;
 use crate::diagnostics::arguments::ArgumentProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Bound, Expr, ExprKind, FuncId, Passed, Type, Value};
@@ -293,18 +294,21 @@ impl<'a> Checker<'a> {
             }
         }
         let typed = self.expr(body, &arg.value, None)?;
-        if typed.expr.ty.base == Base::Void {
-            return self.report_no_value(body, &typed.expr);
-        }
+        let is_void = typed.expr.ty.base == Base::Void;
         let takes = |param: &Parameter<'_>| match &param.ty {
-            Some(Wanted::Builtin(ty)) => self.param_cost(ty, param.mode, &typed).is_some(),
+            _ if param.mode == Mode::Action => does_something(&arg.value),
+            Some(Wanted::Builtin(ty)) => !is_void && self.param_cost(ty, param.mode, &typed).is_some(),
             _ => false,
         };
         let found = params.iter().enumerate().position(|(at, param)| param.bare && free(at, param) && takes(param));
         if let Some(at) = found {
             return Some((at, Some(typed)));
         }
-        if params.iter().any(|param| matches!(param.ty, Some(Wanted::Builtin(ParamType::Any)))) {
+        if is_void {
+            return self.report_no_value(body, &typed.expr);
+        }
+        let takes_any = |param: &Parameter<'_>| matches!(param.ty, Some(Wanted::Builtin(ParamType::Any)));
+        if matches!(typed.expr.ty.base, Base::Handle(_)) && params.iter().any(takes_any) {
             return self.report_no_text(body, &typed.expr);
         }
         let ty = self.type_name(typed.expr.ty);
@@ -359,7 +363,7 @@ impl<'a> Checker<'a> {
             _ => want,
         };
         if param.mode == Mode::Action {
-            return self.action(body, &arg.value).map(Passed::Value);
+            return self.action(body, &arg.value, typed).map(Passed::Value);
         }
         let typed = match typed {
             Some(typed) => typed,

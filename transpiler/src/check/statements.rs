@@ -2,7 +2,7 @@
 
 use super::arguments::Callee;
 use super::context::{Body, Checker, State};
-use super::convert::integer;
+use super::convert::{Typed, integer};
 use crate::diagnostics::arguments::ArgumentProblem;
 use crate::diagnostics::flow::FlowProblem;
 use crate::diagnostics::names::NameProblem;
@@ -191,7 +191,7 @@ impl Checker<'_> {
     /// The trigger that an event behind a motion is short for.
     fn trigger(&mut self, body: &mut Body, event: &ast::Expr, action: &ast::Expr) -> Option<Expr> {
         let condition = self.condition(body, event);
-        let action = self.action(body, action);
+        let action = self.action(body, action, None);
         self.has_conditions = true;
         let entry = catalog::instructions("trigger").first()?;
         let mut args = Vec::new();
@@ -215,9 +215,12 @@ impl Checker<'_> {
         self.builtin(body, entry, args, event.span, event.span)
     }
 
-    /// Checks what is to be done at an event.
-    pub(crate) fn action(&mut self, body: &mut Body, expr: &ast::Expr) -> Option<Expr> {
-        let typed = self.expr(body, expr, None)?;
+    /// Checks what is to be done at an event; `typed` where its type is known already.
+    pub(crate) fn action(&mut self, body: &mut Body, expr: &ast::Expr, typed: Option<Typed>) -> Option<Expr> {
+        let typed = match typed {
+            Some(typed) => typed,
+            None => self.expr(body, expr, None)?,
+        };
         if !does_something(expr) {
             self.report::<()>(body, expr.span, FlowProblem::NoEffect);
         }
@@ -409,13 +412,13 @@ pub(crate) fn near_instruction(name: &str) -> Option<&'static str> {
     crate::near::nearest(name, entries.map(|entry| entry.name))
 }
 
-/// A text that is equal for equal constants of one type.
 /// Whether an expression may stand for what it does.
-fn does_something(expr: &ast::Expr) -> bool {
+pub(super) fn does_something(expr: &ast::Expr) -> bool {
     use ast::ExprKind::{Assign, Call, Error, Step};
     matches!(expr.kind, Assign(..) | Step(..) | Call(_) | Error)
 }
 
+/// A text that is equal for equal constants of one type.
 fn case_key(value: &Value) -> String {
     match (value, integer(value)) {
         (_, Some(number)) => number.to_string(),
