@@ -64,8 +64,8 @@ fn table(records: &[MotionRecord], robot: &Robot, time: f64) -> String {
 }
 
 fn summary(records: &[MotionRecord], time: f64) -> String {
-    let moving: f64 = executed(records).map(|record| record.duration).sum();
-    let metres = executed(records).map(|record| record.way).sum::<f64>() / 1000.0;
+    let moving = sum(records, |record| record.duration);
+    let metres = sum(records, |record| record.way) / 1000.0;
     let count = executed(records).count();
     let motions = if count == 1 { "1 motion".to_owned() } else { format!("{count} motions") };
     let percent = if time > 0.0 { 100.0 * moving / time } else { 0.0 };
@@ -100,7 +100,7 @@ fn json(channel: usize, records: &[MotionRecord], robot: &Robot, time: f64) -> S
         text.push('}');
         text.push_str("}\n");
     }
-    let moving: f64 = executed(records).map(|record| record.duration).sum();
+    let moving = sum(records, |record| record.duration);
     let _ = writeln!(
         text,
         "{{\"channel\":{channel},\"cycle_time\":{time:.6},\"moving\":{moving:.6},\"standing\":{:.6},\"motions\":{}}}",
@@ -116,6 +116,11 @@ fn rate(closest: &Closest) -> &'static str {
         Rate::Acc => "acc",
         Rate::Jerk => "jerk",
     }
+}
+
+/// Over the motions that began; 0 without any, not the -0 that sums of nothing are.
+fn sum(records: &[MotionRecord], of: impl Fn(&MotionRecord) -> f64) -> f64 {
+    executed(records).map(of).fold(0.0, |sum, value| sum + value)
 }
 
 /// The motions that began.

@@ -122,7 +122,7 @@ fn branches_and_loops_may_change_tools() {
         "const tool long = {{0,0,300,0,0,0},false}
         movej start
         if(getdi(1))
-            lin p:{1300,0,450,0,90,0},t:long
+            ptp p:{1300,0,450,0,90,0},t:long
             lin p:{2000,0,450,0,90,0} // 908
         endif
         lin p:{1700,0,450,0,90,0}
@@ -181,6 +181,9 @@ fn configurations_ranges_and_singular_points_are_told() {
         movej j:{10,-90,90,0,45,0}
         lin p:{890,0,1080,0,110,0}",
     );
+    // Straight through the singular point, up to which no axis turns: there axes 4 and 6 would have to turn by half a turn.
+    kr10("movej start\nlin p:{900,0,900,0,90,0} // 910 74.4 % along it axes 4 and 6");
+    kr10("movej start\nlin p:{900,0,900,180,50,180}");
     kr10("movej start\n$CONFIG_CHECK = false\nptp p:{900,0,600,0,90,0,4}");
     kr10("movej start\n$WRIST = true\nmovej j:{10,-90,90,0,45,0}\nlin p:{890,0,1080,0,89.9,0}");
 }

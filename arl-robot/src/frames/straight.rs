@@ -15,6 +15,10 @@ const LONGEST_STEP: f64 = 1.0 / 16.0;
 const SPOILT: f64 = 1e-5;
 /// This part of the least scale at which motions are planned leaves no doubt.
 const SURE: f64 = 0.5;
+/// An axis that is so far (deg) from where it was a step before has not turned but jumped.
+const JUMP: f64 = 90.0;
+/// Halvings of a step, to find where in it an axis jumps.
+const HALVINGS: u32 = 30;
 
 /// A straight way of the TCP, along which the tool turns evenly about one line.
 #[derive(Clone, Copy, Debug)]
@@ -45,9 +49,13 @@ impl StraightWay {
         if (0..=GLANCES).all(|glance| clear(f64::from(glance) / f64::from(GLANCES)) == Some(true)) {
             return None;
         }
-        let (mut at, mut near) = (0.0, *start);
+        let (mut at, mut near, mut before) = (0.0, *start, 0.0);
         while at < 1.0 {
-            near = robot.kinematics.inverse(&self.flange(at), cfg, &near)?;
+            let here = robot.kinematics.inverse(&self.flange(at), cfg, &near)?;
+            if jumps(&near, &here) {
+                return Some((self.jump(robot, cfg, &near, before, at), near));
+            }
+            (near, before) = (here, at);
             let step = match self.scale(robot, &near, at) {
                 Some(scale) if scale < SURE * SINGULAR_SCALE => return Some((at, near)),
                 Some(scale) => (STEP_OF_SCALE * scale).min(LONGEST_STEP),
@@ -56,6 +64,19 @@ impl StraightWay {
             at += step;
         }
         None
+    }
+
+    /// Where between two places of the way an axis jumps from where it is at the first: in the very singular point, which the way
+    /// meets as straight as that the axes stand still in it, and then must turn at once to stay in their configuration.
+    fn jump(&self, robot: &Robot, cfg: u8, axes: &Axes, mut before: f64, mut behind: f64) -> f64 {
+        for _ in 0..HALVINGS {
+            let middle = f64::midpoint(before, behind);
+            match robot.kinematics.inverse(&self.flange(middle), cfg, axes) {
+                Some(found) if !jumps(axes, &found) => before = middle,
+                _ => behind = middle,
+            }
+        }
+        behind
     }
 
     /// The TCP at a part of the way.
@@ -78,4 +99,10 @@ impl StraightWay {
         let twist = self.carried.twist(&self.way(at), &[self.travel, rest, rest], &[self.turning, rest, rest]);
         Some(robot.kinematics.rates(axes, &twist)?.scale(&robot.axes))
     }
+}
+
+/// Whether an axis has jumped, whole turns aside.
+fn jumps(from: &Axes, to: &Axes) -> bool {
+    let turned = |from: &f64, to: &f64| ((to - from + 180.0).rem_euclid(360.0) - 180.0).abs();
+    from.iter().zip(to).any(|(from, to)| turned(from, to) > JUMP)
 }

@@ -170,6 +170,10 @@ fn a_report_says_what_each_line_did() {
     assert_eq!(lines[4]["motions"], 4);
     assert!(lines[4]["standing"].as_f64().expect("a number") > 0.99);
 
-    folder.arl2rs(&["run", "still.arl", "--report"]).is(0, "1\n").says("0 motions");
+    folder
+        .arl2rs(&["run", "still.arl", "--report"])
+        .is(0, "1\n")
+        .says(": 0.000 s moving (0 %)")
+        .says("0 motions, 0.000 m");
     folder.arl2rs(&["run", "still.arl", "--report=none/a"]).is(2, "").says("none/a");
 }
