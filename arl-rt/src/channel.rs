@@ -2,6 +2,7 @@
 //! stands.
 
 use std::cell::Ref;
+use std::rc::Rc;
 
 use crate::channel_id::{ChannelId, MOST_FOREGROUND};
 use crate::cx::Cx;
@@ -59,24 +60,33 @@ pub async fn switcharl(cx: &Cx, channel: u32, file_name: &Str) -> Result<bool, F
         let problem = "only the program of a background channel may switch programs";
         return Err(Fault::Domain { function: FUNCTION, problem: problem.into() });
     }
-    let Some(there) = cx.world().foreground(number) else { return Ok(false) };
-    let name = file_name.to_text();
-    let refused = match cx.world().programs.load(&name) {
-        None => format!("the controller has no program {name} to load"),
-        Some(program) => match there.lane().load(program) {
-            Ok(()) => String::new(),
-            Err(refused) => refused,
-        },
-    };
-    if !refused.is_empty() {
-        let (file, line) = cx.place();
-        cx.world().warn(format!("{}:{line}: switcharl: {refused}", file.name()));
-        return Ok(false);
+    match begin_to_switch(cx, number, &file_name.to_text()) {
+        Ok(there) => {
+            while there.lane().is_loading() {
+                cx.next_cycle().await;
+            }
+            Ok(true)
+        }
+        Err(refused) => {
+            warn_of(cx, FUNCTION, &refused);
+            Ok(false)
+        }
     }
-    while there.lane().is_loading() {
-        cx.next_cycle().await;
-    }
-    Ok(true)
+}
+
+/// Tells the channel with this number to load another program; `Err`: why it does not.
+fn begin_to_switch(cx: &Cx, number: i32, name: &str) -> Result<Rc<Cx>, String> {
+    let there = cx.world().foreground(number).ok_or_else(|| no_such(cx, number))?;
+    let program = cx.world().programs.load(name);
+    let program = program.ok_or_else(|| format!("the controller has no program {name} to load"))?;
+    there.lane().load(program)?;
+    Ok(there)
+}
+
+/// Warns of a function that is false for this reason.
+pub(crate) fn warn_of(cx: &Cx, function: &str, why: &str) {
+    let (file, line) = cx.place();
+    cx.world().warn(format!("{}:{line}: {function}: {why}", file.name()));
 }
 
 /// That there is no foreground channel with this number.

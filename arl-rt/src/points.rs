@@ -12,6 +12,7 @@ use std::path::Path;
 use arl_lang::ast::{Item, Var};
 use arl_lang::symbol::Interner;
 
+use crate::channel::warn_of;
 use crate::cx::Cx;
 use crate::fault::Fault;
 use crate::values::{Joint, Pose, Str, UNSET};
@@ -26,23 +27,49 @@ pub async fn savearl(cx: &Cx, file_src: &Str, file_dst: &Str, mode: bool) -> Res
     cx.motion_end().await;
     let scripts = &cx.world().scripts;
     let (from, to) = (scripts.file(file_src)?, scripts.file(file_dst)?);
-    let work = cx.world().disk.begin(move || copy(&from, &to, mode).is_some());
-    Ok(work.end(cx).await.unwrap_or(false))
+    let work = cx.world().disk.begin(move || copy(&from, &to, mode));
+    Ok(is_done(cx, "savearl", work.end(cx).await))
 }
 
-/// Copies a file. `None` where there is none, where the copy is there and may not be replaced, and where it cannot be written.
-fn copy(from: &Path, to: &Path, replaces: bool) -> Option<()> {
-    if to.is_dir() || (to.exists() && !replaces) {
-        return None;
+/// Whether work with the disk has succeeded; warns of what went wrong, if that is more than what was asked for.
+fn is_done(cx: &Cx, function: &str, done: Option<Result<(), Failure>>) -> bool {
+    match done {
+        Some(Ok(())) => true,
+        Some(Err(Failure::Refused)) | None => false,
+        Some(Err(Failure::Problem(why))) => {
+            warn_of(cx, function, &why);
+            false
+        }
     }
-    let content = fs::read(from).ok()?;
+}
+
+/// Why nothing was written.
+#[derive(Debug)]
+enum Failure {
+    /// So it was asked for.
+    Refused,
+    /// What is wrong.
+    Problem(String),
+}
+
+/// What is wrong with a file.
+fn problem(path: &Path, what: impl std::fmt::Display) -> Failure {
+    Failure::Problem(format!("{} {what}", path.display()))
+}
+
+/// Copies a file; refuses to replace one where it shall not.
+fn copy(from: &Path, to: &Path, replaces: bool) -> Result<(), Failure> {
+    if to.exists() && !replaces {
+        return Err(Failure::Refused);
+    }
+    let content = fs::read(from).map_err(|error| problem(from, format_args!("cannot be read: {error}")))?;
     write(to, &content)
 }
 
 /// Writes a file whole, and clears its directory of what the dead have left.
-fn write(path: &Path, content: &[u8]) -> Option<()> {
+fn write(path: &Path, content: &[u8]) -> Result<(), Failure> {
     whole::sweep(whole::directory_of(path));
-    whole::write(path, content).ok()
+    whole::write(path, content).map_err(|error| problem(path, format_args!("cannot be written: {error}")))
 }
 
 /// Writes a pose to a point of a data file, whose other text stays as it is; whether it worked. It counts from the next load on.
@@ -50,7 +77,7 @@ fn write(path: &Path, content: &[u8]) -> Option<()> {
 /// # Errors
 /// The path leads out of the script directory.
 pub async fn savefilepose(cx: &Cx, file_name: &Str, pose_name: &Str, p: Pose) -> Result<bool, Fault> {
-    save(cx, file_name, "pose", pose_name, of_pose(p)).await
+    save(cx, "savefilepose", file_name, "pose", pose_name, of_pose(p)).await
 }
 
 /// The literal of a pose.
@@ -72,7 +99,7 @@ fn of_pose(p: Pose) -> Components {
 /// # Errors
 /// The path leads out of the script directory.
 pub async fn savefilejoint(cx: &Cx, file_name: &Str, joint_name: &Str, j: Joint) -> Result<bool, Fault> {
-    save(cx, file_name, "joint", joint_name, of_joint(j)).await
+    save(cx, "savefilejoint", file_name, "joint", joint_name, of_joint(j)).await
 }
 
 /// The literal of a joint.
@@ -84,13 +111,26 @@ fn of_joint(j: Joint) -> Components {
     value
 }
 
-async fn save(cx: &Cx, file: &Str, ty: &'static str, point: &Str, value: Components) -> Result<bool, Fault> {
+/// What is wrong with a point that has an inf or a nan.
+const NO_LITERAL: &str = "a component of the point is no number";
+
+async fn save(
+    cx: &Cx,
+    function: &'static str,
+    file: &Str,
+    ty: &'static str,
+    point: &Str,
+    value: Components,
+) -> Result<bool, Fault> {
     cx.motion_end().await;
     let path = cx.world().scripts.file(file)?;
-    let Some(value) = value.literal() else { return Ok(false) };
+    let Some(value) = value.literal() else {
+        warn_of(cx, function, NO_LITERAL);
+        return Ok(false);
+    };
     let point = point.to_text().into_owned();
-    let work = cx.world().disk.begin(move || replace(&path, ty, &point, &value).is_some());
-    Ok(work.end(cx).await.unwrap_or(false))
+    let work = cx.world().disk.begin(move || replace(&path, ty, &point, &value));
+    Ok(is_done(cx, function, work.end(cx).await))
 }
 
 /// A structure's literal in the making.
@@ -128,17 +168,18 @@ impl Components {
     }
 }
 
-/// Puts a value in place of the one that a variable of this type has in a file. `None` where there is no such file or variable, where
+/// Puts a value in place of the one that a variable of this type has in a file. Fails where there is no such file or variable, where
 /// the file has mistakes, and where it cannot be written.
-fn replace(path: &Path, ty: &str, variable: &str, value: &str) -> Option<()> {
-    let content = fs::read(path).ok()?;
-    let text = arl_lang::text::decode(&content).ok()?;
-    let (place, value) = match place(&text, ty, variable)? {
+fn replace(path: &Path, ty: &str, variable: &str, value: &str) -> Result<(), Failure> {
+    let content = fs::read(path).map_err(|error| problem(path, format_args!("cannot be read: {error}")))?;
+    let text =
+        arl_lang::text::decode(&content).map_err(|error| problem(path, format_args!("cannot be read: {error}")))?;
+    let (place, value) = match place(&text, ty, variable).map_err(|what| problem(path, what))? {
         Place::Value(place) => (place, value.to_owned()),
         Place::Behind(at) => (at..at, format!(" = {value}")),
     };
-    let changed = arl_lang::text::splice(&content, place, &value)?;
-    write(path, &changed)
+    let changed = arl_lang::text::splice(&content, place, &value);
+    write(path, &changed.ok_or_else(|| problem(path, "has an encoding that this value cannot be written in"))?)
 }
 
 /// Where a value goes in a text.
@@ -149,19 +190,20 @@ enum Place {
     Behind(usize),
 }
 
-fn place(text: &str, ty: &str, variable: &str) -> Option<Place> {
+/// The place of a variable's value, or what is wrong with the file.
+fn place(text: &str, ty: &str, variable: &str) -> Result<Place, String> {
     let mut names = Interner::default();
     let parsed = arl_lang::parse(text, &mut names, arl_lang::ParseOptions::default());
     if !parsed.errors.is_empty() {
-        return None;
+        return Err("has mistakes".into());
     }
     let globals = parsed.file.items.iter().filter_map(|item| match item {
         Item::Global(decl) if !decl.ty.system && names.name(decl.ty.name).eq_ignore_ascii_case(ty) => Some(&decl.vars),
         _ => None,
     });
     let named = |var: &&Var| var.dims.is_empty() && names.name(var.name.symbol).eq_ignore_ascii_case(variable);
-    let var = globals.flatten().find(named)?;
-    Some(match &var.init {
+    let var = globals.flatten().find(named).ok_or_else(|| format!("has no {ty} {variable}"))?;
+    Ok(match &var.init {
         Some(init) => Place::Value(init.span.start as usize..init.span.end as usize),
         None => Place::Behind(var.name.span.end as usize),
     })
@@ -181,10 +223,10 @@ mod tests {
         let alone = fs::read_dir(&folder).unwrap().count();
         fs::remove_dir_all(&folder).unwrap();
         assert_eq!(alone, 1, "nothing is left beside the file");
-        if done.is_none() {
+        if done.is_err() {
             assert_eq!(now, content);
         }
-        done.map(|()| now)
+        done.ok().map(|()| now)
     }
 
     fn text(name: &str, content: &str, variable: &str) -> Option<String> {
@@ -208,6 +250,24 @@ mod tests {
         let before = b"// \xd2\xc6\xb6\xaf\npose p = {x 2} // \xb5\xe3\n";
         let after = b"// \xd2\xc6\xb6\xaf\npose p = {x 1} // \xb5\xe3\n";
         assert_eq!(replaced("gb", before, "pose", "p").as_deref(), Some(&after[..]));
+    }
+
+    #[test]
+    fn what_cannot_be_written_says_why() {
+        let folder = std::env::temp_dir().join(format!("arl-rt-points-why-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let why = |name: &str, variable: &str| match replace(&folder.join(name), "pose", variable, "{x 1}") {
+            Err(Failure::Problem(why)) => why.rsplit_once(name).unwrap().1.to_owned(),
+            other => panic!("{other:?}"),
+        };
+        fs::write(folder.join("p_data.arl"), "pose p = {x 2}\n").unwrap();
+        fs::write(folder.join("wrong_data.arl"), "pose p = {x 2\n").unwrap();
+        assert_eq!(why("p_data.arl", "q"), " has no pose q");
+        assert_eq!(why("wrong_data.arl", "p"), " has mistakes");
+        assert!(why("none_data.arl", "p").starts_with(" cannot be read: "));
+        let there = folder.join("p_data.arl");
+        assert!(matches!(copy(&there, &there, false), Err(Failure::Refused)), "that was asked for");
+        fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]

@@ -230,7 +230,11 @@ fn the_background_switches_the_program_of_a_foreground_channel() {
     }
     assert_eq!(messages.text(), "first\nrecipe\ntrue\n-90\nfalse\nfalse\n");
     assert!(last.axes[0].abs() < 5.1, "{}", last.axes[0]);
-    assert_eq!(controller.take_warnings(), ["t.arl:3: switcharl: the controller has no program nothing.arl to load"]);
+    let warnings = [
+        "t.arl:3: switcharl: the controller has no program nothing.arl to load",
+        "t.arl:3: switcharl: there is no foreground channel 2, only channel 1",
+    ];
+    assert_eq!(controller.take_warnings(), warnings);
     let alarms: Vec<String> = controller.take_alarms().iter().map(ToString::to_string).collect();
     let text = "alarm 20004: switcharl: the channel is 7, but must be 1 to 6 (t.arl:3, background channel 1)";
     assert_eq!(alarms, [text]);

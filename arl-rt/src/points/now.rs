@@ -2,8 +2,8 @@
 
 use arl_lang::symbol::Interner;
 
-use super::{Components, of_joint, of_pose, replace};
-use crate::channel::number;
+use super::{Components, Failure, NO_LITERAL, is_done, of_joint, of_pose, replace};
+use crate::channel::{no_such, number, warn_of};
 use crate::cx::Cx;
 use crate::data;
 use crate::fault::Fault;
@@ -38,14 +38,32 @@ async fn save(
     value: Components,
 ) -> Result<bool, Fault> {
     let number = number(function, channel)?;
-    let (Some(there), Some(value)) = (cx.world().foreground(number), value.literal()) else { return Ok(false) };
+    let Some(there) = cx.world().foreground(number) else {
+        warn_of(cx, function, &no_such(cx, number));
+        return Ok(false);
+    };
+    let Some(value) = value.literal() else {
+        warn_of(cx, function, NO_LITERAL);
+        return Ok(false);
+    };
     let point = Point { file: file.to_text().into_owned(), ty, name: point.to_text().into_owned() };
     let program = there.program_itself();
-    let Some(data) = point.find(program, |data, _| data.file) else { return Ok(false) };
+    let Some(data) = point.find(program, |data, _| data.file) else {
+        let Point { file, name, .. } = &point;
+        warn_of(
+            cx,
+            function,
+            &format!("the program of channel {number} has no {ty} {name} in the data file of {file}"),
+        );
+        return Ok(false);
+    };
     let places = data::places(data, &cx.world().scripts.path().join(program.folder()));
     let (written, name) = (value.clone(), point.name.clone());
-    let work = cx.world().disk.begin(move || replace(&data::place(places)?, ty, &name, &written));
-    if work.end(cx).await.flatten().is_none() {
+    let work = cx.world().disk.begin(move || {
+        let missing = || Failure::Problem(format!("the data file {data} is not there"));
+        replace(&data::place(places).ok_or_else(missing)?, ty, &name, &written)
+    });
+    if !is_done(cx, function, work.end(cx).await) {
         return Ok(false);
     }
     Ok(point.find(program, |_, var| teach(var, &value)).flatten().is_some())
