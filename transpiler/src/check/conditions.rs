@@ -4,17 +4,22 @@ use crate::diagnostics::flow::FlowProblem;
 use crate::diagnostics::{Diagnostic, Location, Problem};
 use crate::hir::{Builtin, Expr, ExprKind, FuncId, Passed, Program, Stmt};
 use crate::visit;
-use arl_lang::catalog::{Effect, Kind, Mode};
+use arl_lang::catalog::{Effect, Entry, Kind, Mode};
 use arl_lang::span::Span;
 
 /// Reports every condition that waits or moves.
 pub(crate) fn check(program: &Program, locate: &dyn Fn(crate::hir::ModuleId, Span) -> Location) -> Vec<Diagnostic> {
     let facts: Vec<Facts> = program.funcs.iter().map(|func| facts(&func.body)).collect();
-    let culprits = culprits(&facts);
+    let of_waits = culprits(&facts, waits);
+    let of_events = culprits(&facts, takes_cycles);
     let mut out = Vec::new();
     for (func, facts) in program.funcs.iter().zip(&facts) {
-        for condition in &facts.conditions {
-            if let Some((span, culprit)) = waiting(program, condition, &culprits) {
+        for (holder, condition) in &facts.conditions {
+            let found = match *holder {
+                "waituntil" => waiting(program, condition, &of_waits, waits),
+                _ => waiting(program, condition, &of_events, takes_cycles),
+            };
+            if let Some((span, culprit)) = found {
                 out.push(FlowProblem::ConditionWaits { culprit }.at(locate(func.module, span)));
             }
         }
@@ -25,12 +30,12 @@ pub(crate) fn check(program: &Program, locate: &dyn Fn(crate::hir::ModuleId, Spa
 /// What matters of a function.
 #[derive(Default)]
 struct Facts<'a> {
-    /// The first instruction that waits or moves.
-    culprit: Option<&'static str>,
+    /// What it uses of what is built in.
+    uses: Vec<&'static Entry>,
     /// The functions that it calls.
     calls: Vec<FuncId>,
-    /// The conditions in it.
-    conditions: Vec<&'a Expr>,
+    /// The conditions in it, each with the instruction that has it.
+    conditions: Vec<(&'static str, &'a Expr)>,
 }
 
 fn facts(block: &[Stmt]) -> Facts<'_> {
@@ -39,8 +44,8 @@ fn facts(block: &[Stmt]) -> Facts<'_> {
         visit::exprs_in_stmt(stmt, &mut |expr| match &expr.kind {
             ExprKind::Call(func, _) => facts.calls.push(*func),
             ExprKind::Builtin(builtin) => {
-                facts.culprit = facts.culprit.or(instruction(expr));
-                facts.conditions.extend(conditions(builtin));
+                facts.uses.push(builtin.entry);
+                facts.conditions.extend(conditions(builtin).map(|condition| (builtin.entry.name, condition)));
             }
             _ => {}
         });
@@ -59,9 +64,10 @@ fn conditions(builtin: &Builtin) -> impl Iterator<Item = &Expr> {
     })
 }
 
-/// For each function what in it waits or moves, if anything does: itself, or what it calls.
-fn culprits(facts: &[Facts<'_>]) -> Vec<Option<&'static str>> {
-    let mut found: Vec<Option<&str>> = facts.iter().map(|facts| facts.culprit).collect();
+/// For each function what of it is not for conditions, if anything is not: in itself, or in what it calls.
+fn culprits(facts: &[Facts<'_>], is_culprit: fn(&Entry) -> bool) -> Vec<Option<&'static str>> {
+    let first = |facts: &Facts<'_>| facts.uses.iter().find(|entry| is_culprit(entry)).map(|entry| entry.name);
+    let mut found: Vec<Option<&str>> = facts.iter().map(first).collect();
     let mut callers: Vec<Vec<usize>> = vec![Vec::new(); facts.len()];
     for (caller, facts) in facts.iter().enumerate() {
         for callee in &facts.calls {
@@ -83,16 +89,27 @@ fn culprits(facts: &[Facts<'_>]) -> Vec<Option<&'static str>> {
     found
 }
 
-/// The instruction that waits, moves or ends the program. Functions that read the outside are fine.
-fn instruction(expr: &Expr) -> Option<&'static str> {
-    let ExprKind::Builtin(builtin) = &expr.kind else { return None };
-    let entry = builtin.entry;
-    let waits = entry.effect.takes_time() || entry.effect == Effect::Ends;
-    (entry.kind == Kind::Instruction && waits).then_some(entry.name)
+/// Whether it is an instruction that waits, moves or ends the program. Functions that read the outside are fine.
+fn waits(entry: &Entry) -> bool {
+    entry.kind == Kind::Instruction && (entry.effect.takes_time() || entry.effect == Effect::Ends)
+}
+
+/// Functions that wait for the disk besides.
+const WRITERS: [&str; 4] = ["savearl", "savefilepose", "savefilejoint", "setip"];
+
+/// Whether it waits, or is a function that takes cycles even where nothing is to be waited for: the condition of an event has
+/// one to itself.
+fn takes_cycles(entry: &Entry) -> bool {
+    waits(entry) || entry.effect == Effect::Lasts || WRITERS.contains(&entry.name)
 }
 
 /// Where in a condition something waits, and what it is.
-fn waiting(program: &Program, condition: &Expr, culprits: &[Option<&str>]) -> Option<(Span, String)> {
+fn waiting(
+    program: &Program,
+    condition: &Expr,
+    culprits: &[Option<&str>],
+    is_culprit: fn(&Entry) -> bool,
+) -> Option<(Span, String)> {
     let mut found = None;
     visit::exprs(condition, &mut |expr| {
         if found.is_some() {
@@ -103,8 +120,10 @@ fn waiting(program: &Program, condition: &Expr, culprits: &[Option<&str>]) -> Op
         {
             let name = program.funcs.get(func.0 as usize).map(|func| func.name.as_str()).unwrap_or_default();
             found = Some((expr.span, format!("{name}` with its `{culprit}")));
-        } else if let Some(culprit) = instruction(expr) {
-            found = Some((expr.span, culprit.to_string()));
+        } else if let ExprKind::Builtin(builtin) = &expr.kind
+            && is_culprit(builtin.entry)
+        {
+            found = Some((expr.span, builtin.entry.name.to_string()));
         }
     });
     found
