@@ -46,6 +46,11 @@ pub enum PlanError {
         /// Where on the path, 0 to 1.
         along: f64,
     },
+    /// The weave or the compensation changes so much over so short a way that it cannot be followed.
+    TooDense {
+        /// Where on the path, 0 to 1.
+        along: f64,
+    },
     /// Start, point on the way and target do not make a circle: two of them are the same, or all lie on a line.
     NoCircle,
     /// The angle of a circle is beyond what is sensible.
@@ -83,7 +88,7 @@ pub enum PlanError {
         /// The shortest that its limits allow, in s.
         least: f64,
     },
-    /// A speed, a duration, or the override of `velset`, is not above zero, or no number.
+    /// A speed, a duration, or the override of `velset`, is not above zero, or no number; or a duration is beyond all measure.
     NoSpeed {
         /// What is meant, with its unit.
         what: &'static str,
@@ -134,6 +139,11 @@ impl fmt::Display for PlanError {
                 place(f, *along)?;
                 write!(f, "; with $WRIST it passes, the orientation gives way a little there")
             }
+            PlanError::TooDense { along } => {
+                write!(f, "the weave or the compensation changes too much over so short a way; ")?;
+                place(f, *along)?;
+                write!(f, ": take a lower frequency, less amplitude or shift, or a longer motion")
+            }
             PlanError::NoCircle => write!(
                 f,
                 "the three points of the arc make no circle: they must be different and must not lie on a line"
@@ -152,6 +162,9 @@ impl fmt::Display for PlanError {
             PlanError::Earlier { line, error } => write!(f, "line {line}: {error}"),
             PlanError::Duration { wanted, least } => {
                 write!(f, "the motion cannot be done in {wanted} s, it takes at least {least:.3} s")
+            }
+            PlanError::NoSpeed { what, value } if value.is_finite() && *value > 0.0 => {
+                write!(f, "{what} is {value:e}, which is too much")
             }
             PlanError::NoSpeed { what, value } => write!(f, "{what} is {value}: it must be a number above 0"),
             PlanError::NotANumber => write!(f, "the target holds a value that is not a number"),

@@ -148,7 +148,8 @@ impl Walk<'_> {
             (_, Some(known)) => {
                 let scale = self.scale_of_way(known, at, axes);
                 if scale < SINGULAR_SCALE {
-                    return Err(self.singular(known, at));
+                    let dense = self.is_plain_clear(at, axes);
+                    return Err(if dense { PlanError::TooDense { along: at } } else { self.singular(known, at) });
                 }
                 (STEP_OF_SCALE * scale).min(longest)
             }
@@ -196,6 +197,11 @@ impl Walk<'_> {
         self.scale(&plain_rates) * slower
     }
 
+    /// Whether only what is laid over the way makes the axes' motion change so quickly.
+    fn is_plain_clear(&self, at: f64, axes: &Axes) -> bool {
+        self.plain.is_some() && self.plain_rates(at, axes).is_some_and(|plain| self.scale(&plain) >= SINGULAR_SCALE)
+    }
+
     fn plain_rates(&self, at: f64, axes: &Axes) -> Option<Rates> {
         self.robot.kinematics.rates(axes, &self.plain.as_ref()?.twist(at))
     }
@@ -219,7 +225,13 @@ impl Walk<'_> {
             _ => 0.0,
         };
         let worst = (0..found.len()).max_by(|a, b| jump(*a).total_cmp(&jump(*b))).unwrap_or(0);
-        if jump(worst) <= most { Ok(()) } else { Err(PlanError::Singular { axis: self.name(worst), along: at }) }
+        if jump(worst) <= most {
+            Ok(())
+        } else if self.is_plain_clear(at, found) {
+            Err(PlanError::TooDense { along: at })
+        } else {
+            Err(PlanError::Singular { axis: self.name(worst), along: at })
+        }
     }
 
     fn singular(&self, rates: &Rates, at: f64) -> PlanError {

@@ -53,6 +53,27 @@ fn offsets(rows: &[Step], from: &[f64; 6], to: &[f64; 6]) -> Vec<Vector3<f64>> {
 }
 
 #[test]
+fn a_weave_that_cannot_be_followed_is_not_taken_for_a_singular_point() {
+    let robot = robot("kr10-r1420");
+    for (frequency, amplitude) in [(1e5, 5.0), (1e9, 5.0), (2.0, 1e6)] {
+        let (mut queue, mut to) = queue(&robot);
+        let settings = woven(Weave { frequency, amplitude, ..weave(WeaveShape::Simple) });
+        match queue.add(&line(&mut to, [0.0, 300.0, 0.0], 100.0), &settings) {
+            Err(PlanError::TooDense { along }) => assert!(along < 0.1, "{along}"),
+            other => panic!("{frequency} {amplitude}: {other:?}"),
+        }
+    }
+    let words = PlanError::TooDense { along: 0.5 }.to_string();
+    assert!(words.contains("50.0 % along the path: take a lower frequency"), "{words}");
+}
+
+#[test]
+fn a_duration_beyond_all_measure_is_not_written_out() {
+    let words = PlanError::NoSpeed { what: "the duration in s", value: 1e300 }.to_string();
+    assert_eq!(words, "the duration in s is 1e300, which is too much");
+}
+
+#[test]
 fn weaves_are_as_wide_and_as_long_as_asked_and_begin_and_end_on_the_path() {
     let robot = robot("kr10-r1420");
     for shape in SHAPES {
