@@ -363,9 +363,12 @@ impl Builder {
         if let Some(note) = note {
             world.warn(note);
         }
+        // Where the system has no thread for it now, whoever opens the first connection, or writes the first file, tries again.
         if uses.connections {
-            // Where the system has no thread for it now, whoever opens the first connection tries again.
             let _ = world.opener.start();
+        }
+        if beside.is_some() {
+            let _ = world.disk.start();
         }
         let site = Site {
             world: Rc::clone(&world),
@@ -457,6 +460,10 @@ impl Site {
 
     fn channel(&self, lane: Lane, program: Box<dyn Program>, trace: Option<Trace>) -> Channel {
         lane.reset_system();
+        // What it tells of the robot holds from the first statement on.
+        if let Some(unit) = lane.robot() {
+            lane.update_system(&unit);
+        }
         Channel::new(Rc::new(lane), Rc::from(program), self.stack, trace)
     }
 }
