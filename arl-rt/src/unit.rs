@@ -413,7 +413,11 @@ impl Unit {
         self.executing = (step.line, step.motion);
         self.finished = step.finished;
         self.note_start();
-        self.point_at(step.motion, step.line);
+        // The first half of a blend still counts as the motion before it there; to programs a blend is the next motion's.
+        match self.queue.progress() {
+            Some(next) if step.motion != 0 && next.motion > step.motion => self.point_at(next.motion, next.line),
+            _ => self.point_at(step.motion, step.line),
+        }
         if step.motion != 0 {
             self.set_base(self.queue.rig().base);
         }
