@@ -14,7 +14,8 @@ use crate::fault::{Alarm, Fault, File};
 use crate::frames::Rig;
 use crate::kinematics::{Axes, Frame, frame_components};
 use crate::motion::{
-    Command, Compensation, Joints, MotionRecord, PlanError, Progress, Queue, Recorder, Settings, Start, Stop, halves,
+    Command, Compensation, Joints, MotionRecord, PlanError, Progress, Queue, Recorder, Settings, Sharp, Start, Stop,
+    halves,
 };
 use crate::robot::Robot;
 use crate::robot_driver::{RobotDriver, settled};
@@ -122,14 +123,22 @@ impl Unit {
         self.recorder.as_ref().map_or(&[], |recorder| recorder.records())
     }
 
-    /// The line of a motion whose target should be rounded off but cannot be, since this was asked last.
-    pub(crate) fn take_sharp(&mut self) -> Option<u32> {
-        self.queue.take_sharp()
+    /// A target that should be rounded off but cannot be, since this was asked last, and the file of the motion behind it.
+    pub(crate) fn take_sharp(&mut self) -> Option<(File, Sharp)> {
+        let sharp = self.queue.take_sharp()?;
+        Some((self.file_of(sharp.number), sharp))
     }
 
-    /// Whether a motion came too late to be blended with the one before it, since this was asked last.
-    pub(crate) fn take_late(&mut self) -> bool {
-        self.queue.take_late()
+    /// The motion that came too late to be blended with the one before it, since this was asked last, and its file.
+    pub(crate) fn take_late(&mut self) -> Option<(File, Sharp)> {
+        let sharp = self.queue.take_late()?;
+        Some((self.file_of(sharp.number), sharp))
+    }
+
+    /// The file of a motion that has not ended.
+    fn file_of(&self, number: u64) -> File {
+        let known = self.files.iter().rev().find(|(first, _)| *first <= number);
+        known.map_or(self.file, |(_, file)| *file)
     }
 
     /// Begins to compensate the motions that are planned from now on, with these limits.

@@ -207,6 +207,7 @@ impl Channel {
 
     /// Ends the program for what went wrong apart from its statements.
     pub(super) fn meet_trouble(&mut self) {
+        self.lane.tell_of_corners(self.cx.world());
         if let Some(alarm) = self.lane.take_trouble() {
             self.fail(alarm);
         }

@@ -71,6 +71,12 @@ pub(super) fn bent_blend(robot: &Robot, from: &Motion, to: &Motion, bends: [Bend
     Corner { robot, from, to, leaving, joining, bends }.blend()
 }
 
+#[cfg(test)]
+thread_local! {
+    /// How many blends this thread has looked for.
+    pub(super) static FOUND_HERE: std::cell::Cell<u32> = const { std::cell::Cell::new(0) };
+}
+
 /// Two motions and the parts of them that a blend takes.
 struct Corner<'a> {
     robot: &'a Robot,
@@ -89,6 +95,8 @@ impl Corner<'_> {
     }
 
     fn blend(&self) -> Option<Blend> {
+        #[cfg(test)]
+        FOUND_HERE.with(|count| count.set(count.get() + 1));
         let Self { from, to, .. } = self;
         let (vel_from, vel_to) = (from.rate, to.rate);
         let [(leave, slope_from), (join, slope_to)] = self.ends();

@@ -5,19 +5,19 @@ mod lead;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use super::bend::{Bend, bend};
-use super::blend::{Blend, bent_blend, blend};
+use super::bend::Bend;
 use super::finder::Finder;
 use super::governor::{Governor, MARGIN, Pacing};
 use super::joints::Joints;
-use super::overlay::joined;
+use super::junction::{self, Before, Bent, Blended, Meeting};
 use super::piece::Piece;
 use super::pilot::Pilot;
 use super::plan::Motion;
+use super::preparer::{Joining, Prepared};
 use super::profile::{Change, Limits, State};
 use super::remaining::{self, Leg};
 use super::timing::Timing;
-use super::zone::asks;
+use super::zone::{LARGEST, asks};
 use crate::robot::Robot;
 pub(super) use lead::Answer;
 use lead::{Next, Sought};
@@ -27,6 +27,9 @@ const NO_TIME: f64 = 1e-12;
 
 /// What is left of the way to a stop, in s of nominal time, when only rounding is left.
 const NEAR_STOP: f64 = 1e-9;
+
+/// A little more than braking takes is left for it.
+const BRAKING: f64 = 1.1;
 
 /// Cycles in which an acceleration rises at the fastest.
 const RISE: f64 = 4.0;
@@ -68,23 +71,22 @@ pub(super) struct Course {
     tail: Option<Tail>,
 }
 
-/// Why the robot stops at a target that should be rounded off.
+/// A target that should be rounded off, at which the robot stops.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Sharp {
-    /// The next motion came too late.
-    Late,
-    /// Beside the corner of the motion of this line the robot cannot go, however small the zone.
-    NoWay {
-        /// The program line.
-        line: u32,
-    },
+pub struct Sharp {
+    /// The running number of the motion behind it.
+    pub number: u64,
+    /// Its program line.
+    pub line: u32,
+    /// The program line of the motion before it, where the robot cannot go beside the target, however small the zone; `None`: the motion
+    /// behind it came too late.
+    pub corner: Option<u32>,
 }
 
 /// The end of the way.
 #[derive(Clone, Debug)]
 struct Tail {
-    motion: Motion,
-    limits: Limits,
+    motion: Arc<Motion>,
     /// The motion before it, where a blend leads from there.
     joined: Option<Joined>,
 }
@@ -92,34 +94,28 @@ struct Tail {
 /// A blend whose end, in the middle of a motion, is straight as long as it is not known what comes behind that motion.
 #[derive(Clone, Debug)]
 struct Joined {
-    before: Motion,
+    before: Arc<Motion>,
     /// How the motion before is bent where the blend begins.
     bend: Bend,
     /// How many pieces there are from the blend's first half on.
     pieces: usize,
 }
 
-/// Two motions and the blend between them.
-struct Blended {
-    from: (Motion, Limits),
-    to: (Motion, Limits),
-    blend: Blend,
-    /// The part of the first motion behind which it would have to be another one for the blend.
-    until: f64,
+/// A motion that can be appended where cycles take `cycle` s.
+pub(super) fn risen(motion: Motion, cycle: f64) -> Arc<Motion> {
+    Arc::new(motion.rising_in(RISE * cycle))
 }
 
-/// The blend that two motions ask for; a weave goes on through it.
-fn blended(robot: &Robot, from: (&Motion, Limits), to: (&Motion, Limits)) -> Option<Blended> {
-    let fades_from = from.0.laid.as_ref().map_or(1.0, |laid| laid.fades_from());
-    let limited = |motion: Motion| Some((motion.limits?, motion)).map(|(limits, motion)| (motion, limits));
-    let going_on = joined(robot, from.0, to.0).and_then(|(from, to)| Some((limited(from)?, limited(to)?)));
-    if let Some((from, to)) = going_on
-        && let Some(blend) = blend(robot, &from.0, &to.0)
-    {
-        return Some(Blended { from, to, blend, until: fades_from });
+/// Whether a stretch began with the first of pieces that were taken back.
+fn began(taken: &[(Arc<Piece>, bool)]) -> bool {
+    taken.last().is_none_or(|(_, began)| *began)
+}
+
+impl Tail {
+    fn meeting(&self, next: &Arc<Motion>) -> Meeting {
+        let before: Before = self.joined.as_ref().map(|joined| (Arc::clone(&joined.before), joined.bend));
+        Meeting { before, from: Arc::clone(&self.motion), to: Arc::clone(next) }
     }
-    let blend = blend(robot, from.0, to.0)?;
-    Some(Blended { from: (from.0.clone(), from.1), to: (to.0.clone(), to.1), blend, until: 1.0 })
 }
 
 impl Course {
@@ -149,7 +145,7 @@ impl Course {
     }
 
     /// The motion that was appended last.
-    pub(super) fn last(&self) -> Option<&Motion> {
+    pub(super) fn last(&self) -> Option<&Arc<Motion>> {
         self.tail.as_ref().map(|tail| &tail.motion)
     }
 
@@ -173,87 +169,130 @@ impl Course {
         self.timing.length() - self.state.at
     }
 
-    /// Appends a motion. Returns why the motion before it is not rounded off, where that was asked for.
-    pub(super) fn append(&mut self, robot: &Robot, motion: Motion, number: u64, cycle: f64) -> Option<Sharp> {
-        let motion = motion.rising_in(RISE * cycle);
+    /// For how many s, at its full speed, the robot can go on before it may have to brake for the next motion: or rather for the end
+    /// of what that one does not change. In the profile O a law has to lead that far.
+    pub(super) fn spare(&self) -> f64 {
+        let Some(last) = self.pieces.back() else { return 0.0 };
+        if self.wants_laws() {
+            return self.time_left() - self.open_time() - lead::LOOKED_AHEAD;
+        }
+        let open = match self.tail.as_ref() {
+            None => 0.0,
+            Some(Tail { joined: None, motion }) if motion.corner.is_none() => last.time.min(LARGEST / motion.rate),
+            Some(_) => self.open_time(),
+        };
+        self.time_left() - open - BRAKING * self.timing.braking(open)
+    }
+
+    /// Whether the robot is led by laws, or will be.
+    pub(super) fn wants_laws(&self) -> bool {
+        let ends = [self.pieces.front(), self.pieces.back()];
+        self.is_led() || ends.into_iter().flatten().any(|piece| piece.pace.is_some())
+    }
+
+    /// How the last motion is joined by the one before it.
+    pub(super) fn joining(&self) -> Joining {
+        let joined = self.tail.as_ref().and_then(|tail| tail.joined.as_ref());
+        Joining::Known(joined.map(|joined| (Arc::clone(&joined.before), joined.bend)))
+    }
+
+    /// Appends a motion that [`risen`] has made ready, with what has been prepared for it. Returns why the motion before it is not
+    /// rounded off, where that was asked for.
+    pub(super) fn append(
+        &mut self,
+        robot: &Robot,
+        (motion, number): (&Arc<Motion>, u64),
+        prepared: Option<&Prepared>,
+        cycle: f64,
+    ) -> Option<Sharp> {
         let limits = motion.limits?;
         self.cycle = cycle;
         let tail = self.tail.take();
-        if motion.flows && tail.is_some() && self.flow_on(Piece::part(&motion, limits, number, 0.0, 1.0), cycle) {
+        if motion.flows && tail.is_some() && self.flow_on(Piece::part(motion, limits, number, 0.0, 1.0), cycle) {
             self.settle(1);
             self.timing.find_entries(MARGIN, cycle);
-            self.tail = Some(Tail { motion, limits, joined: None });
+            self.tail = Some(Tail { motion: Arc::clone(motion), joined: None });
             return None;
         }
         let tail = tail.filter(|_| !self.pieces.is_empty());
-        let mut joined = tail.as_ref().and_then(|tail| self.bend_into(robot, tail, (&motion, limits), number, cycle));
-        let mut sharp = motion.flows.then_some(Sharp::Late);
-        let mut end = (motion, limits);
+        let known = prepared.zip(tail.as_ref()).map(|(prepared, tail)| prepared.take(robot, || tail.meeting(motion)));
+        let bent = tail.as_ref().and_then(|tail| self.bent(robot, known, tail, motion));
+        let mut joined = tail.as_ref().zip(bent).and_then(|(tail, bent)| {
+            self.bend_into(tail, &bent, (motion, limits), number, cycle).map(|pieces| (bent.bend, pieces))
+        });
+        let late = Sharp { number, line: motion.line, corner: None };
+        let mut sharp = motion.flows.then_some(late);
+        let mut end = Arc::clone(motion);
         let mut before = None;
         if let Some(tail) = tail {
-            let blended =
-                if joined.is_none() { blended(robot, (&tail.motion, tail.limits), (&end.0, limits)) } else { None };
+            let blended = if joined.is_none() { junction::blended(robot, known, &tail.motion, motion) } else { None };
             if joined.is_none() && blended.is_none() && asks(robot, &tail.motion) {
-                sharp = Some(Sharp::NoWay { line: tail.motion.line });
+                sharp = Some(Sharp { corner: Some(tail.motion.line), ..late });
             }
             before = Some(tail.motion);
             if let Some(blended) = blended {
                 joined = self.round_off(&blended, number, cycle).map(|pieces| (Bend::NONE, pieces));
-                sharp = joined.is_none().then_some(Sharp::Late);
+                sharp = joined.is_none().then_some(late);
                 if joined.is_some() {
-                    (before, end) = (Some(blended.from.0), blended.to);
+                    (before, end) = (Some(blended.from), blended.to);
                 }
             }
         }
-        let (motion, limits) = end;
+        let limits = end.limits?;
         if joined.is_none() {
-            let whole = [Piece::part(&motion, limits, number, 0.0, 1.0)];
+            let whole = self.ready([Piece::part(&end, limits, number, 0.0, 1.0)]);
             // In a stretch of its own it asks for nothing that the stop before it did not.
-            if self.is_led() || !self.lay(&whole, true, cycle) {
-                self.push(&whole, false);
+            if self.is_led() || !self.lay(&whole, |_| true, cycle) {
+                self.push(&whole, |_| false);
             }
         }
         let joined = joined.zip(before).map(|((bend, pieces), before)| Joined { before, bend, pieces });
         self.settle(joined.as_ref().map_or(1, |joined| joined.pieces));
         self.timing.find_entries(MARGIN, cycle);
-        self.tail = Some(Tail { motion, limits, joined });
+        self.tail = Some(Tail { motion: end, joined });
         sharp
     }
 
+    /// How the last motion bends towards the next one; `None` where it does not, or the robot is on the blend before already.
+    fn bent(
+        &self,
+        robot: &Robot,
+        known: Option<&junction::Junction>,
+        tail: &Tail,
+        motion: &Arc<Motion>,
+    ) -> Option<Bent> {
+        let Joined { before, bend, pieces } = tail.joined.as_ref()?;
+        if self.pieces.len() <= *pieces {
+            return None;
+        }
+        junction::bent(robot, known, (before, *bend), (&tail.motion, motion))
+    }
+
     /// Puts a blend behind the last one where the two meet in the middle of the last motion, and bends both there; returns
-    /// the bend and how many pieces there are from the new blend on. `None` where that is not possible any more.
+    /// how many pieces there are from the new blend on. `None` where that is not possible any more.
     fn bend_into(
         &mut self,
-        robot: &Robot,
         tail: &Tail,
+        bent: &Bent,
         (motion, limits): (&Motion, Limits),
         number: u64,
         cycle: f64,
-    ) -> Option<(Bend, usize)> {
-        let Joined { before, bend: start, pieces: count } = tail.joined.as_ref()?;
-        // The robot must not be on the blend yet.
-        if self.pieces.len() <= *count {
-            return None;
-        }
-        let bend = bend(robot, before, &tail.motion, motion)?;
-        if bend == Bend::NONE {
-            return None;
-        }
-        let bent = bent_blend(robot, before, &tail.motion, [*start, bend])?;
-        let next = bent_blend(robot, &tail.motion, motion, [bend, Bend::NONE])?;
-        let (first, last) = (self.pieces.get(self.pieces.len() - *count)?.number, self.pieces.back()?.number);
-        let mut pieces = vec![
-            Piece::half(&bent, (before, &tail.motion), first, true),
-            Piece::half(&bent, (before, &tail.motion), last, false),
-            Piece::half(&next, (&tail.motion, motion), last, true),
-            Piece::half(&next, (&tail.motion, motion), number, false),
+    ) -> Option<usize> {
+        let Joined { before, pieces: count, .. } = tail.joined.as_ref()?;
+        let [first, next] = &bent.blends;
+        let (left, last) = (self.pieces.get(self.pieces.len() - *count)?.number, self.pieces.back()?.number);
+        let halves = [
+            Piece::half(first, (before, &tail.motion), left, true),
+            Piece::half(first, (before, &tail.motion), last, false),
+            Piece::half(next, (&tail.motion, motion), last, true),
+            Piece::half(next, (&tail.motion, motion), number, false),
         ];
         let rest = Piece::part(motion, limits, number, next.join, 1.0);
-        pieces.extend((rest.time > NO_TIME).then_some(rest));
+        let pieces = self.ready(halves.into_iter().chain((rest.time > NO_TIME).then_some(rest)));
         let kept = self.take_back(*count);
         let same_to = self.unchanged_to(0.0);
-        if self.lay_any(&pieces, same_to, cycle) {
-            return Some((bend, pieces.len() - 2));
+        if self.lay_any(&pieces, None, same_to, cycle) {
+            return Some(pieces.len() - 2);
         }
         self.put_back(kept);
         None
@@ -262,7 +301,8 @@ impl Course {
     /// Puts a blend in place of the end of the last motion and the start of the next; returns how many pieces there are
     /// from the blend on, `None` where the robot is not able to take it any more.
     fn round_off(&mut self, blended: &Blended, number: u64, cycle: f64) -> Option<usize> {
-        let Blended { from: (before, before_limits), to: (motion, limits), blend, until } = blended;
+        let Blended { from: before, to: motion, blend, until } = blended;
+        let (before_limits, limits) = (before.limits?, motion.limits?);
         let last = self.pieces.back()?;
         // Another blend has taken what this one needs.
         if last.from > blend.leave {
@@ -273,33 +313,38 @@ impl Course {
             return None;
         }
         let same = (until.min(blend.leave) - last.from).max(0.0) / before.rate;
-        let mut cut = Piece::part(before, *before_limits, last.number, last.from, blend.leave);
+        let mut cut = Piece::part(before, before_limits, last.number, last.from, blend.leave);
         (cut.stops, cut.ends) = (false, false);
         let first = Piece::half(blend, (before, motion), last.number, true);
         let second = Piece::half(blend, (before, motion), number, false);
-        let rest = Piece::part(motion, *limits, number, blend.join, 1.0);
-        let pieces: Vec<Piece> = [cut, first, second, rest].into_iter().filter(|piece| piece.time > NO_TIME).collect();
+        let rest = Piece::part(motion, limits, number, blend.join, 1.0);
+        let pieces = self.ready([cut, first, second, rest].into_iter().filter(|piece| piece.time > NO_TIME));
         let from_blend = pieces.iter().skip_while(|piece| piece.progress.is_none()).count();
         let kept = self.take_back(1);
         let same_to = self.unchanged_to(same);
-        if self.lay_any(&pieces, same_to, cycle) {
+        let own = pieces.first().is_some_and(|first| first.progress.is_none()).then(|| began(&kept));
+        if self.lay_any(&pieces, own, same_to, cycle) {
             return Some(from_blend);
         }
         self.put_back(kept);
         None
     }
 
-    /// Appends pieces in whatever way the robot is able to keep to them; returns whether there is one. Up to `same_to`, in s
-    /// of nominal time since the course began, nothing changes by them.
-    fn lay_any(&mut self, pieces: &[Piece], same_to: f64, cycle: f64) -> bool {
+    /// Appends pieces in whatever way the robot is able to keep to them; returns whether there is one. `own`: the first of them
+    /// is of the motion that the robot may be on, and did a stretch begin with that? Up to `same_to`, in s of nominal time since
+    /// the course began, nothing changes by them.
+    fn lay_any(&mut self, pieces: &[Arc<Piece>], own: Option<bool>, same_to: f64, cycle: f64) -> bool {
         let may = self.may_change_from(same_to);
         if self.is_led() {
             if may {
-                self.push(pieces, true);
+                self.push(pieces, |_| true);
             }
             return may;
         }
-        self.lay(pieces, true, cycle) || self.lay(pieces, false, cycle)
+        self.lay(pieces, |_| true, cycle)
+            || self.lay(pieces, |index| index > 0, cycle)
+            // A robot that speeds up on its motion needs that one's limits as they are.
+            || own.is_some_and(|began| self.lay(pieces, |index| if index == 0 { !began } else { index > 1 }, cycle))
     }
 
     /// Where changes begin that come so many s of nominal time behind the last piece, for whom that may concern.
@@ -317,10 +362,10 @@ impl Course {
         let Some(last) = self.pieces.back() else { return false };
         let mut through = Piece::clone(last).flowing();
         through.stops = false;
-        let pieces = [through, piece.flowing()];
+        let pieces = self.ready([through, piece.flowing()]);
         let kept = self.take_back(1);
-        let same_to = self.unchanged_to(pieces[0].time);
-        if self.lay_any(&pieces, same_to, cycle) {
+        let same_to = self.unchanged_to(pieces.first().map_or(0.0, |through| through.time));
+        if self.lay_any(&pieces, Some(began(&kept)), same_to, cycle) {
             return true;
         }
         self.put_back(kept);
@@ -332,8 +377,8 @@ impl Course {
         self.pilot.is_some() || self.drafted.is_some()
     }
 
-    /// Appends pieces if the robot is able to keep to them, and returns whether it is; `may` they join the last stretch?
-    fn lay(&mut self, pieces: &[Piece], may: bool, cycle: f64) -> bool {
+    /// Appends pieces if the robot is able to keep to them, and returns whether it is; which of them `may` join the stretch before?
+    fn lay(&mut self, pieces: &[Arc<Piece>], may: impl Fn(usize) -> bool, cycle: f64) -> bool {
         let before = self.timing.next_entry();
         self.push(pieces, may);
         self.timing.find_entries(MARGIN, cycle);
@@ -360,16 +405,17 @@ impl Course {
         self.timing.is_on_first(at + self.backup.distance(vel, acc))
     }
 
-    fn push(&mut self, pieces: &[Piece], may: bool) {
-        for (index, piece) in pieces.iter().enumerate() {
-            self.push_one(piece.clone(), may || index > 0);
-        }
+    /// Pieces as they can be pushed.
+    fn ready(&self, pieces: impl IntoIterator<Item = Piece>) -> Vec<Arc<Piece>> {
+        // Set-points are those of whole cycles: an acceleration takes a few of them to rise, also without a limit of the jerk.
+        let rise = RISE * self.cycle;
+        pieces.into_iter().map(|piece| Arc::new(piece.rising_in(rise))).collect()
     }
 
-    fn push_one(&mut self, mut piece: Piece, may: bool) {
-        // Set-points are those of whole cycles: an acceleration takes a few of them to rise, also without a limit of the jerk.
-        piece.limits = piece.limits.rising_in(RISE * self.cycle);
-        self.push_shared(Arc::new(piece), may);
+    fn push(&mut self, pieces: &[Arc<Piece>], may: impl Fn(usize) -> bool) {
+        for (index, piece) in pieces.iter().enumerate() {
+            self.push_shared(Arc::clone(piece), may(index));
+        }
     }
 
     fn push_shared(&mut self, piece: Arc<Piece>, may: bool) {

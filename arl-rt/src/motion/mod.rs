@@ -22,6 +22,7 @@ mod gate;
 mod governor;
 mod halves;
 mod joints;
+mod junction;
 mod limits;
 #[doc(hidden)]
 pub mod optimal;
@@ -30,6 +31,7 @@ mod piece;
 mod pilot;
 mod place;
 mod plan;
+mod preparer;
 mod profile;
 mod progress;
 mod queue;
@@ -48,6 +50,7 @@ mod timing;
 mod zone;
 
 pub use command::{Command, Settings, Speed, Target, Zone};
+pub use course::Sharp;
 pub use error::PlanError;
 pub use gate::{Gate, Lift};
 pub(crate) use halves::halves;

@@ -113,6 +113,11 @@ impl Piece {
         }
     }
 
+    /// The same, with an acceleration that takes at least `time` s to rise.
+    pub(super) fn rising_in(self, time: f64) -> Self {
+        Self { limits: self.limits.rising_in(time), ..self }
+    }
+
     /// The same, where the robot does not begin or end it at rest.
     pub(super) fn flowing(self) -> Self {
         Self { duration: None, ..self }

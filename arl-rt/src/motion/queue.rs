@@ -1,8 +1,8 @@
 //! The look-ahead and the interpolator: motions wait in a queue, and each cycle moves along the first one.
 
+mod ahead;
 mod aside;
 
-use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::chain::Held;
@@ -15,9 +15,11 @@ use super::joints::Joints;
 use super::overlay::{Beginning, Led};
 use super::piece::Piece;
 use super::plan::{Motion, not_led, plan_behind};
+use super::preparer::Preparer;
 use crate::frames::Rig;
 use crate::kinematics::Frame;
 use crate::robot::Robot;
+use ahead::{Done, Ready, Waiting};
 use aside::Aside;
 pub use aside::Start;
 
@@ -123,11 +125,18 @@ pub struct Queue {
     /// The last motion that is not executed any more: it has ended, or a blend leads away from it.
     over: u64,
     cycle: f64,
-    late: bool,
-    /// The line of a motion whose corner could not be rounded off.
-    sharp: Option<u32>,
-    /// Motions that wait until the course can take them.
-    waiting: VecDeque<(Motion, u64)>,
+    /// The last target that was not rounded off because a motion came too late, and the last beside which there is no way.
+    late: Option<Sharp>,
+    sharp: Option<Sharp>,
+    /// Motions that wait until they are laid on the course.
+    waiting: Waiting,
+    /// Who finds their blends.
+    preparer: Preparer,
+    /// How many cycles there have been, and what was planned in this one.
+    cycles: u64,
+    taken: Done,
+    /// How long the robot can go on without them, where that is known.
+    spare: Option<f64>,
     /// The last motion, where its way depends on the next one.
     held: Option<Held>,
     /// How long the robot has stood still for it, in s.
@@ -146,7 +155,7 @@ pub struct Queue {
 #[derive(Clone, Debug)]
 pub(super) struct Laid {
     pub(super) number: u64,
-    pub(super) motion: Motion,
+    pub(super) motion: Arc<Motion>,
     /// The motion that is blended with it, and the share at which that one is left.
     pub(super) left: Option<(u64, f64)>,
 }
@@ -174,9 +183,13 @@ impl Queue {
             left: Vec::with_capacity(LOOK_AHEAD),
             over: 0,
             cycle: 0.001,
-            late: false,
+            late: None,
             sharp: None,
-            waiting: VecDeque::new(),
+            waiting: Waiting::default(),
+            preparer: Preparer::default(),
+            cycles: 1,
+            taken: Done::default(),
+            spare: None,
             held: None,
             patience: 0.0,
             broken: None,
@@ -197,8 +210,7 @@ impl Queue {
     pub fn has_room(&self) -> bool {
         let executing = u64::from(self.started == Some(self.finished + 1));
         let waiting = (self.unfinished() as u64).saturating_sub(executing);
-        let short = || self.waiting.is_empty() && self.course.time_left() < TIME_AHEAD;
-        waiting < LOOK_AHEAD as u64 || (waiting < MOST_AHEAD && short())
+        waiting < LOOK_AHEAD as u64 || (waiting < MOST_AHEAD && self.is_short_of_way())
     }
 
     /// Plans a motion from the end of the last one and appends it; returns its running number, from 1. A motion whose way
@@ -276,7 +288,7 @@ impl Queue {
         let goes_on = joined.is_some();
         let (plain, before) = held.plan(&self.robot, joined)?;
         let end = *plain.end();
-        let last = self.waiting.back().map(|(motion, _)| motion).or_else(|| self.course.last());
+        let last = self.waiting.last().or_else(|| self.course.last().map(|motion| &**motion));
         let flows_from = last.filter(|_| plain.flows);
         let beginning = Beginning {
             start: flows_from.map_or(&self.end, Motion::end),
@@ -309,23 +321,7 @@ impl Queue {
         if share < self.slowed.0 {
             self.slowed = (share, motion.line);
         }
-        self.waiting.push_back((motion, number));
-        self.lay_waiting();
-    }
-
-    /// Lays the motions that wait on the course, as soon as that can take them.
-    fn lay_waiting(&mut self) {
-        while !self.waiting.is_empty() && !self.course.is_asking() {
-            if self.course.is_laid_down() {
-                self.course.offer((&self.robot, &self.joints), &self.waiting, self.cycle);
-                self.take_answer();
-            } else if let Some((motion, number)) = self.waiting.pop_front() {
-                let watched = self.laid.is_some().then(|| motion.clone());
-                let sharp = self.course.append(&self.robot, motion, number, self.cycle);
-                self.note_sharp(sharp);
-                self.note_laid(watched, number);
-            }
-        }
+        self.wait_with(motion, number);
     }
 
     /// Does what the course says about motions that it was offered.
@@ -334,17 +330,17 @@ impl Queue {
             Some(Answer::Taken { sharp, count }) => {
                 self.note_sharp(sharp);
                 for _ in 0..count {
-                    if let Some((motion, number)) = self.waiting.pop_front() {
-                        self.note_laid(Some(motion), number);
+                    if let Some(taken) = self.waiting.pop() {
+                        self.note_laid(&taken.motion, taken.number);
                     }
                 }
             }
             Some(Answer::Refused) => {
-                if let Some((motion, number)) = self.waiting.pop_front() {
-                    let watched = self.laid.is_some().then(|| motion.clone());
-                    let sharp = self.course.append_behind_stop(&self.robot, (motion, number), self.cycle);
+                if let Some(Ready { motion, number, prepared, .. }) = self.waiting.pop() {
+                    let motion = (&motion, number);
+                    let sharp = self.course.append_behind_stop(&self.robot, motion, prepared.as_ref(), self.cycle);
                     self.note_sharp(sharp);
-                    self.note_laid(watched, number);
+                    self.note_laid(motion.0, number);
                 }
             }
             None => {}
@@ -353,17 +349,15 @@ impl Queue {
 
     fn note_sharp(&mut self, sharp: impl IntoIterator<Item = Sharp>) {
         for sharp in sharp {
-            match sharp {
-                Sharp::Late => self.late = true,
-                Sharp::NoWay { line } => self.sharp = Some(line),
-            }
+            let of_its_kind = if sharp.corner.is_some() { &mut self.sharp } else { &mut self.late };
+            *of_its_kind = Some(sharp);
         }
     }
 
-    fn note_laid(&mut self, motion: Option<Motion>, number: u64) {
-        if let (Some(laid), Some(motion)) = (&mut self.laid, motion) {
+    fn note_laid(&mut self, motion: &Arc<Motion>, number: u64) {
+        if let Some(laid) = &mut self.laid {
             let left = self.course.left_before(number).filter(|_| motion.goes());
-            laid.push(Laid { number, motion, left });
+            laid.push(Laid { number, motion: Arc::clone(motion), left });
         }
     }
 
@@ -378,15 +372,15 @@ impl Queue {
         }
     }
 
-    /// Whether, since this was asked last, a motion came too late to be blended with the one before it, so that the robot
+    /// The motion that came too late, since this was asked last, to be blended with the one before it, so that the robot
     /// stopped or will stop between the two.
-    pub fn take_late(&mut self) -> bool {
-        std::mem::take(&mut self.late)
+    pub fn take_late(&mut self) -> Option<Sharp> {
+        self.late.take()
     }
 
-    /// The line of a motion, added since this was asked last, whose target should be rounded off but is reached with a stop:
-    /// beside it the robot would leave its reach or an axis's range, or meet a singular point, however small the zone.
-    pub fn take_sharp(&mut self) -> Option<u32> {
+    /// A target, since this was asked last, that should be rounded off but is reached with a stop: beside it the robot would
+    /// leave its reach or an axis's range, or meet a singular point, however small the zone.
+    pub fn take_sharp(&mut self) -> Option<Sharp> {
         self.sharp.take()
     }
 
@@ -497,6 +491,7 @@ impl Queue {
     /// next one ends exactly at its target, and the next one starts with the cycle after.
     pub fn step(&mut self, dt: f64, override_percent: f64) -> Step {
         self.cycle = dt;
+        self.count_cycle();
         self.left.clear();
         let speed = if override_percent > 0.0 { override_percent.min(100.0) / 100.0 } else { 0.0 };
         let stop = if self.stop == Some(Stop::Fast) { self.stop } else { self.aside.stop().or(self.stop) };
@@ -623,7 +618,7 @@ impl Queue {
     fn end_empty(&mut self) {
         let anew = self.aside.first_anew().unwrap_or(self.added + 1);
         let held = self.held.as_ref().map_or(anew, |held| held.number);
-        let waiting = self.waiting.front().map_or(held, |(_, number)| *number);
+        let waiting = self.waiting.first().map_or(held, |ready| ready.number);
         let next = self.course.first().map_or(waiting, |piece| piece.number);
         self.finished = self.finished.max(next - 1);
         if self.course.is_empty() && self.waiting.is_empty() && !self.dropping {

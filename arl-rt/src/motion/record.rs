@@ -143,7 +143,7 @@ pub(crate) struct Recorder {
     robot: Arc<Robot>,
     records: Vec<MotionRecord>,
     /// The last motion that goes somewhere.
-    last: Option<Motion>,
+    last: Option<Arc<Motion>>,
     time: f64,
     /// The number of the motion executed last.
     executed: u64,

@@ -9,6 +9,7 @@ mod compensations;
 mod gates;
 mod optimal;
 mod plans;
+mod prepared;
 mod stops;
 mod traces;
 mod ways;

@@ -30,6 +30,9 @@ pub(super) struct Stretch {
 /// How near to the highest speed of entry is near enough, as a part of it.
 const CLOSE: f64 = 1e-14;
 
+/// The same where it only has to be known about how long braking takes.
+const NEAR_ENOUGH: Enough = Enough { value: 1e-3, excess: 1e-3 };
+
 /// Cells whose limits differ by up to this factor share a stretch.
 pub(super) const ALIKE: f64 = 2.0;
 
@@ -259,6 +262,36 @@ impl Timing {
             }
         }
         end
+    }
+
+    /// The way in s, up to `open` s before the end of everything, on which the robot may have to brake if it has to come to rest
+    /// there, however fast it may be before.
+    pub(super) fn braking(&self, open: f64) -> f64 {
+        let (mut open, mut needed, mut exit) = (open, 0.0, 0.0);
+        for stretch in self.stretches.iter().rev() {
+            let (mut way, mut fastest) = (-open, 0.0_f64);
+            for cell in &stretch.cells {
+                way += cell.length;
+                fastest = fastest.max(cell.limits.vel);
+            }
+            open = (-way).max(0.0);
+            if way <= 0.0 {
+                continue;
+            }
+            // It may just be speeding up.
+            let fading = fastest * stretch.acc / stretch.jerk;
+            let slowing = |vel: f64| stretch.limits().slowing(vel, exit) + fading;
+            if slowing(fastest) <= way {
+                return needed + slowing(fastest);
+            }
+            needed += way;
+            exit = if fastest <= exit || slowing(exit) > way {
+                exit.min(fastest)
+            } else {
+                search::highest(exit, fastest, NEAR_ENOUGH, |vel| slowing(vel) - way)
+            };
+        }
+        needed
     }
 
     /// The way in s to the end of everything.

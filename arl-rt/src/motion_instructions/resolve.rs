@@ -181,17 +181,13 @@ async fn add(cx: &Cx, command: &Command, settings: &Settings) -> Result<(), Faul
     let mut unit = lane.unit_mut(MOTION)?;
     lane.system.cjoint.set(joint(unit.target()));
     cx.moved(unit.motions().0);
-    let (file, line) = (cx.place().0.name(), cx.place().1);
+    let file = cx.place().0.name();
     let (share, slowed) = unit.take_slowed();
     if share < SLOWED {
         let percent = if share < 0.01 { "less than 1".to_owned() } else { format!("{:.0}", 100.0 * share) };
         cx.world().warn(format!("{file}:{slowed}: the weave or the compensation is too fast for the robot: the motion goes at {percent} % of its speed"));
     }
-    if unit.take_late() {
-        cx.world().warn(format!("{file}:{line}: the motion came too late to be blended with the one before it: the robot stops between the two"));
-    }
-    if let Some(corner) = unit.take_sharp() {
-        cx.world().warn(format!("{file}:{line}: the target of the motion of line {corner} is not rounded off but reached with a stop: beside it the robot would leave its reach or an axis's range, or meet a singular point"));
-    }
+    drop(unit);
+    lane.tell_of_corners(cx.world());
     Ok(())
 }

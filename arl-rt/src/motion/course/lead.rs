@@ -3,7 +3,6 @@
 //! Looking for a law takes some cycles. What changes the course where such a law may lead waits until it is there; what changes it
 //! under the law in hand is an offer: it is made when a law has been found for it, else the robot keeps to what it has.
 
-use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::{Course, MARGIN, NEAR_STOP, Sharp, Tail};
@@ -14,6 +13,7 @@ use crate::motion::optimal::Edge;
 use crate::motion::piece::Piece;
 use crate::motion::pilot::{Pilot, Wish};
 use crate::motion::plan::Motion;
+use crate::motion::preparer::Prepared;
 use crate::motion::profile::State;
 use crate::motion::scout::Scout;
 use crate::robot::Robot;
@@ -22,6 +22,8 @@ use crate::robot::Robot;
 const FARTHEST: f64 = 4.0 * WINDOW;
 /// With a part of this more than the first look ahead, the end of the course may be left out.
 const ROOM: f64 = 1.2;
+/// With so much course, in s of nominal time, laws leave its end out; a little more, as they begin where the robot will be.
+pub(super) const LOOKED_AHEAD: f64 = ROOM * WINDOW + 0.2;
 
 /// A law that is being looked for, and what for.
 #[derive(Clone, Debug)]
@@ -96,11 +98,12 @@ impl Course {
     pub(in crate::motion) fn append_behind_stop(
         &mut self,
         robot: &Robot,
-        (motion, number): (Motion, u64),
+        motion: (&Arc<Motion>, u64),
+        prepared: Option<&Prepared>,
         cycle: f64,
     ) -> Option<Sharp> {
         self.refusing = true;
-        let sharp = self.append(robot, motion, number, cycle);
+        let sharp = self.append(robot, motion, prepared, cycle);
         self.refusing = false;
         sharp
     }
@@ -122,9 +125,12 @@ impl Course {
 
     /// Whether the next motion may change the course before `reach`.
     fn changes(&self, reach: f64) -> bool {
-        let open = self.open();
-        let changed: f64 = self.pieces.iter().rev().take(open).map(|piece| piece.time).sum();
-        reach > self.end() - changed
+        reach > self.end() - self.open_time()
+    }
+
+    /// How long the last pieces take that the next motion may take the place of, in s of nominal time.
+    pub(super) fn open_time(&self) -> f64 {
+        self.pieces.iter().rev().take(self.open()).map(|piece| piece.time).sum()
     }
 
     /// How many of the last pieces the next motion may take the place of.
@@ -134,10 +140,10 @@ impl Course {
 
     /// Offers motions to the course: they join it as soon as a law has been found that leads along them. At once where none is
     /// needed.
-    pub(in crate::motion) fn offer(
+    pub(in crate::motion) fn offer<'a>(
         &mut self,
         (robot, here): (&Arc<Robot>, &Joints),
-        motions: &VecDeque<(Motion, u64)>,
+        motions: impl Iterator<Item = ((&'a Arc<Motion>, u64), Option<&'a Prepared>)>,
         cycle: f64,
     ) {
         let Some(pilot) = &self.pilot else { return };
@@ -149,9 +155,10 @@ impl Course {
             drafted: Some(f64::INFINITY),
             ..Self::default()
         };
-        let mut sharp = Vec::new();
-        for (motion, number) in motions {
-            sharp.extend(draft.append(robot, motion.clone(), *number, cycle));
+        let (mut sharp, mut count) = (Vec::new(), 0);
+        for (motion, prepared) in motions {
+            sharp.extend(draft.append(robot, motion, prepared, cycle));
+            count += 1;
         }
         let same = self.pieces.iter().zip(&draft.pieces).take_while(|(a, b)| Arc::ptr_eq(a, b)).count();
         let offered = Draft {
@@ -160,7 +167,7 @@ impl Course {
             tail: draft.tail.clone(),
             same_to: draft.drafted.unwrap_or(f64::NEG_INFINITY),
             sharp,
-            count: motions.len(),
+            count,
         };
         if pilot.end() <= offered.same_to {
             self.take(offered);

@@ -6,6 +6,7 @@
 
 use std::collections::VecDeque;
 
+use super::ahead::Waiting;
 use super::{Progress, Queue, Stop};
 use crate::frames::Rig;
 use crate::motion::chain::Held;
@@ -15,7 +16,7 @@ use crate::motion::error::PlanError;
 use crate::motion::gate;
 use crate::motion::joints::Joints;
 use crate::motion::overlay::Led;
-use crate::motion::plan::{Motion, plan};
+use crate::motion::plan::plan;
 use crate::robot::Robot;
 
 /// How near to the place of the stop a way back has to end, in deg (mm).
@@ -78,7 +79,7 @@ struct Shelf {
     /// Where the robot stood.
     joints: Joints,
     course: Course,
-    waiting: VecDeque<(Motion, u64)>,
+    waiting: Waiting,
     held: Option<Held>,
     end: Joints,
     rig: Rig,
@@ -296,7 +297,7 @@ impl Queue {
 
     /// Whether a motion can be added now by those of a level of the program.
     pub fn takes(&self, level: u32) -> bool {
-        self.aside.is_open_to(level) && self.has_room()
+        self.aside.is_open_to(level) && self.has_room() && !self.is_sated()
     }
 
     /// Whether nothing is left that those of a level of the program have to wait for: all motion, but for what was set aside
