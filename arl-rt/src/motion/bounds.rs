@@ -10,7 +10,7 @@ use super::profile::Limits;
 use super::progress::Progress;
 use crate::frames::Carried;
 use crate::kinematics::Axes;
-use crate::robot::{EXTERNAL_AXES, Robot};
+use crate::robot::{Axis, EXTERNAL_AXES, Robot};
 
 /// The highest speed of the TCP in manual low-speed mode, in mm/s.
 pub(super) const MANUAL_SPEED: f64 = 250.0;
@@ -54,6 +54,17 @@ impl Pace {
         jerk: 1.0,
         manual: false,
     };
+
+    /// Speed, acceleration and jerk that one of the robot's own axes may have.
+    pub(super) fn of_own(&self, axis: &Axis) -> [f64; 3] {
+        [axis.vel * self.axes, axis.acc * self.acc, axis.jerk * self.jerk]
+    }
+
+    /// The same of an external axis.
+    pub(super) fn of_external(&self, axis: &Axis) -> [f64; 3] {
+        let vel = axis.vel.min(if axis.linear { self.linear } else { self.turning });
+        [vel, axis.acc * self.acc, axis.jerk * self.jerk]
+    }
 }
 
 /// The limits found so far.
@@ -144,8 +155,7 @@ impl<'a> Bounds<'a> {
     pub(super) fn axes(&mut self, first: &Axes, second: &Axes, third: &Axes, pace: &Pace) {
         let derivatives = first.iter().zip(second).zip(third);
         for (axis, ((first, second), third)) in self.robot.own_axes().iter().zip(derivatives) {
-            let limits = [axis.vel * pace.axes, axis.acc * pace.acc, axis.jerk * pace.jerk];
-            self.push(row([*first, *second, *third], limits));
+            self.push(row([*first, *second, *third], pace.of_own(axis)));
         }
     }
 
@@ -203,8 +213,7 @@ impl<'a> Bounds<'a> {
         let [first, second, third] = rates;
         let derivatives = first.iter().zip(second).zip(third);
         for (axis, ((first, second), third)) in self.robot.external_axes().iter().zip(derivatives) {
-            let vel = axis.vel.min(if axis.linear { pace.linear } else { pace.turning });
-            self.push(row([*first, *second, *third], [vel, axis.acc * pace.acc, axis.jerk * pace.jerk]));
+            self.push(row([*first, *second, *third], pace.of_external(axis)));
         }
     }
 

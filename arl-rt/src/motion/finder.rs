@@ -12,6 +12,7 @@ use std::thread;
 use super::optimal::{Edge, Law, Moment, Row, Way, fastest};
 use super::profile::Limits;
 use super::scout::{Prospect, Scout};
+use super::set_points::used_by_set_points;
 
 /// How long finding a law may take, in s of controller time.
 const TIME: f64 = 0.02;
@@ -24,7 +25,16 @@ const SAMPLE: f64 = 0.001;
 const MOST_USED: f64 = 1.008;
 /// Parts of the way, and how many times as many places on it, with which a law is looked for until one keeps the limits: where
 /// they change much between the places, closer ones are needed.
-const TRIES: [(f64, f64); 4] = [(1.0, 1.0), (1.0, 2.0), (0.4, 2.0), (0.15, 3.0)];
+const TRIES: [(f64, f64); 5] = [(1.0, 1.0), (1.0, 2.0), (0.4, 2.0), (0.15, 3.0), (0.15, 6.0)];
+/// A stop has a little more acceleration and jerk to go by than a law, so that there is one from any state of a law; it is looked
+/// for at so many places at most, so much farther ahead each time, until one is known to be so near the shortest.
+const STOPPING: f64 = 1.004;
+const STOPS: usize = 12;
+const FARTHER: f64 = 1.4;
+const SHORTEST: f64 = 0.96;
+const STOP_DENSITIES: [f64; 2] = [1.0, 2.0];
+/// With so many places on all the ways that were tried, it has to do what was found.
+const STOP_PLACES: usize = 1500;
 /// A speed below zero, in s of nominal time per s, that is rounding.
 const BACKWARDS: f64 = 1e-9;
 /// No limits.
@@ -65,7 +75,17 @@ struct Outcome {
 struct Task {
     scout: Scout,
     start: Edge,
+    quest: Quest,
     result: Arc<Outcome>,
+}
+
+/// What is looked for.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) enum Quest {
+    /// The fastest law to rest at the end of what the scout sees or as far as is looked ahead.
+    Fastest,
+    /// The shortest one to rest, about so far ahead, with acceleration and jerk `harder` times as high.
+    Shortest { about: f64, harder: f64 },
 }
 
 /// The thread that finds laws; it begins with the first one that is asked for.
@@ -87,11 +107,10 @@ impl Finder {
         (TIME / cycle - 1e-6).ceil().max(1.0) as u32
     }
 
-    /// Begins to look for the fastest law from a state on, to rest at the end of what the scout sees or as far as is looked
-    /// ahead; it will be taken over after so many cycles.
-    pub(super) fn search(&mut self, scout: Scout, start: Edge, cycles: u32) -> Search {
+    /// Begins to look for a law from a state on; it will be taken over after so many cycles.
+    pub(super) fn search(&mut self, scout: Scout, start: Edge, quest: Quest, cycles: u32) -> Search {
         let result = Arc::new(Outcome::default());
-        let task = Task { scout, start, result: Arc::clone(&result) };
+        let task = Task { scout, start, quest, result: Arc::clone(&result) };
         if self.tasks.is_none() {
             self.tasks = begin();
         }
@@ -130,10 +149,14 @@ fn begin() -> Option<Sender<Task>> {
 
 impl Task {
     fn run(self) {
-        let Self { scout, start, result } = self;
+        let Self { scout, start, quest, result } = self;
         let wanted = || !result.forsaken.load(Ordering::Relaxed);
+        let find = || match quest {
+            Quest::Fastest => find(&scout, start, wanted),
+            Quest::Shortest { about, harder } => find_stop(&scout, start, (about, harder), wanted),
+        };
         // Whoever waits has to get an answer in any case.
-        let found = catch_unwind(AssertUnwindSafe(|| find(&scout, start, wanted))).unwrap_or(None);
+        let found = catch_unwind(AssertUnwindSafe(find)).unwrap_or(None);
         // Nobody else sets it.
         let _ = result.found.set(found);
     }
@@ -160,7 +183,17 @@ fn find(scout: &Scout, start: Edge, wanted: impl Fn() -> bool) -> Option<Found> 
             let law = fastest(&way, start, Edge::REST).ok().filter(|law| keeps(&way, law, 1.0, Between::Least))?;
             Some((way, end, law))
         };
-        let Some((way, end, law)) = TRIES.iter().take_while(|_| wanted()).find_map(attempt) else { return found };
+        // Between the places a law may ask for more than there is; better so than none.
+        let mut rough = None;
+        let smooth = TRIES.iter().take_while(|_| wanted()).filter_map(attempt).find_map(|attempt| {
+            let smooth = used_by_set_points(scout, &attempt.2, 1.0) <= MOST_USED;
+            if smooth {
+                return Some(attempt);
+            }
+            rough.get_or_insert(attempt);
+            None
+        });
+        let Some((way, end, law)) = smooth.or(rough) else { return found };
         let ahead = law.duration();
         let stops = scout.stops && end >= stop;
         found = Some(Found { law: Arc::new(law), plot: Arc::new(Plot::new(way)), end, stops });
@@ -171,6 +204,54 @@ fn find(scout: &Scout, start: Edge, wanted: impl Fn() -> bool) -> Option<Found> 
         window *= (1.5 * AHEAD / ahead).clamp(1.5, 8.0);
     }
     None
+}
+
+/// The shortest law from a state on to rest, which is about so far ahead, with acceleration and jerk times `harder`.
+///
+/// Whether there is a law to rest at a place is what the solver tells; nearer than the shortest stop there is none.
+fn find_stop(scout: &Scout, start: Edge, (about, harder): (f64, f64), wanted: impl Fn() -> bool) -> Option<Found> {
+    let farthest = scout.end - scout.at;
+    let mut looked_at = 0;
+    let mut attempt = |far: f64| {
+        let to = if far < farthest { scout.at + far } else { scout.end };
+        // Where there is a law that does not keep the limits, closer places are needed.
+        for density in STOP_DENSITIES {
+            if looked_at > STOP_PLACES {
+                return None;
+            }
+            let Prospect { way, end } = scout.look(to, density, start, Edge::REST)?;
+            looked_at += way.places().len();
+            let law = fastest(&way.hardened(STOPPING * harder), start, Edge::REST).ok().filter(|_| end >= to)?;
+            let is_smooth = || used_by_set_points(scout, &law, harder) <= MOST_USED;
+            if keeps(&way, &law, harder, Between::Least) && is_smooth() {
+                let stops = scout.stops && end >= scout.end;
+                return Some(Found { law: Arc::new(law), plot: Arc::new(Plot::new(way)), end, stops });
+            }
+        }
+        None
+    };
+    let (mut short, mut far) = (0.0, about.min(farthest));
+    let mut found = None;
+    for _ in 0..STOPS {
+        if !wanted() {
+            return None;
+        }
+        match attempt(far) {
+            Some(law) => {
+                (found, far) = (Some((law, far)), if short > 0.0 { (short * far).sqrt() } else { far / FARTHER });
+            }
+            None if far >= farthest => return None,
+            None => {
+                short = far;
+                let long = found.as_ref().map(|(_, far)| *far);
+                far = long.map_or(far * FARTHER, |long| (short * long).sqrt()).min(farthest);
+            }
+        }
+        if found.as_ref().is_some_and(|(_, long)| short >= SHORTEST * long) {
+            break;
+        }
+    }
+    found.map(|(law, _)| law)
 }
 
 /// A motion along the course over time.
@@ -248,19 +329,30 @@ enum Between {
     Most,
 }
 
+/// How often a motion is looked at.
+fn samples(motion: &impl Timed) -> impl Iterator<Item = (f64, Moment)> {
+    let count = (motion.duration() / SAMPLE).clamp(16.0, 4000.0) as u32;
+    (0..=count).map(move |step| {
+        let time = motion.duration() * f64::from(step) / f64::from(count);
+        (time, motion.at(time))
+    })
+}
+
+/// The share of the limits, those of acceleration and jerk times `harder`, that a motion uses.
+fn used(rows: impl IntoIterator<Item = Row>, now: &Moment, harder: f64) -> f64 {
+    rows.into_iter().fold(0.0_f64, |used, row| {
+        let acc = row.first * now.acc + row.second * now.vel * now.vel;
+        let jerk =
+            row.first * now.jerk + 3.0 * row.second * now.vel * now.acc + row.third * now.vel * now.vel * now.vel;
+        let (acc, jerk) = ((acc / row.acc).abs() / harder, (jerk / row.jerk).abs() / harder);
+        used.max((row.first * now.vel / row.vel).abs()).max(acc).max(jerk)
+    })
+}
+
 /// Whether a motion along `way` goes forwards and keeps the limits, those of acceleration and jerk times `harder`.
 fn keeps(way: &Way, motion: &impl Timed, harder: f64, between: Between) -> bool {
-    let count = (motion.duration() / SAMPLE).clamp(16.0, 4000.0) as u32;
     let places = way.places();
-    let used = |rows: &[Row], now: &Moment| {
-        rows.iter().fold(0.0_f64, |used, row| {
-            let acc = row.first * now.acc + row.second * now.vel * now.vel;
-            let jerk =
-                row.first * now.jerk + 3.0 * row.second * now.vel * now.acc + row.third * now.vel * now.vel * now.vel;
-            let (acc, jerk) = ((acc / row.acc).abs() / harder, (jerk / row.jerk).abs() / harder);
-            used.max((row.first * now.vel / row.vel).abs()).max(acc).max(jerk)
-        })
-    };
+    let used = |rows: &[Row], now: &Moment| used(rows.iter().copied(), now, harder);
     let used_at = |now: &Moment| {
         let next = places.partition_point(|place| *place <= now.at).clamp(1, places.len() - 1);
         match between {
@@ -273,9 +365,7 @@ fn keeps(way: &Way, motion: &impl Timed, harder: f64, between: Between) -> bool 
             Between::Most => used(way.rows_behind(next - 1), now).max(used(way.rows_before(next), now)),
         }
     };
-    (0..=count).all(|step| {
-        let time = motion.duration() * f64::from(step) / f64::from(count);
-        let now = motion.at(time);
+    samples(motion).all(|(time, now)| {
         let used = used_at(&now);
         let may = || used <= MOST_USED || motion.known(time).is_some_and(|known| used <= used_at(&known));
         now.vel >= -BACKWARDS && may()

@@ -42,6 +42,7 @@ mod remaining;
 mod rotation;
 mod scout;
 mod search;
+mod set_points;
 mod spline;
 mod survey;
 #[cfg(test)]

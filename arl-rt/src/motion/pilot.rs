@@ -28,6 +28,9 @@ const AS_QUICK: f64 = 1.1;
 const PAUSE: f64 = 0.02;
 /// How many s a change of the override, or a stop for which no ramp is found, may take.
 const CHANGES: [f64; 7] = [0.03, 0.06, 0.12, 0.25, 0.5, 1.0, 2.0];
+/// A stop that takes longer, in s, is begun, and a shorter one looked for, which has to be shorter by so much.
+const LONG_STOP: f64 = 0.05;
+const SHORTER: f64 = 0.004;
 /// So long may a change of the override take that follows the law in hand all the time, where there is another way.
 const QUICK: f64 = 0.25;
 /// What sets off from rest looks ahead for so many times the time in which it does.
@@ -139,8 +142,12 @@ pub(super) struct Pilot {
     pause: f64,
     /// The same for another share of the speed.
     share_pause: f64,
+    /// The same for a shorter stop than the one in hand.
+    stop_pause: f64,
     /// How hard it brakes, where it does.
     harder: f64,
+    /// Whether there is no shorter way to rest than the one in hand.
+    shortest: bool,
     /// Whether it last set off in vain.
     in_vain: bool,
 }
@@ -156,6 +163,16 @@ pub(super) struct Wish {
     pub(super) cycles: u32,
 }
 
+/// The state from which a shorter stop is wanted, some cycles from now.
+pub(super) struct Halt {
+    /// Where, in s of nominal time.
+    pub(super) at: f64,
+    pub(super) start: Edge,
+    /// How far it is to rest, if the limits there hold on, and where it has to rest at the farthest.
+    pub(super) about: f64,
+    pub(super) end: f64,
+}
+
 impl Ahead {
     fn rests(&self) -> bool {
         self.main.is_none() && self.ramp.is_none()
@@ -164,6 +181,15 @@ impl Ahead {
     /// The share of the law's speed, with two derivatives.
     fn shares(&self) -> [f64; 3] {
         self.easing.map_or([self.share, 0.0, 0.0], |easing| easing.ease.at(easing.time))
+    }
+
+    /// The limits along the way in hand, and where it ends; behind that the course may be another one by now.
+    fn limits(&self) -> Option<(&Arc<Plot>, f64)> {
+        match (&self.ramp, &self.main) {
+            (Some(ramp), _) => Some((&ramp.plot, ramp.end)),
+            (None, Some(main)) => Some((&main.found.plot, main.found.end)),
+            (None, None) => None,
+        }
     }
 
     /// The state now; `None` at rest.
@@ -240,6 +266,7 @@ impl Pilot {
     pub(super) fn next(&mut self, cycle: f64) -> Option<State> {
         self.pause = (self.pause - cycle).max(0.0);
         self.share_pause = (self.share_pause - cycle).max(0.0);
+        self.stop_pause = (self.stop_pause - cycle).max(0.0);
         match self.ahead.advance(cycle) {
             Some(at) => Some(State { at, vel: 0.0, acc: 0.0 }),
             None => self.ahead.state(),
@@ -388,43 +415,69 @@ impl Pilot {
         }
     }
 
-    /// Brakes to rest as hard as the limits allow, where they are those of the way times `harder`; returns whether that is
-    /// something new.
+    /// Brakes to rest, where the limits are those of the way times `harder`, as can be done at once; returns whether that is
+    /// something new. There may be a shorter stop then: [`Pilot::halt`].
     pub(super) fn brake(&mut self, harder: f64) -> bool {
-        // A long way to rest, which is taken where there is no other one, may get shorter by and by.
-        let easing = self.ahead.easing.filter(|easing| easing.stops() && harder <= self.harder);
-        let longest = easing.as_ref().map_or(f64::INFINITY, Easing::left);
-        let known = self.brakes() && harder <= self.harder && !(self.ahead.ramp.is_none() && longest > QUICK);
-        if known || (self.pause > 0.0 && harder <= 1.0) {
+        if (self.brakes() && harder <= self.harder) || (self.stop_pause > 0.0 && harder <= 1.0) {
             return false;
         }
-        let Some(now) = self.ahead.state() else { return false };
-        // Behind the end of a ramp the course may be another one by now.
-        let (plot, end) = match (&self.ahead.ramp, &self.ahead.main) {
-            (Some(ramp), _) => (&ramp.plot, ramp.end),
-            (None, Some(main)) => (&main.found.plot, main.found.end),
-            (None, None) => return false,
+        let Some((now, plot, end)) =
+            self.ahead.state().zip(self.ahead.limits()).map(|(now, (plot, end))| (now, plot, end))
+        else {
+            return false;
         };
-        let found = match (Ramp::hardest(now, plot, end, harder), &self.ahead) {
-            (Some(ramp), _) => {
-                self.ahead.ramp = Some(ramp);
-                true
-            }
-            (None, Ahead { ramp: None, main: Some(main), .. }) => {
-                let easing = main.easing(self.ahead.shares(), 0.0, harder, longest);
-                let found = easing.is_some();
-                self.ahead.easing = easing.or(self.ahead.easing);
-                self.pause = if found { self.pause } else { PAUSE };
-                found
-            }
-            (None, _) => {
-                self.pause = PAUSE;
-                false
-            }
+        let ramp = Ramp::hardest(now, plot, end, harder);
+        let longest = ramp.as_ref().map_or(f64::INFINITY, Ramp::left);
+        let easing = match &self.ahead {
+            Ahead { ramp: None, main: Some(main), .. } => main.easing(self.ahead.shares(), 0.0, harder, longest),
+            _ => None,
         };
+        let found = easing.is_some() || ramp.is_some();
+        match easing {
+            Some(easing) => self.ahead.easing = Some(easing),
+            None => self.ahead.ramp = ramp.or(self.ahead.ramp.take()),
+        }
+        self.shortest = false;
         if found {
             self.harder = harder;
         }
+        self.stop_pause = 0.0;
         found
+    }
+
+    /// The state after so many cycles for a shorter stop, if there may be one.
+    pub(super) fn halt(&self, cycles: u32, cycle: f64, harder: f64) -> Option<Halt> {
+        let known = self.shortest && harder <= self.harder;
+        if known || self.stop_pause > 0.0 || self.stop_left() < LONG_STOP {
+            return None;
+        }
+        let State { at, vel, acc } = self.after(cycles, cycle).state()?;
+        let (plot, end) = self.ahead.limits()?;
+        let start = State { at, vel, acc };
+        let about = Ramp::way(start, plot, harder);
+        (vel > 0.0 && about > 0.0 && at < end).then_some(Halt { at, start: Edge { vel, acc }, about, end })
+    }
+
+    /// Takes over the stop for which there was a [`Pilot::halt`] so many cycles ago, if it is shorter; returns whether it did.
+    pub(super) fn halt_along(&mut self, found: Option<Found>, harder: f64) -> bool {
+        match found.filter(|found| found.law.duration() < self.stop_left() - SHORTER) {
+            Some(found) => {
+                self.ahead.ramp = Some(Ramp::along(found));
+                (self.harder, self.shortest) = (harder, true);
+                true
+            }
+            None => {
+                // Where nothing leads to rest soon, another attempt is made.
+                self.shortest = self.stop_left() <= QUICK;
+                self.stop_pause = PAUSE;
+                false
+            }
+        }
+    }
+
+    /// s until it rests; infinitely many where it does not brake.
+    fn stop_left(&self) -> f64 {
+        let easing = self.ahead.easing.filter(Easing::stops).map_or(f64::INFINITY, |easing| easing.left());
+        self.ahead.ramp.as_ref().map_or(easing, Ramp::left)
     }
 }

@@ -26,6 +26,9 @@ const NO_DISTANCE: f64 = 1e-10;
 /// The largest angle of a circle, in deg.
 const MOST_ROUND: f64 = 7200.0;
 
+/// How near a motion comes to its duration, in s, and its speed to the one that keeps it.
+const ENOUGH: Enough = Enough { value: 1e-12, excess: 1e-9 };
+
 /// A motion that is ready to run, from the target before it to its own.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Motion {
@@ -41,7 +44,7 @@ pub struct Motion {
     pub(super) flows: bool,
     pub(super) pace: Pace,
     pub(super) profile: VelocityProfile,
-    /// How many times as fast it could go, where a duration was programmed.
+    /// The speed that it could have, where a duration was programmed.
     pub(super) timed: Option<f64>,
     /// The length of the TCP's way in mm, 0 for axis motions.
     pub(super) length: f64,
@@ -82,14 +85,12 @@ impl Motion {
     /// The same where an acceleration takes `rise` s to rise: a programmed duration is kept for all that, as long as the robot
     /// can go a little faster.
     pub(super) fn rising_in(mut self, rise: f64) -> Self {
-        /// How near to the duration is near enough, in s, and how near to the factor on its speed.
-        const ENOUGH: Enough = Enough { value: 1e-12, excess: 1e-9 };
-        if let (Some(spare), Some(limits)) = (self.timed, self.limits) {
+        if let (Some(highest), Some(limits)) = (self.timed, self.limits) {
             let wanted = limits.duration_braking(1.0, MARGIN);
-            let sooner = |factor: f64| wanted - limits.slowed(factor).rising_in(rise).duration_braking(1.0, MARGIN);
-            if sooner(1.0) < -ENOUGH.excess {
-                let factor = if sooner(spare) <= 0.0 { spare } else { search::highest(1.0, spare, ENOUGH, sooner) };
-                self.limits = Some(limits.slowed(factor));
+            let rising = |vel: f64| Limits { vel, ..limits }.rising_in(rise);
+            if rising(limits.vel).duration_braking(1.0, MARGIN) > wanted + ENOUGH.excess {
+                let vel = slowest_within(wanted, [limits.vel, highest], rising);
+                self.limits = Some(Limits { vel, ..limits });
             }
         }
         self
@@ -361,16 +362,17 @@ impl Planner<'_> {
         for (_, rates) in &found.rates {
             bounds.axes(&rates.first, &rates.second, &rates.third, &pace);
         }
+        let limits = passing(&bounds.rows, 1.0 / time);
         Ok(Motion {
             start: *self.start,
             end,
             rig: self.command.rig,
-            limits: Some(passing(&bounds.rows, 1.0 / time)),
+            limits: Some(limits),
             rate: 1.0 / time,
             flows,
             pace,
             profile: self.settings.profile,
-            timed: self.command.duration.map(|_| 1.0),
+            timed: self.command.duration.map(|_| limits.vel),
             length: curve.track.length(),
             angle: turned(&curve),
             zone: self.command.zone,
@@ -539,7 +541,7 @@ impl Planner<'_> {
     ) -> Result<Motion, PlanError> {
         let is_tool = matches!(curve, Curve::Tool(_));
         let (mut pace, mut bounds) = (self.free(), Bounds::new(self.robot));
-        let mut spare = 1.0;
+        let mut highest = f64::INFINITY;
         let limits = match self.command.duration {
             None => {
                 pace = self.pace(is_tool)?;
@@ -560,9 +562,10 @@ impl Planner<'_> {
                 caps(&mut bounds);
                 moves.then(|| {
                     let capped = quickest(&bounds.rows);
-                    let share = (capped.duration_braking(1.0, MARGIN) / duration).min(1.0);
-                    spare = 1.0 / share;
-                    capped.slowed(share)
+                    highest = capped.vel;
+                    let at = |vel: f64| Limits { vel, ..capped };
+                    // Only its speed is lower: it stops as soon as any other motion.
+                    at(slowest_within(duration, [1.0 / duration, highest], at))
                 })
             }
         };
@@ -582,7 +585,7 @@ impl Planner<'_> {
             flows: false,
             pace,
             profile: self.settings.profile,
-            timed: self.command.duration.map(|_| spare),
+            timed: self.command.duration.map(|_| highest),
             length,
             angle,
             zone: self.command.zone,
@@ -592,6 +595,13 @@ impl Planner<'_> {
             laid: None,
         })
     }
+}
+
+/// The lowest of the speeds between two at which a motion is done within `duration` s, braking with a margin; the higher one where
+/// none is.
+fn slowest_within(duration: f64, [lowest, highest]: [f64; 2], limits: impl Fn(f64) -> Limits) -> f64 {
+    let sooner = |vel: f64| duration - limits(vel).duration_braking(1.0, MARGIN);
+    if sooner(highest) <= 0.0 { highest } else { search::highest(lowest, highest, ENOUGH, sooner) }
 }
 
 fn limit(axis: &Axis, value: f64) -> PlanError {

@@ -1,9 +1,10 @@
-//! Ramps of the profile O: ways to rest with constant limits, which need neither a look along the course nor a solver.
+//! Ramps of the profile O: ways to rest with constant limits, which need neither a look along the course nor a solver; and in
+//! their place the shortest way to rest, where it has been found.
 
 use std::sync::Arc;
 
 use super::finder::{Found, Plot, Timed};
-use super::optimal::Moment;
+use super::optimal::{Law, Moment};
 use super::profile::{Change, Limits, State};
 
 /// Shares of the acceleration and the jerk at rest that are tried.
@@ -18,6 +19,8 @@ const MOST_VEL: f64 = 0.9;
 const MOST_ACC: f64 = 0.95;
 const MOST_JERK: f64 = 0.98;
 const FEW: usize = 6;
+/// How often the way is measured anew over which a ramp needs its limits.
+const MEASURED: usize = 8;
 /// Halvings of the time for which it speeds up on a short way: as many as it takes to end it exactly.
 const HALVINGS: u32 = 52;
 
@@ -49,13 +52,36 @@ impl Leg {
     }
 }
 
+/// What leads to rest.
+#[derive(Clone, Debug)]
+enum Stopping {
+    Leg(Leg),
+    Law(Arc<Law>),
+}
+
+impl Timed for Stopping {
+    fn at(&self, time: f64) -> Moment {
+        match self {
+            Self::Leg(leg) => leg.at(time),
+            Self::Law(law) => law.at(time),
+        }
+    }
+
+    fn duration(&self) -> f64 {
+        match self {
+            Self::Leg(leg) => leg.change.duration(),
+            Self::Law(law) => law.duration(),
+        }
+    }
+}
+
 /// A way to rest.
 #[derive(Clone, Debug)]
 pub(super) struct Ramp {
     /// What leads to another speed first, and for how many s this goes on.
     first: Option<(Leg, f64)>,
     /// What leads to rest.
-    stopping: Leg,
+    stopping: Stopping,
     /// From which time in s on another law can begin on it.
     calm: f64,
     /// How many s of it are over.
@@ -72,7 +98,13 @@ impl Ramp {
     fn new(first: Option<(Leg, f64)>, start: State, limits: &Limits, plot: &Arc<Plot>) -> Self {
         let stopping = Leg::new(start, 0.0, limits);
         let end = stopping.end();
+        let stopping = Stopping::Leg(stopping);
         Self { first, stopping, calm: 0.0, time: 0.0, end, arrives: false, plot: Arc::clone(plot) }
+    }
+
+    /// The way to rest that a law leads.
+    pub(super) fn along(Found { law, plot, end, stops }: Found) -> Self {
+        Self { first: None, stopping: Stopping::Law(law), calm: 0.0, time: 0.0, end, arrives: stops, plot }
     }
 
     /// One that sets off from rest, speeds up for `time` s, or as long as the way up to `end` allows, and rests before `end`: with
@@ -114,6 +146,11 @@ impl Ramp {
         ramps.find(|ramp| ramp.will_do(plot, end, harder))
     }
 
+    /// How far it is to rest if the limits at the start, acceleration and jerk times `harder`, hold on.
+    pub(super) fn way(start: State, plot: &Plot, harder: f64) -> f64 {
+        Leg::new(start, 0.0, &scaled(plot.straight(start.at, start.at), harder)).end() - start.at
+    }
+
     /// The hardest one that first leads to a speed at which another law can begin, `search` s from now at the earliest, at a
     /// share of its speed; from `time` s on the law `found`.
     pub(super) fn slower(start: State, found: &Found, time: f64, share: f64, search: f64) -> Option<Self> {
@@ -143,10 +180,15 @@ impl Ramp {
         (self.calm - self.time).max(0.0)
     }
 
+    /// s until it rests.
+    pub(super) fn left(&self) -> f64 {
+        self.duration() - self.time
+    }
+
     /// Whether it rests before `end` and keeps the limits times `harder`.
     fn will_do(&self, plot: &Plot, end: f64, harder: f64) -> bool {
         let stop = self.at(self.duration());
-        stop.vel.abs() <= 1e-9 * self.stopping.start.vel && self.end <= end && plot.surely_keeps(self, harder)
+        stop.vel.abs() <= 1e-9 * self.stopping.at(0.0).vel && self.end <= end && plot.surely_keeps(self, harder)
     }
 }
 
@@ -160,14 +202,26 @@ impl Timed for Ramp {
     }
 
     fn duration(&self) -> f64 {
-        self.first.as_ref().map_or(0.0, |(_, until)| *until) + self.stopping.change.duration()
+        self.first.as_ref().map_or(0.0, |(_, until)| *until) + self.stopping.duration()
     }
 }
 
-/// Acceleration and jerk for braking to rest, times `harder`: what lies behind the longest stop does not count.
+/// Acceleration and jerk for braking to rest, times `harder`: those of the whole way to rest, and not of what lies behind it.
 fn braking(start: State, plot: &Plot, end: f64, harder: f64) -> Limits {
-    let farthest = Leg::new(start, 0.0, &scaled(plot.straight(start.at, end), harder)).end().min(end);
-    scaled(plot.straight(start.at, farthest), harder)
+    let over = |to: f64| scaled(plot.straight(start.at, to), harder);
+    let mut limits = over(start.at);
+    for _ in 0..MEASURED {
+        let farthest = Leg::new(start, 0.0, &limits).end();
+        let next = over(farthest.min(end));
+        if next == limits {
+            return limits;
+        }
+        if farthest >= end {
+            break;
+        }
+        limits = next;
+    }
+    over(end)
 }
 
 fn scaled(limits: Limits, by: f64) -> Limits {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::bounds::Bounds;
+use super::bounds::{Bounds, Pace};
 use super::joints::{ALL, Joints};
 use super::limits::Bound;
 use super::optimal::{Edge, Row, Way, places};
@@ -32,7 +32,8 @@ const ATTEMPTS: usize = 6;
 
 /// The course from a place on. Parameters are s of nominal time since the course began.
 pub(super) struct Scout {
-    robot: Arc<Robot>,
+    /// The robot that goes.
+    pub(super) robot: Arc<Robot>,
     pieces: Vec<Arc<Piece>>,
     /// Where the first piece begins.
     passed: f64,
@@ -86,6 +87,14 @@ impl Scout {
         scout
     }
 
+    /// The same that ends at `end`, if that is nearer.
+    pub(super) fn up_to(mut self, end: f64) -> Self {
+        if end < self.end {
+            (self.end, self.stops) = (end, false);
+        }
+        self
+    }
+
     /// The way to `to`, with `density` times as many places as it takes mostly.
     pub(super) fn look(&self, to: f64, density: f64, start: Edge, end: Edge) -> Option<Prospect> {
         self.look_at(to, (density, MOST), start, end)
@@ -95,6 +104,11 @@ impl Scout {
     pub(super) fn glimpse(&self, to: f64) -> Option<Prospect> {
         let end = if to < self.end { Edge { vel: 1.0, acc: 0.0 } } else { Edge::REST };
         self.look_at(to.min(self.end), (GLIMPSE, MOST_GLIMPSED), Edge::REST, end)
+    }
+
+    /// Goes along the way by itself.
+    pub(super) fn stroll(&self) -> Stroll<'_> {
+        Stroll { scout: self, joints: self.near, index: 0, before: self.passed }
     }
 
     fn look_at(&self, to: f64, fineness: (f64, usize), start: Edge, end: Edge) -> Option<Prospect> {
@@ -124,7 +138,7 @@ impl Scout {
 
         let mut way = Way::new();
         let mut bounds = Bounds::signed(&self.robot);
-        let mut walk = Walk { scout: self, joints: self.near, index: 0, before: self.passed, jump: None };
+        let mut walk = Walk::new(self);
         for (station, next) in stations.iter().zip(stations.iter().skip(1).map(Some).chain([None])) {
             let mut at = station.0;
             let mut is_place = station.1;
@@ -178,7 +192,39 @@ struct Walk<'a> {
     jump: Option<usize>,
 }
 
-impl Walk<'_> {
+/// Where the axes are at places of the way, one behind the other.
+pub(super) struct Stroll<'a> {
+    scout: &'a Scout,
+    joints: Joints,
+    /// The piece that was looked at last, and where it begins.
+    index: usize,
+    before: f64,
+}
+
+impl Stroll<'_> {
+    /// The axes at `at`, which is not before the place that was asked for last, and close to it; and the pace of the motion there.
+    pub(super) fn go_to(&mut self, at: f64) -> (Joints, Pace) {
+        let mut pace = Pace::FREE;
+        let pieces = &self.scout.pieces;
+        while let Some(piece) = pieces.get(self.index) {
+            let end = self.before + piece.time;
+            if at < end || self.index + 1 == pieces.len() {
+                let here = (at - self.before).min(piece.time);
+                self.joints = piece.joints_on(&self.scout.robot.kinematics, here, &self.joints);
+                pace = piece.pace.unwrap_or(pace);
+                break;
+            }
+            (self.before, self.index) = (end, self.index + 1);
+        }
+        (self.joints, pace)
+    }
+}
+
+impl<'a> Walk<'a> {
+    fn new(scout: &'a Scout) -> Self {
+        Self { scout, joints: scout.near, index: 0, before: scout.passed, jump: None }
+    }
+
     /// Adds the limits at `at`; where a piece begins, those of the one before as well. Returns a step over which the motion
     /// changes little, no longer than `spacing`.
     fn rows(&mut self, at: f64, spacing: f64, bounds: &mut Bounds) -> f64 {

@@ -8,6 +8,7 @@ mod chains;
 mod compensations;
 mod gates;
 mod optimal;
+mod optimal_stops;
 mod plans;
 mod prepared;
 mod stops;

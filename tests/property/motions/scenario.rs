@@ -121,6 +121,12 @@ impl Scenario {
         })
     }
 
+    /// When somebody first jogs from a time on; never, if nobody does.
+    pub(crate) fn jogged_from(&self, at: f64) -> f64 {
+        let jogs = self.events.iter().filter(|event| matches!(event.deed, Deed::Jog(..)) && event.at >= at);
+        jogs.map(|event| event.at).next().unwrap_or(f64::INFINITY)
+    }
+
     /// When the program was single-stepped: at its beginning, up to the start. Nothing where it was not.
     pub(crate) fn stepped_until(&self) -> Option<f64> {
         let steps = self.events.first().is_some_and(|first| first.deed == Deed::Step && first.at == 0.0);

@@ -6,12 +6,12 @@
 use std::sync::Arc;
 
 use super::{Course, MARGIN, NEAR_STOP, Sharp, Tail};
-use crate::motion::finder::{Finder, Found, Search, WINDOW};
+use crate::motion::finder::{Finder, Found, Quest, Search, WINDOW};
 use crate::motion::governor::Pacing;
 use crate::motion::joints::Joints;
 use crate::motion::optimal::Edge;
 use crate::motion::piece::Piece;
-use crate::motion::pilot::{Pilot, Wish};
+use crate::motion::pilot::{Halt, Pilot, Wish};
 use crate::motion::plan::Motion;
 use crate::motion::preparer::Prepared;
 use crate::motion::profile::State;
@@ -42,6 +42,8 @@ enum Purpose {
     Renew,
     /// To go on, at a share of the speed, in the middle of braking.
     GoOn(f64),
+    /// To rest sooner, with so much more acceleration and jerk.
+    Halt(f64),
     /// To go off from the next stop.
     Next,
     /// To go on along another course.
@@ -250,8 +252,12 @@ impl Course {
     }
 
     fn search(&mut self, scout: Scout, start: Edge, cycles: u32, purpose: Purpose) {
+        self.search_for(Quest::Fastest, scout, start, cycles, purpose);
+    }
+
+    fn search_for(&mut self, quest: Quest, scout: Scout, start: Edge, cycles: u32, purpose: Purpose) {
         let reach = scout.end;
-        self.sought = Some(Sought { search: self.finder.search(scout, start, cycles), purpose, reach });
+        self.sought = Some(Sought { search: self.finder.search(scout, start, quest, cycles), purpose, reach });
     }
 
     /// Says that nothing is looked for any more.
@@ -308,14 +314,10 @@ impl Course {
             return false;
         }
         match pacing {
-            Pacing::Stop(harder) => {
-                let goes_on = self.sought.as_ref().is_some_and(|sought| matches!(sought.purpose, Purpose::GoOn(_)));
-                if pilot.brake(harder) || goes_on {
-                    self.settle_offer(&pilot);
-                }
-            }
+            Pacing::Stop(harder) => self.halt(&mut pilot, (robot, here), cycle, harder),
             // Laws that are being looked for count on the share that is known.
             Pacing::Go(share) | Pacing::Settle(share) => {
+                self.halt_no_more();
                 if !self.sought.as_ref().is_some_and(|sought| self.leads_on(sought)) {
                     pilot.go_at(share, searching(cycle));
                     self.ask(&mut pilot, (robot, here), cycle, share);
@@ -332,8 +334,38 @@ impl Course {
             self.state = State { at: self.state.at + way, vel: next.vel, acc: next.acc };
             self.at += way;
         }
+        if pilot.rests() {
+            self.halt_no_more();
+        }
         self.pilot = Some(pilot);
         true
+    }
+
+    /// Brakes to rest at once, and asks for a shorter way to rest where that takes long.
+    fn halt(&mut self, pilot: &mut Pilot, (robot, here): (&Arc<Robot>, &Joints), cycle: f64, harder: f64) {
+        match self.sought.as_ref().map(|sought| &sought.purpose) {
+            Some(Purpose::Halt(sought)) if *sought >= harder => return,
+            Some(Purpose::Halt(_) | Purpose::GoOn(_)) => self.forsake(),
+            _ => {}
+        }
+        if pilot.brake(harder) {
+            self.settle_offer(pilot);
+        }
+        let cycles = Finder::cycles(cycle);
+        let Some(Halt { at, start, about, end }) = pilot.halt(cycles, cycle, harder) else { return };
+        // What is looked for would lead on, or can wait.
+        self.settle_offer(pilot);
+        self.forsake();
+        let scout = Scout::new(robot, (self.pieces.iter(), self.passed), (at, here), end, (usize::MAX, f64::INFINITY));
+        let quest = Quest::Shortest { about, harder };
+        self.search_for(quest, scout.up_to(end), start, cycles, Purpose::Halt(harder));
+    }
+
+    /// Looks for a way to rest no longer.
+    fn halt_no_more(&mut self) {
+        if self.sought.as_ref().is_some_and(|sought| matches!(sought.purpose, Purpose::Halt(_))) {
+            self.forsake();
+        }
     }
 
     /// Takes over the law that was looked for, when it is time.
@@ -350,6 +382,9 @@ impl Course {
                 pilot.renew(found);
             }
             Purpose::GoOn(share) => pilot.go_on(found, share),
+            Purpose::Halt(harder) => {
+                pilot.halt_along(found, harder);
+            }
             Purpose::Next => self.next = Some(Next { found, reach }),
             Purpose::Offer(draft) if pilot.renew(found) => self.take(*draft),
             Purpose::Offer(_) => self.answer = Some(Answer::Refused),
@@ -369,7 +404,7 @@ impl Course {
                 sought.search.forsake();
                 self.answer = Some(Answer::Refused);
             }
-            Purpose::Start | Purpose::Renew | Purpose::GoOn(_) => sought.search.forsake(),
+            Purpose::Start | Purpose::Renew | Purpose::GoOn(_) | Purpose::Halt(_) => sought.search.forsake(),
         }
     }
 

@@ -110,6 +110,16 @@ impl Way {
         self.rows.get(start..end).unwrap_or_default()
     }
 
+    /// The way with acceleration and jerk limits that are `harder` times as high.
+    #[must_use]
+    pub fn hardened(&self, harder: f64) -> Self {
+        let mut way = self.clone();
+        for row in &mut way.rows {
+            (row.acc, row.jerk) = (row.acc * harder, row.jerk * harder);
+        }
+        way
+    }
+
     /// The first and the last path parameter.
     pub(super) fn span(&self) -> Result<(f64, f64), Refusal> {
         match self.at.as_slice() {

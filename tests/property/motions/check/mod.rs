@@ -259,7 +259,7 @@ impl<'a> Account<'a> {
             let shares = scenario.shares();
             self.disturb(&shares);
             if scenario.stepped_until().is_none() {
-                faults.extend(stops(self, &shares, tally));
+                faults.extend(stops(self, scenario, tally));
             }
             self.stopmoves(told, faults, tally);
         }

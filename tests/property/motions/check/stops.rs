@@ -12,7 +12,7 @@ const BESIDE: f64 = 1e-3;
 
 /// How much longer than an axis alone would take a stop on the path may take: the limits of a way are those of its
 /// hardest place, and jerk, acceleration and speed share them.
-const LONGER: f64 = 8.0;
+const LONGER: f64 = 6.0;
 
 /// How many times the acceleration and the jerk a fast stop has.
 const FAST: f64 = 5.0;
@@ -164,12 +164,13 @@ impl Account<'_> {
 }
 
 /// What is wrong with how a robot comes to rest when it is told to.
-pub(super) fn stops(account: &Account<'_>, events: &[Share], tally: &mut Tally) -> Vec<String> {
+pub(super) fn stops(account: &Account<'_>, scenario: &Scenario, tally: &mut Tally) -> Vec<String> {
     let mut faults = Vec::new();
     let rows = &account.rows;
-    for pair in events.windows(2) {
+    for pair in scenario.shares().windows(2) {
         let [Share { at, share: 0.0 }, Share { at: until, .. }] = pair else { continue };
-        let (from, to) = (account.row_at(*at), account.row_at(*until));
+        let until = until.min(scenario.jogged_from(*at));
+        let (from, to) = (account.row_at(*at), account.row_at(until));
         let least = account.least_stop(from);
         // What came in between is looked at by itself.
         let aside = rows.get(from).is_none_or(|row| row.t > at + 1.5 * CYCLE);

@@ -1,0 +1,47 @@
+//! What the set-points along a law use of the axes' limits: what a trace would show.
+
+use super::bounds::Pace;
+use super::joints::Joints;
+use super::optimal::Law;
+use super::scout::Scout;
+
+/// s between two set-points.
+const CYCLE: f64 = 0.001;
+
+/// The share of what motions may have of an axis's speed, acceleration and jerk, the latter two `harder` times as high, that
+/// set-points along a law use at most, by their differences.
+pub(super) fn used_by_set_points(scout: &Scout, law: &Law, harder: f64) -> f64 {
+    let mut stroll = scout.stroll();
+    let mut last: Vec<(Joints, Pace)> = Vec::with_capacity(4);
+    let mut used = 0.0_f64;
+    for cycle in 0..=(law.duration() / CYCLE) as u32 {
+        if last.len() == 4 {
+            last.remove(0);
+        }
+        last.push(stroll.go_to(law.at(f64::from(cycle) * CYCLE).at));
+        if let [a, b, c, d] = last.as_slice() {
+            used = used.max(used_by(scout, [a, b, c, d], harder));
+        }
+    }
+    used
+}
+
+/// The same by four set-points. Where one motion leads into another, the higher limits count.
+fn used_by(scout: &Scout, points: [&(Joints, Pace); 4], harder: f64) -> f64 {
+    let own = scout.robot.own_axes().iter().enumerate();
+    let own = own.map(|(index, axis)| {
+        (points.map(|(joints, _)| joints.axes.get(index).copied()), points.map(|(_, pace)| pace.of_own(axis)))
+    });
+    let external = scout.robot.external_axes().iter().enumerate();
+    let external = external.map(|(index, axis)| {
+        (points.map(|(joints, _)| joints.external.get(index).copied()), points.map(|(_, pace)| pace.of_external(axis)))
+    });
+    own.chain(external).fold(0.0_f64, |used, (values, limits)| {
+        let [Some(a), Some(b), Some(c), Some(d)] = values else { return used };
+        let [vel, acc, jerk] = [0, 1, 2].map(|order| limits.iter().map(|limits| limits[order]).fold(0.0, f64::max));
+        let by_vel = (d - c) / CYCLE / vel;
+        let by_acc = (d - 2.0 * c + b) / (CYCLE * CYCLE) / (harder * acc);
+        let by_jerk = (d - 3.0 * (c - b) - a) / (CYCLE * CYCLE * CYCLE) / (harder * jerk);
+        used.max(by_vel.abs()).max(by_acc.abs()).max(by_jerk.abs())
+    })
+}
