@@ -18,6 +18,8 @@ const LIFT: usize = 2;
 const NO_WAY: f64 = 1e-6;
 /// How much of the way over a corner may take.
 const HALF: f64 = 0.5;
+/// The part of the way down that a corner leaves to stop in, whatever is asked for.
+const STOPPING: f64 = 0.02;
 /// The zone of a gate that goes on without a stop, in percent of the largest.
 const SMOOTH: f64 = 25.0;
 
@@ -111,7 +113,7 @@ pub(super) fn plan(
     }
     let sinks = top - to > NO_WAY && !gate.stays;
     // Where it goes on smoothly, the corner leaves the next blend its part.
-    let most = if gate.smooth { 1.0 - SMOOTH / 100.0 * LARGEST } else { 1.0 };
+    let most = 1.0 - if gate.smooth { SMOOTH / 100.0 * LARGEST } else { STOPPING };
     let corner = if sinks { round(HALF, rest(top - to, gate.sink).min(most)) } else { None };
     push(part(&up, over, &(command.clone(), *settings))?, corner);
     if sinks {

@@ -36,7 +36,8 @@ fn a_gate_goes_straight_up_over_and_straight_down() {
         let lift = robot.axes[2].clone();
         for round in 0..30 {
             let (from, to) = (random_joints(&robot, &mut random, 0.6), random_joints(&robot, &mut random, 0.6));
-            let (rise, sink) = (random.between(0.0, 60.0), random.between(0.0, 60.0));
+            let ways = (random.between(0.0, 60.0), random.between(0.0, 60.0));
+            let (rise, sink) = if round % 5 == 0 { (0.0, 0.0) } else { ways };
             let (rows, highest) = run_gate(&robot, &from, &to, plain(rise, sink), &Settings::default());
             assert_within_limits(&robot, &rows, &format!("{name} {round}"));
             let last = rows.last().unwrap();
@@ -61,6 +62,23 @@ fn a_gate_goes_straight_up_over_and_straight_down() {
                 assert!(height > free.min(top) - 1e-6 || off < 1e-5, "{name} {round}: {off} beside at {height}");
             }
         }
+    }
+}
+
+#[test]
+fn a_gate_without_a_straight_end_stops_at_its_target() {
+    let robot = robot("cobra600");
+    let (from, to) = (at([0.0, 60.0, -60.0, 0.0]), at([-1.0, 66.0, -84.0, 0.5]));
+    for profile in [VelocityProfile::T, VelocityProfile::S, VelocityProfile::O] {
+        let settings = Settings { profile, ..Settings::default() };
+        let mut queue = Queue::new(robot.clone(), from);
+        queue.add(&jump(&robot, &to, plain(18.0, 0.0)), &settings).unwrap();
+        queue.add(&movej(from.axes), &settings).unwrap();
+        let rows = run(&mut queue, 100.0);
+        let [vel, acc, jerk] = usage(&robot, &rows);
+        assert!(vel <= 1.01 && acc <= 1.01 && (jerk <= 1.01 || profile == VelocityProfile::T), "{vel} {acc} {jerk}");
+        let there = rows.iter().find(|row| row.finished == 1).unwrap();
+        assert_eq!(there.joints.axes[2], to.axes[2]);
     }
 }
 
