@@ -188,6 +188,8 @@ fn pauses(random: &mut Random, robot: &Robot, add: &mut impl FnMut(f64, &str)) {
                 let axis = random.below(robot.axes.len());
                 let most = if robot.axes[axis].linear { 20.0 } else { 5.0 };
                 let by = (between(random, -most, most) * 100.0).round() / 100.0;
+                // By nothing nobody jogs.
+                let by = if by == 0.0 { 0.01 } else { by };
                 let name =
                     if axis < robot.own { format!("j{}", axis + 1) } else { format!("ej{}", axis + 1 - robot.own) };
                 add(t, &format!("jog.{name} = {by:?}"));

@@ -1,6 +1,6 @@
 //! Single steps: one motion each, and nothing is blended.
 
-use super::{Account, Leg, Tally};
+use super::{Account, CYCLE, Leg, Tally};
 use crate::motions::plan::{Kind, Zone};
 use crate::motions::scenario::{Deed, Scenario};
 use crate::motions::trace::Row;
@@ -9,7 +9,8 @@ use crate::motions::trace::Row;
 pub(super) fn keep_apart(legs: &mut [Leg], rows: &[Row], until: f64) {
     for at in 0..legs.len() {
         let begins = rows.iter().find(|row| row.line == legs[at].motion.line).map_or(f64::INFINITY, |row| row.t);
-        if begins <= until {
+        // What begins in the very cycle of the start is planned after it.
+        if begins < until - CYCLE / 2.0 {
             let goes_on = is_chained(&legs[at..]);
             legs[at].rests |= !goes_on;
             legs[at].motion.zone = Zone::None;
