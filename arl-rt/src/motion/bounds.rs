@@ -20,6 +20,8 @@ const BETWEEN_SAMPLES: f64 = 1.005;
 /// turn within a small part of its time.
 const PLACES: u32 = 24;
 const PLACES_OF_PART: u32 = 6;
+/// How far beside a place its other side is looked at.
+const BESIDE: f64 = 1e-9;
 
 /// How fast a motion may go, and how hard it may accelerate.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -284,8 +286,12 @@ impl<'a> Bounds<'a> {
 
 /// Where to look at a way: once where it is even.
 fn places(curve: &ToolCurve) -> impl Iterator<Item = f64> + use<> {
-    let count = if curve.is_paced() { PLACES_OF_PART * Progress::PARTS as u32 } else { PLACES };
-    (0..=if curve.is_even() { 0 } else { count }).map(move |place| f64::from(place) / f64::from(count))
+    let paced = curve.is_paced();
+    let count = if paced { PLACES_OF_PART * Progress::PARTS as u32 } else { PLACES };
+    let even = (0..=if curve.is_even() { 0 } else { count }).map(move |place| f64::from(place) / f64::from(count));
+    // Where derivatives jump, both sides count.
+    let before = (1..if paced { Progress::PARTS } else { 0 }).map(|part| part as f64 / Progress::PARTS as f64 - BESIDE);
+    even.chain(before)
 }
 
 /// A value with these derivatives, between whose places it changes a little more.

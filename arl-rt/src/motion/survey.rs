@@ -4,6 +4,7 @@
 use super::curve::ToolCurve;
 use super::error::PlanError;
 use super::joints::{Joints, is_unset};
+use super::progress::Progress;
 use crate::kinematics::{Axes, RANGE_SLACK, Rates, Refusal, SINGULAR_SCALE};
 use crate::robot::Robot;
 
@@ -31,6 +32,8 @@ const JUMP: f64 = 10.0;
 const PASSAGE_STEPS: f64 = 48.0;
 /// The place of axis 4.
 const AXIS_4: usize = 3;
+/// How far beside a place its other side is looked at.
+const BESIDE: f64 = 1e-9;
 /// A glimpse behind the start and before the end, where the axes must not differ from the ends by over `GLIMPSE_JUMP` deg.
 const GLIMPSE: f64 = 1e-6;
 const GLIMPSE_JUMP: f64 = 0.05;
@@ -60,7 +63,7 @@ pub(super) fn survey(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result
     let longest = curve.over.as_ref().map_or(longest, |over| over.longest_step().min(longest));
     let mut strip = 0.0;
     while at < 1.0 - GLIMPSE {
-        let next = walk.next(at, &here, known.as_ref(), longest)?.min(1.0 - GLIMPSE);
+        let next = walk.next(at, &here, known.as_ref(), longest)?.min(jump_ahead(curve, at)).min(1.0 - GLIMPSE);
         let expected = known.as_ref().map_or(here, |known| ahead(&here, known, next - at));
         let found = walk.axes(next, &expected)?;
         walk.no_jump(&expected, &found, JUMP, next)?;
@@ -86,6 +89,17 @@ pub(super) fn survey(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result
     walk.no_jump(&here, &end, GLIMPSE_JUMP, 1.0)?;
     limits.at(1.0, &end);
     limits.broken.map_or(Ok(Survey { end, rates }), Err)
+}
+
+/// The next side of a place where the derivatives of a way jump that goes at an even pace in parts.
+fn jump_ahead(curve: &ToolCurve, at: f64) -> f64 {
+    if !curve.is_paced() {
+        return f64::INFINITY;
+    }
+    let parts = Progress::PARTS as f64;
+    let border = ((at + 2.0 * BESIDE) * parts).floor() / parts;
+    // From just before the border to just behind it, else to just before the next one.
+    if (border - at).abs() < 2.0 * BESIDE && at < border { border + BESIDE } else { border + 1.0 / parts - BESIDE }
 }
 
 /// An axis may be beside where the place before made it bound to be by this part of what the axes moved since.
