@@ -272,6 +272,10 @@ impl Corner<'_> {
             let [first, ..] = &derivatives;
             if pace.manual {
                 bounds.manual_place(&joints, first, &self.to.rig.carried);
+                // Half of it is gone with what the first motion carries.
+                if self.from.rig.carried != self.to.rig.carried {
+                    bounds.manual_place(&joints, first, &self.from.rig.carried);
+                }
             }
             // Between two motions of the same TCP it is as fast as programmed at most, though it goes by the axes.
             if pace.tcp.is_finite() && self.from.rig.carried == self.to.rig.carried {
