@@ -128,7 +128,7 @@ impl Course {
     pub(super) fn left_before(&self, number: u64) -> Option<(u64, f64)> {
         let before = self.pieces.iter().rev().find(|piece| piece.number != number)?;
         let rounded = before.ends && !before.stops && before.progress.is_some();
-        rounded.then(|| (before.number, before.shares[0]))
+        rounded.then(|| (before.number, before.leave))
     }
 
     /// The motion that counts as being executed, and the share of its way that is done. A blend belongs to the motion that

@@ -122,7 +122,19 @@ pub(super) fn plan(
     if let Some(last) = motions.last_mut() {
         (last.ends, last.zone) = (true, zone(gate));
     }
+    share_out(&mut motions);
     Ok(motions)
+}
+
+/// Lets each part be as much of the gate as it takes of the time.
+fn share_out(parts: &mut [Motion]) {
+    let all: f64 = parts.iter().map(Motion::duration).sum();
+    let mut done = 0.0;
+    for part in parts.iter_mut().filter(|_| all > 0.0) {
+        let from = done / all;
+        done += part.duration();
+        part.stretch = [from, done / all];
+    }
 }
 
 fn zone(gate: &Gate) -> Zone {

@@ -46,6 +46,8 @@ pub(super) struct Piece {
     target: Joints,
     /// Shares of the motion's way that are done at the start and at the end.
     pub(super) shares: [f64; 2],
+    /// The share of the motion itself at which a blend leaves it.
+    pub(super) leave: f64,
     /// The length of the motion in mm.
     pub(super) length: f64,
     /// The programmed speeds, where every place has limits of its own: in the profile O.
@@ -73,7 +75,8 @@ impl Piece {
             ends: motion.ends,
             duration: (from == 0.0 && to == 1.0).then(|| motion.duration_with(&limits)),
             target: motion.end,
-            shares: [from, to],
+            leave: to,
+            shares: [from, to].map(|share| motion.of_instruction(share)),
             length: motion.length,
             pace: is_free(motion).then_some(motion.pace),
         }
@@ -107,7 +110,9 @@ impl Piece {
             duration: None,
             target: motion.end,
             // All of the blend counts as the motion that is joined: see `Course::current`.
-            shares: if first { [blend.leave; 2] } else { [blend.join / 2.0, blend.join] },
+            leave: blend.leave,
+            shares: if first { [blend.leave; 2] } else { [blend.join / 2.0, blend.join] }
+                .map(|share| motion.of_instruction(share)),
             length: motion.length,
             pace: (is_free(before) && is_free(after)).then(|| common_pace(before, after)),
         }

@@ -55,6 +55,8 @@ pub struct Motion {
     pub(super) corner: Option<(f64, f64)>,
     /// Whether the instruction ends with it.
     pub(super) ends: bool,
+    /// From which share of the instruction to which it goes.
+    pub(super) stretch: [f64; 2],
     pub(super) line: u32,
     /// What is laid over it.
     pub(super) laid: Option<Box<Laid>>,
@@ -94,6 +96,12 @@ impl Motion {
             }
         }
         self
+    }
+
+    /// The share of the instruction that is done where so much of the motion is.
+    pub(super) fn of_instruction(&self, share: f64) -> f64 {
+        let [from, to] = self.stretch;
+        from + (to - from) * share
     }
 
     /// Whether anything moves.
@@ -378,6 +386,7 @@ impl Planner<'_> {
             zone: self.command.zone,
             corner: None,
             ends: true,
+            stretch: [0.0, 1.0],
             line: self.command.line,
             curve: Curve::Tool(curve),
             laid: None,
@@ -591,6 +600,7 @@ impl Planner<'_> {
             zone: self.command.zone,
             corner: None,
             ends: true,
+            stretch: [0.0, 1.0],
             line: self.command.line,
             laid: None,
         })

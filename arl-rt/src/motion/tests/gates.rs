@@ -66,6 +66,21 @@ fn a_gate_goes_straight_up_over_and_straight_down() {
 }
 
 #[test]
+fn the_share_of_a_gate_that_is_done_only_rises() {
+    let robot = robot("hsr065");
+    let mut queue = Queue::new(robot.clone(), at([-40.0, 60.0, 0.0, 10.0]));
+    queue.add(&jump(&robot, &at([50.0, 70.0, 20.0, -90.0]), plain(25.0, 25.0)), &Settings::default()).unwrap();
+    let mut done = 0.0;
+    while !queue.idle() {
+        queue.step(CYCLE, 100.0);
+        let share = queue.progress().unwrap().share;
+        assert!(share >= done && share <= 1.0, "{done} {share}");
+        done = share;
+    }
+    assert_eq!(done, 1.0);
+}
+
+#[test]
 fn a_gate_without_a_straight_end_stops_at_its_target() {
     let robot = robot("cobra600");
     let (from, to) = (at([0.0, 60.0, -60.0, 0.0]), at([-1.0, 66.0, -84.0, 0.5]));
