@@ -329,18 +329,9 @@ enum Between {
     Most,
 }
 
-/// How often a motion is looked at.
-fn samples(motion: &impl Timed) -> impl Iterator<Item = (f64, Moment)> {
-    let count = (motion.duration() / SAMPLE).clamp(16.0, 4000.0) as u32;
-    (0..=count).map(move |step| {
-        let time = motion.duration() * f64::from(step) / f64::from(count);
-        (time, motion.at(time))
-    })
-}
-
 /// The share of the limits, those of acceleration and jerk times `harder`, that a motion uses.
-fn used(rows: impl IntoIterator<Item = Row>, now: &Moment, harder: f64) -> f64 {
-    rows.into_iter().fold(0.0_f64, |used, row| {
+fn used(rows: &[Row], now: &Moment, harder: f64) -> f64 {
+    rows.iter().fold(0.0_f64, |used, row| {
         let acc = row.first * now.acc + row.second * now.vel * now.vel;
         let jerk =
             row.first * now.jerk + 3.0 * row.second * now.vel * now.acc + row.third * now.vel * now.vel * now.vel;
@@ -352,7 +343,8 @@ fn used(rows: impl IntoIterator<Item = Row>, now: &Moment, harder: f64) -> f64 {
 /// Whether a motion along `way` goes forwards and keeps the limits, those of acceleration and jerk times `harder`.
 fn keeps(way: &Way, motion: &impl Timed, harder: f64, between: Between) -> bool {
     let places = way.places();
-    let used = |rows: &[Row], now: &Moment| used(rows.iter().copied(), now, harder);
+    let count = (motion.duration() / SAMPLE).clamp(16.0, 4000.0) as u32;
+    let used = |rows: &[Row], now: &Moment| used(rows, now, harder);
     let used_at = |now: &Moment| {
         let next = places.partition_point(|place| *place <= now.at).clamp(1, places.len() - 1);
         match between {
@@ -365,7 +357,9 @@ fn keeps(way: &Way, motion: &impl Timed, harder: f64, between: Between) -> bool 
             Between::Most => used(way.rows_behind(next - 1), now).max(used(way.rows_before(next), now)),
         }
     };
-    samples(motion).all(|(time, now)| {
+    (0..=count).all(|step| {
+        let time = motion.duration() * f64::from(step) / f64::from(count);
+        let now = motion.at(time);
         let used = used_at(&now);
         let may = || used <= MOST_USED || motion.known(time).is_some_and(|known| used <= used_at(&known));
         now.vel >= -BACKWARDS && may()

@@ -8,7 +8,7 @@
 //! From rest the robot sets off before it has a law, on a ramp that would come to rest again: it joins the law on the way.
 //!
 //! Laws are found beside the cycle. What has to be done at once, stops and changes of the override, is done with the law in
-//! hand and with the limits that it was found from.
+//! hand and with the limits that it was found from; where that makes a long stop, a shorter one is looked for beside the cycle.
 
 use std::sync::Arc;
 
@@ -458,19 +458,17 @@ impl Pilot {
         (vel > 0.0 && about > 0.0 && at < end).then_some(Halt { at, start: Edge { vel, acc }, about, end })
     }
 
-    /// Takes over the stop for which there was a [`Pilot::halt`] so many cycles ago, if it is shorter; returns whether it did.
-    pub(super) fn halt_along(&mut self, found: Option<Found>, harder: f64) -> bool {
+    /// Takes over the stop for which there was a [`Pilot::halt`] so many cycles ago, if it is shorter.
+    pub(super) fn halt_along(&mut self, found: Option<Found>, harder: f64) {
         match found.filter(|found| found.law.duration() < self.stop_left() - SHORTER) {
             Some(found) => {
                 self.ahead.ramp = Some(Ramp::along(found));
                 (self.harder, self.shortest) = (harder, true);
-                true
             }
             None => {
                 // Where nothing leads to rest soon, another attempt is made.
                 self.shortest = self.stop_left() <= QUICK;
                 self.stop_pause = PAUSE;
-                false
             }
         }
     }

@@ -382,9 +382,7 @@ impl Course {
                 pilot.renew(found);
             }
             Purpose::GoOn(share) => pilot.go_on(found, share),
-            Purpose::Halt(harder) => {
-                pilot.halt_along(found, harder);
-            }
+            Purpose::Halt(harder) => pilot.halt_along(found, harder),
             Purpose::Next => self.next = Some(Next { found, reach }),
             Purpose::Offer(draft) if pilot.renew(found) => self.take(*draft),
             Purpose::Offer(_) => self.answer = Some(Answer::Refused),
