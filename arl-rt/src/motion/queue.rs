@@ -569,8 +569,10 @@ impl Queue {
         if !matches!(pacing, Pacing::Stop(_)) {
             self.lose_patience(dt);
         }
+        // What is taken up again brings its own tool along: from the next cycle on.
+        let tcp = self.tcp();
         self.see_to_aside();
-        Step { joints: self.joints, tcp: self.tcp(), motion, line, finished: self.finished, rests: self.rests() }
+        Step { joints: self.joints, tcp, motion, line, finished: self.finished, rests: self.rests() }
     }
 
     /// Notes that a motion is being executed.

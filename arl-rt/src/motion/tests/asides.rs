@@ -99,6 +99,39 @@ fn what_is_set_aside_goes_on_where_it_was_stopped() {
 }
 
 #[test]
+fn the_way_back_has_its_own_tool_to_its_last_row() {
+    let robot = robot("kr10-r1420");
+    let [first, second] = [[0.0, 0.0, 100.0, 0.0, 0.0, 0.0], [50.0, 0.0, 150.0, 0.0, 30.0, 0.0]]
+        .map(|tool| Rig { carried: Carried::Tool(frame(tool)), ..Rig::bare() });
+    let mut queue = Queue::new(robot.clone(), axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]));
+    let turn =
+        Command { rig: first, zone: Zone { tcp: 150.0, ..Zone::NONE }, ..movej([30.0, -90.0, 90.0, 0.0, 45.0, 0.0]) };
+    let lean = Command { rig: second, ..movej([30.0, -60.0, 90.0, 0.0, 45.0, 0.0]) };
+    queue.add(&turn, &Settings::default()).unwrap();
+    queue.add(&lean, &Settings::default()).unwrap();
+    let mut rows = vec![queue.step(CYCLE, 10.0)];
+    // A blend belongs to the motion that it leads into; in its first half the rows still name the one before.
+    while queue.progress().is_none_or(|progress| progress.motion == 1) {
+        rows.push(queue.step(CYCLE, 10.0));
+        assert!(rows.len() < 50_000, "there is no blend");
+    }
+    queue.set_aside(Stop::General, 1);
+    come_to_rest(&mut queue, &mut rows);
+    assert_eq!(rows.iter().rfind(|row| row.motion != 0).map(|row| row.motion), Some(1));
+    let mut near = *queue.joints();
+    near.axes[5] += 5.0;
+    queue.add(&command(Target::Joints(near)), &Settings::default()).unwrap();
+    assert!(queue.start_again(PLAIN));
+    rows.extend(run(&mut queue, 100.0));
+    let back: Vec<&Step> = rows.iter().filter(|row| row.line == PLAIN.line).collect();
+    assert!(back.len() > 10);
+    for row in back {
+        let tcp = second.tcp_at(&robot.kinematics.forward(&row.joints.axes));
+        assert!((row.tcp.translation.vector - tcp.translation.vector).norm() < 1e-9, "{row:?}");
+    }
+}
+
+#[test]
 fn skipped_motions_are_not_gone_and_those_behind_them_are() {
     let robot = robot("kr10-r1420");
     let mut random = Random::new(503);
