@@ -46,6 +46,13 @@ struct Case {
     scenario: Scenario,
 }
 
+/// An axis that would have to leave its range.
+struct TurnedOut {
+    /// From 0.
+    axis: usize,
+    line: usize,
+}
+
 impl Case {
     /// A case that is grown anew.
     fn new(seed: u64) -> Case {
@@ -95,40 +102,98 @@ impl Case {
     /// Runs the program `at` of a command, undisturbed and then as the scenario says, and tells what is wrong with the
     /// traces.
     fn test(&self, project: &Project, command: &Path, at: usize, tally: &mut Tally) -> Option<String> {
+        let mut faults = Vec::new();
+        self.examine(project, command, at, &mut faults, tally);
+        (!faults.is_empty()).then(|| self.failure(project, &faults))
+    }
+
+    /// Tells what is wrong with the traces; returns the undisturbed one, unless it failed.
+    fn examine(
+        &self,
+        project: &Project,
+        command: &Path,
+        at: usize,
+        faults: &mut Vec<String>,
+        tally: &mut Tally,
+    ) -> Option<Vec<Row>> {
         let write = |ending: &str, text: &str| std::fs::write(self.file(project, ending), text).unwrap();
         write("robot.toml", &self.robot.text);
         write("arl", &self.plan.text);
         write("io.toml", &self.scenario.text);
-        let mut faults = Vec::new();
-        let undisturbed = self.run(project, command, at, false, &mut faults);
-        let undisturbed = undisturbed.inspect(|rows| {
-            faults.extend(check::check(&self.robot, &self.plan, rows, &Scenario::default(), None, tally));
-            if at == 0 && faults.is_empty() {
-                self.assert_objections(rows);
+        let undisturbed = match self.run(project, command, at, false) {
+            Ok(rows) => rows,
+            Err(said) => {
+                let Some(turned) = self.turned_out(&said) else {
+                    faults.push(said);
+                    return None;
+                };
+                return self.examine_turning_freely(&turned, (project, command, at), faults, tally);
             }
-        });
-        if let Some(undisturbed) = undisturbed.filter(|_| !self.scenario.events.is_empty()) {
-            let disturbed = self.run(project, command, at, true, &mut faults);
-            if let Some(rows) = disturbed {
-                let found = check::check(&self.robot, &self.plan, &rows, &self.scenario, Some(&undisturbed), tally);
-                faults.extend(found.into_iter().map(|fault| format!("disturbed: {fault}")));
-            }
+        };
+        faults.extend(check::check(&self.robot, &self.plan, &undisturbed, &Scenario::default(), None, tally));
+        if at == 0 && faults.is_empty() {
+            self.assert_objections(&undisturbed);
         }
-        (!faults.is_empty()).then(|| self.failure(project, &faults))
+        if !self.scenario.events.is_empty() {
+            let found = match self.run(project, command, at, true) {
+                Ok(rows) => check::check(&self.robot, &self.plan, &rows, &self.scenario, Some(&undisturbed), tally),
+                Err(said) => vec![said],
+            };
+            faults.extend(found.into_iter().map(|fault| format!("disturbed: {fault}")));
+        }
+        Some(undisturbed)
+    }
+
+    /// Every passage through the wrist singularity may turn axes 4 and 6 by half a turn, until the range of one of them
+    /// ends: with an alarm. Is it one of these, then of which axis, and of which line?
+    fn turned_out(&self, said: &str) -> Option<TurnedOut> {
+        let (_, alarm) = said.split_once("alarm 20020: j")?;
+        let (axis, rest) = alarm.split_once(" would have to go to ")?;
+        let (to, _) = rest.split_once(", its range is ")?;
+        let line = rest.rsplit_once("(main.arl:")?.1.split(')').next()?.parse().ok()?;
+        let (axis, to) = (axis.parse::<usize>().ok()?.checked_sub(1)?, to.parse::<f64>().ok()?);
+        let range = self.robot.axes[axis].min..=self.robot.axes[axis].max;
+        let passes = self.plan.motions.iter().any(|motion| motion.wrist && motion.line == line);
+        (passes && matches!(axis, 3 | 5) && !range.contains(&to)).then_some(TurnedOut { axis, line })
+    }
+
+    /// Where an axis ends the program, as its range ends, everything must hold of the same robot whose axis turns freely.
+    /// There the axis really leaves its range in that line, and up to the alarm the robots go the same way.
+    fn examine_turning_freely(
+        &self,
+        turned: &TurnedOut,
+        (project, command, at): (&Project, &Path, usize),
+        faults: &mut Vec<String>,
+        tally: &mut Tally,
+    ) -> Option<Vec<Row>> {
+        let stopped = trace::read(&std::fs::read_to_string(self.file(project, "csv")).unwrap());
+        let TurnedOut { axis, line } = *turned;
+        let free = Case {
+            name: format!("{}-j{}", self.name, axis + 1),
+            robot: self.robot.turning_freely(axis),
+            plan: self.plan.clone(),
+            scenario: self.scenario.clone(),
+        };
+        let rows = free.examine(project, command, at, faults, tally)?;
+        faults.extend(check::check_stopped(&self.robot, &self.plan, &stopped, &rows, tally));
+        let range = self.robot.axes[axis].min..=self.robot.axes[axis].max;
+        let left = rows.iter().find(|row| !range.contains(&row.axes[axis])).map(|row| row.line);
+        if left != Some(line) {
+            let axis = axis + 1;
+            faults.push(format!("the alarm says that j{axis} leaves its range in line {line}; it does in {left:?}"));
+        }
+        Some(rows)
     }
 
     fn file(&self, project: &Project, ending: &str) -> std::path::PathBuf {
         project.folder().join(format!("{}.{ending}", self.name))
     }
 
-    fn run(
-        &self,
-        project: &Project,
-        command: &Path,
-        at: usize,
-        disturbed: bool,
-        faults: &mut Vec<String>,
-    ) -> Option<Vec<Row>> {
+    /// The rows of the trace.
+    ///
+    /// # Errors
+    /// What the run said, where it failed.
+    fn run(&self, project: &Project, command: &Path, at: usize, disturbed: bool) -> Result<Vec<Row>, String> {
         let trace = self.file(project, if disturbed { "disturbed.csv" } else { "csv" });
         let mut run = project.choose(command, at);
         run.arg("--robot").arg(self.file(project, "robot.toml")).arg("--trace").arg(&trace).args([
@@ -142,16 +207,9 @@ impl Case {
         }
         let run = run.output().unwrap();
         if run.status.success() {
-            return Some(trace::read(&std::fs::read_to_string(trace).unwrap()));
+            return Ok(trace::read(&std::fs::read_to_string(trace).unwrap()));
         }
-        let said = String::from_utf8_lossy(&run.stderr);
-        // Every passage turns axis 4 by half a turn, until its range ends.
-        if self.plan.motions.iter().any(|motion| motion.wrist) && said.contains("j4 would have to go to") {
-            return None;
-        }
-        let kind = if disturbed { "disturbed: " } else { "" };
-        faults.push(format!("{kind}{}: {}", run.status, said));
-        None
+        Err(format!("{}: {}", run.status, String::from_utf8_lossy(&run.stderr)))
     }
 
     /// The checks would find a jolt, a line that is none, a missed target, and zones that are too small for the blends.

@@ -67,6 +67,23 @@ impl Robot {
         self.model.kinematics.forward(&own)
     }
 
+    /// The same robot with an axis, from 0, that turns as far as it likes.
+    pub(crate) fn turning_freely(&self, axis: usize) -> Robot {
+        let (mut text, mut at) = (String::new(), None);
+        for line in self.text.lines() {
+            if line.starts_with("[[axis]]") {
+                at = Some(at.map_or(0, |at: usize| at + 1));
+            }
+            match line.split_once(" = ") {
+                Some(("min", _)) if at == Some(axis) => text.push_str("min = -100000.0"),
+                Some(("max", _)) if at == Some(axis) => text.push_str("max = 100000.0"),
+                _ => text.push_str(line),
+            }
+            text.push('\n');
+        }
+        Robot::read(&self.name, text)
+    }
+
     fn read(name: &str, text: String) -> Robot {
         let mut robot = Robot {
             name: name.into(),

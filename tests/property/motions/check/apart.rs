@@ -1,7 +1,8 @@
 //! A trace in parts: the program's own motions, and what came in between, after a `stopmove` or while somebody jogged.
 
-use super::Leg;
-use crate::motions::plan::{Handler, Plan};
+use super::{Leg, PATH};
+use crate::motions::geometry::distance;
+use crate::motions::plan::{Handler, Plan, Zone};
 use crate::motions::robot::Robot;
 use crate::motions::scenario::Scenario;
 use crate::motions::trace::Row;
@@ -161,7 +162,7 @@ impl<'a> Apart<'a> {
             rows: Vec::new(),
             handler,
             stopped: self.current.unwrap_or(0),
-            blends: self.current.is_some_and(|current| self.is_blended(current)),
+            blends: self.current.is_some_and(|current| self.may_blend(current, stop)),
             target: None,
             returns: true,
             told: told.map(|(at, _)| at),
@@ -181,7 +182,12 @@ impl<'a> Apart<'a> {
         let again = match open.handler {
             Some(handler) => self.skip(&mut open, handler, begins)?,
             None if begins => return Err(format!("{} s: the program begins again", open.stop.t)),
-            None => false,
+            None => {
+                // A motion that has ended is not the stopped one any more: that is the next one, where one is planned.
+                let next = self.next_at(&open.stop).unwrap_or(open.stopped);
+                (open.blends, open.stopped) = (open.blends && next == open.stopped, next);
+                false
+            }
         };
         if let (false, Some(target)) = (again, open.target) {
             let end = open.rows.last().expect("a row").clone();
@@ -192,9 +198,14 @@ impl<'a> Apart<'a> {
         Ok(again)
     }
 
-    /// Whether a motion is blended with the next one.
-    fn is_blended(&self, motion: usize) -> bool {
-        !self.legs[motion].rests && motion + 1 < self.legs.len()
+    /// Whether the robot may be in the blend of a motion with the next one at a row.
+    fn may_blend(&self, motion: usize, row: &Row) -> bool {
+        let leg = &self.legs[motion];
+        let in_zone = match leg.motion.zone {
+            Zone::Distance(size) => distance(&leg.setting.tcp(&self.robot.flange(&row.axes)), &leg.tcp) <= size + PATH,
+            _ => true,
+        };
+        !leg.rests && motion + 1 < self.legs.len() && in_zone
     }
 
     /// Says where an excursion of a handler leads to, behind which the program begins again or does not.
@@ -213,9 +224,7 @@ impl<'a> Apart<'a> {
             open.stopped = next.unwrap_or(open.stopped);
             return if begins { wrong("the program begins again") } else { Ok(false) };
         };
-        // A blend belongs to the motion that it leads to; the trace may still name the one before.
-        let here = open.blends && self.current == Some(next);
-        let stopped = [Some(next), here.then_some(next + 1)];
+        let stopped = self.stopped_at(&open.stop, next);
         let targets = || {
             let stopped = stopped.iter().flatten();
             stopped.filter(|at| handler.skip <= self.plan.ahead(**at)).map(|at| at + handler.skip - 1)
@@ -243,14 +252,23 @@ impl<'a> Apart<'a> {
         (!leg.motion.waits && current + 1 < self.legs.len()).then_some(current + 1)
     }
 
+    /// The motions that may count as the stopped one at a row: the next one to be executed there, or, in a blend, the one
+    /// that it leads to, while the trace still names the one before.
+    fn stopped_at(&self, row: &Row, next: usize) -> [Option<usize>; 2] {
+        let blends = self.current == Some(next) && self.may_blend(next, row);
+        [Some(next), blends.then_some(next + 1)]
+    }
+
     /// A handler that only drops motions leaves no trace where the program begins again.
     fn assert_may_begin_again(&self, row: &Row) -> Result<(), String> {
         let stand = self.parts.sections.last().and_then(|section| section.rows.last()).expect("a row");
-        let planned = self.next_at(stand).map_or(0, |next| self.plan.ahead(next));
+        let stopped = self.next_at(stand).map_or([None; 2], |next| self.stopped_at(stand, next));
+        // There is always one to drop where a motion was under way.
+        let drops_all = |skip: usize| stopped.iter().flatten().any(|at| skip > self.plan.ahead(*at));
         let told = self.scenario.inputs().filter(|(at, _)| *at < row.t).last();
         let handler = self.plan.handlers.iter().find(|handler| told.is_some_and(|(_, input)| input == handler.input));
         match handler {
-            Some(handler) if handler.skip > planned && planned > 0 => Ok(()),
+            Some(handler) if drops_all(handler.skip) => Ok(()),
             _ => Err(format!("{} s: the program begins again", row.t)),
         }
     }

@@ -6,6 +6,7 @@ use super::{Account, EXACT, Leg, PREFIX, largest};
 use crate::motions::plan::{Goal, Kind, MANUAL, Motion, Plan, Profile, Speeds, Zone};
 use crate::motions::robot::Robot;
 use crate::motions::scenario::{Deed, Scenario};
+use crate::motions::trace::Row;
 use std::ops::Range;
 
 /// The share of the axes' speeds with which somebody jogs.
@@ -24,10 +25,11 @@ impl Account<'_> {
         excursion: &Excursion,
         stopped: usize,
     ) -> Result<Account<'a>, String> {
-        let stand = [excursion.stop.clone()].into_iter().cycle().take(PREFIX).map(super::standing);
-        let rows: Vec<_> = stand.chain(excursion.rows.iter().cloned()).collect();
         let mut begin = Leg::at(robot, &excursion.stop.axes, &program[stopped]);
         begin.rows = 0..PREFIX;
+        // Before, the trace may have seen the tool of another motion.
+        let stand = super::standing(Row { tcp: begin.tcp, ..excursion.stop.clone() });
+        let rows: Vec<_> = vec![stand; PREFIX].into_iter().chain(excursion.rows.iter().cloned()).collect();
         let mut legs = vec![begin];
         let handler = excursion.handler.map(|handler| &plan.handlers[handler]);
         // Somebody jogged on the way back: nobody knows that way in parts.
@@ -35,6 +37,8 @@ impl Account<'_> {
         let is_way = |range: &Range<usize>| handler.is_none() && rows[range.start].line != 0;
         let torn = ways.iter().filter(|range| is_way(range)).count() > 1;
         let mut own = handler.map_or(&[][..], |handler| &handler.motions).iter();
+        // The row up to which its own motions have led.
+        let mut moved = PREFIX - 1;
         for range in ways {
             let row = &rows[range.end - 1];
             let mut leg = if row.line == 0 {
@@ -60,12 +64,17 @@ impl Account<'_> {
             } else if handler.is_none_or(|handler| handler.start == row.line) {
                 way(robot, program, excursion, (stopped, row.line))
             } else {
-                let motion = own.next().ok_or_else(|| format!("{} s: line {} moves once more", row.t, row.line))?;
-                if motion.line != row.line {
-                    return Err(format!("line {}: line {} comes before it", motion.line, row.line));
+                let mut next = || own.next().map(|motion| Leg::of(robot, plan, motion));
+                let more = || format!("{} s: line {} moves once more", row.t, row.line);
+                let mut leg = next().ok_or_else(more)?;
+                while leg.motion.line != row.line {
+                    if !leg.goes_nowhere(robot, &rows[moved]) {
+                        return Err(format!("line {}: line {} comes before it", leg.motion.line, row.line));
+                    }
+                    leg = next().ok_or_else(more)?;
                 }
-                let mut leg = Leg::of(robot, plan, motion);
                 leg.axes.get_or_insert_with(|| row.axes.clone());
+                moved = range.end - 1;
                 leg
             };
             if torn && row.line != 0 {
@@ -74,7 +83,7 @@ impl Account<'_> {
             leg.rows = range;
             legs.push(leg);
         }
-        if let Some(motion) = own.next() {
+        if let Some(motion) = own.find(|motion| !Leg::of(robot, plan, motion).goes_nowhere(robot, &rows[moved])) {
             return Err(format!("line {}: no row of the trace is of this motion", motion.line));
         }
         if excursion.returns {
@@ -88,8 +97,16 @@ impl Account<'_> {
     }
 }
 
+impl Leg {
+    /// Whether the robot is at its target before it begins, so that no row of the trace is of it.
+    fn goes_nowhere(&self, robot: &Robot, row: &Row) -> bool {
+        let own = self.axes.iter().flat_map(|axes| axes.iter().zip(&row.axes));
+        self.is_reached(robot, row) && largest(own.map(|(target, is)| is - target)) < EXACT
+    }
+}
+
 /// The rows of the motions, one after the other.
-fn motions(rows: &[crate::motions::trace::Row]) -> Vec<Range<usize>> {
+fn motions(rows: &[Row]) -> Vec<Range<usize>> {
     let mut ranges: Vec<(u64, Range<usize>)> = Vec::new();
     for (at, row) in rows.iter().enumerate().filter(|(_, row)| row.motion != 0) {
         match ranges.last_mut() {

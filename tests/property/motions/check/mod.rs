@@ -145,6 +145,28 @@ pub(crate) fn check(
     faults
 }
 
+/// What is wrong with a trace that an alarm ended, beside the one of the same program without the alarm: it stops on the
+/// way, within the limits.
+pub(crate) fn check_stopped(
+    robot: &Robot,
+    plan: &Plan,
+    rows: &[Row],
+    unstopped: &[Row],
+    tally: &mut Tally,
+) -> Vec<String> {
+    let mut faults = compare(unstopped, rows, tally);
+    // From where it goes otherwise than without the alarm on, it may brake fast.
+    let brakes = rows.iter().zip(unstopped).find(|(row, other)| row.axes != other.axes);
+    let windows = brakes.map(|(row, _)| (row.t - CYCLE, f64::INFINITY));
+    let legs = plan.motions.iter().map(|motion| Leg::of(robot, plan, motion)).collect();
+    let mut account = Account::over(robot, rows.to_vec(), legs);
+    account.note_fast_stops(windows.as_slice());
+    account.limits(&mut faults, tally);
+    account.stands(&mut faults);
+    tally.note("alarms: an axis would leave its range", 0.0);
+    faults
+}
+
 /// A trace of which a part was not looked at.
 struct Parted<'a> {
     parts: &'a Parts,
