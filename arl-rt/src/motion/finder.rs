@@ -9,8 +9,8 @@ use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, OnceLock};
 use std::thread;
 
-use super::optimal::{Edge, Law, Moment, Row, Way, fastest};
-use super::profile::Limits;
+use super::optimal::{Edge, Law, Way, fastest};
+use super::plot::{MOST_USED, Plot, law_keeps, used_by_law};
 use super::scout::{Prospect, Scout};
 use super::set_points::used_by_set_points;
 
@@ -20,12 +20,13 @@ const TIME: f64 = 0.02;
 pub(super) const WINDOW: f64 = 2.0;
 /// A law takes so many s at least, if there is so much course.
 const AHEAD: f64 = 1.5;
-/// A law is looked at every so many s, and may use so much of the limits.
-const SAMPLE: f64 = 0.001;
-const MOST_USED: f64 = 1.008;
 /// Parts of the way, and how many times as many places on it, with which a law is looked for until one keeps the limits: where
 /// they change much between the places, closer ones are needed.
 const TRIES: [(f64, f64); 5] = [(1.0, 1.0), (1.0, 2.0), (0.4, 2.0), (0.15, 3.0), (0.15, 6.0)];
+/// How often the limits are lowered where a law uses too much of them; by how much more than it takes; and up to which share.
+const TEMPERINGS: usize = 4;
+const TEMPERED: f64 = 0.998;
+const TOO_MUCH: f64 = 1.1;
 /// A stop has a little more acceleration and jerk to go by than a law, so that there is one from any state of a law; it is looked
 /// for at so many places at most, so much farther ahead each time, until one is known to be so near the shortest.
 const STOPPING: f64 = 1.004;
@@ -35,10 +36,6 @@ const SHORTEST: f64 = 0.96;
 const STOP_DENSITIES: [f64; 2] = [1.0, 2.0];
 /// With so many places on all the ways that were tried, it has to do what was found.
 const STOP_PLACES: usize = 1500;
-/// A speed below zero, in s of nominal time per s, that is rounding.
-const BACKWARDS: f64 = 1e-9;
-/// No limits.
-const FREE: Limits = Limits { vel: f64::INFINITY, acc: f64::INFINITY, jerk: f64::INFINITY };
 
 /// A law that keeps all limits, and what it was found from.
 #[derive(Clone, Debug)]
@@ -48,14 +45,6 @@ pub(super) struct Found {
     /// Where it ends, in s of nominal time, and whether the robot has to stop there.
     pub(super) end: f64,
     pub(super) stops: bool,
-}
-
-/// The limits along a part of the course.
-#[derive(Debug)]
-pub(super) struct Plot {
-    way: Way,
-    /// What the parameter may have at each place where it hardly moves.
-    straight: Vec<Limits>,
 }
 
 /// A law that is being looked for.
@@ -179,21 +168,20 @@ fn find(scout: &Scout, start: Edge, wanted: impl Fn() -> bool) -> Option<Found> 
         let to = if scout.at + 1.2 * window < stop { scout.at + window } else { stop };
         let attempt = |(share, density): &(f64, f64)| {
             let Prospect { way, end } = scout.look(scout.at + share * (to - scout.at), *density, start, Edge::REST)?;
-            // Close to rest, from a state that moves, the limits between the places are not certain.
-            let law = fastest(&way, start, Edge::REST).ok().filter(|law| keeps(&way, law, 1.0, Between::Least))?;
-            Some((way, end, law))
+            let (law, used) = temperate(scout, &way, start, &wanted)?;
+            Some((way, end, law, used))
         };
         // Between the places a law may ask for more than there is; better so than none.
-        let mut rough = None;
-        let smooth = TRIES.iter().take_while(|_| wanted()).filter_map(attempt).find_map(|attempt| {
-            let smooth = used_by_set_points(scout, &attempt.2, 1.0) <= MOST_USED;
-            if smooth {
-                return Some(attempt);
+        let mut best: Option<(Way, f64, Law, f64)> = None;
+        for attempt in TRIES.iter().take_while(|_| wanted()).filter_map(attempt) {
+            if best.as_ref().is_none_or(|(.., least)| attempt.3 < *least) {
+                best = Some(attempt);
             }
-            rough.get_or_insert(attempt);
-            None
-        });
-        let Some((way, end, law)) = smooth.or(rough) else { return found };
+            if best.as_ref().is_some_and(|(.., used)| *used <= MOST_USED) {
+                break;
+            }
+        }
+        let Some((way, end, law, _)) = best else { return found };
         let ahead = law.duration();
         let stops = scout.stops && end >= stop;
         found = Some(Found { law: Arc::new(law), plot: Arc::new(Plot::new(way)), end, stops });
@@ -204,6 +192,29 @@ fn find(scout: &Scout, start: Edge, wanted: impl Fn() -> bool) -> Option<Found> 
         window *= (1.5 * AHEAD / ahead).clamp(1.5, 8.0);
     }
     None
+}
+
+/// The fastest law along a way that keeps the limits by its places, with the share of them that its set-points use. Where that
+/// is a little too much, the limits are lowered.
+fn temperate(scout: &Scout, way: &Way, start: Edge, wanted: &impl Fn() -> bool) -> Option<(Law, f64)> {
+    let mut limits = way.clone();
+    let mut best: Option<(Law, f64)> = None;
+    for _ in 0..=TEMPERINGS {
+        let Some(law) = fastest(&limits, start, Edge::REST).ok().filter(|_| wanted()) else { break };
+        let mut used = used_by_law(way, &law)?;
+        // Close to rest, from a state that moves, the limits between the places are not certain.
+        if used.beyond.is_none() {
+            used = used_by_set_points(scout, &law, 1.0);
+            if best.as_ref().is_none_or(|(_, least)| used.most < *least) {
+                best = Some((law, used.most));
+            }
+        }
+        match used.beyond {
+            Some(beyond) if used.most < TOO_MUCH => limits.lower(beyond, TEMPERED * MOST_USED / used.most),
+            _ => break,
+        }
+    }
+    best
 }
 
 /// The shortest law from a state on to rest, which is about so far ahead, with acceleration and jerk times `harder`.
@@ -222,8 +233,8 @@ fn find_stop(scout: &Scout, start: Edge, (about, harder): (f64, f64), wanted: im
             let Prospect { way, end } = scout.look(to, density, start, Edge::REST)?;
             looked_at += way.places().len();
             let law = fastest(&way.hardened(STOPPING * harder), start, Edge::REST).ok().filter(|_| end >= to)?;
-            let is_smooth = || used_by_set_points(scout, &law, harder) <= MOST_USED;
-            if keeps(&way, &law, harder, Between::Least) && is_smooth() {
+            let is_smooth = || used_by_set_points(scout, &law, harder).beyond.is_none();
+            if law_keeps(&way, &law, harder) && is_smooth() {
                 let stops = scout.stops && end >= scout.end;
                 return Some(Found { law: Arc::new(law), plot: Arc::new(Plot::new(way)), end, stops });
             }
@@ -252,116 +263,4 @@ fn find_stop(scout: &Scout, start: Edge, (about, harder): (f64, f64), wanted: im
         }
     }
     found.map(|(law, _)| law)
-}
-
-/// A motion along the course over time.
-pub(super) trait Timed {
-    fn at(&self, time: f64) -> Moment;
-    fn duration(&self) -> f64;
-
-    /// Another motion at the same place, which is known to be within the limits.
-    fn known(&self, _time: f64) -> Option<Moment> {
-        None
-    }
-}
-
-impl Timed for Law {
-    fn at(&self, time: f64) -> Moment {
-        Law::at(self, time)
-    }
-
-    fn duration(&self) -> f64 {
-        Law::duration(self)
-    }
-}
-
-impl Plot {
-    pub(super) fn new(way: Way) -> Self {
-        let least = |index: usize| {
-            let rows = way.rows(index).iter().filter(|row| row.first != 0.0);
-            rows.fold(FREE, |Limits { vel, acc, jerk }, row| {
-                let first = row.first.abs();
-                Limits {
-                    vel: vel.min(row.vel / first),
-                    acc: acc.min(row.acc / first),
-                    jerk: jerk.min(row.jerk / first),
-                }
-            })
-        };
-        Self { straight: (0..way.places().len()).map(least).collect(), way }
-    }
-
-    /// Whether a law that is followed at another share of its speed keeps its limits, those of acceleration and jerk times
-    /// `harder`.
-    pub(super) fn keeps(&self, motion: &impl Timed, harder: f64) -> bool {
-        keeps(&self.way, motion, harder, Between::Even)
-    }
-
-    /// The same for a motion that does not follow a law.
-    pub(super) fn surely_keeps(&self, motion: &impl Timed, harder: f64) -> bool {
-        keeps(&self.way, motion, harder, Between::Most)
-    }
-
-    /// The limits that the parameter has all the way between two places where it hardly moves.
-    pub(super) fn straight(&self, from: f64, to: f64) -> Limits {
-        let places = self.way.places();
-        let first = places.partition_point(|place| *place <= from).saturating_sub(1);
-        let last = places.partition_point(|place| *place < to) + 1;
-        let between = self.straight.get(first..last.min(self.straight.len())).unwrap_or_default();
-        let Limits { vel, acc, jerk } = between.iter().fold(FREE, |least, here| Limits {
-            vel: least.vel.min(here.vel),
-            acc: least.acc.min(here.acc),
-            jerk: least.jerk.min(here.jerk),
-        });
-        // Without any limit of its own a ramp takes a few cycles.
-        Limits { vel, acc, jerk: jerk.min(1e3 * acc) }
-    }
-}
-
-/// What counts between two places of a way.
-#[derive(Clone, Copy)]
-enum Between {
-    /// The less that is used of the limits of either, for a law: it was found for what lies between.
-    Least,
-    /// What lies between what is used of the limits of both: derivatives change evenly from place to place.
-    Even,
-    /// The more.
-    Most,
-}
-
-/// The share of the limits, those of acceleration and jerk times `harder`, that a motion uses.
-fn used(rows: &[Row], now: &Moment, harder: f64) -> f64 {
-    rows.iter().fold(0.0_f64, |used, row| {
-        let acc = row.first * now.acc + row.second * now.vel * now.vel;
-        let jerk =
-            row.first * now.jerk + 3.0 * row.second * now.vel * now.acc + row.third * now.vel * now.vel * now.vel;
-        let (acc, jerk) = ((acc / row.acc).abs() / harder, (jerk / row.jerk).abs() / harder);
-        used.max((row.first * now.vel / row.vel).abs()).max(acc).max(jerk)
-    })
-}
-
-/// Whether a motion along `way` goes forwards and keeps the limits, those of acceleration and jerk times `harder`.
-fn keeps(way: &Way, motion: &impl Timed, harder: f64, between: Between) -> bool {
-    let places = way.places();
-    let count = (motion.duration() / SAMPLE).clamp(16.0, 4000.0) as u32;
-    let used = |rows: &[Row], now: &Moment| used(rows, now, harder);
-    let used_at = |now: &Moment| {
-        let next = places.partition_point(|place| *place <= now.at).clamp(1, places.len() - 1);
-        match between {
-            Between::Least => used(way.rows(next - 1), now).min(used(way.rows(next), now)),
-            Between::Even => {
-                let part = (now.at - places[next - 1]) / (places[next] - places[next - 1]);
-                let [before, behind] = [way.rows_behind(next - 1), way.rows_before(next)].map(|rows| used(rows, now));
-                before + part.clamp(0.0, 1.0) * (behind - before)
-            }
-            Between::Most => used(way.rows_behind(next - 1), now).max(used(way.rows_before(next), now)),
-        }
-    };
-    (0..=count).all(|step| {
-        let time = motion.duration() * f64::from(step) / f64::from(count);
-        let now = motion.at(time);
-        let used = used_at(&now);
-        let may = || used <= MOST_USED || motion.known(time).is_some_and(|known| used <= used_at(&known));
-        now.vel >= -BACKWARDS && may()
-    })
 }

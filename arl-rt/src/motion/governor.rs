@@ -206,11 +206,14 @@ impl Governor<'_> {
         let (here, there) = (fastest(state.at), fastest(next.at));
         let fastest = here.0.max(there.0) * scale.vel * (1.0 + TOO_FAST - SLACK);
         let jerk = here.1.max(there.1) * scale.jerk * MARGIN;
-        // With x the acceleration afterwards: vel + (acc + x) cycle / 2 + x2 / (2 jerk) = fastest where x > 0.
         let short = fastest - state.vel - state.acc * self.cycle / 2.0;
         let ramp = jerk * self.cycle;
         let acc = if short > 0.0 {
-            4.0 * jerk * short / (ramp + (ramp * ramp + 8.0 * jerk * short).sqrt())
+            // It fades in whole cycles, the last of which may take less of the jerk: with n others, which leave the part p of a
+            // ramp to it, short = ramp cycle (n (n + 1) / 2 + (n + 1) p). So it comes to the speed and stays there.
+            let ramps = short / (ramp * self.cycle);
+            let others = (((1.0 + 8.0 * ramps).sqrt() - 1.0) / 2.0).floor();
+            ramp * (others + (ramps - others * (others + 1.0) / 2.0) / (others + 1.0))
         } else {
             2.0 * short / self.cycle
         };

@@ -31,6 +31,7 @@ mod piece;
 mod pilot;
 mod place;
 mod plan;
+mod plot;
 mod preparer;
 mod profile;
 mod progress;

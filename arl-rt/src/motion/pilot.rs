@@ -13,8 +13,9 @@
 use std::sync::Arc;
 
 use super::ease::{Ease, followed};
-use super::finder::{Found, Plot, Timed};
+use super::finder::Found;
 use super::optimal::{Edge, Law, Moment};
+use super::plot::{Plot, Timed};
 use super::profile::State;
 use super::ramp::Ramp;
 use super::scout::{Prospect, Scout};
@@ -31,6 +32,8 @@ const CHANGES: [f64; 7] = [0.03, 0.06, 0.12, 0.25, 0.5, 1.0, 2.0];
 /// A stop that takes longer, in s, is begun, and a shorter one looked for, which has to be shorter by so much.
 const LONG_STOP: f64 = 0.05;
 const SHORTER: f64 = 0.004;
+/// A law is joined with this part of the acceleration and jerk, where that can be: between the places limits are not certain.
+const CAREFUL: f64 = 0.985;
 /// So long may a change of the override take that follows the law in hand all the time, where there is another way.
 const QUICK: f64 = 0.25;
 /// What sets off from rest looks ahead for so many times the time in which it does.
@@ -305,7 +308,8 @@ impl Pilot {
             let share = now.vel / there.vel;
             let shares = [share, (now.acc - share * share * there.acc) / there.vel, 0.0];
             let main = Drive { found, time };
-            let easing = main.easing(shares, self.ahead.share, 1.0, f64::INFINITY)?;
+            let join = |harder: f64| main.easing(shares, self.ahead.share, harder, f64::INFINITY);
+            let easing = join(CAREFUL).or_else(|| join(1.0))?;
             Some(Ahead { main: Some(main), share: self.ahead.share, easing: Some(easing), ramp: None })
         });
         self.in_vain = joined.is_none();

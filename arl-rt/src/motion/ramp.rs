@@ -3,8 +3,9 @@
 
 use std::sync::Arc;
 
-use super::finder::{Found, Plot, Timed};
+use super::finder::Found;
 use super::optimal::{Law, Moment};
+use super::plot::{Plot, Timed};
 use super::profile::{Change, Limits, State};
 
 /// Shares of the acceleration and the jerk at rest that are tried.

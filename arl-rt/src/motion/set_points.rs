@@ -3,30 +3,32 @@
 use super::bounds::Pace;
 use super::joints::Joints;
 use super::optimal::Law;
+use super::plot::Used;
 use super::scout::Scout;
 
 /// s between two set-points.
 const CYCLE: f64 = 0.001;
 
 /// The share of what motions may have of an axis's speed, acceleration and jerk, the latter two `harder` times as high, that
-/// set-points along a law use at most, by their differences.
-pub(super) fn used_by_set_points(scout: &Scout, law: &Law, harder: f64) -> f64 {
+/// set-points along a law use, by their differences.
+pub(super) fn used_by_set_points(scout: &Scout, law: &Law, harder: f64) -> Used {
     let mut stroll = scout.stroll();
-    let mut last: Vec<(Joints, Pace)> = Vec::with_capacity(4);
-    let mut used = 0.0_f64;
+    let mut last: Vec<(f64, (Joints, Pace))> = Vec::with_capacity(4);
+    let mut used = Used::default();
     for cycle in 0..=(law.duration() / CYCLE) as u32 {
         if last.len() == 4 {
             last.remove(0);
         }
-        last.push(stroll.go_to(law.at(f64::from(cycle) * CYCLE).at));
-        if let [a, b, c, d] = last.as_slice() {
-            used = used.max(used_by(scout, [a, b, c, d], harder));
+        let at = law.at(f64::from(cycle) * CYCLE).at;
+        last.push((at, stroll.go_to(at)));
+        if let [(from, a), (_, b), (_, c), (to, d)] = last.as_slice() {
+            used.note([*from, *to], used_by(scout, [a, b, c, d], harder));
         }
     }
     used
 }
 
-/// The same by four set-points. Where one motion leads into another, the higher limits count.
+/// The largest share by four set-points. Where one motion leads into another, the higher limits count.
 fn used_by(scout: &Scout, points: [&(Joints, Pace); 4], harder: f64) -> f64 {
     let own = scout.robot.own_axes().iter().enumerate();
     let own = own.map(|(index, axis)| {

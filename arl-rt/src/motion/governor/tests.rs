@@ -69,6 +69,30 @@ fn rest_to_rest_takes_hardly_longer_than_the_shortest() {
 }
 
 #[test]
+fn a_speed_that_is_reached_is_kept_without_acceleration() {
+    let mut random = Random::new(86);
+    for _ in 0..200 {
+        let acc = random.between(0.5, 60.0);
+        let limits = Limits { vel: random.between(0.01, 1.0), acc, jerk: acc * random.between(2.0, 250.0) };
+        let share = random.between(0.2, 1.0);
+        let timing = timing(&[(1e3, limits)]);
+        let (mut state, mut backup) = (State::default(), Change::default());
+        let mut kept = 0;
+        for _ in 0..200_000 {
+            let governor = Governor { stretches: &timing.stretches, cycle: 0.001 };
+            state = governor.next(&state, &mut backup, Pacing::Go(share));
+            let reached = state.vel >= limits.vel * share * (1.0 - 1e-6);
+            kept += u32::from(reached);
+            assert!(kept <= 2 || state.acc.abs() <= 1e-6 * acc, "{kept} {state:?} {limits:?} {share}");
+            if kept == 50 {
+                break;
+            }
+        }
+        assert_eq!(kept, 50, "{state:?} {limits:?} {share}");
+    }
+}
+
+#[test]
 fn stops_and_overrides_keep_to_the_limits_and_the_end() {
     let mut random = Random::new(82);
     for round in 0..60 {

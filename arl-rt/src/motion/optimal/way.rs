@@ -120,6 +120,18 @@ impl Way {
         way
     }
 
+    /// Makes all limits lower, to a `share` of them, at the places from one parameter to another and those beside, but for the
+    /// first place: the state there is what it is.
+    pub fn lower(&mut self, [from, to]: [f64; 2], share: f64) {
+        let first = self.at.partition_point(|at| *at < from).saturating_sub(1).max(1);
+        let last = self.at.partition_point(|at| *at <= to).min(self.at.len().saturating_sub(1));
+        let start = self.ends.get(first - 1).copied().unwrap_or(self.rows.len());
+        let end = self.ends.get(last).copied().unwrap_or(start);
+        for row in self.rows.get_mut(start..end).unwrap_or_default() {
+            (row.vel, row.acc, row.jerk) = (row.vel * share, row.acc * share, row.jerk * share);
+        }
+    }
+
     /// The first and the last path parameter.
     pub(super) fn span(&self) -> Result<(f64, f64), Refusal> {
         match self.at.as_slice() {
@@ -156,6 +168,23 @@ impl Way {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn limits_are_lowered_beside_a_stretch_but_not_at_the_first_place() {
+        let mut way = Way::new();
+        for at in 0..6 {
+            way.push(f64::from(at), [Row { first: 1.0, second: 0.0, third: 0.0, vel: 1.0, acc: 1.0, jerk: 1.0 }]);
+        }
+        let jerks = |way: &Way| (0..6).map(|index| way.rows(index)[0].jerk).collect::<Vec<f64>>();
+        way.lower([2.5, 2.5], 0.5);
+        assert_eq!(jerks(&way), [1.0, 1.0, 0.5, 0.5, 1.0, 1.0]);
+        way.lower([0.2, 0.3], 0.5);
+        assert_eq!(jerks(&way), [1.0, 0.5, 0.5, 0.5, 1.0, 1.0]);
+        way.lower([4.0, 5.0], 0.5);
+        assert_eq!(jerks(&way), [1.0, 0.5, 0.5, 0.25, 0.5, 0.5]);
+        way.lower([9.0, 9.0], 0.5);
+        assert_eq!(jerks(&way), [1.0, 0.5, 0.5, 0.25, 0.5, 0.25]);
+    }
 
     #[test]
     fn a_place_has_the_rows_of_both_sides() {
