@@ -169,6 +169,12 @@ impl<'a> Bounds<'a> {
         self.external(&parts.map(|part| part.external), pace);
     }
 
+    /// The parameter's acceleration takes at least `time` s to rise to what the rows of this place leave it.
+    pub(super) fn rising_in(&mut self, time: f64) {
+        let acc = self.rows.iter().map(|row| row.acc / row.first.abs()).fold(f64::INFINITY, f64::min);
+        self.push(Bound::even(1.0, f64::INFINITY, f64::INFINITY, acc / time));
+    }
+
     /// Constant limits of the parameter itself.
     pub(super) fn cell(&mut self, limits: &Limits) {
         let Limits { vel, acc, jerk } = *limits;

@@ -1,6 +1,7 @@
 //! The way ahead: pieces of motions and the blends between them, one behind the other.
 
 mod lead;
+mod sooner;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -49,8 +50,12 @@ pub(super) struct Course {
     backup: Change,
     /// The share of the speed that the robot has settled to.
     share: f64,
-    /// Who leads the robot in the profile O.
+    /// Who leads the robot in the profile O, and to rest where that is sooner than the governor would.
     pilot: Option<Box<Pilot>>,
+    /// Whether the pilot has taken over from the governor, until the robot rests; and how hard the stop is for which that has been
+    /// asked for.
+    relieved: bool,
+    asked: Option<f64>,
     /// Whether the pilot has found no law from rest here.
     unled: bool,
     /// Who finds laws for the pilot, what is looked for, and the law from the next stop on.
@@ -187,7 +192,7 @@ impl Course {
     /// Whether the robot is led by laws, or will be.
     pub(super) fn wants_laws(&self) -> bool {
         let ends = [self.pieces.front(), self.pieces.back()];
-        self.is_led() || ends.into_iter().flatten().any(|piece| piece.pace.is_some())
+        self.is_led() || ends.into_iter().flatten().any(|piece| piece.is_free)
     }
 
     /// How the last motion is joined by the one before it.
@@ -465,6 +470,7 @@ impl Course {
         mut passed: impl FnMut(Arc<Piece>),
     ) -> bool {
         self.choose_leader();
+        self.stop_sooner(robot, here, cycle, pacing);
         if !self.follow_pilot(robot, here, cycle, pacing) {
             let pacing = self.settling(cycle, pacing);
             let mut backup = self.backup;
@@ -504,7 +510,7 @@ impl Course {
     /// Whoever leads the robot from rest leads it until it stops: the pilot where the first motion has the profile O.
     fn choose_leader(&mut self) {
         if self.state.rests() && self.pilot.is_none() && !self.unled {
-            let optimal = self.pieces.front().is_some_and(|first| first.pace.is_some());
+            let optimal = self.pieces.front().is_some_and(|first| first.is_free);
             self.pilot = optimal.then(Box::default);
         }
     }

@@ -9,6 +9,7 @@ use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, OnceLock};
 use std::thread;
 
+use super::foresight::Foresight;
 use super::optimal::{Edge, Law, Way, fastest};
 use super::plot::{MOST_USED, Plot, law_keeps, used_by_law};
 use super::scout::{Prospect, Scout};
@@ -36,6 +37,11 @@ const SHORTEST: f64 = 0.96;
 const STOP_DENSITIES: [f64; 2] = [1.0, 2.0];
 /// With so many places on all the ways that were tried, it has to do what was found.
 const STOP_PLACES: usize = 1500;
+/// A stop that the governor does within so many s is short; another one has to take less than this part of its time, and is looked
+/// for at this part of its way first.
+const SHORT_STOP: f64 = 0.1;
+const MUCH_SOONER: f64 = 0.8;
+const NEARER: f64 = 0.5;
 
 /// A law that keeps all limits, and what it was found from.
 #[derive(Clone, Debug)]
@@ -63,18 +69,19 @@ struct Outcome {
 
 struct Task {
     scout: Scout,
-    start: Edge,
     quest: Quest,
     result: Arc<Outcome>,
 }
 
 /// What is looked for.
-#[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Quest {
-    /// The fastest law to rest at the end of what the scout sees or as far as is looked ahead.
-    Fastest,
-    /// The shortest one to rest, about so far ahead, with acceleration and jerk `harder` times as high.
-    Shortest { about: f64, harder: f64 },
+    /// The fastest law from a state to rest at the end of what the scout sees or as far as is looked ahead.
+    Fastest(Edge),
+    /// The shortest one from a state to rest, about so far ahead, with acceleration and jerk `harder` times as high.
+    Shortest { start: Edge, about: f64, harder: f64 },
+    /// The shortest one to rest, from the state that the robot has so many cycles from now, if that is much sooner than the
+    /// governor would rest.
+    Sooner(Box<Foresight>, u32),
 }
 
 /// The thread that finds laws; it begins with the first one that is asked for.
@@ -96,10 +103,10 @@ impl Finder {
         (TIME / cycle - 1e-6).ceil().max(1.0) as u32
     }
 
-    /// Begins to look for a law from a state on; it will be taken over after so many cycles.
-    pub(super) fn search(&mut self, scout: Scout, start: Edge, quest: Quest, cycles: u32) -> Search {
+    /// Begins to look for a law; it will be taken over after so many cycles.
+    pub(super) fn search(&mut self, scout: Scout, quest: Quest, cycles: u32) -> Search {
         let result = Arc::new(Outcome::default());
-        let task = Task { scout, start, quest, result: Arc::clone(&result) };
+        let task = Task { scout, quest, result: Arc::clone(&result) };
         if self.tasks.is_none() {
             self.tasks = begin();
         }
@@ -138,11 +145,12 @@ fn begin() -> Option<Sender<Task>> {
 
 impl Task {
     fn run(self) {
-        let Self { scout, start, quest, result } = self;
+        let Self { scout, quest, result } = self;
         let wanted = || !result.forsaken.load(Ordering::Relaxed);
         let find = || match quest {
-            Quest::Fastest => find(&scout, start, wanted),
-            Quest::Shortest { about, harder } => find_stop(&scout, start, (about, harder), wanted),
+            Quest::Fastest(start) => find(&scout, start, wanted),
+            Quest::Shortest { start, about, harder } => find_stop(&scout, start, (about, harder), wanted),
+            Quest::Sooner(foresight, cycles) => find_sooner(scout, *foresight, cycles, wanted),
         };
         // Whoever waits has to get an answer in any case.
         let found = catch_unwind(AssertUnwindSafe(find)).unwrap_or(None);
@@ -263,4 +271,18 @@ fn find_stop(scout: &Scout, start: Edge, (about, harder): (f64, f64), wanted: im
         }
     }
     found.map(|(law, _)| law)
+}
+
+/// The same from the state that the governor's stop leads to within so many cycles, if it rests much sooner than that.
+fn find_sooner(scout: Scout, mut foresight: Foresight, cycles: u32, wanted: impl Fn() -> bool) -> Option<Found> {
+    let harder = foresight.harder();
+    let at = scout.at + foresight.brake(cycles)?;
+    let start = foresight.edge();
+    let [way, time] = foresight.rest(&wanted)?;
+    if time < SHORT_STOP {
+        return None;
+    }
+    let scout = scout.behind(at).up_to(at + way);
+    let found = find_stop(&scout, start, (NEARER * way, harder), wanted)?;
+    (found.law.duration() < MUCH_SOONER * time).then_some(found)
 }

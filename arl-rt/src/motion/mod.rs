@@ -18,6 +18,7 @@ mod curve;
 mod ease;
 mod error;
 mod finder;
+mod foresight;
 mod gate;
 mod governor;
 mod halves;

@@ -14,6 +14,8 @@ use crate::frames::Rig;
 use crate::kinematics::Kinematics;
 use crate::robot::{Robot, VelocityProfile};
 
+/// How long an acceleration takes to rise at least, in s, at a stop of a motion that does not limit the jerk.
+const RISE_TIME: f64 = 0.004;
 /// Parts of half a blend.
 const SPEEDS: usize = crossing::PARTS / 2;
 
@@ -50,8 +52,10 @@ pub(super) struct Piece {
     pub(super) leave: f64,
     /// The length of the motion in mm.
     pub(super) length: f64,
-    /// The programmed speeds, where every place has limits of its own: in the profile O.
+    /// The programmed speeds, where it is known what limits each of its places.
     pub(super) pace: Option<Pace>,
+    /// Whether each place has limits of its own even while the robot goes on: in the profile O.
+    pub(super) is_free: bool,
 }
 
 impl Piece {
@@ -78,7 +82,8 @@ impl Piece {
             leave: to,
             shares: [from, to].map(|share| motion.of_instruction(share)),
             length: motion.length,
-            pace: is_free(motion).then_some(motion.pace),
+            pace: is_known(motion).then_some(motion.pace),
+            is_free: is_free(motion),
         }
     }
 
@@ -114,7 +119,8 @@ impl Piece {
             shares: if first { [blend.leave; 2] } else { [blend.join / 2.0, blend.join] }
                 .map(|share| motion.of_instruction(share)),
             length: motion.length,
-            pace: (is_free(before) && is_free(after)).then(|| common_pace(before, after)),
+            pace: (is_known(before) && is_known(after)).then(|| common_pace(before, after)),
+            is_free: is_free(before) && is_free(after),
         }
     }
 
@@ -203,16 +209,17 @@ impl Piece {
         curve.into_iter().flat_map(|curve| curve.borders())
     }
 
-    /// Adds what limits the nominal time after `at` s of it, where the joints are `joints`. Returns how these change with
-    /// it: three derivatives; `None` where nothing but constant limits holds, and at a singular point.
+    /// Adds what limits the nominal time after `at` s of it, where the joints are `joints`, for a robot that goes on or one that
+    /// `stops`. Returns how these change with it: three derivatives; `None` where nothing but constant limits holds, and at a
+    /// singular point.
     pub(super) fn limit(
         &self,
         robot: &Robot,
-        at: f64,
-        joints: &Joints,
+        (at, joints): (f64, &Joints),
+        stops: bool,
         bounds: &mut Bounds,
     ) -> Option<[[f64; ALL]; 3]> {
-        let Some(pace) = &self.pace else {
+        let Some(pace) = self.pace.as_ref().filter(|_| stops || self.is_free) else {
             bounds.cell(&self.limits);
             return None;
         };
@@ -241,6 +248,10 @@ impl Piece {
                 }
             }
         }
+        if !self.is_free {
+            // A stop speeds up nowhere; and an acceleration takes its time, also without a limit of the jerk.
+            bounds.rising_in(RISE_TIME);
+        }
         Some(rates)
     }
 
@@ -256,10 +267,15 @@ impl Piece {
     }
 }
 
+/// Whether it is known what limits each place of a motion: not where it weaves.
+fn is_known(motion: &Motion) -> bool {
+    motion.laid.is_none()
+}
+
 /// Whether every place of a motion has limits of its own: in the profile O, unless its duration is given or it weaves, which
 /// wants an even speed.
 fn is_free(motion: &Motion) -> bool {
-    motion.profile == VelocityProfile::O && motion.timed.is_none() && motion.laid.is_none()
+    motion.profile == VelocityProfile::O && motion.timed.is_none() && is_known(motion)
 }
 
 /// The next lower speed of a fine grid, on which the full speed lies: so that stretches of almost the same speed can be

@@ -240,6 +240,12 @@ impl Ahead {
 }
 
 impl Pilot {
+    /// One that leads to rest, where the limits are those of the way times `harder`.
+    pub(super) fn resting(found: Found, harder: f64) -> Self {
+        let ahead = Ahead { ramp: Some(Ramp::along(found)), share: 1.0, ..Ahead::default() };
+        Self { ahead, harder, shortest: true, ..Self::default() }
+    }
+
     /// Whether it stands still.
     pub(super) fn rests(&self) -> bool {
         self.ahead.rests()

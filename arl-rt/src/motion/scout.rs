@@ -43,6 +43,8 @@ pub(super) struct Scout {
     /// Where the last piece ends, and whether the robot has to stop there.
     pub(super) end: f64,
     pub(super) stops: bool,
+    /// Whether the way is looked at for a stop: then each place has limits of its own, whatever the profile.
+    for_stop: bool,
 }
 
 /// A part of the course that is ready to be timed.
@@ -62,8 +64,16 @@ impl Scout {
         farthest: f64,
         (settled, room): (usize, f64),
     ) -> Self {
-        let mut scout =
-            Self { robot: Arc::clone(robot), pieces: Vec::new(), passed, at, near: *near, end: passed, stops: false };
+        let mut scout = Self {
+            robot: Arc::clone(robot),
+            pieces: Vec::new(),
+            passed,
+            at,
+            near: *near,
+            end: passed,
+            stops: false,
+            for_stop: false,
+        };
         let mut settled_at = None;
         for (index, piece) in pieces.enumerate() {
             if index == settled {
@@ -93,6 +103,16 @@ impl Scout {
             (self.end, self.stops) = (end, false);
         }
         self
+    }
+
+    /// The same for a stop.
+    pub(super) fn for_stop(self) -> Self {
+        Self { for_stop: true, ..self }
+    }
+
+    /// The same from `at` on, which is farther.
+    pub(super) fn behind(self, at: f64) -> Self {
+        Self { at, ..self }
     }
 
     /// The way to `to`, with `density` times as many places as it takes mostly.
@@ -245,7 +265,8 @@ impl<'a> Walk<'a> {
                     self.jump = Some(bounds.rows.len());
                 }
                 let at = at.clamp(0.0, piece.time);
-                if let Some(rates) = piece.limit(&self.scout.robot, at, &self.joints, bounds) {
+                let here = (at, &self.joints);
+                if let Some(rates) = piece.limit(&self.scout.robot, here, self.scout.for_stop, bounds) {
                     let longest = (STEP_OF_SCALE * scale(&self.scout.robot, &rates)).max(CLOSEST * spacing);
                     step = step.min(longest);
                 }

@@ -28,14 +28,14 @@ pub(super) const LOOKED_AHEAD: f64 = ROOM * WINDOW + 0.2;
 /// A law that is being looked for, and what for.
 #[derive(Clone, Debug)]
 pub(super) struct Sought {
-    search: Search,
-    purpose: Purpose,
+    pub(super) search: Search,
+    pub(super) purpose: Purpose,
     /// Where the part of the course ends that it may lead over, in s of nominal time.
     reach: f64,
 }
 
 #[derive(Clone, Debug)]
-enum Purpose {
+pub(super) enum Purpose {
     /// To go off from rest.
     Start,
     /// To go on behind the law in hand.
@@ -44,6 +44,8 @@ enum Purpose {
     GoOn(f64),
     /// To rest sooner, with so much more acceleration and jerk.
     Halt(f64),
+    /// The same where the governor brakes.
+    Sooner,
     /// To go off from the next stop.
     Next,
     /// To go on along another course.
@@ -60,7 +62,7 @@ pub(super) struct Next {
 
 /// The course as it would be with some motions more.
 #[derive(Clone, Debug)]
-struct Draft {
+pub(super) struct Draft {
     /// The number of pieces, since the course began, that stay.
     same: u64,
     pieces: Vec<Arc<Piece>>,
@@ -86,9 +88,9 @@ impl Course {
     /// Whether the next motion has to wait: a law is being found that might lead over what it changes.
     pub(in crate::motion) fn is_asking(&self) -> bool {
         let offers = |sought: &Sought| matches!(sought.purpose, Purpose::Offer(_));
-        self.sought
-            .as_ref()
-            .is_some_and(|sought| offers(sought) || (self.leads_on(sought) && self.changes(sought.reach)))
+        let waits = |sought: &Sought| offers(sought) || (self.leads_on(sought) && self.changes(sought.reach));
+        // It rests soon, and goes on as the governor says.
+        self.sought.as_ref().is_some_and(waits) || (self.relieved && self.is_laid_down())
     }
 
     /// Whether a motion that is appended now changes the course where the law in hand leads.
@@ -252,12 +254,12 @@ impl Course {
     }
 
     fn search(&mut self, scout: Scout, start: Edge, cycles: u32, purpose: Purpose) {
-        self.search_for(Quest::Fastest, scout, start, cycles, purpose);
+        self.search_for(Quest::Fastest(start), scout, cycles, purpose);
     }
 
-    fn search_for(&mut self, quest: Quest, scout: Scout, start: Edge, cycles: u32, purpose: Purpose) {
+    pub(super) fn search_for(&mut self, quest: Quest, scout: Scout, cycles: u32, purpose: Purpose) {
         let reach = scout.end;
-        self.sought = Some(Sought { search: self.finder.search(scout, start, quest, cycles), purpose, reach });
+        self.sought = Some(Sought { search: self.finder.search(scout, quest, cycles), purpose, reach });
     }
 
     /// Says that nothing is looked for any more.
@@ -275,6 +277,7 @@ impl Course {
         self.forsake();
         (self.pilot, self.unled) = (None, false);
         (self.next, self.answer) = (None, None);
+        self.hand_back();
         let empty = Self { finder: std::mem::take(&mut self.finder), ..Self::default() };
         std::mem::replace(self, empty)
     }
@@ -297,6 +300,7 @@ impl Course {
     /// At a stop: what is looked for is of use only if it goes on from there.
     pub(super) fn arrive(&mut self) {
         (self.pilot, self.unled) = (None, false);
+        self.hand_back();
         if self.sought.as_ref().is_some_and(|sought| self.leads_on(sought)) {
             self.forsake();
         }
@@ -314,6 +318,9 @@ impl Course {
             return false;
         }
         match pacing {
+            Pacing::Stop(harder) if self.relieved => drop(pilot.brake(harder)),
+            // It comes to rest, and goes on from there.
+            _ if self.relieved => {}
             Pacing::Stop(harder) => self.halt(&mut pilot, (robot, here), cycle, harder),
             // Laws that are being looked for count on the share that is known.
             Pacing::Go(share) | Pacing::Settle(share) => {
@@ -336,6 +343,10 @@ impl Course {
         }
         if pilot.rests() {
             self.halt_no_more();
+            if self.relieved {
+                self.hand_back();
+                return true;
+            }
         }
         self.pilot = Some(pilot);
         true
@@ -357,8 +368,8 @@ impl Course {
         self.settle_offer(pilot);
         self.forsake();
         let scout = Scout::new(robot, (self.pieces.iter(), self.passed), (at, here), end, (usize::MAX, f64::INFINITY));
-        let quest = Quest::Shortest { about, harder };
-        self.search_for(quest, scout.up_to(end), start, cycles, Purpose::Halt(harder));
+        let quest = Quest::Shortest { start, about, harder };
+        self.search_for(quest, scout.up_to(end), cycles, Purpose::Halt(harder));
     }
 
     /// Looks for a way to rest no longer.
@@ -386,6 +397,8 @@ impl Course {
             Purpose::Next => self.next = Some(Next { found, reach }),
             Purpose::Offer(draft) if pilot.renew(found) => self.take(*draft),
             Purpose::Offer(_) => self.answer = Some(Answer::Refused),
+            // It has a pilot already.
+            Purpose::Sooner => {}
         }
     }
 
@@ -402,7 +415,9 @@ impl Course {
                 sought.search.forsake();
                 self.answer = Some(Answer::Refused);
             }
-            Purpose::Start | Purpose::Renew | Purpose::GoOn(_) | Purpose::Halt(_) => sought.search.forsake(),
+            Purpose::Start | Purpose::Renew | Purpose::GoOn(_) | Purpose::Halt(_) | Purpose::Sooner => {
+                sought.search.forsake();
+            }
         }
     }
 
@@ -441,7 +456,7 @@ impl Course {
     fn ask_next(&mut self, robot: &Arc<Robot>, cycle: f64) {
         let Some(stop) = self.pieces.iter().position(|piece| piece.stops) else { return };
         let Some(last) = self.pieces.get(stop) else { return };
-        if self.pieces.get(stop + 1).is_none_or(|first| first.pace.is_none()) {
+        if self.pieces.get(stop + 1).is_none_or(|first| !first.is_free) {
             return;
         }
         let behind = self.pieces.iter().skip(stop + 1);
