@@ -27,6 +27,8 @@ const AS_QUICK_FOR: f64 = 0.3;
 const AS_QUICK: f64 = 1.1;
 /// After something was not found, the next attempt is made so many s later.
 const PAUSE: f64 = 0.02;
+/// A stop that ends no more than so many s before the law does is that of the law.
+const AS_SOON: f64 = 0.001;
 /// How many s a change of the override, or a stop for which no ramp is found, may take.
 const CHANGES: [f64; 7] = [0.03, 0.06, 0.12, 0.25, 0.5, 1.0, 2.0];
 /// A stop that takes longer, in s, is begun, and a shorter one looked for, which has to be shorter by so much.
@@ -438,6 +440,10 @@ impl Pilot {
         };
         let ramp = Ramp::hardest(now, plot, end, harder);
         let longest = ramp.as_ref().map_or(f64::INFINITY, Ramp::left);
+        // Where the law ends as soon, rounding must not end the ramp just before it.
+        if self.arrives_in() <= longest + AS_SOON {
+            return false;
+        }
         let easing = match &self.ahead {
             Ahead { ramp: None, main: Some(main), .. } => main.easing(self.ahead.shares(), 0.0, harder, longest),
             _ => None,
@@ -483,9 +489,17 @@ impl Pilot {
         }
     }
 
-    /// s until it rests; infinitely many where it does not brake.
+    /// s until it rests; infinitely many where it neither brakes nor arrives.
     fn stop_left(&self) -> f64 {
         let easing = self.ahead.easing.filter(Easing::stops).map_or(f64::INFINITY, |easing| easing.left());
-        self.ahead.ramp.as_ref().map_or(easing, Ramp::left)
+        self.ahead.ramp.as_ref().map_or(easing.min(self.arrives_in()), Ramp::left)
+    }
+
+    /// s until the law leads to where the robot has to stop; infinitely many where it does not, or its speed changes meanwhile.
+    fn arrives_in(&self) -> f64 {
+        match &self.ahead {
+            Ahead { main: Some(main), share, easing: None, ramp: None } if main.found.stops => main.left() / share,
+            _ => f64::INFINITY,
+        }
     }
 }

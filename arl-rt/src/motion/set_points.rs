@@ -8,6 +8,8 @@ use super::scout::Scout;
 
 /// s between two set-points.
 const CYCLE: f64 = 0.001;
+/// So many of them at rest tell how a motion begins and ends.
+const STANDING: i32 = 3;
 
 /// The share of what motions may have of an axis's speed, acceleration and jerk, the latter two `harder` times as high, that
 /// set-points along a law use, by their differences.
@@ -15,7 +17,9 @@ pub(super) fn used_by_set_points(scout: &Scout, law: &Law, harder: f64) -> Used 
     let mut stroll = scout.stroll();
     let mut last: Vec<(f64, (Joints, Pace))> = Vec::with_capacity(4);
     let mut used = Used::default();
-    for cycle in 0..=(law.duration() / CYCLE) as u32 {
+    // Where it stands before or behind, set-points are those of a robot at rest.
+    let first = if law.at(0.0).vel == 0.0 { -STANDING } else { 0 };
+    for cycle in first..=(law.duration() / CYCLE) as i32 + STANDING {
         if last.len() == 4 {
             last.remove(0);
         }
