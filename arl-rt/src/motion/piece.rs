@@ -167,6 +167,11 @@ impl Piece {
         self.curve.joints(kinematics, place, near)
     }
 
+    /// Whether all axes go in proportion, with the same limits everywhere.
+    pub(super) fn is_even(&self) -> bool {
+        self.progress.is_none() && matches!(self.curve, Curve::Axes(_))
+    }
+
     /// Whether this is the half of a blend that leaves its motion.
     pub(super) fn leaves(&self) -> bool {
         self.progress.is_some() && self.ends

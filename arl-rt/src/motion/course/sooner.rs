@@ -12,7 +12,7 @@ use crate::motion::foresight::Foresight;
 use crate::motion::governor::Pacing;
 use crate::motion::joints::Joints;
 use crate::motion::pilot::Pilot;
-use crate::motion::profile::{Change, State};
+use crate::motion::profile::{Change, Limits, State};
 use crate::motion::scout::Scout;
 use crate::robot::Robot;
 use std::sync::Arc;
@@ -34,7 +34,9 @@ impl Course {
         if self.asked.is_none_or(|asked| asked < harder) {
             self.ask_no_more();
             self.asked = Some(harder);
-            self.ask_for_stop(robot, here, cycle, harder);
+            if !self.stops_on_even_way(harder) {
+                self.ask_for_stop(robot, here, cycle, harder);
+            }
         } else if let Some(found) = self.take_stop() {
             self.pilot = Some(Box::new(Pilot::resting(found, harder)));
             self.relieved = true;
@@ -47,6 +49,16 @@ impl Course {
             self.backup = Change::default();
         }
         self.asked = None;
+    }
+
+    /// Whether the governor's stop stays on a piece that has the same limits everywhere: none is shorter.
+    fn stops_on_even_way(&self, harder: f64) -> bool {
+        let State { vel, acc, .. } = self.state;
+        self.pieces.front().filter(|piece| piece.is_even()).is_some_and(|piece| {
+            let Limits { acc: most, jerk, .. } = piece.limits;
+            let limits = Limits { vel, acc: most * harder, jerk: jerk * harder };
+            self.at + Change::new(vel, acc, 0.0, &limits).distance(vel, acc) < piece.time
+        })
     }
 
     fn ask_for_stop(&mut self, robot: &Arc<Robot>, here: &Joints, cycle: f64, harder: f64) {
