@@ -175,14 +175,39 @@ impl Case {
             scenario: self.scenario.clone(),
         };
         let rows = free.examine(project, command, at, faults, tally)?;
-        faults.extend(check::check_stopped(&self.robot, &self.plan, &stopped, &rows, tally));
         let range = self.robot.axes[axis].min..=self.robot.axes[axis].max;
-        let left = rows.iter().find(|row| !range.contains(&row.axes[axis])).map(|row| row.line);
-        if left != Some(line) {
-            let axis = axis + 1;
+        let left = rows.iter().position(|row| !range.contains(&row.axes[axis]));
+        // Where the free axis turns out already, the other one was turned to the other side: from there on they go apart.
+        let apart = left.map(|at| rows[at].line).filter(|apart| self.comes_before(*apart, line));
+        let many = apart.and_then(|apart| stopped.iter().position(|row| row.line == apart)).unwrap_or(stopped.len());
+        faults.extend(check::check_stopped(&self.robot, &self.plan, (&stopped, many), &rows, tally));
+        if apart.is_some() {
+            return Some(rows);
+        }
+        if !left.is_some_and(|at| rows[at].line == line || self.leads_into(line, &rows, at)) {
+            let (axis, left) = (axis + 1, left.map(|at| rows[at].line));
             faults.push(format!("the alarm says that j{axis} leaves its range in line {line}; it does in {left:?}"));
         }
         Some(rows)
+    }
+
+    /// Whether a motion through the wrist comes before another motion, and does not lead into it.
+    fn comes_before(&self, line: usize, other: usize) -> bool {
+        let place = |line: usize| self.plan.motions.iter().position(|motion| motion.line == line);
+        let passes = place(line).is_some_and(|at| self.plan.motions[at].wrist);
+        passes && place(line).zip(place(other)).is_some_and(|(at, other)| at + 1 < other)
+    }
+
+    /// Whether a row may be of the half of a blend that leads into a motion: of the one before, in the second half of its time.
+    fn leads_into(&self, line: usize, rows: &[Row], at: usize) -> bool {
+        let motions = &self.plan.motions;
+        let next = motions.iter().position(|motion| motion.line == line);
+        let before = next.and_then(|next| motions.get(next.checked_sub(1)?)).filter(|before| !before.rests);
+        before.is_some_and(|before| {
+            let of = |row: &Row| row.line == before.line;
+            let (first, last) = (rows.iter().position(of), rows.iter().rposition(of));
+            of(&rows[at]) && first.zip(last).is_some_and(|(first, last)| 2 * at >= first + last)
+        })
     }
 
     fn file(&self, project: &Project, ending: &str) -> std::path::PathBuf {

@@ -145,19 +145,23 @@ pub(crate) fn check(
     faults
 }
 
+/// How long before the end of a trace the robot may brake fast for an alarm, in s.
+const ALARMED: f64 = 0.5;
+
 /// What is wrong with a trace that an alarm ended, beside the one of the same program without the alarm: it stops on the
-/// way, within the limits.
+/// way, within the limits. The first rows, so `many`, are on the same way.
 pub(crate) fn check_stopped(
     robot: &Robot,
     plan: &Plan,
-    rows: &[Row],
+    (rows, many): (&[Row], usize),
     unstopped: &[Row],
     tally: &mut Tally,
 ) -> Vec<String> {
-    let mut faults = compare(unstopped, rows, tally);
+    let mut faults = compare(unstopped, &rows[..many], tally);
     // From where it goes otherwise than without the alarm on, it may brake fast.
-    let brakes = rows.iter().zip(unstopped).find(|(row, other)| row.axes != other.axes);
-    let windows = brakes.map(|(row, _)| (row.t - CYCLE, f64::INFINITY));
+    let brakes = rows.iter().zip(unstopped).find(|(row, other)| row.axes != other.axes).map(|(row, _)| row.t - CYCLE);
+    let brakes = if many < rows.len() { Some(rows[rows.len() - 1].t - ALARMED) } else { brakes };
+    let windows = brakes.map(|from| (from, f64::INFINITY));
     let legs = plan.motions.iter().map(|motion| Leg::of(robot, plan, motion)).collect();
     let mut account = Account::over(robot, rows.to_vec(), legs);
     account.note_fast_stops(windows.as_slice());
