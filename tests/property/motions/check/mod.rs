@@ -119,21 +119,22 @@ pub(crate) fn check(
     }
     for excursion in &parts.excursions {
         tally.note(if excursion.handler.is_some() { "handlers: motions in between" } else { "pauses: jogged" }, 0.0);
-        let look = |stopped: usize, tally: &mut Tally| {
-            let mut found = Vec::new();
+        let look = |stopped: usize| {
+            let (mut found, mut seen) = (Vec::new(), Tally::default());
             match Account::of_excursion(robot, plan, &legs, scenario, excursion, stopped) {
                 Ok(mut account) => {
                     account.note_fast_stops(&windows);
-                    account.check(scenario, &[], &mut found, tally);
+                    account.check(scenario, &[], &mut found, &mut seen);
                 }
                 Err(fault) => found.push(fault),
             }
-            found
+            (found, seen)
         };
-        let mut found = look(excursion.stopped, tally);
-        if !found.is_empty() && excursion.blends && look(excursion.stopped + 1, tally).is_empty() {
-            found.clear();
-        }
+        // In a blend it may have been either motion that was stopped.
+        let first = look(excursion.stopped);
+        let other = (!first.0.is_empty() && excursion.blends).then(|| look(excursion.stopped + 1));
+        let (found, seen) = other.filter(|(found, _)| found.is_empty()).unwrap_or(first);
+        tally.add(&seen);
         faults.extend(found);
     }
     let parted = Parted { parts: &parts, rows, plan, legs: &legs, windows: &windows };
