@@ -12,7 +12,7 @@ const BESIDE: f64 = 1e-3;
 
 /// How much longer than an axis alone would take a stop on the path may take: the limits of a way are those of its
 /// hardest place, and jerk, acceleration and speed share them.
-const LONGER: f64 = 6.0;
+const LONGER: f64 = 5.0;
 
 /// How many times the acceleration and the jerk a fast stop has.
 const FAST: f64 = 5.0;
