@@ -32,7 +32,7 @@ impl Used {
     /// Between two places, the second of which is behind all that were noted before, it is `share`.
     pub(super) fn note(&mut self, [from, to]: [f64; 2], share: f64) {
         self.most = self.most.max(share);
-        if share > MOST_USED {
+        if share.is_nan() || share > MOST_USED {
             self.beyond = Some(self.beyond.map_or([from, to], |[first, _]| [first, to]));
         }
     }
@@ -129,7 +129,7 @@ pub(super) fn used_by_law(way: &Way, law: &Law) -> Option<Used> {
     let looked = Look { way, harder: 1.0, between: Between::Least };
     let mut used = Used::default();
     for now in moments(law.duration()).map(|time| law.at(time)) {
-        if now.vel < -BACKWARDS {
+        if now.vel.is_nan() || now.vel < -BACKWARDS {
             return None;
         }
         used.note([now.at; 2], looked.used_at(&now));
