@@ -1,5 +1,7 @@
 //! A part of a motion, or half of a blend, as the course has them in a row.
 
+use nalgebra::{UnitQuaternion, Vector3};
+
 use super::blend::{Blend, common_pace};
 use super::bounds::{Bounds, Pace};
 use super::crossing::{self, Crossing};
@@ -10,12 +12,14 @@ use super::plan::Motion;
 use super::profile::Limits;
 use super::progress::Progress;
 use super::timing::Cell;
-use crate::frames::Rig;
+use crate::frames::{Carried, Rig};
 use crate::kinematics::Kinematics;
 use crate::robot::{Robot, VelocityProfile};
 
 /// How long an acceleration takes to rise at least, in s, at a stop of a motion that does not limit the jerk.
 const RISE_TIME: f64 = 0.004;
+/// A step for differences, as part of the piece.
+const DIFFERENCE: f64 = 1e-3;
 /// Parts of half a blend.
 const SPEEDS: usize = crossing::PARTS / 2;
 
@@ -162,14 +166,47 @@ impl Piece {
 
     /// The same, but for the end of a motion as its curve has it.
     pub(super) fn joints_on(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> Joints {
-        let place = self.from + (self.to - self.from) * (at / self.time);
-        let place = self.progress.as_ref().map_or(place, |progress| progress.at(place));
-        self.curve.joints(kinematics, place, near)
+        self.curve.joints(kinematics, self.place(at), near)
     }
 
     /// Whether all axes go in proportion, with the same limits everywhere.
     pub(super) fn is_even(&self) -> bool {
         self.progress.is_none() && matches!(self.curve, Curve::Axes(_))
+    }
+
+    /// What the robot carries whose way is limited: `None` where it is the axes that are led, but for blends between motions that
+    /// lead the TCP.
+    pub(super) fn leads(&self) -> Option<&Carried> {
+        match &self.curve {
+            Curve::Tool(curve) => Some(&curve.carried),
+            Curve::Axes(_) => self.pace.filter(|pace| pace.tcp.is_finite()).map(|_| &self.rig.carried),
+        }
+    }
+
+    /// The orientation of the tool that is led along the way, after `at` s of nominal time; it gives way in passages of the wrist
+    /// singularity, and is not led where the axes are.
+    pub(super) fn rotation(&self, at: f64) -> Option<UnitQuaternion<f64>> {
+        let Curve::Tool(curve) = &self.curve else { return None };
+        Some(curve.rotation(self.place(at)))
+    }
+
+    /// Three derivatives of the TCP's position in mm where the axes are led, after `at` s of nominal time, by differences.
+    fn moving_by_axes(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> [Vector3<f64>; 3] {
+        let step = DIFFERENCE * self.time;
+        let at = at.clamp(2.0 * step, self.time - 2.0 * step);
+        let [b, a, here, c, d] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|steps| {
+            let joints = self.joints_on(kinematics, at + steps * step, near);
+            self.rig.carried.way_at(&kinematics.forward(&joints.axes)).translation.vector
+        });
+        let first = (c - a) / (2.0 * step);
+        let second = (c - 2.0 * here + a) / (step * step);
+        [first, second, (d - 2.0 * c + 2.0 * a - b) / (2.0 * step * step * step)]
+    }
+
+    /// The parameter of the curve after `at` s of nominal time.
+    fn place(&self, at: f64) -> f64 {
+        let place = self.from + (self.to - self.from) * (at / self.time);
+        self.progress.as_ref().map_or(place, |progress| progress.at(place))
     }
 
     /// Whether this is the half of a blend that leaves its motion.
@@ -240,7 +277,7 @@ impl Piece {
                     bounds.manual_place(joints, &rates[0], &self.rig.carried);
                 }
                 if pace.tcp.is_finite() {
-                    bounds.cap_place(joints, &rates[0], &self.rig.carried, pace.tcp);
+                    bounds.moving(&self.moving_by_axes(&robot.kinematics, at, joints), pace);
                 }
             }
             Curve::Tool(curve) => {

@@ -2,11 +2,14 @@
 
 use std::sync::Arc;
 
+use nalgebra::{UnitQuaternion, Vector3};
+
 use super::bounds::{Bounds, Pace};
 use super::joints::{ALL, Joints};
 use super::limits::Bound;
 use super::optimal::{Edge, Row, Way, places};
 use super::piece::Piece;
+use crate::frames::Carried;
 use crate::robot::Robot;
 
 /// The longest nominal time, in s, between two places, and how many places there are at least and at most.
@@ -221,10 +224,24 @@ pub(super) struct Stroll<'a> {
     before: f64,
 }
 
+/// Where everything is at a place of the way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Point {
+    /// The parameter.
+    pub(super) at: f64,
+    pub(super) joints: Joints,
+    /// Of the motion there.
+    pub(super) pace: Pace,
+    /// Where the TCP is, if its way is limited, and what the robot carries.
+    pub(super) tcp: Option<(Vector3<f64>, Carried)>,
+    /// The orientation of the tool, if that is led.
+    pub(super) rotation: Option<UnitQuaternion<f64>>,
+}
+
 impl Stroll<'_> {
-    /// The axes at `at`, which is not before the place that was asked for last, and close to it; and the pace of the motion there.
-    pub(super) fn go_to(&mut self, at: f64) -> (Joints, Pace) {
-        let mut pace = Pace::FREE;
+    /// The place `at`, which is not before the one that was asked for last, and close to it.
+    pub(super) fn go_to(&mut self, at: f64) -> Point {
+        let (mut pace, mut tcp, mut rotation) = (Pace::FREE, None, None);
         let pieces = &self.scout.pieces;
         while let Some(piece) = pieces.get(self.index) {
             let end = self.before + piece.time;
@@ -232,11 +249,16 @@ impl Stroll<'_> {
                 let here = (at - self.before).min(piece.time);
                 self.joints = piece.joints_on(&self.scout.robot.kinematics, here, &self.joints);
                 pace = piece.pace.unwrap_or(pace);
+                tcp = piece.pace.and_then(|_| piece.leads()).map(|carried| {
+                    let flange = self.scout.robot.kinematics.forward(&self.joints.axes);
+                    (carried.way_at(&flange).translation.vector, *carried)
+                });
+                rotation = tcp.and_then(|_| piece.rotation(here));
                 break;
             }
             (self.before, self.index) = (end, self.index + 1);
         }
-        (self.joints, pace)
+        Point { at, joints: self.joints, pace, tcp, rotation }
     }
 }
 

@@ -1,21 +1,22 @@
-//! What the set-points along a law use of the axes' limits: what a trace would show.
+//! What the set-points along a law use of the limits: what a trace would show.
 
-use super::bounds::Pace;
-use super::joints::Joints;
 use super::optimal::Law;
 use super::plot::Used;
-use super::scout::Scout;
+use super::scout::{Point, Scout};
 
 /// s between two set-points.
 const CYCLE: f64 = 0.001;
 /// So many of them at rest tell how a motion begins and ends.
 const STANDING: i32 = 3;
 
-/// The share of what motions may have of an axis's speed, acceleration and jerk, the latter two `harder` times as high, that
-/// set-points along a law use, by their differences.
+/// Limits of speed, acceleration and jerk.
+type Limits = [f64; 3];
+
+/// The share of what motions may have of speed, acceleration and jerk, the latter two `harder` times as high, that set-points
+/// along a law use, by their differences: of each axis, and of the TCP along its way and its turning where that is led.
 pub(super) fn used_by_set_points(scout: &Scout, law: &Law, harder: f64) -> Used {
     let mut stroll = scout.stroll();
-    let mut last: Vec<(f64, (Joints, Pace))> = Vec::with_capacity(4);
+    let mut last: Vec<Point> = Vec::with_capacity(4);
     let mut used = Used::default();
     // Where it stands before or behind, set-points are those of a robot at rest.
     let first = if law.at(0.0).vel == 0.0 { -STANDING } else { 0 };
@@ -23,31 +24,62 @@ pub(super) fn used_by_set_points(scout: &Scout, law: &Law, harder: f64) -> Used 
         if last.len() == 4 {
             last.remove(0);
         }
-        let at = law.at(f64::from(cycle) * CYCLE).at;
-        last.push((at, stroll.go_to(at)));
-        if let [(from, a), (_, b), (_, c), (to, d)] = last.as_slice() {
-            used.note([*from, *to], used_by(scout, [a, b, c, d], harder));
+        last.push(stroll.go_to(law.at(f64::from(cycle) * CYCLE).at));
+        if let [a, b, c, d] = last.as_slice() {
+            let points = [a, b, c, d];
+            let share = used_by_axes(scout, points, harder).max(used_by_tool(scout, points, harder));
+            used.note([a.at, d.at], share);
         }
     }
     used
 }
 
-/// The largest share by four set-points. Where one motion leads into another, the higher limits count.
-fn used_by(scout: &Scout, points: [&(Joints, Pace); 4], harder: f64) -> f64 {
+/// The largest share of an axis's limits by four set-points. Where one motion leads into another, the higher limits count.
+fn used_by_axes(scout: &Scout, points: [&Point; 4], harder: f64) -> f64 {
     let own = scout.robot.own_axes().iter().enumerate();
     let own = own.map(|(index, axis)| {
-        (points.map(|(joints, _)| joints.axes.get(index).copied()), points.map(|(_, pace)| pace.of_own(axis)))
+        (points.map(|point| point.joints.axes.get(index).copied()), points.map(|point| point.pace.of_own(axis)))
     });
     let external = scout.robot.external_axes().iter().enumerate();
     let external = external.map(|(index, axis)| {
-        (points.map(|(joints, _)| joints.external.get(index).copied()), points.map(|(_, pace)| pace.of_external(axis)))
+        (
+            points.map(|point| point.joints.external.get(index).copied()),
+            points.map(|point| point.pace.of_external(axis)),
+        )
     });
-    own.chain(external).fold(0.0_f64, |used, (values, limits)| {
-        let [Some(a), Some(b), Some(c), Some(d)] = values else { return used };
-        let [vel, acc, jerk] = [0, 1, 2].map(|order| limits.iter().map(|limits| limits[order]).fold(0.0, f64::max));
-        let by_vel = (d - c) / CYCLE / vel;
-        let by_acc = (d - 2.0 * c + b) / (CYCLE * CYCLE) / (harder * acc);
-        let by_jerk = (d - 3.0 * (c - b) - a) / (CYCLE * CYCLE * CYCLE) / (harder * jerk);
-        used.max(by_vel.abs()).max(by_acc.abs()).max(by_jerk.abs())
+    own.chain(external).fold(0.0_f64, |most, (values, limits)| {
+        let [Some(a), Some(b), Some(c), Some(d)] = values else { return most };
+        most.max(used([b - a, c - b, d - c], highest(limits), harder))
     })
+}
+
+/// The same of the TCP's limits; nothing where it is not led all along, or another one is.
+fn used_by_tool(scout: &Scout, points: [&Point; 4], harder: f64) -> f64 {
+    let [Some((a, carried)), Some((b, second)), Some((c, third)), Some((d, last))] = points.map(|point| point.tcp)
+    else {
+        return 0.0;
+    };
+    if [second, third, last].iter().any(|other| *other != carried) {
+        return 0.0;
+    }
+    let tcp = &scout.robot.tcp;
+    let limits = points.map(|Point { pace, .. }| [tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk]);
+    let by_way = used([b - a, c - b, d - c].map(|way| way.norm()), highest(limits), harder);
+    let [Some(a), Some(b), Some(c), Some(d)] = points.map(|point| point.rotation) else { return by_way };
+    let limits =
+        points.map(|Point { pace, .. }| [tcp.ori_vel.min(pace.ori), tcp.ori_acc * pace.acc, tcp.ori_jerk * pace.jerk]);
+    let turns = [a.angle_to(&b), b.angle_to(&c), c.angle_to(&d)].map(f64::to_degrees);
+    by_way.max(used(turns, highest(limits), harder))
+}
+
+/// The share of limits that three steps in a row use.
+fn used([first, second, third]: [f64; 3], [vel, acc, jerk]: Limits, harder: f64) -> f64 {
+    let by_vel = third / CYCLE / vel;
+    let by_acc = (third - second) / (CYCLE * CYCLE) / (harder * acc);
+    let by_jerk = (third - 2.0 * second + first) / (CYCLE * CYCLE * CYCLE) / (harder * jerk);
+    by_vel.abs().max(by_acc.abs()).max(by_jerk.abs())
+}
+
+fn highest(limits: [Limits; 4]) -> Limits {
+    limits.into_iter().fold([0.0; 3], |most, limits| [0, 1, 2].map(|order: usize| most[order].max(limits[order])))
 }

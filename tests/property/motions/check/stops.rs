@@ -14,6 +14,9 @@ const BESIDE: f64 = 1e-3;
 /// hardest place, and jerk, acceleration and speed share them.
 const LONGER: f64 = 5.0;
 
+/// The same for coming down to a lower override.
+const SLOWER: f64 = 6.0;
+
 /// How many times the acceleration and the jerk a fast stop has.
 const FAST: f64 = 5.0;
 
@@ -108,7 +111,7 @@ impl Account<'_> {
         let (mut share, mut free_until): (f64, f64) = (1.0, 0.0);
         for (at, event) in events.iter().enumerate() {
             if event.share < share {
-                free_until = free_until.max(event.at + LONGER * self.least_stop(self.row_at(event.at)));
+                free_until = free_until.max(event.at + SLOWER * self.least_stop(self.row_at(event.at)));
             }
             share = event.share;
             let until = events.get(at + 1).map_or(f64::INFINITY, |next| next.at);
