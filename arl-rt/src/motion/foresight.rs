@@ -5,7 +5,7 @@ use super::optimal::Edge;
 use super::profile::{Change, State};
 use super::timing::Timing;
 
-/// A stop takes no more cycles: it would be known not to end.
+/// A stop that takes more cycles is not looked at.
 const MOST_CYCLES: u32 = 20_000;
 
 /// The governor with a copy of all it knows.

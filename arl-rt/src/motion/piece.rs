@@ -16,8 +16,6 @@ use crate::frames::{Carried, Rig};
 use crate::kinematics::Kinematics;
 use crate::robot::{Robot, VelocityProfile};
 
-/// How long an acceleration takes to rise at least, in s, at a stop of a motion that does not limit the jerk.
-const RISE_TIME: f64 = 0.004;
 /// A step for differences, as part of the piece.
 const DIFFERENCE: f64 = 1e-3;
 /// Parts of half a blend.
@@ -60,6 +58,17 @@ pub(super) struct Piece {
     pub(super) pace: Option<Pace>,
     /// Whether each place has limits of its own even while the robot goes on: in the profile O.
     pub(super) is_free: bool,
+}
+
+/// A tool that is led along a way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LedTool {
+    /// Where the TCP is, in mm.
+    pub(super) at: Vector3<f64>,
+    /// The orientation, where that is led, too; in passages of the wrist singularity it gives way.
+    pub(super) rotation: Option<UnitQuaternion<f64>>,
+    /// What the robot carries.
+    pub(super) carried: Carried,
 }
 
 impl Piece {
@@ -174,30 +183,33 @@ impl Piece {
         self.progress.is_none() && matches!(self.curve, Curve::Axes(_))
     }
 
-    /// What the robot carries whose way is limited: `None` where it is the axes that are led, but for blends between motions that
-    /// lead the TCP.
-    pub(super) fn leads(&self) -> Option<&Carried> {
+    /// The tool whose way is limited, after `at` s of nominal time, where the joints are `joints`. `None` where it is the axes that are
+    /// led, but for blends between motions that lead the TCP, and where it is not known what limits it.
+    pub(super) fn tool(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<LedTool> {
+        let pace = self.pace?;
         match &self.curve {
-            Curve::Tool(curve) => Some(&curve.carried),
-            Curve::Axes(_) => self.pace.filter(|pace| pace.tcp.is_finite()).map(|_| &self.rig.carried),
+            Curve::Tool(curve) => {
+                let tcp = curve.tcp(self.place(at));
+                Some(LedTool { at: tcp.translation.vector, rotation: Some(tcp.rotation), carried: curve.carried })
+            }
+            Curve::Axes(_) if pace.tcp.is_finite() => {
+                Some(LedTool { at: self.tcp_by_axes(kinematics, joints), rotation: None, carried: self.rig.carried })
+            }
+            Curve::Axes(_) => None,
         }
     }
 
-    /// The orientation of the tool that is led along the way, after `at` s of nominal time; it gives way in passages of the wrist
-    /// singularity, and is not led where the axes are.
-    pub(super) fn rotation(&self, at: f64) -> Option<UnitQuaternion<f64>> {
-        let Curve::Tool(curve) = &self.curve else { return None };
-        Some(curve.rotation(self.place(at)))
+    /// Where the TCP is, in mm, where the axes are led.
+    fn tcp_by_axes(&self, kinematics: &Kinematics, joints: &Joints) -> Vector3<f64> {
+        self.rig.carried.way_at(&kinematics.forward(&joints.axes)).translation.vector
     }
 
     /// Three derivatives of the TCP's position in mm where the axes are led, after `at` s of nominal time, by differences.
     fn moving_by_axes(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> [Vector3<f64>; 3] {
         let step = DIFFERENCE * self.time;
         let at = at.clamp(2.0 * step, self.time - 2.0 * step);
-        let [b, a, here, c, d] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|steps| {
-            let joints = self.joints_on(kinematics, at + steps * step, near);
-            self.rig.carried.way_at(&kinematics.forward(&joints.axes)).translation.vector
-        });
+        let [b, a, here, c, d] = [-2.0, -1.0, 0.0, 1.0, 2.0]
+            .map(|steps| self.tcp_by_axes(kinematics, &self.joints_on(kinematics, at + steps * step, near)));
         let first = (c - a) / (2.0 * step);
         let second = (c - 2.0 * here + a) / (step * step);
         [first, second, (d - 2.0 * c + 2.0 * a - b) / (2.0 * step * step * step)]
@@ -251,17 +263,17 @@ impl Piece {
         curve.into_iter().flat_map(|curve| curve.borders())
     }
 
-    /// Adds what limits the nominal time after `at` s of it, where the joints are `joints`, for a robot that goes on or one that
-    /// `stops`. Returns how these change with it: three derivatives; `None` where nothing but constant limits holds, and at a
+    /// Adds what limits the nominal time after `at` s of it, where the joints are `joints`, for a robot that goes on, or for one that
+    /// stops and whose acceleration takes `rise` s to rise at least. Returns how these change with it: three derivatives; `None` where nothing but constant limits holds, and at a
     /// singular point.
     pub(super) fn limit(
         &self,
         robot: &Robot,
         (at, joints): (f64, &Joints),
-        stops: bool,
+        rise: Option<f64>,
         bounds: &mut Bounds,
     ) -> Option<[[f64; ALL]; 3]> {
-        let Some(pace) = self.pace.as_ref().filter(|_| stops || self.is_free) else {
+        let Some(pace) = self.pace.as_ref().filter(|_| rise.is_some() || self.is_free) else {
             bounds.cell(&self.limits);
             return None;
         };
@@ -290,9 +302,8 @@ impl Piece {
                 }
             }
         }
-        if !self.is_free {
-            // A stop speeds up nowhere; and an acceleration takes its time, also without a limit of the jerk.
-            bounds.rising_in(RISE_TIME);
+        if let Some(rise) = rise.filter(|_| !self.is_free) {
+            bounds.rising_in(rise);
         }
         Some(rates)
     }

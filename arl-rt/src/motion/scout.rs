@@ -2,14 +2,11 @@
 
 use std::sync::Arc;
 
-use nalgebra::{UnitQuaternion, Vector3};
-
 use super::bounds::{Bounds, Pace};
 use super::joints::{ALL, Joints};
 use super::limits::Bound;
 use super::optimal::{Edge, Row, Way, places};
-use super::piece::Piece;
-use crate::frames::Carried;
+use super::piece::{LedTool, Piece};
 use crate::robot::Robot;
 
 /// The longest nominal time, in s, between two places, and how many places there are at least and at most.
@@ -46,8 +43,9 @@ pub(super) struct Scout {
     /// Where the last piece ends, and whether the robot has to stop there.
     pub(super) end: f64,
     pub(super) stops: bool,
-    /// Whether the way is looked at for a stop: then each place has limits of its own, whatever the profile.
-    for_stop: bool,
+    /// How long an acceleration takes to rise at least, in s, where the way is looked at for a stop: then each place has limits of its
+    /// own, whatever the profile.
+    rise: Option<f64>,
 }
 
 /// A part of the course that is ready to be timed.
@@ -75,7 +73,7 @@ impl Scout {
             near: *near,
             end: passed,
             stops: false,
-            for_stop: false,
+            rise: None,
         };
         let mut settled_at = None;
         for (index, piece) in pieces.enumerate() {
@@ -108,9 +106,9 @@ impl Scout {
         self
     }
 
-    /// The same for a stop.
-    pub(super) fn for_stop(self) -> Self {
-        Self { for_stop: true, ..self }
+    /// The same for a stop, where an acceleration takes `rise` s to rise at least.
+    pub(super) fn for_stop(self, rise: f64) -> Self {
+        Self { rise: Some(rise), ..self }
     }
 
     /// The same from `at` on, which is farther.
@@ -232,16 +230,14 @@ pub(super) struct Point {
     pub(super) joints: Joints,
     /// Of the motion there.
     pub(super) pace: Pace,
-    /// Where the TCP is, if its way is limited, and what the robot carries.
-    pub(super) tcp: Option<(Vector3<f64>, Carried)>,
-    /// The orientation of the tool, if that is led.
-    pub(super) rotation: Option<UnitQuaternion<f64>>,
+    /// The tool, if its way is limited.
+    pub(super) tool: Option<LedTool>,
 }
 
 impl Stroll<'_> {
     /// The place `at`, which is not before the one that was asked for last, and close to it.
     pub(super) fn go_to(&mut self, at: f64) -> Point {
-        let (mut pace, mut tcp, mut rotation) = (Pace::FREE, None, None);
+        let (mut pace, mut tool) = (Pace::FREE, None);
         let pieces = &self.scout.pieces;
         while let Some(piece) = pieces.get(self.index) {
             let end = self.before + piece.time;
@@ -249,16 +245,12 @@ impl Stroll<'_> {
                 let here = (at - self.before).min(piece.time);
                 self.joints = piece.joints_on(&self.scout.robot.kinematics, here, &self.joints);
                 pace = piece.pace.unwrap_or(pace);
-                tcp = piece.pace.and_then(|_| piece.leads()).map(|carried| {
-                    let flange = self.scout.robot.kinematics.forward(&self.joints.axes);
-                    (carried.way_at(&flange).translation.vector, *carried)
-                });
-                rotation = tcp.and_then(|_| piece.rotation(here));
+                tool = piece.tool(&self.scout.robot.kinematics, here, &self.joints);
                 break;
             }
             (self.before, self.index) = (end, self.index + 1);
         }
-        Point { at, joints: self.joints, pace, tcp, rotation }
+        Point { at, joints: self.joints, pace, tool }
     }
 }
 
@@ -288,7 +280,7 @@ impl<'a> Walk<'a> {
                 }
                 let at = at.clamp(0.0, piece.time);
                 let here = (at, &self.joints);
-                if let Some(rates) = piece.limit(&self.scout.robot, here, self.scout.for_stop, bounds) {
+                if let Some(rates) = piece.limit(&self.scout.robot, here, self.scout.rise, bounds) {
                     let longest = (STEP_OF_SCALE * scale(&self.scout.robot, &rates)).max(CLOSEST * spacing);
                     step = step.min(longest);
                 }

@@ -1,6 +1,7 @@
 //! What the set-points along a law use of the limits: what a trace would show.
 
 use super::optimal::Law;
+use super::piece::LedTool;
 use super::plot::Used;
 use super::scout::{Point, Scout};
 
@@ -55,21 +56,19 @@ fn used_by_axes(scout: &Scout, points: [&Point; 4], harder: f64) -> f64 {
 
 /// The same of the TCP's limits; nothing where it is not led all along, or another one is.
 fn used_by_tool(scout: &Scout, points: [&Point; 4], harder: f64) -> f64 {
-    let [Some((a, carried)), Some((b, second)), Some((c, third)), Some((d, last))] = points.map(|point| point.tcp)
-    else {
-        return 0.0;
-    };
-    if [second, third, last].iter().any(|other| *other != carried) {
+    let [Some(a), Some(b), Some(c), Some(d)] = points.map(|point| point.tool) else { return 0.0 };
+    if [b, c, d].iter().any(|other| other.carried != a.carried) {
         return 0.0;
     }
+    let pairs = [(a, b), (b, c), (c, d)];
     let tcp = &scout.robot.tcp;
     let limits = points.map(|Point { pace, .. }| [tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk]);
-    let by_way = used([b - a, c - b, d - c].map(|way| way.norm()), highest(limits), harder);
-    let [Some(a), Some(b), Some(c), Some(d)] = points.map(|point| point.rotation) else { return by_way };
+    let by_way = used(pairs.map(|(from, to)| (to.at - from.at).norm()), highest(limits), harder);
+    let turn = |(from, to): (LedTool, LedTool)| Some(from.rotation?.angle_to(&to.rotation?).to_degrees());
+    let [Some(first), Some(second), Some(third)] = pairs.map(turn) else { return by_way };
     let limits =
         points.map(|Point { pace, .. }| [tcp.ori_vel.min(pace.ori), tcp.ori_acc * pace.acc, tcp.ori_jerk * pace.jerk]);
-    let turns = [a.angle_to(&b), b.angle_to(&c), c.angle_to(&d)].map(f64::to_degrees);
-    by_way.max(used(turns, highest(limits), harder))
+    by_way.max(used([first, second, third], highest(limits), harder))
 }
 
 /// The share of limits that three steps in a row use.

@@ -158,7 +158,8 @@ impl Case {
     }
 
     /// Where an axis ends the program, as its range ends, everything must hold of the same robot whose axis turns freely.
-    /// There the axis really leaves its range in that line, and up to the alarm the robots go the same way.
+    /// There the axis really leaves its range in that line, and up to the alarm the robots go the same way: unless it leaves it
+    /// earlier, on another way through the wrist, from where on they are not compared.
     fn examine_turning_freely(
         &self,
         turned: &TurnedOut,

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::{Course, MARGIN, NEAR_STOP, Sharp, Tail};
+use super::{Course, MARGIN, NEAR_STOP, RISE, Sharp, Tail};
 use crate::motion::finder::{Finder, Found, Quest, Search, WINDOW};
 use crate::motion::governor::Pacing;
 use crate::motion::joints::Joints;
@@ -369,7 +369,7 @@ impl Course {
         self.forsake();
         let scout = Scout::new(robot, (self.pieces.iter(), self.passed), (at, here), end, (usize::MAX, f64::INFINITY));
         let quest = Quest::Shortest { start, about, harder };
-        self.search_for(quest, scout.up_to(end).for_stop(), cycles, Purpose::Halt(harder));
+        self.search_for(quest, scout.up_to(end).for_stop(RISE * cycle), cycles, Purpose::Halt(harder));
     }
 
     /// Looks for a way to rest no longer.

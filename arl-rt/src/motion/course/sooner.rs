@@ -5,8 +5,8 @@
 //! for beside the cycle, with the limits of each place, from the state that the governor's stop leads to meanwhile. If that is
 //! much shorter, a pilot takes over and leads to rest; from there the governor goes on as before.
 
-use super::Course;
 use super::lead::{Purpose, Sought};
+use super::{Course, RISE};
 use crate::motion::finder::{Finder, Found, Quest};
 use crate::motion::foresight::Foresight;
 use crate::motion::governor::Pacing;
@@ -69,7 +69,7 @@ impl Course {
         let foresight = Foresight::new(self.timing.clone(), self.state, self.backup, cycle, harder);
         let cycles = 2 * Finder::cycles(cycle);
         let quest = Quest::Sooner(Box::new(foresight), cycles);
-        self.search_for(quest, scout.for_stop(), cycles, Purpose::Sooner);
+        self.search_for(quest, scout.for_stop(RISE * cycle), cycles, Purpose::Sooner);
     }
 
     fn ask_no_more(&mut self) {

@@ -6,7 +6,7 @@ use crate::robot::VelocityProfile;
 /// How much longer a stop may take than one of the axes would alone.
 const LONGER: f64 = 3.0;
 
-/// Chains in which there is a place where nothing but looking for the shortest way to rest finds a short one.
+/// Chains of which most have a place where nothing but looking for the shortest way to rest finds a short one.
 const CHAINS: [(VelocityProfile, [(&str, u64); 4]); 3] = [
     (VelocityProfile::O, [("kr10-r1420", 13), ("kr10-r1420", 20), ("tx2-60", 16), ("irb2400-10", 16)]),
     (VelocityProfile::S, [("kr10-r1420", 13), ("kr10-r1420", 4), ("tx2-60", 1), ("irb2400-10", 2)]),
@@ -15,9 +15,7 @@ const CHAINS: [(VelocityProfile, [(&str, u64); 4]); 3] = [
 
 #[test]
 fn a_stop_takes_little_longer_than_its_axes_need() {
-    for (profile, name, queue, mut random) in chains() {
-        let robot = with_external_axes(name);
-        let length = run(&mut queue.clone(), 100.0).len() as f64;
+    for Chain { profile, robot, queue, length, mut random } in chains() {
         for shot in 0..8 {
             let mut queue = queue.clone();
             let mut rows = go_on(&mut queue, random.between(2.0, 0.95 * length));
@@ -29,7 +27,7 @@ fn a_stop_takes_little_longer_than_its_axes_need() {
             }
             let took = (rows.len() - from) as f64 * CYCLE;
             let least = least_stop(&robot, &rows[from - 2..from]).max(0.05);
-            assert!(took <= LONGER * least, "{profile:?} {name} {shot}: {took} s, {least} s alone");
+            assert!(took <= LONGER * least, "{profile:?} {} {shot}: {took} s, {least} s alone", robot.name);
             ends_well(&robot, &mut queue, rows, profile, 1.0);
         }
     }
@@ -37,9 +35,7 @@ fn a_stop_takes_little_longer_than_its_axes_need() {
 
 #[test]
 fn a_robot_that_goes_on_amid_a_stop_keeps_to_its_way_and_limits() {
-    for (profile, name, queue, mut random) in chains() {
-        let robot = with_external_axes(name);
-        let length = run(&mut queue.clone(), 100.0).len() as f64;
+    for Chain { profile, robot, queue, length, mut random } in chains() {
         for shot in 0..8 {
             let mut queue = queue.clone();
             let mut rows = go_on(&mut queue, random.between(2.0, 0.9 * length));
@@ -58,13 +54,22 @@ fn a_robot_that_goes_on_amid_a_stop_keeps_to_its_way_and_limits() {
     }
 }
 
-fn chains() -> impl Iterator<Item = (VelocityProfile, &'static str, Queue, Random)> {
+/// Motions that have been planned, and how many cycles they take.
+struct Chain {
+    profile: VelocityProfile,
+    robot: Arc<Robot>,
+    queue: Queue,
+    length: f64,
+    random: Random,
+}
+
+fn chains() -> impl Iterator<Item = Chain> {
     CHAINS.into_iter().flat_map(|(profile, chains)| {
         chains.into_iter().map(move |(name, seed)| {
-            let mut random = Random::new(seed);
-            let settings = Settings { profile, ..Settings::default() };
-            let queue = random_chain(&with_external_axes(name), &mut random, &settings);
-            (profile, name, queue, random)
+            let (mut random, robot) = (Random::new(seed), with_external_axes(name));
+            let queue = random_chain(&robot, &mut random, &Settings { profile, ..Settings::default() });
+            let length = run(&mut queue.clone(), 100.0).len() as f64;
+            Chain { profile, robot, queue, length, random }
         })
     })
 }

@@ -10,8 +10,8 @@ use crate::motions::trace::Row;
 /// the jerk a way bends much within a cycle.
 const BESIDE: f64 = 1e-3;
 
-/// How much longer than an axis alone would take a stop on the path may take: the limits of a way are those of its
-/// hardest place, and jerk, acceleration and speed share them.
+/// How much longer than an axis alone would take a stop on the path may take: speed, acceleration and jerk share the limits, and
+/// what uses all of them cannot be left at once.
 const LONGER: f64 = 5.0;
 
 /// The same for coming down to a lower override.
