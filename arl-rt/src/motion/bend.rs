@@ -5,12 +5,16 @@
 //! of them, and jerk would allow but a small part of the speed. So the middle gets about the curvature that the corners at
 //! both ends have on average: on a circle, the circle's. Where one corner is much sharper than the other, or bends the
 //! other way, it gets little or none, so that the path does not swing out.
+//!
+//! Motions of the axes are as fast as the slowest axis lets them be: what all axes do together is slower or faster with every
+//! direction, along a dense chain all the time. So their speed is given a change in the middle as well, or it would swing
+//! within each blend. The path does not depend on that.
 
 use nalgebra::{SVector, Vector3};
 
 use super::blend::go_on;
 use super::curve::Curve;
-use super::joints::{ALL, Joints};
+use super::joints::{ALL, Joints, slowness};
 use super::plan::Motion;
 use super::zone::{LARGEST, parts};
 use crate::robot::{EXTERNAL_AXES, Robot};
@@ -32,12 +36,19 @@ pub(super) struct Bend {
     pub(super) turning: Vector3<f64>,
     /// Of all axes, where the motion is one of the axes; else of the external ones.
     pub(super) axes: [f64; ALL],
+    /// How its speed changes at its nominal pace, where the motion is one of the axes: per s, of which an axis at its highest speed
+    /// has 1 per s.
+    pub(super) surge: f64,
 }
 
 impl Bend {
     /// Straight.
-    pub(super) const NONE: Self =
-        Self { position: Vector3::new(0.0, 0.0, 0.0), turning: Vector3::new(0.0, 0.0, 0.0), axes: [0.0; ALL] };
+    pub(super) const NONE: Self = Self {
+        position: Vector3::new(0.0, 0.0, 0.0),
+        turning: Vector3::new(0.0, 0.0, 0.0),
+        axes: [0.0; ALL],
+        surge: 0.0,
+    };
 
     /// Of the external axes.
     pub(super) fn external(&self) -> [f64; EXTERNAL_AXES] {
@@ -87,9 +98,17 @@ pub(super) fn bend(robot: &Robot, before: &Motion, here: &Motion, after: &Motion
             bend.axes = Joints { axes: [0.0; 6], external: second.into() }.all();
         }
         (Curve::Axes(a), Curve::Axes(b), Curve::Axes(c)) if b.is_even() => {
-            let rates = [a.derivative(1, 1.0), b.derivative(1, 0.5), c.derivative(1, 0.0)].map(SVector::from);
-            let lengths = Lengths::new(rates.map(|rates| rates.norm()))?;
-            bend.axes = lengths.bend_each(&rates).into();
+            let slowness = slowness(robot);
+            let rates = [a.derivative(1, 1.0), b.derivative(1, 0.5), c.derivative(1, 0.0)]
+                .map(|rates| SVector::from(rates).component_mul(&slowness));
+            let [_, direction, _] = &rates;
+            let second = Lengths::new(rates.map(|rates| rates.norm()))?.bend(&rates);
+            let turn = second - direction * (direction.dot(&second) / direction.norm_squared());
+            bend.axes =
+                std::array::from_fn(|index| if slowness[index] > 0.0 { turn[index] / slowness[index] } else { 0.0 });
+            let times = [before, here, after].map(|motion| 1.0 / motion.rate);
+            let speeds = rates.map(|rates| SVector::<f64, 1>::new(rates.norm()));
+            bend.surge = Lengths::new(times)?.bend(&speeds).x * here.rate * here.rate;
         }
         _ => return None,
     }

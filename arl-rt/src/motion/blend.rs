@@ -4,13 +4,13 @@
 //! never on a speed. It is a polynomial of the fifth degree: in the TCP's position and orientation where both motions
 //! lead the same TCP, else in the axes. Only then is it timed.
 
-use nalgebra::Vector3;
+use nalgebra::{SVector, Vector3};
 
 use super::bend::Bend;
 use super::bounds::{Bounds, Pace};
 use super::crossing::{Approach, Crossing, cross};
 use super::curve::{Curve, ToolCurve, Track};
-use super::joints::{ALL, Joints};
+use super::joints::{ALL, Joints, slowness};
 use super::limits::passing;
 use super::place::Place;
 use super::plan::Motion;
@@ -103,7 +103,7 @@ impl Corner<'_> {
         // Both ends are met at the speeds that the motions have there.
         let (start_rate, end_rate) = (vel_from / slope_from, vel_to / slope_to);
         let time = 2.0 / (start_rate + end_rate);
-        let even = || (Progress::between(start_rate * time, end_rate * time), time);
+        let even = || (Progress::between([[start_rate * time, 0.0], [end_rate * time, 0.0]]), time);
 
         let mut bounds = Bounds::new(self.robot);
         let pace = common_pace(from, to);
@@ -113,7 +113,7 @@ impl Corner<'_> {
                 let (start, end) = (along(&a.track, leave, vel_from), along(&b.track, join, vel_to));
                 let bends_little = is_gentle(&curve) && !self.swings();
                 let timed = if bends_little {
-                    Progress::gently(&curve.track, start, end)
+                    Progress::gently(|order, at| curve.track.derivative(order, at), start, end)
                 } else if self.swings() {
                     // What is laid over a motion does not go evenly: it is met best by a parameter that does.
                     None
@@ -132,8 +132,9 @@ impl Corner<'_> {
                 let from = axes_knot(self.robot, from, leave, slope_from, start)?;
                 let to = axes_knot(self.robot, to, join, slope_to, end)?;
                 let curve = Quintic::between(&from, &to);
-                let (progress, time) = even();
-                self.look_at_axes(&curve, &progress, &mut bounds, &pace)?;
+                let gentle = turns_gently(&curve);
+                let (progress, time) = self.time_axes((&curve, gentle), [start_rate, end_rate]);
+                self.look_at_axes((&curve, gentle), &progress, &mut bounds, &pace)?;
                 (Curve::Axes(curve), progress, time)
             }
         };
@@ -252,9 +253,36 @@ impl Corner<'_> {
         there.is_some_and(|there| end.iter().zip(&there.axes).all(|(a, b)| (a - b).abs() <= 0.01))
     }
 
+    /// Times a way of the axes from one rate of its parameter to another. Where it is gentle, what the axes do together goes
+    /// smoothly: each counts by how fast it is beside its highest speed.
+    fn time_axes(&self, (curve, gentle): (&Quintic<ALL>, bool), rates: [f64; 2]) -> (Progress, f64) {
+        let slowness = slowness(self.robot);
+        let derivative = |order: usize, at: f64| SVector::from(curve.derivative(order, at)).component_mul(&slowness);
+        let [start, end] = &self.bends;
+        let ends = [(0.0, rates[0], start.surge), (1.0, rates[1], end.surge)];
+        let [start, end] = ends.map(|(at, rate, surge)| {
+            let [speed, acc] = speed_and_acc(&derivative(1, at), &derivative(2, at), rate);
+            [speed, acc + surge]
+        });
+        let timed = if gentle { Progress::gently(derivative, start, end) } else { None };
+        timed.unwrap_or_else(|| {
+            let time = 2.0 / (rates[0] + rates[1]);
+            let ends = ends.map(|(at, rate, surge)| {
+                let second = if surge == 0.0 { 0.0 } else { surge / derivative(1, at).norm() };
+                [rate * time, second * time * time]
+            });
+            (Progress::between(ends), time)
+        })
+    }
+
     /// Collects the limits of a way of the axes; `None` where it leaves a range.
-    fn look_at_axes(&self, curve: &Quintic<ALL>, progress: &Progress, bounds: &mut Bounds, pace: &Pace) -> Option<()> {
-        let gentle = changes_little([1, 2].map(|order| [0.0, 1.0].map(|at| curve.derivative(order, at))), 0.0);
+    fn look_at_axes(
+        &self,
+        (curve, gentle): (&Quintic<ALL>, bool),
+        progress: &Progress,
+        bounds: &mut Bounds,
+        pace: &Pace,
+    ) -> Option<()> {
         let parts = if gentle { GENTLE_PARTS } else { PARTS };
         for part in 0..=parts {
             let share = f64::from(part) / f64::from(parts);
@@ -302,6 +330,11 @@ fn is_gentle(curve: &ToolCurve) -> bool {
     is_gentle_way(track, 0.0) && is_gentle_way(&curve.turning, TURN) && is_gentle_way(&curve.external, 0.0)
 }
 
+/// The same for a way of the axes.
+fn turns_gently(curve: &Quintic<ALL>) -> bool {
+    changes_little([1, 2].map(|order| [0.0, 1.0].map(|at| curve.derivative(order, at))), 0.0)
+}
+
 /// The same for one way; changes up to `little` are little.
 fn is_gentle_way<const N: usize>(way: &Way<N>, little: f64) -> bool {
     changes_little([1, 2].map(|order| [0.0, 1.0].map(|at| way.derivative(order, at))), little)
@@ -320,9 +353,13 @@ fn changes_little<const N: usize>([[start, end], seconds]: [[[f64; N]; 2]; 2], l
 
 /// The speed and the acceleration along a track in mm/s and mm/s2, at a rate of its parameter.
 fn along(track: &Track, at: f64, rate: f64) -> [f64; 2] {
-    let (first, second) = (track.derivative(1, at), track.derivative(2, at));
+    speed_and_acc(&track.derivative(1, at), &track.derivative(2, at), rate)
+}
+
+/// The speed and the acceleration along a way, from its derivatives by a parameter that goes at a rate.
+fn speed_and_acc<const N: usize>(first: &SVector<f64, N>, second: &SVector<f64, N>, rate: f64) -> [f64; 2] {
     let length = first.norm();
-    [length * rate, if length > 0.0 { first.dot(&second) / length * rate * rate } else { 0.0 }]
+    [length * rate, if length > 0.0 { first.dot(second) / length * rate * rate } else { 0.0 }]
 }
 
 /// The faster of the two motions' speeds, the gentler of their accelerations.

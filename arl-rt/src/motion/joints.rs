@@ -1,3 +1,5 @@
+use nalgebra::SVector;
+
 use crate::robot::{EXTERNAL_AXES, ROBOT_AXES, Robot};
 
 /// The value of a component that was not set: a motion keeps it as it is.
@@ -10,6 +12,17 @@ pub fn is_unset(value: f64) -> bool {
 
 /// How many values [`Joints`] hold.
 pub(super) const ALL: usize = ROBOT_AXES + EXTERNAL_AXES;
+
+/// The s that each axis takes for 1 deg (mm) at its highest speed, in the order of [`Joints::all`]; 0 for those that a robot does not
+/// have.
+pub(super) fn slowness(robot: &Robot) -> SVector<f64, ALL> {
+    let mut joints = Joints { axes: [0.0; ROBOT_AXES], external: [0.0; EXTERNAL_AXES] };
+    let own = joints.axes.iter_mut().zip(robot.own_axes());
+    for (slowness, axis) in own.chain(joints.external.iter_mut().zip(robot.external_axes())) {
+        *slowness = 1.0 / axis.vel;
+    }
+    joints.all().into()
+}
 
 /// Positions of all axes, in deg (mm for linear axes). Axes that a robot does not have are 0 (its own) or [`UNSET`]
 /// (external ones).

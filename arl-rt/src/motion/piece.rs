@@ -238,8 +238,14 @@ impl Piece {
 
     /// The parts between which the derivatives of its curve jump, one where they do not.
     pub(super) fn parts(&self) -> u32 {
-        let jumps = self.progress.is_some() || self.curve.is_paced();
-        if jumps { ((self.to - self.from) * Progress::PARTS as f64).ceil() as u32 } else { 1 }
+        let jumps = self.progress.as_ref().is_some_and(Progress::has_parts) || self.curve.is_paced();
+        if jumps { self.bends() } else { 1 }
+    }
+
+    /// The parts over which its curve may change its direction or its pace, one where it does neither.
+    pub(super) fn bends(&self) -> u32 {
+        let bends = self.progress.is_some() || self.curve.is_paced();
+        if bends { ((self.to - self.from) * Progress::PARTS as f64).ceil() as u32 } else { 1 }
     }
 
     /// Where derivatives jump within it and at its end, in s of nominal time from its start.

@@ -3,6 +3,8 @@
 
 use std::sync::Arc;
 
+use nalgebra::SVector;
+
 use super::curve::Track;
 use super::quintic::{Knot, Quintic};
 
@@ -26,24 +28,33 @@ impl Progress {
     /// Parts between which the third derivative jumps, all of the same length.
     pub(super) const PARTS: usize = PARTS;
 
-    /// From one rate of the parameter to another, smoothly.
-    pub(super) fn between(start_rate: f64, end_rate: f64) -> Self {
-        let knot = |value: f64, first: f64| Knot { value: [value], first: [first], second: [0.0] };
-        Self::One(Quintic::between(&knot(0.0, start_rate), &knot(1.0, end_rate)))
+    /// Whether its third derivative jumps between parts.
+    pub(super) fn has_parts(&self) -> bool {
+        matches!(self, Self::Many(_))
     }
 
-    /// As [`Progress::along`], where the track hardly bends and hardly changes its speed.
-    pub(super) fn gently(track: &Track, start: [f64; 2], end: [f64; 2]) -> Option<(Self, f64)> {
+    /// From one rate of the parameter to another, smoothly, each with its change.
+    pub(super) fn between([start, end]: [[f64; 2]; 2]) -> Self {
+        let knot = |value: f64, [first, second]: [f64; 2]| Knot { value: [value], first: [first], second: [second] };
+        Self::One(Quintic::between(&knot(0.0, start), &knot(1.0, end)))
+    }
+
+    /// As [`Progress::along`], for a way that hardly bends and hardly changes its speed: of its first and second derivatives.
+    pub(super) fn gently<const N: usize>(
+        derivative: impl Fn(usize, f64) -> SVector<f64, N>,
+        start: [f64; 2],
+        end: [f64; 2],
+    ) -> Option<(Self, f64)> {
         if start[0] <= 0.0 || end[0] <= 0.0 {
             return None;
         }
         // Gauss's rule with three places.
-        let speed = |at: f64| track.derivative(1, at).norm();
+        let speed = |at: f64| derivative(1, at).norm();
         let length =
             (5.0 * (speed(0.112_701_665_379_258_3) + speed(0.887_298_334_620_741_7)) + 8.0 * speed(0.5)) / 18.0;
         let time = time_along(length, start, end)?;
         let knot = |at: f64, [vel, acc]: [f64; 2]| {
-            let (first, second) = (track.derivative(1, at), track.derivative(2, at));
+            let (first, second) = (derivative(1, at), derivative(2, at));
             let rate = time * vel / first.norm();
             let change = time * time * acc - first.dot(&second) / first.norm() * rate * rate;
             Knot { value: [at], first: [rate], second: [change / first.norm()] }

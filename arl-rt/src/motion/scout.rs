@@ -149,7 +149,8 @@ impl Scout {
         let spacing = (to - self.at) / count as f64;
         let mut stations: Vec<(f64, bool)> =
             places(self.at, to, count, start, end).into_iter().map(|at| (at, true)).collect();
-        stations.extend(self.joints(to));
+        let (joints, many) = self.joints(to);
+        stations.extend(joints.into_iter().map(|at| (at, !many)));
         stations.sort_by(|a, b| a.0.total_cmp(&b.0));
         stations.dedup_by(|next, kept| {
             let same = next.0 - kept.0 <= 1e-9 * spacing;
@@ -159,7 +160,7 @@ impl Scout {
 
         let mut way = Way::new();
         let mut bounds = Bounds::signed(&self.robot);
-        let mut walk = Walk::new(self);
+        let mut walk = Walk::new(self, many);
         for (station, next) in stations.iter().zip(stations.iter().skip(1).map(Some).chain([None])) {
             let mut at = station.0;
             let mut is_place = station.1;
@@ -185,8 +186,8 @@ impl Scout {
         Ok(way)
     }
 
-    /// Where derivatives jump before `to`: between pieces and within them; and whether these are few enough to be places.
-    fn joints(&self, to: f64) -> Vec<(f64, bool)> {
+    /// Where derivatives jump before `to`: between pieces and within them; and whether these are too many to be places.
+    fn joints(&self, to: f64) -> (Vec<f64>, bool) {
         let mut joints = Vec::new();
         let (mut start, mut count) = (self.passed, 0);
         for piece in &self.pieces {
@@ -198,13 +199,15 @@ impl Scout {
             joints.extend(inner.filter(|at| *at > self.at && *at < to));
             start += piece.time;
         }
-        joints.into_iter().map(|at| (at, count <= MANY)).collect()
+        (joints, count > MANY)
     }
 }
 
 /// Goes along the course.
 struct Walk<'a> {
     scout: &'a Scout,
+    /// Whether there are so many pieces that each of them is not worth places of its own.
+    many: bool,
     joints: Joints,
     /// The piece that was looked at last, and where it begins.
     index: usize,
@@ -255,8 +258,8 @@ impl Stroll<'_> {
 }
 
 impl<'a> Walk<'a> {
-    fn new(scout: &'a Scout) -> Self {
-        Self { scout, joints: scout.near, index: 0, before: scout.passed, jump: None }
+    fn new(scout: &'a Scout, many: bool) -> Self {
+        Self { scout, many, joints: scout.near, index: 0, before: scout.passed, jump: None }
     }
 
     /// Adds the limits at `at`; where a piece begins, those of the one before as well. Returns a step over which the motion
@@ -270,8 +273,8 @@ impl<'a> Walk<'a> {
             // Where derivatives jump, those of both sides count.
             let beside = BESIDE * piece.time;
             let jumps = piece.jumps_beside(here, 2.0 * beside);
-            if piece.parts() > 1 {
-                step = step.min((piece.time / f64::from(PLACES * piece.parts())).max(spacing / 16.0));
+            if piece.bends() > 1 && !self.many {
+                step = step.min((piece.time / f64::from(PLACES * piece.bends())).max(spacing / 16.0));
             }
             let sides = if jumps { [here - beside, here + beside] } else { [here; 2] };
             for (side, at) in sides.iter().take(if jumps { 2 } else { 1 }).enumerate() {

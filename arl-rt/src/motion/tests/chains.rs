@@ -1,6 +1,7 @@
 //! Chains of short motions.
 
 use super::*;
+use crate::robot::VelocityProfile;
 
 type Place = nalgebra::Vector3<f64>;
 
@@ -66,6 +67,28 @@ fn dense_curves_keep_their_speed() {
         assert_within_limits(&robot, &rows, "dense");
         let (cycles, slower) = at_speed(&rows, speed);
         assert!(cycles > least && slower == 0, "{speed} mm/s: {cycles}, {slower} of them slower");
+    }
+}
+
+#[test]
+fn dense_motions_of_the_axes_flow() {
+    let robot = robot("kr10-r1420");
+    // Which axis is the slowest changes on the way.
+    let point = |index: u32| {
+        let at = f64::from(index) * 0.01;
+        [30.0 * at.sin(), 10.0 * (at * 0.7).sin() - 90.0, 20.0 * (1.3 * at).sin() + 90.0, 0.0, 45.0, 0.0]
+    };
+    // Where the axes' pace swings within each blend it takes 1463 and 1976.
+    for (profile, longest) in [(VelocityProfile::O, 950), (VelocityProfile::S, 1750)] {
+        let mut queue = Queue::new(robot.clone(), axes(point(0)));
+        for index in 1..=200 {
+            let (zone, speed) = (Zone { percent: 100.0, ..Zone::NONE }, Speed { percent: 30.0, ..fast() });
+            let settings = Settings { profile, ..Settings::default() };
+            queue.add(&Command { zone, speed, ..movej(point(index)) }, &settings).unwrap();
+        }
+        let rows = run(&mut queue, 100.0);
+        assert_within_limits(&robot, &rows, "dense axes");
+        assert!(rows.len() < longest, "{profile:?}: {} cycles", rows.len());
     }
 }
 
