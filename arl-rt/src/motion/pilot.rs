@@ -412,18 +412,24 @@ impl Pilot {
     pub(super) fn go_at(&mut self, share: f64, search: f64) {
         let Ahead { main: Some(main), easing, ramp: None, .. } = &self.ahead else { return };
         let leads_to = easing.as_ref().map_or(self.ahead.share, |easing| easing.ease.to());
-        if leads_to == share || self.share_pause > 0.0 {
+        // What takes long may be done sooner from a later state.
+        let (is_new, takes_long) = (leads_to != share, easing.as_ref().is_some_and(|easing| easing.left() > QUICK));
+        if !(is_new || takes_long) || self.share_pause > 0.0 {
             return;
         }
+        let [now, ..] = self.ahead.shares();
+        let too_fast = now > share;
         let slower = |now| Ramp::slower(now, &main.found, main.time, share, search);
         if let Some(easing) = main.easing(self.ahead.shares(), share, 1.0, QUICK) {
             self.ahead.easing = Some(easing);
-        } else if let Some(ramp) = self.ahead.state().and_then(slower) {
+        } else if let Some(ramp) = self.ahead.state().filter(|_| is_new || too_fast).and_then(slower) {
             (self.ahead.ramp, self.harder, self.pause) = (Some(ramp), 0.0, 0.0);
         } else {
             self.share_pause = PAUSE;
-            let slowly = main.easing(self.ahead.shares(), share, 1.0, f64::INFINITY);
-            self.ahead.easing = slowly.or(self.ahead.easing);
+            if is_new {
+                let slowly = main.easing(self.ahead.shares(), share, 1.0, f64::INFINITY);
+                self.ahead.easing = slowly.or(self.ahead.easing);
+            }
         }
     }
 
