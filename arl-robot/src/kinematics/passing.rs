@@ -13,6 +13,9 @@ use crate::robot::Axis;
 /// A passage is where the sine of the wrist's middle axis is below this: 4 deg, the most that the orientation gives way.
 pub const PASSAGE: f64 = 0.07;
 
+/// Below this part of that, axis 4 stands where a path begins or ends.
+const STILL: f64 = 0.4;
+
 /// How fine a path is looked at, as part of it.
 const STEP: f64 = 1.0 / 512.0;
 /// Over so much of the path differences tell derivatives.
@@ -127,9 +130,28 @@ impl Kinematics {
                 // Half a turn of axis 4 more or less, with the middle axis on the other side, gives the same orientation.
                 let least = end_of_axis4(fourth(&end), first, range);
                 let flips = (wrap_degrees(least - fourth(&end))).abs() > 90.0;
+                // At an end of the path axis 4 goes as it would exactly, less the nearer the middle axis is to 0: what the path
+                // goes on with there does the same.
+                let at_end = |border: f64, value: f64| {
+                    let Some(here) = exact(border, cfg, &near) else { return [value, 0.0, 0.0] };
+                    let share = share_kept(sine(&here));
+                    if share == 0.0 {
+                        return [value, 0.0, 0.0];
+                    }
+                    let step = if border <= 0.0 { DIFFERENCE } else { -DIFFERENCE };
+                    let shift = |steps: f64| {
+                        exact(border + steps * step, cfg, &near).map(|axes| wrap_degrees(fourth(&axes) - fourth(&here)))
+                    };
+                    let (Some(one), Some(two), Some(three)) = (shift(1.0), shift(2.0), shift(3.0)) else {
+                        return [value, 0.0, 0.0];
+                    };
+                    let first = (18.0 * one - 9.0 * two + 2.0 * three) / (6.0 * step);
+                    let second = (-5.0 * one + 4.0 * two - three) / (step * step);
+                    [value, share * first, share * second]
+                };
                 let derivatives = |border: f64, value: f64| {
                     if border <= 0.0 || border >= 1.0 {
-                        return [value, 0.0, 0.0];
+                        return at_end(border, value);
                     }
                     let shift = |by: f64| exact(border + by, cfg, &near).map(|axes| fourth(&axes) - value);
                     let (Some(before), Some(here), Some(after)) = (shift(-DIFFERENCE), shift(0.0), shift(DIFFERENCE))
@@ -158,6 +180,13 @@ impl Kinematics {
         }
         passages
     }
+}
+
+/// How much of its exact motion axis 4 keeps where the path begins or ends inside a passage: all of it at the border, none near the
+/// singular point.
+fn share_kept(sine: f64) -> f64 {
+    let part = ((sine / PASSAGE - STILL) / (1.0 - STILL)).clamp(0.0, 1.0);
+    part * part * (3.0 - 2.0 * part)
 }
 
 /// How far the exact axis 4 is from `value`, whole turns left out.
@@ -337,6 +366,21 @@ mod tests {
         let start = robot.kinematics.inverse(&(tcp(0.0) * tool.inverse()), 0, &singular).unwrap();
         let (most, ..) = follow(&robot, &|at| tcp(0.5 * at), &tool, &start, 500);
         assert!(most < 1.0, "{most}");
+    }
+
+    #[test]
+    fn a_line_that_begins_or_ends_just_inside_goes_on_evenly() {
+        let robot = Robot::builtin("kr10-r1420").unwrap();
+        let (tool, travel) = (Frame::identity(), Vector3::new(40.0, 20.0, 40.0));
+        let start = [3.8, -77.2, 81.2, -60.7, 4.006, 64.0];
+        let tcp = through(&robot, &start, &tool, travel * 2.0);
+        let passages = all(&robot, &|at| tcp(0.5 + 0.5 * at), &tool, &start);
+        assert!(matches!(passages[..], [Passage { from: 0.0, to, .. }] if to < 0.01), "{passages:?}");
+        let (most, bend, _) = follow(&robot, &|at| tcp(0.5 + 0.5 * at), &tool, &start, 10_000);
+        assert!(bend < 0.01 * most, "{most} {bend}");
+        let end = robot.kinematics.inverse(&(tcp(1.0) * tool.inverse()), robot.kinematics.cfg(&start), &start).unwrap();
+        let (most, bend, _) = follow(&robot, &|at| tcp(1.0 - 0.5 * at), &tool, &end, 10_000);
+        assert!(bend < 0.01 * most, "{most} {bend}");
     }
 
     #[test]
