@@ -15,7 +15,7 @@ use nalgebra::{SVector, Vector3};
 use super::blend::go_on;
 use super::curve::Curve;
 use super::joints::{ALL, Joints, slowness};
-use super::plan::Motion;
+use super::planned::Motion;
 use super::zone::{LARGEST, parts};
 use crate::robot::{EXTERNAL_AXES, Robot};
 

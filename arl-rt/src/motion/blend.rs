@@ -13,7 +13,7 @@ use super::curve::{Curve, ToolCurve, Track};
 use super::joints::{ALL, Joints, slowness};
 use super::limits::passing;
 use super::place::Place;
-use super::plan::Motion;
+use super::planned::Motion;
 use super::profile::Limits;
 use super::progress::Progress;
 use super::quintic::{Knot, Quintic, Way};

@@ -13,7 +13,7 @@ use super::joints::Joints;
 use super::junction::{self, Before, Bent, Blended, Meeting};
 use super::piece::Piece;
 use super::pilot::Pilot;
-use super::plan::Motion;
+use super::planned::Motion;
 use super::preparer::{Joining, Prepared};
 use super::profile::{Change, Limits, State};
 use super::remaining::{self, Leg};

@@ -7,7 +7,8 @@
 use super::command::{Command, Settings, Speed, Target, Zone};
 use super::error::PlanError;
 use super::joints::{Joints, is_unset};
-use super::plan::{Motion, Planner};
+use super::plan::Planner;
+use super::planned::Motion;
 use super::zone::LARGEST;
 use crate::kinematics::Kinematics;
 use crate::robot::Robot;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::bend::{Bend, bend};
 use super::blend::{Blend, bent_blend, blend};
 use super::overlay::joined;
-use super::plan::Motion;
+use super::planned::Motion;
 use crate::robot::Robot;
 
 /// The motion before, where a blend leads from there, and how it is bent where that blend begins.

@@ -8,7 +8,7 @@ use super::crossing::{self, Crossing};
 use super::curve::Curve;
 use super::joints::{ALL, Joints};
 use super::place::Place;
-use super::plan::Motion;
+use super::planned::Motion;
 use super::profile::Limits;
 use super::progress::Progress;
 use super::timing::Cell;

@@ -4,19 +4,19 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use super::arc::arc_through;
 use super::bounds::{Bounds, Pace};
-use super::command::{Command, Settings, Target, Zone};
+use super::command::{Command, Settings, Target};
 use super::curve::{Curve, ToolCurve, Track};
 use super::error::PlanError;
 use super::governor::MARGIN;
 use super::joints::{Joints, is_unset};
 use super::limits::{highest_speed, passing, quickest};
-use super::overlay::{Beginning, Laid, Led, lay};
+use super::overlay::{Beginning, Led, lay};
+use super::planned::Motion;
 use super::profile::Limits;
 use super::quintic::Quintic;
 use super::search::{self, Enough};
 use super::spline::turned;
 use super::survey::survey;
-use crate::frames::Rig;
 use crate::kinematics::{Frame, Passage, RANGE_SLACK, Refusal, Wanted, frame, frame_components};
 use crate::robot::{Axis, Robot, VelocityProfile};
 
@@ -27,111 +27,7 @@ const NO_DISTANCE: f64 = 1e-10;
 const MOST_ROUND: f64 = 7200.0;
 
 /// How near a motion comes to its duration, in s, and its speed to the one that keeps it.
-const ENOUGH: Enough = Enough { value: 1e-12, excess: 1e-9 };
-
-/// A motion that is ready to run, from the target before it to its own.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Motion {
-    pub(super) curve: Curve,
-    pub(super) start: Joints,
-    pub(super) end: Joints,
-    pub(super) rig: Rig,
-    /// `None` for a motion that goes nowhere.
-    pub(super) limits: Option<Limits>,
-    /// The nominal speed, as part of the motion per s, at which it meets its neighbours; at most `limits` are reached.
-    pub(super) rate: f64,
-    /// Whether it goes on smoothly from the motion before it, at the same nominal speed.
-    pub(super) flows: bool,
-    pub(super) pace: Pace,
-    pub(super) profile: VelocityProfile,
-    /// The speed that it could have, where a duration was programmed.
-    pub(super) timed: Option<f64>,
-    /// The length of the TCP's way in mm, 0 for axis motions.
-    pub(super) length: f64,
-    /// The angle in deg by which the tool turns on its way, 0 for axis motions.
-    pub(super) angle: f64,
-    pub(super) zone: Zone,
-    /// The parts of this motion and of the next one that a blend takes, where that is not left to the zone.
-    pub(super) corner: Option<(f64, f64)>,
-    /// Whether the instruction ends with it.
-    pub(super) ends: bool,
-    /// From which share of the instruction to which it goes.
-    pub(super) stretch: [f64; 2],
-    pub(super) line: u32,
-    /// What is laid over it.
-    pub(super) laid: Option<Box<Laid>>,
-}
-
-impl Motion {
-    /// Where it starts.
-    pub fn start(&self) -> &Joints {
-        &self.start
-    }
-
-    /// Where it ends.
-    pub fn end(&self) -> &Joints {
-        &self.end
-    }
-
-    /// How long it takes from rest to rest at an override of 100 %, in s: where its duration is given, as it is executed, braking a
-    /// little more gently than its limits allow; else as the limits allow.
-    pub fn duration(&self) -> f64 {
-        self.limits.map_or(0.0, |limits| self.duration_with(&limits))
-    }
-
-    /// The same with these limits.
-    pub(super) fn duration_with(&self, limits: &Limits) -> f64 {
-        if self.timed.is_some() { limits.duration_braking(1.0, MARGIN) } else { limits.duration(1.0) }
-    }
-
-    /// The same where an acceleration takes `rise` s to rise: a programmed duration is kept for all that, as long as the robot
-    /// can go a little faster.
-    pub(super) fn rising_in(mut self, rise: f64) -> Self {
-        if let (Some(highest), Some(limits)) = (self.timed, self.limits) {
-            let wanted = limits.duration_braking(1.0, MARGIN);
-            let rising = |vel: f64| Limits { vel, ..limits }.rising_in(rise);
-            if rising(limits.vel).duration_braking(1.0, MARGIN) > wanted + ENOUGH.excess {
-                let vel = slowest_within(wanted, [limits.vel, highest], rising);
-                self.limits = Some(Limits { vel, ..limits });
-            }
-        }
-        self
-    }
-
-    /// The share of the instruction that is done where so much of the motion is.
-    pub(super) fn of_instruction(&self, share: f64) -> f64 {
-        let [from, to] = self.stretch;
-        from + (to - from) * share
-    }
-
-    /// Whether anything moves.
-    pub(super) fn goes(&self) -> bool {
-        self.limits.is_some()
-    }
-
-    /// The part of its speed that is left to it with what is laid over it.
-    pub fn share_of_speed(&self) -> f64 {
-        match (&self.laid, self.limits) {
-            (Some(laid), Some(limits)) => limits.vel / laid.plain_speed().unwrap_or(self.rate),
-            _ => 1.0,
-        }
-    }
-
-    /// How fast the TCP may go with what is laid over the motion, in mm/s.
-    pub(super) fn fastest(&self) -> f64 {
-        self.laid.as_ref().map_or(f64::INFINITY, |laid| laid.fastest)
-    }
-
-    /// How a compensation stands at the end, for the motion behind it.
-    pub(super) fn led(&self) -> Led {
-        self.laid.as_ref().map_or_else(Led::default, |laid| laid.led())
-    }
-
-    /// The length of the TCP's way in mm; 0 for axis motions.
-    pub fn length(&self) -> f64 {
-        self.length
-    }
-}
+pub(super) const ENOUGH: Enough = Enough { value: 1e-12, excess: 1e-9 };
 
 /// Plans a motion that starts at `start`.
 ///
@@ -609,7 +505,7 @@ impl Planner<'_> {
 
 /// The lowest of the speeds between two at which a motion is done within `duration` s, braking with a margin; the higher one where
 /// none is.
-fn slowest_within(duration: f64, [lowest, highest]: [f64; 2], limits: impl Fn(f64) -> Limits) -> f64 {
+pub(super) fn slowest_within(duration: f64, [lowest, highest]: [f64; 2], limits: impl Fn(f64) -> Limits) -> f64 {
     let sooner = |vel: f64| duration - limits(vel).duration_braking(1.0, MARGIN);
     if sooner(highest) <= 0.0 { highest } else { search::highest(lowest, highest, ENOUGH, sooner) }
 }

@@ -10,7 +10,7 @@ use std::sync::{Arc, OnceLock};
 use std::thread;
 
 use super::junction::{Before, Junction, Meeting};
-use super::plan::Motion;
+use super::planned::Motion;
 use crate::robot::Robot;
 
 /// So many junctions are looked for, or have been, at the most; those beyond are found when they are needed.

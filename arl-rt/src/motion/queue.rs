@@ -2,6 +2,7 @@
 
 mod ahead;
 mod aside;
+mod headway;
 
 use std::sync::Arc;
 
@@ -13,8 +14,8 @@ use super::gate;
 use super::governor::Pacing;
 use super::joints::Joints;
 use super::overlay::{Beginning, Led};
-use super::piece::Piece;
-use super::plan::{Motion, not_led, plan_behind};
+use super::plan::{not_led, plan_behind};
+use super::planned::Motion;
 use super::preparer::Preparer;
 use crate::frames::Rig;
 use crate::kinematics::Frame;
@@ -22,6 +23,8 @@ use crate::robot::Robot;
 use ahead::{Done, Ready, Waiting};
 use aside::Aside;
 pub use aside::Start;
+pub use headway::Progress;
+use headway::progress_at;
 
 /// How many motions can always wait, the one being executed not counted.
 pub const LOOK_AHEAD: usize = 64;
@@ -41,8 +44,6 @@ pub enum Stop {
 
 /// How long the robot stands still, in s, before a motion that waits for the next one of its way goes without it.
 const PATIENCE: f64 = 0.1;
-/// For so many cycles what is left of a motion is counted down before it is found anew.
-const FORESEEN: u32 = 16;
 /// How much harder a fast stop is.
 const FAST: f64 = 5.0;
 
@@ -61,39 +62,6 @@ pub struct Step {
     pub finished: u64,
     /// Whether the robot stands still at the end of the cycle.
     pub rests: bool,
-}
-
-/// How far the motion being executed has come. Times are those at an override of 100 %. A blend belongs to the motion that
-/// is joined, whose way counts from the target that is rounded off (manual 7.3).
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Progress {
-    /// The running number of the motion.
-    pub motion: u64,
-    /// Its program line.
-    pub line: u32,
-    /// s since its start.
-    pub elapsed_time: f64,
-    /// s to its end.
-    pub left_time: f64,
-    /// mm of the line that are done; 0 for axis motions.
-    pub elapsed_distance: f64,
-    /// mm of the line that are left; 0 for axis motions.
-    pub left_distance: f64,
-    /// The share of the motion that is done, 0 to 1; of axis motions as of others.
-    pub share: f64,
-}
-
-impl Progress {
-    /// A motion that goes nowhere, done.
-    const DONE: Self = Self {
-        motion: 0,
-        line: 0,
-        elapsed_time: 0.0,
-        left_time: 0.0,
-        elapsed_distance: 0.0,
-        left_distance: 0.0,
-        share: 1.0,
-    };
 }
 
 /// The motions of one robot, planned ahead and executed cycle by cycle.
@@ -460,21 +428,9 @@ impl Queue {
         idle
     }
 
-    /// How far the motion has come that was executed in the last cycle: all the way, if it came to its target then.
-    /// `None`: there was none.
-    pub fn progress(&self) -> Option<Progress> {
-        self.progress
-    }
-
     /// The running number of the last motion that is not executed any more: it has ended, or a blend leads away from it.
     pub fn over(&self) -> u64 {
         self.over
-    }
-
-    /// How far a motion had come when it ended, or was left for a blend, in the last cycle. `None`: neither did it then, or it
-    /// was dropped.
-    pub fn left(&self, motion: u64) -> Option<Progress> {
-        self.left.iter().rev().find(|progress| progress.motion == motion).copied()
     }
 
     /// Where the motion ends that is being executed, or else the next one.
@@ -582,40 +538,6 @@ impl Queue {
         (number, line)
     }
 
-    /// Counts time for the motion that counts as being executed.
-    fn time(&mut self, passed: f64) {
-        let Some((piece, _)) = self.course.current() else { return };
-        if self.timed != piece.number {
-            (self.timed, self.elapsed) = (piece.number, 0.0);
-        }
-        self.elapsed += passed;
-    }
-
-    fn at_the_end_of(&self, piece: &Piece) -> Progress {
-        progress_at(piece, 1.0, piece.duration().unwrap_or(self.elapsed), 0.0)
-    }
-
-    /// How long the motion being executed still takes at full speed, in s, `passed` s of that later than when this was asked
-    /// last.
-    fn time_left(&mut self, motion: u64, elapsed: f64, passed: f64) -> f64 {
-        let (left, age) = match self.foreseen {
-            Some((of, left, age)) if of == motion && age < FORESEEN => ((left - passed).max(0.0), age + 1),
-            _ => (self.course.time_to_end(elapsed), 0),
-        };
-        self.foreseen = Some((motion, left, age));
-        left
-    }
-
-    fn on_the_way(&mut self, passed: f64) -> Option<Progress> {
-        let (piece, share) = self.course.current()?;
-        // A motion that is joined in this very cycle has not run yet.
-        let elapsed = if piece.number == self.timed { self.elapsed } else { 0.0 };
-        let motion = piece.number;
-        let left = self.time_left(motion, elapsed, passed);
-        let (piece, _) = self.course.current()?;
-        Some(progress_at(piece, share, elapsed, left))
-    }
-
     /// Motions that go nowhere end when those before them have ended.
     fn end_empty(&mut self) {
         let anew = self.aside.first_anew().unwrap_or(self.added + 1);
@@ -626,17 +548,6 @@ impl Queue {
         if self.course.is_empty() && self.waiting.is_empty() && !self.dropping {
             self.rig = self.last_rig;
         }
-    }
-
-    /// Notes which motions are not executed any more. Those of which nothing is known go nowhere.
-    fn leave_behind(&mut self) {
-        let ahead = self.course.current().map_or(self.finished + 1, |(piece, _)| piece.number);
-        for motion in self.over + 1..ahead {
-            if !self.dropping && self.left(motion).is_none() {
-                self.left.push(Progress { motion, ..Progress::DONE });
-            }
-        }
-        self.over = self.over.max(ahead - 1);
     }
 
     fn drop_at_rest(&mut self) {
@@ -651,19 +562,5 @@ impl Queue {
             self.dropping = false;
             self.braking_hard = false;
         }
-    }
-}
-
-/// How far the motion of a piece has come.
-fn progress_at(piece: &Piece, share: f64, elapsed_time: f64, left_time: f64) -> Progress {
-    let elapsed_distance = piece.length * share;
-    Progress {
-        motion: piece.number,
-        line: piece.line,
-        elapsed_time,
-        left_time,
-        elapsed_distance,
-        left_distance: piece.length - elapsed_distance,
-        share,
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::bounds::MANUAL_SPEED;
 use super::command::{Command, Settings, Target};
 use super::joints::ALL;
-use super::plan::Motion;
+use super::planned::Motion;
 use super::queue::{Laid, Queue, Step};
 use super::zone::{self, Rounding};
 use crate::frames::Carried;

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use super::curve::Curve;
 use super::joints::{Joints, is_unset};
-use super::plan::Motion;
+use super::planned::Motion;
 use crate::robot::Robot;
 
 /// What a zone is measured by.

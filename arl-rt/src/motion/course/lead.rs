@@ -12,7 +12,7 @@ use crate::motion::joints::Joints;
 use crate::motion::optimal::Edge;
 use crate::motion::piece::Piece;
 use crate::motion::pilot::{Halt, Pilot, Wish};
-use crate::motion::plan::Motion;
+use crate::motion::planned::Motion;
 use crate::motion::preparer::Prepared;
 use crate::motion::profile::State;
 use crate::motion::scout::Scout;

@@ -14,7 +14,7 @@ use crate::motion::curve::{Curve, ToolCurve};
 use crate::motion::error::PlanError;
 use crate::motion::joints::Joints;
 use crate::motion::limits::{Bound, passing, quickest};
-use crate::motion::plan::Motion;
+use crate::motion::planned::Motion;
 use crate::motion::survey::survey;
 use crate::robot::Robot;
 

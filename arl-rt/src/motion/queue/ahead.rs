@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::{Queue, TIME_AHEAD};
 use crate::motion::course::risen;
-use crate::motion::plan::Motion;
+use crate::motion::planned::Motion;
 use crate::motion::preparer::{Joining, Prepared};
 use crate::motion::zone::asks;
 
