@@ -107,7 +107,8 @@ impl Case {
         (!faults.is_empty()).then(|| self.failure(project, &faults))
     }
 
-    /// Tells what is wrong with the traces; returns the undisturbed one, unless it failed.
+    /// Tells what is wrong with the traces; returns the undisturbed one, unless it failed, and whether it is of this robot: not
+    /// where an axis had to turn freely for it.
     fn examine(
         &self,
         project: &Project,
@@ -115,7 +116,7 @@ impl Case {
         at: usize,
         faults: &mut Vec<String>,
         tally: &mut Tally,
-    ) -> Option<Vec<Row>> {
+    ) -> Option<(Vec<Row>, bool)> {
         let write = |ending: &str, text: &str| std::fs::write(self.file(project, ending), text).unwrap();
         write("robot.toml", &self.robot.text);
         write("arl", &self.plan.text);
@@ -127,7 +128,8 @@ impl Case {
                     faults.push(said);
                     return None;
                 };
-                return self.examine_turning_freely(&turned, (project, command, at), faults, tally);
+                let rows = self.examine_turning_freely(&turned, (project, command, at), faults, tally);
+                return rows.map(|rows| (rows, false));
             }
         };
         faults.extend(check::check(&self.robot, &self.plan, &undisturbed, &Scenario::default(), None, tally));
@@ -141,7 +143,7 @@ impl Case {
             };
             faults.extend(found.into_iter().map(|fault| format!("disturbed: {fault}")));
         }
-        Some(undisturbed)
+        Some((undisturbed, true))
     }
 
     /// Every passage through the wrist singularity may turn axes 4 and 6 by half a turn, until the range of one of them
@@ -159,7 +161,8 @@ impl Case {
 
     /// Where an axis ends the program, as its range ends, everything must hold of the same robot whose axis turns freely.
     /// There the axis really leaves its range in that line, and up to the alarm the robots go the same way: unless it leaves it
-    /// earlier, on another way through the wrist, from where on they are not compared.
+    /// earlier, on another way through the wrist, from where on they are not compared. Where the other axis has to turn freely as
+    /// well, that one may take another way through the wrist, on which this one stays within its range.
     fn examine_turning_freely(
         &self,
         turned: &TurnedOut,
@@ -175,14 +178,15 @@ impl Case {
             plan: self.plan.clone(),
             scenario: self.scenario.clone(),
         };
-        let rows = free.examine(project, command, at, faults, tally)?;
+        let (rows, is_its_own) = free.examine(project, command, at, faults, tally)?;
         let range = self.robot.axes[axis].min..=self.robot.axes[axis].max;
         let left = rows.iter().position(|row| !range.contains(&row.axes[axis]));
         // Where the free axis turns out already, the other one was turned to the other side: from there on they go apart.
         let apart = left.map(|at| rows[at].line).filter(|apart| self.comes_before(*apart, line));
-        let many = apart.and_then(|apart| stopped.iter().position(|row| row.line == apart)).unwrap_or(stopped.len());
+        let apart_from = apart.map(|apart| self.led_into_from(apart));
+        let many = apart_from.and_then(|from| stopped.iter().position(|row| row.line == from)).unwrap_or(stopped.len());
         faults.extend(check::check_stopped(&self.robot, &self.plan, (&stopped, many), &rows, tally));
-        if apart.is_some() {
+        if apart.is_some() || (left.is_none() && !is_its_own) {
             return Some(rows);
         }
         if !left.is_some_and(|at| rows[at].line == line || self.leads_into(line, &rows, at)) {
@@ -197,6 +201,14 @@ impl Case {
         let place = |line: usize| self.plan.motions.iter().position(|motion| motion.line == line);
         let passes = place(line).is_some_and(|at| self.plan.motions[at].wrist);
         passes && place(line).zip(place(other)).is_some_and(|(at, other)| at + 1 < other)
+    }
+
+    /// The line from which on the way may depend on a motion: that before it, where a blend leads from there.
+    fn led_into_from(&self, line: usize) -> usize {
+        let motions = &self.plan.motions;
+        let at = motions.iter().position(|motion| motion.line == line);
+        let before = at.and_then(|at| motions.get(at.checked_sub(1)?)).filter(|before| !before.rests);
+        before.map_or(line, |before| before.line)
     }
 
     /// Whether a row may be of the half of a blend that leads into a motion: of the one before, in the second half of its time.
