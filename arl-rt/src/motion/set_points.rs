@@ -1,5 +1,7 @@
 //! What the set-points along a law use of the limits: what a trace would show.
 
+use std::collections::VecDeque;
+
 use super::optimal::Law;
 use super::piece::LedTool;
 use super::plot::Used;
@@ -7,7 +9,9 @@ use super::scout::{Point, Scout};
 
 /// s between two set-points.
 const CYCLE: f64 = 0.001;
-/// So many of them at rest tell how a motion begins and ends.
+/// The robot may come to a law at any time within a cycle: so many of them are looked at.
+const PHASES: usize = 2;
+/// So many set-points at rest tell how a motion begins and ends.
 const STANDING: i32 = 3;
 
 /// Limits of speed, acceleration and jerk.
@@ -17,16 +21,18 @@ type Limits = [f64; 3];
 /// along a law use, by their differences: of each axis, and of the TCP along its way and its turning where that is led.
 pub(super) fn used_by_set_points(scout: &Scout, law: &Law, harder: f64) -> Used {
     let mut stroll = scout.stroll();
-    let mut last: Vec<Point> = Vec::with_capacity(4);
+    let mut last: VecDeque<Point> = VecDeque::with_capacity(3 * PHASES + 1);
     let mut used = Used::default();
     // Where it stands before or behind, set-points are those of a robot at rest.
     let first = if law.at(0.0).vel == 0.0 { -STANDING } else { 0 };
-    for cycle in first..=(law.duration() / CYCLE) as i32 + STANDING {
-        if last.len() == 4 {
-            last.remove(0);
+    let end = (law.duration() / CYCLE) as i32 + STANDING;
+    for step in first * PHASES as i32..=end * PHASES as i32 {
+        if last.len() > 3 * PHASES {
+            last.pop_front();
         }
-        last.push(stroll.go_to(law.at(f64::from(cycle) * CYCLE).at));
-        if let [a, b, c, d] = last.as_slice() {
+        last.push_back(stroll.go_to(law.at(f64::from(step) * (CYCLE / PHASES as f64)).at));
+        let points = [0, 1, 2, 3].map(|cycle| last.get(cycle * PHASES));
+        if let [Some(a), Some(b), Some(c), Some(d)] = points {
             let points = [a, b, c, d];
             let share = used_by_axes(scout, points, harder).max(used_by_tool(scout, points, harder));
             used.note([a.at, d.at], share);
