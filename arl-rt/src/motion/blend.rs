@@ -12,7 +12,8 @@ use super::crossing::{Approach, Crossing, cross};
 use super::curve::{Curve, ToolCurve, Track};
 use super::joints::{ALL, Joints, slowness};
 use super::limits::passing;
-use super::place::Place;
+use super::piece::DIFFERENCE;
+use super::place::{Place, by_differences};
 use super::planned::Motion;
 use super::profile::Limits;
 use super::progress::Progress;
@@ -284,6 +285,11 @@ impl Corner<'_> {
         pace: &Pace,
     ) -> Option<()> {
         let parts = if gentle { GENTLE_PARTS } else { PARTS };
+        let (kinematics, carried) = (&self.robot.kinematics, &self.to.rig.carried);
+        let tcp = |share: f64| {
+            let axes = Joints::of(&curve.at(progress.at(share))).axes;
+            carried.way_at(&kinematics.forward(&axes)).translation.vector
+        };
         for part in 0..=parts {
             let share = f64::from(part) / f64::from(parts);
             let place = Place::at(progress, share);
@@ -305,9 +311,10 @@ impl Corner<'_> {
                     bounds.manual_place(&joints, first, &self.from.rig.carried);
                 }
             }
-            // Between two motions of the same TCP it is as fast as programmed at most, though it goes by the axes.
+            // Between two motions of the same TCP that one's limits hold, though it goes by the axes.
             if pace.tcp.is_finite() && self.from.rig.carried == self.to.rig.carried {
                 bounds.cap_place(&joints, first, &self.to.rig.carried, pace.tcp);
+                bounds.moving(&by_differences(tcp, share, 1.0, DIFFERENCE), pace);
             }
             if gentle {
                 bounds.join(known);

@@ -7,7 +7,7 @@ use super::bounds::{Bounds, Pace};
 use super::crossing::{self, Crossing};
 use super::curve::Curve;
 use super::joints::{ALL, Joints};
-use super::place::Place;
+use super::place::{Place, by_differences};
 use super::planned::Motion;
 use super::profile::Limits;
 use super::progress::Progress;
@@ -17,7 +17,7 @@ use crate::kinematics::Kinematics;
 use crate::robot::{Robot, VelocityProfile};
 
 /// A step for differences, as part of the piece.
-const DIFFERENCE: f64 = 1e-3;
+pub(super) const DIFFERENCE: f64 = 1e-3;
 /// Parts of half a blend.
 const SPEEDS: usize = crossing::PARTS / 2;
 
@@ -206,13 +206,8 @@ impl Piece {
 
     /// Three derivatives of the TCP's position in mm where the axes are led, after `at` s of nominal time, by differences.
     fn moving_by_axes(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> [Vector3<f64>; 3] {
-        let step = DIFFERENCE * self.time;
-        let at = at.clamp(2.0 * step, self.time - 2.0 * step);
-        let [b, a, here, c, d] = [-2.0, -1.0, 0.0, 1.0, 2.0]
-            .map(|steps| self.tcp_by_axes(kinematics, &self.joints_on(kinematics, at + steps * step, near)));
-        let first = (c - a) / (2.0 * step);
-        let second = (c - 2.0 * here + a) / (step * step);
-        [first, second, (d - 2.0 * c + 2.0 * a - b) / (2.0 * step * step * step)]
+        let tcp = |at: f64| self.tcp_by_axes(kinematics, &self.joints_on(kinematics, at, near));
+        by_differences(tcp, at, self.time, DIFFERENCE * self.time)
     }
 
     /// The parameter of the curve after `at` s of nominal time.

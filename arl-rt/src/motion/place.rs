@@ -43,3 +43,12 @@ impl Place {
         self.rates(vectors.map(<[f64; 3]>::from)).map(Vector3::from)
     }
 }
+
+/// Three derivatives of a point's place, in mm, by what `of` takes, from 0 to `end`: by differences over a `step`.
+pub(super) fn by_differences(of: impl Fn(f64) -> Vector3<f64>, at: f64, end: f64, step: f64) -> [Vector3<f64>; 3] {
+    let at = at.clamp(2.0 * step, end - 2.0 * step);
+    let [b, a, here, c, d] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|steps| of(at + steps * step));
+    let first = (c - a) / (2.0 * step);
+    let second = (c - 2.0 * here + a) / (step * step);
+    [first, second, (d - 2.0 * c + 2.0 * a - b) / (2.0 * step * step * step)]
+}
