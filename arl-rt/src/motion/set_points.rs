@@ -2,6 +2,8 @@
 
 use std::collections::VecDeque;
 
+use nalgebra::Vector3;
+
 use super::optimal::Law;
 use super::piece::LedTool;
 use super::plot::Used;
@@ -13,6 +15,9 @@ const CYCLE: f64 = 0.001;
 const PHASES: usize = 2;
 /// So many set-points at rest tell how a motion begins and ends.
 const STANDING: i32 = 3;
+
+/// What changes its direction by so much within two cycles, in rad, all but turns back.
+const TURNS_BACK: f64 = 0.1;
 
 /// Limits of speed, acceleration and jerk.
 type Limits = [f64; 3];
@@ -69,12 +74,21 @@ fn used_by_tool(scout: &Scout, points: [&Point; 4], harder: f64) -> f64 {
     let pairs = [(a, b), (b, c), (c, d)];
     let tcp = &scout.robot.tcp;
     let limits = points.map(|Point { pace, .. }| [tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk]);
-    let by_way = used(pairs.map(|(from, to)| (to.at - from.at).norm()), highest(limits), harder);
-    let turn = |(from, to): (LedTool, LedTool)| Some(from.rotation?.angle_to(&to.rotation?).to_degrees());
+    let by_way = used_along(pairs.map(|(from, to)| to.at - from.at), highest(limits), harder);
+    let turn = |(from, to): (LedTool, LedTool)| Some((to.rotation? * from.rotation?.inverse()).scaled_axis());
     let [Some(first), Some(second), Some(third)] = pairs.map(turn) else { return by_way };
+    let turns = [first, second, third].map(|turn| turn.map(f64::to_degrees));
     let limits =
         points.map(|Point { pace, .. }| [tcp.ori_vel.min(pace.ori), tcp.ori_acc * pace.acc, tcp.ori_jerk * pace.jerk]);
-    by_way.max(used([first, second, third], highest(limits), harder))
+    by_way.max(used_along(turns, highest(limits), harder))
+}
+
+/// The share of limits along a way that three steps in a row use. What turns back, or all but, slows down and speeds up again at
+/// once: its speed along its way has no jerk to speak of.
+fn used_along(ways: [Vector3<f64>; 3], [vel, acc, jerk]: Limits, harder: f64) -> f64 {
+    let [first, _, last] = &ways;
+    let jerk = if first.angle(last) > TURNS_BACK { f64::INFINITY } else { jerk };
+    used(ways.map(|way| way.norm()), [vel, acc, jerk], harder)
 }
 
 /// The share of limits that three steps in a row use.
@@ -87,4 +101,21 @@ fn used([first, second, third]: [f64; 3], [vel, acc, jerk]: Limits, harder: f64)
 
 fn highest(limits: [Limits; 4]) -> Limits {
     limits.into_iter().fold([0.0; 3], |most, limits| [0, 1, 2].map(|order: usize| most[order].max(limits[order])))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_turns_back_has_no_jerk_along_its_way() {
+        let limits = [1e3, 1e3, 1e4];
+        let along = |ways: [f64; 3]| used_along(ways.map(|way| Vector3::new(0.0, way, 0.0)), limits, 1.0);
+        // Slowing down evenly, through rest and back: the speed along the way falls and rises.
+        let turned = along([1.5e-4, 0.5e-4, -0.5e-4]);
+        assert!(turned < 1e-3, "{turned}");
+        // The same on the way.
+        let jolted = along([1.5e-4, 0.5e-4, 0.5e-4]);
+        assert!((jolted - 10.0).abs() < 1e-9, "{jolted}");
+    }
 }
