@@ -1,5 +1,7 @@
 //! A part of a motion, or half of a blend, as the course has them in a row.
 
+use std::ops::Range;
+
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::blend::{Blend, common_pace};
@@ -36,10 +38,12 @@ pub(super) struct Piece {
     pub(super) progress: Option<Progress>,
     /// The nominal time in s.
     pub(super) time: f64,
-    /// In s of nominal time; the speed is the lowest.
+    /// In s of nominal time; the speed is the lowest, acceleration and jerk are those outside of arms.
     pub(super) limits: Limits,
     /// The speeds of its parts, which take the same nominal time each, where they are not all the same.
     speeds: Option<[f64; SPEEDS]>,
+    /// Where it has other limits of acceleration and jerk.
+    arm: Option<Arm>,
     /// Whether the robot has to stand still at the end.
     pub(super) stops: bool,
     /// Whether the motion ends here.
@@ -58,6 +62,14 @@ pub(super) struct Piece {
     pub(super) pace: Option<Pace>,
     /// Whether each place has limits of its own even while the robot goes on: in the profile O.
     pub(super) is_free: bool,
+}
+
+/// Parts with an acceleration and a jerk of their own.
+#[derive(Clone, Debug)]
+struct Arm {
+    parts: Range<usize>,
+    acc: f64,
+    jerk: f64,
 }
 
 /// A tool that is led along a way.
@@ -88,6 +100,7 @@ impl Piece {
             time: (to - from) / rate,
             limits: scaled,
             speeds: None,
+            arm: None,
             stops: true,
             ends: motion.ends,
             duration: (from == 0.0 && to == 1.0).then(|| motion.duration_with(&limits)),
@@ -104,7 +117,7 @@ impl Piece {
     pub(super) fn half(blend: &Blend, (before, after): (&Motion, &Motion), number: u64, first: bool) -> Self {
         let motion = if first { before } else { after };
 
-        let Crossing { speeds, acc, jerk } = &blend.crossing;
+        let Crossing { speeds, acc, jerk, arms } = &blend.crossing;
         let time = blend.time;
         let skipped = if first { 0 } else { SPEEDS };
         let mut own = [0.0; SPEEDS];
@@ -112,6 +125,8 @@ impl Piece {
             *own = on_grid(speed * time);
         }
         let lowest = own.iter().copied().fold(f64::INFINITY, f64::min);
+        let parts = if first { 0..arms.parts } else { SPEEDS.saturating_sub(arms.parts)..SPEEDS };
+        let arm = (arms.parts > 0).then(|| Arm { parts, acc: arms.acc * time, jerk: arms.jerk * time });
         Self {
             number,
             line: motion.line,
@@ -122,7 +137,8 @@ impl Piece {
             progress: Some(blend.progress.clone()),
             time: time / 2.0,
             limits: Limits { vel: lowest, acc: acc * time, jerk: jerk * time },
-            speeds: own.iter().any(|speed| *speed != lowest).then_some(own),
+            speeds: (arm.is_some() || own.iter().any(|speed| *speed != lowest)).then_some(own),
+            arm,
             stops: false,
             ends: first && motion.ends,
             duration: None,
@@ -139,7 +155,11 @@ impl Piece {
 
     /// The same, with an acceleration that takes at least `time` s to rise.
     pub(super) fn rising_in(self, time: f64) -> Self {
-        Self { limits: self.limits.rising_in(time), ..self }
+        let rising = |arm: Arm| {
+            let Limits { acc, jerk, .. } = Limits { vel: 0.0, acc: arm.acc, jerk: arm.jerk }.rising_in(time);
+            Arm { acc, jerk, ..arm }
+        };
+        Self { limits: self.limits.rising_in(time), arm: self.arm.map(rising), ..self }
     }
 
     /// The same, where the robot does not begin or end it at rest.
@@ -152,10 +172,22 @@ impl Piece {
         let count = if self.speeds.is_some() { SPEEDS } else { 1 };
         let length = self.time / count as f64;
         let speed = |part: usize| self.speeds.as_ref().and_then(|speeds| speeds.get(part).copied());
-        (0..count).map(move |part| Cell {
-            length,
-            limits: Limits { vel: speed(part).unwrap_or(self.limits.vel), ..self.limits },
+        let arm = |part: usize| self.arm.as_ref().filter(|arm| arm.parts.contains(&part));
+        (0..count).map(move |part| {
+            let vel = speed(part).unwrap_or(self.limits.vel);
+            let (acc, jerk) = arm(part).map_or((self.limits.acc, self.limits.jerk), |arm| (arm.acc, arm.jerk));
+            Cell { length, limits: Limits { vel, acc, jerk } }
         })
+    }
+
+    /// Limits that hold all along.
+    fn lowest_limits(&self) -> Limits {
+        let lowest = |arm: &Arm| Limits {
+            acc: self.limits.acc.min(arm.acc),
+            jerk: self.limits.jerk.min(arm.jerk),
+            ..self.limits
+        };
+        self.arm.as_ref().map_or(self.limits, lowest)
     }
 
     /// How long it takes in s from `at` s of nominal time on, at its full speed.
@@ -275,7 +307,7 @@ impl Piece {
         bounds: &mut Bounds,
     ) -> Option<[[f64; ALL]; 3]> {
         let Some(pace) = self.pace.as_ref().filter(|_| rise.is_some() || self.is_free) else {
-            bounds.cell(&self.limits);
+            bounds.cell(&self.lowest_limits());
             return None;
         };
         let width = (self.to - self.from) / self.time;

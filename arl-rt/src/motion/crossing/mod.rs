@@ -1,12 +1,14 @@
-//! How fast to cross a blend that bends: one acceleration and jerk for all of it, and a speed for each of its parts, so that
-//! not all of it is as slow as its sharpest place.
+//! How fast to cross a blend that bends: one acceleration and jerk for all of it, or for its middle and for both its ends, and a
+//! speed for each of its parts, so that not all of it is as slow as its sharpest place.
 
+mod arms;
 mod time;
 
 use std::ops::Range;
 
 use super::limits::Bound;
 use super::profile::Limits;
+use arms::Arms;
 pub(super) use time::Approach;
 use time::{duration, shortest};
 
@@ -18,14 +20,16 @@ pub(super) const PARTS: usize = 16;
 pub(super) struct Crossing {
     /// For each part.
     pub(super) speeds: [f64; PARTS],
+    /// In the middle; of all of it, where it has no arms.
     pub(super) acc: f64,
     pub(super) jerk: f64,
+    pub(super) arms: Arms,
 }
 
 impl Crossing {
     /// The same limits all along.
     pub(super) fn even(Limits { vel, acc, jerk }: Limits) -> Self {
-        Self { speeds: [vel; PARTS], acc, jerk }
+        Self { speeds: [vel; PARTS], acc, jerk, arms: Arms::default() }
     }
 }
 
@@ -64,7 +68,7 @@ pub(super) fn cross(places: &[PlaceBounds], fastest: f64, approaches: &[Approach
             if may_be_best(known) {
                 lower_speeds(known, &sites, acc, jerk);
                 if may_be_best(known) {
-                    let crossing = Crossing { speeds: *known, acc, jerk };
+                    let crossing = Crossing { speeds: *known, acc, jerk, arms: Arms::default() };
                     let time = duration(&crossing, approaches);
                     if best.as_ref().is_none_or(|(least, _)| time < *least) {
                         best = Some((time, crossing));
@@ -74,7 +78,8 @@ pub(super) fn cross(places: &[PlaceBounds], fastest: f64, approaches: &[Approach
             with_less_jerk = *known;
         }
     }
-    best.map(|(_, crossing)| crossing).filter(|crossing| crossing.speeds.iter().all(|speed| *speed > 0.0))
+    let best = best.map(|best| arms::quickest(best, &sites, (fastest, acc, jerk), approaches));
+    best.filter(|crossing| crossing.speeds.iter().all(|speed| *speed > 0.0))
 }
 
 /// A place with the parts that it speaks for, and bounds that are as strict as all of its own together.
@@ -175,11 +180,13 @@ mod tests {
             let places = random_places(&mut random);
             let bounds = bounds_of(&places);
             let approach = Approach { limits: Limits { vel: 1.0, acc: 4.0, jerk: 40.0 }, length: 1.0 };
-            let Crossing { speeds, acc, jerk } = cross(&bounds, 1.0, &[approach; 2]).unwrap();
+            let Crossing { speeds, acc, jerk, arms } = cross(&bounds, 1.0, &[approach; 2]).unwrap();
             assert!(acc > 0.0 && jerk > 0.0);
             for (share, rows) in &places {
                 let part = ((share * PARTS as f64) as usize).min(PARTS - 1);
                 let vel = speeds[part];
+                let is_arm = part < arms.parts || part >= PARTS - arms.parts;
+                let (acc, jerk) = if is_arm { (arms.acc, arms.jerk) } else { (acc, jerk) };
                 for bound in rows {
                     bound.assert_kept(Limits { vel, acc, jerk });
                 }
@@ -209,7 +216,8 @@ mod tests {
                 let (acc, jerk) = (acc * acc_share, jerk * jerk_share);
                 let mut speeds = [1.0; PARTS];
                 lower_speeds(&mut speeds, &sites, acc, jerk);
-                let time = duration(&Crossing { speeds, acc, jerk }, &approaches);
+                let crossing = Crossing { speeds, acc, jerk, arms: Arms::default() };
+                let time = duration(&crossing, &approaches);
                 assert!(least <= time * (1.0 + 1e-5), "{least} {time} {acc_share} {jerk_share}");
             }
         }
@@ -228,5 +236,24 @@ mod tests {
         let crossing = cross(&places, 1.0, &[approach; 2]).unwrap();
         assert_eq!(crossing.speeds[0], 1.0);
         assert!(crossing.speeds[PARTS / 2] < 0.25);
+    }
+
+    #[test]
+    fn the_ends_of_a_hairpin_have_the_limits_of_the_ways_beside() {
+        let even = Bound::even(1.0, 1.0, 10.0, 1000.0);
+        let sharp = Bound { second: 400.0, third: 40_000.0, ..even };
+        let rows = [[even], [sharp]];
+        let place = |index: u32| {
+            let share = f64::from(index) / 64.0;
+            let is_sharp = (share - 0.5).abs() < 0.1;
+            PlaceBounds { from: share - 1.0 / 64.0, to: share + 1.0 / 64.0, rows: &rows[usize::from(is_sharp)] }
+        };
+        let places: Vec<PlaceBounds> = (0..=64).map(place).collect();
+        let limits = Limits { vel: 1.0, acc: 10.0, jerk: 1000.0 };
+        let approach = Approach { limits, length: 1.0 };
+        let crossing = cross(&places, 1.0, &[approach; 2]).unwrap();
+        assert!(crossing.arms.parts > 0 && crossing.arms.acc > 4.0 * crossing.acc, "{crossing:?}");
+        let without = Crossing { arms: Arms::default(), ..crossing.clone() };
+        assert!(duration(&crossing, &[approach; 2]) < 0.9 * duration(&without, &[approach; 2]));
     }
 }

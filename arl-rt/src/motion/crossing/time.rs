@@ -25,6 +25,9 @@ const APPROACH: [f64; 6] = [1.0 / 32.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 /
 
 /// About how long it takes to cross, in s, and to go the ways before and behind.
 pub(super) fn duration(crossing: &Crossing, approaches: &[Approach; 2]) -> f64 {
+    if crossing.arms.parts > 0 {
+        return duration_with_arms(crossing, approaches);
+    }
     let own = Limits { vel: f64::INFINITY, acc: crossing.acc, jerk: crossing.jerk };
     let [before, behind] = approaches;
     let [with_before, with_behind] = approaches.map(|approach| alike(&approach.limits, &own));
@@ -45,6 +48,25 @@ pub(super) fn duration(crossing: &Crossing, approaches: &[Approach; 2]) -> f64 {
     time + before.outside(shared(with_before), first) + behind.outside(shared(with_behind), last)
 }
 
+/// The same of a crossing with arms: where they meet its middle there is no acceleration.
+fn duration_with_arms(crossing: &Crossing, [before, behind]: &[Approach; 2]) -> f64 {
+    let Crossing { speeds, acc, jerk, arms } = crossing;
+    let parts: Vec<Part> = speeds.iter().map(|speed| Part { length: 1.0 / PARTS as f64, speed: *speed }).collect();
+    let (first, rest) = parts.split_at(arms.parts);
+    let (middle, last) = rest.split_at(PARTS - 2 * arms.parts);
+    let limits = Limits { vel: f64::INFINITY, acc: *acc, jerk: *jerk };
+    let outer = Limits { vel: f64::INFINITY, acc: arms.acc, jerk: arms.jerk };
+    let through = |ends: [f64; 2]| time(middle, ends, &limits);
+    let (mut own, [entry, exit]) =
+        through([first.last(), last.first()].map(|part| part.map_or(0.0, |part| part.speed)));
+    let (came, entered) = before.with_arm(first.iter().rev(), &outer, entry);
+    let (went, left) = behind.with_arm(last.iter(), &outer, exit);
+    if entered < entry || left < exit {
+        (own, _) = through([entered, left]);
+    }
+    own + came + went
+}
+
 /// A time in s that [`duration`] is no less than with these speeds, or lower ones, whatever the acceleration and the jerk.
 pub(super) fn shortest(speeds: &[f64; PARTS], approaches: &[Approach; 2]) -> f64 {
     let own: f64 = speeds.iter().map(|speed| 1.0 / speed).sum();
@@ -53,7 +75,7 @@ pub(super) fn shortest(speeds: &[f64; PARTS], approaches: &[Approach; 2]) -> f64
 }
 
 /// Whether two become one stretch, with the lower limits: see [`super::super::timing`].
-fn alike(a: &Limits, b: &Limits) -> bool {
+pub(super) fn alike(a: &Limits, b: &Limits) -> bool {
     let alike = |a: f64, b: f64| a <= b * ALIKE && b <= a * ALIKE;
     alike(a.acc, b.acc) && alike(a.jerk, b.jerk)
 }
@@ -65,6 +87,19 @@ fn lower(a: Limits, b: &Limits) -> Limits {
 impl Approach {
     fn parts(&self) -> impl DoubleEndedIterator<Item = Part> {
         APPROACH.iter().map(|share| Part { length: self.length * share, speed: self.limits.vel })
+    }
+
+    /// How long it takes with an arm, whose parts are given from the middle of the blend on, and how fast that one is there, with at
+    /// most this speed.
+    fn with_arm<'a>(&self, arm: impl Iterator<Item = &'a Part>, outer: &Limits, speed: f64) -> (f64, f64) {
+        let joined = alike(&self.limits, outer);
+        let limits = if joined { lower(*outer, &self.limits) } else { *outer };
+        let mut parts: Vec<Part> = arm.copied().collect();
+        if joined {
+            parts.extend(self.parts());
+        }
+        let (time, [inside, outside]) = time(&parts, [speed, self.limits.vel], &limits);
+        (time + self.outside(joined.then_some(&limits), outside), inside)
     }
 
     /// What it adds to the time: where it shares the blend's limits, what the ramp at its other end loses by them; where it keeps
