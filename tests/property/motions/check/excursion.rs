@@ -78,7 +78,8 @@ impl Account<'_> {
                 leg
             };
             if torn && row.line != 0 {
-                (leg.motion.kind, leg.rests, leg.axes) = (Kind::Spl, range.end == rows.len(), None);
+                let kind = if leg.motion.kind.leads_tool() { Kind::Spl } else { leg.motion.kind };
+                (leg.motion.kind, leg.rests, leg.axes) = (kind, range.end == rows.len(), None);
             }
             leg.rows = range;
             legs.push(leg);
