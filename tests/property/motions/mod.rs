@@ -189,7 +189,10 @@ impl Case {
         if apart.is_some() || (left.is_none() && !is_its_own) {
             return Some(rows);
         }
-        if !left.is_some_and(|at| rows[at].line == line || self.leads_into(line, &rows, at)) {
+        let is_there = |at: usize| {
+            rows[at].line == line || self.leads_into(line, &rows, at) || self.is_left_for(line, rows[at].line)
+        };
+        if !left.is_some_and(is_there) {
             let (axis, left) = (axis + 1, left.map(|at| rows[at].line));
             faults.push(format!("the alarm says that j{axis} leaves its range in line {line}; it does in {left:?}"));
         }
@@ -209,6 +212,12 @@ impl Case {
         let at = motions.iter().position(|motion| motion.line == line);
         let before = at.and_then(|at| motions.get(at.checked_sub(1)?)).filter(|before| !before.rests);
         before.map_or(line, |before| before.line)
+    }
+
+    /// Whether a blend leads from one motion to another, which may take away the end of the first one.
+    fn is_left_for(&self, line: usize, next: usize) -> bool {
+        let pairs = self.plan.motions.windows(2);
+        pairs.into_iter().any(|pair| pair[0].line == line && !pair[0].rests && pair[1].line == next)
     }
 
     /// Whether a row may be of the half of a blend that leads into a motion: of the one before, in the second half of its time.
