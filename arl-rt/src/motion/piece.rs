@@ -126,7 +126,7 @@ impl Piece {
         }
         let lowest = own.iter().copied().fold(f64::INFINITY, f64::min);
         let parts = if first { 0..arms.parts } else { SPEEDS.saturating_sub(arms.parts)..SPEEDS };
-        let arm = (arms.parts > 0).then(|| Arm { parts, acc: arms.acc * time, jerk: arms.jerk * time });
+        let arm = (arms.parts > 0).then_some(Arm { parts, acc: arms.acc * time, jerk: arms.jerk * time });
         Self {
             number,
             line: motion.line,
