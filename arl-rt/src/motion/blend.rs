@@ -12,7 +12,6 @@ use super::crossing::{Approach, Crossing, cross};
 use super::curve::{Curve, ToolCurve, Track};
 use super::joints::{ALL, Joints, slowness};
 use super::limits::passing;
-use super::piece::DIFFERENCE;
 use super::place::{Place, by_differences};
 use super::planned::Motion;
 use super::profile::Limits;
@@ -314,7 +313,7 @@ impl Corner<'_> {
             // Between two motions of the same TCP that one's limits hold, though it goes by the axes.
             if pace.tcp.is_finite() && self.from.rig.carried == self.to.rig.carried {
                 bounds.cap_place(&joints, first, &self.to.rig.carried, pace.tcp);
-                bounds.moving(&by_differences(tcp, share, 1.0, DIFFERENCE), pace);
+                bounds.moving(&by_differences(tcp, share, 1.0), pace);
             }
             if gentle {
                 bounds.join(known);

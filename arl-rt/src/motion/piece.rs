@@ -18,8 +18,6 @@ use crate::frames::{Carried, Rig};
 use crate::kinematics::Kinematics;
 use crate::robot::{Robot, VelocityProfile};
 
-/// A step for differences, as part of the piece.
-pub(super) const DIFFERENCE: f64 = 1e-3;
 /// Parts of half a blend.
 const SPEEDS: usize = crossing::PARTS / 2;
 
@@ -239,7 +237,7 @@ impl Piece {
     /// Three derivatives of the TCP's position in mm where the axes are led, after `at` s of nominal time, by differences.
     fn moving_by_axes(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> [Vector3<f64>; 3] {
         let tcp = |at: f64| self.tcp_by_axes(kinematics, &self.joints_on(kinematics, at, near));
-        by_differences(tcp, at, self.time, DIFFERENCE * self.time)
+        by_differences(tcp, at, self.time)
     }
 
     /// The parameter of the curve after `at` s of nominal time.

@@ -4,6 +4,9 @@ use nalgebra::Vector3;
 
 use super::progress::Progress;
 
+/// A step for differences, as part of the whole.
+const DIFFERENCE: f64 = 1e-3;
+
 /// A place on the curve: its parameter, and how that changes with the share of the nominal time.
 #[derive(Clone, Copy)]
 pub(super) struct Place {
@@ -44,8 +47,9 @@ impl Place {
     }
 }
 
-/// Three derivatives of a point's place, in mm, by what `of` takes, from 0 to `end`: by differences over a `step`.
-pub(super) fn by_differences(of: impl Fn(f64) -> Vector3<f64>, at: f64, end: f64, step: f64) -> [Vector3<f64>; 3] {
+/// Three derivatives of a point's place, in mm, by what `of` takes, from 0 to `end`: by differences.
+pub(super) fn by_differences(of: impl Fn(f64) -> Vector3<f64>, at: f64, end: f64) -> [Vector3<f64>; 3] {
+    let step = DIFFERENCE * end;
     let at = at.clamp(2.0 * step, end - 2.0 * step);
     let [b, a, here, c, d] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|steps| of(at + steps * step));
     let first = (c - a) / (2.0 * step);
