@@ -61,10 +61,10 @@ fn points(file: &str) -> [i32; 2] {
     [number(joint), number(pose)]
 }
 
-/// The files of a folder that were being written.
+/// The files of a folder that were being written; none where a kill came before the folder was made.
 #[cfg(unix)]
 fn beside(folder: &Folder, name: &str) -> Vec<String> {
-    let files = std::fs::read_dir(folder.path.join(name)).expect("a folder");
+    let files = std::fs::read_dir(folder.path.join(name)).into_iter().flatten();
     let names = files.filter_map(Result::ok).map(|file| file.file_name().to_string_lossy().into_owned());
     names.filter(|name| name.ends_with(".arl-new")).collect()
 }
