@@ -54,7 +54,7 @@ impl Runtime {
         env!("CARGO_PKG_VERSION").hash(&mut hasher);
         if let Runtime::Checkout(folder) = self {
             folder.hash(&mut hasher);
-            for part in ["arl-rt", "arl-robot", "arl-lang"] {
+            for part in ["arl-rt", "arl-motion", "arl-robot", "arl-lang"] {
                 hash_state(&folder.join(part).join("Cargo.toml"), &mut hasher);
                 hash_tree(&folder.join(part).join("src"), &mut hasher);
             }

@@ -1,0 +1,259 @@
+//! How fast to cross a blend that bends: one acceleration and jerk for all of it, or for its middle and for both its ends, and a
+//! speed for each of its parts, so that not all of it is as slow as its sharpest place.
+
+mod duration;
+mod end_zones;
+
+use std::ops::Range;
+
+use crate::limits::constant::Bound;
+use crate::limits::profile::Limits;
+pub(crate) use duration::Approach;
+use duration::{duration, shortest};
+use end_zones::Arms;
+
+/// Parts of a blend, of the same nominal time, with a speed each.
+pub(crate) const PARTS: usize = 16;
+
+/// Limits of the share of a blend that is done, per s.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Crossing {
+    /// For each part.
+    pub(crate) speeds: [f64; PARTS],
+    /// In the middle; of all of it, where it has no arms.
+    pub(crate) acc: f64,
+    pub(crate) jerk: f64,
+    pub(crate) arms: Arms,
+}
+
+impl Crossing {
+    /// The same limits all along.
+    pub(crate) fn even(Limits { vel, acc, jerk }: Limits) -> Self {
+        Self { speeds: [vel; PARTS], acc, jerk, arms: Arms::default() }
+    }
+}
+
+/// The bounds of one place, and the part of the blend that it speaks for: up to its neighbours.
+pub(crate) struct PlaceBounds<'a> {
+    /// Shares of the blend's nominal time.
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+    pub(crate) rows: &'a [Bound],
+}
+
+/// Parts of the acceleration, and of the jerk, that are there at rest, among which the quickest are looked for. What is not
+/// taken of them is left for the bend.
+const ACC_SHARES: [f64; 5] = [0.06, 0.12, 0.25, 0.5, 0.9];
+const JERK_SHARES: [f64; 4] = [0.15, 0.35, 0.6, 0.9];
+
+/// The quickest limits to cross with, no faster than `fastest`, under which no bound is broken.
+pub(crate) fn cross(places: &[PlaceBounds], fastest: f64, approaches: &[Approach; 2]) -> Option<Crossing> {
+    let rows = || places.iter().flat_map(|place| place.rows).filter(|row| row.first > 0.0);
+    let lowest = |of: fn(&Bound) -> f64| rows().map(of).fold(1e12, f64::min);
+    let (acc, jerk) = (lowest(|row| row.acc / row.first), lowest(|row| row.jerk / row.first));
+    let sites: Vec<Site> = places.iter().map(Site::new).collect();
+    let mut best: Option<(f64, Crossing)> = None;
+    // Speeds only fall with the acceleration and the jerk: those of the pairs before are a bound, which is often enough to know
+    // that a pair is slower than another one.
+    let mut with_less_acc = [[fastest; PARTS]; JERK_SHARES.len()];
+    for acc_share in ACC_SHARES {
+        let mut with_less_jerk = [fastest; PARTS];
+        for (jerk_share, known) in JERK_SHARES.iter().zip(&mut with_less_acc) {
+            for (speed, other) in known.iter_mut().zip(with_less_jerk) {
+                *speed = speed.min(other);
+            }
+            let may_be_best =
+                |speeds: &[f64; PARTS]| best.as_ref().is_none_or(|(least, _)| shortest(speeds, approaches) < *least);
+            let (acc, jerk) = (acc * acc_share, jerk * jerk_share);
+            if may_be_best(known) {
+                lower_speeds(known, &sites, acc, jerk);
+                if may_be_best(known) {
+                    let crossing = Crossing { speeds: *known, acc, jerk, arms: Arms::default() };
+                    let time = duration(&crossing, approaches);
+                    if best.as_ref().is_none_or(|(least, _)| time < *least) {
+                        best = Some((time, crossing));
+                    }
+                }
+            }
+            with_less_jerk = *known;
+        }
+    }
+    let best = best.map(|best| end_zones::quickest(best, &sites, (fastest, acc, jerk), approaches));
+    best.filter(|crossing| crossing.speeds.iter().all(|speed| *speed > 0.0))
+}
+
+/// A place with the parts that it speaks for, and bounds that are as strict as all of its own together.
+struct Site<'a> {
+    parts: Range<usize>,
+    rows: &'a [Bound],
+    /// What the speed, the acceleration and its square, the jerk, the product of both and the cube use of the limits.
+    vel: f64,
+    acc: [f64; 2],
+    jerk: [f64; 3],
+}
+
+impl<'a> Site<'a> {
+    fn new(place: &PlaceBounds<'a>) -> Self {
+        let [first, last] = [place.from, place.to].map(|share| share.clamp(0.0, 1.0) * PARTS as f64);
+        let most = |of: fn(&Bound) -> f64| place.rows.iter().map(of).fold(0.0, f64::max);
+        Self {
+            parts: first.floor() as usize..last.ceil() as usize,
+            rows: place.rows,
+            vel: most(|row| row.first / row.vel),
+            acc: [most(|row| row.first / row.acc), most(|row| row.second / row.acc)],
+            jerk: [
+                most(|row| row.first / row.jerk),
+                most(|row| row.second / row.jerk),
+                most(|row| row.third / row.jerk),
+            ],
+        }
+    }
+
+    /// Whether all bounds hold up to this speed, without a look at each.
+    fn surely_allows(&self, speed: f64, acc: f64, jerk: f64) -> bool {
+        let square = speed * speed;
+        self.vel * speed <= 1.0
+            && self.acc[0] * acc + self.acc[1] * square <= 1.0
+            && self.jerk[0] * jerk + 3.0 * self.jerk[1] * acc * speed + self.jerk[2] * square * speed <= 1.0
+    }
+}
+
+/// Lowers the speed in each part to the highest one with this acceleration and jerk.
+fn lower_speeds(speeds: &mut [f64; PARTS], sites: &[Site], acc: f64, jerk: f64) {
+    for site in sites {
+        let touched = speeds.get_mut(site.parts.clone()).unwrap_or_default();
+        let highest = touched.iter().copied().fold(0.0, f64::max);
+        if site.surely_allows(highest, acc, jerk) {
+            continue;
+        }
+        let speed = site.rows.iter().fold(highest, |speed, row| fastest_within(row, speed, acc, jerk));
+        for part in touched {
+            *part = part.min(speed);
+        }
+    }
+}
+
+/// The highest speed up to `speed` at which a bound holds with this acceleration and jerk.
+fn fastest_within(row: &Bound, speed: f64, acc: f64, jerk: f64) -> f64 {
+    let Bound { first, second, third, .. } = *row;
+    let mut speed = if first * speed > row.vel { row.vel / first } else { speed };
+    let left = row.acc - first * acc;
+    if second * speed * speed > left {
+        speed = (left.max(0.0) / second).sqrt();
+    }
+    let left = (row.jerk - first * jerk).max(0.0);
+    let (line, cube) = (3.0 * second * acc, third);
+    let taken = |speed: f64| speed * (line + cube * speed * speed);
+    if taken(speed) > left {
+        // Newton's steps come down to the root from above: what takes so much grows ever faster.
+        for _ in 0..40 {
+            let next = speed - (taken(speed) - left) / (line + 3.0 * cube * speed * speed);
+            if next >= speed * (1.0 - 1e-9) {
+                break;
+            }
+            speed = next;
+        }
+        speed *= 1.0 - 1e-6;
+    }
+    speed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use arl_robot::kinematics::random::Random;
+
+    fn random_places(random: &mut Random) -> Vec<(f64, Vec<Bound>)> {
+        (0..=30).map(|place| (f64::from(place) / 30.0, (0..6).map(|_| Bound::random(random)).collect())).collect()
+    }
+
+    /// Each speaks for the way to its neighbours.
+    fn bounds_of(places: &[(f64, Vec<Bound>)]) -> Vec<PlaceBounds<'_>> {
+        let around = 1.0 / 30.0;
+        places.iter().map(|(share, rows)| PlaceBounds { from: share - around, to: share + around, rows }).collect()
+    }
+
+    #[test]
+    fn no_bound_is_broken_by_any_motion_within_the_limits() {
+        let mut random = Random::new(31);
+        for _ in 0..300 {
+            let places = random_places(&mut random);
+            let bounds = bounds_of(&places);
+            let approach = Approach { limits: Limits { vel: 1.0, acc: 4.0, jerk: 40.0 }, length: 1.0 };
+            let Crossing { speeds, acc, jerk, arms } = cross(&bounds, 1.0, &[approach; 2]).unwrap();
+            assert!(acc > 0.0 && jerk > 0.0);
+            for (share, rows) in &places {
+                let part = ((share * PARTS as f64) as usize).min(PARTS - 1);
+                let vel = speeds[part];
+                let is_arm = part < arms.parts || part >= PARTS - arms.parts;
+                let (acc, jerk) = if is_arm { (arms.acc, arms.jerk) } else { (acc, jerk) };
+                for bound in rows {
+                    bound.assert_kept(Limits { vel, acc, jerk });
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn no_pair_of_shares_is_quicker() {
+        let mut random = Random::new(33);
+        for _ in 0..300 {
+            let places = random_places(&mut random);
+            let bounds = bounds_of(&places);
+            let sites: Vec<Site> = bounds.iter().map(Site::new).collect();
+            let approach = |random: &mut Random| Approach {
+                limits: Limits { vel: 1.0, acc: random.between(1.0, 40.0), jerk: random.between(10.0, 4000.0) },
+                length: random.between(0.0, 2.0),
+            };
+            let approaches = [approach(&mut random), approach(&mut random)];
+            let found = cross(&bounds, 1.0, &approaches).unwrap();
+            let least = duration(&found, &approaches);
+            let most = |of: fn(&Bound) -> f64| {
+                places.iter().flat_map(|(_, rows)| rows).filter(|row| row.first > 0.0).map(of).fold(1e12, f64::min)
+            };
+            let (acc, jerk) = (most(|row| row.acc / row.first), most(|row| row.jerk / row.first));
+            for (acc_share, jerk_share) in ACC_SHARES.iter().flat_map(|acc| JERK_SHARES.map(|jerk| (acc, jerk))) {
+                let (acc, jerk) = (acc * acc_share, jerk * jerk_share);
+                let mut speeds = [1.0; PARTS];
+                lower_speeds(&mut speeds, &sites, acc, jerk);
+                let crossing = Crossing { speeds, acc, jerk, arms: Arms::default() };
+                let time = duration(&crossing, &approaches);
+                assert!(least <= time * (1.0 + 1e-5), "{least} {time} {acc_share} {jerk_share}");
+            }
+        }
+    }
+
+    #[test]
+    fn only_the_sharp_part_is_slow() {
+        let even = Bound::even(1.0, 1.0, 10.0, 100.0);
+        let sharp = Bound { second: 200.0, third: 2000.0, ..even };
+        let rows = [[even], [sharp], [even]];
+        let shares = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
+        let row = |share: f64| &rows[usize::from((share - 0.5).abs() < 0.05)];
+        let places: Vec<_> =
+            shares.iter().map(|share| PlaceBounds { from: share - 0.1, to: share + 0.1, rows: row(*share) }).collect();
+        let approach = Approach { limits: Limits { vel: 1.0, acc: 10.0, jerk: 100.0 }, length: 1.0 };
+        let crossing = cross(&places, 1.0, &[approach; 2]).unwrap();
+        assert_eq!(crossing.speeds[0], 1.0);
+        assert!(crossing.speeds[PARTS / 2] < 0.25);
+    }
+
+    #[test]
+    fn the_ends_of_a_hairpin_have_the_limits_of_the_ways_beside() {
+        let even = Bound::even(1.0, 1.0, 10.0, 1000.0);
+        let sharp = Bound { second: 400.0, third: 40_000.0, ..even };
+        let rows = [[even], [sharp]];
+        let place = |index: u32| {
+            let share = f64::from(index) / 64.0;
+            let is_sharp = (share - 0.5).abs() < 0.1;
+            PlaceBounds { from: share - 1.0 / 64.0, to: share + 1.0 / 64.0, rows: &rows[usize::from(is_sharp)] }
+        };
+        let places: Vec<PlaceBounds> = (0..=64).map(place).collect();
+        let limits = Limits { vel: 1.0, acc: 10.0, jerk: 1000.0 };
+        let approach = Approach { limits, length: 1.0 };
+        let crossing = cross(&places, 1.0, &[approach; 2]).unwrap();
+        assert!(crossing.arms.parts > 0 && crossing.arms.acc > 4.0 * crossing.acc, "{crossing:?}");
+        let without = Crossing { arms: Arms::default(), ..crossing.clone() };
+        assert!(duration(&crossing, &[approach; 2]) < 0.9 * duration(&without, &[approach; 2]));
+    }
+}

@@ -1,0 +1,128 @@
+//! Finds junctions beside the cycle, on a thread of its own.
+//!
+//! When a motion is laid is decided by the cycle alone, whatever the thread has done until then. A junction that it has found by
+//! then is there; one that it is finding is waited for; else the cycle finds it. All three give the same, so a run does not
+//! depend on the thread.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::{Arc, OnceLock};
+use std::thread;
+
+use crate::blend::junction::{Before, Junction, Meeting};
+use crate::plan::motion::Motion;
+use arl_robot::robot::Robot;
+
+/// So many junctions are looked for, or have been, at the most; those beyond are found when they are needed.
+const MOST: usize = 1024;
+
+/// A junction that is being found.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Prepared(Arc<OnceLock<Junction>>);
+
+/// How a motion will be joined by the one before it when it is left.
+#[derive(Debug)]
+pub(crate) enum Joining {
+    /// As it lies on the course.
+    Known(Before),
+    /// As this junction, which comes first, leaves it.
+    Behind(Prepared),
+}
+
+struct Task {
+    robot: Arc<Robot>,
+    joining: Joining,
+    from: Arc<Motion>,
+    to: Arc<Motion>,
+    result: Prepared,
+}
+
+/// The thread; it begins with the first junction.
+#[derive(Debug, Default)]
+pub(crate) struct Preparer {
+    channels: Option<Channels>,
+}
+
+#[derive(Debug)]
+struct Channels {
+    tasks: SyncSender<Task>,
+    /// Those that are done come back: memory is given back where it was taken.
+    done: Receiver<Task>,
+}
+
+impl Clone for Preparer {
+    /// Another one, with a thread of its own.
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl Preparer {
+    /// Begins to look for a junction.
+    pub(crate) fn prepare(&mut self, robot: &Arc<Robot>, joining: Joining, [from, to]: [&Arc<Motion>; 2]) -> Prepared {
+        let result = Prepared::default();
+        let (from, to) = (Arc::clone(from), Arc::clone(to));
+        let task = Task { robot: Arc::clone(robot), joining, from, to, result: result.clone() };
+        if self.channels.is_none() {
+            self.channels = begin();
+        }
+        if let Some(channels) = &self.channels {
+            channels.done.try_iter().for_each(drop);
+            // What the thread does not take is found when it is needed.
+            let _ = channels.tasks.try_send(task);
+        }
+        result
+    }
+}
+
+#[cfg(test)]
+impl Preparer {
+    /// One whose thread never does anything.
+    pub(crate) fn stuck() -> Self {
+        let (tasks, asked) = sync_channel(MOST);
+        let (_, done) = sync_channel(0);
+        std::mem::forget(asked);
+        Self { channels: Some(Channels { tasks, done }) }
+    }
+}
+
+impl Prepared {
+    /// Waits until the thread has found it.
+    #[cfg(test)]
+    pub(crate) fn wait(&self) {
+        self.0.wait();
+    }
+
+    /// What has been found, or is found now from what is known to be.
+    pub(crate) fn take(&self, robot: &Robot, meeting: impl FnOnce() -> Meeting) -> &Junction {
+        self.0.get_or_init(|| Junction::find(robot, meeting()))
+    }
+}
+
+/// Starts the thread; it ends when nobody can ask it any more.
+fn begin() -> Option<Channels> {
+    let (tasks, asked) = sync_channel::<Task>(MOST);
+    let (does, done) = sync_channel(MOST);
+    let work = move || {
+        for task in asked {
+            task.run();
+            // Where it is full, the task just ends here.
+            let _ = does.try_send(task);
+        }
+    };
+    thread::Builder::new().name("blends".into()).spawn(work).ok().map(|_| Channels { tasks, done })
+}
+
+impl Task {
+    fn run(&self) {
+        let meeting = || {
+            let before = match &self.joining {
+                Joining::Known(before) => before.clone(),
+                Joining::Behind(first) => first.0.get().and_then(Junction::leaves),
+            };
+            Meeting { before, from: Arc::clone(&self.from), to: Arc::clone(&self.to) }
+        };
+        // What goes wrong here goes wrong in the cycle again, where somebody hears of it.
+        let _ = catch_unwind(AssertUnwindSafe(|| self.result.take(&self.robot, meeting)));
+    }
+}

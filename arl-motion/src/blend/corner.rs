@@ -1,0 +1,487 @@
+//! Blending zones: a curve that leaves one motion before its target and joins the next one behind its start.
+//!
+//! The curve meets both motions with position, direction and curvature, and depends on the geometry of the zone alone,
+//! never on a speed. It is a polynomial of the fifth degree: in the TCP's position and orientation where both motions
+//! lead the same TCP, else in the axes. Only then is it timed.
+
+use nalgebra::{SVector, Vector3};
+
+use crate::blend::blend_limits::{Approach, Crossing, cross};
+use crate::blend::mid_curvature::Bend;
+use crate::blend::zone::{LARGEST, parts};
+use crate::command::joints::{ALL, Joints, slowness};
+use crate::geometry::derivatives::{Place, by_differences};
+use crate::geometry::parametrization::Progress;
+use crate::geometry::quintic::{Knot, Quintic, Way};
+use crate::geometry::rotation;
+use crate::limits::constant::passing;
+use crate::limits::profile::Limits;
+use crate::plan::constraints::{Bounds, Pace};
+use crate::plan::curve::{Curve, ToolCurve, Track};
+use crate::plan::motion::Motion;
+use crate::plan::path_check::{glance, survey};
+use arl_robot::kinematics::Rates;
+use arl_robot::robot::{ROBOT_AXES, Robot};
+
+/// Length of the tangents at the ends of a blend, in lengths of the zone. With 2 the blend of two straight lines that are
+/// left and joined at the same distance accelerates along the bisector alone.
+const TANGENT: f64 = 2.0;
+/// How often a zone is halved before it is given up: where its blend would leave an axis's range or the reach.
+const HALVINGS: u32 = 4;
+/// Parts of a blend between which it is looked at; and of one that hardly bends.
+const PARTS: u32 = 48;
+const GENTLE_PARTS: u32 = 4;
+/// Where nothing changes its speed or direction by a larger part than this, a blend hardly bends.
+const GENTLE: f64 = 0.1;
+
+/// The way between two motions.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Blend {
+    /// The part of the first motion after which it is left.
+    pub(crate) leave: f64,
+    /// The part of the second motion at which it is joined.
+    pub(crate) join: f64,
+    pub(crate) curve: Curve,
+    /// The curve's parameter over the time that is nominal for it, both from 0 to 1.
+    pub(crate) progress: Progress,
+    /// The nominal time in s.
+    pub(crate) time: f64,
+    pub(crate) crossing: Crossing,
+}
+
+/// The blend that the first motion's zone asks for; `None` where it asks for none, or there is no way.
+pub(crate) fn blend(robot: &Robot, from: &Motion, to: &Motion) -> Option<Blend> {
+    let (mut leaving, mut joining) = parts(robot, from, to)?;
+    for _ in 0..=HALVINGS {
+        if let Some(blend) = (Corner { robot, from, to, leaving, joining, bends: [Bend::NONE; 2] }).blend() {
+            return Some(blend);
+        }
+        (leaving, joining) = (leaving / 2.0, joining / 2.0);
+    }
+    None
+}
+
+/// The blend from one motion, which is bent in its middle, to another. A bend is only possible where a whole half is taken.
+pub(crate) fn bent_blend(robot: &Robot, from: &Motion, to: &Motion, bends: [Bend; 2]) -> Option<Blend> {
+    let (leaving, joining) = parts(robot, from, to)?;
+    let [start, end] = &bends;
+    if (*start != Bend::NONE && leaving != LARGEST) || (*end != Bend::NONE && joining != LARGEST) {
+        return None;
+    }
+    Corner { robot, from, to, leaving, joining, bends }.blend()
+}
+
+#[cfg(test)]
+thread_local! {
+    /// How many blends this thread has looked for.
+    pub(crate) static FOUND_HERE: std::cell::Cell<u32> = const { std::cell::Cell::new(0) };
+}
+
+/// Two motions and the parts of them that a blend takes.
+struct Corner<'a> {
+    robot: &'a Robot,
+    from: &'a Motion,
+    to: &'a Motion,
+    leaving: f64,
+    joining: f64,
+    /// How the motions are bent at the ends of the blend.
+    bends: [Bend; 2],
+}
+
+impl Corner<'_> {
+    /// The parameters at which the motions are left and joined, and how long the tangents are there.
+    fn ends(&self) -> [(f64, f64); 2] {
+        [(1.0 - self.leaving, TANGENT * self.leaving), (self.joining, TANGENT * self.joining)]
+    }
+
+    fn blend(&self) -> Option<Blend> {
+        #[cfg(test)]
+        FOUND_HERE.with(|count| count.set(count.get() + 1));
+        let Self { from, to, .. } = self;
+        let (vel_from, vel_to) = (from.rate, to.rate);
+        let [(leave, slope_from), (join, slope_to)] = self.ends();
+        // Both ends are met at the speeds that the motions have there.
+        let (start_rate, end_rate) = (vel_from / slope_from, vel_to / slope_to);
+        let time = 2.0 / (start_rate + end_rate);
+        let even = || (Progress::between([[start_rate * time, 0.0], [end_rate * time, 0.0]]), time);
+
+        let mut bounds = Bounds::new(self.robot);
+        let pace = common_pace(from, to);
+        let (curve, progress, time) = match (&from.curve, &to.curve) {
+            (Curve::Tool(a), Curve::Tool(b)) if go_on(a, leave, b, join) => {
+                let curve = self.tool_curve(a, b);
+                let (start, end) = (along(&a.track, leave, vel_from), along(&b.track, join, vel_to));
+                let bends_little = is_gentle(&curve) && !self.swings();
+                let timed = if bends_little {
+                    Progress::gently(|order, at| curve.track.derivative(order, at), start, end)
+                } else if self.swings() {
+                    // What is laid over a motion does not go evenly: it is met best by a parameter that does.
+                    None
+                } else {
+                    Progress::along(&curve.track, start, end)
+                };
+                let (progress, time) = timed.unwrap_or_else(even);
+                if !(bends_little && self.glance_at_tool(&curve, &progress, &mut bounds, &pace)) {
+                    bounds.clear();
+                    self.walk_tool(&curve, &progress, &mut bounds, &pace)?;
+                }
+                (Curve::Tool(curve), progress, time)
+            }
+            _ => {
+                let [start, end] = &self.bends;
+                let from = axes_knot(self.robot, from, leave, slope_from, start)?;
+                let to = axes_knot(self.robot, to, join, slope_to, end)?;
+                let curve = Quintic::between(&from, &to);
+                let gentle = turns_gently(&curve);
+                let (progress, time) = self.time_axes((&curve, gentle), [start_rate, end_rate]);
+                self.look_at_axes((&curve, gentle), &progress, &mut bounds, &pace)?;
+                (Curve::Axes(curve), progress, time)
+            }
+        };
+        let crossing = self.crossing(&bounds, time)?;
+        Some(Blend { leave, join, curve, progress, time, crossing })
+    }
+
+    /// How fast it may be crossed: evenly where it hardly bends.
+    fn crossing(&self, bounds: &Bounds, time: f64) -> Option<Crossing> {
+        let places = bounds.by_place();
+        if places.is_empty() {
+            return Some(Crossing::even(passing(&bounds.rows, 1.0 / time)));
+        }
+        let approach = |motion: &Motion, taken: f64| {
+            // From the motion's own parameter to the share of the blend, at the same speed.
+            let scale = 1.0 / (motion.rate * time);
+            let Limits { vel, acc, jerk } = motion.limits?;
+            let limits = Limits { vel: vel * scale, acc: acc * scale, jerk: jerk * scale };
+            Some(Approach { limits, length: (1.0 - 2.0 * taken).max(0.0) * scale })
+        };
+        let approaches = [approach(self.from, self.leaving)?, approach(self.to, self.joining)?];
+        cross(&places, 1.0 / time, &approaches)
+    }
+
+    /// Whether something is laid over a motion.
+    fn swings(&self) -> bool {
+        self.from.laid.is_some() || self.to.laid.is_some()
+    }
+
+    fn tool_curve(&self, from: &ToolCurve, to: &ToolCurve) -> ToolCurve {
+        let [(leave, slope_from), (join, slope_to)] = self.ends();
+        let corner = from.rotation(1.0);
+        let [start, end] = &self.bends;
+        let ([moved_from, turned_from], [moved_to, turned_to]) = (from.place(leave, &corner), to.place(join, &corner));
+        let knot = |[value, first, second]: [Vector3<f64>; 3], slope: f64, bend: Vector3<f64>| Knot {
+            value: value.into(),
+            first: (first * slope).into(),
+            second: ((second + bend) * slope * slope).into(),
+        };
+        let turning = |turned: [Vector3<f64>; 3], slope: f64, bend: &Bend| {
+            let [value, ..] = turned;
+            let [_, second] = rotation::of_speeds(&value, &[Vector3::zeros(), bend.turning]);
+            knot(turned, slope, second)
+        };
+        let external = |curve: &ToolCurve, at: f64, slope: f64, bend: &Bend| {
+            scaled(curve.external.knot(at), slope, &bend.external())
+        };
+        ToolCurve {
+            track: Track::Poly(
+                Quintic::between(
+                    &knot(moved_from, slope_from, start.position),
+                    &knot(moved_to, slope_to, end.position),
+                )
+                .into(),
+            ),
+            base: corner,
+            turning: Quintic::between(&turning(turned_from, slope_from, start), &turning(turned_to, slope_to, end))
+                .into(),
+            carried: from.carried,
+            external: Quintic::between(&external(from, leave, slope_from, start), &external(to, join, slope_to, end))
+                .into(),
+            cfg: to.cfg,
+            passages: Vec::new(),
+            over: None,
+        }
+    }
+
+    /// Collects the limits of a way of the TCP that hardly bends; returns whether a few places are enough to know them.
+    fn glance_at_tool(&self, curve: &ToolCurve, progress: &Progress, bounds: &mut Bounds, pace: &Pace) -> bool {
+        let [(leave, _), _] = self.ends();
+        let places = shares::<{ GENTLE_PARTS as usize + 1 }>().map(|share| Place::at(progress, share));
+        let Some(start) = joints_at(self.robot, self.from, leave) else { return false };
+        let Some(found) = glance(self.robot, curve, &start.axes, &places.map(|place| place.at)) else { return false };
+        if !self.arrives(&found.end) {
+            return false;
+        }
+        for (place, (_, rates)) in places.iter().zip(&found.rates) {
+            let known = bounds.rows.len();
+            let [first, second, third] = place.rates([rates.first, rates.second, rates.third]);
+            bounds.axes(&first, &second, &third, pace);
+            collect(place, curve, self.swings(), bounds, pace);
+            bounds.join(known);
+        }
+        true
+    }
+
+    /// Collects the limits of any way of the TCP; `None` where it cannot be gone.
+    fn walk_tool(&self, curve: &ToolCurve, progress: &Progress, bounds: &mut Bounds, pace: &Pace) -> Option<()> {
+        let [(leave, _), _] = self.ends();
+        let start = joints_at(self.robot, self.from, leave)?;
+        let found = survey(self.robot, curve, &start).ok()?;
+        if !self.arrives(&found.end) {
+            return None;
+        }
+        for (at, rates) in &found.rates {
+            let share = inverse(progress, *at);
+            let place = Place::at(progress, share);
+            bounds.place(share);
+            let [first, second, third] = place.rates([rates.first, rates.second, rates.third]);
+            bounds.axes(&first, &second, &third, pace);
+            bounds.external(&place.rates([1, 2, 3].map(|order| curve.external.derivative(order, place.at))), pace);
+        }
+        for part in 0..=PARTS {
+            let share = f64::from(part) / f64::from(PARTS);
+            let place = Place::at(progress, share);
+            bounds.place(share);
+            collect(&place, curve, self.swings(), bounds, pace);
+        }
+        Some(())
+    }
+
+    /// Whether these are the axes where the second motion is joined.
+    fn arrives(&self, end: &[f64; ROBOT_AXES]) -> bool {
+        let [_, (join, _)] = self.ends();
+        let there = joints_at(self.robot, self.to, join);
+        there.is_some_and(|there| end.iter().zip(&there.axes).all(|(a, b)| (a - b).abs() <= 0.01))
+    }
+
+    /// Times a way of the axes from one rate of its parameter to another. Where it is gentle, what the axes do together goes
+    /// smoothly: each counts by how fast it is beside its highest speed.
+    fn time_axes(&self, (curve, gentle): (&Quintic<ALL>, bool), rates: [f64; 2]) -> (Progress, f64) {
+        let slowness = slowness(self.robot);
+        let derivative = |order: usize, at: f64| SVector::from(curve.derivative(order, at)).component_mul(&slowness);
+        let [start, end] = &self.bends;
+        let ends = [(0.0, rates[0], start.surge), (1.0, rates[1], end.surge)];
+        let [start, end] = ends.map(|(at, rate, surge)| {
+            let [speed, acc] = speed_and_acc(&derivative(1, at), &derivative(2, at), rate);
+            [speed, acc + surge]
+        });
+        let timed = if gentle { Progress::gently(derivative, start, end) } else { None };
+        timed.unwrap_or_else(|| {
+            let time = 2.0 / (rates[0] + rates[1]);
+            let ends = ends.map(|(at, rate, surge)| {
+                let second = if surge == 0.0 { 0.0 } else { surge / derivative(1, at).norm() };
+                [rate * time, second * time * time]
+            });
+            (Progress::between(ends), time)
+        })
+    }
+
+    /// Collects the limits of a way of the axes; `None` where it leaves a range.
+    fn look_at_axes(
+        &self,
+        (curve, gentle): (&Quintic<ALL>, bool),
+        progress: &Progress,
+        bounds: &mut Bounds,
+        pace: &Pace,
+    ) -> Option<()> {
+        let parts = if gentle { GENTLE_PARTS } else { PARTS };
+        let (kinematics, carried) = (&self.robot.kinematics, &self.to.rig.carried);
+        let tcp = |share: f64| {
+            let axes = Joints::of(&curve.at(progress.at(share))).axes;
+            carried.way_at(&kinematics.forward(&axes)).translation.vector
+        };
+        for part in 0..=parts {
+            let share = f64::from(part) / f64::from(parts);
+            let place = Place::at(progress, share);
+            if !gentle {
+                bounds.place(share);
+            }
+            let joints = Joints::of(&curve.at(place.at));
+            if !within_ranges(self.robot, &joints) {
+                return None;
+            }
+            let known = bounds.rows.len();
+            let derivatives = place.rates([1, 2, 3].map(|order| curve.derivative(order, place.at)));
+            bounds.all_axes(&derivatives, pace);
+            let [first, ..] = &derivatives;
+            if pace.manual {
+                bounds.manual_place(&joints, first, &self.to.rig.carried);
+                // Half of it is gone with what the first motion carries.
+                if self.from.rig.carried != self.to.rig.carried {
+                    bounds.manual_place(&joints, first, &self.from.rig.carried);
+                }
+            }
+            // Between two motions of the same TCP that one's limits hold, though it goes by the axes.
+            if pace.tcp.is_finite() && self.from.rig.carried == self.to.rig.carried {
+                bounds.cap_place(&joints, first, &self.to.rig.carried, pace.tcp);
+                bounds.moving(&by_differences(tcp, share, 1.0), pace);
+            }
+            if gentle {
+                bounds.join(known);
+            }
+        }
+        Some(())
+    }
+}
+
+/// Shares of the whole, from 0 to 1.
+fn shares<const N: usize>() -> [f64; N] {
+    std::array::from_fn(|index| index as f64 / (N - 1) as f64)
+}
+
+/// Whether speeds and directions hardly change on the way.
+fn is_gentle(curve: &ToolCurve) -> bool {
+    let Track::Poly(track) = &curve.track else { return false };
+    // A turn by so little is little, however it changes.
+    const TURN: f64 = 0.01;
+    is_gentle_way(track, 0.0) && is_gentle_way(&curve.turning, TURN) && is_gentle_way(&curve.external, 0.0)
+}
+
+/// The same for a way of the axes.
+fn turns_gently(curve: &Quintic<ALL>) -> bool {
+    changes_little([1, 2].map(|order| [0.0, 1.0].map(|at| curve.derivative(order, at))), 0.0)
+}
+
+/// The same for one way; changes up to `little` are little.
+fn is_gentle_way<const N: usize>(way: &Way<N>, little: f64) -> bool {
+    changes_little([1, 2].map(|order| [0.0, 1.0].map(|at| way.derivative(order, at))), little)
+}
+
+/// Whether first derivatives, at the two ends, hardly differ, and second ones are small beside them or `little`.
+fn changes_little<const N: usize>([[start, end], seconds]: [[[f64; N]; 2]; 2], little: f64) -> bool {
+    let size = |values: [f64; N]| values.iter().map(|value| value * value).sum::<f64>().sqrt();
+    let mut change = end;
+    for (change, start) in change.iter_mut().zip(start) {
+        *change -= start;
+    }
+    let most = (size(start).min(size(end)) * GENTLE).max(little);
+    size(change) <= most && seconds.into_iter().all(|second| size(second) <= most)
+}
+
+/// The speed and the acceleration along a track in mm/s and mm/s2, at a rate of its parameter.
+fn along(track: &Track, at: f64, rate: f64) -> [f64; 2] {
+    speed_and_acc(&track.derivative(1, at), &track.derivative(2, at), rate)
+}
+
+/// The speed and the acceleration along a way, from its derivatives by a parameter that goes at a rate.
+fn speed_and_acc<const N: usize>(first: &SVector<f64, N>, second: &SVector<f64, N>, rate: f64) -> [f64; 2] {
+    let length = first.norm();
+    [length * rate, if length > 0.0 { first.dot(second) / length * rate * rate } else { 0.0 }]
+}
+
+/// The faster of the two motions' speeds, the gentler of their accelerations.
+pub(crate) fn common_pace(from: &Motion, to: &Motion) -> Pace {
+    let faster = |of: fn(&Pace) -> f64| of(&from.pace).max(of(&to.pace));
+    let reached = |of: fn(&Motion) -> f64| {
+        let speed = |motion: &Motion| match motion.curve {
+            // With what is laid over it the TCP goes faster than the path.
+            Curve::Tool(_) if motion.laid.is_some() => motion.fastest(),
+            Curve::Tool(_) => of(motion) * motion.rate,
+            Curve::Axes(_) => f64::INFINITY,
+        };
+        speed(from).max(speed(to))
+    };
+    Pace {
+        axes: faster(|pace| pace.axes),
+        tcp: reached(|motion| motion.length),
+        ori: reached(|motion| motion.angle).max(1.0),
+        turning: faster(|pace| pace.turning),
+        linear: faster(|pace| pace.linear),
+        acc: from.pace.acc.min(to.pace.acc),
+        jerk: from.pace.jerk.min(to.pace.jerk),
+        manual: from.pace.manual || to.pace.manual,
+    }
+}
+
+/// A knot that is bent as well, by a parameter that goes 1 by `slope`.
+fn scaled<const N: usize>(mut knot: Knot<N>, slope: f64, bend: &[f64; N]) -> Knot<N> {
+    for value in &mut knot.first {
+        *value *= slope;
+    }
+    for (value, bend) in knot.second.iter_mut().zip(bend) {
+        *value = (*value + bend) * slope * slope;
+    }
+    knot
+}
+
+/// The axes within a motion with their derivatives.
+fn axes_knot(robot: &Robot, motion: &Motion, at: f64, slope: f64, bend: &Bend) -> Option<Knot<ALL>> {
+    let knot = match &motion.curve {
+        Curve::Axes(axes) => axes.knot(at),
+        Curve::Tool(tool) => {
+            let joints = joints_at(robot, motion, at)?;
+            let Rates { first, second, .. } = tool.rates(&robot.kinematics, at, &joints.axes)?;
+            let external = tool.external.knot(at);
+            let all = |axes: [f64; ROBOT_AXES], external| Joints { axes, external }.all();
+            Knot { value: joints.all(), first: all(first, external.first), second: all(second, external.second) }
+        }
+    };
+    Some(scaled(knot, slope, &bend.axes))
+}
+
+/// Whether the TCP can go from one way over to another: they lead the same TCP, and no passage makes their orientations
+/// inexact there.
+pub(crate) fn go_on(from: &ToolCurve, leave: f64, to: &ToolCurve, join: f64) -> bool {
+    let exact =
+        from.passages.iter().all(|passage| passage.to < leave) && to.passages.iter().all(|passage| passage.from > join);
+    exact && from.carried == to.carried && from.cfg_at(1.0) == to.cfg
+}
+
+/// The joints within a motion, followed from its nearer end.
+fn joints_at(robot: &Robot, motion: &Motion, at: f64) -> Option<Joints> {
+    /// Deg (mm) that an axis goes in a step at most.
+    const STEP: f64 = 5.0;
+    const MOST: f64 = 63.0;
+    let Curve::Tool(tool) = &motion.curve else { return Some(motion.curve.joints(&robot.kinematics, at, &motion.end)) };
+    let (from, near) = if at > 0.5 { (1.0, &motion.end) } else { (0.0, &motion.start) };
+    let mut axes = near.axes;
+    let ways = motion.end.axes.iter().zip(&motion.start.axes).map(|(end, start)| (end - start).abs());
+    let steps = 1 + if tool.passages.is_empty() { (ways.fold(0.0, f64::max) / STEP).min(MOST) } else { MOST } as u32;
+    for step in 1..=steps {
+        axes = tool.axes(&robot.kinematics, from + (at - from) * f64::from(step) / f64::from(steps), &axes)?;
+    }
+    Some(Joints { axes, external: tool.external.at(at) })
+}
+
+fn within_ranges(robot: &Robot, joints: &Joints) -> bool {
+    let own = robot.own_axes().len();
+    let values = joints.axes.iter().take(own).chain(&joints.external);
+    robot.axes.iter().zip(values).all(|(axis, value)| *value >= axis.min && *value <= axis.max)
+}
+
+/// The share of the nominal time at which the curve's parameter is `at`: by Newton's steps, halving where they lead away.
+fn inverse(progress: &Progress, at: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    let mut share = at;
+    for _ in 0..60 {
+        let off = progress.at(share) - at;
+        if off < 0.0 {
+            low = share
+        } else {
+            high = share
+        }
+        let next = share - off / progress.derivative(1, share);
+        let next = if next > low && next < high { next } else { f64::midpoint(low, high) };
+        if (next - share).abs() < 1e-12 {
+            return next;
+        }
+        share = next;
+    }
+    share
+}
+
+/// Collects what limits the TCP, the tool's turning and the external axes at a place; of a TCP that is `swinging`, all of its
+/// acceleration.
+fn collect(place: &Place, curve: &ToolCurve, swinging: bool, bounds: &mut Bounds, pace: &Pace) {
+    let moving = place.vectors([1, 2, 3].map(|order| curve.track.derivative(order, place.at)));
+    if swinging {
+        bounds.swinging(&moving, pace);
+    } else {
+        bounds.moving(&moving, pace);
+    }
+    if pace.manual {
+        bounds.manual_moving(&moving);
+        bounds.manual_flange(curve, place.at, place.first);
+    }
+    bounds.turning(&place.vectors(curve.rotation_rates(place.at)), pace);
+    bounds.external(&place.rates([1, 2, 3].map(|order| curve.external.derivative(order, place.at))), pace);
+}

@@ -1,0 +1,197 @@
+//! Curvature where two blends meet in the middle of a motion.
+//!
+//! Blends that take whole halves of short motions leave nothing straight between them. Were every motion straight in its
+//! middle all the same, then a circle of short lines would be a path whose curvature falls to zero and rises again on each
+//! of them, and jerk would allow but a small part of the speed. So the middle gets about the curvature that the corners at
+//! both ends have on average: on a circle, the circle's. Where one corner is much sharper than the other, or bends the
+//! other way, it gets little or none, so that the path does not swing out.
+//!
+//! Motions of the axes are as fast as the slowest axis lets them be: what all axes do together is slower or faster with every
+//! direction, along a dense chain all the time. So their speed is given a change in the middle as well, or it would swing
+//! within each blend. The path does not depend on that.
+
+use nalgebra::{SVector, Vector3};
+
+use crate::blend::corner::go_on;
+use crate::blend::zone::{LARGEST, parts};
+use crate::command::joints::{ALL, Joints, slowness};
+use crate::plan::curve::Curve;
+use crate::plan::motion::Motion;
+use arl_robot::robot::{EXTERNAL_AXES, Robot};
+
+/// Up to about so large a difference between the directions of motions, as part of their length, the two corners' mean is
+/// taken as it is.
+const GENTLE: f64 = 0.1;
+/// A turn by so little, in rad or parts of the motion, is none.
+const NOTHING: f64 = 1e-9;
+/// A motion that is so many times as long as a neighbour is bent less.
+const MUCH_LONGER: f64 = 2.0;
+
+/// How a motion is bent in its middle: second derivatives by its parameter.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Bend {
+    /// Of the TCP's position, in mm.
+    pub(crate) position: Vector3<f64>,
+    /// Of the tool's turning in rad, about axes of the base.
+    pub(crate) turning: Vector3<f64>,
+    /// Of all axes, where the motion is one of the axes; else of the external ones.
+    pub(crate) axes: [f64; ALL],
+    /// How its speed changes at its nominal pace, where the motion is one of the axes: per s, of which an axis at its highest speed
+    /// has 1 per s.
+    pub(crate) surge: f64,
+}
+
+impl Bend {
+    /// Straight.
+    pub(crate) const NONE: Self = Self {
+        position: Vector3::new(0.0, 0.0, 0.0),
+        turning: Vector3::new(0.0, 0.0, 0.0),
+        axes: [0.0; ALL],
+        surge: 0.0,
+    };
+
+    /// Of the external axes.
+    pub(crate) fn external(&self) -> [f64; EXTERNAL_AXES] {
+        Joints::of(&self.axes).external
+    }
+}
+
+/// How something changes over a length of the way, for a motion and for its neighbours.
+type Changes<const N: usize> = [SVector<f64, N>; 3];
+
+/// How `here` is bent between two motions; `None` where the blends at its ends do not meet, or lead different things.
+pub(crate) fn bend(robot: &Robot, before: &Motion, here: &Motion, after: &Motion) -> Option<Bend> {
+    // What is laid over a motion keeps its own shape.
+    if [before, here, after].iter().any(|motion| motion.laid.is_some()) {
+        return None;
+    }
+    let meet = parts(robot, before, here)?.1 == LARGEST && parts(robot, here, after)?.0 == LARGEST;
+    // The corners of a gate stay as they are.
+    if !meet || before.corner.is_some() || here.corner.is_some() {
+        return None;
+    }
+    let mut bend = Bend::NONE;
+    match (&before.curve, &here.curve, &after.curve) {
+        (Curve::Tool(a), Curve::Tool(b), Curve::Tool(c)) => {
+            if !go_on(a, 0.5, b, 0.5) || !go_on(b, 0.5, c, 0.5) || !b.is_even() {
+                return None;
+            }
+            let motions = [before, here, after];
+            let moves = motions.iter().all(|motion| motion.length > 1e-9);
+            let lengths = motions.map(|motion| if moves { motion.length } else { motion.angle });
+            let lengths = Lengths::new(lengths)?;
+            let track = [a.track.derivative(1, 1.0), b.track.derivative(1, 0.5), c.track.derivative(1, 0.0)];
+            if let Some(direction) = track[1].try_normalize(1e-12)
+                && matches!(&b.track, crate::plan::curve::Track::Poly(_))
+            {
+                let second = lengths.bend(&track);
+                bend.position = second - direction * direction.dot(&second);
+            }
+            let speed = |curve: &crate::plan::curve::ToolCurve, at: f64| {
+                let [speed, ..] = curve.rotation_rates(at);
+                speed
+            };
+            bend.turning = lengths.bend(&[speed(a, 1.0), speed(b, 0.5), speed(c, 0.0)]);
+            let external =
+                [a.external.derivative(1, 1.0), b.external.derivative(1, 0.5), c.external.derivative(1, 0.0)];
+            let second = lengths.bend_each(&external.map(SVector::from));
+            bend.axes = Joints { axes: [0.0; 6], external: second.into() }.all();
+        }
+        (Curve::Axes(a), Curve::Axes(b), Curve::Axes(c)) if b.is_even() => {
+            let slowness = slowness(robot);
+            let rates = [a.derivative(1, 1.0), b.derivative(1, 0.5), c.derivative(1, 0.0)]
+                .map(|rates| SVector::from(rates).component_mul(&slowness));
+            let [_, direction, _] = &rates;
+            let second = Lengths::new(rates.map(|rates| rates.norm()))?.bend(&rates);
+            let turn = second - direction * (direction.dot(&second) / direction.norm_squared());
+            bend.axes =
+                std::array::from_fn(|index| if slowness[index] > 0.0 { turn[index] / slowness[index] } else { 0.0 });
+            let times = [before, here, after].map(|motion| 1.0 / motion.rate);
+            let speeds = rates.map(|rates| SVector::<f64, 1>::new(rates.norm()));
+            bend.surge = Lengths::new(times)?.bend(&speeds).x * here.rate * here.rate;
+        }
+        _ => return None,
+    }
+    Some(bend)
+}
+
+/// How far three motions go.
+struct Lengths([f64; 3]);
+
+impl Lengths {
+    fn new(lengths: [f64; 3]) -> Option<Self> {
+        lengths.iter().all(|length| *length > 1e-9).then_some(Self(lengths))
+    }
+
+    /// The second derivative of something by the middle motion's parameter, from the first ones by each motion's own.
+    fn bend<const N: usize>(&self, rates: &Changes<N>) -> SVector<f64, N> {
+        let ([first, second], scale) = self.corners(rates);
+        self.limited(&first, &second, scale)
+    }
+
+    /// The same for things that have nothing to do with each other.
+    fn bend_each<const N: usize>(&self, rates: &Changes<N>) -> SVector<f64, N> {
+        let ([first, second], scale) = self.corners(rates);
+        SVector::from_fn(|index, _| {
+            let one = |all: &SVector<f64, N>| SVector::<f64, 1>::new(all.get(index).copied().unwrap_or(0.0));
+            self.limited(&one(&first), &one(&second), scale).x
+        })
+    }
+
+    /// The change of speed by length at both ends, and the speed of the middle motion.
+    fn corners<const N: usize>(&self, rates: &Changes<N>) -> ([SVector<f64, N>; 2], f64) {
+        let ([before, here, after], [a, b, c]) = (self.0, rates);
+        let (a, b, c) = (a / before, b / here, c / after);
+        let corners = [(b - a) / f64::midpoint(before, here), (c - b) / f64::midpoint(here, after)];
+        (corners, b.norm())
+    }
+
+    /// The mean of two changes of a speed `scale`, nearer to the smaller one the sharper they are, and none where they bend apart; by the
+    /// middle motion's parameter.
+    fn limited<const N: usize>(
+        &self,
+        first: &SVector<f64, N>,
+        second: &SVector<f64, N>,
+        scale: f64,
+    ) -> SVector<f64, N> {
+        let [before, here, after] = self.0;
+        let (a, b, e) = (first.norm_squared(), second.norm_squared(), (GENTLE * scale / here).powi(2));
+        let sum = a + b + 2.0 * e;
+        if sum <= 0.0 {
+            return SVector::zeros();
+        }
+        let mean = (first * (b + e) + second * (a + e)) / sum;
+        let apart = (-first.dot(second)).max(0.0);
+        let together = if apart > 0.0 { e / (e + apart) } else { 1.0 };
+        let longer = (MUCH_LONGER * before.min(after) / here).min(1.0);
+        let bend = mean * (together * longer * here * here);
+        if bend.norm() > NOTHING * here * scale { bend } else { SVector::zeros() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_circle_of_lines_is_bent_like_the_circle() {
+        let (radius, step) = (100.0, 0.02_f64);
+        let point = |index: f64| Vector3::new((index * step).cos(), (index * step).sin(), 0.0) * radius;
+        let travel = [0.0, 1.0, 2.0].map(|index| point(index + 1.0) - point(index));
+        let lengths = Lengths::new(travel.map(|travel| travel.norm())).unwrap();
+        let second = lengths.bend(&travel) / travel[1].norm_squared();
+        let middle = (point(1.0) + point(2.0)) / 2.0;
+        let wanted = -middle / middle.norm_squared();
+        assert!((second - wanted).norm() < 1e-3 * wanted.norm(), "{second} {wanted}");
+    }
+
+    #[test]
+    fn a_zigzag_or_a_single_corner_is_hardly_bent() {
+        let lengths = Lengths::new([1.0; 3]).unwrap();
+        let (x, y) = (Vector3::x(), Vector3::y());
+        assert!(lengths.bend(&[x, y, x]).norm() < 0.01);
+        assert!(lengths.bend(&[x, x, y]).norm() < 0.02);
+        let long = Lengths::new([0.1, 10.0, 0.1]).unwrap();
+        assert!(long.bend(&[x * 0.1, y * 10.0, x * -0.1]).norm() < 0.5);
+    }
+}

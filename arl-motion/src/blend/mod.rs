@@ -1,0 +1,8 @@
+//! Blending: how much of two motions a blend takes, its curve, and the limits to pass it with.
+
+pub(crate) mod blend_limits;
+pub(crate) mod blend_thread;
+pub(crate) mod corner;
+pub(crate) mod junction;
+pub(crate) mod mid_curvature;
+pub(crate) mod zone;

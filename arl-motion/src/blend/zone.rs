@@ -1,0 +1,154 @@
+//! How much of a motion a blending zone takes.
+
+use nalgebra::Vector3;
+
+use crate::command::joints::{Joints, is_unset};
+use crate::plan::curve::Curve;
+use crate::plan::motion::Motion;
+use arl_robot::robot::Robot;
+
+/// What a zone is measured by.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Measure {
+    /// Part of the motion.
+    Share,
+    /// Way of the TCP in mm.
+    Tcp,
+    /// Turning of the tool in deg.
+    Ori,
+    /// The own axis that goes farthest, in deg (mm).
+    Joint,
+    /// The turning external axis that goes farthest, in deg.
+    Turning,
+    /// The linear external axis that goes farthest, in mm.
+    Linear,
+}
+
+/// The zone at the end of a motion: what was asked for, and what the blend took of it.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Rounding {
+    /// The size that was asked for.
+    pub asked: f64,
+    /// The size that was used; 0 where the robot stops at the target.
+    pub used: f64,
+    /// `%` of the largest zone, `mm`, or `deg`.
+    pub unit: &'static str,
+}
+
+/// The zone of a motion that is left at the share `leave`; `None` where none was asked for.
+pub(crate) fn rounding(robot: &Robot, motion: &Motion, leave: f64) -> Option<Rounding> {
+    let (measure, size, _) = leaving(robot, motion)?;
+    let part = 1.0 - leave;
+    Some(match (measure, &motion.curve) {
+        (Measure::Share, _) => Rounding { asked: 100.0 * size / LARGEST, used: 100.0 * part / LARGEST, unit: "%" },
+        (Measure::Tcp, Curve::Axes(_)) => {
+            let far = tcp_place(robot, motion, leave) - tcp_place(robot, motion, 1.0);
+            Rounding { asked: size, used: far.norm(), unit: "mm" }
+        }
+        _ => {
+            let unit = if matches!(measure, Measure::Tcp | Measure::Linear) { "mm" } else { "deg" };
+            Rounding { asked: size, used: part * extent(robot, motion, measure)?, unit }
+        }
+    })
+}
+
+/// The smallest part of a motion that a blend can take.
+const LEAST: f64 = 1e-6;
+
+/// The largest zone, as part of a motion.
+pub(crate) const LARGEST: f64 = 0.5;
+
+/// The parts that a blend takes from the end of one motion and from the start of the next; `None` where none is asked for.
+pub(crate) fn parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f64)> {
+    if from.corner.is_some() {
+        return from.corner;
+    }
+    let (measure, size, leaving) = leaving(robot, from)?;
+    let time = |motion: &Motion, part: f64| part / motion.rate;
+    let entering = match extent(robot, to, measure) {
+        _ if measure == Measure::Share => leaving,
+        _ if measure == Measure::Tcp && matches!(to.curve, Curve::Axes(_)) => tcp_part(robot, to, size, 0.0),
+        Some(extent) => size / extent,
+        // It does not move that way: it is entered for as long as the other one is left.
+        None => time(from, leaving) / time(to, 1.0),
+    };
+    // What the next motion is left by is no longer there to be entered.
+    let free = to.corner.map_or(LARGEST, |(leaving, _)| (1.0 - leaving).min(LARGEST));
+    let entering = entering.min(free);
+    (entering > LEAST).then_some((leaving, entering))
+}
+
+/// Whether the end of a motion shall be rounded off.
+pub(crate) fn asks(robot: &Robot, motion: &Motion) -> bool {
+    motion.corner.is_some() || leaving(robot, motion).is_some()
+}
+
+/// What the zone of a motion is measured by, how large it is, and which part of the motion it takes.
+fn leaving(robot: &Robot, motion: &Motion) -> Option<(Measure, f64, f64)> {
+    let zone = &motion.zone;
+    if !is_unset(zone.percent) && zone.percent >= 0.0 {
+        let part = zone.percent.min(100.0) / 100.0 * LARGEST;
+        return (part > 0.0).then_some((Measure::Share, part, part));
+    }
+    let asked = |size: f64| !is_unset(size) && size > 0.0;
+    let wanted = match motion.curve {
+        Curve::Tool(_) if !is_unset(zone.tcp) && zone.tcp <= 0.0 => return None,
+        Curve::Tool(_) => [(Measure::Tcp, zone.tcp), (Measure::Ori, zone.ori)],
+        Curve::Axes(_) if asked(zone.joint) => [(Measure::Joint, zone.joint), (Measure::Joint, zone.joint)],
+        Curve::Axes(_) => [(Measure::Tcp, zone.tcp), (Measure::Tcp, zone.tcp)],
+    };
+    let external = [(Measure::Turning, zone.turning), (Measure::Linear, zone.linear)];
+    let found = wanted.into_iter().chain(external).filter(|(_, size)| asked(*size)).filter_map(|(measure, size)| {
+        let part = match (measure, &motion.curve) {
+            (Measure::Tcp, Curve::Axes(_)) => tcp_part(robot, motion, size, 1.0),
+            _ => size / extent(robot, motion, measure)?,
+        };
+        Some((measure, size, part.min(LARGEST)))
+    });
+    found.min_by(|(_, _, a), (_, _, b)| a.total_cmp(b))
+}
+
+/// How far a motion goes in a measure; `None` where it does not.
+fn extent(robot: &Robot, motion: &Motion, measure: Measure) -> Option<f64> {
+    let is_tool = matches!(motion.curve, Curve::Tool(_));
+    let external = |linear: bool| {
+        let ways = motion.end.external.iter().zip(&motion.start.external).map(|(end, start)| (end - start).abs());
+        let axes = robot.external_axes().iter().zip(ways).filter(|(axis, _)| axis.linear == linear);
+        axes.map(|(_, way)| way).fold(0.0, f64::max)
+    };
+    let extent = match measure {
+        Measure::Share => 1.0,
+        Measure::Tcp => motion.length,
+        Measure::Ori => motion.angle,
+        Measure::Joint if is_tool => 0.0,
+        Measure::Joint => {
+            motion.end.axes.iter().zip(&motion.start.axes).map(|(end, start)| (end - start).abs()).fold(0.0, f64::max)
+        }
+        Measure::Turning => external(false),
+        Measure::Linear => external(true),
+    };
+    (extent > 1e-9).then_some(extent)
+}
+
+/// The part of an axis motion, from its end at `of`, on which the TCP is within `distance` mm of that end.
+fn tcp_part(robot: &Robot, motion: &Motion, distance: f64, of: f64) -> f64 {
+    let tcp = |at: f64| tcp_place(robot, motion, at);
+    let end = tcp(of);
+    let far = |part: f64| (tcp((of - part).abs()) - end).norm() > distance;
+    // The first place, seen from the end, where the TCP is too far.
+    const STEPS: u32 = 32;
+    let place = |step: u32| LARGEST * f64::from(step) / f64::from(STEPS);
+    let Some(step) = (1..=STEPS).find(|step| far(place(*step))) else { return LARGEST };
+    let (mut near, mut beyond) = (place(step - 1), place(step));
+    for _ in 0..40 {
+        let middle = f64::midpoint(near, beyond);
+        if far(middle) { beyond = middle } else { near = middle }
+    }
+    near
+}
+
+/// Where the TCP is on its way at a share of an axis motion, in mm.
+fn tcp_place(robot: &Robot, motion: &Motion, at: f64) -> Vector3<f64> {
+    let joints: Joints = motion.curve.joints(&robot.kinematics, at, &motion.start);
+    motion.rig.carried.way_at(&robot.kinematics.forward(&joints.axes)).translation.vector
+}

@@ -1,0 +1,194 @@
+use std::fmt;
+
+use arl_robot::kinematics::CONFIGURATIONS;
+
+/// Why a motion cannot be planned.
+#[derive(Clone, PartialEq, Debug)]
+pub enum PlanError {
+    /// An axis would leave its range.
+    AxisLimit {
+        /// The axis's name.
+        axis: String,
+        /// The farthest position it would take, in deg (mm).
+        value: f64,
+        /// Its range.
+        min: f64,
+        /// Its range.
+        max: f64,
+        /// Where on the path it leaves its range, 0 to 1; 1 is the target.
+        along: f64,
+    },
+    /// The arm does not reach the pose.
+    Unreachable {
+        /// How far it falls short, in mm; 0 where not the distance but the configuration does not fit.
+        beyond: f64,
+        /// Where on the path, 0 to 1; 1 is the target.
+        along: f64,
+    },
+    /// The pose tilts the flange, which a SCARA robot cannot do.
+    Tilted {
+        /// By how much, in deg.
+        by: f64,
+        /// Where on the path it begins to, 0 to 1; 1 is the target.
+        along: f64,
+    },
+    /// The line passes a singular point, where axes would have to turn at once.
+    Singular {
+        /// The axis that would have to turn most.
+        axis: String,
+        /// Where on the path, 0 to 1.
+        along: f64,
+    },
+    /// The line passes the wrist singularity, which `$WRIST` would let it pass.
+    Wrist {
+        /// The axis that would have to turn most.
+        axis: String,
+        /// Where on the path, 0 to 1.
+        along: f64,
+    },
+    /// The weave or the compensation changes so much over so short a way that it cannot be followed.
+    TooDense {
+        /// Where on the path, 0 to 1.
+        along: f64,
+    },
+    /// Start, point on the way and target do not make a circle: two of them are the same, or all lie on a line.
+    NoCircle,
+    /// The angle of a circle is beyond what is sensible.
+    Circles {
+        /// The angle in deg.
+        angle: f64,
+        /// The most that is possible, in deg.
+        most: f64,
+    },
+    /// A gate begins or ends above the height that it must not pass.
+    AboveLimit {
+        /// The height of the higher end, in mm.
+        height: f64,
+        /// The height that must not be passed, in mm.
+        highest: f64,
+    },
+    /// A ccir that no other one follows, before it or behind it.
+    LoneCircle,
+    /// A motion turned out not to be possible only when the one behind it was known, or none followed.
+    Earlier {
+        /// Its program line.
+        line: u32,
+        /// What is wrong with it.
+        error: Box<PlanError>,
+    },
+    /// The robot has no such configuration.
+    NoSuchCfg {
+        /// What was asked for.
+        cfg: u8,
+    },
+    /// The robot cannot move so fast.
+    Duration {
+        /// The duration asked for, in s.
+        wanted: f64,
+        /// The shortest that its limits allow, in s.
+        least: f64,
+    },
+    /// A speed, a duration, or the override of `velset`, is not above zero, or no number; or a duration is beyond all measure.
+    NoSpeed {
+        /// What is meant, with its unit.
+        what: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// A component of the target is not a number.
+    NotANumber,
+    /// The tool points along the path, so that nothing is beside it.
+    ToolAlongPath,
+    /// The robot holds the workpiece, so that the world turns against it.
+    WorldTurns,
+    /// This kind of motion is not there for this robot.
+    NotForThisRobot,
+    /// The robot stands in another configuration, or another turn of an axis, than where it was stopped.
+    NoWayBack,
+    /// The look-ahead is full: ask [`crate::queue::Queue::has_room`] first.
+    Full,
+    /// The robot is stopping to drop its motions; where the next one starts is not known yet.
+    Stopping,
+}
+
+impl fmt::Display for PlanError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            PlanError::AxisLimit { axis, value, min, max, along } => {
+                write!(f, "{axis} would have to go to {value:.3}, its range is {min} to {max}; ")?;
+                place(f, *along)
+            }
+            PlanError::Unreachable { beyond, along } if *beyond > 0.0 => {
+                write!(f, "the pose is {beyond:.3} mm out of reach; ")?;
+                place(f, *along)
+            }
+            PlanError::Unreachable { along, .. } => {
+                write!(f, "the pose cannot be reached in this configuration; ")?;
+                place(f, *along)
+            }
+            PlanError::Tilted { by, along } => {
+                write!(f, "the pose tilts the flange by {by:.3} deg, which a SCARA robot cannot do; ")?;
+                place(f, *along)
+            }
+            PlanError::Singular { axis, along } => {
+                write!(f, "the line passes a singular point, where {axis} would have to turn at once; ")?;
+                place(f, *along)
+            }
+            PlanError::Wrist { axis, along } => {
+                write!(f, "the line passes the wrist singularity, where {axis} would have to turn at once; ")?;
+                place(f, *along)?;
+                write!(f, "; with $WRIST it passes, the orientation gives way a little there")
+            }
+            PlanError::TooDense { along } => {
+                write!(f, "the weave or the compensation changes too much over so short a way; ")?;
+                place(f, *along)?;
+                write!(f, ": take a lower frequency, less amplitude or shift, or a longer motion")
+            }
+            PlanError::NoCircle => write!(
+                f,
+                "the three points of the arc make no circle: they must be different and must not lie on a line"
+            ),
+            PlanError::Circles { angle, most } => {
+                write!(f, "the circle's angle is {angle} deg: a single motion goes round by at most {most} deg")
+            }
+            PlanError::NoSuchCfg { cfg } => write!(f, "the robot has no configuration cfg {cfg}: {CONFIGURATIONS}"),
+            PlanError::AboveLimit { height, highest } => {
+                write!(f, "the jump starts or ends at the height {height:.3}, above its limit of {highest:.3}")
+            }
+            PlanError::LoneCircle => write!(
+                f,
+                "one ccir alone makes no arc: it takes another one right behind it, before the program waits for the robot"
+            ),
+            PlanError::Earlier { line, error } => write!(f, "line {line}: {error}"),
+            PlanError::Duration { wanted, least } => {
+                write!(f, "the motion cannot be done in {wanted} s, it takes at least {least:.3} s")
+            }
+            PlanError::NoSpeed { what, value } if value.is_finite() && *value > 0.0 => {
+                write!(f, "{what} is {value:e}, which is too much")
+            }
+            PlanError::NoSpeed { what, value } => write!(f, "{what} is {value}: it must be a number above 0"),
+            PlanError::NotANumber => write!(f, "the target holds a value that is not a number"),
+            PlanError::ToolAlongPath => write!(
+                f,
+                "the tool's z axis points along the path, so that weave and compensation know no side of it: tilt the tool"
+            ),
+            PlanError::WorldTurns => write!(
+                f,
+                "a compensation along the axes of the world has no direction on a workpiece that the robot holds: take WOBJ"
+            ),
+            PlanError::NotForThisRobot => write!(f, "this robot knows no such motion"),
+            PlanError::NoWayBack => write!(
+                f,
+                "the robot cannot go straight back to its path: it stands in another configuration, or in another turn of an axis, than where it was stopped; movej it near that place first"
+            ),
+            PlanError::Full => write!(f, "the look-ahead is full"),
+            PlanError::Stopping => write!(f, "the robot is still stopping"),
+        }
+    }
+}
+
+impl std::error::Error for PlanError {}
+
+fn place(f: &mut fmt::Formatter<'_>, along: f64) -> fmt::Result {
+    if along >= 1.0 { write!(f, "at the target") } else { write!(f, "{:.1} % along the path", along * 100.0) }
+}

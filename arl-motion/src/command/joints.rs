@@ -1,0 +1,72 @@
+use nalgebra::SVector;
+
+use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES, Robot};
+
+/// The value of a component that was not set: a motion keeps it as it is.
+pub const UNSET: f64 = 9e9;
+
+/// Whether a component was not set.
+pub fn is_unset(value: f64) -> bool {
+    (UNSET..f64::INFINITY).contains(&value)
+}
+
+/// How many values [`Joints`] hold.
+pub(crate) const ALL: usize = ROBOT_AXES + EXTERNAL_AXES;
+
+/// The s that each axis takes for 1 deg (mm) at its highest speed, in the order of [`Joints::all`]; 0 for those that a robot does not
+/// have.
+pub(crate) fn slowness(robot: &Robot) -> SVector<f64, ALL> {
+    let mut joints = Joints { axes: [0.0; ROBOT_AXES], external: [0.0; EXTERNAL_AXES] };
+    let own = joints.axes.iter_mut().zip(robot.own_axes());
+    for (slowness, axis) in own.chain(joints.external.iter_mut().zip(robot.external_axes())) {
+        *slowness = 1.0 / axis.vel;
+    }
+    joints.all().into()
+}
+
+/// Positions of all axes, in deg (mm for linear axes). Axes that a robot does not have are 0 (its own) or [`UNSET`]
+/// (external ones).
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Joints {
+    /// The robot's own axes.
+    pub axes: [f64; ROBOT_AXES],
+    /// The external axes.
+    pub external: [f64; EXTERNAL_AXES],
+}
+
+impl Joints {
+    /// Where the robot's file says it starts.
+    pub fn home(robot: &Robot) -> Self {
+        let mut joints = Self { axes: [0.0; ROBOT_AXES], external: [UNSET; EXTERNAL_AXES] };
+        let own = robot.own_axes().len();
+        for (value, home) in joints.axes.iter_mut().zip(robot.home.iter().take(own)) {
+            *value = *home;
+        }
+        for (value, home) in joints.external.iter_mut().zip(robot.home.iter().skip(own)) {
+            *value = *home;
+        }
+        joints
+    }
+
+    /// Whether every axis is within so many deg (mm) of another place.
+    pub fn is_at(&self, other: &Self, tolerance: f64) -> bool {
+        let near = |(a, b): (&f64, &f64)| (a - b).abs() <= tolerance;
+        self.axes.iter().zip(&other.axes).all(near) && self.external.iter().zip(&other.external).all(near)
+    }
+
+    /// These positions, with what is unset taken from `start`, and what the robot does not have as in `start`.
+    pub(crate) fn completed(&self, start: &Joints, robot: &Robot) -> Self {
+        let mut joints = *start;
+        fill(&mut joints.axes, &self.axes, robot.own_axes().len());
+        fill(&mut joints.external, &self.external, robot.external_axes().len());
+        joints
+    }
+}
+
+fn fill(into: &mut [f64], from: &[f64], count: usize) {
+    for (value, new) in into.iter_mut().zip(from).take(count) {
+        if !is_unset(*new) {
+            *value = *new;
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! What is asked of the robot: motions with their settings, and why one may be refused.
+
+pub(crate) mod error;
+pub(crate) mod joints;
+
+pub use error::PlanError;
+pub use joints::{Joints, UNSET, is_unset};
+
+use crate::overlay::{Compensation, Weave};
+use crate::plan::gate::Gate;
+use arl_robot::frames::Rig;
+use arl_robot::kinematics::{Frame, Wanted};
+use arl_robot::robot::{EXTERNAL_AXES, VelocityProfile};
+
+/// One motion instruction with everything resolved that applies to it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Command {
+    /// Where to go, and how.
+    pub target: Target,
+    /// What the robot carries, and where it stands.
+    pub rig: Rig,
+    /// The programmed speed.
+    pub speed: Speed,
+    /// The time that the motion shall take, in s; it replaces the programmed speed.
+    pub duration: Option<f64>,
+    /// How far from its target the motion may be left for the next one.
+    pub zone: Zone,
+    /// The program line, for the trace.
+    pub line: u32,
+}
+
+/// Where a motion goes. Components that are [`crate::command::UNSET`] stay as they are where the motion starts.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Target {
+    /// movej: all axes to their positions, arriving together.
+    Joints(Joints),
+    /// ptp: the TCP to a pose, all axes arriving together.
+    Pose {
+        /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
+        pose: [f64; 6],
+        /// The workpiece frame in what the TCP's way is seen from ([`arl_robot::frames::Carried`]), translation in mm.
+        wobj: Frame,
+        /// The solution that is wanted.
+        wanted: Wanted,
+        /// External axes in deg (mm).
+        external: [f64; EXTERNAL_AXES],
+    },
+    /// lin: the TCP along a straight line, turning evenly; the configuration stays that of the start.
+    Line {
+        /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
+        pose: [f64; 6],
+        /// The workpiece frame in what the TCP's way is seen from ([`arl_robot::frames::Carried`]), translation in mm.
+        wobj: Frame,
+        /// External axes in deg (mm).
+        external: [f64; EXTERNAL_AXES],
+    },
+    /// cir: the TCP along a circle through a point on the way, turning evenly; the configuration stays that of the start.
+    Arc {
+        /// x, y, z in mm of the point on the way, in the workpiece frame.
+        via: [f64; 3],
+        /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
+        pose: [f64; 6],
+        /// The workpiece frame in what the TCP's way is seen from ([`arl_robot::frames::Carried`]), translation in mm.
+        wobj: Frame,
+        /// How far to go along the circle, in deg, in place of going to `pose`; below 0 goes the other way round.
+        angle: Option<f64>,
+        /// Whether the tool turns with the path, in place of turning to the orientation of `pose`.
+        follow: bool,
+        /// External axes in deg (mm).
+        external: [f64; EXTERNAL_AXES],
+    },
+    /// jump: up, over and down to a pose, with robots whose third axis lifts.
+    Gate {
+        /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
+        pose: [f64; 6],
+        /// The workpiece frame in the robot's base, translation in mm.
+        wobj: Frame,
+        /// The solution that is wanted.
+        wanted: Wanted,
+        /// External axes in deg (mm).
+        external: [f64; EXTERNAL_AXES],
+        /// Its form.
+        gate: Gate,
+    },
+    /// ccir: the TCP along the circle through start, target and the target of the next motion of this kind or, in the last
+    /// one, through the start of the one before it. It takes two in a row at least.
+    Circle {
+        /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
+        pose: [f64; 6],
+        /// The workpiece frame in the robot's base, translation in mm.
+        wobj: Frame,
+        /// Whether the tool turns with the path, in place of turning to the orientation of `pose`.
+        follow: bool,
+        /// External axes in deg (mm).
+        external: [f64; EXTERNAL_AXES],
+    },
+    /// spl: the TCP, the tool's rotation and the external axes smoothly through the targets of all motions of this kind in
+    /// a row, without a stop.
+    Spline {
+        /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
+        pose: [f64; 6],
+        /// The workpiece frame in the robot's base, translation in mm.
+        wobj: Frame,
+        /// External axes in deg (mm).
+        external: [f64; EXTERNAL_AXES],
+    },
+}
+
+/// How far from the target of a motion the next one may take over (slip). What is not above 0, or [`crate::command::UNSET`], asks
+/// for nothing.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Zone {
+    /// Percent of the largest zone, which is half of the motion; 0 or more goes before all others.
+    pub percent: f64,
+    /// Distance of the TCP along its way, in mm.
+    pub tcp: f64,
+    /// Angle by which the tool still has to turn, in deg.
+    pub ori: f64,
+    /// Axis motions: angle of the axis that has farthest to go, in deg (mm).
+    pub joint: f64,
+    /// Turning external axes, in deg.
+    pub turning: f64,
+    /// Linear external axes, in mm.
+    pub linear: f64,
+}
+
+impl Zone {
+    /// The target is reached exactly.
+    pub const NONE: Zone = Zone { percent: -1.0, tcp: -1.0, ori: -1.0, joint: -1.0, turning: -1.0, linear: -1.0 };
+}
+
+/// The programmed speed. A motion uses the components that fit it; the robot's own limits hold besides.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Speed {
+    /// Axis motions: percent of every axis's speed, above 0; more than 100 counts as 100.
+    pub percent: f64,
+    /// Lines: speed of the TCP in mm/s, above 0.
+    pub tcp: f64,
+    /// Lines: turning speed of the tool in deg/s, above 0.
+    pub ori: f64,
+    /// External turning axes: deg/s, above 0.
+    pub exj: f64,
+    /// External linear axes: mm/s, above 0.
+    pub exl: f64,
+}
+
+/// What holds for all motions until it is changed.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Settings {
+    /// `velset` override: percent of all programmed speeds, above 0 to 100.
+    pub speed_percent: f64,
+    /// `velset` max: the highest speed of the TCP on lines, in mm/s; infinite where there is none.
+    pub max_tcp: f64,
+    /// `accset` acc: percent of all accelerations. Below 20 counts as 20, above 100 as 100.
+    pub acc_percent: f64,
+    /// `accset` ramp: percent of all jerks. Below 20 counts as 20, above 100 as 100.
+    pub jerk_percent: f64,
+    /// How the speed rises and falls: with T no jerk is limited.
+    pub profile: VelocityProfile,
+    /// Manual low-speed mode: the TCP moves at most 250 mm/s, on every kind of motion; with a tool that stands, the flange
+    /// does, too.
+    pub manual: bool,
+    /// Whether lines and circles pass the wrist singularity by letting the orientation give way.
+    pub wrist: bool,
+    /// The weave that is laid over ways of the TCP.
+    pub weave: Option<Weave>,
+    /// What shifts and turns ways of the TCP.
+    pub compensation: Option<Compensation>,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            speed_percent: 100.0,
+            max_tcp: f64::INFINITY,
+            acc_percent: 100.0,
+            jerk_percent: 100.0,
+            profile: VelocityProfile::S,
+            manual: false,
+            wrist: false,
+            weave: None,
+            compensation: None,
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! What the robot could do from a state if nothing better came up: the backup of the governor's invariant.
+//!
+//! There are two kinds. Either it brakes within its stretch: to the lowest of all speeds that the way up to the end of the
+//! stretch asks for, and its acceleration has faded before that end. Or its acceleration fades at once, across ends of
+//! stretches, with the lowest limits of all stretches on the way; where that leads to, without acceleration, the first kind
+//! must be possible. At the end of a backup, and on the even way behind it, the first kind is possible: what it braked for
+//! is done, what was too far away to look at is farther than a stop, and the speed at which the next stretch may be entered
+//! is such that, from there on, all it asks for can be done. So there is always a backup: as long as the one in hand goes on,
+//! that; behind it, a new one.
+
+use std::ops::ControlFlow;
+
+use crate::follow::governor::demands::ALL_CELLS;
+use crate::follow::governor::{
+    Cells, Governor, MARGIN, SLACK, Scale, TOO_FAST, TakeWhileSum, careful, fading, lower, way_of_fading, way_to_speed,
+};
+use crate::limits::profile::{Change, Limits, State};
+
+/// A speed to go to, and the limits on the way.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Aim {
+    goal: f64,
+    limits: Limits,
+}
+
+impl Aim {
+    /// The way there from a state.
+    pub(crate) fn change(&self, state: &State) -> Change {
+        let Self { goal, mut limits } = *self;
+        // With a little more of the jerk than is counted on the acceleration fades just with the speed.
+        if fading(state.vel, state.acc.min(0.0), &limits) < 0.0 {
+            limits.jerk = state.acc * state.acc / (2.0 * state.vel);
+        }
+        Change::new(state.vel, state.acc, goal, &limits)
+    }
+}
+
+impl Governor<'_> {
+    /// What the robot could do from a state, as far as it concerns these cells' speeds, with a slack for speeds, as a share,
+    /// and for ways, in s of nominal time.
+    pub(crate) fn possible(&self, state: &State, scale: Scale, slack: f64, cells: &Cells) -> Option<Aim> {
+        self.within(state, scale, slack, cells).or_else(|| self.across(state, scale, slack))
+    }
+
+    /// The first kind: within the stretch.
+    fn within(&self, state: &State, scale: Scale, slack: f64, cells: &Cells) -> Option<Aim> {
+        let State { vel, acc, .. } = *state;
+        let Some((here, cell)) = self.at(state.at) else {
+            let limits = Limits { vel: 0.0, acc: 1.0, jerk: 1.0 };
+            return state.rests().then_some(Aim { goal: 0.0, limits });
+        };
+        let limits = careful(here, scale);
+        let peak = fading(vel, acc.max(0.0), &limits);
+        let highest = cell.limits.vel * scale.vel * (1.0 + TOO_FAST + slack);
+        if vel < 0.0 || acc.abs() * MARGIN > limits.acc * (1.0 + SLACK + slack) || peak > highest {
+            return None;
+        }
+        let mut goal = fading(vel, acc, &limits).max(0.0);
+        let mut met = true;
+        self.demands(state, scale, cells, |demand| {
+            met = demand.surely_left >= 0.0 || demand.left(state) >= -slack;
+            goal = goal.min(demand.goal);
+            if met { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        });
+        met.then_some(Aim { goal, limits })
+    }
+
+    /// By how much, in full speeds or in s of nominal time, a state is beyond what the first kind allows, as far as it
+    /// concerns these cells' speeds; below 0 there is as much room.
+    pub(crate) fn excess(&self, state: &State, scale: Scale, cells: &Cells) -> f64 {
+        let Some((here, cell)) = self.at(state.at) else { return f64::INFINITY };
+        let peak = fading(state.vel, state.acc.max(0.0), &careful(here, scale));
+        let mut excess = peak - cell.limits.vel * scale.vel * (1.0 + TOO_FAST);
+        self.demands(state, scale, cells, |demand| {
+            let surely = demand.surely_left;
+            excess = excess.max(if surely > 0.0 { -surely } else { -demand.left(state) });
+            ControlFlow::Continue(())
+        });
+        excess
+    }
+
+    /// Whether the acceleration of a state fades no sooner than about where its stretch ends.
+    pub(crate) fn fades_across(&self, state: &State, scale: Scale) -> bool {
+        let Some(first) = self.stretches.front() else { return false };
+        let way = way_of_fading(state.vel, state.acc, &careful(first, scale));
+        let end = first.cells.iter().map(|cell| cell.length).take_while_sum(state.at + way);
+        !first.stops && state.at + way + self.cycle * state.vel >= end
+    }
+
+    /// The second kind: the acceleration fades across ends of stretches.
+    pub(crate) fn across(&self, state: &State, scale: Scale, slack: f64) -> Option<Aim> {
+        let State { at, vel, acc } = *state;
+        if vel < 0.0 {
+            return None;
+        }
+        let mut found: Option<(Limits, State)> = None;
+        let (mut end, mut lowest) = (0.0, f64::INFINITY);
+        let mut began = None;
+        for (index, stretch) in self.stretches.iter().enumerate() {
+            let mut entered = false;
+            for cell in &stretch.cells {
+                let start = end;
+                end += cell.length;
+                if at >= end {
+                    continue;
+                }
+                if !entered {
+                    entered = true;
+                    began = began.or(Some(index));
+                    let here = careful(stretch, scale);
+                    let limits = found.map_or(here, |(limits, _)| lower(limits, here));
+                    let left = fading(vel, acc, &limits);
+                    if left < 0.0 || acc.abs() * MARGIN > limits.acc * (1.0 + SLACK + slack) {
+                        return None;
+                    }
+                    let way = way_of_fading(vel, acc, &limits);
+                    found = Some((limits, State { at: at + way, vel: left, acc: 0.0 }));
+                }
+                let (limits, then) = found?;
+                let speed = cell.limits.vel * scale.vel * (1.0 + TOO_FAST + slack);
+                lowest = lowest.min(speed);
+                // Where it is slower in the end, it has to be so when the cell begins.
+                if then.vel > lowest || (vel > speed && start - at < way_to_speed(vel, acc, speed, &limits) - slack) {
+                    return None;
+                }
+                if then.at < end {
+                    // Within a stretch braking at once does all that braking later does.
+                    if began == Some(index) {
+                        return None;
+                    }
+                    // It ends in the middle of a cycle, and what comes then begins with the next one.
+                    let late = (then.at + self.cycle * then.vel).min(end.next_down());
+                    let then = State { at: late.max(then.at), ..then };
+                    let goes_on = self.within(&then, scale, slack, &ALL_CELLS).is_some();
+                    return goes_on.then_some(Aim { goal: then.vel, limits });
+                }
+            }
+            if entered && stretch.stops {
+                return None;
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,143 @@
+//! What the way ahead demands of a state: speeds that have to be reached in time.
+
+use std::ops::{ControlFlow, Range};
+
+use crate::follow::governor::{
+    Governor, ROUNDING, SLOWER, Scale, can_fade, careful, fading, longest_stop, to_rest, way_of_fading, way_to_speed,
+};
+use crate::limits::profile::{Limits, State};
+
+/// Cells, counted from the first one of all.
+pub(crate) type Cells = Range<usize>;
+pub(crate) const ALL_CELLS: Cells = 0..usize::MAX;
+/// None of them.
+pub(crate) const NO_CELLS: Cells = 0..0;
+
+/// A speed that has to be reached.
+pub(crate) struct Demand {
+    pub(crate) goal: f64,
+    /// The limits up to there.
+    pub(crate) limits: Limits,
+    /// How much of the way there is, in s of nominal time.
+    room: f64,
+    kind: Kind,
+    /// How much of the way is left at least, as far as that is known without a closer look.
+    pub(crate) surely_left: f64,
+    /// The cell whose speed it is.
+    pub(crate) cell: Option<usize>,
+}
+
+/// What has to be over at the end of the way.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Kind {
+    /// The speed has come down to the goal, and stays there.
+    Slower,
+    /// The acceleration has faded out.
+    Faded,
+    /// The robot rests.
+    Rest,
+    /// Nothing helps.
+    Never,
+}
+
+impl Demand {
+    /// How much of the way is left when a robot in this state has reached the speed.
+    pub(crate) fn left(&self, &State { vel, acc, .. }: &State) -> f64 {
+        let limits = &self.limits;
+        self.room
+            - match self.kind {
+                Kind::Slower => way_to_speed(vel, acc, self.goal, limits),
+                Kind::Faded => way_of_fading(vel, acc, limits),
+                Kind::Rest => to_rest(vel, acc, limits).map_or(f64::INFINITY, |(way, _)| way),
+                Kind::Never => f64::INFINITY,
+            }
+    }
+}
+
+impl Governor<'_> {
+    /// Tells what the rest of the stretch, with these of its `cells`, and the entry of the next one demand, as far as a stop
+    /// would reach.
+    pub(crate) fn demands(
+        &self,
+        state: &State,
+        scale: Scale,
+        cells: &Cells,
+        mut tell: impl FnMut(Demand) -> ControlFlow<()>,
+    ) {
+        // What is told decides alone whether to go on.
+        let _ = self.try_demands(state, scale, cells, &mut tell);
+    }
+
+    fn try_demands(
+        &self,
+        state: &State,
+        scale: Scale,
+        cells: &Cells,
+        tell: &mut impl FnMut(Demand) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let State { at, vel, acc } = *state;
+        let (mut end, mut count) = (0.0, 0_usize);
+        for (index, stretch) in self.stretches.iter().enumerate() {
+            let limits = careful(stretch, scale);
+            let demand = |goal: f64, room: f64, kind: Kind| Demand {
+                goal,
+                limits,
+                room,
+                kind,
+                surely_left: f64::NEG_INFINITY,
+                cell: None,
+            };
+            let (rising, most) = (acc.max(0.0), fading(vel, acc.max(0.0), &limits));
+            let longest_way = |goal: f64| {
+                if goal >= most { 0.0 } else { most * rising / limits.jerk + limits.slowing(most, goal) }
+            };
+            let mut lowest = f64::INFINITY;
+            let mut inside = false;
+            let longest = longest_stop(vel, acc, &limits);
+            for cell in &stretch.cells {
+                let start = end;
+                end += cell.length;
+                count += 1;
+                if at >= end {
+                    continue;
+                }
+                // An acceleration below zero must fade before the speed does.
+                if !inside && !can_fade(vel, acc, &limits) {
+                    tell(demand(0.0, 0.0, Kind::Never))?;
+                }
+                let speed = cell.limits.vel * scale.vel * (1.0 + SLOWER);
+                let room = start - at;
+                if inside && room > longest {
+                    return ControlFlow::Continue(());
+                }
+                if inside && speed < lowest && cells.contains(&count) {
+                    let surely_left = room - longest_way(speed);
+                    tell(Demand { surely_left, cell: Some(count), ..demand(speed, room, Kind::Slower) })?;
+                }
+                inside = true;
+                lowest = lowest.min(speed);
+            }
+            if at >= end && !stretch.stops {
+                continue;
+            }
+            let next = if stretch.stops { None } else { self.stretches.get(index + 1) };
+            match next {
+                None => tell(demand(0.0, end - at + 1e-3 * ROUNDING, Kind::Rest))?,
+                Some(next) if end - at <= longest => {
+                    let speed = next.entry * scale.vel * (1.0 + SLOWER);
+                    // No acceleration is left where the limits change. The last cycle may end a little behind it.
+                    let early = |vel: f64| (end - at - self.cycle * vel).max(0.0);
+                    let fades = fading(vel, acc, &limits);
+                    if fades <= speed {
+                        let fades = fades.max(0.0);
+                        tell(demand(fades, early(fades), Kind::Faded))?;
+                    }
+                    tell(demand(speed, early(speed), Kind::Slower))?;
+                }
+                _ => {}
+            }
+            return ControlFlow::Continue(());
+        }
+        ControlFlow::Continue(())
+    }
+}

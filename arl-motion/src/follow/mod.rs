@@ -1,0 +1,6 @@
+//! Following the path: segments in a row, what limits the speed along them, and the governor, which chooses it each cycle.
+
+pub(crate) mod governor;
+pub(crate) mod remaining;
+pub(crate) mod segment;
+pub(crate) mod timing;

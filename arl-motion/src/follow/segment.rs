@@ -1,0 +1,372 @@
+//! A part of a motion, or half of a blend, as the course has them in a row.
+
+use std::ops::Range;
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::blend::blend_limits::{self, Crossing};
+use crate::blend::corner::{Blend, common_pace};
+use crate::command::joints::{ALL, Joints};
+use crate::follow::timing::Cell;
+use crate::geometry::derivatives::{Place, by_differences};
+use crate::geometry::parametrization::Progress;
+use crate::limits::profile::Limits;
+use crate::plan::constraints::{Bounds, Pace};
+use crate::plan::curve::Curve;
+use crate::plan::motion::Motion;
+use arl_robot::frames::{Carried, Rig};
+use arl_robot::kinematics::Kinematics;
+use arl_robot::robot::{Robot, VelocityProfile};
+
+/// Parts of half a blend.
+const SPEEDS: usize = blend_limits::PARTS / 2;
+
+/// A stretch of the way with constant limits. Its own parameter is the time, in s, that it takes at its full speed: so
+/// that motions and blends meet with the same speed.
+#[derive(Clone, Debug)]
+pub(crate) struct Piece {
+    pub(crate) number: u64,
+    pub(crate) line: u32,
+    pub(crate) rig: Rig,
+    curve: Curve,
+    /// The parameters of the curve at the start and at the end.
+    pub(crate) from: f64,
+    to: f64,
+    /// How the curve's parameter goes with the share of the nominal time, where it does not go evenly.
+    pub(crate) progress: Option<Progress>,
+    /// The nominal time in s.
+    pub(crate) time: f64,
+    /// In s of nominal time; the speed is the lowest, acceleration and jerk are those outside of arms.
+    pub(crate) limits: Limits,
+    /// The speeds of its parts, which take the same nominal time each, where they are not all the same.
+    speeds: Option<[f64; SPEEDS]>,
+    /// Where it has other limits of acceleration and jerk.
+    arm: Option<Arm>,
+    /// Whether the robot has to stand still at the end.
+    pub(crate) stops: bool,
+    /// Whether the motion ends here.
+    pub(crate) ends: bool,
+    /// How long the whole motion takes, in s, where the piece is all of it, from rest to rest.
+    duration: Option<f64>,
+    /// Where the motion ends, exactly, if it is not blended with the next one.
+    target: Joints,
+    /// Shares of the motion's way that are done at the start and at the end.
+    pub(crate) shares: [f64; 2],
+    /// The share of the motion itself at which a blend leaves it.
+    pub(crate) leave: f64,
+    /// The length of the motion in mm.
+    pub(crate) length: f64,
+    /// The programmed speeds, where it is known what limits each of its places.
+    pub(crate) pace: Option<Pace>,
+    /// Whether each place has limits of its own even while the robot goes on: in the profile O.
+    pub(crate) is_free: bool,
+}
+
+/// Parts with an acceleration and a jerk of their own.
+#[derive(Clone, Debug)]
+struct Arm {
+    parts: Range<usize>,
+    acc: f64,
+    jerk: f64,
+}
+
+/// A tool that is led along a way.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LedTool {
+    /// Where the TCP is, in mm.
+    pub(crate) at: Vector3<f64>,
+    /// The orientation, where that is led, too; in passages of the wrist singularity it gives way.
+    pub(crate) rotation: Option<UnitQuaternion<f64>>,
+    /// What the robot carries.
+    pub(crate) carried: Carried,
+}
+
+impl Piece {
+    /// A part of a motion.
+    pub(crate) fn part(motion: &Motion, limits: Limits, number: u64, from: f64, to: f64) -> Self {
+        // One s of nominal time at full speed.
+        let rate = motion.rate;
+        let scaled = Limits { vel: limits.vel / rate, acc: limits.acc / rate, jerk: limits.jerk / rate };
+        Self {
+            number,
+            line: motion.line,
+            rig: motion.rig,
+            curve: motion.curve.clone(),
+            from,
+            to,
+            progress: None,
+            time: (to - from) / rate,
+            limits: scaled,
+            speeds: None,
+            arm: None,
+            stops: true,
+            ends: motion.ends,
+            duration: (from == 0.0 && to == 1.0).then(|| motion.duration_with(&limits)),
+            target: motion.end,
+            leave: to,
+            shares: [from, to].map(|share| motion.of_instruction(share)),
+            length: motion.length,
+            pace: is_known(motion).then_some(motion.pace),
+            is_free: is_free(motion),
+        }
+    }
+
+    /// One half of a blend: the first belongs to the motion that is left, the second to the one that is joined.
+    pub(crate) fn half(blend: &Blend, (before, after): (&Motion, &Motion), number: u64, first: bool) -> Self {
+        let motion = if first { before } else { after };
+
+        let Crossing { speeds, acc, jerk, arms } = &blend.crossing;
+        let time = blend.time;
+        let skipped = if first { 0 } else { SPEEDS };
+        let mut own = [0.0; SPEEDS];
+        for (own, speed) in own.iter_mut().zip(speeds.iter().skip(skipped)) {
+            *own = on_grid(speed * time);
+        }
+        let lowest = own.iter().copied().fold(f64::INFINITY, f64::min);
+        let parts = if first { 0..arms.parts } else { SPEEDS.saturating_sub(arms.parts)..SPEEDS };
+        let arm = (arms.parts > 0).then_some(Arm { parts, acc: arms.acc * time, jerk: arms.jerk * time });
+        Self {
+            number,
+            line: motion.line,
+            rig: motion.rig,
+            curve: blend.curve.clone(),
+            from: if first { 0.0 } else { 0.5 },
+            to: if first { 0.5 } else { 1.0 },
+            progress: Some(blend.progress.clone()),
+            time: time / 2.0,
+            limits: Limits { vel: lowest, acc: acc * time, jerk: jerk * time },
+            speeds: (arm.is_some() || own.iter().any(|speed| *speed != lowest)).then_some(own),
+            arm,
+            stops: false,
+            ends: first && motion.ends,
+            duration: None,
+            target: motion.end,
+            // All of the blend counts as the motion that is joined: see `Course::current`.
+            leave: blend.leave,
+            shares: if first { [blend.leave; 2] } else { [blend.join / 2.0, blend.join] }
+                .map(|share| motion.of_instruction(share)),
+            length: motion.length,
+            pace: (is_known(before) && is_known(after)).then(|| common_pace(before, after)),
+            is_free: is_free(before) && is_free(after),
+        }
+    }
+
+    /// The same, with an acceleration that takes at least `time` s to rise.
+    pub(crate) fn rising_in(self, time: f64) -> Self {
+        let rising = |arm: Arm| {
+            let Limits { acc, jerk, .. } = Limits { vel: 0.0, acc: arm.acc, jerk: arm.jerk }.rising_in(time);
+            Arm { acc, jerk, ..arm }
+        };
+        Self { limits: self.limits.rising_in(time), arm: self.arm.map(rising), ..self }
+    }
+
+    /// The same, where the robot does not begin or end it at rest.
+    pub(crate) fn flowing(self) -> Self {
+        Self { duration: None, ..self }
+    }
+
+    /// The parts that have a speed of their own, for the timing.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = Cell> {
+        let count = if self.speeds.is_some() { SPEEDS } else { 1 };
+        let length = self.time / count as f64;
+        let speed = |part: usize| self.speeds.as_ref().and_then(|speeds| speeds.get(part).copied());
+        let arm = |part: usize| self.arm.as_ref().filter(|arm| arm.parts.contains(&part));
+        (0..count).map(move |part| {
+            let vel = speed(part).unwrap_or(self.limits.vel);
+            let (acc, jerk) = arm(part).map_or((self.limits.acc, self.limits.jerk), |arm| (arm.acc, arm.jerk));
+            Cell { length, limits: Limits { vel, acc, jerk } }
+        })
+    }
+
+    /// Limits that hold all along.
+    fn lowest_limits(&self) -> Limits {
+        let lowest = |arm: &Arm| Limits {
+            acc: self.limits.acc.min(arm.acc),
+            jerk: self.limits.jerk.min(arm.jerk),
+            ..self.limits
+        };
+        self.arm.as_ref().map_or(self.limits, lowest)
+    }
+
+    /// How long it takes in s from `at` s of nominal time on, at its full speed.
+    pub(crate) fn time_from(&self, at: f64) -> f64 {
+        let mut end = 0.0;
+        let left = |cell: Cell| {
+            end += cell.length;
+            (end - at).clamp(0.0, cell.length) / cell.limits.vel
+        };
+        self.cells().map(left).sum()
+    }
+
+    /// The joints after `at` s of nominal time.
+    pub(crate) fn joints(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> Joints {
+        if self.stops && at >= self.time { self.target } else { self.joints_on(kinematics, at, near) }
+    }
+
+    /// The same, but for the end of a motion as its curve has it.
+    pub(crate) fn joints_on(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> Joints {
+        self.curve.joints(kinematics, self.place(at), near)
+    }
+
+    /// Whether all axes go in proportion, with the same limits everywhere.
+    pub(crate) fn is_even(&self) -> bool {
+        self.progress.is_none() && matches!(self.curve, Curve::Axes(_))
+    }
+
+    /// The tool whose way is limited, after `at` s of nominal time, where the joints are `joints`. `None` where it is the axes that are
+    /// led, but for blends between motions that lead the TCP, and where it is not known what limits it.
+    pub(crate) fn tool(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<LedTool> {
+        let pace = self.pace?;
+        match &self.curve {
+            Curve::Tool(curve) => {
+                let tcp = curve.tcp(self.place(at));
+                Some(LedTool { at: tcp.translation.vector, rotation: Some(tcp.rotation), carried: curve.carried })
+            }
+            Curve::Axes(_) if pace.tcp.is_finite() => {
+                Some(LedTool { at: self.tcp_by_axes(kinematics, joints), rotation: None, carried: self.rig.carried })
+            }
+            Curve::Axes(_) => None,
+        }
+    }
+
+    /// Where the TCP is, in mm, where the axes are led.
+    fn tcp_by_axes(&self, kinematics: &Kinematics, joints: &Joints) -> Vector3<f64> {
+        self.rig.carried.way_at(&kinematics.forward(&joints.axes)).translation.vector
+    }
+
+    /// Three derivatives of the TCP's position in mm where the axes are led, after `at` s of nominal time, by differences.
+    fn moving_by_axes(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> [Vector3<f64>; 3] {
+        let tcp = |at: f64| self.tcp_by_axes(kinematics, &self.joints_on(kinematics, at, near));
+        by_differences(tcp, at, self.time)
+    }
+
+    /// The parameter of the curve after `at` s of nominal time.
+    fn place(&self, at: f64) -> f64 {
+        let place = self.from + (self.to - self.from) * (at / self.time);
+        self.progress.as_ref().map_or(place, |progress| progress.at(place))
+    }
+
+    /// Whether this is the half of a blend that leaves its motion.
+    pub(crate) fn leaves(&self) -> bool {
+        self.progress.is_some() && self.ends
+    }
+
+    /// How long the whole motion takes, in s, where the piece is all of it, from rest to rest.
+    pub(crate) fn duration(&self) -> Option<f64> {
+        self.duration
+    }
+
+    /// Where the motion ends.
+    pub(crate) fn target(&self) -> &Joints {
+        &self.target
+    }
+
+    /// The parts between which the derivatives of its curve jump, one where they do not.
+    pub(crate) fn parts(&self) -> u32 {
+        let jumps = self.progress.as_ref().is_some_and(Progress::has_parts) || self.curve.is_paced();
+        if jumps { self.bends() } else { 1 }
+    }
+
+    /// The parts over which its curve may change its direction or its pace, one where it does neither.
+    pub(crate) fn bends(&self) -> u32 {
+        let bends = self.progress.is_some() || self.curve.is_paced();
+        if bends { ((self.to - self.from) * Progress::PARTS as f64).ceil() as u32 } else { 1 }
+    }
+
+    /// Where derivatives jump within it and at its end, in s of nominal time from its start.
+    pub(crate) fn jumps(&self) -> impl Iterator<Item = f64> {
+        let all = if self.parts() > 1 { Progress::PARTS } else { 0 };
+        let shares = (0..all).map(|part| part as f64 / Progress::PARTS as f64);
+        let inside = shares.chain(self.borders()).filter(|share| *share > self.from && *share < self.to);
+        inside.map(|share| (share - self.from) / (self.to - self.from) * self.time).chain([self.time])
+    }
+
+    /// Whether derivatives of its curve jump within `near` s of nominal time beside a place.
+    pub(crate) fn jumps_beside(&self, at: f64, near: f64) -> bool {
+        let width = (self.to - self.from) / self.time;
+        let share = self.from + at * width;
+        self.parts() > 1 || self.borders().any(|border| (border - share).abs() <= near * width)
+    }
+
+    /// Where passages through a singularity begin and end. What is laid down by a progress of its own has none.
+    fn borders(&self) -> impl Iterator<Item = f64> {
+        let curve = if let Curve::Tool(curve) = &self.curve { Some(curve) } else { None };
+        curve.into_iter().flat_map(|curve| curve.borders())
+    }
+
+    /// Adds what limits the nominal time after `at` s of it, where the joints are `joints`, for a robot that goes on, or for one that
+    /// stops and whose acceleration takes `rise` s to rise at least. Returns how these change with it: three derivatives; `None` where nothing but constant limits holds, and at a
+    /// singular point.
+    pub(crate) fn limit(
+        &self,
+        robot: &Robot,
+        (at, joints): (f64, &Joints),
+        rise: Option<f64>,
+        bounds: &mut Bounds,
+    ) -> Option<[[f64; ALL]; 3]> {
+        let Some(pace) = self.pace.as_ref().filter(|_| rise.is_some() || self.is_free) else {
+            bounds.cell(&self.lowest_limits());
+            return None;
+        };
+        let width = (self.to - self.from) / self.time;
+        let share = self.from + at * width;
+        let even = Place { at: share, first: 1.0, second: 0.0, third: 0.0 };
+        let place = self.progress.as_ref().map_or(even, |progress| Place::at(progress, share)).scaled(width);
+        let rates = place.rates(self.curve.rates(&robot.kinematics, place.at, joints)?);
+        bounds.all_axes(&rates, pace);
+        match &self.curve {
+            Curve::Axes(_) => {
+                if pace.manual {
+                    bounds.manual_place(joints, &rates[0], &self.rig.carried);
+                }
+                if pace.tcp.is_finite() {
+                    bounds.moving(&self.moving_by_axes(&robot.kinematics, at, joints), pace);
+                }
+            }
+            Curve::Tool(curve) => {
+                let moving = place.vectors([1, 2, 3].map(|order| curve.track.derivative(order, place.at)));
+                bounds.moving(&moving, pace);
+                bounds.turning(&place.vectors(curve.rotation_rates(place.at)), pace);
+                if pace.manual {
+                    bounds.manual_moving(&moving);
+                    bounds.manual_flange(curve, place.at, place.first);
+                }
+            }
+        }
+        if let Some(rise) = rise.filter(|_| !self.is_free) {
+            bounds.rising_in(rise);
+        }
+        Some(rates)
+    }
+
+    /// The share of the motion that is done at its end.
+    pub(crate) fn share_at_end(&self) -> f64 {
+        self.shares[1]
+    }
+
+    /// The share of the motion that is done after `at` s of nominal time.
+    pub(crate) fn share(&self, at: f64) -> f64 {
+        let [from, to] = self.shares;
+        from + (to - from) * (at / self.time).clamp(0.0, 1.0)
+    }
+}
+
+/// Whether it is known what limits each place of a motion: not where it weaves.
+fn is_known(motion: &Motion) -> bool {
+    motion.laid.is_none()
+}
+
+/// Whether every place of a motion has limits of its own: in the profile O, unless its duration is given or it weaves, which
+/// wants an even speed.
+fn is_free(motion: &Motion) -> bool {
+    motion.profile == VelocityProfile::O && motion.timed.is_none() && is_known(motion)
+}
+
+/// The next lower speed of a fine grid, on which the full speed lies: so that stretches of almost the same speed can be
+/// taken as one.
+fn on_grid(vel: f64) -> f64 {
+    const STEP: f64 = 1.003;
+    // What rounding takes from a speed must not cost it a step.
+    let steps = (vel.ln() / STEP.ln() + 1e-6).floor();
+    if steps.is_finite() { STEP.powf(steps) } else { vel }
+}

@@ -1,0 +1,334 @@
+//! What limits the speed along the way ahead, as the governor sees it: stretches of constant acceleration and jerk, each
+//! cut into cells of constant speed. Lengths are s of nominal time.
+
+use std::collections::VecDeque;
+
+use crate::limits::profile::{Limits, State};
+use crate::limits::search::{self, Enough};
+
+/// A part of a stretch on which one speed is allowed.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Cell {
+    pub(crate) length: f64,
+    pub(crate) limits: Limits,
+}
+
+/// A part of the way on which one acceleration and one jerk hold.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Stretch {
+    pub(crate) cells: VecDeque<Cell>,
+    pub(crate) acc: f64,
+    pub(crate) jerk: f64,
+    /// The highest speed, without acceleration, from which everything behind the start of the stretch can be kept.
+    pub(crate) entry: f64,
+    /// Whether the robot has to stand still at the end.
+    pub(crate) stops: bool,
+    /// Whether `entry` has been found since the stretch was changed last.
+    known: bool,
+}
+
+/// How near to the highest speed of entry is near enough, as a part of it.
+const CLOSE: f64 = 1e-14;
+
+/// The same where it only has to be known about how long braking takes.
+const NEAR_ENOUGH: Enough = Enough { value: 1e-3, excess: 1e-3 };
+
+/// Cells whose limits differ by up to this factor share a stretch.
+pub(crate) const ALIKE: f64 = 2.0;
+
+/// All stretches from the one that the robot is on.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Timing {
+    pub(crate) stretches: VecDeque<Stretch>,
+    /// The length of all cells.
+    length: f64,
+}
+
+impl Stretch {
+    fn new(cell: Cell) -> Self {
+        let Limits { acc, jerk, .. } = cell.limits;
+        Self { cells: VecDeque::from([cell]), acc, jerk, entry: 0.0, stops: false, known: false }
+    }
+
+    /// Whether a cell is enough like the others to join them.
+    fn takes(&self, cell: &Cell) -> bool {
+        let alike = |a: f64, b: f64| a <= b * ALIKE && b <= a * ALIKE;
+        alike(self.acc, cell.limits.acc) && alike(self.jerk, cell.limits.jerk)
+    }
+
+    fn measure(&mut self) {
+        let lowest =
+            |of: fn(&Limits) -> f64| self.cells.iter().map(|cell| of(&cell.limits)).fold(f64::INFINITY, f64::min);
+        (self.acc, self.jerk) = (lowest(|limits| limits.acc), lowest(|limits| limits.jerk));
+    }
+
+    /// Joins the last cells whose speeds are the same, but for `open` at the end.
+    fn settle(&mut self, open: usize) {
+        /// More than are new.
+        const NEW: usize = 80;
+        let count = self.cells.len();
+        for at in (1..count.saturating_sub(open)).rev().take(NEW) {
+            let (Some(before), Some(cell)) = (self.cells.get(at - 1).copied(), self.cells.get(at).copied()) else {
+                return;
+            };
+            let (a, b) = (before.limits, cell.limits);
+            // Neither may lose speed: the robot may count on both already.
+            if a.vel.to_bits() == b.vel.to_bits() {
+                let limits = Limits { vel: a.vel, acc: a.acc.min(b.acc), jerk: a.jerk.min(b.jerk) };
+                if let Some(place) = self.cells.get_mut(at - 1) {
+                    *place = Cell { length: before.length + cell.length, limits };
+                }
+                self.cells.remove(at);
+            }
+        }
+    }
+
+    /// Acceleration and jerk, with no limit of the speed.
+    pub(crate) fn limits(&self) -> Limits {
+        Limits { vel: f64::INFINITY, acc: self.acc, jerk: self.jerk }
+    }
+
+    /// The speed at which it may be entered, where `exit` is the highest speed at its end.
+    fn entry(&self, exit: f64, margin: f64, cycle: f64) -> f64 {
+        self.highest_speed(0.0, exit, margin, cycle)
+    }
+
+    /// The highest speed, without acceleration, so far behind its start, where `exit` is that at its end.
+    fn highest_speed(&self, from: f64, exit: f64, margin: f64, cycle: f64) -> f64 {
+        let limits = Limits { vel: 0.0, acc: self.acc * margin, jerk: self.jerk * margin };
+        let mut way = -from;
+        let mut found: Option<(f64, f64)> = None;
+        let speeds = self.cells.iter().skip(1).map(|cell| cell.limits.vel).chain([exit]);
+        for (cell, speed) in self.cells.iter().zip(speeds) {
+            way += cell.length;
+            if way <= 0.0 {
+                continue;
+            }
+            let first = || (cell.limits.vel, limits.slowing(cell.limits.vel, 0.0));
+            let (highest, stop) = *found.get_or_insert_with(first);
+            // It is entered in the middle of a cycle, and braking begins with the next one.
+            let needed = |vel: f64| limits.slowing(vel, speed) + 2.0 * cycle * vel;
+            if speed >= highest || needed(highest) <= way {
+                // Nothing farther away than a stop from here matters.
+                if way > stop {
+                    break;
+                }
+                continue;
+            }
+            let enough = Enough { value: CLOSE * highest, excess: 0.0 };
+            let entry = search::highest(speed, highest, enough, |vel| needed(vel) - way);
+            found = Some((entry, limits.slowing(entry, 0.0)));
+        }
+        found.map_or(exit, |(highest, _)| highest)
+    }
+}
+
+impl Timing {
+    /// Appends a cell, at whose end the robot has to stand still if `stops`; it joins the last stretch if it `may`.
+    pub(crate) fn push(&mut self, cell: Cell, stops: bool, may: bool) {
+        self.length += cell.length;
+        match self.stretches.back_mut() {
+            Some(last) if may && !last.stops && last.takes(&cell) => {
+                last.cells.push_back(cell);
+                (last.acc, last.jerk) = (last.acc.min(cell.limits.acc), last.jerk.min(cell.limits.jerk));
+            }
+            _ => self.stretches.push_back(Stretch::new(cell)),
+        }
+        if let Some(last) = self.stretches.back_mut() {
+            (last.stops, last.known) = (stops, false);
+        }
+    }
+
+    /// Takes the last cell away; returns whether its stretch began with it.
+    pub(crate) fn pop(&mut self) -> bool {
+        let Some(last) = self.stretches.back_mut() else { return false };
+        let popped = last.cells.pop_back();
+        self.length -= popped.map_or(0.0, |cell| cell.length);
+        (last.stops, last.known) = (false, false);
+        if popped.is_none_or(|cell| cell.limits.acc <= last.acc || cell.limits.jerk <= last.jerk) {
+            last.measure();
+        }
+        let began = last.cells.is_empty();
+        if began {
+            self.stretches.pop_back();
+        }
+        began
+    }
+
+    /// Joins cells whose speeds are the same, but for the last ones, `open` in all, which may still be taken away.
+    pub(crate) fn settle(&mut self, open: usize) {
+        // The last of them may have begun a stretch of their own.
+        let mut open = open;
+        for stretch in self.stretches.iter_mut().rev() {
+            let count = stretch.cells.len();
+            if open < count {
+                stretch.settle(open);
+                return;
+            }
+            open -= count;
+        }
+    }
+
+    /// Finds the speeds at which stretches may be entered, from the last one backwards. `margin` is the part of the limits
+    /// that is counted on, `cycle` the length of a cycle in s.
+    pub(crate) fn find_entries(&mut self, margin: f64, cycle: f64) {
+        let (mut exit, mut changed) = (0.0, true);
+        // Nobody asks for that of the first one.
+        for stretch in self.stretches.iter_mut().skip(1).rev() {
+            // What ends like before is entered like before.
+            if stretch.known && !changed {
+                return;
+            }
+            let entry = stretch.entry(if stretch.stops { 0.0 } else { exit }, margin, cycle);
+            changed = !stretch.known || entry != stretch.entry;
+            (stretch.entry, stretch.known) = (entry, true);
+            exit = entry;
+        }
+    }
+
+    /// The speed at which the next stretch may be entered; `None` where that one may still change otherwise.
+    pub(crate) fn next_entry(&self) -> Option<f64> {
+        if self.stretches.len() > 2 { self.stretches.get(1).map(|stretch| stretch.entry) } else { None }
+    }
+
+    /// The highest speed, without acceleration, at a place, as a state has it, from which everything behind it can be kept.
+    /// `margin` and `cycle` as in [`Self::find_entries`], which comes first.
+    pub(crate) fn highest_speed(&self, at: f64, margin: f64, cycle: f64) -> f64 {
+        let mut start = 0.0;
+        let nexts = self.stretches.iter().skip(1).map(|next| next.entry).chain([0.0]);
+        for (stretch, next) in self.stretches.iter().zip(nexts) {
+            let end = start + stretch.cells.iter().map(|cell| cell.length).sum::<f64>();
+            if at < end {
+                return stretch.highest_speed(at - start, if stretch.stops { 0.0 } else { next }, margin, cycle);
+            }
+            start = end;
+        }
+        0.0
+    }
+
+    /// Whether a place, as a state has it, is on the first stretch.
+    pub(crate) fn is_on_first(&self, at: f64) -> bool {
+        let mut end = 0.0;
+        self.stretches.front().is_some_and(|first| {
+            first.cells.iter().any(|cell| {
+                end += cell.length;
+                at < end
+            })
+        })
+    }
+
+    /// Leaves behind what the robot has passed; returns whether it stands at a stop.
+    pub(crate) fn pass(&mut self, state: &mut State) -> bool {
+        while let Some(first) = self.stretches.front_mut() {
+            let Some(cell) = first.cells.front().copied() else {
+                let stops = first.stops;
+                self.stretches.pop_front();
+                if stops {
+                    *state = State::default();
+                    return true;
+                }
+                continue;
+            };
+            let last = first.cells.len() == 1;
+            if state.at < cell.length {
+                return false;
+            }
+            state.at -= cell.length;
+            self.length -= cell.length;
+            first.cells.pop_front();
+            if last && first.stops {
+                *state = State::default();
+                self.stretches.pop_front();
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Drops what is behind the next stop.
+    pub(crate) fn keep_to_stop(&mut self) {
+        let kept = self.stretches.iter().position(|stretch| stretch.stops).map_or(0, |last| last + 1);
+        self.stretches.truncate(kept);
+        self.length = self.stretches.iter().flat_map(|stretch| &stretch.cells).map(|cell| cell.length).sum();
+    }
+
+    /// The way in s to the next stop.
+    pub(crate) fn to_stop(&self) -> f64 {
+        let mut end = 0.0;
+        for stretch in &self.stretches {
+            end += stretch.cells.iter().map(|cell| cell.length).sum::<f64>();
+            if stretch.stops {
+                break;
+            }
+        }
+        end
+    }
+
+    /// The way in s, up to `open` s before the end of everything, on which the robot may have to brake if it has to come to rest
+    /// there, however fast it may be before.
+    pub(crate) fn braking(&self, open: f64) -> f64 {
+        let (mut open, mut needed, mut exit) = (open, 0.0, 0.0);
+        for stretch in self.stretches.iter().rev() {
+            let (mut way, mut fastest) = (-open, 0.0_f64);
+            for cell in &stretch.cells {
+                way += cell.length;
+                fastest = fastest.max(cell.limits.vel);
+            }
+            open = (-way).max(0.0);
+            if way <= 0.0 {
+                continue;
+            }
+            // It may just be speeding up.
+            let fading = fastest * stretch.acc / stretch.jerk;
+            let slowing = |vel: f64| stretch.limits().slowing(vel, exit) + fading;
+            if slowing(fastest) <= way {
+                return needed + slowing(fastest);
+            }
+            needed += way;
+            exit = if fastest <= exit || slowing(exit) > way {
+                exit.min(fastest)
+            } else {
+                search::highest(exit, fastest, NEAR_ENOUGH, |vel| slowing(vel) - way)
+            };
+        }
+        needed
+    }
+
+    /// The way in s to the end of everything.
+    pub(crate) fn length(&self) -> f64 {
+        self.length
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use arl_robot::kinematics::random::Random;
+
+    #[test]
+    fn the_length_is_that_of_all_cells() {
+        let mut random = Random::new(52);
+        let mut timing = Timing::default();
+        let mut state = State::default();
+        for _ in 0..2000 {
+            match random.between(0.0, 4.0) as u32 {
+                0 => drop(timing.pop()),
+                1 => {
+                    state.at = random.between(0.0, 0.3);
+                    timing.pass(&mut state);
+                }
+                _ => {
+                    let limits = Limits { vel: 1.0, acc: random.between(1.0, 9.0), jerk: 10.0 };
+                    timing.push(
+                        Cell { length: random.between(0.01, 0.1), limits },
+                        random.between(0.0, 1.0) > 0.9,
+                        true,
+                    );
+                }
+            }
+            timing.settle(2);
+            let cells = timing.stretches.iter().flat_map(|stretch| &stretch.cells);
+            assert!((timing.length() - cells.map(|cell| cell.length).sum::<f64>()).abs() < 1e-9);
+        }
+    }
+}

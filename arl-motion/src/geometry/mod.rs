@@ -1,0 +1,8 @@
+//! Curves: lines, circles and splines, and how a parameter goes along them.
+
+pub(crate) mod arc;
+pub(crate) mod derivatives;
+pub(crate) mod parametrization;
+pub(crate) mod quintic;
+pub(crate) mod rotation;
+pub(crate) mod spline;

@@ -1,0 +1,289 @@
+//! How the parameter of a blend goes with time: so that the TCP's speed changes smoothly from that of the one motion to
+//! that of the other, whatever the shape of the blend.
+
+use std::sync::Arc;
+
+use nalgebra::SVector;
+
+use crate::geometry::quintic::{Knot, Quintic};
+use crate::plan::curve::Track;
+
+/// Parts of the time, each with a polynomial of its own.
+const PARTS: usize = 16;
+/// Places of a part at which the way is summed up.
+const PLACES: usize = 8;
+/// The part of the time over which the speed changes at either end.
+const EASING: f64 = 5.0 / 16.0;
+
+/// The parameter of a curve over the share of the nominal time, both from 0 to 1.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Progress {
+    /// By one polynomial.
+    One(Quintic<1>),
+    /// By a polynomial for each part.
+    Many(Arc<[Quintic<1>; PARTS]>),
+}
+
+impl Progress {
+    /// Parts between which the third derivative jumps, all of the same length.
+    pub(crate) const PARTS: usize = PARTS;
+
+    /// Whether its third derivative jumps between parts.
+    pub(crate) fn has_parts(&self) -> bool {
+        matches!(self, Self::Many(_))
+    }
+
+    /// From one rate of the parameter to another, smoothly, each with its change.
+    pub(crate) fn between([start, end]: [[f64; 2]; 2]) -> Self {
+        let knot = |value: f64, [first, second]: [f64; 2]| Knot { value: [value], first: [first], second: [second] };
+        Self::One(Quintic::between(&knot(0.0, start), &knot(1.0, end)))
+    }
+
+    /// As [`Progress::along`], for a way that hardly bends and hardly changes its speed: of its first and second derivatives.
+    pub(crate) fn gently<const N: usize>(
+        derivative: impl Fn(usize, f64) -> SVector<f64, N>,
+        start: [f64; 2],
+        end: [f64; 2],
+    ) -> Option<(Self, f64)> {
+        if start[0] <= 0.0 || end[0] <= 0.0 {
+            return None;
+        }
+        // Gauss's rule with three places.
+        let speed = |at: f64| derivative(1, at).norm();
+        let length =
+            (5.0 * (speed(0.112_701_665_379_258_3) + speed(0.887_298_334_620_741_7)) + 8.0 * speed(0.5)) / 18.0;
+        let time = time_along(length, start, end)?;
+        let knot = |at: f64, [vel, acc]: [f64; 2]| {
+            let (first, second) = (derivative(1, at), derivative(2, at));
+            let rate = time * vel / first.norm();
+            let change = time * time * acc - first.dot(&second) / first.norm() * rate * rate;
+            Knot { value: [at], first: [rate], second: [change / first.norm()] }
+        };
+        let whole = Quintic::between(&knot(0.0, start), &knot(1.0, end));
+        Some((Self::One(whole), time))
+    }
+
+    /// Along `track`, with a speed in mm/s that goes smoothly from that of `start` to that of `end`, and so do their
+    /// accelerations, in mm/s2; with the nominal time in s. `None` where the track or the speed stands still or turns back
+    /// somewhere.
+    pub(crate) fn along(track: &Track, [start, start_acc]: [f64; 2], [end, end_acc]: [f64; 2]) -> Option<(Self, f64)> {
+        const STEPS: usize = PARTS * PLACES;
+        let speed = |at: f64| track.derivative(1, at).norm();
+        // The way up to each place, by Simpson's rule.
+        let mut ways = [0.0; STEPS + 1];
+        let step = 1.0 / STEPS as f64;
+        let mut sum = 0.0;
+        let mut slowest = f64::INFINITY;
+        for (index, way) in ways.iter_mut().enumerate().skip(1) {
+            let at = index as f64 * step;
+            sum += (speed(at - step) + 4.0 * speed(at - step / 2.0) + speed(at)) * step / 6.0;
+            slowest = slowest.min(speed(at)).min(speed(at - step / 2.0));
+            *way = sum;
+        }
+        if slowest < 0.25 * sum || start <= 0.0 || end <= 0.0 {
+            return None;
+        }
+        // The speed over the share of the time is a polynomial of the third degree; its integral is the way.
+        let time = time_along(sum, [start, start_acc], [end, end_acc])?;
+        let (rise, fall) = (time * start_acc, time * end_acc);
+        let wanted = |x: f64| {
+            let easing = x * x * (3.0 - 2.0 * x);
+            start + (end - start) * easing + x * (1.0 - x) * ((1.0 - x) * rise - x * fall)
+        };
+        if (0..=PARTS).any(|part| wanted(part as f64 / PARTS as f64) < 0.25 * start.min(end)) {
+            return None;
+        }
+        let along = Self::of(|share| {
+            let x = share;
+            let eased = x * x * x * (1.0 - x / 2.0);
+            let by_acc = x * x * (rise * (0.5 - x * (2.0 / 3.0 - x / 4.0)) - fall * x * (1.0 / 3.0 - x / 4.0));
+            let way = time * (start * x + (end - start) * eased + by_acc);
+            let mut at = parameter(&ways, way);
+            // The table is a first guess.
+            for _ in 0..3 {
+                let base = (at / step).floor().clamp(0.0, (STEPS - 1) as f64);
+                let from = base * step;
+                let rest = at - from;
+                let part = (speed(from) + 4.0 * speed(from + rest / 2.0) + speed(at)) * rest / 6.0;
+                let there = ways.get(base as usize).copied().unwrap_or(0.0) + part;
+                at = (at + (way - there) / speed(at)).clamp(0.0, 1.0);
+            }
+            let (first, second) = (track.derivative(1, at), track.derivative(2, at));
+            let rate = time * wanted(x) / first.norm();
+            let by_acc = rise * (1.0 + x * (3.0 * x - 4.0)) + fall * x * (3.0 * x - 2.0);
+            let change = time * ((end - start) * 6.0 * x * (1.0 - x) + by_acc);
+            let bend = first.dot(&second) / first.norm();
+            [at, rate, (change - bend * rate * rate) / first.norm()]
+        });
+        Some((along, time))
+    }
+
+    /// Along a way that is so long per unit of the parameter, and changes so, at every place: with a speed that goes
+    /// smoothly from `start` over `middle` to `end`, per s; with the nominal time in s. All of it is above zero.
+    pub(crate) fn eased(gait: impl Fn(f64) -> [f64; 2], [start, middle, end]: [f64; 3]) -> (Self, f64) {
+        const STEPS: usize = 4 * PARTS;
+        let length = |at: f64| gait(at)[0];
+        let step = 1.0 / STEPS as f64;
+        let part = |from: f64, to: f64| {
+            (length(from) + 4.0 * length(f64::midpoint(from, to)) + length(to)) * (to - from) / 6.0
+        };
+        let mut ways = [0.0; STEPS + 1];
+        let mut sum = 0.0;
+        for (index, way) in ways.iter_mut().enumerate().skip(1) {
+            let at = index as f64 * step;
+            sum += part(at - step, at);
+            *way = sum;
+        }
+        // The speed eases like 3 x2 - 2 x3 in the first and in the last part of the time.
+        let easing = |x: f64| x * x * (3.0 - 2.0 * x);
+        let eased = |x: f64| x * x * x * (1.0 - x / 2.0);
+        let mean = middle + EASING * ((start - middle) / 2.0 + (end - middle) / 2.0);
+        let time = sum / mean;
+        let speed = |share: f64| {
+            let (rising, falling) = ((share / EASING).min(1.0), ((1.0 - share) / EASING).min(1.0));
+            let change = |x: f64, from: f64| (middle - from) * 6.0 * x * (1.0 - x) / EASING;
+            let speed = start + (middle - start) * easing(rising) + (end - middle) * (1.0 - easing(falling));
+            let way = middle * share
+                + (start - middle) * EASING * (rising - eased(rising))
+                + (end - middle) * EASING * (0.5 - (falling - eased(falling)));
+            (way, speed, change(rising, start) - change(falling, end))
+        };
+        let along = Self::of(|share| {
+            let (way, speed, change) = speed(share);
+            let way = way * time;
+            let mut at = parameter(&ways, way);
+            // The table is a first guess.
+            for _ in 0..3 {
+                let base = (at / step).floor().clamp(0.0, (STEPS - 1) as f64);
+                let known = ways.get(base as usize).copied().unwrap_or(0.0);
+                at = (at + (way - known - part(base * step, at)) / length(at)).clamp(0.0, 1.0);
+            }
+            if share >= 1.0 {
+                at = 1.0;
+            }
+            let [length, slope] = gait(at);
+            let rate = time * speed / length;
+            [at, rate, (time * change - slope * rate * rate) / length]
+        });
+        (along, time)
+    }
+
+    /// From the value and its first two derivatives at the ends of the parts.
+    fn of(at: impl Fn(f64) -> [f64; 3]) -> Self {
+        let width = 1.0 / PARTS as f64;
+        let knot = |index: usize| {
+            let [value, first, second] = at(index as f64 * width);
+            Knot { value: [value], first: [first * width], second: [second * width * width] }
+        };
+        Self::Many(Arc::new(std::array::from_fn(|index| Quintic::between(&knot(index), &knot(index + 1)))))
+    }
+
+    /// The part that `share` is in, where in it, and how many there are.
+    fn part(&self, share: f64) -> (&Quintic<1>, f64, f64) {
+        match self {
+            Progress::One(whole) => (whole, share.clamp(0.0, 1.0), 1.0),
+            Progress::Many(parts) => {
+                let place = share.clamp(0.0, 1.0) * PARTS as f64;
+                let index = (place as usize).min(PARTS - 1);
+                let [first, ..] = &**parts;
+                (parts.get(index).unwrap_or(first), place - index as f64, PARTS as f64)
+            }
+        }
+    }
+
+    /// The parameter.
+    pub(crate) fn at(&self, share: f64) -> f64 {
+        let (part, place, _) = self.part(share);
+        let [value] = part.at(place);
+        value.clamp(0.0, 1.0)
+    }
+
+    /// The derivative of the order `order`, 1 to 3.
+    pub(crate) fn derivative(&self, order: usize, share: f64) -> f64 {
+        let (part, place, parts) = self.part(share);
+        let [value] = part.derivative(order, place);
+        value * parts.powi(order as i32)
+    }
+}
+
+/// The time in s for a way in mm from one speed and acceleration, in mm/s and mm/s2, smoothly to others.
+fn time_along(way: f64, [start, start_acc]: [f64; 2], [end, end_acc]: [f64; 2]) -> Option<f64> {
+    let (mean, gain) = (f64::midpoint(start, end), (start_acc - end_acc) / 12.0);
+    let inside = mean * mean + 4.0 * gain * way;
+    (inside >= 0.0).then(|| 2.0 * way / (mean + inside.sqrt())).filter(|time| time.is_finite())
+}
+
+/// The parameter at which the table of ways has reached `way`.
+fn parameter(ways: &[f64], way: f64) -> f64 {
+    let after = ways.partition_point(|known| *known < way).clamp(1, ways.len() - 1);
+    let (Some(low), Some(high)) = (ways.get(after - 1), ways.get(after)) else { return 0.0 };
+    ((after - 1) as f64 + (way - low) / (high - low)) / (ways.len() - 1) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_speed_along_a_bend_is_even() {
+        let knot = |value: [f64; 3], first: [f64; 3]| Knot { value, first, second: [0.0; 3] };
+        let bend =
+            Quintic::between(&knot([0.0, 0.0, 0.0], [40.0, 0.0, 0.0]), &knot([20.0, 20.0, 0.0], [0.0, 40.0, 0.0]));
+        let track = Track::Poly(bend.into());
+        for (start, end) in [(100.0, 100.0), (50.0, 300.0)] {
+            let (progress, time) = Progress::along(&track, [start, 0.0], [end, 0.0]).unwrap();
+            assert!((track.length() / time - f64::midpoint(start, end)).abs() < 1e-3);
+            let mut before = 0.0;
+            for step in 0..=1000 {
+                let share = f64::from(step) / 1000.0;
+                let at = progress.at(share);
+                let speed = track.derivative(1, at).norm() * progress.derivative(1, share) / time;
+                let expected = start + (end - start) * share * share * (3.0 - 2.0 * share);
+                assert!((speed - expected).abs() < 2e-3 * expected, "{share}: {speed} {expected}");
+                assert!(at >= before, "{share}: {before} {at}");
+                before = at;
+            }
+            assert!((progress.at(1.0) - 1.0).abs() < 1e-9 && progress.at(0.0) == 0.0);
+        }
+    }
+
+    #[test]
+    fn speed_and_acceleration_are_met_at_both_ends() {
+        let knot = |value: [f64; 3], first: [f64; 3]| Knot { value, first, second: [30.0, -20.0, 10.0] };
+        let track = Track::Poly(
+            Quintic::between(&knot([0.0; 3], [40.0, 0.0, 0.0]), &knot([20.0, 20.0, 0.0], [0.0, 40.0, 5.0])).into(),
+        );
+        let (start, end) = ([100.0, 400.0], [150.0, -300.0]);
+        let (progress, time) = Progress::along(&track, start, end).unwrap();
+        for (share, [speed, acc]) in [(0.0, start), (1.0, end)] {
+            let (first, second) = (track.derivative(1, share), track.derivative(2, share));
+            let (rate, change) = (progress.derivative(1, share) / time, progress.derivative(2, share) / time / time);
+            assert!((first.norm() * rate - speed).abs() < 1e-9);
+            let along = (second * rate * rate + first * change).dot(&first) / first.norm();
+            assert!((along - acc).abs() < 1e-9, "{along}");
+        }
+        // Whatever the parts, the way comes out.
+        assert!((progress.at(1.0) - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn an_eased_way_takes_its_speeds() {
+        let gait = |at: f64| [1.0 + at * (1.0 - at), 1.0 - 2.0 * at];
+        let (progress, time) = Progress::eased(gait, [2.0, 5.0, 1.0]);
+        let mut way = 0.0;
+        for step in 0..=1000 {
+            let share = f64::from(step) / 1000.0;
+            let at = progress.at(share);
+            let speed = gait(at)[0] * progress.derivative(1, share) / time;
+            let wanted = match step {
+                0 => 2.0,
+                320..=680 => 5.0,
+                1000 => 1.0,
+                _ => speed,
+            };
+            assert!((speed - wanted).abs() < 1e-3 && speed > 0.99, "{share}: {speed}");
+            way += speed * time / 1000.0;
+        }
+        assert!((way - (1.0 + 1.0 / 6.0)).abs() < 5e-3 && (progress.at(1.0) - 1.0).abs() < 1e-9, "{way}");
+    }
+}

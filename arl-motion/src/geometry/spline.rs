@@ -1,0 +1,167 @@
+//! Smooth ways through points.
+//!
+//! At each inner point the way has the direction and the curvature of the parabola through the point and its neighbours,
+//! over the lengths of the chords; between them it is a polynomial of the fifth degree, at the ends one that goes on like a
+//! parabola. So a piece depends on no more than two points before it and one behind it, points on a line make a line,
+//! and what is planned already never changes. The tool's rotation and the external axes follow the same rule.
+
+use std::sync::Arc;
+
+use nalgebra::{SVector, UnitQuaternion, Vector3};
+
+use crate::geometry::parametrization::Progress;
+use crate::geometry::quintic::{Knot, Quintic, Way};
+use crate::geometry::rotation;
+use crate::plan::curve::{ToolCurve, Track};
+use arl_robot::kinematics::Frame;
+use arl_robot::robot::EXTERNAL_AXES;
+
+/// Where the TCP and the external axes are at a point of the way.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Place {
+    /// In the base, translation in mm.
+    pub(crate) tcp: Frame,
+    /// In deg (mm).
+    pub(crate) external: [f64; EXTERNAL_AXES],
+}
+
+/// How the way passes an inner point: derivatives by the length of the chords, in mm.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Passing {
+    moved: [Vector3<f64>; 2],
+    /// Speed of rotation in rad per mm, and its derivative.
+    turned: [Vector3<f64>; 2],
+    external: [SVector<f64, EXTERNAL_AXES>; 2],
+    /// The nominal speed of the TCP in mm/s.
+    pub(crate) speed: f64,
+}
+
+/// The cosine of the angle, 150 deg, from which on chords turn back: a way through such a point would almost stop there, and
+/// its tangent would be shorter than `SLOWEST`.
+const BACK: f64 = -0.866_025_404;
+
+/// Where the way is nearly reversed its parameter slows down to this part of the length of the chords, not to nothing.
+const SLOWEST: f64 = 0.25;
+
+impl Place {
+    /// The length of the chord to another place in mm.
+    pub(crate) fn chord(&self, to: &Place) -> f64 {
+        (to.tcp.translation.vector - self.tcp.translation.vector).norm()
+    }
+
+    /// Whether the way from here over a point to another one turns back at that point.
+    pub(crate) fn turns_back(&self, over: &Place, to: &Place) -> bool {
+        let place = |place: &Place| place.tcp.translation.vector;
+        let (first, second) = (place(over) - place(self), place(to) - place(over));
+        first.dot(&second) < BACK * first.norm() * second.norm()
+    }
+
+    fn turning(&self, to: &Place) -> Vector3<f64> {
+        (to.tcp.rotation * self.tcp.rotation.inverse()).scaled_axis()
+    }
+
+    fn external(&self) -> SVector<f64, EXTERNAL_AXES> {
+        self.external.into()
+    }
+}
+
+impl Passing {
+    /// Through `here`, from `before` to `after`; all three apart from each other.
+    pub(crate) fn through([before, here, after]: [&Place; 3], speed: f64) -> Self {
+        let (h0, h1) = (before.chord(here), here.chord(after));
+        let moved = |from: &Place, to: &Place| to.tcp.translation.vector - from.tcp.translation.vector;
+        Self {
+            moved: parabola(h0, moved(before, here), h1, moved(here, after)),
+            turned: parabola(h0, -here.turning(before), h1, here.turning(after)),
+            external: parabola(h0, here.external() - before.external(), h1, after.external() - here.external()),
+            speed,
+        }
+    }
+}
+
+/// First and second derivative in the middle of three points, which are `way0` and `way1` apart over the lengths `h0` and
+/// `h1`.
+fn parabola<const N: usize>(h0: f64, way0: SVector<f64, N>, h1: f64, way1: SVector<f64, N>) -> [SVector<f64, N>; 2] {
+    let (slope0, slope1) = (way0 / h0, way1 / h1);
+    [(slope0 * h1 + slope1 * h0) / (h0 + h1), (slope1 - slope0) * (2.0 / (h0 + h1))]
+}
+
+/// The curve from one point to the next, passing its ends as said, or ending there; with the nominal time in s that it
+/// takes at `speed` mm/s. `base` is a curve that gives everything else.
+pub(crate) fn piece(
+    base: ToolCurve,
+    [from, to]: [&Place; 2],
+    [start, end]: [Option<&Passing>; 2],
+    speed: f64,
+) -> (ToolCurve, f64) {
+    let chord = from.chord(to);
+    let scaled = |[first, second]: [Vector3<f64>; 2]| [first * chord, second * (chord * chord)];
+    let turning = from.turning(to);
+    let moved = polynomial(
+        from.tcp.translation.vector,
+        to.tcp.translation.vector - from.tcp.translation.vector,
+        start.map(|passing| scaled(passing.moved)),
+        end.map(|passing| scaled(passing.moved)),
+    );
+    let turned = polynomial(
+        Vector3::zeros(),
+        turning,
+        start.map(|passing| scaled(passing.turned)),
+        end.map(|passing| rotation::of_speeds(&turning, &scaled(passing.turned))),
+    );
+    let external = |passing: &Passing| {
+        let [first, second] = passing.external;
+        [first * chord, second * (chord * chord)]
+    };
+    let external = polynomial(from.external(), to.external() - from.external(), start.map(external), end.map(external));
+    let [start, end] = [start, end].map(|passing| passing.map_or(speed, |passing| passing.speed));
+    let (progress, time) = Progress::eased(|at| gait(&moved, chord, at), [start, speed, end]);
+    let pace = Arc::new(progress);
+    let curve = ToolCurve {
+        track: Track::Poly(Way::paced(moved, pace.clone())),
+        base: from.tcp.rotation,
+        turning: Way::paced(turned, pace.clone()),
+        external: Way::paced(external, pace),
+        ..base
+    };
+    (curve, time)
+}
+
+/// From `start` by `way`; where an end's derivatives are not given, it goes on as a parabola.
+fn polynomial<const N: usize>(
+    start: SVector<f64, N>,
+    way: SVector<f64, N>,
+    from: Option<[SVector<f64, N>; 2]>,
+    to: Option<[SVector<f64, N>; 2]>,
+) -> Quintic<N> {
+    let free = |first: &SVector<f64, N>, towards: f64| [way * 2.0 - first, (first - way) * (2.0 * towards)];
+    let (from, to) = match (from, to) {
+        (None, None) => return Quintic::even(start.into(), way.into()),
+        (Some(from), Some(to)) => (from, to),
+        (None, Some(to)) => (free(&to[0], 1.0), to),
+        (Some(from), None) => (from, free(&from[0], -1.0)),
+    };
+    let knot = |value: SVector<f64, N>, [first, second]: [SVector<f64, N>; 2]| Knot {
+        value: value.into(),
+        first: first.into(),
+        second: second.into(),
+    };
+    Quintic::between(&knot(start, from), &knot(start + way, to))
+}
+
+/// How long the way is per unit of the parameter, in mm, and how that changes; never much shorter than `SLOWEST` of the
+/// chord.
+fn gait(moved: &Quintic<3>, chord: f64, at: f64) -> [f64; 2] {
+    let (first, second) = (Vector3::from(moved.derivative(1, at)), Vector3::from(moved.derivative(2, at)));
+    let least = SLOWEST * chord;
+    let length = (first.norm_squared().powi(2) + least.powi(4)).sqrt().sqrt();
+    [length, first.norm_squared() * first.dot(&second) / length.powi(3)]
+}
+
+/// The angle in deg by which the tool turns along a curve.
+pub(crate) fn turned(curve: &ToolCurve) -> f64 {
+    const PARTS: u32 = 16;
+    let place = |part: u32| curve.rotation(f64::from(part) / f64::from(PARTS));
+    let angle = |part: u32| UnitQuaternion::angle_to(&place(part), &place(part + 1));
+    (0..PARTS).map(angle).sum::<f64>().to_degrees()
+}

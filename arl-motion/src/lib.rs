@@ -1,0 +1,30 @@
+//! Motion: commands become paths, paths get their timing, and an interpolator follows them cycle by cycle.
+//!
+//! Every motion, and every blend between two, is a stretch of one way with one parameter. Planning finds limits of that
+//! parameter's speed, acceleration and jerk, constant for each stretch, such that *whatever* moves along it within them
+//! keeps every axis and the TCP within theirs. Starting, stopping, resuming and changing the override are then problems of
+//! that one parameter and can never leave the path or break a limit. In the profile O every place has limits of its own, and
+//! the whole of the way ahead is timed at once.
+
+mod blend;
+mod command;
+mod follow;
+mod geometry;
+mod limits;
+mod overlay;
+mod plan;
+mod queue;
+#[cfg(test)]
+mod tests;
+pub mod time_optimal;
+
+pub use blend::zone::Rounding;
+pub use command::{Command, Joints, PlanError, Settings, Speed, Target, UNSET, Zone, is_unset};
+pub use overlay::{Compensation, Reference, Weave, WeaveShape};
+pub use plan::circle_steps::halves;
+pub use plan::gate::{Gate, Lift};
+pub use plan::motion::Motion;
+pub use plan::planner::plan;
+pub use queue::{
+    Closest, Figure, LOOK_AHEAD, Limited, MotionRecord, Progress, Queue, Rate, Recorder, Sharp, Start, Step, Stop,
+};

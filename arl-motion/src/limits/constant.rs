@@ -1,0 +1,212 @@
+//! Constant limits of the path parameter that keep everything that moves with it within its own limits.
+
+use crate::limits::profile::Limits;
+
+/// One quantity at one place of the path: its derivatives by the path parameter, and how fast it may change in time.
+///
+/// A parameter that moves with speed v, acceleration a and jerk j moves the quantity with speed `first` v, acceleration
+/// `first` a + `second` v2, and jerk `first` j + 3 `second` v a + `third` v3. What works with constant limits of the
+/// parameter takes magnitudes of the derivatives.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Bound {
+    pub(crate) first: f64,
+    pub(crate) second: f64,
+    pub(crate) third: f64,
+    pub(crate) vel: f64,
+    pub(crate) acc: f64,
+    pub(crate) jerk: f64,
+}
+
+impl Bound {
+    /// A quantity that changes evenly, by `by` in all.
+    pub(crate) fn even(by: f64, vel: f64, acc: f64, jerk: f64) -> Self {
+        Self { first: by.abs(), second: 0.0, third: 0.0, vel, acc, jerk }
+    }
+
+    /// With the magnitudes of the derivatives.
+    pub(crate) fn size(self) -> Self {
+        Self { first: self.first.abs(), second: self.second.abs(), third: self.third.abs(), ..self }
+    }
+}
+
+/// Shares of the highest speed, and then of the highest acceleration, among which the quickest limits are looked for. At
+/// the full share of either nothing may be left for the rest; at the others something always is.
+const SPEED_SHARES: [f64; 9] = [1.0, 0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3];
+const ACC_SHARES: [f64; 5] = [1.0, 0.9, 0.75, 0.6, 0.4];
+
+/// The highest speed at which no bound is broken, where there is no acceleration.
+pub(crate) fn highest_speed(bounds: &[Bound]) -> f64 {
+    lowest(bounds.iter().flat_map(|bound| {
+        [bound.vel / bound.first, (bound.acc / bound.second).sqrt(), (bound.jerk / bound.third).cbrt()]
+    }))
+}
+
+/// Limits under which the way from 0 to 1 is done soon and no bound is broken, whatever moves within them.
+pub(crate) fn quickest(bounds: &[Bound]) -> Limits {
+    let vel = highest_speed(bounds);
+    if let Some(limits) = hardly_curved(bounds, vel) {
+        return limits;
+    }
+    let curved = bounds.iter().any(|bound| bound.second > 0.0 || bound.third > 0.0);
+    let (speeds, accs) = if curved { (&SPEED_SHARES[..], &ACC_SHARES[..]) } else { (&[1.0][..], &[1.0][..]) };
+    let mut best: Option<(f64, Limits)> = None;
+    for share in speeds {
+        let vel = vel * share;
+        let most = lowest(bounds.iter().flat_map(|bound| {
+            let by_acc = (bound.acc - bound.second * vel * vel) / bound.first;
+            [by_acc, (bound.jerk - bound.third * vel * vel * vel) / (3.0 * bound.second * vel)]
+        }));
+        for share in accs {
+            let acc = most * share;
+            let jerk = lowest(bounds.iter().map(|bound| {
+                (bound.jerk - 3.0 * bound.second * vel * acc - bound.third * vel * vel * vel) / bound.first
+            }));
+            let limits = Limits { vel, acc, jerk };
+            if acc > 0.0 && jerk > 0.0 {
+                let duration = limits.duration(1.0);
+                if best.is_none_or(|(least, _)| duration < least) {
+                    best = Some((duration, limits));
+                }
+            }
+        }
+    }
+    best.map_or(Limits { vel: 1.0, acc: 1.0, jerk: 1.0 }, |(_, limits)| limits)
+}
+
+/// How much of the acceleration and of the jerk that are there at rest is as good as all.
+const AS_GOOD: f64 = 0.98;
+
+/// The limits of a way on which hardly anything is lost to its curvature at the speed `vel`.
+fn hardly_curved(bounds: &[Bound], vel: f64) -> Option<Limits> {
+    let mut rest = Limits { vel, acc: 1e12, jerk: 1e12 };
+    let mut moving = rest;
+    for bound in bounds.iter().filter(|bound| bound.first > 0.0) {
+        let curve = bound.second * vel;
+        rest.acc = rest.acc.min(bound.acc / bound.first);
+        moving.acc = moving.acc.min((bound.acc - curve * vel) / bound.first);
+    }
+    for bound in bounds.iter().filter(|bound| bound.first > 0.0) {
+        let (curve, twist) = (bound.second * vel, bound.third * vel * vel * vel);
+        rest.jerk = rest.jerk.min(bound.jerk / bound.first);
+        moving.jerk = moving.jerk.min((bound.jerk - 3.0 * curve * moving.acc - twist) / bound.first);
+    }
+    // What does not move at first may yet be curved.
+    let still = bounds.iter().filter(|bound| bound.first <= 0.0);
+    let met = |bound: &Bound| {
+        let (curve, twist) = (bound.second * vel, bound.third * vel * vel * vel);
+        curve * vel <= bound.acc && 3.0 * curve * moving.acc + twist <= bound.jerk
+    };
+    let good = moving.acc >= AS_GOOD * rest.acc && moving.jerk >= AS_GOOD * rest.jerk && still.clone().all(met);
+    good.then_some(moving)
+}
+
+/// Shares of the highest speed, fastest first, of which the first is taken that leaves enough to stop with.
+const PASSING_SHARES: [f64; 8] = [1.0, 0.98, 0.96, 0.94, 0.92, 0.88, 0.8, 0.6];
+/// Shares of the acceleration that is left at that speed, among which the one is taken that gets up to it soonest.
+const PASSING_ACC_SHARES: [f64; 9] = [0.95, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1];
+/// How much of the acceleration and of the jerk that are there at rest must be left at speed.
+const LEFT_OVER: f64 = 0.08;
+
+/// Limits for passing through without stopping, no faster than `fastest`, under which no bound is broken.
+pub(crate) fn passing(bounds: &[Bound], fastest: f64) -> Limits {
+    let vel = highest_speed(bounds);
+    let acc_at = |vel: f64| lowest(bounds.iter().map(|bound| (bound.acc - bound.second * vel * vel) / bound.first));
+    let jerk_at =
+        |vel: f64, acc: f64| {
+            lowest(bounds.iter().map(|bound| {
+                (bound.jerk - 3.0 * bound.second * vel * acc - bound.third * vel * vel * vel) / bound.first
+            }))
+        };
+    let (acc_at_rest, jerk_at_rest) = (acc_at(0.0), jerk_at(0.0, 0.0));
+    // At half the speed something is left of both in any case, if no more than what the jerk leaves of the acceleration.
+    let half = (vel * 0.5).min(fastest);
+    let by_jerk = |bound: &Bound| (bound.jerk - bound.third * half * half * half) / (3.0 * bound.second * half);
+    let acc = 0.5 * lowest(bounds.iter().map(by_jerk)).min(acc_at(half));
+    let mut found = Limits { vel: half, acc, jerk: jerk_at(half, acc) };
+    for share in PASSING_SHARES {
+        let vel = (vel * share).min(fastest);
+        // What the acceleration takes of the jerk is shared between the two.
+        let most = acc_at(vel);
+        let mut soonest = f64::INFINITY;
+        for acc_share in PASSING_ACC_SHARES {
+            let acc = most * acc_share;
+            let jerk = jerk_at(vel, acc);
+            let time = vel / acc + acc / jerk;
+            if acc > 0.0 && jerk > 0.0 && time < soonest {
+                (soonest, found) = (time, Limits { vel, acc, jerk });
+            }
+        }
+        if found.vel == vel && found.acc >= LEFT_OVER * acc_at_rest && found.jerk >= LEFT_OVER * jerk_at_rest {
+            return found;
+        }
+    }
+    found
+}
+
+/// The lowest of the values that are numbers and finite; a very high one where there is none.
+fn lowest(values: impl Iterator<Item = f64>) -> f64 {
+    values.filter(|value| value.is_finite()).fold(1e12, f64::min)
+}
+
+#[cfg(test)]
+impl Bound {
+    /// Any, over orders of magnitude.
+    pub(crate) fn random(random: &mut arl_robot::kinematics::random::Random) -> Self {
+        let mut some = |low: f64, high: f64| 10.0_f64.powf(random.between(low, high));
+        Self {
+            first: some(-2.0, 2.0),
+            second: some(-3.0, 3.0),
+            third: some(-3.0, 4.0),
+            vel: some(0.0, 2.0),
+            acc: some(1.0, 3.0),
+            jerk: some(2.0, 4.0),
+        }
+    }
+
+    /// Whatever moves within the limits must not break it.
+    pub(crate) fn assert_kept(&self, Limits { vel, acc, jerk }: Limits) {
+        assert!(self.first * vel <= self.vel * 1.000_001);
+        assert!(self.first * acc + self.second * vel * vel <= self.acc * 1.000_001);
+        let third = self.third * vel.powi(3) + 3.0 * self.second * vel * acc + self.first * jerk;
+        assert!(third <= self.jerk * 1.000_001, "{self:?} {third}");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use arl_robot::kinematics::random::Random;
+
+    #[test]
+    fn no_bound_is_broken_by_any_motion_within_the_limits() {
+        let mut random = Random::new(21);
+        for _ in 0..2000 {
+            let bounds: Vec<Bound> = (0..20).map(|_| Bound::random(&mut random)).collect();
+            let limits = quickest(&bounds);
+            assert!(limits.vel > 0.0 && limits.acc > 0.0 && limits.jerk > 0.0);
+            for bound in &bounds {
+                bound.assert_kept(limits);
+            }
+        }
+    }
+
+    #[test]
+    fn no_bound_is_broken_by_whatever_passes() {
+        let mut random = Random::new(22);
+        for round in 0..3000 {
+            let bounds: Vec<Bound> = (0..1 + round % 20).map(|_| Bound::random(&mut random)).collect();
+            let fastest = highest_speed(&bounds) * 10.0_f64.powf(random.between(-1.0, 1.0));
+            let limits = passing(&bounds, fastest);
+            assert!(limits.vel > 0.0 && limits.acc > 0.0 && limits.jerk > 0.0 && limits.vel <= fastest);
+            for bound in &bounds {
+                bound.assert_kept(limits);
+            }
+        }
+    }
+
+    #[test]
+    fn even_motion_takes_its_limits_whole() {
+        let limits = quickest(&[Bound::even(-90.0, 180.0, 900.0, 9000.0), Bound::even(10.0, 100.0, 1000.0, 1e4)]);
+        assert_eq!(limits, Limits { vel: 2.0, acc: 10.0, jerk: 100.0 });
+    }
+}

@@ -1,0 +1,5 @@
+//! Limits of one parameter: constant ones, and jerk-limited changes of speed within them.
+
+pub(crate) mod constant;
+pub(crate) mod profile;
+pub(crate) mod search;

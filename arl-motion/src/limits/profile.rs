@@ -1,0 +1,209 @@
+//! Jerk-limited changes of one parameter's speed.
+
+/// Limits of the parameter's speed, acceleration and jerk, per s, s2, s3.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Limits {
+    pub(crate) vel: f64,
+    pub(crate) acc: f64,
+    pub(crate) jerk: f64,
+}
+
+impl Limits {
+    /// The limits of the same profile run at `factor` of its speed.
+    pub(crate) fn slowed(self, factor: f64) -> Self {
+        Self { vel: self.vel * factor, acc: self.acc * factor * factor, jerk: self.jerk * factor * factor * factor }
+    }
+
+    /// With a jerk so low that the acceleration takes at least `time` s to rise.
+    pub(crate) fn rising_in(self, time: f64) -> Self {
+        Self { jerk: self.jerk.min(self.acc / time), ..self }
+    }
+
+    /// The way of the change from one speed, without acceleration, to a lower one without: the mean speed times the time.
+    pub(crate) fn slowing(&self, from: f64, to: f64) -> f64 {
+        let Self { acc, jerk, .. } = *self;
+        let change = (from - to).max(0.0);
+        let time = if change * jerk > acc * acc { change / acc + acc / jerk } else { 2.0 * (change / jerk).sqrt() };
+        f64::midpoint(from, to) * time
+    }
+
+    /// The highest speed of the shortest profile from rest to rest over `distance`.
+    fn peak(&self, distance: f64) -> f64 {
+        let Limits { vel, acc, jerk } = *self;
+        let ramp = acc / jerk;
+        // The speed whose two ramps take up the whole distance: with the full acceleration, else without.
+        let full = 0.5 * acc * ((ramp * ramp + 4.0 * distance / acc).sqrt() - ramp);
+        let peak = if full >= acc * ramp { full } else { (0.25 * distance * distance * jerk).cbrt() };
+        peak.min(vel)
+    }
+
+    /// The duration of the shortest profile from rest to rest over `distance`.
+    pub(crate) fn duration(&self, distance: f64) -> f64 {
+        let peak = self.peak(distance);
+        let ramp = Change::new(0.0, 0.0, peak, self);
+        let rest = (distance - 2.0 * ramp.distance(0.0, 0.0)).max(0.0);
+        2.0 * ramp.duration() + if peak > 0.0 { rest / peak } else { 0.0 }
+    }
+
+    /// The same where slowing down counts on `braking` times the acceleration and jerk only.
+    pub(crate) fn duration_braking(&self, distance: f64, braking: f64) -> f64 {
+        let gently = Self { acc: self.acc * braking, jerk: self.jerk * braking, ..*self };
+        let ramps = |peak: f64| [Change::new(0.0, 0.0, peak, self), Change::new(peak, 0.0, 0.0, &gently)];
+        let way = |peak: f64| {
+            let [up, down] = ramps(peak);
+            up.distance(0.0, 0.0) + down.distance(peak, 0.0)
+        };
+        let mut peak = self.vel;
+        if way(peak) > distance {
+            let mut low = 0.0;
+            for _ in 0..60 {
+                let middle = f64::midpoint(low, peak);
+                if way(middle) <= distance { low = middle } else { peak = middle }
+            }
+        }
+        let rest = (distance - way(peak)).max(0.0);
+        ramps(peak).iter().map(Change::duration).sum::<f64>() + if peak > 0.0 { rest / peak } else { 0.0 }
+    }
+}
+
+/// Where the parameter is and how it moves.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub(crate) struct State {
+    pub(crate) at: f64,
+    pub(crate) vel: f64,
+    pub(crate) acc: f64,
+}
+
+impl State {
+    pub(crate) fn rests(&self) -> bool {
+        self.vel == 0.0 && self.acc == 0.0
+    }
+
+    /// The state after `time` s of constant jerk.
+    pub(crate) fn after(&self, jerk: f64, time: f64) -> Self {
+        Self {
+            at: self.at + time * (self.vel + time * (self.acc / 2.0 + time * jerk / 6.0)),
+            vel: self.vel + time * (self.acc + time * jerk / 2.0),
+            acc: self.acc + time * jerk,
+        }
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+struct Phase {
+    time: f64,
+    jerk: f64,
+}
+
+/// The quickest change from one speed and acceleration to another speed without acceleration.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub(crate) struct Change {
+    phases: [Phase; 3],
+}
+
+impl Change {
+    pub(crate) fn new(vel: f64, acc: f64, goal: f64, limits: &Limits) -> Self {
+        let (most, jerk) = (limits.acc, limits.jerk);
+        // The speed that is left when the acceleration just fades out tells whether to speed up or slow down.
+        let fading = vel + acc * acc.abs() / (2.0 * jerk);
+        let sign = if goal >= fading { 1.0 } else { -1.0 };
+        let (acc, gain) = (acc * sign, (goal - vel) * sign);
+        let free = (jerk * gain + acc * acc / 2.0).max(0.0).sqrt();
+        let peak = free.min(most);
+        let hold = if free > most {
+            // What the two ramps do not gain; the first one falls where the acceleration is too high already.
+            let ramps = (peak * peak + (peak * peak - acc * acc) * (peak - acc).signum()) / (2.0 * jerk);
+            ((gain - ramps) / peak).max(0.0)
+        } else {
+            0.0
+        };
+        let first = peak - acc;
+        let phase = |time: f64, jerk: f64| Phase { time, jerk: jerk * sign };
+        Self { phases: [phase(first.abs() / jerk, jerk * first.signum()), phase(hold, 0.0), phase(peak / jerk, -jerk)] }
+    }
+
+    pub(crate) fn duration(&self) -> f64 {
+        self.phases.iter().map(|phase| phase.time).sum()
+    }
+
+    /// The state `time` s after `state`, which the change was made for; behind its end the speed stays.
+    pub(crate) fn after(&self, state: State, time: f64) -> State {
+        let mut state = state;
+        let mut left = time;
+        for phase in self.phases {
+            let time = phase.time.min(left);
+            state = state.after(phase.jerk, time);
+            left -= time;
+            if left <= 0.0 {
+                return state;
+            }
+        }
+        State { at: state.at + state.vel * left, acc: 0.0, ..state }
+    }
+
+    /// What is left of it `time` s after the start.
+    pub(crate) fn later(&self, time: f64) -> Self {
+        let mut passed = time;
+        let phases = self.phases.map(|phase| {
+            let here = phase.time.min(passed);
+            passed -= here;
+            Phase { time: phase.time - here, ..phase }
+        });
+        Self { phases }
+    }
+
+    /// The jerk `time` s after the start.
+    pub(crate) fn jerk(&self, time: f64) -> f64 {
+        let mut end = 0.0;
+        for phase in self.phases {
+            end += phase.time;
+            if time < end {
+                return phase.jerk;
+            }
+        }
+        0.0
+    }
+
+    /// How far the change goes from a start with this speed and acceleration.
+    pub(crate) fn distance(&self, vel: f64, acc: f64) -> f64 {
+        let start = State { at: 0.0, vel, acc };
+        self.phases.iter().fold(start, |state, phase| state.after(phase.jerk, phase.time)).at
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use arl_robot::kinematics::random::Random;
+
+    #[test]
+    fn known_durations() {
+        // Cruising: 1 s at 1/s and two ramps of 0.25 s + 0.1 s (0.175 each).
+        let limits = Limits { vel: 1.0, acc: 4.0, jerk: 40.0 };
+        assert!((limits.duration(1.35) - (1.0 + 0.7)).abs() < 1e-12);
+        // Jerk only: four equal phases of t with 2 j t3 covered.
+        let limits = Limits { vel: 10.0, acc: 10.0, jerk: 4.0 };
+        assert!((limits.duration(1.0) - 4.0 * 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_change_reaches_its_speed_within_the_limits() {
+        let mut random = Random::new(12);
+        for _ in 0..5000 {
+            let limits = Limits { vel: 1.0, acc: random.between(0.5, 20.0), jerk: random.between(1.0, 500.0) };
+            let acc = random.between(-limits.acc, limits.acc);
+            let (vel, goal) = (random.between(0.0, 2.0), random.between(0.0, 2.0));
+            let change = Change::new(vel, acc, goal, &limits);
+            let mut state = State { at: 0.0, vel, acc };
+            for phase in change.phases {
+                assert!(phase.time >= 0.0 && phase.jerk.abs() <= limits.jerk);
+                state = state.after(phase.jerk, phase.time);
+                assert!(state.acc.abs() <= limits.acc * 1.000_001, "{change:?}");
+            }
+            assert!((state.vel - goal).abs() < 1e-9 && state.acc.abs() < 1e-9, "{state:?}");
+            assert!((state.at - change.distance(vel, acc)).abs() < 1e-12);
+            let slowing = Change::new(vel, 0.0, goal, &limits).distance(vel, 0.0);
+            assert!(goal > vel || (slowing - limits.slowing(vel, goal)).abs() < 1e-12);
+        }
+    }
+}

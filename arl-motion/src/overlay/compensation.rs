@@ -1,0 +1,280 @@
+//! Compensation: paths that are shifted and turned in frames that a program chooses, bit by bit.
+
+use nalgebra::{UnitQuaternion, Vector3};
+
+use crate::command::Settings;
+use crate::limits::constant::Bound;
+use crate::overlay::path_frame::{PathFrame, Rates, carried};
+use crate::overlay::{easing, paced, times};
+use crate::plan::curve::ToolCurve;
+use arl_robot::frames::{Carried, Rig};
+use arl_robot::kinematics::frame;
+
+/// The frame along and about whose axes a compensation counts.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Reference {
+    /// The tool frame.
+    Tool,
+    /// The workpiece frame of the motion.
+    Wobj,
+    /// x along the path, y across x and the tool's z axis, z across both.
+    ToolPath,
+    /// The same, but y keeps its side where the path turns back. It does not turn the tool.
+    ModifyPath,
+    /// The world frame.
+    World,
+}
+
+/// How many frames there are.
+const REFERENCES: usize = 5;
+
+/// What compensates the motions that are planned: nothing to begin with.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Compensation {
+    /// Its running number: a motion takes over where the one before it was led only within the same compensation.
+    pub number: u32,
+    /// How fast it may grow: mm/s, mm/s2, mm/s3, deg/s, deg/s2, deg/s3; each above 0.
+    pub limits: [f64; 6],
+    totals: [[f64; 6]; REFERENCES],
+}
+
+impl Compensation {
+    /// One that compensates nothing yet.
+    pub fn new(number: u32, limits: [f64; 6]) -> Self {
+        Self { number, limits, totals: [[0.0; 6]; REFERENCES] }
+    }
+
+    /// Adds to what is compensated in a frame: x, y, z in mm, a, b, c in deg.
+    pub fn add(&mut self, reference: Reference, by: &[f64; 6]) {
+        if let Some(total) = self.totals.get_mut(reference as usize) {
+            for (total, by) in total.iter_mut().zip(by) {
+                *total += by;
+            }
+        }
+    }
+
+    /// What is compensated in a frame in all: x, y, z in mm, a, b, c in deg.
+    pub fn total(&self, reference: Reference) -> [f64; 6] {
+        self.totals.get(reference as usize).copied().unwrap_or_default()
+    }
+
+    /// Whether it needs the direction of the path.
+    pub(crate) fn follows_path(&self) -> bool {
+        [Reference::ToolPath, Reference::ModifyPath].iter().any(|reference| self.total(*reference) != [0.0; 6])
+    }
+}
+
+/// How far, in mm, and how, as a rotation vector in rad, the TCP is led away from its way: along and about the axes of what the
+/// way is seen from, unless said otherwise.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub(crate) struct Lead {
+    shift: Vector3<f64>,
+    turn: Vector3<f64>,
+}
+
+impl Lead {
+    fn of([x, y, z, a, b, c]: [f64; 6]) -> Self {
+        Self { shift: Vector3::new(x, y, z), turn: frame([0.0, 0.0, 0.0, a, b, c]).rotation.scaled_axis() }
+    }
+
+    fn rotated(&self, by: &UnitQuaternion<f64>) -> Self {
+        Self { shift: by * self.shift, turn: by * self.turn }
+    }
+
+    fn plus(&self, other: &Lead) -> Self {
+        Self { shift: self.shift + other.shift, turn: self.turn + other.turn }
+    }
+
+    /// The frame that is led to `at`, before it was led.
+    pub(crate) fn undone(&self, at: &arl_robot::kinematics::Frame) -> arl_robot::kinematics::Frame {
+        let rotation = UnitQuaternion::from_scaled_axis(-self.turn) * at.rotation;
+        arl_robot::kinematics::Frame::from_parts((at.translation.vector - self.shift).into(), rotation)
+    }
+}
+
+/// How a compensation stands at the end of a motion, for the next one.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub(crate) struct Led {
+    pub(crate) lead: Lead,
+    /// Which compensation it is; 0 for none.
+    pub(crate) number: u32,
+    /// y of [`Reference::ModifyPath`], along the axes of the way.
+    across: Option<Vector3<f64>>,
+    /// What the robot carries.
+    carried: Option<Carried>,
+}
+
+impl Led {
+    /// What of it a motion takes over: nothing under another compensation or none, or where ways are seen from elsewhere.
+    pub(crate) fn for_next(&self, settings: &Settings, rig: &Rig) -> Self {
+        let goes_on = settings.compensation.is_some_and(|compensation| compensation.number == self.number);
+        let alike = match (self.carried, rig.carried) {
+            (Some(Carried::Tool(_)), Carried::Tool(_)) => true,
+            (before, now) => before == Some(now),
+        };
+        if goes_on && alike { *self } else { Self::default() }
+    }
+}
+
+/// A compensation along one motion: from how the motion before was led to what is asked for.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Shift {
+    from: Lead,
+    /// In axes of what the way is seen from.
+    fixed: Lead,
+    /// In axes of the tool.
+    tool: Lead,
+    /// In axes of the path's frame.
+    path: Lead,
+    /// The part of the motion on which it grows; 0 where it is there already.
+    within: f64,
+    /// How fast it may grow.
+    limits: [f64; 6],
+    /// How far it grows, in mm and deg.
+    by: [f64; 2],
+    number: u32,
+    /// Whether y of the path's frame is turned over for [`Reference::ModifyPath`].
+    side: f64,
+}
+
+/// The longest that an easing of length 1 goes at once: its highest speed, acceleration, jerk.
+const EASING_PEAKS: [f64; 3] = [1.875, 5.773_502_691_896_258, 60.0];
+/// What is left for the motion's own changes of speed: growing takes so much longer than it has to.
+const UNHURRIED: f64 = 1.3;
+/// Less, in mm and deg, is nothing to go.
+const NOTHING: f64 = 1e-9;
+/// It grows over no less than this part of a motion.
+const LEAST_PART: f64 = 1.0 / 16.0;
+
+impl Shift {
+    /// The compensation of a motion along `curve` that takes `seconds` at its full speed. `workpiece` and `world` are the
+    /// orientations of the workpiece frame and of the world, seen like the way.
+    pub(crate) fn new(
+        compensation: &Compensation,
+        before: &Led,
+        curve: &ToolCurve,
+        path: Option<&PathFrame>,
+        [workpiece, world]: [&UnitQuaternion<f64>; 2],
+        seconds: f64,
+    ) -> Self {
+        let total = |reference| Lead::of(compensation.total(reference));
+        let world = total(Reference::World).rotated(world);
+        let fixed = total(Reference::Wobj).rotated(workpiece).plus(&world);
+        let across = path.map(|path| path.rotation(0.0) * Vector3::y());
+        let back = across.zip(before.across).is_some_and(|(here, before)| here.dot(&before) < -1e-6);
+        let side = if back { -1.0 } else { 1.0 };
+        let mut modified = total(Reference::ModifyPath);
+        modified.shift.y *= side;
+        modified.turn = Vector3::zeros();
+        let mut shift = Self {
+            from: before.lead,
+            fixed,
+            tool: total(Reference::Tool),
+            path: total(Reference::ToolPath).plus(&modified),
+            within: 0.0,
+            limits: compensation.limits,
+            by: [0.0; 2],
+            number: compensation.number,
+            side,
+        };
+        if path.is_none() && compensation.follows_path() {
+            // A motion without a direction keeps what there is.
+            (shift.fixed, shift.tool, shift.path) = (before.lead, Lead::default(), Lead::default());
+        }
+        let target = shift.target(curve, path, 0.0);
+        let by = [(target.shift - shift.from.shift).norm(), (target.turn - shift.from.turn).norm().to_degrees()];
+        if by.iter().any(|by| *by > NOTHING) {
+            let needed = by.iter().zip(shift.limits.chunks(3)).map(|(by, limits)| least_time(*by, limits));
+            let part = UNHURRIED * needed.fold(0.0, f64::max) / seconds;
+            shift.within = if part.is_nan() { 1.0 } else { part.clamp(LEAST_PART, 1.0) };
+            shift.by = by;
+        }
+        shift
+    }
+
+    /// How the motion behind this one begins.
+    pub(crate) fn led(&self, curve: &ToolCurve, path: Option<&PathFrame>) -> Led {
+        let across = path.map(|path| path.rotation(1.0) * Vector3::y() * self.side);
+        Led { lead: self.target(curve, path, 1.0), number: self.number, across, carried: Some(curve.carried) }
+    }
+
+    /// What it grows to, as it stands at `at`.
+    fn target(&self, curve: &ToolCurve, path: Option<&PathFrame>, at: f64) -> Lead {
+        let along = path.map_or_else(Lead::default, |path| self.path.rotated(&path.rotation(at)));
+        self.fixed.plus(&self.tool.rotated(&curve.plain_rotation(at))).plus(&along)
+    }
+
+    fn growth(&self, at: f64) -> [f64; 4] {
+        if self.within > 0.0 { paced(easing(at / self.within), 1.0 / self.within) } else { [1.0, 0.0, 0.0, 0.0] }
+    }
+
+    /// What is added to the place of the TCP, with its derivatives.
+    pub(crate) fn offset(&self, curve: &ToolCurve, path: Option<&PathFrame>, at: f64) -> Rates {
+        let still = |vector: Vector3<f64>| [vector, Vector3::zeros(), Vector3::zeros(), Vector3::zeros()];
+        let tool = carried(&curve.plain_rotation(at), &curve.plain_rotation_rates(at), &still(self.tool.shift));
+        let along = path.map_or(still(Vector3::zeros()), |path| {
+            carried(&path.rotation(at), &path.turning(at), &still(self.path.shift))
+        });
+        let fixed = still(self.fixed.shift - self.from.shift);
+        let mut rates: Rates = std::array::from_fn(|order| {
+            [fixed, tool, along].iter().filter_map(|rates| rates.get(order)).sum::<Vector3<f64>>()
+        });
+        rates = times(self.growth(at), rates);
+        let [place, ..] = &mut rates;
+        *place += self.from.shift;
+        rates
+    }
+
+    /// The rotation vector by which the TCP is turned.
+    pub(crate) fn turned(&self, curve: &ToolCurve, path: Option<&PathFrame>, at: f64) -> Vector3<f64> {
+        let [growth, ..] = self.growth(at);
+        self.from.turn.lerp(&self.target(curve, path, at).turn, growth)
+    }
+
+    /// Whether it turns the tool at all.
+    pub(crate) fn turns(&self) -> bool {
+        [self.from, self.fixed, self.tool, self.path].iter().any(|lead| lead.turn != Vector3::zeros())
+    }
+
+    /// Whether it leads the TCP anywhere.
+    pub(crate) fn leads(&self) -> bool {
+        [self.from, self.fixed, self.tool, self.path].iter().any(|lead| *lead != Lead::default())
+    }
+
+    /// Whether it is not all there from the start.
+    pub(crate) fn grows(&self) -> bool {
+        self.within > 0.0
+    }
+
+    /// The part of the motion on which it does not change much.
+    pub(crate) fn grain(&self) -> f64 {
+        if self.grows() { self.within / 32.0 } else { 1.0 }
+    }
+
+    /// What keeps its growing within its limits.
+    pub(crate) fn bounds(&self) -> Vec<Bound> {
+        const PLACES: u32 = 24;
+        let mut rows = Vec::new();
+        for place in 0..=if self.grows() { PLACES } else { 0 } {
+            let [_, first, second, third] = self.growth(self.within * f64::from(place) / f64::from(PLACES));
+            for (by, limits) in self.by.iter().zip(self.limits.chunks(3)) {
+                if let (&[vel, acc, jerk], true) = (limits, *by > NOTHING) {
+                    let [first, second, third] = [first, second, third].map(|rate| rate.abs() * by);
+                    rows.push(Bound { first, second, third, vel, acc, jerk });
+                }
+            }
+        }
+        rows
+    }
+}
+
+/// The least time in s in which an easing over `by` keeps to limits of speed, acceleration and jerk.
+fn least_time(by: f64, limits: &[f64]) -> f64 {
+    let [vel, acc, jerk] = EASING_PEAKS;
+    match limits {
+        [most_vel, most_acc, most_jerk] => {
+            (vel * by / most_vel).max((acc * by / most_acc).sqrt()).max((jerk * by / most_jerk).cbrt())
+        }
+        _ => 0.0,
+    }
+}

@@ -1,0 +1,287 @@
+//! The figures of a weave: where the TCP is beside the path, over the time.
+
+use nalgebra::{Rotation3, Vector3};
+
+use crate::overlay::path_frame::Rates;
+
+/// The figure of a weave.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum WeaveShape {
+    /// From side to side: evenly swinging or, with dwells, straight with stays at the sides and in the middle.
+    Simple,
+    /// Up the two sides of a V and back.
+    VShape,
+    /// Up one side of a V, across, and down the other one.
+    Triangle,
+    /// Round an ellipse, half as long along the path as `radius` says and half as wide as `amplitude` says.
+    Ellipse,
+    /// Along an eight that lies across the path, its loops `radius` to each side along the path.
+    Eight,
+}
+
+/// A weave: a figure that is laid over the paths of the TCP again and again.
+///
+/// Its frame has x along the path, y to the left, and z away from what the tool points at.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Weave {
+    /// The figure.
+    pub shape: WeaveShape,
+    /// Figures per s, stays not counted; above 0.
+    pub frequency: f64,
+    /// The largest distance from the path in mm, 0 or more.
+    pub amplitude: f64,
+    /// Stays at the left side, at the right side, and in the middle each time that it is passed, in s, 0 or more.
+    pub dwells: [f64; 3],
+    /// The angle between the sides of the V and of the triangle, deg, 0 to 180.
+    pub angle: f64,
+    /// Half the length of ellipse and eight along the path, in mm, 0 or more.
+    pub radius: f64,
+    /// How far the figure is turned about an axis of its frame, as a rotation vector in rad.
+    pub turned: Vector3<f64>,
+}
+
+impl Weave {
+    /// The time that a figure takes with its stays, in s.
+    pub fn period(&self) -> f64 {
+        let [left, right, middle] = self.dwells;
+        let stays = match self.shape {
+            WeaveShape::Simple | WeaveShape::VShape => left + right + 2.0 * middle,
+            WeaveShape::Triangle => left + right + middle,
+            WeaveShape::Ellipse | WeaveShape::Eight => 0.0,
+        };
+        1.0 / self.frequency + stays
+    }
+
+    /// Whether it has corners, which have to be rounded.
+    pub(crate) fn is_cornered(&self) -> bool {
+        match self.shape {
+            WeaveShape::Simple => self.dwells.iter().any(|stay| *stay > 0.0),
+            WeaveShape::VShape | WeaveShape::Triangle => true,
+            WeaveShape::Ellipse | WeaveShape::Eight => false,
+        }
+    }
+}
+
+/// A place where a straight leg of the figure begins: when, where, and how fast it goes on from there.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct Leg {
+    time: f64,
+    place: Vector3<f64>,
+    speed: Vector3<f64>,
+}
+
+#[derive(Clone, PartialEq, Debug)]
+enum Figure {
+    /// `sine sin(w t) + cosine (cos(w t) - 1) + double sin(2 w t)`.
+    Smooth { rate: f64, sine: Vector3<f64>, cosine: Vector3<f64>, double: Vector3<f64> },
+    /// Legs whose corners are rounded over `rounding` s on both sides.
+    Cornered { legs: Vec<Leg>, rounding: f64 },
+}
+
+/// A figure that can be followed: twice differentiable, its third derivative finite.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Pattern {
+    figure: Figure,
+    pub(crate) period: f64,
+}
+
+/// Places at which a figure is measured.
+const PLACES: u32 = 512;
+
+impl Pattern {
+    /// The figure of `weave`; corners are rounded over `rounding` s before and behind them.
+    pub(crate) fn new(weave: &Weave, rounding: f64) -> Self {
+        let period = weave.period();
+        let turned = Rotation3::new(weave.turned);
+        let across = turned * Vector3::y() * weave.amplitude;
+        let along = turned * Vector3::x() * weave.radius;
+        let rate = std::f64::consts::TAU / period;
+        let none = Vector3::zeros();
+        let figure = match weave.shape {
+            _ if weave.is_cornered() => return Self::cornered(weave, &turned, rounding),
+            WeaveShape::Ellipse => Figure::Smooth { rate, sine: across, cosine: along, double: none },
+            WeaveShape::Eight => Figure::Smooth { rate, sine: across, cosine: none, double: along },
+            _ => Figure::Smooth { rate, sine: across, cosine: none, double: none },
+        };
+        Self { figure, period }
+    }
+
+    fn cornered(weave: &Weave, turned: &Rotation3<f64>, rounding: f64) -> Self {
+        let half = if weave.shape == WeaveShape::Simple { 90.0 } else { weave.angle / 2.0 };
+        let (sine, cosine) = half.to_radians().sin_cos();
+        let side = |sign: f64| {
+            let cosine = if weave.shape == WeaveShape::Simple { 0.0 } else { cosine };
+            turned * Vector3::new(0.0, sign * sine, cosine) * weave.amplitude
+        };
+        let (left, right, middle) = (side(1.0), side(-1.0), Vector3::zeros());
+        let [stay_left, stay_right, stay_middle] = weave.dwells;
+        let stops: &[(Vector3<f64>, f64)] = match weave.shape {
+            WeaveShape::Triangle => &[(left, stay_left), (right, stay_right), (middle, stay_middle)],
+            _ => &[(left, stay_left), (middle, stay_middle), (right, stay_right), (middle, stay_middle)],
+        };
+        // The legs share the time by their lengths.
+        let ways = |stops: &[(Vector3<f64>, f64)]| {
+            let mut from = middle;
+            stops.iter().map(|(to, _)| (to - std::mem::replace(&mut from, *to)).norm()).sum::<f64>()
+        };
+        let whole = ways(stops).max(f64::MIN_POSITIVE);
+        let mut legs = Vec::with_capacity(2 * stops.len());
+        let (mut time, mut from) = (0.0, middle);
+        for (to, stay) in stops {
+            let needed = (to - from).norm() / whole / weave.frequency;
+            let moving = (needed > 0.0).then(|| Leg { time, place: from, speed: (to - from) / needed });
+            let staying = (*stay > 0.0).then(|| Leg { time: time + needed, place: *to, speed: Vector3::zeros() });
+            legs.extend(moving.into_iter().chain(staying));
+            (time, from) = (time + needed + stay, *to);
+        }
+        let period = if time > 0.0 { time } else { weave.period() };
+        let mut pattern = Self { figure: Figure::Cornered { legs, rounding }, period };
+        // Rounding cuts the corners off: the figure is made so much larger that it goes as far as it shall.
+        let widest = (0..PLACES).map(|place| pattern.at(period * f64::from(place) / f64::from(PLACES)));
+        let widest = widest.map(|[offset, ..]| offset.norm()).fold(0.0, f64::max);
+        if let Figure::Cornered { legs, .. } = &mut pattern.figure
+            && widest > 0.0
+        {
+            for leg in legs {
+                leg.place *= weave.amplitude / widest;
+                leg.speed *= weave.amplitude / widest;
+            }
+        }
+        pattern
+    }
+
+    /// The largest change of speed at a corner, in mm/s.
+    pub(crate) fn sharpest(&self) -> f64 {
+        let Figure::Cornered { legs, .. } = &self.figure else { return 0.0 };
+        let before = legs.iter().cycle().skip(legs.len().saturating_sub(1));
+        legs.iter().zip(before).map(|(leg, before)| (leg.speed - before.speed).norm()).fold(0.0, f64::max)
+    }
+
+    /// Over how many s the figure changes at least.
+    pub(crate) fn grain(&self) -> f64 {
+        match &self.figure {
+            Figure::Smooth { double, .. } if *double != Vector3::zeros() => self.period / 64.0,
+            Figure::Smooth { .. } => self.period / 32.0,
+            Figure::Cornered { rounding, .. } => (rounding / 3.0).min(self.period / 32.0),
+        }
+    }
+
+    /// The offset from the path after `time` s, in mm, in the frame of the path, with its derivatives by the time.
+    pub(crate) fn at(&self, time: f64) -> Rates {
+        match &self.figure {
+            Figure::Smooth { rate, sine, cosine, double } => {
+                let ((s, c), (s2, c2)) = ((rate * time).sin_cos(), (2.0 * rate * time).sin_cos());
+                let r = 2.0 * rate;
+                [
+                    sine * s + cosine * (c - 1.0) + double * s2,
+                    (sine * c - cosine * s) * *rate + double * (c2 * r),
+                    -(sine * s + cosine * c) * (rate * rate) - double * (s2 * r * r),
+                    (cosine * s - sine * c) * (rate * rate * rate) - double * (c2 * r * r * r),
+                ]
+            }
+            Figure::Cornered { legs, rounding } => self.rounded(legs, *rounding, time.rem_euclid(self.period)),
+        }
+    }
+
+    /// The legs, averaged over the time around `time`: what is straight stays so, a corner becomes smooth.
+    fn rounded(&self, legs: &[Leg], rounding: f64, time: f64) -> Rates {
+        let after = legs.partition_point(|leg| leg.time <= time);
+        let Some(here) = legs.get(after.saturating_sub(1)) else { return [Vector3::zeros(); 4] };
+        let mut rates = [here.place + here.speed * (time - here.time), here.speed, Vector3::zeros(), Vector3::zeros()];
+        let [place, first, second, third] = &mut rates;
+        let mut before = legs.last().unwrap_or(here).speed;
+        for leg in legs {
+            let change = leg.speed - before;
+            before = leg.speed;
+            for lap in [-self.period, 0.0, self.period] {
+                let x = (time - leg.time - lap) / rounding;
+                if x.abs() >= 1.0 {
+                    continue;
+                }
+                // A ramp that begins at the corner, averaged with the weights 3/4 (1 - x2), less the ramp itself.
+                let (ramp, step) = if x >= 0.0 { (x, 1.0) } else { (0.0, 0.0) };
+                let square = x * x;
+                *place += change * (rounding * (0.1875 + x * 0.5 + square * (0.375 - square * 0.0625) - ramp));
+                *first += change * (0.5 + x * (0.75 - square * 0.25) - step);
+                *second += change * (0.75 * (1.0 - square) / rounding);
+                *third -= change * (1.5 * x / (rounding * rounding));
+            }
+        }
+        rates
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn weave(shape: WeaveShape) -> Weave {
+        Weave {
+            shape,
+            frequency: 2.0,
+            amplitude: 15.0,
+            dwells: [0.0; 3],
+            angle: 60.0,
+            radius: 4.0,
+            turned: Vector3::zeros(),
+        }
+    }
+
+    fn all() -> Vec<Weave> {
+        use WeaveShape::{Eight, Ellipse, Simple, Triangle, VShape};
+        let plain = [Simple, VShape, Triangle, Ellipse, Eight].map(weave);
+        let staying = plain.map(|weave| Weave { dwells: [0.1, 0.2, 0.05], ..weave });
+        let left = plain.map(|weave| Weave { dwells: [0.003, 0.0, 0.0], turned: Vector3::z() * 0.3, ..weave });
+        plain.into_iter().chain(staying).chain(left).collect()
+    }
+
+    #[test]
+    fn figures_are_as_wide_as_asked_begin_on_the_path_and_are_smooth() {
+        for weave in all() {
+            for rounding in [0.005, 0.02, 0.06] {
+                let pattern = Pattern::new(&weave, rounding);
+                assert!((pattern.period - weave.period()).abs() < 1e-12);
+                let places: Vec<Rates> =
+                    (0..4000).map(|step| pattern.at(pattern.period * f64::from(step) / 4000.0)).collect();
+                let across = |v: &Vector3<f64>| Rotation3::new(-weave.turned) * v;
+                let widest = places.iter().map(|[v, ..]| across(v).yz().norm()).fold(0.0, f64::max);
+                assert!((widest - 15.0).abs() < 0.02, "{weave:?} {rounding}: {widest}");
+                assert!(pattern.is_cornered() || pattern.at(0.0)[0].norm() < 1e-12);
+                let h = 1e-6;
+                for step in 0..500 {
+                    let time = pattern.period * (f64::from(step) + 0.37) / 250.0;
+                    let (before, here, after) = (pattern.at(time - h), pattern.at(time), pattern.at(time + h));
+                    for order in 0..3 {
+                        let measured = (after[order] - before[order]) / (2.0 * h);
+                        let slack = [1e-4, 1e-2, 60.0][order] + 1e-4 * here[order + 1].norm();
+                        // The third derivative has steps.
+                        let steps = order == 2 && (after[3] - before[3]).norm() > 1.0;
+                        assert!(steps || (measured - here[order + 1]).norm() < slack, "{weave:?} {order} at {time}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn stays_last_as_long_as_asked() {
+        let stays = Weave { dwells: [0.2, 0.3, 0.1], ..weave(WeaveShape::Simple) };
+        let pattern = Pattern::new(&stays, 0.01);
+        assert!((stays.period() - 1.2).abs() < 1e-12);
+        let steps = 120_000;
+        let resting = |y: f64| {
+            let at = |step: u32| pattern.at(pattern.period * f64::from(step) / f64::from(steps));
+            let near = |[place, speed, ..]: Rates| speed.norm() < 1e-6 && (place.y - y).abs() < 1e-6;
+            (0..steps).filter(|step| near(at(*step))).count() as f64 * pattern.period / f64::from(steps)
+        };
+        // The corners take their rounding from both sides of the stay.
+        assert!((resting(15.0) - 0.18).abs() < 1e-3 && (resting(-15.0) - 0.28).abs() < 1e-3);
+        assert!((resting(0.0) - 2.0 * 0.08).abs() < 1e-3);
+    }
+
+    impl Pattern {
+        fn is_cornered(&self) -> bool {
+            matches!(self.figure, Figure::Cornered { .. })
+        }
+    }
+}

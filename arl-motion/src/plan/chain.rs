@@ -1,0 +1,242 @@
+//! Motions whose way depends on the one behind them: it is planned when that one is known, or none comes.
+
+use crate::command::error::PlanError;
+use crate::command::joints::Joints;
+use crate::command::{Command, Settings, Target, Zone};
+use crate::geometry::arc::circle_through;
+use crate::geometry::spline::{Passing, Place, piece};
+use crate::plan::curve::Track;
+use crate::plan::lay_overlay::{Beginning, lay};
+use crate::plan::motion::Motion;
+use crate::plan::planner::Planner;
+use arl_robot::kinematics::Frame;
+use arl_robot::robot::Robot;
+
+/// Points of a spline that are not so far from each other, in mm, are the same: the tool only turns there.
+const SAME: f64 = 1e-3;
+
+/// The kinds of motion that make one way together with their neighbours.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Kind {
+    /// ccir
+    Circle,
+    /// spl
+    Spline,
+}
+
+/// A motion that has been added, but is not planned yet.
+#[derive(Clone, Debug)]
+pub(crate) struct Held {
+    kind: Kind,
+    command: Command,
+    settings: Settings,
+    pub(crate) number: u64,
+    /// Where the robot is when it begins, and where it ends as far as that is known already: without what is laid over it.
+    start: Joints,
+    end: Joints,
+    target: Place,
+    before: Option<Before>,
+}
+
+/// What the motion before, of the same kind and planned already, leaves to the next.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Before {
+    /// Where the circle before began.
+    Circle(Joints),
+    /// How the spline goes on.
+    Spline(Passing),
+}
+
+impl Target {
+    /// The kind of way that this makes with its neighbours.
+    pub(crate) fn chained(&self) -> Option<(Kind, &[f64; 6], &Frame, &[f64; 6])> {
+        match self {
+            Target::Circle { pose, wobj, external, .. } => Some((Kind::Circle, pose, wobj, external)),
+            Target::Spline { pose, wobj, external } => Some((Kind::Spline, pose, wobj, external)),
+            _ => None,
+        }
+    }
+}
+
+impl Held {
+    /// Holds a motion back that starts at `start`; `None` for a kind that needs not wait.
+    pub(crate) fn new(
+        robot: &Robot,
+        start: &Joints,
+        command: &Command,
+        settings: &Settings,
+        number: u64,
+    ) -> Result<Option<Self>, PlanError> {
+        let Some((kind, pose, wobj, external)) = command.target.chained() else { return Ok(None) };
+        let planner = Planner { robot, start, command, settings };
+        let tcp = planner.target_frame(pose, wobj)?;
+        planner.tcp_speed()?;
+        let end = Joints { axes: start.axes, external: *external }.completed(start, robot);
+        let flange = command.rig.carried.flange_at(&tcp);
+        let kinematics = &robot.kinematics;
+        let axes = kinematics
+            .inverse(&flange, kinematics.cfg(&start.axes), &start.axes)
+            .ok_or_else(|| planner.refused(kinematics.refusal(&flange)))?;
+        let end = Joints { axes, ..end };
+        Ok(Some(Self {
+            kind,
+            command: command.clone(),
+            settings: *settings,
+            number,
+            start: *start,
+            end,
+            target: Place { tcp, external: end.external },
+            before: None,
+        }))
+    }
+
+    /// Where it ends, as far as that is known.
+    pub(crate) fn end(&self) -> &Joints {
+        &self.end
+    }
+
+    /// Whether it can be the last of its kind.
+    pub(crate) fn can_end(&self) -> bool {
+        self.kind == Kind::Spline || self.before.is_some()
+    }
+
+    /// Whether the motion that comes next makes one way with this one.
+    pub(crate) fn goes_on(&self, robot: &Robot, next: &Held) -> bool {
+        self.kind == next.kind
+            && match self.kind {
+                Kind::Circle => {
+                    let carried = |held: &Held| std::mem::discriminant(&held.command.rig.carried);
+                    carried(self) == carried(next)
+                }
+                Kind::Spline => self.command.rig.carried == next.command.rig.carried && !self.breaks_off(robot, next),
+            }
+    }
+
+    /// Whether a spline has to end here and a new one to begin: points are the same, the way turns back, or another
+    /// compensation begins to grow, which would not flow.
+    fn breaks_off(&self, robot: &Robot, next: &Held) -> bool {
+        let from = self.from(robot);
+        self.settings.compensation != next.settings.compensation
+            || from.chord(&self.target) <= SAME
+            || self.target.chord(&next.target) <= SAME
+            || from.turns_back(&self.target, &next.target)
+    }
+
+    /// Ends it with a stop, whatever its zone, where the next one would be of the same spline but for [`Held::breaks_off`]:
+    /// within a spline zones count for nothing.
+    pub(crate) fn stop_before(&mut self, robot: &Robot, next: &Held) {
+        if [self.kind, next.kind] == [Kind::Spline; 2] && self.breaks_off(robot, next) {
+            self.command.zone = Zone::NONE;
+        }
+    }
+
+    fn from(&self, robot: &Robot) -> Place {
+        let tcp = self.command.rig.carried.way_at(&robot.kinematics.forward(&self.start.axes));
+        Place { tcp, external: self.start.external }
+    }
+
+    /// Plans it, without what is laid over it, with the motion of its way that comes next; returns also what it leaves to that
+    /// one.
+    ///
+    /// # Errors
+    /// It cannot be moved; the error tells its line.
+    pub(crate) fn plan(&self, robot: &Robot, next: Option<&Held>) -> Result<(Motion, Option<Before>), PlanError> {
+        let planner = Planner { robot, start: &self.start, command: &self.command, settings: &self.settings };
+        let planned = match self.kind {
+            Kind::Circle => self.circle(&planner, next),
+            Kind::Spline => self.spline(&planner, next),
+        };
+        planned.map_err(|error| self.failed(error))
+    }
+
+    /// Whether its weave goes on into the motion that makes one way with it.
+    pub(crate) fn weaves_on(&self, next: &Held) -> bool {
+        self.kind == Kind::Spline && self.settings.weave == next.settings.weave
+    }
+
+    /// Lays over it, planned, what its settings say.
+    ///
+    /// # Errors
+    /// It cannot be moved so; the error tells its line.
+    pub(crate) fn laid(&self, robot: &Robot, plain: Motion, beginning: &Beginning<'_>) -> Result<Motion, PlanError> {
+        let Some((_, _, wobj, _)) = self.command.target.chained() else { return Ok(plain) };
+        lay(robot, plain, beginning, &wobj.rotation, &self.settings).map_err(|error| self.failed(error))
+    }
+
+    fn failed(&self, error: PlanError) -> PlanError {
+        PlanError::Earlier { line: self.command.line, error: Box::new(error) }
+    }
+
+    /// The command.
+    pub(crate) fn command(&self) -> &Command {
+        &self.command
+    }
+
+    /// What held when it was added.
+    pub(crate) fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Takes over what the motion before has left.
+    pub(crate) fn goes_on_from(&mut self, end: &Joints, before: Option<Before>) {
+        (self.start, self.before) = (*end, before);
+    }
+
+    /// Takes over that a circle began at `start`.
+    pub(crate) fn follows_circle_from(&mut self, start: Joints) {
+        self.before.get_or_insert(Before::Circle(start));
+    }
+
+    fn circle(&self, planner: &Planner<'_>, next: Option<&Held>) -> Result<(Motion, Option<Before>), PlanError> {
+        let Target::Circle { follow, external, .. } = &self.command.target else { return Err(PlanError::NoCircle) };
+        let (start, target) = (planner.start_frame(), self.target.tcp);
+        let [from, to] = [start, target].map(|frame| frame.translation.vector);
+        let points = match (next, self.before) {
+            (Some(next), _) => [from, to, next.target.tcp.translation.vector],
+            (None, Some(Before::Circle(before))) => {
+                let before = self.command.rig.carried.way_at(&planner.robot.kinematics.forward(&before.axes));
+                [before.translation.vector, from, to]
+            }
+            _ => return Err(PlanError::LoneCircle),
+        };
+        let arc = circle_through(&points).ok_or(PlanError::NoCircle)?.arc(&from, &to);
+        let turning = if *follow {
+            arc.across.cross(&arc.along).normalize() * arc.sweep
+        } else {
+            (target.rotation * start.rotation.inverse()).scaled_axis()
+        };
+        let motion = planner.tool(Track::Arc(arc), turning, external)?;
+        Ok((motion, Some(Before::Circle(self.start))))
+    }
+
+    fn spline(&self, planner: &Planner<'_>, next: Option<&Held>) -> Result<(Motion, Option<Before>), PlanError> {
+        let from = self.from(planner.robot);
+        let speed = planner.tcp_speed()?;
+        let start = match self.before {
+            Some(Before::Spline(passing)) => Some(passing),
+            _ => None,
+        };
+        let end = match next {
+            Some(next) => {
+                let settings = &next.settings;
+                let other = Planner { robot: planner.robot, start: &self.end, command: &next.command, settings };
+                Some(Passing::through([&from, &self.target, &next.target], speed.min(other.tcp_speed()?)))
+            }
+            None => None,
+        };
+        if start.is_none() && end.is_none() {
+            let Target::Spline { external, .. } = &self.command.target else { return Err(PlanError::NotANumber) };
+            let track = Track::line(from.tcp.translation.vector, self.target.tcp.translation.vector);
+            let turning = (self.target.tcp.rotation * from.tcp.rotation.inverse()).scaled_axis();
+            return Ok((planner.tool(track, turning, external)?, None));
+        }
+        let base = planner.even_curve(
+            Track::line(from.tcp.translation.vector, from.tcp.translation.vector),
+            nalgebra::Vector3::zeros(),
+            &self.end,
+        );
+        let (curve, time) = piece(base, [&from, &self.target], [start.as_ref(), end.as_ref()], speed);
+        let motion = planner.piece(curve, time, &self.target.external, start.is_some())?;
+        Ok((motion, end.map(Before::Spline)))
+    }
+}

@@ -1,0 +1,319 @@
+//! Collects what limits the parameter of a motion: every axis, the TCP, the tool's turning, the programmed speeds.
+
+use nalgebra::Vector3;
+
+use crate::blend::blend_limits::PlaceBounds;
+use crate::command::joints::{ALL, Joints};
+use crate::geometry::parametrization::Progress;
+use crate::limits::constant::Bound;
+use crate::limits::profile::Limits;
+use crate::plan::curve::{Curve, ToolCurve};
+use arl_robot::frames::Carried;
+use arl_robot::kinematics::Axes;
+use arl_robot::robot::{Axis, EXTERNAL_AXES, Robot};
+
+/// The highest speed of the TCP in manual low-speed mode, in mm/s.
+pub(crate) const MANUAL_SPEED: f64 = 250.0;
+/// Between the places where a way is surveyed, derivatives are a little larger than at them.
+const BETWEEN_SAMPLES: f64 = 1.005;
+/// Places at which a curved way of the TCP is looked at; and of each part of one whose pace is made of parts: there the way may
+/// turn within a small part of its time.
+const PLACES: u32 = 24;
+const PLACES_OF_PART: u32 = 6;
+/// How far beside a place its other side is looked at.
+const BESIDE: f64 = 1e-9;
+
+/// How fast a motion may go, and how hard it may accelerate.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Pace {
+    /// Share of the own axes' speeds.
+    pub(crate) axes: f64,
+    /// TCP in mm/s.
+    pub(crate) tcp: f64,
+    /// Turning of the tool in deg/s.
+    pub(crate) ori: f64,
+    /// Turning external axes in deg/s.
+    pub(crate) turning: f64,
+    /// Linear external axes in mm/s.
+    pub(crate) linear: f64,
+    /// Share of all accelerations.
+    pub(crate) acc: f64,
+    /// Share of all jerks.
+    pub(crate) jerk: f64,
+    /// Whether the TCP is limited to the speed of manual operation.
+    pub(crate) manual: bool,
+}
+
+impl Pace {
+    /// Nothing but the robot's own limits.
+    pub(crate) const FREE: Self = Self {
+        axes: 1.0,
+        tcp: f64::INFINITY,
+        ori: f64::INFINITY,
+        turning: f64::INFINITY,
+        linear: f64::INFINITY,
+        acc: 1.0,
+        jerk: 1.0,
+        manual: false,
+    };
+
+    /// Speed, acceleration and jerk that one of the robot's own axes may have.
+    pub(crate) fn of_own(&self, axis: &Axis) -> [f64; 3] {
+        [axis.vel * self.axes, axis.acc * self.acc, axis.jerk * self.jerk]
+    }
+
+    /// The same of an external axis.
+    pub(crate) fn of_external(&self, axis: &Axis) -> [f64; 3] {
+        let vel = axis.vel.min(if axis.linear { self.linear } else { self.turning });
+        [vel, axis.acc * self.acc, axis.jerk * self.jerk]
+    }
+}
+
+/// The limits found so far.
+pub(crate) struct Bounds<'a> {
+    robot: &'a Robot,
+    pub(crate) rows: Vec<Bound>,
+    /// Whether the rows keep the signs of the derivatives.
+    signed: bool,
+    /// Where the rows of a place begin, with its share of the nominal time.
+    places: Vec<(usize, f64)>,
+}
+
+impl<'a> Bounds<'a> {
+    /// Rows of magnitudes.
+    pub(crate) fn new(robot: &'a Robot) -> Self {
+        Self { robot, rows: Vec::with_capacity(64), signed: false, places: Vec::new() }
+    }
+
+    /// Rows that keep the signs of the derivatives, for one place.
+    pub(crate) fn signed(robot: &'a Robot) -> Self {
+        Self { signed: true, ..Self::new(robot) }
+    }
+
+    fn push(&mut self, bound: Bound) {
+        self.rows.push(if self.signed { bound } else { bound.size() });
+    }
+
+    /// Forgets all rows.
+    pub(crate) fn clear(&mut self) {
+        self.rows.clear();
+        self.places.clear();
+    }
+
+    /// The rows that follow are those of a place at this share of the nominal time.
+    pub(crate) fn place(&mut self, share: f64) {
+        self.places.push((self.rows.len(), share));
+    }
+
+    /// The rows of each place. Places of one kind are told of in order, one kind behind the other.
+    pub(crate) fn by_place(&self) -> Vec<PlaceBounds<'_>> {
+        let place = |index: usize, (start, share): (usize, f64)| {
+            let before = index.checked_sub(1).and_then(|index| self.places.get(index));
+            let behind = self.places.get(index + 1);
+            let end = behind.map_or(self.rows.len(), |(end, _)| *end);
+            PlaceBounds {
+                from: before.map(|(_, share)| *share).filter(|before| *before <= share).unwrap_or(0.0),
+                to: behind.map(|(_, share)| *share).filter(|behind| *behind >= share).unwrap_or(1.0),
+                rows: self.rows.get(start..end).unwrap_or_default(),
+            }
+        };
+        self.places.iter().enumerate().map(|(index, known)| place(index, *known)).collect()
+    }
+
+    /// Joins the rows from `known` on, which are of one place, to the first rows, which are of others: limits that hold at
+    /// all of these places.
+    pub(crate) fn join(&mut self, known: usize) {
+        if known == 0 {
+            return;
+        }
+        let (joined, new) = self.rows.split_at_mut(known);
+        for (bound, new) in joined.iter_mut().zip(new) {
+            bound.first = bound.first.max(new.first);
+            bound.second = bound.second.max(new.second);
+            bound.third = bound.third.max(new.third);
+        }
+        self.rows.truncate(known);
+    }
+
+    /// All axes go evenly from `start` to `end`.
+    pub(crate) fn even_axes(&mut self, start: &Joints, end: &Joints, pace: &Pace) {
+        for (axis, (start, end)) in self.robot.own_axes().iter().zip(start.axes.iter().zip(&end.axes)) {
+            self.push(Bound::even(end - start, axis.vel * pace.axes, axis.acc * pace.acc, axis.jerk * pace.jerk));
+        }
+        self.even_external(start, end, pace);
+    }
+
+    /// The external axes go evenly from `start` to `end`.
+    pub(crate) fn even_external(&mut self, start: &Joints, end: &Joints, pace: &Pace) {
+        let ways = start.external.iter().zip(&end.external).map(|(start, end)| end - start);
+        for (axis, way) in self.robot.external_axes().iter().zip(ways) {
+            let programmed = if axis.linear { pace.linear } else { pace.turning };
+            let vel = axis.vel.min(programmed);
+            self.push(Bound::even(way, vel, axis.acc * pace.acc, axis.jerk * pace.jerk));
+        }
+    }
+
+    /// The own axes at a place where these are their derivatives.
+    pub(crate) fn axes(&mut self, first: &Axes, second: &Axes, third: &Axes, pace: &Pace) {
+        let derivatives = first.iter().zip(second).zip(third);
+        for (axis, ((first, second), third)) in self.robot.own_axes().iter().zip(derivatives) {
+            self.push(row([*first, *second, *third], pace.of_own(axis)));
+        }
+    }
+
+    /// All axes at a place where these are their derivatives.
+    pub(crate) fn all_axes(&mut self, derivatives: &[[f64; ALL]; 3], pace: &Pace) {
+        let parts = derivatives.map(|all| Joints::of(&all));
+        let [first, second, third] = &parts;
+        self.axes(&first.axes, &second.axes, &third.axes, pace);
+        self.external(&parts.map(|part| part.external), pace);
+    }
+
+    /// The parameter's acceleration takes at least `time` s to rise to what the rows of this place leave it.
+    pub(crate) fn rising_in(&mut self, time: f64) {
+        let acc = self.rows.iter().map(|row| row.acc / row.first.abs()).fold(f64::INFINITY, f64::min);
+        self.push(Bound::even(1.0, f64::INFINITY, f64::INFINITY, acc / time));
+    }
+
+    /// Constant limits of the parameter itself.
+    pub(crate) fn cell(&mut self, limits: &Limits) {
+        let Limits { vel, acc, jerk } = *limits;
+        self.push(Bound::even(1.0, vel, acc, jerk));
+    }
+
+    /// The TCP on its way, and the turning of the tool.
+    pub(crate) fn tool(&mut self, curve: &ToolCurve, pace: &Pace) {
+        for place in places(curve) {
+            self.moving(&[1, 2, 3].map(|order| curve.track.derivative(order, place)), pace);
+            self.turning(&curve.rotation_rates(place), pace);
+        }
+    }
+
+    /// The TCP at a place where these are the derivatives of its position, in mm.
+    pub(crate) fn moving(&mut self, rates: &[Vector3<f64>; 3], pace: &Pace) {
+        let tcp = &self.robot.tcp;
+        self.push(along(rates, (tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk)));
+    }
+
+    /// The TCP at a place where these are the derivatives of its position, in mm, and where it swings to and fro: all of its
+    /// acceleration counts, not only that along its way.
+    pub(crate) fn swinging(&mut self, rates: &[Vector3<f64>; 3], pace: &Pace) {
+        let tcp = &self.robot.tcp;
+        let limits = [tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk];
+        self.rows.push(row(rates.map(|rate| rate.norm()), limits));
+    }
+
+    /// The speed of the TCP in manual operation, at a place where these are the derivatives of its position.
+    pub(crate) fn manual_moving(&mut self, rates: &[Vector3<f64>; 3]) {
+        self.push(along(rates, (MANUAL_SPEED, f64::INFINITY, f64::INFINITY)));
+    }
+
+    /// The tool at a place where it turns so, in rad.
+    pub(crate) fn turning(&mut self, rates: &[Vector3<f64>; 3], pace: &Pace) {
+        let tcp = &self.robot.tcp;
+        let rates = rates.map(|rate| rate.map(f64::to_degrees));
+        let limits = (tcp.ori_vel.min(pace.ori), tcp.ori_acc * pace.acc, tcp.ori_jerk * pace.jerk);
+        self.push(along(&rates, limits));
+    }
+
+    /// The external axes at a place where these are their derivatives.
+    pub(crate) fn external(&mut self, rates: &[[f64; EXTERNAL_AXES]; 3], pace: &Pace) {
+        let [first, second, third] = rates;
+        let derivatives = first.iter().zip(second).zip(third);
+        for (axis, ((first, second), third)) in self.robot.external_axes().iter().zip(derivatives) {
+            self.push(row([*first, *second, *third], pace.of_external(axis)));
+        }
+    }
+
+    /// The external axes all along a way.
+    pub(crate) fn external_along(&mut self, curve: &ToolCurve, pace: &Pace) {
+        for place in places(curve) {
+            self.external(&[1, 2, 3].map(|order| curve.external.derivative(order, place)), pace);
+        }
+    }
+
+    /// A speed of the TCP, in mm/s, that must not be passed, whatever is programmed.
+    pub(crate) fn cap_tool(&mut self, curve: &ToolCurve, vel: f64) {
+        for place in places(curve) {
+            let first = curve.track.derivative(1, place).norm();
+            self.push(Bound::even(first, vel, f64::INFINITY, f64::INFINITY));
+        }
+    }
+
+    /// The speed of the TCP of an axis motion in manual operation.
+    pub(crate) fn manual_axes(&mut self, curve: &Curve, carried: &Carried, start: &Joints) {
+        let Curve::Axes(axes) = curve else { return };
+        let kinematics = &self.robot.kinematics;
+        let farthest = axes.derivative(1, 0.0).iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+        let steps = 16 + (farthest / 2.0).min(1e4) as u32;
+        for step in 0..=steps {
+            let at = f64::from(step) / f64::from(steps);
+            let joints = curve.joints(kinematics, at, start);
+            self.manual_place(&joints, &axes.derivative(1, at), carried);
+        }
+    }
+
+    /// The speed of the TCP in manual operation, at a place where all axes change by `rates`; of the flange, too, where the
+    /// tool stands.
+    pub(crate) fn manual_place(&mut self, joints: &Joints, rates: &[f64; ALL], carried: &Carried) {
+        self.cap_place(joints, rates, carried, MANUAL_SPEED);
+        if let Carried::Workpiece(_) = carried {
+            let flange = self.robot.kinematics.forward(&joints.axes).translation.vector;
+            self.cap_point(joints, rates, &flange, MANUAL_SPEED);
+        }
+    }
+
+    /// A speed of the TCP in mm/s that must not be passed, at a place where all axes change by `rates`.
+    pub(crate) fn cap_place(&mut self, joints: &Joints, rates: &[f64; ALL], carried: &Carried, vel: f64) {
+        let place = match carried {
+            Carried::Tool(tool) => (self.robot.kinematics.forward(&joints.axes) * tool).translation.vector,
+            Carried::Workpiece(tool) => tool.translation.vector,
+        };
+        self.cap_point(joints, rates, &place, vel);
+    }
+
+    /// The same for a point, given in the base in mm, that the robot carries.
+    fn cap_point(&mut self, joints: &Joints, rates: &[f64; ALL], place: &Vector3<f64>, vel: f64) {
+        let rates = Joints::of(rates).axes;
+        let speed = self.robot.kinematics.point_velocity(&joints.axes, &rates, place).norm() * BETWEEN_SAMPLES;
+        self.push(Bound::even(speed, vel, f64::INFINITY, f64::INFINITY));
+    }
+
+    /// The speed of the flange in manual operation at a place of a way whose parameter changes by `rate`, where the tool
+    /// stands; else it is the TCP's that counts.
+    pub(crate) fn manual_flange(&mut self, curve: &ToolCurve, at: f64, rate: f64) {
+        if let Carried::Workpiece(_) = curve.carried {
+            let [first, ..] = curve.twist(at).of_place(&curve.flange(at).translation.vector);
+            let speed = first.norm() * rate * BETWEEN_SAMPLES;
+            self.push(Bound::even(speed, MANUAL_SPEED, f64::INFINITY, f64::INFINITY));
+        }
+    }
+}
+
+/// Where to look at a way: once where it is even.
+fn places(curve: &ToolCurve) -> impl Iterator<Item = f64> + use<> {
+    let paced = curve.is_paced();
+    let count = if paced { PLACES_OF_PART * Progress::PARTS as u32 } else { PLACES };
+    let even = (0..=if curve.is_even() { 0 } else { count }).map(move |place| f64::from(place) / f64::from(count));
+    // Where derivatives jump, both sides count.
+    let before = (1..if paced { Progress::PARTS } else { 0 }).map(|part| part as f64 / Progress::PARTS as f64 - BESIDE);
+    even.chain(before)
+}
+
+/// A value with these derivatives, between whose places it changes a little more.
+fn row([first, second, third]: [f64; 3], [vel, acc, jerk]: [f64; 3]) -> Bound {
+    let more = |value: f64| value * BETWEEN_SAMPLES;
+    Bound { first: more(first), second: more(second), third: more(third), vel, acc, jerk }
+}
+
+/// A speed along a way whose derivatives are given, with how it changes along the way.
+fn along(rates: &[Vector3<f64>; 3], (vel, acc, jerk): (f64, f64, f64)) -> Bound {
+    let [p1, p2, p3] = rates;
+    let first = p1.norm();
+    if first < 1e-12 {
+        return Bound { first: 0.0, second: p2.norm(), third: p3.norm(), vel, acc, jerk };
+    }
+    let second = p1.dot(p2) / first;
+    let third = (p2.norm_squared() + p1.dot(p3) - second * second) / first;
+    Bound { first, second, third, vel, acc, jerk }
+}

@@ -1,0 +1,401 @@
+//! The geometry of motion: where everything is at a parameter that runs from 0 to 1, and how it changes with it.
+
+use nalgebra::{Translation3, UnitQuaternion, Vector3};
+
+use crate::command::joints::{ALL, Joints};
+use crate::geometry::quintic::{Quintic, Way};
+use crate::geometry::rotation;
+use crate::overlay::Overlay;
+use crate::plan::path_check::SINGULAR;
+use arl_robot::frames::Carried;
+use arl_robot::kinematics::{Axes, Frame, Kinematics, Passage, Rates, Twist, wrap_degrees};
+use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES};
+
+/// What a motion moves along.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Curve {
+    /// All axes by polynomials.
+    Axes(Quintic<ALL>),
+    /// The TCP along a track; external axes by polynomials.
+    Tool(ToolCurve),
+}
+
+/// Where a point goes.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) enum Track {
+    /// By polynomials, in mm.
+    Poly(Way<3>),
+    /// Along a circle.
+    Arc(Arc),
+}
+
+/// A part of a circle: `centre + across cos(sweep u) + along sin(sweep u)`, in mm and rad.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Arc {
+    pub(crate) centre: Vector3<f64>,
+    pub(crate) across: Vector3<f64>,
+    pub(crate) along: Vector3<f64>,
+    pub(crate) sweep: f64,
+}
+
+/// A way of the TCP, seen from what [`Carried`] says.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct ToolCurve {
+    /// The position of the TCP.
+    pub(crate) track: Track,
+    /// The orientation to which `turning` is added.
+    pub(crate) base: UnitQuaternion<f64>,
+    /// A rotation vector in rad, about the axes of what the way is seen from.
+    pub(crate) turning: Way<3>,
+    /// What the robot moves along the way.
+    pub(crate) carried: Carried,
+    /// The external axes.
+    pub(crate) external: Way<EXTERNAL_AXES>,
+    /// The configuration at the start, which only a passage changes.
+    pub(crate) cfg: u8,
+    /// Where axis 4 is led through the wrist singularity.
+    pub(crate) passages: Vec<Passage>,
+    /// What is laid over the way.
+    pub(crate) over: Option<Box<Overlay>>,
+}
+
+impl Track {
+    /// A straight line.
+    pub(crate) fn line(start: Vector3<f64>, end: Vector3<f64>) -> Self {
+        Self::Poly(Quintic::even(start.into(), (end - start).into()).into())
+    }
+
+    /// The position at `at`, in mm.
+    pub(crate) fn at(&self, at: f64) -> Vector3<f64> {
+        match self {
+            Track::Poly(poly) => poly.at(at).into(),
+            Track::Arc(arc) => {
+                let (sine, cosine) = (arc.sweep * at).sin_cos();
+                arc.centre + arc.across * cosine + arc.along * sine
+            }
+        }
+    }
+
+    /// The derivative of the order `order`, 1 to 3, in mm per unit.
+    pub(crate) fn derivative(&self, order: usize, at: f64) -> Vector3<f64> {
+        match self {
+            Track::Poly(poly) => poly.derivative(order, at).into(),
+            Track::Arc(arc) => {
+                let (sine, cosine) = (arc.sweep * at).sin_cos();
+                let (x, y) = match order {
+                    1 => (-sine, cosine),
+                    2 => (-cosine, -sine),
+                    _ => (sine, -cosine),
+                };
+                (arc.across * x + arc.along * y) * arc.sweep.powi(order as i32)
+            }
+        }
+    }
+
+    /// How its direction turns, in rad per unit about an axis of the base; `None` where it does not turn evenly.
+    pub(crate) fn even_turning(&self) -> Option<Vector3<f64>> {
+        match self {
+            Track::Poly(poly) => poly.is_even().then(Vector3::zeros),
+            Track::Arc(arc) => Some(arc.across.cross(&arc.along).normalize() * arc.sweep),
+        }
+    }
+
+    /// Its length in mm.
+    pub(crate) fn length(&self) -> f64 {
+        match self {
+            Track::Poly(poly) if poly.is_even() => self.derivative(1, 0.0).norm(),
+            Track::Arc(arc) => arc.along.norm() * arc.sweep.abs(),
+            // Gauss's rule with five places, on eight parts.
+            Track::Poly(_) => {
+                const PLACES: [(f64, f64); 5] = [
+                    (0.0, 0.568_888_888_888_888_9),
+                    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+                    (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+                    (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
+                    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+                ];
+                let part = |part: u32| {
+                    let speed = |(place, weight): &(f64, f64)| {
+                        weight * self.derivative(1, (f64::from(part) + 0.5 + place / 2.0) / 8.0).norm()
+                    };
+                    PLACES.iter().map(speed).sum::<f64>() / 16.0
+                };
+                (0..8).map(part).sum()
+            }
+        }
+    }
+}
+
+/// Half the width of the places between which derivatives are measured within a passage, as part of it.
+const STENCIL: f64 = 1.0 / 128.0;
+
+impl ToolCurve {
+    /// The TCP's frame at `at`, translation in mm.
+    pub(crate) fn tcp(&self, at: f64) -> Frame {
+        let [place, ..] = self.moving(at);
+        Frame::from_parts(Translation3::from(place), self.rotation(at))
+    }
+
+    /// The place of the TCP at `at` in mm, with its first three derivatives.
+    pub(crate) fn moving(&self, at: f64) -> [Vector3<f64>; 4] {
+        let over = self.over.as_ref().map_or([Vector3::zeros(); 4], |over| over.offset(self, at));
+        let [place, first, second, third] = over;
+        let of = |order| self.track.derivative(order, at);
+        [self.track.at(at) + place, of(1) + first, of(2) + second, of(3) + third]
+    }
+
+    /// Whether speed and turning of the TCP are the same all along.
+    pub(crate) fn is_even(&self) -> bool {
+        let even = match &self.track {
+            Track::Poly(poly) => poly.is_even(),
+            Track::Arc(_) => true,
+        };
+        even && self.turning.is_even() && self.over.is_none()
+    }
+
+    /// Whether the parameter's pace is made of parts, between which third derivatives jump.
+    pub(crate) fn is_paced(&self) -> bool {
+        matches!(&self.track, Track::Poly(way) if way.is_paced())
+    }
+
+    /// The orientation at `at`.
+    pub(crate) fn rotation(&self, at: f64) -> UnitQuaternion<f64> {
+        let plain = self.plain_rotation(at);
+        self.over.as_ref().filter(|over| over.turns()).map_or(plain, |over| over.turned(self, at) * plain)
+    }
+
+    /// The orientation at `at` without what is laid over the way.
+    pub(crate) fn plain_rotation(&self, at: f64) -> UnitQuaternion<f64> {
+        UnitQuaternion::from_scaled_axis(Vector3::from(self.turning.at(at))) * self.base
+    }
+
+    /// The flange's frame at `at` in the robot's base, translation in mm.
+    pub(crate) fn flange(&self, at: f64) -> Frame {
+        self.carried.flange_at(&self.tcp(at))
+    }
+
+    /// The passage that `at` is in.
+    pub(crate) fn passage(&self, at: f64) -> Option<&Passage> {
+        self.passages.iter().find(|passage| passage.from <= at && at <= passage.to)
+    }
+
+    /// Where passages begin and end: third derivatives of the axes jump there.
+    pub(crate) fn borders(&self) -> impl Iterator<Item = f64> {
+        self.passages.iter().flat_map(|passage| [passage.from, passage.to])
+    }
+
+    /// The configuration at `at`; within a passage, that before it.
+    pub(crate) fn cfg_at(&self, at: f64) -> u8 {
+        self.passages.iter().rev().find(|passage| passage.to < at).map_or(self.cfg, |passage| passage.cfg_behind)
+    }
+
+    /// The axes at `at`, no farther than half a turn from `near`; `None` where the arm does not reach. Within a passage
+    /// `near` has to be the axes shortly before.
+    pub(crate) fn axes(&self, kinematics: &Kinematics, at: f64, near: &Axes) -> Option<Axes> {
+        let mut axes = match self.passage(at) {
+            None => kinematics.inverse(&self.flange(at), self.cfg_at(at), near)?,
+            Some(passage) => {
+                let (tcp, tool) = self.carried.meeting(&self.tcp(at));
+                kinematics.inverse_at_axis4(&tcp, &tool, passage.axis4(at), near)?
+            }
+        };
+        for (value, near) in axes.iter_mut().zip(near) {
+            *value = near + wrap_degrees(*value - near);
+        }
+        Some(axes)
+    }
+
+    /// The derivatives of the axes by the parameter at `at`, where they are `axes`; `None` at a singular point.
+    pub(crate) fn rates(&self, kinematics: &Kinematics, at: f64, axes: &Axes) -> Option<Rates> {
+        match self.passage(at) {
+            None => kinematics.rates(axes, &self.twist(at)),
+            Some(passage) => self.rates_in(passage, kinematics, at, axes),
+        }
+    }
+
+    /// The same within a passage, from the axes at five places of it.
+    fn rates_in(&self, passage: &Passage, kinematics: &Kinematics, at: f64, axes: &Axes) -> Option<Rates> {
+        let h = (passage.to - passage.from) * STENCIL;
+        let middle = at.clamp(passage.from + 2.0 * h, passage.to - 2.0 * h);
+        let place = |steps: f64| self.axes(kinematics, middle + steps * h, axes);
+        let (m2, m1, here, p1, p2) = (place(-2.0)?, place(-1.0)?, place(0.0)?, place(1.0)?, place(2.0)?);
+        let mut rates = Rates { first: [0.0; ROBOT_AXES], second: [0.0; ROBOT_AXES], third: [0.0; ROBOT_AXES] };
+        let places = m2.iter().zip(&m1).zip(&here).zip(p1.iter().zip(&p2));
+        let out = rates.first.iter_mut().zip(&mut rates.second).zip(&mut rates.third);
+        for (((first, second), third), (((m2, m1), here), (p1, p2))) in out.zip(places) {
+            // The polynomial of the fourth degree through the five places, at `t` steps from the middle.
+            let t = (at - middle) / h;
+            let a1 = (m2 - m1 * 8.0 + p1 * 8.0 - p2) / 12.0;
+            let a2 = (-m2 + m1 * 16.0 - here * 30.0 + p1 * 16.0 - p2) / 12.0;
+            let a3 = (-m2 + m1 * 2.0 - p1 * 2.0 + p2) / 2.0;
+            let a4 = m2 - m1 * 4.0 + here * 6.0 - p1 * 4.0 + p2;
+            *first = (a1 + t * (a2 + t * (a3 / 2.0 + t * a4 / 6.0))) / h;
+            *second = (a2 + t * (a3 + t * a4 / 2.0)) / (h * h);
+            *third = (a3 + t * a4) / (h * h * h);
+        }
+        Some(rates)
+    }
+
+    /// How the orientation changes at `at`: its speed of rotation in rad per unit, and two derivatives of that.
+    pub(crate) fn rotation_rates(&self, at: f64) -> [Vector3<f64>; 3] {
+        let Some(over) = self.over.as_ref().filter(|over| over.turns()) else { return self.plain_rotation_rates(at) };
+        let step = STENCIL.min(over.longest_step() / 2.0);
+        measured(|at| self.rotation(at), at, step)
+    }
+
+    /// The same without what is laid over the way.
+    pub(crate) fn plain_rotation_rates(&self, at: f64) -> [Vector3<f64>; 3] {
+        if self.turning.is_even() {
+            return [Vector3::from(self.turning.derivative(1, at)), Vector3::zeros(), Vector3::zeros()];
+        }
+        let derivatives = [1, 2, 3].map(|order| Vector3::from(self.turning.derivative(order, at)));
+        rotation::speeds(&self.turning.at(at).into(), &derivatives)
+    }
+
+    /// How the flange moves at `at`, per unit of the parameter.
+    pub(crate) fn twist(&self, at: f64) -> Twist {
+        let [_, moving @ ..] = self.moving(at);
+        self.carried.twist(&self.tcp(at), &moving, &self.rotation_rates(at))
+    }
+
+    /// The position and the rotation vector from `origin` at `at`, with their derivatives.
+    pub(crate) fn place(&self, at: f64, origin: &UnitQuaternion<f64>) -> [[Vector3<f64>; 3]; 2] {
+        let turned = (self.rotation(at) * origin.inverse()).scaled_axis();
+        let [speed, change, _] = self.rotation_rates(at);
+        let [first, second] = rotation::of_speeds(&turned, &[speed, change]);
+        let [place, velocity, acceleration, _] = self.moving(at);
+        [[place, velocity, acceleration], [turned, first, second]]
+    }
+}
+
+/// How `rotation` changes at `at`: its speed in rad per unit, and two derivatives of that.
+fn measured(rotation: impl Fn(f64) -> UnitQuaternion<f64>, at: f64, h: f64) -> [Vector3<f64>; 3] {
+    // The rotation vector from here on, at five places, gives derivatives that hold here.
+    let here = rotation(at).inverse();
+    let turned = |steps: f64| (rotation(at + steps * h) * here).scaled_axis();
+    let (m2, m1, p1, p2) = (turned(-2.0), turned(-1.0), turned(1.0), turned(2.0));
+    let first = (m2 - m1 * 8.0 + p1 * 8.0 - p2) / (12.0 * h);
+    let second = (-m2 + m1 * 16.0 + p1 * 16.0 - p2) / (12.0 * h * h);
+    let third = (-m2 + m1 * 2.0 - p1 * 2.0 + p2) / (2.0 * h * h * h);
+    [first, second, third + first.cross(&second) * 0.5]
+}
+
+impl Curve {
+    /// The external axes of an axis curve; of others, those that they have.
+    pub(crate) fn external(&self) -> Way<EXTERNAL_AXES> {
+        match self {
+            Curve::Axes(axes) => Quintic(axes.0.map(|power| Joints::of(&power).external)).into(),
+            Curve::Tool(tool) => tool.external.clone(),
+        }
+    }
+
+    /// Whether the parameter's pace is made of parts, between which third derivatives jump.
+    pub(crate) fn is_paced(&self) -> bool {
+        matches!(self, Curve::Tool(curve) if curve.is_paced())
+    }
+
+    /// All axes evenly from start to end.
+    pub(crate) fn even_axes(start: &Joints, end: &Joints) -> Self {
+        let (from, mut travel) = (start.all(), end.all());
+        for (travel, from) in travel.iter_mut().zip(from) {
+            *travel -= from;
+        }
+        Curve::Axes(Quintic::even(from, travel))
+    }
+
+    /// How all joints change at `at`, where they are `joints`: three derivatives by the parameter. `None` at a singular
+    /// point, where they would be made of rounding errors.
+    pub(crate) fn rates(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<[[f64; ALL]; 3]> {
+        match self {
+            Curve::Axes(axes) => Some([1, 2, 3].map(|order| axes.derivative(order, at))),
+            Curve::Tool(tool) => {
+                if tool.passage(at).is_none() && kinematics.clearance(&joints.axes) < SINGULAR {
+                    return None;
+                }
+                let rates = tool.rates(kinematics, at, &joints.axes)?;
+                let external = [1, 2, 3].map(|order| tool.external.derivative(order, at));
+                let [first, second, third] = external;
+                let all = |axes, external| Joints { axes, external }.all();
+                Some([all(rates.first, first), all(rates.second, second), all(rates.third, third)])
+            }
+        }
+    }
+
+    /// The joints at `at`; `near` are the joints of the cycle before.
+    pub(crate) fn joints(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> Joints {
+        match self {
+            Curve::Axes(axes) => Joints::of(&axes.at(at)),
+            // Planning has walked the way; where rounding alone misses the edge of the reach, the axes stay.
+            Curve::Tool(tool) => Joints {
+                axes: tool.axes(kinematics, at, &near.axes).unwrap_or(near.axes),
+                external: tool.external.at(at),
+            },
+        }
+    }
+}
+
+impl Joints {
+    /// Own axes, then external ones.
+    pub(crate) fn all(&self) -> [f64; ALL] {
+        let mut all = [0.0; ALL];
+        for (value, joint) in all.iter_mut().zip(self.axes.iter().chain(&self.external)) {
+            *value = *joint;
+        }
+        all
+    }
+
+    /// The opposite of [`Joints::all`].
+    pub(crate) fn of(all: &[f64; ALL]) -> Self {
+        let mut joints = Self { axes: [0.0; ROBOT_AXES], external: [0.0; EXTERNAL_AXES] };
+        for (joint, value) in joints.axes.iter_mut().chain(&mut joints.external).zip(all) {
+            *joint = *value;
+        }
+        joints
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_twist_is_how_the_flange_moves() {
+        let turning = Quintic([
+            [0.1, 0.2, 0.0],
+            [0.5, -0.3, 0.2],
+            [0.0, 0.4, -0.6],
+            [0.3, 0.0, 0.1],
+            [0.0, 0.2, 0.0],
+            [-0.1, 0.0, 0.1],
+        ]);
+        let arc = Arc {
+            centre: Vector3::new(500.0, 20.0, 300.0),
+            across: Vector3::new(0.0, 90.0, 0.0),
+            along: Vector3::new(0.0, 0.0, 90.0),
+            sweep: 2.0,
+        };
+        let curve = ToolCurve {
+            track: Track::Arc(arc),
+            base: UnitQuaternion::from_euler_angles(0.3, 0.2, 0.1),
+            turning: turning.into(),
+            carried: Carried::Tool(arl_robot::kinematics::frame([10.0, 20.0, 100.0, 5.0, 6.0, 7.0])),
+            external: Quintic::even([0.0; 6], [0.0; 6]).into(),
+            cfg: 0,
+            passages: Vec::new(),
+            over: None,
+        };
+        let (at, h) = (0.4, 1e-3);
+        let place = |at: f64| curve.flange(at).translation.vector;
+        let derivatives = curve.twist(at).of_place(&place(at));
+        let (m2, m1, here, p1, p2) =
+            (place(at - 2.0 * h), place(at - h), place(at), place(at + h), place(at + 2.0 * h));
+        let measured = [
+            (p1 - m1) / (2.0 * h),
+            (p1 - here * 2.0 + m1) / (h * h),
+            (p2 - p1 * 2.0 + m1 * 2.0 - m2) / (2.0 * h * h * h),
+        ];
+        for (derivative, measured) in derivatives.iter().zip(measured) {
+            assert!((derivative - measured).norm() < 1e-3 * measured.norm(), "{derivative} {measured}");
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! Gates (jump): straight up, over, and straight down to the target, with rounded corners.
+//!
+//! A gate is three axis motions in a row under one number. It rises by `rise` before anything else moves, and by as much
+//! again while it goes over already; on the other side the same with `sink`. Where the highest place that is allowed leaves
+//! no room for the second half, the corner is a right angle, in which the robot stops.
+
+use crate::blend::zone::LARGEST;
+use crate::command::error::PlanError;
+use crate::command::joints::{Joints, is_unset};
+use crate::command::{Command, Settings, Speed, Target, Zone};
+use crate::plan::motion::Motion;
+use crate::plan::planner::Planner;
+use arl_robot::kinematics::Kinematics;
+use arl_robot::robot::Robot;
+
+/// The axis that lifts.
+const LIFT: usize = 2;
+/// Ways up to this, in mm, are none.
+const NO_WAY: f64 = 1e-6;
+/// How much of the way over a corner may take.
+const HALF: f64 = 0.5;
+/// The part of the way down that a corner leaves to stop in, whatever is asked for.
+const STOPPING: f64 = 0.02;
+/// The zone of a gate that goes on without a stop, in percent of the largest.
+const SMOOTH: f64 = 25.0;
+
+/// The form of a gate.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Gate {
+    /// How far it rises straight up at least, in mm, 0 or more.
+    pub rise: f64,
+    /// How far it sinks straight down at least, in mm, 0 or more.
+    pub sink: f64,
+    /// The height of the TCP in the robot's base that it does not pass, in mm; `None`: the robot's own limit.
+    pub highest: Option<f64>,
+    /// How it rises.
+    pub rising: Lift,
+    /// How it sinks.
+    pub falling: Lift,
+    /// Whether it goes on to the next motion without reaching its target.
+    pub smooth: bool,
+    /// Whether it stops straight above its target.
+    pub stays: bool,
+}
+
+/// How fast a gate rises or sinks; what is `None` is as on the way over.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Lift {
+    /// Percent of the axis's speed, above 0.
+    pub vel: Option<f64>,
+    /// Percent of the axis's acceleration and deceleration. Below 20 counts as 20, above 100 as 100.
+    pub acc: Option<f64>,
+}
+
+/// Plans the motions of a gate, one behind the other; all but the last one are parts of it.
+pub(crate) fn plan(
+    robot: &Robot,
+    start: &Joints,
+    command: &Command,
+    settings: &Settings,
+) -> Result<Vec<Motion>, PlanError> {
+    let Target::Gate { pose, wobj, wanted, external, gate } = &command.target else {
+        return Err(PlanError::NotForThisRobot);
+    };
+    let (Kinematics::Scara(_), Some(lift)) = (&robot.kinematics, robot.axes.get(LIFT)) else {
+        return Err(PlanError::NotForThisRobot);
+    };
+    if [gate.rise, gate.sink].iter().any(|way| !way.is_finite() || *way < 0.0 || is_unset(*way)) {
+        return Err(PlanError::NotANumber);
+    }
+    let planner = Planner { robot, start, command, settings };
+    let end = planner.choose(pose, wobj, *wanted, external)?;
+    let height = |joints: &Joints| joints.axes.get(LIFT).copied().unwrap_or_default();
+    let (from, to) = (height(start), height(&end));
+    // The TCP is everywhere as far above the lift.
+    let above = planner.start_frame().translation.vector.z - from;
+    let highest = gate.highest.map_or(lift.max, |highest| lift.max.min(highest - above));
+    let highest_end = from.max(to);
+    if highest_end > highest + NO_WAY {
+        return Err(PlanError::AboveLimit { height: highest_end + above, highest: highest + above });
+    }
+    let at = |joints: &Joints, height: f64| {
+        let mut joints = *joints;
+        if let Some(value) = joints.axes.get_mut(LIFT) {
+            *value = height;
+        }
+        joints
+    };
+    let top = (from + 2.0 * gate.rise).max(to + 2.0 * gate.sink).min(highest).max(highest_end);
+    let stays = at(start, top).all().iter().zip(at(&end, top).all()).all(|(a, b)| (a - b).abs() < NO_WAY);
+    let lifting = |way: &Lift| {
+        let speed = Speed { percent: way.vel.unwrap_or(command.speed.percent), ..command.speed };
+        let acc_percent = way.acc.unwrap_or(settings.acc_percent);
+        (Command { speed, ..command.clone() }, Settings { acc_percent, ..*settings })
+    };
+    let part = |from: &Joints, to: Joints, (command, settings): &(Command, Settings)| {
+        Planner { robot, start: from, command, settings }.axes(to)
+    };
+    if stays {
+        // Over the same place there is nothing to go over.
+        let (end, way) = if gate.stays { (at(&end, top), &gate.rising) } else { (end, &gate.falling) };
+        return Ok(vec![Motion { zone: zone(gate), ..part(start, end, &lifting(way))? }]);
+    }
+    let (up, over) = (at(start, top), at(&end, top));
+    let mut motions = Vec::with_capacity(3);
+    let mut push = |motion: Motion, corner: Option<(f64, f64)>| {
+        motions.push(Motion { corner, ends: false, zone: Zone::NONE, ..motion });
+    };
+    // The share of a way of the lift that is left when it has gone straight for so long.
+    let rest = |way: f64, straight: f64| 1.0 - (straight / way).min(1.0);
+    let round = |leaving: f64, joining: f64| (leaving > 0.0 && joining > 0.0).then_some((leaving, joining));
+    if top - from > NO_WAY {
+        push(part(start, up, &lifting(&gate.rising))?, round(rest(top - from, gate.rise), HALF));
+    }
+    let sinks = top - to > NO_WAY && !gate.stays;
+    // Where it goes on smoothly, the corner leaves the next blend its part.
+    let most = 1.0 - if gate.smooth { SMOOTH / 100.0 * LARGEST } else { STOPPING };
+    let corner = if sinks { round(HALF, rest(top - to, gate.sink).min(most)) } else { None };
+    push(part(&up, over, &(command.clone(), *settings))?, corner);
+    if sinks {
+        push(part(&over, end, &lifting(&gate.falling))?, None);
+    }
+    if let Some(last) = motions.last_mut() {
+        (last.ends, last.zone) = (true, zone(gate));
+    }
+    share_out(&mut motions);
+    Ok(motions)
+}
+
+/// Lets each part be as much of the gate as it takes of the time.
+fn share_out(parts: &mut [Motion]) {
+    let all: f64 = parts.iter().map(Motion::duration).sum();
+    let mut done = 0.0;
+    for part in parts.iter_mut().filter(|_| all > 0.0) {
+        let from = done / all;
+        done += part.duration();
+        part.stretch = [from, done / all];
+    }
+}
+
+fn zone(gate: &Gate) -> Zone {
+    if gate.smooth && !gate.stays { Zone { percent: SMOOTH, ..Zone::NONE } } else { Zone::NONE }
+}

@@ -1,0 +1,117 @@
+//! Motions that are planned.
+
+use crate::command::Zone;
+use crate::command::joints::Joints;
+use crate::follow::governor::MARGIN;
+use crate::limits::profile::Limits;
+use crate::overlay::Led;
+use crate::plan::constraints::Pace;
+use crate::plan::curve::Curve;
+use crate::plan::lay_overlay::Laid;
+use crate::plan::planner::{ENOUGH, slowest_within};
+use arl_robot::frames::Rig;
+use arl_robot::robot::VelocityProfile;
+
+/// A motion that is ready to run, from the target before it to its own.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Motion {
+    pub(crate) curve: Curve,
+    pub(crate) start: Joints,
+    pub(crate) end: Joints,
+    pub(crate) rig: Rig,
+    /// `None` for a motion that goes nowhere.
+    pub(crate) limits: Option<Limits>,
+    /// The nominal speed, as part of the motion per s, at which it meets its neighbours; at most `limits` are reached.
+    pub(crate) rate: f64,
+    /// Whether it goes on smoothly from the motion before it, at the same nominal speed.
+    pub(crate) flows: bool,
+    pub(crate) pace: Pace,
+    pub(crate) profile: VelocityProfile,
+    /// The speed that it could have, where a duration was programmed.
+    pub(crate) timed: Option<f64>,
+    /// The length of the TCP's way in mm, 0 for axis motions.
+    pub(crate) length: f64,
+    /// The angle in deg by which the tool turns on its way, 0 for axis motions.
+    pub(crate) angle: f64,
+    pub(crate) zone: Zone,
+    /// The parts of this motion and of the next one that a blend takes, where that is not left to the zone.
+    pub(crate) corner: Option<(f64, f64)>,
+    /// Whether the instruction ends with it.
+    pub(crate) ends: bool,
+    /// From which share of the instruction to which it goes.
+    pub(crate) stretch: [f64; 2],
+    pub(crate) line: u32,
+    /// What is laid over it.
+    pub(crate) laid: Option<Box<Laid>>,
+}
+
+impl Motion {
+    /// Where it starts.
+    pub fn start(&self) -> &Joints {
+        &self.start
+    }
+
+    /// Where it ends.
+    pub fn end(&self) -> &Joints {
+        &self.end
+    }
+
+    /// How long it takes from rest to rest at an override of 100 %, in s: where its duration is given, as it is executed, braking a
+    /// little more gently than its limits allow; else as the limits allow.
+    pub fn duration(&self) -> f64 {
+        self.limits.map_or(0.0, |limits| self.duration_with(&limits))
+    }
+
+    /// The same with these limits.
+    pub(crate) fn duration_with(&self, limits: &Limits) -> f64 {
+        if self.timed.is_some() { limits.duration_braking(1.0, MARGIN) } else { limits.duration(1.0) }
+    }
+
+    /// The same where an acceleration takes `rise` s to rise: a programmed duration is kept for all that, as long as the robot
+    /// can go a little faster.
+    pub(crate) fn rising_in(mut self, rise: f64) -> Self {
+        if let (Some(highest), Some(limits)) = (self.timed, self.limits) {
+            let wanted = limits.duration_braking(1.0, MARGIN);
+            let rising = |vel: f64| Limits { vel, ..limits }.rising_in(rise);
+            if rising(limits.vel).duration_braking(1.0, MARGIN) > wanted + ENOUGH.excess {
+                let vel = slowest_within(wanted, [limits.vel, highest], rising);
+                self.limits = Some(Limits { vel, ..limits });
+            }
+        }
+        self
+    }
+
+    /// The share of the instruction that is done where so much of the motion is.
+    pub(crate) fn of_instruction(&self, share: f64) -> f64 {
+        let [from, to] = self.stretch;
+        from + (to - from) * share
+    }
+
+    /// Whether anything moves.
+    pub(crate) fn goes(&self) -> bool {
+        self.limits.is_some()
+    }
+
+    /// The part of its speed that is left to it with what is laid over it.
+    pub fn share_of_speed(&self) -> f64 {
+        match (&self.laid, self.limits) {
+            (Some(laid), Some(limits)) => limits.vel / laid.plain_speed().unwrap_or(self.rate),
+            _ => 1.0,
+        }
+    }
+
+    /// How fast the TCP may go with what is laid over the motion, in mm/s.
+    pub(crate) fn fastest(&self) -> f64 {
+        self.laid.as_ref().map_or(f64::INFINITY, |laid| laid.fastest)
+    }
+
+    /// How a compensation stands at the end, for the motion behind it.
+    pub(crate) fn led(&self) -> Led {
+        self.laid.as_ref().map_or_else(Led::default, |laid| laid.led())
+    }
+
+    /// The length of the TCP's way in mm; 0 for axis motions.
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+}

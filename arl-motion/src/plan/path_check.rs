@@ -1,0 +1,326 @@
+//! Walks a way of the TCP before it is moved: is it reachable, within the ranges of the axes, clear of singular points, and how do
+//! the axes move along it?
+
+use crate::command::error::PlanError;
+use crate::command::joints::{Joints, is_unset};
+use crate::geometry::parametrization::Progress;
+use crate::plan::curve::ToolCurve;
+use arl_robot::kinematics::{Axes, RANGE_SLACK, Rates, Refusal, SINGULAR_SCALE};
+use arl_robot::robot::Robot;
+
+/// What the walk found.
+pub(crate) struct Survey {
+    /// The axes at the end.
+    pub(crate) end: Axes,
+    /// The derivatives of the axes by the parameter, at places close enough to see every change.
+    pub(crate) rates: Vec<(f64, Rates)>,
+}
+
+/// The longest step, as part of the path.
+const LONGEST_STEP: f64 = 1.0 / 16.0;
+/// The same for a path on which no axis moves farther than `SHORT` deg (mm).
+const LONGEST_SHORT_STEP: f64 = 0.5;
+const SHORT: f64 = 3.0;
+/// A step as part of the length over which the axes' motion changes. A singular point is never stepped over: the steps
+/// get shorter in proportion to its distance.
+const STEP_OF_SCALE: f64 = 0.04;
+/// Closer to a singular point than this (see [`arl_robot::kinematics::Kinematics::clearance`]) rounding spoils the derivatives.
+pub(crate) const SINGULAR: f64 = 1e-5;
+/// An axis that is so far (deg) from where it was bound to be has jumped to another solution.
+const JUMP: f64 = 10.0;
+/// Steps through a passage of the wrist singularity.
+const PASSAGE_STEPS: f64 = 48.0;
+/// The place of axis 4.
+const AXIS_4: usize = 3;
+/// How far beside a place its other side is looked at.
+const BESIDE: f64 = 1e-9;
+/// A glimpse behind the start and before the end, where the axes must not differ from the ends by over `GLIMPSE_JUMP` deg.
+const GLIMPSE: f64 = 1e-6;
+const GLIMPSE_JUMP: f64 = 0.05;
+
+struct Walk<'a> {
+    robot: &'a Robot,
+    curve: &'a ToolCurve,
+    /// The same way without what is laid over it.
+    plain: Option<ToolCurve>,
+}
+
+/// Walks `curve` from `start`.
+pub(crate) fn survey(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result<Survey, PlanError> {
+    let plain = curve.over.as_ref().map(|_| ToolCurve { over: None, ..curve.clone() });
+    let walk = Walk { robot, curve, plain };
+    // The target first: where it cannot be reached, that is what the programmer wants to know.
+    let target = walk.reaches_target(&start.axes)?;
+    let short = target.iter().zip(&start.axes).all(|(end, start)| (end - start).abs() <= SHORT);
+    let longest = if short { LONGEST_SHORT_STEP } else { LONGEST_STEP };
+
+    let mut rates = Vec::with_capacity(32);
+    let mut limits = Ranges::new(robot);
+    let (mut at, mut here) = (0.0, start.axes);
+    let glimpse = walk.axes(GLIMPSE, &here)?;
+    walk.no_jump(&here, &glimpse, GLIMPSE_JUMP, 0.0)?;
+    let mut known = walk.rates(0.0, &here);
+    let longest = curve.over.as_ref().map_or(longest, |over| over.longest_step().min(longest));
+    let mut strip = 0.0;
+    while at < 1.0 - GLIMPSE {
+        let next = walk.next(at, &here, known.as_ref(), longest)?.min(jump_ahead(curve, at)).min(1.0 - GLIMPSE);
+        let expected = known.as_ref().map_or(here, |known| ahead(&here, known, next - at));
+        let found = walk.axes(next, &expected)?;
+        walk.no_jump(&expected, &found, JUMP, next)?;
+        if let Some(known) = known {
+            limits.between(at, &here, &known, next - at);
+            rates.push((at, known));
+        }
+        limits.at(next, &found);
+        (at, here) = (next, found);
+        known = walk.rates(at, &here);
+        // Figures of a weave that are almost alike need not all be walked.
+        if let Some((skip, plain)) = walk.figures_alike(at, at - strip, &here) {
+            limits.between(at, &here, &plain, skip);
+            at += skip;
+            here = walk.axes(at, &here)?;
+            limits.at(at, &here);
+            known = walk.rates(at, &here);
+            strip = at;
+        }
+    }
+    rates.extend(known.map(|known| (at, known)));
+    let end = walk.axes(1.0, &here)?;
+    walk.no_jump(&here, &end, GLIMPSE_JUMP, 1.0)?;
+    limits.at(1.0, &end);
+    limits.broken.map_or(Ok(Survey { end, rates }), Err)
+}
+
+/// The next side of a place where the derivatives of a way jump that goes at an even pace in parts.
+fn jump_ahead(curve: &ToolCurve, at: f64) -> f64 {
+    if !curve.is_paced() {
+        return f64::INFINITY;
+    }
+    let parts = Progress::PARTS as f64;
+    let border = ((at + 2.0 * BESIDE) * parts).floor() / parts;
+    // From just before the border to just behind it, else to just before the next one.
+    if (border - at).abs() < 2.0 * BESIDE && at < border { border + BESIDE } else { border + 1.0 / parts - BESIDE }
+}
+
+/// An axis may be beside where the place before made it bound to be by this part of what the axes moved since.
+const EXPECTED: f64 = 0.02;
+
+/// Looks at a short way at a few places, the first and the last of which are its ends; `None` where that is not enough to
+/// know how the axes move, or where they must not go: [`survey`] tells then.
+pub(crate) fn glance<const N: usize>(
+    robot: &Robot,
+    curve: &ToolCurve,
+    start: &Axes,
+    places: &[f64; N],
+) -> Option<Survey> {
+    let walk = Walk { robot, curve, plain: None };
+    let mut found = Survey { end: *start, rates: Vec::with_capacity(N) };
+    let mut limits = Ranges::new(robot);
+    for at in places {
+        let expected = match found.rates.last() {
+            Some((before, rates)) => ahead(&found.end, rates, at - before),
+            None => *start,
+        };
+        let axes = curve.axes(&robot.kinematics, *at, &expected)?;
+        if let Some((before, rates)) = found.rates.last() {
+            let speeds = || robot.own_axes().iter().map(|axis| axis.vel);
+            let far = |a: &Axes, b: &Axes| {
+                a.iter().zip(b).zip(speeds()).map(|((a, b), vel)| (a - b).abs() / vel).fold(0.0, f64::max)
+            };
+            if far(&axes, &expected) > EXPECTED * far(&axes, &found.end) + 1e-9 {
+                return None;
+            }
+            limits.between(*before, &found.end, rates, at - before);
+        }
+        limits.at(*at, &axes);
+        let rates = walk.rates(*at, &axes)?;
+        found.end = axes;
+        found.rates.push((*at, rates));
+    }
+    limits.broken.is_none().then_some(found)
+}
+
+impl Walk<'_> {
+    fn axes(&self, at: f64, near: &Axes) -> Result<Axes, PlanError> {
+        let found = self.curve.axes(&self.robot.kinematics, at, near);
+        found.ok_or_else(|| match self.curve.passage(at) {
+            Some(_) => PlanError::Singular { axis: self.name(AXIS_4), along: at },
+            None => self.unreachable(at),
+        })
+    }
+
+    fn reaches_target(&self, near: &Axes) -> Result<Axes, PlanError> {
+        let found = self.robot.kinematics.inverse(&self.curve.flange(1.0), self.curve.cfg_at(1.0), near);
+        found.ok_or_else(|| self.unreachable(1.0))
+    }
+
+    /// The next place to look at; never beyond the border of a passage.
+    fn next(&self, at: f64, axes: &Axes, known: Option<&Rates>, longest: f64) -> Result<f64, PlanError> {
+        let step = match (self.curve.passage(at), known) {
+            (Some(passage), _) if at < passage.to => (passage.to - passage.from) / PASSAGE_STEPS,
+            (_, None) => SINGULAR_SCALE,
+            (_, Some(known)) => {
+                let scale = self.scale_of_way(known, at, axes);
+                if scale < SINGULAR_SCALE {
+                    let dense = self.is_plain_clear(at, axes);
+                    return Err(if dense { PlanError::TooDense { along: at } } else { self.singular(known, at) });
+                }
+                (STEP_OF_SCALE * scale).min(longest)
+            }
+        };
+        Ok(self.curve.borders().filter(|border| *border > at).fold(at + step, f64::min))
+    }
+
+    /// Out of reach from here on: how far at worst?
+    fn unreachable(&self, along: f64) -> PlanError {
+        let (mut farthest, mut tilt) = (0.0_f64, 0.0_f64);
+        for step in 0..=32 {
+            let flange = self.curve.flange(along + (1.0 - along) * f64::from(step) / 32.0);
+            match self.robot.kinematics.refusal(&flange) {
+                Refusal::Unreachable { beyond } => farthest = farthest.max(beyond),
+                Refusal::Tilted { by } => tilt = tilt.max(by),
+                Refusal::NoSuchCfg { .. } | Refusal::AxisLimit { .. } => {}
+            }
+        }
+        if tilt > 0.0 {
+            PlanError::Tilted { by: tilt, along }
+        } else {
+            PlanError::Unreachable { beyond: farthest, along }
+        }
+    }
+
+    /// The derivatives of the axes; `None` at a singular point, where they would be made of rounding errors.
+    fn rates(&self, at: f64, axes: &Axes) -> Option<Rates> {
+        let kinematics = &self.robot.kinematics;
+        let spoilt = self.curve.passage(at).is_none() && kinematics.clearance(axes) < SINGULAR;
+        if spoilt { None } else { self.curve.rates(kinematics, at, axes) }
+    }
+
+    /// Over which part of the path the axes' motion changes substantially.
+    fn scale(&self, rates: &Rates) -> f64 {
+        rates.scale(&self.robot.axes)
+    }
+
+    /// The same where something is laid over the way: how the axes change along the plain way tells how near a singular
+    /// point is, while a weave would be at rest now and then.
+    fn scale_of_way(&self, rates: &Rates, at: f64, axes: &Axes) -> f64 {
+        let plain = self.plain.as_ref().and_then(|plain| Some((plain, self.plain_rates(at, axes)?)));
+        let Some((plain, plain_rates)) = plain else { return self.scale(rates) };
+        let ([_, way, ..], [_, whole, ..]) = (plain.moving(at), self.curve.moving(at));
+        let slower = if way.norm() > 0.0 { (way.norm() / whole.norm()).min(1.0) } else { 1.0 };
+        self.scale(&plain_rates) * slower
+    }
+
+    /// Whether only what is laid over the way makes the axes' motion change so quickly.
+    fn is_plain_clear(&self, at: f64, axes: &Axes) -> bool {
+        self.plain.is_some() && self.plain_rates(at, axes).is_some_and(|plain| self.scale(&plain) >= SINGULAR_SCALE)
+    }
+
+    fn plain_rates(&self, at: f64, axes: &Axes) -> Option<Rates> {
+        self.robot.kinematics.rates(axes, &self.plain.as_ref()?.twist(at))
+    }
+
+    /// How far to skip ahead, by whole figures of a weave, when the last one has been walked for `walked`: with the
+    /// derivatives of the axes along the plain way.
+    fn figures_alike(&self, at: f64, walked: f64, axes: &Axes) -> Option<(f64, Rates)> {
+        let (figure, until) = self.curve.over.as_ref()?.figures()?;
+        if walked < figure {
+            return None;
+        }
+        let plain = self.plain_rates(at, axes)?;
+        let room = (STEP_OF_SCALE * self.scale(&plain)).min(LONGEST_STEP).min(until - at - figure);
+        let skip = (room / figure).floor() * figure;
+        (skip > 0.0).then_some((skip, plain))
+    }
+
+    fn no_jump(&self, expected: &Axes, found: &Axes, most: f64, at: f64) -> Result<(), PlanError> {
+        let jump = |index: usize| match (expected.get(index), found.get(index)) {
+            (Some(expected), Some(found)) => (found - expected).abs(),
+            _ => 0.0,
+        };
+        let worst = (0..found.len()).max_by(|a, b| jump(*a).total_cmp(&jump(*b))).unwrap_or(0);
+        if jump(worst) <= most {
+            Ok(())
+        } else if self.is_plain_clear(at, found) {
+            Err(PlanError::TooDense { along: at })
+        } else {
+            Err(PlanError::Singular { axis: self.name(worst), along: at })
+        }
+    }
+
+    fn singular(&self, rates: &Rates, at: f64) -> PlanError {
+        // A stretched arm is singular, too; but what is wrong there is that the line goes on where the arm ends.
+        let ends = |ahead: f64| self.curve.axes(&self.robot.kinematics, (at + ahead).min(1.0), &rates.first).is_none();
+        if [1.0, 2.0, 4.0, 8.0].iter().any(|times| ends(times * SINGULAR_SCALE)) {
+            return self.unreachable(at);
+        }
+        let rate = |index: usize| rates.first.get(index).map_or(0.0, |rate| rate.abs());
+        let fastest = (0..self.robot.own_axes().len()).max_by(|a, b| rate(*a).total_cmp(&rate(*b))).unwrap_or(0);
+        PlanError::Singular { axis: self.name(fastest), along: at }
+    }
+
+    fn name(&self, index: usize) -> String {
+        self.robot.axes.get(index).map_or(String::new(), |axis| axis.name.clone())
+    }
+}
+
+/// Where the axes are bound to be a step further.
+fn ahead(here: &Axes, rates: &Rates, step: f64) -> Axes {
+    let mut axes = *here;
+    for (index, value) in axes.iter_mut().enumerate() {
+        if let (Some(first), Some(second), Some(third)) =
+            (rates.first.get(index), rates.second.get(index), rates.third.get(index))
+        {
+            *value += step * (first + step * (second / 2.0 + step * third / 6.0));
+        }
+    }
+    axes
+}
+
+/// Watches the ranges of the axes, and remembers the first axis that leaves its range, with its farthest position.
+struct Ranges<'a> {
+    robot: &'a Robot,
+    broken: Option<PlanError>,
+}
+
+impl<'a> Ranges<'a> {
+    fn new(robot: &'a Robot) -> Self {
+        Self { robot, broken: None }
+    }
+
+    fn at(&mut self, at: f64, axes: &Axes) {
+        for (index, value) in axes.iter().enumerate() {
+            self.check(at, index, *value);
+        }
+    }
+
+    /// An axis that turns back between two places goes farthest between them.
+    fn between(&mut self, at: f64, axes: &Axes, rates: &Rates, step: f64) {
+        for (index, ((value, first), second)) in axes.iter().zip(&rates.first).zip(&rates.second).enumerate() {
+            let back = -first / second;
+            if back > 0.0 && back < step {
+                self.check(at + back, index, value + 0.5 * first * back);
+            }
+        }
+    }
+
+    fn check(&mut self, at: f64, index: usize, value: f64) {
+        let Some(axis) = self.robot.axes.get(index) else { return };
+        let beyond = (value - axis.max).max(axis.min - value);
+        if beyond <= RANGE_SLACK || is_unset(value) {
+            return;
+        }
+        match &mut self.broken {
+            None => {
+                let (min, max) = (axis.min, axis.max);
+                self.broken = Some(PlanError::AxisLimit { axis: axis.name.clone(), value, min, max, along: at });
+            }
+            Some(PlanError::AxisLimit { axis: first, value: farthest, min, max, .. }) if *first == axis.name => {
+                if beyond > (*farthest - *max).max(*min - *farthest) {
+                    *farthest = value;
+                }
+            }
+            Some(_) => {}
+        }
+    }
+}

@@ -1,0 +1,221 @@
+//! Motions that are planned and wait until they are laid on the course.
+//!
+//! Blends take long to find, so a thread has some time for them where the robot can do without the motion meanwhile. How much time
+//! that is depends on the course alone, never on the thread.
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use crate::blend::blend_thread::{Joining, Prepared};
+use crate::blend::zone::asks;
+use crate::plan::motion::Motion;
+use crate::queue::path_buffer::risen;
+use crate::queue::{Queue, TIME_AHEAD};
+
+/// The longest time, in s, that a blend may take to be found.
+const HAND_OVER: f64 = 0.05;
+/// The part of the time after which the robot may have to brake without the motion; and the least time, in s, that is waited for.
+const PART: f64 = 0.5;
+const SHORTEST: f64 = 0.003;
+/// So many motions a cycle are always laid, and are taken from the program, as soon as enough way is ahead; and as many as the robot
+/// may go in so many cycles.
+const A_CYCLE: u32 = 2;
+const CYCLES: f64 = 2.0;
+/// A robot at rest does not set off along shorter motions, in s at full speed, before enough of them are ahead: one acceleration holds for all of
+/// them then, which could not get less any more while it speeds up.
+const SHORT: f64 = 0.02;
+/// Enough way ahead, in s at full speed; and where laws look along it.
+const ENOUGH: f64 = 0.5;
+const ENOUGH_FOR_LAWS: f64 = 5.0;
+
+/// A motion that waits.
+#[derive(Clone, Debug)]
+pub(crate) struct Ready {
+    pub(crate) motion: Arc<Motion>,
+    pub(crate) number: u64,
+    /// The cycle in which it is laid; 0: at once.
+    due: u64,
+    pub(crate) prepared: Option<Prepared>,
+}
+
+/// The motions that wait, in order.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Waiting {
+    motions: VecDeque<Ready>,
+    /// How long they take, in s at full speed.
+    way: f64,
+}
+
+/// What was done in a cycle: motions, and their way in s at full speed.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Done {
+    count: u32,
+    way: f64,
+}
+
+impl Done {
+    fn add(&mut self, motion: &Motion) {
+        self.count += 1;
+        self.way += way(motion);
+    }
+
+    /// Whether that is enough for a cycle of so many s.
+    fn suffices(&self, cycle: f64) -> bool {
+        self.count >= A_CYCLE && self.way >= CYCLES * cycle
+    }
+}
+
+/// The way of a motion in s at full speed.
+fn way(motion: &Motion) -> f64 {
+    if motion.goes() { 1.0 / motion.rate } else { 0.0 }
+}
+
+impl Waiting {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.motions.is_empty()
+    }
+
+    pub(crate) fn first(&self) -> Option<&Ready> {
+        self.motions.front()
+    }
+
+    pub(crate) fn last(&self) -> Option<&Motion> {
+        self.motions.back().map(|ready| &*ready.motion)
+    }
+
+    pub(crate) fn pop(&mut self) -> Option<Ready> {
+        let first = self.motions.pop_front()?;
+        // Rounding must not gather.
+        self.way = if self.motions.is_empty() { 0.0 } else { self.way - way(&first.motion) };
+        Some(first)
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.motions.clear();
+        self.way = 0.0;
+    }
+
+    /// Those that are due.
+    pub(crate) fn due(&self, cycle: u64) -> impl Iterator<Item = &Ready> {
+        self.motions.iter().take_while(move |ready| ready.due <= cycle)
+    }
+
+    fn push(&mut self, ready: Ready) {
+        self.way += way(&ready.motion);
+        self.motions.push_back(ready);
+    }
+
+    /// Wants all of them laid at once.
+    fn hurry(&mut self) {
+        self.motions.iter_mut().for_each(|ready| ready.due = 0);
+    }
+}
+
+impl Queue {
+    /// Whether so little way is ahead that more than the motions that can always wait may be added.
+    pub(crate) fn is_short_of_way(&self) -> bool {
+        // In the profile O motions may wait for a law.
+        let lays = self.waiting.is_empty() || !(self.course.is_asking() || self.course.is_laid_down());
+        lays && self.way_ahead() < TIME_AHEAD
+    }
+
+    /// Whether so many motions were planned in this cycle that the next one can wait.
+    pub(crate) fn is_sated(&self) -> bool {
+        let enough = if self.course.wants_laws() { ENOUGH_FOR_LAWS } else { ENOUGH };
+        let can_wait = || self.spare.unwrap_or_else(|| self.course.spare()) >= SHORTEST / PART;
+        self.taken.suffices(self.cycle) && self.way_ahead() >= enough && can_wait()
+    }
+
+    /// The way that is ahead, in s at full speed.
+    fn way_ahead(&self) -> f64 {
+        self.course.time_left() + self.waiting.way
+    }
+
+    /// Appends a motion to those that wait; lays what is due.
+    pub(crate) fn wait_with(&mut self, motion: Motion, number: u64) {
+        self.taken.add(&motion);
+        let motion = risen(motion, self.cycle);
+        let (due, prepared) = self.begin_to_prepare(&motion);
+        self.waiting.push(Ready { motion, number, due, prepared });
+        self.lay_waiting();
+    }
+
+    /// Begins to look for how a motion is joined by the one before it, if that takes long and there is time. Returns when it is laid.
+    fn begin_to_prepare(&mut self, motion: &Arc<Motion>) -> (u64, Option<Prepared>) {
+        let time = (PART * self.spare()).min(HAND_OVER);
+        let before = self.waiting.motions.iter().rev().find(|ready| ready.motion.goes());
+        let on_course = self.course.last().filter(|_| !self.course.is_empty());
+        let Some(last) = before.map(|ready| &ready.motion).or(on_course) else { return (0, None) };
+        // What is laid over a motion depends on how those before it have been laid.
+        let overlaid = motion.laid.is_some() || last.laid.is_some();
+        let sets_off = self.course.rests() && way(motion) < SHORT && self.course.time_left() < ENOUGH;
+        let hurries = time < SHORTEST || overlaid || sets_off;
+        // In the profile O it may have to wait all the same.
+        let waits = self.course.is_asking() || self.course.is_laid_down();
+        let is_blended = !overlaid && motion.goes() && !motion.flows && asks(&self.robot, last);
+        let prepared = (is_blended && (waits || !hurries)).then(|| {
+            let joining = match before {
+                Some(Ready { prepared: Some(prepared), .. }) => Joining::Behind(prepared.clone()),
+                Some(_) => Joining::Known(None),
+                None => self.course.joining(),
+            };
+            self.preparer.prepare(&self.robot, joining, [last, motion])
+        });
+        if hurries {
+            self.waiting.hurry();
+            return (0, prepared);
+        }
+        let time = if is_blended { time } else { 0.0 };
+        (self.cycles + (time / self.cycle) as u64, prepared)
+    }
+
+    /// As [`crate::queue::path_buffer::Course::spare`].
+    fn spare(&mut self) -> f64 {
+        *self.spare.get_or_insert_with(|| self.course.spare())
+    }
+
+    /// A cycle begins.
+    pub(crate) fn count_cycle(&mut self) {
+        self.cycles += 1;
+        self.taken = Done::default();
+        self.spare = None;
+    }
+
+    /// Lays the motions that are due on the course, as soon as that can take them; some a cycle, but for those in a hurry.
+    pub(crate) fn lay_waiting(&mut self) {
+        let mut laid = Done::default();
+        while let Some(first) = self.waiting.first() {
+            let hurries = first.due == 0 || self.course.is_empty();
+            let is_due = first.due <= self.cycles && !laid.suffices(self.cycle);
+            if self.course.is_asking() || !(hurries || is_due) {
+                return;
+            }
+            laid.add(&first.motion);
+            self.spare = None;
+            self.foreseen = None;
+            if self.course.is_laid_down() {
+                let due = self.waiting.due(self.cycles);
+                let motions = due.map(|ready| ((&ready.motion, ready.number), ready.prepared.as_ref()));
+                self.course.offer((&self.robot, &self.joints), motions, self.cycle);
+                self.take_answer();
+            } else if let Some(Ready { motion, number, prepared, .. }) = self.waiting.pop() {
+                let sharp = self.course.append(&self.robot, (&motion, number), prepared.as_ref(), self.cycle);
+                self.note_sharp(sharp);
+                self.note_laid(&motion, number);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+impl Queue {
+    /// Has the thread never find anything.
+    pub(crate) fn prepare_nothing(&mut self) {
+        self.preparer = crate::blend::blend_thread::Preparer::stuck();
+    }
+
+    /// Waits until the thread has found everything.
+    pub(crate) fn await_prepared(&self) {
+        self.waiting.motions.iter().filter_map(|ready| ready.prepared.as_ref()).for_each(Prepared::wait);
+    }
+}

@@ -1,0 +1,112 @@
+//! How far the motions of the queue have come.
+
+use crate::follow::segment::Piece;
+use crate::queue::Queue;
+
+/// For so many cycles what is left of a motion is counted down before it is found anew.
+const FORESEEN: u32 = 16;
+/// How far the motion being executed has come. Times are those at an override of 100 %. A blend belongs to the motion that
+/// is joined, whose way counts from the target that is rounded off (manual 7.3).
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Progress {
+    /// The running number of the motion.
+    pub motion: u64,
+    /// Its program line.
+    pub line: u32,
+    /// s since its start.
+    pub elapsed_time: f64,
+    /// s to its end.
+    pub left_time: f64,
+    /// mm of the line that are done; 0 for axis motions.
+    pub elapsed_distance: f64,
+    /// mm of the line that are left; 0 for axis motions.
+    pub left_distance: f64,
+    /// The share of the motion that is done, 0 to 1; of axis motions as of others.
+    pub share: f64,
+}
+
+impl Progress {
+    /// A motion that goes nowhere, done.
+    const DONE: Self = Self {
+        motion: 0,
+        line: 0,
+        elapsed_time: 0.0,
+        left_time: 0.0,
+        elapsed_distance: 0.0,
+        left_distance: 0.0,
+        share: 1.0,
+    };
+}
+
+impl Queue {
+    /// How far the motion has come that was executed in the last cycle: all the way, if it came to its target then.
+    /// `None`: there was none.
+    pub fn progress(&self) -> Option<Progress> {
+        self.progress
+    }
+
+    /// How far a motion had come when it ended, or was left for a blend, in the last cycle. `None`: neither did it then, or it
+    /// was dropped.
+    pub fn left(&self, motion: u64) -> Option<Progress> {
+        self.left.iter().rev().find(|progress| progress.motion == motion).copied()
+    }
+
+    /// Counts time for the motion that counts as being executed.
+    pub(crate) fn time(&mut self, passed: f64) {
+        let Some((piece, _)) = self.course.current() else { return };
+        if self.timed != piece.number {
+            (self.timed, self.elapsed) = (piece.number, 0.0);
+        }
+        self.elapsed += passed;
+    }
+
+    pub(crate) fn at_the_end_of(&self, piece: &Piece) -> Progress {
+        progress_at(piece, 1.0, piece.duration().unwrap_or(self.elapsed), 0.0)
+    }
+
+    /// How long the motion being executed still takes at full speed, in s, `passed` s of that later than when this was asked
+    /// last.
+    pub(crate) fn time_left(&mut self, motion: u64, elapsed: f64, passed: f64) -> f64 {
+        let (left, age) = match self.foreseen {
+            Some((of, left, age)) if of == motion && age < FORESEEN => ((left - passed).max(0.0), age + 1),
+            _ => (self.course.time_to_end(elapsed), 0),
+        };
+        self.foreseen = Some((motion, left, age));
+        left
+    }
+
+    pub(crate) fn on_the_way(&mut self, passed: f64) -> Option<Progress> {
+        let (piece, share) = self.course.current()?;
+        // A motion that is joined in this very cycle has not run yet.
+        let elapsed = if piece.number == self.timed { self.elapsed } else { 0.0 };
+        let motion = piece.number;
+        let left = self.time_left(motion, elapsed, passed);
+        let (piece, _) = self.course.current()?;
+        Some(progress_at(piece, share, elapsed, left))
+    }
+
+    /// Notes which motions are not executed any more. Those of which nothing is known go nowhere.
+    pub(crate) fn leave_behind(&mut self) {
+        let ahead = self.course.current().map_or(self.finished + 1, |(piece, _)| piece.number);
+        for motion in self.over + 1..ahead {
+            if !self.dropping && self.left(motion).is_none() {
+                self.left.push(Progress { motion, ..Progress::DONE });
+            }
+        }
+        self.over = self.over.max(ahead - 1);
+    }
+}
+
+/// How far the motion of a piece has come.
+pub(crate) fn progress_at(piece: &Piece, share: f64, elapsed_time: f64, left_time: f64) -> Progress {
+    let elapsed_distance = piece.length * share;
+    Progress {
+        motion: piece.number,
+        line: piece.line,
+        elapsed_time,
+        left_time,
+        elapsed_distance,
+        left_distance: piece.length - elapsed_distance,
+        share,
+    }
+}

@@ -1,0 +1,566 @@
+//! Motion that is stopped and set aside, so that others come in between: `stopmove` and `startmove`.
+//!
+//! What is set aside is the course itself, with the robot at rest on it. So going on after a return to that very place is
+//! going on along the same way. Only where motions are skipped, those behind them are planned anew, from the target that
+//! the robot goes to in their place.
+
+mod way_back;
+
+use std::collections::VecDeque;
+
+use crate::command::error::PlanError;
+use crate::command::joints::Joints;
+use crate::command::{Command, Settings, Target, Zone};
+use crate::overlay::Led;
+use crate::plan::chain::Held;
+use crate::plan::gate;
+use crate::plan::planner::plan;
+use crate::queue::look_ahead::Waiting;
+use crate::queue::path_buffer::Course;
+use crate::queue::{Progress, Queue, Stop};
+use arl_robot::frames::Rig;
+use way_back::{Skipped, Way};
+
+/// How near to the place of the stop a way back has to end, in deg (mm).
+const SAME: f64 = 1e-6;
+/// How many motions are planned anew in a cycle.
+const AT_ONCE: usize = 4;
+/// Room for so many stops within each other takes no memory in the cycle.
+const DEPTH: usize = 4;
+
+/// A motion as it was asked for.
+#[derive(Clone, Debug)]
+pub(crate) struct Asked {
+    number: u64,
+    command: Command,
+    settings: Settings,
+    start: Joints,
+    end: Joints,
+    /// How a compensation stands at its end.
+    led: Led,
+}
+
+/// A stop on its way to rest.
+#[derive(Clone, Debug)]
+struct Stopping {
+    stop: Stop,
+    level: u32,
+    /// How to go on with what was set aside before.
+    starts: VecDeque<Start>,
+    going: bool,
+    /// Whether nobody will go on with it.
+    drops: bool,
+}
+
+/// A stop that came while the robot was braking and was to go on then: at rest it comes before that.
+#[derive(Clone, Debug)]
+struct Again {
+    level: u32,
+    /// How to go on with what was set aside before.
+    starts: VecDeque<Start>,
+}
+
+/// How to go on with what was set aside last.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Start {
+    /// How many motions are dropped, counted from the stopped one: the robot goes to the target of the last of them. 0: to
+    /// the place of the stop.
+    pub skip: u32,
+    /// Whether the way there is gone at manual speed.
+    pub manual: bool,
+    /// The program line, for the trace and for errors.
+    pub line: u32,
+}
+
+/// What was set aside at a stop.
+#[derive(Clone, Debug)]
+struct Shelf {
+    level: u32,
+    /// Where the robot stood.
+    joints: Joints,
+    course: Course,
+    waiting: Waiting,
+    held: Option<Held>,
+    end: Joints,
+    rig: Rig,
+    last_rig: Rig,
+    led: Led,
+    added: u64,
+    finished: u64,
+    over: u64,
+    started: Option<u64>,
+    timed: u64,
+    elapsed: f64,
+    progress: Option<Progress>,
+    asked: VecDeque<Asked>,
+    early: Vec<(u64, u64)>,
+    starts: VecDeque<Start>,
+    going: bool,
+    anew: VecDeque<Asked>,
+}
+
+/// What is set aside, and what setting aside needs to know of the motions.
+#[derive(Clone, Debug)]
+pub(crate) struct Aside {
+    /// The motions that are not over, and the last one that is.
+    asked: VecDeque<Asked>,
+    /// Motions, from a number to another, that ended before others with lower numbers.
+    early: Vec<(u64, u64)>,
+    stopping: Option<Stopping>,
+    again: Vec<Again>,
+    /// What is set aside, the last one on top.
+    shelves: Vec<Shelf>,
+    /// How to go on, as soon as the robot rests where nothing is left to go.
+    starts: VecDeque<Start>,
+    /// Whether the robot is on the way that the first of these asks for.
+    going: bool,
+    /// Motions to be planned anew.
+    anew: VecDeque<Asked>,
+    /// The way back that was planned last, where nobody has taken notice yet.
+    way_back: Option<(u64, Command, Settings)>,
+    /// Whether more motions were to be dropped than there were.
+    beyond: bool,
+    broken: Option<PlanError>,
+}
+
+impl Default for Aside {
+    fn default() -> Self {
+        Self {
+            asked: VecDeque::new(),
+            early: Vec::with_capacity(2 * DEPTH),
+            stopping: None,
+            again: Vec::with_capacity(DEPTH),
+            shelves: Vec::with_capacity(DEPTH),
+            starts: VecDeque::with_capacity(DEPTH),
+            going: false,
+            anew: VecDeque::new(),
+            way_back: None,
+            beyond: false,
+            broken: None,
+        }
+    }
+}
+
+impl Aside {
+    /// How the robot is being stopped.
+    pub(crate) fn stop(&self) -> Option<Stop> {
+        self.stopping.as_ref().map(|stopping| stopping.stop)
+    }
+
+    /// Whether nothing is set aside or about to be, nor to be gone on with.
+    pub(crate) fn is_clear(&self) -> bool {
+        self.shelves.is_empty() && self.is_settled()
+    }
+
+    /// Whether nothing is about to be set aside or to be gone on with.
+    fn is_settled(&self) -> bool {
+        self.stopping.is_none() && self.starts.is_empty() && self.anew.is_empty() && !self.beyond
+    }
+
+    /// Whether those of a level of the program may move the robot between what is set aside.
+    fn is_open_to(&self, level: u32) -> bool {
+        self.is_settled() && self.shelves.last().is_none_or(|shelf| level >= shelf.level)
+    }
+
+    /// Whether something is set aside that nobody has asked yet to go on with.
+    fn waits_for_start(&self) -> bool {
+        let below = |shelf: &Shelf| shelf.starts.len();
+        let stopping = self.stopping.as_ref().map_or(0, |stopping| stopping.starts.len());
+        let again = self.again.iter().map(|again| again.starts.len()).sum::<usize>();
+        let asked = self.starts.len() + self.shelves.iter().map(below).sum::<usize>() + stopping + again;
+        self.shelves.len() + usize::from(self.stopping.is_some()) + self.again.len() > asked
+    }
+
+    /// The first motion to be planned anew.
+    pub(crate) fn first_anew(&self) -> Option<u64> {
+        self.anew.front().map(|asked| asked.number)
+    }
+
+    /// Drops everything.
+    pub(crate) fn clear(&mut self) {
+        self.asked.clear();
+        self.early.clear();
+        self.again.clear();
+        self.shelves.clear();
+        self.starts.clear();
+        self.anew.clear();
+        (self.stopping, self.way_back, self.broken) = (None, None, None);
+        (self.going, self.beyond) = (false, false);
+    }
+
+    /// Takes what was said of going on; an empty list keeps its memory.
+    fn take_starts(&mut self) -> VecDeque<Start> {
+        if self.starts.is_empty() { VecDeque::new() } else { std::mem::take(&mut self.starts) }
+    }
+
+    /// Puts what was said of going on in front again.
+    fn put_back(&mut self, mut starts: VecDeque<Start>) {
+        if !starts.is_empty() {
+            starts.append(&mut self.starts);
+            self.starts = starts;
+        }
+    }
+
+    /// Takes the motions that ended early; an empty list keeps its memory.
+    fn take_early(&mut self) -> Vec<(u64, u64)> {
+        if self.early.is_empty() { Vec::new() } else { std::mem::take(&mut self.early) }
+    }
+
+    /// Exchanges the motions that ended early for others.
+    fn exchange_early(&mut self, early: Vec<(u64, u64)>) {
+        if early.is_empty() {
+            self.early.clear();
+        } else {
+            self.early = early;
+        }
+    }
+
+    /// Whether a motion with a number up to that of the last one that has ended, has ended, too.
+    fn has_ended(&self, motion: u64, ended: impl Fn(&Shelf) -> u64) -> bool {
+        let within = |early: &[(u64, u64)]| early.iter().any(|(from, to)| (*from..=*to).contains(&motion));
+        self.shelves.iter().all(|shelf| motion <= ended(shelf) || motion > shelf.added || within(&shelf.early))
+    }
+
+    fn ended_early(&self, motion: u64) -> bool {
+        self.early.iter().any(|(from, to)| (*from..=*to).contains(&motion))
+    }
+}
+
+impl Queue {
+    /// Brings the robot to rest on its path and sets its motions aside, so that others can be added that come before they
+    /// go on. Only those of the level `level` of the program, or of a higher one, may do that: see [`Queue::takes`].
+    pub fn set_aside(&mut self, stop: Stop, level: u32) {
+        if let Some(stopping) = &mut self.aside.stopping {
+            if stop == Stop::Fast {
+                stopping.stop = stop;
+            }
+            if self.aside.starts.is_empty() {
+                stopping.level = stopping.level.max(level);
+            } else {
+                let starts = self.aside.take_starts();
+                self.aside.again.push(Again { level, starts });
+            }
+            return;
+        }
+        let again = self.aside.shelves.last().is_some_and(|shelf| shelf.level >= level);
+        if again && self.is_layer_idle() && self.aside.is_settled() {
+            return;
+        }
+        let starts = self.aside.take_starts();
+        let going = std::mem::take(&mut self.aside.going);
+        self.aside.stopping = Some(Stopping { stop, level, starts, going, drops: false });
+        self.lay_aside_at_rest();
+    }
+
+    /// Goes on with what was set aside last, once the robot rests and what was added since is done. Returns whether
+    /// anything was set aside that is not to be gone on with already.
+    pub fn start_again(&mut self, start: Start) -> bool {
+        if !self.aside.waits_for_start() {
+            return false;
+        }
+        self.aside.starts.push_back(start);
+        self.go_on();
+        true
+    }
+
+    /// Drops what is set aside, where nobody has asked to go on with it; returns whether there was something. A stop on its
+    /// way goes on to rest.
+    pub fn drop_aside(&mut self) -> bool {
+        let waits = self.aside.waits_for_start();
+        if waits {
+            self.aside.shelves.clear();
+            self.aside.starts.clear();
+            self.aside.going = false;
+            if let Some(stopping) = &mut self.aside.stopping {
+                stopping.starts.clear();
+                self.aside.again.clear();
+                (stopping.going, stopping.drops) = (false, true);
+            }
+        }
+        waits
+    }
+
+    /// Whether motions are set aside, or about to be.
+    pub fn is_aside(&self) -> bool {
+        self.aside.stopping.is_some() || !self.aside.shelves.is_empty()
+    }
+
+    /// How many stops have set motions aside.
+    pub fn depth(&self) -> usize {
+        self.aside.shelves.len()
+    }
+
+    /// The running number of the first motion that has not ended.
+    pub fn oldest(&self) -> u64 {
+        self.aside.shelves.first().map_or(self.finished, |shelf| shelf.finished) + 1
+    }
+
+    /// Whether a motion can be added now by those of a level of the program.
+    pub fn takes(&self, level: u32) -> bool {
+        self.aside.is_open_to(level) && self.has_room() && !self.is_sated()
+    }
+
+    /// Whether nothing is left that those of a level of the program have to wait for: all motion, but for what was set aside
+    /// for them.
+    pub fn idle_for(&self, level: u32) -> bool {
+        if self.aside.is_open_to(level) { self.is_layer_idle() } else { self.idle() }
+    }
+
+    /// Whether a motion has ended.
+    pub fn has_ended(&self, motion: u64) -> bool {
+        let ended = motion <= self.finished && self.aside.has_ended(motion, |shelf| shelf.finished);
+        ended || self.aside.ended_early(motion)
+    }
+
+    /// Whether a motion is not executed any more: it has ended, or a blend leads away from it.
+    pub fn is_over(&self, motion: u64) -> bool {
+        let over = motion <= self.over && self.aside.has_ended(motion, |shelf| shelf.over);
+        over || self.aside.ended_early(motion)
+    }
+
+    /// Whether, since this was asked last, more motions were to be dropped than there were. All of them were then.
+    pub fn take_beyond(&mut self) -> bool {
+        std::mem::take(&mut self.aside.beyond)
+    }
+
+    /// Why the robot cannot go to where [`Queue::start_again`] wanted it, since this was asked last.
+    pub fn take_broken_start(&mut self) -> Option<PlanError> {
+        self.aside.broken.take()
+    }
+
+    /// The motion that [`Queue::start_again`] has added, since this was asked last, and its running number.
+    pub fn take_way_back(&mut self) -> Option<(u64, Command, Settings)> {
+        self.aside.way_back.take()
+    }
+
+    /// Whether no motion is there, running or waiting, but for what is set aside.
+    pub(crate) fn is_layer_idle(&self) -> bool {
+        self.finished == self.added
+    }
+
+    /// Notes a motion that is being added from `start` on.
+    pub(crate) fn note_asked(&mut self, number: u64, start: Joints, command: &Command, settings: &Settings) {
+        while self.aside.asked.get(1).is_some_and(|next| next.number <= self.finished) {
+            self.aside.asked.pop_front();
+        }
+        let end = *self.end();
+        let led = if self.held.is_some() { Led::default() } else { self.led };
+        let (command, settings) = (command.clone(), *settings);
+        self.aside.asked.push_back(Asked { number, command, settings, start, end, led });
+    }
+
+    /// Notes where a motion ends that had waited for the next one, now that it has been planned.
+    pub(crate) fn note_released(&mut self, number: u64) {
+        if let Some(asked) = self.aside.asked.iter_mut().rev().find(|asked| asked.number == number) {
+            (asked.end, asked.led) = (self.end, self.led);
+        }
+    }
+
+    /// The motions of this layer that have been added and have not ended, the one being executed included.
+    pub(crate) fn unfinished(&self) -> usize {
+        let asked = &self.aside.asked;
+        asked.len() - asked.partition_point(|asked| asked.number <= self.finished)
+    }
+
+    /// What there is to do about motions that are set aside, at the end of a cycle.
+    pub(crate) fn see_to_aside(&mut self) {
+        self.aside.early.retain(|(_, to)| *to > self.finished);
+        self.lay_aside_at_rest();
+        self.plan_anew();
+        self.go_on();
+    }
+
+    /// Sets everything aside once the robot rests.
+    fn lay_aside_at_rest(&mut self) {
+        if self.dropping || !self.rests() {
+            return;
+        }
+        let Some(Stopping { level, starts, going, drops, .. }) = self.aside.stopping.take() else { return };
+        self.lay_aside(level, starts, going);
+        for at in 0..self.aside.again.len() {
+            if let Some(again) = self.aside.again.get_mut(at) {
+                let (level, starts) = (again.level, std::mem::take(&mut again.starts));
+                self.lay_aside(level, starts, false);
+            }
+        }
+        self.aside.again.clear();
+        self.foreseen = None;
+        self.braking_hard = false;
+        self.patience = 0.0;
+        if drops {
+            self.aside.shelves.pop();
+        }
+    }
+
+    /// Sets everything aside.
+    fn lay_aside(&mut self, level: u32, starts: VecDeque<Start>, going: bool) {
+        let early = self.aside.take_early();
+        self.aside.shelves.push(Shelf {
+            level,
+            joints: self.joints,
+            course: self.course.lay_aside(),
+            waiting: std::mem::take(&mut self.waiting),
+            held: self.held.take(),
+            end: std::mem::replace(&mut self.end, self.joints),
+            rig: self.rig,
+            last_rig: std::mem::replace(&mut self.last_rig, self.rig),
+            led: std::mem::take(&mut self.led),
+            added: self.added,
+            finished: std::mem::replace(&mut self.finished, self.added),
+            over: std::mem::replace(&mut self.over, self.added),
+            started: self.started.take(),
+            timed: self.timed,
+            elapsed: self.elapsed,
+            progress: self.progress.take(),
+            asked: std::mem::take(&mut self.aside.asked),
+            early,
+            starts,
+            going,
+            anew: std::mem::take(&mut self.aside.anew),
+        });
+    }
+
+    /// Goes on with what was set aside, where the robot is there already; else adds the way to it.
+    fn go_on(&mut self) {
+        while let Some(start) = self.aside.starts.front().copied() {
+            if self.aside.stopping.is_some() || !self.aside.anew.is_empty() || !self.is_layer_idle() || !self.rests() {
+                return;
+            }
+            let Some(shelf) = self.aside.shelves.last() else {
+                self.aside.starts.clear();
+                return;
+            };
+            if !self.aside.going && start.skip > 0 && shelf.leads_on() {
+                // It was stopped on its way to another one, or before that, whose motions are meant.
+                self.pass_on(start);
+                continue;
+            }
+            let skipped = shelf.skipped(start.skip);
+            if !self.aside.going {
+                let way = match &skipped {
+                    Skipped::None => shelf.way_back(&self.robot, &self.joints),
+                    Skipped::To(last) => Some(last.way_to(&self.robot)),
+                    Skipped::Beyond => {
+                        self.aside.beyond = true;
+                        self.aside.starts.clear();
+                        self.aside.shelves.clear();
+                        return;
+                    }
+                };
+                if let Some(way) = way {
+                    self.aside.going = true;
+                    if let Err(error) = self.go(way, start) {
+                        self.aside.broken = Some(PlanError::Earlier { line: start.line, error: Box::new(error) });
+                        self.aside.starts.clear();
+                        self.aside.going = false;
+                    }
+                    return;
+                }
+            }
+            let skipped = if let Skipped::To(last) = skipped { Some((last.number, last.led)) } else { None };
+            self.aside.starts.pop_front();
+            self.aside.going = false;
+            self.take_up(skipped);
+        }
+    }
+
+    /// Skips motions of what is below the one on top, to which the robot was on its way.
+    fn pass_on(&mut self, start: Start) {
+        self.aside.starts.pop_front();
+        if let Some(mut shelf) = self.aside.shelves.pop() {
+            if let Some(first) = shelf.starts.front_mut() {
+                first.skip = first.skip.max(start.skip);
+            }
+            self.aside.put_back(shelf.starts);
+        }
+    }
+
+    /// Adds the way to where it goes on.
+    fn go(&mut self, Way { asked, command, end }: Way, start: Start) -> Result<(), PlanError> {
+        let plain = Settings { weave: None, compensation: None, ..asked };
+        let settings = Settings { manual: plain.manual || start.manual, ..plain };
+        let command = Command { zone: Zone::NONE, duration: None, line: start.line, ..command };
+        let here = self.end;
+        let mut motions = match &command.target {
+            Target::Gate { .. } => gate::plan(&self.robot, &here, &command, &settings)?,
+            _ => vec![plan(&self.robot, &here, &command, &settings)?],
+        };
+        if let (Some(end), Some(last)) = (end, motions.last_mut()) {
+            if !last.end.is_at(&end, SAME) {
+                return Err(PlanError::NoWayBack);
+            }
+            last.end = end;
+        }
+        let number = self.added + 1;
+        for motion in motions {
+            self.append(motion, number);
+        }
+        self.note_asked(number, here, &command, &settings);
+        self.added = number;
+        self.aside.way_back = Some((number, command, settings));
+        Ok(())
+    }
+
+    /// Goes on with what was set aside last: where it was stopped, or behind the motion `skipped`, at whose end the
+    /// compensation stands so.
+    fn take_up(&mut self, skipped: Option<(u64, Led)>) {
+        let Some(shelf) = self.aside.shelves.pop() else { return };
+        let early = (shelf.added + 1, self.added);
+        self.aside.exchange_early(shelf.early);
+        self.aside.early.push(early);
+        self.aside.asked = shelf.asked;
+        self.aside.anew = shelf.anew;
+        self.aside.going = shelf.going;
+        self.aside.put_back(shelf.starts);
+        self.foreseen = None;
+        match skipped {
+            None => {
+                self.course.take_up(shelf.course);
+                (self.waiting, self.held) = (shelf.waiting, shelf.held);
+                (self.end, self.rig, self.last_rig, self.led) = (shelf.end, shelf.rig, shelf.last_rig, shelf.led);
+                (self.finished, self.over) = (shelf.finished, shelf.over);
+                (self.started, self.timed, self.elapsed) = (shelf.started, shelf.timed, shelf.elapsed);
+                self.progress = shelf.progress;
+            }
+            Some((last, led)) => {
+                (self.finished, self.over) = (last, last);
+                (self.end, self.led) = (self.joints, led);
+                self.started = None;
+                // What was to be planned anew and is dropped now was asked for last.
+                let left = self.aside.asked.iter().chain(&self.aside.anew).filter(|asked| asked.number > last);
+                self.aside.anew = left.cloned().collect();
+                self.aside.asked.retain(|asked| asked.number <= last);
+            }
+        }
+        self.end_empty();
+        self.plan_anew();
+    }
+
+    /// Plans some of the motions anew that come behind those that were skipped.
+    fn plan_anew(&mut self) {
+        for _ in 0..AT_ONCE {
+            let Some(asked) = self.aside.anew.pop_front() else { return };
+            let before = self.aside.asked.back().map(|before| (before.command.clone(), before.start));
+            if let Err(error) = self.add_again(&asked, before) {
+                self.aside.anew.clear();
+                self.broken = Some(PlanError::Earlier { line: asked.command.line, error: Box::new(error) });
+            }
+        }
+    }
+
+    /// Adds a motion once more, under its own number.
+    fn add_again(&mut self, asked: &Asked, before: Option<(Command, Joints)>) -> Result<(), PlanError> {
+        // A circle goes on through the points of the one that was skipped.
+        let start = before
+            .filter(|_| self.held.is_none())
+            .filter(|(before, _)| {
+                matches!((&before.target, &asked.command.target), (Target::Circle { .. }, Target::Circle { .. }))
+            })
+            .map(|(_, start)| start);
+        self.add_as(&asked.command, &asked.settings, asked.number)?;
+        if let (Some(start), Some(held)) = (start, &mut self.held) {
+            held.follows_circle_from(start);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,98 @@
+//! The way back to what was set aside, and what of it is left.
+
+use crate::command::joints::Joints;
+use crate::command::{Command, Settings, Speed, Target, Zone};
+use crate::queue::suspend::{Asked, Shelf};
+use arl_robot::frames::Rig;
+use arl_robot::robot::Robot;
+
+/// The speed of the axes in % where no motion says one.
+const SLOW: f64 = 5.0;
+
+/// Which motions are dropped.
+pub(crate) enum Skipped<'a> {
+    None,
+    /// Up to this one.
+    To(&'a Asked),
+    /// More than there are.
+    Beyond,
+}
+
+/// A way of the axes where no motion says how: after nothing has moved yet.
+fn slowly_to(joints: Joints, rig: Rig) -> Command {
+    let speed = Speed { percent: SLOW, tcp: 1.0, ori: 1.0, exj: 1.0, exl: 1.0 };
+    Command { target: Target::Joints(joints), rig, speed, duration: None, zone: Zone::NONE, line: 0 }
+}
+
+/// A way to where motion goes on.
+pub(crate) struct Way {
+    pub(crate) asked: Settings,
+    pub(crate) command: Command,
+    /// Where it has to end.
+    pub(crate) end: Option<Joints>,
+}
+
+impl Shelf {
+    /// The motions that have not ended, the stopped one first.
+    pub(crate) fn left(&self) -> impl Iterator<Item = &Asked> {
+        let executed = self.course.current().map_or(0, |(piece, _)| piece.number);
+        let first = executed.max(self.finished + 1);
+        self.asked.iter().chain(&self.anew).filter(move |asked| asked.number >= first)
+    }
+
+    /// Whether nothing of its own is left to go, and something below is to go on.
+    pub(crate) fn leads_on(&self) -> bool {
+        self.going || (!self.starts.is_empty() && self.left().next().is_none())
+    }
+
+    pub(crate) fn skipped(&self, skip: u32) -> Skipped<'_> {
+        let Some(last) = skip.checked_sub(1) else { return Skipped::None };
+        match self.left().nth(last as usize) {
+            Some(last) => Skipped::To(last),
+            // Where nothing was to go, there is nothing to drop.
+            None if self.left().next().is_none() => Skipped::None,
+            None => Skipped::Beyond,
+        }
+    }
+
+    /// The way back to the place of the stop: none where the robot is there.
+    pub(crate) fn way_back(&self, robot: &Robot, here: &Joints) -> Option<Way> {
+        if *here == self.joints {
+            return None;
+        }
+        // Where nothing was to go, it is as the last motion was.
+        let asked = self.left().next().or_else(|| self.asked.back());
+        Some(match asked {
+            Some(asked) => asked.way_back_to(robot, &self.joints),
+            None => {
+                Way { asked: Settings::default(), command: slowly_to(self.joints, self.rig), end: Some(self.joints) }
+            }
+        })
+    }
+}
+
+impl Asked {
+    /// The way back to a place on it: straight for a motion of the TCP.
+    pub(crate) fn way_back_to(&self, robot: &Robot, place: &Joints) -> Way {
+        let target = if self.goes_straight() {
+            let tcp = self.command.rig.carried.way_at(&robot.kinematics.forward(&place.axes));
+            Target::Line { pose: [0.0; 6], wobj: tcp, external: place.external }
+        } else {
+            Target::Joints(*place)
+        };
+        Way { asked: self.settings, command: Command { target, ..self.command.clone() }, end: Some(*place) }
+    }
+
+    /// The way to its target.
+    pub(crate) fn way_to(&self, robot: &Robot) -> Way {
+        match self.command.target {
+            Target::Gate { .. } => Way { asked: self.settings, command: self.command.clone(), end: None },
+            _ => self.way_back_to(robot, &self.end),
+        }
+    }
+
+    /// Whether it is a motion of the TCP.
+    pub(crate) fn goes_straight(&self) -> bool {
+        !matches!(self.command.target, Target::Joints(_) | Target::Pose { .. } | Target::Gate { .. })
+    }
+}

@@ -1,0 +1,210 @@
+//! The profile O.
+
+use crate::tests::blends::run_chains;
+use crate::tests::stops::{change_override, stop_and_resume};
+use crate::tests::*;
+use arl_robot::robot::VelocityProfile;
+
+fn optimal() -> Settings {
+    Settings { profile: VelocityProfile::O, ..Settings::default() }
+}
+
+fn start() -> Joints {
+    axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0])
+}
+
+/// Two lines of 300 mm at 1 m/s and a corner of 90 deg between them, with a zone in mm.
+fn corner(zone: f64, settings: &Settings) -> Vec<Step> {
+    let robot = robot("kr10-r1420");
+    let mut queue = Queue::new(robot.clone(), start());
+    let origin = frame_components(&robot.kinematics.forward(&start().axes));
+    for (y, z) in [(300.0, 0.0), (300.0, -300.0)] {
+        let mut pose = origin;
+        (pose[1], pose[2]) = (origin[1] + y, origin[2] + z);
+        let (speed, zone) = (Speed { tcp: 1000.0, ..fast() }, Zone { tcp: zone, ..Zone::NONE });
+        queue.add(&Command { zone, speed, ..lin(pose) }, settings).unwrap();
+    }
+    let rows = run(&mut queue, 100.0);
+    assert_within_limits(&robot, &rows, "corner");
+    rows
+}
+
+#[test]
+fn a_corner_is_quicker_than_with_constant_limits() {
+    for zone in [-1.0, 5.0, 20.0, 100.0] {
+        let (constant, optimal) = (corner(zone, &Settings::default()).len(), corner(zone, &optimal()).len());
+        assert!(optimal <= constant, "{zone} mm: {constant} {optimal}");
+    }
+}
+
+#[test]
+fn chains_of_all_kinds_keep_every_limit() {
+    run_chains(&optimal(), 92, 3);
+}
+
+#[test]
+fn stops_stay_on_the_path_and_resume() {
+    stop_and_resume(&optimal(), 93, 8);
+}
+
+#[test]
+fn the_override_changes_time_alone() {
+    change_override(&optimal(), 94, 5, |_| 300);
+}
+
+#[test]
+fn splines_flow_within_every_limit() {
+    let mut random = Random::new(95);
+    let robot = robot("kr10-r1420");
+    for settings in [optimal(), Settings::default()] {
+        let mut queue = Queue::new(robot.clone(), start());
+        let origin = frame_components(&robot.kinematics.forward(&start().axes));
+        for index in 0..12 {
+            let mut pose = origin;
+            pose[0] += random.between(-60.0, 60.0);
+            pose[1] += 40.0 * f64::from(index + 1);
+            pose[2] += random.between(-60.0, 60.0);
+            let target = Target::Spline { pose, wobj: Frame::identity(), external: [UNSET; 6] };
+            let speed = Speed { tcp: 1000.0, ..fast() };
+            queue.add(&Command { speed, ..command(target) }, &settings).unwrap();
+        }
+        let rows = run(&mut queue, 100.0);
+        assert_within_limits(&robot, &rows, "spline");
+        assert_eq!(rows.last().unwrap().finished, 12);
+    }
+}
+
+/// What comes up beside motions.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Event {
+    Nothing,
+    Stop(Stop),
+    Override(f64),
+}
+
+/// A line, another one that is added while the robot is on it, and an event so many cycles later.
+fn late(delay: usize, event: Event) -> (Vec<Step>, bool) {
+    let robot = robot("kr10-r1420");
+    let mut queue = Queue::new(robot.clone(), start());
+    let mut rows = vec![Step { joints: start(), tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+    let origin = frame_components(&robot.kinematics.forward(&start().axes));
+    let to = |queue: &mut Queue, y: f64, z: f64| {
+        let mut pose = origin;
+        (pose[1], pose[2]) = (origin[1] + y, origin[2] + z);
+        let (speed, zone) = (Speed { tcp: 1000.0, ..fast() }, Zone { tcp: 50.0, ..Zone::NONE });
+        queue.add(&Command { zone, speed, ..lin(pose) }, &optimal()).unwrap();
+    };
+    to(&mut queue, 300.0, 0.0);
+    let mut percent = 100.0;
+    while !queue.idle() {
+        match rows.len() {
+            180 => to(&mut queue, 300.0, -300.0),
+            cycle if cycle == 180 + delay => match event {
+                Event::Nothing => {}
+                Event::Stop(stop) => queue.stop_on_path(stop),
+                Event::Override(share) => percent = share,
+            },
+            // In the middle of a stop, or after it.
+            cycle if cycle == 180 + 40 * delay => queue.resume(),
+            900 => percent = 100.0,
+            _ => {}
+        }
+        rows.push(queue.step(CYCLE, percent));
+        assert!(rows.len() < 20_000, "it does not end");
+    }
+    (rows, queue.take_late().is_some())
+}
+
+#[test]
+fn a_motion_that_comes_while_the_robot_moves_is_blended_still() {
+    let (rows, late) = late(0, Event::Nothing);
+    assert!(!late);
+    assert_within_limits(&robot("kr10-r1420"), &rows, "late");
+    let rests = rows.iter().skip_while(|row| row.motion == 0).filter(|row| row.rests).count();
+    assert_eq!(rests, 1, "it rests at the end alone");
+}
+
+#[test]
+fn what_comes_up_while_a_law_is_found_is_within_limits_and_the_same_each_time() {
+    let robot = robot("kr10-r1420");
+    let (reference, _) = late(0, Event::Nothing);
+    for delay in [1, 2, 10, 18, 19, 20, 21] {
+        for event in [Event::Stop(Stop::General), Event::Stop(Stop::Fast), Event::Override(20.0)] {
+            let (rows, _) = late(delay, event);
+            let (again, _) = late(delay, event);
+            assert!(rows == again, "{delay} {event:?}: two runs differ");
+            assert_eq!(rows.last().unwrap().joints, reference.last().unwrap().joints);
+            if event != Event::Stop(Stop::Fast) {
+                assert_within_limits(&robot, &rows, &format!("{delay} {event:?}"));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_stop_and_an_override_work_at_once() {
+    let speed = |rows: &[Step], cycle: usize| {
+        (rows[cycle].tcp.translation.vector - rows[cycle - 1].tcp.translation.vector).norm() / CYCLE
+    };
+    let (reference, _) = late(0, Event::Nothing);
+    // An override that changes while a law is found waits for that.
+    for (event, soon) in [(Event::Stop(Stop::General), 205), (Event::Override(20.0), 255)] {
+        let (rows, _) = late(5, event);
+        let slower = (185..).find(|cycle| speed(&rows, *cycle) < speed(&reference, *cycle) - 1.0).unwrap();
+        assert!(slower < soon, "{event:?}: slower in cycle {slower}");
+    }
+}
+
+#[test]
+fn a_robot_at_rest_sets_off_at_once() {
+    let robot = robot("kr10-r1420");
+    for percent in [100.0, 30.0] {
+        for degrees in [0.001, 0.01, 0.1, 0.5, 2.0, 10.0, 60.0] {
+            // Where all limits are constant, no profile is quicker than S.
+            let [constant, optimal] = [Settings::default(), optimal()].map(|settings| {
+                let mut queue = Queue::new(robot.clone(), start());
+                queue.add(&movej([degrees, -90.0, 90.0, 0.0, 45.0, 0.0]), &settings).unwrap();
+                let rows = run(&mut queue, percent);
+                assert_within_limits(&robot, &rows, "set off");
+                rows.len()
+            });
+            assert!(optimal as f64 <= 1.01 * constant as f64 + 3.0, "{degrees} deg: {constant} {optimal}");
+        }
+    }
+}
+
+#[test]
+fn a_stop_works_while_the_robot_sets_off() {
+    let robot = robot("kr10-r1420");
+    let motion = movej([60.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+    for cycles in [1, 5, 12, 19, 20, 21] {
+        for stop in [Stop::General, Stop::Fast] {
+            let mut queue = Queue::new(robot.clone(), start());
+            queue.add(&motion, &optimal()).unwrap();
+            let mut rows =
+                vec![Step { joints: start(), tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+            rows.extend((0..cycles).map(|_| queue.step(CYCLE, 100.0)));
+            queue.stop_on_path(stop);
+            while !queue.rests() {
+                rows.push(queue.step(CYCLE, 100.0));
+                assert!(rows.len() < 120, "{cycles} {stop:?}: it does not stop");
+            }
+            queue.resume();
+            rows.extend(run(&mut queue, 100.0));
+            if stop == Stop::General {
+                assert_within_limits(&robot, &rows, "stop while setting off");
+            }
+            assert_eq!(rows.last().unwrap().joints, axes([60.0, -90.0, 90.0, 0.0, 45.0, 0.0]));
+        }
+    }
+}
+
+#[test]
+fn no_law_is_found_within_a_cycle() {
+    use crate::time_optimal::law_solver_thread::FOUND_HERE;
+    let before = FOUND_HERE.with(std::cell::Cell::get);
+    let (rows, _) = late(3, Event::Override(40.0));
+    corner(20.0, &optimal());
+    assert!(rows.len() > 500);
+    assert_eq!(FOUND_HERE.with(std::cell::Cell::get), before);
+}

@@ -1,0 +1,119 @@
+//! Blends that are found beside the cycle.
+
+use crate::blend::corner::FOUND_HERE;
+use crate::tests::*;
+use arl_robot::robot::VelocityProfile;
+
+/// Whether the thread has everything in time, or nothing ever.
+#[derive(Clone, Copy, PartialEq)]
+enum Thread {
+    Quick,
+    Stuck,
+}
+
+/// A long way to begin with, then motions of a length, of the TCP or of the axes, with zones that meet or do not.
+fn chain(robot: &Robot, random: &mut Random, length: f64, count: u32) -> (Joints, Vec<Command>) {
+    let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+    let mut pose = frame_components(&robot.kinematics.forward(&start.axes));
+    let mut commands = Vec::new();
+    let mut heading = 0.0;
+    for number in 0..count {
+        heading += random.between(-0.5, 0.9);
+        let way = if number == 0 { 150.0 } else { length * random.between(0.5, 1.5) };
+        (pose[1], pose[2]) = (pose[1] + way * f64::sin(heading), pose[2] + way * f64::cos(heading) - 0.3 * way);
+        let target = match random.between(0.0, 4.0) as u32 {
+            0 => Target::Pose {
+                pose,
+                wobj: Frame::identity(),
+                wanted: Wanted { cfg: None, turn: -1 },
+                external: [UNSET; 6],
+            },
+            _ => Target::Line { pose, wobj: Frame::identity(), external: [UNSET; 6] },
+        };
+        let zone = match random.between(0.0, 6.0) as u32 {
+            0 => Zone::NONE,
+            1 => Zone { tcp: 0.2 * length, ..Zone::NONE },
+            _ => Zone { percent: 100.0, ..Zone::NONE },
+        };
+        let speed = Speed { tcp: 20.0 * length, percent: 30.0, ..fast() };
+        commands.push(Command { target, zone, speed, line: number + 1, ..movej([0.0; 6]) });
+    }
+    (start, commands)
+}
+
+/// What each cycle did, and how many blends were looked for in cycles and when motions were added.
+fn ran(
+    robot: &Arc<Robot>,
+    (start, commands): &(Joints, Vec<Command>),
+    settings: &Settings,
+    thread: Thread,
+) -> (Vec<Step>, [u32; 2]) {
+    let mut queue = Queue::new(Arc::clone(robot), *start);
+    if thread == Thread::Stuck {
+        queue.prepare_nothing();
+    }
+    let found = || FOUND_HERE.with(std::cell::Cell::get);
+    let at_rest = Step { joints: *start, tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true };
+    let (mut rows, mut found_in) = (vec![at_rest], [0; 2]);
+    let mut commands = commands.iter().peekable();
+    while commands.peek().is_some() || !queue.idle() {
+        let before = found();
+        for _ in 0..3 {
+            if queue.has_room()
+                && let Some(command) = commands.next()
+            {
+                // What is out of reach is left out, each time.
+                let _ = queue.add(command, settings);
+            }
+        }
+        if thread == Thread::Quick {
+            queue.await_prepared();
+        }
+        let middle = found();
+        rows.push(queue.step(CYCLE, 100.0));
+        found_in[0] += found() - middle;
+        found_in[1] += middle - before;
+        assert!(rows.len() < 500_000, "it does not end");
+    }
+    assert_eq!(queue.take_late(), None);
+    (rows, found_in)
+}
+
+#[test]
+fn cycles_find_no_blends_and_do_not_depend_on_the_thread() {
+    let robot = robot("kr10-r1420");
+    let mut random = Random::new(231);
+    for profile in [VelocityProfile::S, VelocityProfile::T, VelocityProfile::O] {
+        let settings = Settings { profile, ..Settings::default() };
+        for (length, count) in [(40.0, 30), (4.0, 120), (0.5, 300)] {
+            let chain = chain(&robot, &mut random, length, count);
+            let (rows, [in_cycles, at_once]) = ran(&robot, &chain, &settings, Thread::Quick);
+            if profile != VelocityProfile::T {
+                assert_within_limits(&robot, &rows, &format!("{profile:?} {length}"));
+            }
+            assert_eq!(in_cycles, 0, "{profile:?} {length}");
+            let (same, [alone, _]) = ran(&robot, &chain, &settings, Thread::Stuck);
+            assert!(rows == same, "{profile:?} {length}");
+            // The profile O looks farther ahead than these ways are long.
+            if profile != VelocityProfile::O {
+                assert!(alone > count / 2 && at_once < count / 2, "{profile:?} {length}: {alone} {at_once}");
+            }
+        }
+    }
+}
+
+#[test]
+fn what_comes_in_time_is_blended_whatever_the_robot_does() {
+    let mut random = Random::new(232);
+    for profile in [VelocityProfile::S, VelocityProfile::T, VelocityProfile::O] {
+        let settings = Settings { profile, ..Settings::default() };
+        for name in ["kr10-r1420", "tx2-60"] {
+            let robot = with_external_axes(name);
+            for round in 0..5 {
+                let mut queue = random_chain(&robot, &mut random, &settings);
+                run(&mut queue, 100.0);
+                assert_eq!(queue.take_late(), None, "{profile:?} {name} {round}");
+            }
+        }
+    }
+}

@@ -1,0 +1,317 @@
+//! Looks along the course for the profile O: how everything moves at places close enough together, and within which limits.
+
+use std::sync::Arc;
+
+use crate::command::joints::{ALL, Joints};
+use crate::follow::segment::{LedTool, Piece};
+use crate::limits::constant::Bound;
+use crate::plan::constraints::{Bounds, Pace};
+use crate::time_optimal::solver::{Edge, Row, Way, places};
+use arl_robot::robot::Robot;
+
+/// The longest nominal time, in s, between two places, and how many places there are at least and at most.
+const SPACING: f64 = 0.008;
+const FEWEST: f64 = 48.0;
+const MOST_EVEN: f64 = 250.0;
+const MOST: usize = 900;
+/// The density of places for a short part, and how many there are at most.
+const GLIMPSE: f64 = 0.2;
+const MOST_GLIMPSED: usize = 40;
+/// Two places are no closer than this part of the spacing.
+const CLOSEST: f64 = 1.0 / 256.0;
+/// A step as part of the way over which the motion changes.
+const STEP_OF_SCALE: f64 = 0.06;
+/// So many places are in each part of a blend, if they do not get too close.
+const PLACES: u32 = 3;
+/// How far beside a place its sides are looked at, as part of the piece.
+const BESIDE: f64 = 1e-9;
+/// With more pieces than this ahead, their ends are no places of their own.
+const MANY: usize = 150;
+/// How often the end is brought nearer because there are too many places before it.
+const ATTEMPTS: usize = 6;
+
+/// The course from a place on. Parameters are s of nominal time since the course began.
+pub(crate) struct Scout {
+    /// The robot that goes.
+    pub(crate) robot: Arc<Robot>,
+    pieces: Vec<Arc<Piece>>,
+    /// Where the first piece begins.
+    passed: f64,
+    /// Where to look from, and joints near there.
+    pub(crate) at: f64,
+    near: Joints,
+    /// Where the last piece ends, and whether the robot has to stop there.
+    pub(crate) end: f64,
+    pub(crate) stops: bool,
+    /// How long an acceleration takes to rise at least, in s, where the way is looked at for a stop: then each place has limits of its
+    /// own, whatever the profile.
+    rise: Option<f64>,
+}
+
+/// A part of the course that is ready to be timed.
+pub(crate) struct Prospect {
+    pub(crate) way: Way,
+    /// Where it ends; earlier than was asked for where there is too much to be seen.
+    pub(crate) end: f64,
+}
+
+impl Scout {
+    /// Of pieces, of which the first begins at `passed`, those from `at` to the next stop, or to `farthest`; without those from
+    /// the index `settled` on where that begins behind `room`.
+    pub(crate) fn new<'a>(
+        robot: &Arc<Robot>,
+        (pieces, passed): (impl Iterator<Item = &'a Arc<Piece>>, f64),
+        (at, near): (f64, &Joints),
+        farthest: f64,
+        (settled, room): (usize, f64),
+    ) -> Self {
+        let mut scout = Self {
+            robot: Arc::clone(robot),
+            pieces: Vec::new(),
+            passed,
+            at,
+            near: *near,
+            end: passed,
+            stops: false,
+            rise: None,
+        };
+        let mut settled_at = None;
+        for (index, piece) in pieces.enumerate() {
+            if index == settled {
+                settled_at = Some((scout.pieces.len(), scout.end));
+            }
+            scout.end += piece.time;
+            if scout.pieces.is_empty() && scout.end <= at && !piece.stops {
+                scout.passed = scout.end;
+                continue;
+            }
+            scout.pieces.push(Arc::clone(piece));
+            scout.stops = piece.stops;
+            if piece.stops || scout.end > farthest {
+                break;
+            }
+        }
+        if let Some((count, end)) = settled_at.filter(|(count, end)| *count > 0 && *end >= room) {
+            scout.pieces.truncate(count);
+            (scout.end, scout.stops) = (end, false);
+        }
+        scout
+    }
+
+    /// The same that ends at `end`, if that is nearer.
+    pub(crate) fn up_to(mut self, end: f64) -> Self {
+        if end < self.end {
+            (self.end, self.stops) = (end, false);
+        }
+        self
+    }
+
+    /// The same for a stop, where an acceleration takes `rise` s to rise at least.
+    pub(crate) fn for_stop(self, rise: f64) -> Self {
+        Self { rise: Some(rise), ..self }
+    }
+
+    /// The same from `at` on, which is farther.
+    pub(crate) fn behind(self, at: f64) -> Self {
+        Self { at, ..self }
+    }
+
+    /// The way to `to`, with `density` times as many places as it takes mostly.
+    pub(crate) fn look(&self, to: f64, density: f64, start: Edge, end: Edge) -> Option<Prospect> {
+        self.look_at(to, (density, MOST), start, end)
+    }
+
+    /// A short part of the way from rest on, up to `to` at most, at a few places.
+    pub(crate) fn glimpse(&self, to: f64) -> Option<Prospect> {
+        let end = if to < self.end { Edge { vel: 1.0, acc: 0.0 } } else { Edge::REST };
+        self.look_at(to.min(self.end), (GLIMPSE, MOST_GLIMPSED), Edge::REST, end)
+    }
+
+    /// Goes along the way by itself.
+    pub(crate) fn stroll(&self) -> Stroll<'_> {
+        Stroll { scout: self, joints: self.near, index: 0, before: self.passed }
+    }
+
+    fn look_at(&self, to: f64, fineness: (f64, usize), start: Edge, end: Edge) -> Option<Prospect> {
+        let mut to = to;
+        for _ in 0..ATTEMPTS {
+            match self.walk(to, fineness, start, end) {
+                Ok(way) => return Some(Prospect { way, end: to }),
+                Err(reached) => to = self.at + 0.8 * (reached - self.at),
+            }
+        }
+        None
+    }
+
+    /// The way with a density of places, or how far it got with as many as there may be.
+    fn walk(&self, to: f64, (density, most): (f64, usize), start: Edge, end: Edge) -> Result<Way, f64> {
+        let count = (density * ((to - self.at) / SPACING).clamp(FEWEST, MOST_EVEN)) as usize;
+        let spacing = (to - self.at) / count as f64;
+        let mut stations: Vec<(f64, bool)> =
+            places(self.at, to, count, start, end).into_iter().map(|at| (at, true)).collect();
+        let (joints, many) = self.joints(to);
+        stations.extend(joints.into_iter().map(|at| (at, !many)));
+        stations.sort_by(|a, b| a.0.total_cmp(&b.0));
+        stations.dedup_by(|next, kept| {
+            let same = next.0 - kept.0 <= 1e-9 * spacing;
+            kept.1 |= same && next.1;
+            same
+        });
+
+        let mut way = Way::new();
+        let mut bounds = Bounds::signed(&self.robot);
+        let mut walk = Walk::new(self, many);
+        for (station, next) in stations.iter().zip(stations.iter().skip(1).map(Some).chain([None])) {
+            let mut at = station.0;
+            let mut is_place = station.1;
+            loop {
+                let step = walk.rows(at, spacing, &mut bounds);
+                // A singular point is between places.
+                if is_place && !bounds.rows.is_empty() {
+                    let rows = bounds.rows.drain(..).map(row);
+                    match walk.jump {
+                        Some(before) => way.push_jump(at, rows, before),
+                        None => way.push(at, rows),
+                    }
+                }
+                if way.places().len() > most {
+                    return Err(at);
+                }
+                match next {
+                    Some((next, _)) if at + 1.3 * step < *next => (at, is_place) = (at + step, true),
+                    _ => break,
+                }
+            }
+        }
+        Ok(way)
+    }
+
+    /// Where derivatives jump before `to`: between pieces and within them; and whether these are too many to be places.
+    fn joints(&self, to: f64) -> (Vec<f64>, bool) {
+        let mut joints = Vec::new();
+        let (mut start, mut count) = (self.passed, 0);
+        for piece in &self.pieces {
+            if start >= to {
+                break;
+            }
+            count += 1;
+            let inner = piece.jumps().map(|at| start + at);
+            joints.extend(inner.filter(|at| *at > self.at && *at < to));
+            start += piece.time;
+        }
+        (joints, count > MANY)
+    }
+}
+
+/// Goes along the course.
+struct Walk<'a> {
+    scout: &'a Scout,
+    /// Whether there are so many pieces that each of them is not worth places of its own.
+    many: bool,
+    joints: Joints,
+    /// The piece that was looked at last, and where it begins.
+    index: usize,
+    before: f64,
+    /// Where derivatives jump: how many of the rows are those of the side before.
+    jump: Option<usize>,
+}
+
+/// Where the axes are at places of the way, one behind the other.
+pub(crate) struct Stroll<'a> {
+    scout: &'a Scout,
+    joints: Joints,
+    /// The piece that was looked at last, and where it begins.
+    index: usize,
+    before: f64,
+}
+
+/// Where everything is at a place of the way.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Point {
+    /// The parameter.
+    pub(crate) at: f64,
+    pub(crate) joints: Joints,
+    /// Of the motion there.
+    pub(crate) pace: Pace,
+    /// The tool, if its way is limited.
+    pub(crate) tool: Option<LedTool>,
+}
+
+impl Stroll<'_> {
+    /// The place `at`, which is not before the one that was asked for last, and close to it.
+    pub(crate) fn go_to(&mut self, at: f64) -> Point {
+        let (mut pace, mut tool) = (Pace::FREE, None);
+        let pieces = &self.scout.pieces;
+        while let Some(piece) = pieces.get(self.index) {
+            let end = self.before + piece.time;
+            if at < end || self.index + 1 == pieces.len() {
+                let here = (at - self.before).min(piece.time);
+                self.joints = piece.joints_on(&self.scout.robot.kinematics, here, &self.joints);
+                pace = piece.pace.unwrap_or(pace);
+                tool = piece.tool(&self.scout.robot.kinematics, here, &self.joints);
+                break;
+            }
+            (self.before, self.index) = (end, self.index + 1);
+        }
+        Point { at, joints: self.joints, pace, tool }
+    }
+}
+
+impl<'a> Walk<'a> {
+    fn new(scout: &'a Scout, many: bool) -> Self {
+        Self { scout, many, joints: scout.near, index: 0, before: scout.passed, jump: None }
+    }
+
+    /// Adds the limits at `at`; where a piece begins, those of the one before as well. Returns a step over which the motion
+    /// changes little, no longer than `spacing`.
+    fn rows(&mut self, at: f64, spacing: f64, bounds: &mut Bounds) -> f64 {
+        let mut step = spacing;
+        self.jump = None;
+        while let Some(piece) = self.scout.pieces.get(self.index) {
+            let here = (at - self.before).min(piece.time);
+            self.joints = piece.joints_on(&self.scout.robot.kinematics, here, &self.joints);
+            // Where derivatives jump, those of both sides count.
+            let beside = BESIDE * piece.time;
+            let jumps = piece.jumps_beside(here, 2.0 * beside);
+            if piece.bends() > 1 && !self.many {
+                step = step.min((piece.time / f64::from(PLACES * piece.bends())).max(spacing / 16.0));
+            }
+            let sides = if jumps { [here - beside, here + beside] } else { [here; 2] };
+            for (side, at) in sides.iter().take(if jumps { 2 } else { 1 }).enumerate() {
+                if side > 0 && here > 0.0 {
+                    self.jump = Some(bounds.rows.len());
+                }
+                let at = at.clamp(0.0, piece.time);
+                let here = (at, &self.joints);
+                if let Some(rates) = piece.limit(&self.scout.robot, here, self.scout.rise, bounds) {
+                    let longest = (STEP_OF_SCALE * scale(&self.scout.robot, &rates)).max(CLOSEST * spacing);
+                    step = step.min(longest);
+                }
+            }
+            let end = self.before + piece.time;
+            if at < end || piece.stops || self.index + 1 == self.scout.pieces.len() {
+                break;
+            }
+            (self.before, self.index) = (end, self.index + 1);
+            self.jump = Some(bounds.rows.len());
+        }
+        step
+    }
+}
+
+/// The time over which the motion changes substantially.
+fn scale(robot: &Robot, rates: &[[f64; ALL]; 3]) -> f64 {
+    let own = robot.own_axes();
+    let [first, second, third] = rates.map(|all| {
+        let joints = Joints::of(&all);
+        let values = joints.axes.iter().take(own.len()).chain(&joints.external);
+        values.zip(&robot.axes).map(|(rate, axis)| rate.abs() / axis.vel).fold(0.0, f64::max)
+    });
+    let scale = (first / second).min((first / third).sqrt());
+    if scale.is_nan() { f64::INFINITY } else { scale }
+}
+
+fn row(bound: Bound) -> Row {
+    let Bound { first, second, third, vel, acc, jerk } = bound;
+    Row { first, second, third, vel: vel.min(1e12), acc, jerk }
+}

@@ -1,0 +1,185 @@
+//! The limits along a part of the course, and whether a motion keeps them.
+
+use crate::limits::profile::Limits;
+use crate::time_optimal::solver::{Law, Moment, Row, Way};
+
+/// A motion is looked at every so many s, and may use so much of the limits.
+const SAMPLE: f64 = 0.001;
+pub(crate) const MOST_USED: f64 = 1.008;
+/// A speed below zero, in s of nominal time per s, that is rounding.
+const BACKWARDS: f64 = 1e-9;
+/// No limits.
+const FREE: Limits = Limits { vel: f64::INFINITY, acc: f64::INFINITY, jerk: f64::INFINITY };
+
+/// The limits along a part of the course.
+#[derive(Debug)]
+pub(crate) struct Plot {
+    way: Way,
+    /// What the parameter may have at each place where it hardly moves.
+    straight: Vec<Limits>,
+}
+
+/// How much of the limits a motion uses.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub(crate) struct Used {
+    /// The largest share.
+    pub(crate) most: f64,
+    /// From where to where it is more than it may be.
+    pub(crate) beyond: Option<[f64; 2]>,
+}
+
+impl Used {
+    /// Between two places, the second of which is behind all that were noted before, it is `share`.
+    pub(crate) fn note(&mut self, [from, to]: [f64; 2], share: f64) {
+        self.most = self.most.max(share);
+        if share.is_nan() || share > MOST_USED {
+            self.beyond = Some(self.beyond.map_or([from, to], |[first, _]| [first, to]));
+        }
+    }
+}
+
+/// A motion along the course over time.
+pub(crate) trait Timed {
+    fn at(&self, time: f64) -> Moment;
+    fn duration(&self) -> f64;
+
+    /// Another motion at the same place, which is known to be within the limits.
+    fn known(&self, _time: f64) -> Option<Moment> {
+        None
+    }
+}
+
+impl Timed for Law {
+    fn at(&self, time: f64) -> Moment {
+        Law::at(self, time)
+    }
+
+    fn duration(&self) -> f64 {
+        Law::duration(self)
+    }
+}
+
+impl Plot {
+    pub(crate) fn new(way: Way) -> Self {
+        let least = |index: usize| {
+            let rows = way.rows(index).iter().filter(|row| row.first != 0.0);
+            rows.fold(FREE, |Limits { vel, acc, jerk }, row| {
+                let first = row.first.abs();
+                Limits {
+                    vel: vel.min(row.vel / first),
+                    acc: acc.min(row.acc / first),
+                    jerk: jerk.min(row.jerk / first),
+                }
+            })
+        };
+        Self { straight: (0..way.places().len()).map(least).collect(), way }
+    }
+
+    /// Whether a law that is followed at another share of its speed keeps its limits, those of acceleration and jerk times
+    /// `harder`.
+    pub(crate) fn keeps(&self, motion: &impl Timed, harder: f64) -> bool {
+        keeps(&Look { way: &self.way, harder, between: Between::Even }, motion)
+    }
+
+    /// The same for a motion that does not follow a law.
+    pub(crate) fn surely_keeps(&self, motion: &impl Timed, harder: f64) -> bool {
+        keeps(&Look { way: &self.way, harder, between: Between::Most }, motion)
+    }
+
+    /// The limits that the parameter has all the way between two places where it hardly moves.
+    pub(crate) fn straight(&self, from: f64, to: f64) -> Limits {
+        let places = self.way.places();
+        let first = places.partition_point(|place| *place <= from).saturating_sub(1);
+        let last = places.partition_point(|place| *place < to) + 1;
+        let between = self.straight.get(first..last.min(self.straight.len())).unwrap_or_default();
+        let Limits { vel, acc, jerk } = between.iter().fold(FREE, |least, here| Limits {
+            vel: least.vel.min(here.vel),
+            acc: least.acc.min(here.acc),
+            jerk: least.jerk.min(here.jerk),
+        });
+        // Without any limit of its own a ramp takes a few cycles.
+        Limits { vel, acc, jerk: jerk.min(1e3 * acc) }
+    }
+}
+
+/// What counts between two places of a way.
+#[derive(Clone, Copy)]
+enum Between {
+    /// The less that is used of the limits of either, for a law: it was found for what lies between.
+    Least,
+    /// What lies between what is used of the limits of both: derivatives change evenly from place to place.
+    Even,
+    /// The more.
+    Most,
+}
+
+/// The share of the limits, those of acceleration and jerk times `harder`, that a motion uses.
+fn used(rows: &[Row], now: &Moment, harder: f64) -> f64 {
+    rows.iter().fold(0.0_f64, |used, row| {
+        let acc = row.first * now.acc + row.second * now.vel * now.vel;
+        let jerk =
+            row.first * now.jerk + 3.0 * row.second * now.vel * now.acc + row.third * now.vel * now.vel * now.vel;
+        let (acc, jerk) = ((acc / row.acc).abs() / harder, (jerk / row.jerk).abs() / harder);
+        used.max((row.first * now.vel / row.vel).abs()).max(acc).max(jerk)
+    })
+}
+
+/// How much of the limits a law uses along the way that it was found for; `None` where it goes backwards.
+pub(crate) fn used_by_law(way: &Way, law: &Law) -> Option<Used> {
+    let looked = Look { way, harder: 1.0, between: Between::Least };
+    let mut used = Used::default();
+    for now in moments(law.duration()).map(|time| law.at(time)) {
+        if now.vel.is_nan() || now.vel < -BACKWARDS {
+            return None;
+        }
+        used.note([now.at; 2], looked.used_at(&now));
+    }
+    Some(used)
+}
+
+/// Whether a law along `way` goes forwards and keeps the limits, those of acceleration and jerk times `harder`.
+pub(crate) fn law_keeps(way: &Way, law: &Law, harder: f64) -> bool {
+    keeps(&Look { way, harder, between: Between::Least }, law)
+}
+
+/// Whether a motion goes forwards and keeps the limits.
+fn keeps(looked: &Look, motion: &impl Timed) -> bool {
+    moments(motion.duration()).all(|time| {
+        let now = motion.at(time);
+        let used = looked.used_at(&now);
+        let may = || used <= MOST_USED || motion.known(time).is_some_and(|known| used <= looked.used_at(&known));
+        now.vel >= -BACKWARDS && may()
+    })
+}
+
+/// When to look at a motion that takes so many s.
+fn moments(duration: f64) -> impl Iterator<Item = f64> {
+    let count = (duration / SAMPLE).clamp(16.0, 4000.0) as u32;
+    (0..=count).map(move |step| duration * f64::from(step) / f64::from(count))
+}
+
+/// How the limits along a way are looked at.
+struct Look<'a> {
+    way: &'a Way,
+    /// How many times as high limits of acceleration and jerk are.
+    harder: f64,
+    between: Between,
+}
+
+impl Look<'_> {
+    /// The share of the limits that is used.
+    fn used_at(&self, now: &Moment) -> f64 {
+        let (way, places) = (self.way, self.way.places());
+        let used = |rows: &[Row]| used(rows, now, self.harder);
+        let next = places.partition_point(|place| *place <= now.at).clamp(1, places.len() - 1);
+        match self.between {
+            Between::Least => used(way.rows(next - 1)).min(used(way.rows(next))),
+            Between::Even => {
+                let part = (now.at - places[next - 1]) / (places[next] - places[next - 1]);
+                let [before, behind] = [way.rows_behind(next - 1), way.rows_before(next)].map(used);
+                before + part.clamp(0.0, 1.0) * (behind - before)
+            }
+            Between::Most => used(way.rows_behind(next - 1)).max(used(way.rows_before(next))),
+        }
+    }
+}

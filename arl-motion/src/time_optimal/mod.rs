@@ -1,0 +1,11 @@
+//! The profile O: the fastest motion along the path ahead, and the thread that finds it beside the cycle.
+
+pub(crate) mod constraint_sampler;
+pub(crate) mod law_follower;
+pub(crate) mod law_solver_thread;
+pub(crate) mod limit_check;
+pub(crate) mod ramp;
+pub(crate) mod set_points;
+pub mod solver;
+pub(crate) mod speed_scaling;
+pub(crate) mod stop_prediction;

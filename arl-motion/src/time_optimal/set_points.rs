@@ -1,0 +1,121 @@
+//! What the set-points along a law use of the limits: what a trace would show.
+
+use std::collections::VecDeque;
+
+use nalgebra::Vector3;
+
+use crate::follow::segment::LedTool;
+use crate::time_optimal::constraint_sampler::{Point, Scout};
+use crate::time_optimal::limit_check::Used;
+use crate::time_optimal::solver::Law;
+
+/// s between two set-points.
+const CYCLE: f64 = 0.001;
+/// The robot may come to a law at any time within a cycle: so many of them are looked at.
+const PHASES: usize = 2;
+/// So many set-points at rest tell how a motion begins and ends.
+const STANDING: i32 = 3;
+
+/// What changes its direction by so much within two cycles, in rad, all but turns back.
+const TURNS_BACK: f64 = 0.1;
+
+/// Limits of speed, acceleration and jerk.
+type Limits = [f64; 3];
+
+/// The share of what motions may have of speed, acceleration and jerk, the latter two `harder` times as high, that set-points
+/// along a law use, by their differences: of each axis, and of the TCP along its way and its turning where that is led.
+pub(crate) fn used_by_set_points(scout: &Scout, law: &Law, harder: f64) -> Used {
+    let mut stroll = scout.stroll();
+    let mut last: VecDeque<Point> = VecDeque::with_capacity(3 * PHASES + 1);
+    let mut used = Used::default();
+    // Where it stands before or behind, set-points are those of a robot at rest.
+    let first = if law.at(0.0).vel == 0.0 { -STANDING } else { 0 };
+    let end = (law.duration() / CYCLE) as i32 + STANDING;
+    for step in first * PHASES as i32..=end * PHASES as i32 {
+        if last.len() > 3 * PHASES {
+            last.pop_front();
+        }
+        last.push_back(stroll.go_to(law.at(f64::from(step) * (CYCLE / PHASES as f64)).at));
+        let points = [0, 1, 2, 3].map(|cycle| last.get(cycle * PHASES));
+        if let [Some(a), Some(b), Some(c), Some(d)] = points {
+            let points = [a, b, c, d];
+            let share = used_by_axes(scout, points, harder).max(used_by_tool(scout, points, harder));
+            used.note([a.at, d.at], share);
+        }
+    }
+    used
+}
+
+/// The largest share of an axis's limits by four set-points. Where one motion leads into another, the higher limits count.
+fn used_by_axes(scout: &Scout, points: [&Point; 4], harder: f64) -> f64 {
+    let own = scout.robot.own_axes().iter().enumerate();
+    let own = own.map(|(index, axis)| {
+        (points.map(|point| point.joints.axes.get(index).copied()), points.map(|point| point.pace.of_own(axis)))
+    });
+    let external = scout.robot.external_axes().iter().enumerate();
+    let external = external.map(|(index, axis)| {
+        (
+            points.map(|point| point.joints.external.get(index).copied()),
+            points.map(|point| point.pace.of_external(axis)),
+        )
+    });
+    own.chain(external).fold(0.0_f64, |most, (values, limits)| {
+        let [Some(a), Some(b), Some(c), Some(d)] = values else { return most };
+        most.max(used([b - a, c - b, d - c], highest(limits), harder))
+    })
+}
+
+/// The same of the TCP's limits; nothing where it is not led all along, or another one is.
+fn used_by_tool(scout: &Scout, points: [&Point; 4], harder: f64) -> f64 {
+    let [Some(a), Some(b), Some(c), Some(d)] = points.map(|point| point.tool) else { return 0.0 };
+    if [b, c, d].iter().any(|other| other.carried != a.carried) {
+        return 0.0;
+    }
+    let pairs = [(a, b), (b, c), (c, d)];
+    let tcp = &scout.robot.tcp;
+    let limits = points.map(|Point { pace, .. }| [tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk]);
+    let by_way = used_along(pairs.map(|(from, to)| to.at - from.at), highest(limits), harder);
+    let turn = |(from, to): (LedTool, LedTool)| Some((to.rotation? * from.rotation?.inverse()).scaled_axis());
+    let [Some(first), Some(second), Some(third)] = pairs.map(turn) else { return by_way };
+    let turns = [first, second, third].map(|turn| turn.map(f64::to_degrees));
+    let limits =
+        points.map(|Point { pace, .. }| [tcp.ori_vel.min(pace.ori), tcp.ori_acc * pace.acc, tcp.ori_jerk * pace.jerk]);
+    by_way.max(used_along(turns, highest(limits), harder))
+}
+
+/// The share of limits along a way that three steps in a row use. What turns back, or all but, slows down and speeds up again at
+/// once: its speed along its way has no jerk to speak of.
+fn used_along(ways: [Vector3<f64>; 3], [vel, acc, jerk]: Limits, harder: f64) -> f64 {
+    let [first, _, last] = &ways;
+    let jerk = if first.angle(last) > TURNS_BACK { f64::INFINITY } else { jerk };
+    used(ways.map(|way| way.norm()), [vel, acc, jerk], harder)
+}
+
+/// The share of limits that three steps in a row use.
+fn used([first, second, third]: [f64; 3], [vel, acc, jerk]: Limits, harder: f64) -> f64 {
+    let by_vel = third / CYCLE / vel;
+    let by_acc = (third - second) / (CYCLE * CYCLE) / (harder * acc);
+    let by_jerk = (third - 2.0 * second + first) / (CYCLE * CYCLE * CYCLE) / (harder * jerk);
+    by_vel.abs().max(by_acc.abs()).max(by_jerk.abs())
+}
+
+fn highest(limits: [Limits; 4]) -> Limits {
+    limits.into_iter().fold([0.0; 3], |most, limits| [0, 1, 2].map(|order: usize| most[order].max(limits[order])))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_turns_back_has_no_jerk_along_its_way() {
+        let limits = [1e3, 1e3, 1e4];
+        let along = |ways: [f64; 3]| used_along(ways.map(|way| Vector3::new(0.0, way, 0.0)), limits, 1.0);
+        // Slowing down evenly, through rest and back: the speed along the way falls and rises.
+        let turned = along([1.5e-4, 0.5e-4, -0.5e-4]);
+        assert!(turned < 1e-3, "{turned}");
+        // The same on the way.
+        let jolted = along([1.5e-4, 0.5e-4, 0.5e-4]);
+        assert!((jolted - 10.0).abs() < 1e-9, "{jolted}");
+    }
+}

@@ -1,0 +1,416 @@
+//! The interior point method for the problem with jerk limits.
+//!
+//! Primal and dual unknowns take Newton steps together, each first without and then with a correction for what the first
+//! leaves (Mehrotra). A jerk limit enters with its tangent at the current point, which is stricter than the limit itself:
+//! what a step keeps of the tangent, it keeps of the limit.
+//!
+//! Indices: there are two coefficients more than stretches, and the stretch i has those from i to i + 2; the ranges of
+//! limits and prices are those that the program numbered when it made them.
+
+use std::ops::Range;
+
+use crate::time_optimal::solver::banded::Banded;
+use crate::time_optimal::solver::lanes::{LANES, Lanes};
+use crate::time_optimal::solver::law::Law;
+use crate::time_optimal::solver::program::{Limits, Program, Site, dot};
+use crate::time_optimal::solver::{Edge, Refusal, Way};
+
+/// At most so many steps are taken; 15 to 30 are needed.
+const STEPS: usize = 80;
+/// How often limits that were left out may be added.
+const ROUNDS: usize = 4;
+/// By so much a given speed and acceleration at an end may exceed the limits.
+const TOLERANCE: f64 = 1.003;
+/// The duration is so close to what it can be at best, as a share of it.
+const GAP: f64 = 5e-4;
+/// The sum of slack times price to begin with, as a share of the duration.
+const FIRST_GAP: f64 = 10.0;
+
+/// The coefficients of the fastest motion, with all limits kept.
+fn settle(program: &mut Program) -> Result<Vec<f64>, Refusal> {
+    let free = program.fixed == [false; 2];
+    let mut coefficients = program.first.clone();
+    let mut used = 0.0;
+    for round in 0..=ROUNDS {
+        // Where all else fails, the motion to begin with is slow enough for everything.
+        coefficients.clone_from(&program.first);
+        if round < ROUNDS {
+            let mut climb = Climb::new(program);
+            climb.run();
+            if climb.coefficients.iter().all(|value| value.is_finite()) {
+                coefficients = climb.coefficients;
+            }
+        }
+        let added;
+        (used, added) = program.review(&coefficients);
+        if !added {
+            break;
+        }
+    }
+    if free {
+        // Everything slows down with x in this share, the jerk even more.
+        let share = 1.0 / f64::max(used, 1.0);
+        coefficients.iter_mut().for_each(|value| *value *= share);
+    } else if used > TOLERANCE || program.stops(&coefficients) {
+        return Err(Refusal::Fast);
+    }
+    Ok(coefficients)
+}
+
+/// Slacks and prices of limits, and their changes in a step.
+#[derive(Clone, Copy, Default, Debug)]
+struct Prices {
+    slack: Lanes,
+    price: Lanes,
+    slack_step: Lanes,
+    price_step: Lanes,
+}
+
+/// The fastest motion within all limits of `way`.
+pub(crate) fn solve(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
+    if way.places().len() < 3 {
+        return Err(Refusal::Short);
+    }
+    let mut program = Program::new(way, start, end)?;
+    let coefficients = settle(&mut program)?;
+    let mut squares = Vec::with_capacity(program.places.len());
+    let mut laws = Vec::with_capacity(program.stretches.len());
+    for (stretch, three) in program.stretches.iter().zip(coefficients.windows(3)) {
+        let [from, to, _] = stretch.sites.map(|site| (dot(&site.square, three), dot(&site.slope, three)));
+        let bend = dot(&stretch.bend, three);
+        laws.push((from.1 * program.unit, bend * program.unit));
+        if squares.is_empty() {
+            squares.push(from.0 * program.unit);
+        }
+        squares.push(to.0 * program.unit);
+    }
+    Ok(Law::new(program.warp, &program.places, &squares, laws.into_iter()))
+}
+
+/// The way up to the optimum.
+struct Climb<'a> {
+    program: &'a Program,
+    coefficients: Vec<f64>,
+    prices: Vec<Prices>,
+    matrix: Banded,
+    /// Right hand sides: what pulls to the optimum, what keeps from the limits, and the correction.
+    pull: Vec<f64>,
+    push: Vec<f64>,
+    correction: Vec<f64>,
+    step: Vec<f64>,
+}
+
+/// x and the acceleration at a site and the bend there, or their changes.
+#[derive(Clone, Copy)]
+struct Here {
+    square: f64,
+    slope: f64,
+    bend: f64,
+}
+
+impl Here {
+    fn new(site: &Site, bend: f64, three: &[f64]) -> Self {
+        Self { square: dot(&site.square, three), slope: dot(&site.slope, three), bend }
+    }
+
+    /// The left hand side of a limit.
+    #[inline(always)]
+    fn of(self, limits: &Limits) -> Lanes {
+        let Self { square, slope, bend } = self;
+        limits.square * Lanes::all(square) + limits.slope * Lanes::all(slope) + limits.bend * Lanes::all(bend)
+    }
+}
+
+/// What the right hand side of a limit is, and its slope by x.
+#[derive(Clone, Copy)]
+struct Most {
+    value: f64,
+    slope: f64,
+}
+
+/// The limits of a site and their prices, in two parts with their right hand sides.
+fn parts(site: &Site, square: f64) -> [(Range<usize>, Range<usize>, Most); 2] {
+    let [(first, middle), (from, to)] = site.limits;
+    let prices = site.prices;
+    let between = prices + middle - first;
+    let value = 1.0 / square.sqrt();
+    let jerk = Most { value, slope: -0.5 * value / square };
+    [(first..middle, prices..between, Most { value: 1.0, slope: 0.0 }), (from..to, between..between + to - from, jerk)]
+}
+
+/// What a step without correction comes to: the rates at which it uses up slacks and prices, and sums for the slack
+/// times price that it leaves.
+#[derive(Default)]
+struct Forecast {
+    primal: Lanes,
+    dual: Lanes,
+    gap: Lanes,
+    /// Slack times change of price, price times change of slack, and change times change.
+    sums: [Lanes; 3],
+}
+
+impl<'a> Climb<'a> {
+    fn new(program: &'a Program) -> Self {
+        let size = program.first.len();
+        Self {
+            program,
+            coefficients: program.first.clone(),
+            prices: vec![Prices::default(); program.prices],
+            matrix: Banded::default(),
+            pull: vec![0.0; size],
+            push: vec![0.0; size],
+            correction: vec![0.0; size],
+            step: vec![0.0; size],
+        }
+    }
+
+    fn run(&mut self) {
+        self.price();
+        let count = (self.prices.len() * LANES) as f64;
+        let mut before = f64::INFINITY;
+        for _ in 0..STEPS {
+            self.assemble();
+            self.matrix.factor();
+            self.step.clone_from(&self.pull);
+            self.matrix.solve(&mut self.step);
+            let forecast = self.predict();
+            let gap = forecast.gap.sum();
+            let duration = self.duration();
+            if gap < GAP * duration && (before - duration).abs() < 0.5 * GAP * duration {
+                break;
+            }
+            before = duration;
+            let (primal, dual) = (length(forecast.primal).min(1.0), length(forecast.dual).min(1.0));
+            let [by_price, by_slack, both] = forecast.sums.map(Lanes::sum);
+            let ahead = gap + dual * by_price + primal * by_slack + primal * dual * both;
+            let centre = (ahead / gap).clamp(1e-6, 1.0).sqrt() * gap / count;
+            let sides = self.pull.iter().zip(&self.push).zip(&self.correction);
+            for (step, ((pull, push), correction)) in self.step.iter_mut().zip(sides) {
+                *step = pull + centre * push - correction;
+            }
+            self.matrix.solve(&mut self.step);
+            let (primal, dual) = self.correct(centre);
+            if !self.take(primal, dual) {
+                break;
+            }
+        }
+    }
+
+    /// Slacks as they are, and prices that all weigh the same.
+    fn price(&mut self) {
+        let Self { program, coefficients, prices, .. } = self;
+        let weight = FIRST_GAP / (prices.len() * LANES) as f64;
+        for (stretch, three) in program.stretches.iter().zip(coefficients.windows(3)) {
+            let bend = dot(&stretch.bend, three);
+            for site in &stretch.sites {
+                let here = Here::new(site, bend, three);
+                for (range, bought, most) in parts(site, here.square) {
+                    for (limits, prices) in program.limits[range].iter().zip(&mut prices[bought]) {
+                        let room = Lanes::all(most.value) - here.of(limits);
+                        // What is exceeded needs a slack of the size of the excess.
+                        prices.slack = room.more(Lanes::all(0.1)).more(-room);
+                        prices.price = Lanes::all(weight) * prices.slack.inverse();
+                    }
+                }
+            }
+        }
+    }
+
+    /// The duration, in units of the way's length and the speed that is 1.
+    fn duration(&self) -> f64 {
+        let of = |site: &Site, three: &[f64]| site.weight / dot(&site.square, three).sqrt();
+        let stretches = self.program.stretches.iter().zip(self.coefficients.windows(3));
+        stretches.map(|(stretch, three)| stretch.sites.iter().map(|site| of(site, three)).sum::<f64>()).sum()
+    }
+
+    /// The equations of the Newton step.
+    fn assemble(&mut self) {
+        let Self { program, coefficients, prices, matrix, pull, push, correction, .. } = self;
+        let size = coefficients.len();
+        matrix.reset(size);
+        for side in [&mut *pull, &mut *push, &mut *correction] {
+            side.clear();
+            side.resize(size, 0.0);
+        }
+        for (index, (stretch, three)) in program.stretches.iter().zip(coefficients.windows(3)).enumerate() {
+            let bend = dot(&stretch.bend, three);
+            for site in &stretch.sites {
+                let here = Here::new(site, bend, three);
+                // The matrix in x, a and k, row by row from its diagonal on; and the two right hand sides.
+                let mut inner = [Lanes::default(); 6];
+                let (mut to, mut off) = ([Lanes::default(); 3], [Lanes::default(); 3]);
+                let mut paid = Lanes::default();
+                for (range, bought, most) in parts(site, here.square) {
+                    paid = Lanes::default();
+                    let (value, slope) = (Lanes::all(most.value), Lanes::all(most.slope));
+                    for (limits, prices) in program.limits[range].iter().zip(&mut prices[bought]) {
+                        let room = value - here.of(limits);
+                        let slack = prices.slack.more(room);
+                        let each = slack.inverse();
+                        prices.slack = slack;
+                        paid += prices.price;
+                        let weight = prices.price * each;
+                        let short = weight * (slack - room);
+                        let by = [slope - limits.square, -limits.slope, -limits.bend];
+                        let [a, b, c] = [by[0] * weight, by[1] * weight, by[2] * weight];
+                        inner[0] += a * by[0];
+                        inner[1] += a * by[1];
+                        inner[2] += a * by[2];
+                        inner[3] += b * by[1];
+                        inner[4] += b * by[2];
+                        inner[5] += c * by[2];
+                        for axis in 0..3 {
+                            to[axis] += by[axis] * short;
+                            off[axis] += by[axis] * each;
+                        }
+                    }
+                }
+                let mut inner = inner.map(Lanes::sum);
+                let (mut to, off) = (to.map(Lanes::sum), off.map(Lanes::sum));
+                let fall = 0.5 * site.weight / (here.square * here.square.sqrt());
+                // The curve of the limits on the jerk counts against that of the duration. It may not outweigh it.
+                inner[0] += 1.5 * fall / here.square * (1.0 - paid.sum() / site.weight).max(0.1);
+                to[0] += fall;
+                let three = [site.square, site.slope, stretch.bend];
+                add(matrix.from(index), &three, &inner);
+                gather(&mut pull[index..], &three, to);
+                gather(&mut push[index..], &three, off);
+            }
+        }
+        for index in pinned(program, size) {
+            matrix.pin(index);
+            pull[index] = 0.0;
+            push[index] = 0.0;
+        }
+    }
+
+    /// What the step that only pulls would come to, and the correction for it.
+    fn predict(&mut self) -> Forecast {
+        let Self { program, coefficients, prices, correction, step, .. } = self;
+        let mut forecast = Forecast::default();
+        let one = Lanes::all(1.0);
+        for (index, (stretch, three)) in program.stretches.iter().zip(coefficients.windows(3)).enumerate() {
+            let change = &step[index..index + 3];
+            let (bend, bend_step) = (dot(&stretch.bend, three), dot(&stretch.bend, change));
+            for site in stretch.sites.iter().filter(|site| site.is_limited()) {
+                let (here, by) = (Here::new(site, bend, three), Here::new(site, bend_step, change));
+                let mut to = [Lanes::default(); 3];
+                for (range, bought, most) in parts(site, here.square) {
+                    let (value, slope) = (Lanes::all(most.value), Lanes::all(most.slope));
+                    let rise = slope * Lanes::all(by.square);
+                    for (limits, prices) in program.limits[range].iter().zip(&mut prices[bought]) {
+                        let Prices { slack, price, .. } = *prices;
+                        let each = slack.inverse();
+                        let slack_step = rise - by.of(limits) + (value - here.of(limits) - slack);
+                        let rate = -(slack_step * each);
+                        let less = one - rate;
+                        let price_step = -(price * less);
+                        let left = slack_step * price_step;
+                        prices.slack_step = slack_step;
+                        forecast.primal = forecast.primal.more(rate);
+                        forecast.dual = forecast.dual.more(less);
+                        forecast.gap += slack * price;
+                        forecast.sums[0] += slack * price_step;
+                        forecast.sums[1] += price * slack_step;
+                        forecast.sums[2] += left;
+                        let left = left * each;
+                        to[0] += (slope - limits.square) * left;
+                        to[1] += limits.slope * left;
+                        to[2] += limits.bend * left;
+                    }
+                }
+                let to = [to[0].sum(), -to[1].sum(), -to[2].sum()];
+                let three = [site.square, site.slope, stretch.bend];
+                gather(&mut correction[index..], &three, to);
+            }
+        }
+        for index in pinned(program, coefficients.len()) {
+            correction[index] = 0.0;
+        }
+        forecast
+    }
+
+    /// The changes of slacks and prices in the corrected step, and which shares of it are possible.
+    fn correct(&mut self, centre: f64) -> (f64, f64) {
+        let Self { program, coefficients, prices, step, .. } = self;
+        let (centre, one) = (Lanes::all(centre), Lanes::all(1.0));
+        let (mut primal, mut dual) = (Lanes::all(NEAR), Lanes::all(NEAR));
+        for (index, (stretch, three)) in program.stretches.iter().zip(coefficients.windows(3)).enumerate() {
+            let change = &step[index..index + 3];
+            let (bend, bend_step) = (dot(&stretch.bend, three), dot(&stretch.bend, change));
+            for site in &stretch.sites {
+                let (here, by) = (Here::new(site, bend, three), Here::new(site, bend_step, change));
+                // The square may not even come close to zero: the tangents would be worth nothing there.
+                primal = primal.more(Lanes::all(-by.square / here.square * (NEAR / 0.9)));
+                for (range, bought, most) in parts(site, here.square) {
+                    let (value, rise) = (Lanes::all(most.value), Lanes::all(most.slope * by.square));
+                    for (limits, prices) in program.limits[range].iter().zip(&mut prices[bought]) {
+                        let Prices { slack, price, slack_step, .. } = *prices;
+                        let each = slack.inverse();
+                        // What the uncorrected step leaves of slack times price.
+                        let left = -(slack_step * price * (one + slack_step * each));
+                        let slack_step = rise - by.of(limits) + (value - here.of(limits) - slack);
+                        let price_step = (centre - left - price * slack_step) * each - price;
+                        prices.slack_step = slack_step;
+                        prices.price_step = price_step;
+                        primal = primal.more(-(slack_step * each));
+                        dual = dual.more(-(price_step * price.inverse()));
+                    }
+                }
+            }
+        }
+        ((NEAR * length(primal)).min(1.0), (NEAR * length(dual)).min(1.0))
+    }
+
+    /// Takes the step; not if it is no number.
+    fn take(&mut self, primal: f64, dual: f64) -> bool {
+        if !(primal > 1e-9 && dual > 0.0 && self.step.iter().all(|step| step.is_finite())) {
+            return false;
+        }
+        for (value, step) in self.coefficients.iter_mut().zip(&self.step) {
+            *value += primal * step;
+        }
+        let (primal, dual) = (Lanes::all(primal), Lanes::all(dual));
+        for prices in &mut self.prices {
+            prices.slack += primal * prices.slack_step;
+            prices.price += dual * prices.price_step;
+        }
+        true
+    }
+}
+
+/// Which share of the longest possible step is taken.
+const NEAR: f64 = 0.99;
+
+/// The longest possible share of a step that uses things up at these rates, 1/[`NEAR`] at most.
+fn length(rates: Lanes) -> f64 {
+    1.0 / rates.most().max(NEAR)
+}
+
+/// The coefficients that the edges give.
+fn pinned(program: &Program, size: usize) -> impl Iterator<Item = usize> {
+    let [first, last] = program.fixed;
+    let from = if first { 0..2 } else { 0..0 };
+    let to = if last { size - 2..size } else { 0..0 };
+    from.chain(to)
+}
+
+/// Adds W' M W, with the rows of W and the upper rows of M, to the first three columns.
+fn add(columns: &mut [[f64; 3]], rows: &[[f64; 3]; 3], inner: &[f64; 6]) {
+    let [xx, xa, xk, aa, ak, kk] = *inner;
+    for (index, column) in columns.iter_mut().take(3).enumerate() {
+        let [x, a, k] = [rows[0][index], rows[1][index], rows[2][index]];
+        let by = [xx * x + xa * a + xk * k, xa * x + aa * a + ak * k, xk * x + ak * a + kk * k];
+        for (below, slot) in column.iter_mut().enumerate().take(3 - index) {
+            let other = index + below;
+            *slot += by[0] * rows[0][other] + by[1] * rows[1][other] + by[2] * rows[2][other];
+        }
+    }
+}
+
+/// Adds W' v to the first three values.
+fn gather(values: &mut [f64], rows: &[[f64; 3]; 3], inner: [f64; 3]) {
+    for (index, value) in values.iter_mut().take(3).enumerate() {
+        *value += inner[0] * rows[0][index] + inner[1] * rows[1][index] + inner[2] * rows[2][index];
+    }
+}

@@ -1,0 +1,157 @@
+//! A timed way: the path parameter over time.
+
+use crate::time_optimal::solver::warp::Warp;
+
+/// How the path parameter moves at a moment.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Moment {
+    /// The path parameter.
+    pub at: f64,
+    /// Its speed, per s.
+    pub vel: f64,
+    /// Its acceleration, per s2.
+    pub acc: f64,
+    /// Its jerk, per s3.
+    pub jerk: f64,
+}
+
+/// The stretch from one place to the next, in which the warped parameter's acceleration changes evenly with the warped
+/// parameter.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Stretch {
+    /// The warped parameter where it begins.
+    pub(crate) at: f64,
+    /// Speed and acceleration of the warped parameter there.
+    pub(crate) vel: f64,
+    pub(crate) acc: f64,
+    /// How the acceleration changes with the warped parameter.
+    pub(crate) bend: f64,
+    /// When it begins.
+    time: f64,
+}
+
+/// A motion along a way, from its first place to its last.
+#[derive(Clone, Debug)]
+pub struct Law {
+    warp: Warp,
+    /// The end of the way in the path parameter.
+    end: f64,
+    stretches: Vec<Stretch>,
+    duration: f64,
+}
+
+impl Law {
+    /// From the warped places, the squares of the warped parameter's speed there, and its acceleration at the start of
+    /// each stretch; `bends` as in [`Stretch`].
+    pub(crate) fn new(
+        warp: Warp,
+        places: &[f64],
+        squares: &[f64],
+        stretches: impl Iterator<Item = (f64, f64)>,
+    ) -> Self {
+        let mut time = 0.0;
+        let stretches = places.windows(2).zip(squares).zip(stretches).map(|((pair, square), (acc, bend))| {
+            let stretch = Stretch { at: pair[0], vel: square.max(0.0).sqrt(), acc, bend, time };
+            time += stretch.duration(pair[1] - pair[0]);
+            stretch
+        });
+        let stretches = stretches.collect();
+        let end = warp.place(warp.length()).at;
+        Self { warp, end, stretches, duration: time }
+    }
+
+    /// How long the motion takes, in s.
+    pub fn duration(&self) -> f64 {
+        self.duration
+    }
+
+    /// The state `time` after the start, in s; that of the start before, and that of the end after.
+    pub fn at(&self, time: f64) -> Moment {
+        let time = time.clamp(0.0, self.duration);
+        let index = self.stretches.partition_point(|stretch| stretch.time <= time).saturating_sub(1);
+        let Some(stretch) = self.stretches.get(index) else {
+            return Moment { at: self.end, vel: 0.0, acc: 0.0, jerk: 0.0 };
+        };
+        let (at, vel, acc) = stretch.after(time - stretch.time);
+        let jerk = stretch.bend * vel;
+        let place = self.warp.place(at.min(self.warp.length()));
+        Moment {
+            at: place.at,
+            vel: place.first * vel,
+            acc: place.first * acc + place.second * vel * vel,
+            jerk: place.first * jerk + 3.0 * place.second * vel * acc + place.third * vel * vel * vel,
+        }
+    }
+
+    /// When the path parameter is at `at`, in s from the start.
+    pub fn time_at(&self, at: f64) -> f64 {
+        if at >= self.end {
+            return self.duration;
+        }
+        let at = self.warp.find(at).max(0.0);
+        let index = self.stretches.partition_point(|stretch| stretch.at <= at).saturating_sub(1);
+        self.stretches.get(index).map_or(0.0, |stretch| stretch.time + stretch.duration(at - stretch.at))
+    }
+}
+
+impl Stretch {
+    /// The warped parameter, its speed and its acceleration after `time`.
+    fn after(&self, time: f64) -> (f64, f64, f64) {
+        let Self { vel, acc, bend, .. } = *self;
+        let (odd, even) = growth(bend, time);
+        let way = vel * odd + acc * even;
+        (self.at + way, vel * (1.0 + bend * even) + acc * odd, acc + bend * way)
+    }
+
+    /// How long it takes to get on by `way`.
+    fn duration(&self, way: f64) -> f64 {
+        let Self { vel, acc, bend, .. } = *self;
+        let then = (vel * vel + way * (2.0 * acc + way * bend)).max(0.0).sqrt();
+        if way <= 0.0 {
+            return 0.0;
+        }
+        if vel + then <= 0.0 {
+            // Starting from and ending at rest in one stretch that does not speed up in between: it would never end.
+            return 1e9;
+        }
+        let mut time = 2.0 * way / (vel + then);
+        let turns = bend * time * time;
+        if turns.abs() > 1e-3 {
+            let rate = bend.abs().sqrt();
+            let after = acc + bend * way;
+            let exact = if bend > 0.0 {
+                ((after + rate * then) / (acc + rate * vel)).ln() / rate
+            } else {
+                ((acc / rate).atan2(vel) - (after / rate).atan2(then)) / rate
+            };
+            if exact.is_finite() && exact > 0.0 {
+                time = exact;
+            }
+        }
+        for _ in 0..2 {
+            let (at, now, _) = self.after(time);
+            let step = (at - self.at - way) / now;
+            if now > 0.0 && step.abs() < 0.5 * time {
+                time -= step;
+            }
+        }
+        time
+    }
+}
+
+/// sinh(r t)/r and (cosh(r t) - 1)/r2 for r2 = `bend`, of either sign.
+fn growth(bend: f64, time: f64) -> (f64, f64) {
+    let turns = bend * time * time;
+    if turns.abs() < 1e-2 {
+        let odd = 1.0 + turns / 6.0 * (1.0 + turns / 20.0 * (1.0 + turns / 42.0 * (1.0 + turns / 72.0)));
+        let even = 0.5 + turns / 24.0 * (1.0 + turns / 30.0 * (1.0 + turns / 56.0 * (1.0 + turns / 90.0)));
+        (time * odd, time * time * even)
+    } else {
+        let rate = bend.abs().sqrt();
+        let angle = rate * time;
+        // By the half angle, because 1 is not to be taken from the cosine.
+        let (odd, half) =
+            if bend > 0.0 { (angle.sinh(), (0.5 * angle).sinh()) } else { (angle.sin(), (0.5 * angle).sin()) };
+        (odd / rate, 2.0 * half * half / bend.abs())
+    }
+}

@@ -1,0 +1,146 @@
+//! The fastest motion without jerk limits: one pass back for the speeds from which the end can be reached, and one forth
+//! that takes the highest of them.
+
+use crate::time_optimal::solver::law::Law;
+use crate::time_optimal::solver::warp::Warp;
+use crate::time_optimal::solver::{Edge, Refusal, Way};
+
+/// The half plane `here` x + `next` y <= 1 of the squares of the speed at one place and the next.
+#[derive(Clone, Copy, Debug)]
+struct Half {
+    here: f64,
+    next: f64,
+}
+
+/// The fastest motion within the velocity and acceleration limits of `way`.
+pub(crate) fn solve(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
+    let (from, to) = way.span()?;
+    if way.places().len() == 2 && start.rests() && end.rests() {
+        // Nothing moves at either place.
+        return Err(Refusal::Short);
+    }
+    let squares = squares(way, start, end)?;
+    let pairs = way.places().windows(2).zip(squares.windows(2));
+    let slopes = pairs.map(|(at, square)| (0.5 * (square[1] - square[0]) / (at[1] - at[0]), 0.0));
+    let warp = Warp::new(from, to, false, false);
+    let places: Vec<f64> = way.places().iter().map(|at| at - from).collect();
+    Ok(Law::new(warp, &places, &squares, slopes))
+}
+
+/// The squares of its speed at the places.
+pub(crate) fn squares(way: &Way, start: Edge, end: Edge) -> Result<Vec<f64>, Refusal> {
+    let caps = caps(way);
+    let mut halves = Vec::new();
+    // The lowest and highest square of the speed at each place from which the end can be reached.
+    let mut reach = vec![(0.0, 0.0); caps.len()];
+    let (mut low, mut high) = (end.vel * end.vel, end.vel * end.vel);
+    for (index, slot) in reach.iter_mut().enumerate().rev() {
+        let cap = caps.get(index).copied().unwrap_or_default();
+        if index + 1 < caps.len() {
+            stretch(way, index, &mut halves);
+            let most = extreme(&halves, (0.0, cap), (low, high), true).ok_or(Refusal::Fast)?;
+            low = if low > 0.0 {
+                extreme(&halves, (0.0, cap), (low, high), false).ok_or(Refusal::Fast)?.min(most)
+            } else {
+                0.0
+            };
+            high = most;
+        } else if high > cap * TOLERANCE {
+            return Err(Refusal::Fast);
+        }
+        *slot = (low, high);
+    }
+    let mut square = start.vel * start.vel;
+    if square > high * TOLERANCE || square * TOLERANCE < low {
+        return Err(Refusal::Fast);
+    }
+    square = square.clamp(low, high);
+    let mut squares = vec![square];
+    for (index, (low, high)) in reach.iter().skip(1).enumerate() {
+        stretch(way, index, &mut halves);
+        let most = halves.iter().filter(|half| half.next > 0.0).fold(*high, |most, half| {
+            let next = (1.0 - half.here * square) / half.next;
+            most.min(next)
+        });
+        let next = most.max(*low);
+        squares.push(next);
+        square = next;
+    }
+    Ok(squares)
+}
+
+/// What rounding may add to a speed's square.
+const TOLERANCE: f64 = 1.0 + 1e-6;
+
+/// The highest square of the speed at each place by the velocity limits; where none of them counts, the highest of all.
+fn caps(way: &Way) -> Vec<f64> {
+    let square = |index: usize| {
+        let speed = way.rows(index).iter().map(|row| row.vel / row.first.abs()).fold(f64::INFINITY, f64::min);
+        speed * speed
+    };
+    let mut caps: Vec<f64> = (0..way.places().len()).map(square).collect();
+    let most = caps.iter().copied().filter(|cap| cap.is_finite()).fold(0.0, f64::max);
+    for cap in &mut caps {
+        *cap = cap.min(most);
+    }
+    caps
+}
+
+/// The half planes that the acceleration limits at both ends of the stretch `index` leave.
+fn stretch(way: &Way, index: usize, halves: &mut Vec<Half>) {
+    halves.clear();
+    let (Some(from), Some(to)) = (way.places().get(index), way.places().get(index + 1)) else { return };
+    let slope = 0.5 / (to - from);
+    for (rows, turned) in [(way.rows(index), false), (way.rows(index + 1), true)] {
+        for row in rows.iter().filter(|row| row.acc.is_finite()) {
+            let (along, across) = (row.first * slope / row.acc, row.second / row.acc);
+            let (here, next) = if turned { (-along, along + across) } else { (across - along, along) };
+            if here != 0.0 || next != 0.0 {
+                halves.extend([Half { here, next }, Half { here: -here, next: -next }]);
+            }
+        }
+    }
+}
+
+/// The highest or lowest x in the box of x and y and the half planes, if they leave anything: by adding the half planes
+/// one after the other; one that cuts the optimum off has the new one on its edge.
+fn extreme(halves: &[Half], x: (f64, f64), y: (f64, f64), highest: bool) -> Option<f64> {
+    let (mut best_x, mut best_y) = (if highest { x.1 } else { x.0 }, y.1);
+    for (index, half) in halves.iter().enumerate() {
+        if half.here * best_x + half.next * best_y <= 1.0 + 1e-9 {
+            continue;
+        }
+        // Along the edge from its point closest to zero, in multiples of (next, -here).
+        let norm = half.here * half.here + half.next * half.next;
+        let (base_x, base_y) = (half.here / norm, half.next / norm);
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        let mut clip = |rate: f64, room: f64| {
+            if rate > 0.0 {
+                high = high.min(room / rate);
+            } else if rate < 0.0 {
+                low = low.max(room / rate);
+            } else if room < -1e-9 {
+                low = f64::INFINITY;
+            }
+        };
+        clip(half.next, x.1 - base_x);
+        clip(-half.next, base_x - x.0);
+        clip(-half.here, y.1 - base_y);
+        clip(half.here, base_y - y.0);
+        for other in halves.iter().take(index) {
+            let rate = other.here * half.next - other.next * half.here;
+            clip(rate, 1.0 - other.here * base_x - other.next * base_y);
+        }
+        if low > high {
+            // Rounding may leave nothing of what is a single point.
+            if low - high > 1e-7 * (1.0 + low.abs() + high.abs()) {
+                return None;
+            }
+            (low, high) = (0.5 * (low + high), 0.5 * (low + high));
+        }
+        let along = if (half.next > 0.0) == highest { high } else { low };
+        best_x = (base_x + along * half.next).clamp(x.0, x.1);
+        best_y = (base_y - along * half.here).clamp(y.0, y.1);
+    }
+    Some(best_x)
+}

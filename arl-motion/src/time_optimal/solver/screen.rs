@@ -1,0 +1,136 @@
+//! Which limits may count.
+//!
+//! At any place a few of the rows hold back all others. Leaving out the others makes the problem several times smaller;
+//! the solution is then reviewed against all of them. Ranges of rows are those between the ends of two places.
+
+use crate::time_optimal::solver::program::Warped;
+
+/// Whether a row's limits count upwards and downwards.
+#[derive(Clone, Copy, Default, Debug)]
+pub(crate) struct Kept {
+    pub(crate) acc: [bool; 2],
+    pub(crate) jerk: [bool; 2],
+}
+
+/// All rows, and which of their limits are kept.
+#[derive(Debug)]
+pub(crate) struct Screen {
+    rows: Vec<Warped>,
+    kept: Vec<Kept>,
+    /// Where the rows of each place begin and end.
+    ends: Vec<usize>,
+    /// The lowest of the speed limits that count.
+    least: f64,
+}
+
+/// Shares of the highest x at which the limits are compared.
+const SHARES: [f64; 4] = [0.03, 0.3, 0.65, 1.0];
+/// A limit that is left out may be exceeded by so much before it is added.
+const EXCESS: f64 = 1.002;
+
+impl Screen {
+    /// With the rows, where those of each place begin, and the highest x that each place can have.
+    pub(crate) fn new(rows: Vec<Warped>, ends: Vec<usize>, most: impl Iterator<Item = f64>) -> Self {
+        let mut kept = vec![Kept::default(); rows.len()];
+        for (range, most) in ends.windows(2).zip(most) {
+            let (rows, kept) = (&rows[range[0]..range[1]], &mut kept[range[0]..range[1]]);
+            // Close to rest nothing else may limit x.
+            let by_jerk = rows.iter().map(|row| 1.0 / (row.jerk[2] * row.jerk[2]).cbrt()).fold(f64::INFINITY, f64::min);
+            let most = if most.is_finite() { most } else { by_jerk.min(1e6) };
+            for share in SHARES {
+                compare(rows, kept, share * most);
+            }
+        }
+        let least = rows.iter().map(|row| row.vel).filter(|vel| *vel > 0.0).fold(f64::INFINITY, f64::min);
+        Self { rows, kept, ends, least }
+    }
+
+    fn range(&self, place: usize) -> std::ops::Range<usize> {
+        let at = |index: usize| self.ends.get(index).copied().unwrap_or(self.rows.len());
+        at(place)..at(place + 1)
+    }
+
+    /// The rows of a place.
+    pub(crate) fn rows(&self, place: usize) -> impl Iterator<Item = (&Warped, &Kept)> {
+        let range = self.range(place);
+        self.rows[range.clone()].iter().zip(&self.kept[range])
+    }
+
+    /// The strictest speed limit of a place: where nothing has a speed, it may still not be higher than anywhere else.
+    pub(crate) fn speed(&self, place: usize) -> f64 {
+        self.rows[self.range(place)].iter().map(|row| row.vel).fold(self.least, f64::max)
+    }
+
+    /// The share of its limits that a place takes up at most with x, the acceleration and the bend. Limits that are
+    /// exceeded and were left out are kept from now on, which is also told.
+    pub(crate) fn review(&mut self, place: usize, square: f64, slope: f64, bend: f64) -> (f64, bool) {
+        let (mut used, mut added) = (self.speed(place) * square, false);
+        let root = square.max(0.0).sqrt();
+        let range = self.range(place);
+        for (row, kept) in self.rows[range.clone()].iter().zip(&mut self.kept[range]) {
+            let acc = row.acc[0] * slope + row.acc[1] * square;
+            let jerk = (row.jerk[0] * bend + row.jerk[1] * slope + row.jerk[2] * square) * root;
+            for (value, kept) in [(acc, &mut kept.acc), (jerk, &mut kept.jerk)] {
+                used = used.max(value.abs());
+                if value.abs() > EXCESS {
+                    let kept = &mut kept[usize::from(value < 0.0)];
+                    added |= !*kept;
+                    *kept = true;
+                }
+            }
+        }
+        (used, added)
+    }
+}
+
+/// Keeps those limits that hold back the acceleration at x, and those that hold back the bend at some accelerations.
+fn compare(rows: &[Warped], kept: &mut [Kept], square: f64) {
+    let (mut low, mut high) = ((f64::NEG_INFINITY, 0, 0), (f64::INFINITY, 0, 0));
+    for (index, row) in rows.iter().enumerate() {
+        narrow(row.acc[0], row.acc[1] * square, 1.0, index, &mut low, &mut high);
+    }
+    for (bound, index, sign) in [low, high] {
+        if bound.is_finite() {
+            kept[index].acc[sign] = true;
+        }
+    }
+    let most = 1.0 / square.sqrt();
+    for slope in [low.0, 0.0, high.0] {
+        if !slope.is_finite() {
+            continue;
+        }
+        let (mut low, mut high) = ((f64::NEG_INFINITY, 0, 0), (f64::INFINITY, 0, 0));
+        for (index, row) in rows.iter().enumerate() {
+            let rest = row.jerk[1] * slope + row.jerk[2] * square;
+            narrow(row.jerk[0], rest, most, index, &mut low, &mut high);
+            // Where the bend hardly counts.
+            if rest.abs() > 0.7 * most {
+                kept[index].jerk[usize::from(rest < 0.0)] = true;
+            }
+        }
+        for (bound, index, sign) in [low, high] {
+            if bound.is_finite() {
+                kept[index].jerk[sign] = true;
+            }
+        }
+    }
+}
+
+/// A bound with the row and the sign that make it.
+type Bound = (f64, usize, usize);
+
+/// Narrows the bounds of y by |`rate` y + `rest`| <= `most`.
+fn narrow(rate: f64, rest: f64, most: f64, index: usize, low: &mut Bound, high: &mut Bound) {
+    if rate == 0.0 {
+        return;
+    }
+    let (up, down) = ((most - rest) / rate, (-most - rest) / rate);
+    let ((above, above_sign), (below, below_sign)) =
+        if rate > 0.0 { ((up, 0), (down, 1)) } else { ((down, 1), (up, 0)) };
+    if above < high.0 {
+        *high = (above, index, above_sign);
+    }
+    if below > low.0 {
+        *low = (below, index, below_sign);
+    }
+}

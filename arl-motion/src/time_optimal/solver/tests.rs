@@ -1,0 +1,329 @@
+//! Limits and durations of whole laws.
+
+use crate::limits::profile::Limits;
+use crate::time_optimal::solver::*;
+use arl_robot::kinematics::random::Random;
+use arl_robot::robot::Robot;
+
+fn line(count: usize, limits: Limits) -> Way {
+    let mut way = Way::new();
+    for at in places(0.0, 1.0, count, Edge::REST, Edge::REST) {
+        let Limits { vel, acc, jerk } = limits;
+        way.push(at, [Row { first: 1.0, second: 0.0, third: 0.0, vel, acc, jerk }]);
+    }
+    way
+}
+
+/// A cubic spline through random points of all axes of a robot, at rest in its curvature at both ends; its parameter goes
+/// from 0 to the number of points less one.
+struct Spline {
+    points: Vec<Vec<f64>>,
+    /// The second derivative at each point.
+    bends: Vec<Vec<f64>>,
+    limits: Vec<Limits>,
+}
+
+impl Spline {
+    fn random(robot: &Robot, random: &mut Random, count: usize, part: f64) -> Self {
+        let mut points = Vec::new();
+        for _ in 0..count {
+            let one = |axis: &arl_robot::robot::Axis| {
+                let (middle, half) = ((axis.min + axis.max) / 2.0, (axis.max - axis.min) / 2.0 * part);
+                random.between(middle - half, middle + half)
+            };
+            points.push(robot.axes.iter().map(one).collect::<Vec<f64>>());
+        }
+        let bends = bends(&points);
+        let limit = |axis: &arl_robot::robot::Axis| Limits { vel: axis.vel, acc: axis.acc, jerk: axis.jerk };
+        Self { points, bends, limits: robot.axes.iter().map(limit).collect() }
+    }
+
+    fn length(&self) -> f64 {
+        (self.points.len() - 1) as f64
+    }
+
+    /// Position and derivatives of an axis, on the piece `piece`.
+    fn jet(&self, axis: usize, piece: usize, at: f64) -> [f64; 4] {
+        let share = at - piece as f64;
+        let (p, q) = (self.points[piece][axis], self.points[piece + 1][axis]);
+        let (b, c) = (self.bends[piece][axis], self.bends[piece + 1][axis]);
+        let slope = q - p - (2.0 * b + c) / 6.0;
+        [
+            p + share * (slope + share * (b / 2.0 + share * (c - b) / 6.0)),
+            slope + share * (b + share * (c - b) / 2.0),
+            b + share * (c - b),
+            c - b,
+        ]
+    }
+
+    fn rows(&self, at: f64, jerk: bool) -> Vec<Row> {
+        let last = self.points.len() - 2;
+        let piece = (at as usize).min(last);
+        let mut rows = Vec::new();
+        // Where a piece begins, the rows of the one before hold as well.
+        let before = (at == piece as f64 && piece > 0).then(|| piece - 1);
+        for piece in before.into_iter().chain([piece]) {
+            for (axis, limits) in self.limits.iter().enumerate() {
+                let [_, first, second, third] = self.jet(axis, piece, at);
+                let Limits { vel, acc, jerk: most } = *limits;
+                rows.push(Row { first, second, third, vel, acc, jerk: if jerk { most } else { f64::INFINITY } });
+            }
+        }
+        rows
+    }
+
+    /// Places between `from` and the end, with the points among them.
+    fn way(&self, from: f64, start: Edge, jerk: bool) -> Way {
+        let count = 150 * (self.points.len() - 1);
+        let mut all = places(from, self.length(), count, start, Edge::REST);
+        all.extend((1..self.points.len() - 1).map(|point| point as f64).filter(|point| *point > from));
+        all.sort_by(f64::total_cmp);
+        // Close ones are as good as one; the points stay.
+        all.dedup_by(|next, kept| *next - *kept < 1e-9);
+        let mut way = Way::new();
+        for at in all {
+            way.push(at, self.rows(at, jerk));
+        }
+        way
+    }
+
+    /// The highest share of velocity, acceleration and jerk limits in samples of 1 ms, by differences.
+    fn usage(&self, law: &Law, rests: bool) -> [f64; 3] {
+        // Rest before the start.
+        let lead = if rests { 3.0 } else { 0.0 };
+        let step = 1e-3;
+        let last = self.points.len() - 2;
+        let samples = (law.duration() / step) as usize + 4;
+        let mut used = [0.0_f64; 3];
+        for (axis, limits) in self.limits.iter().enumerate() {
+            let at = |index: usize| {
+                let at = law.at((index as f64 - lead) * step).at;
+                self.jet(axis, (at as usize).min(last), at)[0]
+            };
+            let mut series: Vec<f64> = (0..samples + 3).map(at).collect();
+            for (used, most) in used.iter_mut().zip([limits.vel, limits.acc, limits.jerk]) {
+                series = series.windows(2).map(|pair| (pair[1] - pair[0]) / step).collect();
+                *used = series.iter().fold(*used, |used, value| used.max(value.abs() / most));
+            }
+        }
+        used
+    }
+}
+
+/// The second derivatives of the spline through the points, by the equations of continuity.
+fn bends(points: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let (count, axes) = (points.len(), points[0].len());
+    let mut bends = vec![vec![0.0; axes]; count];
+    for axis in 0..axes {
+        let (mut factors, mut sides) = (vec![0.0; count], vec![0.0; count]);
+        for index in 1..count - 1 {
+            let side = 6.0 * (points[index + 1][axis] - 2.0 * points[index][axis] + points[index - 1][axis]);
+            let pivot = 4.0 - factors[index - 1];
+            factors[index] = 1.0 / pivot;
+            sides[index] = (side - sides[index - 1]) / pivot;
+        }
+        for index in (1..count - 1).rev() {
+            bends[index][axis] = sides[index] - factors[index] * bends[index + 1][axis];
+        }
+    }
+    bends
+}
+
+#[test]
+fn a_straight_line_takes_as_long_as_the_closed_form() {
+    for (vel, acc, jerk) in
+        [(1.0, 4.0, 40.0), (10.0, 10.0, 4.0), (10.0, 3.0, 40.0), (0.3, 4.0, 100.0), (0.1, 10.0, 1e3)]
+    {
+        let limits = Limits { vel, acc, jerk };
+        let law = fastest(&line(400, limits), Edge::REST, Edge::REST).unwrap();
+        let share = law.duration() / limits.duration(1.0);
+        assert!((share - 1.0).abs() < 5e-3, "{limits:?}: {share}");
+        let law = fastest(&line(400, Limits { jerk: f64::INFINITY, ..limits }), Edge::REST, Edge::REST).unwrap();
+        let trapezoid = if vel * vel < acc { 1.0 / vel + vel / acc } else { 2.0 / acc.sqrt() };
+        let share = law.duration() / trapezoid;
+        assert!((share - 1.0).abs() < 5e-3, "{limits:?}: {share} without jerk");
+    }
+}
+
+#[test]
+fn limits_hold_between_the_places_too_and_the_duration_is_close_to_the_lower_bound() {
+    let mut random = Random::new(61);
+    for name in ["kr10-r1420", "six-10", "tx2-60", "hsr065"] {
+        let robot = Robot::builtin(name).unwrap();
+        // The more points, the less the acceleration's ramps at both ends count.
+        for (count, factor) in [(2, 1.35), (3, 1.2), (4, 1.2), (6, 1.1), (10, 1.05)] {
+            let spline = Spline::random(&robot, &mut random, count, 0.5);
+            let law = fastest(&spline.way(0.0, Edge::REST, true), Edge::REST, Edge::REST).unwrap();
+            let bound = fastest(&spline.way(0.0, Edge::REST, false), Edge::REST, Edge::REST).unwrap();
+            let used = spline.usage(&law, true);
+            assert!(used.iter().all(|used| *used < 1.005), "{name}, {count} points: {used:?}");
+            // Some limit is always used: the jerk at the start, if no other.
+            assert!(used[2] > 0.98, "{name}, {count} points: {used:?}");
+            let share = law.duration() / bound.duration();
+            assert!(share >= 1.0 && share < factor, "{name}, {count} points: {share}");
+        }
+    }
+}
+
+#[test]
+fn without_jerk_limits_velocity_and_acceleration_limits_hold() {
+    let mut random = Random::new(63);
+    let robot = Robot::builtin("kr10-r1420").unwrap();
+    for count in [2, 3, 5, 8] {
+        let spline = Spline::random(&robot, &mut random, count, 0.5);
+        let law = fastest(&spline.way(0.0, Edge::REST, false), Edge::REST, Edge::REST).unwrap();
+        let [vel, acc, _] = spline.usage(&law, true);
+        assert!(vel < 1.005 && acc < 1.005 && acc > 0.99, "{count} points: {vel} {acc}");
+    }
+}
+
+#[test]
+fn a_motion_goes_on_from_states_on_its_way() {
+    let mut random = Random::new(62);
+    let robot = Robot::builtin("kr10-r1420").unwrap();
+    for _ in 0..6 {
+        let spline = Spline::random(&robot, &mut random, 5, 0.4);
+        let law = fastest(&spline.way(0.0, Edge::REST, true), Edge::REST, Edge::REST).unwrap();
+        for part in [0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97] {
+            let moment = law.at(part * law.duration());
+            let edge = Edge { vel: moment.vel, acc: moment.acc };
+            let rest = match fastest(&spline.way(moment.at, edge, true), edge, Edge::REST) {
+                Ok(rest) => rest,
+                Err(refusal) => {
+                    // Where only braking as hard as possible is left, there is no room for another motion.
+                    assert!(refusal == Refusal::Fast && part > 0.6, "{part}: {refusal}");
+                    continue;
+                }
+            };
+            let used = spline.usage(&rest, false);
+            assert!(used.iter().all(|used| *used < 1.0075), "{part}: {used:?}");
+            let now = rest.at(0.0);
+            assert!(
+                (now.vel / edge.vel - 1.0).abs() < 1e-9 && (now.acc - edge.acc).abs() < 1e-6 * (1.0 + edge.acc.abs())
+            );
+            let share = rest.duration() / ((1.0 - part) * law.duration());
+            assert!((share - 1.0).abs() < 0.01, "{part}: {share}");
+        }
+    }
+}
+
+#[test]
+fn a_motion_can_end_moving() {
+    let limits = Limits { vel: 1.0, acc: 4.0, jerk: 40.0 };
+    let end = Edge { vel: 0.5, acc: 0.0 };
+    let law = fastest(&line(200, limits), Edge::REST, end).unwrap();
+    let moment = law.at(law.duration());
+    assert!((moment.vel - 0.5).abs() < 1e-6 && moment.acc.abs() < 1e-4, "{moment:?}");
+    // A second motion backwards in time takes as long.
+    let back = fastest(&line(200, limits), end, Edge::REST).unwrap();
+    assert!((law.duration() / back.duration() - 1.0).abs() < 5e-3);
+    assert!(law.duration() < limits.duration(1.0));
+}
+
+#[test]
+fn state_and_time_fit_together() {
+    let mut random = Random::new(64);
+    let robot = Robot::builtin("six-10").unwrap();
+    let spline = Spline::random(&robot, &mut random, 5, 0.5);
+    for jerk in [true, false] {
+        let law = fastest(&spline.way(0.0, Edge::REST, jerk), Edge::REST, Edge::REST).unwrap();
+        assert_eq!(law.time_at(spline.length()), law.duration());
+        assert_eq!(law.time_at(0.0), 0.0);
+        let step = 1e-5;
+        for index in 1..200 {
+            let time = law.duration() * f64::from(index) / 200.0;
+            let [before, here, after] = [time - step, time, time + step].map(|time| law.at(time));
+            assert!((law.time_at(here.at) - time).abs() < 1e-7, "{time}");
+            assert!(((after.at - before.at) / (2.0 * step) - here.vel).abs() < 1e-3 * (1.0 + here.vel), "{time}");
+            if jerk {
+                assert!(
+                    ((after.vel - before.vel) / (2.0 * step) - here.acc).abs() < 0.05 * (1.0 + here.acc.abs()),
+                    "{time}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_timed_is_refused() {
+    let row = Row { first: 1.0, second: 0.0, third: 0.0, vel: 1.0, acc: 1.0, jerk: 1.0 };
+    let of = |places: &[f64], row: Row| {
+        let mut way = Way::new();
+        places.iter().for_each(|at| way.push(*at, [row]));
+        fastest(&way, Edge::REST, Edge::REST).map(|law| law.duration())
+    };
+    let even = [0.0, 0.25, 0.5, 0.75, 1.0];
+    assert!(of(&even, row).is_ok());
+    assert_eq!(of(&[], row), Err(Refusal::Short));
+    assert_eq!(of(&[0.0], row), Err(Refusal::Short));
+    assert_eq!(of(&[0.0, 0.0], row), Err(Refusal::Place { place: 1 }));
+    assert_eq!(of(&[0.0, f64::NAN, 1.0], row), Err(Refusal::Place { place: 1 }));
+    for bad in [
+        Row { vel: 0.0, ..row },
+        Row { acc: 0.0, ..row },
+        Row { jerk: 0.0, ..row },
+        Row { jerk: f64::NAN, ..row },
+        Row { vel: f64::INFINITY, ..row },
+        Row { third: f64::NAN, ..row },
+    ] {
+        assert_eq!(of(&even, bad), Err(Refusal::Row { place: 0 }), "{bad:?}");
+    }
+    assert_eq!(of(&even, Row { first: 0.0, ..row }), Err(Refusal::Still));
+    let way = line(50, Limits { vel: 1.0, acc: 4.0, jerk: 40.0 });
+    for bad in [-1.0, f64::NAN, f64::INFINITY] {
+        assert_eq!(fastest(&way, Edge { vel: bad, acc: 0.0 }, Edge::REST).map(|_| ()), Err(Refusal::Edge));
+    }
+    for fast in [Edge { vel: 2.0, acc: 0.0 }, Edge { vel: 0.99, acc: 3.9 }] {
+        assert_eq!(fastest(&way, fast, Edge::REST).map(|_| ()), Err(Refusal::Fast), "{fast:?}");
+    }
+}
+
+#[test]
+fn axes_that_stand_still_and_few_places_do_no_harm() {
+    let limits = Limits { vel: 1.0, acc: 4.0, jerk: 40.0 };
+    let alone = fastest(&line(200, limits), Edge::REST, Edge::REST).unwrap().duration();
+    let Limits { vel, acc, jerk } = limits;
+    let row = Row { first: 1.0, second: 0.0, third: 0.0, vel, acc, jerk };
+    let mut way = Way::new();
+    for at in places(0.0, 1.0, 200, Edge::REST, Edge::REST) {
+        way.push(at, [Row { first: 0.0, ..row }, row]);
+    }
+    assert!((fastest(&way, Edge::REST, Edge::REST).unwrap().duration() / alone - 1.0).abs() < 1e-9);
+    for count in 3..8 {
+        let law = fastest(&line(count, limits), Edge::REST, Edge::REST).unwrap();
+        assert!(law.duration() > 0.9 * alone && law.duration() < 3.0 * alone, "{count} places: {}", law.duration());
+    }
+}
+
+#[test]
+fn nothing_panics_whatever_the_rows_are() {
+    let mut random = Random::new(65);
+    for _ in 0..300 {
+        let mut way = Way::new();
+        let count = random.between(3.0, 40.0) as usize;
+        let mut some =
+            |low: f64, high: f64| 10.0_f64.powf(random.between(low, high)) * random.between(-1.0, 1.0).signum();
+        let mut at = 0.0;
+        for _ in 0..count {
+            at += some(-2.0, 0.0).abs();
+            let rows: Vec<Row> = (0..4)
+                .map(|_| Row {
+                    first: some(-2.0, 2.0),
+                    second: some(-3.0, 3.0),
+                    third: some(-3.0, 4.0),
+                    vel: some(0.0, 2.0).abs(),
+                    acc: some(1.0, 3.0).abs(),
+                    jerk: some(2.0, 4.0).abs(),
+                })
+                .collect();
+            way.push(at, rows);
+        }
+        let law = fastest(&way, Edge::REST, Edge::REST).unwrap();
+        assert!(law.duration().is_finite() && law.duration() > 0.0);
+        let edge = Edge { vel: some(-3.0, 2.0).abs(), acc: some(-2.0, 3.0) };
+        if let Ok(law) = fastest(&way, edge, Edge::REST) {
+            assert!(law.duration().is_finite() && law.duration() > 0.0);
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! A parameter in which motion from and to rest is smooth.
+
+/// Which share of the way the warped part at an end at rest takes.
+const SHARE: f64 = 0.25;
+/// The path parameter that a warped part of length 1 takes.
+const PART: f64 = 0.6;
+
+/// The path parameter as a function of the warped one: its cube close to an end at rest, then, joined with three
+/// continuous derivatives, the same but for an offset.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Warp {
+    from: f64,
+    to: f64,
+    /// Lengths of the warped parts at the start and the end; 0 where the motion does not rest there.
+    first: f64,
+    last: f64,
+}
+
+/// A path parameter and its derivatives by the warped parameter.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Place {
+    pub(crate) at: f64,
+    pub(crate) first: f64,
+    pub(crate) second: f64,
+    pub(crate) third: f64,
+}
+
+impl Warp {
+    /// The warp of the way `from`..`to`, with the ends at which the motion rests.
+    pub(crate) fn new(from: f64, to: f64, rests_first: bool, rests_last: bool) -> Self {
+        let part = SHARE * (to - from) / PART;
+        Self { from, to, first: if rests_first { part } else { 0.0 }, last: if rests_last { part } else { 0.0 } }
+    }
+
+    /// The warped parameter goes from 0 to this.
+    pub(crate) fn length(&self) -> f64 {
+        self.to - self.from + (1.0 - PART) * (self.first + self.last)
+    }
+
+    pub(crate) fn place(&self, at: f64) -> Place {
+        let left = self.length() - at;
+        if at < self.first {
+            let place = part(at / self.first, self.first);
+            Place { at: self.from + place.at, ..place }
+        } else if left < self.last {
+            let place = part((left / self.last).max(0.0), self.last);
+            Place { at: self.to - place.at, second: -place.second, ..place }
+        } else {
+            Place { at: self.from + at - (1.0 - PART) * self.first, first: 1.0, second: 0.0, third: 0.0 }
+        }
+    }
+
+    /// The warped parameter of a path parameter.
+    pub(crate) fn find(&self, at: f64) -> f64 {
+        let (done, left) = (at - self.from, self.to - at);
+        if done < PART * self.first {
+            self.first * unpart(done / self.first)
+        } else if left < PART * self.last {
+            self.length() - self.last * unpart(left / self.last)
+        } else {
+            done + (1.0 - PART) * self.first
+        }
+    }
+}
+
+/// The warped part of length `length` at the share `u` from its rest.
+fn part(u: f64, length: f64) -> Place {
+    Place {
+        at: length * u * u * u * (2.0 - 2.0 * u + PART * u * u),
+        first: u * u * (6.0 - 8.0 * u + 3.0 * u * u),
+        second: 12.0 * u * (1.0 - u) * (1.0 - u) / length,
+        third: (12.0 - 48.0 * u + 36.0 * u * u) / (length * length),
+    }
+}
+
+/// The share of a warped part of length 1 at which it has gone `way`.
+fn unpart(way: f64) -> f64 {
+    let way = way.max(0.0);
+    // From above, where Newton's method comes down to the root of a convex function without passing it.
+    let mut u = (way / PART).cbrt().min(1.0);
+    for _ in 0..60 {
+        let Place { at, first, .. } = part(u, 1.0);
+        let step = (at - way) / first;
+        // Also where the step is no number, at 0.
+        if step.is_nan() || step <= 1e-16 * u {
+            break;
+        }
+        u -= step;
+    }
+    u
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_is_smooth_and_found_back() {
+        for (first, last) in [(true, true), (true, false), (false, true), (false, false)] {
+            let warp = Warp::new(-1.0, 2.0, first, last);
+            let length = warp.length();
+            assert!((warp.place(0.0).at + 1.0).abs() < 1e-12 && (warp.place(length).at - 2.0).abs() < 1e-12);
+            for index in 1..1000 {
+                let (at, step) = (length * f64::from(index) / 1000.0, 1e-5);
+                let [before, here, after] = [at - step, at, at + step].map(|at| warp.place(at));
+                let slope = |of: fn(&Place) -> f64| (of(&after) - of(&before)) / (2.0 * step);
+                assert!((slope(|place| place.at) - here.first).abs() < 1e-8, "{at}");
+                assert!((slope(|place| place.first) - here.second).abs() < 1e-8, "{at}");
+                assert!((slope(|place| place.second) - here.third).abs() < 1e-3, "{at}");
+                assert!((warp.find(here.at) - at).abs() < 1e-9 * length, "{at}");
+            }
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! What is to be timed: rows of limits at places along a path.
+
+use crate::time_optimal::solver::Refusal;
+
+/// One quantity that moves with the path parameter, at one place: its derivatives by the parameter and its limits.
+///
+/// A parameter that moves with speed v, acceleration a and jerk j moves the quantity with speed `first` v, acceleration
+/// `first` a + `second` v2 and jerk `first` j + 3 `second` v a + `third` v3. Units are the caller's, the same in all rows
+/// of one quantity; time is in s.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Row {
+    /// First derivative by the path parameter.
+    pub first: f64,
+    /// Second derivative.
+    pub second: f64,
+    /// Third derivative.
+    pub third: f64,
+    /// Highest speed either way, per s; finite.
+    pub vel: f64,
+    /// Highest acceleration either way, per s2; infinite where there is no limit.
+    pub acc: f64,
+    /// Highest jerk either way, per s3; infinite where there is no limit.
+    pub jerk: f64,
+}
+
+impl Row {
+    /// Whether all figures can be worked with.
+    fn is_sound(&self) -> bool {
+        [self.first, self.second, self.third, self.vel].iter().all(|value| value.is_finite())
+            && self.vel > 0.0
+            && self.acc > 0.0
+            && self.jerk > 0.0
+    }
+
+    /// Whether the quantity moves here at all.
+    pub(crate) fn moves(&self) -> bool {
+        self.first != 0.0 || self.second != 0.0 || self.third != 0.0
+    }
+}
+
+/// A path as places along its parameter, each with the rows that hold there.
+///
+/// Where a derivative jumps, the place has the rows of both sides. Limits hold at the places; between them as far as the
+/// derivatives change evenly from place to place.
+#[derive(Clone, Default, Debug)]
+pub struct Way {
+    at: Vec<f64>,
+    rows: Vec<Row>,
+    ends: Vec<usize>,
+    /// Where the rows end that hold before a place, and where those begin that hold behind it.
+    sides: Vec<[usize; 2]>,
+}
+
+impl Way {
+    /// A way without places.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Drops all places and keeps the memory.
+    pub fn clear(&mut self) {
+        self.at.clear();
+        self.rows.clear();
+        self.ends.clear();
+        self.sides.clear();
+    }
+
+    /// Adds the next place, at the path parameter `at`, with its rows.
+    pub fn push(&mut self, at: f64, rows: impl IntoIterator<Item = Row>) {
+        let start = self.rows.len();
+        self.at.push(at);
+        self.rows.extend(rows);
+        self.ends.push(self.rows.len());
+        self.sides.push([self.rows.len(), start]);
+    }
+
+    /// Adds the next place, where derivatives jump: with the rows of the side before it, then of the one behind it, of which
+    /// the first has so many.
+    pub fn push_jump(&mut self, at: f64, rows: impl IntoIterator<Item = Row>, before: usize) {
+        let start = self.rows.len();
+        self.push(at, rows);
+        if let Some(sides) = self.sides.last_mut() {
+            *sides = [start + before; 2];
+        }
+    }
+
+    /// The rows of the place `index` that hold up to it; none past the end.
+    pub fn rows_before(&self, index: usize) -> &[Row] {
+        let start = if index == 0 { 0 } else { self.ends.get(index - 1).copied().unwrap_or(self.rows.len()) };
+        let end = self.sides.get(index).map_or(start, |[end, _]| *end);
+        self.rows.get(start..end).unwrap_or_default()
+    }
+
+    /// The rows of the place `index` that hold from it on; none past the end.
+    pub fn rows_behind(&self, index: usize) -> &[Row] {
+        let (start, end) =
+            self.sides.get(index).zip(self.ends.get(index)).map_or((0, 0), |([_, start], end)| (*start, *end));
+        self.rows.get(start..end).unwrap_or_default()
+    }
+
+    /// The places' path parameters.
+    pub fn places(&self) -> &[f64] {
+        &self.at
+    }
+
+    /// The rows of the place `index`; none past the end.
+    pub fn rows(&self, index: usize) -> &[Row] {
+        let start = if index == 0 { 0 } else { self.ends.get(index - 1).copied().unwrap_or(self.rows.len()) };
+        let end = self.ends.get(index).copied().unwrap_or(start);
+        self.rows.get(start..end).unwrap_or_default()
+    }
+
+    /// The way with acceleration and jerk limits that are `harder` times as high.
+    #[must_use]
+    pub fn hardened(&self, harder: f64) -> Self {
+        let mut way = self.clone();
+        for row in &mut way.rows {
+            (row.acc, row.jerk) = (row.acc * harder, row.jerk * harder);
+        }
+        way
+    }
+
+    /// Makes all limits lower, to a `share` of them, at the places from one parameter to another and those beside, but for the
+    /// first place: the state there is what it is.
+    pub fn lower(&mut self, [from, to]: [f64; 2], share: f64) {
+        let first = self.at.partition_point(|at| *at < from).saturating_sub(1).max(1);
+        let last = self.at.partition_point(|at| *at <= to).min(self.at.len().saturating_sub(1));
+        let start = self.ends.get(first - 1).copied().unwrap_or(self.rows.len());
+        let end = self.ends.get(last).copied().unwrap_or(start);
+        for row in self.rows.get_mut(start..end).unwrap_or_default() {
+            (row.vel, row.acc, row.jerk) = (row.vel * share, row.acc * share, row.jerk * share);
+        }
+    }
+
+    /// The first and the last path parameter.
+    pub(crate) fn span(&self) -> Result<(f64, f64), Refusal> {
+        match self.at.as_slice() {
+            [first, .., last] => Ok((*first, *last)),
+            _ => Err(Refusal::Short),
+        }
+    }
+
+    /// Whether any row limits the jerk.
+    pub(crate) fn limits_jerk(&self) -> bool {
+        self.rows.iter().any(|row| row.jerk.is_finite() && row.moves())
+    }
+
+    /// Refuses what cannot be timed.
+    pub(crate) fn check(&self) -> Result<(), Refusal> {
+        self.span()?;
+        if let Some(place) = self.at.iter().position(|at| !at.is_finite()) {
+            return Err(Refusal::Place { place });
+        }
+        if let Some(place) = self.at.windows(2).position(|pair| pair[1] <= pair[0]) {
+            return Err(Refusal::Place { place: place + 1 });
+        }
+        if let Some(row) = self.rows.iter().position(|row| !row.is_sound()) {
+            let place = self.ends.iter().position(|end| row < *end).unwrap_or_default();
+            return Err(Refusal::Row { place });
+        }
+        if self.rows.iter().all(|row| row.first == 0.0) {
+            return Err(Refusal::Still);
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_are_lowered_beside_a_stretch_but_not_at_the_first_place() {
+        let mut way = Way::new();
+        for at in 0..6 {
+            way.push(f64::from(at), [Row { first: 1.0, second: 0.0, third: 0.0, vel: 1.0, acc: 1.0, jerk: 1.0 }]);
+        }
+        let jerks = |way: &Way| (0..6).map(|index| way.rows(index)[0].jerk).collect::<Vec<f64>>();
+        way.lower([2.5, 2.5], 0.5);
+        assert_eq!(jerks(&way), [1.0, 1.0, 0.5, 0.5, 1.0, 1.0]);
+        way.lower([0.2, 0.3], 0.5);
+        assert_eq!(jerks(&way), [1.0, 0.5, 0.5, 0.5, 1.0, 1.0]);
+        way.lower([4.0, 5.0], 0.5);
+        assert_eq!(jerks(&way), [1.0, 0.5, 0.5, 0.25, 0.5, 0.5]);
+        way.lower([9.0, 9.0], 0.5);
+        assert_eq!(jerks(&way), [1.0, 0.5, 0.5, 0.25, 0.5, 0.25]);
+    }
+
+    #[test]
+    fn a_place_has_the_rows_of_both_sides() {
+        let row = |first: f64| Row { first, second: 0.0, third: 0.0, vel: 1.0, acc: 1.0, jerk: 1.0 };
+        let mut way = Way::new();
+        way.push(0.0, [row(1.0)]);
+        way.push_jump(1.0, [row(2.0), row(3.0), row(4.0)], 1);
+        way.push(2.0, [row(5.0), row(6.0)]);
+        let firsts = |rows: &[Row]| rows.iter().map(|row| row.first).collect::<Vec<f64>>();
+        let sides = |index: usize| [way.rows_before(index), way.rows(index), way.rows_behind(index)].map(firsts);
+        assert_eq!(sides(0), [vec![1.0], vec![1.0], vec![1.0]]);
+        assert_eq!(sides(1), [vec![2.0], vec![2.0, 3.0, 4.0], vec![3.0, 4.0]]);
+        assert_eq!(sides(2), [vec![5.0, 6.0], vec![5.0, 6.0], vec![5.0, 6.0]]);
+        assert_eq!(sides(3), [vec![], vec![], vec![]]);
+    }
+}

@@ -1,0 +1,73 @@
+//! What the governor will do at a stop, foreseen: so that a shorter one can be looked for beside the cycle.
+
+use crate::follow::governor::{Governor, Pacing};
+use crate::follow::timing::Timing;
+use crate::limits::profile::{Change, State};
+use crate::time_optimal::solver::Edge;
+
+/// A stop that takes more cycles is not looked at.
+const MOST_CYCLES: u32 = 20_000;
+
+/// The governor with a copy of all it knows.
+#[derive(Clone, Debug)]
+pub(crate) struct Foresight {
+    timing: Timing,
+    state: State,
+    backup: Change,
+    cycle: f64,
+    harder: f64,
+}
+
+impl Foresight {
+    /// Of a stop with so many times the acceleration and jerk, which begins with this state.
+    pub(crate) fn new(timing: Timing, state: State, backup: Change, cycle: f64, harder: f64) -> Self {
+        Self { timing, state, backup, cycle, harder }
+    }
+
+    /// How many times the acceleration and jerk.
+    pub(crate) fn harder(&self) -> f64 {
+        self.harder
+    }
+
+    /// How the robot moves, in s of nominal time.
+    pub(crate) fn edge(&self) -> Edge {
+        Edge { vel: self.state.vel, acc: self.state.acc }
+    }
+
+    /// Brakes for so many cycles; how far that leads, in s of nominal time. `None` where it rests by then.
+    pub(crate) fn brake(&mut self, cycles: u32) -> Option<f64> {
+        let mut way = 0.0;
+        for _ in 0..cycles {
+            way += self.step();
+            if self.state.rests() {
+                return None;
+            }
+        }
+        Some(way)
+    }
+
+    /// How far it still is to rest, in s of nominal time, and how many s that takes. `None` where nobody wants to know any more.
+    pub(crate) fn rest(mut self, wanted: impl Fn() -> bool) -> Option<[f64; 2]> {
+        let mut way = 0.0;
+        for cycles in 1..MOST_CYCLES {
+            way += self.step();
+            if self.state.rests() {
+                return Some([way, f64::from(cycles) * self.cycle]);
+            }
+            if !wanted() {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// Goes on for a cycle; returns how far.
+    fn step(&mut self) -> f64 {
+        let governor = Governor { stretches: &self.timing.stretches, cycle: self.cycle };
+        let next = governor.next(&self.state, &mut self.backup, Pacing::Stop(self.harder));
+        let way = next.at - self.state.at;
+        self.state = next;
+        self.timing.pass(&mut self.state);
+        way
+    }
+}
