@@ -19,10 +19,11 @@ mod tests;
 pub mod time_optimal;
 
 pub use blend::zone::Rounding;
-pub use command::{Command, Joints, PlanError, Settings, Speed, Target, UNSET, Zone, is_unset};
-pub use overlay::{Compensation, Reference, Weave, WeaveShape};
+pub use command::{
+    Command, Compensation, Gate, Joints, Lift, PlanError, Reference, Settings, Speed, Target, UNSET, Weave, WeaveShape,
+    Zone, is_unset,
+};
 pub use plan::circle_steps::halves;
-pub use plan::gate::{Gate, Lift};
 pub use plan::motion::Motion;
 pub use plan::planner::plan;
 pub use queue::{

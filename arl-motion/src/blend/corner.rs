@@ -8,16 +8,19 @@ use nalgebra::{SVector, Vector3};
 
 use crate::blend::blend_limits::{Approach, Crossing, cross};
 use crate::blend::mid_curvature::Bend;
-use crate::blend::zone::{LARGEST, parts};
+use crate::blend::zone::parts;
+use crate::command::LARGEST_ZONE;
 use crate::command::joints::{ALL, Joints, slowness};
 use crate::geometry::derivatives::{Place, by_differences};
 use crate::geometry::parametrization::Progress;
 use crate::geometry::quintic::{Knot, Quintic, Way};
 use crate::geometry::rotation;
+use crate::geometry::tcp_path::TcpPath;
+use crate::geometry::track::Track;
 use crate::limits::constant::passing;
 use crate::limits::profile::Limits;
 use crate::plan::constraints::{Bounds, Pace};
-use crate::plan::curve::{Curve, ToolCurve, Track};
+use crate::plan::curve::{Curve, ToolCurve};
 use crate::plan::motion::Motion;
 use crate::plan::path_check::{glance, survey};
 use arl_robot::kinematics::Rates;
@@ -65,7 +68,7 @@ pub(crate) fn blend(robot: &Robot, from: &Motion, to: &Motion) -> Option<Blend> 
 pub(crate) fn bent_blend(robot: &Robot, from: &Motion, to: &Motion, bends: [Bend; 2]) -> Option<Blend> {
     let (leaving, joining) = parts(robot, from, to)?;
     let [start, end] = &bends;
-    if (*start != Bend::NONE && leaving != LARGEST) || (*end != Bend::NONE && joining != LARGEST) {
+    if (*start != Bend::NONE && leaving != LARGEST_ZONE) || (*end != Bend::NONE && joining != LARGEST_ZONE) {
         return None;
     }
     Corner { robot, from, to, leaving, joining, bends }.blend()
@@ -110,15 +113,15 @@ impl Corner<'_> {
         let (curve, progress, time) = match (&from.curve, &to.curve) {
             (Curve::Tool(a), Curve::Tool(b)) if go_on(a, leave, b, join) => {
                 let curve = self.tool_curve(a, b);
-                let (start, end) = (along(&a.track, leave, vel_from), along(&b.track, join, vel_to));
+                let (start, end) = (along(&a.path.track, leave, vel_from), along(&b.path.track, join, vel_to));
                 let bends_little = is_gentle(&curve) && !self.swings();
                 let timed = if bends_little {
-                    Progress::gently(|order, at| curve.track.derivative(order, at), start, end)
+                    Progress::gently(|order, at| curve.path.track.derivative(order, at), start, end)
                 } else if self.swings() {
                     // What is laid over a motion does not go evenly: it is met best by a parameter that does.
                     None
                 } else {
-                    Progress::along(&curve.track, start, end)
+                    Progress::along(&curve.path.track, start, end)
                 };
                 let (progress, time) = timed.unwrap_or_else(even);
                 if !(bends_little && self.glance_at_tool(&curve, &progress, &mut bounds, &pace)) {
@@ -183,16 +186,18 @@ impl Corner<'_> {
             scaled(curve.external.knot(at), slope, &bend.external())
         };
         ToolCurve {
-            track: Track::Poly(
-                Quintic::between(
-                    &knot(moved_from, slope_from, start.position),
-                    &knot(moved_to, slope_to, end.position),
-                )
-                .into(),
-            ),
-            base: corner,
-            turning: Quintic::between(&turning(turned_from, slope_from, start), &turning(turned_to, slope_to, end))
-                .into(),
+            path: TcpPath {
+                track: Track::Poly(
+                    Quintic::between(
+                        &knot(moved_from, slope_from, start.position),
+                        &knot(moved_to, slope_to, end.position),
+                    )
+                    .into(),
+                ),
+                base: corner,
+                turning: Quintic::between(&turning(turned_from, slope_from, start), &turning(turned_to, slope_to, end))
+                    .into(),
+            },
             carried: from.carried,
             external: Quintic::between(&external(from, leave, slope_from, start), &external(to, join, slope_to, end))
                 .into(),
@@ -330,10 +335,10 @@ fn shares<const N: usize>() -> [f64; N] {
 
 /// Whether speeds and directions hardly change on the way.
 fn is_gentle(curve: &ToolCurve) -> bool {
-    let Track::Poly(track) = &curve.track else { return false };
+    let Track::Poly(track) = &curve.path.track else { return false };
     // A turn by so little is little, however it changes.
     const TURN: f64 = 0.01;
-    is_gentle_way(track, 0.0) && is_gentle_way(&curve.turning, TURN) && is_gentle_way(&curve.external, 0.0)
+    is_gentle_way(track, 0.0) && is_gentle_way(&curve.path.turning, TURN) && is_gentle_way(&curve.external, 0.0)
 }
 
 /// The same for a way of the axes.
@@ -472,7 +477,7 @@ fn inverse(progress: &Progress, at: f64) -> f64 {
 /// Collects what limits the TCP, the tool's turning and the external axes at a place; of a TCP that is `swinging`, all of its
 /// acceleration.
 fn collect(place: &Place, curve: &ToolCurve, swinging: bool, bounds: &mut Bounds, pace: &Pace) {
-    let moving = place.vectors([1, 2, 3].map(|order| curve.track.derivative(order, place.at)));
+    let moving = place.vectors([1, 2, 3].map(|order| curve.path.track.derivative(order, place.at)));
     if swinging {
         bounds.swinging(&moving, pace);
     } else {

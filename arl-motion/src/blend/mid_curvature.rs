@@ -13,7 +13,8 @@
 use nalgebra::{SVector, Vector3};
 
 use crate::blend::corner::go_on;
-use crate::blend::zone::{LARGEST, parts};
+use crate::blend::zone::parts;
+use crate::command::LARGEST_ZONE;
 use crate::command::joints::{ALL, Joints, slowness};
 use crate::plan::curve::Curve;
 use crate::plan::motion::Motion;
@@ -65,7 +66,7 @@ pub(crate) fn bend(robot: &Robot, before: &Motion, here: &Motion, after: &Motion
     if [before, here, after].iter().any(|motion| motion.laid.is_some()) {
         return None;
     }
-    let meet = parts(robot, before, here)?.1 == LARGEST && parts(robot, here, after)?.0 == LARGEST;
+    let meet = parts(robot, before, here)?.1 == LARGEST_ZONE && parts(robot, here, after)?.0 == LARGEST_ZONE;
     // The corners of a gate stay as they are.
     if !meet || before.corner.is_some() || here.corner.is_some() {
         return None;
@@ -80,9 +81,10 @@ pub(crate) fn bend(robot: &Robot, before: &Motion, here: &Motion, after: &Motion
             let moves = motions.iter().all(|motion| motion.length > 1e-9);
             let lengths = motions.map(|motion| if moves { motion.length } else { motion.angle });
             let lengths = Lengths::new(lengths)?;
-            let track = [a.track.derivative(1, 1.0), b.track.derivative(1, 0.5), c.track.derivative(1, 0.0)];
+            let track =
+                [a.path.track.derivative(1, 1.0), b.path.track.derivative(1, 0.5), c.path.track.derivative(1, 0.0)];
             if let Some(direction) = track[1].try_normalize(1e-12)
-                && matches!(&b.track, crate::plan::curve::Track::Poly(_))
+                && matches!(&b.path.track, crate::geometry::track::Track::Poly(_))
             {
                 let second = lengths.bend(&track);
                 bend.position = second - direction * direction.dot(&second);

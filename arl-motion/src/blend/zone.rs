@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::command::LARGEST_ZONE;
 use crate::command::joints::{Joints, is_unset};
 use crate::plan::curve::Curve;
 use crate::plan::motion::Motion;
@@ -40,7 +41,9 @@ pub(crate) fn rounding(robot: &Robot, motion: &Motion, leave: f64) -> Option<Rou
     let (measure, size, _) = leaving(robot, motion)?;
     let part = 1.0 - leave;
     Some(match (measure, &motion.curve) {
-        (Measure::Share, _) => Rounding { asked: 100.0 * size / LARGEST, used: 100.0 * part / LARGEST, unit: "%" },
+        (Measure::Share, _) => {
+            Rounding { asked: 100.0 * size / LARGEST_ZONE, used: 100.0 * part / LARGEST_ZONE, unit: "%" }
+        }
         (Measure::Tcp, Curve::Axes(_)) => {
             let far = tcp_place(robot, motion, leave) - tcp_place(robot, motion, 1.0);
             Rounding { asked: size, used: far.norm(), unit: "mm" }
@@ -54,9 +57,6 @@ pub(crate) fn rounding(robot: &Robot, motion: &Motion, leave: f64) -> Option<Rou
 
 /// The smallest part of a motion that a blend can take.
 const LEAST: f64 = 1e-6;
-
-/// The largest zone, as part of a motion.
-pub(crate) const LARGEST: f64 = 0.5;
 
 /// The parts that a blend takes from the end of one motion and from the start of the next; `None` where none is asked for.
 pub(crate) fn parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f64)> {
@@ -73,7 +73,7 @@ pub(crate) fn parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f
         None => time(from, leaving) / time(to, 1.0),
     };
     // What the next motion is left by is no longer there to be entered.
-    let free = to.corner.map_or(LARGEST, |(leaving, _)| (1.0 - leaving).min(LARGEST));
+    let free = to.corner.map_or(LARGEST_ZONE, |(leaving, _)| (1.0 - leaving).min(LARGEST_ZONE));
     let entering = entering.min(free);
     (entering > LEAST).then_some((leaving, entering))
 }
@@ -87,7 +87,7 @@ pub(crate) fn asks(robot: &Robot, motion: &Motion) -> bool {
 fn leaving(robot: &Robot, motion: &Motion) -> Option<(Measure, f64, f64)> {
     let zone = &motion.zone;
     if !is_unset(zone.percent) && zone.percent >= 0.0 {
-        let part = zone.percent.min(100.0) / 100.0 * LARGEST;
+        let part = zone.percent.min(100.0) / 100.0 * LARGEST_ZONE;
         return (part > 0.0).then_some((Measure::Share, part, part));
     }
     let asked = |size: f64| !is_unset(size) && size > 0.0;
@@ -103,7 +103,7 @@ fn leaving(robot: &Robot, motion: &Motion) -> Option<(Measure, f64, f64)> {
             (Measure::Tcp, Curve::Axes(_)) => tcp_part(robot, motion, size, 1.0),
             _ => size / extent(robot, motion, measure)?,
         };
-        Some((measure, size, part.min(LARGEST)))
+        Some((measure, size, part.min(LARGEST_ZONE)))
     });
     found.min_by(|(_, _, a), (_, _, b)| a.total_cmp(b))
 }
@@ -137,8 +137,8 @@ fn tcp_part(robot: &Robot, motion: &Motion, distance: f64, of: f64) -> f64 {
     let far = |part: f64| (tcp((of - part).abs()) - end).norm() > distance;
     // The first place, seen from the end, where the TCP is too far.
     const STEPS: u32 = 32;
-    let place = |step: u32| LARGEST * f64::from(step) / f64::from(STEPS);
-    let Some(step) = (1..=STEPS).find(|step| far(place(*step))) else { return LARGEST };
+    let place = |step: u32| LARGEST_ZONE * f64::from(step) / f64::from(STEPS);
+    let Some(step) = (1..=STEPS).find(|step| far(place(*step))) else { return LARGEST_ZONE };
     let (mut near, mut beyond) = (place(step - 1), place(step));
     for _ in 0..40 {
         let middle = f64::midpoint(near, beyond);

@@ -70,3 +70,23 @@ fn fill(into: &mut [f64], from: &[f64], count: usize) {
         }
     }
 }
+
+impl Joints {
+    /// Own axes, then external ones.
+    pub(crate) fn all(&self) -> [f64; ALL] {
+        let mut all = [0.0; ALL];
+        for (value, joint) in all.iter_mut().zip(self.axes.iter().chain(&self.external)) {
+            *value = *joint;
+        }
+        all
+    }
+
+    /// The opposite of [`Joints::all`].
+    pub(crate) fn of(all: &[f64; ALL]) -> Self {
+        let mut joints = Self { axes: [0.0; ROBOT_AXES], external: [0.0; EXTERNAL_AXES] };
+        for (joint, value) in joints.axes.iter_mut().chain(&mut joints.external).zip(all) {
+            *joint = *value;
+        }
+        joints
+    }
+}

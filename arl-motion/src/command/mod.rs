@@ -1,16 +1,23 @@
 //! What is asked of the robot: motions with their settings, and why one may be refused.
 
+mod compensation;
 pub(crate) mod error;
+mod gate;
 pub(crate) mod joints;
+mod weave;
 
+pub use compensation::{Compensation, Reference};
 pub use error::PlanError;
+pub use gate::{Gate, Lift};
 pub use joints::{Joints, UNSET, is_unset};
+pub use weave::{Weave, WeaveShape};
 
-use crate::overlay::{Compensation, Weave};
-use crate::plan::gate::Gate;
 use arl_robot::frames::Rig;
 use arl_robot::kinematics::{Frame, Wanted};
 use arl_robot::robot::{EXTERNAL_AXES, VelocityProfile};
+
+/// The largest blending zone, as part of a motion.
+pub(crate) const LARGEST_ZONE: f64 = 0.5;
 
 /// One motion instruction with everything resolved that applies to it.
 #[derive(Clone, PartialEq, Debug)]

@@ -324,7 +324,7 @@ impl Piece {
                 }
             }
             Curve::Tool(curve) => {
-                let moving = place.vectors([1, 2, 3].map(|order| curve.track.derivative(order, place.at)));
+                let moving = place.vectors([1, 2, 3].map(|order| curve.path.track.derivative(order, place.at)));
                 bounds.moving(&moving, pace);
                 bounds.turning(&place.vectors(curve.rotation_rates(place.at)), pace);
                 if pace.manual {

@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 
-use crate::limits::profile::{Limits, State};
+use crate::limits::profile::{ALIKE, Limits, State};
 use crate::limits::search::{self, Enough};
 
 /// A part of a stretch on which one speed is allowed.
@@ -32,9 +32,6 @@ const CLOSE: f64 = 1e-14;
 
 /// The same where it only has to be known about how long braking takes.
 const NEAR_ENOUGH: Enough = Enough { value: 1e-3, excess: 1e-3 };
-
-/// Cells whose limits differ by up to this factor share a stretch.
-pub(crate) const ALIKE: f64 = 2.0;
 
 /// All stretches from the one that the robot is on.
 #[derive(Clone, Debug, Default)]

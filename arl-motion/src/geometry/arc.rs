@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::plan::curve::Arc;
+use crate::geometry::track::Arc;
 
 /// Points closer than this, in mm, are the same.
 const SAME: f64 = 1e-6;
@@ -57,7 +57,7 @@ pub(crate) fn arc_through(points: &[Vector3<f64>; 3]) -> Option<Arc> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plan::curve::Track;
+    use crate::geometry::track::Track;
     use arl_robot::kinematics::random::Random;
 
     #[test]

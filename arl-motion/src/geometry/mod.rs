@@ -6,3 +6,5 @@ pub(crate) mod parametrization;
 pub(crate) mod quintic;
 pub(crate) mod rotation;
 pub(crate) mod spline;
+pub(crate) mod tcp_path;
+pub(crate) mod track;

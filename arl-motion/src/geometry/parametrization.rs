@@ -6,7 +6,7 @@ use std::sync::Arc;
 use nalgebra::SVector;
 
 use crate::geometry::quintic::{Knot, Quintic};
-use crate::plan::curve::Track;
+use crate::geometry::track::Track;
 
 /// Parts of the time, each with a polynomial of its own.
 const PARTS: usize = 16;

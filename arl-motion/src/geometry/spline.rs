@@ -7,12 +7,13 @@
 
 use std::sync::Arc;
 
-use nalgebra::{SVector, UnitQuaternion, Vector3};
+use nalgebra::{SVector, Vector3};
 
 use crate::geometry::parametrization::Progress;
 use crate::geometry::quintic::{Knot, Quintic, Way};
 use crate::geometry::rotation;
-use crate::plan::curve::{ToolCurve, Track};
+use crate::geometry::tcp_path::TcpPath;
+use crate::geometry::track::Track;
 use arl_robot::kinematics::Frame;
 use arl_robot::robot::EXTERNAL_AXES;
 
@@ -87,13 +88,12 @@ fn parabola<const N: usize>(h0: f64, way0: SVector<f64, N>, h1: f64, way1: SVect
 }
 
 /// The curve from one point to the next, passing its ends as said, or ending there; with the nominal time in s that it
-/// takes at `speed` mm/s. `base` is a curve that gives everything else.
+/// takes at `speed` mm/s, and the external axes along it.
 pub(crate) fn piece(
-    base: ToolCurve,
     [from, to]: [&Place; 2],
     [start, end]: [Option<&Passing>; 2],
     speed: f64,
-) -> (ToolCurve, f64) {
+) -> (TcpPath, Way<EXTERNAL_AXES>, f64) {
     let chord = from.chord(to);
     let scaled = |[first, second]: [Vector3<f64>; 2]| [first * chord, second * (chord * chord)];
     let turning = from.turning(to);
@@ -117,14 +117,12 @@ pub(crate) fn piece(
     let [start, end] = [start, end].map(|passing| passing.map_or(speed, |passing| passing.speed));
     let (progress, time) = Progress::eased(|at| gait(&moved, chord, at), [start, speed, end]);
     let pace = Arc::new(progress);
-    let curve = ToolCurve {
+    let path = TcpPath {
         track: Track::Poly(Way::paced(moved, pace.clone())),
         base: from.tcp.rotation,
         turning: Way::paced(turned, pace.clone()),
-        external: Way::paced(external, pace),
-        ..base
     };
-    (curve, time)
+    (path, Way::paced(external, pace), time)
 }
 
 /// From `start` by `way`; where an end's derivatives are not given, it goes on as a parabola.
@@ -156,12 +154,4 @@ fn gait(moved: &Quintic<3>, chord: f64, at: f64) -> [f64; 2] {
     let least = SLOWEST * chord;
     let length = (first.norm_squared().powi(2) + least.powi(4)).sqrt().sqrt();
     [length, first.norm_squared() * first.dot(&second) / length.powi(3)]
-}
-
-/// The angle in deg by which the tool turns along a curve.
-pub(crate) fn turned(curve: &ToolCurve) -> f64 {
-    const PARTS: u32 = 16;
-    let place = |part: u32| curve.rotation(f64::from(part) / f64::from(PARTS));
-    let angle = |part: u32| UnitQuaternion::angle_to(&place(part), &place(part + 1));
-    (0..PARTS).map(angle).sum::<f64>().to_degrees()
 }

@@ -2,67 +2,13 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::command::Settings;
+use crate::command::{Compensation, Reference, Settings};
+use crate::geometry::tcp_path::TcpPath;
 use crate::limits::constant::Bound;
 use crate::overlay::path_frame::{PathFrame, Rates, carried};
 use crate::overlay::{easing, paced, times};
-use crate::plan::curve::ToolCurve;
 use arl_robot::frames::{Carried, Rig};
 use arl_robot::kinematics::frame;
-
-/// The frame along and about whose axes a compensation counts.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Reference {
-    /// The tool frame.
-    Tool,
-    /// The workpiece frame of the motion.
-    Wobj,
-    /// x along the path, y across x and the tool's z axis, z across both.
-    ToolPath,
-    /// The same, but y keeps its side where the path turns back. It does not turn the tool.
-    ModifyPath,
-    /// The world frame.
-    World,
-}
-
-/// How many frames there are.
-const REFERENCES: usize = 5;
-
-/// What compensates the motions that are planned: nothing to begin with.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Compensation {
-    /// Its running number: a motion takes over where the one before it was led only within the same compensation.
-    pub number: u32,
-    /// How fast it may grow: mm/s, mm/s2, mm/s3, deg/s, deg/s2, deg/s3; each above 0.
-    pub limits: [f64; 6],
-    totals: [[f64; 6]; REFERENCES],
-}
-
-impl Compensation {
-    /// One that compensates nothing yet.
-    pub fn new(number: u32, limits: [f64; 6]) -> Self {
-        Self { number, limits, totals: [[0.0; 6]; REFERENCES] }
-    }
-
-    /// Adds to what is compensated in a frame: x, y, z in mm, a, b, c in deg.
-    pub fn add(&mut self, reference: Reference, by: &[f64; 6]) {
-        if let Some(total) = self.totals.get_mut(reference as usize) {
-            for (total, by) in total.iter_mut().zip(by) {
-                *total += by;
-            }
-        }
-    }
-
-    /// What is compensated in a frame in all: x, y, z in mm, a, b, c in deg.
-    pub fn total(&self, reference: Reference) -> [f64; 6] {
-        self.totals.get(reference as usize).copied().unwrap_or_default()
-    }
-
-    /// Whether it needs the direction of the path.
-    pub(crate) fn follows_path(&self) -> bool {
-        [Reference::ToolPath, Reference::ModifyPath].iter().any(|reference| self.total(*reference) != [0.0; 6])
-    }
-}
 
 /// How far, in mm, and how, as a rotation vector in rad, the TCP is led away from its way: along and about the axes of what the
 /// way is seen from, unless said otherwise.
@@ -152,7 +98,7 @@ impl Shift {
     pub(crate) fn new(
         compensation: &Compensation,
         before: &Led,
-        curve: &ToolCurve,
+        curve: &TcpPath,
         path: Option<&PathFrame>,
         [workpiece, world]: [&UnitQuaternion<f64>; 2],
         seconds: f64,
@@ -193,15 +139,15 @@ impl Shift {
     }
 
     /// How the motion behind this one begins.
-    pub(crate) fn led(&self, curve: &ToolCurve, path: Option<&PathFrame>) -> Led {
+    pub(crate) fn led(&self, curve: &TcpPath, carried: Carried, path: Option<&PathFrame>) -> Led {
         let across = path.map(|path| path.rotation(1.0) * Vector3::y() * self.side);
-        Led { lead: self.target(curve, path, 1.0), number: self.number, across, carried: Some(curve.carried) }
+        Led { lead: self.target(curve, path, 1.0), number: self.number, across, carried: Some(carried) }
     }
 
     /// What it grows to, as it stands at `at`.
-    fn target(&self, curve: &ToolCurve, path: Option<&PathFrame>, at: f64) -> Lead {
+    fn target(&self, curve: &TcpPath, path: Option<&PathFrame>, at: f64) -> Lead {
         let along = path.map_or_else(Lead::default, |path| self.path.rotated(&path.rotation(at)));
-        self.fixed.plus(&self.tool.rotated(&curve.plain_rotation(at))).plus(&along)
+        self.fixed.plus(&self.tool.rotated(&curve.rotation(at))).plus(&along)
     }
 
     fn growth(&self, at: f64) -> [f64; 4] {
@@ -209,9 +155,9 @@ impl Shift {
     }
 
     /// What is added to the place of the TCP, with its derivatives.
-    pub(crate) fn offset(&self, curve: &ToolCurve, path: Option<&PathFrame>, at: f64) -> Rates {
+    pub(crate) fn offset(&self, curve: &TcpPath, path: Option<&PathFrame>, at: f64) -> Rates {
         let still = |vector: Vector3<f64>| [vector, Vector3::zeros(), Vector3::zeros(), Vector3::zeros()];
-        let tool = carried(&curve.plain_rotation(at), &curve.plain_rotation_rates(at), &still(self.tool.shift));
+        let tool = carried(&curve.rotation(at), &curve.rotation_rates(at), &still(self.tool.shift));
         let along = path.map_or(still(Vector3::zeros()), |path| {
             carried(&path.rotation(at), &path.turning(at), &still(self.path.shift))
         });
@@ -226,7 +172,7 @@ impl Shift {
     }
 
     /// The rotation vector by which the TCP is turned.
-    pub(crate) fn turned(&self, curve: &ToolCurve, path: Option<&PathFrame>, at: f64) -> Vector3<f64> {
+    pub(crate) fn turned(&self, curve: &TcpPath, path: Option<&PathFrame>, at: f64) -> Vector3<f64> {
         let [growth, ..] = self.growth(at);
         self.from.turn.lerp(&self.target(curve, path, at).turn, growth)
     }

@@ -10,14 +10,12 @@ pub(crate) mod weave;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::plan::curve::ToolCurve;
+use crate::geometry::tcp_path::TcpPath;
 use compensation::Shift;
 use path_frame::{PathFrame, Rates, carried};
 use weave::Pattern;
 
 pub(crate) use compensation::Led;
-pub use compensation::{Compensation, Reference};
-pub use weave::{Weave, WeaveShape};
 
 /// What is laid over a way of the TCP.
 #[derive(Clone, PartialEq, Debug)]
@@ -98,7 +96,7 @@ impl Overlay {
     }
 
     /// What is added to the place of the TCP, in mm, along the axes of what the way is seen from, with its derivatives by the parameter.
-    pub(crate) fn offset(&self, curve: &ToolCurve, at: f64) -> Rates {
+    pub(crate) fn offset(&self, curve: &TcpPath, at: f64) -> Rates {
         let woven = self.weaving(at).unwrap_or([Vector3::zeros(); 4]);
         let shifted = self.shift.as_ref().map(|shift| shift.offset(curve, self.frame.as_ref(), at));
         let Some(shifted) = shifted else { return woven };
@@ -109,7 +107,7 @@ impl Overlay {
     }
 
     /// What turns the TCP besides, about axes of what the way is seen from.
-    pub(crate) fn turned(&self, curve: &ToolCurve, at: f64) -> UnitQuaternion<f64> {
+    pub(crate) fn turned(&self, curve: &TcpPath, at: f64) -> UnitQuaternion<f64> {
         let shift = self.shift.as_ref();
         UnitQuaternion::from_scaled_axis(
             shift.map_or(Vector3::zeros(), |shift| shift.turned(curve, self.frame.as_ref(), at)),

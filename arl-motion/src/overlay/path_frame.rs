@@ -5,7 +5,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use crate::command::error::PlanError;
 use crate::geometry::quintic::{Knot, Quintic};
 use crate::geometry::rotation;
-use crate::plan::curve::ToolCurve;
+use crate::geometry::tcp_path::TcpPath;
 
 /// A path shorter than this, in mm, has no direction.
 const NO_LENGTH: f64 = 1e-6;
@@ -45,7 +45,7 @@ impl PathFrame {
     ///
     /// # Errors
     /// The tool points along the path at its start or its end.
-    pub(crate) fn along(curve: &ToolCurve) -> Result<Option<Self>, PlanError> {
+    pub(crate) fn along(curve: &TcpPath) -> Result<Option<Self>, PlanError> {
         let Some(turning) = curve.track.even_turning() else { return Self::smoothly(curve).map(Some) };
         let tangent = |at: f64| curve.track.derivative(1, at);
         if tangent(0.0).norm() < NO_LENGTH {
@@ -66,7 +66,7 @@ impl PathFrame {
     }
 
     /// The frame of a piece of a spline.
-    fn smoothly(curve: &ToolCurve) -> Result<Self, PlanError> {
+    fn smoothly(curve: &TcpPath) -> Result<Self, PlanError> {
         let ((start, first), (end, last)) = (directed(curve, 0.0)?, directed(curve, 1.0)?);
         let turned = (end * start.inverse()).scaled_axis();
         let knot = |value: Vector3<f64>, speed: Vector3<f64>| {
@@ -105,7 +105,7 @@ impl PathFrame {
 }
 
 /// The axes along a way of the TCP at `at`, and how fast they turn there, in rad per unit.
-fn directed(curve: &ToolCurve, at: f64) -> Result<(UnitQuaternion<f64>, Vector3<f64>), PlanError> {
+fn directed(curve: &TcpPath, at: f64) -> Result<(UnitQuaternion<f64>, Vector3<f64>), PlanError> {
     /// A vector and its derivative, made of length 1.
     fn unit(vector: Vector3<f64>, change: Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
         let (length, unit) = (vector.norm(), vector.normalize());
@@ -114,8 +114,8 @@ fn directed(curve: &ToolCurve, at: f64) -> Result<(UnitQuaternion<f64>, Vector3<
     // Where splines turn back they end, so that they go somewhere at each point.
     let way = curve.track.derivative(1, at);
     let (x, dx) = unit(way, curve.track.derivative(2, at));
-    let tool = curve.plain_rotation(at) * Vector3::z();
-    let [turning, ..] = curve.plain_rotation_rates(at);
+    let tool = curve.rotation(at) * Vector3::z();
+    let [turning, ..] = curve.rotation_rates(at);
     let across = x.cross(&tool);
     // What is no number is no side either.
     if across.norm().is_nan() || across.norm() < PARALLEL {

@@ -5,7 +5,8 @@ use crate::command::joints::Joints;
 use crate::command::{Command, Settings, Target, Zone};
 use crate::geometry::arc::circle_through;
 use crate::geometry::spline::{Passing, Place, piece};
-use crate::plan::curve::Track;
+use crate::geometry::track::Track;
+use crate::plan::curve::ToolCurve;
 use crate::plan::lay_overlay::{Beginning, lay};
 use crate::plan::motion::Motion;
 use crate::plan::planner::Planner;
@@ -235,7 +236,8 @@ impl Held {
             nalgebra::Vector3::zeros(),
             &self.end,
         );
-        let (curve, time) = piece(base, [&from, &self.target], [start.as_ref(), end.as_ref()], speed);
+        let (path, external, time) = piece([&from, &self.target], [start.as_ref(), end.as_ref()], speed);
+        let curve = ToolCurve { path, external, ..base };
         let motion = planner.piece(curve, time, &self.target.external, start.is_some())?;
         Ok((motion, end.map(Before::Spline)))
     }

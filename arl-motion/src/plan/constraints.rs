@@ -2,7 +2,6 @@
 
 use nalgebra::Vector3;
 
-use crate::blend::blend_limits::PlaceBounds;
 use crate::command::joints::{ALL, Joints};
 use crate::geometry::parametrization::Progress;
 use crate::limits::constant::Bound;
@@ -67,6 +66,14 @@ impl Pace {
         let vel = axis.vel.min(if axis.linear { self.linear } else { self.turning });
         [vel, axis.acc * self.acc, axis.jerk * self.jerk]
     }
+}
+
+/// The bounds of one place, and the part of the blend that it speaks for: up to its neighbours.
+pub(crate) struct PlaceBounds<'a> {
+    /// Shares of the blend's nominal time.
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+    pub(crate) rows: &'a [Bound],
 }
 
 /// The limits found so far.
@@ -184,7 +191,7 @@ impl<'a> Bounds<'a> {
     /// The TCP on its way, and the turning of the tool.
     pub(crate) fn tool(&mut self, curve: &ToolCurve, pace: &Pace) {
         for place in places(curve) {
-            self.moving(&[1, 2, 3].map(|order| curve.track.derivative(order, place)), pace);
+            self.moving(&[1, 2, 3].map(|order| curve.path.track.derivative(order, place)), pace);
             self.turning(&curve.rotation_rates(place), pace);
         }
     }
@@ -235,7 +242,7 @@ impl<'a> Bounds<'a> {
     /// A speed of the TCP, in mm/s, that must not be passed, whatever is programmed.
     pub(crate) fn cap_tool(&mut self, curve: &ToolCurve, vel: f64) {
         for place in places(curve) {
-            let first = curve.track.derivative(1, place).norm();
+            let first = curve.path.track.derivative(1, place).norm();
             self.push(Bound::even(first, vel, f64::INFINITY, f64::INFINITY));
         }
     }

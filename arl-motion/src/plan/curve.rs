@@ -5,6 +5,8 @@ use nalgebra::{Translation3, UnitQuaternion, Vector3};
 use crate::command::joints::{ALL, Joints};
 use crate::geometry::quintic::{Quintic, Way};
 use crate::geometry::rotation;
+use crate::geometry::tcp_path::TcpPath;
+use crate::geometry::track::Track;
 use crate::overlay::Overlay;
 use crate::plan::path_check::SINGULAR;
 use arl_robot::frames::Carried;
@@ -20,33 +22,11 @@ pub(crate) enum Curve {
     Tool(ToolCurve),
 }
 
-/// Where a point goes.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Track {
-    /// By polynomials, in mm.
-    Poly(Way<3>),
-    /// Along a circle.
-    Arc(Arc),
-}
-
-/// A part of a circle: `centre + across cos(sweep u) + along sin(sweep u)`, in mm and rad.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Arc {
-    pub(crate) centre: Vector3<f64>,
-    pub(crate) across: Vector3<f64>,
-    pub(crate) along: Vector3<f64>,
-    pub(crate) sweep: f64,
-}
-
 /// A way of the TCP, seen from what [`Carried`] says.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct ToolCurve {
-    /// The position of the TCP.
-    pub(crate) track: Track,
-    /// The orientation to which `turning` is added.
-    pub(crate) base: UnitQuaternion<f64>,
-    /// A rotation vector in rad, about the axes of what the way is seen from.
-    pub(crate) turning: Way<3>,
+    /// The position of the TCP and the orientation of the tool, without what is laid over the way.
+    pub(crate) path: TcpPath,
     /// What the robot moves along the way.
     pub(crate) carried: Carried,
     /// The external axes.
@@ -57,73 +37,6 @@ pub(crate) struct ToolCurve {
     pub(crate) passages: Vec<Passage>,
     /// What is laid over the way.
     pub(crate) over: Option<Box<Overlay>>,
-}
-
-impl Track {
-    /// A straight line.
-    pub(crate) fn line(start: Vector3<f64>, end: Vector3<f64>) -> Self {
-        Self::Poly(Quintic::even(start.into(), (end - start).into()).into())
-    }
-
-    /// The position at `at`, in mm.
-    pub(crate) fn at(&self, at: f64) -> Vector3<f64> {
-        match self {
-            Track::Poly(poly) => poly.at(at).into(),
-            Track::Arc(arc) => {
-                let (sine, cosine) = (arc.sweep * at).sin_cos();
-                arc.centre + arc.across * cosine + arc.along * sine
-            }
-        }
-    }
-
-    /// The derivative of the order `order`, 1 to 3, in mm per unit.
-    pub(crate) fn derivative(&self, order: usize, at: f64) -> Vector3<f64> {
-        match self {
-            Track::Poly(poly) => poly.derivative(order, at).into(),
-            Track::Arc(arc) => {
-                let (sine, cosine) = (arc.sweep * at).sin_cos();
-                let (x, y) = match order {
-                    1 => (-sine, cosine),
-                    2 => (-cosine, -sine),
-                    _ => (sine, -cosine),
-                };
-                (arc.across * x + arc.along * y) * arc.sweep.powi(order as i32)
-            }
-        }
-    }
-
-    /// How its direction turns, in rad per unit about an axis of the base; `None` where it does not turn evenly.
-    pub(crate) fn even_turning(&self) -> Option<Vector3<f64>> {
-        match self {
-            Track::Poly(poly) => poly.is_even().then(Vector3::zeros),
-            Track::Arc(arc) => Some(arc.across.cross(&arc.along).normalize() * arc.sweep),
-        }
-    }
-
-    /// Its length in mm.
-    pub(crate) fn length(&self) -> f64 {
-        match self {
-            Track::Poly(poly) if poly.is_even() => self.derivative(1, 0.0).norm(),
-            Track::Arc(arc) => arc.along.norm() * arc.sweep.abs(),
-            // Gauss's rule with five places, on eight parts.
-            Track::Poly(_) => {
-                const PLACES: [(f64, f64); 5] = [
-                    (0.0, 0.568_888_888_888_888_9),
-                    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
-                    (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
-                    (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
-                    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
-                ];
-                let part = |part: u32| {
-                    let speed = |(place, weight): &(f64, f64)| {
-                        weight * self.derivative(1, (f64::from(part) + 0.5 + place / 2.0) / 8.0).norm()
-                    };
-                    PLACES.iter().map(speed).sum::<f64>() / 16.0
-                };
-                (0..8).map(part).sum()
-            }
-        }
-    }
 }
 
 /// Half the width of the places between which derivatives are measured within a passage, as part of it.
@@ -138,35 +51,38 @@ impl ToolCurve {
 
     /// The place of the TCP at `at` in mm, with its first three derivatives.
     pub(crate) fn moving(&self, at: f64) -> [Vector3<f64>; 4] {
-        let over = self.over.as_ref().map_or([Vector3::zeros(); 4], |over| over.offset(self, at));
+        let over = self.over.as_ref().map_or([Vector3::zeros(); 4], |over| over.offset(&self.path, at));
         let [place, first, second, third] = over;
-        let of = |order| self.track.derivative(order, at);
-        [self.track.at(at) + place, of(1) + first, of(2) + second, of(3) + third]
+        let of = |order| self.path.track.derivative(order, at);
+        [self.path.track.at(at) + place, of(1) + first, of(2) + second, of(3) + third]
     }
 
     /// Whether speed and turning of the TCP are the same all along.
     pub(crate) fn is_even(&self) -> bool {
-        let even = match &self.track {
+        let even = match &self.path.track {
             Track::Poly(poly) => poly.is_even(),
             Track::Arc(_) => true,
         };
-        even && self.turning.is_even() && self.over.is_none()
+        even && self.path.turning.is_even() && self.over.is_none()
     }
 
     /// Whether the parameter's pace is made of parts, between which third derivatives jump.
     pub(crate) fn is_paced(&self) -> bool {
-        matches!(&self.track, Track::Poly(way) if way.is_paced())
+        matches!(&self.path.track, Track::Poly(way) if way.is_paced())
     }
 
     /// The orientation at `at`.
     pub(crate) fn rotation(&self, at: f64) -> UnitQuaternion<f64> {
-        let plain = self.plain_rotation(at);
-        self.over.as_ref().filter(|over| over.turns()).map_or(plain, |over| over.turned(self, at) * plain)
+        let plain = self.path.rotation(at);
+        self.over.as_ref().filter(|over| over.turns()).map_or(plain, |over| over.turned(&self.path, at) * plain)
     }
 
-    /// The orientation at `at` without what is laid over the way.
-    pub(crate) fn plain_rotation(&self, at: f64) -> UnitQuaternion<f64> {
-        UnitQuaternion::from_scaled_axis(Vector3::from(self.turning.at(at))) * self.base
+    /// The angle in deg by which the tool turns all along.
+    pub(crate) fn turned_angle(&self) -> f64 {
+        const PARTS: u32 = 16;
+        let place = |part: u32| self.rotation(f64::from(part) / f64::from(PARTS));
+        let angle = |part: u32| UnitQuaternion::angle_to(&place(part), &place(part + 1));
+        (0..PARTS).map(angle).sum::<f64>().to_degrees()
     }
 
     /// The flange's frame at `at` in the robot's base, translation in mm.
@@ -238,18 +154,9 @@ impl ToolCurve {
 
     /// How the orientation changes at `at`: its speed of rotation in rad per unit, and two derivatives of that.
     pub(crate) fn rotation_rates(&self, at: f64) -> [Vector3<f64>; 3] {
-        let Some(over) = self.over.as_ref().filter(|over| over.turns()) else { return self.plain_rotation_rates(at) };
+        let Some(over) = self.over.as_ref().filter(|over| over.turns()) else { return self.path.rotation_rates(at) };
         let step = STENCIL.min(over.longest_step() / 2.0);
         measured(|at| self.rotation(at), at, step)
-    }
-
-    /// The same without what is laid over the way.
-    pub(crate) fn plain_rotation_rates(&self, at: f64) -> [Vector3<f64>; 3] {
-        if self.turning.is_even() {
-            return [Vector3::from(self.turning.derivative(1, at)), Vector3::zeros(), Vector3::zeros()];
-        }
-        let derivatives = [1, 2, 3].map(|order| Vector3::from(self.turning.derivative(order, at)));
-        rotation::speeds(&self.turning.at(at).into(), &derivatives)
     }
 
     /// How the flange moves at `at`, per unit of the parameter.
@@ -334,29 +241,10 @@ impl Curve {
     }
 }
 
-impl Joints {
-    /// Own axes, then external ones.
-    pub(crate) fn all(&self) -> [f64; ALL] {
-        let mut all = [0.0; ALL];
-        for (value, joint) in all.iter_mut().zip(self.axes.iter().chain(&self.external)) {
-            *value = *joint;
-        }
-        all
-    }
-
-    /// The opposite of [`Joints::all`].
-    pub(crate) fn of(all: &[f64; ALL]) -> Self {
-        let mut joints = Self { axes: [0.0; ROBOT_AXES], external: [0.0; EXTERNAL_AXES] };
-        for (joint, value) in joints.axes.iter_mut().chain(&mut joints.external).zip(all) {
-            *joint = *value;
-        }
-        joints
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::track::Arc;
 
     #[test]
     fn the_twist_is_how_the_flange_moves() {
@@ -375,9 +263,11 @@ mod tests {
             sweep: 2.0,
         };
         let curve = ToolCurve {
-            track: Track::Arc(arc),
-            base: UnitQuaternion::from_euler_angles(0.3, 0.2, 0.1),
-            turning: turning.into(),
+            path: TcpPath {
+                track: Track::Arc(arc),
+                base: UnitQuaternion::from_euler_angles(0.3, 0.2, 0.1),
+                turning: turning.into(),
+            },
             carried: Carried::Tool(arl_robot::kinematics::frame([10.0, 20.0, 100.0, 5.0, 6.0, 7.0])),
             external: Quintic::even([0.0; 6], [0.0; 6]).into(),
             cfg: 0,

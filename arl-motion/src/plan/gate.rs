@@ -4,10 +4,9 @@
 //! again while it goes over already; on the other side the same with `sink`. Where the highest place that is allowed leaves
 //! no room for the second half, the corner is a right angle, in which the robot stops.
 
-use crate::blend::zone::LARGEST;
 use crate::command::error::PlanError;
 use crate::command::joints::{Joints, is_unset};
-use crate::command::{Command, Settings, Speed, Target, Zone};
+use crate::command::{Command, Gate, LARGEST_ZONE, Lift, Settings, Speed, Target, Zone};
 use crate::plan::motion::Motion;
 use crate::plan::planner::Planner;
 use arl_robot::kinematics::Kinematics;
@@ -23,34 +22,6 @@ const HALF: f64 = 0.5;
 const STOPPING: f64 = 0.02;
 /// The zone of a gate that goes on without a stop, in percent of the largest.
 const SMOOTH: f64 = 25.0;
-
-/// The form of a gate.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Gate {
-    /// How far it rises straight up at least, in mm, 0 or more.
-    pub rise: f64,
-    /// How far it sinks straight down at least, in mm, 0 or more.
-    pub sink: f64,
-    /// The height of the TCP in the robot's base that it does not pass, in mm; `None`: the robot's own limit.
-    pub highest: Option<f64>,
-    /// How it rises.
-    pub rising: Lift,
-    /// How it sinks.
-    pub falling: Lift,
-    /// Whether it goes on to the next motion without reaching its target.
-    pub smooth: bool,
-    /// Whether it stops straight above its target.
-    pub stays: bool,
-}
-
-/// How fast a gate rises or sinks; what is `None` is as on the way over.
-#[derive(Clone, Copy, PartialEq, Debug, Default)]
-pub struct Lift {
-    /// Percent of the axis's speed, above 0.
-    pub vel: Option<f64>,
-    /// Percent of the axis's acceleration and deceleration. Below 20 counts as 20, above 100 as 100.
-    pub acc: Option<f64>,
-}
 
 /// Plans the motions of a gate, one behind the other; all but the last one are parts of it.
 pub(crate) fn plan(
@@ -114,7 +85,7 @@ pub(crate) fn plan(
     }
     let sinks = top - to > NO_WAY && !gate.stays;
     // Where it goes on smoothly, the corner leaves the next blend its part.
-    let most = 1.0 - if gate.smooth { SMOOTH / 100.0 * LARGEST } else { STOPPING };
+    let most = 1.0 - if gate.smooth { SMOOTH / 100.0 * LARGEST_ZONE } else { STOPPING };
     let corner = if sinks { round(HALF, rest(top - to, gate.sink).min(most)) } else { None };
     push(part(&up, over, &(command.clone(), *settings))?, corner);
     if sinks {

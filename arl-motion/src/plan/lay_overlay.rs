@@ -5,10 +5,11 @@ use nalgebra::{UnitQuaternion, Vector3};
 use crate::command::Settings;
 use crate::command::error::PlanError;
 use crate::command::joints::Joints;
+use crate::command::{Reference, Weave};
 use crate::limits::constant::{Bound, passing, quickest};
-use crate::overlay::compensation::{Led, Reference, Shift};
+use crate::overlay::compensation::{Led, Shift};
 use crate::overlay::path_frame::PathFrame;
-use crate::overlay::weave::{Pattern, Weave};
+use crate::overlay::weave::Pattern;
 use crate::overlay::{Overlay, Woven};
 use crate::plan::constraints::{Bounds, MANUAL_SPEED};
 use crate::plan::curve::{Curve, ToolCurve};
@@ -88,7 +89,7 @@ pub(crate) fn lay(
     let Curve::Tool(curve) = &plain.curve else { return Ok(plain) };
     let seconds = if plain.limits.is_some() { 1.0 / plain.rate } else { 0.0 };
     let directed = weave.is_some() || compensation.is_some_and(|compensation| compensation.follows_path());
-    let frame = if directed { PathFrame::along(curve)? } else { None };
+    let frame = if directed { PathFrame::along(&curve.path)? } else { None };
     let world = match plain.rig.carried {
         Carried::Tool(_) => plain.rig.base.rotation.inverse(),
         Carried::Workpiece(_) if compensation.is_some_and(|by| by.total(Reference::World) != [0.0; 6]) => {
@@ -96,7 +97,8 @@ pub(crate) fn lay(
         }
         Carried::Workpiece(_) => UnitQuaternion::identity(),
     };
-    let shift = compensation.map(|by| Shift::new(&by, before, curve, frame.as_ref(), [workpiece, &world], seconds));
+    let shift =
+        compensation.map(|by| Shift::new(&by, before, &curve.path, frame.as_ref(), [workpiece, &world], seconds));
     let shift = shift.filter(Shift::leads);
     if weave.is_none() && shift.is_none() {
         return Ok(plain);
@@ -157,7 +159,7 @@ impl Laid {
     /// How the compensation stands at the end.
     pub(crate) fn led(&self) -> Led {
         match (&self.plain.curve, &self.shift) {
-            (Curve::Tool(curve), Some(shift)) => shift.led(curve, self.frame.as_ref()),
+            (Curve::Tool(curve), Some(shift)) => shift.led(&curve.path, curve.carried, self.frame.as_ref()),
             _ => Led::default(),
         }
     }

@@ -2,8 +2,8 @@
 
 use crate::command::Zone;
 use crate::command::joints::Joints;
-use crate::follow::governor::MARGIN;
 use crate::limits::profile::Limits;
+use crate::limits::profile::MARGIN;
 use crate::overlay::Led;
 use crate::plan::constraints::Pace;
 use crate::plan::curve::Curve;

@@ -5,16 +5,17 @@ use nalgebra::{UnitQuaternion, Vector3};
 use crate::command::error::PlanError;
 use crate::command::joints::{Joints, is_unset};
 use crate::command::{Command, Settings, Target};
-use crate::follow::governor::MARGIN;
 use crate::geometry::arc::arc_through;
 use crate::geometry::quintic::Quintic;
-use crate::geometry::spline::turned;
+use crate::geometry::tcp_path::TcpPath;
+use crate::geometry::track::Track;
 use crate::limits::constant::{highest_speed, passing, quickest};
 use crate::limits::profile::Limits;
+use crate::limits::profile::MARGIN;
 use crate::limits::search::{self, Enough};
 use crate::overlay::Led;
 use crate::plan::constraints::{Bounds, Pace};
-use crate::plan::curve::{Curve, ToolCurve, Track};
+use crate::plan::curve::{Curve, ToolCurve};
 use crate::plan::lay_overlay::{Beginning, lay};
 use crate::plan::motion::Motion;
 use crate::plan::path_check::survey;
@@ -230,9 +231,11 @@ impl Planner<'_> {
     /// A curve from the start along which the tool turns evenly.
     pub(crate) fn even_curve(&self, track: Track, turning: Vector3<f64>, end: &Joints) -> ToolCurve {
         ToolCurve {
-            track,
-            base: self.start_frame().rotation,
-            turning: Quintic::even([0.0; 3], turning.into()).into(),
+            path: TcpPath {
+                track,
+                base: self.start_frame().rotation,
+                turning: Quintic::even([0.0; 3], turning.into()).into(),
+            },
             carried: self.command.rig.carried,
             external: Curve::even_axes(self.start, end).external(),
             cfg: 0,
@@ -279,8 +282,8 @@ impl Planner<'_> {
             pace,
             profile: self.settings.profile,
             timed: self.command.duration.map(|_| limits.vel),
-            length: curve.track.length(),
-            angle: turned(&curve),
+            length: curve.path.track.length(),
+            angle: curve.turned_angle(),
             zone: self.command.zone,
             corner: None,
             ends: true,
@@ -309,10 +312,10 @@ impl Planner<'_> {
     /// A motion along a way of the TCP, which starts where the robot is.
     fn along(&self, mut curve: ToolCurve, end: Joints) -> Result<Motion, PlanError> {
         self.find_passages(&mut curve);
-        let length = curve.track.length();
-        let angle = UnitQuaternion::from_scaled_axis(Vector3::from(curve.turning.derivative(1, 0.0)));
-        let angle = if curve.turning.is_even() {
-            Vector3::from(curve.turning.derivative(1, 0.0)).norm().to_degrees()
+        let length = curve.path.track.length();
+        let angle = UnitQuaternion::from_scaled_axis(Vector3::from(curve.path.turning.derivative(1, 0.0)));
+        let angle = if curve.path.turning.is_even() {
+            Vector3::from(curve.path.turning.derivative(1, 0.0)).norm().to_degrees()
         } else {
             angle.angle().to_degrees()
         };

@@ -93,7 +93,7 @@ fn each_ccir_but_the_last_looks_at_the_next() {
     let start = point(&beside(&robot, [0.0; 3]));
     let all: Vec<Vector3<f64>> = [start].into_iter().chain(poses.iter().map(point)).collect();
     let circle = |a: usize| {
-        let track = crate::plan::curve::Track::Arc(
+        let track = crate::geometry::track::Track::Arc(
             crate::geometry::arc::arc_through(&[all[a], all[a + 1], all[a + 2]]).unwrap(),
         );
         let track_points: Vec<Vector3<f64>> = (0..=2000).map(|step| track.at(f64::from(step) / 2000.0)).collect();

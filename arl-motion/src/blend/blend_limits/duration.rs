@@ -1,7 +1,7 @@
 //! About how long a crossing takes, with what the ways before and behind lose by it: enough to choose among several.
 
 use crate::blend::blend_limits::{Crossing, PARTS};
-use crate::follow::timing::ALIKE;
+use crate::limits::profile::ALIKE;
 use crate::limits::profile::{Change, Limits};
 
 /// The way before or behind a blend, as far as the robot can change its speed on it for the blend.
@@ -74,7 +74,7 @@ pub(crate) fn shortest(speeds: &[f64; PARTS], approaches: &[Approach; 2]) -> f64
     own / PARTS as f64 + around
 }
 
-/// Whether two become one stretch, with the lower limits: see [`crate::follow::timing`].
+/// Whether two become one stretch, with the lower limits: see the timing of the path.
 pub(crate) fn alike(a: &Limits, b: &Limits) -> bool {
     let alike = |a: f64, b: f64| a <= b * ALIKE && b <= a * ALIKE;
     alike(a.acc, b.acc) && alike(a.jerk, b.jerk)

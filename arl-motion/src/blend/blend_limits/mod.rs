@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use crate::limits::constant::Bound;
 use crate::limits::profile::Limits;
+use crate::plan::constraints::PlaceBounds;
 pub(crate) use duration::Approach;
 use duration::{duration, shortest};
 use end_zones::Arms;
@@ -31,14 +32,6 @@ impl Crossing {
     pub(crate) fn even(Limits { vel, acc, jerk }: Limits) -> Self {
         Self { speeds: [vel; PARTS], acc, jerk, arms: Arms::default() }
     }
-}
-
-/// The bounds of one place, and the part of the blend that it speaks for: up to its neighbours.
-pub(crate) struct PlaceBounds<'a> {
-    /// Shares of the blend's nominal time.
-    pub(crate) from: f64,
-    pub(crate) to: f64,
-    pub(crate) rows: &'a [Bound],
 }
 
 /// Parts of the acceleration, and of the jerk, that are there at rest, among which the quickest are looked for. What is not

@@ -12,9 +12,9 @@ use std::ops::ControlFlow;
 
 use crate::follow::governor::demands::ALL_CELLS;
 use crate::follow::governor::{
-    Cells, Governor, MARGIN, SLACK, Scale, TOO_FAST, TakeWhileSum, careful, fading, lower, way_of_fading, way_to_speed,
+    Cells, Governor, SLACK, Scale, TOO_FAST, TakeWhileSum, careful, fading, lower, way_of_fading, way_to_speed,
 };
-use crate::limits::profile::{Change, Limits, State};
+use crate::limits::profile::{Change, Limits, MARGIN, State};
 
 /// A speed to go to, and the limits on the way.
 #[derive(Clone, Copy, Debug)]

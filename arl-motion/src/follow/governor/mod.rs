@@ -13,7 +13,7 @@ use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
 use crate::follow::timing::{Cell, Stretch};
-use crate::limits::profile::{Change, Limits, State};
+use crate::limits::profile::{Change, Limits, MARGIN, State};
 use crate::limits::search::{self, Enough};
 use demands::{ALL_CELLS, Cells, NO_CELLS};
 
@@ -38,8 +38,6 @@ pub(crate) struct Scale {
 
 /// Nothing but the limits.
 const FREE: Scale = Scale { vel: 1.0, acc: 1.0, jerk: 1.0 };
-/// Looking ahead counts on a little less than the limits, so that whole cycles can follow what it found.
-pub(crate) const MARGIN: f64 = 0.998;
 /// The part of the acceleration that counts as none when the override has been reached.
 const CALM: f64 = 0.02;
 /// Relative slack for rounding in comparisons.

@@ -9,12 +9,14 @@ use std::sync::Arc;
 use crate::blend::blend_thread::{Joining, Prepared};
 use crate::blend::junction::{self, Before, Bent, Blended, Meeting};
 use crate::blend::mid_curvature::Bend;
-use crate::blend::zone::{LARGEST, asks};
+use crate::blend::zone::asks;
+use crate::command::LARGEST_ZONE;
 use crate::command::joints::Joints;
-use crate::follow::governor::{Governor, MARGIN, Pacing};
+use crate::follow::governor::{Governor, Pacing};
 use crate::follow::remaining::{self, Leg};
 use crate::follow::segment::Piece;
 use crate::follow::timing::Timing;
+use crate::limits::profile::MARGIN;
 use crate::limits::profile::{Change, Limits, State};
 use crate::plan::motion::Motion;
 use crate::time_optimal::law_follower::Pilot;
@@ -183,7 +185,7 @@ impl Course {
         }
         let open = match self.tail.as_ref() {
             None => 0.0,
-            Some(Tail { joined: None, motion }) if motion.corner.is_none() => last.time.min(LARGEST / motion.rate),
+            Some(Tail { joined: None, motion }) if motion.corner.is_none() => last.time.min(LARGEST_ZONE / motion.rate),
             Some(_) => self.open_time(),
         };
         self.time_left() - open - BRAKING * self.timing.braking(open)
