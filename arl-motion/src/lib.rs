@@ -23,9 +23,10 @@ pub use command::{
     Command, Compensation, Gate, Joints, Lift, PlanError, Reference, Settings, Speed, Target, UNSET, Weave, WeaveShape,
     Zone, is_unset,
 };
-pub use plan::circle_steps::halves;
+pub use plan::circle_steps::circle_steps;
 pub use plan::motion::Motion;
 pub use plan::planner::plan;
 pub use queue::{
-    Closest, Figure, LOOK_AHEAD, Limited, MotionRecord, Progress, Queue, Rate, Recorder, Sharp, Start, Step, Stop,
+    Closest, Figure, LOOK_AHEAD, Limited, MotionRecord, Progress, Queue, Rate, Recorder, Start, Step, Stop,
+    UnblendedTarget,
 };

@@ -6,7 +6,7 @@ use std::rc::Rc;
 use crate::cell::Sensitivity;
 use crate::channel_id::ChannelId;
 use crate::fault::{Alarm, Fault, File};
-use crate::motion::{Progress, Sharp};
+use crate::motion::{Progress, UnblendedTarget};
 use crate::pointers::Kept;
 use crate::program::Program;
 use crate::robot::VelocityProfile;
@@ -281,11 +281,11 @@ impl Lane {
     /// Warns of targets that are not rounded off though they should be.
     pub(crate) fn tell_of_corners(&self, world: &World) {
         let Some(mut unit) = self.robot_mut() else { return };
-        if let Some((file, Sharp { line, .. })) = unit.take_late() {
+        if let Some((file, UnblendedTarget { line, .. })) = unit.take_late() {
             let file = file.name();
             world.warn(format!("{file}:{line}: the motion came too late to be blended with the one before it: the robot stops between the two"));
         }
-        if let Some((file, Sharp { line, corner: Some(corner), .. })) = unit.take_sharp() {
+        if let Some((file, UnblendedTarget { line, corner: Some(corner), .. })) = unit.take_unblended() {
             let file = file.name();
             world.warn(format!("{file}:{line}: the target of the motion of line {corner} is not rounded off but reached with a stop: beside it the robot would leave its reach or an axis's range, or meet a singular point"));
         }

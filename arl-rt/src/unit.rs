@@ -14,8 +14,8 @@ use crate::fault::{Alarm, Fault, File};
 use crate::frames::Rig;
 use crate::kinematics::{Axes, Frame, frame_components};
 use crate::motion::{
-    Command, Compensation, Joints, MotionRecord, PlanError, Progress, Queue, Recorder, Settings, Sharp, Start, Stop,
-    halves,
+    Command, Compensation, Joints, MotionRecord, PlanError, Progress, Queue, Recorder, Settings, Start, Stop,
+    UnblendedTarget, circle_steps,
 };
 use crate::robot::Robot;
 use crate::robot_driver::{RobotDriver, settled};
@@ -124,13 +124,13 @@ impl Unit {
     }
 
     /// A target that should be rounded off but cannot be, since this was asked last, and the file of the motion behind it.
-    pub(crate) fn take_sharp(&mut self) -> Option<(File, Sharp)> {
-        let sharp = self.queue.take_sharp()?;
+    pub(crate) fn take_unblended(&mut self) -> Option<(File, UnblendedTarget)> {
+        let sharp = self.queue.take_unblended()?;
         Some((self.file_of(sharp.number), sharp))
     }
 
     /// The motion that came too late to be blended with the one before it, since this was asked last, and its file.
-    pub(crate) fn take_late(&mut self) -> Option<(File, Sharp)> {
+    pub(crate) fn take_late(&mut self) -> Option<(File, UnblendedTarget)> {
         let sharp = self.queue.take_late()?;
         Some((self.file_of(sharp.number), sharp))
     }
@@ -271,7 +271,7 @@ impl Unit {
 
     /// Whether motions are set aside, or about to be.
     pub(crate) fn is_aside(&self) -> bool {
-        self.queue.is_aside()
+        self.queue.is_suspended()
     }
 
     /// How far a motion had come when it ended, or was left for a blend, in the last cycle.
@@ -308,7 +308,7 @@ impl Unit {
 
     /// Stops on the path and sets the motions aside: those of this level of the program, and above it, move in between.
     pub(crate) fn set_aside(&mut self, stop: Stop, level: u32) {
-        self.queue.set_aside(stop, level);
+        self.queue.request_suspension(stop, level);
         self.changes.follow(self.queue.depth(), self.planned, &mut self.effort);
     }
 
@@ -323,7 +323,7 @@ impl Unit {
     /// Drops what is set aside, where nobody has asked to go on with it; returns whether there was something. A stop on its
     /// way goes on to rest.
     pub(crate) fn drop_aside(&mut self) -> bool {
-        self.queue.drop_aside()
+        self.queue.drop_suspended()
     }
 
     /// Whether more motions were to be skipped than there were, since this was asked last.
@@ -362,8 +362,8 @@ impl Unit {
     }
 
     /// The two motions of a circle that is to be planned, for single steps; `None` for everything else.
-    pub(crate) fn halves(&self, command: &Command, settings: &Settings) -> Option<[Command; 2]> {
-        halves(&self.robot, self.queue.end(), command, settings)
+    pub(crate) fn circle_steps(&self, command: &Command, settings: &Settings) -> Option<[Command; 2]> {
+        circle_steps(&self.robot, self.queue.end(), command, settings)
     }
 
     /// Says that the program waits: motions that waited for the next one go without it. The alarm where that cannot be.

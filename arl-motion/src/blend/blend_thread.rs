@@ -14,7 +14,7 @@ use crate::plan::motion::Motion;
 use arl_robot::robot::Robot;
 
 /// So many junctions are looked for, or have been, at the most; those beyond are found when they are needed.
-const MOST: usize = 1024;
+const MOST_JUNCTIONS: usize = 1024;
 
 /// A junction that is being found.
 #[derive(Clone, Debug, Default)]
@@ -23,7 +23,7 @@ pub(crate) struct Prepared(Arc<OnceLock<Junction>>);
 /// How a motion will be joined by the one before it when it is left.
 #[derive(Debug)]
 pub(crate) enum Joining {
-    /// As it lies on the course.
+    /// As it lies on the path.
     Known(Before),
     /// As this junction, which comes first, leaves it.
     Behind(Prepared),
@@ -39,7 +39,7 @@ struct Task {
 
 /// The thread; it begins with the first junction.
 #[derive(Debug, Default)]
-pub(crate) struct Preparer {
+pub(crate) struct BlendThread {
     channels: Option<Channels>,
 }
 
@@ -50,14 +50,14 @@ struct Channels {
     done: Receiver<Task>,
 }
 
-impl Clone for Preparer {
+impl Clone for BlendThread {
     /// Another one, with a thread of its own.
     fn clone(&self) -> Self {
         Self::default()
     }
 }
 
-impl Preparer {
+impl BlendThread {
     /// Begins to look for a junction.
     pub(crate) fn prepare(&mut self, robot: &Arc<Robot>, joining: Joining, [from, to]: [&Arc<Motion>; 2]) -> Prepared {
         let result = Prepared::default();
@@ -76,10 +76,10 @@ impl Preparer {
 }
 
 #[cfg(test)]
-impl Preparer {
+impl BlendThread {
     /// One whose thread never does anything.
     pub(crate) fn stuck() -> Self {
-        let (tasks, asked) = sync_channel(MOST);
+        let (tasks, asked) = sync_channel(MOST_JUNCTIONS);
         let (_, done) = sync_channel(0);
         std::mem::forget(asked);
         Self { channels: Some(Channels { tasks, done }) }
@@ -101,8 +101,8 @@ impl Prepared {
 
 /// Starts the thread; it ends when nobody can ask it any more.
 fn begin() -> Option<Channels> {
-    let (tasks, asked) = sync_channel::<Task>(MOST);
-    let (does, done) = sync_channel(MOST);
+    let (tasks, asked) = sync_channel::<Task>(MOST_JUNCTIONS);
+    let (does, done) = sync_channel(MOST_JUNCTIONS);
     let work = move || {
         for task in asked {
             task.run();

@@ -6,36 +6,36 @@
 
 use nalgebra::{SVector, Vector3};
 
-use crate::blend::blend_limits::{Approach, Crossing, cross};
-use crate::blend::mid_curvature::Bend;
+use crate::blend::blend_limits::{Approach, BlendLimits, find_blend_limits};
+use crate::blend::mid_curvature::MidCurvature;
 use crate::blend::zone::parts;
 use crate::command::LARGEST_ZONE;
 use crate::command::joints::{ALL, Joints, slowness};
 use crate::geometry::derivatives::{Place, by_differences};
-use crate::geometry::parametrization::Progress;
+use crate::geometry::parametrization::Parametrization;
 use crate::geometry::quintic::{Knot, Quintic, Way};
 use crate::geometry::rotation;
 use crate::geometry::tcp_path::TcpPath;
 use crate::geometry::track::Track;
 use crate::limits::constant::passing;
 use crate::limits::profile::Limits;
-use crate::plan::constraints::{Bounds, Pace};
+use crate::plan::constraints::{Constraints, Pace};
 use crate::plan::curve::{Curve, ToolCurve};
 use crate::plan::motion::Motion;
-use crate::plan::path_check::{glance, survey};
+use crate::plan::path_check::{check_gentle_path, check_path};
 use arl_robot::kinematics::Rates;
 use arl_robot::robot::{ROBOT_AXES, Robot};
 
 /// Length of the tangents at the ends of a blend, in lengths of the zone. With 2 the blend of two straight lines that are
 /// left and joined at the same distance accelerates along the bisector alone.
-const TANGENT: f64 = 2.0;
+const TANGENT_PER_ZONE: f64 = 2.0;
 /// How often a zone is halved before it is given up: where its blend would leave an axis's range or the reach.
-const HALVINGS: u32 = 4;
+const ZONE_HALVINGS: u32 = 4;
 /// Parts of a blend between which it is looked at; and of one that hardly bends.
-const PARTS: u32 = 48;
-const GENTLE_PARTS: u32 = 4;
+const PARTS_OF_BLEND: u32 = 48;
+const PARTS_OF_GENTLE_BLEND: u32 = 4;
 /// Where nothing changes its speed or direction by a larger part than this, a blend hardly bends.
-const GENTLE: f64 = 0.1;
+const GENTLE_CHANGE: f64 = 0.1;
 
 /// The way between two motions.
 #[derive(Clone, PartialEq, Debug)]
@@ -46,17 +46,17 @@ pub(crate) struct Blend {
     pub(crate) join: f64,
     pub(crate) curve: Curve,
     /// The curve's parameter over the time that is nominal for it, both from 0 to 1.
-    pub(crate) progress: Progress,
+    pub(crate) parametrization: Parametrization,
     /// The nominal time in s.
     pub(crate) time: f64,
-    pub(crate) crossing: Crossing,
+    pub(crate) blend_limits: BlendLimits,
 }
 
 /// The blend that the first motion's zone asks for; `None` where it asks for none, or there is no way.
 pub(crate) fn blend(robot: &Robot, from: &Motion, to: &Motion) -> Option<Blend> {
     let (mut leaving, mut joining) = parts(robot, from, to)?;
-    for _ in 0..=HALVINGS {
-        if let Some(blend) = (Corner { robot, from, to, leaving, joining, bends: [Bend::NONE; 2] }).blend() {
+    for _ in 0..=ZONE_HALVINGS {
+        if let Some(blend) = (Corner { robot, from, to, leaving, joining, bends: [MidCurvature::NONE; 2] }).blend() {
             return Some(blend);
         }
         (leaving, joining) = (leaving / 2.0, joining / 2.0);
@@ -65,10 +65,12 @@ pub(crate) fn blend(robot: &Robot, from: &Motion, to: &Motion) -> Option<Blend> 
 }
 
 /// The blend from one motion, which is bent in its middle, to another. A bend is only possible where a whole half is taken.
-pub(crate) fn bent_blend(robot: &Robot, from: &Motion, to: &Motion, bends: [Bend; 2]) -> Option<Blend> {
+pub(crate) fn curved_blend(robot: &Robot, from: &Motion, to: &Motion, bends: [MidCurvature; 2]) -> Option<Blend> {
     let (leaving, joining) = parts(robot, from, to)?;
     let [start, end] = &bends;
-    if (*start != Bend::NONE && leaving != LARGEST_ZONE) || (*end != Bend::NONE && joining != LARGEST_ZONE) {
+    if (*start != MidCurvature::NONE && leaving != LARGEST_ZONE)
+        || (*end != MidCurvature::NONE && joining != LARGEST_ZONE)
+    {
         return None;
     }
     Corner { robot, from, to, leaving, joining, bends }.blend()
@@ -88,13 +90,13 @@ struct Corner<'a> {
     leaving: f64,
     joining: f64,
     /// How the motions are bent at the ends of the blend.
-    bends: [Bend; 2],
+    bends: [MidCurvature; 2],
 }
 
 impl Corner<'_> {
     /// The parameters at which the motions are left and joined, and how long the tangents are there.
     fn ends(&self) -> [(f64, f64); 2] {
-        [(1.0 - self.leaving, TANGENT * self.leaving), (self.joining, TANGENT * self.joining)]
+        [(1.0 - self.leaving, TANGENT_PER_ZONE * self.leaving), (self.joining, TANGENT_PER_ZONE * self.joining)]
     }
 
     fn blend(&self) -> Option<Blend> {
@@ -106,29 +108,29 @@ impl Corner<'_> {
         // Both ends are met at the speeds that the motions have there.
         let (start_rate, end_rate) = (vel_from / slope_from, vel_to / slope_to);
         let time = 2.0 / (start_rate + end_rate);
-        let even = || (Progress::between([[start_rate * time, 0.0], [end_rate * time, 0.0]]), time);
+        let even = || (Parametrization::between([[start_rate * time, 0.0], [end_rate * time, 0.0]]), time);
 
-        let mut bounds = Bounds::new(self.robot);
+        let mut bounds = Constraints::new(self.robot);
         let pace = common_pace(from, to);
-        let (curve, progress, time) = match (&from.curve, &to.curve) {
+        let (curve, parametrization, time) = match (&from.curve, &to.curve) {
             (Curve::Tool(a), Curve::Tool(b)) if go_on(a, leave, b, join) => {
                 let curve = self.tool_curve(a, b);
                 let (start, end) = (along(&a.path.track, leave, vel_from), along(&b.path.track, join, vel_to));
                 let bends_little = is_gentle(&curve) && !self.swings();
                 let timed = if bends_little {
-                    Progress::gently(|order, at| curve.path.track.derivative(order, at), start, end)
+                    Parametrization::gently(|order, at| curve.path.track.derivative(order, at), start, end)
                 } else if self.swings() {
                     // What is laid over a motion does not go evenly: it is met best by a parameter that does.
                     None
                 } else {
-                    Progress::along(&curve.path.track, start, end)
+                    Parametrization::along(&curve.path.track, start, end)
                 };
-                let (progress, time) = timed.unwrap_or_else(even);
-                if !(bends_little && self.glance_at_tool(&curve, &progress, &mut bounds, &pace)) {
+                let (parametrization, time) = timed.unwrap_or_else(even);
+                if !(bends_little && self.glance_at_tool(&curve, &parametrization, &mut bounds, &pace)) {
                     bounds.clear();
-                    self.walk_tool(&curve, &progress, &mut bounds, &pace)?;
+                    self.walk_tool(&curve, &parametrization, &mut bounds, &pace)?;
                 }
-                (Curve::Tool(curve), progress, time)
+                (Curve::Tool(curve), parametrization, time)
             }
             _ => {
                 let [start, end] = &self.bends;
@@ -136,20 +138,20 @@ impl Corner<'_> {
                 let to = axes_knot(self.robot, to, join, slope_to, end)?;
                 let curve = Quintic::between(&from, &to);
                 let gentle = turns_gently(&curve);
-                let (progress, time) = self.time_axes((&curve, gentle), [start_rate, end_rate]);
-                self.look_at_axes((&curve, gentle), &progress, &mut bounds, &pace)?;
-                (Curve::Axes(curve), progress, time)
+                let (parametrization, time) = self.time_axes((&curve, gentle), [start_rate, end_rate]);
+                self.look_at_axes((&curve, gentle), &parametrization, &mut bounds, &pace)?;
+                (Curve::Axes(curve), parametrization, time)
             }
         };
-        let crossing = self.crossing(&bounds, time)?;
-        Some(Blend { leave, join, curve, progress, time, crossing })
+        let blend_limits = self.blend_limits(&bounds, time)?;
+        Some(Blend { leave, join, curve, parametrization, time, blend_limits })
     }
 
     /// How fast it may be crossed: evenly where it hardly bends.
-    fn crossing(&self, bounds: &Bounds, time: f64) -> Option<Crossing> {
+    fn blend_limits(&self, bounds: &Constraints, time: f64) -> Option<BlendLimits> {
         let places = bounds.by_place();
         if places.is_empty() {
-            return Some(Crossing::even(passing(&bounds.rows, 1.0 / time)));
+            return Some(BlendLimits::even(passing(&bounds.rows, 1.0 / time)));
         }
         let approach = |motion: &Motion, taken: f64| {
             // From the motion's own parameter to the share of the blend, at the same speed.
@@ -159,7 +161,7 @@ impl Corner<'_> {
             Some(Approach { limits, length: (1.0 - 2.0 * taken).max(0.0) * scale })
         };
         let approaches = [approach(self.from, self.leaving)?, approach(self.to, self.joining)?];
-        cross(&places, 1.0 / time, &approaches)
+        find_blend_limits(&places, 1.0 / time, &approaches)
     }
 
     /// Whether something is laid over a motion.
@@ -177,12 +179,12 @@ impl Corner<'_> {
             first: (first * slope).into(),
             second: ((second + bend) * slope * slope).into(),
         };
-        let turning = |turned: [Vector3<f64>; 3], slope: f64, bend: &Bend| {
+        let turning = |turned: [Vector3<f64>; 3], slope: f64, bend: &MidCurvature| {
             let [value, ..] = turned;
             let [_, second] = rotation::of_speeds(&value, &[Vector3::zeros(), bend.turning]);
             knot(turned, slope, second)
         };
-        let external = |curve: &ToolCurve, at: f64, slope: f64, bend: &Bend| {
+        let external = |curve: &ToolCurve, at: f64, slope: f64, bend: &MidCurvature| {
             scaled(curve.external.knot(at), slope, &bend.external())
         };
         ToolCurve {
@@ -208,11 +210,19 @@ impl Corner<'_> {
     }
 
     /// Collects the limits of a way of the TCP that hardly bends; returns whether a few places are enough to know them.
-    fn glance_at_tool(&self, curve: &ToolCurve, progress: &Progress, bounds: &mut Bounds, pace: &Pace) -> bool {
+    fn glance_at_tool(
+        &self,
+        curve: &ToolCurve,
+        parametrization: &Parametrization,
+        bounds: &mut Constraints,
+        pace: &Pace,
+    ) -> bool {
         let [(leave, _), _] = self.ends();
-        let places = shares::<{ GENTLE_PARTS as usize + 1 }>().map(|share| Place::at(progress, share));
+        let places = shares::<{ PARTS_OF_GENTLE_BLEND as usize + 1 }>().map(|share| Place::at(parametrization, share));
         let Some(start) = joints_at(self.robot, self.from, leave) else { return false };
-        let Some(found) = glance(self.robot, curve, &start.axes, &places.map(|place| place.at)) else { return false };
+        let Some(found) = check_gentle_path(self.robot, curve, &start.axes, &places.map(|place| place.at)) else {
+            return false;
+        };
         if !self.arrives(&found.end) {
             return false;
         }
@@ -227,24 +237,30 @@ impl Corner<'_> {
     }
 
     /// Collects the limits of any way of the TCP; `None` where it cannot be gone.
-    fn walk_tool(&self, curve: &ToolCurve, progress: &Progress, bounds: &mut Bounds, pace: &Pace) -> Option<()> {
+    fn walk_tool(
+        &self,
+        curve: &ToolCurve,
+        parametrization: &Parametrization,
+        bounds: &mut Constraints,
+        pace: &Pace,
+    ) -> Option<()> {
         let [(leave, _), _] = self.ends();
         let start = joints_at(self.robot, self.from, leave)?;
-        let found = survey(self.robot, curve, &start).ok()?;
+        let found = check_path(self.robot, curve, &start).ok()?;
         if !self.arrives(&found.end) {
             return None;
         }
         for (at, rates) in &found.rates {
-            let share = inverse(progress, *at);
-            let place = Place::at(progress, share);
+            let share = inverse(parametrization, *at);
+            let place = Place::at(parametrization, share);
             bounds.place(share);
             let [first, second, third] = place.rates([rates.first, rates.second, rates.third]);
             bounds.axes(&first, &second, &third, pace);
             bounds.external(&place.rates([1, 2, 3].map(|order| curve.external.derivative(order, place.at))), pace);
         }
-        for part in 0..=PARTS {
-            let share = f64::from(part) / f64::from(PARTS);
-            let place = Place::at(progress, share);
+        for part in 0..=PARTS_OF_BLEND {
+            let share = f64::from(part) / f64::from(PARTS_OF_BLEND);
+            let place = Place::at(parametrization, share);
             bounds.place(share);
             collect(&place, curve, self.swings(), bounds, pace);
         }
@@ -260,7 +276,7 @@ impl Corner<'_> {
 
     /// Times a way of the axes from one rate of its parameter to another. Where it is gentle, what the axes do together goes
     /// smoothly: each counts by how fast it is beside its highest speed.
-    fn time_axes(&self, (curve, gentle): (&Quintic<ALL>, bool), rates: [f64; 2]) -> (Progress, f64) {
+    fn time_axes(&self, (curve, gentle): (&Quintic<ALL>, bool), rates: [f64; 2]) -> (Parametrization, f64) {
         let slowness = slowness(self.robot);
         let derivative = |order: usize, at: f64| SVector::from(curve.derivative(order, at)).component_mul(&slowness);
         let [start, end] = &self.bends;
@@ -269,14 +285,14 @@ impl Corner<'_> {
             let [speed, acc] = speed_and_acc(&derivative(1, at), &derivative(2, at), rate);
             [speed, acc + surge]
         });
-        let timed = if gentle { Progress::gently(derivative, start, end) } else { None };
+        let timed = if gentle { Parametrization::gently(derivative, start, end) } else { None };
         timed.unwrap_or_else(|| {
             let time = 2.0 / (rates[0] + rates[1]);
             let ends = ends.map(|(at, rate, surge)| {
                 let second = if surge == 0.0 { 0.0 } else { surge / derivative(1, at).norm() };
                 [rate * time, second * time * time]
             });
-            (Progress::between(ends), time)
+            (Parametrization::between(ends), time)
         })
     }
 
@@ -284,19 +300,19 @@ impl Corner<'_> {
     fn look_at_axes(
         &self,
         (curve, gentle): (&Quintic<ALL>, bool),
-        progress: &Progress,
-        bounds: &mut Bounds,
+        parametrization: &Parametrization,
+        bounds: &mut Constraints,
         pace: &Pace,
     ) -> Option<()> {
-        let parts = if gentle { GENTLE_PARTS } else { PARTS };
+        let parts = if gentle { PARTS_OF_GENTLE_BLEND } else { PARTS_OF_BLEND };
         let (kinematics, carried) = (&self.robot.kinematics, &self.to.rig.carried);
         let tcp = |share: f64| {
-            let axes = Joints::of(&curve.at(progress.at(share))).axes;
+            let axes = Joints::of(&curve.at(parametrization.at(share))).axes;
             carried.way_at(&kinematics.forward(&axes)).translation.vector
         };
         for part in 0..=parts {
             let share = f64::from(part) / f64::from(parts);
-            let place = Place::at(progress, share);
+            let place = Place::at(parametrization, share);
             if !gentle {
                 bounds.place(share);
             }
@@ -358,7 +374,7 @@ fn changes_little<const N: usize>([[start, end], seconds]: [[[f64; N]; 2]; 2], l
     for (change, start) in change.iter_mut().zip(start) {
         *change -= start;
     }
-    let most = (size(start).min(size(end)) * GENTLE).max(little);
+    let most = (size(start).min(size(end)) * GENTLE_CHANGE).max(little);
     size(change) <= most && seconds.into_iter().all(|second| size(second) <= most)
 }
 
@@ -409,7 +425,7 @@ fn scaled<const N: usize>(mut knot: Knot<N>, slope: f64, bend: &[f64; N]) -> Kno
 }
 
 /// The axes within a motion with their derivatives.
-fn axes_knot(robot: &Robot, motion: &Motion, at: f64, slope: f64, bend: &Bend) -> Option<Knot<ALL>> {
+fn axes_knot(robot: &Robot, motion: &Motion, at: f64, slope: f64, bend: &MidCurvature) -> Option<Knot<ALL>> {
     let knot = match &motion.curve {
         Curve::Axes(axes) => axes.knot(at),
         Curve::Tool(tool) => {
@@ -454,17 +470,17 @@ fn within_ranges(robot: &Robot, joints: &Joints) -> bool {
 }
 
 /// The share of the nominal time at which the curve's parameter is `at`: by Newton's steps, halving where they lead away.
-fn inverse(progress: &Progress, at: f64) -> f64 {
+fn inverse(parametrization: &Parametrization, at: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     let mut share = at;
     for _ in 0..60 {
-        let off = progress.at(share) - at;
+        let off = parametrization.at(share) - at;
         if off < 0.0 {
             low = share
         } else {
             high = share
         }
-        let next = share - off / progress.derivative(1, share);
+        let next = share - off / parametrization.derivative(1, share);
         let next = if next > low && next < high { next } else { f64::midpoint(low, high) };
         if (next - share).abs() < 1e-12 {
             return next;
@@ -476,7 +492,7 @@ fn inverse(progress: &Progress, at: f64) -> f64 {
 
 /// Collects what limits the TCP, the tool's turning and the external axes at a place; of a TCP that is `swinging`, all of its
 /// acceleration.
-fn collect(place: &Place, curve: &ToolCurve, swinging: bool, bounds: &mut Bounds, pace: &Pace) {
+fn collect(place: &Place, curve: &ToolCurve, swinging: bool, bounds: &mut Constraints, pace: &Pace) {
     let moving = place.vectors([1, 2, 3].map(|order| curve.path.track.derivative(order, place.at)));
     if swinging {
         bounds.swinging(&moving, pace);

@@ -3,14 +3,14 @@
 
 use std::sync::Arc;
 
-use crate::blend::corner::{Blend, bent_blend, blend};
-use crate::blend::mid_curvature::{Bend, bend};
+use crate::blend::corner::{Blend, blend, curved_blend};
+use crate::blend::mid_curvature::{MidCurvature, bend};
 use crate::plan::lay_overlay::joined;
 use crate::plan::motion::Motion;
 use arl_robot::robot::Robot;
 
 /// The motion before, where a blend leads from there, and how it is bent where that blend begins.
-pub(crate) type Before = Option<(Arc<Motion>, Bend)>;
+pub(crate) type Before = Option<(Arc<Motion>, MidCurvature)>;
 
 /// What a junction depends on.
 #[derive(Clone, Debug)]
@@ -24,15 +24,15 @@ pub(crate) struct Meeting {
 #[derive(Debug)]
 pub(crate) struct Junction {
     meeting: Meeting,
-    bent: Option<Bent>,
+    bent: Option<CurvedBlends>,
     /// Only looked for where nothing is bent.
     blended: Option<Blended>,
 }
 
 /// A blend that meets the one before it in the middle of a motion, which is bent there.
 #[derive(Clone, Debug)]
-pub(crate) struct Bent {
-    pub(crate) bend: Bend,
+pub(crate) struct CurvedBlends {
+    pub(crate) bend: MidCurvature,
     /// The blend before, and the one behind.
     pub(crate) blends: [Blend; 2],
 }
@@ -51,7 +51,7 @@ impl Junction {
     /// Finds it.
     pub(crate) fn find(robot: &Robot, meeting: Meeting) -> Self {
         let Meeting { before, from, to } = &meeting;
-        let bent = before.as_ref().and_then(|(before, start)| find_bent(robot, before, *start, from, to));
+        let bent = before.as_ref().and_then(|(before, start)| find_curved(robot, before, *start, from, to));
         let blended = if bent.is_none() { find_blended(robot, from, to) } else { None };
         Self { meeting, bent, blended }
     }
@@ -60,7 +60,7 @@ impl Junction {
     pub(crate) fn leaves(&self) -> Before {
         match (&self.bent, &self.blended) {
             (Some(bent), _) => Some((Arc::clone(&self.meeting.from), bent.bend)),
-            (None, Some(blended)) => Some((Arc::clone(&blended.from), Bend::NONE)),
+            (None, Some(blended)) => Some((Arc::clone(&blended.from), MidCurvature::NONE)),
             (None, None) => None,
         }
     }
@@ -75,16 +75,16 @@ impl Junction {
 pub(crate) fn bent(
     robot: &Robot,
     known: Option<&Junction>,
-    (before, start): (&Arc<Motion>, Bend),
+    (before, start): (&Arc<Motion>, MidCurvature),
     (from, to): (&Arc<Motion>, &Arc<Motion>),
-) -> Option<Bent> {
+) -> Option<CurvedBlends> {
     let known = known.filter(|known| {
-        let same = |(motion, bend): &(Arc<Motion>, Bend)| Arc::ptr_eq(motion, before) && *bend == start;
+        let same = |(motion, bend): &(Arc<Motion>, MidCurvature)| Arc::ptr_eq(motion, before) && *bend == start;
         known.is_of(from, to) && known.meeting.before.as_ref().is_some_and(same)
     });
     match known {
         Some(known) => known.bent.clone(),
-        None => find_bent(robot, before, start, from, to),
+        None => find_curved(robot, before, start, from, to),
     }
 }
 
@@ -101,11 +101,17 @@ pub(crate) fn blended(
     }
 }
 
-fn find_bent(robot: &Robot, before: &Motion, start: Bend, from: &Motion, to: &Motion) -> Option<Bent> {
-    let bend = bend(robot, before, from, to).filter(|bend| *bend != Bend::NONE)?;
-    let first = bent_blend(robot, before, from, [start, bend])?;
-    let second = bent_blend(robot, from, to, [bend, Bend::NONE])?;
-    Some(Bent { bend, blends: [first, second] })
+fn find_curved(
+    robot: &Robot,
+    before: &Motion,
+    start: MidCurvature,
+    from: &Motion,
+    to: &Motion,
+) -> Option<CurvedBlends> {
+    let bend = bend(robot, before, from, to).filter(|bend| *bend != MidCurvature::NONE)?;
+    let first = curved_blend(robot, before, from, [start, bend])?;
+    let second = curved_blend(robot, from, to, [bend, MidCurvature::NONE])?;
+    Some(CurvedBlends { bend, blends: [first, second] })
 }
 
 /// A weave goes on through the blend.

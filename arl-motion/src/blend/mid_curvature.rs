@@ -22,15 +22,15 @@ use arl_robot::robot::{EXTERNAL_AXES, Robot};
 
 /// Up to about so large a difference between the directions of motions, as part of their length, the two corners' mean is
 /// taken as it is.
-const GENTLE: f64 = 0.1;
+const GENTLE_DIFFERENCE: f64 = 0.1;
 /// A turn by so little, in rad or parts of the motion, is none.
-const NOTHING: f64 = 1e-9;
+const NO_TURN: f64 = 1e-9;
 /// A motion that is so many times as long as a neighbour is bent less.
-const MUCH_LONGER: f64 = 2.0;
+const LONG_MOTION_FACTOR: f64 = 2.0;
 
 /// How a motion is bent in its middle: second derivatives by its parameter.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Bend {
+pub(crate) struct MidCurvature {
     /// Of the TCP's position, in mm.
     pub(crate) position: Vector3<f64>,
     /// Of the tool's turning in rad, about axes of the base.
@@ -42,7 +42,7 @@ pub(crate) struct Bend {
     pub(crate) surge: f64,
 }
 
-impl Bend {
+impl MidCurvature {
     /// Straight.
     pub(crate) const NONE: Self = Self {
         position: Vector3::new(0.0, 0.0, 0.0),
@@ -61,7 +61,7 @@ impl Bend {
 type Changes<const N: usize> = [SVector<f64, N>; 3];
 
 /// How `here` is bent between two motions; `None` where the blends at its ends do not meet, or lead different things.
-pub(crate) fn bend(robot: &Robot, before: &Motion, here: &Motion, after: &Motion) -> Option<Bend> {
+pub(crate) fn bend(robot: &Robot, before: &Motion, here: &Motion, after: &Motion) -> Option<MidCurvature> {
     // What is laid over a motion keeps its own shape.
     if [before, here, after].iter().any(|motion| motion.laid.is_some()) {
         return None;
@@ -71,7 +71,7 @@ pub(crate) fn bend(robot: &Robot, before: &Motion, here: &Motion, after: &Motion
     if !meet || before.corner.is_some() || here.corner.is_some() {
         return None;
     }
-    let mut bend = Bend::NONE;
+    let mut bend = MidCurvature::NONE;
     match (&before.curve, &here.curve, &after.curve) {
         (Curve::Tool(a), Curve::Tool(b), Curve::Tool(c)) => {
             if !go_on(a, 0.5, b, 0.5) || !go_on(b, 0.5, c, 0.5) || !b.is_even() {
@@ -157,7 +157,7 @@ impl Lengths {
         scale: f64,
     ) -> SVector<f64, N> {
         let [before, here, after] = self.0;
-        let (a, b, e) = (first.norm_squared(), second.norm_squared(), (GENTLE * scale / here).powi(2));
+        let (a, b, e) = (first.norm_squared(), second.norm_squared(), (GENTLE_DIFFERENCE * scale / here).powi(2));
         let sum = a + b + 2.0 * e;
         if sum <= 0.0 {
             return SVector::zeros();
@@ -165,9 +165,9 @@ impl Lengths {
         let mean = (first * (b + e) + second * (a + e)) / sum;
         let apart = (-first.dot(second)).max(0.0);
         let together = if apart > 0.0 { e / (e + apart) } else { 1.0 };
-        let longer = (MUCH_LONGER * before.min(after) / here).min(1.0);
+        let longer = (LONG_MOTION_FACTOR * before.min(after) / here).min(1.0);
         let bend = mean * (together * longer * here * here);
-        if bend.norm() > NOTHING * here * scale { bend } else { SVector::zeros() }
+        if bend.norm() > NO_TURN * here * scale { bend } else { SVector::zeros() }
     }
 }
 

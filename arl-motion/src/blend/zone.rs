@@ -56,7 +56,7 @@ pub(crate) fn rounding(robot: &Robot, motion: &Motion, leave: f64) -> Option<Rou
 }
 
 /// The smallest part of a motion that a blend can take.
-const LEAST: f64 = 1e-6;
+const LEAST_ZONE: f64 = 1e-6;
 
 /// The parts that a blend takes from the end of one motion and from the start of the next; `None` where none is asked for.
 pub(crate) fn parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f64)> {
@@ -75,7 +75,7 @@ pub(crate) fn parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f
     // What the next motion is left by is no longer there to be entered.
     let free = to.corner.map_or(LARGEST_ZONE, |(leaving, _)| (1.0 - leaving).min(LARGEST_ZONE));
     let entering = entering.min(free);
-    (entering > LEAST).then_some((leaving, entering))
+    (entering > LEAST_ZONE).then_some((leaving, entering))
 }
 
 /// Whether the end of a motion shall be rounded off.

@@ -1,6 +1,6 @@
-//! How long the robot still takes to the end of a motion at full speed: what the governor will do, foreseen piece by piece.
+//! How long the robot still takes to the end of a motion at full speed: what the governor will do, foreseen segment by segment.
 //!
-//! It takes no acceleration over from one piece to the next, which the governor does where it can; so what is foreseen is a
+//! It takes no acceleration over from one segment to the next, which the governor does where it can; so what is foreseen is a
 //! little more than what it will take.
 
 use crate::limits::profile::{Change, Limits};
@@ -14,16 +14,16 @@ pub(crate) struct Leg {
 }
 
 /// So many legs are looked at.
-pub(crate) const MOST: usize = 24;
+pub(crate) const MOST_LEGS: usize = 24;
 /// How near to a speed is near enough, as a part of it; and to a way, in s of nominal time.
-const NEAR: f64 = 1e-9;
-const NEAR_WAY: f64 = 1e-10;
+const SPEED_TOLERANCE: f64 = 1e-9;
+const WAY_TOLERANCE_S: f64 = 1e-10;
 
 /// How long a robot takes over legs, in s, that goes at the speed `vel` with the acceleration `acc` where they begin, and at
 /// `exit` at most where they end.
 pub(crate) fn time_over(legs: &[Leg], exit: f64, mut vel: f64, mut acc: f64) -> f64 {
-    let mut exits = [exit; MOST];
-    let legs = legs.get(..MOST.min(legs.len())).unwrap_or_default();
+    let mut exits = [exit; MOST_LEGS];
+    let legs = legs.get(..MOST_LEGS.min(legs.len())).unwrap_or_default();
     let mut behind = exit;
     for (leg, exit) in legs.iter().zip(&mut exits).rev() {
         *exit = behind;
@@ -65,7 +65,7 @@ impl Leg {
 
 /// The highest of a range of speeds whose way is not too long.
 fn highest(low: f64, high: f64, excess: impl Fn(f64) -> f64) -> f64 {
-    search::highest(low, high, Enough { value: NEAR * high, excess: NEAR_WAY }, excess)
+    search::highest(low, high, Enough { value: SPEED_TOLERANCE * high, excess: WAY_TOLERANCE_S }, excess)
 }
 
 #[cfg(test)]

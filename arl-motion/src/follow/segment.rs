@@ -1,17 +1,17 @@
-//! A part of a motion, or half of a blend, as the course has them in a row.
+//! A part of a motion, or half of a blend, as the path has them in a row.
 
 use std::ops::Range;
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::blend::blend_limits::{self, Crossing};
+use crate::blend::blend_limits::{self, BlendLimits};
 use crate::blend::corner::{Blend, common_pace};
 use crate::command::joints::{ALL, Joints};
 use crate::follow::timing::Cell;
 use crate::geometry::derivatives::{Place, by_differences};
-use crate::geometry::parametrization::Progress;
+use crate::geometry::parametrization::Parametrization;
 use crate::limits::profile::Limits;
-use crate::plan::constraints::{Bounds, Pace};
+use crate::plan::constraints::{Constraints, Pace};
 use crate::plan::curve::Curve;
 use crate::plan::motion::Motion;
 use arl_robot::frames::{Carried, Rig};
@@ -19,12 +19,12 @@ use arl_robot::kinematics::Kinematics;
 use arl_robot::robot::{Robot, VelocityProfile};
 
 /// Parts of half a blend.
-const SPEEDS: usize = blend_limits::PARTS / 2;
+const PARTS_OF_HALF: usize = blend_limits::PARTS / 2;
 
 /// A stretch of the way with constant limits. Its own parameter is the time, in s, that it takes at its full speed: so
 /// that motions and blends meet with the same speed.
 #[derive(Clone, Debug)]
-pub(crate) struct Piece {
+pub(crate) struct Segment {
     pub(crate) number: u64,
     pub(crate) line: u32,
     pub(crate) rig: Rig,
@@ -33,20 +33,20 @@ pub(crate) struct Piece {
     pub(crate) from: f64,
     to: f64,
     /// How the curve's parameter goes with the share of the nominal time, where it does not go evenly.
-    pub(crate) progress: Option<Progress>,
+    pub(crate) parametrization: Option<Parametrization>,
     /// The nominal time in s.
     pub(crate) time: f64,
-    /// In s of nominal time; the speed is the lowest, acceleration and jerk are those outside of arms.
+    /// In s of nominal time; the speed is the lowest, acceleration and jerk are those outside of the end zones.
     pub(crate) limits: Limits,
     /// The speeds of its parts, which take the same nominal time each, where they are not all the same.
-    speeds: Option<[f64; SPEEDS]>,
+    speeds: Option<[f64; PARTS_OF_HALF]>,
     /// Where it has other limits of acceleration and jerk.
     arm: Option<Arm>,
     /// Whether the robot has to stand still at the end.
     pub(crate) stops: bool,
     /// Whether the motion ends here.
     pub(crate) ends: bool,
-    /// How long the whole motion takes, in s, where the piece is all of it, from rest to rest.
+    /// How long the whole motion takes, in s, where the segment is all of it, from rest to rest.
     duration: Option<f64>,
     /// Where the motion ends, exactly, if it is not blended with the next one.
     target: Joints,
@@ -81,7 +81,7 @@ pub(crate) struct LedTool {
     pub(crate) carried: Carried,
 }
 
-impl Piece {
+impl Segment {
     /// A part of a motion.
     pub(crate) fn part(motion: &Motion, limits: Limits, number: u64, from: f64, to: f64) -> Self {
         // One s of nominal time at full speed.
@@ -94,7 +94,7 @@ impl Piece {
             curve: motion.curve.clone(),
             from,
             to,
-            progress: None,
+            parametrization: None,
             time: (to - from) / rate,
             limits: scaled,
             speeds: None,
@@ -115,16 +115,18 @@ impl Piece {
     pub(crate) fn half(blend: &Blend, (before, after): (&Motion, &Motion), number: u64, first: bool) -> Self {
         let motion = if first { before } else { after };
 
-        let Crossing { speeds, acc, jerk, arms } = &blend.crossing;
+        let BlendLimits { speeds, acc, jerk, end_zones } = &blend.blend_limits;
         let time = blend.time;
-        let skipped = if first { 0 } else { SPEEDS };
-        let mut own = [0.0; SPEEDS];
+        let skipped = if first { 0 } else { PARTS_OF_HALF };
+        let mut own = [0.0; PARTS_OF_HALF];
         for (own, speed) in own.iter_mut().zip(speeds.iter().skip(skipped)) {
             *own = on_grid(speed * time);
         }
         let lowest = own.iter().copied().fold(f64::INFINITY, f64::min);
-        let parts = if first { 0..arms.parts } else { SPEEDS.saturating_sub(arms.parts)..SPEEDS };
-        let arm = (arms.parts > 0).then_some(Arm { parts, acc: arms.acc * time, jerk: arms.jerk * time });
+        let parts =
+            if first { 0..end_zones.parts } else { PARTS_OF_HALF.saturating_sub(end_zones.parts)..PARTS_OF_HALF };
+        let arm =
+            (end_zones.parts > 0).then_some(Arm { parts, acc: end_zones.acc * time, jerk: end_zones.jerk * time });
         Self {
             number,
             line: motion.line,
@@ -132,7 +134,7 @@ impl Piece {
             curve: blend.curve.clone(),
             from: if first { 0.0 } else { 0.5 },
             to: if first { 0.5 } else { 1.0 },
-            progress: Some(blend.progress.clone()),
+            parametrization: Some(blend.parametrization.clone()),
             time: time / 2.0,
             limits: Limits { vel: lowest, acc: acc * time, jerk: jerk * time },
             speeds: (arm.is_some() || own.iter().any(|speed| *speed != lowest)).then_some(own),
@@ -141,7 +143,7 @@ impl Piece {
             ends: first && motion.ends,
             duration: None,
             target: motion.end,
-            // All of the blend counts as the motion that is joined: see `Course::current`.
+            // All of the blend counts as the motion that is joined: see `PathBuffer::current`.
             leave: blend.leave,
             shares: if first { [blend.leave; 2] } else { [blend.join / 2.0, blend.join] }
                 .map(|share| motion.of_instruction(share)),
@@ -167,7 +169,7 @@ impl Piece {
 
     /// The parts that have a speed of their own, for the timing.
     pub(crate) fn cells(&self) -> impl Iterator<Item = Cell> {
-        let count = if self.speeds.is_some() { SPEEDS } else { 1 };
+        let count = if self.speeds.is_some() { PARTS_OF_HALF } else { 1 };
         let length = self.time / count as f64;
         let speed = |part: usize| self.speeds.as_ref().and_then(|speeds| speeds.get(part).copied());
         let arm = |part: usize| self.arm.as_ref().filter(|arm| arm.parts.contains(&part));
@@ -210,7 +212,7 @@ impl Piece {
 
     /// Whether all axes go in proportion, with the same limits everywhere.
     pub(crate) fn is_even(&self) -> bool {
-        self.progress.is_none() && matches!(self.curve, Curve::Axes(_))
+        self.parametrization.is_none() && matches!(self.curve, Curve::Axes(_))
     }
 
     /// The tool whose way is limited, after `at` s of nominal time, where the joints are `joints`. `None` where it is the axes that are
@@ -243,15 +245,15 @@ impl Piece {
     /// The parameter of the curve after `at` s of nominal time.
     fn place(&self, at: f64) -> f64 {
         let place = self.from + (self.to - self.from) * (at / self.time);
-        self.progress.as_ref().map_or(place, |progress| progress.at(place))
+        self.parametrization.as_ref().map_or(place, |parametrization| parametrization.at(place))
     }
 
     /// Whether this is the half of a blend that leaves its motion.
     pub(crate) fn leaves(&self) -> bool {
-        self.progress.is_some() && self.ends
+        self.parametrization.is_some() && self.ends
     }
 
-    /// How long the whole motion takes, in s, where the piece is all of it, from rest to rest.
+    /// How long the whole motion takes, in s, where the segment is all of it, from rest to rest.
     pub(crate) fn duration(&self) -> Option<f64> {
         self.duration
     }
@@ -263,20 +265,20 @@ impl Piece {
 
     /// The parts between which the derivatives of its curve jump, one where they do not.
     pub(crate) fn parts(&self) -> u32 {
-        let jumps = self.progress.as_ref().is_some_and(Progress::has_parts) || self.curve.is_paced();
+        let jumps = self.parametrization.as_ref().is_some_and(Parametrization::has_parts) || self.curve.is_paced();
         if jumps { self.bends() } else { 1 }
     }
 
     /// The parts over which its curve may change its direction or its pace, one where it does neither.
     pub(crate) fn bends(&self) -> u32 {
-        let bends = self.progress.is_some() || self.curve.is_paced();
-        if bends { ((self.to - self.from) * Progress::PARTS as f64).ceil() as u32 } else { 1 }
+        let bends = self.parametrization.is_some() || self.curve.is_paced();
+        if bends { ((self.to - self.from) * Parametrization::PARTS as f64).ceil() as u32 } else { 1 }
     }
 
     /// Where derivatives jump within it and at its end, in s of nominal time from its start.
     pub(crate) fn jumps(&self) -> impl Iterator<Item = f64> {
-        let all = if self.parts() > 1 { Progress::PARTS } else { 0 };
-        let shares = (0..all).map(|part| part as f64 / Progress::PARTS as f64);
+        let all = if self.parts() > 1 { Parametrization::PARTS } else { 0 };
+        let shares = (0..all).map(|part| part as f64 / Parametrization::PARTS as f64);
         let inside = shares.chain(self.borders()).filter(|share| *share > self.from && *share < self.to);
         inside.map(|share| (share - self.from) / (self.to - self.from) * self.time).chain([self.time])
     }
@@ -288,7 +290,7 @@ impl Piece {
         self.parts() > 1 || self.borders().any(|border| (border - share).abs() <= near * width)
     }
 
-    /// Where passages through a singularity begin and end. What is laid down by a progress of its own has none.
+    /// Where passages through a singularity begin and end. What is laid down by a parametrization of its own has none.
     fn borders(&self) -> impl Iterator<Item = f64> {
         let curve = if let Curve::Tool(curve) = &self.curve { Some(curve) } else { None };
         curve.into_iter().flat_map(|curve| curve.borders())
@@ -302,7 +304,7 @@ impl Piece {
         robot: &Robot,
         (at, joints): (f64, &Joints),
         rise: Option<f64>,
-        bounds: &mut Bounds,
+        bounds: &mut Constraints,
     ) -> Option<[[f64; ALL]; 3]> {
         let Some(pace) = self.pace.as_ref().filter(|_| rise.is_some() || self.is_free) else {
             bounds.cell(&self.lowest_limits());
@@ -311,7 +313,11 @@ impl Piece {
         let width = (self.to - self.from) / self.time;
         let share = self.from + at * width;
         let even = Place { at: share, first: 1.0, second: 0.0, third: 0.0 };
-        let place = self.progress.as_ref().map_or(even, |progress| Place::at(progress, share)).scaled(width);
+        let place = self
+            .parametrization
+            .as_ref()
+            .map_or(even, |parametrization| Place::at(parametrization, share))
+            .scaled(width);
         let rates = place.rates(self.curve.rates(&robot.kinematics, place.at, joints)?);
         bounds.all_axes(&rates, pace);
         match &self.curve {

@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 
-use crate::limits::profile::{ALIKE, Limits, State};
+use crate::limits::profile::{ALIKE_FACTOR, Limits, State};
 use crate::limits::search::{self, Enough};
 
 /// A part of a stretch on which one speed is allowed.
@@ -28,10 +28,10 @@ pub(crate) struct Stretch {
 }
 
 /// How near to the highest speed of entry is near enough, as a part of it.
-const CLOSE: f64 = 1e-14;
+const ENTRY_SPEED_TOLERANCE: f64 = 1e-14;
 
 /// The same where it only has to be known about how long braking takes.
-const NEAR_ENOUGH: Enough = Enough { value: 1e-3, excess: 1e-3 };
+const BRAKING_TOLERANCE: Enough = Enough { value: 1e-3, excess: 1e-3 };
 
 /// All stretches from the one that the robot is on.
 #[derive(Clone, Debug, Default)]
@@ -49,7 +49,7 @@ impl Stretch {
 
     /// Whether a cell is enough like the others to join them.
     fn takes(&self, cell: &Cell) -> bool {
-        let alike = |a: f64, b: f64| a <= b * ALIKE && b <= a * ALIKE;
+        let alike = |a: f64, b: f64| a <= b * ALIKE_FACTOR && b <= a * ALIKE_FACTOR;
         alike(self.acc, cell.limits.acc) && alike(self.jerk, cell.limits.jerk)
     }
 
@@ -112,7 +112,7 @@ impl Stretch {
                 }
                 continue;
             }
-            let enough = Enough { value: CLOSE * highest, excess: 0.0 };
+            let enough = Enough { value: ENTRY_SPEED_TOLERANCE * highest, excess: 0.0 };
             let entry = search::highest(speed, highest, enough, |vel| needed(vel) - way);
             found = Some((entry, limits.slowing(entry, 0.0)));
         }
@@ -285,7 +285,7 @@ impl Timing {
             exit = if fastest <= exit || slowing(exit) > way {
                 exit.min(fastest)
             } else {
-                search::highest(exit, fastest, NEAR_ENOUGH, |vel| slowing(vel) - way)
+                search::highest(exit, fastest, BRAKING_TOLERANCE, |vel| slowing(vel) - way)
             };
         }
         needed

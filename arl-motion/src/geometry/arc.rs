@@ -5,9 +5,9 @@ use nalgebra::Vector3;
 use crate::geometry::track::Arc;
 
 /// Points closer than this, in mm, are the same.
-const SAME: f64 = 1e-6;
+const SAME_POINT_MM: f64 = 1e-6;
 /// Three points whose angle has a smaller sine lie on a line.
-const FLAT: f64 = 1e-9;
+const COLLINEAR_SINE: f64 = 1e-9;
 
 /// A circle with a sense of rotation.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -22,12 +22,12 @@ pub(crate) struct Circle {
 pub(crate) fn circle_through([start, via, end]: &[Vector3<f64>; 3]) -> Option<Circle> {
     let (to_via, to_end, rest) = (via - start, end - start, end - via);
     let lengths = [to_via.norm(), to_end.norm(), rest.norm()];
-    if lengths.iter().any(|length| *length < SAME) {
+    if lengths.iter().any(|length| *length < SAME_POINT_MM) {
         return None;
     }
     let normal = to_via.cross(&to_end);
     let [a, b, _] = lengths;
-    if normal.norm() < FLAT * a * b {
+    if normal.norm() < COLLINEAR_SINE * a * b {
         return None;
     }
     // The centre of the circumscribed circle, seen from the start.

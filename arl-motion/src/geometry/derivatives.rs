@@ -2,10 +2,10 @@
 
 use nalgebra::Vector3;
 
-use crate::geometry::parametrization::Progress;
+use crate::geometry::parametrization::Parametrization;
 
 /// A step for differences, as part of the whole.
-const DIFFERENCE: f64 = 1e-3;
+const DIFFERENCE_STEP: f64 = 1e-3;
 
 /// A place on the curve: its parameter, and how that changes with the share of the nominal time.
 #[derive(Clone, Copy)]
@@ -17,9 +17,9 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    pub(crate) fn at(progress: &Progress, share: f64) -> Self {
-        let [first, second, third] = [1, 2, 3].map(|order| progress.derivative(order, share));
-        Self { at: progress.at(share), first, second, third }
+    pub(crate) fn at(parametrization: &Parametrization, share: f64) -> Self {
+        let [first, second, third] = [1, 2, 3].map(|order| parametrization.derivative(order, share));
+        Self { at: parametrization.at(share), first, second, third }
     }
 
     /// By a parameter of which `width` is the derivative of the one before.
@@ -49,7 +49,7 @@ impl Place {
 
 /// Three derivatives of a point's place, in mm, by what `of` takes, from 0 to `end`: by differences.
 pub(crate) fn by_differences(of: impl Fn(f64) -> Vector3<f64>, at: f64, end: f64) -> [Vector3<f64>; 3] {
-    let step = DIFFERENCE * end;
+    let step = DIFFERENCE_STEP * end;
     let at = at.clamp(2.0 * step, end - 2.0 * step);
     let [b, a, here, c, d] = [-2.0, -1.0, 0.0, 1.0, 2.0].map(|steps| of(at + steps * step));
     let first = (c - a) / (2.0 * step);

@@ -11,20 +11,20 @@ use crate::geometry::track::Track;
 /// Parts of the time, each with a polynomial of its own.
 const PARTS: usize = 16;
 /// Places of a part at which the way is summed up.
-const PLACES: usize = 8;
+const PLACES_OF_PART: usize = 8;
 /// The part of the time over which the speed changes at either end.
-const EASING: f64 = 5.0 / 16.0;
+const EASING_SHARE: f64 = 5.0 / 16.0;
 
 /// The parameter of a curve over the share of the nominal time, both from 0 to 1.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) enum Progress {
+pub(crate) enum Parametrization {
     /// By one polynomial.
     One(Quintic<1>),
     /// By a polynomial for each part.
     Many(Arc<[Quintic<1>; PARTS]>),
 }
 
-impl Progress {
+impl Parametrization {
     /// Parts between which the third derivative jumps, all of the same length.
     pub(crate) const PARTS: usize = PARTS;
 
@@ -39,7 +39,7 @@ impl Progress {
         Self::One(Quintic::between(&knot(0.0, start), &knot(1.0, end)))
     }
 
-    /// As [`Progress::along`], for a way that hardly bends and hardly changes its speed: of its first and second derivatives.
+    /// As [`Parametrization::along`], for a way that hardly bends and hardly changes its speed: of its first and second derivatives.
     pub(crate) fn gently<const N: usize>(
         derivative: impl Fn(usize, f64) -> SVector<f64, N>,
         start: [f64; 2],
@@ -67,7 +67,7 @@ impl Progress {
     /// accelerations, in mm/s2; with the nominal time in s. `None` where the track or the speed stands still or turns back
     /// somewhere.
     pub(crate) fn along(track: &Track, [start, start_acc]: [f64; 2], [end, end_acc]: [f64; 2]) -> Option<(Self, f64)> {
-        const STEPS: usize = PARTS * PLACES;
+        const STEPS: usize = PARTS * PLACES_OF_PART;
         let speed = |at: f64| track.derivative(1, at).norm();
         // The way up to each place, by Simpson's rule.
         let mut ways = [0.0; STEPS + 1];
@@ -137,15 +137,15 @@ impl Progress {
         // The speed eases like 3 x2 - 2 x3 in the first and in the last part of the time.
         let easing = |x: f64| x * x * (3.0 - 2.0 * x);
         let eased = |x: f64| x * x * x * (1.0 - x / 2.0);
-        let mean = middle + EASING * ((start - middle) / 2.0 + (end - middle) / 2.0);
+        let mean = middle + EASING_SHARE * ((start - middle) / 2.0 + (end - middle) / 2.0);
         let time = sum / mean;
         let speed = |share: f64| {
-            let (rising, falling) = ((share / EASING).min(1.0), ((1.0 - share) / EASING).min(1.0));
-            let change = |x: f64, from: f64| (middle - from) * 6.0 * x * (1.0 - x) / EASING;
+            let (rising, falling) = ((share / EASING_SHARE).min(1.0), ((1.0 - share) / EASING_SHARE).min(1.0));
+            let change = |x: f64, from: f64| (middle - from) * 6.0 * x * (1.0 - x) / EASING_SHARE;
             let speed = start + (middle - start) * easing(rising) + (end - middle) * (1.0 - easing(falling));
             let way = middle * share
-                + (start - middle) * EASING * (rising - eased(rising))
-                + (end - middle) * EASING * (0.5 - (falling - eased(falling)));
+                + (start - middle) * EASING_SHARE * (rising - eased(rising))
+                + (end - middle) * EASING_SHARE * (0.5 - (falling - eased(falling)));
             (way, speed, change(rising, start) - change(falling, end))
         };
         let along = Self::of(|share| {
@@ -181,8 +181,8 @@ impl Progress {
     /// The part that `share` is in, where in it, and how many there are.
     fn part(&self, share: f64) -> (&Quintic<1>, f64, f64) {
         match self {
-            Progress::One(whole) => (whole, share.clamp(0.0, 1.0), 1.0),
-            Progress::Many(parts) => {
+            Parametrization::One(whole) => (whole, share.clamp(0.0, 1.0), 1.0),
+            Parametrization::Many(parts) => {
                 let place = share.clamp(0.0, 1.0) * PARTS as f64;
                 let index = (place as usize).min(PARTS - 1);
                 let [first, ..] = &**parts;
@@ -231,19 +231,19 @@ mod tests {
             Quintic::between(&knot([0.0, 0.0, 0.0], [40.0, 0.0, 0.0]), &knot([20.0, 20.0, 0.0], [0.0, 40.0, 0.0]));
         let track = Track::Poly(bend.into());
         for (start, end) in [(100.0, 100.0), (50.0, 300.0)] {
-            let (progress, time) = Progress::along(&track, [start, 0.0], [end, 0.0]).unwrap();
+            let (parametrization, time) = Parametrization::along(&track, [start, 0.0], [end, 0.0]).unwrap();
             assert!((track.length() / time - f64::midpoint(start, end)).abs() < 1e-3);
             let mut before = 0.0;
             for step in 0..=1000 {
                 let share = f64::from(step) / 1000.0;
-                let at = progress.at(share);
-                let speed = track.derivative(1, at).norm() * progress.derivative(1, share) / time;
+                let at = parametrization.at(share);
+                let speed = track.derivative(1, at).norm() * parametrization.derivative(1, share) / time;
                 let expected = start + (end - start) * share * share * (3.0 - 2.0 * share);
                 assert!((speed - expected).abs() < 2e-3 * expected, "{share}: {speed} {expected}");
                 assert!(at >= before, "{share}: {before} {at}");
                 before = at;
             }
-            assert!((progress.at(1.0) - 1.0).abs() < 1e-9 && progress.at(0.0) == 0.0);
+            assert!((parametrization.at(1.0) - 1.0).abs() < 1e-9 && parametrization.at(0.0) == 0.0);
         }
     }
 
@@ -254,27 +254,28 @@ mod tests {
             Quintic::between(&knot([0.0; 3], [40.0, 0.0, 0.0]), &knot([20.0, 20.0, 0.0], [0.0, 40.0, 5.0])).into(),
         );
         let (start, end) = ([100.0, 400.0], [150.0, -300.0]);
-        let (progress, time) = Progress::along(&track, start, end).unwrap();
+        let (parametrization, time) = Parametrization::along(&track, start, end).unwrap();
         for (share, [speed, acc]) in [(0.0, start), (1.0, end)] {
             let (first, second) = (track.derivative(1, share), track.derivative(2, share));
-            let (rate, change) = (progress.derivative(1, share) / time, progress.derivative(2, share) / time / time);
+            let (rate, change) =
+                (parametrization.derivative(1, share) / time, parametrization.derivative(2, share) / time / time);
             assert!((first.norm() * rate - speed).abs() < 1e-9);
             let along = (second * rate * rate + first * change).dot(&first) / first.norm();
             assert!((along - acc).abs() < 1e-9, "{along}");
         }
         // Whatever the parts, the way comes out.
-        assert!((progress.at(1.0) - 1.0).abs() < 1e-9);
+        assert!((parametrization.at(1.0) - 1.0).abs() < 1e-9);
     }
 
     #[test]
     fn an_eased_way_takes_its_speeds() {
         let gait = |at: f64| [1.0 + at * (1.0 - at), 1.0 - 2.0 * at];
-        let (progress, time) = Progress::eased(gait, [2.0, 5.0, 1.0]);
+        let (parametrization, time) = Parametrization::eased(gait, [2.0, 5.0, 1.0]);
         let mut way = 0.0;
         for step in 0..=1000 {
             let share = f64::from(step) / 1000.0;
-            let at = progress.at(share);
-            let speed = gait(at)[0] * progress.derivative(1, share) / time;
+            let at = parametrization.at(share);
+            let speed = gait(at)[0] * parametrization.derivative(1, share) / time;
             let wanted = match step {
                 0 => 2.0,
                 320..=680 => 5.0,
@@ -284,6 +285,6 @@ mod tests {
             assert!((speed - wanted).abs() < 1e-3 && speed > 0.99, "{share}: {speed}");
             way += speed * time / 1000.0;
         }
-        assert!((way - (1.0 + 1.0 / 6.0)).abs() < 5e-3 && (progress.at(1.0) - 1.0).abs() < 1e-9, "{way}");
+        assert!((way - (1.0 + 1.0 / 6.0)).abs() < 5e-3 && (parametrization.at(1.0) - 1.0).abs() < 1e-9, "{way}");
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::geometry::parametrization::Progress;
+use crate::geometry::parametrization::Parametrization;
 
 /// What the powers get by the first, second and third derivative.
 const FACTORS: [[f64; 6]; 3] =
@@ -80,12 +80,12 @@ impl<const N: usize> Quintic<N> {
     }
 }
 
-/// Values along a way: a polynomial of the way's parameter or, where it has a pace of its own, of the progress that the
+/// Values along a way: a polynomial of the way's parameter or, where it has a pace of its own, of the parametrization that the
 /// parameter stands for.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Way<const N: usize> {
     poly: Quintic<N>,
-    pace: Option<Arc<Progress>>,
+    pace: Option<Arc<Parametrization>>,
 }
 
 impl<const N: usize> From<Quintic<N>> for Way<N> {
@@ -96,7 +96,7 @@ impl<const N: usize> From<Quintic<N>> for Way<N> {
 
 impl<const N: usize> Way<N> {
     /// A polynomial at a pace.
-    pub(crate) fn paced(poly: Quintic<N>, pace: Arc<Progress>) -> Self {
+    pub(crate) fn paced(poly: Quintic<N>, pace: Arc<Parametrization>) -> Self {
         Self { poly, pace: Some(pace) }
     }
 

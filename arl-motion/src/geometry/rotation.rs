@@ -3,16 +3,16 @@
 use nalgebra::{Matrix3, Vector3};
 
 /// Terms of the power series below: enough for every rotation vector up to two turns.
-const TERMS: u32 = 24;
+const SERIES_TERMS: u32 = 24;
 /// Terms that are enough up to this square of the angle.
-const FEW_TERMS: u32 = 4;
-const SMALL: f64 = 1e-3;
+const SMALL_ANGLE_TERMS: u32 = 4;
+const SMALL_ANGLE_SQUARED: f64 = 1e-3;
 
 /// A power series of the squared angle, `first` + .., whose term k is the one before divided by -(2k + `n`)(2k + `n` - 1);
 /// with its first two derivatives.
 fn series(angle_squared: f64, first: f64, n: u32) -> [f64; 3] {
     let (mut value, mut slope, mut bend) = (0.0, 0.0, 0.0);
-    let terms = if angle_squared < SMALL { FEW_TERMS } else { TERMS };
+    let terms = if angle_squared < SMALL_ANGLE_SQUARED { SMALL_ANGLE_TERMS } else { SERIES_TERMS };
     for k in (1..=terms).rev() {
         let ratio = -1.0 / (f64::from(2 * k + n) * f64::from(2 * k + n - 1));
         // The sum from term k on is 1 + ratio * angle_squared * (the sum from the next term on).

@@ -2,14 +2,14 @@
 //!
 //! At each inner point the way has the direction and the curvature of the parabola through the point and its neighbours,
 //! over the lengths of the chords; between them it is a polynomial of the fifth degree, at the ends one that goes on like a
-//! parabola. So a piece depends on no more than two points before it and one behind it, points on a line make a line,
+//! parabola. So a segment depends on no more than two points before it and one behind it, points on a line make a line,
 //! and what is planned already never changes. The tool's rotation and the external axes follow the same rule.
 
 use std::sync::Arc;
 
 use nalgebra::{SVector, Vector3};
 
-use crate::geometry::parametrization::Progress;
+use crate::geometry::parametrization::Parametrization;
 use crate::geometry::quintic::{Knot, Quintic, Way};
 use crate::geometry::rotation;
 use crate::geometry::tcp_path::TcpPath;
@@ -38,11 +38,11 @@ pub(crate) struct Passing {
 }
 
 /// The cosine of the angle, 150 deg, from which on chords turn back: a way through such a point would almost stop there, and
-/// its tangent would be shorter than `SLOWEST`.
-const BACK: f64 = -0.866_025_404;
+/// its tangent would be shorter than `LEAST_SHARE_OF_CHORD`.
+const TURN_BACK_COSINE: f64 = -0.866_025_404;
 
 /// Where the way is nearly reversed its parameter slows down to this part of the length of the chords, not to nothing.
-const SLOWEST: f64 = 0.25;
+const LEAST_SHARE_OF_CHORD: f64 = 0.25;
 
 impl Place {
     /// The length of the chord to another place in mm.
@@ -54,7 +54,7 @@ impl Place {
     pub(crate) fn turns_back(&self, over: &Place, to: &Place) -> bool {
         let place = |place: &Place| place.tcp.translation.vector;
         let (first, second) = (place(over) - place(self), place(to) - place(over));
-        first.dot(&second) < BACK * first.norm() * second.norm()
+        first.dot(&second) < TURN_BACK_COSINE * first.norm() * second.norm()
     }
 
     fn turning(&self, to: &Place) -> Vector3<f64> {
@@ -89,7 +89,7 @@ fn parabola<const N: usize>(h0: f64, way0: SVector<f64, N>, h1: f64, way1: SVect
 
 /// The curve from one point to the next, passing its ends as said, or ending there; with the nominal time in s that it
 /// takes at `speed` mm/s, and the external axes along it.
-pub(crate) fn piece(
+pub(crate) fn segment(
     [from, to]: [&Place; 2],
     [start, end]: [Option<&Passing>; 2],
     speed: f64,
@@ -115,8 +115,8 @@ pub(crate) fn piece(
     };
     let external = polynomial(from.external(), to.external() - from.external(), start.map(external), end.map(external));
     let [start, end] = [start, end].map(|passing| passing.map_or(speed, |passing| passing.speed));
-    let (progress, time) = Progress::eased(|at| gait(&moved, chord, at), [start, speed, end]);
-    let pace = Arc::new(progress);
+    let (parametrization, time) = Parametrization::eased(|at| gait(&moved, chord, at), [start, speed, end]);
+    let pace = Arc::new(parametrization);
     let path = TcpPath {
         track: Track::Poly(Way::paced(moved, pace.clone())),
         base: from.tcp.rotation,
@@ -147,11 +147,11 @@ fn polynomial<const N: usize>(
     Quintic::between(&knot(start, from), &knot(start + way, to))
 }
 
-/// How long the way is per unit of the parameter, in mm, and how that changes; never much shorter than `SLOWEST` of the
+/// How long the way is per unit of the parameter, in mm, and how that changes; never much shorter than `LEAST_SHARE_OF_CHORD` of the
 /// chord.
 fn gait(moved: &Quintic<3>, chord: f64, at: f64) -> [f64; 2] {
     let (first, second) = (Vector3::from(moved.derivative(1, at)), Vector3::from(moved.derivative(2, at)));
-    let least = SLOWEST * chord;
+    let least = LEAST_SHARE_OF_CHORD * chord;
     let length = (first.norm_squared().powi(2) + least.powi(4)).sqrt().sqrt();
     [length, first.norm_squared() * first.dot(&second) / length.powi(3)]
 }

@@ -74,7 +74,7 @@ pub(crate) fn quickest(bounds: &[Bound]) -> Limits {
 }
 
 /// How much of the acceleration and of the jerk that are there at rest is as good as all.
-const AS_GOOD: f64 = 0.98;
+const AS_GOOD_SHARE: f64 = 0.98;
 
 /// The limits of a way on which hardly anything is lost to its curvature at the speed `vel`.
 fn hardly_curved(bounds: &[Bound], vel: f64) -> Option<Limits> {
@@ -96,7 +96,8 @@ fn hardly_curved(bounds: &[Bound], vel: f64) -> Option<Limits> {
         let (curve, twist) = (bound.second * vel, bound.third * vel * vel * vel);
         curve * vel <= bound.acc && 3.0 * curve * moving.acc + twist <= bound.jerk
     };
-    let good = moving.acc >= AS_GOOD * rest.acc && moving.jerk >= AS_GOOD * rest.jerk && still.clone().all(met);
+    let good =
+        moving.acc >= AS_GOOD_SHARE * rest.acc && moving.jerk >= AS_GOOD_SHARE * rest.jerk && still.clone().all(met);
     good.then_some(moving)
 }
 
@@ -105,7 +106,7 @@ const PASSING_SHARES: [f64; 8] = [1.0, 0.98, 0.96, 0.94, 0.92, 0.88, 0.8, 0.6];
 /// Shares of the acceleration that is left at that speed, among which the one is taken that gets up to it soonest.
 const PASSING_ACC_SHARES: [f64; 9] = [0.95, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1];
 /// How much of the acceleration and of the jerk that are there at rest must be left at speed.
-const LEFT_OVER: f64 = 0.08;
+const LEAST_SHARE_LEFT: f64 = 0.08;
 
 /// Limits for passing through without stopping, no faster than `fastest`, under which no bound is broken.
 pub(crate) fn passing(bounds: &[Bound], fastest: f64) -> Limits {
@@ -136,7 +137,10 @@ pub(crate) fn passing(bounds: &[Bound], fastest: f64) -> Limits {
                 (soonest, found) = (time, Limits { vel, acc, jerk });
             }
         }
-        if found.vel == vel && found.acc >= LEFT_OVER * acc_at_rest && found.jerk >= LEFT_OVER * jerk_at_rest {
+        if found.vel == vel
+            && found.acc >= LEAST_SHARE_LEFT * acc_at_rest
+            && found.jerk >= LEAST_SHARE_LEFT * jerk_at_rest
+        {
             return found;
         }
     }

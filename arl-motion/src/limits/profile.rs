@@ -1,10 +1,10 @@
 //! Jerk-limited changes of one parameter's speed.
 
 /// Looking ahead counts on a little less than the limits, so that whole cycles can follow what it found.
-pub(crate) const MARGIN: f64 = 0.998;
+pub(crate) const LOOK_AHEAD_MARGIN: f64 = 0.998;
 
 /// Cells whose limits differ by up to this factor share a stretch.
-pub(crate) const ALIKE: f64 = 2.0;
+pub(crate) const ALIKE_FACTOR: f64 = 2.0;
 
 /// Limits of the parameter's speed, acceleration and jerk, per s, s2, s3.
 #[derive(Clone, Copy, PartialEq, Debug)]

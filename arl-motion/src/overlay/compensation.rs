@@ -86,11 +86,11 @@ pub(crate) struct Shift {
 /// The longest that an easing of length 1 goes at once: its highest speed, acceleration, jerk.
 const EASING_PEAKS: [f64; 3] = [1.875, 5.773_502_691_896_258, 60.0];
 /// What is left for the motion's own changes of speed: growing takes so much longer than it has to.
-const UNHURRIED: f64 = 1.3;
+const GROWTH_TIME_FACTOR: f64 = 1.3;
 /// Less, in mm and deg, is nothing to go.
-const NOTHING: f64 = 1e-9;
+const NO_GROWTH: f64 = 1e-9;
 /// It grows over no less than this part of a motion.
-const LEAST_PART: f64 = 1.0 / 16.0;
+const LEAST_GROWTH_SHARE: f64 = 1.0 / 16.0;
 
 impl Shift {
     /// The compensation of a motion along `curve` that takes `seconds` at its full speed. `workpiece` and `world` are the
@@ -129,10 +129,10 @@ impl Shift {
         }
         let target = shift.target(curve, path, 0.0);
         let by = [(target.shift - shift.from.shift).norm(), (target.turn - shift.from.turn).norm().to_degrees()];
-        if by.iter().any(|by| *by > NOTHING) {
+        if by.iter().any(|by| *by > NO_GROWTH) {
             let needed = by.iter().zip(shift.limits.chunks(3)).map(|(by, limits)| least_time(*by, limits));
-            let part = UNHURRIED * needed.fold(0.0, f64::max) / seconds;
-            shift.within = if part.is_nan() { 1.0 } else { part.clamp(LEAST_PART, 1.0) };
+            let part = GROWTH_TIME_FACTOR * needed.fold(0.0, f64::max) / seconds;
+            shift.within = if part.is_nan() { 1.0 } else { part.clamp(LEAST_GROWTH_SHARE, 1.0) };
             shift.by = by;
         }
         shift
@@ -204,7 +204,7 @@ impl Shift {
         for place in 0..=if self.grows() { PLACES } else { 0 } {
             let [_, first, second, third] = self.growth(self.within * f64::from(place) / f64::from(PLACES));
             for (by, limits) in self.by.iter().zip(self.limits.chunks(3)) {
-                if let (&[vel, acc, jerk], true) = (limits, *by > NOTHING) {
+                if let (&[vel, acc, jerk], true) = (limits, *by > NO_GROWTH) {
                     let [first, second, third] = [first, second, third].map(|rate| rate.abs() * by);
                     rows.push(Bound { first, second, third, vel, acc, jerk });
                 }

@@ -1,6 +1,6 @@
 //! What is laid over a way of the TCP: a weave beside it, and a compensation that shifts and turns it.
 //!
-//! Both are part of the geometry: functions of the path parameter. So what surveys, limits and governs the motion sees
+//! Both are part of the geometry: functions of the path parameter. So what checks, limits and governs the motion sees
 //! them, and the override, stops and late motions change their time but never their shape.
 
 pub(crate) mod compensation;

@@ -35,8 +35,8 @@ enum Turns {
         /// How the tool turns the frame about the path, in rad per unit.
         roll: f64,
     },
-    /// From the direction at the start to that at the end of a piece of a spline: a rotation vector in rad about axes of the
-    /// base. Where pieces meet it turns evenly, which their directions themselves do not: else acceleration would jump there.
+    /// From the direction at the start to that at the end of a segment of a spline: a rotation vector in rad about axes of the
+    /// base. Where segments meet it turns evenly, which their directions themselves do not: else acceleration would jump there.
     Smoothly(Quintic<3>),
 }
 
@@ -65,7 +65,7 @@ impl PathFrame {
         Ok(Some(Self { start, turns: Turns::Evenly { path: turning, roll } }))
     }
 
-    /// The frame of a piece of a spline.
+    /// The frame of a segment of a spline.
     fn smoothly(curve: &TcpPath) -> Result<Self, PlanError> {
         let ((start, first), (end, last)) = (directed(curve, 0.0)?, directed(curve, 1.0)?);
         let turned = (end * start.inverse()).scaled_axis();

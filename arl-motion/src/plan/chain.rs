@@ -4,7 +4,7 @@ use crate::command::error::PlanError;
 use crate::command::joints::Joints;
 use crate::command::{Command, Settings, Target, Zone};
 use crate::geometry::arc::circle_through;
-use crate::geometry::spline::{Passing, Place, piece};
+use crate::geometry::spline::{Passing, Place, segment};
 use crate::geometry::track::Track;
 use crate::plan::curve::ToolCurve;
 use crate::plan::lay_overlay::{Beginning, lay};
@@ -14,7 +14,7 @@ use arl_robot::kinematics::Frame;
 use arl_robot::robot::Robot;
 
 /// Points of a spline that are not so far from each other, in mm, are the same: the tool only turns there.
-const SAME: f64 = 1e-3;
+const SAME_POINT_MM: f64 = 1e-3;
 
 /// The kinds of motion that make one way together with their neighbours.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -118,8 +118,8 @@ impl Held {
     fn breaks_off(&self, robot: &Robot, next: &Held) -> bool {
         let from = self.from(robot);
         self.settings.compensation != next.settings.compensation
-            || from.chord(&self.target) <= SAME
-            || self.target.chord(&next.target) <= SAME
+            || from.chord(&self.target) <= SAME_POINT_MM
+            || self.target.chord(&next.target) <= SAME_POINT_MM
             || from.turns_back(&self.target, &next.target)
     }
 
@@ -236,9 +236,9 @@ impl Held {
             nalgebra::Vector3::zeros(),
             &self.end,
         );
-        let (path, external, time) = piece([&from, &self.target], [start.as_ref(), end.as_ref()], speed);
+        let (path, external, time) = segment([&from, &self.target], [start.as_ref(), end.as_ref()], speed);
         let curve = ToolCurve { path, external, ..base };
-        let motion = planner.piece(curve, time, &self.target.external, start.is_some())?;
+        let motion = planner.segment(curve, time, &self.target.external, start.is_some())?;
         Ok((motion, end.map(Before::Spline)))
     }
 }

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use crate::command::joints::{ALL, Joints};
-use crate::geometry::parametrization::Progress;
+use crate::geometry::parametrization::Parametrization;
 use crate::limits::constant::Bound;
 use crate::limits::profile::Limits;
 use crate::plan::curve::{Curve, ToolCurve};
@@ -12,15 +12,15 @@ use arl_robot::kinematics::Axes;
 use arl_robot::robot::{Axis, EXTERNAL_AXES, Robot};
 
 /// The highest speed of the TCP in manual low-speed mode, in mm/s.
-pub(crate) const MANUAL_SPEED: f64 = 250.0;
-/// Between the places where a way is surveyed, derivatives are a little larger than at them.
-const BETWEEN_SAMPLES: f64 = 1.005;
+pub(crate) const MANUAL_SPEED_MM_S: f64 = 250.0;
+/// Between the places where a way is checked, derivatives are a little larger than at them.
+const BETWEEN_SAMPLES_FACTOR: f64 = 1.005;
 /// Places at which a curved way of the TCP is looked at; and of each part of one whose pace is made of parts: there the way may
 /// turn within a small part of its time.
-const PLACES: u32 = 24;
+const PLACES_OF_CURVE: u32 = 24;
 const PLACES_OF_PART: u32 = 6;
 /// How far beside a place its other side is looked at.
-const BESIDE: f64 = 1e-9;
+const BESIDE_SHARE: f64 = 1e-9;
 
 /// How fast a motion may go, and how hard it may accelerate.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -77,7 +77,7 @@ pub(crate) struct PlaceBounds<'a> {
 }
 
 /// The limits found so far.
-pub(crate) struct Bounds<'a> {
+pub(crate) struct Constraints<'a> {
     robot: &'a Robot,
     pub(crate) rows: Vec<Bound>,
     /// Whether the rows keep the signs of the derivatives.
@@ -86,7 +86,7 @@ pub(crate) struct Bounds<'a> {
     places: Vec<(usize, f64)>,
 }
 
-impl<'a> Bounds<'a> {
+impl<'a> Constraints<'a> {
     /// Rows of magnitudes.
     pub(crate) fn new(robot: &'a Robot) -> Self {
         Self { robot, rows: Vec::with_capacity(64), signed: false, places: Vec::new() }
@@ -212,7 +212,7 @@ impl<'a> Bounds<'a> {
 
     /// The speed of the TCP in manual operation, at a place where these are the derivatives of its position.
     pub(crate) fn manual_moving(&mut self, rates: &[Vector3<f64>; 3]) {
-        self.push(along(rates, (MANUAL_SPEED, f64::INFINITY, f64::INFINITY)));
+        self.push(along(rates, (MANUAL_SPEED_MM_S, f64::INFINITY, f64::INFINITY)));
     }
 
     /// The tool at a place where it turns so, in rad.
@@ -263,10 +263,10 @@ impl<'a> Bounds<'a> {
     /// The speed of the TCP in manual operation, at a place where all axes change by `rates`; of the flange, too, where the
     /// tool stands.
     pub(crate) fn manual_place(&mut self, joints: &Joints, rates: &[f64; ALL], carried: &Carried) {
-        self.cap_place(joints, rates, carried, MANUAL_SPEED);
+        self.cap_place(joints, rates, carried, MANUAL_SPEED_MM_S);
         if let Carried::Workpiece(_) = carried {
             let flange = self.robot.kinematics.forward(&joints.axes).translation.vector;
-            self.cap_point(joints, rates, &flange, MANUAL_SPEED);
+            self.cap_point(joints, rates, &flange, MANUAL_SPEED_MM_S);
         }
     }
 
@@ -282,7 +282,7 @@ impl<'a> Bounds<'a> {
     /// The same for a point, given in the base in mm, that the robot carries.
     fn cap_point(&mut self, joints: &Joints, rates: &[f64; ALL], place: &Vector3<f64>, vel: f64) {
         let rates = Joints::of(rates).axes;
-        let speed = self.robot.kinematics.point_velocity(&joints.axes, &rates, place).norm() * BETWEEN_SAMPLES;
+        let speed = self.robot.kinematics.point_velocity(&joints.axes, &rates, place).norm() * BETWEEN_SAMPLES_FACTOR;
         self.push(Bound::even(speed, vel, f64::INFINITY, f64::INFINITY));
     }
 
@@ -291,8 +291,8 @@ impl<'a> Bounds<'a> {
     pub(crate) fn manual_flange(&mut self, curve: &ToolCurve, at: f64, rate: f64) {
         if let Carried::Workpiece(_) = curve.carried {
             let [first, ..] = curve.twist(at).of_place(&curve.flange(at).translation.vector);
-            let speed = first.norm() * rate * BETWEEN_SAMPLES;
-            self.push(Bound::even(speed, MANUAL_SPEED, f64::INFINITY, f64::INFINITY));
+            let speed = first.norm() * rate * BETWEEN_SAMPLES_FACTOR;
+            self.push(Bound::even(speed, MANUAL_SPEED_MM_S, f64::INFINITY, f64::INFINITY));
         }
     }
 }
@@ -300,16 +300,17 @@ impl<'a> Bounds<'a> {
 /// Where to look at a way: once where it is even.
 fn places(curve: &ToolCurve) -> impl Iterator<Item = f64> + use<> {
     let paced = curve.is_paced();
-    let count = if paced { PLACES_OF_PART * Progress::PARTS as u32 } else { PLACES };
+    let count = if paced { PLACES_OF_PART * Parametrization::PARTS as u32 } else { PLACES_OF_CURVE };
     let even = (0..=if curve.is_even() { 0 } else { count }).map(move |place| f64::from(place) / f64::from(count));
     // Where derivatives jump, both sides count.
-    let before = (1..if paced { Progress::PARTS } else { 0 }).map(|part| part as f64 / Progress::PARTS as f64 - BESIDE);
+    let before = (1..if paced { Parametrization::PARTS } else { 0 })
+        .map(|part| part as f64 / Parametrization::PARTS as f64 - BESIDE_SHARE);
     even.chain(before)
 }
 
 /// A value with these derivatives, between whose places it changes a little more.
 fn row([first, second, third]: [f64; 3], [vel, acc, jerk]: [f64; 3]) -> Bound {
-    let more = |value: f64| value * BETWEEN_SAMPLES;
+    let more = |value: f64| value * BETWEEN_SAMPLES_FACTOR;
     Bound { first: more(first), second: more(second), third: more(third), vel, acc, jerk }
 }
 

@@ -8,7 +8,7 @@ use crate::geometry::rotation;
 use crate::geometry::tcp_path::TcpPath;
 use crate::geometry::track::Track;
 use crate::overlay::Overlay;
-use crate::plan::path_check::SINGULAR;
+use crate::plan::path_check::SINGULAR_CLEARANCE;
 use arl_robot::frames::Carried;
 use arl_robot::kinematics::{Axes, Frame, Kinematics, Passage, Rates, Twist, wrap_degrees};
 use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES};
@@ -40,7 +40,7 @@ pub(crate) struct ToolCurve {
 }
 
 /// Half the width of the places between which derivatives are measured within a passage, as part of it.
-const STENCIL: f64 = 1.0 / 128.0;
+const STENCIL_SHARE: f64 = 1.0 / 128.0;
 
 impl ToolCurve {
     /// The TCP's frame at `at`, translation in mm.
@@ -131,7 +131,7 @@ impl ToolCurve {
 
     /// The same within a passage, from the axes at five places of it.
     fn rates_in(&self, passage: &Passage, kinematics: &Kinematics, at: f64, axes: &Axes) -> Option<Rates> {
-        let h = (passage.to - passage.from) * STENCIL;
+        let h = (passage.to - passage.from) * STENCIL_SHARE;
         let middle = at.clamp(passage.from + 2.0 * h, passage.to - 2.0 * h);
         let place = |steps: f64| self.axes(kinematics, middle + steps * h, axes);
         let (m2, m1, here, p1, p2) = (place(-2.0)?, place(-1.0)?, place(0.0)?, place(1.0)?, place(2.0)?);
@@ -155,7 +155,7 @@ impl ToolCurve {
     /// How the orientation changes at `at`: its speed of rotation in rad per unit, and two derivatives of that.
     pub(crate) fn rotation_rates(&self, at: f64) -> [Vector3<f64>; 3] {
         let Some(over) = self.over.as_ref().filter(|over| over.turns()) else { return self.path.rotation_rates(at) };
-        let step = STENCIL.min(over.longest_step() / 2.0);
+        let step = STENCIL_SHARE.min(over.longest_step() / 2.0);
         measured(|at| self.rotation(at), at, step)
     }
 
@@ -216,7 +216,7 @@ impl Curve {
         match self {
             Curve::Axes(axes) => Some([1, 2, 3].map(|order| axes.derivative(order, at))),
             Curve::Tool(tool) => {
-                if tool.passage(at).is_none() && kinematics.clearance(&joints.axes) < SINGULAR {
+                if tool.passage(at).is_none() && kinematics.clearance(&joints.axes) < SINGULAR_CLEARANCE {
                     return None;
                 }
                 let rates = tool.rates(kinematics, at, &joints.axes)?;

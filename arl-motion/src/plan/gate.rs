@@ -13,15 +13,15 @@ use arl_robot::kinematics::Kinematics;
 use arl_robot::robot::Robot;
 
 /// The axis that lifts.
-const LIFT: usize = 2;
+const LIFT_AXIS: usize = 2;
 /// Ways up to this, in mm, are none.
-const NO_WAY: f64 = 1e-6;
+const NO_DISTANCE_MM: f64 = 1e-6;
 /// How much of the way over a corner may take.
-const HALF: f64 = 0.5;
+const LARGEST_CORNER_SHARE: f64 = 0.5;
 /// The part of the way down that a corner leaves to stop in, whatever is asked for.
-const STOPPING: f64 = 0.02;
+const STOPPING_SHARE: f64 = 0.02;
 /// The zone of a gate that goes on without a stop, in percent of the largest.
-const SMOOTH: f64 = 25.0;
+const SMOOTH_ZONE_PERCENT: f64 = 25.0;
 
 /// Plans the motions of a gate, one behind the other; all but the last one are parts of it.
 pub(crate) fn plan(
@@ -33,7 +33,7 @@ pub(crate) fn plan(
     let Target::Gate { pose, wobj, wanted, external, gate } = &command.target else {
         return Err(PlanError::NotForThisRobot);
     };
-    let (Kinematics::Scara(_), Some(lift)) = (&robot.kinematics, robot.axes.get(LIFT)) else {
+    let (Kinematics::Scara(_), Some(lift)) = (&robot.kinematics, robot.axes.get(LIFT_AXIS)) else {
         return Err(PlanError::NotForThisRobot);
     };
     if [gate.rise, gate.sink].iter().any(|way| !way.is_finite() || *way < 0.0 || is_unset(*way)) {
@@ -41,24 +41,24 @@ pub(crate) fn plan(
     }
     let planner = Planner { robot, start, command, settings };
     let end = planner.choose(pose, wobj, *wanted, external)?;
-    let height = |joints: &Joints| joints.axes.get(LIFT).copied().unwrap_or_default();
+    let height = |joints: &Joints| joints.axes.get(LIFT_AXIS).copied().unwrap_or_default();
     let (from, to) = (height(start), height(&end));
     // The TCP is everywhere as far above the lift.
     let above = planner.start_frame().translation.vector.z - from;
     let highest = gate.highest.map_or(lift.max, |highest| lift.max.min(highest - above));
     let highest_end = from.max(to);
-    if highest_end > highest + NO_WAY {
+    if highest_end > highest + NO_DISTANCE_MM {
         return Err(PlanError::AboveLimit { height: highest_end + above, highest: highest + above });
     }
     let at = |joints: &Joints, height: f64| {
         let mut joints = *joints;
-        if let Some(value) = joints.axes.get_mut(LIFT) {
+        if let Some(value) = joints.axes.get_mut(LIFT_AXIS) {
             *value = height;
         }
         joints
     };
     let top = (from + 2.0 * gate.rise).max(to + 2.0 * gate.sink).min(highest).max(highest_end);
-    let stays = at(start, top).all().iter().zip(at(&end, top).all()).all(|(a, b)| (a - b).abs() < NO_WAY);
+    let stays = at(start, top).all().iter().zip(at(&end, top).all()).all(|(a, b)| (a - b).abs() < NO_DISTANCE_MM);
     let lifting = |way: &Lift| {
         let speed = Speed { percent: way.vel.unwrap_or(command.speed.percent), ..command.speed };
         let acc_percent = way.acc.unwrap_or(settings.acc_percent);
@@ -80,13 +80,13 @@ pub(crate) fn plan(
     // The share of a way of the lift that is left when it has gone straight for so long.
     let rest = |way: f64, straight: f64| 1.0 - (straight / way).min(1.0);
     let round = |leaving: f64, joining: f64| (leaving > 0.0 && joining > 0.0).then_some((leaving, joining));
-    if top - from > NO_WAY {
-        push(part(start, up, &lifting(&gate.rising))?, round(rest(top - from, gate.rise), HALF));
+    if top - from > NO_DISTANCE_MM {
+        push(part(start, up, &lifting(&gate.rising))?, round(rest(top - from, gate.rise), LARGEST_CORNER_SHARE));
     }
-    let sinks = top - to > NO_WAY && !gate.stays;
+    let sinks = top - to > NO_DISTANCE_MM && !gate.stays;
     // Where it goes on smoothly, the corner leaves the next blend its part.
-    let most = 1.0 - if gate.smooth { SMOOTH / 100.0 * LARGEST_ZONE } else { STOPPING };
-    let corner = if sinks { round(HALF, rest(top - to, gate.sink).min(most)) } else { None };
+    let most = 1.0 - if gate.smooth { SMOOTH_ZONE_PERCENT / 100.0 * LARGEST_ZONE } else { STOPPING_SHARE };
+    let corner = if sinks { round(LARGEST_CORNER_SHARE, rest(top - to, gate.sink).min(most)) } else { None };
     push(part(&up, over, &(command.clone(), *settings))?, corner);
     if sinks {
         push(part(&over, end, &lifting(&gate.falling))?, None);
@@ -110,5 +110,5 @@ fn share_out(parts: &mut [Motion]) {
 }
 
 fn zone(gate: &Gate) -> Zone {
-    if gate.smooth && !gate.stays { Zone { percent: SMOOTH, ..Zone::NONE } } else { Zone::NONE }
+    if gate.smooth && !gate.stays { Zone { percent: SMOOTH_ZONE_PERCENT, ..Zone::NONE } } else { Zone::NONE }
 }

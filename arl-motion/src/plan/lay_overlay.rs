@@ -11,10 +11,10 @@ use crate::overlay::compensation::{Led, Shift};
 use crate::overlay::path_frame::PathFrame;
 use crate::overlay::weave::Pattern;
 use crate::overlay::{Overlay, Woven};
-use crate::plan::constraints::{Bounds, MANUAL_SPEED};
+use crate::plan::constraints::{Constraints, MANUAL_SPEED_MM_S};
 use crate::plan::curve::{Curve, ToolCurve};
 use crate::plan::motion::Motion;
-use crate::plan::path_check::survey;
+use crate::plan::path_check::check_path;
 use arl_robot::frames::Carried;
 use arl_robot::kinematics::Rates;
 use arl_robot::robot::Robot;
@@ -45,15 +45,15 @@ struct Weaving {
 }
 
 /// The shortest rounding of corners that is tried, and the longest, as parts of the time that a figure swings.
-const ROUNDINGS: [f64; 2] = [0.01, 0.125];
+const ROUNDING_SHARES: [f64; 2] = [0.01, 0.125];
 /// How much longer the next one that is tried is.
-const LONGER: f64 = 1.5;
+const ROUNDING_STEP_FACTOR: f64 = 1.5;
 /// Corners count as round enough when the motion keeps this part of its speed.
-const UNSLOWED: f64 = 0.999;
+const UNSLOWED_SHARE: f64 = 0.999;
 /// Rates of so many places in a row make one bound.
-const GATHERED: usize = 6;
+const PLACES_OF_CONSTRAINT: usize = 6;
 /// Between the places that are looked at, derivatives are a little larger.
-const BETWEEN: f64 = 1.005;
+const BETWEEN_SAMPLES_FACTOR: f64 = 1.005;
 
 /// Where a motion begins over which something is laid, and what comes before and behind it.
 pub(crate) struct Beginning<'a> {
@@ -61,7 +61,7 @@ pub(crate) struct Beginning<'a> {
     pub(crate) start: &'a Joints,
     /// How a compensation stands there.
     pub(crate) before: &'a Led,
-    /// The piece of a spline from which the motion flows on.
+    /// The segment of a spline from which the motion flows on.
     pub(crate) flows_from: Option<&'a Motion>,
     /// Whether a weave goes on into the motion behind.
     pub(crate) goes_on: bool,
@@ -103,7 +103,7 @@ pub(crate) fn lay(
     if weave.is_none() && shift.is_none() {
         return Ok(plain);
     }
-    let manual = if settings.manual { MANUAL_SPEED } else { f64::INFINITY };
+    let manual = if settings.manual { MANUAL_SPEED_MM_S } else { f64::INFINITY };
     let weave = weave.map(|weave| Weaving { weave, rounding: 0.0, begun: 0.0, fades: !goes_on });
     let mut laid = Laid { start: *start, frame, weave, shift, fastest: settings.max_tcp.min(manual), plain };
     let goes_on_from = flows_from.and_then(|motion| motion.laid.as_ref()?.at_end());
@@ -167,7 +167,7 @@ impl Laid {
     /// With corners that are rounded as little as the speed allows.
     fn with_corners(&self, robot: &Robot, weaving: Weaving) -> Result<Motion, PlanError> {
         let swing = 1.0 / weaving.weave.frequency;
-        let [shortest, longest] = ROUNDINGS.map(|part| part * swing);
+        let [shortest, longest] = ROUNDING_SHARES.map(|part| part * swing);
         let pace = &self.plain.pace;
         let (acc, jerk) = (robot.tcp.acc * pace.acc, robot.tcp.jerk * pace.jerk);
         let sharpest = Pattern::new(&weaving.weave, shortest).sharpest();
@@ -178,8 +178,8 @@ impl Laid {
             Laid { weave, ..self.clone() }.finished(robot)
         };
         let mut best = rounded(rounding)?;
-        while best.share_of_speed() < UNSLOWED && rounding < longest {
-            rounding = (rounding * LONGER).min(longest);
+        while best.share_of_speed() < UNSLOWED_SHARE && rounding < longest {
+            rounding = (rounding * ROUNDING_STEP_FACTOR).min(longest);
             let motion = rounded(rounding)?;
             if motion.share_of_speed() > best.share_of_speed() {
                 best = motion;
@@ -204,7 +204,7 @@ impl Laid {
         let Curve::Tool(plain) = &self.plain.curve else { return Ok(self.plain) };
         let overlay = self.overlay();
         let curve = ToolCurve { over: Some(Box::new(overlay)), passages: Vec::new(), ..plain.clone() };
-        let found = survey(robot, &curve, &self.start)?;
+        let found = check_path(robot, &curve, &self.start)?;
         let mut end = Joints { axes: found.end, ..self.plain.end };
         for (value, axis) in end.axes.iter_mut().zip(robot.own_axes()) {
             *value = value.clamp(axis.min, axis.max);
@@ -216,7 +216,7 @@ impl Laid {
         let moves = self.plain.limits.is_some() || self.shift.is_some_and(|shift| shift.grows());
         let limits = moves.then(|| {
             let bounds = self.bounds(robot, &curve, &found.rates);
-            // A piece of a spline meets its neighbours at full speed.
+            // A segment of a spline meets its neighbours at full speed.
             if self.plain.curve.is_paced() { passing(&bounds, self.plain.rate) } else { quickest(&bounds) }
         });
         let own = self.plain.limits.map(|_| self.plain.rate);
@@ -227,12 +227,12 @@ impl Laid {
 
     /// Everything that limits the parameter: the plain motion's own limits, the axes, the TCP, the compensation's limits.
     fn bounds(&self, robot: &Robot, curve: &ToolCurve, rates: &[(f64, Rates)]) -> Vec<Bound> {
-        let mut bounds = Bounds::new(robot);
+        let mut bounds = Constraints::new(robot);
         let pace = &self.plain.pace;
         if let Some(limits) = self.plain.limits {
             bounds.rows.push(Bound::even(1.0, limits.vel, limits.acc, limits.jerk));
         }
-        for places in rates.chunks(GATHERED) {
+        for places in rates.chunks(PLACES_OF_CONSTRAINT) {
             let mut most = Most::default();
             let mut axes = Rates { first: [0.0; 6], second: [0.0; 6], third: [0.0; 6] };
             for (at, rates) in places {
@@ -282,12 +282,12 @@ impl Most {
     fn rows(&self, robot: &Robot, acc: f64, jerk: f64, fastest: f64) -> [Bound; 3] {
         let tcp = &robot.tcp;
         let row = |rates: [f64; 3], [vel, acc, jerk]: [f64; 3]| {
-            let [first, second, third] = rates.map(|rate| rate * BETWEEN);
+            let [first, second, third] = rates.map(|rate| rate * BETWEEN_SAMPLES_FACTOR);
             Bound { first, second, third, vel, acc, jerk }
         };
         let turning = self.turning.map(f64::to_degrees);
         [
-            Bound::even(self.speed * BETWEEN, tcp.vel.min(fastest), f64::INFINITY, f64::INFINITY),
+            Bound::even(self.speed * BETWEEN_SAMPLES_FACTOR, tcp.vel.min(fastest), f64::INFINITY, f64::INFINITY),
             row(self.weaving, [f64::INFINITY, tcp.acc * acc, tcp.jerk * jerk]),
             row(turning, [tcp.ori_vel, tcp.ori_acc * acc, tcp.ori_jerk * jerk]),
         ]

@@ -2,13 +2,13 @@
 
 use crate::command::Zone;
 use crate::command::joints::Joints;
+use crate::limits::profile::LOOK_AHEAD_MARGIN;
 use crate::limits::profile::Limits;
-use crate::limits::profile::MARGIN;
 use crate::overlay::Led;
 use crate::plan::constraints::Pace;
 use crate::plan::curve::Curve;
 use crate::plan::lay_overlay::Laid;
-use crate::plan::planner::{ENOUGH, slowest_within};
+use crate::plan::planner::{DURATION_TOLERANCE, slowest_within};
 use arl_robot::frames::Rig;
 use arl_robot::robot::VelocityProfile;
 
@@ -64,16 +64,16 @@ impl Motion {
 
     /// The same with these limits.
     pub(crate) fn duration_with(&self, limits: &Limits) -> f64 {
-        if self.timed.is_some() { limits.duration_braking(1.0, MARGIN) } else { limits.duration(1.0) }
+        if self.timed.is_some() { limits.duration_braking(1.0, LOOK_AHEAD_MARGIN) } else { limits.duration(1.0) }
     }
 
     /// The same where an acceleration takes `rise` s to rise: a programmed duration is kept for all that, as long as the robot
     /// can go a little faster.
     pub(crate) fn rising_in(mut self, rise: f64) -> Self {
         if let (Some(highest), Some(limits)) = (self.timed, self.limits) {
-            let wanted = limits.duration_braking(1.0, MARGIN);
+            let wanted = limits.duration_braking(1.0, LOOK_AHEAD_MARGIN);
             let rising = |vel: f64| Limits { vel, ..limits }.rising_in(rise);
-            if rising(limits.vel).duration_braking(1.0, MARGIN) > wanted + ENOUGH.excess {
+            if rising(limits.vel).duration_braking(1.0, LOOK_AHEAD_MARGIN) > wanted + DURATION_TOLERANCE.excess {
                 let vel = slowest_within(wanted, [limits.vel, highest], rising);
                 self.limits = Some(Limits { vel, ..limits });
             }

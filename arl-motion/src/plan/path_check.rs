@@ -3,7 +3,7 @@
 
 use crate::command::error::PlanError;
 use crate::command::joints::{Joints, is_unset};
-use crate::geometry::parametrization::Progress;
+use crate::geometry::parametrization::Parametrization;
 use crate::plan::curve::ToolCurve;
 use arl_robot::kinematics::{Axes, RANGE_SLACK, Rates, Refusal, SINGULAR_SCALE};
 use arl_robot::robot::Robot;
@@ -17,26 +17,26 @@ pub(crate) struct Survey {
 }
 
 /// The longest step, as part of the path.
-const LONGEST_STEP: f64 = 1.0 / 16.0;
-/// The same for a path on which no axis moves farther than `SHORT` deg (mm).
-const LONGEST_SHORT_STEP: f64 = 0.5;
-const SHORT: f64 = 3.0;
+const LONGEST_STEP_SHARE: f64 = 1.0 / 16.0;
+/// The same for a path on which no axis moves farther than `SHORT_PATH_DEG_OR_MM` deg (mm).
+const LONGEST_SHORT_STEP_SHARE: f64 = 0.5;
+const SHORT_PATH_DEG_OR_MM: f64 = 3.0;
 /// A step as part of the length over which the axes' motion changes. A singular point is never stepped over: the steps
 /// get shorter in proportion to its distance.
-const STEP_OF_SCALE: f64 = 0.04;
+const STEP_SHARE_OF_SCALE: f64 = 0.04;
 /// Closer to a singular point than this (see [`arl_robot::kinematics::Kinematics::clearance`]) rounding spoils the derivatives.
-pub(crate) const SINGULAR: f64 = 1e-5;
+pub(crate) const SINGULAR_CLEARANCE: f64 = 1e-5;
 /// An axis that is so far (deg) from where it was bound to be has jumped to another solution.
-const JUMP: f64 = 10.0;
+const JUMP_DEG: f64 = 10.0;
 /// Steps through a passage of the wrist singularity.
 const PASSAGE_STEPS: f64 = 48.0;
 /// The place of axis 4.
 const AXIS_4: usize = 3;
 /// How far beside a place its other side is looked at.
-const BESIDE: f64 = 1e-9;
-/// A glimpse behind the start and before the end, where the axes must not differ from the ends by over `GLIMPSE_JUMP` deg.
-const GLIMPSE: f64 = 1e-6;
-const GLIMPSE_JUMP: f64 = 0.05;
+const BESIDE_SHARE: f64 = 1e-9;
+/// A glimpse behind the start and before the end, where the axes must not differ from the ends by over `BEHIND_END_JUMP_DEG` deg.
+const BEHIND_END_SHARE: f64 = 1e-6;
+const BEHIND_END_JUMP_DEG: f64 = 0.05;
 
 struct Walk<'a> {
     robot: &'a Robot,
@@ -46,27 +46,28 @@ struct Walk<'a> {
 }
 
 /// Walks `curve` from `start`.
-pub(crate) fn survey(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result<Survey, PlanError> {
+pub(crate) fn check_path(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result<Survey, PlanError> {
     let plain = curve.over.as_ref().map(|_| ToolCurve { over: None, ..curve.clone() });
     let walk = Walk { robot, curve, plain };
     // The target first: where it cannot be reached, that is what the programmer wants to know.
     let target = walk.reaches_target(&start.axes)?;
-    let short = target.iter().zip(&start.axes).all(|(end, start)| (end - start).abs() <= SHORT);
-    let longest = if short { LONGEST_SHORT_STEP } else { LONGEST_STEP };
+    let short = target.iter().zip(&start.axes).all(|(end, start)| (end - start).abs() <= SHORT_PATH_DEG_OR_MM);
+    let longest = if short { LONGEST_SHORT_STEP_SHARE } else { LONGEST_STEP_SHARE };
 
     let mut rates = Vec::with_capacity(32);
     let mut limits = Ranges::new(robot);
     let (mut at, mut here) = (0.0, start.axes);
-    let glimpse = walk.axes(GLIMPSE, &here)?;
-    walk.no_jump(&here, &glimpse, GLIMPSE_JUMP, 0.0)?;
+    let glimpse = walk.axes(BEHIND_END_SHARE, &here)?;
+    walk.no_jump(&here, &glimpse, BEHIND_END_JUMP_DEG, 0.0)?;
     let mut known = walk.rates(0.0, &here);
     let longest = curve.over.as_ref().map_or(longest, |over| over.longest_step().min(longest));
     let mut strip = 0.0;
-    while at < 1.0 - GLIMPSE {
-        let next = walk.next(at, &here, known.as_ref(), longest)?.min(jump_ahead(curve, at)).min(1.0 - GLIMPSE);
+    while at < 1.0 - BEHIND_END_SHARE {
+        let next =
+            walk.next(at, &here, known.as_ref(), longest)?.min(jump_ahead(curve, at)).min(1.0 - BEHIND_END_SHARE);
         let expected = known.as_ref().map_or(here, |known| ahead(&here, known, next - at));
         let found = walk.axes(next, &expected)?;
-        walk.no_jump(&expected, &found, JUMP, next)?;
+        walk.no_jump(&expected, &found, JUMP_DEG, next)?;
         if let Some(known) = known {
             limits.between(at, &here, &known, next - at);
             rates.push((at, known));
@@ -86,7 +87,7 @@ pub(crate) fn survey(robot: &Robot, curve: &ToolCurve, start: &Joints) -> Result
     }
     rates.extend(known.map(|known| (at, known)));
     let end = walk.axes(1.0, &here)?;
-    walk.no_jump(&here, &end, GLIMPSE_JUMP, 1.0)?;
+    walk.no_jump(&here, &end, BEHIND_END_JUMP_DEG, 1.0)?;
     limits.at(1.0, &end);
     limits.broken.map_or(Ok(Survey { end, rates }), Err)
 }
@@ -96,18 +97,22 @@ fn jump_ahead(curve: &ToolCurve, at: f64) -> f64 {
     if !curve.is_paced() {
         return f64::INFINITY;
     }
-    let parts = Progress::PARTS as f64;
-    let border = ((at + 2.0 * BESIDE) * parts).floor() / parts;
+    let parts = Parametrization::PARTS as f64;
+    let border = ((at + 2.0 * BESIDE_SHARE) * parts).floor() / parts;
     // From just before the border to just behind it, else to just before the next one.
-    if (border - at).abs() < 2.0 * BESIDE && at < border { border + BESIDE } else { border + 1.0 / parts - BESIDE }
+    if (border - at).abs() < 2.0 * BESIDE_SHARE && at < border {
+        border + BESIDE_SHARE
+    } else {
+        border + 1.0 / parts - BESIDE_SHARE
+    }
 }
 
 /// An axis may be beside where the place before made it bound to be by this part of what the axes moved since.
-const EXPECTED: f64 = 0.02;
+const EXPECTED_SHARE: f64 = 0.02;
 
 /// Looks at a short way at a few places, the first and the last of which are its ends; `None` where that is not enough to
-/// know how the axes move, or where they must not go: [`survey`] tells then.
-pub(crate) fn glance<const N: usize>(
+/// know how the axes move, or where they must not go: [`check_path`] tells then.
+pub(crate) fn check_gentle_path<const N: usize>(
     robot: &Robot,
     curve: &ToolCurve,
     start: &Axes,
@@ -127,7 +132,7 @@ pub(crate) fn glance<const N: usize>(
             let far = |a: &Axes, b: &Axes| {
                 a.iter().zip(b).zip(speeds()).map(|((a, b), vel)| (a - b).abs() / vel).fold(0.0, f64::max)
             };
-            if far(&axes, &expected) > EXPECTED * far(&axes, &found.end) + 1e-9 {
+            if far(&axes, &expected) > EXPECTED_SHARE * far(&axes, &found.end) + 1e-9 {
                 return None;
             }
             limits.between(*before, &found.end, rates, at - before);
@@ -165,7 +170,7 @@ impl Walk<'_> {
                     let dense = self.is_plain_clear(at, axes);
                     return Err(if dense { PlanError::TooDense { along: at } } else { self.singular(known, at) });
                 }
-                (STEP_OF_SCALE * scale).min(longest)
+                (STEP_SHARE_OF_SCALE * scale).min(longest)
             }
         };
         Ok(self.curve.borders().filter(|border| *border > at).fold(at + step, f64::min))
@@ -192,7 +197,7 @@ impl Walk<'_> {
     /// The derivatives of the axes; `None` at a singular point, where they would be made of rounding errors.
     fn rates(&self, at: f64, axes: &Axes) -> Option<Rates> {
         let kinematics = &self.robot.kinematics;
-        let spoilt = self.curve.passage(at).is_none() && kinematics.clearance(axes) < SINGULAR;
+        let spoilt = self.curve.passage(at).is_none() && kinematics.clearance(axes) < SINGULAR_CLEARANCE;
         if spoilt { None } else { self.curve.rates(kinematics, at, axes) }
     }
 
@@ -228,7 +233,7 @@ impl Walk<'_> {
             return None;
         }
         let plain = self.plain_rates(at, axes)?;
-        let room = (STEP_OF_SCALE * self.scale(&plain)).min(LONGEST_STEP).min(until - at - figure);
+        let room = (STEP_SHARE_OF_SCALE * self.scale(&plain)).min(LONGEST_STEP_SHARE).min(until - at - figure);
         let skip = (room / figure).floor() * figure;
         (skip > 0.0).then_some((skip, plain))
     }

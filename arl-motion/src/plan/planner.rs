@@ -10,15 +10,15 @@ use crate::geometry::quintic::Quintic;
 use crate::geometry::tcp_path::TcpPath;
 use crate::geometry::track::Track;
 use crate::limits::constant::{highest_speed, passing, quickest};
+use crate::limits::profile::LOOK_AHEAD_MARGIN;
 use crate::limits::profile::Limits;
-use crate::limits::profile::MARGIN;
 use crate::limits::search::{self, Enough};
 use crate::overlay::Led;
-use crate::plan::constraints::{Bounds, Pace};
+use crate::plan::constraints::{Constraints, Pace};
 use crate::plan::curve::{Curve, ToolCurve};
 use crate::plan::lay_overlay::{Beginning, lay};
 use crate::plan::motion::Motion;
-use crate::plan::path_check::survey;
+use crate::plan::path_check::check_path;
 use arl_robot::kinematics::{Frame, Passage, RANGE_SLACK, Refusal, Wanted, frame, frame_components};
 use arl_robot::robot::{Axis, Robot, VelocityProfile};
 
@@ -26,10 +26,10 @@ use arl_robot::robot::{Axis, Robot, VelocityProfile};
 const NO_DISTANCE: f64 = 1e-10;
 
 /// The largest angle of a circle, in deg.
-const MOST_ROUND: f64 = 7200.0;
+const LARGEST_CIRCLE_DEG: f64 = 7200.0;
 
 /// How near a motion comes to its duration, in s, and its speed to the one that keeps it.
-pub(crate) const ENOUGH: Enough = Enough { value: 1e-12, excess: 1e-9 };
+pub(crate) const DURATION_TOLERANCE: Enough = Enough { value: 1e-12, excess: 1e-9 };
 
 /// Plans a motion that starts at `start`.
 ///
@@ -150,8 +150,8 @@ impl Planner<'_> {
         let mut arc = arc_through(&points).ok_or(PlanError::NoCircle)?;
         let whole = arc.sweep;
         if let Some(angle) = angle {
-            if angle.abs() > MOST_ROUND {
-                return Err(PlanError::Circles { angle, most: MOST_ROUND });
+            if angle.abs() > LARGEST_CIRCLE_DEG {
+                return Err(PlanError::Circles { angle, most: LARGEST_CIRCLE_DEG });
             }
             arc.sweep = angle.to_radians();
         }
@@ -212,8 +212,8 @@ impl Planner<'_> {
         let end = self.within_ranges(end)?;
         let curve = Curve::even_axes(self.start, &end);
         let moves = self.moves(&end);
-        let bounds = |pace: &Pace, bounds: &mut Bounds| bounds.even_axes(self.start, &end, pace);
-        let caps = |bounds: &mut Bounds| {
+        let bounds = |pace: &Pace, bounds: &mut Constraints| bounds.even_axes(self.start, &end, pace);
+        let caps = |bounds: &mut Constraints| {
             if self.settings.manual && moves {
                 bounds.manual_axes(&curve, &self.command.rig.carried, self.start);
             }
@@ -244,8 +244,8 @@ impl Planner<'_> {
         }
     }
 
-    /// A piece of a smooth way, nominally in `time` s; it joins the motion before it without a stop where it `flows`.
-    pub(crate) fn piece(
+    /// A segment of a smooth way, nominally in `time` s; it joins the motion before it without a stop where it `flows`.
+    pub(crate) fn segment(
         &self,
         mut curve: ToolCurve,
         time: f64,
@@ -254,16 +254,16 @@ impl Planner<'_> {
     ) -> Result<Motion, PlanError> {
         curve.cfg = self.configuration(&curve);
         self.find_passages(&mut curve);
-        let found = survey(self.robot, &curve, self.start).map_err(|error| self.at_the_wrist(error, &curve))?;
+        let found = check_path(self.robot, &curve, self.start).map_err(|error| self.at_the_wrist(error, &curve))?;
         let end = Joints { axes: found.end, external: *external }.completed(self.start, self.robot);
         let end = self.within_ranges(end)?;
         let mut pace = self.pace(true)?;
         pace.tcp = pace.tcp.min(self.programmed_cap()?);
-        let mut bounds = Bounds::new(self.robot);
+        let mut bounds = Constraints::new(self.robot);
         bounds.tool(&curve, &pace);
         bounds.external_along(&curve, &pace);
         if self.settings.manual {
-            bounds.cap_tool(&curve, crate::plan::constraints::MANUAL_SPEED);
+            bounds.cap_tool(&curve, crate::plan::constraints::MANUAL_SPEED_MM_S);
             for (at, _) in &found.rates {
                 bounds.manual_flange(&curve, *at, 1.0);
             }
@@ -297,7 +297,7 @@ impl Planner<'_> {
     /// The highest speed that the TCP may have, in mm/s.
     pub(crate) fn tcp_speed(&self) -> Result<f64, PlanError> {
         let speed = self.pace(true)?.tcp.min(self.robot.tcp.vel).min(self.programmed_cap()?);
-        Ok(if self.settings.manual { speed.min(crate::plan::constraints::MANUAL_SPEED) } else { speed })
+        Ok(if self.settings.manual { speed.min(crate::plan::constraints::MANUAL_SPEED_MM_S) } else { speed })
     }
 
     /// Finds where axis 4 has to be led through the wrist singularity, if `$WRIST` wants that.
@@ -320,13 +320,13 @@ impl Planner<'_> {
             angle.angle().to_degrees()
         };
         let goes = length > NO_DISTANCE || angle > NO_DISTANCE;
-        let found = if goes { Some(survey(self.robot, &curve, self.start)) } else { None };
+        let found = if goes { Some(check_path(self.robot, &curve, self.start)) } else { None };
         let found = found.transpose().map_err(|error| self.at_the_wrist(error, &curve))?;
         let axes = found.as_ref().map_or(self.start.axes, |found| found.end);
         let end = self.within_ranges(Joints { axes, ..end })?;
         let moves = goes || self.moves(&end);
 
-        let bounds = |pace: &Pace, bounds: &mut Bounds| {
+        let bounds = |pace: &Pace, bounds: &mut Constraints| {
             bounds.even_external(self.start, &end, pace);
             bounds.tool(&curve, pace);
             for (_, rates) in found.iter().flat_map(|found| &found.rates) {
@@ -334,10 +334,10 @@ impl Planner<'_> {
             }
         };
         let programmed_cap = self.programmed_cap()?;
-        let caps = |bounds: &mut Bounds| {
+        let caps = |bounds: &mut Constraints| {
             bounds.cap_tool(&curve, programmed_cap);
             if self.settings.manual {
-                bounds.cap_tool(&curve, crate::plan::constraints::MANUAL_SPEED);
+                bounds.cap_tool(&curve, crate::plan::constraints::MANUAL_SPEED_MM_S);
                 for (at, _) in found.iter().flat_map(|found| &found.rates) {
                     bounds.manual_flange(&curve, *at, 1.0);
                 }
@@ -348,12 +348,13 @@ impl Planner<'_> {
 
     /// A singular point that `$WRIST` would pass is told as such.
     fn at_the_wrist(&self, error: PlanError, curve: &ToolCurve) -> PlanError {
-        const BESIDE: f64 = 0.02;
+        const BESIDE_SHARE: f64 = 0.02;
         match error {
             PlanError::Singular { axis, along } if !self.settings.wrist => {
                 let (kinematics, start) = (&self.robot.kinematics, &self.start.axes);
                 let passages = kinematics.passages(|at| curve.flange(at), curve.cfg, start, self.robot.own_axes());
-                let wrist = |passage: &Passage| passage.from - BESIDE < along && along < passage.to + BESIDE;
+                let wrist =
+                    |passage: &Passage| passage.from - BESIDE_SHARE < along && along < passage.to + BESIDE_SHARE;
                 if passages.iter().any(wrist) {
                     PlanError::Wrist { axis, along }
                 } else {
@@ -446,11 +447,11 @@ impl Planner<'_> {
         end: Joints,
         moves: bool,
         [length, angle]: [f64; 2],
-        collect: impl Fn(&Pace, &mut Bounds),
-        caps: impl Fn(&mut Bounds),
+        collect: impl Fn(&Pace, &mut Constraints),
+        caps: impl Fn(&mut Constraints),
     ) -> Result<Motion, PlanError> {
         let is_tool = matches!(curve, Curve::Tool(_));
-        let (mut pace, mut bounds) = (self.free(), Bounds::new(self.robot));
+        let (mut pace, mut bounds) = (self.free(), Constraints::new(self.robot));
         let mut highest = f64::INFINITY;
         let limits = match self.command.duration {
             None => {
@@ -462,7 +463,7 @@ impl Planner<'_> {
             }
             Some(duration) => {
                 collect(&pace, &mut bounds);
-                let free = if moves { quickest(&bounds.rows).duration_braking(1.0, MARGIN) } else { 0.0 };
+                let free = if moves { quickest(&bounds.rows).duration_braking(1.0, LOOK_AHEAD_MARGIN) } else { 0.0 };
                 if !duration.is_finite() || duration <= 0.0 || is_unset(duration) {
                     return Err(PlanError::NoSpeed { what: "the duration in s", value: duration });
                 }
@@ -511,8 +512,8 @@ impl Planner<'_> {
 /// The lowest of the speeds between two at which a motion is done within `duration` s, braking with a margin; the higher one where
 /// none is.
 pub(crate) fn slowest_within(duration: f64, [lowest, highest]: [f64; 2], limits: impl Fn(f64) -> Limits) -> f64 {
-    let sooner = |vel: f64| duration - limits(vel).duration_braking(1.0, MARGIN);
-    if sooner(highest) <= 0.0 { highest } else { search::highest(lowest, highest, ENOUGH, sooner) }
+    let sooner = |vel: f64| duration - limits(vel).duration_braking(1.0, LOOK_AHEAD_MARGIN);
+    if sooner(highest) <= 0.0 { highest } else { search::highest(lowest, highest, DURATION_TOLERANCE, sooner) }
 }
 
 fn limit(axis: &Axis, value: f64) -> PlanError {

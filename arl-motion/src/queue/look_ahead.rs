@@ -1,7 +1,7 @@
-//! Motions that are planned and wait until they are laid on the course.
+//! Motions that are planned and wait until they are laid on the path.
 //!
 //! Blends take long to find, so a thread has some time for them where the robot can do without the motion meanwhile. How much time
-//! that is depends on the course alone, never on the thread.
+//! that is depends on the path alone, never on the thread.
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -9,24 +9,24 @@ use std::sync::Arc;
 use crate::blend::blend_thread::{Joining, Prepared};
 use crate::blend::zone::asks;
 use crate::plan::motion::Motion;
-use crate::queue::path_buffer::risen;
-use crate::queue::{Queue, TIME_AHEAD};
+use crate::queue::path_buffer::limit_rise;
+use crate::queue::{LOOK_AHEAD_S, Queue};
 
 /// The longest time, in s, that a blend may take to be found.
-const HAND_OVER: f64 = 0.05;
+const LONGEST_WAIT_S: f64 = 0.05;
 /// The part of the time after which the robot may have to brake without the motion; and the least time, in s, that is waited for.
-const PART: f64 = 0.5;
-const SHORTEST: f64 = 0.003;
+const WAITED_SHARE_OF_SPARE_TIME: f64 = 0.5;
+const LEAST_WAIT_S: f64 = 0.003;
 /// So many motions a cycle are always laid, and are taken from the program, as soon as enough way is ahead; and as many as the robot
 /// may go in so many cycles.
-const A_CYCLE: u32 = 2;
-const CYCLES: f64 = 2.0;
+const LEAST_MOTIONS_A_CYCLE: u32 = 2;
+const CYCLES_WORTH_OF_MOTIONS: f64 = 2.0;
 /// A robot at rest does not set off along shorter motions, in s at full speed, before enough of them are ahead: one acceleration holds for all of
 /// them then, which could not get less any more while it speeds up.
-const SHORT: f64 = 0.02;
+const SHORT_MOTION_S: f64 = 0.02;
 /// Enough way ahead, in s at full speed; and where laws look along it.
-const ENOUGH: f64 = 0.5;
-const ENOUGH_FOR_LAWS: f64 = 5.0;
+const ENOUGH_AHEAD_S: f64 = 0.5;
+const ENOUGH_AHEAD_FOR_LAWS_S: f64 = 5.0;
 
 /// A motion that waits.
 #[derive(Clone, Debug)]
@@ -61,7 +61,7 @@ impl Done {
 
     /// Whether that is enough for a cycle of so many s.
     fn suffices(&self, cycle: f64) -> bool {
-        self.count >= A_CYCLE && self.way >= CYCLES * cycle
+        self.count >= LEAST_MOTIONS_A_CYCLE && self.way >= CYCLES_WORTH_OF_MOTIONS * cycle
     }
 }
 
@@ -106,7 +106,7 @@ impl Waiting {
     }
 
     /// Wants all of them laid at once.
-    fn hurry(&mut self) {
+    fn lay_at_once(&mut self) {
         self.motions.iter_mut().for_each(|ready| ready.due = 0);
     }
 }
@@ -115,26 +115,26 @@ impl Queue {
     /// Whether so little way is ahead that more than the motions that can always wait may be added.
     pub(crate) fn is_short_of_way(&self) -> bool {
         // In the profile O motions may wait for a law.
-        let lays = self.waiting.is_empty() || !(self.course.is_asking() || self.course.is_laid_down());
-        lays && self.way_ahead() < TIME_AHEAD
+        let lays = self.waiting.is_empty() || !(self.path.is_asking() || self.path.is_laid_down());
+        lays && self.way_ahead() < LOOK_AHEAD_S
     }
 
     /// Whether so many motions were planned in this cycle that the next one can wait.
-    pub(crate) fn is_sated(&self) -> bool {
-        let enough = if self.course.wants_laws() { ENOUGH_FOR_LAWS } else { ENOUGH };
-        let can_wait = || self.spare.unwrap_or_else(|| self.course.spare()) >= SHORTEST / PART;
+    pub(crate) fn has_enough_ahead(&self) -> bool {
+        let enough = if self.path.wants_laws() { ENOUGH_AHEAD_FOR_LAWS_S } else { ENOUGH_AHEAD_S };
+        let can_wait = || self.spare.unwrap_or_else(|| self.path.spare()) >= LEAST_WAIT_S / WAITED_SHARE_OF_SPARE_TIME;
         self.taken.suffices(self.cycle) && self.way_ahead() >= enough && can_wait()
     }
 
     /// The way that is ahead, in s at full speed.
     fn way_ahead(&self) -> f64 {
-        self.course.time_left() + self.waiting.way
+        self.path.time_left() + self.waiting.way
     }
 
     /// Appends a motion to those that wait; lays what is due.
-    pub(crate) fn wait_with(&mut self, motion: Motion, number: u64) {
+    pub(crate) fn enqueue(&mut self, motion: Motion, number: u64) {
         self.taken.add(&motion);
-        let motion = risen(motion, self.cycle);
+        let motion = limit_rise(motion, self.cycle);
         let (due, prepared) = self.begin_to_prepare(&motion);
         self.waiting.push(Ready { motion, number, due, prepared });
         self.lay_waiting();
@@ -142,36 +142,36 @@ impl Queue {
 
     /// Begins to look for how a motion is joined by the one before it, if that takes long and there is time. Returns when it is laid.
     fn begin_to_prepare(&mut self, motion: &Arc<Motion>) -> (u64, Option<Prepared>) {
-        let time = (PART * self.spare()).min(HAND_OVER);
+        let time = (WAITED_SHARE_OF_SPARE_TIME * self.spare()).min(LONGEST_WAIT_S);
         let before = self.waiting.motions.iter().rev().find(|ready| ready.motion.goes());
-        let on_course = self.course.last().filter(|_| !self.course.is_empty());
-        let Some(last) = before.map(|ready| &ready.motion).or(on_course) else { return (0, None) };
+        let on_path = self.path.last().filter(|_| !self.path.is_empty());
+        let Some(last) = before.map(|ready| &ready.motion).or(on_path) else { return (0, None) };
         // What is laid over a motion depends on how those before it have been laid.
         let overlaid = motion.laid.is_some() || last.laid.is_some();
-        let sets_off = self.course.rests() && way(motion) < SHORT && self.course.time_left() < ENOUGH;
-        let hurries = time < SHORTEST || overlaid || sets_off;
+        let sets_off = self.path.rests() && way(motion) < SHORT_MOTION_S && self.path.time_left() < ENOUGH_AHEAD_S;
+        let hurries = time < LEAST_WAIT_S || overlaid || sets_off;
         // In the profile O it may have to wait all the same.
-        let waits = self.course.is_asking() || self.course.is_laid_down();
+        let waits = self.path.is_asking() || self.path.is_laid_down();
         let is_blended = !overlaid && motion.goes() && !motion.flows && asks(&self.robot, last);
         let prepared = (is_blended && (waits || !hurries)).then(|| {
             let joining = match before {
                 Some(Ready { prepared: Some(prepared), .. }) => Joining::Behind(prepared.clone()),
                 Some(_) => Joining::Known(None),
-                None => self.course.joining(),
+                None => self.path.joining(),
             };
-            self.preparer.prepare(&self.robot, joining, [last, motion])
+            self.blend_thread.prepare(&self.robot, joining, [last, motion])
         });
         if hurries {
-            self.waiting.hurry();
+            self.waiting.lay_at_once();
             return (0, prepared);
         }
         let time = if is_blended { time } else { 0.0 };
         (self.cycles + (time / self.cycle) as u64, prepared)
     }
 
-    /// As [`crate::queue::path_buffer::Course::spare`].
+    /// As [`crate::queue::path_buffer::PathBuffer::spare`].
     fn spare(&mut self) -> f64 {
-        *self.spare.get_or_insert_with(|| self.course.spare())
+        *self.spare.get_or_insert_with(|| self.path.spare())
     }
 
     /// A cycle begins.
@@ -181,26 +181,26 @@ impl Queue {
         self.spare = None;
     }
 
-    /// Lays the motions that are due on the course, as soon as that can take them; some a cycle, but for those in a hurry.
+    /// Lays the motions that are due on the path, as soon as that can take them; some a cycle, but for those in a hurry.
     pub(crate) fn lay_waiting(&mut self) {
         let mut laid = Done::default();
         while let Some(first) = self.waiting.first() {
-            let hurries = first.due == 0 || self.course.is_empty();
+            let hurries = first.due == 0 || self.path.is_empty();
             let is_due = first.due <= self.cycles && !laid.suffices(self.cycle);
-            if self.course.is_asking() || !(hurries || is_due) {
+            if self.path.is_asking() || !(hurries || is_due) {
                 return;
             }
             laid.add(&first.motion);
             self.spare = None;
             self.foreseen = None;
-            if self.course.is_laid_down() {
+            if self.path.is_laid_down() {
                 let due = self.waiting.due(self.cycles);
                 let motions = due.map(|ready| ((&ready.motion, ready.number), ready.prepared.as_ref()));
-                self.course.offer((&self.robot, &self.joints), motions, self.cycle);
+                self.path.offer((&self.robot, &self.joints), motions, self.cycle);
                 self.take_answer();
             } else if let Some(Ready { motion, number, prepared, .. }) = self.waiting.pop() {
-                let sharp = self.course.append(&self.robot, (&motion, number), prepared.as_ref(), self.cycle);
-                self.note_sharp(sharp);
+                let unblended = self.path.append(&self.robot, (&motion, number), prepared.as_ref(), self.cycle);
+                self.note_unblended(unblended);
                 self.note_laid(&motion, number);
             }
         }
@@ -211,7 +211,7 @@ impl Queue {
 impl Queue {
     /// Has the thread never find anything.
     pub(crate) fn prepare_nothing(&mut self) {
-        self.preparer = crate::blend::blend_thread::Preparer::stuck();
+        self.blend_thread = crate::blend::blend_thread::BlendThread::stuck();
     }
 
     /// Waits until the thread has found everything.

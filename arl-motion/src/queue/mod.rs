@@ -8,7 +8,7 @@ mod suspend;
 
 use std::sync::Arc;
 
-use crate::blend::blend_thread::Preparer;
+use crate::blend::blend_thread::BlendThread;
 use crate::command::error::PlanError;
 use crate::command::joints::Joints;
 use crate::command::{Command, Settings, Target};
@@ -25,18 +25,18 @@ use arl_robot::robot::Robot;
 use look_ahead::{Done, Ready, Waiting};
 pub use motion_progress::Progress;
 use motion_progress::progress_at;
-pub use path_buffer::Sharp;
-use path_buffer::{Answer, Course};
+pub use path_buffer::UnblendedTarget;
+use path_buffer::{Answer, PathBuffer};
 pub use record::{Closest, Figure, Limited, MotionRecord, Rate, Recorder};
-use suspend::Aside;
 pub use suspend::Start;
+use suspend::Suspension;
 
 /// How many motions can always wait, the one being executed not counted.
 pub const LOOK_AHEAD: usize = 64;
 /// As many motions wait at the very most.
-const MOST_AHEAD: u64 = 8192;
+const MOST_MOTIONS_AHEAD: u64 = 8192;
 /// The way ahead, in s at full speed, beyond which no more than [`LOOK_AHEAD`] motions wait.
-const TIME_AHEAD: f64 = 3.0;
+const LOOK_AHEAD_S: f64 = 3.0;
 
 /// How to come to rest on the path.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -48,9 +48,9 @@ pub enum Stop {
 }
 
 /// How long the robot stands still, in s, before a motion that waits for the next one of its way goes without it.
-const PATIENCE: f64 = 0.1;
+const LONGEST_WAIT_FOR_NEXT_S: f64 = 0.1;
 /// How much harder a fast stop is.
-const FAST: f64 = 5.0;
+const FAST_STOP_FACTOR: f64 = 5.0;
 
 /// What one cycle did.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -73,7 +73,7 @@ pub struct Step {
 #[derive(Clone, Debug)]
 pub struct Queue {
     robot: Arc<Robot>,
-    course: Course,
+    path: PathBuffer,
     stop: Option<Stop>,
     /// Whether a fast stop is on its way to rest.
     braking_hard: bool,
@@ -99,12 +99,12 @@ pub struct Queue {
     over: u64,
     cycle: f64,
     /// The last target that was not rounded off because a motion came too late, and the last beside which there is no way.
-    late: Option<Sharp>,
-    sharp: Option<Sharp>,
-    /// Motions that wait until they are laid on the course.
+    late: Option<UnblendedTarget>,
+    unblended: Option<UnblendedTarget>,
+    /// Motions that wait until they are laid on the path.
     waiting: Waiting,
     /// Who finds their blends.
-    preparer: Preparer,
+    blend_thread: BlendThread,
     /// How many cycles there have been, and what was planned in this one.
     cycles: u64,
     taken: Done,
@@ -113,7 +113,7 @@ pub struct Queue {
     /// The last motion, where its way depends on the next one.
     held: Option<Held>,
     /// How long the robot has stood still for it, in s.
-    patience: f64,
+    waited: f64,
     broken: Option<PlanError>,
     /// What was laid on the way, where somebody watches.
     laid: Option<Vec<Laid>>,
@@ -121,7 +121,7 @@ pub struct Queue {
     led: Led,
     /// The least part of its speed that what is laid over it has left to a motion, and that motion's line.
     slowed: (f64, u32),
-    aside: Aside,
+    suspension: Suspension,
 }
 
 /// A motion that was laid on the way.
@@ -138,7 +138,7 @@ impl Queue {
     pub fn new(robot: Arc<Robot>, start: Joints) -> Self {
         Self {
             robot,
-            course: Course::default(),
+            path: PathBuffer::default(),
             stop: None,
             braking_hard: false,
             dropping: false,
@@ -157,19 +157,19 @@ impl Queue {
             over: 0,
             cycle: 0.001,
             late: None,
-            sharp: None,
+            unblended: None,
             waiting: Waiting::default(),
-            preparer: Preparer::default(),
+            blend_thread: BlendThread::default(),
             cycles: 1,
             taken: Done::default(),
             spare: None,
             held: None,
-            patience: 0.0,
+            waited: 0.0,
             broken: None,
             laid: None,
             led: Led::default(),
             slowed: (1.0, 0),
-            aside: Aside::default(),
+            suspension: Suspension::default(),
         }
     }
 
@@ -183,7 +183,7 @@ impl Queue {
     pub fn has_room(&self) -> bool {
         let executing = u64::from(self.started == Some(self.finished + 1));
         let waiting = (self.unfinished() as u64).saturating_sub(executing);
-        waiting < LOOK_AHEAD as u64 || (waiting < MOST_AHEAD && self.is_short_of_way())
+        waiting < LOOK_AHEAD as u64 || (waiting < MOST_MOTIONS_AHEAD && self.is_short_of_way())
     }
 
     /// Plans a motion from the end of the last one and appends it; returns its running number, from 1. A motion whose way
@@ -261,7 +261,7 @@ impl Queue {
         let goes_on = joined.is_some();
         let (plain, before) = held.plan(&self.robot, joined)?;
         let end = *plain.end();
-        let last = self.waiting.last().or_else(|| self.course.last().map(|motion| &**motion));
+        let last = self.waiting.last().or_else(|| self.path.last().map(|motion| &**motion));
         let flows_from = last.filter(|_| plain.flows);
         let beginning = Beginning {
             start: flows_from.map_or(&self.end, Motion::end),
@@ -294,14 +294,14 @@ impl Queue {
         if share < self.slowed.0 {
             self.slowed = (share, motion.line);
         }
-        self.wait_with(motion, number);
+        self.enqueue(motion, number);
     }
 
-    /// Does what the course says about motions that it was offered.
+    /// Does what the path says about motions that it was offered.
     fn take_answer(&mut self) {
-        match self.course.take_answer() {
-            Some(Answer::Taken { sharp, count }) => {
-                self.note_sharp(sharp);
+        match self.path.take_answer() {
+            Some(Answer::Taken { unblended, count }) => {
+                self.note_unblended(unblended);
                 for _ in 0..count {
                     if let Some(taken) = self.waiting.pop() {
                         self.note_laid(&taken.motion, taken.number);
@@ -311,8 +311,8 @@ impl Queue {
             Some(Answer::Refused) => {
                 if let Some(Ready { motion, number, prepared, .. }) = self.waiting.pop() {
                     let motion = (&motion, number);
-                    let sharp = self.course.append_behind_stop(&self.robot, motion, prepared.as_ref(), self.cycle);
-                    self.note_sharp(sharp);
+                    let unblended = self.path.append_behind_stop(&self.robot, motion, prepared.as_ref(), self.cycle);
+                    self.note_unblended(unblended);
                     self.note_laid(motion.0, number);
                 }
             }
@@ -320,25 +320,25 @@ impl Queue {
         }
     }
 
-    fn note_sharp(&mut self, sharp: impl IntoIterator<Item = Sharp>) {
-        for sharp in sharp {
-            let of_its_kind = if sharp.corner.is_some() { &mut self.sharp } else { &mut self.late };
-            *of_its_kind = Some(sharp);
+    fn note_unblended(&mut self, unblended: impl IntoIterator<Item = UnblendedTarget>) {
+        for unblended in unblended {
+            let of_its_kind = if unblended.corner.is_some() { &mut self.unblended } else { &mut self.late };
+            *of_its_kind = Some(unblended);
         }
     }
 
     fn note_laid(&mut self, motion: &Arc<Motion>, number: u64) {
         if let Some(laid) = &mut self.laid {
-            let left = self.course.left_before(number).filter(|_| motion.goes());
+            let left = self.path.left_before(number).filter(|_| motion.goes());
             laid.push(Laid { number, motion: Arc::clone(motion), left });
         }
     }
 
     /// Lets a motion go that waits while the robot stands still, where it can be the last one of its way.
-    fn lose_patience(&mut self, dt: f64) {
-        let starves = self.course.is_empty() && self.held.as_ref().is_some_and(Held::can_end);
-        self.patience = if starves { self.patience + dt } else { 0.0 };
-        if self.patience >= PATIENCE
+    fn release_after_wait(&mut self, dt: f64) {
+        let starves = self.path.is_empty() && self.held.as_ref().is_some_and(Held::can_end);
+        self.waited = if starves { self.waited + dt } else { 0.0 };
+        if self.waited >= LONGEST_WAIT_FOR_NEXT_S
             && let Err(error) = self.release(None)
         {
             self.broken = Some(error);
@@ -347,14 +347,14 @@ impl Queue {
 
     /// The motion that came too late, since this was asked last, to be blended with the one before it, so that the robot
     /// stopped or will stop between the two.
-    pub fn take_late(&mut self) -> Option<Sharp> {
+    pub fn take_late(&mut self) -> Option<UnblendedTarget> {
         self.late.take()
     }
 
     /// A target, since this was asked last, that should be rounded off but is reached with a stop: beside it the robot would
     /// leave its reach or an axis's range, or meet a singular point, however small the zone.
-    pub fn take_sharp(&mut self) -> Option<Sharp> {
-        self.sharp.take()
+    pub fn take_unblended(&mut self) -> Option<UnblendedTarget> {
+        self.unblended.take()
     }
 
     /// The least part of its programmed speed, 0 to 1, that a weave or a compensation has left to a motion since this was
@@ -380,17 +380,17 @@ impl Queue {
 
     /// Whether no motion is there, running, waiting or set aside.
     pub fn idle(&self) -> bool {
-        self.is_layer_idle() && self.aside.is_clear()
+        self.is_layer_idle() && self.suspension.is_clear()
     }
 
     /// The running number of the motion that is executed, or comes next; `None` where none is laid.
     pub fn current(&self) -> Option<u64> {
-        self.course.current().map(|(piece, _)| piece.number)
+        self.path.current().map(|(segment, _)| segment.number)
     }
 
     /// Whether the robot stands still, at the end of a motion or within one.
     pub fn rests(&self) -> bool {
-        self.course.rests()
+        self.path.rests()
     }
 
     /// Whether it was told to stop, and neither to resume nor to drop its motions.
@@ -414,8 +414,8 @@ impl Queue {
     /// Drops all motions that wait, and the one being executed: at once where the robot rests, else when it has come to
     /// rest. Without a stop it goes on to the next target that it reaches exactly first.
     pub fn clear(&mut self) {
-        self.aside.clear();
-        self.course.keep_to_stop();
+        self.suspension.clear();
+        self.path.keep_to_stop();
         self.waiting.clear();
         self.held = None;
         self.dropping = true;
@@ -440,7 +440,7 @@ impl Queue {
 
     /// Where the motion ends that is being executed, or else the next one.
     pub fn target(&self) -> &Joints {
-        self.course.current().map_or(&self.end, |(piece, _)| piece.target())
+        self.path.current().map_or(&self.end, |(segment, _)| segment.target())
     }
 
     /// What the robot carries in the motion that is or was last executed, and where it stands.
@@ -455,32 +455,32 @@ impl Queue {
         self.count_cycle();
         self.left.clear();
         let speed = if override_percent > 0.0 { override_percent.min(100.0) / 100.0 } else { 0.0 };
-        let stop = if self.stop == Some(Stop::Fast) { self.stop } else { self.aside.stop().or(self.stop) };
+        let stop = if self.stop == Some(Stop::Fast) { self.stop } else { self.suspension.stop().or(self.stop) };
         let pacing = match stop {
-            Some(Stop::Fast) => Pacing::Stop(FAST),
+            Some(Stop::Fast) => Pacing::Stop(FAST_STOP_FACTOR),
             Some(Stop::General) => Pacing::Stop(1.0),
             None if speed > 0.0 => Pacing::Go(speed),
             None => Pacing::Stop(1.0),
         };
-        self.braking_hard = match (pacing, self.course.rests()) {
+        self.braking_hard = match (pacing, self.path.rests()) {
             (_, true) => false,
             (Pacing::Stop(harder), false) => self.braking_hard || harder > 1.0,
             (Pacing::Go(_) | Pacing::Settle(_), false) => self.braking_hard,
         };
         // A fast stop is carried through to rest: from its acceleration nothing else would be within the limits.
-        let pacing = if self.braking_hard { Pacing::Stop(FAST) } else { pacing };
-        let rested = self.course.rests();
+        let pacing = if self.braking_hard { Pacing::Stop(FAST_STOP_FACTOR) } else { pacing };
+        let rested = self.path.rests();
         let (mut motion, mut line) = (0, 0);
         let waits = rested && matches!(pacing, Pacing::Stop(_));
-        if !waits && !self.course.is_empty() {
+        if !waits && !self.path.is_empty() {
             let before = (self.started, self.rig, self.timed, self.elapsed);
-            if let Some(piece) = self.course.first() {
-                (motion, line) = self.enter(piece.number, piece.line, piece.rig);
+            if let Some(segment) = self.path.first() {
+                (motion, line) = self.enter(segment.number, segment.line, segment.rig);
             }
             let passed = if matches!(pacing, Pacing::Go(_)) { dt * speed } else { 0.0 };
             self.time(passed);
             let (mut arrived, mut finished) = (None, self.finished);
-            let stands = self.course.advance((&self.robot, &self.joints), dt, pacing, |passed| {
+            let stands = self.path.advance((&self.robot, &self.joints), dt, pacing, |passed| {
                 finished = if passed.ends { passed.number } else { finished };
                 if !passed.leaves() {
                     let elapsed = if passed.number == self.timed { self.elapsed } else { 0.0 };
@@ -494,31 +494,31 @@ impl Queue {
                 arrived = Some(passed);
             });
             self.finished = finished;
-            let waits = rested && !stands && self.course.awaits_law();
+            let waits = rested && !stands && self.path.awaits_law();
             if waits {
                 // The motion has not begun.
                 (self.started, self.rig, self.timed, self.elapsed) = before;
                 (motion, line) = (0, 0);
             }
-            match (stands, &arrived, self.course.first()) {
-                (true, Some(piece), _) => {
-                    (motion, line) = (piece.number, piece.line);
-                    self.joints = piece.joints(&self.robot.kinematics, piece.time, &self.joints);
+            match (stands, &arrived, self.path.first()) {
+                (true, Some(segment), _) => {
+                    (motion, line) = (segment.number, segment.line);
+                    self.joints = segment.joints(&self.robot.kinematics, segment.time, &self.joints);
                 }
                 _ if waits => {}
-                (_, _, Some(piece)) => {
-                    self.joints = piece.joints(&self.robot.kinematics, self.course.at(), &self.joints);
-                    (motion, line) = (piece.number, piece.line);
-                    let rig = piece.rig;
+                (_, _, Some(segment)) => {
+                    self.joints = segment.joints(&self.robot.kinematics, self.path.at(), &self.joints);
+                    (motion, line) = (segment.number, segment.line);
+                    let rig = segment.rig;
                     self.enter(motion, line, rig);
                 }
                 _ => {}
             }
             self.progress = match arrived.filter(|_| stands) {
-                Some(piece) => Some(self.at_the_end_of(&piece)),
+                Some(segment) => Some(self.at_the_end_of(&segment)),
                 None => self.on_the_way(if waits { 0.0 } else { passed }),
             };
-        } else if self.course.rests() && self.course.at() == 0.0 {
+        } else if self.path.rests() && self.path.at() == 0.0 {
             // It stands at a target and not on the way.
             self.progress = None;
         }
@@ -528,11 +528,11 @@ impl Queue {
         self.leave_behind();
         self.drop_at_rest();
         if !matches!(pacing, Pacing::Stop(_)) {
-            self.lose_patience(dt);
+            self.release_after_wait(dt);
         }
         // What is taken up again brings its own tool along: from the next cycle on.
         let tcp = self.tcp();
-        self.see_to_aside();
+        self.advance_suspension();
         Step { joints: self.joints, tcp, motion, line, finished: self.finished, rests: self.rests() }
     }
 
@@ -545,12 +545,12 @@ impl Queue {
 
     /// Motions that go nowhere end when those before them have ended.
     fn end_empty(&mut self) {
-        let anew = self.aside.first_anew().unwrap_or(self.added + 1);
+        let anew = self.suspension.first_anew().unwrap_or(self.added + 1);
         let held = self.held.as_ref().map_or(anew, |held| held.number);
         let waiting = self.waiting.first().map_or(held, |ready| ready.number);
-        let next = self.course.first().map_or(waiting, |piece| piece.number);
+        let next = self.path.first().map_or(waiting, |segment| segment.number);
         self.finished = self.finished.max(next - 1);
-        if self.course.is_empty() && self.waiting.is_empty() && !self.dropping {
+        if self.path.is_empty() && self.waiting.is_empty() && !self.dropping {
             self.rig = self.last_rig;
         }
     }
@@ -559,7 +559,7 @@ impl Queue {
         if self.dropping && self.rests() {
             self.finished = self.added;
             self.over = self.added;
-            self.course.clear();
+            self.path.clear();
             self.end = self.joints;
             self.led = Led::default();
             self.started = None;

@@ -1,10 +1,10 @@
 //! How far the motions of the queue have come.
 
-use crate::follow::segment::Piece;
+use crate::follow::segment::Segment;
 use crate::queue::Queue;
 
 /// For so many cycles what is left of a motion is counted down before it is found anew.
-const FORESEEN: u32 = 16;
+const CYCLES_BETWEEN_FORECASTS: u32 = 16;
 /// How far the motion being executed has come. Times are those at an override of 100 %. A blend belongs to the motion that
 /// is joined, whose way counts from the target that is rounded off (manual 7.3).
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -53,41 +53,43 @@ impl Queue {
 
     /// Counts time for the motion that counts as being executed.
     pub(crate) fn time(&mut self, passed: f64) {
-        let Some((piece, _)) = self.course.current() else { return };
-        if self.timed != piece.number {
-            (self.timed, self.elapsed) = (piece.number, 0.0);
+        let Some((segment, _)) = self.path.current() else { return };
+        if self.timed != segment.number {
+            (self.timed, self.elapsed) = (segment.number, 0.0);
         }
         self.elapsed += passed;
     }
 
-    pub(crate) fn at_the_end_of(&self, piece: &Piece) -> Progress {
-        progress_at(piece, 1.0, piece.duration().unwrap_or(self.elapsed), 0.0)
+    pub(crate) fn at_the_end_of(&self, segment: &Segment) -> Progress {
+        progress_at(segment, 1.0, segment.duration().unwrap_or(self.elapsed), 0.0)
     }
 
     /// How long the motion being executed still takes at full speed, in s, `passed` s of that later than when this was asked
     /// last.
     pub(crate) fn time_left(&mut self, motion: u64, elapsed: f64, passed: f64) -> f64 {
         let (left, age) = match self.foreseen {
-            Some((of, left, age)) if of == motion && age < FORESEEN => ((left - passed).max(0.0), age + 1),
-            _ => (self.course.time_to_end(elapsed), 0),
+            Some((of, left, age)) if of == motion && age < CYCLES_BETWEEN_FORECASTS => {
+                ((left - passed).max(0.0), age + 1)
+            }
+            _ => (self.path.time_to_end(elapsed), 0),
         };
         self.foreseen = Some((motion, left, age));
         left
     }
 
     pub(crate) fn on_the_way(&mut self, passed: f64) -> Option<Progress> {
-        let (piece, share) = self.course.current()?;
+        let (segment, share) = self.path.current()?;
         // A motion that is joined in this very cycle has not run yet.
-        let elapsed = if piece.number == self.timed { self.elapsed } else { 0.0 };
-        let motion = piece.number;
+        let elapsed = if segment.number == self.timed { self.elapsed } else { 0.0 };
+        let motion = segment.number;
         let left = self.time_left(motion, elapsed, passed);
-        let (piece, _) = self.course.current()?;
-        Some(progress_at(piece, share, elapsed, left))
+        let (segment, _) = self.path.current()?;
+        Some(progress_at(segment, share, elapsed, left))
     }
 
     /// Notes which motions are not executed any more. Those of which nothing is known go nowhere.
     pub(crate) fn leave_behind(&mut self) {
-        let ahead = self.course.current().map_or(self.finished + 1, |(piece, _)| piece.number);
+        let ahead = self.path.current().map_or(self.finished + 1, |(segment, _)| segment.number);
         for motion in self.over + 1..ahead {
             if !self.dropping && self.left(motion).is_none() {
                 self.left.push(Progress { motion, ..Progress::DONE });
@@ -97,16 +99,16 @@ impl Queue {
     }
 }
 
-/// How far the motion of a piece has come.
-pub(crate) fn progress_at(piece: &Piece, share: f64, elapsed_time: f64, left_time: f64) -> Progress {
-    let elapsed_distance = piece.length * share;
+/// How far the motion of a segment has come.
+pub(crate) fn progress_at(segment: &Segment, share: f64, elapsed_time: f64, left_time: f64) -> Progress {
+    let elapsed_distance = segment.length * share;
     Progress {
-        motion: piece.number,
-        line: piece.line,
+        motion: segment.number,
+        line: segment.line,
         elapsed_time,
         left_time,
         elapsed_distance,
-        left_distance: piece.length - elapsed_distance,
+        left_distance: segment.length - elapsed_distance,
         share,
     }
 }

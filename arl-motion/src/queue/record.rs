@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::blend::zone::{self, Rounding};
 use crate::command::joints::ALL;
 use crate::command::{Command, Settings, Target};
-use crate::plan::constraints::MANUAL_SPEED;
+use crate::plan::constraints::MANUAL_SPEED_MM_S;
 use crate::plan::motion::Motion;
 use crate::queue::{Laid, Queue, Step};
 use arl_robot::frames::Carried;
@@ -13,7 +13,7 @@ use arl_robot::kinematics::Frame;
 use arl_robot::robot::{ROBOT_AXES, Robot, VelocityProfile};
 
 /// TCP ways shorter than this, mm, have no speed: then the tool's turning is what was programmed.
-const NO_WAY: f64 = 1e-6;
+const NO_DISTANCE_MM: f64 = 1e-6;
 
 /// A figure with its unit.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -221,7 +221,7 @@ impl Recorder {
             let Some(record) = at(&mut self.records, number) else { continue };
             record.blend = rounding;
             let along_tool = record.along_tool;
-            if record.programmed.unit == "mm/s" && motion.length() < NO_WAY {
+            if record.programmed.unit == "mm/s" && motion.length() < NO_DISTANCE_MM {
                 record.programmed = Figure { value: record.turning, unit: "deg/s" };
             }
             if let (Some((before, leave)), Some(last)) = (left, &self.last) {
@@ -326,7 +326,7 @@ fn programmed(command: &Command, settings: &Settings, along_tool: bool) -> Figur
         return Figure { value: duration, unit: "s" };
     }
     if along_tool {
-        let most = if settings.manual { settings.max_tcp.min(MANUAL_SPEED) } else { settings.max_tcp };
+        let most = if settings.manual { settings.max_tcp.min(MANUAL_SPEED_MM_S) } else { settings.max_tcp };
         Figure { value: (speed.tcp * share).min(most), unit: "mm/s" }
     } else {
         Figure { value: speed.percent.min(100.0) * share, unit: "%" }

@@ -1,6 +1,6 @@
 //! Motion that is stopped and set aside, so that others come in between: `stopmove` and `startmove`.
 //!
-//! What is set aside is the course itself, with the robot at rest on it. So going on after a return to that very place is
+//! What is set aside is the path itself, with the robot at rest on it. So going on after a return to that very place is
 //! going on along the same way. Only where motions are skipped, those behind them are planned anew, from the target that
 //! the robot goes to in their place.
 
@@ -16,17 +16,17 @@ use crate::plan::chain::Held;
 use crate::plan::gate;
 use crate::plan::planner::plan;
 use crate::queue::look_ahead::Waiting;
-use crate::queue::path_buffer::Course;
+use crate::queue::path_buffer::PathBuffer;
 use crate::queue::{Progress, Queue, Stop};
 use arl_robot::frames::Rig;
 use way_back::{Skipped, Way};
 
 /// How near to the place of the stop a way back has to end, in deg (mm).
-const SAME: f64 = 1e-6;
+const SAME_PLACE_DEG_OR_MM: f64 = 1e-6;
 /// How many motions are planned anew in a cycle.
-const AT_ONCE: usize = 4;
+const REPLANNED_A_CYCLE: usize = 4;
 /// Room for so many stops within each other takes no memory in the cycle.
-const DEPTH: usize = 4;
+const RESERVED_SUSPENSIONS: usize = 4;
 
 /// A motion as it was asked for.
 #[derive(Clone, Debug)]
@@ -74,11 +74,11 @@ pub struct Start {
 
 /// What was set aside at a stop.
 #[derive(Clone, Debug)]
-struct Shelf {
+struct SuspendedMotion {
     level: u32,
     /// Where the robot stood.
     joints: Joints,
-    course: Course,
+    path: PathBuffer,
     waiting: Waiting,
     held: Option<Held>,
     end: Joints,
@@ -101,7 +101,7 @@ struct Shelf {
 
 /// What is set aside, and what setting aside needs to know of the motions.
 #[derive(Clone, Debug)]
-pub(crate) struct Aside {
+pub(crate) struct Suspension {
     /// The motions that are not over, and the last one that is.
     asked: VecDeque<Asked>,
     /// Motions, from a number to another, that ended before others with lower numbers.
@@ -109,7 +109,7 @@ pub(crate) struct Aside {
     stopping: Option<Stopping>,
     again: Vec<Again>,
     /// What is set aside, the last one on top.
-    shelves: Vec<Shelf>,
+    suspended: Vec<SuspendedMotion>,
     /// How to go on, as soon as the robot rests where nothing is left to go.
     starts: VecDeque<Start>,
     /// Whether the robot is on the way that the first of these asks for.
@@ -123,15 +123,15 @@ pub(crate) struct Aside {
     broken: Option<PlanError>,
 }
 
-impl Default for Aside {
+impl Default for Suspension {
     fn default() -> Self {
         Self {
             asked: VecDeque::new(),
-            early: Vec::with_capacity(2 * DEPTH),
+            early: Vec::with_capacity(2 * RESERVED_SUSPENSIONS),
             stopping: None,
-            again: Vec::with_capacity(DEPTH),
-            shelves: Vec::with_capacity(DEPTH),
-            starts: VecDeque::with_capacity(DEPTH),
+            again: Vec::with_capacity(RESERVED_SUSPENSIONS),
+            suspended: Vec::with_capacity(RESERVED_SUSPENSIONS),
+            starts: VecDeque::with_capacity(RESERVED_SUSPENSIONS),
             going: false,
             anew: VecDeque::new(),
             way_back: None,
@@ -141,7 +141,7 @@ impl Default for Aside {
     }
 }
 
-impl Aside {
+impl Suspension {
     /// How the robot is being stopped.
     pub(crate) fn stop(&self) -> Option<Stop> {
         self.stopping.as_ref().map(|stopping| stopping.stop)
@@ -149,7 +149,7 @@ impl Aside {
 
     /// Whether nothing is set aside or about to be, nor to be gone on with.
     pub(crate) fn is_clear(&self) -> bool {
-        self.shelves.is_empty() && self.is_settled()
+        self.suspended.is_empty() && self.is_settled()
     }
 
     /// Whether nothing is about to be set aside or to be gone on with.
@@ -159,16 +159,16 @@ impl Aside {
 
     /// Whether those of a level of the program may move the robot between what is set aside.
     fn is_open_to(&self, level: u32) -> bool {
-        self.is_settled() && self.shelves.last().is_none_or(|shelf| level >= shelf.level)
+        self.is_settled() && self.suspended.last().is_none_or(|suspended| level >= suspended.level)
     }
 
     /// Whether something is set aside that nobody has asked yet to go on with.
     fn waits_for_start(&self) -> bool {
-        let below = |shelf: &Shelf| shelf.starts.len();
+        let below = |suspended: &SuspendedMotion| suspended.starts.len();
         let stopping = self.stopping.as_ref().map_or(0, |stopping| stopping.starts.len());
         let again = self.again.iter().map(|again| again.starts.len()).sum::<usize>();
-        let asked = self.starts.len() + self.shelves.iter().map(below).sum::<usize>() + stopping + again;
-        self.shelves.len() + usize::from(self.stopping.is_some()) + self.again.len() > asked
+        let asked = self.starts.len() + self.suspended.iter().map(below).sum::<usize>() + stopping + again;
+        self.suspended.len() + usize::from(self.stopping.is_some()) + self.again.len() > asked
     }
 
     /// The first motion to be planned anew.
@@ -181,7 +181,7 @@ impl Aside {
         self.asked.clear();
         self.early.clear();
         self.again.clear();
-        self.shelves.clear();
+        self.suspended.clear();
         self.starts.clear();
         self.anew.clear();
         (self.stopping, self.way_back, self.broken) = (None, None, None);
@@ -216,9 +216,11 @@ impl Aside {
     }
 
     /// Whether a motion with a number up to that of the last one that has ended, has ended, too.
-    fn has_ended(&self, motion: u64, ended: impl Fn(&Shelf) -> u64) -> bool {
+    fn has_ended(&self, motion: u64, ended: impl Fn(&SuspendedMotion) -> u64) -> bool {
         let within = |early: &[(u64, u64)]| early.iter().any(|(from, to)| (*from..=*to).contains(&motion));
-        self.shelves.iter().all(|shelf| motion <= ended(shelf) || motion > shelf.added || within(&shelf.early))
+        self.suspended
+            .iter()
+            .all(|suspended| motion <= ended(suspended) || motion > suspended.added || within(&suspended.early))
     }
 
     fn ended_early(&self, motion: u64) -> bool {
@@ -229,51 +231,51 @@ impl Aside {
 impl Queue {
     /// Brings the robot to rest on its path and sets its motions aside, so that others can be added that come before they
     /// go on. Only those of the level `level` of the program, or of a higher one, may do that: see [`Queue::takes`].
-    pub fn set_aside(&mut self, stop: Stop, level: u32) {
-        if let Some(stopping) = &mut self.aside.stopping {
+    pub fn request_suspension(&mut self, stop: Stop, level: u32) {
+        if let Some(stopping) = &mut self.suspension.stopping {
             if stop == Stop::Fast {
                 stopping.stop = stop;
             }
-            if self.aside.starts.is_empty() {
+            if self.suspension.starts.is_empty() {
                 stopping.level = stopping.level.max(level);
             } else {
-                let starts = self.aside.take_starts();
-                self.aside.again.push(Again { level, starts });
+                let starts = self.suspension.take_starts();
+                self.suspension.again.push(Again { level, starts });
             }
             return;
         }
-        let again = self.aside.shelves.last().is_some_and(|shelf| shelf.level >= level);
-        if again && self.is_layer_idle() && self.aside.is_settled() {
+        let again = self.suspension.suspended.last().is_some_and(|suspended| suspended.level >= level);
+        if again && self.is_layer_idle() && self.suspension.is_settled() {
             return;
         }
-        let starts = self.aside.take_starts();
-        let going = std::mem::take(&mut self.aside.going);
-        self.aside.stopping = Some(Stopping { stop, level, starts, going, drops: false });
-        self.lay_aside_at_rest();
+        let starts = self.suspension.take_starts();
+        let going = std::mem::take(&mut self.suspension.going);
+        self.suspension.stopping = Some(Stopping { stop, level, starts, going, drops: false });
+        self.suspend_at_rest();
     }
 
     /// Goes on with what was set aside last, once the robot rests and what was added since is done. Returns whether
     /// anything was set aside that is not to be gone on with already.
     pub fn start_again(&mut self, start: Start) -> bool {
-        if !self.aside.waits_for_start() {
+        if !self.suspension.waits_for_start() {
             return false;
         }
-        self.aside.starts.push_back(start);
+        self.suspension.starts.push_back(start);
         self.go_on();
         true
     }
 
     /// Drops what is set aside, where nobody has asked to go on with it; returns whether there was something. A stop on its
     /// way goes on to rest.
-    pub fn drop_aside(&mut self) -> bool {
-        let waits = self.aside.waits_for_start();
+    pub fn drop_suspended(&mut self) -> bool {
+        let waits = self.suspension.waits_for_start();
         if waits {
-            self.aside.shelves.clear();
-            self.aside.starts.clear();
-            self.aside.going = false;
-            if let Some(stopping) = &mut self.aside.stopping {
+            self.suspension.suspended.clear();
+            self.suspension.starts.clear();
+            self.suspension.going = false;
+            if let Some(stopping) = &mut self.suspension.stopping {
                 stopping.starts.clear();
-                self.aside.again.clear();
+                self.suspension.again.clear();
                 (stopping.going, stopping.drops) = (false, true);
             }
         }
@@ -281,56 +283,56 @@ impl Queue {
     }
 
     /// Whether motions are set aside, or about to be.
-    pub fn is_aside(&self) -> bool {
-        self.aside.stopping.is_some() || !self.aside.shelves.is_empty()
+    pub fn is_suspended(&self) -> bool {
+        self.suspension.stopping.is_some() || !self.suspension.suspended.is_empty()
     }
 
     /// How many stops have set motions aside.
     pub fn depth(&self) -> usize {
-        self.aside.shelves.len()
+        self.suspension.suspended.len()
     }
 
     /// The running number of the first motion that has not ended.
     pub fn oldest(&self) -> u64 {
-        self.aside.shelves.first().map_or(self.finished, |shelf| shelf.finished) + 1
+        self.suspension.suspended.first().map_or(self.finished, |suspended| suspended.finished) + 1
     }
 
     /// Whether a motion can be added now by those of a level of the program.
     pub fn takes(&self, level: u32) -> bool {
-        self.aside.is_open_to(level) && self.has_room() && !self.is_sated()
+        self.suspension.is_open_to(level) && self.has_room() && !self.has_enough_ahead()
     }
 
     /// Whether nothing is left that those of a level of the program have to wait for: all motion, but for what was set aside
     /// for them.
     pub fn idle_for(&self, level: u32) -> bool {
-        if self.aside.is_open_to(level) { self.is_layer_idle() } else { self.idle() }
+        if self.suspension.is_open_to(level) { self.is_layer_idle() } else { self.idle() }
     }
 
     /// Whether a motion has ended.
     pub fn has_ended(&self, motion: u64) -> bool {
-        let ended = motion <= self.finished && self.aside.has_ended(motion, |shelf| shelf.finished);
-        ended || self.aside.ended_early(motion)
+        let ended = motion <= self.finished && self.suspension.has_ended(motion, |suspended| suspended.finished);
+        ended || self.suspension.ended_early(motion)
     }
 
     /// Whether a motion is not executed any more: it has ended, or a blend leads away from it.
     pub fn is_over(&self, motion: u64) -> bool {
-        let over = motion <= self.over && self.aside.has_ended(motion, |shelf| shelf.over);
-        over || self.aside.ended_early(motion)
+        let over = motion <= self.over && self.suspension.has_ended(motion, |suspended| suspended.over);
+        over || self.suspension.ended_early(motion)
     }
 
     /// Whether, since this was asked last, more motions were to be dropped than there were. All of them were then.
     pub fn take_beyond(&mut self) -> bool {
-        std::mem::take(&mut self.aside.beyond)
+        std::mem::take(&mut self.suspension.beyond)
     }
 
     /// Why the robot cannot go to where [`Queue::start_again`] wanted it, since this was asked last.
     pub fn take_broken_start(&mut self) -> Option<PlanError> {
-        self.aside.broken.take()
+        self.suspension.broken.take()
     }
 
     /// The motion that [`Queue::start_again`] has added, since this was asked last, and its running number.
     pub fn take_way_back(&mut self) -> Option<(u64, Command, Settings)> {
-        self.aside.way_back.take()
+        self.suspension.way_back.take()
     }
 
     /// Whether no motion is there, running or waiting, but for what is set aside.
@@ -340,65 +342,65 @@ impl Queue {
 
     /// Notes a motion that is being added from `start` on.
     pub(crate) fn note_asked(&mut self, number: u64, start: Joints, command: &Command, settings: &Settings) {
-        while self.aside.asked.get(1).is_some_and(|next| next.number <= self.finished) {
-            self.aside.asked.pop_front();
+        while self.suspension.asked.get(1).is_some_and(|next| next.number <= self.finished) {
+            self.suspension.asked.pop_front();
         }
         let end = *self.end();
         let led = if self.held.is_some() { Led::default() } else { self.led };
         let (command, settings) = (command.clone(), *settings);
-        self.aside.asked.push_back(Asked { number, command, settings, start, end, led });
+        self.suspension.asked.push_back(Asked { number, command, settings, start, end, led });
     }
 
     /// Notes where a motion ends that had waited for the next one, now that it has been planned.
     pub(crate) fn note_released(&mut self, number: u64) {
-        if let Some(asked) = self.aside.asked.iter_mut().rev().find(|asked| asked.number == number) {
+        if let Some(asked) = self.suspension.asked.iter_mut().rev().find(|asked| asked.number == number) {
             (asked.end, asked.led) = (self.end, self.led);
         }
     }
 
     /// The motions of this layer that have been added and have not ended, the one being executed included.
     pub(crate) fn unfinished(&self) -> usize {
-        let asked = &self.aside.asked;
+        let asked = &self.suspension.asked;
         asked.len() - asked.partition_point(|asked| asked.number <= self.finished)
     }
 
     /// What there is to do about motions that are set aside, at the end of a cycle.
-    pub(crate) fn see_to_aside(&mut self) {
-        self.aside.early.retain(|(_, to)| *to > self.finished);
-        self.lay_aside_at_rest();
+    pub(crate) fn advance_suspension(&mut self) {
+        self.suspension.early.retain(|(_, to)| *to > self.finished);
+        self.suspend_at_rest();
         self.plan_anew();
         self.go_on();
     }
 
     /// Sets everything aside once the robot rests.
-    fn lay_aside_at_rest(&mut self) {
+    fn suspend_at_rest(&mut self) {
         if self.dropping || !self.rests() {
             return;
         }
-        let Some(Stopping { level, starts, going, drops, .. }) = self.aside.stopping.take() else { return };
-        self.lay_aside(level, starts, going);
-        for at in 0..self.aside.again.len() {
-            if let Some(again) = self.aside.again.get_mut(at) {
+        let Some(Stopping { level, starts, going, drops, .. }) = self.suspension.stopping.take() else { return };
+        self.suspend(level, starts, going);
+        for at in 0..self.suspension.again.len() {
+            if let Some(again) = self.suspension.again.get_mut(at) {
                 let (level, starts) = (again.level, std::mem::take(&mut again.starts));
-                self.lay_aside(level, starts, false);
+                self.suspend(level, starts, false);
             }
         }
-        self.aside.again.clear();
+        self.suspension.again.clear();
         self.foreseen = None;
         self.braking_hard = false;
-        self.patience = 0.0;
+        self.waited = 0.0;
         if drops {
-            self.aside.shelves.pop();
+            self.suspension.suspended.pop();
         }
     }
 
     /// Sets everything aside.
-    fn lay_aside(&mut self, level: u32, starts: VecDeque<Start>, going: bool) {
-        let early = self.aside.take_early();
-        self.aside.shelves.push(Shelf {
+    fn suspend(&mut self, level: u32, starts: VecDeque<Start>, going: bool) {
+        let early = self.suspension.take_early();
+        self.suspension.suspended.push(SuspendedMotion {
             level,
             joints: self.joints,
-            course: self.course.lay_aside(),
+            path: self.path.suspend(),
             waiting: std::mem::take(&mut self.waiting),
             held: self.held.take(),
             end: std::mem::replace(&mut self.end, self.joints),
@@ -412,66 +414,70 @@ impl Queue {
             timed: self.timed,
             elapsed: self.elapsed,
             progress: self.progress.take(),
-            asked: std::mem::take(&mut self.aside.asked),
+            asked: std::mem::take(&mut self.suspension.asked),
             early,
             starts,
             going,
-            anew: std::mem::take(&mut self.aside.anew),
+            anew: std::mem::take(&mut self.suspension.anew),
         });
     }
 
     /// Goes on with what was set aside, where the robot is there already; else adds the way to it.
     fn go_on(&mut self) {
-        while let Some(start) = self.aside.starts.front().copied() {
-            if self.aside.stopping.is_some() || !self.aside.anew.is_empty() || !self.is_layer_idle() || !self.rests() {
+        while let Some(start) = self.suspension.starts.front().copied() {
+            if self.suspension.stopping.is_some()
+                || !self.suspension.anew.is_empty()
+                || !self.is_layer_idle()
+                || !self.rests()
+            {
                 return;
             }
-            let Some(shelf) = self.aside.shelves.last() else {
-                self.aside.starts.clear();
+            let Some(suspended) = self.suspension.suspended.last() else {
+                self.suspension.starts.clear();
                 return;
             };
-            if !self.aside.going && start.skip > 0 && shelf.leads_on() {
+            if !self.suspension.going && start.skip > 0 && suspended.leads_on() {
                 // It was stopped on its way to another one, or before that, whose motions are meant.
                 self.pass_on(start);
                 continue;
             }
-            let skipped = shelf.skipped(start.skip);
-            if !self.aside.going {
+            let skipped = suspended.skipped(start.skip);
+            if !self.suspension.going {
                 let way = match &skipped {
-                    Skipped::None => shelf.way_back(&self.robot, &self.joints),
+                    Skipped::None => suspended.way_back(&self.robot, &self.joints),
                     Skipped::To(last) => Some(last.way_to(&self.robot)),
                     Skipped::Beyond => {
-                        self.aside.beyond = true;
-                        self.aside.starts.clear();
-                        self.aside.shelves.clear();
+                        self.suspension.beyond = true;
+                        self.suspension.starts.clear();
+                        self.suspension.suspended.clear();
                         return;
                     }
                 };
                 if let Some(way) = way {
-                    self.aside.going = true;
+                    self.suspension.going = true;
                     if let Err(error) = self.go(way, start) {
-                        self.aside.broken = Some(PlanError::Earlier { line: start.line, error: Box::new(error) });
-                        self.aside.starts.clear();
-                        self.aside.going = false;
+                        self.suspension.broken = Some(PlanError::Earlier { line: start.line, error: Box::new(error) });
+                        self.suspension.starts.clear();
+                        self.suspension.going = false;
                     }
                     return;
                 }
             }
             let skipped = if let Skipped::To(last) = skipped { Some((last.number, last.led)) } else { None };
-            self.aside.starts.pop_front();
-            self.aside.going = false;
-            self.take_up(skipped);
+            self.suspension.starts.pop_front();
+            self.suspension.going = false;
+            self.resume_suspended(skipped);
         }
     }
 
     /// Skips motions of what is below the one on top, to which the robot was on its way.
     fn pass_on(&mut self, start: Start) {
-        self.aside.starts.pop_front();
-        if let Some(mut shelf) = self.aside.shelves.pop() {
-            if let Some(first) = shelf.starts.front_mut() {
+        self.suspension.starts.pop_front();
+        if let Some(mut suspended) = self.suspension.suspended.pop() {
+            if let Some(first) = suspended.starts.front_mut() {
                 first.skip = first.skip.max(start.skip);
             }
-            self.aside.put_back(shelf.starts);
+            self.suspension.put_back(suspended.starts);
         }
     }
 
@@ -486,7 +492,7 @@ impl Queue {
             _ => vec![plan(&self.robot, &here, &command, &settings)?],
         };
         if let (Some(end), Some(last)) = (end, motions.last_mut()) {
-            if !last.end.is_at(&end, SAME) {
+            if !last.end.is_at(&end, SAME_PLACE_DEG_OR_MM) {
                 return Err(PlanError::NoWayBack);
             }
             last.end = end;
@@ -497,39 +503,41 @@ impl Queue {
         }
         self.note_asked(number, here, &command, &settings);
         self.added = number;
-        self.aside.way_back = Some((number, command, settings));
+        self.suspension.way_back = Some((number, command, settings));
         Ok(())
     }
 
     /// Goes on with what was set aside last: where it was stopped, or behind the motion `skipped`, at whose end the
     /// compensation stands so.
-    fn take_up(&mut self, skipped: Option<(u64, Led)>) {
-        let Some(shelf) = self.aside.shelves.pop() else { return };
-        let early = (shelf.added + 1, self.added);
-        self.aside.exchange_early(shelf.early);
-        self.aside.early.push(early);
-        self.aside.asked = shelf.asked;
-        self.aside.anew = shelf.anew;
-        self.aside.going = shelf.going;
-        self.aside.put_back(shelf.starts);
+    fn resume_suspended(&mut self, skipped: Option<(u64, Led)>) {
+        let Some(suspended) = self.suspension.suspended.pop() else { return };
+        let early = (suspended.added + 1, self.added);
+        self.suspension.exchange_early(suspended.early);
+        self.suspension.early.push(early);
+        self.suspension.asked = suspended.asked;
+        self.suspension.anew = suspended.anew;
+        self.suspension.going = suspended.going;
+        self.suspension.put_back(suspended.starts);
         self.foreseen = None;
         match skipped {
             None => {
-                self.course.take_up(shelf.course);
-                (self.waiting, self.held) = (shelf.waiting, shelf.held);
-                (self.end, self.rig, self.last_rig, self.led) = (shelf.end, shelf.rig, shelf.last_rig, shelf.led);
-                (self.finished, self.over) = (shelf.finished, shelf.over);
-                (self.started, self.timed, self.elapsed) = (shelf.started, shelf.timed, shelf.elapsed);
-                self.progress = shelf.progress;
+                self.path.resume_suspended(suspended.path);
+                (self.waiting, self.held) = (suspended.waiting, suspended.held);
+                (self.end, self.rig, self.last_rig, self.led) =
+                    (suspended.end, suspended.rig, suspended.last_rig, suspended.led);
+                (self.finished, self.over) = (suspended.finished, suspended.over);
+                (self.started, self.timed, self.elapsed) = (suspended.started, suspended.timed, suspended.elapsed);
+                self.progress = suspended.progress;
             }
             Some((last, led)) => {
                 (self.finished, self.over) = (last, last);
                 (self.end, self.led) = (self.joints, led);
                 self.started = None;
                 // What was to be planned anew and is dropped now was asked for last.
-                let left = self.aside.asked.iter().chain(&self.aside.anew).filter(|asked| asked.number > last);
-                self.aside.anew = left.cloned().collect();
-                self.aside.asked.retain(|asked| asked.number <= last);
+                let left =
+                    self.suspension.asked.iter().chain(&self.suspension.anew).filter(|asked| asked.number > last);
+                self.suspension.anew = left.cloned().collect();
+                self.suspension.asked.retain(|asked| asked.number <= last);
             }
         }
         self.end_empty();
@@ -538,11 +546,11 @@ impl Queue {
 
     /// Plans some of the motions anew that come behind those that were skipped.
     fn plan_anew(&mut self) {
-        for _ in 0..AT_ONCE {
-            let Some(asked) = self.aside.anew.pop_front() else { return };
-            let before = self.aside.asked.back().map(|before| (before.command.clone(), before.start));
+        for _ in 0..REPLANNED_A_CYCLE {
+            let Some(asked) = self.suspension.anew.pop_front() else { return };
+            let before = self.suspension.asked.back().map(|before| (before.command.clone(), before.start));
             if let Err(error) = self.add_again(&asked, before) {
-                self.aside.anew.clear();
+                self.suspension.anew.clear();
                 self.broken = Some(PlanError::Earlier { line: asked.command.line, error: Box::new(error) });
             }
         }

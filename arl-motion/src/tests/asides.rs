@@ -70,7 +70,7 @@ fn what_is_set_aside_goes_on_where_it_was_stopped() {
             rows.push(queue.step(CYCLE, 100.0));
         }
         let fast = round % 4 == 3;
-        queue.set_aside(if fast { Stop::Fast } else { Stop::General }, 1);
+        queue.request_suspension(if fast { Stop::Fast } else { Stop::General }, 1);
         come_to_rest(&mut queue, &mut rows);
         let stopped = *queue.joints();
         assert!(!queue.takes(0) && !queue.idle() && queue.idle_for(1));
@@ -115,7 +115,7 @@ fn the_way_back_has_its_own_tool_to_its_last_row() {
         rows.push(queue.step(CYCLE, 10.0));
         assert!(rows.len() < 50_000, "there is no blend");
     }
-    queue.set_aside(Stop::General, 1);
+    queue.request_suspension(Stop::General, 1);
     come_to_rest(&mut queue, &mut rows);
     assert_eq!(rows.iter().rfind(|row| row.motion != 0).map(|row| row.motion), Some(1));
     let mut near = *queue.joints();
@@ -143,7 +143,7 @@ fn skipped_motions_are_not_gone_and_those_behind_them_are() {
         for _ in 0..random.between(10.0, 900.0) as usize {
             rows.push(queue.step(CYCLE, 100.0));
         }
-        queue.set_aside(Stop::General, 1);
+        queue.request_suspension(Stop::General, 1);
         come_to_rest(&mut queue, &mut rows);
         let (stopped, skip) = (rows.last().unwrap().motion, random.between(1.0, 4.0) as u32);
         assert!(queue.start_again(Start { skip, ..PLAIN }));
@@ -172,14 +172,14 @@ fn stops_nest() {
     let end = *queue.end();
     let mut rows = vec![queue.step(CYCLE, 0.0)];
     rows.extend((0..400).map(|_| queue.step(CYCLE, 100.0)));
-    queue.set_aside(Stop::General, 1);
+    queue.request_suspension(Stop::General, 1);
     come_to_rest(&mut queue, &mut rows);
     let first = *queue.joints();
     let mut near = first;
     near.axes[0] += 3.0;
     let own = queue.add(&command(Target::Joints(near)), &Settings::default()).unwrap();
     rows.extend((0..20).map(|_| queue.step(CYCLE, 100.0)));
-    queue.set_aside(Stop::General, 2);
+    queue.request_suspension(Stop::General, 2);
     while !queue.takes(2) {
         rows.push(queue.step(CYCLE, 100.0));
     }
@@ -208,9 +208,9 @@ fn dropping_leaves_the_robot_where_it_stopped() {
     for _ in 0..400 {
         queue.step(CYCLE, 100.0);
     }
-    assert!(!queue.drop_aside());
-    queue.set_aside(Stop::General, 1);
-    assert!(queue.drop_aside());
+    assert!(!queue.drop_suspended());
+    queue.request_suspension(Stop::General, 1);
+    assert!(queue.drop_suspended());
     let mut rows = Vec::new();
     while !queue.idle() {
         rows.push(queue.step(CYCLE, 100.0));

@@ -1,46 +1,46 @@
-//! Looks along the course for the profile O: how everything moves at places close enough together, and within which limits.
+//! Looks along the path for the profile O: how everything moves at places close enough together, and within which limits.
 
 use std::sync::Arc;
 
 use crate::command::joints::{ALL, Joints};
-use crate::follow::segment::{LedTool, Piece};
+use crate::follow::segment::{LedTool, Segment};
 use crate::limits::constant::Bound;
-use crate::plan::constraints::{Bounds, Pace};
+use crate::plan::constraints::{Constraints, Pace};
 use crate::time_optimal::solver::{Edge, Row, Way, places};
 use arl_robot::robot::Robot;
 
 /// The longest nominal time, in s, between two places, and how many places there are at least and at most.
-const SPACING: f64 = 0.008;
-const FEWEST: f64 = 48.0;
-const MOST_EVEN: f64 = 250.0;
-const MOST: usize = 900;
+const LONGEST_SPACING_S: f64 = 0.008;
+const FEWEST_PLACES: f64 = 48.0;
+const MOST_EVEN_PLACES: f64 = 250.0;
+const MOST_PLACES: usize = 900;
 /// The density of places for a short part, and how many there are at most.
-const GLIMPSE: f64 = 0.2;
-const MOST_GLIMPSED: usize = 40;
+const COARSE_DENSITY: f64 = 0.2;
+const MOST_COARSE_PLACES: usize = 40;
 /// Two places are no closer than this part of the spacing.
-const CLOSEST: f64 = 1.0 / 256.0;
+const CLOSEST_SHARE_OF_SPACING: f64 = 1.0 / 256.0;
 /// A step as part of the way over which the motion changes.
-const STEP_OF_SCALE: f64 = 0.06;
+const STEP_SHARE_OF_SCALE: f64 = 0.06;
 /// So many places are in each part of a blend, if they do not get too close.
-const PLACES: u32 = 3;
-/// How far beside a place its sides are looked at, as part of the piece.
-const BESIDE: f64 = 1e-9;
-/// With more pieces than this ahead, their ends are no places of their own.
-const MANY: usize = 150;
+const PLACES_OF_BLEND_PART: u32 = 3;
+/// How far beside a place its sides are looked at, as part of the segment.
+const BESIDE_SHARE: f64 = 1e-9;
+/// With more segments than this ahead, their ends are no places of their own.
+const MOST_SEGMENTS_WITH_ENDS: usize = 150;
 /// How often the end is brought nearer because there are too many places before it.
-const ATTEMPTS: usize = 6;
+const MOST_SHORTENINGS: usize = 6;
 
-/// The course from a place on. Parameters are s of nominal time since the course began.
-pub(crate) struct Scout {
+/// The path from a place on. Parameters are s of nominal time since the path began.
+pub(crate) struct ConstraintSampler {
     /// The robot that goes.
     pub(crate) robot: Arc<Robot>,
-    pieces: Vec<Arc<Piece>>,
-    /// Where the first piece begins.
+    segments: Vec<Arc<Segment>>,
+    /// Where the first segment begins.
     passed: f64,
     /// Where to look from, and joints near there.
     pub(crate) at: f64,
     near: Joints,
-    /// Where the last piece ends, and whether the robot has to stop there.
+    /// Where the last segment ends, and whether the robot has to stop there.
     pub(crate) end: f64,
     pub(crate) stops: bool,
     /// How long an acceleration takes to rise at least, in s, where the way is looked at for a stop: then each place has limits of its
@@ -48,26 +48,26 @@ pub(crate) struct Scout {
     rise: Option<f64>,
 }
 
-/// A part of the course that is ready to be timed.
+/// A part of the path that is ready to be timed.
 pub(crate) struct Prospect {
     pub(crate) way: Way,
     /// Where it ends; earlier than was asked for where there is too much to be seen.
     pub(crate) end: f64,
 }
 
-impl Scout {
-    /// Of pieces, of which the first begins at `passed`, those from `at` to the next stop, or to `farthest`; without those from
+impl ConstraintSampler {
+    /// Of segments, of which the first begins at `passed`, those from `at` to the next stop, or to `farthest`; without those from
     /// the index `settled` on where that begins behind `room`.
     pub(crate) fn new<'a>(
         robot: &Arc<Robot>,
-        (pieces, passed): (impl Iterator<Item = &'a Arc<Piece>>, f64),
+        (segments, passed): (impl Iterator<Item = &'a Arc<Segment>>, f64),
         (at, near): (f64, &Joints),
         farthest: f64,
         (settled, room): (usize, f64),
     ) -> Self {
-        let mut scout = Self {
+        let mut sampler = Self {
             robot: Arc::clone(robot),
-            pieces: Vec::new(),
+            segments: Vec::new(),
             passed,
             at,
             near: *near,
@@ -76,26 +76,26 @@ impl Scout {
             rise: None,
         };
         let mut settled_at = None;
-        for (index, piece) in pieces.enumerate() {
+        for (index, segment) in segments.enumerate() {
             if index == settled {
-                settled_at = Some((scout.pieces.len(), scout.end));
+                settled_at = Some((sampler.segments.len(), sampler.end));
             }
-            scout.end += piece.time;
-            if scout.pieces.is_empty() && scout.end <= at && !piece.stops {
-                scout.passed = scout.end;
+            sampler.end += segment.time;
+            if sampler.segments.is_empty() && sampler.end <= at && !segment.stops {
+                sampler.passed = sampler.end;
                 continue;
             }
-            scout.pieces.push(Arc::clone(piece));
-            scout.stops = piece.stops;
-            if piece.stops || scout.end > farthest {
+            sampler.segments.push(Arc::clone(segment));
+            sampler.stops = segment.stops;
+            if segment.stops || sampler.end > farthest {
                 break;
             }
         }
         if let Some((count, end)) = settled_at.filter(|(count, end)| *count > 0 && *end >= room) {
-            scout.pieces.truncate(count);
-            (scout.end, scout.stops) = (end, false);
+            sampler.segments.truncate(count);
+            (sampler.end, sampler.stops) = (end, false);
         }
-        scout
+        sampler
     }
 
     /// The same that ends at `end`, if that is nearer.
@@ -118,23 +118,23 @@ impl Scout {
 
     /// The way to `to`, with `density` times as many places as it takes mostly.
     pub(crate) fn look(&self, to: f64, density: f64, start: Edge, end: Edge) -> Option<Prospect> {
-        self.look_at(to, (density, MOST), start, end)
+        self.look_at(to, (density, MOST_PLACES), start, end)
     }
 
     /// A short part of the way from rest on, up to `to` at most, at a few places.
-    pub(crate) fn glimpse(&self, to: f64) -> Option<Prospect> {
+    pub(crate) fn sample_short_part(&self, to: f64) -> Option<Prospect> {
         let end = if to < self.end { Edge { vel: 1.0, acc: 0.0 } } else { Edge::REST };
-        self.look_at(to.min(self.end), (GLIMPSE, MOST_GLIMPSED), Edge::REST, end)
+        self.look_at(to.min(self.end), (COARSE_DENSITY, MOST_COARSE_PLACES), Edge::REST, end)
     }
 
     /// Goes along the way by itself.
-    pub(crate) fn stroll(&self) -> Stroll<'_> {
-        Stroll { scout: self, joints: self.near, index: 0, before: self.passed }
+    pub(crate) fn sample_coarsely(&self) -> Stroll<'_> {
+        Stroll { sampler: self, joints: self.near, index: 0, before: self.passed }
     }
 
     fn look_at(&self, to: f64, fineness: (f64, usize), start: Edge, end: Edge) -> Option<Prospect> {
         let mut to = to;
-        for _ in 0..ATTEMPTS {
+        for _ in 0..MOST_SHORTENINGS {
             match self.walk(to, fineness, start, end) {
                 Ok(way) => return Some(Prospect { way, end: to }),
                 Err(reached) => to = self.at + 0.8 * (reached - self.at),
@@ -145,7 +145,7 @@ impl Scout {
 
     /// The way with a density of places, or how far it got with as many as there may be.
     fn walk(&self, to: f64, (density, most): (f64, usize), start: Edge, end: Edge) -> Result<Way, f64> {
-        let count = (density * ((to - self.at) / SPACING).clamp(FEWEST, MOST_EVEN)) as usize;
+        let count = (density * ((to - self.at) / LONGEST_SPACING_S).clamp(FEWEST_PLACES, MOST_EVEN_PLACES)) as usize;
         let spacing = (to - self.at) / count as f64;
         let mut stations: Vec<(f64, bool)> =
             places(self.at, to, count, start, end).into_iter().map(|at| (at, true)).collect();
@@ -159,7 +159,7 @@ impl Scout {
         });
 
         let mut way = Way::new();
-        let mut bounds = Bounds::signed(&self.robot);
+        let mut bounds = Constraints::signed(&self.robot);
         let mut walk = Walk::new(self, many);
         for (station, next) in stations.iter().zip(stations.iter().skip(1).map(Some).chain([None])) {
             let mut at = station.0;
@@ -186,30 +186,30 @@ impl Scout {
         Ok(way)
     }
 
-    /// Where derivatives jump before `to`: between pieces and within them; and whether these are too many to be places.
+    /// Where derivatives jump before `to`: between segments and within them; and whether these are too many to be places.
     fn joints(&self, to: f64) -> (Vec<f64>, bool) {
         let mut joints = Vec::new();
         let (mut start, mut count) = (self.passed, 0);
-        for piece in &self.pieces {
+        for segment in &self.segments {
             if start >= to {
                 break;
             }
             count += 1;
-            let inner = piece.jumps().map(|at| start + at);
+            let inner = segment.jumps().map(|at| start + at);
             joints.extend(inner.filter(|at| *at > self.at && *at < to));
-            start += piece.time;
+            start += segment.time;
         }
-        (joints, count > MANY)
+        (joints, count > MOST_SEGMENTS_WITH_ENDS)
     }
 }
 
-/// Goes along the course.
+/// Goes along the path.
 struct Walk<'a> {
-    scout: &'a Scout,
-    /// Whether there are so many pieces that each of them is not worth places of its own.
+    sampler: &'a ConstraintSampler,
+    /// Whether there are so many segments that each of them is not worth places of its own.
     many: bool,
     joints: Joints,
-    /// The piece that was looked at last, and where it begins.
+    /// The segment that was looked at last, and where it begins.
     index: usize,
     before: f64,
     /// Where derivatives jump: how many of the rows are those of the side before.
@@ -218,9 +218,9 @@ struct Walk<'a> {
 
 /// Where the axes are at places of the way, one behind the other.
 pub(crate) struct Stroll<'a> {
-    scout: &'a Scout,
+    sampler: &'a ConstraintSampler,
     joints: Joints,
-    /// The piece that was looked at last, and where it begins.
+    /// The segment that was looked at last, and where it begins.
     index: usize,
     before: f64,
 }
@@ -241,14 +241,14 @@ impl Stroll<'_> {
     /// The place `at`, which is not before the one that was asked for last, and close to it.
     pub(crate) fn go_to(&mut self, at: f64) -> Point {
         let (mut pace, mut tool) = (Pace::FREE, None);
-        let pieces = &self.scout.pieces;
-        while let Some(piece) = pieces.get(self.index) {
-            let end = self.before + piece.time;
-            if at < end || self.index + 1 == pieces.len() {
-                let here = (at - self.before).min(piece.time);
-                self.joints = piece.joints_on(&self.scout.robot.kinematics, here, &self.joints);
-                pace = piece.pace.unwrap_or(pace);
-                tool = piece.tool(&self.scout.robot.kinematics, here, &self.joints);
+        let segments = &self.sampler.segments;
+        while let Some(segment) = segments.get(self.index) {
+            let end = self.before + segment.time;
+            if at < end || self.index + 1 == segments.len() {
+                let here = (at - self.before).min(segment.time);
+                self.joints = segment.joints_on(&self.sampler.robot.kinematics, here, &self.joints);
+                pace = segment.pace.unwrap_or(pace);
+                tool = segment.tool(&self.sampler.robot.kinematics, here, &self.joints);
                 break;
             }
             (self.before, self.index) = (end, self.index + 1);
@@ -258,38 +258,39 @@ impl Stroll<'_> {
 }
 
 impl<'a> Walk<'a> {
-    fn new(scout: &'a Scout, many: bool) -> Self {
-        Self { scout, many, joints: scout.near, index: 0, before: scout.passed, jump: None }
+    fn new(sampler: &'a ConstraintSampler, many: bool) -> Self {
+        Self { sampler, many, joints: sampler.near, index: 0, before: sampler.passed, jump: None }
     }
 
-    /// Adds the limits at `at`; where a piece begins, those of the one before as well. Returns a step over which the motion
+    /// Adds the limits at `at`; where a segment begins, those of the one before as well. Returns a step over which the motion
     /// changes little, no longer than `spacing`.
-    fn rows(&mut self, at: f64, spacing: f64, bounds: &mut Bounds) -> f64 {
+    fn rows(&mut self, at: f64, spacing: f64, bounds: &mut Constraints) -> f64 {
         let mut step = spacing;
         self.jump = None;
-        while let Some(piece) = self.scout.pieces.get(self.index) {
-            let here = (at - self.before).min(piece.time);
-            self.joints = piece.joints_on(&self.scout.robot.kinematics, here, &self.joints);
+        while let Some(segment) = self.sampler.segments.get(self.index) {
+            let here = (at - self.before).min(segment.time);
+            self.joints = segment.joints_on(&self.sampler.robot.kinematics, here, &self.joints);
             // Where derivatives jump, those of both sides count.
-            let beside = BESIDE * piece.time;
-            let jumps = piece.jumps_beside(here, 2.0 * beside);
-            if piece.bends() > 1 && !self.many {
-                step = step.min((piece.time / f64::from(PLACES * piece.bends())).max(spacing / 16.0));
+            let beside = BESIDE_SHARE * segment.time;
+            let jumps = segment.jumps_beside(here, 2.0 * beside);
+            if segment.bends() > 1 && !self.many {
+                step = step.min((segment.time / f64::from(PLACES_OF_BLEND_PART * segment.bends())).max(spacing / 16.0));
             }
             let sides = if jumps { [here - beside, here + beside] } else { [here; 2] };
             for (side, at) in sides.iter().take(if jumps { 2 } else { 1 }).enumerate() {
                 if side > 0 && here > 0.0 {
                     self.jump = Some(bounds.rows.len());
                 }
-                let at = at.clamp(0.0, piece.time);
+                let at = at.clamp(0.0, segment.time);
                 let here = (at, &self.joints);
-                if let Some(rates) = piece.limit(&self.scout.robot, here, self.scout.rise, bounds) {
-                    let longest = (STEP_OF_SCALE * scale(&self.scout.robot, &rates)).max(CLOSEST * spacing);
+                if let Some(rates) = segment.limit(&self.sampler.robot, here, self.sampler.rise, bounds) {
+                    let longest = (STEP_SHARE_OF_SCALE * scale(&self.sampler.robot, &rates))
+                        .max(CLOSEST_SHARE_OF_SPACING * spacing);
                     step = step.min(longest);
                 }
             }
-            let end = self.before + piece.time;
-            if at < end || piece.stops || self.index + 1 == self.scout.pieces.len() {
+            let end = self.before + segment.time;
+            if at < end || segment.stops || self.index + 1 == self.sampler.segments.len() {
                 break;
             }
             (self.before, self.index) = (end, self.index + 1);

@@ -1,8 +1,8 @@
-//! How the robot goes along the course in the profile O.
+//! How the robot goes along the path in the profile O.
 //!
-//! Invariant: the law in hand leads the robot to rest on the course, within all limits, at whatever share of its speed it is
+//! Invariant: the law in hand leads the robot to rest on the path, within all limits, at whatever share of its speed it is
 //! followed. Another one takes its place only when it starts from the robot's very state; where none is found, the robot
-//! keeps to the one it has. So nothing that comes up, a motion, a stop or another override, can lead it off the course or
+//! keeps to the one it has. So nothing that comes up, a motion, a stop or another override, can lead it off the path or
 //! beyond a limit.
 //!
 //! From rest the robot sets off before it has a law, on a ramp that would come to rest again: it joins the law on the way.
@@ -13,35 +13,35 @@
 use std::sync::Arc;
 
 use crate::limits::profile::State;
-use crate::time_optimal::constraint_sampler::{Prospect, Scout};
+use crate::time_optimal::constraint_sampler::{ConstraintSampler, Prospect};
 use crate::time_optimal::law_solver_thread::Found;
-use crate::time_optimal::limit_check::{Plot, Timed};
+use crate::time_optimal::limit_check::{LimitCheck, Timed};
 use crate::time_optimal::ramp::Ramp;
 use crate::time_optimal::solver::{Edge, Law, Moment};
-use crate::time_optimal::speed_scaling::{Ease, followed};
+use crate::time_optimal::speed_scaling::{SpeedScaling, followed};
 
-/// A law of which a smaller part is left is made longer when there is more course.
-const LEFT: f64 = 0.5;
+/// A law of which a smaller part is left is made longer when there is more path.
+const RENEWED_AT_SHARE_LEFT: f64 = 0.5;
 /// A new law must be about as quick as the one in hand over the next part of that.
-const AS_QUICK_FOR: f64 = 0.3;
-const AS_QUICK: f64 = 1.1;
+const COMPARED_SHARE: f64 = 0.3;
+const SLOWEST_RENEWAL_FACTOR: f64 = 1.1;
 /// After something was not found, the next attempt is made so many s later.
-const PAUSE: f64 = 0.02;
+const RETRY_AFTER_S: f64 = 0.02;
 /// A stop that ends no more than so many s before the law does is that of the law.
-const AS_SOON: f64 = 0.001;
+const SAME_STOP_S: f64 = 0.001;
 /// How many s a change of the override, or a stop for which no ramp is found, may take.
-const CHANGES: [f64; 7] = [0.03, 0.06, 0.12, 0.25, 0.5, 1.0, 2.0];
+const SCALING_DURATIONS_S: [f64; 7] = [0.03, 0.06, 0.12, 0.25, 0.5, 1.0, 2.0];
 /// A stop that takes longer, in s, is begun, and a shorter one looked for, which has to be shorter by so much.
-const LONG_STOP: f64 = 0.05;
-const SHORTER: f64 = 0.004;
+const LONG_STOP_S: f64 = 0.05;
+const LEAST_GAIN_S: f64 = 0.004;
 /// A law is joined with this part of the acceleration and jerk, where that can be: between the places limits are not certain.
-const CAREFUL: f64 = 0.985;
+const JOINING_SHARE_OF_LIMITS: f64 = 0.985;
 /// So long may a change of the override take that follows the law in hand all the time, where there is another way.
-const QUICK: f64 = 0.25;
+const QUICK_SCALING_S: f64 = 0.25;
 /// What sets off from rest looks ahead for so many times the time in which it does.
-const GLIMPSED: f64 = 2.5;
+const SETTING_OFF_LOOK_FACTOR: f64 = 2.5;
 /// A rest of a duration or of the way, in s, that is none.
-const NO_TIME: f64 = 1e-9;
+const NO_TIME_S: f64 = 1e-9;
 
 /// Where the robot is on its law.
 #[derive(Clone, Debug)]
@@ -57,22 +57,22 @@ impl Drive {
     }
 
     fn is_over(&self) -> bool {
-        self.left() <= NO_TIME
+        self.left() <= NO_TIME_S
     }
 
     /// Whether another law that starts here goes on about as quickly, before this one slows down for its end.
     fn is_as_quick(&self, other: &Found) -> bool {
-        let later = AS_QUICK_FOR * self.left();
+        let later = COMPARED_SHARE * self.left();
         let there = self.found.law.at(self.time + later).at.min(other.end);
         let own = self.found.law.time_at(there) - self.time;
-        other.law.time_at(there) <= AS_QUICK * own
+        other.law.time_at(there) <= SLOWEST_RENEWAL_FACTOR * own
     }
 
     /// A change of the share of its speed, from one with two derivatives, that keeps the limits, within `longest` s.
     fn easing(&self, shares: [f64; 3], to: f64, harder: f64, longest: f64) -> Option<Easing> {
-        CHANGES.iter().take_while(|duration| **duration <= longest).find_map(|duration| {
-            let easing = Easing { ease: Ease::new(shares, to, *duration), time: 0.0, from: self.time };
-            self.found.plot.keeps(&Eased { law: &self.found.law, easing }, harder).then_some(easing)
+        SCALING_DURATIONS_S.iter().take_while(|duration| **duration <= longest).find_map(|duration| {
+            let easing = Easing { scaling: SpeedScaling::new(shares, to, *duration), time: 0.0, from: self.time };
+            self.found.check.keeps(&Eased { law: &self.found.law, easing }, harder).then_some(easing)
         })
     }
 }
@@ -80,7 +80,7 @@ impl Drive {
 /// A change of the share at which the law is followed.
 #[derive(Clone, Copy, Debug)]
 struct Easing {
-    ease: Ease,
+    scaling: SpeedScaling,
     time: f64,
     /// The time on the law where it began.
     from: f64,
@@ -89,12 +89,12 @@ struct Easing {
 impl Easing {
     /// How long it goes on, in s.
     fn left(&self) -> f64 {
-        self.ease.duration() - self.time
+        self.scaling.duration() - self.time
     }
 
     /// Whether it leads to rest.
     fn stops(&self) -> bool {
-        self.ease.to() == 0.0
+        self.scaling.to() == 0.0
     }
 }
 
@@ -106,8 +106,8 @@ struct Eased<'a> {
 
 impl Timed for Eased<'_> {
     fn at(&self, time: f64) -> Moment {
-        let Easing { ease, time: begun, .. } = self.easing;
-        followed(&self.of_law(time), ease.at(begun + time))
+        let Easing { scaling, time: begun, .. } = self.easing;
+        followed(&self.of_law(time), scaling.at(begun + time))
     }
 
     fn duration(&self) -> f64 {
@@ -122,8 +122,8 @@ impl Timed for Eased<'_> {
 impl Eased<'_> {
     /// The law at the same place.
     fn of_law(&self, time: f64) -> Moment {
-        let Easing { ease, time: begun, from } = self.easing;
-        self.law.at(from + ease.passed(begun + time))
+        let Easing { scaling, time: begun, from } = self.easing;
+        self.law.at(from + scaling.passed(begun + time))
     }
 }
 
@@ -141,7 +141,7 @@ struct Ahead {
 
 /// Follows laws, cycle by cycle.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Pilot {
+pub(crate) struct LawFollower {
     ahead: Ahead,
     /// s until another attempt is made.
     pause: f64,
@@ -158,7 +158,7 @@ pub(crate) struct Pilot {
 }
 
 /// The state from which another law is wanted, some cycles from now.
-pub(crate) struct Wish {
+pub(crate) struct RenewalRequest {
     /// Where, in s of nominal time.
     pub(crate) at: f64,
     pub(crate) start: Edge,
@@ -169,7 +169,7 @@ pub(crate) struct Wish {
 }
 
 /// The state from which a shorter stop is wanted, some cycles from now.
-pub(crate) struct Halt {
+pub(crate) struct StopRequest {
     /// Where, in s of nominal time.
     pub(crate) at: f64,
     pub(crate) start: Edge,
@@ -185,14 +185,14 @@ impl Ahead {
 
     /// The share of the law's speed, with two derivatives.
     fn shares(&self) -> [f64; 3] {
-        self.easing.map_or([self.share, 0.0, 0.0], |easing| easing.ease.at(easing.time))
+        self.easing.map_or([self.share, 0.0, 0.0], |easing| easing.scaling.at(easing.time))
     }
 
-    /// The limits along the way in hand, and where it ends; behind that the course may be another one by now.
-    fn limits(&self) -> Option<(&Arc<Plot>, f64)> {
+    /// The limits along the way in hand, and where it ends; behind that the path may be another one by now.
+    fn limits(&self) -> Option<(&Arc<LimitCheck>, f64)> {
         match (&self.ramp, &self.main) {
-            (Some(ramp), _) => Some((&ramp.plot, ramp.end)),
-            (None, Some(main)) => Some((&main.found.plot, main.found.end)),
+            (Some(ramp), _) => Some((&ramp.check, ramp.end)),
+            (None, Some(main)) => Some((&main.found.check, main.found.end)),
             (None, None) => None,
         }
     }
@@ -211,7 +211,7 @@ impl Ahead {
     fn advance(&mut self, cycle: f64) -> Option<f64> {
         if let Some(ramp) = &mut self.ramp {
             ramp.time += cycle;
-            let end = (ramp.time >= ramp.duration() - NO_TIME).then_some(ramp.end);
+            let end = (ramp.time >= ramp.duration() - NO_TIME_S).then_some(ramp.end);
             if end.is_some() {
                 *self = Self::default();
             }
@@ -222,9 +222,9 @@ impl Ahead {
         match &mut self.easing {
             Some(easing) => {
                 easing.time += cycle;
-                main.time = easing.from + easing.ease.passed(easing.time);
-                if easing.time >= easing.ease.duration() - NO_TIME {
-                    self.share = easing.ease.to();
+                main.time = easing.from + easing.scaling.passed(easing.time);
+                if easing.time >= easing.scaling.duration() - NO_TIME_S {
+                    self.share = easing.scaling.to();
                     self.easing = None;
                     end = (self.share == 0.0).then(|| main.found.law.at(main.time).at);
                 }
@@ -241,7 +241,7 @@ impl Ahead {
     }
 }
 
-impl Pilot {
+impl LawFollower {
     /// One that leads to rest, where the limits are those of the way times `harder`.
     pub(crate) fn resting(found: Found, harder: f64) -> Self {
         let ahead = Ahead { ramp: Some(Ramp::along(found)), share: 1.0, ..Ahead::default() };
@@ -258,7 +258,7 @@ impl Pilot {
         self.ahead.ramp.is_some() || self.ahead.easing.as_ref().is_some_and(Easing::stops)
     }
 
-    /// How far the course is laid down by what is in hand.
+    /// How far the path is laid down by what is in hand.
     pub(crate) fn end(&self) -> f64 {
         match (&self.ahead.ramp, &self.ahead.main) {
             (Some(ramp), _) => ramp.end,
@@ -273,7 +273,7 @@ impl Pilot {
         Some((main.found.law.time_at(at) - main.time).max(0.0))
     }
 
-    /// The state a cycle later, in s of nominal time since the course began; `None` where it rests already.
+    /// The state a cycle later, in s of nominal time since the path began; `None` where it rests already.
     pub(crate) fn next(&mut self, cycle: f64) -> Option<State> {
         self.pause = (self.pause - cycle).max(0.0);
         self.share_pause = (self.share_pause - cycle).max(0.0);
@@ -291,15 +291,15 @@ impl Pilot {
 
     /// Sets off from rest before there is a law, for `time` s in which it is found, and would rest again soon if it were not:
     /// not where it has just done so in vain.
-    pub(crate) fn set_off(&mut self, scout: &Scout, share: f64, time: f64) {
+    pub(crate) fn set_off(&mut self, sampler: &ConstraintSampler, share: f64, time: f64) {
         if std::mem::take(&mut self.in_vain) {
             return;
         }
-        let start = State { at: scout.at, ..State::default() };
-        let glimpsed = scout.glimpse(scout.at + GLIMPSED * time);
+        let start = State { at: sampler.at, ..State::default() };
+        let glimpsed = sampler.sample_short_part(sampler.at + SETTING_OFF_LOOK_FACTOR * time);
         let ramp = glimpsed.and_then(|Prospect { way, end }| {
-            let mut ramp = Ramp::setting_off(start, &Arc::new(Plot::new(way)), end, share, time)?;
-            ramp.arrives = scout.stops && scout.end - ramp.end <= NO_TIME;
+            let mut ramp = Ramp::setting_off(start, &Arc::new(LimitCheck::new(way)), end, share, time)?;
+            ramp.arrives = sampler.stops && sampler.end - ramp.end <= NO_TIME_S;
             // It must not rest on its way before the law is there.
             (ramp.arrives || ramp.duration() > time).then_some(ramp)
         });
@@ -317,7 +317,7 @@ impl Pilot {
             let shares = [share, (now.acc - share * share * there.acc) / there.vel, 0.0];
             let main = Drive { found, time };
             let join = |harder: f64| main.easing(shares, self.ahead.share, harder, f64::INFINITY);
-            let easing = join(CAREFUL).or_else(|| join(1.0))?;
+            let easing = join(JOINING_SHARE_OF_LIMITS).or_else(|| join(1.0))?;
             Some(Ahead { main: Some(main), share: self.ahead.share, easing: Some(easing), ramp: None })
         });
         self.in_vain = joined.is_none();
@@ -333,9 +333,9 @@ impl Pilot {
 
     /// The state after so many cycles from which the law is wanted that goes on behind the one in hand, if it is time for
     /// that.
-    pub(crate) fn wish(&self, cycles: u32, cycle: f64) -> Option<Wish> {
+    pub(crate) fn renewal(&self, cycles: u32, cycle: f64) -> Option<RenewalRequest> {
         let main = self.ahead.main.as_ref()?;
-        let short = main.left() < LEFT * main.found.law.duration();
+        let short = main.left() < RENEWED_AT_SHARE_LEFT * main.found.law.duration();
         if self.pause > 0.0 || main.found.stops || !short {
             return None;
         }
@@ -343,14 +343,14 @@ impl Pilot {
     }
 
     /// The state after so many cycles, for another law than the one in hand; `None` where it brakes.
-    pub(crate) fn state_after(&self, cycles: u32, cycle: f64) -> Option<Wish> {
+    pub(crate) fn state_after(&self, cycles: u32, cycle: f64) -> Option<RenewalRequest> {
         if self.brakes() {
             return None;
         }
         let then = self.after(cycles, cycle);
         let main = then.main.as_ref()?;
         let there = main.found.law.at(main.time);
-        (there.vel > 0.0).then_some(Wish {
+        (there.vel > 0.0).then_some(RenewalRequest {
             at: there.at,
             start: Edge { vel: there.vel, acc: there.acc },
             share: then.share,
@@ -359,7 +359,7 @@ impl Pilot {
     }
 
     /// The state after so many cycles where it brakes, to go on at a share of the speed before it rests, or as soon as it does.
-    pub(crate) fn wish_to_go_on(&self, cycles: u32, cycle: f64, share: f64) -> Option<Wish> {
+    pub(crate) fn renewal_after_stop(&self, cycles: u32, cycle: f64, share: f64) -> Option<RenewalRequest> {
         let ramp = self.ahead.ramp.as_ref().filter(|_| self.pause <= 0.0)?;
         let (end, cycles) = (ramp.end, cycles.max((ramp.calm() / cycle).ceil() as u32));
         let then = self.after(cycles, cycle).state();
@@ -368,7 +368,7 @@ impl Pilot {
         }
         let State { at, vel, acc } = then.unwrap_or(State { at: end, vel: 0.0, acc: 0.0 });
         let start = if then.is_some() { Edge { vel: vel / share, acc: acc / (share * share) } } else { Edge::REST };
-        Some(Wish { at, start, share, cycles })
+        Some(RenewalRequest { at, start, share, cycles })
     }
 
     /// How it will go on from after so many cycles on.
@@ -380,12 +380,12 @@ impl Pilot {
         then
     }
 
-    /// Takes over the law for which there was a [`Pilot::wish`] so many cycles ago; returns whether it did.
+    /// Takes over the law for which there was a [`LawFollower::renewal`] so many cycles ago; returns whether it did.
     pub(crate) fn renew(&mut self, found: Option<Found>) -> bool {
         let Ahead { main: Some(main), easing, .. } = &mut self.ahead else { return false };
-        let eased = easing.map(|easing| Easing { from: -easing.ease.passed(easing.time), ..easing });
+        let eased = easing.map(|easing| Easing { from: -easing.scaling.passed(easing.time), ..easing });
         let keeps =
-            |found: &Found| eased.is_none_or(|easing| found.plot.keeps(&Eased { law: &found.law, easing }, 1.0));
+            |found: &Found| eased.is_none_or(|easing| found.check.keeps(&Eased { law: &found.law, easing }, 1.0));
         match found.filter(|found| main.is_as_quick(found) && keeps(found)) {
             Some(found) => {
                 *main = Drive { found, time: 0.0 };
@@ -393,39 +393,40 @@ impl Pilot {
                 true
             }
             None => {
-                self.pause = PAUSE;
+                self.pause = RETRY_AFTER_S;
                 false
             }
         }
     }
 
-    /// The same for [`Pilot::wish_to_go_on`].
+    /// The same for [`LawFollower::renewal_after_stop`].
     pub(crate) fn go_on(&mut self, found: Option<Found>, share: f64) {
         match found {
             Some(found) => self.start(found, share),
-            None => self.pause = PAUSE,
+            None => self.pause = RETRY_AFTER_S,
         }
     }
 
     /// Goes over to another share of the speed: along the law in hand, or, where that leaves too little of the limits, by
-    /// slowing down until another law begins, for which there is [`Pilot::wish_to_go_on`]; that takes `search` s.
+    /// slowing down until another law begins, for which there is [`LawFollower::renewal_after_stop`]; that takes `search` s.
     pub(crate) fn go_at(&mut self, share: f64, search: f64) {
         let Ahead { main: Some(main), easing, ramp: None, .. } = &self.ahead else { return };
-        let leads_to = easing.as_ref().map_or(self.ahead.share, |easing| easing.ease.to());
+        let leads_to = easing.as_ref().map_or(self.ahead.share, |easing| easing.scaling.to());
         // What takes long may be done sooner from a later state.
-        let (is_new, takes_long) = (leads_to != share, easing.as_ref().is_some_and(|easing| easing.left() > QUICK));
+        let (is_new, takes_long) =
+            (leads_to != share, easing.as_ref().is_some_and(|easing| easing.left() > QUICK_SCALING_S));
         if !(is_new || takes_long) || self.share_pause > 0.0 {
             return;
         }
         let [now, ..] = self.ahead.shares();
         let too_fast = now > share;
         let slower = |now| Ramp::slower(now, &main.found, main.time, share, search);
-        if let Some(easing) = main.easing(self.ahead.shares(), share, 1.0, QUICK) {
+        if let Some(easing) = main.easing(self.ahead.shares(), share, 1.0, QUICK_SCALING_S) {
             self.ahead.easing = Some(easing);
         } else if let Some(ramp) = self.ahead.state().filter(|_| is_new || too_fast).and_then(slower) {
             (self.ahead.ramp, self.harder, self.pause) = (Some(ramp), 0.0, 0.0);
         } else {
-            self.share_pause = PAUSE;
+            self.share_pause = RETRY_AFTER_S;
             if is_new {
                 let slowly = main.easing(self.ahead.shares(), share, 1.0, f64::INFINITY);
                 self.ahead.easing = slowly.or(self.ahead.easing);
@@ -434,20 +435,20 @@ impl Pilot {
     }
 
     /// Brakes to rest, where the limits are those of the way times `harder`, as can be done at once; returns whether that is
-    /// something new. There may be a shorter stop then: [`Pilot::halt`].
+    /// something new. There may be a shorter stop then: [`LawFollower::request_stop`].
     pub(crate) fn brake(&mut self, harder: f64) -> bool {
         if (self.brakes() && harder <= self.harder) || (self.stop_pause > 0.0 && harder <= 1.0) {
             return false;
         }
-        let Some((now, plot, end)) =
-            self.ahead.state().zip(self.ahead.limits()).map(|(now, (plot, end))| (now, plot, end))
+        let Some((now, check, end)) =
+            self.ahead.state().zip(self.ahead.limits()).map(|(now, (check, end))| (now, check, end))
         else {
             return false;
         };
-        let ramp = Ramp::hardest(now, plot, end, harder);
+        let ramp = Ramp::hardest(now, check, end, harder);
         let longest = ramp.as_ref().map_or(f64::INFINITY, Ramp::left);
         // Where the law ends as soon, rounding must not end the ramp just before it.
-        if self.arrives_in() <= longest + AS_SOON {
+        if self.arrives_in() <= longest + SAME_STOP_S {
             return false;
         }
         let easing = match &self.ahead {
@@ -468,29 +469,29 @@ impl Pilot {
     }
 
     /// The state after so many cycles for a shorter stop, if there may be one.
-    pub(crate) fn halt(&self, cycles: u32, cycle: f64, harder: f64) -> Option<Halt> {
+    pub(crate) fn request_stop(&self, cycles: u32, cycle: f64, harder: f64) -> Option<StopRequest> {
         let known = self.shortest && harder <= self.harder;
-        if known || self.stop_pause > 0.0 || self.stop_left() < LONG_STOP {
+        if known || self.stop_pause > 0.0 || self.stop_left() < LONG_STOP_S {
             return None;
         }
         let State { at, vel, acc } = self.after(cycles, cycle).state()?;
-        let (plot, end) = self.ahead.limits()?;
+        let (check, end) = self.ahead.limits()?;
         let start = State { at, vel, acc };
-        let about = Ramp::way(start, plot, harder);
-        (vel > 0.0 && about > 0.0 && at < end).then_some(Halt { at, start: Edge { vel, acc }, about, end })
+        let about = Ramp::way(start, check, harder);
+        (vel > 0.0 && about > 0.0 && at < end).then_some(StopRequest { at, start: Edge { vel, acc }, about, end })
     }
 
-    /// Takes over the stop for which there was a [`Pilot::halt`] so many cycles ago, if it is shorter.
-    pub(crate) fn halt_along(&mut self, found: Option<Found>, harder: f64) {
-        match found.filter(|found| found.law.duration() < self.stop_left() - SHORTER) {
+    /// Takes over the stop for which there was a [`LawFollower::request_stop`] so many cycles ago, if it is shorter.
+    pub(crate) fn stop_along(&mut self, found: Option<Found>, harder: f64) {
+        match found.filter(|found| found.law.duration() < self.stop_left() - LEAST_GAIN_S) {
             Some(found) => {
                 self.ahead.ramp = Some(Ramp::along(found));
                 (self.harder, self.shortest) = (harder, true);
             }
             None => {
                 // Where nothing leads to rest soon, another attempt is made.
-                self.shortest = self.stop_left() <= QUICK;
-                self.stop_pause = PAUSE;
+                self.shortest = self.stop_left() <= QUICK_SCALING_S;
+                self.stop_pause = RETRY_AFTER_S;
             }
         }
     }

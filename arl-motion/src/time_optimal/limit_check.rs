@@ -1,19 +1,19 @@
-//! The limits along a part of the course, and whether a motion keeps them.
+//! The limits along a part of the path, and whether a motion keeps them.
 
 use crate::limits::profile::Limits;
 use crate::time_optimal::solver::{Law, Moment, Row, Way};
 
 /// A motion is looked at every so many s, and may use so much of the limits.
-const SAMPLE: f64 = 0.001;
-pub(crate) const MOST_USED: f64 = 1.008;
+const SAMPLE_S: f64 = 0.001;
+pub(crate) const MOST_USED_SHARE: f64 = 1.008;
 /// A speed below zero, in s of nominal time per s, that is rounding.
-const BACKWARDS: f64 = 1e-9;
+const BACKWARDS_ROUNDING: f64 = 1e-9;
 /// No limits.
-const FREE: Limits = Limits { vel: f64::INFINITY, acc: f64::INFINITY, jerk: f64::INFINITY };
+const NO_LIMITS: Limits = Limits { vel: f64::INFINITY, acc: f64::INFINITY, jerk: f64::INFINITY };
 
-/// The limits along a part of the course.
+/// The limits along a part of the path.
 #[derive(Debug)]
-pub(crate) struct Plot {
+pub(crate) struct LimitCheck {
     way: Way,
     /// What the parameter may have at each place where it hardly moves.
     straight: Vec<Limits>,
@@ -32,13 +32,13 @@ impl Used {
     /// Between two places, the second of which is behind all that were noted before, it is `share`.
     pub(crate) fn note(&mut self, [from, to]: [f64; 2], share: f64) {
         self.most = self.most.max(share);
-        if share.is_nan() || share > MOST_USED {
+        if share.is_nan() || share > MOST_USED_SHARE {
             self.beyond = Some(self.beyond.map_or([from, to], |[first, _]| [first, to]));
         }
     }
 }
 
-/// A motion along the course over time.
+/// A motion along the path over time.
 pub(crate) trait Timed {
     fn at(&self, time: f64) -> Moment;
     fn duration(&self) -> f64;
@@ -59,11 +59,11 @@ impl Timed for Law {
     }
 }
 
-impl Plot {
+impl LimitCheck {
     pub(crate) fn new(way: Way) -> Self {
         let least = |index: usize| {
             let rows = way.rows(index).iter().filter(|row| row.first != 0.0);
-            rows.fold(FREE, |Limits { vel, acc, jerk }, row| {
+            rows.fold(NO_LIMITS, |Limits { vel, acc, jerk }, row| {
                 let first = row.first.abs();
                 Limits {
                     vel: vel.min(row.vel / first),
@@ -92,7 +92,7 @@ impl Plot {
         let first = places.partition_point(|place| *place <= from).saturating_sub(1);
         let last = places.partition_point(|place| *place < to) + 1;
         let between = self.straight.get(first..last.min(self.straight.len())).unwrap_or_default();
-        let Limits { vel, acc, jerk } = between.iter().fold(FREE, |least, here| Limits {
+        let Limits { vel, acc, jerk } = between.iter().fold(NO_LIMITS, |least, here| Limits {
             vel: least.vel.min(here.vel),
             acc: least.acc.min(here.acc),
             jerk: least.jerk.min(here.jerk),
@@ -129,7 +129,7 @@ pub(crate) fn used_by_law(way: &Way, law: &Law) -> Option<Used> {
     let looked = Look { way, harder: 1.0, between: Between::Least };
     let mut used = Used::default();
     for now in moments(law.duration()).map(|time| law.at(time)) {
-        if now.vel.is_nan() || now.vel < -BACKWARDS {
+        if now.vel.is_nan() || now.vel < -BACKWARDS_ROUNDING {
             return None;
         }
         used.note([now.at; 2], looked.used_at(&now));
@@ -147,14 +147,14 @@ fn keeps(looked: &Look, motion: &impl Timed) -> bool {
     moments(motion.duration()).all(|time| {
         let now = motion.at(time);
         let used = looked.used_at(&now);
-        let may = || used <= MOST_USED || motion.known(time).is_some_and(|known| used <= looked.used_at(&known));
-        now.vel >= -BACKWARDS && may()
+        let may = || used <= MOST_USED_SHARE || motion.known(time).is_some_and(|known| used <= looked.used_at(&known));
+        now.vel >= -BACKWARDS_ROUNDING && may()
     })
 }
 
 /// When to look at a motion that takes so many s.
 fn moments(duration: f64) -> impl Iterator<Item = f64> {
-    let count = (duration / SAMPLE).clamp(16.0, 4000.0) as u32;
+    let count = (duration / SAMPLE_S).clamp(16.0, 4000.0) as u32;
     (0..=count).map(move |step| duration * f64::from(step) / f64::from(count))
 }
 

@@ -1,29 +1,30 @@
-//! Ramps of the profile O: ways to rest with constant limits, which need neither a look along the course nor a solver; and in
+//! Ramps of the profile O: ways to rest with constant limits, which need neither a look along the path nor a solver; and in
 //! their place the shortest way to rest, where it has been found.
 
 use std::sync::Arc;
 
 use crate::limits::profile::{Change, Limits, State};
 use crate::time_optimal::law_solver_thread::Found;
-use crate::time_optimal::limit_check::{Plot, Timed};
+use crate::time_optimal::limit_check::{LimitCheck, Timed};
 use crate::time_optimal::solver::{Law, Moment};
 
 /// Shares of the acceleration and the jerk at rest that are tried.
-const HARDNESS: [f64; 14] = [1.0, 0.95, 0.9, 0.85, 0.8, 0.72, 0.64, 0.56, 0.48, 0.4, 0.32, 0.24, 0.16, 0.08];
+const TRIED_SHARES_OF_LIMITS: [f64; 14] =
+    [1.0, 0.95, 0.9, 0.85, 0.8, 0.72, 0.64, 0.56, 0.48, 0.4, 0.32, 0.24, 0.16, 0.08];
 /// A law that begins while the robot is slowed down begins at this part of the speed of the law in hand, there and so many s
 /// later.
-const SLOWER: f64 = 0.9;
-const LATER: f64 = 0.15;
+const LATER_LAW_SHARE_OF_SPEED: f64 = 0.9;
+const LATER_LAW_AFTER_S: f64 = 0.15;
 /// A robot that sets off uses so much of the speed, the acceleration and the jerk at most, a little less than the law that it
 /// will join; and so many shares of these are tried.
-const MOST_VEL: f64 = 0.9;
-const MOST_ACC: f64 = 0.95;
-const MOST_JERK: f64 = 0.98;
-const FEW: usize = 6;
+const MOST_SHARE_OF_SPEED: f64 = 0.9;
+const MOST_SHARE_OF_ACCELERATION: f64 = 0.95;
+const MOST_SHARE_OF_JERK: f64 = 0.98;
+const TRIED_SHARES: usize = 6;
 /// How often the way is measured anew over which a ramp needs its limits.
-const MEASURED: usize = 8;
+const MOST_MEASUREMENTS: usize = 8;
 /// Halvings of the time for which it speeds up on a short way: as many as it takes to end it exactly.
-const HALVINGS: u32 = 52;
+const TIME_HALVINGS: u32 = 52;
 
 /// A change of speed with constant limits.
 #[derive(Clone, Debug)]
@@ -92,33 +93,38 @@ pub(crate) struct Ramp {
     /// Whether it leads to where the robot has to stop.
     pub(crate) arrives: bool,
     /// The limits that it was found from.
-    pub(crate) plot: Arc<Plot>,
+    pub(crate) check: Arc<LimitCheck>,
 }
 
 impl Ramp {
-    fn new(first: Option<(Leg, f64)>, start: State, limits: &Limits, plot: &Arc<Plot>) -> Self {
+    fn new(first: Option<(Leg, f64)>, start: State, limits: &Limits, check: &Arc<LimitCheck>) -> Self {
         let stopping = Leg::new(start, 0.0, limits);
         let end = stopping.end();
         let stopping = Stopping::Leg(stopping);
-        Self { first, stopping, calm: 0.0, time: 0.0, end, arrives: false, plot: Arc::clone(plot) }
+        Self { first, stopping, calm: 0.0, time: 0.0, end, arrives: false, check: Arc::clone(check) }
     }
 
     /// The way to rest that a law leads.
-    pub(crate) fn along(Found { law, plot, end, stops }: Found) -> Self {
-        Self { first: None, stopping: Stopping::Law(law), calm: 0.0, time: 0.0, end, arrives: stops, plot }
+    pub(crate) fn along(Found { law, check, end, stops }: Found) -> Self {
+        Self { first: None, stopping: Stopping::Law(law), calm: 0.0, time: 0.0, end, arrives: stops, check }
     }
 
     /// One that sets off from rest, speeds up for `time` s, or as long as the way up to `end` allows, and rests before `end`: with
     /// the limits of the way at a share of the speed.
-    pub(crate) fn setting_off(start: State, plot: &Arc<Plot>, end: f64, share: f64, time: f64) -> Option<Self> {
+    pub(crate) fn setting_off(start: State, check: &Arc<LimitCheck>, end: f64, share: f64, time: f64) -> Option<Self> {
         let sets_off = |hardness: &f64| {
             let ramp = |limits: &Limits, time: f64| {
                 let leg = Leg::new(start, limits.vel, limits);
-                Self::new(Some((leg.clone(), time)), leg.after(time), limits, plot)
+                Self::new(Some((leg.clone(), time)), leg.after(time), limits, check)
             };
             let limits = |to: f64| {
-                let Limits { vel, acc, jerk } = scaled(plot.straight(start.at, to), *hardness);
-                Limits { vel: vel * MOST_VEL, acc: acc * MOST_ACC, jerk: jerk * MOST_JERK }.slowed(share)
+                let Limits { vel, acc, jerk } = scaled(check.straight(start.at, to), *hardness);
+                Limits {
+                    vel: vel * MOST_SHARE_OF_SPEED,
+                    acc: acc * MOST_SHARE_OF_ACCELERATION,
+                    jerk: jerk * MOST_SHARE_OF_JERK,
+                }
+                .slowed(share)
             };
             // What lies behind the farthest end does not count.
             let farthest = ramp(&limits(start.at), time).end.min(end);
@@ -126,37 +132,38 @@ impl Ramp {
             let mut found = ramp(&limits, time);
             if found.end > end {
                 let (mut short, mut long) = (0.0, time);
-                for _ in 0..HALVINGS {
+                for _ in 0..TIME_HALVINGS {
                     let middle = f64::midpoint(short, long);
                     if ramp(&limits, middle).end <= end { short = middle } else { long = middle }
                 }
                 found = ramp(&limits, short);
             }
-            found.will_do(plot, end, 1.0).then_some(found)
+            found.will_do(check, end, 1.0).then_some(found)
         };
-        HARDNESS.iter().take(FEW).find_map(sets_off)
+        TRIED_SHARES_OF_LIMITS.iter().take(TRIED_SHARES).find_map(sets_off)
     }
 
     /// The hardest one that keeps the limits times `harder` and rests before `end`.
-    pub(crate) fn hardest(start: State, plot: &Arc<Plot>, end: f64, harder: f64) -> Option<Self> {
-        let limits = braking(start, plot, end, harder);
+    pub(crate) fn hardest(start: State, check: &Arc<LimitCheck>, end: f64, harder: f64) -> Option<Self> {
+        let limits = braking(start, check, end, harder);
         // What brakes harder already would have to turn back.
         let turns = |limits: &Limits| start.acc < 0.0 && start.acc * start.acc > 2.0 * limits.jerk * start.vel;
-        let scales = HARDNESS.iter().map(|hardness| scaled(limits, *hardness)).filter(|limits| !turns(limits));
-        let mut ramps = scales.map(|limits| Self::new(None, start, &limits, plot));
-        ramps.find(|ramp| ramp.will_do(plot, end, harder))
+        let scales =
+            TRIED_SHARES_OF_LIMITS.iter().map(|hardness| scaled(limits, *hardness)).filter(|limits| !turns(limits));
+        let mut ramps = scales.map(|limits| Self::new(None, start, &limits, check));
+        ramps.find(|ramp| ramp.will_do(check, end, harder))
     }
 
     /// How far it is to rest if the limits at the start, acceleration and jerk times `harder`, hold on.
-    pub(crate) fn way(start: State, plot: &Plot, harder: f64) -> f64 {
-        Leg::new(start, 0.0, &scaled(plot.straight(start.at, start.at), harder)).end() - start.at
+    pub(crate) fn way(start: State, check: &LimitCheck, harder: f64) -> f64 {
+        Leg::new(start, 0.0, &scaled(check.straight(start.at, start.at), harder)).end() - start.at
     }
 
     /// The hardest one that first leads to a speed at which another law can begin, `search` s from now at the earliest, at a
     /// share of its speed; from `time` s on the law `found`.
     pub(crate) fn slower(start: State, found: &Found, time: f64, share: f64, search: f64) -> Option<Self> {
-        let Found { law, plot, end, .. } = found;
-        let limits = braking(start, plot, *end, 1.0);
+        let Found { law, check, end, .. } = found;
+        let limits = braking(start, check, *end, 1.0);
         let ramp = |hardness: &f64| {
             let limits = scaled(limits, *hardness);
             let mut goal = share * law.at(time).vel;
@@ -164,16 +171,16 @@ impl Ramp {
             // The law's speed is that of the place where the new one begins.
             for _ in 0..3 {
                 let time = law.time_at(leg.after(leg.change.duration().max(search)).at);
-                goal = share * SLOWER * law.at(time).vel.min(law.at(time + LATER).vel);
+                goal = share * LATER_LAW_SHARE_OF_SPEED * law.at(time).vel.min(law.at(time + LATER_LAW_AFTER_S).vel);
                 leg = Leg::new(start, goal, &limits);
             }
             let until = leg.change.duration().max(search);
             let slow = State { acc: 0.0, ..leg.after(until) };
             let calm = leg.change.duration();
             (goal > 0.0 && goal < start.vel)
-                .then(|| Self { calm, ..Self::new(Some((leg, until)), slow, &limits, plot) })
+                .then(|| Self { calm, ..Self::new(Some((leg, until)), slow, &limits, check) })
         };
-        HARDNESS.iter().filter_map(ramp).find(|ramp| ramp.will_do(plot, *end, 1.0))
+        TRIED_SHARES_OF_LIMITS.iter().filter_map(ramp).find(|ramp| ramp.will_do(check, *end, 1.0))
     }
 
     /// s until another law can begin on it.
@@ -187,9 +194,9 @@ impl Ramp {
     }
 
     /// Whether it rests before `end` and keeps the limits times `harder`.
-    fn will_do(&self, plot: &Plot, end: f64, harder: f64) -> bool {
+    fn will_do(&self, check: &LimitCheck, end: f64, harder: f64) -> bool {
         let stop = self.at(self.duration());
-        stop.vel.abs() <= 1e-9 * self.stopping.at(0.0).vel && self.end <= end && plot.surely_keeps(self, harder)
+        stop.vel.abs() <= 1e-9 * self.stopping.at(0.0).vel && self.end <= end && check.surely_keeps(self, harder)
     }
 }
 
@@ -208,10 +215,10 @@ impl Timed for Ramp {
 }
 
 /// Acceleration and jerk for braking to rest, times `harder`: those of the whole way to rest, and not of what lies behind it.
-fn braking(start: State, plot: &Plot, end: f64, harder: f64) -> Limits {
-    let over = |to: f64| scaled(plot.straight(start.at, to), harder);
+fn braking(start: State, check: &LimitCheck, end: f64, harder: f64) -> Limits {
+    let over = |to: f64| scaled(check.straight(start.at, to), harder);
     let mut limits = over(start.at);
-    for _ in 0..MEASURED {
+    for _ in 0..MOST_MEASUREMENTS {
         let farthest = Leg::new(start, 0.0, &limits).end();
         let next = over(farthest.min(end));
         if next == limits {

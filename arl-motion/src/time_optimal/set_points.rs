@@ -5,41 +5,43 @@ use std::collections::VecDeque;
 use nalgebra::Vector3;
 
 use crate::follow::segment::LedTool;
-use crate::time_optimal::constraint_sampler::{Point, Scout};
+use crate::time_optimal::constraint_sampler::{ConstraintSampler, Point};
 use crate::time_optimal::limit_check::Used;
 use crate::time_optimal::solver::Law;
 
 /// s between two set-points.
-const CYCLE: f64 = 0.001;
+const SET_POINT_CYCLE_S: f64 = 0.001;
 /// The robot may come to a law at any time within a cycle: so many of them are looked at.
-const PHASES: usize = 2;
+const PHASES_OF_CYCLE: usize = 2;
 /// So many set-points at rest tell how a motion begins and ends.
-const STANDING: i32 = 3;
+const SET_POINTS_AT_REST: i32 = 3;
 
 /// What changes its direction by so much within two cycles, in rad, all but turns back.
-const TURNS_BACK: f64 = 0.1;
+const TURN_BACK_RAD: f64 = 0.1;
 
 /// Limits of speed, acceleration and jerk.
 type Limits = [f64; 3];
 
 /// The share of what motions may have of speed, acceleration and jerk, the latter two `harder` times as high, that set-points
 /// along a law use, by their differences: of each axis, and of the TCP along its way and its turning where that is led.
-pub(crate) fn used_by_set_points(scout: &Scout, law: &Law, harder: f64) -> Used {
-    let mut stroll = scout.stroll();
-    let mut last: VecDeque<Point> = VecDeque::with_capacity(3 * PHASES + 1);
+pub(crate) fn used_by_set_points(sampler: &ConstraintSampler, law: &Law, harder: f64) -> Used {
+    let mut sample_coarsely = sampler.sample_coarsely();
+    let mut last: VecDeque<Point> = VecDeque::with_capacity(3 * PHASES_OF_CYCLE + 1);
     let mut used = Used::default();
     // Where it stands before or behind, set-points are those of a robot at rest.
-    let first = if law.at(0.0).vel == 0.0 { -STANDING } else { 0 };
-    let end = (law.duration() / CYCLE) as i32 + STANDING;
-    for step in first * PHASES as i32..=end * PHASES as i32 {
-        if last.len() > 3 * PHASES {
+    let first = if law.at(0.0).vel == 0.0 { -SET_POINTS_AT_REST } else { 0 };
+    let end = (law.duration() / SET_POINT_CYCLE_S) as i32 + SET_POINTS_AT_REST;
+    for step in first * PHASES_OF_CYCLE as i32..=end * PHASES_OF_CYCLE as i32 {
+        if last.len() > 3 * PHASES_OF_CYCLE {
             last.pop_front();
         }
-        last.push_back(stroll.go_to(law.at(f64::from(step) * (CYCLE / PHASES as f64)).at));
-        let points = [0, 1, 2, 3].map(|cycle| last.get(cycle * PHASES));
+        last.push_back(
+            sample_coarsely.go_to(law.at(f64::from(step) * (SET_POINT_CYCLE_S / PHASES_OF_CYCLE as f64)).at),
+        );
+        let points = [0, 1, 2, 3].map(|cycle| last.get(cycle * PHASES_OF_CYCLE));
         if let [Some(a), Some(b), Some(c), Some(d)] = points {
             let points = [a, b, c, d];
-            let share = used_by_axes(scout, points, harder).max(used_by_tool(scout, points, harder));
+            let share = used_by_axes(sampler, points, harder).max(used_by_tool(sampler, points, harder));
             used.note([a.at, d.at], share);
         }
     }
@@ -47,12 +49,12 @@ pub(crate) fn used_by_set_points(scout: &Scout, law: &Law, harder: f64) -> Used 
 }
 
 /// The largest share of an axis's limits by four set-points. Where one motion leads into another, the higher limits count.
-fn used_by_axes(scout: &Scout, points: [&Point; 4], harder: f64) -> f64 {
-    let own = scout.robot.own_axes().iter().enumerate();
+fn used_by_axes(sampler: &ConstraintSampler, points: [&Point; 4], harder: f64) -> f64 {
+    let own = sampler.robot.own_axes().iter().enumerate();
     let own = own.map(|(index, axis)| {
         (points.map(|point| point.joints.axes.get(index).copied()), points.map(|point| point.pace.of_own(axis)))
     });
-    let external = scout.robot.external_axes().iter().enumerate();
+    let external = sampler.robot.external_axes().iter().enumerate();
     let external = external.map(|(index, axis)| {
         (
             points.map(|point| point.joints.external.get(index).copied()),
@@ -66,13 +68,13 @@ fn used_by_axes(scout: &Scout, points: [&Point; 4], harder: f64) -> f64 {
 }
 
 /// The same of the TCP's limits; nothing where it is not led all along, or another one is.
-fn used_by_tool(scout: &Scout, points: [&Point; 4], harder: f64) -> f64 {
+fn used_by_tool(sampler: &ConstraintSampler, points: [&Point; 4], harder: f64) -> f64 {
     let [Some(a), Some(b), Some(c), Some(d)] = points.map(|point| point.tool) else { return 0.0 };
     if [b, c, d].iter().any(|other| other.carried != a.carried) {
         return 0.0;
     }
     let pairs = [(a, b), (b, c), (c, d)];
-    let tcp = &scout.robot.tcp;
+    let tcp = &sampler.robot.tcp;
     let limits = points.map(|Point { pace, .. }| [tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk]);
     let by_way = used_along(pairs.map(|(from, to)| to.at - from.at), highest(limits), harder);
     let turn = |(from, to): (LedTool, LedTool)| Some((to.rotation? * from.rotation?.inverse()).scaled_axis());
@@ -87,15 +89,16 @@ fn used_by_tool(scout: &Scout, points: [&Point; 4], harder: f64) -> f64 {
 /// once: its speed along its way has no jerk to speak of.
 fn used_along(ways: [Vector3<f64>; 3], [vel, acc, jerk]: Limits, harder: f64) -> f64 {
     let [first, _, last] = &ways;
-    let jerk = if first.angle(last) > TURNS_BACK { f64::INFINITY } else { jerk };
+    let jerk = if first.angle(last) > TURN_BACK_RAD { f64::INFINITY } else { jerk };
     used(ways.map(|way| way.norm()), [vel, acc, jerk], harder)
 }
 
 /// The share of limits that three steps in a row use.
 fn used([first, second, third]: [f64; 3], [vel, acc, jerk]: Limits, harder: f64) -> f64 {
-    let by_vel = third / CYCLE / vel;
-    let by_acc = (third - second) / (CYCLE * CYCLE) / (harder * acc);
-    let by_jerk = (third - 2.0 * second + first) / (CYCLE * CYCLE * CYCLE) / (harder * jerk);
+    let by_vel = third / SET_POINT_CYCLE_S / vel;
+    let by_acc = (third - second) / (SET_POINT_CYCLE_S * SET_POINT_CYCLE_S) / (harder * acc);
+    let by_jerk =
+        (third - 2.0 * second + first) / (SET_POINT_CYCLE_S * SET_POINT_CYCLE_S * SET_POINT_CYCLE_S) / (harder * jerk);
     by_vel.abs().max(by_acc.abs()).max(by_jerk.abs())
 }
 

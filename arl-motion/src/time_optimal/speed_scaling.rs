@@ -4,13 +4,13 @@ use crate::time_optimal::solver::Moment;
 
 /// A share of the speed that goes to another one: a polynomial of the fifth degree of the time.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Ease {
+pub(crate) struct SpeedScaling {
     factors: [f64; 6],
     duration: f64,
     to: f64,
 }
 
-impl Ease {
+impl SpeedScaling {
     /// From a share with its first two derivatives, per s and s2, to another one within `duration` s.
     pub(crate) fn new([share, rate, change]: [f64; 3], to: f64, duration: f64) -> Self {
         let time = duration;
@@ -80,26 +80,26 @@ mod tests {
     #[test]
     fn it_joins_both_ends_and_its_sum_is_the_time_that_passes() {
         let start = [0.8, -0.4, 3.0];
-        let ease = Ease::new(start, 0.25, 0.3);
-        for (found, wanted) in ease.at(0.0).iter().zip(start) {
+        let scaling = SpeedScaling::new(start, 0.25, 0.3);
+        for (found, wanted) in scaling.at(0.0).iter().zip(start) {
             assert!((found - wanted).abs() < 1e-12);
         }
         // Just before its end it is where it leads.
-        for (found, wanted) in ease.at(0.3 - 1e-9).iter().zip([0.25, 0.0, 0.0]) {
+        for (found, wanted) in scaling.at(0.3 - 1e-9).iter().zip([0.25, 0.0, 0.0]) {
             assert!((found - wanted).abs() < 1e-5, "{found}");
         }
         let steps = 3000;
         let step = 0.4 / f64::from(steps);
-        let sum: f64 = (0..steps).map(|index| ease.at((f64::from(index) + 0.5) * step)[0] * step).sum();
-        assert!((sum - ease.passed(0.4)).abs() < 1e-6);
+        let sum: f64 = (0..steps).map(|index| scaling.at((f64::from(index) + 0.5) * step)[0] * step).sum();
+        assert!((sum - scaling.passed(0.4)).abs() < 1e-6);
     }
 
     #[test]
     fn derivatives_of_what_is_followed_are_those_of_its_positions() {
         // A law with constant jerk.
         let law = |t: f64| Moment { at: t * t * t, vel: 3.0 * t * t, acc: 6.0 * t, jerk: 6.0 };
-        let ease = Ease::new([1.0, 0.0, 0.0], 0.4, 0.5);
-        let at = |time: f64| followed(&law(1.0 + ease.passed(time)), ease.at(time));
+        let scaling = SpeedScaling::new([1.0, 0.0, 0.0], 0.4, 0.5);
+        let at = |time: f64| followed(&law(1.0 + scaling.passed(time)), scaling.at(time));
         let (time, step) = (0.2, 1e-4);
         let (before, now, after) = (at(time - step), at(time), at(time + step));
         assert!(((after.at - before.at) / (2.0 * step) - now.vel).abs() < 1e-5);

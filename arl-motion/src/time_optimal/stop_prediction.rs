@@ -6,11 +6,11 @@ use crate::limits::profile::{Change, State};
 use crate::time_optimal::solver::Edge;
 
 /// A stop that takes more cycles is not looked at.
-const MOST_CYCLES: u32 = 20_000;
+const MOST_PREDICTED_CYCLES: u32 = 20_000;
 
 /// The governor with a copy of all it knows.
 #[derive(Clone, Debug)]
-pub(crate) struct Foresight {
+pub(crate) struct StopPrediction {
     timing: Timing,
     state: State,
     backup: Change,
@@ -18,7 +18,7 @@ pub(crate) struct Foresight {
     harder: f64,
 }
 
-impl Foresight {
+impl StopPrediction {
     /// Of a stop with so many times the acceleration and jerk, which begins with this state.
     pub(crate) fn new(timing: Timing, state: State, backup: Change, cycle: f64, harder: f64) -> Self {
         Self { timing, state, backup, cycle, harder }
@@ -49,7 +49,7 @@ impl Foresight {
     /// How far it still is to rest, in s of nominal time, and how many s that takes. `None` where nobody wants to know any more.
     pub(crate) fn rest(mut self, wanted: impl Fn() -> bool) -> Option<[f64; 2]> {
         let mut way = 0.0;
-        for cycles in 1..MOST_CYCLES {
+        for cycles in 1..MOST_PREDICTED_CYCLES {
             way += self.step();
             if self.state.rests() {
                 return Some([way, f64::from(cycles) * self.cycle]);

@@ -149,8 +149,8 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
         compensation: current.compensation.filter(|_| !steps),
         ..current
     };
-    let halves = if steps { lane.unit(MOTION)?.halves(&command, &settings) } else { None };
-    if let Some([first, second]) = halves {
+    let circle_steps = if steps { lane.unit(MOTION)?.circle_steps(&command, &settings) } else { None };
+    if let Some([first, second]) = circle_steps {
         add(cx, &first, &settings).await?;
         cx.next_step().await;
         add(cx, &second, &settings).await?;

@@ -1,7 +1,7 @@
-//! About how long a crossing takes, with what the ways before and behind lose by it: enough to choose among several.
+//! About how long a blend takes with given limits, and what the motions before and behind lose by it: enough to choose among several.
 
-use crate::blend::blend_limits::{Crossing, PARTS};
-use crate::limits::profile::ALIKE;
+use crate::blend::blend_limits::{BlendLimits, PARTS};
+use crate::limits::profile::ALIKE_FACTOR;
 use crate::limits::profile::{Change, Limits};
 
 /// The way before or behind a blend, as far as the robot can change its speed on it for the blend.
@@ -21,23 +21,23 @@ struct Part {
 }
 
 /// Lengths of the parts of an approach as shares of it, the nearest to the blend first.
-const APPROACH: [f64; 6] = [1.0 / 32.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0];
+const APPROACH_SHARES: [f64; 6] = [1.0 / 32.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0];
 
 /// About how long it takes to cross, in s, and to go the ways before and behind.
-pub(crate) fn duration(crossing: &Crossing, approaches: &[Approach; 2]) -> f64 {
-    if crossing.arms.parts > 0 {
-        return duration_with_arms(crossing, approaches);
+pub(crate) fn duration(blend_limits: &BlendLimits, approaches: &[Approach; 2]) -> f64 {
+    if blend_limits.end_zones.parts > 0 {
+        return duration_with_end_zones(blend_limits, approaches);
     }
-    let own = Limits { vel: f64::INFINITY, acc: crossing.acc, jerk: crossing.jerk };
+    let own = Limits { vel: f64::INFINITY, acc: blend_limits.acc, jerk: blend_limits.jerk };
     let [before, behind] = approaches;
     let [with_before, with_behind] = approaches.map(|approach| alike(&approach.limits, &own));
     let mut limits = own;
-    let mut parts: Vec<Part> = Vec::with_capacity(PARTS + 2 * APPROACH.len());
+    let mut parts: Vec<Part> = Vec::with_capacity(PARTS + 2 * APPROACH_SHARES.len());
     if with_before {
         limits = lower(limits, &before.limits);
         parts.extend(before.parts().rev());
     }
-    parts.extend(crossing.speeds.iter().map(|speed| Part { length: 1.0 / PARTS as f64, speed: *speed }));
+    parts.extend(blend_limits.speeds.iter().map(|speed| Part { length: 1.0 / PARTS as f64, speed: *speed }));
     if with_behind {
         limits = lower(limits, &behind.limits);
         parts.extend(behind.parts());
@@ -48,19 +48,19 @@ pub(crate) fn duration(crossing: &Crossing, approaches: &[Approach; 2]) -> f64 {
     time + before.outside(shared(with_before), first) + behind.outside(shared(with_behind), last)
 }
 
-/// The same of a crossing with arms: where they meet its middle there is no acceleration.
-fn duration_with_arms(crossing: &Crossing, [before, behind]: &[Approach; 2]) -> f64 {
-    let Crossing { speeds, acc, jerk, arms } = crossing;
+/// The same with end zones: where they meet the middle of the blend there is no acceleration.
+fn duration_with_end_zones(blend_limits: &BlendLimits, [before, behind]: &[Approach; 2]) -> f64 {
+    let BlendLimits { speeds, acc, jerk, end_zones } = blend_limits;
     let parts: Vec<Part> = speeds.iter().map(|speed| Part { length: 1.0 / PARTS as f64, speed: *speed }).collect();
-    let (first, rest) = parts.split_at(arms.parts);
-    let (middle, last) = rest.split_at(PARTS - 2 * arms.parts);
+    let (first, rest) = parts.split_at(end_zones.parts);
+    let (middle, last) = rest.split_at(PARTS - 2 * end_zones.parts);
     let limits = Limits { vel: f64::INFINITY, acc: *acc, jerk: *jerk };
-    let outer = Limits { vel: f64::INFINITY, acc: arms.acc, jerk: arms.jerk };
+    let outer = Limits { vel: f64::INFINITY, acc: end_zones.acc, jerk: end_zones.jerk };
     let through = |ends: [f64; 2]| time(middle, ends, &limits);
     let (mut own, [entry, exit]) =
         through([first.last(), last.first()].map(|part| part.map_or(0.0, |part| part.speed)));
-    let (came, entered) = before.with_arm(first.iter().rev(), &outer, entry);
-    let (went, left) = behind.with_arm(last.iter(), &outer, exit);
+    let (came, entered) = before.with_end_zone(first.iter().rev(), &outer, entry);
+    let (went, left) = behind.with_end_zone(last.iter(), &outer, exit);
     if entered < entry || left < exit {
         (own, _) = through([entered, left]);
     }
@@ -76,7 +76,7 @@ pub(crate) fn shortest(speeds: &[f64; PARTS], approaches: &[Approach; 2]) -> f64
 
 /// Whether two become one stretch, with the lower limits: see the timing of the path.
 pub(crate) fn alike(a: &Limits, b: &Limits) -> bool {
-    let alike = |a: f64, b: f64| a <= b * ALIKE && b <= a * ALIKE;
+    let alike = |a: f64, b: f64| a <= b * ALIKE_FACTOR && b <= a * ALIKE_FACTOR;
     alike(a.acc, b.acc) && alike(a.jerk, b.jerk)
 }
 
@@ -86,12 +86,12 @@ fn lower(a: Limits, b: &Limits) -> Limits {
 
 impl Approach {
     fn parts(&self) -> impl DoubleEndedIterator<Item = Part> {
-        APPROACH.iter().map(|share| Part { length: self.length * share, speed: self.limits.vel })
+        APPROACH_SHARES.iter().map(|share| Part { length: self.length * share, speed: self.limits.vel })
     }
 
     /// How long it takes with an arm, whose parts are given from the middle of the blend on, and how fast that one is there, with at
     /// most this speed.
-    fn with_arm<'a>(&self, arm: impl Iterator<Item = &'a Part>, outer: &Limits, speed: f64) -> (f64, f64) {
+    fn with_end_zone<'a>(&self, arm: impl Iterator<Item = &'a Part>, outer: &Limits, speed: f64) -> (f64, f64) {
         let joined = alike(&self.limits, outer);
         let limits = if joined { lower(*outer, &self.limits) } else { *outer };
         let mut parts: Vec<Part> = arm.copied().collect();

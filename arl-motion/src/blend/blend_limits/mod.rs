@@ -11,26 +11,26 @@ use crate::limits::profile::Limits;
 use crate::plan::constraints::PlaceBounds;
 pub(crate) use duration::Approach;
 use duration::{duration, shortest};
-use end_zones::Arms;
+use end_zones::EndZones;
 
 /// Parts of a blend, of the same nominal time, with a speed each.
 pub(crate) const PARTS: usize = 16;
 
 /// Limits of the share of a blend that is done, per s.
 #[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Crossing {
+pub(crate) struct BlendLimits {
     /// For each part.
     pub(crate) speeds: [f64; PARTS],
-    /// In the middle; of all of it, where it has no arms.
+    /// In the middle; of all of it, where it has no end zones.
     pub(crate) acc: f64,
     pub(crate) jerk: f64,
-    pub(crate) arms: Arms,
+    pub(crate) end_zones: EndZones,
 }
 
-impl Crossing {
+impl BlendLimits {
     /// The same limits all along.
     pub(crate) fn even(Limits { vel, acc, jerk }: Limits) -> Self {
-        Self { speeds: [vel; PARTS], acc, jerk, arms: Arms::default() }
+        Self { speeds: [vel; PARTS], acc, jerk, end_zones: EndZones::default() }
     }
 }
 
@@ -40,12 +40,16 @@ const ACC_SHARES: [f64; 5] = [0.06, 0.12, 0.25, 0.5, 0.9];
 const JERK_SHARES: [f64; 4] = [0.15, 0.35, 0.6, 0.9];
 
 /// The quickest limits to cross with, no faster than `fastest`, under which no bound is broken.
-pub(crate) fn cross(places: &[PlaceBounds], fastest: f64, approaches: &[Approach; 2]) -> Option<Crossing> {
+pub(crate) fn find_blend_limits(
+    places: &[PlaceBounds],
+    fastest: f64,
+    approaches: &[Approach; 2],
+) -> Option<BlendLimits> {
     let rows = || places.iter().flat_map(|place| place.rows).filter(|row| row.first > 0.0);
     let lowest = |of: fn(&Bound) -> f64| rows().map(of).fold(1e12, f64::min);
     let (acc, jerk) = (lowest(|row| row.acc / row.first), lowest(|row| row.jerk / row.first));
     let sites: Vec<Site> = places.iter().map(Site::new).collect();
-    let mut best: Option<(f64, Crossing)> = None;
+    let mut best: Option<(f64, BlendLimits)> = None;
     // Speeds only fall with the acceleration and the jerk: those of the pairs before are a bound, which is often enough to know
     // that a pair is slower than another one.
     let mut with_less_acc = [[fastest; PARTS]; JERK_SHARES.len()];
@@ -61,10 +65,10 @@ pub(crate) fn cross(places: &[PlaceBounds], fastest: f64, approaches: &[Approach
             if may_be_best(known) {
                 lower_speeds(known, &sites, acc, jerk);
                 if may_be_best(known) {
-                    let crossing = Crossing { speeds: *known, acc, jerk, arms: Arms::default() };
-                    let time = duration(&crossing, approaches);
+                    let blend_limits = BlendLimits { speeds: *known, acc, jerk, end_zones: EndZones::default() };
+                    let time = duration(&blend_limits, approaches);
                     if best.as_ref().is_none_or(|(least, _)| time < *least) {
-                        best = Some((time, crossing));
+                        best = Some((time, blend_limits));
                     }
                 }
             }
@@ -72,7 +76,7 @@ pub(crate) fn cross(places: &[PlaceBounds], fastest: f64, approaches: &[Approach
         }
     }
     let best = best.map(|best| end_zones::quickest(best, &sites, (fastest, acc, jerk), approaches));
-    best.filter(|crossing| crossing.speeds.iter().all(|speed| *speed > 0.0))
+    best.filter(|blend_limits| blend_limits.speeds.iter().all(|speed| *speed > 0.0))
 }
 
 /// A place with the parts that it speaks for, and bounds that are as strict as all of its own together.
@@ -173,13 +177,13 @@ mod tests {
             let places = random_places(&mut random);
             let bounds = bounds_of(&places);
             let approach = Approach { limits: Limits { vel: 1.0, acc: 4.0, jerk: 40.0 }, length: 1.0 };
-            let Crossing { speeds, acc, jerk, arms } = cross(&bounds, 1.0, &[approach; 2]).unwrap();
+            let BlendLimits { speeds, acc, jerk, end_zones } = find_blend_limits(&bounds, 1.0, &[approach; 2]).unwrap();
             assert!(acc > 0.0 && jerk > 0.0);
             for (share, rows) in &places {
                 let part = ((share * PARTS as f64) as usize).min(PARTS - 1);
                 let vel = speeds[part];
-                let is_arm = part < arms.parts || part >= PARTS - arms.parts;
-                let (acc, jerk) = if is_arm { (arms.acc, arms.jerk) } else { (acc, jerk) };
+                let is_arm = part < end_zones.parts || part >= PARTS - end_zones.parts;
+                let (acc, jerk) = if is_arm { (end_zones.acc, end_zones.jerk) } else { (acc, jerk) };
                 for bound in rows {
                     bound.assert_kept(Limits { vel, acc, jerk });
                 }
@@ -199,7 +203,7 @@ mod tests {
                 length: random.between(0.0, 2.0),
             };
             let approaches = [approach(&mut random), approach(&mut random)];
-            let found = cross(&bounds, 1.0, &approaches).unwrap();
+            let found = find_blend_limits(&bounds, 1.0, &approaches).unwrap();
             let least = duration(&found, &approaches);
             let most = |of: fn(&Bound) -> f64| {
                 places.iter().flat_map(|(_, rows)| rows).filter(|row| row.first > 0.0).map(of).fold(1e12, f64::min)
@@ -209,8 +213,8 @@ mod tests {
                 let (acc, jerk) = (acc * acc_share, jerk * jerk_share);
                 let mut speeds = [1.0; PARTS];
                 lower_speeds(&mut speeds, &sites, acc, jerk);
-                let crossing = Crossing { speeds, acc, jerk, arms: Arms::default() };
-                let time = duration(&crossing, &approaches);
+                let blend_limits = BlendLimits { speeds, acc, jerk, end_zones: EndZones::default() };
+                let time = duration(&blend_limits, &approaches);
                 assert!(least <= time * (1.0 + 1e-5), "{least} {time} {acc_share} {jerk_share}");
             }
         }
@@ -226,9 +230,9 @@ mod tests {
         let places: Vec<_> =
             shares.iter().map(|share| PlaceBounds { from: share - 0.1, to: share + 0.1, rows: row(*share) }).collect();
         let approach = Approach { limits: Limits { vel: 1.0, acc: 10.0, jerk: 100.0 }, length: 1.0 };
-        let crossing = cross(&places, 1.0, &[approach; 2]).unwrap();
-        assert_eq!(crossing.speeds[0], 1.0);
-        assert!(crossing.speeds[PARTS / 2] < 0.25);
+        let blend_limits = find_blend_limits(&places, 1.0, &[approach; 2]).unwrap();
+        assert_eq!(blend_limits.speeds[0], 1.0);
+        assert!(blend_limits.speeds[PARTS / 2] < 0.25);
     }
 
     #[test]
@@ -244,9 +248,12 @@ mod tests {
         let places: Vec<PlaceBounds> = (0..=64).map(place).collect();
         let limits = Limits { vel: 1.0, acc: 10.0, jerk: 1000.0 };
         let approach = Approach { limits, length: 1.0 };
-        let crossing = cross(&places, 1.0, &[approach; 2]).unwrap();
-        assert!(crossing.arms.parts > 0 && crossing.arms.acc > 4.0 * crossing.acc, "{crossing:?}");
-        let without = Crossing { arms: Arms::default(), ..crossing.clone() };
-        assert!(duration(&crossing, &[approach; 2]) < 0.9 * duration(&without, &[approach; 2]));
+        let blend_limits = find_blend_limits(&places, 1.0, &[approach; 2]).unwrap();
+        assert!(
+            blend_limits.end_zones.parts > 0 && blend_limits.end_zones.acc > 4.0 * blend_limits.acc,
+            "{blend_limits:?}"
+        );
+        let without = BlendLimits { end_zones: EndZones::default(), ..blend_limits.clone() };
+        assert!(duration(&blend_limits, &[approach; 2]) < 0.9 * duration(&without, &[approach; 2]));
     }
 }

@@ -12,9 +12,10 @@ use std::ops::ControlFlow;
 
 use crate::follow::governor::demands::ALL_CELLS;
 use crate::follow::governor::{
-    Cells, Governor, SLACK, Scale, TOO_FAST, TakeWhileSum, careful, fading, lower, way_of_fading, way_to_speed,
+    CELL_SPEED_SLACK, Cells, Governor, RELATIVE_SLACK, Scale, TakeWhileSum, careful, fading, lower, way_of_fading,
+    way_to_speed,
 };
-use crate::limits::profile::{Change, Limits, MARGIN, State};
+use crate::limits::profile::{Change, LOOK_AHEAD_MARGIN, Limits, State};
 
 /// A speed to go to, and the limits on the way.
 #[derive(Clone, Copy, Debug)]
@@ -51,8 +52,8 @@ impl Governor<'_> {
         };
         let limits = careful(here, scale);
         let peak = fading(vel, acc.max(0.0), &limits);
-        let highest = cell.limits.vel * scale.vel * (1.0 + TOO_FAST + slack);
-        if vel < 0.0 || acc.abs() * MARGIN > limits.acc * (1.0 + SLACK + slack) || peak > highest {
+        let highest = cell.limits.vel * scale.vel * (1.0 + CELL_SPEED_SLACK + slack);
+        if vel < 0.0 || acc.abs() * LOOK_AHEAD_MARGIN > limits.acc * (1.0 + RELATIVE_SLACK + slack) || peak > highest {
             return None;
         }
         let mut goal = fading(vel, acc, &limits).max(0.0);
@@ -70,7 +71,7 @@ impl Governor<'_> {
     pub(crate) fn excess(&self, state: &State, scale: Scale, cells: &Cells) -> f64 {
         let Some((here, cell)) = self.at(state.at) else { return f64::INFINITY };
         let peak = fading(state.vel, state.acc.max(0.0), &careful(here, scale));
-        let mut excess = peak - cell.limits.vel * scale.vel * (1.0 + TOO_FAST);
+        let mut excess = peak - cell.limits.vel * scale.vel * (1.0 + CELL_SPEED_SLACK);
         self.demands(state, scale, cells, |demand| {
             let surely = demand.surely_left;
             excess = excess.max(if surely > 0.0 { -surely } else { -demand.left(state) });
@@ -110,14 +111,14 @@ impl Governor<'_> {
                     let here = careful(stretch, scale);
                     let limits = found.map_or(here, |(limits, _)| lower(limits, here));
                     let left = fading(vel, acc, &limits);
-                    if left < 0.0 || acc.abs() * MARGIN > limits.acc * (1.0 + SLACK + slack) {
+                    if left < 0.0 || acc.abs() * LOOK_AHEAD_MARGIN > limits.acc * (1.0 + RELATIVE_SLACK + slack) {
                         return None;
                     }
                     let way = way_of_fading(vel, acc, &limits);
                     found = Some((limits, State { at: at + way, vel: left, acc: 0.0 }));
                 }
                 let (limits, then) = found?;
-                let speed = cell.limits.vel * scale.vel * (1.0 + TOO_FAST + slack);
+                let speed = cell.limits.vel * scale.vel * (1.0 + CELL_SPEED_SLACK + slack);
                 lowest = lowest.min(speed);
                 // Where it is slower in the end, it has to be so when the cell begins.
                 if then.vel > lowest || (vel > speed && start - at < way_to_speed(vel, acc, speed, &limits) - slack) {

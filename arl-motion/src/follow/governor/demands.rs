@@ -3,7 +3,8 @@
 use std::ops::{ControlFlow, Range};
 
 use crate::follow::governor::{
-    Governor, ROUNDING, SLOWER, Scale, can_fade, careful, fading, longest_stop, to_rest, way_of_fading, way_to_speed,
+    ENTRY_SPEED_SLACK, Governor, ROUNDING_SLACK, Scale, can_fade, careful, fading, longest_stop, to_rest,
+    way_of_fading, way_to_speed,
 };
 use crate::limits::profile::{Limits, State};
 
@@ -105,7 +106,7 @@ impl Governor<'_> {
                 if !inside && !can_fade(vel, acc, &limits) {
                     tell(demand(0.0, 0.0, Kind::Never))?;
                 }
-                let speed = cell.limits.vel * scale.vel * (1.0 + SLOWER);
+                let speed = cell.limits.vel * scale.vel * (1.0 + ENTRY_SPEED_SLACK);
                 let room = start - at;
                 if inside && room > longest {
                     return ControlFlow::Continue(());
@@ -122,9 +123,9 @@ impl Governor<'_> {
             }
             let next = if stretch.stops { None } else { self.stretches.get(index + 1) };
             match next {
-                None => tell(demand(0.0, end - at + 1e-3 * ROUNDING, Kind::Rest))?,
+                None => tell(demand(0.0, end - at + 1e-3 * ROUNDING_SLACK, Kind::Rest))?,
                 Some(next) if end - at <= longest => {
-                    let speed = next.entry * scale.vel * (1.0 + SLOWER);
+                    let speed = next.entry * scale.vel * (1.0 + ENTRY_SPEED_SLACK);
                     // No acceleration is left where the limits change. The last cycle may end a little behind it.
                     let early = |vel: f64| (end - at - self.cycle * vel).max(0.0);
                     let fades = fading(vel, acc, &limits);

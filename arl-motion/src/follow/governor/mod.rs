@@ -1,8 +1,8 @@
-//! The governor: how fast to go along the course, cycle by cycle.
+//! The governor: how fast to go along the path, cycle by cycle.
 //!
 //! Invariant: there is a change of speed in hand, the backup, that keeps the limits of all the way that it goes, and at whose
-//! end, without acceleration, the robot can come to the speed of every piece ahead before it gets there, and to rest before
-//! the end, within the limits of the pieces in between. So a stop, a change of the override or a motion that comes late never
+//! end, without acceleration, the robot can come to the speed of every segment ahead before it gets there, and to rest before
+//! the end, within the limits of the segments in between. So a stop, a change of the override or a motion that comes late never
 //! leads off the path or beyond a limit: each cycle takes the highest jerk behind which another backup is found, and where
 //! none is, goes on along the one in hand.
 
@@ -13,7 +13,7 @@ use std::collections::VecDeque;
 use std::ops::ControlFlow;
 
 use crate::follow::timing::{Cell, Stretch};
-use crate::limits::profile::{Change, Limits, MARGIN, State};
+use crate::limits::profile::{Change, LOOK_AHEAD_MARGIN, Limits, State};
 use crate::limits::search::{self, Enough};
 use demands::{ALL_CELLS, Cells, NO_CELLS};
 
@@ -37,27 +37,27 @@ pub(crate) struct Scale {
 }
 
 /// Nothing but the limits.
-const FREE: Scale = Scale { vel: 1.0, acc: 1.0, jerk: 1.0 };
+const FULL_LIMITS: Scale = Scale { vel: 1.0, acc: 1.0, jerk: 1.0 };
 /// The part of the acceleration that counts as none when the override has been reached.
-const CALM: f64 = 0.02;
+const SETTLED_SHARE_OF_ACCELERATION: f64 = 0.02;
 /// Relative slack for rounding in comparisons.
-const SLACK: f64 = 1e-9;
-/// The same for the speed at which a slower piece is entered.
-const SLOWER: f64 = 1e-6;
+const RELATIVE_SLACK: f64 = 1e-9;
+/// The same for the speed at which a slower segment is entered.
+const ENTRY_SPEED_SLACK: f64 = 1e-6;
 /// The same for a speed within its cell, where a little acceleration may be left from before it.
-const TOO_FAST: f64 = 1e-5;
+const CELL_SPEED_SLACK: f64 = 1e-5;
 /// A stop that is only by this part farther away than braking takes is where the robot stops anyway.
-const ENDING: f64 = 0.02;
+const ENDING_STOP_SHARE: f64 = 0.02;
 /// Slack for rounding in s of nominal time, and in full speeds.
-const ROUNDING: f64 = 1e-12;
+const ROUNDING_SLACK: f64 = 1e-12;
 /// Slack for a state that was found at the edge of what is possible.
-const EDGE: f64 = 1e-9;
+const EDGE_SLACK: f64 = 1e-9;
 /// The part of the interval in which the jerk is looked for that is near enough.
-const NEAR: f64 = 1e-9;
+const JERK_TOLERANCE: f64 = 1e-9;
 /// Halvings of that interval, where nothing better leads to it.
-const HALVINGS: u32 = 16;
+const JERK_HALVINGS: u32 = 16;
 /// A rest of the way that is so small a part of what a cycle's jerk moves is no way.
-const SNAP: f64 = 0.005;
+const SNAP_SHARE: f64 = 0.005;
 
 /// Looks at the way ahead.
 pub(crate) struct Governor<'a> {
@@ -70,7 +70,7 @@ impl Governor<'_> {
     /// A backup for the state, where it can go on; see the invariant. It is at the edge of that most of the time, but for
     /// rounding.
     pub(crate) fn holds(&self, state: &State) -> Option<Change> {
-        self.possible(state, FREE, EDGE, &ALL_CELLS).map(|aim| aim.change(state))
+        self.possible(state, FULL_LIMITS, EDGE_SLACK, &ALL_CELLS).map(|aim| aim.change(state))
     }
 
     /// The state a cycle later, with a backup for that state in place of the one for this state. Beyond the end of the first
@@ -106,18 +106,18 @@ impl Governor<'_> {
             Pacing::Stop(harder) => self.slower(state, backup, Scale { vel: 1.0, acc: harder, jerk: harder }),
             Pacing::Go(share) => {
                 let slowed = slowed(share);
-                let ends = self.arrives(state, slowed).or_else(|| self.arrives(state, FREE));
+                let ends = self.arrives(state, slowed).or_else(|| self.arrives(state, FULL_LIMITS));
                 let next = ends.or_else(|| self.faster(state, slowed));
                 next.unwrap_or_else(|| self.paced(state, backup, Pacing::Settle(share)))
             }
             Pacing::Settle(share) => {
-                let quick = Scale { vel: share, ..FREE };
-                if let Some(next) = self.arrives(state, FREE).or_else(|| self.faster(state, quick)) {
+                let quick = Scale { vel: share, ..FULL_LIMITS };
+                if let Some(next) = self.arrives(state, FULL_LIMITS).or_else(|| self.faster(state, quick)) {
                     return next;
                 }
                 // Too fast for this share yet: as soon as can be to the speed that it allows.
                 let slowing = self.at(state.at).and_then(|(here, cell)| {
-                    self.toward_within(state, cell.limits.vel * share, careful(here, FREE), FREE)
+                    self.toward_within(state, cell.limits.vel * share, careful(here, FULL_LIMITS), FULL_LIMITS)
                 });
                 slowing.unwrap_or_else(|| self.along(state, backup))
             }
@@ -135,7 +135,9 @@ impl Governor<'_> {
     /// Whether the state is one that a motion at this share of the speed may have.
     pub(crate) fn settled(&self, state: &State, share: f64) -> bool {
         let scale = slowed(share);
-        let calm = self.at(state.at).is_none_or(|(here, _)| state.acc.abs() <= CALM * here.acc * scale.acc);
+        let calm = self
+            .at(state.at)
+            .is_none_or(|(here, _)| state.acc.abs() <= SETTLED_SHARE_OF_ACCELERATION * here.acc * scale.acc);
         state.rests() || (calm && self.feasible(state, scale))
     }
 
@@ -149,14 +151,14 @@ impl Governor<'_> {
         }
         let left = length - state.at;
         let jerk = limits.jerk.min(limits.acc / self.cycle);
-        let nothing = SNAP * jerk * self.cycle * self.cycle * self.cycle;
+        let nothing = SNAP_SHARE * jerk * self.cycle * self.cycle * self.cycle;
         let end = Step::rest(length);
         if state.rests() {
             return (left <= nothing).then_some(end);
         }
         let (way, time) = to_rest(state.vel, state.acc, &limits)?;
-        let there = time <= self.cycle * 1.000_001 && (way - left).abs() <= nothing.max(2.0 * ROUNDING);
-        (there || left <= 2.0 * ROUNDING).then_some(end)
+        let there = time <= self.cycle * 1.000_001 && (way - left).abs() <= nothing.max(2.0 * ROUNDING_SLACK);
+        (there || left <= 2.0 * ROUNDING_SLACK).then_some(end)
     }
 
     /// The quickest way on for a cycle; `None` where there is none.
@@ -171,7 +173,7 @@ impl Governor<'_> {
         }
         // The more jerk, the longer the way to any speed: what the highest leaves undone is all that counts below it.
         let undone = self.undone(&next(highest), scale);
-        let enough = Enough { value: NEAR * (highest - lowest), excess: ROUNDING };
+        let enough = Enough { value: JERK_TOLERANCE * (highest - lowest), excess: ROUNDING_SLACK };
         let within = search::highest(lowest, highest, enough, |jerk| self.excess(&next(jerk), scale, &undone));
         let quick = if self.fades_across(&next(highest), scale) {
             halved(within, highest, |jerk| self.across(&next(jerk), scale, 0.0).is_some())
@@ -187,7 +189,7 @@ impl Governor<'_> {
             let aim = self.possible(state, scale, 0.0, &ALL_CELLS)?;
             let along = || self.along(state, &aim.change(state));
             let braking = Some(self.braking(state, scale)).filter(|next| next.at >= state.at);
-            Some(braking.and_then(|next| self.step(next, scale, EDGE)).unwrap_or_else(along))
+            Some(braking.and_then(|next| self.step(next, scale, EDGE_SLACK)).unwrap_or_else(along))
         })
     }
 
@@ -202,8 +204,8 @@ impl Governor<'_> {
     fn highest_jerk(&self, state: &State, next: &State, scale: Scale) -> f64 {
         let fastest = |at: f64| self.at(at).map_or((0.0, f64::INFINITY), |(here, cell)| (cell.limits.vel, here.jerk));
         let (here, there) = (fastest(state.at), fastest(next.at));
-        let fastest = here.0.max(there.0) * scale.vel * (1.0 + TOO_FAST - SLACK);
-        let jerk = here.1.max(there.1) * scale.jerk * MARGIN;
+        let fastest = here.0.max(there.0) * scale.vel * (1.0 + CELL_SPEED_SLACK - RELATIVE_SLACK);
+        let jerk = here.1.max(there.1) * scale.jerk * LOOK_AHEAD_MARGIN;
         let short = fastest - state.vel - state.acc * self.cycle / 2.0;
         let ramp = jerk * self.cycle;
         let acc = if short > 0.0 {
@@ -240,11 +242,11 @@ impl Governor<'_> {
             return Step::rest(state.at);
         }
         // On the way to a stop that is hardly farther than braking takes, that is where to stop.
-        if let Some(end) = self.arrives(state, FREE) {
+        if let Some(end) = self.arrives(state, FULL_LIMITS) {
             return end;
         }
         if self.at_its_end(state)
-            && let Some(next) = self.faster(state, FREE)
+            && let Some(next) = self.faster(state, FULL_LIMITS)
         {
             return next;
         }
@@ -275,7 +277,7 @@ impl Governor<'_> {
     fn at_its_end(&self, state: &State) -> bool {
         let mut nearest = f64::INFINITY;
         let mut way = 0.0;
-        self.demands(state, FREE, &ALL_CELLS, |demand| {
+        self.demands(state, FULL_LIMITS, &ALL_CELLS, |demand| {
             if demand.goal == 0.0
                 && let left = demand.left(state)
                 && left < nearest
@@ -285,7 +287,7 @@ impl Governor<'_> {
             }
             ControlFlow::Continue(())
         });
-        nearest <= ENDING * way
+        nearest <= ENDING_STOP_SHARE * way
     }
 
     /// The state a cycle later on the way to the speed that is hardest to reach in time. What looking ahead found
@@ -324,7 +326,7 @@ impl Governor<'_> {
             return State { at: next.at.max(at), vel: 0.0, acc: 0.0 };
         }
         // What would turn back is none; rounding does not count.
-        State { vel: if next.vel < -ROUNDING { next.vel } else { next.vel.max(0.0) }, ..next }
+        State { vel: if next.vel < -ROUNDING_SLACK { next.vel } else { next.vel.max(0.0) }, ..next }
     }
 
     /// Acceleration and jerk of all stretches that the robot is on within the cycle.
@@ -409,7 +411,7 @@ fn scaled(stretch: &Stretch, scale: Scale) -> Limits {
 /// Acceleration and jerk that looking ahead counts on.
 fn careful(stretch: &Stretch, scale: Scale) -> Limits {
     let Limits { vel, acc, jerk } = scaled(stretch, scale);
-    Limits { vel, acc: acc * MARGIN, jerk: jerk * MARGIN }
+    Limits { vel, acc: acc * LOOK_AHEAD_MARGIN, jerk: jerk * LOOK_AHEAD_MARGIN }
 }
 
 fn lower(a: Limits, b: Limits) -> Limits {
@@ -424,7 +426,7 @@ fn farthest(start: f64, goal: f64, will_do: impl Fn(f64) -> bool) -> Option<f64>
 /// The same from a start that will do.
 fn halved(start: f64, goal: f64, will_do: impl Fn(f64) -> bool) -> f64 {
     let (mut found, mut beyond) = (start, goal);
-    for _ in 0..HALVINGS {
+    for _ in 0..JERK_HALVINGS {
         let middle = f64::midpoint(found, beyond);
         if will_do(middle) { found = middle } else { beyond = middle }
     }
@@ -438,8 +440,8 @@ fn fading(vel: f64, acc: f64, limits: &Limits) -> f64 {
 
 /// Whether the acceleration can fade before the speed ends, with the whole jerk if need be.
 fn can_fade(vel: f64, acc: f64, limits: &Limits) -> bool {
-    let whole = Limits { jerk: limits.jerk / MARGIN, ..*limits };
-    acc >= 0.0 || fading(vel, acc, &whole) >= -ROUNDING
+    let whole = Limits { jerk: limits.jerk / LOOK_AHEAD_MARGIN, ..*limits };
+    acc >= 0.0 || fading(vel, acc, &whole) >= -ROUNDING_SLACK
 }
 
 /// The way to rest and the time that it takes; `None` where the speed ends before the acceleration can fade.

@@ -9,7 +9,7 @@ fn timing(cells: &[(f64, Limits)]) -> Timing {
     for (index, (length, limits)) in cells.iter().enumerate() {
         timing.push(Cell { length: *length, limits: *limits }, index + 1 == cells.len(), true);
     }
-    timing.find_entries(MARGIN, 0.001);
+    timing.find_entries(LOOK_AHEAD_MARGIN, 0.001);
     timing
 }
 
@@ -61,7 +61,7 @@ fn rest_to_rest_takes_hardly_longer_than_the_shortest() {
         let cycles = run(&[(time, limits)], |_| Pacing::Go(1.0));
         let shortest = limits.duration(time);
         // Slowing down counts on a little less than the limits.
-        let braking = limits.duration_braking(time, MARGIN);
+        let braking = limits.duration_braking(time, LOOK_AHEAD_MARGIN);
         assert!((f64::from(cycles) * 0.001 - braking - 0.0005).abs() <= 0.0015, "{cycles} {braking} {limits:?}");
         assert!(f64::from(cycles) * 0.001 <= shortest * 1.002 + 0.002, "{cycles} {shortest} {limits:?}");
         assert!(f64::from(cycles) * 0.001 >= shortest - 0.001, "{cycles} {shortest}");
@@ -126,7 +126,7 @@ fn slower_cells_are_entered_at_their_speed() {
     }
 }
 
-/// A course that grows while a robot is on it, and what somebody does at the pendant meanwhile.
+/// A path that grows while a robot is on it, and what somebody does at the pendant meanwhile.
 struct Ride {
     random: Random,
     timing: Timing,
@@ -169,7 +169,7 @@ impl Ride {
             timing.push(next, true, true);
             last = next;
         }
-        timing.find_entries(MARGIN, CYCLE);
+        timing.find_entries(LOOK_AHEAD_MARGIN, CYCLE);
         let (state, backup) = (State::default(), Change::default());
         Self { random, timing, waiting, last, state, backup, wanted: 1.0, lasts: 0, share: 0.0 }
     }
@@ -191,7 +191,7 @@ impl Ride {
             let began = self.timing.pop();
             self.timing.push(self.last, false, true);
             self.timing.push(next, true, true);
-            self.timing.find_entries(MARGIN, CYCLE);
+            self.timing.find_entries(LOOK_AHEAD_MARGIN, CYCLE);
             match self.governor().holds(&self.state) {
                 Some(backup) => (self.backup, self.last) = (backup, next),
                 None => {
@@ -202,7 +202,7 @@ impl Ride {
                 }
             }
         }
-        self.timing.find_entries(MARGIN, CYCLE);
+        self.timing.find_entries(LOOK_AHEAD_MARGIN, CYCLE);
     }
 
     /// Somebody stops, goes on, or changes the override.
@@ -221,7 +221,7 @@ impl Ride {
         }
     }
 
-    /// The pacing, as the course finds it.
+    /// The pacing, as the path finds it.
     fn pacing(&mut self) -> Pacing {
         if self.wanted == 0.0 {
             self.share = 0.0;

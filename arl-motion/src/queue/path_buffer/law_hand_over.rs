@@ -1,6 +1,6 @@
-//! How the pilot leads the robot along the course, and how motions join the course meanwhile.
+//! How the follower leads the robot along the path, and how motions join the path meanwhile.
 //!
-//! Looking for a law takes some cycles. What changes the course where such a law may lead waits until it is there; what changes it
+//! Looking for a law takes some cycles. What changes the path where such a law may lead waits until it is there; what changes it
 //! under the law in hand is an offer: it is made when a law has been found for it, else the robot keeps to what it has.
 
 use std::sync::Arc;
@@ -8,30 +8,30 @@ use std::sync::Arc;
 use crate::blend::blend_thread::Prepared;
 use crate::command::joints::Joints;
 use crate::follow::governor::Pacing;
-use crate::follow::segment::Piece;
-use crate::limits::profile::MARGIN;
+use crate::follow::segment::Segment;
+use crate::limits::profile::LOOK_AHEAD_MARGIN;
 use crate::limits::profile::State;
 use crate::plan::motion::Motion;
-use crate::queue::path_buffer::{Course, NEAR_STOP, RISE, Sharp, Tail};
-use crate::time_optimal::constraint_sampler::Scout;
-use crate::time_optimal::law_follower::{Halt, Pilot, Wish};
-use crate::time_optimal::law_solver_thread::{Finder, Found, Quest, Search, WINDOW};
+use crate::queue::path_buffer::{ACCELERATION_RISE_CYCLES, NEAR_STOP_S, PathBuffer, Tail, UnblendedTarget};
+use crate::time_optimal::constraint_sampler::ConstraintSampler;
+use crate::time_optimal::law_follower::{LawFollower, RenewalRequest, StopRequest};
+use crate::time_optimal::law_solver_thread::{FIRST_LOOK_AHEAD_S, Found, LawRequest, LawSolver, Search};
 use crate::time_optimal::solver::Edge;
 use arl_robot::robot::Robot;
 
 /// A law looks no farther than so many s of nominal time.
-const FARTHEST: f64 = 4.0 * WINDOW;
-/// With a part of this more than the first look ahead, the end of the course may be left out.
-const ROOM: f64 = 1.2;
-/// With so much course, in s of nominal time, laws leave its end out; a little more, as they begin where the robot will be.
-pub(crate) const LOOKED_AHEAD: f64 = ROOM * WINDOW + 0.2;
+const FARTHEST_LOOK_S: f64 = 4.0 * FIRST_LOOK_AHEAD_S;
+/// With a part of this more than the first look ahead, the end of the path may be left out.
+const LOOK_AHEAD_FACTOR: f64 = 1.2;
+/// With so much path, in s of nominal time, laws leave its end out; a little more, as they begin where the robot will be.
+pub(crate) const LOOKED_AHEAD_S: f64 = LOOK_AHEAD_FACTOR * FIRST_LOOK_AHEAD_S + 0.2;
 
 /// A law that is being looked for, and what for.
 #[derive(Clone, Debug)]
-pub(crate) struct Sought {
+pub(crate) struct PendingLaw {
     pub(crate) search: Search,
     pub(crate) purpose: Purpose,
-    /// Where the part of the course ends that it may lead over, in s of nominal time.
+    /// Where the part of the path ends that it may lead over, in s of nominal time.
     reach: f64,
 }
 
@@ -44,12 +44,12 @@ pub(crate) enum Purpose {
     /// To go on, at a share of the speed, in the middle of braking.
     GoOn(f64),
     /// To rest sooner, with so much more acceleration and jerk.
-    Halt(f64),
+    StopRequest(f64),
     /// The same where the governor brakes.
-    Sooner,
+    ShorterStop,
     /// To go off from the next stop.
     Next,
-    /// To go on along another course.
+    /// To go on along another path.
     Offer(Box<Draft>),
 }
 
@@ -57,21 +57,21 @@ pub(crate) enum Purpose {
 #[derive(Clone, Debug)]
 pub(crate) struct Next {
     found: Option<Found>,
-    /// As in [`Sought`], counted from the stop.
+    /// As in [`PendingLaw`], counted from the stop.
     reach: f64,
 }
 
-/// The course as it would be with some motions more.
+/// The path as it would be with some motions more.
 #[derive(Clone, Debug)]
 pub(crate) struct Draft {
-    /// The number of pieces, since the course began, that stay.
+    /// The number of segments, since the path began, that stay.
     same: u64,
-    pieces: Vec<Arc<Piece>>,
+    segments: Vec<Arc<Segment>>,
     tail: Option<Tail>,
     /// Up to where nothing changes, in s of nominal time.
     same_to: f64,
     /// Why targets are not rounded off that should be.
-    sharp: Vec<Sharp>,
+    unblended: Vec<UnblendedTarget>,
     /// How many motions they are.
     count: usize,
 }
@@ -79,38 +79,38 @@ pub(crate) struct Draft {
 /// What became of an offer.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Answer {
-    /// So many motions joined the course, and why targets are not rounded off that should be.
-    Taken { sharp: Vec<Sharp>, count: usize },
+    /// So many motions joined the path, and why targets are not rounded off that should be.
+    Taken { unblended: Vec<UnblendedTarget>, count: usize },
     /// They have to come behind a stop.
     Refused,
 }
 
-impl Course {
+impl PathBuffer {
     /// Whether the next motion has to wait: a law is being found that might lead over what it changes.
     pub(crate) fn is_asking(&self) -> bool {
-        let offers = |sought: &Sought| matches!(sought.purpose, Purpose::Offer(_));
-        let waits = |sought: &Sought| offers(sought) || (self.leads_on(sought) && self.changes(sought.reach));
+        let offers = |pending: &PendingLaw| matches!(pending.purpose, Purpose::Offer(_));
+        let waits = |pending: &PendingLaw| offers(pending) || (self.leads_on(pending) && self.changes(pending.reach));
         // It rests soon, and goes on as the governor says.
-        self.sought.as_ref().is_some_and(waits) || (self.relieved && self.is_laid_down())
+        self.pending.as_ref().is_some_and(waits) || (self.follower_leads && self.is_laid_down())
     }
 
-    /// Whether a motion that is appended now changes the course where the law in hand leads.
+    /// Whether a motion that is appended now changes the path where the law in hand leads.
     pub(crate) fn is_laid_down(&self) -> bool {
-        self.pilot.as_ref().is_some_and(|pilot| self.changes(pilot.end()))
+        self.follower.as_ref().is_some_and(|follower| self.changes(follower.end()))
     }
 
-    /// Appends a motion behind the stop at the end; returns the same as [`Course::append`].
+    /// Appends a motion behind the stop at the end; returns the same as [`PathBuffer::append`].
     pub(crate) fn append_behind_stop(
         &mut self,
         robot: &Robot,
         motion: (&Arc<Motion>, u64),
         prepared: Option<&Prepared>,
         cycle: f64,
-    ) -> Option<Sharp> {
+    ) -> Option<UnblendedTarget> {
         self.refusing = true;
-        let sharp = self.append(robot, motion, prepared, cycle);
+        let unblended = self.append(robot, motion, prepared, cycle);
         self.refusing = false;
-        sharp
+        unblended
     }
 
     /// What became of the motions that were offered, once it is known.
@@ -120,30 +120,30 @@ impl Course {
 
     /// Whether the robot rests until a law is found.
     pub(crate) fn awaits_law(&self) -> bool {
-        !self.unled && self.pilot.as_ref().is_some_and(|pilot| pilot.rests())
+        !self.lawless && self.follower.as_ref().is_some_and(|follower| follower.rests())
     }
 
-    /// Whether a law is for this part of the course, up to the next stop.
-    fn leads_on(&self, sought: &Sought) -> bool {
-        !matches!(sought.purpose, Purpose::Next)
+    /// Whether a law is for this part of the path, up to the next stop.
+    fn leads_on(&self, pending: &PendingLaw) -> bool {
+        !matches!(pending.purpose, Purpose::Next)
     }
 
-    /// Whether the next motion may change the course before `reach`.
+    /// Whether the next motion may change the path before `reach`.
     fn changes(&self, reach: f64) -> bool {
         reach > self.end() - self.open_time()
     }
 
-    /// How long the last pieces take that the next motion may take the place of, in s of nominal time.
+    /// How long the last segments take that the next motion may take the place of, in s of nominal time.
     pub(crate) fn open_time(&self) -> f64 {
-        self.pieces.iter().rev().take(self.open()).map(|piece| piece.time).sum()
+        self.segments.iter().rev().take(self.open()).map(|segment| segment.time).sum()
     }
 
-    /// How many of the last pieces the next motion may take the place of.
+    /// How many of the last segments the next motion may take the place of.
     fn open(&self) -> usize {
-        self.tail.as_ref().and_then(|tail| tail.joined.as_ref()).map_or(1, |joined| joined.pieces.max(1))
+        self.tail.as_ref().and_then(|tail| tail.joined.as_ref()).map_or(1, |joined| joined.segments.max(1))
     }
 
-    /// Offers motions to the course: they join it as soon as a law has been found that leads along them. At once where none is
+    /// Offers motions to the path: they join it as soon as a law has been found that leads along them. At once where none is
     /// needed.
     pub(crate) fn offer<'a>(
         &mut self,
@@ -151,67 +151,67 @@ impl Course {
         motions: impl Iterator<Item = ((&'a Arc<Motion>, u64), Option<&'a Prepared>)>,
         cycle: f64,
     ) {
-        let Some(pilot) = &self.pilot else { return };
+        let Some(follower) = &self.follower else { return };
         let mut draft = Self {
-            pieces: self.pieces.clone(),
+            segments: self.segments.clone(),
             at: self.at,
             passed: self.passed,
             tail: self.tail.clone(),
             drafted: Some(f64::INFINITY),
             ..Self::default()
         };
-        let (mut sharp, mut count) = (Vec::new(), 0);
+        let (mut unblended, mut count) = (Vec::new(), 0);
         for (motion, prepared) in motions {
-            sharp.extend(draft.append(robot, motion, prepared, cycle));
+            unblended.extend(draft.append(robot, motion, prepared, cycle));
             count += 1;
         }
-        let same = self.pieces.iter().zip(&draft.pieces).take_while(|(a, b)| Arc::ptr_eq(a, b)).count();
+        let same = self.segments.iter().zip(&draft.segments).take_while(|(a, b)| Arc::ptr_eq(a, b)).count();
         let offered = Draft {
             same: self.gone + same as u64,
-            pieces: draft.pieces.iter().skip(same).cloned().collect(),
+            segments: draft.segments.iter().skip(same).cloned().collect(),
             tail: draft.tail.clone(),
             same_to: draft.drafted.unwrap_or(f64::NEG_INFINITY),
-            sharp,
+            unblended,
             count,
         };
-        if pilot.end() <= offered.same_to {
+        if follower.end() <= offered.same_to {
             self.take(offered);
             return;
         }
         // The cycle in which it is taken over has not begun either.
-        let wish = pilot.state_after(Finder::cycles(cycle) - 1, cycle);
-        match wish.filter(|wish| wish.at < offered.same_to) {
-            Some(wish) => {
+        let renewal = follower.state_after(LawSolver::cycles(cycle) - 1, cycle);
+        match renewal.filter(|renewal| renewal.at < offered.same_to) {
+            Some(renewal) => {
                 let purpose = Purpose::Offer(Box::new(offered));
-                let scout = draft.scout(robot, here, wish.at);
-                self.search(scout, wish.start, Finder::cycles(cycle), purpose);
+                let sampler = draft.sampler(robot, here, renewal.at);
+                self.search(sampler, renewal.start, LawSolver::cycles(cycle), purpose);
             }
             None => self.answer = Some(Answer::Refused),
         }
     }
 
-    /// Puts the pieces of a draft in place of those at the end.
+    /// Puts the segments of a draft in place of those at the end.
     fn take(&mut self, draft: Draft) {
         let Some(kept) = draft.same.checked_sub(self.gone) else {
             self.answer = Some(Answer::Refused);
             return;
         };
-        self.take_back(self.pieces.len().saturating_sub(kept as usize));
-        for piece in draft.pieces {
-            self.push_shared(piece, true);
+        self.take_back(self.segments.len().saturating_sub(kept as usize));
+        for segment in draft.segments {
+            self.push_shared(segment, true);
         }
         self.tail = draft.tail;
         self.settle(self.open());
-        self.timing.find_entries(MARGIN, self.cycle);
-        self.answer = Some(Answer::Taken { sharp: draft.sharp, count: draft.count });
+        self.timing.find_entries(LOOK_AHEAD_MARGIN, self.cycle);
+        self.answer = Some(Answer::Taken { unblended: draft.unblended, count: draft.count });
     }
 
-    /// Whether somebody counts on the course as it is.
+    /// Whether somebody counts on the path as it is.
     pub(crate) fn is_watched(&self) -> bool {
-        self.drafted.is_some() || self.sought.is_some() || self.next.is_some() || self.pilot.is_some()
+        self.drafted.is_some() || self.pending.is_some() || self.next.is_some() || self.follower.is_some()
     }
 
-    /// Whether pieces may join the course as far as the pilot is concerned: where nothing changes up to the end of its law. A
+    /// Whether segments may join the path as far as the follower is concerned: where nothing changes up to the end of its law. A
     /// draft takes everything, and notes from where on it changes.
     pub(crate) fn may_change_from(&mut self, same_to: f64) -> bool {
         if let Some(drafted) = &mut self.drafted {
@@ -222,252 +222,293 @@ impl Course {
             return false;
         }
         // A law from the next stop on may not hold any more.
-        let sought = self.sought.as_ref().filter(|sought| !self.leads_on(sought)).map(|sought| sought.reach);
-        if let Some(reach) = sought.or(self.next.as_ref().map(|next| next.reach))
-            && reach + if self.pilot.is_some() { self.next_stop() } else { 0.0 } > same_to
+        let pending = self.pending.as_ref().filter(|pending| !self.leads_on(pending)).map(|pending| pending.reach);
+        if let Some(reach) = pending.or(self.next.as_ref().map(|next| next.reach))
+            && reach + if self.follower.is_some() { self.next_stop() } else { 0.0 } > same_to
         {
             self.next = None;
-            if sought.is_some() {
-                self.forsake();
+            if pending.is_some() {
+                self.cancel();
             }
         }
-        self.pilot.as_ref().is_none_or(|pilot| pilot.end() <= same_to)
+        self.follower.as_ref().is_none_or(|follower| follower.end() <= same_to)
     }
 
-    /// Where the robot has to stop next, in s of nominal time since the course began.
+    /// Where the robot has to stop next, in s of nominal time since the path began.
     fn next_stop(&self) -> f64 {
         let mut end = self.passed;
-        for piece in &self.pieces {
-            end += piece.time;
-            if piece.stops {
+        for segment in &self.segments {
+            end += segment.time;
+            if segment.stops {
                 break;
             }
         }
         end
     }
 
-    /// What a law from `at` on has to know: the course up to the next stop, or as far as a law looks; but for its last pieces
+    /// What a law from `at` on has to know: the path up to the next stop, or as far as a law looks; but for its last segments
     /// where it is long enough without.
-    fn scout(&self, robot: &Arc<Robot>, near: &Joints, at: f64) -> Scout {
-        let pieces = self.pieces.iter();
-        let settled = self.pieces.len().saturating_sub(self.open());
-        Scout::new(robot, (pieces, self.passed), (at, near), at + FARTHEST, (settled, at + ROOM * WINDOW))
+    fn sampler(&self, robot: &Arc<Robot>, near: &Joints, at: f64) -> ConstraintSampler {
+        let segments = self.segments.iter();
+        let settled = self.segments.len().saturating_sub(self.open());
+        ConstraintSampler::new(
+            robot,
+            (segments, self.passed),
+            (at, near),
+            at + FARTHEST_LOOK_S,
+            (settled, at + LOOK_AHEAD_FACTOR * FIRST_LOOK_AHEAD_S),
+        )
     }
 
-    fn search(&mut self, scout: Scout, start: Edge, cycles: u32, purpose: Purpose) {
-        self.search_for(Quest::Fastest(start), scout, cycles, purpose);
+    fn search(&mut self, sampler: ConstraintSampler, start: Edge, cycles: u32, purpose: Purpose) {
+        self.search_for(LawRequest::Fastest(start), sampler, cycles, purpose);
     }
 
-    pub(crate) fn search_for(&mut self, quest: Quest, scout: Scout, cycles: u32, purpose: Purpose) {
-        let reach = scout.end;
-        self.sought = Some(Sought { search: self.finder.search(scout, quest, cycles), purpose, reach });
+    pub(crate) fn search_for(
+        &mut self,
+        request: LawRequest,
+        sampler: ConstraintSampler,
+        cycles: u32,
+        purpose: Purpose,
+    ) {
+        let reach = sampler.end;
+        self.pending = Some(PendingLaw { search: self.law_solver.search(sampler, request, cycles), purpose, reach });
     }
 
     /// Says that nothing is looked for any more.
-    pub(crate) fn forsake(&mut self) {
-        if let Some(sought) = self.sought.take() {
-            sought.search.forsake();
-            if let Purpose::Offer(_) = sought.purpose {
+    pub(crate) fn cancel(&mut self) {
+        if let Some(pending) = self.pending.take() {
+            pending.search.cancel();
+            if let Purpose::Offer(_) = pending.purpose {
                 self.answer = Some(Answer::Refused);
             }
         }
     }
 
-    /// Takes what is left away, at rest; another course can begin.
-    pub(crate) fn lay_aside(&mut self) -> Self {
-        self.forsake();
-        (self.pilot, self.unled) = (None, false);
+    /// Takes what is left away, at rest; another path can begin.
+    pub(crate) fn suspend(&mut self) -> Self {
+        self.cancel();
+        (self.follower, self.lawless) = (None, false);
         (self.next, self.answer) = (None, None);
-        self.hand_back();
-        let empty = Self { finder: std::mem::take(&mut self.finder), ..Self::default() };
+        self.return_to_governor();
+        let empty = Self { law_solver: std::mem::take(&mut self.law_solver), ..Self::default() };
         std::mem::replace(self, empty)
     }
 
-    /// Puts back what was laid aside, in place of a course that has come to its end.
-    pub(crate) fn take_up(&mut self, course: Self) {
-        self.forsake();
-        *self = Self { finder: std::mem::take(&mut self.finder), ..course };
+    /// Puts back what was laid aside, in place of a path that has come to its end.
+    pub(crate) fn resume_suspended(&mut self, path: Self) {
+        self.cancel();
+        *self = Self { law_solver: std::mem::take(&mut self.law_solver), ..path };
     }
 
     /// Drops what goes on behind the next stop.
     pub(crate) fn keep_laws_to_stop(&mut self) {
         self.next = None;
-        if self.sought.as_ref().is_some_and(|sought| matches!(sought.purpose, Purpose::Next | Purpose::Offer(_))) {
-            self.forsake();
+        if self.pending.as_ref().is_some_and(|pending| matches!(pending.purpose, Purpose::Next | Purpose::Offer(_))) {
+            self.cancel();
         }
         self.answer = None;
     }
 
     /// At a stop: what is looked for is of use only if it goes on from there.
-    pub(crate) fn arrive(&mut self) {
-        (self.pilot, self.unled) = (None, false);
-        self.hand_back();
-        if self.sought.as_ref().is_some_and(|sought| self.leads_on(sought)) {
-            self.forsake();
+    pub(crate) fn end_at_stop(&mut self) {
+        (self.follower, self.lawless) = (None, false);
+        self.return_to_governor();
+        if self.pending.as_ref().is_some_and(|pending| self.leads_on(pending)) {
+            self.cancel();
         }
     }
 
-    /// Goes on for a cycle as the pilot says; `false` where there is none.
-    pub(crate) fn follow_pilot(&mut self, robot: &Arc<Robot>, here: &Joints, cycle: f64, pacing: Pacing) -> bool {
-        let Some(mut pilot) = self.pilot.take() else { return false };
+    /// Goes on for a cycle as the follower says; `false` where there is none.
+    pub(crate) fn follow_law(&mut self, robot: &Arc<Robot>, here: &Joints, cycle: f64, pacing: Pacing) -> bool {
+        let Some(mut follower) = self.follower.take() else { return false };
         let share = match pacing {
             Pacing::Go(share) | Pacing::Settle(share) => Some(share),
             Pacing::Stop(_) => None,
         };
-        self.take_sought(&mut pilot, share.unwrap_or(1.0));
-        if self.unled {
+        self.take_found(&mut follower, share.unwrap_or(1.0));
+        if self.lawless {
             return false;
         }
         match pacing {
-            Pacing::Stop(harder) if self.relieved => drop(pilot.brake(harder)),
+            Pacing::Stop(harder) if self.follower_leads => drop(follower.brake(harder)),
             // It comes to rest, and goes on from there.
-            _ if self.relieved => {}
-            Pacing::Stop(harder) => self.halt(&mut pilot, (robot, here), cycle, harder),
+            _ if self.follower_leads => {}
+            Pacing::Stop(harder) => self.request_stop(&mut follower, (robot, here), cycle, harder),
             // Laws that are being looked for count on the share that is known.
             Pacing::Go(share) | Pacing::Settle(share) => {
-                self.halt_no_more();
-                if !self.sought.as_ref().is_some_and(|sought| self.leads_on(sought)) {
-                    pilot.go_at(share, searching(cycle));
-                    self.ask(&mut pilot, (robot, here), cycle, share);
+                self.drop_stop_search();
+                if !self.pending.as_ref().is_some_and(|pending| self.leads_on(pending)) {
+                    follower.go_at(share, searching(cycle));
+                    self.request_law(&mut follower, (robot, here), cycle, share);
                 }
             }
         }
-        if let Some(next) = pilot.next(cycle) {
+        if let Some(next) = follower.next(cycle) {
             let mut way = next.at - self.passed - self.at;
-            if pilot.rests() {
+            if follower.rests() {
                 // Rounding must neither keep it from a stop nor carry it past one.
                 let stop = self.timing.to_stop() - self.state.at;
-                way = if way > stop - NEAR_STOP { stop } else { way };
+                way = if way > stop - NEAR_STOP_S { stop } else { way };
             }
             self.state = State { at: self.state.at + way, vel: next.vel, acc: next.acc };
             self.at += way;
         }
-        if pilot.rests() {
-            self.halt_no_more();
-            if self.relieved {
-                self.hand_back();
+        if follower.rests() {
+            self.drop_stop_search();
+            if self.follower_leads {
+                self.return_to_governor();
                 return true;
             }
         }
-        self.pilot = Some(pilot);
+        self.follower = Some(follower);
         true
     }
 
     /// Brakes to rest at once, and asks for a shorter way to rest where that takes long.
-    fn halt(&mut self, pilot: &mut Pilot, (robot, here): (&Arc<Robot>, &Joints), cycle: f64, harder: f64) {
-        match self.sought.as_ref().map(|sought| &sought.purpose) {
-            Some(Purpose::Halt(sought)) if *sought >= harder => return,
-            Some(Purpose::Halt(_) | Purpose::GoOn(_)) => self.forsake(),
+    fn request_stop(
+        &mut self,
+        follower: &mut LawFollower,
+        (robot, here): (&Arc<Robot>, &Joints),
+        cycle: f64,
+        harder: f64,
+    ) {
+        match self.pending.as_ref().map(|pending| &pending.purpose) {
+            Some(Purpose::StopRequest(pending)) if *pending >= harder => return,
+            Some(Purpose::StopRequest(_) | Purpose::GoOn(_)) => self.cancel(),
             _ => {}
         }
-        if pilot.brake(harder) {
-            self.settle_offer(pilot);
+        if follower.brake(harder) {
+            self.settle_offer(follower);
         }
-        let cycles = Finder::cycles(cycle);
-        let Some(Halt { at, start, about, end }) = pilot.halt(cycles, cycle, harder) else { return };
+        let cycles = LawSolver::cycles(cycle);
+        let Some(StopRequest { at, start, about, end }) = follower.request_stop(cycles, cycle, harder) else { return };
         // What is looked for would lead on, or can wait.
-        self.settle_offer(pilot);
-        self.forsake();
-        let scout = Scout::new(robot, (self.pieces.iter(), self.passed), (at, here), end, (usize::MAX, f64::INFINITY));
-        let quest = Quest::Shortest { start, about, harder };
-        self.search_for(quest, scout.up_to(end).for_stop(RISE * cycle), cycles, Purpose::Halt(harder));
+        self.settle_offer(follower);
+        self.cancel();
+        let sampler = ConstraintSampler::new(
+            robot,
+            (self.segments.iter(), self.passed),
+            (at, here),
+            end,
+            (usize::MAX, f64::INFINITY),
+        );
+        let request = LawRequest::Shortest { start, about, harder };
+        self.search_for(
+            request,
+            sampler.up_to(end).for_stop(ACCELERATION_RISE_CYCLES * cycle),
+            cycles,
+            Purpose::StopRequest(harder),
+        );
     }
 
     /// Looks for a way to rest no longer.
-    fn halt_no_more(&mut self) {
-        if self.sought.as_ref().is_some_and(|sought| matches!(sought.purpose, Purpose::Halt(_))) {
-            self.forsake();
+    fn drop_stop_search(&mut self) {
+        if self.pending.as_ref().is_some_and(|pending| matches!(pending.purpose, Purpose::StopRequest(_))) {
+            self.cancel();
         }
     }
 
     /// Takes over the law that was looked for, when it is time.
-    fn take_sought(&mut self, pilot: &mut Pilot, share: f64) {
-        let Some(found) = self.sought.as_mut().and_then(|sought| sought.search.next()) else { return };
-        let Some(Sought { purpose, reach, .. }) = self.sought.take() else { return };
+    fn take_found(&mut self, follower: &mut LawFollower, share: f64) {
+        let Some(found) = self.pending.as_mut().and_then(|pending| pending.search.next()) else { return };
+        let Some(PendingLaw { purpose, reach, .. }) = self.pending.take() else { return };
         match purpose {
-            Purpose::Start if !pilot.rests() => pilot.join(found),
+            Purpose::Start if !follower.rests() => follower.join(found),
             Purpose::Start => match found {
-                Some(found) => pilot.start(found, share),
-                None => self.unled = true,
+                Some(found) => follower.start(found, share),
+                None => self.lawless = true,
             },
             Purpose::Renew => {
-                pilot.renew(found);
+                follower.renew(found);
             }
-            Purpose::GoOn(share) => pilot.go_on(found, share),
-            Purpose::Halt(harder) => pilot.halt_along(found, harder),
+            Purpose::GoOn(share) => follower.go_on(found, share),
+            Purpose::StopRequest(harder) => follower.stop_along(found, harder),
             Purpose::Next => self.next = Some(Next { found, reach }),
-            Purpose::Offer(draft) if pilot.renew(found) => self.take(*draft),
+            Purpose::Offer(draft) if follower.renew(found) => self.take(*draft),
             Purpose::Offer(_) => self.answer = Some(Answer::Refused),
-            // It has a pilot already.
-            Purpose::Sooner => {}
+            // It has a follower already.
+            Purpose::ShorterStop => {}
         }
     }
 
     /// When it brakes, no law is needed for what comes behind the place where it will rest.
-    fn settle_offer(&mut self, pilot: &Pilot) {
-        let Some(sought) = self.sought.take() else { return };
-        match sought.purpose {
-            Purpose::Next => self.sought = Some(sought),
-            Purpose::Offer(draft) if pilot.end() <= draft.same_to => {
-                sought.search.forsake();
+    fn settle_offer(&mut self, follower: &LawFollower) {
+        let Some(pending) = self.pending.take() else { return };
+        match pending.purpose {
+            Purpose::Next => self.pending = Some(pending),
+            Purpose::Offer(draft) if follower.end() <= draft.same_to => {
+                pending.search.cancel();
                 self.take(*draft);
             }
             Purpose::Offer(_) => {
-                sought.search.forsake();
+                pending.search.cancel();
                 self.answer = Some(Answer::Refused);
             }
-            Purpose::Start | Purpose::Renew | Purpose::GoOn(_) | Purpose::Halt(_) | Purpose::Sooner => {
-                sought.search.forsake();
+            Purpose::Start | Purpose::Renew | Purpose::GoOn(_) | Purpose::StopRequest(_) | Purpose::ShorterStop => {
+                pending.search.cancel();
             }
         }
     }
 
     /// Asks for the law that will be needed next.
-    fn ask(&mut self, pilot: &mut Pilot, (robot, here): (&Arc<Robot>, &Joints), cycle: f64, share: f64) {
-        if pilot.rests() {
+    fn request_law(
+        &mut self,
+        follower: &mut LawFollower,
+        (robot, here): (&Arc<Robot>, &Joints),
+        cycle: f64,
+        share: f64,
+    ) {
+        if follower.rests() {
             // One that is being looked for from this stop on will do.
-            if self.sought.is_some() {
+            if self.pending.is_some() {
                 return;
             }
             // Only at a stop it is where the law from the next stop on begins.
             let at_stop = self.passed == 0.0 && self.at == 0.0;
             if let Some(Next { found: Some(found), .. }) = self.next.take_if(|_| at_stop) {
-                pilot.start(found, share);
+                follower.start(found, share);
                 return;
             }
-            let scout = self.scout(robot, here, self.passed + self.at);
-            pilot.set_off(&scout, share, searching(cycle));
-            self.search(scout, Edge::REST, Finder::cycles(cycle), Purpose::Start);
+            let sampler = self.sampler(robot, here, self.passed + self.at);
+            follower.set_off(&sampler, share, searching(cycle));
+            self.search(sampler, Edge::REST, LawSolver::cycles(cycle), Purpose::Start);
             return;
         }
-        let cycles = Finder::cycles(cycle);
-        let wish = pilot.wish_to_go_on(cycles, cycle, share).map(|wish| (wish, true));
-        let wish = wish.or_else(|| Some((pilot.wish(cycles, cycle)?, false)));
-        if let Some((Wish { at, start, share, cycles }, braking)) = wish {
+        let cycles = LawSolver::cycles(cycle);
+        let renewal = follower.renewal_after_stop(cycles, cycle, share).map(|renewal| (renewal, true));
+        let renewal = renewal.or_else(|| Some((follower.renewal(cycles, cycle)?, false)));
+        if let Some((RenewalRequest { at, start, share, cycles }, braking)) = renewal {
             // What is looked for from the next stop on can wait.
-            self.forsake();
-            let scout = self.scout(robot, here, at);
-            self.search(scout, start, cycles, if braking { Purpose::GoOn(share) } else { Purpose::Renew });
-        } else if self.next.is_none() && self.sought.is_none() && pilot.stops() {
-            self.ask_next(robot, cycle);
+            self.cancel();
+            let sampler = self.sampler(robot, here, at);
+            self.search(sampler, start, cycles, if braking { Purpose::GoOn(share) } else { Purpose::Renew });
+        } else if self.next.is_none() && self.pending.is_none() && follower.stops() {
+            self.request_next_law(robot, cycle);
         }
     }
 
     /// Asks for the law that leads on from the next stop.
-    fn ask_next(&mut self, robot: &Arc<Robot>, cycle: f64) {
-        let Some(stop) = self.pieces.iter().position(|piece| piece.stops) else { return };
-        let Some(last) = self.pieces.get(stop) else { return };
-        if self.pieces.get(stop + 1).is_none_or(|first| !first.is_free) {
+    fn request_next_law(&mut self, robot: &Arc<Robot>, cycle: f64) {
+        let Some(stop) = self.segments.iter().position(|segment| segment.stops) else { return };
+        let Some(last) = self.segments.get(stop) else { return };
+        if self.segments.get(stop + 1).is_none_or(|first| !first.is_free) {
             return;
         }
-        let behind = self.pieces.iter().skip(stop + 1);
-        let settled = self.pieces.len().saturating_sub(stop + 1 + self.open());
-        let scout = Scout::new(robot, (behind, 0.0), (0.0, last.target()), FARTHEST, (settled, ROOM * WINDOW));
-        self.search(scout, Edge::REST, Finder::cycles(cycle), Purpose::Next);
+        let behind = self.segments.iter().skip(stop + 1);
+        let settled = self.segments.len().saturating_sub(stop + 1 + self.open());
+        let sampler = ConstraintSampler::new(
+            robot,
+            (behind, 0.0),
+            (0.0, last.target()),
+            FARTHEST_LOOK_S,
+            (settled, LOOK_AHEAD_FACTOR * FIRST_LOOK_AHEAD_S),
+        );
+        self.search(sampler, Edge::REST, LawSolver::cycles(cycle), Purpose::Next);
     }
 }
 
 /// How long a search takes, in s, and two cycles more, so that rounding does not count.
 fn searching(cycle: f64) -> f64 {
-    cycle * f64::from(Finder::cycles(cycle) + 2)
+    cycle * f64::from(LawSolver::cycles(cycle) + 2)
 }

@@ -1,4 +1,4 @@
-//! The way ahead: pieces of motions and the blends between them, one behind the other.
+//! The way ahead: segments of motions and the blends between them, one behind the other.
 
 mod law_hand_over;
 mod shorter_stop;
@@ -7,62 +7,62 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use crate::blend::blend_thread::{Joining, Prepared};
-use crate::blend::junction::{self, Before, Bent, Blended, Meeting};
-use crate::blend::mid_curvature::Bend;
+use crate::blend::junction::{self, Before, Blended, CurvedBlends, Meeting};
+use crate::blend::mid_curvature::MidCurvature;
 use crate::blend::zone::asks;
 use crate::command::LARGEST_ZONE;
 use crate::command::joints::Joints;
 use crate::follow::governor::{Governor, Pacing};
 use crate::follow::remaining::{self, Leg};
-use crate::follow::segment::Piece;
+use crate::follow::segment::Segment;
 use crate::follow::timing::Timing;
-use crate::limits::profile::MARGIN;
+use crate::limits::profile::LOOK_AHEAD_MARGIN;
 use crate::limits::profile::{Change, Limits, State};
 use crate::plan::motion::Motion;
-use crate::time_optimal::law_follower::Pilot;
-use crate::time_optimal::law_solver_thread::Finder;
+use crate::time_optimal::law_follower::LawFollower;
+use crate::time_optimal::law_solver_thread::LawSolver;
 use arl_robot::robot::Robot;
 pub(crate) use law_hand_over::Answer;
-use law_hand_over::{Next, Sought};
+use law_hand_over::{Next, PendingLaw};
 
-/// A piece that takes no longer, in s, is none.
-const NO_TIME: f64 = 1e-12;
+/// A segment that takes no longer, in s, is none.
+const NO_TIME_S: f64 = 1e-12;
 
 /// What is left of the way to a stop, in s of nominal time, when only rounding is left.
-const NEAR_STOP: f64 = 1e-9;
+const NEAR_STOP_S: f64 = 1e-9;
 
 /// A little more than braking takes is left for it.
-const BRAKING: f64 = 1.1;
+const BRAKING_FACTOR: f64 = 1.1;
 
 /// Cycles in which an acceleration rises at the fastest.
-const RISE: f64 = 4.0;
+const ACCELERATION_RISE_CYCLES: f64 = 4.0;
 
-/// All pieces from the one that the robot is on.
+/// All segments from the one that the robot is on.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Course {
-    pieces: VecDeque<Arc<Piece>>,
-    /// Where the robot is on the first piece, in s of nominal time.
+pub(crate) struct PathBuffer {
+    segments: VecDeque<Arc<Segment>>,
+    /// Where the robot is on the first segment, in s of nominal time.
     at: f64,
     /// The length of a cycle in s.
     cycle: f64,
     timing: Timing,
     /// Where the robot is on the first cell of the timing, and how it moves.
     state: State,
-    /// The governor's backup for that state; of no meaning where the pilot leads.
+    /// The governor's backup for that state; of no meaning where the follower leads.
     backup: Change,
     /// The share of the speed that the robot has settled to.
     share: f64,
     /// Who leads the robot in the profile O, and to rest where that is sooner than the governor would.
-    pilot: Option<Box<Pilot>>,
-    /// Whether the pilot has taken over from the governor, until the robot rests; and how hard the stop is for which that has been
+    follower: Option<Box<LawFollower>>,
+    /// Whether the follower has taken over from the governor, until the robot rests; and how hard the stop is for which that has been
     /// asked for.
-    relieved: bool,
+    follower_leads: bool,
     asked: Option<f64>,
-    /// Whether the pilot has found no law from rest here.
-    unled: bool,
-    /// Who finds laws for the pilot, what is looked for, and the law from the next stop on.
-    finder: Finder,
-    sought: Option<Sought>,
+    /// Whether the follower has found no law from rest here.
+    lawless: bool,
+    /// Who finds laws for the follower, what is looked for, and the law from the next stop on.
+    law_solver: LawSolver,
+    pending: Option<PendingLaw>,
     next: Option<Next>,
     /// What became of motions that were offered.
     answer: Option<Answer>,
@@ -70,9 +70,9 @@ pub(crate) struct Course {
     refusing: bool,
     /// In a draft: up to where nothing has changed, in s of nominal time.
     drafted: Option<f64>,
-    /// How many pieces have been left behind.
+    /// How many segments have been left behind.
     gone: u64,
-    /// s of nominal time before the first piece, since the course began.
+    /// s of nominal time before the first segment, since the path began.
     passed: f64,
     /// The last motion, which the next one may still round off.
     tail: Option<Tail>,
@@ -80,7 +80,7 @@ pub(crate) struct Course {
 
 /// A target that should be rounded off, at which the robot stops.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Sharp {
+pub struct UnblendedTarget {
     /// The running number of the motion behind it.
     pub number: u64,
     /// Its program line.
@@ -103,18 +103,18 @@ struct Tail {
 struct Joined {
     before: Arc<Motion>,
     /// How the motion before is bent where the blend begins.
-    bend: Bend,
-    /// How many pieces there are from the blend's first half on.
-    pieces: usize,
+    bend: MidCurvature,
+    /// How many segments there are from the blend's first half on.
+    segments: usize,
 }
 
 /// A motion that can be appended where cycles take `cycle` s.
-pub(crate) fn risen(motion: Motion, cycle: f64) -> Arc<Motion> {
-    Arc::new(motion.rising_in(RISE * cycle))
+pub(crate) fn limit_rise(motion: Motion, cycle: f64) -> Arc<Motion> {
+    Arc::new(motion.rising_in(ACCELERATION_RISE_CYCLES * cycle))
 }
 
-/// Whether a stretch began with the first of pieces that were taken back.
-fn began(taken: &[(Arc<Piece>, bool)]) -> bool {
+/// Whether a stretch began with the first of segments that were taken back.
+fn began(taken: &[(Arc<Segment>, bool)]) -> bool {
     taken.last().is_none_or(|(_, began)| *began)
 }
 
@@ -125,24 +125,24 @@ impl Tail {
     }
 }
 
-impl Course {
-    /// The piece that the robot is on.
-    pub(crate) fn first(&self) -> Option<&Piece> {
-        self.pieces.front().map(|piece| &**piece)
+impl PathBuffer {
+    /// The segment that the robot is on.
+    pub(crate) fn first(&self) -> Option<&Segment> {
+        self.segments.front().map(|segment| &**segment)
     }
 
     /// The motion that is blended with the one that was appended last, `number`, and the share at which it is left.
     pub(crate) fn left_before(&self, number: u64) -> Option<(u64, f64)> {
-        let before = self.pieces.iter().rev().find(|piece| piece.number != number)?;
-        let rounded = before.ends && !before.stops && before.progress.is_some();
+        let before = self.segments.iter().rev().find(|segment| segment.number != number)?;
+        let rounded = before.ends && !before.stops && before.parametrization.is_some();
         rounded.then(|| (before.number, before.leave))
     }
 
     /// The motion that counts as being executed, and the share of its way that is done. A blend belongs to the motion that
     /// is joined (manual 7.3), whose way still counts from the target that is rounded off.
-    pub(crate) fn current(&self) -> Option<(&Piece, f64)> {
-        let first = self.pieces.front()?;
-        match self.pieces.get(1).filter(|_| first.leaves()) {
+    pub(crate) fn current(&self) -> Option<(&Segment, f64)> {
+        let first = self.segments.front()?;
+        match self.segments.get(1).filter(|_| first.leaves()) {
             Some(next) => {
                 let [half, _] = next.shares;
                 Some((next, half * (self.at / first.time).clamp(0.0, 1.0)))
@@ -158,7 +158,7 @@ impl Course {
 
     /// Whether nothing is left to go.
     pub(crate) fn is_empty(&self) -> bool {
-        self.pieces.is_empty()
+        self.segments.is_empty()
     }
 
     /// Whether the robot stands still.
@@ -166,7 +166,7 @@ impl Course {
         self.state.rests()
     }
 
-    /// Where the robot is on the first piece, in s of nominal time.
+    /// Where the robot is on the first segment, in s of nominal time.
     pub(crate) fn at(&self) -> f64 {
         self.at
     }
@@ -179,22 +179,22 @@ impl Course {
     /// For how many s, at its full speed, the robot can go on before it may have to brake for the next motion: or rather for the end
     /// of what that one does not change. In the profile O a law has to lead that far.
     pub(crate) fn spare(&self) -> f64 {
-        let Some(last) = self.pieces.back() else { return 0.0 };
+        let Some(last) = self.segments.back() else { return 0.0 };
         if self.wants_laws() {
-            return self.time_left() - self.open_time() - law_hand_over::LOOKED_AHEAD;
+            return self.time_left() - self.open_time() - law_hand_over::LOOKED_AHEAD_S;
         }
         let open = match self.tail.as_ref() {
             None => 0.0,
             Some(Tail { joined: None, motion }) if motion.corner.is_none() => last.time.min(LARGEST_ZONE / motion.rate),
             Some(_) => self.open_time(),
         };
-        self.time_left() - open - BRAKING * self.timing.braking(open)
+        self.time_left() - open - BRAKING_FACTOR * self.timing.braking(open)
     }
 
     /// Whether the robot is led by laws, or will be.
     pub(crate) fn wants_laws(&self) -> bool {
-        let ends = [self.pieces.front(), self.pieces.back()];
-        self.is_led() || ends.into_iter().flatten().any(|piece| piece.is_free)
+        let ends = [self.segments.front(), self.segments.back()];
+        self.is_led() || ends.into_iter().flatten().any(|segment| segment.is_free)
     }
 
     /// How the last motion is joined by the one before it.
@@ -203,7 +203,7 @@ impl Course {
         Joining::Known(joined.map(|joined| (Arc::clone(&joined.before), joined.bend)))
     }
 
-    /// Appends a motion that [`risen`] has made ready, with what has been prepared for it. Returns why the motion before it is not
+    /// Appends a motion that [`limit_rise`] has made ready, with what has been prepared for it. Returns why the motion before it is not
     /// rounded off, where that was asked for.
     pub(crate) fn append(
         &mut self,
@@ -211,35 +211,35 @@ impl Course {
         (motion, number): (&Arc<Motion>, u64),
         prepared: Option<&Prepared>,
         cycle: f64,
-    ) -> Option<Sharp> {
+    ) -> Option<UnblendedTarget> {
         let limits = motion.limits?;
         self.cycle = cycle;
         let tail = self.tail.take();
-        if motion.flows && tail.is_some() && self.flow_on(Piece::part(motion, limits, number, 0.0, 1.0), cycle) {
+        if motion.flows && tail.is_some() && self.flow_on(Segment::part(motion, limits, number, 0.0, 1.0), cycle) {
             self.settle(1);
-            self.timing.find_entries(MARGIN, cycle);
+            self.timing.find_entries(LOOK_AHEAD_MARGIN, cycle);
             self.tail = Some(Tail { motion: Arc::clone(motion), joined: None });
             return None;
         }
-        let tail = tail.filter(|_| !self.pieces.is_empty());
+        let tail = tail.filter(|_| !self.segments.is_empty());
         let known = prepared.zip(tail.as_ref()).map(|(prepared, tail)| prepared.take(robot, || tail.meeting(motion)));
         let bent = tail.as_ref().and_then(|tail| self.bent(robot, known, tail, motion));
         let mut joined = tail.as_ref().zip(bent).and_then(|(tail, bent)| {
-            self.bend_into(tail, &bent, (motion, limits), number, cycle).map(|pieces| (bent.bend, pieces))
+            self.join_curved(tail, &bent, (motion, limits), number, cycle).map(|segments| (bent.bend, segments))
         });
-        let late = Sharp { number, line: motion.line, corner: None };
-        let mut sharp = motion.flows.then_some(late);
+        let late = UnblendedTarget { number, line: motion.line, corner: None };
+        let mut unblended = motion.flows.then_some(late);
         let mut end = Arc::clone(motion);
         let mut before = None;
         if let Some(tail) = tail {
             let blended = if joined.is_none() { junction::blended(robot, known, &tail.motion, motion) } else { None };
             if joined.is_none() && blended.is_none() && asks(robot, &tail.motion) {
-                sharp = Some(Sharp { corner: Some(tail.motion.line), ..late });
+                unblended = Some(UnblendedTarget { corner: Some(tail.motion.line), ..late });
             }
             before = Some(tail.motion);
             if let Some(blended) = blended {
-                joined = self.round_off(&blended, number, cycle).map(|pieces| (Bend::NONE, pieces));
-                sharp = joined.is_none().then_some(late);
+                joined = self.round_off(&blended, number, cycle).map(|segments| (MidCurvature::NONE, segments));
+                unblended = joined.is_none().then_some(late);
                 if joined.is_some() {
                     (before, end) = (Some(blended.from), blended.to);
                 }
@@ -247,17 +247,17 @@ impl Course {
         }
         let limits = end.limits?;
         if joined.is_none() {
-            let whole = self.ready([Piece::part(&end, limits, number, 0.0, 1.0)]);
+            let whole = self.ready([Segment::part(&end, limits, number, 0.0, 1.0)]);
             // In a stretch of its own it asks for nothing that the stop before it did not.
             if self.is_led() || !self.lay(&whole, |_| true, cycle) {
                 self.push(&whole, |_| false);
             }
         }
-        let joined = joined.zip(before).map(|((bend, pieces), before)| Joined { before, bend, pieces });
-        self.settle(joined.as_ref().map_or(1, |joined| joined.pieces));
-        self.timing.find_entries(MARGIN, cycle);
+        let joined = joined.zip(before).map(|((bend, segments), before)| Joined { before, bend, segments });
+        self.settle(joined.as_ref().map_or(1, |joined| joined.segments));
+        self.timing.find_entries(LOOK_AHEAD_MARGIN, cycle);
         self.tail = Some(Tail { motion: end, joined });
-        sharp
+        unblended
     }
 
     /// How the last motion bends towards the next one; `None` where it does not, or the robot is on the blend before already.
@@ -267,128 +267,128 @@ impl Course {
         known: Option<&junction::Junction>,
         tail: &Tail,
         motion: &Arc<Motion>,
-    ) -> Option<Bent> {
-        let Joined { before, bend, pieces } = tail.joined.as_ref()?;
-        if self.pieces.len() <= *pieces {
+    ) -> Option<CurvedBlends> {
+        let Joined { before, bend, segments } = tail.joined.as_ref()?;
+        if self.segments.len() <= *segments {
             return None;
         }
         junction::bent(robot, known, (before, *bend), (&tail.motion, motion))
     }
 
     /// Puts a blend behind the last one where the two meet in the middle of the last motion, and bends both there; returns
-    /// how many pieces there are from the new blend on. `None` where that is not possible any more.
-    fn bend_into(
+    /// how many segments there are from the new blend on. `None` where that is not possible any more.
+    fn join_curved(
         &mut self,
         tail: &Tail,
-        bent: &Bent,
+        bent: &CurvedBlends,
         (motion, limits): (&Motion, Limits),
         number: u64,
         cycle: f64,
     ) -> Option<usize> {
-        let Joined { before, pieces: count, .. } = tail.joined.as_ref()?;
+        let Joined { before, segments: count, .. } = tail.joined.as_ref()?;
         let [first, next] = &bent.blends;
-        let (left, last) = (self.pieces.get(self.pieces.len() - *count)?.number, self.pieces.back()?.number);
-        let halves = [
-            Piece::half(first, (before, &tail.motion), left, true),
-            Piece::half(first, (before, &tail.motion), last, false),
-            Piece::half(next, (&tail.motion, motion), last, true),
-            Piece::half(next, (&tail.motion, motion), number, false),
+        let (left, last) = (self.segments.get(self.segments.len() - *count)?.number, self.segments.back()?.number);
+        let circle_steps = [
+            Segment::half(first, (before, &tail.motion), left, true),
+            Segment::half(first, (before, &tail.motion), last, false),
+            Segment::half(next, (&tail.motion, motion), last, true),
+            Segment::half(next, (&tail.motion, motion), number, false),
         ];
-        let rest = Piece::part(motion, limits, number, next.join, 1.0);
-        let pieces = self.ready(halves.into_iter().chain((rest.time > NO_TIME).then_some(rest)));
+        let rest = Segment::part(motion, limits, number, next.join, 1.0);
+        let segments = self.ready(circle_steps.into_iter().chain((rest.time > NO_TIME_S).then_some(rest)));
         let kept = self.take_back(*count);
         let same_to = self.unchanged_to(0.0);
-        if self.lay_any(&pieces, None, same_to, cycle) {
-            return Some(pieces.len() - 2);
+        if self.lay_any(&segments, None, same_to, cycle) {
+            return Some(segments.len() - 2);
         }
         self.put_back(kept);
         None
     }
 
-    /// Puts a blend in place of the end of the last motion and the start of the next; returns how many pieces there are
+    /// Puts a blend in place of the end of the last motion and the start of the next; returns how many segments there are
     /// from the blend on, `None` where the robot is not able to take it any more.
     fn round_off(&mut self, blended: &Blended, number: u64, cycle: f64) -> Option<usize> {
         let Blended { from: before, to: motion, blend, until } = blended;
         let (before_limits, limits) = (before.limits?, motion.limits?);
-        let last = self.pieces.back()?;
+        let last = self.segments.back()?;
         // Another blend has taken what this one needs.
         if last.from > blend.leave {
             return None;
         }
         let gone = last.from + self.at * before.rate;
-        if self.pieces.len() == 1 && (gone >= blend.leave || gone > *until) {
+        if self.segments.len() == 1 && (gone >= blend.leave || gone > *until) {
             return None;
         }
         let same = (until.min(blend.leave) - last.from).max(0.0) / before.rate;
-        let mut cut = Piece::part(before, before_limits, last.number, last.from, blend.leave);
+        let mut cut = Segment::part(before, before_limits, last.number, last.from, blend.leave);
         (cut.stops, cut.ends) = (false, false);
-        let first = Piece::half(blend, (before, motion), last.number, true);
-        let second = Piece::half(blend, (before, motion), number, false);
-        let rest = Piece::part(motion, limits, number, blend.join, 1.0);
-        let pieces = self.ready([cut, first, second, rest].into_iter().filter(|piece| piece.time > NO_TIME));
-        let from_blend = pieces.iter().skip_while(|piece| piece.progress.is_none()).count();
+        let first = Segment::half(blend, (before, motion), last.number, true);
+        let second = Segment::half(blend, (before, motion), number, false);
+        let rest = Segment::part(motion, limits, number, blend.join, 1.0);
+        let segments = self.ready([cut, first, second, rest].into_iter().filter(|segment| segment.time > NO_TIME_S));
+        let from_blend = segments.iter().skip_while(|segment| segment.parametrization.is_none()).count();
         let kept = self.take_back(1);
         let same_to = self.unchanged_to(same);
-        let own = pieces.first().is_some_and(|first| first.progress.is_none()).then(|| began(&kept));
-        if self.lay_any(&pieces, own, same_to, cycle) {
+        let own = segments.first().is_some_and(|first| first.parametrization.is_none()).then(|| began(&kept));
+        if self.lay_any(&segments, own, same_to, cycle) {
             return Some(from_blend);
         }
         self.put_back(kept);
         None
     }
 
-    /// Appends pieces in whatever way the robot is able to keep to them; returns whether there is one. `own`: the first of them
+    /// Appends segments in whatever way the robot is able to keep to them; returns whether there is one. `own`: the first of them
     /// is of the motion that the robot may be on, and did a stretch begin with that? Up to `same_to`, in s of nominal time since
-    /// the course began, nothing changes by them.
-    fn lay_any(&mut self, pieces: &[Arc<Piece>], own: Option<bool>, same_to: f64, cycle: f64) -> bool {
+    /// the path began, nothing changes by them.
+    fn lay_any(&mut self, segments: &[Arc<Segment>], own: Option<bool>, same_to: f64, cycle: f64) -> bool {
         let may = self.may_change_from(same_to);
         if self.is_led() {
             if may {
-                self.push(pieces, |_| true);
+                self.push(segments, |_| true);
             }
             return may;
         }
-        self.lay(pieces, |_| true, cycle)
-            || self.lay(pieces, |index| index > 0, cycle)
+        self.lay(segments, |_| true, cycle)
+            || self.lay(segments, |index| index > 0, cycle)
             // A robot that speeds up on its motion needs that one's limits as they are.
-            || own.is_some_and(|began| self.lay(pieces, |index| if index == 0 { !began } else { index > 1 }, cycle))
+            || own.is_some_and(|began| self.lay(segments, |index| if index == 0 { !began } else { index > 1 }, cycle))
     }
 
-    /// Where changes begin that come so many s of nominal time behind the last piece, for whom that may concern.
+    /// Where changes begin that come so many s of nominal time behind the last segment, for whom that may concern.
     fn unchanged_to(&self, behind: f64) -> f64 {
         if self.is_watched() { self.end() + behind } else { f64::INFINITY }
     }
 
-    /// Where the last piece ends, in s of nominal time since the course began.
+    /// Where the last segment ends, in s of nominal time since the path began.
     fn end(&self) -> f64 {
-        self.passed + self.pieces.iter().map(|piece| piece.time).sum::<f64>()
+        self.passed + self.segments.iter().map(|segment| segment.time).sum::<f64>()
     }
 
     /// Goes on from the last motion without a stop; returns whether the robot is still able to.
-    fn flow_on(&mut self, piece: Piece, cycle: f64) -> bool {
-        let Some(last) = self.pieces.back() else { return false };
-        let mut through = Piece::clone(last).flowing();
+    fn flow_on(&mut self, segment: Segment, cycle: f64) -> bool {
+        let Some(last) = self.segments.back() else { return false };
+        let mut through = Segment::clone(last).flowing();
         through.stops = false;
-        let pieces = self.ready([through, piece.flowing()]);
+        let segments = self.ready([through, segment.flowing()]);
         let kept = self.take_back(1);
-        let same_to = self.unchanged_to(pieces.first().map_or(0.0, |through| through.time));
-        if self.lay_any(&pieces, Some(began(&kept)), same_to, cycle) {
+        let same_to = self.unchanged_to(segments.first().map_or(0.0, |through| through.time));
+        if self.lay_any(&segments, Some(began(&kept)), same_to, cycle) {
             return true;
         }
         self.put_back(kept);
         false
     }
 
-    /// Whether the pilot leads, or would lead, the robot.
+    /// Whether the follower leads, or would lead, the robot.
     fn is_led(&self) -> bool {
-        self.pilot.is_some() || self.drafted.is_some()
+        self.follower.is_some() || self.drafted.is_some()
     }
 
-    /// Appends pieces if the robot is able to keep to them, and returns whether it is; which of them `may` join the stretch before?
-    fn lay(&mut self, pieces: &[Arc<Piece>], may: impl Fn(usize) -> bool, cycle: f64) -> bool {
+    /// Appends segments if the robot is able to keep to them, and returns whether it is; which of them `may` join the stretch before?
+    fn lay(&mut self, segments: &[Arc<Segment>], may: impl Fn(usize) -> bool, cycle: f64) -> bool {
         let before = self.timing.next_entry();
-        self.push(pieces, may);
-        self.timing.find_entries(MARGIN, cycle);
+        self.push(segments, may);
+        self.timing.find_entries(LOOK_AHEAD_MARGIN, cycle);
         // The governor looks no farther than to the stretch behind the one where its backup ends.
         let unchanged = before.is_some() && self.timing.next_entry() >= before && self.backup_ends_here();
         if unchanged || self.state.rests() {
@@ -400,7 +400,7 @@ impl Course {
                 true
             }
             None => {
-                self.take_back(pieces.len());
+                self.take_back(segments.len());
                 false
             }
         }
@@ -412,49 +412,49 @@ impl Course {
         self.timing.is_on_first(at + self.backup.distance(vel, acc))
     }
 
-    /// Pieces as they can be pushed.
-    fn ready(&self, pieces: impl IntoIterator<Item = Piece>) -> Vec<Arc<Piece>> {
+    /// Segments as they can be pushed.
+    fn ready(&self, segments: impl IntoIterator<Item = Segment>) -> Vec<Arc<Segment>> {
         // Set-points are those of whole cycles: an acceleration takes a few of them to rise, also without a limit of the jerk.
-        let rise = RISE * self.cycle;
-        pieces.into_iter().map(|piece| Arc::new(piece.rising_in(rise))).collect()
+        let rise = ACCELERATION_RISE_CYCLES * self.cycle;
+        segments.into_iter().map(|segment| Arc::new(segment.rising_in(rise))).collect()
     }
 
-    fn push(&mut self, pieces: &[Arc<Piece>], may: impl Fn(usize) -> bool) {
-        for (index, piece) in pieces.iter().enumerate() {
-            self.push_shared(Arc::clone(piece), may(index));
+    fn push(&mut self, segments: &[Arc<Segment>], may: impl Fn(usize) -> bool) {
+        for (index, segment) in segments.iter().enumerate() {
+            self.push_shared(Arc::clone(segment), may(index));
         }
     }
 
-    fn push_shared(&mut self, piece: Arc<Piece>, may: bool) {
-        for (index, cell) in piece.cells().enumerate() {
-            self.timing.push(cell, piece.stops, may || index > 0);
+    fn push_shared(&mut self, segment: Arc<Segment>, may: bool) {
+        for (index, cell) in segment.cells().enumerate() {
+            self.timing.push(cell, segment.stops, may || index > 0);
         }
-        self.pieces.push_back(piece);
+        self.segments.push_back(segment);
     }
 
-    /// Joins what is alike in the timing, but for the last pieces, which may still be taken away.
+    /// Joins what is alike in the timing, but for the last segments, which may still be taken away.
     fn settle(&mut self, open: usize) {
-        let open = self.pieces.iter().rev().take(open).map(|piece| piece.cells().count()).sum();
+        let open = self.segments.iter().rev().take(open).map(|segment| segment.cells().count()).sum();
         self.timing.settle(open);
     }
 
-    /// Takes the last pieces away; returns them, the last one first, each with whether its stretch began with it.
-    fn take_back(&mut self, count: usize) -> Vec<(Arc<Piece>, bool)> {
+    /// Takes the last segments away; returns them, the last one first, each with whether its stretch began with it.
+    fn take_back(&mut self, count: usize) -> Vec<(Arc<Segment>, bool)> {
         let mut taken = Vec::with_capacity(count);
-        for piece in (0..count).map_while(|_| self.pieces.pop_back()) {
+        for segment in (0..count).map_while(|_| self.segments.pop_back()) {
             let mut began = false;
-            for _ in piece.cells() {
+            for _ in segment.cells() {
                 began = self.timing.pop();
             }
-            taken.push((piece, began));
+            taken.push((segment, began));
         }
         taken
     }
 
-    /// Puts pieces back where they were.
-    fn put_back(&mut self, taken: Vec<(Arc<Piece>, bool)>) {
-        for (piece, began) in taken.into_iter().rev() {
-            self.push_shared(piece, !began);
+    /// Puts segments back where they were.
+    fn put_back(&mut self, taken: Vec<(Arc<Segment>, bool)>) {
+        for (segment, began) in taken.into_iter().rev() {
+            self.push_shared(segment, !began);
         }
     }
 
@@ -462,18 +462,18 @@ impl Course {
         Governor { stretches: &self.timing.stretches, cycle }
     }
 
-    /// Goes on for a cycle; tells of each piece that is left behind. Returns whether the robot has arrived where it had
-    /// to stop: at the end of the last piece that was told of.
+    /// Goes on for a cycle; tells of each segment that is left behind. Returns whether the robot has arrived where it had
+    /// to stop: at the end of the last segment that was told of.
     pub(crate) fn advance(
         &mut self,
         (robot, here): (&Arc<Robot>, &Joints),
         cycle: f64,
         pacing: Pacing,
-        mut passed: impl FnMut(Arc<Piece>),
+        mut passed: impl FnMut(Arc<Segment>),
     ) -> bool {
         self.choose_leader();
-        self.stop_sooner(robot, here, cycle, pacing);
-        if !self.follow_pilot(robot, here, cycle, pacing) {
+        self.shorten_stop(robot, here, cycle, pacing);
+        if !self.follow_law(robot, here, cycle, pacing) {
             let pacing = self.settling(cycle, pacing);
             let mut backup = self.backup;
             let next = self.governor(cycle).next(&self.state, &mut backup, pacing);
@@ -484,10 +484,10 @@ impl Course {
         let stands = self.timing.pass(&mut self.state);
         if stands {
             self.backup = Change::default();
-            self.arrive();
+            self.end_at_stop();
         }
-        while let Some(first) = self.pieces.front() {
-            // What rounding leaves of pieces before a stop is passed with it.
+        while let Some(first) = self.segments.front() {
+            // What rounding leaves of segments before a stop is passed with it.
             let at_stop = stands && self.at >= first.time - 1e-9;
             if self.at < first.time && !at_stop {
                 break;
@@ -498,9 +498,9 @@ impl Course {
             }
             self.at = if stops { 0.0 } else { self.at - first.time };
             self.passed = if stops { 0.0 } else { self.passed + first.time };
-            if let Some(piece) = self.pieces.pop_front() {
+            if let Some(segment) = self.segments.pop_front() {
                 self.gone += 1;
-                passed(piece);
+                passed(segment);
             }
             if stops {
                 break;
@@ -509,11 +509,11 @@ impl Course {
         stands
     }
 
-    /// Whoever leads the robot from rest leads it until it stops: the pilot where the first motion has the profile O.
+    /// Whoever leads the robot from rest leads it until it stops: the follower where the first motion has the profile O.
     fn choose_leader(&mut self) {
-        if self.state.rests() && self.pilot.is_none() && !self.unled {
-            let optimal = self.pieces.front().is_some_and(|first| first.is_free);
-            self.pilot = optimal.then(Box::default);
+        if self.state.rests() && self.follower.is_none() && !self.lawless {
+            let optimal = self.segments.front().is_some_and(|first| first.is_free);
+            self.follower = optimal.then(Box::default);
         }
     }
 
@@ -537,8 +537,8 @@ impl Course {
 
     /// Drops the motions behind the next place where the robot stops.
     pub(crate) fn keep_to_stop(&mut self) {
-        let kept = self.pieces.iter().position(|piece| piece.stops).map_or(0, |last| last + 1);
-        self.pieces.truncate(kept);
+        let kept = self.segments.iter().position(|segment| segment.stops).map_or(0, |last| last + 1);
+        self.segments.truncate(kept);
         self.timing.keep_to_stop();
         self.tail = None;
         self.keep_laws_to_stop();
@@ -546,34 +546,35 @@ impl Course {
 
     /// Drops everything.
     pub(crate) fn clear(&mut self) {
-        self.forsake();
-        *self = Self { finder: std::mem::take(&mut self.finder), ..Self::default() };
+        self.cancel();
+        *self = Self { law_solver: std::mem::take(&mut self.law_solver), ..Self::default() };
     }
 
     /// How long the motion that counts as being executed still takes, in s, when it has run for `elapsed` s at full speed:
-    /// exact where it begins and ends at rest, else as its pieces and those behind them allow.
+    /// exact where it begins and ends at rest, else as its segments and those behind them allow.
     pub(crate) fn time_to_end(&self, elapsed: f64) -> f64 {
-        let (Some(first), Some((current, _))) = (self.pieces.front(), self.current()) else { return 0.0 };
-        if let Some(duration) = current.duration().filter(|_| self.pilot.is_none()) {
+        let (Some(first), Some((current, _))) = (self.segments.front(), self.current()) else { return 0.0 };
+        if let Some(duration) = current.duration().filter(|_| self.follower.is_none()) {
             return (duration - elapsed).max(0.0);
         }
-        let own = |piece: &&Arc<Piece>| piece.number == current.number && !piece.leaves();
-        let later = self.pieces.iter().skip(1).take_while(own);
-        let end = self.passed + first.time + later.clone().map(|piece| piece.time).sum::<f64>();
-        if let Some(time) = self.pilot.as_ref().and_then(|pilot| pilot.time_to(end)) {
+        let own = |segment: &&Arc<Segment>| segment.number == current.number && !segment.leaves();
+        let later = self.segments.iter().skip(1).take_while(own);
+        let end = self.passed + first.time + later.clone().map(|segment| segment.time).sum::<f64>();
+        if let Some(time) = self.follower.as_ref().and_then(|follower| follower.time_to(end)) {
             return time;
         }
-        let mut legs = [Leg { length: 0.0, limits: first.limits }; remaining::MOST];
+        let mut legs = [Leg { length: 0.0, limits: first.limits }; remaining::MOST_LEGS];
         let (mut known, mut at, mut stops) = (0, self.at, false);
-        for (leg, piece) in legs.iter_mut().zip([first].into_iter().chain(later)) {
-            let length = (piece.time - at).max(0.0);
-            let vel = if length > 0.0 { length / piece.time_from(at) } else { piece.limits.vel };
-            *leg = Leg { length, limits: Limits { vel, ..piece.limits } };
-            (known, at, stops) = (known + 1, 0.0, piece.stops);
+        for (leg, segment) in legs.iter_mut().zip([first].into_iter().chain(later)) {
+            let length = (segment.time - at).max(0.0);
+            let vel = if length > 0.0 { length / segment.time_from(at) } else { segment.limits.vel };
+            *leg = Leg { length, limits: Limits { vel, ..segment.limits } };
+            (known, at, stops) = (known + 1, 0.0, segment.stops);
         }
         let legs = legs.get(..known).unwrap_or_default();
         let way: f64 = legs.iter().map(|leg| leg.length).sum();
-        let exit = if stops { 0.0 } else { self.timing.highest_speed(self.state.at + way, MARGIN, self.cycle) };
+        let exit =
+            if stops { 0.0 } else { self.timing.highest_speed(self.state.at + way, LOOK_AHEAD_MARGIN, self.cycle) };
         remaining::time_over(legs, exit, self.state.vel, self.state.acc)
     }
 }

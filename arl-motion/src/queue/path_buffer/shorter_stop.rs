@@ -3,94 +3,94 @@
 //! The governor knows one acceleration and one jerk for each part of the way: those of its hardest place at full speed. Where the
 //! robot is slower, or elsewhere on that part, it could brake harder. So when it stops, the shortest way to rest is looked
 //! for beside the cycle, with the limits of each place, from the state that the governor's stop leads to meanwhile. If that is
-//! much shorter, a pilot takes over and leads to rest; from there the governor goes on as before.
+//! much shorter, a follower takes over and leads to rest; from there the governor goes on as before.
 
 use crate::command::joints::Joints;
 use crate::follow::governor::Pacing;
 use crate::limits::profile::{Change, Limits, State};
-use crate::queue::path_buffer::law_hand_over::{Purpose, Sought};
-use crate::queue::path_buffer::{Course, RISE};
-use crate::time_optimal::constraint_sampler::Scout;
-use crate::time_optimal::law_follower::Pilot;
-use crate::time_optimal::law_solver_thread::{Finder, Found, Quest};
-use crate::time_optimal::stop_prediction::Foresight;
+use crate::queue::path_buffer::law_hand_over::{PendingLaw, Purpose};
+use crate::queue::path_buffer::{ACCELERATION_RISE_CYCLES, PathBuffer};
+use crate::time_optimal::constraint_sampler::ConstraintSampler;
+use crate::time_optimal::law_follower::LawFollower;
+use crate::time_optimal::law_solver_thread::{Found, LawRequest, LawSolver};
+use crate::time_optimal::stop_prediction::StopPrediction;
 use arl_robot::robot::Robot;
 use std::sync::Arc;
 
 /// How far the state may be from what was foreseen, as rounding leaves it: s of nominal time, full speeds, and these per s.
-const FORESEEN: [f64; 3] = [1e-9, 1e-9, 1e-6];
+const STATE_TOLERANCES: [f64; 3] = [1e-9, 1e-9, 1e-6];
 
-impl Course {
+impl PathBuffer {
     /// Sees to a shorter stop while the governor leads.
-    pub(crate) fn stop_sooner(&mut self, robot: &Arc<Robot>, here: &Joints, cycle: f64, pacing: Pacing) {
-        if self.pilot.is_some() {
+    pub(crate) fn shorten_stop(&mut self, robot: &Arc<Robot>, here: &Joints, cycle: f64, pacing: Pacing) {
+        if self.follower.is_some() {
             return;
         }
         let harder = if let Pacing::Stop(harder) = pacing { harder } else { 0.0 };
         if harder == 0.0 || self.state.rests() {
-            self.ask_no_more();
+            self.drop_stop_request();
             return;
         }
         if self.asked.is_none_or(|asked| asked < harder) {
-            self.ask_no_more();
+            self.drop_stop_request();
             self.asked = Some(harder);
             if !self.stops_on_even_way(harder) {
-                self.ask_for_stop(robot, here, cycle, harder);
+                self.request_stop_law(robot, here, cycle, harder);
             }
-        } else if let Some(found) = self.take_stop() {
-            self.pilot = Some(Box::new(Pilot::resting(found, harder)));
-            self.relieved = true;
+        } else if let Some(found) = self.take_stop_law() {
+            self.follower = Some(Box::new(LawFollower::resting(found, harder)));
+            self.follower_leads = true;
         }
     }
 
     /// The governor leads again, or nobody does.
-    pub(crate) fn hand_back(&mut self) {
-        if std::mem::take(&mut self.relieved) {
+    pub(crate) fn return_to_governor(&mut self) {
+        if std::mem::take(&mut self.follower_leads) {
             self.backup = Change::default();
         }
         self.asked = None;
     }
 
-    /// Whether the governor's stop stays on a piece that has the same limits everywhere: none is shorter.
+    /// Whether the governor's stop stays on a segment that has the same limits everywhere: none is shorter.
     fn stops_on_even_way(&self, harder: f64) -> bool {
         let State { vel, acc, .. } = self.state;
-        self.pieces.front().filter(|piece| piece.is_even()).is_some_and(|piece| {
-            let Limits { acc: most, jerk, .. } = piece.limits;
+        self.segments.front().filter(|segment| segment.is_even()).is_some_and(|segment| {
+            let Limits { acc: most, jerk, .. } = segment.limits;
             let limits = Limits { vel, acc: most * harder, jerk: jerk * harder };
-            self.at + Change::new(vel, acc, 0.0, &limits).distance(vel, acc) < piece.time
+            self.at + Change::new(vel, acc, 0.0, &limits).distance(vel, acc) < segment.time
         })
     }
 
-    fn ask_for_stop(&mut self, robot: &Arc<Robot>, here: &Joints, cycle: f64, harder: f64) {
-        self.forsake();
+    fn request_stop_law(&mut self, robot: &Arc<Robot>, here: &Joints, cycle: f64, harder: f64) {
+        self.cancel();
         let at = self.passed + self.at;
-        let pieces = (self.pieces.iter(), self.passed);
-        let scout = Scout::new(robot, pieces, (at, here), f64::INFINITY, (usize::MAX, f64::INFINITY));
-        let foresight = Foresight::new(self.timing.clone(), self.state, self.backup, cycle, harder);
-        let cycles = 2 * Finder::cycles(cycle);
-        let quest = Quest::Sooner(Box::new(foresight), cycles);
-        self.search_for(quest, scout.for_stop(RISE * cycle), cycles, Purpose::Sooner);
+        let segments = (self.segments.iter(), self.passed);
+        let sampler = ConstraintSampler::new(robot, segments, (at, here), f64::INFINITY, (usize::MAX, f64::INFINITY));
+        let prediction = StopPrediction::new(self.timing.clone(), self.state, self.backup, cycle, harder);
+        let cycles = 2 * LawSolver::cycles(cycle);
+        let request = LawRequest::ShorterStop(Box::new(prediction), cycles);
+        self.search_for(request, sampler.for_stop(ACCELERATION_RISE_CYCLES * cycle), cycles, Purpose::ShorterStop);
     }
 
-    fn ask_no_more(&mut self) {
+    fn drop_stop_request(&mut self) {
         self.asked = None;
-        if self.sought.as_ref().is_some_and(is_for_stop) {
-            self.forsake();
+        if self.pending.as_ref().is_some_and(is_for_stop) {
+            self.cancel();
         }
     }
 
     /// The stop that was looked for, when it is time, if the robot is where it begins.
-    fn take_stop(&mut self) -> Option<Found> {
-        let found = self.sought.as_mut().filter(|sought| is_for_stop(sought))?.search.next()?;
-        self.sought = None;
+    fn take_stop_law(&mut self) -> Option<Found> {
+        let found = self.pending.as_mut().filter(|pending| is_for_stop(pending))?.search.next()?;
+        self.pending = None;
         let found = found?;
         let start = found.law.at(0.0);
         let State { vel, acc, .. } = self.state;
         let off = [start.at - self.passed - self.at, start.vel - vel, start.acc - acc];
-        off.iter().zip(FORESEEN).all(|(off, most)| off.abs() <= most).then_some(found)
+        off.iter().zip(STATE_TOLERANCES).all(|(off, most)| off.abs() <= most).then_some(found)
     }
 }
 
-fn is_for_stop(sought: &Sought) -> bool {
-    matches!(sought.purpose, Purpose::Sooner)
+fn is_for_stop(pending: &PendingLaw) -> bool {
+    matches!(pending.purpose, Purpose::ShorterStop)
 }

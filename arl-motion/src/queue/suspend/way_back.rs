@@ -2,12 +2,12 @@
 
 use crate::command::joints::Joints;
 use crate::command::{Command, Settings, Speed, Target, Zone};
-use crate::queue::suspend::{Asked, Shelf};
+use crate::queue::suspend::{Asked, SuspendedMotion};
 use arl_robot::frames::Rig;
 use arl_robot::robot::Robot;
 
 /// The speed of the axes in % where no motion says one.
-const SLOW: f64 = 5.0;
+const UNPROGRAMMED_SPEED_PERCENT: f64 = 5.0;
 
 /// Which motions are dropped.
 pub(crate) enum Skipped<'a> {
@@ -20,7 +20,7 @@ pub(crate) enum Skipped<'a> {
 
 /// A way of the axes where no motion says how: after nothing has moved yet.
 fn slowly_to(joints: Joints, rig: Rig) -> Command {
-    let speed = Speed { percent: SLOW, tcp: 1.0, ori: 1.0, exj: 1.0, exl: 1.0 };
+    let speed = Speed { percent: UNPROGRAMMED_SPEED_PERCENT, tcp: 1.0, ori: 1.0, exj: 1.0, exl: 1.0 };
     Command { target: Target::Joints(joints), rig, speed, duration: None, zone: Zone::NONE, line: 0 }
 }
 
@@ -32,10 +32,10 @@ pub(crate) struct Way {
     pub(crate) end: Option<Joints>,
 }
 
-impl Shelf {
+impl SuspendedMotion {
     /// The motions that have not ended, the stopped one first.
     pub(crate) fn left(&self) -> impl Iterator<Item = &Asked> {
-        let executed = self.course.current().map_or(0, |(piece, _)| piece.number);
+        let executed = self.path.current().map_or(0, |(segment, _)| segment.number);
         let first = executed.max(self.finished + 1);
         self.asked.iter().chain(&self.anew).filter(move |asked| asked.number >= first)
     }

@@ -30,17 +30,17 @@ pub(crate) fn solve(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
 /// The squares of its speed at the places.
 pub(crate) fn squares(way: &Way, start: Edge, end: Edge) -> Result<Vec<f64>, Refusal> {
     let caps = caps(way);
-    let mut halves = Vec::new();
+    let mut circle_steps = Vec::new();
     // The lowest and highest square of the speed at each place from which the end can be reached.
     let mut reach = vec![(0.0, 0.0); caps.len()];
     let (mut low, mut high) = (end.vel * end.vel, end.vel * end.vel);
     for (index, slot) in reach.iter_mut().enumerate().rev() {
         let cap = caps.get(index).copied().unwrap_or_default();
         if index + 1 < caps.len() {
-            stretch(way, index, &mut halves);
-            let most = extreme(&halves, (0.0, cap), (low, high), true).ok_or(Refusal::Fast)?;
+            stretch(way, index, &mut circle_steps);
+            let most = extreme(&circle_steps, (0.0, cap), (low, high), true).ok_or(Refusal::Fast)?;
             low = if low > 0.0 {
-                extreme(&halves, (0.0, cap), (low, high), false).ok_or(Refusal::Fast)?.min(most)
+                extreme(&circle_steps, (0.0, cap), (low, high), false).ok_or(Refusal::Fast)?.min(most)
             } else {
                 0.0
             };
@@ -57,8 +57,8 @@ pub(crate) fn squares(way: &Way, start: Edge, end: Edge) -> Result<Vec<f64>, Ref
     square = square.clamp(low, high);
     let mut squares = vec![square];
     for (index, (low, high)) in reach.iter().skip(1).enumerate() {
-        stretch(way, index, &mut halves);
-        let most = halves.iter().filter(|half| half.next > 0.0).fold(*high, |most, half| {
+        stretch(way, index, &mut circle_steps);
+        let most = circle_steps.iter().filter(|half| half.next > 0.0).fold(*high, |most, half| {
             let next = (1.0 - half.here * square) / half.next;
             most.min(next)
         });
@@ -87,8 +87,8 @@ fn caps(way: &Way) -> Vec<f64> {
 }
 
 /// The half planes that the acceleration limits at both ends of the stretch `index` leave.
-fn stretch(way: &Way, index: usize, halves: &mut Vec<Half>) {
-    halves.clear();
+fn stretch(way: &Way, index: usize, circle_steps: &mut Vec<Half>) {
+    circle_steps.clear();
     let (Some(from), Some(to)) = (way.places().get(index), way.places().get(index + 1)) else { return };
     let slope = 0.5 / (to - from);
     for (rows, turned) in [(way.rows(index), false), (way.rows(index + 1), true)] {
@@ -96,7 +96,7 @@ fn stretch(way: &Way, index: usize, halves: &mut Vec<Half>) {
             let (along, across) = (row.first * slope / row.acc, row.second / row.acc);
             let (here, next) = if turned { (-along, along + across) } else { (across - along, along) };
             if here != 0.0 || next != 0.0 {
-                halves.extend([Half { here, next }, Half { here: -here, next: -next }]);
+                circle_steps.extend([Half { here, next }, Half { here: -here, next: -next }]);
             }
         }
     }
@@ -104,9 +104,9 @@ fn stretch(way: &Way, index: usize, halves: &mut Vec<Half>) {
 
 /// The highest or lowest x in the box of x and y and the half planes, if they leave anything: by adding the half planes
 /// one after the other; one that cuts the optimum off has the new one on its edge.
-fn extreme(halves: &[Half], x: (f64, f64), y: (f64, f64), highest: bool) -> Option<f64> {
+fn extreme(circle_steps: &[Half], x: (f64, f64), y: (f64, f64), highest: bool) -> Option<f64> {
     let (mut best_x, mut best_y) = (if highest { x.1 } else { x.0 }, y.1);
-    for (index, half) in halves.iter().enumerate() {
+    for (index, half) in circle_steps.iter().enumerate() {
         if half.here * best_x + half.next * best_y <= 1.0 + 1e-9 {
             continue;
         }
@@ -127,7 +127,7 @@ fn extreme(halves: &[Half], x: (f64, f64), y: (f64, f64), highest: bool) -> Opti
         clip(-half.next, base_x - x.0);
         clip(-half.here, y.1 - base_y);
         clip(half.here, base_y - y.0);
-        for other in halves.iter().take(index) {
+        for other in circle_steps.iter().take(index) {
             let rate = other.here * half.next - other.next * half.here;
             clip(rate, 1.0 - other.here * base_x - other.next * base_y);
         }

@@ -42,11 +42,11 @@ impl Spline {
         (self.points.len() - 1) as f64
     }
 
-    /// Position and derivatives of an axis, on the piece `piece`.
-    fn jet(&self, axis: usize, piece: usize, at: f64) -> [f64; 4] {
-        let share = at - piece as f64;
-        let (p, q) = (self.points[piece][axis], self.points[piece + 1][axis]);
-        let (b, c) = (self.bends[piece][axis], self.bends[piece + 1][axis]);
+    /// Position and derivatives of an axis, on the segment `segment`.
+    fn jet(&self, axis: usize, segment: usize, at: f64) -> [f64; 4] {
+        let share = at - segment as f64;
+        let (p, q) = (self.points[segment][axis], self.points[segment + 1][axis]);
+        let (b, c) = (self.bends[segment][axis], self.bends[segment + 1][axis]);
         let slope = q - p - (2.0 * b + c) / 6.0;
         [
             p + share * (slope + share * (b / 2.0 + share * (c - b) / 6.0)),
@@ -58,13 +58,13 @@ impl Spline {
 
     fn rows(&self, at: f64, jerk: bool) -> Vec<Row> {
         let last = self.points.len() - 2;
-        let piece = (at as usize).min(last);
+        let segment = (at as usize).min(last);
         let mut rows = Vec::new();
-        // Where a piece begins, the rows of the one before hold as well.
-        let before = (at == piece as f64 && piece > 0).then(|| piece - 1);
-        for piece in before.into_iter().chain([piece]) {
+        // Where a segment begins, the rows of the one before hold as well.
+        let before = (at == segment as f64 && segment > 0).then(|| segment - 1);
+        for segment in before.into_iter().chain([segment]) {
             for (axis, limits) in self.limits.iter().enumerate() {
-                let [_, first, second, third] = self.jet(axis, piece, at);
+                let [_, first, second, third] = self.jet(axis, segment, at);
                 let Limits { vel, acc, jerk: most } = *limits;
                 rows.push(Row { first, second, third, vel, acc, jerk: if jerk { most } else { f64::INFINITY } });
             }
