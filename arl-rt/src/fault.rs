@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::fmt;
 use std::marker::PhantomData;
 
-use crate::channel_id::ChannelId;
+use crate::cycle::channel_id::ChannelId;
 
 /// A fault without its place; [`At::at`] makes an alarm of it.
 #[derive(Clone, PartialEq, Debug)]

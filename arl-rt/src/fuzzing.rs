@@ -1,6 +1,7 @@
 //! Doors for `fuzz/` to what reads bytes from outside and is no one else's business. Each panics where something is wrong.
 
-use crate::communication::{Inbox, melsec_answer};
+use crate::builtins::communication::melsec_answer;
+use crate::communication::Inbox;
 use crate::fieldbus::modbus::rtu::Heard;
 use crate::fieldbus::modbus::{Tables, client, mbap, pdu};
 use arl_robot::islands::Table;

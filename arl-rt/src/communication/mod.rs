@@ -5,28 +5,18 @@
 //! `Connections` knows all that a program has opened and closes them when it ends.
 
 mod connections;
-mod handle;
-mod inbox;
-mod line;
-mod link;
-mod network;
-mod opening;
+pub(crate) mod inbox;
+pub(crate) mod line;
+pub(crate) mod link;
+pub(crate) mod network;
+pub(crate) mod opening;
 mod settings;
 mod shared;
-mod slave;
-mod transfer;
+pub(crate) mod slave;
 mod worker;
 
-pub mod melsec;
-pub mod modbus_rtu;
-pub mod serial;
-pub mod socket;
-
 pub(crate) use connections::{Connections, Opener};
+#[cfg(feature = "fuzzing")]
+pub(crate) use inbox::Inbox;
 pub use network::{NetworkDriver, PortSettings};
 pub use settings::{Listen, NetworkSettings};
-#[cfg(feature = "fuzzing")]
-pub(crate) use {inbox::Inbox, melsec::answer_size as melsec_answer};
-
-/// How many different things a connection may tell the user, so that it never fills the memory.
-const MOST_TOLD: usize = 100;

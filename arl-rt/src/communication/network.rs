@@ -3,11 +3,11 @@
 use std::io;
 use std::net::Ipv4Addr;
 
-use crate::cx::Cx;
-use crate::disk::Disk;
+use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::robot::Family;
-use crate::state::{self, Saved, State};
+use crate::storage::disk::Disk;
+use crate::storage::state::{self, Saved, State};
 use crate::values::Str;
 
 /// The name under which the settings are kept where there is no driver.
@@ -128,7 +128,7 @@ fn told<T>(cx: &Cx, function: &str, result: io::Result<T>) -> Option<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::state::Memory;
+    use crate::storage::state::Memory;
 
     #[test]
     fn masks_have_their_ones_in_front() {

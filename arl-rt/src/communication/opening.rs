@@ -42,12 +42,12 @@ pub(crate) enum Opening {
 
 impl Opening {
     /// Whether a port or a device of ours is held while the connection is being opened.
-    pub(super) fn holds(&self) -> bool {
+    pub(crate) fn holds(&self) -> bool {
         !matches!(self, Opening::Connect { .. })
     }
 
     /// Whether a lost connection may be opened again without having been closed: that of a client (manual 5.6.1.5).
-    pub(super) fn is_free_of_closing(&self) -> bool {
+    pub(crate) fn is_free_of_closing(&self) -> bool {
         matches!(self, Opening::Connect { .. })
     }
 }

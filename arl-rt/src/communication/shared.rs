@@ -7,7 +7,7 @@ use mio::Waker;
 
 use super::inbox::{CAPACITY, Inbox};
 use super::link::LinkState;
-use crate::at_once::at_once;
+use crate::cycle::at_once::at_once;
 
 /// What the cycle and the thread of a connection share. The bytes are behind a lock that both hold for copying only, and that
 /// the cycle does not wait for; how far the connection has come is seen without it.

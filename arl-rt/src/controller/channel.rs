@@ -5,14 +5,14 @@ use std::task::{Context, Poll, Waker};
 
 use super::actions::Actions;
 use super::{Outcome, State};
-use crate::cx::{Cx, Level};
-use crate::data;
-use crate::event;
+use crate::builtins::event;
+use crate::context::cx::{Cx, Level};
+use crate::context::lane::Lane;
+use crate::context::program::{Program, Running};
+use crate::controller::trace::Trace;
 use crate::fault::{Alarm, Fault, Reason, Stop};
-use crate::lane::Lane;
-use crate::pointers::Now;
-use crate::program::{Program, Running};
-use crate::trace::Trace;
+use crate::storage::data;
+use crate::storage::pointers::Now;
 
 /// How many bytes of stack a program may use in one poll where nobody says otherwise: half of what a thread gets.
 pub(super) const STACK: usize = 1 << 20;

@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use super::channel::Channel;
 use super::{Outcome, State};
-use crate::channel_id::ChannelId;
+use crate::cycle::channel_id::ChannelId;
 use crate::unit::Unit;
 
 /// All channels of a controller: the foreground ones by their numbers, then the background ones. There is at least one

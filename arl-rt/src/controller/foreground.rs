@@ -3,10 +3,10 @@
 use std::fmt;
 use std::io::Write;
 
-use crate::cell::{Homes, Sensitivity};
-use crate::program::Program;
+use crate::context::program::Program;
 use crate::robot::Robot;
-use crate::robot_driver::{RobotDriver, SimulatedRobot};
+use crate::unit::robot_driver::{RobotDriver, SimulatedRobot};
+use arl_robot::cell::{Homes, Sensitivity};
 
 /// A foreground channel: a program and its own robot. Without more it is the default robot of the program's family,
 /// simulated.

@@ -4,10 +4,10 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use crate::at_once::at_once;
-use crate::channel_id::MOST_FOREGROUND;
-use crate::pointers::{self, Now, Table};
-use crate::state::{self, Storage};
+use crate::cycle::at_once::at_once;
+use crate::cycle::channel_id::MOST_FOREGROUND;
+use crate::storage::pointers::{self, Now, Table};
+use crate::storage::state::{self, Storage};
 
 /// How long the thread waits before it stores what has changed, unless the programs have ended: what a kill may cost.
 const PAUSE: Duration = Duration::from_secs(1);

@@ -2,6 +2,7 @@
 
 mod actions;
 mod builder;
+pub mod cell;
 mod channel;
 mod channels;
 mod external;
@@ -12,6 +13,7 @@ mod order;
 mod outcome;
 mod pendant;
 mod status;
+mod trace;
 
 use std::cell::RefCell;
 use std::net::SocketAddr;
@@ -23,16 +25,16 @@ pub use foreground::Foreground;
 pub use outcome::{Outcome, State};
 pub use status::{ChannelStatus, RobotStatus, Status};
 
-use crate::clock_source::Clock;
+use crate::context::system::{self, System};
+use crate::context::world::World;
+use crate::cycle::clock_source::Clock;
 use crate::fault::{Alarm, Fault, File};
 use crate::fieldbus::islands::Islands;
 use crate::io::{AxisName, Deed, Digital, IoDriver, Pendant, Playing, Pwm, Touch};
 use crate::motion::{Joints, MotionRecord};
 use crate::robot::Robot;
-use crate::state::StateError;
-use crate::system::{self, System};
+use crate::storage::state::StateError;
 use crate::unit::Unit;
-use crate::world::World;
 use channel::Channel;
 use channels::Channels;
 use external::External;

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use super::builder::{Builder, SetupError};
 use super::foreground::Foreground;
-use crate::cell::{Cell, CellChannel};
-use crate::program::{Elsewhere, Other, Program};
+use crate::context::program::{Elsewhere, Other, Program};
+use crate::controller::cell::{Cell, CellChannel};
 use crate::robot::Robot;
 
 impl Builder {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::channel::Channel;
 use super::{Controller, Outcome, State};
-use crate::channel_id::ChannelId;
+use crate::cycle::channel_id::ChannelId;
 use crate::fault::File;
 use crate::motion::Joints;
 use crate::robot::Robot;

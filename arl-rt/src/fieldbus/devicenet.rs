@@ -4,7 +4,7 @@ use std::fmt;
 
 use arl_robot::outline;
 
-use crate::cx::Cx;
+use crate::context::cx::Cx;
 use crate::fault::Fault;
 
 /// Offset or length lie outside the buffer.

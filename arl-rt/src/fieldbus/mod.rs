@@ -20,7 +20,7 @@ use modbus_tcp::ModbusTcp;
 
 pub use settings::{BusSettings, ModbusTcpSettings};
 
-use crate::cx::Cx;
+use crate::context::cx::Cx;
 use crate::values::Str;
 
 /// How many different reports a run may give, so that they never fill the memory.

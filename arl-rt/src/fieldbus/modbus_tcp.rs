@@ -6,7 +6,7 @@ use std::net::SocketAddr;
 use super::modbus::server::Server;
 use super::modbus::{SIZE, SharedTables, Tables};
 use super::{ModbusTcpSettings, padded, report};
-use crate::cx::{Cx, Level};
+use crate::context::cx::{Cx, Level};
 use crate::fault::Fault;
 use crate::values::Str;
 

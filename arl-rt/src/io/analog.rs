@@ -1,7 +1,7 @@
 //! Analog inputs and outputs: values in V or mA, as the cell file gives the channels.
 
 use super::{Output, sent};
-use crate::cx::Cx;
+use crate::context::cx::Cx;
 use crate::fault::Fault;
 
 /// The value of an analog input in V or mA.

@@ -19,7 +19,7 @@ pub use scenario::{Pendant, Scenario};
 pub(crate) use image::Digital;
 pub(crate) use scenario::{AxisName, Deed, Order, Playing, Touch};
 
-use crate::cx::Cx;
+use crate::context::cx::Cx;
 use crate::fault::Fault;
 
 /// Sets a digital output.

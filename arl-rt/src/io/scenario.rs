@@ -29,8 +29,8 @@ use toml::de::{DeTable, DeValue};
 use super::bits::Bits;
 use super::image::PWM_CHANNELS;
 use super::{Channels, Digital, Image, Pwm};
-use crate::channel_id::MOST_FOREGROUND;
-use crate::rate::Rate;
+use crate::cycle::channel_id::MOST_FOREGROUND;
+use crate::cycle::rate::Rate;
 use crate::robot::Robot;
 use crate::settings::{Section, SettingsError, Source, Value, hint, kind, number, table};
 

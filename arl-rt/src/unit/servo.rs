@@ -3,8 +3,8 @@
 use super::Unit;
 use super::moving::Moving;
 use crate::fault::File;
-use crate::frames::Rig;
 use crate::motion::{Command, Joints, Settings, Speed, Start, Stop, Target, Zone};
+use arl_robot::frames::Rig;
 
 /// The speed of jogging, in % of the axes' own.
 const JOGGING: f64 = 10.0;

@@ -1,7 +1,7 @@
 //! The enumerations.
 
 use super::Str;
-use crate::text::{Print, Style, Typed};
+use crate::values::text::{Print, Style, Typed};
 
 /// What all enumerations have in common.
 pub trait Enumeration: Copy + Default + 'static {

@@ -1,7 +1,7 @@
 //! Reads literals of the syntax tree into values.
 
 use super::{Array, Enumeration, Store, Str, Structure, TeachError, TeachProblem};
-use crate::text::{Print, Typed};
+use crate::values::text::{Print, Typed};
 use arl_lang::ast::{BraceItem, Expr, ExprKind, Radix, UnaryOp};
 use arl_lang::catalog::{Base, base_type, enum_constant};
 use arl_lang::symbol::Interner;

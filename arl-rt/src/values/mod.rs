@@ -10,6 +10,7 @@ mod shared;
 mod str;
 mod structs;
 mod teach;
+pub mod text;
 mod watched;
 
 pub use array::{Array, SmallArray, Store};

@@ -1,7 +1,7 @@
 //! The structures. A component's field is its name in lower case.
 
 use super::{Literal, Str, UNSET, Weaverotaxis, Weaveshape};
-use crate::text::{Print, Style, Typed};
+use crate::values::text::{Print, Style, Typed};
 
 /// What all structures have in common: their components, by number.
 pub trait Structure: Default + Clone + 'static {

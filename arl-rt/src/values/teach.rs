@@ -4,7 +4,7 @@
 //! is left out.
 
 use super::{Array, Cells, Literal, Shared, Store, Str};
-use crate::text::{Print, Style};
+use crate::values::text::{Print, Style};
 use arl_lang::ast::{Expr, ExprKind, TypeRef, Var};
 use arl_lang::catalog::base_type;
 use arl_lang::span::Span;

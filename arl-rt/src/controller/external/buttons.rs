@@ -2,8 +2,8 @@
 
 use super::Now;
 use super::watch::{Seen, Watch};
+use crate::context::system::System;
 use crate::io::Pendant;
-use crate::system::System;
 
 /// How long a pulse must be that switches the servos, in s.
 const SERVO_PULSE: f64 = 0.03;

@@ -1,8 +1,8 @@
 //! The outputs that tell a PLC what the controller does.
 
+use crate::context::system::System;
 use crate::controller::State;
 use crate::io::Image;
-use crate::system::System;
 use crate::values::Controlmode;
 
 /// The longest program number.

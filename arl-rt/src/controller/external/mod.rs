@@ -9,11 +9,11 @@ mod number;
 mod program_number;
 mod watch;
 
+use crate::context::system::System;
 use crate::controller::State;
+use crate::cycle::rate::Rate;
 use crate::fault::Fault;
 use crate::io::Image;
-use crate::rate::Rate;
-use crate::system::System;
 use crate::values::Controlmode;
 use buttons::{Buttons, Pressed};
 use lamps::Lamps;

@@ -2,9 +2,9 @@
 
 use super::number;
 use super::watch::Watch;
+use crate::context::system::System;
 use crate::fault::Fault;
 use crate::io::Image;
-use crate::system::System;
 
 /// `$PGNO_TYPE` of one input for each number, which has no parity.
 const ONE_OUT_OF: i32 = 2;

@@ -9,7 +9,7 @@ mod tables;
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use crate::at_once::at_once;
+use crate::cycle::at_once::at_once;
 pub(crate) use tables::{SIZE, Tables};
 
 impl PartialEq for SharedTables {

@@ -1,5 +1,5 @@
 use super::*;
-use crate::text::Style;
+use crate::values::text::Style;
 use crate::values::*;
 use arl_lang::ast::{Decl, Item};
 use std::cell::Cell;

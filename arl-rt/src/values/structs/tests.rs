@@ -209,7 +209,7 @@ fn numbered_components_print_in_order() {
 fn arrays_of_structures_print() {
     let points: Array<Pos, 2> = [Pos { x: 1.0, y: 2.0, z: 3.0 }, Pos::default()].into();
     assert_eq!(shown(&points), "{{1,2,3},{9e+09,9e+09,9e+09}}");
-    assert_eq!(shown(&crate::text::nested(&points, &[2, 1])), "{{{1,2,3}},{{9e+09,9e+09,9e+09}}}");
+    assert_eq!(shown(&crate::values::text::nested(&points, &[2, 1])), "{{{1,2,3}},{{9e+09,9e+09,9e+09}}}");
     assert_eq!(Print::type_name(&points), "pos[2]");
     assert_eq!(shown(&[VelProfile::T, VelProfile::O]), "{T_TYPE,O_TYPE}");
 }

@@ -1,0 +1,241 @@
+//! What a program's handle holds, and what sockets and serial lines have in common.
+
+use std::cell::{Cell, RefCell};
+use std::time::{Duration, Instant};
+
+use crate::communication::inbox::{CAPACITY, Inbox};
+use crate::communication::link::{Link, LinkState};
+use crate::communication::opening::Opening;
+use crate::context::cx::{Cx, Level};
+use crate::fault::Fault;
+
+/// How long to wait after a failed attempt before the next one.
+const PAUSE: Duration = Duration::from_millis(100);
+
+/// A handle: nothing, or a connection.
+#[derive(Default, Debug)]
+pub(super) struct Handle {
+    held: RefCell<Option<Held>>,
+    /// What the user was told last of failed attempts.
+    told: RefCell<String>,
+}
+
+/// A connection and what the program knows of it.
+#[derive(Debug)]
+struct Held {
+    opening: Opening,
+    link: Link,
+    since: Instant,
+    /// The program was told that the connection stands.
+    known_open: Cell<bool>,
+    /// The program found out that the connection is lost.
+    known_lost: Cell<bool>,
+}
+
+/// What a call found.
+pub(super) enum Found<T> {
+    /// What was asked for.
+    This(T),
+    /// Not enough has come, there is no room, or the thread has the bytes just now.
+    NotYet,
+    /// The connection is lost, for this reason.
+    Lost(String),
+}
+
+impl<T> Found<T> {
+    /// Does something with what was asked for.
+    pub(super) fn then<R>(self, then: impl FnOnce(T) -> R) -> Found<R> {
+        match self {
+            Found::This(it) => Found::This(then(it)),
+            Found::NotYet => Found::NotYet,
+            Found::Lost(reason) => Found::Lost(reason),
+        }
+    }
+}
+
+impl Handle {
+    /// Tries to open the connection; true when it stands.
+    pub(super) fn attempt(&self, cx: &Cx, function: &'static str, opening: Opening) -> Result<bool, Fault> {
+        let mut held = self.held.borrow_mut();
+        match held.as_ref().filter(|held| !held.link.is_closing()) {
+            Some(now) if now.known_open.get() => match now.link.state() {
+                // An `&&` of several asks again for those that stand.
+                LinkState::Open if now.opening == opening => return Ok(true),
+                LinkState::Lost(_) if opening.is_free_of_closing() => {}
+                LinkState::Lost(_) => return Err(fault(function, "the connection is lost: close it first")),
+                _ => return Err(fault(function, &format!("it is open already, {}: close it first", now.opening))),
+            },
+            Some(now) if now.opening == opening => match now.link.state() {
+                LinkState::Opening => return Ok(false),
+                // A client that came, sent and went away again in between has still been there.
+                LinkState::Open | LinkState::Lost(_) => {
+                    now.known_open.set(true);
+                    self.told.borrow_mut().clear();
+                    return Ok(true);
+                }
+                LinkState::Failed(reason) => {
+                    self.tell(cx, format!("{function} {opening}: {reason}; it will be tried again"));
+                    if now.since.elapsed() < PAUSE {
+                        return Ok(false);
+                    }
+                }
+            },
+            _ => {}
+        }
+        *held = None;
+        let connections = cx.connections();
+        if !connections.are_too_many() && (!opening.holds() || connections.are_free()) {
+            *held = self.begin(cx, function, opening);
+        }
+        Ok(false)
+    }
+
+    /// Opens the connection and waits for the answer; whether it stands.
+    pub(super) async fn open(&self, cx: &Cx, function: &'static str, opening: Opening) -> Result<bool, Fault> {
+        let state = |held: &Option<Held>| held.as_ref().filter(|it| !it.link.is_closing()).map(|it| it.link.state());
+        if matches!(state(&self.held.borrow()), Some(LinkState::Opening | LinkState::Open)) {
+            return Err(fault(function, "it is open already: close it first"));
+        }
+        self.close();
+        // What was closed just now may still hold the device.
+        while !cx.connections().are_free() {
+            cx.next_cycle().await;
+        }
+        let begun = self.begin(cx, function, opening.clone());
+        *self.held.borrow_mut() = begun;
+        loop {
+            match state(&self.held.borrow()) {
+                Some(LinkState::Opening) => {}
+                Some(LinkState::Open) => {
+                    self.held.borrow().iter().for_each(|held| held.known_open.set(true));
+                    return Ok(true);
+                }
+                Some(LinkState::Failed(reason) | LinkState::Lost(reason)) => {
+                    self.tell(cx, format!("{function} {opening}: {reason}"));
+                    return Ok(false);
+                }
+                // It was closed meanwhile.
+                None => return Ok(false),
+            }
+            cx.next_cycle().await;
+        }
+    }
+
+    /// Begins to open the connection; nothing where the system cannot.
+    fn begin(&self, cx: &Cx, function: &'static str, opening: Opening) -> Option<Held> {
+        match Link::open(cx.connections(), &cx.world().opener, opening.clone()) {
+            Ok(link) => {
+                cx.world().meet_outside();
+                let (known_open, known_lost) = (Cell::new(false), Cell::new(false));
+                Some(Held { opening, link, since: Instant::now(), known_open, known_lost })
+            }
+            Err(error) => {
+                self.tell(cx, format!("{function} {opening}: {error}"));
+                None
+            }
+        }
+    }
+
+    /// Closes the connection, if there is one.
+    pub(super) fn close(&self) {
+        self.held.take();
+        self.told.borrow_mut().clear();
+    }
+
+    /// Takes from what has come.
+    pub(super) fn take<T>(
+        &self,
+        function: &'static str,
+        take: impl FnOnce(&mut Inbox) -> Option<T>,
+    ) -> Result<Found<T>, Fault> {
+        self.with(function, |held| {
+            // In this order: what came before the connection was lost is there when that is known.
+            let state = held.link.state();
+            let Some((taken, full)) = held.link.read(|inbox| (take(inbox), inbox.room() == 0)) else {
+                return Ok(Found::NotYet);
+            };
+            match (taken, state) {
+                (Some(taken), _) => Ok(Found::This(taken)),
+                (None, LinkState::Lost(reason)) => {
+                    held.known_lost.set(true);
+                    Ok(Found::Lost(reason))
+                }
+                (None, _) if full => {
+                    let text = format!("{CAPACITY} bytes have come, and what is looked for is not among them");
+                    Err(fault(function, &text))
+                }
+                (None, _) => Ok(Found::NotYet),
+            }
+        })
+    }
+
+    /// Sends bytes.
+    pub(super) fn send(&self, function: &'static str, bytes: &[u8]) -> Result<Found<()>, Fault> {
+        if bytes.len() > CAPACITY {
+            let text = format!("{} bytes are too many: at most {CAPACITY} at once", bytes.len());
+            return Err(Fault::Domain { function, problem: text.into() });
+        }
+        self.with(function, |held| {
+            if let LinkState::Lost(reason) = held.link.state() {
+                held.known_lost.set(true);
+                return Ok(Found::Lost(reason));
+            }
+            Ok(if held.link.send(bytes) { Found::This(()) } else { Found::NotYet })
+        })
+    }
+
+    /// Throws away what has come; whether the connection stands.
+    pub(super) async fn clear(&self, cx: &Cx) -> bool {
+        loop {
+            let cleared =
+                self.standing(|held| held.link.read(Inbox::clear).map(|()| held.link.state() == LinkState::Open));
+            match cleared {
+                None => return false,
+                Some(Some(stands)) => return stands,
+                // A condition is looked at now or never.
+                Some(None) if cx.level() == Level::LOOKING => return false,
+                Some(None) => cx.next_cycle().await,
+            }
+        }
+    }
+
+    /// Whether the connection is lost and nothing is left to be read, or the program knows of it.
+    pub(super) fn is_lost(&self) -> bool {
+        let is_lost = |held: &Held| {
+            matches!(held.link.state(), LinkState::Lost(_))
+                && (held.known_lost.get() || held.link.read(|inbox| inbox.waiting().is_empty()) == Some(true))
+        };
+        self.standing(is_lost) == Some(true)
+    }
+
+    /// Works with the open connection.
+    fn with<T>(&self, function: &'static str, work: impl FnOnce(&Held) -> Result<T, Fault>) -> Result<T, Fault> {
+        self.standing(work).unwrap_or_else(|| Err(fault(function, "it is not open")))
+    }
+
+    /// Works with the connection that the program knows to be open; nothing where there is none.
+    fn standing<T>(&self, work: impl FnOnce(&Held) -> T) -> Option<T> {
+        let held = self.held.borrow();
+        held.as_ref().filter(|held| held.known_open.get() && !held.link.is_closing()).map(work)
+    }
+
+    /// Tells the user once.
+    fn tell(&self, cx: &Cx, text: String) {
+        let mut told = self.told.borrow_mut();
+        if *told != text {
+            cx.world().warn(text.clone());
+            *told = text;
+        }
+    }
+}
+
+/// An alarm of a connection.
+pub(super) fn fault(function: &'static str, problem: &str) -> Fault {
+    Fault::Connection(format!("{function}: {problem}").into())
+}
+
+/// A number of bytes, from 0 to what an array or the buffer holds.
+pub(super) fn length(function: &'static str, len: i32, most: usize, of: &str) -> Result<usize, Fault> {
+    let length = usize::try_from(len).ok().filter(|length| *length <= most);
+    length.ok_or_else(|| Fault::Domain { function, problem: format!("len {len}: 0 to {most}, {of}").into() })
+}

@@ -1,0 +1,15 @@
+//! What programs do with connections: sockets, serial lines, and the protocols on top of them.
+
+mod handle;
+mod transfer;
+
+pub mod melsec;
+pub mod modbus_rtu;
+pub mod serial;
+pub mod socket;
+
+#[cfg(feature = "fuzzing")]
+pub(crate) use melsec::answer_size as melsec_answer;
+
+/// How many different things a connection may tell the user, so that it never fills the memory.
+const MOST_TOLD: usize = 100;

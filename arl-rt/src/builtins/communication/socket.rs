@@ -1,0 +1,122 @@
+//! Sockets (manual 5.6.1). Each call tries once and says whether it is done.
+
+use std::rc::Rc;
+
+use super::handle::{Found, Handle, fault};
+use super::transfer;
+use crate::communication::opening::Opening;
+use crate::context::cx::Cx;
+use crate::fault::Fault;
+use crate::values::Str;
+
+pub use crate::communication::network::{getip, setip};
+
+/// A TCP connection. It is closed at first, and when the last that knows it is gone.
+#[derive(Clone, Default, Debug)]
+pub struct Socket(Rc<Handle>);
+
+/// Connects to a server; true when the connection stands.
+///
+/// # Errors
+/// A port outside 1 to 65535; the socket is open to something else.
+pub async fn connect(cx: &Cx, s: &Socket, ip: &Str, port: i32) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    let opening = Opening::Connect { host: ip.to_text().into_owned(), port: port_number("connect", port)? };
+    s.0.attempt(cx, "connect", opening)
+}
+
+/// Listens for a client; true when one has connected.
+///
+/// # Errors
+/// A port outside 1 to 65535; the socket is open, or was and has not been closed.
+pub async fn accept(cx: &Cx, s: &Socket, ip: &Str, port: i32) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    let port = port_number("accept", port)?;
+    let host = cx.world().network.listen(&ip.to_text());
+    s.0.attempt(cx, "accept", Opening::Accept { host, port })
+}
+
+/// The error state: 0, or `$ERR_SOCKET_CLOSED` when the other side has closed the connection and nothing is left to be
+/// read, or a call has found out.
+///
+/// # Errors
+/// None.
+pub async fn geterror(cx: &Cx, s: &Socket) -> Result<i32, Fault> {
+    cx.motion_end().await;
+    Ok(if s.0.is_lost() { cx.system().err_socket_closed.get() } else { 0 })
+}
+
+/// Closes a connection when what was sent has gone.
+pub async fn close(cx: &Cx, s: &Socket) {
+    cx.motion_end().await;
+    s.0.close();
+}
+
+/// Sends a text; true when all of it is on its way.
+///
+/// # Errors
+/// The socket is not connected, or not any more; the text is longer than 1 MiB.
+pub async fn write_string(cx: &Cx, s: &Socket, data: &Str) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    done(cx, transfer::write(&s.0, data.as_bytes())?)
+}
+
+/// Sends the first `len` bytes; true when all of them are on their way.
+///
+/// # Errors
+/// The socket is not connected, or not any more; a length below 0 or beyond the array.
+pub async fn write_bytes(cx: &Cx, s: &Socket, data: &[u8], len: i32) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    done(cx, transfer::write_first(&s.0, data, len)?)
+}
+
+/// Takes exactly `len` bytes when so many have come.
+///
+/// # Errors
+/// The socket is not connected, or the other side has closed it before so many came; a length below 0 or above 1 MiB.
+pub async fn read_string(cx: &Cx, s: &Socket, data: &mut Str, len: i32) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    done(cx, transfer::read_text(&s.0, data, len)?)
+}
+
+/// Takes exactly `len` bytes when so many have come.
+///
+/// # Errors
+/// The socket is not connected, or the other side has closed it before so many came; a length below 0 or beyond the array.
+pub async fn read_bytes(cx: &Cx, s: &Socket, data: &mut [u8], len: i32) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    done(cx, transfer::read_bytes(&s.0, data, len)?)
+}
+
+/// Takes the text in front of a mark when the mark has come; both leave the buffer.
+///
+/// # Errors
+/// The socket is not connected, or the other side has closed it before the mark came; an empty mark; 1 MiB without it.
+pub async fn readuntil(cx: &Cx, s: &Socket, data: &mut Str, cut: &Str) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    done(cx, transfer::read_until(&s.0, data, cut)?)
+}
+
+/// Throws away what has come and was not read; false where the socket is not connected.
+///
+/// # Errors
+/// None.
+pub async fn clearbuff(cx: &Cx, s: &Socket) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    Ok(s.0.clear(cx).await)
+}
+
+/// A lost connection is an alarm, unless the program looks for it itself.
+fn done(cx: &Cx, (function, found): (&'static str, Found<()>)) -> Result<bool, Fault> {
+    match found {
+        Found::This(()) => Ok(true),
+        Found::NotYet => Ok(false),
+        Found::Lost(_) if cx.system().detect_socket_close.get() => Ok(false),
+        Found::Lost(reason) => Err(fault(function, &format!("the connection is lost: {reason}"))),
+    }
+}
+
+fn port_number(function: &'static str, port: i32) -> Result<u16, Fault> {
+    let number = u16::try_from(port).ok().filter(|number| *number > 0);
+    number.ok_or_else(|| Fault::Domain { function, problem: format!("port {port}: 1 to 65535").into() })
+}

@@ -1,0 +1,44 @@
+//! `write`, `read` and `readuntil`, as sockets and serial lines have them alike. Each result goes with the name of the
+//! function, for whoever says what a lost connection means.
+
+use super::handle::{Found, Handle, length};
+use crate::communication::inbox::CAPACITY;
+use crate::fault::Fault;
+use crate::values::Str;
+
+type Transfer = Result<(&'static str, Found<()>), Fault>;
+
+/// Sends a text.
+pub(super) fn write(handle: &Handle, bytes: &[u8]) -> Transfer {
+    Ok(("write", handle.send("write", bytes)?))
+}
+
+/// Sends the first bytes of an array.
+pub(super) fn write_first(handle: &Handle, data: &[u8], len: i32) -> Transfer {
+    let length = length("write", len, data.len(), "the size of the array")?;
+    write(handle, data.get(..length).unwrap_or_default())
+}
+
+/// Takes so many bytes as a text.
+pub(super) fn read_text(handle: &Handle, data: &mut Str, len: i32) -> Transfer {
+    let length = length("read", len, CAPACITY, "what the buffer holds")?;
+    let found = handle.take("read", |inbox| inbox.take(length))?;
+    Ok(("read", found.then(|bytes| *data = bytes.as_slice().into())))
+}
+
+/// Takes so many bytes into the front of an array.
+pub(super) fn read_bytes(handle: &Handle, data: &mut [u8], len: i32) -> Transfer {
+    let length = length("read", len, data.len(), "the size of the array")?;
+    let found = handle.take("read", |inbox| inbox.take(length))?;
+    Ok(("read", found.then(|bytes| data.iter_mut().zip(bytes).for_each(|(to, from)| *to = from))))
+}
+
+/// Takes what stands in front of a mark.
+pub(super) fn read_until(handle: &Handle, data: &mut Str, cut: &Str) -> Transfer {
+    const NAME: &str = "readuntil";
+    if cut.is_empty() {
+        return Err(Fault::Domain { function: NAME, problem: "cut is empty: any text ends with that".into() });
+    }
+    let found = handle.take(NAME, |inbox| inbox.take_until(cut.as_bytes()))?;
+    Ok((NAME, found.then(|bytes| *data = bytes.as_slice().into())))
+}

@@ -1,0 +1,76 @@
+//! Conditions and actions as the emitted code hands them over: async closures that are told the context.
+
+use std::pin::{Pin, pin};
+use std::rc::Rc;
+use std::task::{Context, Poll, Waker};
+
+use crate::context::cx::Cx;
+use crate::fault::Done;
+
+/// The condition and the action of an event, whatever they are in Rust.
+pub(crate) trait Code {
+    /// Whether the condition holds now. `Pending`: it has not come to a result within the turns of loops of a cycle.
+    fn holds(&self, cx: &Cx) -> Poll<Done<bool>>;
+
+    /// Memory for the action to run in.
+    fn room(self: Rc<Self>) -> Box<dyn Act>;
+}
+
+/// An action and the memory that it runs in: it runs as often as its event comes, once at a time, and takes no more memory.
+pub(crate) trait Act {
+    /// Puts the action at its beginning.
+    fn begin(&mut self, cx: Rc<Cx>);
+
+    /// Runs the action until it waits or ends; one that has not begun has ended.
+    fn poll(&mut self, context: &mut Context<'_>) -> Poll<Done<()>>;
+}
+
+/// What makes the future of an action, and room for one of them.
+struct Room<M, F> {
+    make: M,
+    running: Pin<Box<Option<F>>>,
+}
+
+impl<M, F> Act for Room<M, F>
+where
+    M: Fn(Rc<Cx>) -> F,
+    F: Future<Output = Done<()>>,
+{
+    fn begin(&mut self, cx: Rc<Cx>) {
+        self.running.set(Some((self.make)(cx)));
+    }
+
+    fn poll(&mut self, context: &mut Context<'_>) -> Poll<Done<()>> {
+        let Some(running) = self.running.as_mut().as_pin_mut() else { return Poll::Ready(Ok(())) };
+        let polled = running.poll(context);
+        if polled.is_ready() {
+            self.running.set(None);
+        }
+        polled
+    }
+}
+
+/// A condition and an action.
+pub(super) struct Watched<C, A> {
+    pub(super) when: C,
+    pub(super) action: A,
+}
+
+impl<C, A> Code for Watched<C, A>
+where
+    C: AsyncFn(&Cx) -> Done<bool> + 'static,
+    A: AsyncFn(&Cx) -> Done<()> + 'static,
+{
+    fn holds(&self, cx: &Cx) -> Poll<Done<bool>> {
+        // On the stack: looking at a condition takes no memory.
+        pin!((self.when)(cx)).poll(&mut Context::from_waker(Waker::noop()))
+    }
+
+    fn room(self: Rc<Self>) -> Box<dyn Act> {
+        let make = move |cx: Rc<Cx>| {
+            let code = Rc::clone(&self);
+            async move { (code.action)(&cx).await }
+        };
+        Box::new(Room { make, running: Box::pin(None) })
+    }
+}

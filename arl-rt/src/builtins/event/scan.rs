@@ -1,0 +1,159 @@
+//! Looking at conditions: once a cycle, before the program runs.
+
+use std::rc::Rc;
+use std::task::Poll;
+
+use super::Code;
+use super::table::{Event, Source, Table};
+use crate::context::cx::{Cx, Level};
+use crate::fault::{Alarm, Fault, Reason, Stop};
+use crate::motion::Progress;
+
+/// Why it is not known whether a condition holds.
+pub(super) enum Unknown {
+    /// An alarm in it.
+    Alarm(Alarm),
+    /// It takes longer than a cycle, or ends the program.
+    Unfit(&'static str),
+}
+
+impl From<Stop> for Unknown {
+    fn from(stop: Stop) -> Self {
+        match stop.reason() {
+            Reason::Alarm(alarm) => Unknown::Alarm(alarm),
+            Reason::Exit | Reason::Restart => Unknown::Unfit("ends the program"),
+        }
+    }
+}
+
+impl Unknown {
+    /// What is wrong with the condition of `event`.
+    pub(super) fn fault(self, event: &str) -> Fault {
+        match self {
+            Unknown::Alarm(alarm) => Fault::Condition { event: event.into(), fault: Box::new(alarm.fault) },
+            Unknown::Unfit(problem) => Fault::Event(format!("the condition of {event} {problem}").into()),
+        }
+    }
+
+    fn alarm(self, event: &Event) -> Alarm {
+        let (file, line) = match &self {
+            Unknown::Alarm(alarm) => (alarm.file, alarm.line),
+            Unknown::Unfit(_) => event.place,
+        };
+        Alarm::new(self.fault(&event.describe()), file, line)
+    }
+}
+
+/// Whether a condition holds. It has the turns of loops of a whole cycle for itself, waits for no motion, and leaves the
+/// program pointer where it is.
+pub(super) fn evaluate(cx: &Cx, code: &dyn Code) -> Result<bool, Unknown> {
+    let (pointer, level) = (cx.pointer(), cx.enter_level(Level::LOOKING));
+    let budget = cx.renew_budget();
+    let held = code.holds(cx);
+    cx.restore_budget(budget);
+    cx.leave_level(level);
+    cx.point_to(pointer);
+    match held {
+        Poll::Ready(held) => Ok(held?),
+        Poll::Pending => Err(Unknown::Unfit("takes longer than a cycle")),
+    }
+}
+
+/// Looks at all conditions and timers; notes the events of this cycle.
+///
+/// # Errors
+/// The alarm of a condition.
+pub(crate) fn scan(cx: &Cx) -> Result<(), Alarm> {
+    scan_interrupts(cx)?;
+    scan_triggers(cx)
+}
+
+fn scan_interrupts(cx: &Cx) -> Result<(), Alarm> {
+    let (now, rate) = (cx.cycle(), cx.world().rate);
+    for at in 0.. {
+        let mut table = cx.events().borrow_mut();
+        let Some(event) = table.interrupts.get_mut(at) else { break };
+        let happens = match &mut event.source {
+            Source::Time(ticking) => ticking.is_over(now, rate),
+            Source::Motion { .. } => false,
+            Source::Condition { held } => {
+                let (number, held, code) = (event.number, *held, Rc::clone(&event.code));
+                // A condition may call a function that declares or deletes interrupts.
+                drop(table);
+                let holds = evaluate(cx, &*code);
+                table = cx.events().borrow_mut();
+                let found = table.interrupts.get_mut(at).filter(|event| event.number == number);
+                let Some(event) = found else { continue };
+                let holds = holds.map_err(|unknown| unknown.alarm(event))?;
+                event.source = Source::Condition { held: holds };
+                holds && !held
+            }
+        };
+        let Table { interrupts, due, .. } = &mut *table;
+        if let Some(event) = interrupts.get_mut(at).filter(|event| happens && event.enabled) {
+            event.happen(now, due);
+        }
+    }
+    Ok(())
+}
+
+/// What a trigger's motion is doing.
+enum Stage {
+    /// It has not begun.
+    Ahead,
+    /// It may have begun, and others come in between.
+    Aside,
+    /// It is being executed.
+    Executed,
+    /// It is over, and had come so far; `None`: it was dropped, or that has been looked at.
+    Over(Option<Progress>),
+}
+
+fn scan_triggers(cx: &Cx) -> Result<(), Alarm> {
+    let now = cx.cycle();
+    drop_done(&mut cx.events().borrow_mut());
+    for at in 0.. {
+        let table = cx.events().borrow();
+        let Some(event) = table.triggers.get(at) else { break };
+        let Source::Motion { number, held, over } = event.source else { continue };
+        let stage = if over { Stage::Over(None) } else { stage(cx, number) };
+        let (code, ordinal) = (Rc::clone(&event.code), event.number);
+        drop(table);
+        let holds = match stage {
+            // Those behind it belong to later motions.
+            Stage::Ahead => break,
+            Stage::Aside => continue,
+            Stage::Executed => evaluate(cx, &*code),
+            Stage::Over(Some(end)) => cx.look_back(end, || evaluate(cx, &*code)),
+            Stage::Over(None) => Ok(held),
+        };
+        let Table { triggers, due, .. } = &mut *cx.events().borrow_mut();
+        let Some(event) = triggers.get_mut(at).filter(|event| event.number == ordinal) else { continue };
+        let holds = holds.map_err(|unknown| unknown.alarm(event))?;
+        event.source = Source::Motion { number, held: holds, over: matches!(stage, Stage::Over(_)) };
+        if holds && !held {
+            event.happen(now, due);
+        }
+    }
+    drop_done(&mut cx.events().borrow_mut());
+    Ok(())
+}
+
+fn stage(cx: &Cx, motion: u64) -> Stage {
+    let Some(unit) = cx.lane().robot() else { return Stage::Over(None) };
+    match unit.progress() {
+        _ if unit.is_over(motion) => Stage::Over(unit.left(motion)),
+        // Those behind it may belong to motions that come in between.
+        _ if unit.is_aside() && unit.progress().is_none_or(|progress| progress.motion != motion) => Stage::Aside,
+        Some(progress) if progress.motion == motion => Stage::Executed,
+        _ => Stage::Ahead,
+    }
+}
+
+/// Drops the triggers whose motion is over, unless their action is still to run.
+fn drop_done(table: &mut Table) {
+    let is_done = |event: &Event| event.arrived.is_none() && matches!(event.source, Source::Motion { over: true, .. });
+    while table.triggers.front().is_some_and(is_done) {
+        table.triggers.pop_front();
+    }
+}

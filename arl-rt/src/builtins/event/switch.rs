@@ -1,0 +1,76 @@
+//! `enableint`, `disableint`, `delint`.
+
+use super::table::{Table, Which, priority};
+use crate::context::cx::Cx;
+use crate::fault::Fault;
+use crate::values::Str;
+
+/// Declares an instruction that does something to interrupts and timers.
+macro_rules! switch {
+    (
+        $(#[doc = $doc:literal])+
+        $name:ident $builder:ident |$table:ident, $found:ident, $now:ident| $deed:expr
+    ) => {
+        $(#[doc = $doc])+
+        pub fn $name() -> $builder {
+            $builder::default()
+        }
+
+        #[doc = concat!("`", stringify!($name), "`, ready to run. Without name and priority all are meant.")]
+        #[derive(Clone, Default, Debug)]
+        #[must_use = "an instruction does nothing until it is run"]
+        pub struct $builder {
+            name: Option<Str>,
+            priority: Option<i32>,
+        }
+
+        impl $builder {
+            /// The one with this name.
+            pub fn name(mut self, name: &Str) -> Self {
+                self.name = Some(name.clone());
+                self
+            }
+
+            /// All of this priority.
+            pub fn priority(mut self, priority: i32) -> Self {
+                self.priority = Some(priority);
+                self
+            }
+
+            /// Acts at once.
+            ///
+            /// # Errors
+            /// There is none with this name or of this priority.
+            pub fn run(self, cx: &Cx) -> Result<(), Fault> {
+                const FUNCTION: &str = stringify!($name);
+                let which = which(FUNCTION, self.name, self.priority)?;
+                let ($table, $now): (&mut Table, u64) = (&mut cx.events().borrow_mut(), cx.cycle());
+                let $found = $table.find(FUNCTION, &which)?;
+                $deed;
+                Ok(())
+            }
+        }
+    };
+}
+
+switch! {
+    /// `enableint`: enables interrupts and timers again. A timer that was disabled begins its interval anew.
+    enableint EnableInt |table, found, now| table.enable(&found, now)
+}
+
+switch! {
+    /// `disableint`: interrupts go on watching their conditions, but lose their events, also those that wait to be handled.
+    disableint DisableInt |table, found, _now| table.disable(&found)
+}
+
+switch! {
+    /// `delint`: deletes interrupts and timers. An action that runs goes on to its end.
+    delint DelInt |table, found, _now| table.delete(&found)
+}
+
+fn which(function: &'static str, name: Option<Str>, of: Option<i32>) -> Result<Which, Fault> {
+    if name.is_none() && of.is_none() {
+        return Ok(Which::All);
+    }
+    Ok(Which::These { name, priority: of.map(|of| priority(of, function)).transpose()? })
+}

@@ -1,0 +1,331 @@
+//! What has been declared, in the order of declaration, and what is due.
+
+use std::cmp::Reverse;
+use std::collections::{BinaryHeap, VecDeque};
+use std::rc::Rc;
+
+use super::{Act, Code};
+use crate::cycle::rate::Rate;
+use crate::fault::{Fault, File};
+use crate::values::Str;
+
+/// More events than that are the work of a loop that declares them again and again.
+const MOST: usize = 1024;
+/// The lowest priority.
+const LOWEST: i32 = 255;
+
+/// What makes an event.
+#[derive(Clone, Debug)]
+pub(super) enum Source {
+    /// A condition, and whether it held when it was looked at last.
+    Condition { held: bool },
+    /// Time.
+    Time(Ticking),
+    /// A condition that counts while a motion is executed, whether it held when it was looked at last, and whether the motion
+    /// is over.
+    Motion { number: u64, held: bool, over: bool },
+}
+
+/// A timer: its first cycle, and how many intervals have been counted since.
+#[derive(Clone, Debug)]
+pub(super) struct Ticking {
+    /// In s.
+    pub(super) interval: f64,
+    pub(super) repeats: bool,
+    start: u64,
+    ticks: u64,
+}
+
+impl Ticking {
+    pub(super) fn new(interval: f64, repeats: bool, now: u64) -> Self {
+        Self { interval, repeats, start: now, ticks: 0 }
+    }
+
+    /// Whether an interval is over in this cycle.
+    pub(super) fn is_over(&mut self, now: u64, rate: Rate) -> bool {
+        if self.ticks > 0 && !self.repeats {
+            return false;
+        }
+        let length = self.interval.max(rate.period());
+        // Counted from the start, so that intervals that are no whole cycles do not drift.
+        let over = now >= self.start + rate.cycles(length * (self.ticks + 1) as f64).max(1);
+        self.ticks += u64::from(over);
+        over
+    }
+
+    fn begin_anew(&mut self, now: u64) {
+        (self.start, self.ticks) = (now, 0);
+    }
+}
+
+/// An event that has been declared.
+pub(super) struct Event {
+    /// The order of declaration.
+    pub(super) number: u64,
+    /// Empty: it has none.
+    pub(super) name: Str,
+    pub(super) priority: u8,
+    pub(super) source: Source,
+    pub(super) enabled: bool,
+    /// The cycle of an event that waits to be handled.
+    pub(super) arrived: Option<u64>,
+    /// The declaration.
+    pub(super) place: (File, u32),
+    pub(super) code: Rc<dyn Code>,
+    /// Where its action runs; none while it does.
+    room: Option<Box<dyn Act>>,
+}
+
+impl Event {
+    /// What it is, for messages.
+    pub(super) fn describe(&self) -> String {
+        let what = match self.source {
+            Source::Condition { .. } => "interrupt",
+            Source::Time(_) => "timer",
+            Source::Motion { .. } => "trigger",
+        };
+        match self.name.is_empty() {
+            true => format!("the {what} of line {}", self.place.1),
+            false => format!("the {what} \"{}\"", self.name),
+        }
+    }
+
+    /// It happens now: until it is handled, an event is kept once.
+    pub(super) fn happen(&mut self, now: u64, due: &mut BinaryHeap<Reverse<Rank>>) {
+        if self.arrived.is_none() {
+            self.arrived = Some(now);
+            due.extend(self.rank().map(Reverse));
+        }
+    }
+
+    fn rank(&self) -> Option<Rank> {
+        Some(Rank { priority: self.priority, arrived: self.arrived?, number: self.number })
+    }
+}
+
+/// What decides which of several events is handled first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) struct Rank {
+    priority: u8,
+    arrived: u64,
+    number: u64,
+}
+
+/// A priority that a program gives.
+pub(super) fn priority(value: i32, function: &'static str) -> Result<u8, Fault> {
+    u8::try_from(value).map_err(|_| {
+        let problem = format!("the priority is {value}, but must be 0 to {LOWEST}");
+        Fault::Domain { function, problem: problem.into() }
+    })
+}
+
+/// An event whose action is to run, or runs.
+pub(crate) struct Due {
+    /// Its place in the order of declaration.
+    number: u64,
+    /// Its priority.
+    pub(crate) priority: u8,
+    /// Its action.
+    pub(crate) action: Box<dyn Act>,
+}
+
+/// Which interrupts and timers are meant.
+#[derive(Clone, Debug)]
+pub(super) enum Which {
+    All,
+    These { name: Option<Str>, priority: Option<u8> },
+}
+
+/// The events of a channel.
+#[derive(Default)]
+pub(crate) struct Table {
+    /// Interrupts and timers in the order of declaration.
+    pub(super) interrupts: Vec<Event>,
+    /// Triggers of motions that are planned, in the order of the motions.
+    pub(super) triggers: VecDeque<Event>,
+    /// Triggers whose motion is not planned yet, with the level of the program that declared them.
+    waiting: Vec<(u32, Event)>,
+    /// How many events have been declared.
+    declared: u64,
+    /// The events that wait to be handled, all of them, the first one on top; with room for all that are declared.
+    pub(super) due: BinaryHeap<Reverse<Rank>>,
+}
+
+/// A declaration.
+pub(super) struct Declaration {
+    pub(super) name: Option<Str>,
+    pub(super) priority: u8,
+    pub(super) source: Source,
+    pub(super) place: (File, u32),
+    pub(super) code: Rc<dyn Code>,
+}
+
+impl Table {
+    /// Forgets everything.
+    pub(crate) fn clear(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Forgets what does not belong to a motion that is planned.
+    pub(crate) fn keep_to_motions(&mut self) {
+        self.interrupts.clear();
+        self.waiting.clear();
+        self.find_due();
+    }
+
+    /// Adds an interrupt or a timer.
+    pub(super) fn declare(&mut self, function: &'static str, new: Declaration) -> Result<(), Fault> {
+        let domain = |problem: String| Fault::Domain { function, problem: problem.into() };
+        if let Some(name) = &new.name {
+            if name.is_empty() {
+                return Err(domain("the name is empty: leave it out, or give one".into()));
+            }
+            if self.interrupts.iter().any(|event| event.name == *name) {
+                return Err(domain(format!("there is already an interrupt or a timer with the name \"{name}\"")));
+            }
+        }
+        self.check_room(function)?;
+        let event = self.event(new);
+        self.interrupts.push(event);
+        Ok(())
+    }
+
+    /// Adds a trigger of the next motion that this level of the program plans.
+    pub(super) fn declare_trigger(&mut self, level: u32, new: Declaration) -> Result<(), Fault> {
+        self.check_room("trigger")?;
+        let event = self.event(new);
+        self.waiting.push((level, event));
+        Ok(())
+    }
+
+    fn check_room(&self, function: &'static str) -> Result<(), Fault> {
+        if self.interrupts.len() < MOST && self.waiting.len() < MOST {
+            return Ok(());
+        }
+        let problem = format!("there are {MOST} already, more than that are not possible: is it declared in a loop?");
+        Err(Fault::Domain { function, problem: problem.into() })
+    }
+
+    fn event(&mut self, new: Declaration) -> Event {
+        self.declared += 1;
+        self.due.reserve(self.interrupts.len() + self.triggers.len() + self.waiting.len() + 1);
+        let Declaration { name, priority, source, place, code } = new;
+        let name = name.unwrap_or_default();
+        let room = Some(Rc::clone(&code).room());
+        Event { number: self.declared, name, priority, source, enabled: true, arrived: None, place, code, room }
+    }
+
+    /// Binds the triggers that a level of the program has declared to a motion.
+    pub(crate) fn bind(&mut self, level: u32, motion: u64) {
+        for (_, mut event) in self.waiting.extract_if(.., |(declared_by, _)| *declared_by == level) {
+            event.source = Source::Motion { number: motion, held: false, over: false };
+            self.triggers.push_back(event);
+        }
+    }
+
+    /// Forgets the triggers that a level of the program has declared for a motion that did not come.
+    pub(crate) fn unbind(&mut self, level: u32) {
+        self.waiting.retain(|(declared_by, _)| *declared_by != level);
+    }
+
+    /// The interrupts and timers that are meant.
+    ///
+    /// # Errors
+    /// There is none of that name or priority.
+    pub(super) fn find(&self, function: &'static str, which: &Which) -> Result<Vec<usize>, Fault> {
+        let Which::These { name, priority } = which else { return Ok((0..self.interrupts.len()).collect()) };
+        let named = |event: &Event| name.as_ref().is_some_and(|name| !name.is_empty() && event.name == *name);
+        let ranked = |event: &Event| *priority == Some(event.priority);
+        let missing = |what: String| {
+            Err(Fault::Domain { function, problem: format!("there is no interrupt or timer {what}").into() })
+        };
+        if let Some(name) = name
+            && !self.interrupts.iter().any(named)
+        {
+            return missing(format!("with the name \"{name}\""));
+        }
+        if let Some(priority) = priority
+            && !self.interrupts.iter().any(ranked)
+        {
+            return missing(format!("of priority {priority}"));
+        }
+        let all = self.interrupts.iter().enumerate();
+        Ok(all.filter(|(_, event)| named(event) || ranked(event)).map(|(at, _)| at).collect())
+    }
+
+    /// Enables interrupts: timers that were not begin their intervals anew.
+    pub(super) fn enable(&mut self, found: &[usize], now: u64) {
+        for at in found {
+            let Some(event) = self.interrupts.get_mut(*at).filter(|event| !event.enabled) else { continue };
+            event.enabled = true;
+            if let Source::Time(ticking) = &mut event.source {
+                ticking.begin_anew(now);
+            }
+        }
+    }
+
+    /// Disables interrupts: events that wait to be handled are lost.
+    pub(super) fn disable(&mut self, found: &[usize]) {
+        for at in found {
+            if let Some(event) = self.interrupts.get_mut(*at) {
+                event.enabled = false;
+                event.arrived = None;
+            }
+        }
+        self.find_due();
+    }
+
+    /// Deletes interrupts.
+    pub(super) fn delete(&mut self, found: &[usize]) {
+        found.iter().rev().for_each(|at| drop(self.interrupts.remove(*at)));
+        self.find_due();
+    }
+
+    /// Finds the events that wait to be handled, where some may have gone.
+    fn find_due(&mut self) {
+        if !self.due.is_empty() {
+            self.due.clear();
+            let all = self.interrupts.iter().chain(&self.triggers);
+            self.due.extend(all.filter_map(Event::rank).map(Reverse));
+        }
+    }
+
+    /// The event with this place in the order of declaration, in which the interrupts lie.
+    fn numbered(&mut self, number: u64) -> Option<&mut Event> {
+        match self.interrupts.binary_search_by_key(&number, |event| event.number) {
+            Ok(at) => self.interrupts.get_mut(at),
+            Err(_) => self.triggers.iter_mut().find(|event| event.number == number),
+        }
+    }
+
+    /// Takes the event that is to be handled next, if it has a higher priority than `running`.
+    pub(crate) fn take_due(&mut self, running: Option<u8>) -> Option<Due> {
+        let Reverse(first) = *self.due.peek()?;
+        if running.is_some_and(|running| first.priority >= running) {
+            return None;
+        }
+        self.due.pop();
+        let first = self.numbered(first.number)?;
+        first.arrived = None;
+        // It is missing only where an action was dropped while it ran.
+        let action = first.room.take().unwrap_or_else(|| Rc::clone(&first.code).room());
+        Some(Due { number: first.number, priority: first.priority, action })
+    }
+
+    /// Takes the memory of an action back that has ended, unless its event is gone.
+    pub(crate) fn give_back(&mut self, due: Due) {
+        if let Some(event) = self.numbered(due.number) {
+            event.room = Some(due.action);
+        }
+    }
+
+    /// Whether an interrupt or a timer is declared.
+    pub(crate) fn watches(&self) -> bool {
+        !self.interrupts.is_empty()
+    }
+
+    /// Whether an event waits to be handled.
+    pub(crate) fn has_due(&self) -> bool {
+        !self.due.is_empty()
+    }
+}

@@ -1,0 +1,115 @@
+//! Waiting, and ending the program.
+
+use crate::context::cx::Cx;
+use crate::fault::Fault;
+
+/// `waittime`: waits until all planned motion has ended, then for `time` seconds, counted in cycles.
+pub fn waittime(time: f64) -> WaitTime {
+    WaitTime { time }
+}
+
+/// `waittime`, ready to run.
+#[derive(Clone, Copy, Debug)]
+#[must_use = "an instruction does nothing until it is run"]
+pub struct WaitTime {
+    time: f64,
+}
+
+impl WaitTime {
+    /// Waits.
+    ///
+    /// # Errors
+    /// The time is negative or not a number.
+    pub async fn run(self, cx: &Cx) -> Result<(), Fault> {
+        let cycles = cx.world().rate.wait(self.time, "waittime")?;
+        cx.motion_end().await;
+        let over = cx.cycle() + cycles;
+        while cx.cycle() < over {
+            cx.next_cycle().await;
+        }
+        Ok(())
+    }
+}
+
+/// `waituntil`: prepares to wait for a condition, which the caller evaluates once a cycle.
+pub fn waituntil(cx: &Cx) -> WaitUntil<'_> {
+    WaitUntil { cx, maxtime: None }
+}
+
+/// `waituntil` before it starts.
+#[derive(Clone, Copy, Debug)]
+#[must_use = "an instruction does nothing until it is started"]
+pub struct WaitUntil<'a> {
+    cx: &'a Cx,
+    maxtime: Option<f64>,
+}
+
+impl<'a> WaitUntil<'a> {
+    /// The longest time to wait, in s, counted from the end of the motion before.
+    pub fn maxtime(mut self, seconds: f64) -> Self {
+        self.maxtime = Some(seconds);
+        self
+    }
+
+    /// Waits until all planned motion has ended; the time counts from there.
+    ///
+    /// # Errors
+    /// The longest time is negative or not a number.
+    pub async fn start(self) -> Result<Wait<'a>, Fault> {
+        let cycles = match self.maxtime {
+            Some(seconds) => Some(self.cx.world().rate.wait(seconds, "waituntil")?),
+            None => None,
+        };
+        self.cx.motion_end().await;
+        Ok(Wait { cx: self.cx, over: cycles.map(|cycles| self.cx.cycle() + cycles) })
+    }
+}
+
+/// `waituntil` while it waits.
+#[derive(Clone, Copy, Debug)]
+pub struct Wait<'a> {
+    cx: &'a Cx,
+    over: Option<u64>,
+}
+
+impl Wait<'_> {
+    /// Whether the longest time is over.
+    #[inline]
+    pub fn late(&self) -> bool {
+        self.over.is_some_and(|over| self.cx.cycle() >= over)
+    }
+}
+
+/// `pause`: waits until all planned motion has ended, then until the start button is pressed.
+pub fn pause() -> Pause {
+    Pause(())
+}
+
+/// `pause`, ready to run.
+#[derive(Clone, Copy, Debug)]
+#[must_use = "an instruction does nothing until it is run"]
+pub struct Pause(());
+
+impl Pause {
+    /// Waits for the start button: [`crate::Controller::resume`], or `pendant = "start"` of a scenario.
+    ///
+    /// # Errors
+    /// None yet.
+    pub async fn run(self, cx: &Cx) -> Result<(), Fault> {
+        cx.motion_end().await;
+        cx.lane().paused.set(true);
+        while cx.lane().paused.get() {
+            cx.next_cycle().await;
+        }
+        Ok(())
+    }
+}
+
+/// `assert`: an alarm where `x` is false.
+///
+/// # Errors
+/// [`Fault::Assertion`].
+#[inline]
+pub fn assert(x: bool) -> Result<(), Fault> {
+    if x { Ok(()) } else { Err(Fault::Assertion) }
+}

@@ -1,0 +1,238 @@
+//! What a motion takes from the instruction, and what from the system variables.
+
+use crate::builtins::frames::Setting;
+use crate::context::cx::Cx;
+use crate::context::system::{self, System};
+use crate::fault::Fault;
+use crate::motion;
+use crate::values::{Slip, SmallArray, Speed, Tool, Wobj, is_set};
+
+/// Which components of a speed a motion uses.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Kind {
+    /// Percent of the axes' speeds.
+    Axes,
+    /// Speeds of the TCP.
+    Line,
+}
+
+/// The speed that an instruction gives.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Pace {
+    Speed(Speed),
+    /// % of the robot's own.
+    Percent(f64),
+    /// mm/s.
+    Line(f64),
+}
+
+/// The blending that an instruction gives.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Blend {
+    Slip(Slip),
+    /// % of the largest zone.
+    Percent(f64),
+    /// mm.
+    Line(f64),
+}
+
+/// What an instruction says besides its target.
+#[derive(Clone, Debug)]
+pub(super) struct Modal {
+    kind: Kind,
+    pub(super) pace: Option<Pace>,
+    pub(super) blend: Option<Blend>,
+    pub(super) tool: Option<Tool>,
+    pub(super) wobj: Option<Wobj>,
+    pub(super) duration: Option<f64>,
+    /// How far to go along a circle, in deg.
+    pub(super) angle: Option<f64>,
+}
+
+/// The same, with the system variables filled in.
+#[derive(Clone, Debug)]
+pub(super) struct Resolved {
+    pub(super) kind: Kind,
+    pub(super) speed: motion::Speed,
+    /// What carries tool and workpiece.
+    pub(super) setting: Setting,
+    pub(super) duration: Option<f64>,
+    pub(super) zone: motion::Zone,
+}
+
+impl Modal {
+    pub(super) fn new(kind: Kind) -> Self {
+        Self { kind, pace: None, blend: None, tool: None, wobj: None, duration: None, angle: None }
+    }
+
+    /// Updates the modal system variables with what the instruction says, and takes from them what it does not.
+    pub(super) fn apply(&self, cx: &Cx) -> Result<Resolved, Fault> {
+        self.check()?;
+        let system = cx.system();
+        if let Some(pace) = self.pace {
+            system.dfspeed.set(self.speed(cx, pace, system.dfspeed.get()));
+        }
+        if let Some(blend) = self.blend {
+            system.dfslip.set(slip(self.kind, blend, system.dfslip.get()));
+        }
+        if let Some(tool) = self.tool {
+            system.dftool.set(tool);
+        }
+        if let Some(wobj) = &self.wobj {
+            system.dfwobj.set(wobj.clone());
+        }
+        Ok(Resolved {
+            kind: self.kind,
+            speed: speed(&system.dfspeed.get()),
+            setting: setting(system)?,
+            duration: self.duration,
+            zone: zone(&system.dfslip.get())?,
+        })
+    }
+
+    /// A label that is given one number must be given one that is set.
+    fn check(&self) -> Result<(), Fault> {
+        let speed = match self.pace {
+            Some(Pace::Percent(value)) => Some(("vp", value)),
+            Some(Pace::Line(value)) => Some(("vl", value)),
+            Some(Pace::Speed(_)) | None => None,
+        };
+        let zone = match self.blend {
+            Some(Blend::Percent(value)) => Some(("sp", value)),
+            Some(Blend::Line(value)) => Some(("sl", value)),
+            Some(Blend::Slip(_)) | None => None,
+        };
+        let others = [("dura", self.duration), ("CA", self.angle)];
+        let others = others.into_iter().filter_map(|(label, value)| Some((label, value?)));
+        match speed.into_iter().chain(zone).chain(others).find(|(_, value)| !is_set(*value)) {
+            Some((label, _)) => Err(Fault::Motion(
+                format!(
+                    "{label} is 9e+09, which stands for a value that was not set: give a number, or leave {label} out"
+                )
+                .into(),
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// `$DFSPEED` with the components that the instruction stands for.
+    fn speed(&self, cx: &Cx, pace: Pace, mut speed: Speed) -> Speed {
+        match (pace, self.kind) {
+            (Pace::Speed(new), _) => {
+                let places = [
+                    (&mut speed.per, new.per),
+                    (&mut speed.tcp, new.tcp),
+                    (&mut speed.ori, new.ori),
+                    (&mut speed.exj, new.exj),
+                    (&mut speed.exl, new.exl),
+                ];
+                for (place, new) in places {
+                    if is_set(new) {
+                        *place = new;
+                    }
+                }
+            }
+            (Pace::Percent(percent), Kind::Axes) => speed.per = percent,
+            (Pace::Percent(percent), Kind::Line) => {
+                if let Some(unit) = cx.lane().robot() {
+                    let tcp = &unit.robot().tcp;
+                    speed.tcp = tcp.vel * percent / 100.0;
+                    speed.ori = tcp.ori_vel * percent / 100.0;
+                }
+            }
+            (Pace::Line(millimetres), _) => speed.tcp = millimetres,
+        }
+        speed
+    }
+}
+
+/// `$DFSLIP` with the components that the instruction stands for.
+fn slip(kind: Kind, blend: Blend, mut slip: Slip) -> Slip {
+    match blend {
+        Blend::Slip(new) => {
+            let places = [
+                (&mut slip.perdis, new.perdis),
+                (&mut slip.pdis, new.pdis),
+                (&mut slip.odis, new.odis),
+                (&mut slip.ejdis, new.ejdis),
+                (&mut slip.eldis, new.eldis),
+                (&mut slip.jdis, new.jdis),
+            ];
+            for (place, new) in places {
+                if is_set(new) {
+                    *place = new;
+                }
+            }
+            // An axis motion that shall not be rounded off is not by a distance of the TCP from before.
+            if kind == Kind::Axes && is_set(new.jdis) && new.jdis <= 0.0 && !is_set(new.pdis) {
+                slip.pdis = new.jdis;
+            }
+        }
+        // What was left of other measures must not round off what shall be reached exactly.
+        Blend::Percent(percent) if percent < 0.0 => slip = NO_SLIP,
+        Blend::Percent(percent) => slip.perdis = percent,
+        Blend::Line(distance) => slip = Slip { pdis: distance, ..NO_SLIP },
+    }
+    slip
+}
+
+/// Nothing is rounded off.
+const NO_SLIP: Slip = Slip { perdis: -1.0, pdis: -1.0, odis: -1.0, ejdis: -1.0, eldis: -1.0, jdis: -1.0 };
+
+/// What carries `$DFTOOL` and `$DFWOBJ`, with the offsets of all tools and workpieces.
+fn setting(system: &System) -> Result<Setting, Fault> {
+    let (tool, wobj) = (system.dftool.get(), system.dfwobj.get());
+    let base = system.base.with(|base| base.first().map_or_else(Default::default, |base| base.w_frame));
+    let (tool_offset, wobj_offset) = (system.tool_offset.with(components), system.wobj_offset.with(components));
+    let frames = [
+        ("the tool frame", tool.t_frame.components()),
+        ("the workpiece frame", wobj.w_frame.components()),
+        ("$BASE[0]", base.components()),
+        ("$TOOL_OFFSET", tool_offset),
+        ("$WOBJ_OFFSET", wobj_offset),
+    ];
+    for (name, components) in frames {
+        if let Some(value) = components.iter().find(|value| !value.is_finite() || motion::is_unset(value.abs())) {
+            return Err(Fault::Motion(format!("{name} holds the value {value}, which is no length or angle").into()));
+        }
+    }
+    Ok(Setting::new(&tool, &wobj, &base).with_offsets(&tool_offset, &wobj_offset))
+}
+
+fn components(offset: &SmallArray<f64, 6>) -> [f64; 6] {
+    let mut components = [0.0; 6];
+    for (component, value) in components.iter_mut().zip(offset.iter()) {
+        *component = *value;
+    }
+    components
+}
+
+/// The speed that `$DFSPEED` describes; what is unset is as in its default.
+fn speed(speed: &Speed) -> motion::Speed {
+    let or = |value: f64, default: f64| if is_set(value) { value } else { default };
+    let Speed { per, tcp, ori, exj, exl } = system::DFSPEED;
+    motion::Speed {
+        percent: or(speed.per, per),
+        tcp: or(speed.tcp, tcp),
+        ori: or(speed.ori, ori),
+        exj: or(speed.exj, exj),
+        exl: or(speed.exl, exl),
+    }
+}
+
+/// The zone that `$DFSLIP` describes; what is unset stays so.
+fn zone(slip: &Slip) -> Result<motion::Zone, Fault> {
+    let zone = motion::Zone {
+        percent: slip.perdis,
+        tcp: slip.pdis,
+        ori: slip.odis,
+        joint: slip.jdis,
+        turning: slip.ejdis,
+        linear: slip.eldis,
+    };
+    let motion::Zone { percent, tcp, ori, joint, turning, linear } = zone;
+    if [percent, tcp, ori, joint, turning, linear].iter().any(|size| !size.is_finite()) {
+        return Err(Fault::Motion("the zone (slip) holds a value that is not a number".into()));
+    }
+    Ok(zone)
+}

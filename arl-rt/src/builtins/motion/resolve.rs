@@ -1,0 +1,193 @@
+//! Targets, and the way to the planner.
+
+use super::modal::{Kind, Resolved};
+use crate::context::cx::Cx;
+use crate::context::system::all_set;
+use crate::fault::Fault;
+use crate::kinematics::{CONFIGURATIONS, Wanted};
+use crate::motion::{Command, Joints, Settings, Target, UNSET, Zone};
+use crate::robot::{EXTERNAL_AXES, VelocityProfile};
+use crate::unit::{Unit, joint};
+use crate::values::{Joint, Pose, VelProfile, is_set};
+
+/// What a background channel cannot do.
+const MOTION: &str = "motion";
+
+/// What the first motion of a program must not leave open.
+const FIRST: &str = "the first motion of a program must set all components of its target";
+
+/// Beyond this, mm or deg, a component is what became of 9e+09 in a calculation.
+const FARTHEST: f64 = 1e9;
+
+/// A motion that keeps less of its speed under a weave or a compensation is warned of.
+const SLOWED: f64 = 0.98;
+
+/// The axes of a target.
+pub(super) fn joints(cx: &Cx, target: &Joint) -> Result<Joints, Fault> {
+    let joints = Joints { axes: target.axes(), external: target.external() };
+    let unit = cx.lane().unit(MOTION)?;
+    let own = joints.axes.get(..unit.robot().own_axes().len()).unwrap_or_default();
+    first(cx, &unit, own, &joints.external)?;
+    sensible(own)?;
+    sensible(there(&unit, &joints.external))?;
+    Ok(joints)
+}
+
+/// The pose of a target, which solution of it is wanted, and its external axes.
+pub(super) fn pose(
+    cx: &Cx,
+    target: &Pose,
+    modal: &Resolved,
+) -> Result<([f64; 6], Wanted, [f64; EXTERNAL_AXES]), Fault> {
+    modal.setting.check().map_err(|unmoved| Fault::Motion(unmoved.to_string().into()))?;
+    let system = cx.system();
+    let (mut pose, external) = (target.components(), target.external());
+    let unit = cx.lane().unit(MOTION)?;
+    first(cx, &unit, &pose, &external)?;
+    sensible(&pose)?;
+    sensible(there(&unit, &external))?;
+    if system.ignore_ori.get() {
+        let [x, y, z, ..] = pose;
+        pose = [x, y, z, UNSET, UNSET, UNSET];
+    }
+    // Lines keep the configuration of their start, whatever their target says.
+    let as_taught = system.config_check.get() && modal.kind == Kind::Axes;
+    Ok((pose, wanted(target, as_taught)?, external))
+}
+
+/// The place of a point that a circle leads through.
+pub(super) fn via(point: &Pose) -> Result<[f64; 3], Fault> {
+    let [x, y, z, ..] = point.components();
+    sensible(&[x, y, z])?;
+    Ok([x, y, z])
+}
+
+/// Which solution of a pose is wanted: the one it was taught in, or the nearest.
+pub(crate) fn wanted(target: &Pose, as_taught: bool) -> Result<Wanted, Fault> {
+    if !as_taught {
+        return Ok(Wanted { cfg: None, turn: -1 });
+    }
+    match u8::try_from(target.cfg) {
+        Ok(cfg) => Ok(Wanted { cfg: Some(cfg), turn: target.turn }),
+        Err(_) => {
+            Err(Fault::Motion(format!("the robot has no configuration cfg {}: {CONFIGURATIONS}", target.cfg).into()))
+        }
+    }
+}
+
+/// The first motion of a program knows no start to take unset components from.
+fn first(cx: &Cx, unit: &Unit, own: &[f64], external: &[f64]) -> Result<(), Fault> {
+    if cx.has_moved() {
+        return Ok(());
+    }
+    if all_set(own) && all_set(there(unit, external)) { Ok(()) } else { Err(Fault::Motion(FIRST.into())) }
+}
+
+/// The external axes that the robot has.
+fn there<'a>(unit: &Unit, external: &'a [f64]) -> &'a [f64] {
+    external.get(..unit.robot().external_axes().len()).unwrap_or_default()
+}
+
+/// A component that is not set stays as it is, but nothing can be calculated with it: a sum of it would be left out of the
+/// target in silence, a difference would turn the tool to wherever it leads.
+fn sensible(components: &[f64]) -> Result<(), Fault> {
+    let calculated = |value: &f64| is_set(*value) && value.is_finite() && value.abs() > FARTHEST;
+    match components.iter().copied().find(calculated) {
+        None => Ok(()),
+        Some(value) => {
+            let problem = format!(
+                "the target holds {value}, which comes of calculating with a component that is not set (9e+09): set it first"
+            );
+            Err(Fault::Motion(problem.into()))
+        }
+    }
+}
+
+/// Hands a motion to the planner when there is room.
+pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<(), Fault> {
+    let lane = cx.lane();
+    if cx.spend() {
+        cx.next_cycle().await;
+    }
+    // Motions that make one way are one step.
+    let kind = match target {
+        Target::Circle { .. } => 1,
+        Target::Spline { .. } => 2,
+        _ => 0,
+    };
+    if cx.chain(kind) != kind || kind == 0 {
+        cx.step_point().await;
+    }
+    while !lane.unit(MOTION)?.takes(cx.level().number) {
+        cx.next_cycle().await;
+    }
+    // The return to the path: the first motion goes at manual speed, and stops.
+    let returns = lane.system.rpp_enable.get() && !cx.has_moved();
+    let target = match target {
+        Target::Spline { pose, wobj, external } if returns => Target::Line { pose, wobj, external },
+        target => target,
+    };
+    let (_, line) = cx.place();
+    let steps = lane.stepping.on.get();
+    let command = Command {
+        target,
+        rig: modal.setting.rig(),
+        speed: modal.speed,
+        duration: modal.duration,
+        zone: if returns || steps { Zone::NONE } else { modal.zone },
+        line,
+    };
+    let current = lane.unit(MOTION)?.settings;
+    let settings = Settings {
+        profile: match lane.system.vel_profile.get() {
+            VelProfile::T => VelocityProfile::T,
+            VelProfile::S => VelocityProfile::S,
+            VelProfile::O => VelocityProfile::O,
+        },
+        wrist: lane.system.wrist.get(),
+        manual: current.manual || returns,
+        compensation: current.compensation.filter(|_| !steps),
+        ..current
+    };
+    let circle_steps = if steps { lane.unit(MOTION)?.circle_steps(&command, &settings) } else { None };
+    if let Some([first, second]) = circle_steps {
+        add(cx, &first, &settings).await?;
+        cx.next_step().await;
+        add(cx, &second, &settings).await?;
+    } else {
+        add(cx, &command, &settings).await?;
+    }
+    if steps && kind == 0 {
+        cx.motion_end().await;
+    }
+    Ok(())
+}
+
+/// Adds a motion to those that are planned.
+async fn add(cx: &Cx, command: &Command, settings: &Settings) -> Result<(), Fault> {
+    let lane = cx.lane();
+    let (file, line) = cx.place();
+    let planned = lane.unit_mut(MOTION)?.plan(command, settings, file);
+    if let Err(alarm) = planned {
+        if (alarm.file, alarm.line) == (file, line) {
+            return Err(alarm.fault);
+        }
+        lane.trouble(alarm);
+        // The controller ends the program here.
+        loop {
+            cx.next_cycle().await;
+        }
+    }
+    let mut unit = lane.unit_mut(MOTION)?;
+    lane.system.cjoint.set(joint(unit.target()));
+    cx.moved(unit.motions().0);
+    let file = cx.place().0.name();
+    let (share, slowed) = unit.take_slowed();
+    if share < SLOWED {
+        let percent = if share < 0.01 { "less than 1".to_owned() } else { format!("{:.0}", 100.0 * share) };
+        cx.world().warn(format!("{file}:{slowed}: the weave or the compensation is too fast for the robot: the motion goes at {percent} % of its speed"));
+    }
+    drop(unit);
+    lane.tell_of_corners(cx.world());
+    Ok(())
+}

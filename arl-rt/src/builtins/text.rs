@@ -1,0 +1,135 @@
+//! The `print` instruction.
+
+use crate::context::cx::Cx;
+use crate::fault::Fault;
+use crate::values::{NumBase, Printto, Str};
+
+pub use crate::values::text::{Nested, Print, Style, Typed, nested, scan};
+
+/// Where messages go.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Targets {
+    hmi: bool,
+    file: bool,
+    console: bool,
+}
+
+impl Targets {
+    const NONE: Targets = Targets { hmi: false, file: false, console: false };
+
+    fn with(mut self, target: Printto) -> Self {
+        match target {
+            Printto::Off => return Self::NONE,
+            Printto::Hmi => self.hmi = true,
+            Printto::File => self.file = true,
+            Printto::Console => self.console = true,
+        }
+        self
+    }
+}
+
+impl Default for Targets {
+    /// The operator panel.
+    fn default() -> Self {
+        Self { hmi: true, ..Self::NONE }
+    }
+}
+
+/// `print`: puts values together to one message and sends it where `to` says, or writes it to a string.
+pub fn print<'a>() -> PrintMessage<'a> {
+    PrintMessage { to: None, tostr: None, filepath: None, style: Style::START, text: Str::new(), problem: None }
+}
+
+/// A message on its way together. Values take the style that stands before them.
+#[derive(Debug)]
+#[must_use = "an instruction does nothing until it is run"]
+pub struct PrintMessage<'a> {
+    to: Option<Targets>,
+    tostr: Option<&'a mut Str>,
+    filepath: Option<Str>,
+    style: Style,
+    text: Str,
+    problem: Option<Fault>,
+}
+
+impl<'a> PrintMessage<'a> {
+    /// Sends this message and those after it here, beside what other `to` of this message say; `off` cancels the ones
+    /// before it.
+    pub fn to(mut self, target: Printto) -> Self {
+        self.to = Some(self.to.unwrap_or(Targets::NONE).with(target));
+        self
+    }
+
+    /// Writes the message to this variable, and nowhere else.
+    pub fn tostr(mut self, variable: &'a mut Str) -> Self {
+        self.tostr = Some(variable);
+        self
+    }
+
+    /// The file below the script directory for `to:file`; it holds for the messages after this one, too.
+    pub fn filepath(mut self, path: &Str) -> Self {
+        self.filepath = Some(path.clone());
+        self
+    }
+
+    /// The significant digits of the doubles that follow; 0 counts as 1.
+    pub fn precision(mut self, digits: i32) -> Self {
+        match u32::try_from(digits) {
+            Ok(digits) => self.style.precision = digits,
+            Err(_) => {
+                let problem = format!("precision:{digits} is negative").into();
+                self.problem = Some(Fault::Domain { function: "print", problem });
+            }
+        }
+        self
+    }
+
+    /// The base of the integers that follow.
+    pub fn numbase(mut self, base: NumBase) -> Self {
+        self.style.base = Some(base);
+        self
+    }
+
+    /// A value.
+    pub fn argtoprint(mut self, value: &dyn Print) -> Self {
+        value.print(&mut self.text, &self.style);
+        self
+    }
+
+    /// Sends the message.
+    ///
+    /// # Errors
+    /// A file that has no name or cannot be written, or a negative precision.
+    pub fn run(self, cx: &Cx) -> Result<(), Fault> {
+        if let Some(problem) = self.problem {
+            return Err(problem);
+        }
+        let (modal_to, modal_path) = cx.print_to();
+        if let Some(to) = self.to {
+            modal_to.set(to);
+        }
+        if let Some(path) = self.filepath {
+            modal_path.replace(path);
+        }
+        if let Some(variable) = self.tostr {
+            *variable = self.text;
+            return Ok(());
+        }
+        let to = modal_to.get();
+        if to.file {
+            if modal_path.borrow().is_empty() {
+                let problem = "to:file needs the file's name: filepath:\"...\"".into();
+                return Err(Fault::Domain { function: "print", problem });
+            }
+            let mut text = self.text.as_bytes().to_vec();
+            if !text.ends_with(b"\n") {
+                text.push(b'\n');
+            }
+            cx.world().scripts.append(&modal_path.borrow(), &text)?;
+        }
+        if to.hmi || to.console {
+            cx.world().message(cx.lane().id, to.hmi, to.console, self.text.as_bytes());
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,458 @@
+//! The command line of a compiled program.
+
+mod several;
+
+use std::ffi::OsString;
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::builtins::time;
+use crate::command::live::{self, Cut, Voice};
+use crate::command::report;
+use crate::context::program::Program;
+pub use crate::context::program::{Make, Other};
+use crate::controller::cell::Cell;
+use crate::controller::{Builder, Controller, Outcome, SetupError};
+use crate::cycle::clock_source::{RealClock, VirtualClock};
+use crate::io::Scenario;
+use crate::robot::Robot;
+use crate::storage::state::Directory;
+use crate::values::Controlmode;
+
+/// What the program's functions may fill of the stack, and what the thread has on top of that for everything else.
+const STACK: usize = 64 << 20;
+const STACK_ON_TOP: usize = 1 << 20;
+
+/// The directory below the script directory that keeps system variables where no other is named.
+const STATE_DIR: &str = ".arl-state";
+
+const ENDED: u8 = 0;
+const USAGE: u8 = 2;
+const ALARM: u8 = 3;
+const MAX_TIME: u8 = 4;
+const INTERRUPTED: u8 = 130;
+
+const HELP: &str = "\
+Runs a robot program on a simulated robot.
+
+Options:
+  --robot NAME|FILE     the robot: a built-in name or a robot file
+  --cell FILE           the cell: io, home points, control cycle
+  --clock virtual|real  run as fast as possible (default), or in real time; from the
+                        first connection that a program opens it is real time
+  --script-dir DIR      the folder of the program's files
+  --state-dir DIR       the folder that keeps system variables, and where
+                        the programs stood, between runs
+  --io FILE             a scenario: what the outside does to the inputs
+  --trace FILE.csv      write the motion, one row a cycle
+  --report[=FILE]       say at the end what each motion did, on the standard error,
+                        or one JSON object a line into a file
+  --live                be driven by lines on the standard input (di.5 = true), and
+                        say what happens as JSON lines on the standard output
+  --loop                the loop running mode: a program that ends is reset and begins
+                        again, until the time is over or it calls exit
+  --max-time S          end after so many controller seconds, with exit code 4
+  --mode MODE           auto (default), manual or manufast
+  --override PCT        the speed override in percent, 0 to 100
+  --seed N              the seed of rand
+  --start-time T        the date at the start: now, or a time like 2000-01-01T00:00:00
+  --help                this text
+
+Exit codes: 0 ended, 2 usage, 3 alarm, 4 the time was over, 130 interrupted.
+";
+
+/// What the command line says.
+#[derive(Clone, PartialEq, Debug)]
+struct Options {
+    robot: Option<String>,
+    cell: Option<PathBuf>,
+    clock: Option<Pace>,
+    live: bool,
+    repeats: bool,
+    script_dir: PathBuf,
+    state_dir: Option<PathBuf>,
+    io: Option<PathBuf>,
+    trace: Option<PathBuf>,
+    report: Option<Report>,
+    max_time: Option<f64>,
+    mode: Controlmode,
+    override_percent: f64,
+    seed: Option<u64>,
+    start_time: Option<i64>,
+}
+
+/// How fast cycles follow each other.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Pace {
+    Virtual,
+    Real,
+}
+
+/// Where to say what the motions did.
+#[derive(Clone, PartialEq, Debug)]
+enum Report {
+    /// As a table on the standard error.
+    Table,
+    /// As JSON in a file.
+    File(PathBuf),
+}
+
+/// Runs a program as its command line says: the `main` of every compiled program.
+///
+/// The program is made on a thread with a large stack. `script_dir` is the folder of its files where the command line
+/// names none.
+pub fn main<P: Program + 'static>(program: impl FnOnce() -> P + Send, script_dir: &str) -> ExitCode {
+    main_with(program, &[], script_dir)
+}
+
+/// The same for several programs: the first one, and those that the cell file may name.
+pub fn main_with<P: Program + 'static>(
+    program: impl FnOnce() -> P + Send,
+    others: &[Other],
+    script_dir: &str,
+) -> ExitCode {
+    let arguments = std::env::args_os().skip(1);
+    let options = match parse(arguments, script_dir) {
+        Ok(Some(options)) => options,
+        Ok(None) => {
+            // Nobody may read the other end any more.
+            let _ = std::io::stdout().write_all(HELP.as_bytes());
+            return ExitCode::from(ENDED);
+        }
+        Err(error) => return fail(USAGE, &format!("{error}\nTry --help.")),
+    };
+    let interrupted = Arc::new(AtomicBool::new(false));
+    if let Err(error) = watch_for_interrupts(&interrupted) {
+        warn(&format!("Ctrl-C will not stop the robot on its path: {error}"));
+    }
+    std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().stack_size(STACK + STACK_ON_TOP);
+        let run = || run(Box::new(program()), others, options, &interrupted);
+        match thread.spawn_scoped(scope, run).map(|thread| thread.join()) {
+            Ok(Ok(code)) => ExitCode::from(code),
+            // The panic has been reported where it happened.
+            Ok(Err(_)) => ExitCode::from(101),
+            Err(error) => fail(ALARM, &format!("the program's thread cannot be started: {error}")),
+        }
+    })
+}
+
+/// The first Ctrl-C sets the flag; a second one ends the process, should the program not come to an end.
+fn watch_for_interrupts(interrupted: &Arc<AtomicBool>) -> std::io::Result<()> {
+    use signal_hook::{consts::SIGINT, flag};
+    flag::register_conditional_shutdown(SIGINT, i32::from(INTERRUPTED), Arc::clone(interrupted))?;
+    flag::register(SIGINT, Arc::clone(interrupted))?;
+    Ok(())
+}
+
+fn fail(code: u8, text: &str) -> ExitCode {
+    eprintln!("error: {text}");
+    ExitCode::from(code)
+}
+
+fn warn(text: &str) {
+    eprintln!("warning: {text}");
+}
+
+/// Reads the command line; nothing where help was asked for.
+fn parse(
+    arguments: impl IntoIterator<Item = OsString> + 'static,
+    script_dir: &str,
+) -> Result<Option<Options>, lexopt::Error> {
+    use lexopt::prelude::*;
+    let mut options = Options {
+        robot: None,
+        cell: None,
+        clock: None,
+        live: false,
+        repeats: false,
+        script_dir: PathBuf::from(script_dir),
+        state_dir: None,
+        io: None,
+        trace: None,
+        report: None,
+        max_time: None,
+        mode: Controlmode::Auto,
+        override_percent: 100.0,
+        seed: None,
+        start_time: None,
+    };
+    let mut parser = lexopt::Parser::from_args(arguments);
+    while let Some(argument) = parser.next()? {
+        match argument {
+            Long("robot") => options.robot = Some(parser.value()?.string()?),
+            Long("cell") => options.cell = Some(parser.value()?.into()),
+            Long("live") => (options.live, options.clock) = (true, Some(Pace::Real)),
+            Long("clock") => {
+                let paces = [("virtual", Pace::Virtual), ("real", Pace::Real)];
+                options.clock = Some(word(&mut parser, "--clock", &paces)?);
+            }
+            Long("loop") => options.repeats = true,
+            Long("script-dir") => options.script_dir = parser.value()?.into(),
+            Long("state-dir") => options.state_dir = Some(parser.value()?.into()),
+            Long("io") => options.io = Some(parser.value()?.into()),
+            Long("trace") => options.trace = Some(parser.value()?.into()),
+            Long("report") => {
+                options.report = Some(parser.optional_value().map_or(Report::Table, |file| Report::File(file.into())));
+            }
+            Long("max-time") => options.max_time = Some(number(&mut parser, "--max-time", "seconds", f64::MAX)?),
+            Long("mode") => {
+                let modes =
+                    [("auto", Controlmode::Auto), ("manual", Controlmode::Manual), ("manufast", Controlmode::Manufast)];
+                options.mode = word(&mut parser, "--mode", &modes)?;
+            }
+            Long("override") => options.override_percent = number(&mut parser, "--override", "percent", 100.0)?,
+            Long("seed") => options.seed = Some(parser.value()?.parse()?),
+            Long("start-time") => {
+                let text = parser.value()?.string()?;
+                let wrong = || format!("--start-time {text}: expected now, or a time like 2000-01-01T00:00:00");
+                options.start_time = Some(time::parse(&text).ok_or_else(wrong)?);
+            }
+            Short('h') | Long("help") => return Ok(None),
+            other => return Err(other.unexpected()),
+        }
+    }
+    Ok(Some(options))
+}
+
+/// One of a few words.
+fn word<T: Copy>(parser: &mut lexopt::Parser, option: &str, words: &[(&str, T)]) -> Result<T, lexopt::Error> {
+    use lexopt::ValueExt;
+    let found = parser.value()?.string()?;
+    let known = words.iter().find(|(word, _)| word.eq_ignore_ascii_case(&found));
+    known.map(|(_, value)| *value).ok_or_else(|| {
+        let words: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+        format!("{option} {found}: expected {}", words.join(" or ")).into()
+    })
+}
+
+/// A number from 0 up.
+fn number(parser: &mut lexopt::Parser, option: &str, what: &str, most: f64) -> Result<f64, lexopt::Error> {
+    use lexopt::ValueExt;
+    let found = parser.value()?.string()?;
+    match found.parse::<f64>() {
+        Ok(number) if (0.0..=most).contains(&number) => Ok(number),
+        _ if most < f64::MAX => Err(format!("{option} {found}: expected {what} from 0 to {most}").into()),
+        _ => Err(format!("{option} {found}: expected {what}, 0 or more").into()),
+    }
+}
+
+/// Sets the controller up and runs the program; the exit code.
+fn run(program: Box<dyn Program>, others: &[Other], options: Options, interrupted: &AtomicBool) -> u8 {
+    let max_time = options.max_time;
+    let real = options.clock == Some(Pace::Real);
+    let report = match options.report.clone().map(report_to).transpose() {
+        Ok(report) => report,
+        Err(error) => {
+            eprintln!("error: {error}");
+            return USAGE;
+        }
+    };
+    let repeats = options.repeats;
+    let voice = options.live.then(Voice::standard);
+    let controller = set_up(options, others).and_then(|builder| {
+        let builder = match &voice {
+            Some(voice) => builder.output(voice.messages()),
+            None => builder,
+        };
+        builder.build(program).map_err(SetupFailure::from)
+    });
+    let mut controller = match controller {
+        Ok(controller) => controller,
+        Err(SetupFailure { code, text }) => {
+            eprintln!("error: {text}");
+            return code;
+        }
+    };
+    controller.set_loop(repeats);
+    let code = match voice {
+        Some(voice) => code(live::drive(&mut controller, &voice, max_time, interrupted)),
+        None => watch(&mut controller, max_time, interrupted),
+    };
+    if let Some(mut report) = report
+        && let Err(error) = report(&controller)
+    {
+        warn(&format!("the report cannot be written: {error}"));
+    }
+    if real && controller.overruns() > 0 {
+        warn(&format!("{} control cycles began late: the computer was too busy", controller.overruns()));
+    }
+    code
+}
+
+/// The exit code of a run that was driven from outside.
+fn code(driven: Result<Option<Outcome>, Cut>) -> u8 {
+    match driven {
+        Ok(Some(Outcome::Alarm(_))) => ALARM,
+        Ok(_) => ENDED,
+        Err(Cut::MaxTime) => MAX_TIME,
+        Err(Cut::Interrupted) => INTERRUPTED,
+    }
+}
+
+/// Writes the report at the end of a run.
+type WriteReport = Box<dyn FnMut(&Controller) -> std::io::Result<()>>;
+
+/// What writes the report. A file is made at the start: better to fail now than after a long run.
+fn report_to(report: Report) -> Result<WriteReport, String> {
+    Ok(match report {
+        Report::Table => Box::new(|controller| {
+            let text = report::tables(&controller.all_motions(), controller.time());
+            std::io::stderr().write_all(text.as_bytes())
+        }),
+        Report::File(path) => {
+            let mut file = File::create(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+            Box::new(move |controller| {
+                let text = report::all_json(&controller.all_motions(), controller.time());
+                file.write_all(text.as_bytes())
+            })
+        }
+    })
+}
+
+/// Steps until the run is over, its time is, or somebody pressed Ctrl-C.
+fn watch(controller: &mut Controller, max_time: Option<f64>, interrupted: &AtomicBool) -> u8 {
+    let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
+    let mut code = None;
+    // Who was told to stop does not begin again.
+    let is_over = |controller: &Controller, stopped: bool| match stopped {
+        true => controller.outcome().is_some(),
+        false => controller.is_over(),
+    };
+    while !is_over(controller, code.is_some()) {
+        if code.is_none() && interrupted.load(Ordering::Relaxed) {
+            code = Some(INTERRUPTED);
+            controller.stop();
+            eprintln!("interrupted: the robot stops on its path");
+        } else if code.is_none() && controller.cycle() >= last {
+            code = Some(MAX_TIME);
+            let (file, line) = controller.place();
+            eprintln!(
+                "the time is over: {} s; the program stands at {}:{line}",
+                max_time.unwrap_or_default(),
+                file.name()
+            );
+            controller.stop();
+        }
+        controller.step();
+        say(controller);
+    }
+    controller.settle_state();
+    say(controller);
+    match (code, controller.outcome()) {
+        (Some(code), _) => code,
+        (None, Some(Outcome::Alarm(_))) => ALARM,
+        (None, _) => ENDED,
+    }
+}
+
+/// Says on the standard error what came up.
+fn say(controller: &mut Controller) {
+    for text in controller.take_warnings() {
+        warn(&text);
+    }
+    for alarm in controller.take_alarms() {
+        eprintln!("{alarm}");
+    }
+}
+
+/// Why there is no controller, and the exit code for it.
+struct SetupFailure {
+    code: u8,
+    text: String,
+}
+
+impl SetupFailure {
+    fn usage(text: impl ToString) -> Self {
+        Self { code: USAGE, text: text.to_string() }
+    }
+}
+
+impl From<SetupError> for SetupFailure {
+    fn from(error: SetupError) -> Self {
+        let code = if matches!(error, SetupError::State(_)) { ALARM } else { USAGE };
+        Self { code, text: error.to_string() }
+    }
+}
+
+fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
+    let mut builder = Controller::builder().mode(options.mode).speed_override(options.override_percent).stack(STACK);
+    if let Some(robot) = &options.robot {
+        builder = builder.robot(Robot::load(robot).map_err(SetupFailure::usage)?);
+    }
+    if let Some(cell) = &options.cell {
+        let cell = Cell::load(cell).map_err(SetupFailure::usage)?;
+        builder = builder.cell_with(cell, others)?;
+        builder = several::trace(builder, options.trace.as_deref())?;
+    }
+    if let Some(io) = &options.io {
+        builder = builder.scenario(Scenario::load(io).map_err(SetupFailure::usage)?);
+    }
+    if let Some(trace) = &options.trace {
+        let file = File::create(trace);
+        builder = builder.trace(file.map_err(|error| SetupFailure::usage(format!("{}: {error}", trace.display())))?);
+    }
+    if options.report.is_some() {
+        builder = builder.record_motions();
+    }
+    if let Some(seed) = options.seed {
+        builder = builder.seed(seed);
+    }
+    // On the real clock the date is the world's.
+    let start = options.start_time.or_else(|| (options.clock == Some(Pace::Real)).then(time::of_the_world));
+    if let Some(start) = start {
+        builder = builder.start_date(start);
+    }
+    let state_dir = options.state_dir.unwrap_or_else(|| Path::new(&options.script_dir).join(STATE_DIR));
+    builder = builder.script_dir(options.script_dir).storage(Directory::new(state_dir));
+    Ok(match options.clock {
+        Some(Pace::Real) => builder.clock(RealClock::new()),
+        Some(Pace::Virtual) => builder.clock(VirtualClock::asked_for()),
+        None => builder.clock(VirtualClock::new()),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parsed(arguments: &[&str]) -> Result<Option<Options>, String> {
+        let arguments: Vec<OsString> = arguments.iter().map(Into::into).collect();
+        parse(arguments, "scripts").map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn options_are_read() {
+        assert!(parsed(&["--loop"]).unwrap().unwrap().repeats);
+        let options = parsed(&["--robot=six-10", "--clock", "real", "--max-time", "2.5", "--mode", "MANUAL"]);
+        let options = options.unwrap().unwrap();
+        assert_eq!(options.robot.as_deref(), Some("six-10"));
+        assert_eq!((options.clock, options.max_time, options.mode), (Some(Pace::Real), Some(2.5), Controlmode::Manual));
+        assert_eq!(options.script_dir, Path::new("scripts"));
+        assert_eq!(parsed(&["--help"]), Ok(None));
+        let report = |arguments: &[&str]| parsed(arguments).unwrap().unwrap().report;
+        assert_eq!(report(&["--report", "--seed", "1"]), Some(Report::Table));
+        assert_eq!(report(&["--report=r.jsonl"]), Some(Report::File("r.jsonl".into())));
+    }
+
+    #[test]
+    fn mistakes_say_what_was_expected() {
+        for (arguments, words) in [
+            (&["--clock", "fast"][..], "virtual or real"),
+            (&["--max-time", "-1"], "seconds, 0 or more"),
+            (&["--override", "120"], "percent from 0 to 100"),
+            (&["--mode", "t1"], "auto or manual or manufast"),
+            (&["--start-time", "then"], "2000-01-01T00:00:00"),
+            (&["--speed"], "--speed"),
+            (&["--seed"], "--seed"),
+            (&["file"], "file"),
+        ] {
+            let error = parsed(arguments).unwrap_err();
+            assert!(error.contains(words), "{error}");
+        }
+    }
+}

@@ -1,0 +1,214 @@
+//! What the motions of a run did, as a table for people and as JSON.
+
+use std::fmt::Write;
+use std::sync::Arc;
+
+use crate::command::json::quoted;
+use crate::motion::{Closest, MotionRecord, Rate};
+use crate::robot::Robot;
+
+/// Under the last three stands which limit of the kind was closest, and how much of it was used.
+const HEAD: [&str; 10] =
+    ["line", "motion", "runs", "programmed", "reached", "each", "blend", "closest vel", "acc", "jerk"];
+
+/// The table of each robot; with several, each has a headline. `time` is how long the programs ran, in s.
+pub(crate) fn tables(robots: &[(Arc<Robot>, Vec<MotionRecord>)], time: f64) -> String {
+    match robots {
+        [(robot, records)] => table(records, robot, time),
+        robots => {
+            let headed = |(at, (robot, records)): (usize, &(Arc<Robot>, Vec<MotionRecord>))| {
+                format!("channel {}, robot {}:\n{}", at + 1, robot.name, table(records, robot, time))
+            };
+            robots.iter().enumerate().map(headed).collect()
+        }
+    }
+}
+
+/// The same as JSON, robot by robot.
+pub(crate) fn all_json(robots: &[(Arc<Robot>, Vec<MotionRecord>)], time: f64) -> String {
+    let of_robot =
+        |(at, (robot, records)): (usize, &(Arc<Robot>, Vec<MotionRecord>))| json(at + 1, records, robot, time);
+    robots.iter().enumerate().map(of_robot).collect()
+}
+
+/// A table with one row for each line of the program, in the order of their first motions, and the figures of the cycle
+/// time: `time` is how long the program ran, in s.
+fn table(records: &[MotionRecord], robot: &Robot, time: f64) -> String {
+    let mut lines: Vec<Line<'_>> = Vec::new();
+    for record in executed(records) {
+        match lines.iter_mut().find(|line| line.is(record)) {
+            Some(line) => line.add(record),
+            None => lines.push(Line::of(record)),
+        }
+    }
+    let mut rows = vec![HEAD.map(str::to_owned)];
+    rows.extend(lines.iter().map(|line| line.cells(robot)));
+    let mut text = String::new();
+    if rows.len() > 1 {
+        let width = |at: usize| rows.iter().filter_map(|row| row.get(at)).map(|cell| cell.chars().count()).max();
+        for row in &rows {
+            let mut shown = String::new();
+            for (at, cell) in row.iter().enumerate() {
+                let width = width(at).unwrap_or(0);
+                // Words to the left, numbers to the right.
+                let _ = match HEAD.get(at) {
+                    Some(&"motion") => write!(shown, "{cell:width$}  "),
+                    _ => write!(shown, "{cell:>width$}  "),
+                };
+            }
+            text.push_str(shown.trim_end());
+            text.push('\n');
+        }
+    }
+    text + &summary(records, time)
+}
+
+fn summary(records: &[MotionRecord], time: f64) -> String {
+    let moving = sum(records, |record| record.duration);
+    let metres = sum(records, |record| record.way) / 1000.0;
+    let count = executed(records).count();
+    let motions = if count == 1 { "1 motion".to_owned() } else { format!("{count} motions") };
+    let percent = if time > 0.0 { 100.0 * moving / time } else { 0.0 };
+    let standing = (time - moving).max(0.0);
+    format!(
+        "cycle time {time:.3} s: {moving:.3} s moving ({percent:.0} %), {standing:.3} s standing; {motions}, {metres:.3} m\n"
+    )
+}
+
+/// One JSON object a line: each motion of a channel that began, then the figures of its cycle time.
+fn json(channel: usize, records: &[MotionRecord], robot: &Robot, time: f64) -> String {
+    let mut text = String::new();
+    for record in executed(records) {
+        let MotionRecord { number, line, kind, programmed, reached, duration, way, .. } = record;
+        let start = record.start.unwrap_or_default();
+        let _ = write!(
+            text,
+            "{{\"channel\":{channel},\"motion\":{number},\"line\":{line},\"kind\":\"{kind}\",\"unit\":\"{}\",\"programmed\":{:.6},\
+             \"reached\":{reached:.6},\"start\":{start:.6},\"duration\":{duration:.6},\"way\":{way:.6}",
+            programmed.unit, programmed.value
+        );
+        if let Some(blend) = record.blend {
+            let (unit, asked, used) = (blend.unit, blend.asked, blend.used);
+            let _ = write!(text, ",\"blend\":{{\"unit\":\"{unit}\",\"asked\":{asked:.6},\"used\":{used:.6}}}");
+        }
+        text.push_str(",\"closest\":{");
+        for (at, closest) in record.closest().into_iter().flatten().enumerate() {
+            let (comma, rate) = (if at > 0 { "," } else { "" }, rate(&closest));
+            let (of, percent) = (quoted(closest.name(robot)), 100.0 * closest.share);
+            let _ = write!(text, "{comma}\"{rate}\":{{\"of\":{of},\"percent\":{percent:.3}}}");
+        }
+        text.push('}');
+        text.push_str("}\n");
+    }
+    let moving = sum(records, |record| record.duration);
+    let _ = writeln!(
+        text,
+        "{{\"channel\":{channel},\"cycle_time\":{time:.6},\"moving\":{moving:.6},\"standing\":{:.6},\"motions\":{}}}",
+        (time - moving).max(0.0),
+        executed(records).count()
+    );
+    text
+}
+
+fn rate(closest: &Closest) -> &'static str {
+    match closest.rate {
+        Rate::Vel => "vel",
+        Rate::Acc => "acc",
+        Rate::Jerk => "jerk",
+    }
+}
+
+/// Over the motions that began; 0 without any, not the -0 that sums of nothing are.
+fn sum(records: &[MotionRecord], of: impl Fn(&MotionRecord) -> f64) -> f64 {
+    executed(records).map(of).fold(0.0, |sum, value| sum + value)
+}
+
+/// The motions that began.
+fn executed(records: &[MotionRecord]) -> impl Iterator<Item = &MotionRecord> {
+    records.iter().filter(|record| record.start.is_some())
+}
+
+/// The motions of one line of the program, and of one kind: in several files, lines have the same numbers.
+struct Line<'a> {
+    first: &'a MotionRecord,
+    runs: u32,
+    duration: f64,
+    /// Lowest and highest of what was programmed and of what was reached.
+    programmed: [f64; 2],
+    reached: [f64; 2],
+    /// The blend of which least was used.
+    blend: &'a MotionRecord,
+    /// What came nearest to a limit of speed, acceleration and jerk.
+    closest: [Option<Closest>; 3],
+}
+
+impl<'a> Line<'a> {
+    fn of(record: &'a MotionRecord) -> Self {
+        Self {
+            first: record,
+            runs: 1,
+            duration: record.duration,
+            programmed: [record.programmed.value; 2],
+            reached: [record.reached; 2],
+            blend: record,
+            closest: record.closest(),
+        }
+    }
+
+    fn is(&self, record: &MotionRecord) -> bool {
+        let first = self.first;
+        (first.line, first.kind, first.programmed.unit) == (record.line, record.kind, record.programmed.unit)
+    }
+
+    fn add(&mut self, record: &'a MotionRecord) {
+        self.runs += 1;
+        self.duration += record.duration;
+        let widened = |[low, high]: [f64; 2], value: f64| [low.min(value), high.max(value)];
+        self.programmed = widened(self.programmed, record.programmed.value);
+        self.reached = widened(self.reached, record.reached);
+        let used = |record: &MotionRecord| record.blend.map_or(f64::INFINITY, |blend| blend.used / blend.asked);
+        if used(record) < used(self.blend) {
+            self.blend = record;
+        }
+        let share = |closest: &Option<Closest>| closest.map_or(0.0, |closest| closest.share);
+        for (best, closest) in self.closest.iter_mut().zip(record.closest()) {
+            if share(&closest) > share(best) {
+                *best = closest;
+            }
+        }
+    }
+
+    fn cells(&self, robot: &Robot) -> [String; 10] {
+        let unit = self.first.programmed.unit;
+        let blend = self.blend.blend.map_or_else(String::new, |blend| {
+            format!("{} of {} {}", short(blend.used), short(blend.asked), blend.unit)
+        });
+        let [vel, acc, jerk] = self.closest.map(|closest| {
+            closest.map_or_else(String::new, |it| format!("{} {:.0} %", it.name(robot), 100.0 * it.share))
+        });
+        [
+            self.first.line.to_string(),
+            self.first.kind.to_owned(),
+            self.runs.to_string(),
+            range(self.programmed, unit),
+            range(self.reached, unit),
+            format!("{:.3} s", self.duration / f64::from(self.runs)),
+            blend,
+            vel,
+            acc,
+            jerk,
+        ]
+    }
+}
+
+/// `200 mm/s`, or `180..200 mm/s`.
+fn range([low, high]: [f64; 2], unit: &str) -> String {
+    let (low, high) = (short(low), short(high));
+    if low == high { format!("{low} {unit}") } else { format!("{low}..{high} {unit}") }
+}
+
+/// At most one place, three for small numbers.
+fn short(value: f64) -> String {
+    let text = if value.abs() < 9.95 { format!("{value:.2}") } else { format!("{value:.1}") };
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}

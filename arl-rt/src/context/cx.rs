@@ -1,0 +1,450 @@
+//! What a running program sees of the controller.
+
+use std::any::Any;
+use std::cell::{Cell, RefCell};
+use std::fmt;
+use std::pin::Pin;
+use std::rc::Rc;
+use std::task::{Context, Poll};
+
+use crate::builtins::event::Table;
+use crate::builtins::text::Targets;
+use crate::communication::Connections;
+use crate::context::lane::Lane;
+use crate::context::program::Program;
+use crate::context::system::System;
+use crate::context::world::World;
+use crate::fault::{Alarm, Fault, File};
+use crate::motion::Progress;
+use crate::robot::Family;
+use crate::values::Str;
+
+/// How many turns of loops that do not wait fit into one cycle. A turn is a few nanoseconds at least, so that a cycle
+/// without waiting takes some tens of microseconds.
+const BUDGET: u32 = 20_000;
+
+/// The view of the controller that a program has: passed to every function that acts, moves or waits.
+///
+/// Everything here happens on the thread of the controller; nothing locks.
+pub struct Cx {
+    lane: Rc<Lane>,
+    /// Turns of loops that are left in this cycle.
+    budget: Cell<u32>,
+    /// The address below which the stack must not grow.
+    stack_floor: Cell<usize>,
+    program: Rc<dyn Program>,
+    file: Cell<File>,
+    line: Cell<u32>,
+    /// Whether the statement that runs has been counted as a step.
+    stepped: Cell<bool>,
+    /// The kind of way that the last motion may go on with the next.
+    chained: Cell<u8>,
+    /// Where `print` sends its messages until it is told otherwise.
+    print_to: Cell<Targets>,
+    /// The file that `print` writes to until it is told otherwise.
+    print_file: RefCell<Str>,
+    /// Whether the program has moved the robot.
+    moved: Cell<bool>,
+    /// What runs: the program itself, the action of an event, a condition.
+    level: Cell<Level>,
+    /// The interrupts, timers and triggers that the program has declared.
+    events: RefCell<Table>,
+    /// The connections that the program has opened.
+    connections: Connections,
+    /// The motion that triggers are asked about, where that is not the one being executed.
+    looked_at: Cell<Option<Progress>>,
+}
+
+/// What of the program runs: which motion it waits for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Level {
+    /// 0 for the program itself, 1 for the action that interrupts it, 2 for one that interrupts that.
+    pub(crate) number: u32,
+    /// For actions: the running number of the last motion of their own, 0 before the first.
+    own_motion: Option<u64>,
+}
+
+/// The program pointer.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pointer {
+    place: (File, u32),
+    /// Whether the statement has been counted as a step.
+    stepped: bool,
+}
+
+impl Level {
+    /// The program itself: it waits for all motion.
+    pub(crate) const PROGRAM: Self = Self { number: 0, own_motion: None };
+    /// A condition that is looked at: it waits for none.
+    pub(crate) const LOOKING: Self = Self { number: u32::MAX, own_motion: Some(0) };
+
+    /// The action of an event, so many levels above the program: it waits for its own motion.
+    pub(crate) fn action(number: u32) -> Self {
+        Self { number, own_motion: Some(0) }
+    }
+}
+
+impl Cx {
+    pub(crate) fn new(lane: Rc<Lane>, program: Rc<dyn Program>) -> Self {
+        let file = program.file();
+        Self {
+            lane,
+            budget: Cell::new(BUDGET),
+            stack_floor: Cell::new(0),
+            program,
+            file: Cell::new(file),
+            line: Cell::new(0),
+            stepped: Cell::new(false),
+            chained: Cell::new(0),
+            print_to: Cell::default(),
+            print_file: RefCell::default(),
+            moved: Cell::new(false),
+            level: Cell::new(Level::PROGRAM),
+            events: RefCell::default(),
+            connections: Connections::default(),
+            looked_at: Cell::new(None),
+        }
+    }
+
+    /// Sets the program pointer: the line whose statement runs now.
+    #[inline]
+    pub fn line(&self, file: File, line: u32) {
+        self.file.set(file);
+        self.line.set(line);
+        self.stepped.set(false);
+    }
+
+    /// The file and line of the statement that runs now.
+    #[inline]
+    pub fn place(&self) -> (File, u32) {
+        (self.file.get(), self.line.get())
+    }
+
+    /// The program pointer, for [`Cx::point_to`].
+    pub(crate) fn pointer(&self) -> Pointer {
+        Pointer { place: self.place(), stepped: self.stepped.get() }
+    }
+
+    /// Sets the program pointer to where it was.
+    pub(crate) fn point_to(&self, pointer: Pointer) {
+        let (file, line) = pointer.place;
+        self.line(file, line);
+        self.stepped.set(pointer.stepped);
+    }
+
+    /// Counts one turn of a loop. True when the loop has to give the cycle back:
+    /// `if cx.spend() { cx.next_cycle().await; }`.
+    #[inline]
+    pub fn spend(&self) -> bool {
+        self.spend_rounds(1)
+    }
+
+    /// Counts so many turns of loops, as [`Cx::spend`] counts one.
+    #[inline]
+    pub fn spend_rounds(&self, rounds: u32) -> bool {
+        let left = self.budget.get();
+        // One instruction: whoever has too little left waits for the next cycle, which brings a whole budget.
+        self.budget.set(left.wrapping_sub(rounds));
+        left < rounds
+    }
+
+    /// Waits for the next cycle.
+    #[inline]
+    pub fn next_cycle(&self) -> NextCycle<'_> {
+        NextCycle { cx: self, from: self.cycle() }
+    }
+
+    /// The running number of the cycle, from 0.
+    #[inline]
+    pub fn cycle(&self) -> u64 {
+        self.lane.world.now.get()
+    }
+
+    /// The time of the controller in s: that of the start of this cycle.
+    #[inline]
+    pub fn time(&self) -> f64 {
+        self.lane.world.rate.time(self.cycle())
+    }
+
+    /// The length of a cycle in s.
+    #[inline]
+    pub fn period(&self) -> f64 {
+        self.lane.world.rate.period()
+    }
+
+    /// The system variables.
+    #[inline]
+    pub fn system(&self) -> &System {
+        &self.lane.system
+    }
+
+    /// Checks that there is room on the stack for one more function. Functions ask before they call themselves.
+    ///
+    /// # Errors
+    /// [`Fault::Depth`]: functions call each other too deep.
+    #[inline]
+    pub fn enter(&self) -> Result<(), Fault> {
+        if stack_pointer() < self.stack_floor.get() { Err(Fault::Depth) } else { Ok(()) }
+    }
+
+    /// The global variables of the program that runs: what `G` is must be known, as conditions and actions do that outlive
+    /// the function that declares them.
+    ///
+    /// # Errors
+    /// They are not a `G`.
+    pub fn globals<G: Any>(&self) -> Result<&G, Fault> {
+        let found = self.program.globals().downcast_ref();
+        found.ok_or_else(|| Fault::Event("the interrupt belongs to another program".into()))
+    }
+
+    /// Gives the program a whole cycle's budget, and so many bytes of stack below the caller.
+    pub(crate) fn start_cycle(&self, stack: usize) {
+        self.budget.set(BUDGET);
+        self.stack_floor.set(stack_pointer().saturating_sub(stack));
+    }
+
+    /// Gives what runs a whole cycle's budget; returns what was left.
+    pub(crate) fn renew_budget(&self) -> u32 {
+        self.budget.replace(BUDGET)
+    }
+
+    /// Gives back what was left.
+    pub(crate) fn restore_budget(&self, budget: u32) {
+        self.budget.set(budget);
+    }
+
+    /// The interrupts, timers and triggers that the program has declared.
+    pub(crate) fn events(&self) -> &RefCell<Table> {
+        &self.events
+    }
+
+    /// The connections that the program has opened.
+    pub(crate) fn connections(&self) -> &Connections {
+        &self.connections
+    }
+
+    /// How far the motion has come that is being executed, or that triggers are asked about.
+    pub(crate) fn progress(&self) -> Option<Progress> {
+        self.looked_at.get().or_else(|| self.lane.robot()?.progress())
+    }
+
+    /// Lets a condition see a motion as it was when it ended.
+    pub(crate) fn look_back<R>(&self, end: Progress, look: impl FnOnce() -> R) -> R {
+        self.looked_at.set(Some(end));
+        self.lane.tell_progress(&end);
+        let result = look();
+        self.looked_at.set(None);
+        if let Some(now) = self.progress() {
+            self.lane.tell_progress(&now);
+        }
+        result
+    }
+
+    /// What of the program runs.
+    pub(crate) fn level(&self) -> Level {
+        self.level.get()
+    }
+
+    /// Runs something else of the program; returns what ran before, for [`Cx::leave_level`].
+    pub(crate) fn enter_level(&self, level: Level) -> Level {
+        self.level.replace(level)
+    }
+
+    /// Goes back to what ran before.
+    pub(crate) fn leave_level(&self, before: Level) {
+        self.level.set(before);
+    }
+
+    /// Forgets what the program before has set.
+    pub(crate) fn reset(&self) {
+        self.print_to.take();
+        self.print_file.take();
+        self.moved.set(false);
+        self.line.set(0);
+        self.forget_events();
+    }
+
+    /// Forgets what has been declared; the program itself runs.
+    pub(crate) fn forget_events(&self) {
+        self.events.borrow_mut().clear();
+        self.level.set(Level::PROGRAM);
+    }
+
+    /// The program's own file.
+    pub(crate) fn program(&self) -> File {
+        self.program.file()
+    }
+
+    /// The program that runs.
+    pub(crate) fn program_itself(&self) -> &dyn Program {
+        &*self.program
+    }
+
+    /// The kind of robot that the program is for.
+    pub(crate) fn family(&self) -> Family {
+        self.program.family()
+    }
+
+    /// Whether the program has moved the robot yet.
+    pub(crate) fn has_moved(&self) -> bool {
+        self.moved.get()
+    }
+
+    /// Notes that the program has planned the motion with this running number.
+    pub(crate) fn moved(&self, motion: u64) {
+        self.moved.set(true);
+        let level = self.level.get();
+        self.level.set(Level { own_motion: level.own_motion.map(|_| motion), ..level });
+        self.events.borrow_mut().bind(level.number, motion);
+    }
+
+    /// Notes the kind of way that a motion may go on with the next, 0 for none; returns that of the one before.
+    pub(crate) fn chain(&self, kind: u8) -> u8 {
+        self.chained.replace(kind)
+    }
+
+    /// What all channels share.
+    #[inline]
+    pub(crate) fn world(&self) -> &World {
+        &self.lane.world
+    }
+
+    /// What is the channel's own.
+    #[inline]
+    pub(crate) fn lane(&self) -> &Lane {
+        &self.lane
+    }
+
+    /// Ends the program with the alarm that this function needs a robot; it goes on with a start value until it waits.
+    #[cold]
+    pub(crate) fn without_robot<T: Default>(&self, function: &'static str) -> T {
+        let (file, line) = self.place();
+        self.lane.trouble(Alarm::new(Fault::Background { function }, file, line));
+        T::default()
+    }
+
+    /// Where `print` sends its messages until it is told otherwise, and which file is meant by `file`.
+    pub(crate) fn print_to(&self) -> (&Cell<Targets>, &RefCell<Str>) {
+        (&self.print_to, &self.print_file)
+    }
+
+    /// The running number of the motion that the next instruction comes behind; 0: there is none. An action knows of its own
+    /// motions only.
+    pub(crate) fn last_motion(&self) -> u64 {
+        self.level.get().own_motion.unwrap_or_else(|| self.lane.motions().0)
+    }
+
+    /// Whether the motion has ended that is waited for: all of it, by actions their own.
+    #[inline]
+    fn is_motion_over(&self) -> bool {
+        match self.level.get().own_motion {
+            None => self.lane.motion_ended_for(self.level.get().number),
+            Some(own) => own == 0 || self.lane.has_motion_ended(own),
+        }
+    }
+
+    /// Before an instruction that moves, waits or touches the outside: in single steps the program waits here until the one before
+    /// it is done, and for the button.
+    pub(crate) async fn step_point(&self) {
+        let stepping = &self.lane.stepping;
+        if !stepping.on.get() || self.level.get().number != 0 || self.stepped.replace(true) {
+            return;
+        }
+        while self.lane.in_trouble() || !self.is_motion_over() {
+            self.lane.conclude_motion();
+            self.next_cycle().await;
+        }
+        if stepping.left.get() == 0 && stepping.on.get() {
+            self.lane.paused.set(true);
+            self.next_cycle().await;
+        }
+        stepping.left.set(0);
+    }
+
+    /// In single steps: another step within the same instruction.
+    pub(crate) async fn next_step(&self) {
+        self.stepped.set(false);
+        self.step_point().await;
+    }
+
+    /// Waits until all motion that the program has planned has ended; in the action of an event, all of its own. Where there
+    /// is none, it still counts as a turn of a loop, so that a loop of such calls cannot hold up the controller.
+    #[inline]
+    pub(crate) async fn motion_end(&self) {
+        if self.lane.stepping.on.get() {
+            self.step_point().await;
+        }
+        if self.spend() {
+            self.next_cycle().await;
+        }
+        if self.is_motion_over() {
+            return;
+        }
+        self.lane.conclude_motion();
+        while self.lane.in_trouble() || !self.is_motion_over() {
+            self.next_cycle().await;
+        }
+    }
+}
+
+impl fmt::Debug for Cx {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Cx").field("channel", &self.lane.id).field("place", &self.place()).finish_non_exhaustive()
+    }
+}
+
+/// The address of about the top of the stack. Stacks grow downwards wherever this crate runs.
+#[inline(always)]
+fn stack_pointer() -> usize {
+    let here = 0_u8;
+    (&raw const here) as usize
+}
+
+/// Ready in the cycle after the one in which it was made.
+#[derive(Debug)]
+#[must_use = "a future does nothing until it is awaited"]
+pub struct NextCycle<'a> {
+    cx: &'a Cx,
+    from: u64,
+}
+
+impl<'a> NextCycle<'a> {
+    /// The same, with values that are given back afterwards. A variable whose value is kept here need not live across
+    /// the wait, so that the compiler can have it in a register.
+    #[inline]
+    pub fn keeping<T: Copy>(self, values: T) -> Keeping<'a, T> {
+        Keeping { next: self, values }
+    }
+}
+
+/// Values that are ready in the next cycle.
+#[derive(Debug)]
+#[must_use = "a future does nothing until it is awaited"]
+pub struct Keeping<'a, T> {
+    next: NextCycle<'a>,
+    values: T,
+}
+
+impl<T: Copy> Future for Keeping<'_, T> {
+    type Output = T;
+
+    #[inline]
+    fn poll(self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<T> {
+        if self.next.is_over() { Poll::Ready(self.values) } else { Poll::Pending }
+    }
+}
+
+impl NextCycle<'_> {
+    fn is_over(&self) -> bool {
+        self.cx.cycle() != self.from
+    }
+}
+
+impl Future for NextCycle<'_> {
+    type Output = ();
+
+    #[inline]
+    fn poll(self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<()> {
+        if self.is_over() { Poll::Ready(()) } else { Poll::Pending }
+    }
+}

@@ -1,0 +1,299 @@
+//! What is one channel's own: its robot, its modal system variables, and how its program fares.
+
+use std::cell::{Cell, Ref, RefCell, RefMut};
+use std::rc::Rc;
+
+use crate::context::program::Program;
+use crate::context::system::System;
+use crate::context::world::World;
+use crate::cycle::channel_id::ChannelId;
+use crate::fault::{Alarm, Fault, File};
+use crate::motion::{Progress, UnblendedTarget};
+use crate::robot::VelocityProfile;
+use crate::storage::pointers::Kept;
+use crate::unit::{Collision, SENSITIVITY, Unit, joint};
+use crate::values::VelProfile;
+use arl_robot::cell::Sensitivity;
+
+/// What is one channel's own, whatever program it runs. Borrows of the cells end within the call that makes them.
+pub(crate) struct Lane {
+    pub(crate) world: Rc<World>,
+    pub(crate) id: ChannelId,
+    /// Its place among all channels, from 0, the foreground channels first.
+    pub(crate) index: usize,
+    pub(crate) system: System,
+    /// The robot; a background channel has none.
+    unit: Option<Rc<RefCell<Unit>>>,
+    /// Where a program stood here before the controller was switched on.
+    kept: Kept,
+    /// Whether a program has run here since.
+    pub(crate) begun: Cell<bool>,
+    /// Whether the program waits for the start button.
+    pub(crate) paused: Cell<bool>,
+    /// The program that shall run here instead of the one that does.
+    next: RefCell<Option<Rc<dyn Program>>>,
+    pub(crate) stepping: Stepping,
+    /// Whether a program that comes to its end is reset and begins again.
+    pub(crate) repeats: Cell<bool>,
+    /// Whether an alarm has ended the program and nobody has acknowledged it.
+    pub(crate) alarmed: Cell<bool>,
+    /// What went wrong apart from the statement that runs, and ends the program.
+    trouble: RefCell<Option<Alarm>>,
+    /// Home points 1 to 5.
+    homes: [Option<Vec<f64>>; 5],
+    home_tolerance: f64,
+    /// The conditions of `startdetect` that the cell gives.
+    collisions: Vec<(u8, Sensitivity)>,
+}
+
+/// Single steps.
+#[derive(Default)]
+pub(crate) struct Stepping {
+    /// Whether the program goes on step by step.
+    pub(crate) on: Cell<bool>,
+    /// How many instructions may still be executed.
+    pub(crate) left: Cell<u32>,
+    /// The motion with which the step ends, where it is planned already.
+    pub(crate) until: Cell<Option<u64>>,
+}
+
+/// The robot of a foreground channel, and what the cell says of it.
+pub(crate) struct Station {
+    pub(crate) unit: Rc<RefCell<Unit>>,
+    /// Home points 2 to 5.
+    pub(crate) homes: [Option<Vec<f64>>; 4],
+    pub(crate) home_tolerance: f64,
+    pub(crate) collisions: Vec<(u8, Sensitivity)>,
+    pub(crate) kept: Kept,
+}
+
+impl Lane {
+    /// A foreground channel.
+    pub(crate) fn foreground(world: Rc<World>, id: ChannelId, index: usize, system: System, station: Station) -> Self {
+        let Station { unit, homes: [second, third, fourth, fifth], home_tolerance, collisions, kept } = station;
+        let homes = [Some(unit.borrow().robot().home.clone()), second, third, fourth, fifth];
+        Self { homes, home_tolerance, collisions, kept, unit: Some(unit), ..Self::background(world, id, index, system) }
+    }
+
+    /// A background channel.
+    pub(crate) fn background(world: Rc<World>, id: ChannelId, index: usize, system: System) -> Self {
+        Self {
+            world,
+            id,
+            index,
+            system,
+            unit: None,
+            kept: Kept::default(),
+            begun: Cell::new(false),
+            paused: Cell::new(false),
+            next: RefCell::default(),
+            stepping: Stepping::default(),
+            repeats: Cell::new(false),
+            alarmed: Cell::new(false),
+            trouble: RefCell::default(),
+            homes: [const { None }; 5],
+            home_tolerance: 0.0,
+            collisions: Vec::new(),
+        }
+    }
+
+    /// Where a program stood here before the controller was switched on.
+    pub(crate) fn kept(&self) -> &Kept {
+        &self.kept
+    }
+
+    /// The robot, for an instruction or function that a background channel cannot have.
+    ///
+    /// # Errors
+    /// [`Fault::Background`].
+    #[inline]
+    pub(crate) fn unit(&self, function: &'static str) -> Result<Ref<'_, Unit>, Fault> {
+        self.robot().ok_or(Fault::Background { function })
+    }
+
+    /// The robot, to be changed by an instruction that a background channel cannot have.
+    ///
+    /// # Errors
+    /// [`Fault::Background`].
+    #[inline]
+    pub(crate) fn unit_mut(&self, function: &'static str) -> Result<RefMut<'_, Unit>, Fault> {
+        self.robot_mut().ok_or(Fault::Background { function })
+    }
+
+    /// The robot, if there is one, to be held on to.
+    pub(crate) fn shared_unit(&self) -> Option<&Rc<RefCell<Unit>>> {
+        self.unit.as_ref()
+    }
+
+    /// The robot, if there is one.
+    #[inline]
+    pub(crate) fn robot(&self) -> Option<Ref<'_, Unit>> {
+        Some(self.unit.as_ref()?.borrow())
+    }
+
+    /// The robot, if there is one, to be changed.
+    #[inline]
+    pub(crate) fn robot_mut(&self) -> Option<RefMut<'_, Unit>> {
+        Some(self.unit.as_ref()?.borrow_mut())
+    }
+
+    /// Sets the system variables of the manual's chapter 10.2 to their defaults.
+    pub(crate) fn reset_system(&self) {
+        self.system.reset();
+        let Some(unit) = self.robot() else { return };
+        self.system.vel_profile.set(match unit.robot().profile {
+            VelocityProfile::T => VelProfile::T,
+            VelocityProfile::S => VelProfile::S,
+            VelocityProfile::O => VelProfile::O,
+        });
+        self.system.cjoint.set(joint(unit.target()));
+    }
+
+    /// Stops all motion on its path and drops what was to follow.
+    pub(crate) fn stop_motion(&self) {
+        self.world.io.borrow_mut().forget_motion(self.index);
+        if let Some(mut unit) = self.robot_mut() {
+            unit.stop();
+        }
+    }
+
+    /// The sensitivity of a condition of `startdetect`.
+    pub(crate) fn sensitivity(&self, cid: u8) -> Sensitivity {
+        let given = self.collisions.iter().rev().find(|(known, _)| *known == cid);
+        given.map_or(Sensitivity::Percent(SENSITIVITY), |(_, sensitivity)| sensitivity.clone())
+    }
+
+    /// The collision of this cycle, if there was one, as the alarm of the motion that met it; where the robot stands, as that of
+    /// the instruction that the program is at. The robot is told to stop.
+    pub(crate) fn collision(&self, place: (File, u32)) -> Option<Alarm> {
+        let mut unit = self.robot_mut()?;
+        let Collision { axis, surplus, allowed } = unit.take_collision()?;
+        let (file, line) = unit.motion_pointer().filter(|_| !unit.ended()).unwrap_or(place);
+        unit.stop_fast();
+        let (name, measure) = match unit.robot().own_axes().get(axis) {
+            Some(axis) => (axis.name.as_str(), if axis.linear { "N" } else { "Nm" }),
+            None => ("an axis", "Nm"),
+        };
+        let more = if surplus > 0.0 { "more" } else { "less" };
+        let text = format!(
+            "collision: {name} gives {:.1} {measure} {more} than the motion and the load ask for, {allowed:.1} {measure} \
+             are allowed",
+            surplus.abs()
+        );
+        Some(Alarm::new(Fault::Collision(text.into()), file, line))
+    }
+
+    /// Brings the variables up to date that tell where the robot is.
+    pub(crate) fn update_system(&self, unit: &Unit) {
+        let system = &self.system;
+        // Outside a motion they keep what the last one left.
+        if let Some(progress) = unit.progress() {
+            self.tell_progress(&progress);
+        }
+        system.at_home.update(|at_home| {
+            for (at, home) in at_home.iter_mut().zip(&self.homes) {
+                *at = home.as_ref().is_some_and(|home| unit.is_at(home, self.home_tolerance));
+            }
+        });
+    }
+
+    /// Sets the variables that tell how far the motion has come.
+    pub(crate) fn tell_progress(&self, progress: &Progress) {
+        let system = &self.system;
+        system.traj_elapse_time.set(progress.elapsed_time);
+        system.traj_left_time.set(progress.left_time);
+        system.traj_elapse_dis.set(progress.elapsed_distance);
+        system.traj_left_dis.set(progress.left_distance);
+    }
+
+    /// Whether all planned motion has ended and the robot has settled.
+    #[inline]
+    pub(crate) fn motion_ended(&self) -> bool {
+        self.robot().is_none_or(|unit| unit.ended())
+    }
+
+    /// The same for those of a level of the program: they do not wait for what they have stopped.
+    #[inline]
+    pub(crate) fn motion_ended_for(&self, level: u32) -> bool {
+        self.robot().is_none_or(|unit| unit.ended_for(level))
+    }
+
+    /// Whether the motion with this running number has ended, and the robot has settled, unless there are others behind it.
+    pub(crate) fn has_motion_ended(&self, motion: u64) -> bool {
+        let Some(unit) = self.robot() else { return true };
+        unit.has_ended(motion) && (unit.motions().0 > motion || unit.moves() || unit.is_settled())
+    }
+
+    /// Drops motion that is stopped and that nobody has started again; returns whether there was some.
+    pub(crate) fn drop_aside(&self) -> bool {
+        self.robot_mut().is_some_and(|mut unit| unit.drop_aside())
+    }
+
+    /// The running numbers of the motion planned last and of the one that ended last.
+    pub(crate) fn motions(&self) -> (u64, u64) {
+        self.robot().map_or((0, 0), |unit| unit.motions())
+    }
+
+    /// Says that the program waits for the robot: motions that waited for the next one go without it.
+    pub(crate) fn conclude_motion(&self) {
+        let concluded = self.robot_mut().map_or(Ok(()), |mut unit| unit.conclude());
+        if let Err(alarm) = concluded {
+            self.trouble(alarm);
+        }
+    }
+
+    /// Wants another program to run here.
+    ///
+    /// # Errors
+    /// It is for another build of robot, or another one is about to be loaded.
+    pub(crate) fn load(&self, program: Rc<dyn Program>) -> Result<(), String> {
+        if self.robot().is_some_and(|unit| unit.robot().family != program.family()) {
+            return Err(format!("{} is for another build of robot than that of {}", program.file().name(), self.id));
+        }
+        let mut next = self.next.borrow_mut();
+        if next.is_some() {
+            return Err(format!("another program is being loaded into {}", self.id));
+        }
+        *next = Some(program);
+        Ok(())
+    }
+
+    /// Whether another program is about to be loaded.
+    pub(crate) fn is_loading(&self) -> bool {
+        self.next.borrow().is_some()
+    }
+
+    /// The program that shall run here now.
+    pub(crate) fn take_next(&self) -> Option<Rc<dyn Program>> {
+        self.next.borrow_mut().take()
+    }
+
+    /// Ends the program with an alarm that is not that of the statement that runs. The first one counts.
+    pub(crate) fn trouble(&self, alarm: Alarm) {
+        self.trouble.borrow_mut().get_or_insert(alarm);
+    }
+
+    /// Whether the program is about to be ended by [`Lane::trouble`].
+    pub(crate) fn in_trouble(&self) -> bool {
+        self.trouble.borrow().is_some()
+    }
+
+    /// Warns of targets that are not rounded off though they should be.
+    pub(crate) fn tell_of_corners(&self, world: &World) {
+        let Some(mut unit) = self.robot_mut() else { return };
+        if let Some((file, UnblendedTarget { line, .. })) = unit.take_late() {
+            let file = file.name();
+            world.warn(format!("{file}:{line}: the motion came too late to be blended with the one before it: the robot stops between the two"));
+        }
+        if let Some((file, UnblendedTarget { line, corner: Some(corner), .. })) = unit.take_unblended() {
+            let file = file.name();
+            world.warn(format!("{file}:{line}: the target of the motion of line {corner} is not rounded off but reached with a stop: beside it the robot would leave its reach or an axis's range, or meet a singular point"));
+        }
+    }
+
+    /// What went wrong apart from the statement that runs.
+    pub(crate) fn take_trouble(&self) -> Option<Alarm> {
+        let broken = self.robot_mut().and_then(|mut unit| unit.take_broken());
+        self.trouble.borrow_mut().take().or(broken)
+    }
+}

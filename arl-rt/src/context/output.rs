@@ -1,0 +1,107 @@
+//! Where messages go: what `print` sends to the operator panel and the terminal.
+
+use std::cell::RefCell;
+use std::fmt;
+use std::io::Write;
+use std::rc::Rc;
+
+use crate::cycle::channel_id::ChannelId;
+
+/// A message of a program.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Message<'a> {
+    /// Controller time in s.
+    pub time: f64,
+    /// The channel whose program says it.
+    pub channel: ChannelId,
+    /// Whether it goes to the operator panel.
+    pub hmi: bool,
+    /// Whether it goes to the terminal.
+    pub console: bool,
+    /// The text as it was printed: as a rule UTF-8, without a newline that the program did not print.
+    pub text: &'a [u8],
+}
+
+/// Takes the messages of a program. Any closure that takes a [`Message`] is one.
+pub trait Output {
+    /// Takes a message. One that goes to the operator panel and the terminal comes once.
+    fn message(&mut self, message: &Message<'_>);
+
+    /// Called at the end of a cycle with messages.
+    fn flush(&mut self) {}
+}
+
+impl<F: FnMut(&Message<'_>)> Output for F {
+    fn message(&mut self, message: &Message<'_>) {
+        self(message);
+    }
+}
+
+/// Writes messages to a stream, each ended by a newline.
+pub struct Stream<W: Write>(std::io::BufWriter<W>);
+
+impl<W: Write> Stream<W> {
+    /// A buffer before the stream; it is emptied at the end of each cycle with messages.
+    pub fn new(stream: W) -> Self {
+        Self(std::io::BufWriter::new(stream))
+    }
+}
+
+impl Stream<std::io::Stdout> {
+    /// The standard output.
+    pub fn standard() -> Self {
+        Self::new(std::io::stdout())
+    }
+}
+
+impl<W: Write> fmt::Debug for Stream<W> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Stream")
+    }
+}
+
+impl<W: Write> Output for Stream<W> {
+    fn message(&mut self, message: &Message<'_>) {
+        // Nobody may read the other end any more; a robot does not stop for that.
+        let _ = self.0.write_all(message.text);
+        if !message.text.ends_with(b"\n") {
+            let _ = self.0.write_all(b"\n");
+        }
+    }
+
+    fn flush(&mut self) {
+        let _ = self.0.flush();
+    }
+}
+
+/// Keeps messages as text, each ended by a newline. Clones share what they keep, so that one can be handed to the
+/// controller and the other be read.
+#[derive(Clone, Default, Debug)]
+pub struct Captured(Rc<RefCell<Vec<u8>>>);
+
+impl Captured {
+    /// Nothing yet.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// All that came so far.
+    pub fn text(&self) -> String {
+        String::from_utf8_lossy(&self.0.borrow()).into_owned()
+    }
+
+    /// All that came since the last call.
+    pub fn take(&self) -> String {
+        String::from_utf8_lossy(&std::mem::take(&mut *self.0.borrow_mut())).into_owned()
+    }
+}
+
+impl Output for Captured {
+    fn message(&mut self, message: &Message<'_>) {
+        let mut kept = self.0.borrow_mut();
+        kept.extend_from_slice(message.text);
+        if !message.text.ends_with(b"\n") {
+            kept.push(b'\n');
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! What the controller runs: a program, as the emitted code describes it.
+
+use std::any::Any;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::pin::Pin;
+
+use crate::context::cx::Cx;
+use crate::fault::{Done, File};
+use crate::robot::Family;
+use crate::storage::data::Teach;
+
+/// A piece of program that the controller polls once a cycle.
+pub type BoxFuture<'a> = Pin<Box<dyn Future<Output = Done<()>> + 'a>>;
+
+/// A piece of program that owns what it borrows from.
+pub(crate) type Running = BoxFuture<'static>;
+
+/// What can be looked for by its type.
+pub trait AsAny: Any {
+    /// The same, of which the type can be asked.
+    fn as_any(&self) -> &dyn Any;
+}
+
+impl<T: Any> AsAny for T {
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+}
+
+/// A program: its global variables and its `main`.
+pub trait Program: AsAny {
+    /// The file that has `main`.
+    fn file(&self) -> File;
+
+    /// The build of robot that the program was checked for.
+    fn family(&self) -> Family;
+
+    /// Sets every global variable to its start value, then runs the initialisers in file order.
+    fn init<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a>;
+
+    /// Runs `main` once.
+    fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a>;
+
+    /// The global variables, which the conditions and actions of interrupts ask for: the program itself, unless it is made
+    /// around another one.
+    fn globals(&self) -> &dyn Any {
+        self.as_any()
+    }
+
+    /// The variables of `_data.arl` files, which are read again before `main` starts.
+    fn data(&self) -> Vec<DataFile<'_>> {
+        Vec::new()
+    }
+
+    /// The folder of these files, counted from the script directory; without more that directory itself.
+    fn folder(&self) -> &Path {
+        Path::new("")
+    }
+
+    /// What it uses of what runs beside the cycle: that is started before the program is.
+    fn beside(&self) -> Beside {
+        Beside::default()
+    }
+}
+
+impl Program for Box<dyn Program> {
+    fn file(&self) -> File {
+        (**self).file()
+    }
+
+    fn family(&self) -> Family {
+        (**self).family()
+    }
+
+    fn init<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+        (**self).init(cx)
+    }
+
+    fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+        (**self).main(cx)
+    }
+
+    fn globals(&self) -> &dyn Any {
+        (**self).globals()
+    }
+
+    fn data(&self) -> Vec<DataFile<'_>> {
+        (**self).data()
+    }
+
+    fn folder(&self) -> &Path {
+        (**self).folder()
+    }
+
+    fn beside(&self) -> Beside {
+        (**self).beside()
+    }
+}
+
+/// A program whose data files lie in another folder than the script directory: one of several that one controller runs.
+pub struct Elsewhere<P> {
+    /// The program.
+    pub program: P,
+    /// The folder, counted from the script directory.
+    pub folder: PathBuf,
+}
+
+impl<P: Program + 'static> Program for Elsewhere<P> {
+    fn file(&self) -> File {
+        self.program.file()
+    }
+
+    fn family(&self) -> Family {
+        self.program.family()
+    }
+
+    fn init<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+        self.program.init(cx)
+    }
+
+    fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+        self.program.main(cx)
+    }
+
+    fn globals(&self) -> &dyn Any {
+        self.program.globals()
+    }
+
+    fn data(&self) -> Vec<DataFile<'_>> {
+        self.program.data()
+    }
+
+    fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    fn beside(&self) -> Beside {
+        self.program.beside()
+    }
+}
+
+impl<P: Program> fmt::Debug for Elsewhere<P> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let file = self.program.file();
+        f.debug_struct("Elsewhere").field("program", &file.name()).field("folder", &self.folder).finish()
+    }
+}
+
+/// What runs beside the cycle, as far as programs use it.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub struct Beside {
+    /// Sockets, serial lines, Modbus RTU or Melsec: the thread that opens connections. Without it, it is started when the
+    /// first one is opened.
+    pub connections: bool,
+    /// Registers and coils of the controller's Modbus TCP server. Without it, and where the cell has none, they are there, but
+    /// nobody else sees them.
+    pub modbus_tcp: bool,
+}
+
+impl std::ops::BitOr for Beside {
+    type Output = Self;
+
+    /// What either of them uses.
+    fn bitor(self, other: Self) -> Self {
+        Self { connections: self.connections | other.connections, modbus_tcp: self.modbus_tcp | other.modbus_tcp }
+    }
+}
+
+/// A data file and the variables that it gives values to.
+pub struct DataFile<'a> {
+    /// The file, as it was named when the program was compiled.
+    pub file: &'static str,
+    /// Its variables.
+    pub vars: Vec<DataVar<'a>>,
+}
+
+/// A variable of a data file.
+pub struct DataVar<'a> {
+    /// Its name as it was declared.
+    pub name: &'static str,
+    /// The sizes of an array of several dimensions, outermost first; else empty.
+    pub sizes: &'static [usize],
+    /// The variable.
+    pub slot: &'a dyn Teach,
+}
+
+/// Makes a program.
+pub type Make = fn() -> Box<dyn Program>;
+
+/// A program beside the first one, for the channels of a cell file.
+#[derive(Clone, Copy, Debug)]
+pub struct Other {
+    /// Its file, as the cell file names it.
+    pub file: &'static str,
+    /// The folder of its data files, counted from the script directory.
+    pub folder: &'static str,
+    /// What makes it.
+    pub make: Make,
+}

@@ -1,0 +1,198 @@
+//! What all channels of a controller share.
+
+use std::cell::{Cell, RefCell};
+use std::fmt;
+use std::rc::{Rc, Weak};
+
+use crate::builtins::files::ScriptDir;
+use crate::builtins::random::Random;
+use crate::communication::{NetworkDriver, NetworkSettings, Opener};
+use crate::context::cx::Cx;
+use crate::context::loadable::Loadable;
+use crate::context::output::{Message, Output};
+use crate::context::wiring::Wiring;
+use crate::cycle::channel_id::ChannelId;
+use crate::cycle::rate::Rate;
+use crate::fault::Alarm;
+use crate::fieldbus::Buses;
+use crate::io::Image;
+use crate::storage::disk::Disk;
+use crate::storage::state::State;
+
+/// What all channels of a controller share: time, io, files, messages, alarms. Borrows of the cells end within the call that
+/// makes them.
+pub(crate) struct World {
+    /// The running number of the cycle.
+    pub(crate) now: Cell<u64>,
+    pub(crate) rate: Rate,
+    pub(crate) io: RefCell<Image>,
+    pub(crate) scripts: ScriptDir,
+    pub(crate) random: Random,
+    /// The date at cycle 0, in s since 1970-01-01 00:00:00.
+    pub(crate) start_date: i64,
+    output: RefCell<Box<dyn Output>>,
+    /// Whether messages came in this cycle.
+    spoken: Cell<bool>,
+    /// Alarms that nobody has asked for yet.
+    alarms: RefCell<Vec<Alarm>>,
+    /// What happened that is no alarm but worth a word.
+    warnings: RefCell<Vec<String>>,
+    /// Who wants to hear of alarms and warnings at once.
+    listeners: RefCell<Listeners>,
+    pub(crate) state: RefCell<State>,
+    /// What writes files, beside the cycle.
+    pub(crate) disk: Disk,
+    /// What the cell says of the network.
+    pub(crate) network: NetworkSettings,
+    /// How the cell wires a PLC.
+    pub(crate) wiring: Wiring,
+    /// What sets up the network ports of the host, if anything does.
+    pub(crate) network_driver: RefCell<Option<Box<dyn NetworkDriver>>>,
+    /// Whether a program talks to the world, so that the world's time counts.
+    outside: Cell<bool>,
+    pub(crate) buses: Buses,
+    /// What opens the connections of programs.
+    pub(crate) opener: Opener,
+    /// The programs that `switcharl` can load.
+    pub(crate) programs: Loadable,
+    /// The foreground channels, in order, as the functions see them that ask about channels by number.
+    foreground: RefCell<Vec<Weak<Cx>>>,
+}
+
+/// Somebody who wants to hear of something.
+type Listener<T> = Box<dyn FnMut(&T)>;
+
+/// Who wants to hear of alarms and warnings as they come up.
+#[derive(Default)]
+pub(crate) struct Listeners {
+    pub(crate) alarm: Option<Listener<Alarm>>,
+    pub(crate) warning: Option<Listener<str>>,
+}
+
+/// What a world is made of.
+pub(crate) struct Parts {
+    pub(crate) rate: Rate,
+    pub(crate) io: Image,
+    pub(crate) scripts: ScriptDir,
+    pub(crate) random: Random,
+    pub(crate) start_date: i64,
+    pub(crate) output: Box<dyn Output>,
+    pub(crate) listeners: Listeners,
+    pub(crate) state: State,
+    pub(crate) network: NetworkSettings,
+    pub(crate) wiring: Wiring,
+    pub(crate) programs: Loadable,
+    pub(crate) buses: Buses,
+    pub(crate) network_driver: Option<Box<dyn NetworkDriver>>,
+}
+
+impl World {
+    pub(crate) fn new(parts: Parts) -> Self {
+        Self {
+            programs: parts.programs,
+            buses: parts.buses,
+            opener: Opener::default(),
+            network: parts.network,
+            wiring: parts.wiring,
+            network_driver: RefCell::new(parts.network_driver),
+            outside: Cell::new(false),
+            now: Cell::new(0),
+            rate: parts.rate,
+            io: RefCell::new(parts.io),
+            scripts: parts.scripts,
+            random: parts.random,
+            start_date: parts.start_date,
+            output: RefCell::new(parts.output),
+            spoken: Cell::new(false),
+            alarms: RefCell::default(),
+            listeners: RefCell::new(parts.listeners),
+            warnings: RefCell::default(),
+            state: RefCell::new(parts.state),
+            disk: Disk::default(),
+            foreground: RefCell::default(),
+        }
+    }
+
+    /// Adds the next foreground channel.
+    pub(crate) fn add_foreground(&self, cx: &Rc<Cx>) {
+        self.foreground.borrow_mut().push(Rc::downgrade(cx));
+    }
+
+    /// Another program runs in the foreground channel at this place.
+    pub(crate) fn exchange_foreground(&self, at: usize, cx: &Rc<Cx>) {
+        if let Some(place) = self.foreground.borrow_mut().get_mut(at) {
+            *place = Rc::downgrade(cx);
+        }
+    }
+
+    /// The foreground channel with this number, from 1.
+    pub(crate) fn foreground(&self, number: i32) -> Option<Rc<Cx>> {
+        let at = usize::try_from(number).ok()?.checked_sub(1)?;
+        self.foreground.borrow().get(at)?.upgrade()
+    }
+
+    /// How many foreground channels there are.
+    pub(crate) fn foreground_count(&self) -> usize {
+        self.foreground.borrow().len()
+    }
+
+    /// Passes a message of a channel on.
+    pub(crate) fn message(&self, channel: ChannelId, hmi: bool, console: bool, text: &[u8]) {
+        let time = self.rate.time(self.now.get());
+        self.output.borrow_mut().message(&Message { time, channel, hmi, console, text });
+        self.spoken.set(true);
+    }
+
+    /// Ends a cycle's messages.
+    pub(crate) fn flush(&self) {
+        if self.spoken.replace(false) {
+            self.output.borrow_mut().flush();
+        }
+    }
+
+    /// Says that the program talks to the world: from now on the world's time counts.
+    pub(crate) fn meet_outside(&self) {
+        self.outside.set(true);
+    }
+
+    /// Whether somebody has said so since the last call.
+    #[inline]
+    pub(crate) fn met_outside(&self) -> bool {
+        self.outside.replace(false)
+    }
+
+    /// Notes an alarm; the one that ends a program stands before others of it.
+    pub(crate) fn alarm(&self, alarm: Alarm, ends: bool) {
+        if let Some(listener) = &mut self.listeners.borrow_mut().alarm {
+            listener(&alarm);
+        }
+        let mut alarms = self.alarms.borrow_mut();
+        let place = if ends { 0 } else { alarms.len() };
+        alarms.insert(place, alarm);
+    }
+
+    /// The alarms since the last call.
+    pub(crate) fn take_alarms(&self) -> Vec<Alarm> {
+        std::mem::take(&mut self.alarms.borrow_mut())
+    }
+
+    /// Notes what is no alarm but worth a word.
+    pub(crate) fn warn(&self, text: String) {
+        if let Some(listener) = &mut self.listeners.borrow_mut().warning {
+            listener(&text);
+        }
+        self.warnings.borrow_mut().push(text);
+    }
+
+    /// The warnings since the last call.
+    #[inline]
+    pub(crate) fn take_warnings(&self) -> Vec<String> {
+        std::mem::take(&mut self.warnings.borrow_mut())
+    }
+}
+
+impl fmt::Debug for World {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("World").field("now", &self.now.get()).finish_non_exhaustive()
+    }
+}

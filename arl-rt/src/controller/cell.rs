@@ -1,0 +1,248 @@
+//! The cell file: what stands around the robot. Everything has a sensible value where the file says nothing.
+//!
+//! ```toml
+//! [controller]
+//! cycle = 1.0                  # ms, 0.1 to 100
+//!
+//! [io]                         # numbers of channels
+//! di = 64
+//! do = 64
+//! ai = 8                       # all in V, or a list: ["V", "mA"]
+//! ao = ["V", "V", "mA"]
+//! internal = 32
+//!
+//! [network]
+//! listen = "program"           # where accept listens: without it on this computer only ("loopback"); or an address
+//!
+//! [serial]                     # devices behind the names that programs use
+//! "/dev/ttyS0" = "/dev/ttyUSB0"
+//!
+//! [home]                       # axis positions in deg (mm where linear); home 1 is `home` of the robot file
+//! tolerance = 0.1              # how near is at home, deg (mm)
+//! home2 = [0, -90, 90, 0, 0, 0]
+//!
+//! [external]                   # how a PLC is wired: the system variables of external auto control, in small letters
+//! start_prog_di = 4
+//!
+//! [[collision]]                # conditions of startdetect
+//! cid = 1                      # 0 to 16
+//! percent = 20                 # how much an axis may differ, of what it needs at most; or for each axis, in Nm (N):
+//! # torque = [60, 60, 40, 15, 15, 10]
+//!
+//! [modbus_tcp]                 # the controller's Modbus TCP server
+//! address = "127.0.0.1"        # "0.0.0.0": reachable from everywhere
+//! port = 502
+//! connections = 8              # at once, 1 to 64
+//!
+//! [devicenet]
+//! size = 512                   # bytes that the bus exchanges
+//!
+//! [[island]]                   # inputs and outputs behind Modbus TCP: arl_rt::islands
+//! address = "192.168.0.20"
+//! di = [{ channel = 1, count = 8, discrete_input = 0 }]
+//!
+//! [[channel]]                  # what runs beside the program of the command line: channel 2, 3, ..
+//! program = "feeder.arl"       # files count from the folder of the cell file
+//! robot = "hsr065"             # a built-in name or a robot file
+//! home2 = [0, 45, 0, 0]        # [[channel.collision]] below it: conditions of startdetect
+//!
+//! [[channel]]
+//! program = "watch.arl"
+//! background = true            # it has no robot
+//! ```
+
+use std::path::Path;
+
+use arl_robot::cell::collisions;
+use arl_robot::islands::Island;
+use arl_robot::outline;
+
+pub use crate::context::wiring::Wiring;
+pub use arl_robot::cell::{CellChannel, Homes, Programs, Sensitivity};
+
+use crate::communication::{Listen, NetworkSettings};
+use crate::cycle::rate::Rate;
+use crate::fieldbus::BusSettings;
+use crate::io::Channels;
+use crate::settings::{Section, SettingsError, Source};
+
+const TOP: &[&str] = &[
+    "controller",
+    "io",
+    "network",
+    "serial",
+    "home",
+    "external",
+    "collision",
+    "modbus_tcp",
+    "island",
+    "devicenet",
+    "channel",
+    "load",
+];
+const CONTROLLER: &[&str] = &["cycle"];
+const NETWORK: &[&str] = &["listen"];
+
+/// What stands around the robot.
+#[derive(Clone, PartialEq, Default, Debug)]
+pub struct Cell {
+    /// The length of the control cycle.
+    pub rate: Rate,
+    /// The channels of io.
+    pub channels: Channels,
+    /// Where programs listen.
+    pub network: NetworkSettings,
+    /// The home points of the first channel's robot.
+    pub homes: Homes,
+    /// How a PLC is wired to the controller.
+    pub external: Wiring,
+    /// The conditions of `startdetect` of the first channel's robot by their numbers; of those that are not there, 20 %.
+    pub collisions: Vec<(u8, Sensitivity)>,
+    /// The field buses.
+    pub buses: BusSettings,
+    /// The servers of Modbus TCP that have inputs and outputs of the cell.
+    pub islands: Vec<Island>,
+    /// The channels beside the first one: what the command line of a program runs, too.
+    pub programs: Programs,
+}
+
+impl Cell {
+    /// Reads a cell file.
+    ///
+    /// # Errors
+    /// The file cannot be read, or what it says is not a cell.
+    pub fn load(path: &Path) -> Result<Cell, SettingsError> {
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(path)
+            .map_err(|error| SettingsError::of_file(&name, format!("cannot read the cell file: {error}")))?;
+        Cell::parse(&name, &text)
+    }
+
+    /// The cell that `text` describes; `file` names the text in errors.
+    ///
+    /// # Errors
+    /// The text is not TOML, or not a cell: with line, column and what was expected.
+    pub fn parse(file: &str, text: &str) -> Result<Cell, SettingsError> {
+        let source = Source { file, text };
+        let root = source.parse()?;
+        let top = Section::new(source, "the cell file", root.get_ref(), TOP)?;
+        let mut cell = Cell::default();
+        if let Some(controller) = top.table("controller", "[controller]", CONTROLLER)? {
+            let (low, high) = (f64::from(Rate::SHORTEST) / 1e3, f64::from(Rate::LONGEST) / 1e3);
+            if let Some(cycle) = controller.number("cycle", "the control cycle in ms", low, high)? {
+                cell.rate = Rate::from_micros((cycle * 1e3).round() as u32);
+            }
+        }
+        cell.channels = Channels::read(&top)?;
+        if let Some(network) = top.table("network", "[network]", NETWORK)? {
+            cell.network.listen = listen(&network)?;
+        }
+        cell.buses = BusSettings::read(&top)?;
+        cell.islands = Island::read_all(source, top.find("island"), &cell.channels)?;
+        let folder = Path::new(file).parent().unwrap_or(Path::new(""));
+        cell.programs = Programs::read(&top, folder)?;
+        cell.external = Wiring::read(&top, &cell.channels)?;
+        cell.network.devices = outline::lines(&top)?;
+        cell.homes = Homes::of_cell(&top)?;
+        cell.collisions = collisions(&top)?;
+        Ok(cell)
+    }
+}
+
+fn listen(network: &Section<'_>) -> Result<Listen, SettingsError> {
+    let Some(value) = network.find("listen") else { return Ok(Listen::Loopback) };
+    match value.get_ref().as_str() {
+        Some("loopback") => Ok(Listen::Loopback),
+        Some("program") => Ok(Listen::Program),
+        Some(address) if address.parse::<std::net::IpAddr>().is_ok() => Ok(Listen::Address(address.into())),
+        _ => Err(network.wrong("listen", value, "\"loopback\", \"program\", or an address like \"192.168.0.40\"")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::io::AnalogType;
+
+    #[test]
+    fn an_empty_file_is_the_default_cell() {
+        let cell = Cell::parse("cell.toml", "").unwrap();
+        assert_eq!(cell, Cell::default());
+        let channels = &cell.channels;
+        assert_eq!((channels.di, channels.dout, channels.internal), (64, 64, 32));
+        assert_eq!(channels.ai, [AnalogType::Volt; 8]);
+        assert_eq!(cell.rate.period(), 0.001);
+    }
+
+    #[test]
+    fn everything_is_read() {
+        let text = "[controller]\ncycle = 4\n[io]\ndi = 16\ndo = 8\nai = [\"V\", \"ma\"]\nao = 2\ninternal = 0\n\
+                    [home]\ntolerance = 0.5\nhome3 = [0, 1.5, 2, 3, 4, 5]\n\
+                    [[collision]]\ncid = 2\npercent = 10\n[[collision]]\ncid = 3\ntorque = [1, 2.5]\n";
+        let cell = Cell::parse("cell.toml", text).unwrap();
+        assert_eq!(cell.rate.micros(), 4000);
+        assert_eq!((cell.channels.di, cell.channels.dout, cell.channels.internal), (16, 8, 0));
+        assert_eq!(cell.channels.ai, [AnalogType::Volt, AnalogType::Milliampere]);
+        assert_eq!(cell.channels.ao, [AnalogType::Volt; 2]);
+        assert_eq!(cell.homes.points[1].as_deref(), Some(&[0.0, 1.5, 2.0, 3.0, 4.0, 5.0][..]));
+        assert_eq!((cell.homes.points[0].as_ref(), cell.homes.tolerance), (None, Some(0.5)));
+        let torques = Sensitivity::Torques(vec![1.0, 2.5]);
+        assert_eq!(cell.collisions, [(2, Sensitivity::Percent(10.0)), (3, torques)]);
+    }
+
+    #[test]
+    fn network_lines_buses_and_islands_are_read() {
+        for (word, listen) in [
+            ("loopback", Listen::Loopback),
+            ("program", Listen::Program),
+            ("192.168.0.40", Listen::Address("192.168.0.40".into())),
+            ("::", Listen::Address("::".into())),
+        ] {
+            let cell = Cell::parse("cell.toml", &format!("[network]\nlisten = \"{word}\"\n")).unwrap();
+            assert_eq!(cell.network.listen, listen);
+        }
+        let text = "[serial]\n\"/dev/ttyS0\" = \"/dev/ttyUSB0\"\nrtserMB0 = \"/dev/ttyUSB1\"\n[devicenet]\nsize = 16\n\
+                    [modbus_tcp]\naddress = \"0.0.0.0\"\nport = 1502\nconnections = 2\n\
+                    [[island]]\naddress = \"10.0.0.7\"\ndo = [{ channel = 1, coil = 0 }]\n";
+        let cell = Cell::parse("cell.toml", text).unwrap();
+        let devices: Vec<(&str, &str)> = cell.network.devices.iter().map(|(name, path)| (&**name, &**path)).collect();
+        assert_eq!(devices, [("/dev/ttyS0", "/dev/ttyUSB0"), ("rtserMB0", "/dev/ttyUSB1")]);
+        assert_eq!((cell.buses.devicenet, cell.islands.len()), (16, 1));
+        let server = cell.buses.modbus_tcp.unwrap();
+        assert_eq!((server.address.to_string(), server.connections), ("0.0.0.0:1502".into(), 2));
+    }
+
+    #[test]
+    fn mistakes_name_line_and_what_was_expected() {
+        for (text, line, words) in [
+            ("[network]\nlisten = \"everywhere\"", 2, "\"loopback\", \"program\", or an address"),
+            ("[network]\nlisten = 3", 2, "found the number 3"),
+            ("[network]\nlistens = \"program\"", 2, "did you mean `listen`?"),
+            ("network = \"program\"", 1, "expected the table [network]"),
+            ("serial = \"/dev/ttyS0\"", 1, "expected the table [serial]"),
+            ("[serial]\ncom1 = 1", 2, "the path of a device, like \"/dev/ttyUSB0\", found the number 1"),
+            ("[devicenet]\nsize = 70000", 2, "how many bytes the bus exchanges from 0 to 65536"),
+            ("[modbus_tcp]\nport = 65536", 2, "a TCP port"),
+            ("[modbus_tcp]\naddress = \"plc\"", 2, "an IP address of this computer"),
+            ("[modbus_tcp]\nconnections = 0", 2, "a whole number from 1 to 64"),
+            ("[[island]]\naddress = \"10.0.0.7\"\ndo = [{ channel = 65, coil = 0 }]", 3, "the cell has DO 1 to 64"),
+            ("[io]\ndi = 64\ndoo = 3", 3, "did you mean `do`?"),
+            ("\n[inout]\n", 2, "known are: controller, io, network, serial, home, external, collision, modbus_tcp"),
+            ("[io]\ndi = -1", 2, "expected a number of channels from 0 to 10000, found the number -1"),
+            ("[io]\ndi = \"many\"", 2, "found the text \"many\""),
+            ("[io]\nai = [\"V\",\n \"A\"]", 3, "expected \"V\" or \"mA\""),
+            ("[controller]\ncycle = 0", 2, "the control cycle in ms from 0.1 to 100"),
+            ("[home]\nhome2 = 3", 2, "expected axis positions"),
+            ("[home]\nhome2 = [0,", 2, "this is not TOML"),
+            ("[[collision]]\npercent = 20", 1, "lacks `cid`"),
+            ("[[collision]]\ncid = 1", 1, "neither `percent` nor `torque`"),
+            ("[[collision]]\ncid = 17\npercent = 20", 2, "the number of a condition from 0 to 16"),
+            ("[[collision]]\ncid = 1\ntorque = [1, 0]", 1, "a torque above 0 in Nm for each axis"),
+            ("io = 3", 1, "expected the table [io], found the number 3"),
+        ] {
+            let error = Cell::parse("cell.toml", text).unwrap_err();
+            assert_eq!(error.line, line, "{error}");
+            assert!(error.message.contains(words), "{error}");
+        }
+    }
+}

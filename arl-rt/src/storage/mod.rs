@@ -1,0 +1,9 @@
+//! What outlives a run: values that are kept when the controller is switched off, data files of programs, and the thread
+//! that writes files beside the cycle.
+
+pub mod data;
+pub(crate) mod disk;
+pub(crate) mod keep;
+pub(crate) mod pointers;
+pub mod state;
+pub(crate) mod whole;

@@ -1,0 +1,138 @@
+//! The program pointer and the motion pointer of the foreground channels, as they are kept when the controller is switched
+//! off (manual 5.12.8 to 5.12.11).
+
+use std::fmt::Write;
+
+use crate::cycle::channel_id::MOST_FOREGROUND;
+use crate::fault::File;
+use crate::storage::keep::Keep;
+use crate::values::Str;
+
+/// What they are stored under.
+pub(crate) const STORED: &str = "POINTERS";
+
+/// A line of a file of a program that need not be there any more.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) struct Spot {
+    pub(crate) file: Str,
+    pub(crate) line: u32,
+}
+
+/// What was kept of a channel.
+#[derive(Clone, PartialEq, Eq, Default, Debug)]
+pub(crate) struct Kept {
+    /// Where its program stood.
+    pub(crate) program: Option<Spot>,
+    /// The motion that was executed last.
+    pub(crate) motion: Option<Spot>,
+}
+
+/// What was kept of all foreground channels, by their numbers from 1.
+pub(crate) type Table = [Kept; MOST_FOREGROUND];
+
+/// The pointers of a channel as they are now; nothing as long as they are still those that were kept.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub(crate) struct Now {
+    /// Where its program stands.
+    pub(crate) program: Option<(File, u32)>,
+    /// The motion that is executed, or was last.
+    pub(crate) motion: Option<(File, u32)>,
+}
+
+impl From<(File, u32)> for Spot {
+    fn from((file, line): (File, u32)) -> Self {
+        Self { file: file.name().into(), line }
+    }
+}
+
+impl Kept {
+    /// What is to be kept now.
+    pub(crate) fn renewed(&self, now: &Now) -> Self {
+        Self {
+            program: now.program.map(Spot::from).or_else(|| self.program.clone()),
+            motion: now.motion.map(Spot::from).or_else(|| self.motion.clone()),
+        }
+    }
+}
+
+/// The words before a pointer in its line of text.
+const PROGRAM: &str = "program";
+const MOTION: &str = "motion";
+
+/// As text: a line for each pointer.
+pub(crate) fn written(table: &Table) -> String {
+    let mut text = String::new();
+    for (number, kept) in (1..).zip(table) {
+        for (word, spot) in [(PROGRAM, &kept.program), (MOTION, &kept.motion)] {
+            let Some(Spot { file, line }) = spot else { continue };
+            // Writing to a string does not fail.
+            let _ = write!(text, "{word} {number} ");
+            file.write(&mut text);
+            let _ = writeln!(text, "{line}");
+        }
+    }
+    text
+}
+
+/// Back from text; nothing where it is none that was written.
+pub(crate) fn read(text: &str) -> Option<Table> {
+    let mut table = Table::default();
+    for line in text.lines() {
+        let mut words = line.split_ascii_whitespace();
+        let word = words.next()?;
+        let number: usize = words.next()?.parse().ok()?;
+        let spot = Spot { file: Str::read(&mut words)?, line: words.next()?.parse().ok()? };
+        let kept = table.get_mut(number.checked_sub(1)?)?;
+        let place = match word {
+            PROGRAM => &mut kept.program,
+            MOTION => &mut kept.motion,
+            _ => return None,
+        };
+        if words.next().is_some() || place.replace(spot).is_some() {
+            return None;
+        }
+    }
+    Some(table)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_gives_the_pointers_back() {
+        let mut table = Table::default();
+        table[0] = Kept { program: Some((File::new("a b \u{e4}.arl"), 12).into()), motion: None };
+        table[5] = Kept::default().renewed(&Now { program: None, motion: Some((File::new("c.arl"), 0)) });
+        let text = written(&table);
+        assert_eq!(read(&text), Some(table), "{text}");
+        assert_eq!(read(""), Some(Table::default()));
+    }
+
+    #[test]
+    fn what_is_known_by_now_takes_the_place_of_what_was_kept() {
+        let spot = |file, line| Some(Spot::from((File::new(file), line)));
+        let kept = Kept { program: spot("old.arl", 3), motion: spot("old.arl", 2) };
+        let now = Now { program: Some((File::new("new.arl"), 1)), motion: None };
+        assert_eq!(kept.renewed(&now), Kept { program: spot("new.arl", 1), motion: spot("old.arl", 2) });
+        assert_eq!(kept.renewed(&Now::default()), kept);
+    }
+
+    #[test]
+    fn other_text_is_noticed() {
+        for text in [
+            "program 1 \"a.arl\"",
+            "program 1 \"a.arl\" 2 3",
+            "program 1 \"a.arl\" -2",
+            "program 1 a.arl 2",
+            "program 0 \"a.arl\" 2",
+            "program 7 \"a.arl\" 2",
+            "program one \"a.arl\" 2",
+            "robot 1 \"a.arl\" 2",
+            "motion 1 \"a.arl\" 2\nmotion 1 \"a.arl\" 2",
+            "\n",
+        ] {
+            assert_eq!(read(text), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,507 @@
+//! A mechanical unit: the robot with its planned motion and its driver.
+
+mod changes;
+pub mod dynamics;
+mod effort;
+mod moving;
+pub mod robot_driver;
+mod servo;
+
+use std::collections::VecDeque;
+use std::sync::Arc;
+
+use crate::fault::{Alarm, Fault, File};
+use crate::kinematics::{Axes, Frame, frame_components};
+use crate::motion::{
+    Command, Compensation, Joints, MotionRecord, PlanError, Progress, Queue, Recorder, Settings, Start, Stop,
+    UnblendedTarget, circle_steps,
+};
+use crate::robot::Robot;
+use crate::unit::dynamics::{Dynamics, Load};
+use crate::unit::robot_driver::{RobotDriver, settled};
+use crate::values::Joint;
+use arl_robot::cell::Sensitivity;
+use arl_robot::frames::Rig;
+use changes::{Change, Changes};
+use effort::Effort;
+pub(crate) use effort::{Collision, Outside, SENSITIVITY};
+pub(crate) use moving::Moving;
+
+/// For how many cycles a robot that never stands quite where it shall must be near enough to count as settled.
+const SETTLING: u32 = 8;
+
+/// The robot with its planned motion and its driver.
+pub(crate) struct Unit {
+    robot: Arc<Robot>,
+    queue: Queue,
+    /// What `velset` and the mode say.
+    pub(crate) settings: Settings,
+    override_percent: f64,
+    commanded: Moving,
+    reported: Moving,
+    effort: Effort,
+    /// What changes with motions that are planned.
+    changes: Changes,
+    driver: Box<dyn RobotDriver>,
+    /// The running number of the motion planned last, and of the one that has ended last.
+    planned: u64,
+    finished: u64,
+    /// The motion of the cycle before: its line and its running number.
+    executing: (u32, u64),
+    /// Where the motion stands that is or was last executed.
+    pointer: Option<(File, u32)>,
+    /// The files of the motions from a running number on, that of the motion executed last first.
+    files: VecDeque<(u64, File)>,
+    /// For how many cycles the robot has been near enough to where it shall stand.
+    settled: u32,
+    /// The TCP in the world.
+    tcp: Frame,
+    recorder: Option<Box<Recorder>>,
+    /// The file of the motion planned last.
+    file: File,
+    /// Where the robot stands in the world.
+    base: Frame,
+    /// How many compensations have been started.
+    compensations: u32,
+    /// The file of the last `startmove`.
+    start_file: File,
+    /// Whether the motors are on.
+    servo: bool,
+    /// Whether it is told to rest until somebody says to go on, and whether it was moved beside its path meanwhile.
+    halted: bool,
+    jogged: bool,
+}
+
+impl Unit {
+    pub(crate) fn new(robot: Robot, mut driver: Box<dyn RobotDriver>) -> Self {
+        let start = driver.start(&Joints::home(&robot));
+        let robot = Arc::new(robot);
+        let queue = Queue::new(Arc::clone(&robot), start);
+        let tcp = queue.tcp();
+        let effort = Effort::new(&robot);
+        Self {
+            robot,
+            queue,
+            settings: Settings::default(),
+            override_percent: 100.0,
+            commanded: Moving::resting(start),
+            reported: Moving::resting(start),
+            effort,
+            changes: Changes::new(),
+            start_file: File::new(""),
+            servo: true,
+            halted: false,
+            jogged: false,
+            driver,
+            planned: 0,
+            finished: 0,
+            executing: (0, 0),
+            pointer: None,
+            files: VecDeque::new(),
+            settled: 0,
+            tcp,
+            recorder: None,
+            file: File::new(""),
+            base: Frame::identity(),
+            compensations: 0,
+        }
+    }
+
+    /// Where the robot stands in the world.
+    pub(crate) fn set_base(&mut self, base: Frame) {
+        if base != self.base {
+            self.base = base;
+            self.effort.set_base(&base);
+        }
+    }
+
+    /// From now on keeps records of all motions.
+    pub(crate) fn record(&mut self) {
+        self.recorder = Some(Box::new(Recorder::new(Arc::clone(&self.robot), &mut self.queue)));
+    }
+
+    /// The records of all motions; none unless they are kept.
+    pub(crate) fn records(&self) -> &[MotionRecord] {
+        self.recorder.as_ref().map_or(&[], |recorder| recorder.records())
+    }
+
+    /// A target that should be rounded off but cannot be, since this was asked last, and the file of the motion behind it.
+    pub(crate) fn take_unblended(&mut self) -> Option<(File, UnblendedTarget)> {
+        let sharp = self.queue.take_unblended()?;
+        Some((self.file_of(sharp.number), sharp))
+    }
+
+    /// The motion that came too late to be blended with the one before it, since this was asked last, and its file.
+    pub(crate) fn take_late(&mut self) -> Option<(File, UnblendedTarget)> {
+        let sharp = self.queue.take_late()?;
+        Some((self.file_of(sharp.number), sharp))
+    }
+
+    /// The file of a motion that has not ended.
+    fn file_of(&self, number: u64) -> File {
+        let known = self.files.iter().rev().find(|(first, _)| *first <= number);
+        known.map_or(self.file, |(_, file)| *file)
+    }
+
+    /// Begins to compensate the motions that are planned from now on, with these limits.
+    pub(crate) fn start_compensation(&mut self, limits: [f64; 6]) {
+        self.compensations += 1;
+        self.settings.compensation = Some(Compensation::new(self.compensations, limits));
+    }
+
+    /// The least part of its programmed speed that a weave or a compensation has left to a motion, since this was asked
+    /// last, and that motion's line.
+    pub(crate) fn take_slowed(&mut self) -> (f64, u32) {
+        self.queue.take_slowed()
+    }
+
+    pub(crate) fn robot(&self) -> &Robot {
+        &self.robot
+    }
+
+    pub(crate) fn shared_robot(&self) -> Arc<Robot> {
+        Arc::clone(&self.robot)
+    }
+
+    /// The axes as the robot reports them.
+    pub(crate) fn feedback(&self) -> &Joints {
+        &self.reported.at
+    }
+
+    /// The axes as they are commanded.
+    pub(crate) fn setpoint(&self) -> &Joints {
+        &self.commanded.at
+    }
+
+    /// How the axes move: as commanded, or as the robot reports it.
+    pub(crate) fn moving(&self, commanded: bool) -> &Moving {
+        if commanded { &self.commanded } else { &self.reported }
+    }
+
+    /// Where the motion ends that is being executed; without one, where the robot will stand.
+    pub(crate) fn current_target(&self) -> &Joints {
+        self.queue.target()
+    }
+
+    /// The file and line of the motion that is being executed, or that was last.
+    pub(crate) fn motion_pointer(&self) -> Option<(File, u32)> {
+        self.pointer
+    }
+
+    /// The robot's masses; `None`: its file has none.
+    pub(crate) fn model(&self) -> Option<&Dynamics> {
+        self.effort.model()
+    }
+
+    /// The torques (Nm, N) of the robot's axes, as the motion is commanded, or as they are measured. `None`: the robot
+    /// file has no masses.
+    pub(crate) fn torques(&self, commanded: bool) -> Option<Axes> {
+        let mut torques = self.effort.asked(self.moving(commanded))?;
+        if !commanded {
+            torques.iter_mut().zip(self.surplus()?).for_each(|(torque, surplus)| *torque += surplus);
+        }
+        Some(torques)
+    }
+
+    /// What the axes give more than the model asks for (Nm, N). `None`: the robot file has no masses.
+    pub(crate) fn surplus(&self) -> Option<Axes> {
+        self.effort.surplus(&self.reported, &self.robot, &self.rig())
+    }
+
+    fn rig(&self) -> Rig {
+        Rig { base: self.base, ..*self.queue.rig() }
+    }
+
+    /// What pushes the robot.
+    pub(crate) fn outside_mut(&mut self) -> &mut Outside {
+        self.effort.outside_mut()
+    }
+
+    /// Says what the flange carries during the motions that follow.
+    pub(crate) fn set_load(&mut self, load: Load) {
+        self.change(Change::Load(load));
+    }
+
+    /// Looks for collisions during the motions that follow, or no longer does. Returns whether it can: whether the robot
+    /// file has masses.
+    pub(crate) fn detect(&mut self, sensitivity: Option<&Sensitivity>) -> bool {
+        let allowed = sensitivity.map(|sensitivity| self.effort.allowed(&self.robot, sensitivity));
+        let able = allowed != Some(None);
+        if able {
+            self.change(Change::Detect(allowed.flatten()));
+        }
+        able
+    }
+
+    /// The collision of this cycle, if there was one. It is told once: detection is off then.
+    pub(crate) fn take_collision(&mut self) -> Option<Collision> {
+        let found = self.effort.collision(&self.reported, &self.robot, &self.rig())?;
+        self.effort.detect(None);
+        self.changes.detected();
+        Some(found)
+    }
+
+    /// Where the robot will stand when all planned motion has ended.
+    pub(crate) fn target(&self) -> &Joints {
+        self.queue.end()
+    }
+
+    /// The running numbers of the motion planned last and of the one that ended last.
+    pub(crate) fn motions(&self) -> (u64, u64) {
+        (self.planned, self.finished)
+    }
+
+    /// The line and the running number of the motion executed in this cycle; 0 where there was none.
+    pub(crate) fn executing(&self) -> (u32, u64) {
+        self.executing
+    }
+
+    /// How far the motion being executed has come.
+    pub(crate) fn progress(&self) -> Option<Progress> {
+        self.queue.progress()
+    }
+
+    /// Whether a motion is not executed any more: it has ended, or a blend leads away from it.
+    pub(crate) fn is_over(&self, motion: u64) -> bool {
+        self.queue.is_over(motion)
+    }
+
+    /// Whether a motion has ended.
+    pub(crate) fn has_ended(&self, motion: u64) -> bool {
+        self.queue.has_ended(motion)
+    }
+
+    /// Whether motions are set aside, or about to be.
+    pub(crate) fn is_aside(&self) -> bool {
+        self.queue.is_suspended()
+    }
+
+    /// How far a motion had come when it ended, or was left for a blend, in the last cycle.
+    pub(crate) fn left(&self, motion: u64) -> Option<Progress> {
+        self.queue.left(motion)
+    }
+
+    /// The commanded pose of the TCP in the world, with the tool of its motion: mm, deg.
+    pub(crate) fn commanded_tcp(&self) -> [f64; 6] {
+        frame_components(&self.tcp)
+    }
+
+    /// Whether the robot stands at these positions.
+    pub(crate) fn is_at(&self, positions: &[f64], tolerance: f64) -> bool {
+        let (own, external) = (self.robot.own_axes().len(), self.robot.external_axes().len());
+        let axes = self.reported.at.axes.iter().take(own).chain(self.reported.at.external.iter().take(external));
+        axes.zip(positions).all(|(axis, position)| (axis - position).abs() <= tolerance)
+    }
+
+    /// The speed override in %.
+    pub(crate) fn set_override(&mut self, percent: f64) {
+        self.override_percent = percent;
+    }
+
+    /// The speed override in %.
+    pub(crate) fn speed_override(&self) -> f64 {
+        self.override_percent
+    }
+
+    /// Whether another motion can be planned by those of a level of the program.
+    pub(crate) fn takes(&self, level: u32) -> bool {
+        self.queue.takes(level)
+    }
+
+    /// Stops on the path and sets the motions aside: those of this level of the program, and above it, move in between.
+    pub(crate) fn set_aside(&mut self, stop: Stop, level: u32) {
+        self.queue.request_suspension(stop, level);
+        self.changes.follow(self.queue.depth(), self.planned, &mut self.effort);
+    }
+
+    /// Goes on with what was set aside last; returns whether there is something.
+    pub(crate) fn start_again(&mut self, start: Start, file: File) -> bool {
+        self.start_file = file;
+        let started = self.queue.start_again(start);
+        self.note_start();
+        started
+    }
+
+    /// Drops what is set aside, where nobody has asked to go on with it; returns whether there was something. A stop on its
+    /// way goes on to rest.
+    pub(crate) fn drop_aside(&mut self) -> bool {
+        self.queue.drop_suspended()
+    }
+
+    /// Whether more motions were to be skipped than there were, since this was asked last.
+    pub(crate) fn take_beyond(&mut self) -> bool {
+        self.queue.take_beyond()
+    }
+
+    /// Takes notice of motions that go on, and of the way to them.
+    fn note_start(&mut self) {
+        if let Some((number, command, settings)) = self.queue.take_way_back() {
+            self.planned = number;
+            let file = self.start_file;
+            self.note_planned(number, &command, &settings, file);
+        }
+        self.changes.follow(self.queue.depth(), self.planned, &mut self.effort);
+    }
+
+    /// Takes notice of a motion that was planned.
+    fn note_planned(&mut self, number: u64, command: &Command, settings: &Settings, file: File) {
+        if let Some(recorder) = &mut self.recorder {
+            recorder.planned(&mut self.queue, number, command, settings);
+        }
+        if self.files.back().is_none_or(|(_, last)| *last != file) {
+            self.files.push_back((number, file));
+        }
+    }
+
+    /// Plans a motion of a program file, under [`Unit::settings`] with the changes that it brings along; the alarm where
+    /// that, or a motion before it, cannot be.
+    pub(crate) fn plan(&mut self, command: &Command, settings: &Settings, file: File) -> Result<(), Alarm> {
+        let planned = self.queue.add(command, settings);
+        self.planned = planned.map_err(|error| alarm(error, self.file, (file, command.line)))?;
+        self.file = file;
+        self.note_planned(self.planned, command, settings, file);
+        Ok(())
+    }
+
+    /// The two motions of a circle that is to be planned, for single steps; `None` for everything else.
+    pub(crate) fn circle_steps(&self, command: &Command, settings: &Settings) -> Option<[Command; 2]> {
+        circle_steps(&self.robot, self.queue.end(), command, settings)
+    }
+
+    /// Says that the program waits: motions that waited for the next one go without it. The alarm where that cannot be.
+    pub(crate) fn conclude(&mut self) -> Result<(), Alarm> {
+        self.queue.conclude().map_err(|error| alarm(error, self.file, (self.file, 0)))
+    }
+
+    /// The alarm of a motion that waited in vain for the next one.
+    pub(crate) fn take_broken(&mut self) -> Option<Alarm> {
+        if let Some(error) = self.queue.take_broken_start() {
+            return Some(alarm(error, self.start_file, (self.start_file, 0)));
+        }
+        Some(alarm(self.queue.take_broken()?, self.file, (self.file, 0)))
+    }
+
+    /// Lets something hold from the motion on that is planned next: at once where there is none before it.
+    fn change(&mut self, change: Change) {
+        self.changes.push(self.planned + 1, change);
+        self.change_due();
+    }
+
+    /// Makes the changes of the motion that comes after the last one that has ended.
+    fn change_due(&mut self) {
+        self.changes.make(self.finished + 1, &mut self.effort);
+    }
+
+    /// Whether all planned motion has ended and the robot has settled: it stands where it shall, or has been near enough
+    /// for some cycles.
+    #[inline]
+    pub(crate) fn ended(&self) -> bool {
+        self.queue.idle() && self.is_settled()
+    }
+
+    /// The same for those of a level of the program: they do not wait for what is set aside for them.
+    pub(crate) fn ended_for(&self, level: u32) -> bool {
+        self.queue.idle_for(level) && self.is_settled()
+    }
+
+    /// Whether motion is there that is not set aside.
+    pub(crate) fn moves(&self) -> bool {
+        !self.queue.idle_for(u32::MAX)
+    }
+
+    /// Whether the robot stands where it shall, or was near enough for some cycles.
+    pub(crate) fn is_settled(&self) -> bool {
+        self.settled >= SETTLING || self.commanded.at == self.reported.at
+    }
+
+    /// One interpolation step, and the exchange with the driver.
+    pub(crate) fn step(&mut self, period: f64) {
+        let step = self.queue.step(period, self.override_percent);
+        if let Some(recorder) = &mut self.recorder {
+            recorder.step(&mut self.queue, &step, period);
+        }
+        self.tcp = step.tcp;
+        self.executing = (step.line, step.motion);
+        self.finished = step.finished;
+        self.note_start();
+        // The first half of a blend still counts as the motion before it there; to programs a blend is the next motion's.
+        match self.queue.progress() {
+            Some(next) if step.motion != 0 && next.motion > step.motion => self.point_at(next.motion, next.line),
+            _ => self.point_at(step.motion, step.line),
+        }
+        if step.motion != 0 {
+            self.set_base(self.queue.rig().base);
+        }
+        self.change_due();
+        self.commanded.go_to(step.joints, period);
+        // Motors that are off are asked for nothing but to stay.
+        let rests = !self.servo && self.queue.rests();
+        let asked = if rests { self.reported.at } else { step.joints };
+        self.reported.go_to(self.driver.exchange(&asked, period), period);
+        self.effort.measured(self.driver.torques());
+        let near = self.queue.rests() && settled(&self.commanded.at, &self.reported.at);
+        self.settled = if near { self.settled.saturating_add(1) } else { 0 };
+    }
+
+    /// Sets the motion pointer to the motion of a program that was executed, if there was one.
+    fn point_at(&mut self, motion: u64, line: u32) {
+        let oldest = self.queue.oldest().min(motion);
+        while self.files.get(1).is_some_and(|(from, _)| *from <= oldest) {
+            self.files.pop_front();
+        }
+        let files = self.files.partition_point(|(from, _)| *from <= motion);
+        if let Some((_, file)) = self.files.get(files.saturating_sub(1))
+            && motion != 0
+            && line != 0
+        {
+            self.pointer = Some((*file, line));
+        }
+    }
+
+    /// Comes to rest on the path as fast as it can, and forgets what was planned.
+    pub(crate) fn stop_fast(&mut self) {
+        self.queue.stop_on_path(Stop::Fast);
+        self.stop();
+    }
+
+    /// Comes to rest on the path, and forgets what was planned.
+    pub(crate) fn stop(&mut self) {
+        self.queue.stop_on_path(Stop::General);
+        self.queue.clear();
+    }
+
+    /// Lets motion be planned again after [`Unit::stop`], at rest.
+    pub(crate) fn reset(&mut self) {
+        if self.servo {
+            self.queue.resume();
+        }
+        (self.halted, self.jogged) = (!self.servo, false);
+        self.changes.clear(&mut self.effort);
+        self.files.clear();
+        self.settings = Settings { manual: self.settings.manual, ..Settings::default() };
+    }
+}
+
+/// The alarm of a motion, here or in an earlier line of another file.
+fn alarm(error: PlanError, earlier: File, (file, line): (File, u32)) -> Alarm {
+    match error {
+        PlanError::Earlier { line, error } => alarm(*error, earlier, (earlier, line)),
+        PlanError::NoCircle | PlanError::LoneCircle => {
+            Alarm::new(Fault::ArcPlane(error.to_string().into()), file, line)
+        }
+        PlanError::AboveLimit { .. } => Alarm::new(Fault::GateHeight(error.to_string().into()), file, line),
+        error => Alarm::new(Fault::Motion(error.to_string().into()), file, line),
+    }
+}
+
+/// Positions as a program sees them. Axes that are not there are unset; what is left of rounding is zero.
+pub(crate) fn joint(joints: &Joints) -> Joint {
+    let [j1, j2, j3, j4, j5, j6] = joints.axes.map(tidy);
+    let [ej1, ej2, ej3, ej4, ej5, ej6] = joints.external.map(tidy);
+    Joint { j1, j2, j3, j4, j5, j6, ej1, ej2, ej3, ej4, ej5, ej6 }
+}
+
+/// A length or an angle without the noise that computing leaves where it should be zero.
+pub(crate) fn tidy(value: f64) -> f64 {
+    if value.abs() < 1e-9 { 0.0 } else { value }
+}
