@@ -115,20 +115,21 @@ impl Queue {
     /// Whether so little way is ahead that more than the motions that can always wait may be added.
     pub(crate) fn is_short_of_way(&self) -> bool {
         // In the profile O motions may wait for a law.
-        let lays = self.waiting.is_empty() || !(self.path.is_asking() || self.path.is_laid_down());
+        let lays = self.layer.waiting.is_empty() || !(self.layer.path.is_asking() || self.layer.path.is_laid_down());
         lays && self.way_ahead() < LOOK_AHEAD_S
     }
 
     /// Whether so many motions were planned in this cycle that the next one can wait.
     pub(crate) fn has_enough_ahead(&self) -> bool {
-        let enough = if self.path.wants_laws() { ENOUGH_AHEAD_FOR_LAWS_S } else { ENOUGH_AHEAD_S };
-        let can_wait = || self.spare.unwrap_or_else(|| self.path.spare()) >= LEAST_WAIT_S / WAITED_SHARE_OF_SPARE_TIME;
+        let enough = if self.layer.path.wants_laws() { ENOUGH_AHEAD_FOR_LAWS_S } else { ENOUGH_AHEAD_S };
+        let can_wait =
+            || self.spare.unwrap_or_else(|| self.layer.path.spare()) >= LEAST_WAIT_S / WAITED_SHARE_OF_SPARE_TIME;
         self.taken.suffices(self.cycle) && self.way_ahead() >= enough && can_wait()
     }
 
     /// The way that is ahead, in s at full speed.
     fn way_ahead(&self) -> f64 {
-        self.path.time_left() + self.waiting.way
+        self.layer.path.time_left() + self.layer.waiting.way
     }
 
     /// Appends a motion to those that wait; lays what is due.
@@ -136,33 +137,34 @@ impl Queue {
         self.taken.add(&motion);
         let motion = limit_rise(motion, self.cycle);
         let (due, prepared) = self.begin_to_prepare(&motion);
-        self.waiting.push(Ready { motion, number, due, prepared });
+        self.layer.waiting.push(Ready { motion, number, due, prepared });
         self.lay_waiting();
     }
 
     /// Begins to look for how a motion is joined by the one before it, if that takes long and there is time. Returns when it is laid.
     fn begin_to_prepare(&mut self, motion: &Arc<Motion>) -> (u64, Option<Prepared>) {
         let time = (WAITED_SHARE_OF_SPARE_TIME * self.spare()).min(LONGEST_WAIT_S);
-        let before = self.waiting.motions.iter().rev().find(|ready| ready.motion.goes());
-        let on_path = self.path.last().filter(|_| !self.path.is_empty());
+        let before = self.layer.waiting.motions.iter().rev().find(|ready| ready.motion.goes());
+        let on_path = self.layer.path.last().filter(|_| !self.layer.path.is_empty());
         let Some(last) = before.map(|ready| &ready.motion).or(on_path) else { return (0, None) };
         // What is laid over a motion depends on how those before it have been laid.
         let overlaid = motion.laid.is_some() || last.laid.is_some();
-        let sets_off = self.path.rests() && way(motion) < SHORT_MOTION_S && self.path.time_left() < ENOUGH_AHEAD_S;
+        let sets_off =
+            self.layer.path.rests() && way(motion) < SHORT_MOTION_S && self.layer.path.time_left() < ENOUGH_AHEAD_S;
         let hurries = time < LEAST_WAIT_S || overlaid || sets_off;
         // In the profile O it may have to wait all the same.
-        let waits = self.path.is_asking() || self.path.is_laid_down();
+        let waits = self.layer.path.is_asking() || self.layer.path.is_laid_down();
         let is_blended = !overlaid && motion.goes() && !motion.flows && asks(&self.robot, last);
         let prepared = (is_blended && (waits || !hurries)).then(|| {
             let joining = match before {
                 Some(Ready { prepared: Some(prepared), .. }) => Joining::Behind(prepared.clone()),
                 Some(_) => Joining::Known(None),
-                None => self.path.joining(),
+                None => self.layer.path.joining(),
             };
             self.blend_thread.prepare(&self.robot, joining, [last, motion])
         });
         if hurries {
-            self.waiting.lay_at_once();
+            self.layer.waiting.lay_at_once();
             return (0, prepared);
         }
         let time = if is_blended { time } else { 0.0 };
@@ -171,7 +173,7 @@ impl Queue {
 
     /// As [`crate::queue::path_buffer::PathBuffer::spare`].
     fn spare(&mut self) -> f64 {
-        *self.spare.get_or_insert_with(|| self.path.spare())
+        *self.spare.get_or_insert_with(|| self.layer.path.spare())
     }
 
     /// A cycle begins.
@@ -184,22 +186,22 @@ impl Queue {
     /// Lays the motions that are due on the path, as soon as that can take them; some a cycle, but for those in a hurry.
     pub(crate) fn lay_waiting(&mut self) {
         let mut laid = Done::default();
-        while let Some(first) = self.waiting.first() {
-            let hurries = first.due == 0 || self.path.is_empty();
+        while let Some(first) = self.layer.waiting.first() {
+            let hurries = first.due == 0 || self.layer.path.is_empty();
             let is_due = first.due <= self.cycles && !laid.suffices(self.cycle);
-            if self.path.is_asking() || !(hurries || is_due) {
+            if self.layer.path.is_asking() || !(hurries || is_due) {
                 return;
             }
             laid.add(&first.motion);
             self.spare = None;
-            self.foreseen = None;
-            if self.path.is_laid_down() {
-                let due = self.waiting.due(self.cycles);
+            self.forecast = None;
+            if self.layer.path.is_laid_down() {
+                let due = self.layer.waiting.due(self.cycles);
                 let motions = due.map(|ready| ((&ready.motion, ready.number), ready.prepared.as_ref()));
-                self.path.offer((&self.robot, &self.joints), motions, self.cycle);
+                self.layer.path.offer((&self.robot, &self.joints), motions, self.cycle);
                 self.take_answer();
-            } else if let Some(Ready { motion, number, prepared, .. }) = self.waiting.pop() {
-                let unblended = self.path.append(&self.robot, (&motion, number), prepared.as_ref(), self.cycle);
+            } else if let Some(Ready { motion, number, prepared, .. }) = self.layer.waiting.pop() {
+                let unblended = self.layer.path.append(&self.robot, (&motion, number), prepared.as_ref(), self.cycle);
                 self.note_unblended(unblended);
                 self.note_laid(&motion, number);
             }
@@ -216,6 +218,6 @@ impl Queue {
 
     /// Waits until the thread has found everything.
     pub(crate) fn await_prepared(&self) {
-        self.waiting.motions.iter().filter_map(|ready| ready.prepared.as_ref()).for_each(Prepared::wait);
+        self.layer.waiting.motions.iter().filter_map(|ready| ready.prepared.as_ref()).for_each(Prepared::wait);
     }
 }

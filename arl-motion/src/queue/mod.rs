@@ -1,5 +1,6 @@
 //! The look-ahead and the interpolator: motions wait in a queue, and each cycle moves along the first one.
 
+mod layer;
 mod look_ahead;
 mod motion_progress;
 mod path_buffer;
@@ -13,6 +14,7 @@ use crate::command::error::PlanError;
 use crate::command::joints::Joints;
 use crate::command::{Command, Settings, Target};
 use crate::follow::governor::Pacing;
+use crate::follow::segment::Segment;
 use crate::overlay::Led;
 use crate::plan::chain::Held;
 use crate::plan::gate;
@@ -22,11 +24,12 @@ use crate::plan::planner::{not_led, plan_behind};
 use arl_robot::frames::Rig;
 use arl_robot::kinematics::Frame;
 use arl_robot::robot::Robot;
-use look_ahead::{Done, Ready, Waiting};
+use layer::Layer;
+use look_ahead::{Done, Ready};
 pub use motion_progress::Progress;
 use motion_progress::progress_at;
+use path_buffer::Answer;
 pub use path_buffer::UnblendedTarget;
-use path_buffer::{Answer, PathBuffer};
 pub use record::{Closest, Figure, Limited, MotionRecord, Rate, Recorder};
 pub use suspend::Start;
 use suspend::Suspension;
@@ -73,55 +76,41 @@ pub struct Step {
 #[derive(Clone, Debug)]
 pub struct Queue {
     robot: Arc<Robot>,
-    path: PathBuffer,
+    /// What moves the robot.
+    layer: Layer,
+    /// What was stopped and put away, and what is about to be.
+    suspension: Suspension,
     stop: Option<Stop>,
     /// Whether a fast stop is on its way to rest.
     braking_hard: bool,
     dropping: bool,
+    /// The commanded positions.
     joints: Joints,
-    /// Where the last motion ends.
-    end: Joints,
-    rig: Rig,
-    last_rig: Rig,
+    /// The running number of the motion that was added last.
     added: u64,
-    finished: u64,
-    /// The motion being executed.
-    started: Option<u64>,
-    /// The motion whose time counts, and the s that it has run at an override of 100 %.
-    timed: u64,
-    elapsed: f64,
     /// The s that the motion being executed still takes, and for how many cycles that has been counted down.
-    foreseen: Option<(u64, f64, u32)>,
-    progress: Option<Progress>,
+    forecast: Option<(u64, f64, u32)>,
     /// How far motions had come that were left behind in the last cycle.
     left: Vec<Progress>,
-    /// The last motion that is not executed any more: it has ended, or a blend leads away from it.
-    over: u64,
+    /// The length of a cycle, in s.
     cycle: f64,
     /// The last target that was not rounded off because a motion came too late, and the last beside which there is no way.
     late: Option<UnblendedTarget>,
     unblended: Option<UnblendedTarget>,
-    /// Motions that wait until they are laid on the path.
-    waiting: Waiting,
-    /// Who finds their blends.
+    /// Who finds the blends of motions that wait.
     blend_thread: BlendThread,
     /// How many cycles there have been, and what was planned in this one.
     cycles: u64,
     taken: Done,
-    /// How long the robot can go on without them, where that is known.
+    /// How long the robot can go on without the motions that wait, where that is known.
     spare: Option<f64>,
-    /// The last motion, where its way depends on the next one.
-    held: Option<Held>,
-    /// How long the robot has stood still for it, in s.
+    /// How long the robot has stood still, in s, for a motion that is held back.
     waited: f64,
     broken: Option<PlanError>,
     /// What was laid on the way, where somebody watches.
     laid: Option<Vec<Laid>>,
-    /// How a compensation stands at the end of the last motion.
-    led: Led,
     /// The least part of its speed that what is laid over it has left to a motion, and that motion's line.
     slowed: (f64, u32),
-    suspension: Suspension,
 }
 
 /// A motion that was laid on the way.
@@ -138,38 +127,26 @@ impl Queue {
     pub fn new(robot: Arc<Robot>, start: Joints) -> Self {
         Self {
             robot,
-            path: PathBuffer::default(),
+            layer: Layer::resting_at(start),
+            suspension: Suspension::default(),
             stop: None,
             braking_hard: false,
             dropping: false,
             joints: start,
-            end: start,
-            rig: Rig::bare(),
-            last_rig: Rig::bare(),
             added: 0,
-            finished: 0,
-            started: None,
-            timed: 0,
-            elapsed: 0.0,
-            foreseen: None,
-            progress: None,
+            forecast: None,
             left: Vec::with_capacity(LOOK_AHEAD),
-            over: 0,
             cycle: 0.001,
             late: None,
             unblended: None,
-            waiting: Waiting::default(),
             blend_thread: BlendThread::default(),
             cycles: 1,
             taken: Done::default(),
             spare: None,
-            held: None,
             waited: 0.0,
             broken: None,
             laid: None,
-            led: Led::default(),
             slowed: (1.0, 0),
-            suspension: Suspension::default(),
         }
     }
 
@@ -181,7 +158,7 @@ impl Queue {
     /// Whether another motion can be added: up to [`LOOK_AHEAD`] always, then as long as the way ahead is shorter than what
     /// stopping may take.
     pub fn has_room(&self) -> bool {
-        let executing = u64::from(self.started == Some(self.finished + 1));
+        let executing = u64::from(self.layer.execution.started == Some(self.layer.finished + 1));
         let waiting = (self.unfinished() as u64).saturating_sub(executing);
         waiting < LOOK_AHEAD as u64 || (waiting < MOST_MOTIONS_AHEAD && self.is_short_of_way())
     }
@@ -207,21 +184,21 @@ impl Queue {
     /// Plans a motion and appends it under a number.
     fn add_as(&mut self, command: &Command, settings: &Settings, number: u64) -> Result<(), PlanError> {
         let from = *self.end();
-        let start = match &self.held {
+        let start = match &self.layer.held {
             Some(held) => *held.end(),
             None if command.target.chained().is_some() => self.plain_end(command, settings)?,
-            None => self.end,
+            None => self.layer.end,
         };
         let mut next = Held::new(&self.robot, &start, command, settings, number)?;
         self.release(next.as_mut())?;
         if next.is_some() {
-            self.held = next;
+            self.layer.held = next;
         } else if matches!(command.target, Target::Gate { .. }) {
-            for motion in gate::plan(&self.robot, &self.end, command, settings)? {
+            for motion in gate::plan(&self.robot, &self.layer.end, command, settings)? {
                 self.append(motion, number);
             }
         } else {
-            let motion = plan_behind(&self.robot, &self.end, &self.led, command, settings)?;
+            let motion = plan_behind(&self.robot, &self.layer.end, &self.layer.led, command, settings)?;
             self.append(motion, number);
         }
         self.note_asked(number, from, command, settings);
@@ -253,7 +230,7 @@ impl Queue {
 
     /// Plans the motion that waits, before the next one where there is one.
     fn release(&mut self, next: Option<&mut Held>) -> Result<(), PlanError> {
-        let Some(mut held) = self.held.take() else { return Ok(()) };
+        let Some(mut held) = self.layer.held.take() else { return Ok(()) };
         if let Some(next) = &next {
             held.stop_before(&self.robot, next);
         }
@@ -261,11 +238,11 @@ impl Queue {
         let goes_on = joined.is_some();
         let (plain, before) = held.plan(&self.robot, joined)?;
         let end = *plain.end();
-        let last = self.waiting.last().or_else(|| self.path.last().map(|motion| &**motion));
+        let last = self.layer.waiting.last().or_else(|| self.layer.path.last().map(|motion| &**motion));
         let flows_from = last.filter(|_| plain.flows);
         let beginning = Beginning {
-            start: flows_from.map_or(&self.end, Motion::end),
-            before: &self.led.for_next(held.settings(), &held.command().rig),
+            start: flows_from.map_or(&self.layer.end, Motion::end),
+            before: &self.layer.led.for_next(held.settings(), &held.command().rig),
             flows_from,
             goes_on: joined.is_some_and(|next| held.weaves_on(next)),
         };
@@ -282,14 +259,14 @@ impl Queue {
 
     /// Where the last motion on the way ends, as the next one's own way begins: without a compensation that goes on.
     fn plain_end(&self, command: &Command, settings: &Settings) -> Result<Joints, PlanError> {
-        not_led(&self.robot, &self.end, &self.led.for_next(settings, &command.rig), command)
+        not_led(&self.robot, &self.layer.end, &self.layer.led.for_next(settings, &command.rig), command)
     }
 
     fn append(&mut self, motion: Motion, number: u64) {
-        self.end = *motion.end();
-        self.last_rig = motion.rig;
-        self.led = motion.led();
-        self.foreseen = None;
+        self.layer.end = *motion.end();
+        self.layer.last_rig = motion.rig;
+        self.layer.led = motion.led();
+        self.forecast = None;
         let share = motion.share_of_speed();
         if share < self.slowed.0 {
             self.slowed = (share, motion.line);
@@ -299,19 +276,20 @@ impl Queue {
 
     /// Does what the path says about motions that it was offered.
     fn take_answer(&mut self) {
-        match self.path.take_answer() {
+        match self.layer.path.take_answer() {
             Some(Answer::Taken { unblended, count }) => {
                 self.note_unblended(unblended);
                 for _ in 0..count {
-                    if let Some(taken) = self.waiting.pop() {
+                    if let Some(taken) = self.layer.waiting.pop() {
                         self.note_laid(&taken.motion, taken.number);
                     }
                 }
             }
             Some(Answer::Refused) => {
-                if let Some(Ready { motion, number, prepared, .. }) = self.waiting.pop() {
+                if let Some(Ready { motion, number, prepared, .. }) = self.layer.waiting.pop() {
                     let motion = (&motion, number);
-                    let unblended = self.path.append_behind_stop(&self.robot, motion, prepared.as_ref(), self.cycle);
+                    let unblended =
+                        self.layer.path.append_behind_stop(&self.robot, motion, prepared.as_ref(), self.cycle);
                     self.note_unblended(unblended);
                     self.note_laid(motion.0, number);
                 }
@@ -329,14 +307,14 @@ impl Queue {
 
     fn note_laid(&mut self, motion: &Arc<Motion>, number: u64) {
         if let Some(laid) = &mut self.laid {
-            let left = self.path.left_before(number).filter(|_| motion.goes());
+            let left = self.layer.path.left_before(number).filter(|_| motion.goes());
             laid.push(Laid { number, motion: Arc::clone(motion), left });
         }
     }
 
     /// Lets a motion go that waits while the robot stands still, where it can be the last one of its way.
     fn release_after_wait(&mut self, dt: f64) {
-        let starves = self.path.is_empty() && self.held.as_ref().is_some_and(Held::can_end);
+        let starves = self.layer.path.is_empty() && self.layer.held.as_ref().is_some_and(Held::can_end);
         self.waited = if starves { self.waited + dt } else { 0.0 };
         if self.waited >= LONGEST_WAIT_FOR_NEXT_S
             && let Err(error) = self.release(None)
@@ -365,7 +343,7 @@ impl Queue {
 
     /// Where the last motion of the queue ends: where the next one starts.
     pub fn end(&self) -> &Joints {
-        self.held.as_ref().map_or(&self.end, Held::end)
+        self.layer.held.as_ref().map_or(&self.layer.end, Held::end)
     }
 
     /// The commanded positions now.
@@ -375,22 +353,22 @@ impl Queue {
 
     /// The TCP now in the world, with the tool and the base of the motion that is or was last executed, translation in mm.
     pub fn tcp(&self) -> Frame {
-        self.rig.tcp_at(&self.robot.kinematics.forward(&self.joints.axes))
+        self.layer.execution.rig.tcp_at(&self.robot.kinematics.forward(&self.joints.axes))
     }
 
     /// Whether no motion is there, running, waiting or set aside.
     pub fn idle(&self) -> bool {
-        self.is_layer_idle() && self.suspension.is_clear()
+        self.is_layer_idle() && self.is_clear()
     }
 
     /// The running number of the motion that is executed, or comes next; `None` where none is laid.
     pub fn current(&self) -> Option<u64> {
-        self.path.current().map(|(segment, _)| segment.number)
+        self.layer.path.current().map(|(segment, _)| segment.number)
     }
 
     /// Whether the robot stands still, at the end of a motion or within one.
     pub fn rests(&self) -> bool {
-        self.path.rests()
+        self.layer.path.rests()
     }
 
     /// Whether it was told to stop, and neither to resume nor to drop its motions.
@@ -415,9 +393,10 @@ impl Queue {
     /// rest. Without a stop it goes on to the next target that it reaches exactly first.
     pub fn clear(&mut self) {
         self.suspension.clear();
-        self.path.keep_to_stop();
-        self.waiting.clear();
-        self.held = None;
+        self.layer.requests.clear();
+        self.layer.path.keep_to_stop();
+        self.layer.waiting.clear();
+        self.layer.held = None;
         self.dropping = true;
         self.drop_at_rest();
     }
@@ -427,25 +406,25 @@ impl Queue {
     pub fn place(&mut self, joints: Joints) -> bool {
         let idle = self.is_layer_idle() && self.rests();
         if idle {
-            (self.joints, self.end) = (joints, joints);
-            self.led = Led::default();
+            (self.joints, self.layer.end) = (joints, joints);
+            self.layer.led = Led::default();
         }
         idle
     }
 
     /// The running number of the last motion that is not executed any more: it has ended, or a blend leads away from it.
     pub fn over(&self) -> u64 {
-        self.over
+        self.layer.over
     }
 
     /// Where the motion ends that is being executed, or else the next one.
     pub fn target(&self) -> &Joints {
-        self.path.current().map_or(&self.end, |(segment, _)| segment.target())
+        self.layer.path.current().map_or(&self.layer.end, |(segment, _)| segment.target())
     }
 
     /// What the robot carries in the motion that is or was last executed, and where it stands.
     pub fn rig(&self) -> &Rig {
-        &self.rig
+        &self.layer.execution.rig
     }
 
     /// Moves on by one cycle of `dt` s at an override of `override_percent`, 0 to 100. A motion that is not blended with the
@@ -455,73 +434,8 @@ impl Queue {
         self.count_cycle();
         self.left.clear();
         let speed = if override_percent > 0.0 { override_percent.min(100.0) / 100.0 } else { 0.0 };
-        let stop = if self.stop == Some(Stop::Fast) { self.stop } else { self.suspension.stop().or(self.stop) };
-        let pacing = match stop {
-            Some(Stop::Fast) => Pacing::Stop(FAST_STOP_FACTOR),
-            Some(Stop::General) => Pacing::Stop(1.0),
-            None if speed > 0.0 => Pacing::Go(speed),
-            None => Pacing::Stop(1.0),
-        };
-        self.braking_hard = match (pacing, self.path.rests()) {
-            (_, true) => false,
-            (Pacing::Stop(harder), false) => self.braking_hard || harder > 1.0,
-            (Pacing::Go(_) | Pacing::Settle(_), false) => self.braking_hard,
-        };
-        // A fast stop is carried through to rest: from its acceleration nothing else would be within the limits.
-        let pacing = if self.braking_hard { Pacing::Stop(FAST_STOP_FACTOR) } else { pacing };
-        let rested = self.path.rests();
-        let (mut motion, mut line) = (0, 0);
-        let waits = rested && matches!(pacing, Pacing::Stop(_));
-        if !waits && !self.path.is_empty() {
-            let before = (self.started, self.rig, self.timed, self.elapsed);
-            if let Some(segment) = self.path.first() {
-                (motion, line) = self.enter(segment.number, segment.line, segment.rig);
-            }
-            let passed = if matches!(pacing, Pacing::Go(_)) { dt * speed } else { 0.0 };
-            self.time(passed);
-            let (mut arrived, mut finished) = (None, self.finished);
-            let stands = self.path.advance((&self.robot, &self.joints), dt, pacing, |passed| {
-                finished = if passed.ends { passed.number } else { finished };
-                if !passed.leaves() {
-                    let elapsed = if passed.number == self.timed { self.elapsed } else { 0.0 };
-                    self.left.push(progress_at(
-                        &passed,
-                        passed.share_at_end(),
-                        passed.duration().unwrap_or(elapsed),
-                        0.0,
-                    ));
-                }
-                arrived = Some(passed);
-            });
-            self.finished = finished;
-            let waits = rested && !stands && self.path.awaits_law();
-            if waits {
-                // The motion has not begun.
-                (self.started, self.rig, self.timed, self.elapsed) = before;
-                (motion, line) = (0, 0);
-            }
-            match (stands, &arrived, self.path.first()) {
-                (true, Some(segment), _) => {
-                    (motion, line) = (segment.number, segment.line);
-                    self.joints = segment.joints(&self.robot.kinematics, segment.time, &self.joints);
-                }
-                _ if waits => {}
-                (_, _, Some(segment)) => {
-                    self.joints = segment.joints(&self.robot.kinematics, self.path.at(), &self.joints);
-                    (motion, line) = (segment.number, segment.line);
-                    let rig = segment.rig;
-                    self.enter(motion, line, rig);
-                }
-                _ => {}
-            }
-            self.progress = match arrived.filter(|_| stands) {
-                Some(segment) => Some(self.at_the_end_of(&segment)),
-                None => self.on_the_way(if waits { 0.0 } else { passed }),
-            };
-        } else if self.path.rests() && self.path.at() == 0.0 {
-            // It stands at a target and not on the way.
-            self.progress = None;
-        }
+        let pacing = self.choose_pacing(speed);
+        let (motion, line) = self.advance(dt, speed, pacing);
         self.take_answer();
         self.lay_waiting();
         self.end_empty();
@@ -530,40 +444,121 @@ impl Queue {
         if !matches!(pacing, Pacing::Stop(_)) {
             self.release_after_wait(dt);
         }
-        // What is taken up again brings its own tool along: from the next cycle on.
+        // What is resumed brings its own tool along: from the next cycle on.
         let tcp = self.tcp();
         self.advance_suspension();
-        Step { joints: self.joints, tcp, motion, line, finished: self.finished, rests: self.rests() }
+        Step { joints: self.joints, tcp, motion, line, finished: self.layer.finished, rests: self.rests() }
+    }
+
+    /// How fast to go in this cycle, at an override of `speed`, 0 to 1. A fast stop is carried through to rest: from its acceleration
+    /// nothing else would be within the limits.
+    fn choose_pacing(&mut self, speed: f64) -> Pacing {
+        let stop = if self.stop == Some(Stop::Fast) { self.stop } else { self.suspension.stop().or(self.stop) };
+        let pacing = match stop {
+            Some(Stop::Fast) => Pacing::Stop(FAST_STOP_FACTOR),
+            Some(Stop::General) => Pacing::Stop(1.0),
+            None if speed > 0.0 => Pacing::Go(speed),
+            None => Pacing::Stop(1.0),
+        };
+        let is_hard = matches!(pacing, Pacing::Stop(harder) if harder > 1.0);
+        self.braking_hard = !self.layer.path.rests() && (self.braking_hard || is_hard);
+        if self.braking_hard { Pacing::Stop(FAST_STOP_FACTOR) } else { pacing }
+    }
+
+    /// Goes along the path for a cycle; returns the motion executed in it, and its line.
+    fn advance(&mut self, dt: f64, speed: f64, pacing: Pacing) -> (u64, u32) {
+        let rested = self.layer.path.rests();
+        let is_held = rested && matches!(pacing, Pacing::Stop(_));
+        let Some(first) = self.layer.path.first().filter(|_| !is_held) else {
+            if rested && self.layer.path.at() == 0.0 {
+                // It stands at a target and not on the way.
+                self.layer.progress = None;
+            }
+            return (0, 0);
+        };
+        let (motion, line, rig) = (first.number, first.line, first.rig);
+        let before = self.layer.execution;
+        self.execute(motion, rig);
+        let passed = if matches!(pacing, Pacing::Go(_)) { dt * speed } else { 0.0 };
+        self.count_time(passed);
+        let (arrived, stands) = self.follow_path(dt, pacing);
+        if rested && !stands && self.layer.path.awaits_law() {
+            // The motion has not begun.
+            self.layer.execution = before;
+            self.layer.progress = self.progress_on_way(0.0);
+            return (0, 0);
+        }
+        let executed = self.place_on_path((motion, line), arrived.as_deref().filter(|_| stands));
+        self.layer.progress = match arrived.filter(|_| stands) {
+            Some(segment) => Some(self.progress_at_end(&segment)),
+            None => self.progress_on_way(passed),
+        };
+        executed
+    }
+
+    /// Has the path's leader go on for a cycle; returns the segment that was left behind last, and whether the robot has come to a
+    /// stop at its end.
+    fn follow_path(&mut self, dt: f64, pacing: Pacing) -> (Option<Arc<Segment>>, bool) {
+        let Layer { path, execution, finished, .. } = &mut self.layer;
+        let mut arrived = None;
+        let stands = path.advance((&self.robot, &self.joints), dt, pacing, |passed| {
+            *finished = if passed.ends { passed.number } else { *finished };
+            if !passed.leaves() {
+                let elapsed = if passed.number == execution.timed { execution.elapsed } else { 0.0 };
+                let duration = passed.duration().unwrap_or(elapsed);
+                self.left.push(progress_at(&passed, passed.share_at_end(), duration, 0.0));
+            }
+            arrived = Some(passed);
+        });
+        (arrived, stands)
+    }
+
+    /// Puts the commanded positions where the robot is on the path, or at the end of the segment at which it stands; returns the
+    /// motion executed there and its line, `executed` where there is no other.
+    fn place_on_path(&mut self, executed: (u64, u32), end: Option<&Segment>) -> (u64, u32) {
+        let kinematics = &self.robot.kinematics;
+        match (end, self.layer.path.first()) {
+            (Some(segment), _) => {
+                self.joints = segment.joints(kinematics, segment.time, &self.joints);
+                (segment.number, segment.line)
+            }
+            (None, Some(segment)) => {
+                self.joints = segment.joints(kinematics, self.layer.path.at(), &self.joints);
+                let (motion, line, rig) = (segment.number, segment.line, segment.rig);
+                self.execute(motion, rig);
+                (motion, line)
+            }
+            (None, None) => executed,
+        }
     }
 
     /// Notes that a motion is being executed.
-    fn enter(&mut self, number: u64, line: u32, rig: Rig) -> (u64, u32) {
-        self.started = Some(number);
-        self.rig = rig;
-        (number, line)
+    fn execute(&mut self, number: u64, rig: Rig) {
+        self.layer.execution.started = Some(number);
+        self.layer.execution.rig = rig;
     }
 
     /// Motions that go nowhere end when those before them have ended.
     fn end_empty(&mut self) {
-        let anew = self.suspension.first_anew().unwrap_or(self.added + 1);
-        let held = self.held.as_ref().map_or(anew, |held| held.number);
-        let waiting = self.waiting.first().map_or(held, |ready| ready.number);
-        let next = self.path.first().map_or(waiting, |segment| segment.number);
-        self.finished = self.finished.max(next - 1);
-        if self.path.is_empty() && self.waiting.is_empty() && !self.dropping {
-            self.rig = self.last_rig;
+        let anew = self.layer.requests.first_anew().unwrap_or(self.added + 1);
+        let held = self.layer.held.as_ref().map_or(anew, |held| held.number);
+        let waiting = self.layer.waiting.first().map_or(held, |ready| ready.number);
+        let next = self.layer.path.first().map_or(waiting, |segment| segment.number);
+        self.layer.finished = self.layer.finished.max(next - 1);
+        if self.layer.path.is_empty() && self.layer.waiting.is_empty() && !self.dropping {
+            self.layer.execution.rig = self.layer.last_rig;
         }
     }
 
     fn drop_at_rest(&mut self) {
         if self.dropping && self.rests() {
-            self.finished = self.added;
-            self.over = self.added;
-            self.path.clear();
-            self.end = self.joints;
-            self.led = Led::default();
-            self.started = None;
-            self.progress = None;
+            self.layer.finished = self.added;
+            self.layer.over = self.added;
+            self.layer.path.clear();
+            self.layer.end = self.joints;
+            self.layer.led = Led::default();
+            self.layer.execution.started = None;
+            self.layer.progress = None;
             self.dropping = false;
             self.braking_hard = false;
         }

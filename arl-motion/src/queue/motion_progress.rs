@@ -42,7 +42,7 @@ impl Queue {
     /// How far the motion has come that was executed in the last cycle: all the way, if it came to its target then.
     /// `None`: there was none.
     pub fn progress(&self) -> Option<Progress> {
-        self.progress
+        self.layer.progress
     }
 
     /// How far a motion had come when it ended, or was left for a blend, in the last cycle. `None`: neither did it then, or it
@@ -52,50 +52,50 @@ impl Queue {
     }
 
     /// Counts time for the motion that counts as being executed.
-    pub(crate) fn time(&mut self, passed: f64) {
-        let Some((segment, _)) = self.path.current() else { return };
-        if self.timed != segment.number {
-            (self.timed, self.elapsed) = (segment.number, 0.0);
+    pub(crate) fn count_time(&mut self, passed: f64) {
+        let Some((segment, _)) = self.layer.path.current() else { return };
+        if self.layer.execution.timed != segment.number {
+            (self.layer.execution.timed, self.layer.execution.elapsed) = (segment.number, 0.0);
         }
-        self.elapsed += passed;
+        self.layer.execution.elapsed += passed;
     }
 
-    pub(crate) fn at_the_end_of(&self, segment: &Segment) -> Progress {
-        progress_at(segment, 1.0, segment.duration().unwrap_or(self.elapsed), 0.0)
+    pub(crate) fn progress_at_end(&self, segment: &Segment) -> Progress {
+        progress_at(segment, 1.0, segment.duration().unwrap_or(self.layer.execution.elapsed), 0.0)
     }
 
     /// How long the motion being executed still takes at full speed, in s, `passed` s of that later than when this was asked
     /// last.
     pub(crate) fn time_left(&mut self, motion: u64, elapsed: f64, passed: f64) -> f64 {
-        let (left, age) = match self.foreseen {
+        let (left, age) = match self.forecast {
             Some((of, left, age)) if of == motion && age < CYCLES_BETWEEN_FORECASTS => {
                 ((left - passed).max(0.0), age + 1)
             }
-            _ => (self.path.time_to_end(elapsed), 0),
+            _ => (self.layer.path.time_to_end(elapsed), 0),
         };
-        self.foreseen = Some((motion, left, age));
+        self.forecast = Some((motion, left, age));
         left
     }
 
-    pub(crate) fn on_the_way(&mut self, passed: f64) -> Option<Progress> {
-        let (segment, share) = self.path.current()?;
+    pub(crate) fn progress_on_way(&mut self, passed: f64) -> Option<Progress> {
+        let (segment, share) = self.layer.path.current()?;
         // A motion that is joined in this very cycle has not run yet.
-        let elapsed = if segment.number == self.timed { self.elapsed } else { 0.0 };
+        let elapsed = if segment.number == self.layer.execution.timed { self.layer.execution.elapsed } else { 0.0 };
         let motion = segment.number;
         let left = self.time_left(motion, elapsed, passed);
-        let (segment, _) = self.path.current()?;
+        let (segment, _) = self.layer.path.current()?;
         Some(progress_at(segment, share, elapsed, left))
     }
 
     /// Notes which motions are not executed any more. Those of which nothing is known go nowhere.
     pub(crate) fn leave_behind(&mut self) {
-        let ahead = self.path.current().map_or(self.finished + 1, |(segment, _)| segment.number);
-        for motion in self.over + 1..ahead {
+        let ahead = self.layer.path.current().map_or(self.layer.finished + 1, |(segment, _)| segment.number);
+        for motion in self.layer.over + 1..ahead {
             if !self.dropping && self.left(motion).is_none() {
                 self.left.push(Progress { motion, ..Progress::DONE });
             }
         }
-        self.over = self.over.max(ahead - 1);
+        self.layer.over = self.layer.over.max(ahead - 1);
     }
 }
 

@@ -12,34 +12,16 @@ use crate::command::error::PlanError;
 use crate::command::joints::Joints;
 use crate::command::{Command, Settings, Target, Zone};
 use crate::overlay::Led;
-use crate::plan::chain::Held;
 use crate::plan::gate;
 use crate::plan::planner::plan;
-use crate::queue::look_ahead::Waiting;
-use crate::queue::path_buffer::PathBuffer;
-use crate::queue::{Progress, Queue, Stop};
-use arl_robot::frames::Rig;
+use crate::queue::layer::{Asked, Layer, RESERVED_SUSPENSIONS, Requests};
+use crate::queue::{Queue, Stop};
 use way_back::{Skipped, Way};
 
 /// How near to the place of the stop a way back has to end, in deg (mm).
 const SAME_PLACE_DEG_OR_MM: f64 = 1e-6;
 /// How many motions are planned anew in a cycle.
 const REPLANNED_A_CYCLE: usize = 4;
-/// Room for so many stops within each other takes no memory in the cycle.
-const RESERVED_SUSPENSIONS: usize = 4;
-
-/// A motion as it was asked for.
-#[derive(Clone, Debug)]
-pub(crate) struct Asked {
-    number: u64,
-    command: Command,
-    settings: Settings,
-    start: Joints,
-    end: Joints,
-    /// How a compensation stands at its end.
-    led: Led,
-}
-
 /// A stop on its way to rest.
 #[derive(Clone, Debug)]
 struct Stopping {
@@ -72,50 +54,25 @@ pub struct Start {
     pub line: u32,
 }
 
-/// What was set aside at a stop.
+/// Motion that was suspended at a stop.
 #[derive(Clone, Debug)]
 struct SuspendedMotion {
+    /// The level of the program that stopped it.
     level: u32,
     /// Where the robot stood.
     joints: Joints,
-    path: PathBuffer,
-    waiting: Waiting,
-    held: Option<Held>,
-    end: Joints,
-    rig: Rig,
-    last_rig: Rig,
-    led: Led,
+    /// The running number of the motion that had been added last.
     added: u64,
-    finished: u64,
-    over: u64,
-    started: Option<u64>,
-    timed: u64,
-    elapsed: f64,
-    progress: Option<Progress>,
-    asked: VecDeque<Asked>,
-    early: Vec<(u64, u64)>,
-    starts: VecDeque<Start>,
-    going: bool,
-    anew: VecDeque<Asked>,
+    layer: Layer,
 }
 
-/// What is set aside, and what setting aside needs to know of the motions.
+/// What is suspended, and what is about to be.
 #[derive(Clone, Debug)]
 pub(crate) struct Suspension {
-    /// The motions that are not over, and the last one that is.
-    asked: VecDeque<Asked>,
-    /// Motions, from a number to another, that ended before others with lower numbers.
-    early: Vec<(u64, u64)>,
     stopping: Option<Stopping>,
     again: Vec<Again>,
-    /// What is set aside, the last one on top.
+    /// What is suspended, the last one on top.
     suspended: Vec<SuspendedMotion>,
-    /// How to go on, as soon as the robot rests where nothing is left to go.
-    starts: VecDeque<Start>,
-    /// Whether the robot is on the way that the first of these asks for.
-    going: bool,
-    /// Motions to be planned anew.
-    anew: VecDeque<Asked>,
     /// The way back that was planned last, where nobody has taken notice yet.
     way_back: Option<(u64, Command, Settings)>,
     /// Whether more motions were to be dropped than there were.
@@ -126,14 +83,9 @@ pub(crate) struct Suspension {
 impl Default for Suspension {
     fn default() -> Self {
         Self {
-            asked: VecDeque::new(),
-            early: Vec::with_capacity(2 * RESERVED_SUSPENSIONS),
             stopping: None,
             again: Vec::with_capacity(RESERVED_SUSPENSIONS),
             suspended: Vec::with_capacity(RESERVED_SUSPENSIONS),
-            starts: VecDeque::with_capacity(RESERVED_SUSPENSIONS),
-            going: false,
-            anew: VecDeque::new(),
             way_back: None,
             beyond: false,
             broken: None,
@@ -147,88 +99,51 @@ impl Suspension {
         self.stopping.as_ref().map(|stopping| stopping.stop)
     }
 
-    /// Whether nothing is set aside or about to be, nor to be gone on with.
-    pub(crate) fn is_clear(&self) -> bool {
-        self.suspended.is_empty() && self.is_settled()
-    }
-
-    /// Whether nothing is about to be set aside or to be gone on with.
-    fn is_settled(&self) -> bool {
-        self.stopping.is_none() && self.starts.is_empty() && self.anew.is_empty() && !self.beyond
-    }
-
-    /// Whether those of a level of the program may move the robot between what is set aside.
-    fn is_open_to(&self, level: u32) -> bool {
-        self.is_settled() && self.suspended.last().is_none_or(|suspended| level >= suspended.level)
-    }
-
     /// Whether something is set aside that nobody has asked yet to go on with.
-    fn waits_for_start(&self) -> bool {
-        let below = |suspended: &SuspendedMotion| suspended.starts.len();
+    fn waits_for_start(&self, requests: &Requests) -> bool {
+        let below = |suspended: &SuspendedMotion| suspended.layer.requests.starts.len();
         let stopping = self.stopping.as_ref().map_or(0, |stopping| stopping.starts.len());
         let again = self.again.iter().map(|again| again.starts.len()).sum::<usize>();
-        let asked = self.starts.len() + self.suspended.iter().map(below).sum::<usize>() + stopping + again;
+        let asked = requests.starts.len() + self.suspended.iter().map(below).sum::<usize>() + stopping + again;
         self.suspended.len() + usize::from(self.stopping.is_some()) + self.again.len() > asked
-    }
-
-    /// The first motion to be planned anew.
-    pub(crate) fn first_anew(&self) -> Option<u64> {
-        self.anew.front().map(|asked| asked.number)
     }
 
     /// Drops everything.
     pub(crate) fn clear(&mut self) {
-        self.asked.clear();
-        self.early.clear();
         self.again.clear();
         self.suspended.clear();
-        self.starts.clear();
-        self.anew.clear();
         (self.stopping, self.way_back, self.broken) = (None, None, None);
-        (self.going, self.beyond) = (false, false);
-    }
-
-    /// Takes what was said of going on; an empty list keeps its memory.
-    fn take_starts(&mut self) -> VecDeque<Start> {
-        if self.starts.is_empty() { VecDeque::new() } else { std::mem::take(&mut self.starts) }
-    }
-
-    /// Puts what was said of going on in front again.
-    fn put_back(&mut self, mut starts: VecDeque<Start>) {
-        if !starts.is_empty() {
-            starts.append(&mut self.starts);
-            self.starts = starts;
-        }
-    }
-
-    /// Takes the motions that ended early; an empty list keeps its memory.
-    fn take_early(&mut self) -> Vec<(u64, u64)> {
-        if self.early.is_empty() { Vec::new() } else { std::mem::take(&mut self.early) }
-    }
-
-    /// Exchanges the motions that ended early for others.
-    fn exchange_early(&mut self, early: Vec<(u64, u64)>) {
-        if early.is_empty() {
-            self.early.clear();
-        } else {
-            self.early = early;
-        }
+        self.beyond = false;
     }
 
     /// Whether a motion with a number up to that of the last one that has ended, has ended, too.
     fn has_ended(&self, motion: u64, ended: impl Fn(&SuspendedMotion) -> u64) -> bool {
         let within = |early: &[(u64, u64)]| early.iter().any(|(from, to)| (*from..=*to).contains(&motion));
-        self.suspended
-            .iter()
-            .all(|suspended| motion <= ended(suspended) || motion > suspended.added || within(&suspended.early))
-    }
-
-    fn ended_early(&self, motion: u64) -> bool {
-        self.early.iter().any(|(from, to)| (*from..=*to).contains(&motion))
+        self.suspended.iter().all(|suspended| {
+            motion <= ended(suspended) || motion > suspended.added || within(&suspended.layer.requests.early)
+        })
     }
 }
 
 impl Queue {
+    /// Whether nothing is set aside or about to be, nor to be gone on with.
+    pub(crate) fn is_clear(&self) -> bool {
+        self.suspension.suspended.is_empty() && self.is_settled()
+    }
+
+    /// Whether nothing is about to be set aside or to be gone on with.
+    fn is_settled(&self) -> bool {
+        self.suspension.stopping.is_none()
+            && self.layer.requests.starts.is_empty()
+            && self.layer.requests.anew.is_empty()
+            && !self.suspension.beyond
+    }
+
+    /// Whether those of a level of the program may move the robot between what is set aside.
+    fn is_open_to(&self, level: u32) -> bool {
+        self.is_settled() && self.suspension.suspended.last().is_none_or(|suspended| level >= suspended.level)
+    }
+
     /// Brings the robot to rest on its path and sets its motions aside, so that others can be added that come before they
     /// go on. Only those of the level `level` of the program, or of a higher one, may do that: see [`Queue::takes`].
     pub fn request_suspension(&mut self, stop: Stop, level: u32) {
@@ -236,20 +151,20 @@ impl Queue {
             if stop == Stop::Fast {
                 stopping.stop = stop;
             }
-            if self.suspension.starts.is_empty() {
+            if self.layer.requests.starts.is_empty() {
                 stopping.level = stopping.level.max(level);
             } else {
-                let starts = self.suspension.take_starts();
+                let starts = self.layer.requests.take_starts();
                 self.suspension.again.push(Again { level, starts });
             }
             return;
         }
         let again = self.suspension.suspended.last().is_some_and(|suspended| suspended.level >= level);
-        if again && self.is_layer_idle() && self.suspension.is_settled() {
+        if again && self.is_layer_idle() && self.is_settled() {
             return;
         }
-        let starts = self.suspension.take_starts();
-        let going = std::mem::take(&mut self.suspension.going);
+        let starts = self.layer.requests.take_starts();
+        let going = std::mem::take(&mut self.layer.requests.going);
         self.suspension.stopping = Some(Stopping { stop, level, starts, going, drops: false });
         self.suspend_at_rest();
     }
@@ -257,10 +172,10 @@ impl Queue {
     /// Goes on with what was set aside last, once the robot rests and what was added since is done. Returns whether
     /// anything was set aside that is not to be gone on with already.
     pub fn start_again(&mut self, start: Start) -> bool {
-        if !self.suspension.waits_for_start() {
+        if !self.suspension.waits_for_start(&self.layer.requests) {
             return false;
         }
-        self.suspension.starts.push_back(start);
+        self.layer.requests.starts.push_back(start);
         self.go_on();
         true
     }
@@ -268,11 +183,11 @@ impl Queue {
     /// Drops what is set aside, where nobody has asked to go on with it; returns whether there was something. A stop on its
     /// way goes on to rest.
     pub fn drop_suspended(&mut self) -> bool {
-        let waits = self.suspension.waits_for_start();
+        let waits = self.suspension.waits_for_start(&self.layer.requests);
         if waits {
             self.suspension.suspended.clear();
-            self.suspension.starts.clear();
-            self.suspension.going = false;
+            self.layer.requests.starts.clear();
+            self.layer.requests.going = false;
             if let Some(stopping) = &mut self.suspension.stopping {
                 stopping.starts.clear();
                 self.suspension.again.clear();
@@ -294,30 +209,31 @@ impl Queue {
 
     /// The running number of the first motion that has not ended.
     pub fn oldest(&self) -> u64 {
-        self.suspension.suspended.first().map_or(self.finished, |suspended| suspended.finished) + 1
+        self.suspension.suspended.first().map_or(self.layer.finished, |suspended| suspended.layer.finished) + 1
     }
 
     /// Whether a motion can be added now by those of a level of the program.
     pub fn takes(&self, level: u32) -> bool {
-        self.suspension.is_open_to(level) && self.has_room() && !self.has_enough_ahead()
+        self.is_open_to(level) && self.has_room() && !self.has_enough_ahead()
     }
 
     /// Whether nothing is left that those of a level of the program have to wait for: all motion, but for what was set aside
     /// for them.
     pub fn idle_for(&self, level: u32) -> bool {
-        if self.suspension.is_open_to(level) { self.is_layer_idle() } else { self.idle() }
+        if self.is_open_to(level) { self.is_layer_idle() } else { self.idle() }
     }
 
     /// Whether a motion has ended.
     pub fn has_ended(&self, motion: u64) -> bool {
-        let ended = motion <= self.finished && self.suspension.has_ended(motion, |suspended| suspended.finished);
-        ended || self.suspension.ended_early(motion)
+        let ended =
+            motion <= self.layer.finished && self.suspension.has_ended(motion, |suspended| suspended.layer.finished);
+        ended || self.layer.requests.ended_early(motion)
     }
 
     /// Whether a motion is not executed any more: it has ended, or a blend leads away from it.
     pub fn is_over(&self, motion: u64) -> bool {
-        let over = motion <= self.over && self.suspension.has_ended(motion, |suspended| suspended.over);
-        over || self.suspension.ended_early(motion)
+        let over = motion <= self.layer.over && self.suspension.has_ended(motion, |suspended| suspended.layer.over);
+        over || self.layer.requests.ended_early(motion)
     }
 
     /// Whether, since this was asked last, more motions were to be dropped than there were. All of them were then.
@@ -337,36 +253,36 @@ impl Queue {
 
     /// Whether no motion is there, running or waiting, but for what is set aside.
     pub(crate) fn is_layer_idle(&self) -> bool {
-        self.finished == self.added
+        self.layer.finished == self.added
     }
 
     /// Notes a motion that is being added from `start` on.
     pub(crate) fn note_asked(&mut self, number: u64, start: Joints, command: &Command, settings: &Settings) {
-        while self.suspension.asked.get(1).is_some_and(|next| next.number <= self.finished) {
-            self.suspension.asked.pop_front();
+        while self.layer.requests.asked.get(1).is_some_and(|next| next.number <= self.layer.finished) {
+            self.layer.requests.asked.pop_front();
         }
         let end = *self.end();
-        let led = if self.held.is_some() { Led::default() } else { self.led };
+        let led = if self.layer.held.is_some() { Led::default() } else { self.layer.led };
         let (command, settings) = (command.clone(), *settings);
-        self.suspension.asked.push_back(Asked { number, command, settings, start, end, led });
+        self.layer.requests.asked.push_back(Asked { number, command, settings, start, end, led });
     }
 
     /// Notes where a motion ends that had waited for the next one, now that it has been planned.
     pub(crate) fn note_released(&mut self, number: u64) {
-        if let Some(asked) = self.suspension.asked.iter_mut().rev().find(|asked| asked.number == number) {
-            (asked.end, asked.led) = (self.end, self.led);
+        if let Some(asked) = self.layer.requests.asked.iter_mut().rev().find(|asked| asked.number == number) {
+            (asked.end, asked.led) = (self.layer.end, self.layer.led);
         }
     }
 
     /// The motions of this layer that have been added and have not ended, the one being executed included.
     pub(crate) fn unfinished(&self) -> usize {
-        let asked = &self.suspension.asked;
-        asked.len() - asked.partition_point(|asked| asked.number <= self.finished)
+        let asked = &self.layer.requests.asked;
+        asked.len() - asked.partition_point(|asked| asked.number <= self.layer.finished)
     }
 
     /// What there is to do about motions that are set aside, at the end of a cycle.
     pub(crate) fn advance_suspension(&mut self) {
-        self.suspension.early.retain(|(_, to)| *to > self.finished);
+        self.layer.requests.early.retain(|(_, to)| *to > self.layer.finished);
         self.suspend_at_rest();
         self.plan_anew();
         self.go_on();
@@ -386,7 +302,7 @@ impl Queue {
             }
         }
         self.suspension.again.clear();
-        self.foreseen = None;
+        self.forecast = None;
         self.braking_hard = false;
         self.waited = 0.0;
         if drops {
@@ -396,88 +312,67 @@ impl Queue {
 
     /// Sets everything aside.
     fn suspend(&mut self, level: u32, starts: VecDeque<Start>, going: bool) {
-        let early = self.suspension.take_early();
-        self.suspension.suspended.push(SuspendedMotion {
-            level,
-            joints: self.joints,
-            path: self.path.suspend(),
-            waiting: std::mem::take(&mut self.waiting),
-            held: self.held.take(),
-            end: std::mem::replace(&mut self.end, self.joints),
-            rig: self.rig,
-            last_rig: std::mem::replace(&mut self.last_rig, self.rig),
-            led: std::mem::take(&mut self.led),
-            added: self.added,
-            finished: std::mem::replace(&mut self.finished, self.added),
-            over: std::mem::replace(&mut self.over, self.added),
-            started: self.started.take(),
-            timed: self.timed,
-            elapsed: self.elapsed,
-            progress: self.progress.take(),
-            asked: std::mem::take(&mut self.suspension.asked),
-            early,
-            starts,
-            going,
-            anew: std::mem::take(&mut self.suspension.anew),
-        });
+        let layer = self.layer.suspend(self.joints, self.added, starts, going);
+        let suspended = SuspendedMotion { level, joints: self.joints, added: self.added, layer };
+        self.suspension.suspended.push(suspended);
     }
 
     /// Goes on with what was set aside, where the robot is there already; else adds the way to it.
     fn go_on(&mut self) {
-        while let Some(start) = self.suspension.starts.front().copied() {
+        while let Some(start) = self.layer.requests.starts.front().copied() {
             if self.suspension.stopping.is_some()
-                || !self.suspension.anew.is_empty()
+                || !self.layer.requests.anew.is_empty()
                 || !self.is_layer_idle()
                 || !self.rests()
             {
                 return;
             }
             let Some(suspended) = self.suspension.suspended.last() else {
-                self.suspension.starts.clear();
+                self.layer.requests.starts.clear();
                 return;
             };
-            if !self.suspension.going && start.skip > 0 && suspended.leads_on() {
+            if !self.layer.requests.going && start.skip > 0 && suspended.leads_on() {
                 // It was stopped on its way to another one, or before that, whose motions are meant.
                 self.pass_on(start);
                 continue;
             }
             let skipped = suspended.skipped(start.skip);
-            if !self.suspension.going {
+            if !self.layer.requests.going {
                 let way = match &skipped {
                     Skipped::None => suspended.way_back(&self.robot, &self.joints),
                     Skipped::To(last) => Some(last.way_to(&self.robot)),
                     Skipped::Beyond => {
                         self.suspension.beyond = true;
-                        self.suspension.starts.clear();
+                        self.layer.requests.starts.clear();
                         self.suspension.suspended.clear();
                         return;
                     }
                 };
                 if let Some(way) = way {
-                    self.suspension.going = true;
+                    self.layer.requests.going = true;
                     if let Err(error) = self.go(way, start) {
                         self.suspension.broken = Some(PlanError::Earlier { line: start.line, error: Box::new(error) });
-                        self.suspension.starts.clear();
-                        self.suspension.going = false;
+                        self.layer.requests.starts.clear();
+                        self.layer.requests.going = false;
                     }
                     return;
                 }
             }
             let skipped = if let Skipped::To(last) = skipped { Some((last.number, last.led)) } else { None };
-            self.suspension.starts.pop_front();
-            self.suspension.going = false;
+            self.layer.requests.starts.pop_front();
+            self.layer.requests.going = false;
             self.resume_suspended(skipped);
         }
     }
 
     /// Skips motions of what is below the one on top, to which the robot was on its way.
     fn pass_on(&mut self, start: Start) {
-        self.suspension.starts.pop_front();
+        self.layer.requests.starts.pop_front();
         if let Some(mut suspended) = self.suspension.suspended.pop() {
-            if let Some(first) = suspended.starts.front_mut() {
+            if let Some(first) = suspended.layer.requests.starts.front_mut() {
                 first.skip = first.skip.max(start.skip);
             }
-            self.suspension.put_back(suspended.starts);
+            self.layer.requests.put_back(suspended.layer.requests.starts);
         }
     }
 
@@ -486,7 +381,7 @@ impl Queue {
         let plain = Settings { weave: None, compensation: None, ..asked };
         let settings = Settings { manual: plain.manual || start.manual, ..plain };
         let command = Command { zone: Zone::NONE, duration: None, line: start.line, ..command };
-        let here = self.end;
+        let here = self.layer.end;
         let mut motions = match &command.target {
             Target::Gate { .. } => gate::plan(&self.robot, &here, &command, &settings)?,
             _ => vec![plan(&self.robot, &here, &command, &settings)?],
@@ -510,34 +405,19 @@ impl Queue {
     /// Goes on with what was set aside last: where it was stopped, or behind the motion `skipped`, at whose end the
     /// compensation stands so.
     fn resume_suspended(&mut self, skipped: Option<(u64, Led)>) {
-        let Some(suspended) = self.suspension.suspended.pop() else { return };
-        let early = (suspended.added + 1, self.added);
-        self.suspension.exchange_early(suspended.early);
-        self.suspension.early.push(early);
-        self.suspension.asked = suspended.asked;
-        self.suspension.anew = suspended.anew;
-        self.suspension.going = suspended.going;
-        self.suspension.put_back(suspended.starts);
-        self.foreseen = None;
+        let Some(SuspendedMotion { mut layer, added, .. }) = self.suspension.suspended.pop() else { return };
+        self.layer.requests.take_over(std::mem::take(&mut layer.requests), (added + 1, self.added));
+        self.forecast = None;
         match skipped {
-            None => {
-                self.path.resume_suspended(suspended.path);
-                (self.waiting, self.held) = (suspended.waiting, suspended.held);
-                (self.end, self.rig, self.last_rig, self.led) =
-                    (suspended.end, suspended.rig, suspended.last_rig, suspended.led);
-                (self.finished, self.over) = (suspended.finished, suspended.over);
-                (self.started, self.timed, self.elapsed) = (suspended.started, suspended.timed, suspended.elapsed);
-                self.progress = suspended.progress;
-            }
+            None => self.layer.resume(layer),
             Some((last, led)) => {
-                (self.finished, self.over) = (last, last);
-                (self.end, self.led) = (self.joints, led);
-                self.started = None;
+                (self.layer.finished, self.layer.over) = (last, last);
+                (self.layer.end, self.layer.led) = (self.joints, led);
+                self.layer.execution.started = None;
                 // What was to be planned anew and is dropped now was asked for last.
-                let left =
-                    self.suspension.asked.iter().chain(&self.suspension.anew).filter(|asked| asked.number > last);
-                self.suspension.anew = left.cloned().collect();
-                self.suspension.asked.retain(|asked| asked.number <= last);
+                let Requests { asked, anew, .. } = &mut self.layer.requests;
+                *anew = asked.iter().chain(&*anew).filter(|asked| asked.number > last).cloned().collect();
+                asked.retain(|asked| asked.number <= last);
             }
         }
         self.end_empty();
@@ -547,10 +427,10 @@ impl Queue {
     /// Plans some of the motions anew that come behind those that were skipped.
     fn plan_anew(&mut self) {
         for _ in 0..REPLANNED_A_CYCLE {
-            let Some(asked) = self.suspension.anew.pop_front() else { return };
-            let before = self.suspension.asked.back().map(|before| (before.command.clone(), before.start));
+            let Some(asked) = self.layer.requests.anew.pop_front() else { return };
+            let before = self.layer.requests.asked.back().map(|before| (before.command.clone(), before.start));
             if let Err(error) = self.add_again(&asked, before) {
-                self.suspension.anew.clear();
+                self.layer.requests.anew.clear();
                 self.broken = Some(PlanError::Earlier { line: asked.command.line, error: Box::new(error) });
             }
         }
@@ -560,13 +440,13 @@ impl Queue {
     fn add_again(&mut self, asked: &Asked, before: Option<(Command, Joints)>) -> Result<(), PlanError> {
         // A circle goes on through the points of the one that was skipped.
         let start = before
-            .filter(|_| self.held.is_none())
+            .filter(|_| self.layer.held.is_none())
             .filter(|(before, _)| {
                 matches!((&before.target, &asked.command.target), (Target::Circle { .. }, Target::Circle { .. }))
             })
             .map(|(_, start)| start);
         self.add_as(&asked.command, &asked.settings, asked.number)?;
-        if let (Some(start), Some(held)) = (start, &mut self.held) {
+        if let (Some(start), Some(held)) = (start, &mut self.layer.held) {
             held.follows_circle_from(start);
         }
         Ok(())

@@ -9,9 +9,9 @@ use crate::blend::blend_thread::Prepared;
 use crate::command::joints::Joints;
 use crate::follow::governor::Pacing;
 use crate::follow::segment::Segment;
-use crate::limits::profile::LOOK_AHEAD_MARGIN;
-use crate::limits::profile::State;
+use crate::limits::profile::{Change, LOOK_AHEAD_MARGIN, State};
 use crate::plan::motion::Motion;
+use crate::queue::path_buffer::leader::{Appending, Leader};
 use crate::queue::path_buffer::{ACCELERATION_RISE_CYCLES, NEAR_STOP_S, PathBuffer, Tail, UnblendedTarget};
 use crate::time_optimal::constraint_sampler::ConstraintSampler;
 use crate::time_optimal::law_follower::{LawFollower, RenewalRequest, StopRequest};
@@ -91,12 +91,13 @@ impl PathBuffer {
         let offers = |pending: &PendingLaw| matches!(pending.purpose, Purpose::Offer(_));
         let waits = |pending: &PendingLaw| offers(pending) || (self.leads_on(pending) && self.changes(pending.reach));
         // It rests soon, and goes on as the governor says.
-        self.pending.as_ref().is_some_and(waits) || (self.follower_leads && self.is_laid_down())
+        self.pending.as_ref().is_some_and(waits)
+            || (matches!(self.leader, Leader::ShorterStop(_)) && self.is_laid_down())
     }
 
     /// Whether a motion that is appended now changes the path where the law in hand leads.
     pub(crate) fn is_laid_down(&self) -> bool {
-        self.follower.as_ref().is_some_and(|follower| self.changes(follower.end()))
+        self.leader.follower().is_some_and(|follower| self.changes(follower.end()))
     }
 
     /// Appends a motion behind the stop at the end; returns the same as [`PathBuffer::append`].
@@ -107,9 +108,9 @@ impl PathBuffer {
         prepared: Option<&Prepared>,
         cycle: f64,
     ) -> Option<UnblendedTarget> {
-        self.refusing = true;
+        self.appending = Appending::BehindStop;
         let unblended = self.append(robot, motion, prepared, cycle);
-        self.refusing = false;
+        self.appending = Appending::Blended;
         unblended
     }
 
@@ -120,7 +121,7 @@ impl PathBuffer {
 
     /// Whether the robot rests until a law is found.
     pub(crate) fn awaits_law(&self) -> bool {
-        !self.lawless && self.follower.as_ref().is_some_and(|follower| follower.rests())
+        self.leader.follower().is_some_and(|follower| follower.rests())
     }
 
     /// Whether a law is for this part of the path, up to the next stop.
@@ -151,13 +152,13 @@ impl PathBuffer {
         motions: impl Iterator<Item = ((&'a Arc<Motion>, u64), Option<&'a Prepared>)>,
         cycle: f64,
     ) {
-        let Some(follower) = &self.follower else { return };
+        let Some(follower) = self.leader.follower() else { return };
         let mut draft = Self {
             segments: self.segments.clone(),
             at: self.at,
             passed: self.passed,
             tail: self.tail.clone(),
-            drafted: Some(f64::INFINITY),
+            appending: Appending::Draft(f64::INFINITY),
             ..Self::default()
         };
         let (mut unblended, mut count) = (Vec::new(), 0);
@@ -170,7 +171,7 @@ impl PathBuffer {
             same: self.gone + same as u64,
             segments: draft.segments.iter().skip(same).cloned().collect(),
             tail: draft.tail.clone(),
-            same_to: draft.drafted.unwrap_or(f64::NEG_INFINITY),
+            same_to: if let Appending::Draft(same_to) = draft.appending { same_to } else { f64::NEG_INFINITY },
             unblended,
             count,
         };
@@ -208,30 +209,31 @@ impl PathBuffer {
 
     /// Whether somebody counts on the path as it is.
     pub(crate) fn is_watched(&self) -> bool {
-        self.drafted.is_some() || self.pending.is_some() || self.next.is_some() || self.follower.is_some()
+        self.is_led() || self.pending.is_some() || self.next.is_some()
     }
 
     /// Whether segments may join the path as far as the follower is concerned: where nothing changes up to the end of its law. A
     /// draft takes everything, and notes from where on it changes.
     pub(crate) fn may_change_from(&mut self, same_to: f64) -> bool {
-        if let Some(drafted) = &mut self.drafted {
-            *drafted = drafted.min(same_to);
-            return true;
-        }
-        if self.refusing {
-            return false;
+        match &mut self.appending {
+            Appending::Draft(unchanged) => {
+                *unchanged = unchanged.min(same_to);
+                return true;
+            }
+            Appending::BehindStop => return false,
+            Appending::Blended => {}
         }
         // A law from the next stop on may not hold any more.
         let pending = self.pending.as_ref().filter(|pending| !self.leads_on(pending)).map(|pending| pending.reach);
         if let Some(reach) = pending.or(self.next.as_ref().map(|next| next.reach))
-            && reach + if self.follower.is_some() { self.next_stop() } else { 0.0 } > same_to
+            && reach + if self.leader.follower().is_some() { self.next_stop() } else { 0.0 } > same_to
         {
             self.next = None;
             if pending.is_some() {
                 self.cancel();
             }
         }
-        self.follower.as_ref().is_none_or(|follower| follower.end() <= same_to)
+        self.leader.follower().is_none_or(|follower| follower.end() <= same_to)
     }
 
     /// Where the robot has to stop next, in s of nominal time since the path began.
@@ -288,7 +290,6 @@ impl PathBuffer {
     /// Takes what is left away, at rest; another path can begin.
     pub(crate) fn suspend(&mut self) -> Self {
         self.cancel();
-        (self.follower, self.lawless) = (None, false);
         (self.next, self.answer) = (None, None);
         self.return_to_governor();
         let empty = Self { law_solver: std::mem::take(&mut self.law_solver), ..Self::default() };
@@ -312,7 +313,6 @@ impl PathBuffer {
 
     /// At a stop: what is looked for is of use only if it goes on from there.
     pub(crate) fn end_at_stop(&mut self) {
-        (self.follower, self.lawless) = (None, false);
         self.return_to_governor();
         if self.pending.as_ref().is_some_and(|pending| self.leads_on(pending)) {
             self.cancel();
@@ -321,19 +321,26 @@ impl PathBuffer {
 
     /// Goes on for a cycle as the follower says; `false` where there is none.
     pub(crate) fn follow_law(&mut self, robot: &Arc<Robot>, here: &Joints, cycle: f64, pacing: Pacing) -> bool {
-        let Some(mut follower) = self.follower.take() else { return false };
+        let (mut follower, is_shorter_stop) = match std::mem::take(&mut self.leader) {
+            Leader::Laws(follower) => (follower, false),
+            Leader::ShorterStop(follower) => (follower, true),
+            governor @ (Leader::Governor | Leader::GovernorWithoutLaw) => {
+                self.leader = governor;
+                return false;
+            }
+        };
         let share = match pacing {
             Pacing::Go(share) | Pacing::Settle(share) => Some(share),
             Pacing::Stop(_) => None,
         };
         self.take_found(&mut follower, share.unwrap_or(1.0));
-        if self.lawless {
+        if matches!(self.leader, Leader::GovernorWithoutLaw) {
             return false;
         }
         match pacing {
-            Pacing::Stop(harder) if self.follower_leads => drop(follower.brake(harder)),
+            Pacing::Stop(harder) if is_shorter_stop => drop(follower.brake(harder)),
             // It comes to rest, and goes on from there.
-            _ if self.follower_leads => {}
+            _ if is_shorter_stop => {}
             Pacing::Stop(harder) => self.request_stop(&mut follower, (robot, here), cycle, harder),
             // Laws that are being looked for count on the share that is known.
             Pacing::Go(share) | Pacing::Settle(share) => {
@@ -356,12 +363,12 @@ impl PathBuffer {
         }
         if follower.rests() {
             self.drop_stop_search();
-            if self.follower_leads {
-                self.return_to_governor();
+            if is_shorter_stop {
+                (self.backup, self.stop_asked) = (Change::default(), None);
                 return true;
             }
         }
-        self.follower = Some(follower);
+        self.leader = if is_shorter_stop { Leader::ShorterStop(follower) } else { Leader::Laws(follower) };
         true
     }
 
@@ -417,7 +424,7 @@ impl PathBuffer {
             Purpose::Start if !follower.rests() => follower.join(found),
             Purpose::Start => match found {
                 Some(found) => follower.start(found, share),
-                None => self.lawless = true,
+                None => self.leader = Leader::GovernorWithoutLaw,
             },
             Purpose::Renew => {
                 follower.renew(found);

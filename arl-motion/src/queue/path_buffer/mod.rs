@@ -1,6 +1,7 @@
 //! The way ahead: segments of motions and the blends between them, one behind the other.
 
 mod law_hand_over;
+mod leader;
 mod shorter_stop;
 
 use std::collections::VecDeque;
@@ -16,14 +17,13 @@ use crate::follow::governor::{Governor, Pacing};
 use crate::follow::remaining::{self, Leg};
 use crate::follow::segment::Segment;
 use crate::follow::timing::Timing;
-use crate::limits::profile::LOOK_AHEAD_MARGIN;
-use crate::limits::profile::{Change, Limits, State};
+use crate::limits::profile::{Change, LOOK_AHEAD_MARGIN, Limits, State};
 use crate::plan::motion::Motion;
-use crate::time_optimal::law_follower::LawFollower;
 use crate::time_optimal::law_solver_thread::LawSolver;
 use arl_robot::robot::Robot;
 pub(crate) use law_hand_over::Answer;
 use law_hand_over::{Next, PendingLaw};
+use leader::{Appending, Leader};
 
 /// A segment that takes no longer, in s, is none.
 const NO_TIME_S: f64 = 1e-12;
@@ -48,28 +48,20 @@ pub(crate) struct PathBuffer {
     timing: Timing,
     /// Where the robot is on the first cell of the timing, and how it moves.
     state: State,
-    /// The governor's backup for that state; of no meaning where the follower leads.
+    /// The governor's backup for that state; of no meaning where a law leads.
     backup: Change,
     /// The share of the speed that the robot has settled to.
     share: f64,
-    /// Who leads the robot in the profile O, and to rest where that is sooner than the governor would.
-    follower: Option<Box<LawFollower>>,
-    /// Whether the follower has taken over from the governor, until the robot rests; and how hard the stop is for which that has been
-    /// asked for.
-    follower_leads: bool,
-    asked: Option<f64>,
-    /// Whether the follower has found no law from rest here.
-    lawless: bool,
-    /// Who finds laws for the follower, what is looked for, and the law from the next stop on.
+    leader: Leader,
+    /// How hard the stop is for which a shorter one than the governor's has been asked for.
+    stop_asked: Option<f64>,
+    /// Who finds laws, what is looked for, and the law from the next stop on.
     law_solver: LawSolver,
     pending: Option<PendingLaw>,
     next: Option<Next>,
     /// What became of motions that were offered.
     answer: Option<Answer>,
-    /// Whether motions are to be appended behind a stop.
-    refusing: bool,
-    /// In a draft: up to where nothing has changed, in s of nominal time.
-    drafted: Option<f64>,
+    appending: Appending,
     /// How many segments have been left behind.
     gone: u64,
     /// s of nominal time before the first segment, since the path began.
@@ -379,9 +371,9 @@ impl PathBuffer {
         false
     }
 
-    /// Whether the follower leads, or would lead, the robot.
+    /// Whether laws lead the robot, or would.
     fn is_led(&self) -> bool {
-        self.follower.is_some() || self.drafted.is_some()
+        self.leader.follower().is_some() || matches!(self.appending, Appending::Draft(_))
     }
 
     /// Appends segments if the robot is able to keep to them, and returns whether it is; which of them `may` join the stretch before?
@@ -509,11 +501,11 @@ impl PathBuffer {
         stands
     }
 
-    /// Whoever leads the robot from rest leads it until it stops: the follower where the first motion has the profile O.
+    /// Whoever leads the robot from rest leads it until it stops: laws where the first motion has the profile O.
     fn choose_leader(&mut self) {
-        if self.state.rests() && self.follower.is_none() && !self.lawless {
-            let optimal = self.segments.front().is_some_and(|first| first.is_free);
-            self.follower = optimal.then(Box::default);
+        let is_free = || self.segments.front().is_some_and(|first| first.is_free);
+        if self.state.rests() && matches!(self.leader, Leader::Governor) && is_free() {
+            self.leader = Leader::Laws(Box::default());
         }
     }
 
@@ -554,13 +546,13 @@ impl PathBuffer {
     /// exact where it begins and ends at rest, else as its segments and those behind them allow.
     pub(crate) fn time_to_end(&self, elapsed: f64) -> f64 {
         let (Some(first), Some((current, _))) = (self.segments.front(), self.current()) else { return 0.0 };
-        if let Some(duration) = current.duration().filter(|_| self.follower.is_none()) {
+        if let Some(duration) = current.duration().filter(|_| self.leader.follower().is_none()) {
             return (duration - elapsed).max(0.0);
         }
         let own = |segment: &&Arc<Segment>| segment.number == current.number && !segment.leaves();
         let later = self.segments.iter().skip(1).take_while(own);
         let end = self.passed + first.time + later.clone().map(|segment| segment.time).sum::<f64>();
-        if let Some(time) = self.follower.as_ref().and_then(|follower| follower.time_to(end)) {
+        if let Some(time) = self.leader.follower().and_then(|follower| follower.time_to(end)) {
             return time;
         }
         let mut legs = [Leg { length: 0.0, limits: first.limits }; remaining::MOST_LEGS];

@@ -9,6 +9,7 @@ use crate::command::joints::Joints;
 use crate::follow::governor::Pacing;
 use crate::limits::profile::{Change, Limits, State};
 use crate::queue::path_buffer::law_hand_over::{PendingLaw, Purpose};
+use crate::queue::path_buffer::leader::Leader;
 use crate::queue::path_buffer::{ACCELERATION_RISE_CYCLES, PathBuffer};
 use crate::time_optimal::constraint_sampler::ConstraintSampler;
 use crate::time_optimal::law_follower::LawFollower;
@@ -23,7 +24,7 @@ const STATE_TOLERANCES: [f64; 3] = [1e-9, 1e-9, 1e-6];
 impl PathBuffer {
     /// Sees to a shorter stop while the governor leads.
     pub(crate) fn shorten_stop(&mut self, robot: &Arc<Robot>, here: &Joints, cycle: f64, pacing: Pacing) {
-        if self.follower.is_some() {
+        if self.leader.follower().is_some() {
             return;
         }
         let harder = if let Pacing::Stop(harder) = pacing { harder } else { 0.0 };
@@ -31,24 +32,25 @@ impl PathBuffer {
             self.drop_stop_request();
             return;
         }
-        if self.asked.is_none_or(|asked| asked < harder) {
+        if self.stop_asked.is_none_or(|asked| asked < harder) {
             self.drop_stop_request();
-            self.asked = Some(harder);
+            self.stop_asked = Some(harder);
             if !self.stops_on_even_way(harder) {
                 self.request_stop_law(robot, here, cycle, harder);
             }
-        } else if let Some(found) = self.take_stop_law() {
-            self.follower = Some(Box::new(LawFollower::resting(found, harder)));
-            self.follower_leads = true;
+        } else if let Some(found) = self.take_stop_law()
+            && matches!(self.leader, Leader::Governor)
+        {
+            self.leader = Leader::ShorterStop(Box::new(LawFollower::resting(found, harder)));
         }
     }
 
     /// The governor leads again, or nobody does.
     pub(crate) fn return_to_governor(&mut self) {
-        if std::mem::take(&mut self.follower_leads) {
+        if matches!(std::mem::take(&mut self.leader), Leader::ShorterStop(_)) {
             self.backup = Change::default();
         }
-        self.asked = None;
+        self.stop_asked = None;
     }
 
     /// Whether the governor's stop stays on a segment that has the same limits everywhere: none is shorter.
@@ -73,7 +75,7 @@ impl PathBuffer {
     }
 
     fn drop_stop_request(&mut self) {
-        self.asked = None;
+        self.stop_asked = None;
         if self.pending.as_ref().is_some_and(is_for_stop) {
             self.cancel();
         }

@@ -35,14 +35,14 @@ pub(crate) struct Way {
 impl SuspendedMotion {
     /// The motions that have not ended, the stopped one first.
     pub(crate) fn left(&self) -> impl Iterator<Item = &Asked> {
-        let executed = self.path.current().map_or(0, |(segment, _)| segment.number);
-        let first = executed.max(self.finished + 1);
-        self.asked.iter().chain(&self.anew).filter(move |asked| asked.number >= first)
+        let executed = self.layer.path.current().map_or(0, |(segment, _)| segment.number);
+        let first = executed.max(self.layer.finished + 1);
+        self.layer.requests.asked.iter().chain(&self.layer.requests.anew).filter(move |asked| asked.number >= first)
     }
 
     /// Whether nothing of its own is left to go, and something below is to go on.
     pub(crate) fn leads_on(&self) -> bool {
-        self.going || (!self.starts.is_empty() && self.left().next().is_none())
+        self.layer.requests.going || (!self.layer.requests.starts.is_empty() && self.left().next().is_none())
     }
 
     pub(crate) fn skipped(&self, skip: u32) -> Skipped<'_> {
@@ -61,12 +61,14 @@ impl SuspendedMotion {
             return None;
         }
         // Where nothing was to go, it is as the last motion was.
-        let asked = self.left().next().or_else(|| self.asked.back());
+        let asked = self.left().next().or_else(|| self.layer.requests.asked.back());
         Some(match asked {
             Some(asked) => asked.way_back_to(robot, &self.joints),
-            None => {
-                Way { asked: Settings::default(), command: slowly_to(self.joints, self.rig), end: Some(self.joints) }
-            }
+            None => Way {
+                asked: Settings::default(),
+                command: slowly_to(self.joints, self.layer.execution.rig),
+                end: Some(self.joints),
+            },
         })
     }
 }
