@@ -10,14 +10,12 @@ pub use crate::builtins::communication::serial::{self, Iodev};
 pub use crate::builtins::communication::socket::{self, Socket};
 pub use crate::builtins::ops::*;
 pub use crate::builtins::{
-    bits, calibration, channel, clock, convert, event, files, flow, frames, math, motion, points, pose, strings, text,
-    time,
+    bits, calibration, channel, clock, convert, devicenet, event, files, flow, frames, io, math, modbus_tcp, motion,
+    points, pose, strings, system, text, time,
 };
 pub use crate::context::cx::Cx;
-pub use crate::context::program::{Beside, BoxFuture, DataFile, DataVar, Program};
-pub use crate::context::system;
+pub use crate::context::program::{Beside, BoxFuture, Program};
 pub use crate::fault::{At, Done, Fault, File, Stop};
-pub use crate::fieldbus::{devicenet, modbus_tcp};
-pub use crate::io;
 pub use crate::robot::Family;
+pub use crate::storage::data::{DataFile, DataVar};
 pub use crate::values::*;

@@ -32,13 +32,14 @@ pub use builtins::{frames, ops, text};
 pub use command::program_main;
 pub use context::cx::Cx;
 pub use context::output::{Captured, Message, Output, Stream};
-pub use context::program::{BoxFuture, DataFile, DataVar, Elsewhere, Program};
+pub use context::program::{BoxFuture, Elsewhere, Program};
 pub use context::{program, system};
 pub use controller::cell::{self, Cell};
 pub use controller::{Builder, ChannelStatus, Controller, Foreground, Outcome, RobotStatus, SetupError, State, Status};
 pub use cycle::channel_id::ChannelId;
 pub use cycle::clock_source;
 pub use fault::{Alarm, Fault, Reason, Stop};
+pub use storage::data::{DataFile, DataVar};
 pub use storage::{data, state};
 pub use unit::{dynamics, robot_driver};
 

@@ -29,7 +29,7 @@ fn foreground<T>(
     number: i32,
     look: impl FnOnce(&Foreground<'_>) -> Result<T, Fault>,
 ) -> Result<T, Fault> {
-    let found = cx.world().foreground(number);
+    let found = cx.programs().foreground(number);
     let unit = found.as_ref().and_then(|cx| Some((cx, cx.lane().robot()?)));
     match unit {
         Some((cx, unit)) => look(&Foreground { cx, unit }),
@@ -62,7 +62,7 @@ pub async fn switcharl(cx: &Cx, channel: u32, file_name: &Str) -> Result<bool, F
     }
     match begin_to_switch(cx, number, &file_name.to_text()) {
         Ok(there) => {
-            while there.lane().is_loading() {
+            while there.is_loading() {
                 cx.next_cycle().await;
             }
             Ok(true)
@@ -76,10 +76,10 @@ pub async fn switcharl(cx: &Cx, channel: u32, file_name: &Str) -> Result<bool, F
 
 /// Tells the channel with this number to load another program; `Err`: why it does not.
 fn begin_to_switch(cx: &Cx, number: i32, name: &str) -> Result<Rc<Cx>, String> {
-    let there = cx.world().foreground(number).ok_or_else(|| no_such(cx, number))?;
-    let program = cx.world().programs.load(name);
+    let there = cx.programs().foreground(number).ok_or_else(|| no_such(cx, number))?;
+    let program = cx.programs().loadable.load(name);
     let program = program.ok_or_else(|| format!("the controller has no program {name} to load"))?;
-    there.lane().load(program)?;
+    there.load(program)?;
     Ok(there)
 }
 
@@ -91,7 +91,7 @@ pub(crate) fn warn_of(cx: &Cx, function: &str, why: &str) {
 
 /// That there is no foreground channel with this number.
 pub(crate) fn no_such(cx: &Cx, number: i32) -> String {
-    match cx.world().foreground_count() {
+    match cx.programs().foreground_count() {
         1 => format!("there is no foreground channel {number}, only channel 1"),
         count => format!("there is no foreground channel {number}, only channels 1 to {count}"),
     }

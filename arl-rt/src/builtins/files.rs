@@ -1,83 +1,14 @@
-//! Files of a program: everything happens below the script directory.
+//! `gettextstr`, `filesize`, `renamefile`, `removefile`: files of a program.
 
 use std::fs;
-use std::io::Write;
-use std::path::{Component, Path, PathBuf};
+use std::path::Path;
 
 use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::values::Str;
 
-/// Where the script directory is on a controller; programs name files by it.
-const ON_CONTROLLER: &str = "/home/ae/script/";
-
 /// The directory below the script directory that stands for the USB store.
 const USB: &str = "USB";
-
-/// The directory that holds a program's files.
-#[derive(Clone, Debug)]
-pub(crate) struct ScriptDir(PathBuf);
-
-impl ScriptDir {
-    pub(crate) fn new(path: PathBuf) -> Self {
-        Self(path)
-    }
-
-    pub(crate) fn path(&self) -> &Path {
-        &self.0
-    }
-
-    /// The file of this name below the directory.
-    ///
-    /// # Errors
-    /// The name is empty, absolute, or leads out of the directory.
-    pub(crate) fn file(&self, name: &Str) -> Result<PathBuf, Fault> {
-        self.below(name, Path::new(""))
-    }
-
-    fn below(&self, name: &Str, inner: &Path) -> Result<PathBuf, Fault> {
-        let text = name.to_text();
-        let problem = |problem: &str| Fault::File { path: text.clone().into(), problem: problem.into() };
-        let relative = Path::new(text.strip_prefix(ON_CONTROLLER).unwrap_or(&text));
-        let mut path = self.0.join(inner);
-        let mut named = false;
-        for component in relative.components() {
-            match component {
-                Component::Normal(part) => {
-                    path.push(part);
-                    named = true;
-                }
-                Component::CurDir => {}
-                Component::ParentDir => {
-                    return Err(problem("a path with `..` may lead out of the script directory"));
-                }
-                Component::RootDir | Component::Prefix(_) => {
-                    return Err(problem("paths are relative to the script directory, or begin with /home/ae/script/"));
-                }
-            }
-        }
-        if named && !text.contains('\0') { Ok(path) } else { Err(problem("this is no name of a file")) }
-    }
-
-    /// Appends to a file; it is made where it is missing, its directory is not.
-    ///
-    /// # Errors
-    /// The name is not one for files, or the file cannot be written.
-    pub(crate) fn append(&self, name: &Str, text: &[u8]) -> Result<(), Fault> {
-        let path = self.file(name)?;
-        let fault = |problem: String| Fault::File { path: name.to_text().into(), problem: problem.into() };
-        let directory = path.parent().unwrap_or(&self.0);
-        if !directory.is_dir() {
-            return Err(fault(format!("its directory {} does not exist", directory.display())));
-        }
-        let mut file = fs::OpenOptions::new()
-            .append(true)
-            .create(true)
-            .open(&path)
-            .map_err(|error| fault(format!("cannot be opened for writing: {error}")))?;
-        file.write_all(text).map_err(|error| fault(format!("cannot be written: {error}")))
-    }
-}
 
 /// A line of a text file, without its end; lines count from 1. `external_file` looks below `USB`.
 ///
@@ -131,23 +62,4 @@ pub async fn removefile(cx: &Cx, file_name: &Str) -> Result<bool, Fault> {
     cx.motion_end().await;
     let path = cx.world().scripts.file(file_name)?;
     Ok(fs::remove_file(path).is_ok())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn paths_stay_below_the_script_directory() {
-        let scripts = ScriptDir::new(PathBuf::from("/robot/scripts"));
-        let file = |name: &str| scripts.file(&name.into()).map(|path| path.display().to_string());
-        assert_eq!(file("mylog/a.log").unwrap(), "/robot/scripts/mylog/a.log");
-        assert_eq!(file("./a.log").unwrap(), "/robot/scripts/a.log");
-        assert_eq!(file("/home/ae/script/sub/a.log").unwrap(), "/robot/scripts/sub/a.log");
-        for wrong in
-            ["", ".", "/", "/etc/passwd", "../a", "a/../../b", "/home/ae/script/../a", "/home/ae/script/", "a\0b"]
-        {
-            assert!(file(wrong).is_err(), "{wrong:?}");
-        }
-    }
 }

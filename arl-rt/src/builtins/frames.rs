@@ -4,11 +4,17 @@
 //! one of a pose is unset.
 
 use crate::kinematics;
+use crate::motion::is_unset;
 use crate::values::{Frame, Pose, Tool, UNSET, Wobj};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Mul;
 
 pub use arl_robot::frames::{Carried, Mount, Rig, Setting, Unmoved};
+
+/// Whether nothing can be computed from a component.
+pub(crate) fn is_open(component: f64) -> bool {
+    is_unset(component) || !component.is_finite()
+}
 
 impl From<&Tool> for Mount {
     fn from(tool: &Tool) -> Self {

@@ -1,9 +1,8 @@
 //! Functions of numbers. Angles are in rad.
 
+use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::values::Pos;
-
-pub use crate::builtins::random::rand;
 
 fn domain(function: &'static str, problem: String) -> Fault {
     Fault::Domain { function, problem: problem.into() }
@@ -218,6 +217,11 @@ pub fn trunc(num: f64, n: i32, round: bool) -> Result<f64, Fault> {
     }
     let number = format!("{}e-{}", String::from_utf8_lossy(&digits), kept.len());
     Ok(number.parse().map_or(num, |size: f64| size.copysign(num)))
+}
+
+/// `rand`: a number from 0 to 2147483647. The row follows from the controller's seed.
+pub fn rand(cx: &Cx) -> i32 {
+    cx.world().random.next()
 }
 
 #[cfg(test)]

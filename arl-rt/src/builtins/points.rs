@@ -13,6 +13,7 @@ use arl_lang::ast::{Item, Var};
 use arl_lang::symbol::Interner;
 
 use crate::builtins::channel::warn_of;
+use crate::builtins::storing::done;
 use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::storage::whole;
@@ -28,7 +29,7 @@ pub async fn savearl(cx: &Cx, file_src: &Str, file_dst: &Str, mode: bool) -> Res
     let scripts = &cx.world().scripts;
     let (from, to) = (scripts.file(file_src)?, scripts.file(file_dst)?);
     let work = cx.world().disk.begin(move || copy(&from, &to, mode));
-    Ok(is_done(cx, "savearl", work.end(cx).await))
+    Ok(is_done(cx, "savearl", done(work, cx).await))
 }
 
 /// Whether work with the disk has succeeded; warns of what went wrong, if that is more than what was asked for.
@@ -130,7 +131,7 @@ async fn save(
     };
     let point = point.to_text().into_owned();
     let work = cx.world().disk.begin(move || replace(&path, ty, &point, &value));
-    Ok(is_done(cx, function, work.end(cx).await))
+    Ok(is_done(cx, function, done(work, cx).await))
 }
 
 /// A structure's literal in the making.

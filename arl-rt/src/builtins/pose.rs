@@ -2,12 +2,11 @@
 
 pub use crate::builtins::frames::{offset, poseinv, reltool};
 
-use crate::builtins::frames::Setting;
+use crate::builtins::frames::{Setting, is_open};
 use crate::builtins::motion::wanted;
 use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::kinematics::{Axes, CONFIGURATIONS, Refusal, frame_components};
-use crate::motion::is_unset;
 use crate::unit::{Unit, joint, tidy};
 use crate::values::{Joint, Pose, Tool, Wobj};
 
@@ -95,11 +94,6 @@ pub(crate) fn known(function: &'static str, tool: &Tool, wobj: &Wobj) -> Result<
         }
     }
     Ok(())
-}
-
-/// Whether nothing can be computed from a component.
-pub(crate) fn is_open(component: f64) -> bool {
-    is_unset(component) || !component.is_finite()
 }
 
 fn refused(unit: &Unit, refusal: &Refusal) -> String {

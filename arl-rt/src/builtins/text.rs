@@ -1,39 +1,11 @@
 //! The `print` instruction.
 
 use crate::context::cx::Cx;
+use crate::context::output::Targets;
 use crate::fault::Fault;
 use crate::values::{NumBase, Printto, Str};
 
 pub use crate::values::text::{Nested, Print, Style, Typed, nested, scan};
-
-/// Where messages go.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Targets {
-    hmi: bool,
-    file: bool,
-    console: bool,
-}
-
-impl Targets {
-    const NONE: Targets = Targets { hmi: false, file: false, console: false };
-
-    fn with(mut self, target: Printto) -> Self {
-        match target {
-            Printto::Off => return Self::NONE,
-            Printto::Hmi => self.hmi = true,
-            Printto::File => self.file = true,
-            Printto::Console => self.console = true,
-        }
-        self
-    }
-}
-
-impl Default for Targets {
-    /// The operator panel.
-    fn default() -> Self {
-        Self { hmi: true, ..Self::NONE }
-    }
-}
 
 /// `print`: puts values together to one message and sends it where `to` says, or writes it to a string.
 pub fn print<'a>() -> PrintMessage<'a> {

@@ -8,7 +8,7 @@ mod connections;
 pub(crate) mod inbox;
 pub(crate) mod line;
 pub(crate) mod link;
-pub(crate) mod network;
+mod network_driver;
 pub(crate) mod opening;
 mod settings;
 mod shared;
@@ -18,5 +18,5 @@ mod worker;
 pub(crate) use connections::{Connections, Opener};
 #[cfg(feature = "fuzzing")]
 pub(crate) use inbox::Inbox;
-pub use network::{NetworkDriver, PortSettings};
+pub use network_driver::{NetworkDriver, PortSettings};
 pub use settings::{Listen, NetworkSettings};

@@ -7,11 +7,12 @@ use std::pin::Pin;
 use std::rc::Rc;
 use std::task::{Context, Poll};
 
-use crate::builtins::event::Table;
-use crate::builtins::text::Targets;
 use crate::communication::Connections;
+use crate::context::events::Table;
 use crate::context::lane::Lane;
+use crate::context::output::Targets;
 use crate::context::program::Program;
+use crate::context::programs::Programs;
 use crate::context::system::System;
 use crate::context::world::World;
 use crate::fault::{Alarm, Fault, File};
@@ -33,6 +34,10 @@ pub struct Cx {
     /// The address below which the stack must not grow.
     stack_floor: Cell<usize>,
     program: Rc<dyn Program>,
+    /// The program that shall run here instead.
+    next: RefCell<Option<Rc<dyn Program>>>,
+    /// The programs of the controller.
+    programs: Rc<Programs>,
     file: Cell<File>,
     line: Cell<u32>,
     /// Whether the statement that runs has been counted as a step.
@@ -85,13 +90,15 @@ impl Level {
 }
 
 impl Cx {
-    pub(crate) fn new(lane: Rc<Lane>, program: Rc<dyn Program>) -> Self {
+    pub(crate) fn new(lane: Rc<Lane>, program: Rc<dyn Program>, programs: Rc<Programs>) -> Self {
         let file = program.file();
         Self {
             lane,
             budget: Cell::new(BUDGET),
             stack_floor: Cell::new(0),
             program,
+            next: RefCell::default(),
+            programs,
             file: Cell::new(file),
             line: Cell::new(0),
             stepped: Cell::new(false),
@@ -278,6 +285,41 @@ impl Cx {
     /// The program that runs.
     pub(crate) fn program_itself(&self) -> &dyn Program {
         &*self.program
+    }
+
+    /// Wants another program to run here.
+    ///
+    /// # Errors
+    /// It is for another build of robot, or another one is about to be loaded.
+    pub(crate) fn load(&self, program: Rc<dyn Program>) -> Result<(), String> {
+        if self.lane.robot().is_some_and(|unit| unit.robot().family != program.family()) {
+            return Err(format!(
+                "{} is for another build of robot than that of {}",
+                program.file().name(),
+                self.lane.id
+            ));
+        }
+        let mut next = self.next.borrow_mut();
+        if next.is_some() {
+            return Err(format!("another program is being loaded into {}", self.lane.id));
+        }
+        *next = Some(program);
+        Ok(())
+    }
+
+    /// Whether another program is about to be loaded.
+    pub(crate) fn is_loading(&self) -> bool {
+        self.next.borrow().is_some()
+    }
+
+    /// The program that shall run here now.
+    pub(crate) fn take_next(&self) -> Option<Rc<dyn Program>> {
+        self.next.borrow_mut().take()
+    }
+
+    /// The programs of the controller.
+    pub(crate) fn programs(&self) -> &Rc<Programs> {
+        &self.programs
     }
 
     /// The kind of robot that the program is for.

@@ -3,7 +3,6 @@
 use std::cell::{Cell, Ref, RefCell, RefMut};
 use std::rc::Rc;
 
-use crate::context::program::Program;
 use crate::context::system::System;
 use crate::context::world::World;
 use crate::cycle::channel_id::ChannelId;
@@ -30,8 +29,6 @@ pub(crate) struct Lane {
     pub(crate) begun: Cell<bool>,
     /// Whether the program waits for the start button.
     pub(crate) paused: Cell<bool>,
-    /// The program that shall run here instead of the one that does.
-    next: RefCell<Option<Rc<dyn Program>>>,
     pub(crate) stepping: Stepping,
     /// Whether a program that comes to its end is reset and begins again.
     pub(crate) repeats: Cell<bool>,
@@ -86,7 +83,6 @@ impl Lane {
             kept: Kept::default(),
             begun: Cell::new(false),
             paused: Cell::new(false),
-            next: RefCell::default(),
             stepping: Stepping::default(),
             repeats: Cell::new(false),
             alarmed: Cell::new(false),
@@ -240,32 +236,6 @@ impl Lane {
         if let Err(alarm) = concluded {
             self.trouble(alarm);
         }
-    }
-
-    /// Wants another program to run here.
-    ///
-    /// # Errors
-    /// It is for another build of robot, or another one is about to be loaded.
-    pub(crate) fn load(&self, program: Rc<dyn Program>) -> Result<(), String> {
-        if self.robot().is_some_and(|unit| unit.robot().family != program.family()) {
-            return Err(format!("{} is for another build of robot than that of {}", program.file().name(), self.id));
-        }
-        let mut next = self.next.borrow_mut();
-        if next.is_some() {
-            return Err(format!("another program is being loaded into {}", self.id));
-        }
-        *next = Some(program);
-        Ok(())
-    }
-
-    /// Whether another program is about to be loaded.
-    pub(crate) fn is_loading(&self) -> bool {
-        self.next.borrow().is_some()
-    }
-
-    /// The program that shall run here now.
-    pub(crate) fn take_next(&self) -> Option<Rc<dyn Program>> {
-        self.next.borrow_mut().take()
     }
 
     /// Ends the program with an alarm that is not that of the statement that runs. The first one counts.

@@ -2,10 +2,12 @@
 //! all channels share, and the system variables.
 
 pub(crate) mod cx;
+pub(crate) mod events;
 pub(crate) mod lane;
-pub(crate) mod loadable;
 pub(crate) mod output;
 pub mod program;
+pub(crate) mod programs;
+pub(crate) mod random;
 pub mod system;
 pub(crate) mod wiring;
 pub(crate) mod world;

@@ -6,6 +6,7 @@ use std::io::Write;
 use std::rc::Rc;
 
 use crate::cycle::channel_id::ChannelId;
+use crate::values::Printto;
 
 /// A message of a program.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -103,5 +104,35 @@ impl Output for Captured {
         if !message.text.ends_with(b"\n") {
             kept.push(b'\n');
         }
+    }
+}
+
+/// Where `print` sends messages.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Targets {
+    pub(crate) hmi: bool,
+    pub(crate) file: bool,
+    pub(crate) console: bool,
+}
+
+impl Targets {
+    pub(crate) const NONE: Targets = Targets { hmi: false, file: false, console: false };
+
+    /// These and one more; `off` cancels them.
+    pub(crate) fn with(mut self, target: Printto) -> Self {
+        match target {
+            Printto::Off => return Self::NONE,
+            Printto::Hmi => self.hmi = true,
+            Printto::File => self.file = true,
+            Printto::Console => self.console = true,
+        }
+        self
+    }
+}
+
+impl Default for Targets {
+    /// The operator panel.
+    fn default() -> Self {
+        Self { hmi: true, ..Self::NONE }
     }
 }

@@ -8,7 +8,7 @@ use std::pin::Pin;
 use crate::context::cx::Cx;
 use crate::fault::{Done, File};
 use crate::robot::Family;
-use crate::storage::data::Teach;
+use crate::storage::data::DataFile;
 
 /// A piece of program that the controller polls once a cycle.
 pub type BoxFuture<'a> = Pin<Box<dyn Future<Output = Done<()>> + 'a>>;
@@ -165,24 +165,6 @@ impl std::ops::BitOr for Beside {
     fn bitor(self, other: Self) -> Self {
         Self { connections: self.connections | other.connections, modbus_tcp: self.modbus_tcp | other.modbus_tcp }
     }
-}
-
-/// A data file and the variables that it gives values to.
-pub struct DataFile<'a> {
-    /// The file, as it was named when the program was compiled.
-    pub file: &'static str,
-    /// Its variables.
-    pub vars: Vec<DataVar<'a>>,
-}
-
-/// A variable of a data file.
-pub struct DataVar<'a> {
-    /// Its name as it was declared.
-    pub name: &'static str,
-    /// The sizes of an array of several dimensions, outermost first; else empty.
-    pub sizes: &'static [usize],
-    /// The variable.
-    pub slot: &'a dyn Teach,
 }
 
 /// Makes a program.

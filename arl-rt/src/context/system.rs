@@ -4,13 +4,10 @@ use std::cell::Cell;
 use std::ops::Deref;
 use std::rc::Rc;
 
-use crate::context::cx::Cx;
 use crate::cycle::channel_id::{ChannelId, MOST_FOREGROUND};
-use crate::fault::Fault;
-use crate::motion::is_unset;
 use crate::storage::disk::Disk;
 use crate::storage::keep::Keep;
-use crate::storage::state::{self, State, StateError};
+use crate::storage::state::{Saved, State, StateError};
 use crate::values::{
     Array, AsScara, Controlmode, Joint, Pose, Shared, Slip, SmallArray, Speed, Str, Tool, ToolInertiaPara, VelProfile,
     Watched, Wobj,
@@ -344,6 +341,19 @@ impl<'a> Kept<'a> {
     fn new(name: &'static str, always: bool, slot: &'a dyn Slot, default: fn() -> String) -> Self {
         Self { name, stored: name, always, slot, default }
     }
+
+    /// Begins to save its value.
+    pub(crate) fn save(&self, state: &mut State, disk: &Disk) -> Saved {
+        state.save(self.stored, self.slot.write(), disk)
+    }
+
+    /// Gives it the value that was saved last, as far as this controller knows; otherwise its default.
+    fn restore(&self, state: &State) {
+        match state.known(self.stored) {
+            Some(text) => self.slot.read(text),
+            None => self.slot.read(&(self.default)()),
+        };
+    }
 }
 
 /// A variable as text.
@@ -415,6 +425,23 @@ pub(crate) fn load(variables: &[Kept<'_>], state: &mut State) -> Result<(), Stat
     Ok(())
 }
 
+/// Sets the variables of chapter 10.1 to what was saved last, and the names and program numbers of chapter 10.2 to their
+/// defaults.
+pub(crate) fn restore(system: &System, state: &State) {
+    system.pgno.set(NO_PROGRAM_NUMBER);
+    for kept in system.kept() {
+        if kept.always {
+            // Names have been saved with every change, so they stay.
+            let known = arl_lang::catalog::system_variable(kept.name);
+            if known.is_some_and(|variable| variable.section.starts_with("10.2.")) {
+                kept.slot.read(&(kept.default)());
+            }
+        } else {
+            kept.restore(state);
+        }
+    }
+}
+
 /// Begins to save the variables of which every change is kept, where they have changed.
 pub(crate) fn keep(system: &System, state: &mut State, disk: &Disk) -> Result<(), StateError> {
     for kept in system.kept() {
@@ -430,60 +457,6 @@ pub(crate) fn keep(system: &System, state: &mut State, disk: &Disk) -> Result<()
         }
     }
     Ok(())
-}
-
-/// `savesv`: saves a system variable, so that its value is there again at the next start. It is stored beside the cycle, and
-/// the program goes on when it is; robots go on meanwhile.
-///
-/// # Errors
-/// There is no such variable, it is none of those that are saved, or it cannot be written.
-pub async fn savesv(cx: &Cx, svname: &Str) -> Result<(), Fault> {
-    let text = svname.to_text();
-    let name = text.strip_prefix('$').unwrap_or(&text);
-    let saved = {
-        let kept = cx.system().kept();
-        let name = arl_lang::catalog::system_variable(name).map_or(name, |known| known.name);
-        let Some(variable) = kept.iter().find(|kept| kept.name.eq_ignore_ascii_case(name)) else {
-            let names: Vec<&str> = kept.iter().map(|kept| kept.name).collect();
-            let problem =
-                format!("\"{text}\" is no system variable that is saved; {}", crate::settings::hint(name, &names));
-            return Err(Fault::Domain { function: "savesv", problem: problem.into() });
-        };
-        let world = cx.world();
-        world.state.borrow_mut().save(variable.stored, variable.slot.write(), &world.disk)
-    };
-    let saved = state::end(saved, cx).await;
-    saved.map_err(|error| Fault::Domain { function: "savesv", problem: error.to_string().into() })
-}
-
-/// `init`: sets the variables of chapter 10.2 to their defaults, and those of chapter 10.1 to what was saved last.
-pub fn init(cx: &Cx) {
-    let (lane, system) = (cx.lane(), cx.system());
-    let current = system.cjoint.get();
-    lane.reset_system();
-    system.cjoint.set(current);
-    system.pgno.set(NO_PROGRAM_NUMBER);
-    let state = cx.world().state.borrow();
-    for kept in system.kept() {
-        if kept.always {
-            // Names have been saved with every change, so they stay.
-            let known = arl_lang::catalog::system_variable(kept.name);
-            if known.is_some_and(|variable| variable.section.starts_with("10.2.")) {
-                kept.slot.read(&(kept.default)());
-            }
-        } else {
-            match state.known(kept.stored) {
-                Some(text) => kept.slot.read(text),
-                None => kept.slot.read(&(kept.default)()),
-            };
-        }
-    }
-    cx.world().wiring.apply(system);
-}
-
-/// Whether a component of a position was set: what the start value is not.
-pub(crate) fn all_set(components: &[f64]) -> bool {
-    !components.iter().any(|component| is_unset(*component))
 }
 
 #[cfg(test)]

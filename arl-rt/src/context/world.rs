@@ -2,14 +2,10 @@
 
 use std::cell::{Cell, RefCell};
 use std::fmt;
-use std::rc::{Rc, Weak};
 
-use crate::builtins::files::ScriptDir;
-use crate::builtins::random::Random;
 use crate::communication::{NetworkDriver, NetworkSettings, Opener};
-use crate::context::cx::Cx;
-use crate::context::loadable::Loadable;
 use crate::context::output::{Message, Output};
+use crate::context::random::Random;
 use crate::context::wiring::Wiring;
 use crate::cycle::channel_id::ChannelId;
 use crate::cycle::rate::Rate;
@@ -17,6 +13,7 @@ use crate::fault::Alarm;
 use crate::fieldbus::Buses;
 use crate::io::Image;
 use crate::storage::disk::Disk;
+use crate::storage::script_dir::ScriptDir;
 use crate::storage::state::State;
 
 /// What all channels of a controller share: time, io, files, messages, alarms. Borrows of the cells end within the call that
@@ -53,10 +50,6 @@ pub(crate) struct World {
     pub(crate) buses: Buses,
     /// What opens the connections of programs.
     pub(crate) opener: Opener,
-    /// The programs that `switcharl` can load.
-    pub(crate) programs: Loadable,
-    /// The foreground channels, in order, as the functions see them that ask about channels by number.
-    foreground: RefCell<Vec<Weak<Cx>>>,
 }
 
 /// Somebody who wants to hear of something.
@@ -81,7 +74,6 @@ pub(crate) struct Parts {
     pub(crate) state: State,
     pub(crate) network: NetworkSettings,
     pub(crate) wiring: Wiring,
-    pub(crate) programs: Loadable,
     pub(crate) buses: Buses,
     pub(crate) network_driver: Option<Box<dyn NetworkDriver>>,
 }
@@ -89,7 +81,6 @@ pub(crate) struct Parts {
 impl World {
     pub(crate) fn new(parts: Parts) -> Self {
         Self {
-            programs: parts.programs,
             buses: parts.buses,
             opener: Opener::default(),
             network: parts.network,
@@ -109,31 +100,7 @@ impl World {
             warnings: RefCell::default(),
             state: RefCell::new(parts.state),
             disk: Disk::default(),
-            foreground: RefCell::default(),
         }
-    }
-
-    /// Adds the next foreground channel.
-    pub(crate) fn add_foreground(&self, cx: &Rc<Cx>) {
-        self.foreground.borrow_mut().push(Rc::downgrade(cx));
-    }
-
-    /// Another program runs in the foreground channel at this place.
-    pub(crate) fn exchange_foreground(&self, at: usize, cx: &Rc<Cx>) {
-        if let Some(place) = self.foreground.borrow_mut().get_mut(at) {
-            *place = Rc::downgrade(cx);
-        }
-    }
-
-    /// The foreground channel with this number, from 1.
-    pub(crate) fn foreground(&self, number: i32) -> Option<Rc<Cx>> {
-        let at = usize::try_from(number).ok()?.checked_sub(1)?;
-        self.foreground.borrow().get(at)?.upgrade()
-    }
-
-    /// How many foreground channels there are.
-    pub(crate) fn foreground_count(&self) -> usize {
-        self.foreground.borrow().len()
     }
 
     /// Passes a message of a channel on.

@@ -3,8 +3,8 @@
 use std::rc::Rc;
 use std::task::{Context, Poll};
 
-use crate::builtins::event::Due;
 use crate::context::cx::{Cx, Level, Pointer};
+use crate::context::events::Due;
 use crate::fault::Done;
 
 /// An action that has begun.

@@ -13,14 +13,13 @@ use super::channels::Channels;
 use super::external::External;
 use super::foreground::{Body, Foreground};
 use super::keeper::Keeper;
-use crate::builtins::files::ScriptDir;
-use crate::builtins::random::{self, Random};
 use crate::builtins::time;
 use crate::communication::NetworkDriver;
 use crate::context::lane::{Lane, Station};
-use crate::context::loadable::Loadable;
 use crate::context::output::{Output, Stream};
 use crate::context::program::{Beside, Program};
+use crate::context::programs::{Loadable, Programs};
+use crate::context::random::{self, Random};
 use crate::context::system::{self, Common, System};
 use crate::context::world::{Listeners, Parts, World};
 use crate::controller::cell::Cell;
@@ -35,6 +34,7 @@ use crate::io::{Image, IoDriver, Playing, Scenario, SimulatedIo};
 use crate::kinematics::frame;
 use crate::robot::{Family, Robot, RobotError};
 use crate::storage::pointers::{self, Table};
+use crate::storage::script_dir::ScriptDir;
 use crate::storage::state::{Memory, State, StateError, Storage};
 use crate::storage::whole;
 use crate::unit::Unit;
@@ -354,7 +354,6 @@ impl Builder {
             state,
             network: cell.network,
             wiring: cell.external,
-            programs: self.programs,
             buses,
             network_driver: self.network,
         }));
@@ -379,6 +378,7 @@ impl Builder {
             record: self.record,
             stack: self.stack,
             pointers: pointers.clone(),
+            programs: Rc::new(Programs::new(self.programs)),
         };
         let (first, unit) = site.foreground(1, program, robot, body)?;
         let mut channels = Vec::new();
@@ -413,6 +413,8 @@ struct Site {
     record: bool,
     stack: usize,
     pointers: Table,
+    /// The programs of the controller, as each of them sees the others.
+    programs: Rc<Programs>,
 }
 
 impl Site {
@@ -448,7 +450,7 @@ impl Site {
         };
         let channel =
             self.channel(Lane::foreground(Rc::clone(&self.world), id, index, system, station), program, trace);
-        self.world.add_foreground(channel.cx());
+        self.programs.add(channel.cx());
         Ok((channel, unit))
     }
 
@@ -465,7 +467,7 @@ impl Site {
         if let Some(unit) = lane.robot() {
             lane.update_system(&unit);
         }
-        Channel::new(Rc::new(lane), Rc::from(program), self.stack, trace)
+        Channel::new(Rc::new(lane), Rc::from(program), Rc::clone(&self.programs), self.stack, trace)
     }
 }
 

@@ -9,6 +9,7 @@ use crate::builtins::event;
 use crate::context::cx::{Cx, Level};
 use crate::context::lane::Lane;
 use crate::context::program::{Program, Running};
+use crate::context::programs::Programs;
 use crate::controller::trace::Trace;
 use crate::fault::{Alarm, Fault, Reason, Stop};
 use crate::storage::data;
@@ -57,8 +58,14 @@ pub(super) struct Channel {
 
 impl Channel {
     /// A program that will start with the next cycle.
-    pub(super) fn new(lane: Rc<Lane>, program: Rc<dyn Program>, stack: usize, trace: Option<Trace>) -> Self {
-        let cx = Rc::new(Cx::new(Rc::clone(&lane), Rc::clone(&program)));
+    pub(super) fn new(
+        lane: Rc<Lane>,
+        program: Rc<dyn Program>,
+        programs: Rc<Programs>,
+        stack: usize,
+        trace: Option<Trace>,
+    ) -> Self {
+        let cx = Rc::new(Cx::new(Rc::clone(&lane), Rc::clone(&program), programs));
         let phase = Phase::Running(load(Rc::clone(&program), Rc::clone(&cx)));
         let actions = Actions::default();
         Self { lane, program, cx, stack, phase, actions, seen: Ok(()), trace, running: true, exits: false }
@@ -99,7 +106,7 @@ impl Channel {
     /// What the program does at the moment.
     pub(super) fn state(&self) -> State {
         match self.phase {
-            Phase::Ended(_) if !self.lane.is_loading() => State::Ended,
+            Phase::Ended(_) if !self.cx.is_loading() => State::Ended,
             _ if self.lane.paused.get() => State::Paused,
             _ => State::Running,
         }
@@ -108,7 +115,7 @@ impl Channel {
     /// How the program ended, when it has.
     pub(super) fn outcome(&self) -> Option<&Outcome> {
         match &self.phase {
-            Phase::Ended(outcome) if !self.lane.is_loading() => Some(outcome),
+            Phase::Ended(outcome) if !self.cx.is_loading() => Some(outcome),
             _ => None,
         }
     }
@@ -128,18 +135,19 @@ impl Channel {
     fn exchange(&mut self) {
         self.end(Outcome::Stopped);
         if matches!(self.phase, Phase::Ended(_))
-            && let Some(program) = self.lane.take_next()
+            && let Some(program) = self.cx.take_next()
         {
             self.program = program;
-            self.cx = Rc::new(Cx::new(Rc::clone(&self.lane), Rc::clone(&self.program)));
-            self.lane.world.exchange_foreground(self.lane.index, &self.cx);
+            let programs = Rc::clone(self.cx.programs());
+            self.cx = Rc::new(Cx::new(Rc::clone(&self.lane), Rc::clone(&self.program), programs));
+            self.cx.programs().exchange(self.lane.index, &self.cx);
             self.reset();
         }
     }
 
     /// Lets the program and the actions of events run until they wait.
     pub(super) fn poll(&mut self) {
-        if self.lane.is_loading() {
+        if self.cx.is_loading() {
             self.exchange();
         }
         if self.has_statements() && self.lane.robot_mut().is_some_and(|mut unit| unit.take_beyond()) {
@@ -342,7 +350,7 @@ fn load(program: Rc<dyn Program>, cx: Rc<Cx>) -> Running {
     Box::pin(async move {
         program.init(&cx).await?;
         let world = cx.world();
-        let mut alarms = data::reload(&*program, world.scripts.path()).into_iter();
+        let mut alarms = data::reload(&program.data(), &world.scripts.path().join(program.folder())).into_iter();
         if let Some(first) = alarms.next() {
             // The first one ends the program, and is noted then; all of them come to the user.
             let channel = cx.lane().id;

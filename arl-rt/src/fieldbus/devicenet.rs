@@ -4,15 +4,6 @@ use std::fmt;
 
 use arl_robot::outline;
 
-use crate::context::cx::Cx;
-use crate::fault::Fault;
-
-/// Offset or length lie outside the buffer.
-const OUTSIDE: i32 = 1;
-
-/// The program's array has fewer bytes than the length says.
-const SHORT: i32 = 2;
-
 /// What stands between programs and a DeviceNet bus: the bytes that it exchanges with its devices. The calls must return
 /// at once; the exchange happens beside them.
 pub trait DeviceNet {
@@ -90,38 +81,4 @@ impl DeviceNet for SimulatedDeviceNet {
         }
         Ok(())
     }
-}
-
-/// Writes bytes into the bus's buffer. 0: done; 1: offset or length outside the buffer; 2: the array is shorter than the
-/// length; others: the bus's own.
-///
-/// # Errors
-/// None: what goes wrong is told by the result.
-pub async fn dnwrite(cx: &Cx, offset: i32, len: i32, data: &[u8]) -> Result<i32, Fault> {
-    cx.motion_end().await;
-    let mut bus = cx.world().buses.devicenet.borrow_mut();
-    let Some((offset, len)) = place(offset, len, bus.size()) else { return Ok(OUTSIDE) };
-    let Some(data) = data.get(..len) else { return Ok(SHORT) };
-    Ok(code(bus.write(offset, data)))
-}
-
-/// Reads bytes from the bus's buffer; the rest of the array stays. The result is that of [`dnwrite`].
-///
-/// # Errors
-/// None: what goes wrong is told by the result.
-pub async fn dnread(cx: &Cx, offset: i32, len: i32, data: &mut [u8]) -> Result<i32, Fault> {
-    cx.motion_end().await;
-    let mut bus = cx.world().buses.devicenet.borrow_mut();
-    let Some((offset, len)) = place(offset, len, bus.size()) else { return Ok(OUTSIDE) };
-    let Some(data) = data.get_mut(..len) else { return Ok(SHORT) };
-    Ok(code(bus.read(offset, data)))
-}
-
-fn place(offset: i32, len: i32, size: usize) -> Option<(usize, usize)> {
-    let (offset, len) = (usize::try_from(offset).ok()?, usize::try_from(len).ok()?);
-    (offset.checked_add(len)? <= size).then_some((offset, len))
-}
-
-fn code(done: Result<(), ErrorCode>) -> i32 {
-    done.map_or_else(ErrorCode::number, |()| 0)
 }

@@ -1,19 +1,16 @@
-//! Modbus TCP: the controller is the server; these functions work on its own registers and coils.
+//! The controller's Modbus TCP server, and the tables that programs share with its clients.
 
 use std::cell::OnceCell;
 use std::net::SocketAddr;
 
+use super::modbus::SharedTables;
 use super::modbus::server::Server;
-use super::modbus::{SIZE, SharedTables, Tables};
-use super::{ModbusTcpSettings, padded, report};
-use crate::context::cx::{Cx, Level};
-use crate::fault::Fault;
-use crate::values::Str;
+use super::settings::ModbusTcpSettings;
 
 /// The tables, and the server where there is one.
 #[derive(Default)]
 pub(crate) struct ModbusTcp {
-    tables: SharedTables,
+    pub(super) tables: SharedTables,
     server: OnceCell<Server>,
 }
 
@@ -39,167 +36,5 @@ impl ModbusTcp {
     /// Where the server listens, if there is one.
     pub(super) fn address(&self) -> Option<SocketAddr> {
         self.server.get().map(Server::address)
-    }
-}
-
-/// Reads `len` registers from `start` on as a text of two bytes a register, zeros included.
-///
-/// # Errors
-/// None: false where the registers do not exist.
-pub async fn readregisters_string(cx: &Cx, data: &mut Str, start: i32, len: i32) -> Result<bool, Fault> {
-    let read = with_registers(cx, "readregisters", start, len, |registers| Ok(Str::from(&*registers))).await;
-    Ok(read.map(|text| *data = text).is_some())
-}
-
-/// Reads `len` registers from `start` on as two bytes each; the rest of the array stays.
-///
-/// # Errors
-/// None: false where the registers do not exist, or the array has no room for them.
-pub async fn readregisters_bytes(cx: &Cx, data: &mut [u8], start: i32, len: i32) -> Result<bool, Fault> {
-    let size = data.len();
-    let read = with_registers(cx, "readregisters", start, len, |registers| {
-        let room = data.get_mut(..registers.len()).ok_or_else(|| short(registers.len(), size))?;
-        room.copy_from_slice(registers);
-        Ok(())
-    });
-    Ok(read.await.is_some())
-}
-
-/// Writes a text into registers from `start` on, two bytes a register: all of it, or as much as `len` registers take;
-/// what is left of the last ones becomes 0.
-///
-/// # Errors
-/// None: false where the registers do not exist.
-pub async fn writeregisters_string(cx: &Cx, data: &Str, start: i32, len: Option<i32>) -> Result<bool, Fault> {
-    let all = i32::try_from(data.as_bytes().len().div_ceil(2)).unwrap_or(i32::MAX);
-    let written = with_registers(cx, "writeregisters", start, len.unwrap_or(all), |registers| {
-        registers.copy_from_slice(&padded(data, registers.len()));
-        Ok(())
-    });
-    Ok(written.await.is_some())
-}
-
-/// Writes two bytes each into `len` registers from `start` on.
-///
-/// # Errors
-/// None: false where the registers do not exist, or the array has too few bytes.
-pub async fn writeregisters_bytes(cx: &Cx, data: &[u8], start: i32, len: i32) -> Result<bool, Fault> {
-    let written = with_registers(cx, "writeregisters", start, len, |registers| {
-        registers.copy_from_slice(data.get(..registers.len()).ok_or_else(|| short(registers.len(), data.len()))?);
-        Ok(())
-    });
-    Ok(written.await.is_some())
-}
-
-/// Reads `length` coils from `start` on, eight a byte, the first in the lowest bit; bits left over become 0, the rest of
-/// the array stays.
-///
-/// # Errors
-/// None: false where the coils do not exist, or the array has no room for them.
-pub async fn readcoils(cx: &Cx, data: &mut [u8], start: i32, length: i32) -> Result<bool, Fault> {
-    let size = data.len();
-    let read = with_coils(cx, "readcoils", start, length, |tables, start, count| {
-        tables.read_coils(start, count, data).ok_or_else(|| short(count.div_ceil(8), size))
-    });
-    Ok(read.await.is_some())
-}
-
-/// Sets `length` coils from `start` on, eight a byte, the first from the lowest bit.
-///
-/// # Errors
-/// None: false where the coils do not exist, or the array has too few bytes.
-pub async fn writecoils(cx: &Cx, data: &[u8], start: i32, length: i32) -> Result<bool, Fault> {
-    let written = with_coils(cx, "writecoils", start, length, |tables, start, count| {
-        tables.write_coils(start, count, data).ok_or_else(|| short(count.div_ceil(8), data.len()))
-    });
-    Ok(written.await.is_some())
-}
-
-/// Does something with the bytes of registers.
-async fn with_registers<R>(
-    cx: &Cx,
-    function: &'static str,
-    start: i32,
-    len: i32,
-    act: impl FnOnce(&mut [u8]) -> Result<R, String>,
-) -> Option<R> {
-    exchange(cx, function, "register", start, len, |tables, start, count| {
-        // They have been checked to be there.
-        act(tables.registers_mut(start, count).unwrap_or_default())
-    })
-    .await
-}
-
-/// Does something with coils.
-async fn with_coils(
-    cx: &Cx,
-    function: &'static str,
-    start: i32,
-    len: i32,
-    act: impl FnOnce(&mut Tables, usize, usize) -> Result<(), String>,
-) -> Option<()> {
-    exchange(cx, function, "coil", start, len, act).await
-}
-
-/// Does something with the tables, once all motion has ended; nothing where it is not possible, which is reported.
-async fn exchange<R>(
-    cx: &Cx,
-    function: &'static str,
-    what: &'static str,
-    start: i32,
-    count: i32,
-    act: impl FnOnce(&mut Tables, usize, usize) -> Result<R, String>,
-) -> Option<R> {
-    cx.motion_end().await;
-    let modbus = cx.world().buses.modbus_tcp();
-    let done = match range(what, start, count) {
-        Err(problem) => Err(problem),
-        Ok((start, count)) => loop {
-            match modbus.tables.at_once() {
-                Some(mut tables) => break act(&mut tables, start, count),
-                // A condition is looked at now or never.
-                None if cx.level() == Level::LOOKING => return None,
-                None => cx.next_cycle().await,
-            }
-        },
-    };
-    done.map_err(|problem| report(cx, format!("{function}: {problem}"))).ok()
-}
-
-/// Start and count, where these registers or coils exist.
-fn range(what: &str, start: i32, count: i32) -> Result<(usize, usize), String> {
-    if count < 0 {
-        return Err(format!("{count} {what}s: 0 or more are possible"));
-    }
-    let wanted = usize::try_from(start).ok().zip(usize::try_from(count).ok());
-    wanted.filter(|(start, count)| start + count <= SIZE).ok_or_else(|| {
-        let named = match i64::from(start) + i64::from(count) - 1 {
-            last if last > i64::from(start) => format!("{what}s {start} to {last} do not exist"),
-            _ => format!("{what} {start} does not exist"),
-        };
-        format!("{named}: 0 to {} are there", SIZE - 1)
-    })
-}
-
-fn short(needed: usize, size: usize) -> String {
-    format!("{needed} bytes are needed, the array has {size}")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_does_not_exist_is_named() {
-        let named = |start, count| range("coil", start, count).unwrap_err();
-        assert_eq!(named(65_536, 1), "coil 65536 does not exist: 0 to 65535 are there");
-        assert_eq!(named(-1, 0), "coil -1 does not exist: 0 to 65535 are there");
-        assert_eq!(named(65_535, 2), "coils 65535 to 65536 do not exist: 0 to 65535 are there");
-        assert_eq!(named(0, -1), "-1 coils: 0 or more are possible");
-        assert_eq!(range("coil", 65_535, 1), Ok((65_535, 1)));
-        assert_eq!(
-            range("coil", i32::MAX, i32::MAX).unwrap_err(),
-            "coils 2147483647 to 4294967293 do not exist: 0 to 65535 are there"
-        );
     }
 }

@@ -1,6 +1,6 @@
 //! Random bytes for tests of what reads bytes from outside.
 
-use crate::builtins::random::Random;
+use crate::context::random::Random;
 
 /// A sequence that is the same each time.
 pub(crate) struct Noise(Random);

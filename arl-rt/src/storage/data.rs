@@ -9,16 +9,32 @@ use arl_lang::ast::{Decl, Item, Var};
 use arl_lang::span::Span;
 use arl_lang::symbol::Interner;
 
-use crate::context::program::{DataFile, DataVar, Program};
 use crate::fault::{Alarm, Fault, File};
 use crate::values::teach_variable;
 
-/// Reads the data files of a program again and gives its variables the values that stand there. A file that is not
-/// there leaves the values that were compiled in. What is wrong comes back as alarms; variables that it concerns stay as
-/// they were.
-pub(crate) fn reload(program: &dyn Program, script_dir: &Path) -> Vec<Alarm> {
-    let folder = script_dir.join(program.folder());
-    program.data().iter().flat_map(|data| file(data, &folder)).collect()
+/// A data file and the variables that it gives values to.
+pub struct DataFile<'a> {
+    /// The file, as it was named when the program was compiled.
+    pub file: &'static str,
+    /// Its variables.
+    pub vars: Vec<DataVar<'a>>,
+}
+
+/// A variable of a data file.
+pub struct DataVar<'a> {
+    /// Its name as it was declared.
+    pub name: &'static str,
+    /// The sizes of an array of several dimensions, outermost first; else empty.
+    pub sizes: &'static [usize],
+    /// The variable.
+    pub slot: &'a dyn Teach,
+}
+
+/// Reads data files in the folder of their program again and gives their variables the values that stand there. A file that
+/// is not there leaves the values that were compiled in. What is wrong comes back as alarms; variables that it concerns stay
+/// as they were.
+pub(crate) fn reload(files: &[DataFile<'_>], folder: &Path) -> Vec<Alarm> {
+    files.iter().flat_map(|data| file(data, folder)).collect()
 }
 
 fn file(data: &DataFile<'_>, folder: &Path) -> Vec<Alarm> {
@@ -113,9 +129,6 @@ mod tests {
     use super::*;
     use std::cell::Cell;
 
-    use crate::context::cx::Cx;
-    use crate::context::program::BoxFuture;
-    use crate::robot::Family;
     use crate::values::{Joint, Shared, SmallArray, Str};
 
     struct Points {
@@ -125,23 +138,7 @@ mod tests {
         title: Shared<Str>,
     }
 
-    impl Program for Points {
-        fn file(&self) -> File {
-            File::new("p.arl")
-        }
-
-        fn family(&self) -> Family {
-            Family::SixAxis
-        }
-
-        fn init<'a>(&'a self, _: &'a Cx) -> BoxFuture<'a> {
-            Box::pin(async { Ok(()) })
-        }
-
-        fn main<'a>(&'a self, _: &'a Cx) -> BoxFuture<'a> {
-            Box::pin(async { Ok(()) })
-        }
-
+    impl Points {
         fn data(&self) -> Vec<DataFile<'_>> {
             let vars = vec![
                 DataVar { name: "home", sizes: &[], slot: &self.home },
@@ -159,7 +156,7 @@ mod tests {
         std::fs::write(folder.join("p_data.arl"), text).unwrap();
         let points =
             Points { home: Cell::default(), count: Cell::new(7), table: Shared::default(), title: Shared::default() };
-        let alarms = reload(&points, &folder).iter().map(ToString::to_string).collect();
+        let alarms = reload(&points.data(), &folder).iter().map(ToString::to_string).collect();
         std::fs::remove_dir_all(&folder).unwrap();
         (points, alarms)
     }
@@ -180,7 +177,7 @@ mod tests {
     fn a_file_that_is_not_there_changes_nothing() {
         let points =
             Points { home: Cell::default(), count: Cell::new(7), table: Shared::default(), title: Shared::default() };
-        assert_eq!(reload(&points, Path::new("/nowhere/at/all")), []);
+        assert_eq!(reload(&points.data(), Path::new("/nowhere/at/all")), []);
         assert_eq!(points.count.get(), 7);
     }
 

@@ -4,8 +4,6 @@ use std::cell::{Cell, RefCell};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel, sync_channel};
 use std::thread::JoinHandle;
 
-use crate::context::cx::Cx;
-
 type Job = Box<dyn FnOnce() + Send>;
 
 /// Does work on a thread of its own, one piece after the other in the order in which they come.
@@ -115,20 +113,6 @@ impl<T> Work<T> {
             Ok(value) => Stage::Done(value),
             Err(TryRecvError::Empty) => Stage::UnderWay,
             Err(TryRecvError::Disconnected) => Stage::Lost,
-        }
-    }
-
-    /// Waits for the end of it, one cycle at least, while the robots go on. On the virtual clock it is one cycle, however
-    /// long the work takes. `None`: it has panicked.
-    pub(crate) async fn end(self, cx: &Cx) -> Option<T> {
-        loop {
-            cx.world().disk.wait_for();
-            cx.next_cycle().await;
-            match self.stage() {
-                Stage::UnderWay => {}
-                Stage::Done(value) => return Some(value),
-                Stage::Lost => return None,
-            }
         }
     }
 }

@@ -5,5 +5,6 @@ pub mod data;
 pub(crate) mod disk;
 pub(crate) mod keep;
 pub(crate) mod pointers;
+pub(crate) mod script_dir;
 pub mod state;
 pub(crate) mod whole;

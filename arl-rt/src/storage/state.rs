@@ -9,7 +9,6 @@ use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use crate::context::cx::Cx;
 use crate::storage::disk::{Disk, Stage, Work};
 use crate::storage::whole;
 
@@ -136,20 +135,6 @@ struct Saving {
 
 /// What becomes of a value that is being stored, for who asks: nothing before it is known, and once.
 pub(crate) type Saved = Rc<Cell<Option<Result<(), StateError>>>>;
-
-/// Waits until a value is stored: one cycle at least.
-///
-/// # Errors
-/// It cannot be stored; the old one is still there.
-pub(crate) async fn end(saved: Saved, cx: &Cx) -> Result<(), StateError> {
-    loop {
-        cx.world().disk.wait_for();
-        cx.next_cycle().await;
-        if let Some(result) = saved.take() {
-            return result;
-        }
-    }
-}
 
 impl State {
     pub(crate) fn new(mut storage: Box<dyn Storage>) -> Self {

@@ -7,7 +7,7 @@ mod geometry;
 
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 
-use crate::builtins::pose::is_open;
+use crate::builtins::frames::is_open;
 use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::kinematics::{Frame, frame, frame_components};

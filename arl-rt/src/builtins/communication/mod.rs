@@ -1,6 +1,7 @@
 //! What programs do with connections: sockets, serial lines, and the protocols on top of them.
 
 mod handle;
+mod network;
 mod transfer;
 
 pub mod melsec;

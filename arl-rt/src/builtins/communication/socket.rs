@@ -9,7 +9,7 @@ use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::values::Str;
 
-pub use crate::communication::network::{getip, setip};
+pub use super::network::{getip, setip};
 
 /// A TCP connection. It is closed at first, and when the last that knows it is gone.
 #[derive(Clone, Default, Debug)]

@@ -5,25 +5,8 @@ use std::rc::Rc;
 use std::task::{Context, Poll, Waker};
 
 use crate::context::cx::Cx;
+use crate::context::events::{Act, Code};
 use crate::fault::Done;
-
-/// The condition and the action of an event, whatever they are in Rust.
-pub(crate) trait Code {
-    /// Whether the condition holds now. `Pending`: it has not come to a result within the turns of loops of a cycle.
-    fn holds(&self, cx: &Cx) -> Poll<Done<bool>>;
-
-    /// Memory for the action to run in.
-    fn room(self: Rc<Self>) -> Box<dyn Act>;
-}
-
-/// An action and the memory that it runs in: it runs as often as its event comes, once at a time, and takes no more memory.
-pub(crate) trait Act {
-    /// Puts the action at its beginning.
-    fn begin(&mut self, cx: Rc<Cx>);
-
-    /// Runs the action until it waits or ends; one that has not begun has ended.
-    fn poll(&mut self, context: &mut Context<'_>) -> Poll<Done<()>>;
-}
 
 /// What makes the future of an action, and room for one of them.
 struct Room<M, F> {

@@ -4,8 +4,8 @@ use std::rc::Rc;
 
 use super::code::Watched;
 use super::scan::evaluate;
-use super::table::{Declaration, Source, Ticking, priority};
 use crate::context::cx::Cx;
+use crate::context::events::{Declaration, Source, Ticking, priority};
 use crate::fault::{Done, Fault};
 use crate::values::Str;
 

@@ -9,13 +9,10 @@ mod halt;
 mod progress;
 mod scan;
 mod switch;
-mod table;
 
 pub use declare::{DuringMotion, Event, Every, Holds, interrupt, timer, trigger};
 pub use halt::{Skip, StartMove, StopMove, startmove, stopmove};
 pub use progress::{elapsed_distance, elapsed_percent, elapsed_time, left_distance};
 pub use switch::{DelInt, DisableInt, EnableInt, delint, disableint, enableint};
 
-pub(crate) use code::{Act, Code};
 pub(crate) use scan::scan;
-pub(crate) use table::{Due, Table};

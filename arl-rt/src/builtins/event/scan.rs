@@ -3,9 +3,8 @@
 use std::rc::Rc;
 use std::task::Poll;
 
-use super::Code;
-use super::table::{Event, Source, Table};
 use crate::context::cx::{Cx, Level};
+use crate::context::events::{Code, Event, Source, Table};
 use crate::fault::{Alarm, Fault, Reason, Stop};
 use crate::motion::Progress;
 

@@ -1,7 +1,7 @@
 //! `enableint`, `disableint`, `delint`.
 
-use super::table::{Table, Which, priority};
 use crate::context::cx::Cx;
+use crate::context::events::{Table, Which, priority};
 use crate::fault::Fault;
 use crate::values::Str;
 

@@ -1,6 +1,6 @@
 //! The load on the flange, and collision detection.
 
-use crate::builtins::pose::is_open;
+use crate::builtins::frames::is_open;
 use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::unit::dynamics::Load;

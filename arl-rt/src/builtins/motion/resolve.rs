@@ -2,10 +2,9 @@
 
 use super::modal::{Kind, Resolved};
 use crate::context::cx::Cx;
-use crate::context::system::all_set;
 use crate::fault::Fault;
 use crate::kinematics::{CONFIGURATIONS, Wanted};
-use crate::motion::{Command, Joints, Settings, Target, UNSET, Zone};
+use crate::motion::{Command, Joints, Settings, Target, UNSET, Zone, is_unset};
 use crate::robot::{EXTERNAL_AXES, VelocityProfile};
 use crate::unit::{Unit, joint};
 use crate::values::{Joint, Pose, VelProfile, is_set};
@@ -190,4 +189,9 @@ async fn add(cx: &Cx, command: &Command, settings: &Settings) -> Result<(), Faul
     drop(unit);
     lane.tell_of_corners(cx.world());
     Ok(())
+}
+
+/// Whether a component of a position was set: what the start value is not.
+fn all_set(components: &[f64]) -> bool {
+    !components.iter().any(|component| is_unset(*component))
 }

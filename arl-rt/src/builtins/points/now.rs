@@ -4,10 +4,12 @@ use arl_lang::symbol::Interner;
 
 use super::{Components, Failure, NO_LITERAL, is_done, of_joint, of_pose, replace};
 use crate::builtins::channel::{no_such, number, warn_of};
+use crate::builtins::storing::done;
 use crate::context::cx::Cx;
-use crate::context::program::{DataFile, DataVar, Program};
+use crate::context::program::Program;
 use crate::fault::Fault;
 use crate::storage::data;
+use crate::storage::data::{DataFile, DataVar};
 use crate::values::{Joint, Pose, Str};
 
 /// Writes a pose to a point of the program that a foreground channel runs, in its data file and in the program itself,
@@ -38,7 +40,7 @@ async fn save(
     value: Components,
 ) -> Result<bool, Fault> {
     let number = number(function, channel)?;
-    let Some(there) = cx.world().foreground(number) else {
+    let Some(there) = cx.programs().foreground(number) else {
         warn_of(cx, function, &no_such(cx, number));
         return Ok(false);
     };
@@ -63,7 +65,7 @@ async fn save(
         let missing = || Failure::Problem(format!("the data file {data} is not there"));
         replace(&data::place(places).ok_or_else(missing)?, ty, &name, &written)
     });
-    if !is_done(cx, function, work.end(cx).await) {
+    if !is_done(cx, function, done(work, cx).await) {
         return Ok(false);
     }
     Ok(point.find(program, |_, var| teach(var, &value)).flatten().is_some())

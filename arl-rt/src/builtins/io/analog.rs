@@ -1,8 +1,9 @@
 //! Analog inputs and outputs: values in V or mA, as the cell file gives the channels.
 
-use super::{Output, sent};
+use super::sent;
 use crate::context::cx::Cx;
 use crate::fault::Fault;
+use crate::io::Output;
 
 /// The value of an analog input in V or mA.
 ///

@@ -1,12 +1,13 @@
-//! What has been declared, in the order of declaration, and what is due.
+//! The interrupts, timers and triggers that a program has declared, in the order of declaration, and what is due.
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, VecDeque};
 use std::rc::Rc;
+use std::task::{Context, Poll};
 
-use super::{Act, Code};
+use crate::context::cx::Cx;
 use crate::cycle::rate::Rate;
-use crate::fault::{Fault, File};
+use crate::fault::{Done, Fault, File};
 use crate::values::Str;
 
 /// More events than that are the work of a loop that declares them again and again.
@@ -14,9 +15,27 @@ const MOST: usize = 1024;
 /// The lowest priority.
 const LOWEST: i32 = 255;
 
+/// The condition and the action of an event, whatever they are in Rust.
+pub(crate) trait Code {
+    /// Whether the condition holds now. `Pending`: it has not come to a result within the turns of loops of a cycle.
+    fn holds(&self, cx: &Cx) -> Poll<Done<bool>>;
+
+    /// Memory for the action to run in.
+    fn room(self: Rc<Self>) -> Box<dyn Act>;
+}
+
+/// An action and the memory that it runs in: it runs as often as its event comes, once at a time, and takes no more memory.
+pub(crate) trait Act {
+    /// Puts the action at its beginning.
+    fn begin(&mut self, cx: Rc<Cx>);
+
+    /// Runs the action until it waits or ends; one that has not begun has ended.
+    fn poll(&mut self, context: &mut Context<'_>) -> Poll<Done<()>>;
+}
+
 /// What makes an event.
 #[derive(Clone, Debug)]
-pub(super) enum Source {
+pub(crate) enum Source {
     /// A condition, and whether it held when it was looked at last.
     Condition { held: bool },
     /// Time.
@@ -28,21 +47,21 @@ pub(super) enum Source {
 
 /// A timer: its first cycle, and how many intervals have been counted since.
 #[derive(Clone, Debug)]
-pub(super) struct Ticking {
+pub(crate) struct Ticking {
     /// In s.
-    pub(super) interval: f64,
-    pub(super) repeats: bool,
+    pub(crate) interval: f64,
+    pub(crate) repeats: bool,
     start: u64,
     ticks: u64,
 }
 
 impl Ticking {
-    pub(super) fn new(interval: f64, repeats: bool, now: u64) -> Self {
+    pub(crate) fn new(interval: f64, repeats: bool, now: u64) -> Self {
         Self { interval, repeats, start: now, ticks: 0 }
     }
 
     /// Whether an interval is over in this cycle.
-    pub(super) fn is_over(&mut self, now: u64, rate: Rate) -> bool {
+    pub(crate) fn is_over(&mut self, now: u64, rate: Rate) -> bool {
         if self.ticks > 0 && !self.repeats {
             return false;
         }
@@ -59,26 +78,26 @@ impl Ticking {
 }
 
 /// An event that has been declared.
-pub(super) struct Event {
+pub(crate) struct Event {
     /// The order of declaration.
-    pub(super) number: u64,
+    pub(crate) number: u64,
     /// Empty: it has none.
-    pub(super) name: Str,
-    pub(super) priority: u8,
-    pub(super) source: Source,
-    pub(super) enabled: bool,
+    pub(crate) name: Str,
+    pub(crate) priority: u8,
+    pub(crate) source: Source,
+    pub(crate) enabled: bool,
     /// The cycle of an event that waits to be handled.
-    pub(super) arrived: Option<u64>,
+    pub(crate) arrived: Option<u64>,
     /// The declaration.
-    pub(super) place: (File, u32),
-    pub(super) code: Rc<dyn Code>,
+    pub(crate) place: (File, u32),
+    pub(crate) code: Rc<dyn Code>,
     /// Where its action runs; none while it does.
     room: Option<Box<dyn Act>>,
 }
 
 impl Event {
     /// What it is, for messages.
-    pub(super) fn describe(&self) -> String {
+    pub(crate) fn describe(&self) -> String {
         let what = match self.source {
             Source::Condition { .. } => "interrupt",
             Source::Time(_) => "timer",
@@ -91,7 +110,7 @@ impl Event {
     }
 
     /// It happens now: until it is handled, an event is kept once.
-    pub(super) fn happen(&mut self, now: u64, due: &mut BinaryHeap<Reverse<Rank>>) {
+    pub(crate) fn happen(&mut self, now: u64, due: &mut BinaryHeap<Reverse<Rank>>) {
         if self.arrived.is_none() {
             self.arrived = Some(now);
             due.extend(self.rank().map(Reverse));
@@ -105,14 +124,14 @@ impl Event {
 
 /// What decides which of several events is handled first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) struct Rank {
+pub(crate) struct Rank {
     priority: u8,
     arrived: u64,
     number: u64,
 }
 
 /// A priority that a program gives.
-pub(super) fn priority(value: i32, function: &'static str) -> Result<u8, Fault> {
+pub(crate) fn priority(value: i32, function: &'static str) -> Result<u8, Fault> {
     u8::try_from(value).map_err(|_| {
         let problem = format!("the priority is {value}, but must be 0 to {LOWEST}");
         Fault::Domain { function, problem: problem.into() }
@@ -131,7 +150,7 @@ pub(crate) struct Due {
 
 /// Which interrupts and timers are meant.
 #[derive(Clone, Debug)]
-pub(super) enum Which {
+pub(crate) enum Which {
     All,
     These { name: Option<Str>, priority: Option<u8> },
 }
@@ -140,24 +159,24 @@ pub(super) enum Which {
 #[derive(Default)]
 pub(crate) struct Table {
     /// Interrupts and timers in the order of declaration.
-    pub(super) interrupts: Vec<Event>,
+    pub(crate) interrupts: Vec<Event>,
     /// Triggers of motions that are planned, in the order of the motions.
-    pub(super) triggers: VecDeque<Event>,
+    pub(crate) triggers: VecDeque<Event>,
     /// Triggers whose motion is not planned yet, with the level of the program that declared them.
     waiting: Vec<(u32, Event)>,
     /// How many events have been declared.
     declared: u64,
     /// The events that wait to be handled, all of them, the first one on top; with room for all that are declared.
-    pub(super) due: BinaryHeap<Reverse<Rank>>,
+    pub(crate) due: BinaryHeap<Reverse<Rank>>,
 }
 
 /// A declaration.
-pub(super) struct Declaration {
-    pub(super) name: Option<Str>,
-    pub(super) priority: u8,
-    pub(super) source: Source,
-    pub(super) place: (File, u32),
-    pub(super) code: Rc<dyn Code>,
+pub(crate) struct Declaration {
+    pub(crate) name: Option<Str>,
+    pub(crate) priority: u8,
+    pub(crate) source: Source,
+    pub(crate) place: (File, u32),
+    pub(crate) code: Rc<dyn Code>,
 }
 
 impl Table {
@@ -174,7 +193,7 @@ impl Table {
     }
 
     /// Adds an interrupt or a timer.
-    pub(super) fn declare(&mut self, function: &'static str, new: Declaration) -> Result<(), Fault> {
+    pub(crate) fn declare(&mut self, function: &'static str, new: Declaration) -> Result<(), Fault> {
         let domain = |problem: String| Fault::Domain { function, problem: problem.into() };
         if let Some(name) = &new.name {
             if name.is_empty() {
@@ -191,7 +210,7 @@ impl Table {
     }
 
     /// Adds a trigger of the next motion that this level of the program plans.
-    pub(super) fn declare_trigger(&mut self, level: u32, new: Declaration) -> Result<(), Fault> {
+    pub(crate) fn declare_trigger(&mut self, level: u32, new: Declaration) -> Result<(), Fault> {
         self.check_room("trigger")?;
         let event = self.event(new);
         self.waiting.push((level, event));
@@ -232,7 +251,7 @@ impl Table {
     ///
     /// # Errors
     /// There is none of that name or priority.
-    pub(super) fn find(&self, function: &'static str, which: &Which) -> Result<Vec<usize>, Fault> {
+    pub(crate) fn find(&self, function: &'static str, which: &Which) -> Result<Vec<usize>, Fault> {
         let Which::These { name, priority } = which else { return Ok((0..self.interrupts.len()).collect()) };
         let named = |event: &Event| name.as_ref().is_some_and(|name| !name.is_empty() && event.name == *name);
         let ranked = |event: &Event| *priority == Some(event.priority);
@@ -254,7 +273,7 @@ impl Table {
     }
 
     /// Enables interrupts: timers that were not begin their intervals anew.
-    pub(super) fn enable(&mut self, found: &[usize], now: u64) {
+    pub(crate) fn enable(&mut self, found: &[usize], now: u64) {
         for at in found {
             let Some(event) = self.interrupts.get_mut(*at).filter(|event| !event.enabled) else { continue };
             event.enabled = true;
@@ -265,7 +284,7 @@ impl Table {
     }
 
     /// Disables interrupts: events that wait to be handled are lost.
-    pub(super) fn disable(&mut self, found: &[usize]) {
+    pub(crate) fn disable(&mut self, found: &[usize]) {
         for at in found {
             if let Some(event) = self.interrupts.get_mut(*at) {
                 event.enabled = false;
@@ -276,7 +295,7 @@ impl Table {
     }
 
     /// Deletes interrupts.
-    pub(super) fn delete(&mut self, found: &[usize]) {
+    pub(crate) fn delete(&mut self, found: &[usize]) {
         found.iter().rev().for_each(|at| drop(self.interrupts.remove(*at)));
         self.find_due();
     }

@@ -3,11 +3,13 @@
 use std::io;
 use std::net::Ipv4Addr;
 
+use crate::builtins::storing;
+use crate::communication::{NetworkDriver, PortSettings};
 use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::robot::Family;
 use crate::storage::disk::Disk;
-use crate::storage::state::{self, Saved, State};
+use crate::storage::state::{Saved, State};
 use crate::values::Str;
 
 /// The name under which the settings are kept where there is no driver.
@@ -15,33 +17,6 @@ const KEPT: &str = "NETWORK";
 
 /// The network ports of a SCARA robot's cabinet. The others have the first one only.
 const PORTS: [&str; 3] = ["eth1", "eth2", "eth3"];
-
-/// What a network port is set to.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct PortSettings {
-    /// Its address.
-    pub address: Ipv4Addr,
-    /// The gateway of its subnet.
-    pub gateway: Ipv4Addr,
-    /// The mask of its subnet.
-    pub mask: Ipv4Addr,
-}
-
-/// Sets up the network ports of the host. Without one the controller keeps the settings in its state directory, and changes
-/// nothing on the host.
-pub trait NetworkDriver {
-    /// Sets a port up: `eth1` to `eth3`.
-    ///
-    /// # Errors
-    /// It cannot be set so; `setip` is then false.
-    fn set(&mut self, port: &str, settings: PortSettings) -> io::Result<()>;
-
-    /// What a port is set to; nothing where that is not known.
-    ///
-    /// # Errors
-    /// It cannot be found out; `getip` is then false.
-    fn get(&mut self, port: &str) -> io::Result<Option<PortSettings>>;
-}
 
 /// Sets address, gateway and mask of a network port. False where one of them is no address, the mask is none, or there is no
 /// such port.
@@ -109,7 +84,7 @@ fn kept(state: &mut State) -> io::Result<Vec<(String, PortSettings)>> {
 /// Keeps the settings of a port beside those of the others.
 async fn keep(cx: &Cx, port: &str, settings: PortSettings) -> io::Result<()> {
     let saved = begin_to_keep(&mut cx.world().state.borrow_mut(), &cx.world().disk, port, settings)?;
-    state::end(saved, cx).await.map_err(io::Error::other)
+    storing::saved(saved, cx).await.map_err(io::Error::other)
 }
 
 fn begin_to_keep(state: &mut State, disk: &Disk, port: &str, settings: PortSettings) -> io::Result<Saved> {

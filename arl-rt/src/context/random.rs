@@ -2,8 +2,6 @@
 
 use std::cell::Cell;
 
-use crate::context::cx::Cx;
-
 /// The seed where nobody gives one.
 pub(crate) const SEED: u64 = 1;
 
@@ -24,11 +22,6 @@ impl Random {
         let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         ((mixed ^ (mixed >> 31)) >> 33) as i32
     }
-}
-
-/// `rand`: a number from 0 to 2147483647. The row follows from the controller's seed.
-pub fn rand(cx: &Cx) -> i32 {
-    cx.world().random.next()
 }
 
 #[cfg(test)]

@@ -1,0 +1,184 @@
+//! Inputs and outputs, as programs use them.
+//!
+//! The functions that wait do so for the end of all planned motion; then they act in that cycle. Channels count from 1.
+
+mod analog;
+
+pub use analog::{getai, getao, setao, syncao};
+
+use crate::context::cx::Cx;
+use crate::fault::Fault;
+use crate::io::{Digital, Output, Pwm};
+
+/// Sets a digital output.
+///
+/// # Errors
+/// There is no such channel.
+pub async fn setdo(cx: &Cx, chan: i32, value: bool) -> Result<(), Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow_mut().set_digital(Digital::Do, chan, value)
+}
+
+/// Sets up to 32 neighbouring digital outputs; the lowest bit of `value` is the first one's level.
+///
+/// # Errors
+/// Channels that do not exist, a reversed range, more than 32 channels.
+pub async fn setdo_group(cx: &Cx, from_chan: i32, to_chan: i32, value: i32) -> Result<(), Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow_mut().set_digitals(Digital::Do, from_chan, to_chan, value)
+}
+
+/// Sets a digital output and goes on when it has been sent: in the next cycle, or when the island that has it has taken it.
+///
+/// # Errors
+/// There is no such channel.
+pub async fn syncdo(cx: &Cx, chan: i32, value: bool) -> Result<(), Fault> {
+    setdo(cx, chan, value).await?;
+    sent(cx, digital_outputs(chan, chan)).await;
+    Ok(())
+}
+
+/// Digital outputs from the one to the other, which are there.
+fn digital_outputs(from: i32, to: i32) -> impl Iterator<Item = Output> + Clone {
+    (from..=to).map(|channel| Output::Digital(channel.unsigned_abs() as usize))
+}
+
+/// Waits until outputs of this cycle have got to where they go, one cycle at least.
+async fn sent(cx: &Cx, outputs: impl Iterator<Item = Output> + Clone) {
+    cx.world().io.borrow_mut().await_outputs(outputs.clone(), cx.cycle());
+    cx.next_cycle().await;
+    while cx.world().io.borrow().awaits(outputs.clone()) {
+        cx.next_cycle().await;
+    }
+}
+
+/// Sets up to 32 neighbouring digital outputs and goes on when they have been sent, as [`syncdo`] does.
+///
+/// # Errors
+/// Channels that do not exist, a reversed range, more than 32 channels.
+pub async fn syncdo_group(cx: &Cx, from_chan: i32, to_chan: i32, value: i32) -> Result<(), Fault> {
+    setdo_group(cx, from_chan, to_chan, value).await?;
+    sent(cx, digital_outputs(from_chan, to_chan)).await;
+    Ok(())
+}
+
+/// The shortest pulse that an output can give, in s.
+const SHORTEST_PULSE: f64 = 0.025;
+
+/// Puts a pulse on a digital output: the level for `width` seconds, but at least 25 ms, then the opposite level. The program
+/// goes on at once.
+///
+/// # Errors
+/// There is no such channel; the width is negative or not a number.
+pub async fn pulsedo(cx: &Cx, chan: i32, value: bool, width: f64) -> Result<(), Fault> {
+    let rate = cx.world().rate;
+    let cycles = rate.wait(width, "pulsedo")?.max(rate.cycles(SHORTEST_PULSE));
+    cx.motion_end().await;
+    cx.world().io.borrow_mut().pulse(cx.lane().index, chan, value, cx.cycle() + cycles)
+}
+
+/// The level of a digital output.
+///
+/// # Errors
+/// There is no such channel.
+pub async fn getdo(cx: &Cx, chan: i32) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow().digital(Digital::Do, chan)
+}
+
+/// The levels of up to 32 neighbouring digital outputs, the first in the lowest bit.
+///
+/// # Errors
+/// Channels that do not exist, a reversed range, more than 32 channels.
+pub async fn getdo_group(cx: &Cx, from_chan: i32, to_chan: i32) -> Result<i32, Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow().digitals(Digital::Do, from_chan, to_chan)
+}
+
+/// The level of a digital input.
+///
+/// # Errors
+/// There is no such channel.
+pub async fn getdi(cx: &Cx, chan: i32) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow().digital(Digital::Di, chan)
+}
+
+/// The levels of up to 32 neighbouring digital inputs, the first in the lowest bit.
+///
+/// # Errors
+/// Channels that do not exist, a reversed range, more than 32 channels.
+pub async fn getdi_group(cx: &Cx, from_chan: i32, to_chan: i32) -> Result<i32, Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow().digitals(Digital::Di, from_chan, to_chan)
+}
+
+/// The level of an internal output signal.
+///
+/// # Errors
+/// There is no such signal.
+pub async fn getintdo(cx: &Cx, chan: i32) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow().digital(Digital::InternalOut, chan)
+}
+
+/// The level of an internal input signal.
+///
+/// # Errors
+/// There is no such signal.
+pub async fn getintdi(cx: &Cx, chan: i32) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    cx.world().io.borrow().digital(Digital::InternalIn, chan)
+}
+
+/// The level of a digital input now, while the robot may still be on its way.
+///
+/// # Errors
+/// There is no such channel.
+pub fn getnostopdi(cx: &Cx, chan: i32) -> Result<bool, Fault> {
+    cx.world().io.borrow().digital(Digital::Di, chan)
+}
+
+/// Sets frequency (Hz) and duty cycle (%) of a PWM output. True: it has been set.
+///
+/// # Errors
+/// There is no such channel; a frequency outside 10 to 10000, a duty cycle outside 0 to 100.
+pub async fn setpwm(cx: &Cx, channel: i32, freq: i32, ratio: i32) -> Result<bool, Fault> {
+    cx.motion_end().await;
+    let wrong = |problem: String| Fault::Domain { function: "setpwm", problem: problem.into() };
+    let frequency = u16::try_from(freq).ok().filter(|freq| (10..=10_000).contains(freq));
+    let duty = u8::try_from(ratio).ok().filter(|ratio| *ratio <= 100);
+    let pwm = Pwm {
+        frequency: frequency.ok_or_else(|| wrong(format!("{freq} Hz: 10 to 10000 are possible")))?,
+        duty: duty.ok_or_else(|| wrong(format!("{ratio} %: 0 to 100 are possible")))?,
+    };
+    cx.world().io.borrow_mut().set_pwm(channel, pwm)?;
+    Ok(true)
+}
+
+/// `setdoimv`: sets a digital output when the motion before it has ended, without stopping the robot.
+pub fn setdoimv(channel: i32, value: bool) -> SetDoInMotion {
+    SetDoInMotion { channel, value }
+}
+
+/// `setdoimv`, ready to run.
+#[derive(Clone, Copy, Debug)]
+#[must_use = "an instruction does nothing until it is run"]
+pub struct SetDoInMotion {
+    channel: i32,
+    value: bool,
+}
+
+impl SetDoInMotion {
+    /// Leaves the order with the motion planned last; acts at once where none is under way.
+    ///
+    /// # Errors
+    /// There is no such channel.
+    pub fn run(self, cx: &Cx) -> Result<(), Fault> {
+        let lane = cx.lane();
+        let mut io = cx.world().io.borrow_mut();
+        io.set_after(lane.index, cx.last_motion(), self.channel, self.value)?;
+        io.motions_ended(lane.index, |motion| lane.robot().is_none_or(|unit| unit.has_ended(motion)));
+        Ok(())
+    }
+}

@@ -1,0 +1,75 @@
+//! The field buses of a controller.
+
+use std::cell::{OnceCell, RefCell, RefMut};
+use std::collections::HashSet;
+use std::net::SocketAddr;
+
+use super::devicenet::DeviceNet;
+use super::modbus::SharedTables;
+use super::modbus_tcp::ModbusTcp;
+use super::settings::{BusSettings, ModbusTcpSettings};
+
+/// How many different reports a run may give, so that they never fill the memory.
+const MOST_REPORTS: usize = 100;
+
+/// The field buses of a controller.
+pub(crate) struct Buses {
+    devicenet: RefCell<Box<dyn DeviceNet>>,
+    modbus_tcp: OnceCell<ModbusTcp>,
+    settings: BusSettings,
+    reported: RefCell<HashSet<String>>,
+}
+
+impl Buses {
+    /// Buses as the cell has them.
+    pub(crate) fn new(settings: BusSettings, devicenet: Box<dyn DeviceNet>) -> Self {
+        Self { devicenet: RefCell::new(devicenet), modbus_tcp: OnceCell::new(), settings, reported: RefCell::default() }
+    }
+
+    /// The DeviceNet bus.
+    pub(crate) fn devicenet(&self) -> RefMut<'_, Box<dyn DeviceNet>> {
+        self.devicenet.borrow_mut()
+    }
+
+    /// The registers and coils of the Modbus TCP server.
+    pub(crate) fn modbus_tables(&self) -> &SharedTables {
+        &self.modbus_tcp().tables
+    }
+
+    /// Whether nobody has told the user this yet, and there is room for one more report; notes that it is told now.
+    pub(crate) fn is_new_report(&self, text: &str) -> bool {
+        let mut reported = self.reported.borrow_mut();
+        reported.len() < MOST_REPORTS && reported.insert(text.to_owned())
+    }
+
+    /// The Modbus TCP server and its tables.
+    fn modbus_tcp(&self) -> &ModbusTcp {
+        self.modbus_tcp.get_or_init(ModbusTcp::default)
+    }
+
+    /// Starts what the cell asks for, whether a program uses it or not. Where the cell says nothing of it, a server with all
+    /// defaults is tried, if programs want one. What the user should know: where the server listens, if the cell left that
+    /// open; why there is none.
+    ///
+    /// # Errors
+    /// Why some of what the cell asks for cannot be had.
+    pub(crate) fn start(&self, wanted: bool) -> Result<Option<String>, String> {
+        let Some(settings) = &self.settings.modbus_tcp else {
+            let tried = wanted.then(|| self.modbus_tcp().start(&ModbusTcpSettings::default()));
+            return Ok(tried.and_then(Result::err));
+        };
+        self.modbus_tcp().start(settings)?;
+        let address = self.modbus_tcp_address().filter(|_| settings.address.port() == 0);
+        Ok(address.map(|address| format!("the Modbus TCP server listens on {address}")))
+    }
+
+    /// Where the Modbus TCP server listens, if there is one.
+    pub(crate) fn modbus_tcp_address(&self) -> Option<SocketAddr> {
+        self.modbus_tcp.get()?.address()
+    }
+
+    /// Whether the cell asks for connections that stand from the start.
+    pub(crate) fn is_outside(&self) -> bool {
+        self.settings.modbus_tcp.is_some()
+    }
+}
