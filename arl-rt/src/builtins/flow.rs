@@ -1,6 +1,7 @@
 //! Waiting, and ending the program.
 
 use crate::context::cx::Cx;
+use crate::cycle::rate::Rate;
 use crate::fault::Fault;
 
 /// `waittime`: waits until all planned motion has ended, then for `time` seconds, counted in cycles.
@@ -21,7 +22,7 @@ impl WaitTime {
     /// # Errors
     /// The time is negative or not a number.
     pub async fn run(self, cx: &Cx) -> Result<(), Fault> {
-        let cycles = cx.world().rate.wait(self.time, "waittime")?;
+        let cycles = wait_cycles(cx.world().rate, self.time, "waittime")?;
         cx.motion_end().await;
         let over = cx.cycle() + cycles;
         while cx.cycle() < over {
@@ -57,7 +58,7 @@ impl<'a> WaitUntil<'a> {
     /// The longest time is negative or not a number.
     pub async fn start(self) -> Result<Wait<'a>, Fault> {
         let cycles = match self.maxtime {
-            Some(seconds) => Some(self.cx.world().rate.wait(seconds, "waituntil")?),
+            Some(seconds) => Some(wait_cycles(self.cx.world().rate, seconds, "waituntil")?),
             None => None,
         };
         self.cx.motion_end().await;
@@ -112,4 +113,29 @@ impl Pause {
 #[inline]
 pub fn assert(x: bool) -> Result<(), Fault> {
     if x { Ok(()) } else { Err(Fault::Assertion) }
+}
+
+/// How many cycles a program waits that gives this time.
+///
+/// # Errors
+/// The time is negative or not a number.
+pub(super) fn wait_cycles(rate: Rate, seconds: f64, function: &'static str) -> Result<u64, Fault> {
+    if seconds >= 0.0 {
+        return Ok(rate.cycles(seconds));
+    }
+    let problem = format!("the time is {seconds} s, but must be 0 or more").into();
+    Err(Fault::Domain { function, problem })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_to_wait_are_numbers_from_0_on() {
+        let rate = Rate::default();
+        assert_eq!(wait_cycles(rate, 0.003, "waittime"), Ok(3));
+        assert!(wait_cycles(rate, -1.0, "waittime").is_err());
+        assert!(wait_cycles(rate, f64::NAN, "waittime").is_err());
+    }
 }

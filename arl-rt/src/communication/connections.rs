@@ -8,9 +8,9 @@ use std::thread::Builder;
 
 use mio::{Poll, Waker};
 
-use super::link::LinkState;
 use super::opening::Opening;
-use super::shared::Shared;
+use super::shared::{LinkState, Shared};
+use super::stream::WAKE;
 use super::worker;
 
 /// How many connections may be on their way to being closed.
@@ -104,7 +104,7 @@ fn carry_out(orders: &Receiver<Order>) {
 /// Starts the thread of a connection.
 fn start(shared: &Arc<Shared>, opening: Opening) -> io::Result<()> {
     let poll = Poll::new()?;
-    shared.wakes_by(Waker::new(poll.registry(), worker::WAKE)?);
+    shared.wakes_by(Waker::new(poll.registry(), WAKE)?);
     let served = Arc::clone(shared);
     let thread = Builder::new().name("connection".into()).stack_size(worker::STACK);
     thread.spawn(move || worker::serve(&served, poll, &opening))?;

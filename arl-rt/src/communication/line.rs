@@ -36,7 +36,7 @@ mod tty {
     use rustix::termios::{self, ControlModes, OptionalActions, QueueSelector, Termios};
 
     use super::LineSettings;
-    use crate::communication::worker::{STREAM, Stream};
+    use crate::communication::stream::{STREAM, Stream};
     use crate::values::{Parity, Stopbits};
 
     /// An open serial line that says when it is ready instead of waiting.

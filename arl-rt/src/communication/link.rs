@@ -6,20 +6,7 @@ use std::sync::Arc;
 use super::connections::{Connections, Opener};
 use super::inbox::Inbox;
 use super::opening::Opening;
-use super::shared::Shared;
-
-/// How far a connection has come.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) enum LinkState {
-    /// It is not open yet.
-    Opening,
-    /// Bytes can go both ways.
-    Open,
-    /// It could not be opened, for this reason.
-    Failed(String),
-    /// It was open; the other side has closed it, or it broke, as the text says. What came before can still be read.
-    Lost(String),
-}
+use super::shared::{LinkState, Shared};
 
 /// A connection: a stream of bytes that a thread of its own serves. Nothing here waits. It closes when it is dropped,
 /// after what was sent has gone (or one second later).

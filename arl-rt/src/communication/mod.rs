@@ -11,8 +11,9 @@ pub(crate) mod link;
 mod network_driver;
 pub(crate) mod opening;
 mod settings;
-mod shared;
+pub(crate) mod shared;
 pub(crate) mod slave;
+mod stream;
 mod worker;
 
 pub(crate) use connections::{Connections, Opener};

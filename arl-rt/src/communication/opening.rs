@@ -11,7 +11,7 @@ use mio::{Events, Interest, Poll};
 use super::line::LineSettings;
 use super::shared::Shared;
 use super::slave::SlaveSettings;
-use super::worker::{STREAM, wait};
+use super::stream::{STREAM, wait};
 
 /// How long one attempt to reach an address may take. A host that was switched off while it was tried is found sooner
 /// by a new attempt than by the repetitions of the old one.

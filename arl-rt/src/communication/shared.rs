@@ -6,8 +6,20 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use mio::Waker;
 
 use super::inbox::{CAPACITY, Inbox};
-use super::link::LinkState;
 use crate::cycle::at_once::at_once;
+
+/// How far a connection has come.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub(crate) enum LinkState {
+    /// It is not open yet.
+    Opening,
+    /// Bytes can go both ways.
+    Open,
+    /// It could not be opened, for this reason.
+    Failed(String),
+    /// It was open; the other side has closed it, or it broke, as the text says. What came before can still be read.
+    Lost(String),
+}
 
 /// What the cycle and the thread of a connection share. The bytes are behind a lock that both hold for copying only, and that
 /// the cycle does not wait for; how far the connection has come is seen without it.

@@ -7,9 +7,8 @@ use std::time::{Duration, Instant};
 use mio::{Events, Poll};
 
 use super::line::{self, LineSettings};
-use super::link::LinkState;
-use super::shared::Shared;
-use super::worker::{Stream, attempt, wait};
+use super::shared::{LinkState, Shared};
+use super::stream::{Stream, attempt, wait};
 use crate::fieldbus::modbus::SharedTables;
 use crate::fieldbus::modbus::pdu::{self, Answer};
 use crate::fieldbus::modbus::rtu::{self, Heard, LONGEST_FRAME, Request};

@@ -1,21 +1,15 @@
 //! The thread of a connection.
 
 use std::io::{self, ErrorKind, Read, Write};
-use std::net::Shutdown;
 use std::time::{Duration, Instant};
 
-use mio::net::TcpStream;
-use mio::{Events, Poll, Token};
+use mio::{Events, Poll};
 
 use super::line;
-use super::link::LinkState;
 use super::opening::{self, Opening};
-use super::shared::Shared;
+use super::shared::{LinkState, Shared};
 use super::slave;
-
-/// What wakes the thread: the cycle, or the stream.
-pub(super) const WAKE: Token = Token(0);
-pub(super) const STREAM: Token = Token(1);
+use super::stream::{Stream, attempt, wait};
 
 /// The stack of the thread. Looking up names needs most of it.
 pub(super) const STACK: usize = 512 << 10;
@@ -28,18 +22,6 @@ const LINGER: Duration = Duration::from_secs(1);
 
 /// How long it then waits for the other side to close, too.
 const FAREWELL: Duration = Duration::from_millis(200);
-
-/// A stream that says when it is ready instead of waiting.
-pub(super) trait Stream: Read + Write {
-    /// Says that nothing more will be sent; whether the other side can say the same.
-    fn finish(&mut self) -> bool;
-}
-
-impl Stream for TcpStream {
-    fn finish(&mut self) -> bool {
-        self.shutdown(Shutdown::Write).is_ok()
-    }
-}
 
 /// Opens a connection and serves it until it ends.
 pub(super) fn serve(shared: &Shared, mut poll: Poll, opening: &Opening) {
@@ -162,25 +144,4 @@ fn part<S: Stream>(poll: &mut Poll, events: &mut Events, stream: &mut S, piece: 
         }
     }
     Ok(())
-}
-
-/// The result of a call that does not wait; nothing where the stream is not ready.
-pub(super) fn attempt(mut call: impl FnMut() -> io::Result<usize>) -> io::Result<Option<usize>> {
-    loop {
-        match call() {
-            Ok(count) => return Ok(Some(count)),
-            Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => return Ok(None),
-            Err(error) if error.kind() == ErrorKind::Interrupted => {}
-            Err(error) => return Err(error),
-        }
-    }
-}
-
-/// Waits until the stream is ready, the cycle wakes the thread, or the deadline has come.
-pub(super) fn wait(poll: &mut Poll, events: &mut Events, deadline: Option<Instant>) -> io::Result<()> {
-    let timeout = deadline.map(|deadline| deadline.saturating_duration_since(Instant::now()));
-    match poll.poll(events, timeout) {
-        Err(error) if error.kind() != ErrorKind::Interrupted => Err(error),
-        _ => Ok(()),
-    }
 }

@@ -1,4 +1,7 @@
 //! What a running program sees of the controller.
+//!
+//! A program is told the context, and the context knows the program, the other programs and the events that it has declared:
+//! so this file, `program.rs`, `programs.rs` and `events.rs` name each other.
 
 use std::any::Any;
 use std::cell::{Cell, RefCell};

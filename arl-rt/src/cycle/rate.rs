@@ -1,7 +1,5 @@
 //! The length of a control cycle, and how seconds become cycles.
 
-use crate::fault::Fault;
-
 /// The longest wait in cycles: what no program outlives.
 const FOREVER: f64 = 9e15;
 
@@ -52,18 +50,6 @@ impl Rate {
             0
         }
     }
-
-    /// The same for a time that a program gives.
-    ///
-    /// # Errors
-    /// The time is negative or not a number.
-    pub(crate) fn wait(self, seconds: f64, function: &'static str) -> Result<u64, Fault> {
-        if seconds >= 0.0 {
-            return Ok(self.cycles(seconds));
-        }
-        let problem = format!("the time is {seconds} s, but must be 0 or more").into();
-        Err(Fault::Domain { function, problem })
-    }
 }
 
 impl Default for Rate {
@@ -89,7 +75,5 @@ mod tests {
             assert_eq!(Rate::from_micros(250).cycles(Rate::from_micros(250).time(cycles)), cycles);
         }
         assert_eq!(rate.time(3000), 3.0);
-        assert!(rate.wait(-1.0, "waittime").is_err());
-        assert!(rate.wait(f64::NAN, "waittime").is_err());
     }
 }

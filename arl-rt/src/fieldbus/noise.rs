@@ -1,5 +1,6 @@
 //! Random bytes for tests of what reads bytes from outside.
 
+// In tests only: the generator that programs have.
 use crate::context::random::Random;
 
 /// A sequence that is the same each time.

@@ -1,7 +1,7 @@
 //! A row of analog channels.
 
 use super::AnalogType;
-use super::image::{channel_fault, place};
+use super::channel::{channel_fault, place};
 use crate::fault::Fault;
 
 /// Analog channels of one direction. Channels count from 1.

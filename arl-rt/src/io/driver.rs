@@ -1,6 +1,7 @@
 //! The border to real inputs and outputs.
 
-use super::{Inputs, Outputs};
+use super::channel::Output;
+use super::image::{Inputs, Outputs};
 
 /// Exchanges inputs and outputs with the outside, once a cycle. All calls must return at once: what takes time, like a
 /// field bus, has a thread of its own, and an image that both copy. The islands of a cell file work like this.
@@ -81,15 +82,6 @@ pub trait IoDriver {
     fn fault(&self) -> Option<&str> {
         None
     }
-}
-
-/// An output, by its channel from 1.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Output {
-    /// A digital one.
-    Digital(usize),
-    /// An analog one.
-    Analog(usize),
 }
 
 /// Io without an outside: inputs keep what a scenario or the embedding program gave them.

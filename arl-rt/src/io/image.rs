@@ -6,7 +6,7 @@ use std::collections::VecDeque;
 use super::Channels;
 use super::analog_row::AnalogRow;
 use super::bits::Bits;
-use super::driver::Output;
+use super::channel::{Output, channel_fault, place};
 use crate::fault::Fault;
 
 /// The most channels that one call may name.
@@ -368,18 +368,6 @@ impl Image {
     pub(crate) fn outputs_all(&self, cycle: u64) -> Outputs<'_> {
         Outputs { cycle, dout: &self.dout, ao: self.ao.values(), internal: &self.internal_out, pwm: &self.pwm }
     }
-}
-
-pub(super) fn place(name: &str, channel: i32, count: usize) -> Result<usize, Fault> {
-    match usize::try_from(channel) {
-        Ok(number) if (1..=count).contains(&number) => Ok(number - 1),
-        _ if count == 0 => Err(channel_fault(format!("{name} {channel} does not exist: this cell has no {name}"))),
-        _ => Err(channel_fault(format!("{name} {channel} does not exist: channels 1 to {count} are there"))),
-    }
-}
-
-pub(super) fn channel_fault(text: String) -> Fault {
-    Fault::Channel(text.into())
 }
 
 /// The inputs of a cycle, as an [`IoDriver`](super::IoDriver) fills them. Channels count from 1 here, too.

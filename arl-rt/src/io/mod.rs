@@ -2,12 +2,14 @@
 
 mod analog_row;
 mod bits;
+mod channel;
 mod driver;
 mod image;
 mod scenario;
 
 pub use arl_robot::channels::{AnalogType, Channels};
-pub use driver::{IoDriver, Output, SimulatedIo};
+pub use channel::Output;
+pub use driver::{IoDriver, SimulatedIo};
 pub use image::{Image, Inputs, Outputs, Pwm};
 pub use scenario::{Pendant, Scenario};
 

@@ -10,6 +10,7 @@ mod shared;
 mod str;
 mod structs;
 mod teach;
+mod teach_error;
 pub mod text;
 mod watched;
 
@@ -21,7 +22,8 @@ pub use scara::AsScara;
 pub use shared::Shared;
 pub use str::Str;
 pub use structs::*;
-pub use teach::{Fixed, Teach, TeachError, TeachProblem, teach_variable};
+pub use teach::{Fixed, Teach, teach_variable};
+pub use teach_error::{TeachError, TeachProblem};
 pub use watched::Watched;
 
 /// What a component is that nobody has set: "keep what was".

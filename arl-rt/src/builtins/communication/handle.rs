@@ -4,8 +4,9 @@ use std::cell::{Cell, RefCell};
 use std::time::{Duration, Instant};
 
 use crate::communication::inbox::{CAPACITY, Inbox};
-use crate::communication::link::{Link, LinkState};
+use crate::communication::link::Link;
 use crate::communication::opening::Opening;
+use crate::communication::shared::LinkState;
 use crate::context::cx::{Cx, Level};
 use crate::fault::Fault;
 

@@ -6,6 +6,7 @@ mod analog;
 
 pub use analog::{getai, getao, setao, syncao};
 
+use crate::builtins::flow::wait_cycles;
 use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::io::{Digital, Output, Pwm};
@@ -72,7 +73,7 @@ const SHORTEST_PULSE: f64 = 0.025;
 /// There is no such channel; the width is negative or not a number.
 pub async fn pulsedo(cx: &Cx, chan: i32, value: bool, width: f64) -> Result<(), Fault> {
     let rate = cx.world().rate;
-    let cycles = rate.wait(width, "pulsedo")?.max(rate.cycles(SHORTEST_PULSE));
+    let cycles = wait_cycles(rate, width, "pulsedo")?.max(rate.cycles(SHORTEST_PULSE));
     cx.motion_end().await;
     cx.world().io.borrow_mut().pulse(cx.lane().index, chan, value, cx.cycle() + cycles)
 }

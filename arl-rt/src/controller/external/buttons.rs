@@ -1,7 +1,6 @@
 //! The inputs with which a PLC works the controller like somebody at the pendant.
 
-use super::Now;
-use super::watch::{Seen, Watch};
+use super::watch::{Now, Seen, Watch};
 use crate::context::system::System;
 use crate::io::Pendant;
 

@@ -11,13 +11,13 @@ mod watch;
 
 use crate::context::system::System;
 use crate::controller::State;
-use crate::cycle::rate::Rate;
 use crate::fault::Fault;
 use crate::io::Image;
 use crate::values::Controlmode;
 use buttons::{Buttons, Pressed};
 use lamps::Lamps;
 use program_number::ProgramNumber;
+pub(super) use watch::Now;
 
 /// The side of the controller that a PLC sees.
 #[derive(Debug)]
@@ -27,20 +27,6 @@ pub(super) struct External {
     buttons: Buttons,
     number: ProgramNumber,
     lamps: Lamps,
-}
-
-/// What is looked at in a cycle.
-pub(super) struct Now<'a> {
-    /// The inputs.
-    pub(super) io: &'a Image,
-    /// What says which of them mean what.
-    pub(super) system: &'a System,
-    /// The running number of the cycle.
-    pub(super) cycle: u64,
-    /// How long cycles are.
-    pub(super) rate: Rate,
-    /// Whether the programs are paused.
-    pub(super) paused: bool,
 }
 
 impl External {

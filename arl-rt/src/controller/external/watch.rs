@@ -1,6 +1,22 @@
 //! Edges and pulses of an input.
 
+use crate::context::system::System;
+use crate::cycle::rate::Rate;
 use crate::io::Image;
+
+/// What is looked at in a cycle.
+pub(in crate::controller) struct Now<'a> {
+    /// The inputs.
+    pub(in crate::controller) io: &'a Image,
+    /// What says which of them mean what.
+    pub(in crate::controller) system: &'a System,
+    /// The running number of the cycle.
+    pub(in crate::controller) cycle: u64,
+    /// How long cycles are.
+    pub(in crate::controller) rate: Rate,
+    /// Whether the programs are paused.
+    pub(in crate::controller) paused: bool,
+}
 
 /// What an input does in this cycle.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]

@@ -1,0 +1,25 @@
+//! Channels of io by their numbers, which count from 1.
+
+use crate::fault::Fault;
+
+/// An output, by its channel from 1.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Output {
+    /// A digital one.
+    Digital(usize),
+    /// An analog one.
+    Analog(usize),
+}
+
+/// The place of a channel, from 0, among `count` that messages call `name`.
+pub(super) fn place(name: &str, channel: i32, count: usize) -> Result<usize, Fault> {
+    match usize::try_from(channel) {
+        Ok(number) if (1..=count).contains(&number) => Ok(number - 1),
+        _ if count == 0 => Err(channel_fault(format!("{name} {channel} does not exist: this cell has no {name}"))),
+        _ => Err(channel_fault(format!("{name} {channel} does not exist: channels 1 to {count} are there"))),
+    }
+}
+
+pub(super) fn channel_fault(text: String) -> Fault {
+    Fault::Channel(text.into())
+}
