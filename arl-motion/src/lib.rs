@@ -1,10 +1,58 @@
-//! Motion: commands become paths, paths get their timing, and an interpolator follows them cycle by cycle.
+//! Motion of robot arms: commands in, a set-point each cycle out.
 //!
-//! Every motion, and every blend between two, is a stretch of one way with one parameter. Planning finds limits of that
+//! A [`Queue`] takes [`Command`]s (lines, circles, splines, axis motions) and plans them ahead, blended where their zones say so.
+//! Each [`Queue::step`] moves the robot on by one cycle, within the limits of every axis and of the TCP. The robot stops on its
+//! path ([`Queue::stop_on_path`]), goes on, follows an override that changes at any time, and leaves its motion for others and
+//! comes back ([`Queue::request_suspension`]). A [`Recorder`] tells what each motion really did.
+//!
+//! Lengths are in mm, angles in deg, times in s; rotation vectors, where there are any, are in rad. A [`Queue`] that is stepped with
+//! the same commands at the same cycles gives the same set-points to the last bit, on every machine.
+//!
+//! ```
+//! use arl_motion::{Command, Joints, Queue, Settings, Speed, Stop, Target, Zone, robot::Robot};
+//! use std::sync::Arc;
+//!
+//! let robot = Arc::new(Robot::builtin("kr10-r1420").expect("a built-in robot"));
+//! let mut queue = Queue::new(Arc::clone(&robot), Joints::home(&robot));
+//! let settings = Settings::default();
+//!
+//! // Over to a start position, then two lines, the corner between them blended within 20 mm.
+//! queue.add(&Command::new(Target::axes([0.0, -90.0, 90.0, 0.0, 30.0, 0.0])), &settings)?;
+//! for _ in 0..2000 {
+//!     queue.step(0.001, 100.0);
+//! }
+//! let [x, y, z, a, b, c] = arl_motion::kinematics::frame_components(&queue.tcp());
+//! let slow = Speed { tcp: 250.0, ..Speed::FULL };
+//! let first = Command { speed: slow, zone: Zone::within(20.0), ..Command::new(Target::line([x, y + 100.0, z, a, b, c])) };
+//! let second = Command { speed: slow, ..Command::new(Target::line([x + 100.0, y + 100.0, z, a, b, c])) };
+//! queue.add(&first, &settings)?;
+//! queue.add(&second, &settings)?;
+//!
+//! // A set-point each ms; half a second later the robot is told to stop, and goes on once it rests.
+//! let mut cycles = 0;
+//! while !queue.idle() {
+//!     let set_point = queue.step(0.001, 100.0);
+//!     cycles += 1;
+//!     match cycles {
+//!         500 => queue.stop_on_path(Stop::General),
+//!         _ if queue.stopped() && set_point.rests => queue.resume(),
+//!         _ => {}
+//!     }
+//!     assert!(set_point.joints.axes.iter().all(|axis| axis.is_finite()));
+//! }
+//! let end = queue.tcp().translation.vector;
+//! assert!((end.x - (x + 100.0)).abs() < 0.001 && (end.y - (y + 100.0)).abs() < 0.001);
+//! # Ok::<(), arl_motion::PlanError>(())
+//! ```
+//!
+//! Every motion, and every blend between two, is a stretch of one path with one parameter. Planning finds limits of that
 //! parameter's speed, acceleration and jerk, constant for each stretch, such that *whatever* moves along it within them
 //! keeps every axis and the TCP within theirs. Starting, stopping, resuming and changing the override are then problems of
 //! that one parameter and can never leave the path or break a limit. In the profile O every place has limits of its own, and
 //! the whole of the way ahead is timed at once.
+//!
+//! The folders are the stages: `command`, `geometry`, `limits`, `overlay`, `plan`, `blend`, `follow`, `time_optimal`, `queue`. Each
+//! imports from those before it only.
 
 mod blend;
 mod command;
@@ -18,6 +66,7 @@ mod queue;
 mod tests;
 pub mod time_optimal;
 
+pub use arl_robot::{frames, kinematics, robot};
 pub use blend::zone::Rounding;
 pub use command::{
     Command, Compensation, Gate, Joints, Lift, PlanError, Reference, Settings, Speed, Target, UNSET, Weave, WeaveShape,

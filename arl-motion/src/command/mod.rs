@@ -14,7 +14,7 @@ pub use weave::{Weave, WeaveShape};
 
 use arl_robot::frames::Rig;
 use arl_robot::kinematics::{Frame, Wanted};
-use arl_robot::robot::{EXTERNAL_AXES, VelocityProfile};
+use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES, VelocityProfile};
 
 /// The largest blending zone, as part of a motion.
 pub(crate) const LARGEST_ZONE: f64 = 0.5;
@@ -32,8 +32,15 @@ pub struct Command {
     pub duration: Option<f64>,
     /// How far from its target the motion may be left for the next one.
     pub zone: Zone,
-    /// The program line, for the trace.
+    /// A mark of the caller's, such as the program line, which set-points and errors tell.
     pub line: u32,
+}
+
+impl Command {
+    /// A motion at the robot's full speed to an exact stop, with a bare flange, in the robot's base.
+    pub fn new(target: Target) -> Self {
+        Self { target, rig: Rig::bare(), speed: Speed::FULL, duration: None, zone: Zone::NONE, line: 0 }
+    }
 }
 
 /// Where a motion goes. Components that are [`crate::command::UNSET`] stay as they are where the motion starts.
@@ -113,6 +120,18 @@ pub enum Target {
     },
 }
 
+impl Target {
+    /// All axes to these positions, in deg (mm); external axes stay where they are.
+    pub fn axes(axes: [f64; ROBOT_AXES]) -> Self {
+        Self::Joints(Joints { axes, external: [UNSET; EXTERNAL_AXES] })
+    }
+
+    /// The TCP along a straight line to a pose in the robot's base: x, y, z in mm, a, b, c in deg. External axes stay where they are.
+    pub fn line(pose: [f64; 6]) -> Self {
+        Self::Line { pose, wobj: Frame::identity(), external: [UNSET; EXTERNAL_AXES] }
+    }
+}
+
 /// How far from the target of a motion the next one may take over (slip). What is not above 0, or [`crate::command::UNSET`], asks
 /// for nothing.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -134,6 +153,11 @@ pub struct Zone {
 impl Zone {
     /// The target is reached exactly.
     pub const NONE: Zone = Zone { percent: -1.0, tcp: -1.0, ori: -1.0, joint: -1.0, turning: -1.0, linear: -1.0 };
+
+    /// The next motion may take over where the TCP is within so many mm of the target.
+    pub fn within(tcp: f64) -> Zone {
+        Zone { tcp, ..Zone::NONE }
+    }
 }
 
 /// The programmed speed. A motion uses the components that fit it; the robot's own limits hold besides.
@@ -149,6 +173,11 @@ pub struct Speed {
     pub exj: f64,
     /// External linear axes: mm/s, above 0.
     pub exl: f64,
+}
+
+impl Speed {
+    /// As fast as the robot's own limits allow.
+    pub const FULL: Speed = Speed { percent: 100.0, tcp: 1e6, ori: 1e6, exj: 1e6, exl: 1e6 };
 }
 
 /// What holds for all motions until it is changed.

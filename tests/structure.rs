@@ -1,0 +1,65 @@
+//! The structure of the crates that have folders by layer: a folder imports from those below it only.
+//!
+//! An import that has to run back up says why in a comment `// up: …` on its line or the line before.
+
+use std::path::{Path, PathBuf};
+
+/// The folders of arl-motion, from the ground up.
+const MOTION: &[&str] =
+    &["command", "geometry", "limits", "overlay", "plan", "blend", "follow", "time_optimal", "queue"];
+
+#[test]
+fn folders_of_arl_motion_import_from_below_only() {
+    assert_layers("arl-motion/src", MOTION);
+}
+
+/// The imports of every file below `source` go to folders below its own; `layers` names all folders, from the ground up.
+fn assert_layers(source: &str, layers: &[&str]) {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(source);
+    let files = rust_files(&source);
+    assert!(files.len() > layers.len(), "{} has files", source.display());
+    let mut faults = Vec::new();
+    for file in files {
+        let inside = file.strip_prefix(&source).unwrap().to_string_lossy().into_owned();
+        let folder = inside.split(['/', '.']).next().unwrap_or_default().to_owned();
+        if ["lib", "tests"].contains(&folder.as_str()) || inside.contains("/tests") {
+            continue;
+        }
+        let Some(own) = layers.iter().position(|layer| *layer == folder) else {
+            faults.push(format!("{inside}: the folder `{folder}` is not in the list of layers"));
+            continue;
+        };
+        let text = std::fs::read_to_string(&file).unwrap();
+        // Tests at the end of a file may use whatever they need.
+        let text = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
+        let mut before = "";
+        for (line, words) in (1..).zip(text.lines()) {
+            let code = words.split("//").next().unwrap_or_default();
+            let excused = words.contains("// up: ") || before.trim_start().starts_with("// up: ");
+            let imported = code.split("crate::").skip(1);
+            let imported =
+                imported.map(|path| path.split(|c: char| !(c.is_alphanumeric() || c == '_')).next().unwrap());
+            for other in imported.filter(|_| !excused) {
+                if layers.iter().position(|layer| *layer == other).is_some_and(|other| other > own) {
+                    faults.push(format!("{inside}:{line}: `{folder}` is below `{other}` and must not import from it"));
+                }
+            }
+            before = words;
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+fn rust_files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            files.extend(rust_files(&path));
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            files.push(path);
+        }
+    }
+    files.sort();
+    files
+}
