@@ -9,9 +9,10 @@ use std::thread::Builder;
 use mio::{Poll, Waker};
 
 use super::opening::Opening;
-use super::shared::{LinkState, Shared};
+use super::shared::{LinkState, PANICKED, Shared};
 use super::stream::WAKE;
 use super::worker;
+use crate::cycle::catch_panic::catch_panic;
 
 /// How many connections may be on their way to being closed.
 const MOST_CLOSING: usize = 32;
@@ -94,9 +95,14 @@ impl Connections {
 
 fn carry_out(orders: &Receiver<Order>) {
     for Order { shared, opening, over } in orders {
-        drop(over);
-        if let Err(error) = start(&shared, opening) {
-            shared.end(LinkState::Failed(error.to_string()));
+        let started = catch_panic(|| {
+            drop(over);
+            start(&shared, opening)
+        });
+        match started {
+            Some(Ok(())) => {}
+            Some(Err(error)) => shared.end(LinkState::Failed(error.to_string())),
+            None => shared.end(LinkState::Failed(PANICKED.into())),
         }
     }
 }

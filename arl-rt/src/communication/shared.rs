@@ -7,6 +7,7 @@ use mio::Waker;
 
 use super::inbox::{CAPACITY, Inbox};
 use crate::cycle::at_once::at_once;
+use crate::cycle::catch_panic::catch_panic;
 
 /// How far a connection has come.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -20,6 +21,9 @@ pub(crate) enum LinkState {
     /// It was open; the other side has closed it, or it broke, as the text says. What came before can still be read.
     Lost(String),
 }
+
+/// What the user is told of a connection whose thread has panicked.
+pub(super) const PANICKED: &str = "its thread has panicked";
 
 /// What the cycle and the thread of a connection share. The bytes are behind a lock that both hold for copying only, and that
 /// the cycle does not wait for; how far the connection has come is seen without it.
@@ -86,6 +90,16 @@ impl Shared {
     /// Notes how it ended. Once: the thread does it, or whoever could not start one.
     pub(super) fn end(&self, state: LinkState) {
         self.end.get_or_init(|| state);
+    }
+
+    /// Serves the connection until it ends, and notes how. Where the thread panics, the connection is over as well: nobody
+    /// waits for it.
+    pub(super) fn end_after(&self, serve: impl FnOnce() -> LinkState) {
+        let panicked = || match self.open.load(Ordering::Acquire) {
+            true => LinkState::Lost(PANICKED.into()),
+            false => LinkState::Failed(PANICKED.into()),
+        };
+        self.end(catch_panic(serve).unwrap_or_else(panicked));
     }
 
     /// Whether the thread has nothing to do with the connection any more.
@@ -159,5 +173,16 @@ mod tests {
         assert!(shared.is_over() && shared.is_done());
         drop(held);
         assert!(shared.at_once().is_some_and(|mut bytes| bytes.put(b"x") && !bytes.put(&[0; CAPACITY])));
+    }
+    #[test]
+    fn a_connection_whose_thread_panics_is_over() {
+        let panics = || std::panic::panic_any("meant to be");
+        let shared = Shared::new(true);
+        shared.end_after(panics);
+        assert!(shared.state() == LinkState::Failed(PANICKED.into()) && shared.is_done());
+        let shared = Shared::new(true);
+        shared.opened(true);
+        shared.end_after(panics);
+        assert!(shared.state() == LinkState::Lost(PANICKED.into()) && shared.is_done() && shared.is_free());
     }
 }

@@ -25,7 +25,7 @@ const FAREWELL: Duration = Duration::from_millis(200);
 
 /// Opens a connection and serves it until it ends.
 pub(super) fn serve(shared: &Shared, mut poll: Poll, opening: &Opening) {
-    let state = match opening {
+    shared.end_after(|| match opening {
         Opening::Connect { host, port } => {
             run(shared, &mut poll, opening, |poll| opening::connect(shared, poll, host, *port))
         }
@@ -34,8 +34,7 @@ pub(super) fn serve(shared: &Shared, mut poll: Poll, opening: &Opening) {
         }
         Opening::Line(settings) => run(shared, &mut poll, opening, |poll| line::open(poll, settings)),
         Opening::Slave(settings) => slave::serve(shared, &mut poll, settings),
-    };
-    shared.end(state);
+    });
 }
 
 /// Opens a stream and carries bytes both ways; the state that it leaves. The stream is closed then.

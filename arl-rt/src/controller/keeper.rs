@@ -5,6 +5,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use crate::cycle::at_once::at_once;
+use crate::cycle::catch_panic::catch_panic;
 use crate::cycle::channel_id::MOST_FOREGROUND;
 use crate::storage::pointers::{self, Now, Table};
 use crate::storage::state::{self, Storage};
@@ -65,7 +66,12 @@ impl Desk {
             let mut table = kept.clone();
             table.iter_mut().zip(&now).for_each(|(kept, now)| *kept = kept.renewed(now));
             let text = pointers::written(&table);
-            let done = if text == stored { Ok(()) } else { state::store(storage, pointers::STORED, &text) };
+            let store = || state::store(storage, pointers::STORED, &text);
+            let done = if text == stored {
+                Ok(())
+            } else {
+                catch_panic(store).unwrap_or_else(|| Err(state::panicked(pointers::STORED)))
+            };
             sheet = self.lock();
             match done {
                 Ok(()) => (stored, told) = (text, None),
@@ -138,7 +144,7 @@ impl Keeper {
         let mut sheet = self.desk.lock();
         (sheet.now, sheet.hurry, sheet.last) = (self.noted, true, last);
         self.desk.bell.notify_all();
-        // A storage that panics takes the thread along.
+        // A thread that is gone would never answer.
         while sheet.hurry && self.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
             (sheet, _) = self.desk.bell.wait_timeout(sheet, LOOK).unwrap_or_else(PoisonError::into_inner);
         }
@@ -149,8 +155,44 @@ impl Drop for Keeper {
     fn drop(&mut self) {
         self.hurry(true);
         if let Some(thread) = self.thread.take() {
-            // A panic there has been reported.
+            // A storage that panics does not end it.
             let _ = thread.join();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fault::File;
+    use std::sync::mpsc::{Sender, channel};
+
+    /// Panics when something is stored for the first time; tells what is stored later.
+    struct PanicsOnce(bool, Sender<String>);
+
+    impl Storage for PanicsOnce {
+        fn load(&self, _: &str) -> std::io::Result<Option<Vec<u8>>> {
+            Ok(None)
+        }
+
+        fn store(&mut self, _: &str, content: &[u8]) -> std::io::Result<()> {
+            if !std::mem::replace(&mut self.0, true) {
+                std::panic::panic_any("meant to be");
+            }
+            self.1.send(String::from_utf8_lossy(content).into_owned()).map_err(std::io::Error::other)
+        }
+    }
+
+    #[test]
+    fn a_storage_that_panics_is_told_and_tried_again() {
+        let (sender, stored) = channel();
+        let mut keeper = Keeper::start(Box::new(PanicsOnce(false, sender)), Table::default()).unwrap();
+        let now = Now { program: Some((File::new("a.arl"), 3)), motion: None };
+        assert_eq!(keeper.note([now].into_iter(), false), None);
+        let told = keeper.settle().unwrap();
+        assert!(told.contains("the storage has panicked"), "{told}");
+        assert_eq!(keeper.settle(), None);
+        let text = stored.try_recv().unwrap();
+        assert!(text.contains("a.arl"), "{text}");
     }
 }

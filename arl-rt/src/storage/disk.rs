@@ -4,6 +4,8 @@ use std::cell::{Cell, RefCell};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel, sync_channel};
 use std::thread::JoinHandle;
 
+use crate::cycle::catch_panic::catch_panic;
+
 type Job = Box<dyn FnOnce() + Send>;
 
 /// Does work on a thread of its own, one piece after the other in the order in which they come.
@@ -38,7 +40,7 @@ impl Disk {
     /// The system gives none.
     pub(crate) fn start(&self) -> std::io::Result<()> {
         let mut thread = self.thread.borrow_mut();
-        if thread.as_ref().is_none_or(Thread::has_ended) {
+        if thread.is_none() {
             *thread = Some(Thread::start()?);
         }
         Ok(())
@@ -48,13 +50,13 @@ impl Disk {
     pub(crate) fn begin<T: Send + 'static>(&self, work: impl FnOnce() -> T + Send + 'static) -> Work<T> {
         let (sender, receiver) = sync_channel(1);
         let job: Job = Box::new(move || {
-            // Who has begun it may be gone.
-            let _ = sender.send(work());
+            // Who has begun it may be gone. A panic drops the sender, which tells that the work is lost.
+            let _ = catch_panic(work).map(|done| sender.send(done));
         });
         let started = self.start().is_ok();
         let thread = self.thread.borrow();
         match thread.as_ref().filter(|_| started).and_then(|thread| thread.jobs.as_ref()) {
-            // A thread that has panicked just now drops the job, which is lost with it.
+            // The thread receives until this sender is dropped.
             Some(jobs) => drop(jobs.send(job)),
             None => job(),
         }
@@ -76,7 +78,7 @@ impl Disk {
     pub(crate) fn settle(&self) {
         self.waited_for.set(false);
         if self.thread.borrow().is_some() {
-            // It is the last one. Nothing comes back where the thread has panicked.
+            // It is the last one, and comes back after all that was begun before it.
             let _ = self.begin(|| ()).0.recv();
         }
     }
@@ -89,10 +91,6 @@ impl Thread {
         let handle = thread.spawn(move || receiver.iter().for_each(|job| job()))?;
         Ok(Self { jobs: Some(sender), handle: Some(handle) })
     }
-
-    fn has_ended(&self) -> bool {
-        self.handle.as_ref().is_none_or(JoinHandle::is_finished)
-    }
 }
 
 impl Drop for Thread {
@@ -100,7 +98,7 @@ impl Drop for Thread {
     fn drop(&mut self) {
         self.jobs = None;
         if let Some(handle) = self.handle.take() {
-            // A panic there has been reported.
+            // Its work does not end it by a panic.
             let _ = handle.join();
         }
     }
@@ -142,16 +140,37 @@ mod tests {
         assert_eq!(*order.lock().unwrap(), [1, 2], "dropping waits for what nobody asks for any more");
     }
 
+    /// Keeps a panic under way: says that it has begun, and waits until it may go on.
+    struct Unwinding {
+        begun: Sender<()>,
+        go_on: Receiver<()>,
+    }
+
+    impl Drop for Unwinding {
+        fn drop(&mut self) {
+            self.begun.send(()).unwrap();
+            self.go_on.recv().unwrap();
+        }
+    }
+
     #[test]
     fn a_panic_loses_its_work_only() {
         let disk = Disk::default();
-        let lost = disk.begin(|| std::panic::panic_any("meant to be"));
+        let ((begun, under_way), (gate, go_on)) = (channel(), channel());
+        let before = disk.begin(|| 5);
+        let lost = disk.begin(|| {
+            let _held = Unwinding { begun, go_on };
+            std::panic::panic_any("meant to be")
+        });
+        under_way.recv().unwrap();
+        let during = disk.begin(|| 6);
+        gate.send(()).unwrap();
         disk.settle();
         assert!(matches!(lost.stage(), Stage::Lost));
-        let next = disk.begin(|| 7);
+        let after = disk.begin(|| 7);
         disk.settle();
-        // The thread may just have been on its way out.
-        let next = if let Stage::Done(seven) = next.stage() { seven } else { disk.begin(|| 7).0.recv().unwrap() };
-        assert_eq!(next, 7);
+        for (work, number) in [(before, 5), (during, 6), (after, 7)] {
+            assert!(matches!(work.stage(), Stage::Done(done) if done == number), "{number}");
+        }
     }
 }

@@ -196,7 +196,7 @@ impl State {
                     continue;
                 }
                 Stage::Done(stored) => stored,
-                Stage::Lost => Err(self.error(name, "cannot be written: the storage has panicked".to_owned())),
+                Stage::Lost => Err(StateError { place: self.storage.place(name), ..panicked(name) }),
             };
             if stored.is_ok() {
                 self.known.insert(name, text);
@@ -229,6 +229,11 @@ pub(crate) fn store(storage: &mut dyn Storage, name: &str, text: &str) -> Result
         let problem = format!("cannot be written: {error}");
         StateError { place: storage.place(name), problem }
     })
+}
+
+/// That the storage has panicked while it stored under this name.
+pub(crate) fn panicked(name: &str) -> StateError {
+    StateError { place: name.to_owned(), problem: "cannot be written: the storage has panicked".to_owned() }
 }
 
 /// The text with a last line that tells whether it is whole, and this variable's.

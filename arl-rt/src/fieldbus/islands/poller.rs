@@ -8,6 +8,7 @@ use arl_robot::islands::{Island, Rest};
 use super::link::Link;
 use super::plan::{Plan, Run, Signals};
 use super::shared::Shared;
+use crate::cycle::catch_panic::catch_panic;
 use crate::fieldbus::modbus::client::{self, Refusal};
 
 /// How long the thread waits before it connects again: first, and at most. Each time is twice the one before.
@@ -38,7 +39,9 @@ impl Poller {
         let mut pause = SHORTEST_PAUSE;
         while !self.shared.stops() {
             let begin = Instant::now();
-            let Err(why) = self.visit() else { return };
+            // Inputs that nobody exchanges any more are lost, whatever the reason: robots must not go by them.
+            let visited = catch_panic(|| self.visit()).unwrap_or_else(|| Err("its thread has panicked".to_owned()));
+            let Err(why) = visited else { return };
             let resting = (self.island.inputs == Rest::Zero).then_some(&self.resting[0]);
             self.shared.lose(why, resting);
             // One that comes and goes is not met more often than one that is gone.

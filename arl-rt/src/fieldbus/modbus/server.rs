@@ -16,6 +16,7 @@ use mio::net::{TcpListener, TcpStream};
 use mio::{Events, Interest, Poll, Token, Waker};
 
 use super::SharedTables;
+use crate::cycle::catch_panic::catch_panic;
 use connection::Connection;
 
 /// A connection that has been silent for so long makes room for a new one.
@@ -121,7 +122,8 @@ impl Door {
         let mut events = Events::with_capacity(4);
         while !self.stop.load(Ordering::Acquire) {
             match self.poll.poll(&mut events, self.refused.then_some(PAUSE)) {
-                Ok(()) => self.accept(),
+                // Whoever it was about is sent away; the others can still come.
+                Ok(()) => drop(catch_panic(|| self.accept())),
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
                 Err(_) => break,
             }
