@@ -2,6 +2,8 @@
 //!
 //! An import that has to run back up says why in a comment `// up: …` on its line or the line before.
 
+#![allow(clippy::unwrap_used, reason = "tests may fail")]
+
 use std::path::{Path, PathBuf};
 
 /// The folders of arl-motion, from the ground up.
