@@ -10,6 +10,29 @@ use std::path::{Path, PathBuf};
 const MOTION: &[&str] =
     &["command", "geometry", "limits", "overlay", "plan", "blend", "follow", "time_optimal", "queue"];
 
+/// The folders of arl-rt, from the ground up.
+const RUNTIME: &[&str] = &[
+    "cycle",
+    "fault",
+    "values",
+    "storage",
+    "io",
+    "fieldbus",
+    "communication",
+    "unit",
+    "context",
+    "builtins",
+    "controller",
+    "command",
+    "emit",
+    "fuzzing",
+];
+
+#[test]
+fn folders_of_arl_rt_import_from_below_only() {
+    assert_layers("arl-rt/src", RUNTIME);
+}
+
 #[test]
 fn folders_of_arl_motion_import_from_below_only() {
     assert_layers("arl-motion/src", MOTION);
