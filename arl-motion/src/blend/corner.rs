@@ -113,7 +113,7 @@ impl Corner<'_> {
         let mut bounds = Constraints::new(self.robot);
         let pace = common_pace(from, to);
         let (curve, parametrization, time) = match (&from.curve, &to.curve) {
-            (Curve::Tool(a), Curve::Tool(b)) if go_on(a, leave, b, join) => {
+            (Curve::Tool(a), Curve::Tool(b)) if a.goes_on(leave, b, join) => {
                 let curve = self.tool_curve(a, b);
                 let (start, end) = (along(&a.path.track, leave, vel_from), along(&b.path.track, join, vel_to));
                 let bends_little = is_gentle(&curve) && !self.swings();
@@ -437,14 +437,6 @@ fn axes_knot(robot: &Robot, motion: &Motion, at: f64, slope: f64, bend: &MidCurv
         }
     };
     Some(scaled(knot, slope, &bend.axes))
-}
-
-/// Whether the TCP can go from one way over to another: they lead the same TCP, and no passage makes their orientations
-/// inexact there.
-pub(crate) fn go_on(from: &ToolCurve, leave: f64, to: &ToolCurve, join: f64) -> bool {
-    let exact =
-        from.passages.iter().all(|passage| passage.to < leave) && to.passages.iter().all(|passage| passage.from > join);
-    exact && from.carried == to.carried && from.cfg_at(1.0) == to.cfg
 }
 
 /// The joints within a motion, followed from its nearer end.

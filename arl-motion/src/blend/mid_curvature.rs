@@ -12,7 +12,6 @@
 
 use nalgebra::{SVector, Vector3};
 
-use crate::blend::corner::go_on;
 use crate::blend::zone::parts;
 use crate::command::LARGEST_ZONE;
 use crate::command::joints::{ALL, Joints, slowness};
@@ -74,7 +73,7 @@ pub(crate) fn bend(robot: &Robot, before: &Motion, here: &Motion, after: &Motion
     let mut bend = MidCurvature::NONE;
     match (&before.curve, &here.curve, &after.curve) {
         (Curve::Tool(a), Curve::Tool(b), Curve::Tool(c)) => {
-            if !go_on(a, 0.5, b, 0.5) || !go_on(b, 0.5, c, 0.5) || !b.is_even() {
+            if !a.goes_on(0.5, b, 0.5) || !b.goes_on(0.5, c, 0.5) || !b.is_even() {
                 return None;
             }
             let motions = [before, here, after];

@@ -8,10 +8,12 @@ use crate::geometry::rotation;
 use crate::geometry::tcp_path::TcpPath;
 use crate::geometry::track::Track;
 use crate::overlay::Overlay;
-use crate::plan::path_check::SINGULAR_CLEARANCE;
 use arl_robot::frames::Carried;
 use arl_robot::kinematics::{Axes, Frame, Kinematics, Passage, Rates, Twist, wrap_degrees};
 use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES};
+
+/// Closer to a singular point than this (see [`arl_robot::kinematics::Kinematics::clearance`]) rounding spoils the derivatives.
+pub(crate) const SINGULAR_CLEARANCE: f64 = 1e-5;
 
 /// What a motion moves along.
 #[derive(Clone, PartialEq, Debug)]
@@ -103,6 +105,14 @@ impl ToolCurve {
     /// The configuration at `at`; within a passage, that before it.
     pub(crate) fn cfg_at(&self, at: f64) -> u8 {
         self.passages.iter().rev().find(|passage| passage.to < at).map_or(self.cfg, |passage| passage.cfg_behind)
+    }
+
+    /// Whether the TCP can go from one way over to another: they lead the same TCP, and no passage makes their orientations
+    /// inexact there.
+    pub(crate) fn goes_on(&self, leave: f64, to: &ToolCurve, join: f64) -> bool {
+        let exact = self.passages.iter().all(|passage| passage.to < leave)
+            && to.passages.iter().all(|passage| passage.from > join);
+        exact && self.carried == to.carried && self.cfg_at(1.0) == to.cfg
     }
 
     /// The axes at `at`, no farther than half a turn from `near`; `None` where the arm does not reach. Within a passage

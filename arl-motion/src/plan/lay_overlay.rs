@@ -5,7 +5,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use crate::command::Settings;
 use crate::command::error::PlanError;
 use crate::command::joints::Joints;
-use crate::command::{Reference, Weave};
+use crate::command::Reference;
 use crate::limits::constant::{Bound, passing, quickest};
 use crate::overlay::compensation::{Led, Shift};
 use crate::overlay::path_frame::PathFrame;
@@ -13,36 +13,11 @@ use crate::overlay::weave::Pattern;
 use crate::overlay::{Overlay, Woven};
 use crate::plan::constraints::{Constraints, MANUAL_SPEED_MM_S};
 use crate::plan::curve::{Curve, ToolCurve};
-use crate::plan::motion::Motion;
+use crate::plan::motion::{Laid, Motion, Weaving};
 use crate::plan::path_check::check_path;
 use arl_robot::frames::Carried;
 use arl_robot::kinematics::Rates;
 use arl_robot::robot::Robot;
-
-/// A motion as it was planned, and what is laid over it: enough to lay it anew when it is blended with a neighbour.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Laid {
-    plain: Motion,
-    /// Where it really starts.
-    start: Joints,
-    frame: Option<PathFrame>,
-    weave: Option<Weaving>,
-    shift: Option<Shift>,
-    /// The highest speed of the TCP in mm/s.
-    pub(crate) fastest: f64,
-}
-
-/// A weave over one motion.
-#[derive(Clone, Copy, PartialEq, Debug)]
-struct Weaving {
-    weave: Weave,
-    /// How corners are rounded, in s.
-    rounding: f64,
-    /// How long it has been going on at the start, in s at full speed.
-    begun: f64,
-    /// Whether it goes back to the path at the end.
-    fades: bool,
-}
 
 /// The shortest rounding of corners that is tried, and the longest, as parts of the time that a figure swings.
 const ROUNDING_SHARES: [f64; 2] = [0.01, 0.125];
@@ -134,11 +109,6 @@ pub(crate) fn joined(robot: &Robot, from: &Motion, to: &Motion) -> Option<(Motio
 }
 
 impl Laid {
-    /// How fast the motion may go without what is laid over it, as part of the motion per s.
-    pub(crate) fn plain_speed(&self) -> Option<f64> {
-        self.plain.limits.map(|limits| limits.vel)
-    }
-
     /// The part of the motion behind which a blend with the next one comes too late: the weave fades out already.
     pub(crate) fn fades_from(&self) -> f64 {
         let overlay = self.overlay().woven;
@@ -154,14 +124,6 @@ impl Laid {
     fn at_end(&self) -> Option<Weaving> {
         let weaving = self.weave.filter(|weaving| !weaving.fades)?;
         Some(Weaving { begun: weaving.begun + self.seconds(), ..weaving })
-    }
-
-    /// How the compensation stands at the end.
-    pub(crate) fn led(&self) -> Led {
-        match (&self.plain.curve, &self.shift) {
-            (Curve::Tool(curve), Some(shift)) => shift.led(&curve.path, curve.carried, self.frame.as_ref()),
-            _ => Led::default(),
-        }
     }
 
     /// With corners that are rounded as little as the speed allows.

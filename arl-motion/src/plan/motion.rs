@@ -1,14 +1,16 @@
 //! Motions that are planned.
 
+use crate::command::Weave;
 use crate::command::Zone;
 use crate::command::joints::Joints;
+use crate::limits::duration::{DURATION_TOLERANCE, slowest_within};
 use crate::limits::profile::LOOK_AHEAD_MARGIN;
 use crate::limits::profile::Limits;
 use crate::overlay::Led;
+use crate::overlay::compensation::Shift;
+use crate::overlay::path_frame::PathFrame;
 use crate::plan::constraints::Pace;
 use crate::plan::curve::Curve;
-use crate::plan::lay_overlay::Laid;
-use crate::plan::planner::{DURATION_TOLERANCE, slowest_within};
 use arl_robot::frames::Rig;
 use arl_robot::robot::VelocityProfile;
 
@@ -113,5 +115,45 @@ impl Motion {
     /// The length of the TCP's way in mm; 0 for axis motions.
     pub fn length(&self) -> f64 {
         self.length
+    }
+}
+
+/// A motion as it was planned, and what is laid over it: enough to lay it anew when it is blended with a neighbour.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Laid {
+    pub(crate) plain: Motion,
+    /// Where it really starts.
+    pub(crate) start: Joints,
+    pub(crate) frame: Option<PathFrame>,
+    pub(crate) weave: Option<Weaving>,
+    pub(crate) shift: Option<Shift>,
+    /// The highest speed of the TCP in mm/s.
+    pub(crate) fastest: f64,
+}
+
+/// A weave over one motion.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct Weaving {
+    pub(crate) weave: Weave,
+    /// How corners are rounded, in s.
+    pub(crate) rounding: f64,
+    /// How long it has been going on at the start, in s at full speed.
+    pub(crate) begun: f64,
+    /// Whether it goes back to the path at the end.
+    pub(crate) fades: bool,
+}
+
+impl Laid {
+    /// How fast the motion may go without what is laid over it, as part of the motion per s.
+    pub(crate) fn plain_speed(&self) -> Option<f64> {
+        self.plain.limits.map(|limits| limits.vel)
+    }
+
+    /// How the compensation stands at the end.
+    pub(crate) fn led(&self) -> Led {
+        match (&self.plain.curve, &self.shift) {
+            (Curve::Tool(curve), Some(shift)) => shift.led(&curve.path, curve.carried, self.frame.as_ref()),
+            _ => Led::default(),
+        }
     }
 }

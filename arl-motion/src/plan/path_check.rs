@@ -4,6 +4,7 @@
 use crate::command::error::PlanError;
 use crate::command::joints::{Joints, is_unset};
 use crate::geometry::parametrization::Parametrization;
+use crate::plan::curve::SINGULAR_CLEARANCE;
 use crate::plan::curve::ToolCurve;
 use arl_robot::kinematics::{Axes, RANGE_SLACK, Rates, Refusal, SINGULAR_SCALE};
 use arl_robot::robot::Robot;
@@ -24,8 +25,6 @@ const SHORT_PATH_DEG_OR_MM: f64 = 3.0;
 /// A step as part of the length over which the axes' motion changes. A singular point is never stepped over: the steps
 /// get shorter in proportion to its distance.
 const STEP_SHARE_OF_SCALE: f64 = 0.04;
-/// Closer to a singular point than this (see [`arl_robot::kinematics::Kinematics::clearance`]) rounding spoils the derivatives.
-pub(crate) const SINGULAR_CLEARANCE: f64 = 1e-5;
 /// An axis that is so far (deg) from where it was bound to be has jumped to another solution.
 const JUMP_DEG: f64 = 10.0;
 /// Steps through a passage of the wrist singularity.

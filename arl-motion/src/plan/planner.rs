@@ -10,9 +10,9 @@ use crate::geometry::quintic::Quintic;
 use crate::geometry::tcp_path::TcpPath;
 use crate::geometry::track::Track;
 use crate::limits::constant::{highest_speed, passing, quickest};
+use crate::limits::duration::slowest_within;
 use crate::limits::profile::LOOK_AHEAD_MARGIN;
 use crate::limits::profile::Limits;
-use crate::limits::search::{self, Enough};
 use crate::overlay::Led;
 use crate::plan::constraints::{Constraints, Pace};
 use crate::plan::curve::{Curve, ToolCurve};
@@ -27,9 +27,6 @@ const NO_DISTANCE: f64 = 1e-10;
 
 /// The largest angle of a circle, in deg.
 const LARGEST_CIRCLE_DEG: f64 = 7200.0;
-
-/// How near a motion comes to its duration, in s, and its speed to the one that keeps it.
-pub(crate) const DURATION_TOLERANCE: Enough = Enough { value: 1e-12, excess: 1e-9 };
 
 /// Plans a motion that starts at `start`.
 ///
@@ -507,13 +504,6 @@ impl Planner<'_> {
             laid: None,
         })
     }
-}
-
-/// The lowest of the speeds between two at which a motion is done within `duration` s, braking with a margin; the higher one where
-/// none is.
-pub(crate) fn slowest_within(duration: f64, [lowest, highest]: [f64; 2], limits: impl Fn(f64) -> Limits) -> f64 {
-    let sooner = |vel: f64| duration - limits(vel).duration_braking(1.0, LOOK_AHEAD_MARGIN);
-    if sooner(highest) <= 0.0 { highest } else { search::highest(lowest, highest, DURATION_TOLERANCE, sooner) }
 }
 
 fn limit(axis: &Axis, value: f64) -> PlanError {

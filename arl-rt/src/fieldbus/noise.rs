@@ -1,6 +1,7 @@
 //! Random bytes for tests of what reads bytes from outside.
 
 // In tests only: the generator that programs have.
+// up: a helper of tests only
 use crate::context::random::Random;
 
 /// A sequence that is the same each time.
