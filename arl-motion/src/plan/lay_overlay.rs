@@ -2,10 +2,10 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
+use crate::command::Reference;
 use crate::command::Settings;
 use crate::command::error::PlanError;
 use crate::command::joints::Joints;
-use crate::command::Reference;
 use crate::limits::constant::{Bound, passing, quickest};
 use crate::overlay::compensation::{Led, Shift};
 use crate::overlay::path_frame::PathFrame;

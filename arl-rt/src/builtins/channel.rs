@@ -30,7 +30,7 @@ fn foreground<T>(
     look: impl FnOnce(&Foreground<'_>) -> Result<T, Fault>,
 ) -> Result<T, Fault> {
     let found = cx.programs().foreground(number);
-    let unit = found.as_ref().and_then(|cx| Some((cx, cx.lane().robot()?)));
+    let unit = found.as_ref().and_then(|cx| Some((cx, cx.channel_state().robot()?)));
     match unit {
         Some((cx, unit)) => look(&Foreground { cx, unit }),
         None => Err(Fault::Domain { function, problem: no_such(cx, number).into() }),
@@ -56,7 +56,7 @@ pub(crate) fn number(function: &'static str, channel: u32) -> Result<i32, Fault>
 pub async fn switcharl(cx: &Cx, channel: u32, file_name: &Str) -> Result<bool, Fault> {
     const FUNCTION: &str = "switcharl";
     let number = number(FUNCTION, channel)?;
-    if !matches!(cx.lane().id, ChannelId::Background(_)) {
+    if !matches!(cx.channel_state().id, ChannelId::Background(_)) {
         let problem = "only the program of a background channel may switch programs";
         return Err(Fault::Domain { function: FUNCTION, problem: problem.into() });
     }
@@ -86,7 +86,7 @@ fn begin_to_switch(cx: &Cx, number: i32, name: &str) -> Result<Rc<Cx>, String> {
 /// Warns of a function that is false for this reason.
 pub(crate) fn warn_of(cx: &Cx, function: &str, why: &str) {
     let (file, line) = cx.place();
-    cx.world().warn(format!("{}:{line}: {function}: {why}", file.name()));
+    cx.shared().warn(format!("{}:{line}: {function}: {why}", file.name()));
 }
 
 /// That there is no foreground channel with this number.
@@ -126,15 +126,15 @@ impl Foreground<'_> {
 
     /// Where the motion stands that is being executed, or was last, if only before the controller was switched on.
     fn motion_pointer(&self) -> Spot {
-        let kept = || self.cx.lane().kept().motion.clone();
+        let kept = || self.cx.channel_state().kept().motion.clone();
         let now = self.unit.motion_pointer().map(Spot::from);
         now.or_else(kept).unwrap_or_else(|| (self.cx.program(), 0).into())
     }
 
     /// Where the program stands, or stood before the controller was switched on.
     fn program_pointer(&self) -> Spot {
-        let lane = self.cx.lane();
-        let kept = lane.kept().program.clone().filter(|_| !lane.begun.get());
+        let channel_state = self.cx.channel_state();
+        let kept = channel_state.kept().program.clone().filter(|_| !channel_state.begun.get());
         kept.unwrap_or_else(|| self.cx.place().into())
     }
 }

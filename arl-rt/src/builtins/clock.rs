@@ -47,5 +47,5 @@ pub fn clkreset(cx: &Cx, c: &Clock) {
 
 /// What a clock shows, in s.
 pub fn clkread(cx: &Cx, c: &Clock) -> f64 {
-    cx.world().rate.time(c.cycles(cx.cycle()))
+    cx.shared().rate.time(c.cycles(cx.cycle()))
 }

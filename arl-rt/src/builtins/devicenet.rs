@@ -5,10 +5,10 @@ use crate::fault::Fault;
 use crate::fieldbus::devicenet::ErrorCode;
 
 /// Offset or length lie outside the buffer.
-const OUTSIDE: i32 = 1;
+const OUTSIDE_BUFFER: i32 = 1;
 
 /// The program's array has fewer bytes than the length says.
-const SHORT: i32 = 2;
+const ARRAY_TOO_SHORT: i32 = 2;
 
 /// Writes bytes into the bus's buffer. 0: done; 1: offset or length outside the buffer; 2: the array is shorter than the
 /// length; others: the bus's own.
@@ -17,9 +17,9 @@ const SHORT: i32 = 2;
 /// None: what goes wrong is told by the result.
 pub async fn dnwrite(cx: &Cx, offset: i32, len: i32, data: &[u8]) -> Result<i32, Fault> {
     cx.motion_end().await;
-    let mut bus = cx.world().buses.devicenet();
-    let Some((offset, len)) = place(offset, len, bus.size()) else { return Ok(OUTSIDE) };
-    let Some(data) = data.get(..len) else { return Ok(SHORT) };
+    let mut bus = cx.shared().buses.devicenet();
+    let Some((offset, len)) = place(offset, len, bus.size()) else { return Ok(OUTSIDE_BUFFER) };
+    let Some(data) = data.get(..len) else { return Ok(ARRAY_TOO_SHORT) };
     Ok(code(bus.write(offset, data)))
 }
 
@@ -29,9 +29,9 @@ pub async fn dnwrite(cx: &Cx, offset: i32, len: i32, data: &[u8]) -> Result<i32,
 /// None: what goes wrong is told by the result.
 pub async fn dnread(cx: &Cx, offset: i32, len: i32, data: &mut [u8]) -> Result<i32, Fault> {
     cx.motion_end().await;
-    let mut bus = cx.world().buses.devicenet();
-    let Some((offset, len)) = place(offset, len, bus.size()) else { return Ok(OUTSIDE) };
-    let Some(data) = data.get_mut(..len) else { return Ok(SHORT) };
+    let mut bus = cx.shared().buses.devicenet();
+    let Some((offset, len)) = place(offset, len, bus.size()) else { return Ok(OUTSIDE_BUFFER) };
+    let Some(data) = data.get_mut(..len) else { return Ok(ARRAY_TOO_SHORT) };
     Ok(code(bus.read(offset, data)))
 }
 

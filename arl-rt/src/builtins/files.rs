@@ -18,7 +18,7 @@ const USB: &str = "USB";
 pub async fn gettextstr(cx: &Cx, file_path: &Str, line_no: i32, external_file: bool) -> Result<Str, Fault> {
     cx.motion_end().await;
     let inner = Path::new(if external_file { USB } else { "" });
-    let path = cx.world().scripts.below(file_path, inner)?;
+    let path = cx.shared().scripts.below(file_path, inner)?;
     let text = fs::read(path).map_err(|_| Fault::NoSuchFile(file_path.to_text().into()))?;
     let whole = text.strip_suffix(b"\n").unwrap_or(&text);
     let mut lines = whole.split(|byte| *byte == b'\n').take(if text.is_empty() { 0 } else { usize::MAX });
@@ -36,7 +36,7 @@ pub async fn gettextstr(cx: &Cx, file_path: &Str, line_no: i32, external_file: b
 /// There is no such file, or its path leads out of the script directory.
 pub async fn filesize(cx: &Cx, file_name: &Str) -> Result<i32, Fault> {
     cx.motion_end().await;
-    let path = cx.world().scripts.file(file_name)?;
+    let path = cx.shared().scripts.file(file_name)?;
     match fs::metadata(path) {
         Ok(data) if data.is_file() => Ok(i32::try_from(data.len()).unwrap_or(i32::MAX)),
         _ => Err(Fault::NoSuchFile(file_name.to_text().into())),
@@ -49,7 +49,7 @@ pub async fn filesize(cx: &Cx, file_name: &Str) -> Result<i32, Fault> {
 /// A path leads out of the script directory.
 pub async fn renamefile(cx: &Cx, file_name: &Str, new_file_name: &Str) -> Result<bool, Fault> {
     cx.motion_end().await;
-    let scripts = &cx.world().scripts;
+    let scripts = &cx.shared().scripts;
     let (from, to) = (scripts.file(file_name)?, scripts.file(new_file_name)?);
     Ok(from.is_file() && !to.exists() && fs::rename(from, to).is_ok())
 }
@@ -60,6 +60,6 @@ pub async fn renamefile(cx: &Cx, file_name: &Str, new_file_name: &Str) -> Result
 /// The path leads out of the script directory.
 pub async fn removefile(cx: &Cx, file_name: &Str) -> Result<bool, Fault> {
     cx.motion_end().await;
-    let path = cx.world().scripts.file(file_name)?;
+    let path = cx.shared().scripts.file(file_name)?;
     Ok(fs::remove_file(path).is_ok())
 }

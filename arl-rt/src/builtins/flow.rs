@@ -22,7 +22,7 @@ impl WaitTime {
     /// # Errors
     /// The time is negative or not a number.
     pub async fn run(self, cx: &Cx) -> Result<(), Fault> {
-        let cycles = wait_cycles(cx.world().rate, self.time, "waittime")?;
+        let cycles = wait_cycles(cx.shared().rate, self.time, "waittime")?;
         cx.motion_end().await;
         let over = cx.cycle() + cycles;
         while cx.cycle() < over {
@@ -58,7 +58,7 @@ impl<'a> WaitUntil<'a> {
     /// The longest time is negative or not a number.
     pub async fn start(self) -> Result<Wait<'a>, Fault> {
         let cycles = match self.maxtime {
-            Some(seconds) => Some(wait_cycles(self.cx.world().rate, seconds, "waituntil")?),
+            Some(seconds) => Some(wait_cycles(self.cx.shared().rate, seconds, "waituntil")?),
             None => None,
         };
         self.cx.motion_end().await;
@@ -98,8 +98,8 @@ impl Pause {
     /// None yet.
     pub async fn run(self, cx: &Cx) -> Result<(), Fault> {
         cx.motion_end().await;
-        cx.lane().paused.set(true);
-        while cx.lane().paused.get() {
+        cx.channel_state().paused.set(true);
+        while cx.channel_state().paused.get() {
             cx.next_cycle().await;
         }
         Ok(())

@@ -114,11 +114,11 @@ async fn exchange<R>(
     act: impl FnOnce(&mut Tables, usize, usize) -> Result<R, String>,
 ) -> Option<R> {
     cx.motion_end().await;
-    let shared = cx.world().buses.modbus_tables();
+    let shared = cx.shared().buses.modbus_tables();
     let done = match range(what, start, count) {
         Err(problem) => Err(problem),
         Ok((start, count)) => loop {
-            match shared.at_once() {
+            match shared.try_lock() {
                 Some(mut tables) => break act(&mut tables, start, count),
                 // A condition is looked at now or never.
                 None if cx.level() == Level::LOOKING => return None,
@@ -151,11 +151,11 @@ fn short(needed: usize, size: usize) -> String {
 /// Says why a function gives false, with its place in the program; the same thing once only, as programs try again in
 /// each cycle.
 fn report(cx: &Cx, problem: String) {
-    let world = cx.world();
+    let shared = cx.shared();
     let (file, line) = cx.place();
     let text = format!("{problem} ({}:{line})", file.name());
-    if world.buses.is_new_report(&text) {
-        world.warn(text);
+    if shared.buses.is_new_report(&text) {
+        shared.warn(text);
     }
 }
 

@@ -16,7 +16,7 @@ use crate::builtins::channel::warn_of;
 use crate::builtins::storing::done;
 use crate::context::cx::Cx;
 use crate::fault::Fault;
-use crate::storage::whole;
+use crate::storage::atomic_file;
 use crate::values::{Joint, Pose, Str, UNSET};
 
 /// Copies a program file in the script directory; whether it worked. A kill at any moment leaves the old or the new copy, whole.
@@ -26,9 +26,9 @@ use crate::values::{Joint, Pose, Str, UNSET};
 /// A path leads out of the script directory.
 pub async fn savearl(cx: &Cx, file_src: &Str, file_dst: &Str, mode: bool) -> Result<bool, Fault> {
     cx.motion_end().await;
-    let scripts = &cx.world().scripts;
+    let scripts = &cx.shared().scripts;
     let (from, to) = (scripts.file(file_src)?, scripts.file(file_dst)?);
-    let work = cx.world().disk.begin(move || copy(&from, &to, mode));
+    let work = cx.shared().disk.begin(move || copy(&from, &to, mode));
     Ok(is_done(cx, "savearl", done(work, cx).await))
 }
 
@@ -69,8 +69,8 @@ fn copy(from: &Path, to: &Path, replaces: bool) -> Result<(), Failure> {
 
 /// Writes a file whole, and clears its directory of what the dead have left.
 fn write(path: &Path, content: &[u8]) -> Result<(), Failure> {
-    whole::sweep(whole::directory_of(path));
-    whole::write(path, content).map_err(|error| problem(path, format_args!("cannot be written: {error}")))
+    atomic_file::remove_leftovers(atomic_file::directory_of(path));
+    atomic_file::write(path, content).map_err(|error| problem(path, format_args!("cannot be written: {error}")))
 }
 
 /// Writes a pose to a point of a data file, whose other text stays as it is; whether it worked. It counts from the next load on.
@@ -124,13 +124,13 @@ async fn save(
     value: Components,
 ) -> Result<bool, Fault> {
     cx.motion_end().await;
-    let path = cx.world().scripts.file(file)?;
+    let path = cx.shared().scripts.file(file)?;
     let Some(value) = value.literal() else {
         warn_of(cx, function, NO_LITERAL);
         return Ok(false);
     };
     let point = point.to_text().into_owned();
-    let work = cx.world().disk.begin(move || replace(&path, ty, &point, &value));
+    let work = cx.shared().disk.begin(move || replace(&path, ty, &point, &value));
     Ok(is_done(cx, function, done(work, cx).await))
 }
 

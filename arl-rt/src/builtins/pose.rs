@@ -12,7 +12,7 @@ use crate::values::{Joint, Pose, Tool, Wobj};
 
 /// The axes as the robot reports them now, in deg (mm); external axes that are not there are unset.
 pub fn cjoint(cx: &Cx) -> Joint {
-    match cx.lane().robot() {
+    match cx.channel_state().robot() {
         Some(unit) => joint(unit.feedback()),
         None => cx.without_robot("cjoint"),
     }
@@ -20,7 +20,7 @@ pub fn cjoint(cx: &Cx) -> Joint {
 
 /// The pose of the tool in the workpiece frame as the robot reports it now, in mm and deg, with the external axes.
 pub fn cpose(cx: &Cx, t: Tool, w: &Wobj) -> Pose {
-    let Some(unit) = cx.lane().robot() else { return cx.without_robot("cpose") };
+    let Some(unit) = cx.channel_state().robot() else { return cx.without_robot("cpose") };
     let feedback = unit.feedback();
     pose(cx, &unit, &feedback.axes, &joint(feedback), t, w)
 }
@@ -35,7 +35,7 @@ pub fn cpose_default(cx: &Cx) -> Pose {
 /// # Errors
 /// Axes of the robot are unset, or they, the tool or the workpiece frame hold what is no number.
 pub fn getpose(cx: &Cx, j: Joint, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
-    let unit = cx.lane().unit("getpose")?;
+    let unit = cx.channel_state().unit("getpose")?;
     known("getpose", &t, w)?;
     let mut axes = j.axes();
     let own = unit.robot().own_axes().len();
@@ -57,7 +57,7 @@ pub fn getjoint(cx: &Cx, p: Pose, t: Tool, w: &Wobj) -> Result<Joint, Fault> {
         return Err(domain("getjoint", "components of the pose are not set, or no numbers".to_owned()));
     }
     known("getjoint", &t, w)?;
-    let unit = cx.lane().unit("getjoint")?;
+    let unit = cx.channel_state().unit("getjoint")?;
     let robot = unit.robot();
     let target = crate::kinematics::frame(components);
     let flange = setting(cx, &t, w).flange_of(&target).map_err(|unmoved| domain("getjoint", unmoved.to_string()))?;

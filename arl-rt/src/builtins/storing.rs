@@ -8,7 +8,7 @@ use crate::storage::state::{Saved, StateError};
 /// however long the work takes. `None`: it has panicked.
 pub(super) async fn done<T>(work: Work<T>, cx: &Cx) -> Option<T> {
     loop {
-        cx.world().disk.wait_for();
+        cx.shared().disk.wait_for();
         cx.next_cycle().await;
         match work.stage() {
             Stage::UnderWay => {}
@@ -24,7 +24,7 @@ pub(super) async fn done<T>(work: Work<T>, cx: &Cx) -> Option<T> {
 /// It cannot be stored; the old one is still there.
 pub(super) async fn saved(saved: Saved, cx: &Cx) -> Result<(), StateError> {
     loop {
-        cx.world().disk.wait_for();
+        cx.shared().disk.wait_for();
         cx.next_cycle().await;
         if let Some(result) = saved.take() {
             return result;

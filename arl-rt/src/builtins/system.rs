@@ -23,8 +23,8 @@ pub async fn savesv(cx: &Cx, svname: &Str) -> Result<(), Fault> {
                 format!("\"{text}\" is no system variable that is saved; {}", crate::settings::hint(name, &names));
             return Err(Fault::Domain { function: "savesv", problem: problem.into() });
         };
-        let world = cx.world();
-        variable.save(&mut world.state.borrow_mut(), &world.disk)
+        let shared = cx.shared();
+        variable.save(&mut shared.state.borrow_mut(), &shared.disk)
     };
     let saved = storing::saved(saved, cx).await;
     saved.map_err(|error| Fault::Domain { function: "savesv", problem: error.to_string().into() })
@@ -32,10 +32,10 @@ pub async fn savesv(cx: &Cx, svname: &Str) -> Result<(), Fault> {
 
 /// `init`: sets the variables of chapter 10.2 to their defaults, and those of chapter 10.1 to what was saved last.
 pub fn init(cx: &Cx) {
-    let (lane, system) = (cx.lane(), cx.system());
+    let (channel_state, system) = (cx.channel_state(), cx.system());
     let current = system.cjoint.get();
-    lane.reset_system();
+    channel_state.reset_system();
     system.cjoint.set(current);
-    system::restore(system, &cx.world().state.borrow());
-    cx.world().wiring.apply(system);
+    system::restore(system, &cx.shared().state.borrow());
+    cx.shared().wiring.apply(system);
 }

@@ -97,10 +97,10 @@ impl<'a> PrintMessage<'a> {
             if !text.ends_with(b"\n") {
                 text.push(b'\n');
             }
-            cx.world().scripts.append(&modal_path.borrow(), &text)?;
+            cx.shared().scripts.append(&modal_path.borrow(), &text)?;
         }
         if to.hmi || to.console {
-            cx.world().message(cx.lane().id, to.hmi, to.console, self.text.as_bytes());
+            cx.shared().message(cx.channel_state().id, to.hmi, to.console, self.text.as_bytes());
         }
         Ok(())
     }

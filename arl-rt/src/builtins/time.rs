@@ -3,25 +3,25 @@
 use crate::context::cx::Cx;
 use crate::values::Str;
 
-const DAY: i64 = 86_400;
+const SECONDS_PER_DAY: i64 = 86_400;
 
 /// 2000-01-01 00:00:00, in s since 1970: the date at which a run begins where nobody says otherwise.
 pub(crate) const YEAR_2000: i64 = 946_684_800;
 
 /// The time of day as `hh:mm:ss`.
 pub fn ctime(cx: &Cx) -> Str {
-    let seconds = now(cx).rem_euclid(DAY);
+    let seconds = now(cx).rem_euclid(SECONDS_PER_DAY);
     format!("{:02}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60).into()
 }
 
 /// The date as `YYYY-MM-DD`.
 pub fn cdate(cx: &Cx) -> Str {
-    let (year, month, day) = date(now(cx).div_euclid(DAY));
+    let (year, month, day) = date(now(cx).div_euclid(SECONDS_PER_DAY));
     format!("{year:04}-{month:02}-{day:02}").into()
 }
 
 fn now(cx: &Cx) -> i64 {
-    cx.world().start_date.saturating_add(cx.time() as i64)
+    cx.shared().start_date.saturating_add(cx.time() as i64)
 }
 
 /// The time of the world, in s since 1970 (UTC).
@@ -42,7 +42,7 @@ pub(crate) fn parse(text: &str) -> Option<i64> {
     if !(1..=9999).contains(&year) || date(days) != (year, month, day) || hour > 23 || minute > 59 || second > 59 {
         return None;
     }
-    Some(days * DAY + hour * 3600 + minute * 60 + second)
+    Some(days * SECONDS_PER_DAY + hour * 3600 + minute * 60 + second)
 }
 
 fn numbers(text: &str, between: char) -> Option<[i64; 3]> {
@@ -79,7 +79,7 @@ mod tests {
     fn dates_go_there_and_back() {
         assert_eq!(days(1970, 1, 1), 0);
         assert_eq!(date(0), (1970, 1, 1));
-        assert_eq!(days(2000, 1, 1) * DAY, YEAR_2000);
+        assert_eq!(days(2000, 1, 1) * SECONDS_PER_DAY, YEAR_2000);
         assert_eq!(date(days(2024, 2, 29)), (2024, 2, 29));
         for day in -800_000..800_000 {
             let (year, month, of_month) = date(day);
@@ -90,8 +90,11 @@ mod tests {
     #[test]
     fn start_times_are_read() {
         assert_eq!(parse("2000-01-01"), Some(YEAR_2000));
-        assert_eq!(parse("2000-01-02 01:02:03"), Some(YEAR_2000 + DAY + 3723));
-        assert_eq!(parse("2026-11-21T23:59:59").map(|seconds| seconds.rem_euclid(DAY)), Some(DAY - 1));
+        assert_eq!(parse("2000-01-02 01:02:03"), Some(YEAR_2000 + SECONDS_PER_DAY + 3723));
+        assert_eq!(
+            parse("2026-11-21T23:59:59").map(|seconds| seconds.rem_euclid(SECONDS_PER_DAY)),
+            Some(SECONDS_PER_DAY - 1)
+        );
         for wrong in ["", "2000", "2023-02-29", "2000-13-01", "2000-01-01 24:00:00", "2000-01-01 1:2", "then"] {
             assert_eq!(parse(wrong), None, "{wrong}");
         }

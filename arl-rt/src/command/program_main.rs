@@ -24,17 +24,17 @@ use crate::storage::state::Directory;
 use crate::values::Controlmode;
 
 /// What the program's functions may fill of the stack, and what the thread has on top of that for everything else.
-const STACK: usize = 64 << 20;
-const STACK_ON_TOP: usize = 1 << 20;
+const PROGRAM_STACK_BYTES: usize = 64 << 20;
+const CONTROLLER_STACK_BYTES: usize = 1 << 20;
 
 /// The directory below the script directory that keeps system variables where no other is named.
 const STATE_DIR: &str = ".arl-state";
 
-const ENDED: u8 = 0;
-const USAGE: u8 = 2;
-const ALARM: u8 = 3;
-const MAX_TIME: u8 = 4;
-const INTERRUPTED: u8 = 130;
+const EXIT_ENDED: u8 = 0;
+const EXIT_USAGE: u8 = 2;
+const EXIT_ALARM: u8 = 3;
+const EXIT_MAX_TIME: u8 = 4;
+const EXIT_INTERRUPTED: u8 = 130;
 
 const HELP: &str = "\
 Runs a robot program on a simulated robot.
@@ -121,22 +121,22 @@ pub fn main_with<P: Program + 'static>(
         Ok(None) => {
             // Nobody may read the other end any more.
             let _ = std::io::stdout().write_all(HELP.as_bytes());
-            return ExitCode::from(ENDED);
+            return ExitCode::from(EXIT_ENDED);
         }
-        Err(error) => return fail(USAGE, &format!("{error}\nTry --help.")),
+        Err(error) => return fail(EXIT_USAGE, &format!("{error}\nTry --help.")),
     };
     let interrupted = Arc::new(AtomicBool::new(false));
     if let Err(error) = watch_for_interrupts(&interrupted) {
         warn(&format!("Ctrl-C will not stop the robot on its path: {error}"));
     }
     std::thread::scope(|scope| {
-        let thread = std::thread::Builder::new().stack_size(STACK + STACK_ON_TOP);
+        let thread = std::thread::Builder::new().stack_size(PROGRAM_STACK_BYTES + CONTROLLER_STACK_BYTES);
         let run = || run(Box::new(program()), others, options, &interrupted);
         match thread.spawn_scoped(scope, run).map(|thread| thread.join()) {
             Ok(Ok(code)) => ExitCode::from(code),
             // The panic has been reported where it happened.
             Ok(Err(_)) => ExitCode::from(101),
-            Err(error) => fail(ALARM, &format!("the program's thread cannot be started: {error}")),
+            Err(error) => fail(EXIT_ALARM, &format!("the program's thread cannot be started: {error}")),
         }
     })
 }
@@ -144,7 +144,7 @@ pub fn main_with<P: Program + 'static>(
 /// The first Ctrl-C sets the flag; a second one ends the process, should the program not come to an end.
 fn watch_for_interrupts(interrupted: &Arc<AtomicBool>) -> std::io::Result<()> {
     use signal_hook::{consts::SIGINT, flag};
-    flag::register_conditional_shutdown(SIGINT, i32::from(INTERRUPTED), Arc::clone(interrupted))?;
+    flag::register_conditional_shutdown(SIGINT, i32::from(EXIT_INTERRUPTED), Arc::clone(interrupted))?;
     flag::register(SIGINT, Arc::clone(interrupted))?;
     Ok(())
 }
@@ -249,7 +249,7 @@ fn run(program: Box<dyn Program>, others: &[Other], options: Options, interrupte
         Ok(report) => report,
         Err(error) => {
             eprintln!("error: {error}");
-            return USAGE;
+            return EXIT_USAGE;
         }
     };
     let repeats = options.repeats;
@@ -287,10 +287,10 @@ fn run(program: Box<dyn Program>, others: &[Other], options: Options, interrupte
 /// The exit code of a run that was driven from outside.
 fn code(driven: Result<Option<Outcome>, Cut>) -> u8 {
     match driven {
-        Ok(Some(Outcome::Alarm(_))) => ALARM,
-        Ok(_) => ENDED,
-        Err(Cut::MaxTime) => MAX_TIME,
-        Err(Cut::Interrupted) => INTERRUPTED,
+        Ok(Some(Outcome::Alarm(_))) => EXIT_ALARM,
+        Ok(_) => EXIT_ENDED,
+        Err(Cut::MaxTime) => EXIT_MAX_TIME,
+        Err(Cut::Interrupted) => EXIT_INTERRUPTED,
     }
 }
 
@@ -325,11 +325,11 @@ fn watch(controller: &mut Controller, max_time: Option<f64>, interrupted: &Atomi
     };
     while !is_over(controller, code.is_some()) {
         if code.is_none() && interrupted.load(Ordering::Relaxed) {
-            code = Some(INTERRUPTED);
+            code = Some(EXIT_INTERRUPTED);
             controller.stop();
             eprintln!("interrupted: the robot stops on its path");
         } else if code.is_none() && controller.cycle() >= last {
-            code = Some(MAX_TIME);
+            code = Some(EXIT_MAX_TIME);
             let (file, line) = controller.place();
             eprintln!(
                 "the time is over: {} s; the program stands at {}:{line}",
@@ -345,8 +345,8 @@ fn watch(controller: &mut Controller, max_time: Option<f64>, interrupted: &Atomi
     say(controller);
     match (code, controller.outcome()) {
         (Some(code), _) => code,
-        (None, Some(Outcome::Alarm(_))) => ALARM,
-        (None, _) => ENDED,
+        (None, Some(Outcome::Alarm(_))) => EXIT_ALARM,
+        (None, _) => EXIT_ENDED,
     }
 }
 
@@ -368,19 +368,20 @@ struct SetupFailure {
 
 impl SetupFailure {
     fn usage(text: impl ToString) -> Self {
-        Self { code: USAGE, text: text.to_string() }
+        Self { code: EXIT_USAGE, text: text.to_string() }
     }
 }
 
 impl From<SetupError> for SetupFailure {
     fn from(error: SetupError) -> Self {
-        let code = if matches!(error, SetupError::State(_)) { ALARM } else { USAGE };
+        let code = if matches!(error, SetupError::State(_)) { EXIT_ALARM } else { EXIT_USAGE };
         Self { code, text: error.to_string() }
     }
 }
 
 fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
-    let mut builder = Controller::builder().mode(options.mode).speed_override(options.override_percent).stack(STACK);
+    let mut builder =
+        Controller::builder().mode(options.mode).speed_override(options.override_percent).stack(PROGRAM_STACK_BYTES);
     if let Some(robot) = &options.robot {
         builder = builder.robot(Robot::load(robot).map_err(SetupFailure::usage)?);
     }

@@ -15,7 +15,7 @@ use super::worker;
 use crate::cycle::catch_panic::catch_panic;
 
 /// How many connections may be on their way to being closed.
-const MOST_CLOSING: usize = 32;
+const MAX_CLOSING: usize = 32;
 
 /// The connections that a program has opened: those of global variables and of local ones, too.
 #[derive(Default, Debug)]
@@ -44,7 +44,10 @@ impl Opener {
         let mut opener = self.0.borrow_mut();
         if opener.is_none() {
             let (sender, orders) = channel();
-            Builder::new().name("connections".into()).stack_size(worker::STACK).spawn(move || carry_out(&orders))?;
+            Builder::new()
+                .name("connections".into())
+                .stack_size(worker::STACK_BYTES)
+                .spawn(move || carry_out(&orders))?;
             *opener = Some(sender);
         }
         Ok(())
@@ -74,7 +77,7 @@ impl Connections {
     /// loop does not pile up threads.
     pub(crate) fn are_too_many(&self) -> bool {
         let closing = |shared: &&Arc<Shared>| shared.is_closing() && !shared.is_over();
-        self.0.borrow().iter().filter(closing).count() >= MOST_CLOSING
+        self.0.borrow().iter().filter(closing).count() >= MAX_CLOSING
     }
 
     /// Closes all of them: the program has ended.
@@ -112,7 +115,7 @@ fn start(shared: &Arc<Shared>, opening: Opening) -> io::Result<()> {
     let poll = Poll::new()?;
     shared.wakes_by(Waker::new(poll.registry(), WAKE)?);
     let served = Arc::clone(shared);
-    let thread = Builder::new().name("connection".into()).stack_size(worker::STACK);
+    let thread = Builder::new().name("connection".into()).stack_size(worker::STACK_BYTES);
     thread.spawn(move || worker::serve(&served, poll, &opening))?;
     Ok(())
 }

@@ -37,7 +37,7 @@ impl Link {
     /// Reads from what has come; nothing where the thread has the bytes just now.
     pub(crate) fn read<R>(&self, read: impl FnOnce(&mut Inbox) -> R) -> Option<R> {
         let (result, more) = {
-            let mut bytes = self.0.at_once()?;
+            let mut bytes = self.0.try_lock()?;
             let full = bytes.inbox.room() == 0;
             let result = read(&mut bytes.inbox);
             (result, full && bytes.inbox.room() > 0)
@@ -51,7 +51,7 @@ impl Link {
     /// Sends bytes behind those sent before. False, and nothing is sent, where they have no room yet, or the thread has the
     /// bytes just now.
     pub(crate) fn send(&self, bytes: &[u8]) -> bool {
-        let sent = self.0.at_once().is_some_and(|mut common| common.put(bytes));
+        let sent = self.0.try_lock().is_some_and(|mut common| common.put(bytes));
         if sent {
             self.0.wake();
         }

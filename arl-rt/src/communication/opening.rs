@@ -15,7 +15,7 @@ use super::stream::{STREAM, wait};
 
 /// How long one attempt to reach an address may take. A host that was switched off while it was tried is found sooner
 /// by a new attempt than by the repetitions of the old one.
-const ATTEMPT: Duration = Duration::from_secs(3);
+const CONNECT_TIMEOUT: Duration = Duration::from_secs(3);
 
 /// What a connection is and where it leads.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -78,7 +78,7 @@ pub(super) fn connect(shared: &Shared, poll: &mut Poll, host: &str, port: u16) -
 fn reach(shared: &Shared, poll: &mut Poll, address: SocketAddr) -> io::Result<Option<TcpStream>> {
     let mut stream = TcpStream::connect(address)?;
     poll.registry().register(&mut stream, STREAM, Interest::READABLE | Interest::WRITABLE)?;
-    let deadline = Instant::now() + ATTEMPT;
+    let deadline = Instant::now() + CONNECT_TIMEOUT;
     let mut events = Events::with_capacity(4);
     loop {
         if shared.is_closing() {

@@ -6,8 +6,8 @@ use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use mio::Waker;
 
 use super::inbox::{CAPACITY, Inbox};
-use crate::cycle::at_once::at_once;
 use crate::cycle::catch_panic::catch_panic;
+use crate::cycle::try_lock::try_lock;
 
 /// How far a connection has come.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -68,8 +68,8 @@ impl Shared {
     }
 
     /// The bytes, for the cycle: nothing where it would have to wait.
-    pub(super) fn at_once(&self) -> Option<MutexGuard<'_, Bytes>> {
-        at_once(&self.bytes)
+    pub(super) fn try_lock(&self) -> Option<MutexGuard<'_, Bytes>> {
+        try_lock(&self.bytes)
     }
 
     /// How far the connection has come. What had come before it ended is in the inbox when that is seen.
@@ -163,7 +163,7 @@ mod tests {
     fn the_cycle_does_not_wait_for_the_thread() {
         let shared = Shared::new(true);
         let held = shared.lock();
-        assert!(shared.at_once().is_none());
+        assert!(shared.try_lock().is_none());
         assert_eq!(shared.state(), LinkState::Opening);
         shared.opened(false);
         assert!(shared.state() == LinkState::Open && shared.is_free() && !shared.is_done());
@@ -172,7 +172,7 @@ mod tests {
         shared.end(LinkState::Lost("gone".into()));
         assert!(shared.is_over() && shared.is_done());
         drop(held);
-        assert!(shared.at_once().is_some_and(|mut bytes| bytes.put(b"x") && !bytes.put(&[0; CAPACITY])));
+        assert!(shared.try_lock().is_some_and(|mut bytes| bytes.put(b"x") && !bytes.put(&[0; CAPACITY])));
     }
     #[test]
     fn a_connection_whose_thread_panics_is_over() {

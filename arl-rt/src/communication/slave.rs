@@ -16,10 +16,10 @@ use crate::values::{Parity, Stopbits};
 
 /// How long the rest of a request may take. Adapters hand over what they got in pieces, so that 3.5 characters between two
 /// pieces do not mean that a request is over.
-const REST: Duration = Duration::from_millis(50);
+const REQUEST_TIMEOUT: Duration = Duration::from_millis(50);
 
 /// How long the line may take for an answer, at the lowest speed twice over.
-const SENDING: Duration = Duration::from_secs(2);
+const ANSWER_TIMEOUT: Duration = Duration::from_secs(2);
 
 /// What a slave is.
 #[derive(Clone, PartialEq, Eq)]
@@ -85,11 +85,11 @@ fn exchange(
             while let Some(request) = heard.take() {
                 answer(shared, poll, stream, settings, &request)?;
             }
-            if silent >= REST {
+            if silent >= REQUEST_TIMEOUT {
                 heard.clear();
             }
         }
-        let patience = if last.elapsed() < settings.silence() { settings.silence() } else { REST };
+        let patience = if last.elapsed() < settings.silence() { settings.silence() } else { REQUEST_TIMEOUT };
         let deadline = (!heard.is_empty()).then(|| last + patience);
         wait(poll, &mut events, deadline)?;
     }
@@ -121,7 +121,7 @@ const BROADCAST: u8 = 0;
 /// Sends an answer; a line that does not take it loses it.
 fn send(shared: &Shared, poll: &mut Poll, stream: &mut impl Stream, bytes: &[u8]) -> std::io::Result<()> {
     let mut events = Events::with_capacity(4);
-    let deadline = Instant::now() + SENDING;
+    let deadline = Instant::now() + ANSWER_TIMEOUT;
     let mut sent = 0;
     while sent < bytes.len() && Instant::now() < deadline && !shared.is_closing() {
         match attempt(|| stream.write(bytes.get(sent..).unwrap_or_default()))? {

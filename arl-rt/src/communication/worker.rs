@@ -12,16 +12,16 @@ use super::slave;
 use super::stream::{Stream, attempt, wait};
 
 /// The stack of the thread. Looking up names needs most of it.
-pub(super) const STACK: usize = 512 << 10;
+pub(super) const STACK_BYTES: usize = 512 << 10;
 
 /// How many bytes are received at once.
-const PIECE: usize = 16 << 10;
+const RECEIVED_BYTES: usize = 16 << 10;
 
 /// How long a connection that is to be closed waits for the other side to take what was sent.
-const LINGER: Duration = Duration::from_secs(1);
+const SEND_TIMEOUT: Duration = Duration::from_secs(1);
 
 /// How long it then waits for the other side to close, too.
-const FAREWELL: Duration = Duration::from_millis(200);
+const CLOSE_TIMEOUT: Duration = Duration::from_millis(200);
 
 /// Opens a connection and serves it until it ends.
 pub(super) fn serve(shared: &Shared, mut poll: Poll, opening: &Opening) {
@@ -71,7 +71,7 @@ enum Flow {
 /// Carries bytes both ways until the cycle wants the stream closed.
 fn exchange<S: Stream>(shared: &Shared, poll: &mut Poll, stream: &mut S) -> io::Result<()> {
     let mut events = Events::with_capacity(4);
-    let mut piece = vec![0; PIECE];
+    let mut piece = vec![0; RECEIVED_BYTES];
     let mut flight = Flight::default();
     let mut deadline = None;
     loop {
@@ -80,7 +80,7 @@ fn exchange<S: Stream>(shared: &Shared, poll: &mut Poll, stream: &mut S) -> io::
         let received = if closing { Flow::Nothing } else { receive(shared, stream, &mut piece)? };
         let sent = send(shared, stream, &mut flight)?;
         if closing {
-            let until = *deadline.get_or_insert_with(|| Instant::now() + LINGER);
+            let until = *deadline.get_or_insert_with(|| Instant::now() + SEND_TIMEOUT);
             if sent == Flow::Nothing || Instant::now() >= until {
                 return part(poll, &mut events, stream, &mut piece);
             }
@@ -131,7 +131,7 @@ fn send(shared: &Shared, stream: &mut impl Write, flight: &mut Flight) -> io::Re
 /// Ends what is sent, and throws away what still comes until the other side ends it, too: a socket that is closed with
 /// bytes unread takes from the other side what was sent last.
 fn part<S: Stream>(poll: &mut Poll, events: &mut Events, stream: &mut S, piece: &mut [u8]) -> io::Result<()> {
-    let deadline = Instant::now() + FAREWELL;
+    let deadline = Instant::now() + CLOSE_TIMEOUT;
     if !stream.finish() {
         return Ok(());
     }

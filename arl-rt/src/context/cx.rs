@@ -11,13 +11,13 @@ use std::rc::Rc;
 use std::task::{Context, Poll};
 
 use crate::communication::Connections;
+use crate::context::channel_state::ChannelState;
 use crate::context::events::Table;
-use crate::context::lane::Lane;
 use crate::context::output::Targets;
 use crate::context::program::Program;
 use crate::context::programs::Programs;
+use crate::context::shared_state::SharedState;
 use crate::context::system::System;
-use crate::context::world::World;
 use crate::fault::{Alarm, Fault, File};
 use crate::motion::Progress;
 use crate::robot::Family;
@@ -25,13 +25,13 @@ use crate::values::Str;
 
 /// How many turns of loops that do not wait fit into one cycle. A turn is a few nanoseconds at least, so that a cycle
 /// without waiting takes some tens of microseconds.
-const BUDGET: u32 = 20_000;
+const LOOP_TURNS_PER_CYCLE: u32 = 20_000;
 
 /// The view of the controller that a program has: passed to every function that acts, moves or waits.
 ///
 /// Everything here happens on the thread of the controller; nothing locks.
 pub struct Cx {
-    lane: Rc<Lane>,
+    channel_state: Rc<ChannelState>,
     /// Turns of loops that are left in this cycle.
     budget: Cell<u32>,
     /// The address below which the stack must not grow.
@@ -93,11 +93,11 @@ impl Level {
 }
 
 impl Cx {
-    pub(crate) fn new(lane: Rc<Lane>, program: Rc<dyn Program>, programs: Rc<Programs>) -> Self {
+    pub(crate) fn new(channel_state: Rc<ChannelState>, program: Rc<dyn Program>, programs: Rc<Programs>) -> Self {
         let file = program.file();
         Self {
-            lane,
-            budget: Cell::new(BUDGET),
+            channel_state,
+            budget: Cell::new(LOOP_TURNS_PER_CYCLE),
             stack_floor: Cell::new(0),
             program,
             next: RefCell::default(),
@@ -167,25 +167,25 @@ impl Cx {
     /// The running number of the cycle, from 0.
     #[inline]
     pub fn cycle(&self) -> u64 {
-        self.lane.world.now.get()
+        self.channel_state.shared.now.get()
     }
 
     /// The time of the controller in s: that of the start of this cycle.
     #[inline]
     pub fn time(&self) -> f64 {
-        self.lane.world.rate.time(self.cycle())
+        self.channel_state.shared.rate.time(self.cycle())
     }
 
     /// The length of a cycle in s.
     #[inline]
     pub fn period(&self) -> f64 {
-        self.lane.world.rate.period()
+        self.channel_state.shared.rate.period()
     }
 
     /// The system variables.
     #[inline]
     pub fn system(&self) -> &System {
-        &self.lane.system
+        &self.channel_state.system
     }
 
     /// Checks that there is room on the stack for one more function. Functions ask before they call themselves.
@@ -209,13 +209,13 @@ impl Cx {
 
     /// Gives the program a whole cycle's budget, and so many bytes of stack below the caller.
     pub(crate) fn start_cycle(&self, stack: usize) {
-        self.budget.set(BUDGET);
+        self.budget.set(LOOP_TURNS_PER_CYCLE);
         self.stack_floor.set(stack_pointer().saturating_sub(stack));
     }
 
     /// Gives what runs a whole cycle's budget; returns what was left.
     pub(crate) fn renew_budget(&self) -> u32 {
-        self.budget.replace(BUDGET)
+        self.budget.replace(LOOP_TURNS_PER_CYCLE)
     }
 
     /// Gives back what was left.
@@ -235,17 +235,17 @@ impl Cx {
 
     /// How far the motion has come that is being executed, or that triggers are asked about.
     pub(crate) fn progress(&self) -> Option<Progress> {
-        self.looked_at.get().or_else(|| self.lane.robot()?.progress())
+        self.looked_at.get().or_else(|| self.channel_state.robot()?.progress())
     }
 
     /// Lets a condition see a motion as it was when it ended.
     pub(crate) fn look_back<R>(&self, end: Progress, look: impl FnOnce() -> R) -> R {
         self.looked_at.set(Some(end));
-        self.lane.tell_progress(&end);
+        self.channel_state.set_progress_variables(&end);
         let result = look();
         self.looked_at.set(None);
         if let Some(now) = self.progress() {
-            self.lane.tell_progress(&now);
+            self.channel_state.set_progress_variables(&now);
         }
         result
     }
@@ -295,16 +295,16 @@ impl Cx {
     /// # Errors
     /// It is for another build of robot, or another one is about to be loaded.
     pub(crate) fn load(&self, program: Rc<dyn Program>) -> Result<(), String> {
-        if self.lane.robot().is_some_and(|unit| unit.robot().family != program.family()) {
+        if self.channel_state.robot().is_some_and(|unit| unit.robot().family != program.family()) {
             return Err(format!(
                 "{} is for another build of robot than that of {}",
                 program.file().name(),
-                self.lane.id
+                self.channel_state.id
             ));
         }
         let mut next = self.next.borrow_mut();
         if next.is_some() {
-            return Err(format!("another program is being loaded into {}", self.lane.id));
+            return Err(format!("another program is being loaded into {}", self.channel_state.id));
         }
         *next = Some(program);
         Ok(())
@@ -350,21 +350,21 @@ impl Cx {
 
     /// What all channels share.
     #[inline]
-    pub(crate) fn world(&self) -> &World {
-        &self.lane.world
+    pub(crate) fn shared(&self) -> &SharedState {
+        &self.channel_state.shared
     }
 
     /// What is the channel's own.
     #[inline]
-    pub(crate) fn lane(&self) -> &Lane {
-        &self.lane
+    pub(crate) fn channel_state(&self) -> &ChannelState {
+        &self.channel_state
     }
 
     /// Ends the program with the alarm that this function needs a robot; it goes on with a start value until it waits.
     #[cold]
     pub(crate) fn without_robot<T: Default>(&self, function: &'static str) -> T {
         let (file, line) = self.place();
-        self.lane.trouble(Alarm::new(Fault::Background { function }, file, line));
+        self.channel_state.raise_alarm(Alarm::new(Fault::Background { function }, file, line));
         T::default()
     }
 
@@ -376,31 +376,31 @@ impl Cx {
     /// The running number of the motion that the next instruction comes behind; 0: there is none. An action knows of its own
     /// motions only.
     pub(crate) fn last_motion(&self) -> u64 {
-        self.level.get().own_motion.unwrap_or_else(|| self.lane.motions().0)
+        self.level.get().own_motion.unwrap_or_else(|| self.channel_state.motions().0)
     }
 
     /// Whether the motion has ended that is waited for: all of it, by actions their own.
     #[inline]
     fn is_motion_over(&self) -> bool {
         match self.level.get().own_motion {
-            None => self.lane.motion_ended_for(self.level.get().number),
-            Some(own) => own == 0 || self.lane.has_motion_ended(own),
+            None => self.channel_state.motion_ended_for(self.level.get().number),
+            Some(own) => own == 0 || self.channel_state.has_motion_ended(own),
         }
     }
 
     /// Before an instruction that moves, waits or touches the outside: in single steps the program waits here until the one before
     /// it is done, and for the button.
     pub(crate) async fn step_point(&self) {
-        let stepping = &self.lane.stepping;
+        let stepping = &self.channel_state.stepping;
         if !stepping.on.get() || self.level.get().number != 0 || self.stepped.replace(true) {
             return;
         }
-        while self.lane.in_trouble() || !self.is_motion_over() {
-            self.lane.conclude_motion();
+        while self.channel_state.has_pending_alarm() || !self.is_motion_over() {
+            self.channel_state.conclude_motion();
             self.next_cycle().await;
         }
         if stepping.left.get() == 0 && stepping.on.get() {
-            self.lane.paused.set(true);
+            self.channel_state.paused.set(true);
             self.next_cycle().await;
         }
         stepping.left.set(0);
@@ -416,7 +416,7 @@ impl Cx {
     /// is none, it still counts as a turn of a loop, so that a loop of such calls cannot hold up the controller.
     #[inline]
     pub(crate) async fn motion_end(&self) {
-        if self.lane.stepping.on.get() {
+        if self.channel_state.stepping.on.get() {
             self.step_point().await;
         }
         if self.spend() {
@@ -425,8 +425,8 @@ impl Cx {
         if self.is_motion_over() {
             return;
         }
-        self.lane.conclude_motion();
-        while self.lane.in_trouble() || !self.is_motion_over() {
+        self.channel_state.conclude_motion();
+        while self.channel_state.has_pending_alarm() || !self.is_motion_over() {
             self.next_cycle().await;
         }
     }
@@ -434,7 +434,10 @@ impl Cx {
 
 impl fmt::Debug for Cx {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Cx").field("channel", &self.lane.id).field("place", &self.place()).finish_non_exhaustive()
+        f.debug_struct("Cx")
+            .field("channel", &self.channel_state.id)
+            .field("place", &self.place())
+            .finish_non_exhaustive()
     }
 }
 

@@ -11,9 +11,9 @@ use crate::fault::{Done, Fault, File};
 use crate::values::Str;
 
 /// More events than that are the work of a loop that declares them again and again.
-const MOST: usize = 1024;
+const MAX_EVENTS: usize = 1024;
 /// The lowest priority.
-const LOWEST: i32 = 255;
+const LOWEST_PRIORITY: i32 = 255;
 
 /// The condition and the action of an event, whatever they are in Rust.
 pub(crate) trait Code {
@@ -133,7 +133,7 @@ pub(crate) struct Rank {
 /// A priority that a program gives.
 pub(crate) fn priority(value: i32, function: &'static str) -> Result<u8, Fault> {
     u8::try_from(value).map_err(|_| {
-        let problem = format!("the priority is {value}, but must be 0 to {LOWEST}");
+        let problem = format!("the priority is {value}, but must be 0 to {LOWEST_PRIORITY}");
         Fault::Domain { function, problem: problem.into() }
     })
 }
@@ -218,10 +218,11 @@ impl Table {
     }
 
     fn check_room(&self, function: &'static str) -> Result<(), Fault> {
-        if self.interrupts.len() < MOST && self.waiting.len() < MOST {
+        if self.interrupts.len() < MAX_EVENTS && self.waiting.len() < MAX_EVENTS {
             return Ok(());
         }
-        let problem = format!("there are {MOST} already, more than that are not possible: is it declared in a loop?");
+        let problem =
+            format!("there are {MAX_EVENTS} already, more than that are not possible: is it declared in a loop?");
         Err(Fault::Domain { function, problem: problem.into() })
     }
 

@@ -1,13 +1,13 @@
 //! What a running program sees of the controller: the context that emitted code passes on, the state of its channel, what
 //! all channels share, and the system variables.
 
+pub(crate) mod channel_state;
 pub(crate) mod cx;
 pub(crate) mod events;
-pub(crate) mod lane;
 pub(crate) mod output;
 pub mod program;
 pub(crate) mod programs;
 pub(crate) mod random;
+pub(crate) mod shared_state;
 pub mod system;
 pub(crate) mod wiring;
-pub(crate) mod world;

@@ -6,8 +6,8 @@ use std::rc::Rc;
 
 use crate::cycle::channel_id::{ChannelId, MOST_FOREGROUND};
 use crate::storage::disk::Disk;
-use crate::storage::keep::Keep;
 use crate::storage::state::{Saved, State, StateError};
+use crate::storage::state_format::StateFormat;
 use crate::values::{
     Array, AsScara, Controlmode, Joint, Pose, Shared, Slip, SmallArray, Speed, Str, Tool, ToolInertiaPara, VelProfile,
     Watched, Wobj,
@@ -367,7 +367,7 @@ trait Slot {
     }
 }
 
-impl<T: Keep> Slot for Shared<T> {
+impl<T: StateFormat> Slot for Shared<T> {
     fn write(&self) -> String {
         self.with(encode)
     }
@@ -378,7 +378,7 @@ impl<T: Keep> Slot for Shared<T> {
     }
 }
 
-impl<T: Keep> Slot for Watched<T> {
+impl<T: StateFormat> Slot for Watched<T> {
     fn write(&self) -> String {
         self.with(encode)
     }
@@ -393,7 +393,7 @@ impl<T: Keep> Slot for Watched<T> {
     }
 }
 
-impl<T: Keep + Copy> Slot for Cell<T> {
+impl<T: StateFormat + Copy> Slot for Cell<T> {
     fn write(&self) -> String {
         encode(&self.get())
     }
@@ -405,7 +405,7 @@ impl<T: Keep + Copy> Slot for Cell<T> {
     }
 }
 
-fn encode<T: Keep>(value: &T) -> String {
+fn encode<T: StateFormat>(value: &T) -> String {
     let mut text = String::new();
     value.write(&mut text);
     text
@@ -443,7 +443,7 @@ pub(crate) fn restore(system: &System, state: &State) {
 }
 
 /// Begins to save the variables of which every change is kept, where they have changed.
-pub(crate) fn keep(system: &System, state: &mut State, disk: &Disk) -> Result<(), StateError> {
+pub(crate) fn store_changed(system: &System, state: &mut State, disk: &Disk) -> Result<(), StateError> {
     for kept in system.kept() {
         if kept.always && kept.slot.take_changed() {
             let text = kept.slot.write();

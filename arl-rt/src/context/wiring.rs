@@ -176,11 +176,12 @@ impl Wiring {
 fn values(section: &Section<'_>, key: &Key, value: &Value<'_>) -> Result<Vec<i32>, SettingsError> {
     let ((low, high), what) = match key.kind {
         Kind::Number(low, high) => ((low, high), format!("a number from {low} to {high}")),
-        Kind::Parity => {
-            ((-CHANNELS, CHANNELS), "the number of a digital input, negative for odd parity, or 0 for none".to_owned())
-        }
-        Kind::Input { .. } => ((0, CHANNELS), "the number of a digital input, or 0 for none".to_owned()),
-        Kind::Output { .. } => ((0, CHANNELS), "the number of a digital output, or 0 for none".to_owned()),
+        Kind::Parity => (
+            (-MAX_CHANNELS, MAX_CHANNELS),
+            "the number of a digital input, negative for odd parity, or 0 for none".to_owned(),
+        ),
+        Kind::Input { .. } => ((0, MAX_CHANNELS), "the number of a digital input, or 0 for none".to_owned()),
+        Kind::Output { .. } => ((0, MAX_CHANNELS), "the number of a digital output, or 0 for none".to_owned()),
     };
     let whole = |found: Option<f64>| {
         let whole = found.filter(|found| found.fract() == 0.0 && (f64::from(low)..=f64::from(high)).contains(found));
@@ -199,7 +200,7 @@ fn values(section: &Section<'_>, key: &Key, value: &Value<'_>) -> Result<Vec<i32
 }
 
 /// More than any cell has.
-const CHANNELS: i32 = 10_000;
+const MAX_CHANNELS: i32 = 10_000;
 
 #[cfg(test)]
 mod tests {

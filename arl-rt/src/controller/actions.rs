@@ -17,7 +17,7 @@ struct Action {
 }
 
 /// More cannot run at once, each being interrupted only by one of higher priority.
-const MOST: usize = 256;
+const MAX_ACTIONS: usize = 256;
 
 /// The actions that run, the one on top last.
 pub(super) struct Actions {
@@ -26,7 +26,7 @@ pub(super) struct Actions {
 
 impl Default for Actions {
     fn default() -> Self {
-        Self { stack: Vec::with_capacity(MOST) }
+        Self { stack: Vec::with_capacity(MAX_ACTIONS) }
     }
 }
 

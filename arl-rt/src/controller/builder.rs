@@ -8,20 +8,20 @@ use std::path::PathBuf;
 use std::rc::Rc;
 
 use super::Controller;
-use super::channel::{Channel, STACK};
+use super::channel::{Channel, PROGRAM_STACK_BYTES};
 use super::channels::Channels;
 use super::external::External;
 use super::foreground::{Body, Foreground};
-use super::keeper::Keeper;
+use super::pointer_store::PointerStore;
 use crate::builtins::time;
 use crate::communication::NetworkDriver;
-use crate::context::lane::{Lane, Station};
+use crate::context::channel_state::{ChannelState, Station};
 use crate::context::output::{Output, Stream};
 use crate::context::program::{Beside, Program};
 use crate::context::programs::{Loadable, Programs};
 use crate::context::random::{self, Random};
+use crate::context::shared_state::{Listeners, Parts, SharedState};
 use crate::context::system::{self, Common, System};
-use crate::context::world::{Listeners, Parts, World};
 use crate::controller::cell::Cell;
 use crate::controller::trace::Trace;
 use crate::cycle::channel_id::{ChannelId, MOST_FOREGROUND};
@@ -33,10 +33,10 @@ use crate::fieldbus::islands::Islands;
 use crate::io::{Image, IoDriver, Playing, Scenario, SimulatedIo};
 use crate::kinematics::frame;
 use crate::robot::{Family, Robot, RobotError};
+use crate::storage::atomic_file;
 use crate::storage::pointers::{self, Table};
 use crate::storage::script_dir::ScriptDir;
 use crate::storage::state::{Memory, State, StateError, Storage};
-use crate::storage::whole;
 use crate::unit::Unit;
 use crate::unit::robot_driver::RobotDriver;
 use crate::values::Controlmode;
@@ -91,7 +91,7 @@ impl Default for Builder {
             speed_override: 100.0,
             seed: random::SEED,
             start_date: time::YEAR_2000,
-            stack: STACK,
+            stack: PROGRAM_STACK_BYTES,
         }
     }
 }
@@ -312,7 +312,7 @@ impl Builder {
         }
         for program in std::iter::once(&program).chain(self.foreground.iter().map(|it| &it.program)).chain(&background)
         {
-            whole::sweep(&self.script_dir.join(program.folder()));
+            atomic_file::remove_leftovers(&self.script_dir.join(program.folder()));
         }
         let common = Rc::new(Common::new());
         let mut state = State::new(self.storage);
@@ -343,7 +343,7 @@ impl Builder {
         let islands = Islands::start(&cell.islands).map_err(SetupError::Outside)?;
         let outside = buses.is_outside() || !islands.is_empty();
         let external = External::new(cell.external.enabled);
-        let world = Rc::new(World::new(Parts {
+        let shared = Rc::new(SharedState::new(Parts {
             rate,
             io,
             scripts: ScriptDir::new(self.script_dir),
@@ -358,20 +358,20 @@ impl Builder {
             network_driver: self.network,
         }));
         if outside {
-            world.meet_outside();
+            shared.need_real_time();
         }
         if let Some(note) = note {
-            world.warn(note);
+            shared.warn(note);
         }
         // Where the system has no thread for it now, whoever opens the first connection, or writes the first file, tries again.
         if uses.connections {
-            let _ = world.opener.start();
+            let _ = shared.opener.start();
         }
         if beside.is_some() {
-            let _ = world.disk.start();
+            let _ = shared.disk.start();
         }
         let site = Site {
-            world: Rc::clone(&world),
+            shared: Rc::clone(&shared),
             common,
             home_tolerance: cell.homes.tolerance.unwrap_or(HOME_TOLERANCE),
             speed_override: self.speed_override,
@@ -390,14 +390,26 @@ impl Builder {
             channels.push(site.background(number, index, program));
         }
         let channels = Channels::new(first, channels);
-        let deeds = Vec::with_capacity(scenario.most_deeds());
-        let keeper = beside.map(|storage| Keeper::start(storage, pointers)).transpose();
-        let keeper = keeper.map_err(|error| {
+        let effects = Vec::with_capacity(scenario.max_effects());
+        let pointer_store = beside.map(|storage| PointerStore::start(storage, pointers)).transpose();
+        let pointer_store = pointer_store.map_err(|error| {
             let problem = format!("the thread that keeps where the programs stand cannot be started: {error}");
             SetupError::Outside(problem)
         })?;
         let (clock, io) = (self.clock, self.io);
-        Ok(Controller { world, channels, unit, clock, islands, io, scenario, deeds, external, keeper, keeps_from: 0 })
+        Ok(Controller {
+            shared,
+            channels,
+            unit,
+            clock,
+            islands,
+            io,
+            scenario,
+            effects,
+            external,
+            pointer_store,
+            stores_from: 0,
+        })
     }
 }
 
@@ -406,7 +418,7 @@ const HOME_TOLERANCE: f64 = 0.1;
 
 /// What channels are set up with.
 struct Site {
-    world: Rc<World>,
+    shared: Rc<SharedState>,
     common: Rc<Common>,
     home_tolerance: f64,
     speed_override: f64,
@@ -428,7 +440,7 @@ impl Site {
     ) -> Result<(Channel, Rc<RefCell<Unit>>), SetupError> {
         let id = ChannelId::Foreground(number);
         let system = System::beside(Rc::clone(&self.common), id);
-        system::load(&system.kept_by_channel(), &mut self.world.state.borrow_mut())?;
+        system::load(&system.kept_by_channel(), &mut self.shared.state.borrow_mut())?;
         let trace = body.trace.map(|writer| Trace::new(writer, robot.family)).transpose();
         let trace = trace.map_err(|error| SetupError::Trace(error.to_string()))?;
         let mut unit = Unit::new(robot, body.driver);
@@ -449,7 +461,7 @@ impl Site {
             kept: self.pointers.get(index).cloned().unwrap_or_default(),
         };
         let channel =
-            self.channel(Lane::foreground(Rc::clone(&self.world), id, index, system, station), program, trace);
+            self.channel(ChannelState::foreground(Rc::clone(&self.shared), id, index, system, station), program, trace);
         self.programs.add(channel.cx());
         Ok((channel, unit))
     }
@@ -458,16 +470,16 @@ impl Site {
     fn background(&self, number: u8, index: usize, program: Box<dyn Program>) -> Channel {
         let id = ChannelId::Background(number);
         let system = System::beside(Rc::clone(&self.common), id);
-        self.channel(Lane::background(Rc::clone(&self.world), id, index, system), program, None)
+        self.channel(ChannelState::background(Rc::clone(&self.shared), id, index, system), program, None)
     }
 
-    fn channel(&self, lane: Lane, program: Box<dyn Program>, trace: Option<Trace>) -> Channel {
-        lane.reset_system();
+    fn channel(&self, channel_state: ChannelState, program: Box<dyn Program>, trace: Option<Trace>) -> Channel {
+        channel_state.reset_system();
         // What it tells of the robot holds from the first statement on.
-        if let Some(unit) = lane.robot() {
-            lane.update_system(&unit);
+        if let Some(unit) = channel_state.robot() {
+            channel_state.update_system(&unit);
         }
-        Channel::new(Rc::new(lane), Rc::from(program), Rc::clone(&self.programs), self.stack, trace)
+        Channel::new(Rc::new(channel_state), Rc::from(program), Rc::clone(&self.programs), self.stack, trace)
     }
 }
 

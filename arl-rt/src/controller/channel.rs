@@ -6,8 +6,8 @@ use std::task::{Context, Poll, Waker};
 use super::actions::Actions;
 use super::{Outcome, State};
 use crate::builtins::event;
+use crate::context::channel_state::ChannelState;
 use crate::context::cx::{Cx, Level};
-use crate::context::lane::Lane;
 use crate::context::program::{Program, Running};
 use crate::context::programs::Programs;
 use crate::controller::trace::Trace;
@@ -16,7 +16,7 @@ use crate::storage::data;
 use crate::storage::pointers::Now;
 
 /// How many bytes of stack a program may use in one poll where nobody says otherwise: half of what a thread gets.
-pub(super) const STACK: usize = 1 << 20;
+pub(super) const PROGRAM_STACK_BYTES: usize = 1 << 20;
 
 /// What the program does.
 enum Phase {
@@ -41,7 +41,7 @@ enum Next {
 
 /// A program, how far it has come, and its robot.
 pub(super) struct Channel {
-    lane: Rc<Lane>,
+    channel_state: Rc<ChannelState>,
     program: Rc<dyn Program>,
     cx: Rc<Cx>,
     stack: usize,
@@ -59,31 +59,31 @@ pub(super) struct Channel {
 impl Channel {
     /// A program that will start with the next cycle.
     pub(super) fn new(
-        lane: Rc<Lane>,
+        channel_state: Rc<ChannelState>,
         program: Rc<dyn Program>,
         programs: Rc<Programs>,
         stack: usize,
         trace: Option<Trace>,
     ) -> Self {
-        let cx = Rc::new(Cx::new(Rc::clone(&lane), Rc::clone(&program), programs));
+        let cx = Rc::new(Cx::new(Rc::clone(&channel_state), Rc::clone(&program), programs));
         let phase = Phase::Running(load(Rc::clone(&program), Rc::clone(&cx)));
         let actions = Actions::default();
-        Self { lane, program, cx, stack, phase, actions, seen: Ok(()), trace, running: true, exits: false }
+        Self { channel_state, program, cx, stack, phase, actions, seen: Ok(()), trace, running: true, exits: false }
     }
 
     /// Starts the program from its beginning, global variables included. Pulses end, and the system variables of the manual's
     /// chapter 10.2 are at their defaults; the robot stays where it is.
     pub(super) fn reset(&mut self) {
-        self.lane.world.io.borrow_mut().end_pulses(self.lane.index);
-        if let Some(mut unit) = self.lane.robot_mut() {
+        self.channel_state.shared.io.borrow_mut().end_pulses(self.channel_state.index);
+        if let Some(mut unit) = self.channel_state.robot_mut() {
             unit.reset();
-            self.lane.paused.set(!unit.has_servo());
+            self.channel_state.paused.set(!unit.has_servo());
         }
         self.exits = false;
-        self.lane.stepping.on.set(false);
-        self.lane.stepping.until.set(None);
-        self.lane.reset_system();
-        self.lane.alarmed.set(false);
+        self.channel_state.stepping.on.set(false);
+        self.channel_state.stepping.until.set(None);
+        self.channel_state.reset_system();
+        self.channel_state.alarmed.set(false);
         self.cx.reset();
         self.actions.clear();
         self.phase = Phase::Running(load(Rc::clone(&self.program), Rc::clone(&self.cx)));
@@ -93,21 +93,21 @@ impl Channel {
         &self.cx
     }
 
-    pub(super) fn lane(&self) -> &Lane {
-        &self.lane
+    pub(super) fn channel_state(&self) -> &ChannelState {
+        &self.channel_state
     }
 
     /// The program and motion pointers, as far as they are not those that were kept.
     pub(super) fn pointers(&self) -> Now {
-        let motion = self.lane.robot().and_then(|unit| unit.motion_pointer());
-        Now { program: self.lane.begun.get().then(|| self.cx.place()), motion }
+        let motion = self.channel_state.robot().and_then(|unit| unit.motion_pointer());
+        Now { program: self.channel_state.begun.get().then(|| self.cx.place()), motion }
     }
 
     /// What the program does at the moment.
     pub(super) fn state(&self) -> State {
         match self.phase {
             Phase::Ended(_) if !self.cx.is_loading() => State::Ended,
-            _ if self.lane.paused.get() => State::Paused,
+            _ if self.channel_state.paused.get() => State::Paused,
             _ => State::Running,
         }
     }
@@ -121,7 +121,7 @@ impl Channel {
     }
 
     /// Looks for events.
-    pub(super) fn look(&mut self) {
+    pub(super) fn scan_events(&mut self) {
         self.running = self.outcome().is_none();
         self.seen = if self.has_statements() {
             self.cx.start_cycle(self.stack);
@@ -139,8 +139,8 @@ impl Channel {
         {
             self.program = program;
             let programs = Rc::clone(self.cx.programs());
-            self.cx = Rc::new(Cx::new(Rc::clone(&self.lane), Rc::clone(&self.program), programs));
-            self.cx.programs().exchange(self.lane.index, &self.cx);
+            self.cx = Rc::new(Cx::new(Rc::clone(&self.channel_state), Rc::clone(&self.program), programs));
+            self.cx.programs().exchange(self.channel_state.index, &self.cx);
             self.reset();
         }
     }
@@ -150,14 +150,14 @@ impl Channel {
         if self.cx.is_loading() {
             self.exchange();
         }
-        if self.has_statements() && self.lane.robot_mut().is_some_and(|mut unit| unit.take_beyond()) {
+        if self.has_statements() && self.channel_state.robot_mut().is_some_and(|mut unit| unit.take_beyond()) {
             self.leave(Reason::Restart);
         }
-        if self.has_statements() && self.lane.paused.get() && self.seen.is_ok() {
+        if self.has_statements() && self.channel_state.paused.get() && self.seen.is_ok() {
             return;
         }
         if self.has_statements() {
-            self.lane.begun.set(true);
+            self.channel_state.begun.set(true);
             self.cx.start_cycle(self.stack);
             let seen = std::mem::replace(&mut self.seen, Ok(()));
             let mut done = seen.map_err(Reason::Alarm).and_then(|()| self.run());
@@ -169,18 +169,18 @@ impl Channel {
             }
         }
         if let Phase::RunningOut(next) = &self.phase {
-            let moving = !self.lane.motion_ended();
+            let moving = !self.channel_state.motion_ended();
             if moving {
-                self.lane.conclude_motion();
+                self.channel_state.conclude_motion();
             }
             self.phase = match next {
                 _ if moving || !self.cx.connections().are_settled() => return,
                 // It starts in the next cycle, so that a program of nothing but `restart` does not hold up the others.
                 Next::Restart => Phase::Running(again(Rc::clone(&self.program), Rc::clone(&self.cx))),
                 Next::Again => {
-                    let steps = self.lane.stepping.on.get();
+                    let steps = self.channel_state.stepping.on.get();
                     self.reset();
-                    self.lane.stepping.on.set(steps);
+                    self.channel_state.stepping.on.set(steps);
                     return;
                 }
                 Next::End(outcome) => Phase::Ended(outcome.clone()),
@@ -195,43 +195,43 @@ impl Channel {
 
     /// One step of the robot and of its trace, at `time` seconds; `period` is the length of the cycle.
     pub(super) fn step_robot(&mut self, time: f64, period: f64) {
-        let Some(mut unit) = self.lane.robot_mut() else { return };
+        let Some(mut unit) = self.channel_state.robot_mut() else { return };
         unit.step(period);
-        self.lane.update_system(&unit);
-        let mut image = self.lane.world.io.borrow_mut();
-        image.motions_ended(self.lane.index, |motion| unit.has_ended(motion));
+        self.channel_state.update_system(&unit);
+        let mut image = self.channel_state.shared.io.borrow_mut();
+        image.motions_ended(self.channel_state.index, |motion| unit.has_ended(motion));
         if let Some(trace) = &mut self.trace
             && self.running
         {
             trace.row(time, &unit);
         }
         // A step over motion that was planned before ends with it.
-        if self.lane.stepping.until.get().is_some_and(|motion| unit.is_over(motion)) {
-            self.lane.stepping.until.set(None);
-            self.lane.paused.set(true);
+        if self.channel_state.stepping.until.get().is_some_and(|motion| unit.is_over(motion)) {
+            self.channel_state.stepping.until.set(None);
+            self.channel_state.paused.set(true);
             unit.pause();
         }
     }
 
     /// Ends the program for what went wrong apart from its statements.
-    pub(super) fn meet_trouble(&mut self) {
-        self.lane.tell_of_corners(self.cx.world());
-        if let Some(alarm) = self.lane.take_trouble() {
+    pub(super) fn handle_pending_alarm(&mut self) {
+        self.channel_state.warn_of_missing_blends(self.cx.shared());
+        if let Some(alarm) = self.channel_state.take_pending_alarm() {
             self.fail(alarm);
         }
     }
 
     /// Ends the program before it acts on inputs that are lost. One without a robot goes on.
-    pub(super) fn lose_io(&mut self, why: &str) {
-        if self.lane.robot().is_some() && self.has_statements() {
+    pub(super) fn fail_for_lost_io(&mut self, why: &str) {
+        if self.channel_state.robot().is_some() && self.has_statements() {
             let (file, line) = self.cx.place();
             self.fail(Alarm::new(Fault::IoLost(why.into()), file, line));
         }
     }
 
     /// Ends the program where the robot has collided.
-    pub(super) fn meet_collision(&mut self) {
-        if let Some(alarm) = self.lane.collision(self.cx.place()) {
+    pub(super) fn handle_collision(&mut self) {
+        if let Some(alarm) = self.channel_state.collision(self.cx.place()) {
             self.fail(alarm);
         }
     }
@@ -241,11 +241,11 @@ impl Channel {
         if !self.running || self.outcome().is_none() {
             return;
         }
-        self.lane.world.io.borrow_mut().end_pulses(self.lane.index);
+        self.channel_state.shared.io.borrow_mut().end_pulses(self.channel_state.index);
         if let Some(trace) = &mut self.trace
             && let Err(error) = trace.flush()
         {
-            self.lane.world.warn(format!("the trace cannot be written: {error}"));
+            self.channel_state.shared.warn(format!("the trace cannot be written: {error}"));
         }
     }
 
@@ -254,7 +254,7 @@ impl Channel {
         let mut context = Context::from_waker(Waker::noop());
         loop {
             // While the program is paused nothing of it begins.
-            if !self.lane.paused.get() {
+            if !self.channel_state.paused.get() {
                 self.actions.begin(&self.cx);
             }
             let polled = match (self.actions.poll(&self.cx, &mut context), &mut self.phase) {
@@ -268,7 +268,7 @@ impl Channel {
                 }
                 (None, _) => {
                     if self.is_concluded() {
-                        let again = self.lane.repeats.get() && !self.exits;
+                        let again = self.channel_state.repeats.get() && !self.exits;
                         self.end_with(if again { Next::Again } else { Next::End(Outcome::Ended) });
                     }
                     Poll::Pending
@@ -284,15 +284,20 @@ impl Channel {
 
     /// Whether nothing is left to be done once the statements have ended.
     fn is_concluded(&self) -> bool {
-        let lane = &self.lane;
-        if !self.cx.events().borrow().watches() && lane.drop_aside() {
-            lane.world.warn("the program has ended while its motion was stopped: that motion is dropped".into());
+        let channel_state = &self.channel_state;
+        if !self.cx.events().borrow().watches() && channel_state.drop_suspended() {
+            channel_state
+                .shared
+                .warn("the program has ended while its motion was stopped: that motion is dropped".into());
         }
-        let moving = !lane.motion_ended();
+        let moving = !channel_state.motion_ended();
         if moving {
-            lane.conclude_motion();
+            channel_state.conclude_motion();
         }
-        if moving || lane.world.io.borrow().pulsing(lane.index) || self.cx.events().borrow().has_due() {
+        if moving
+            || channel_state.shared.io.borrow().pulsing(channel_state.index)
+            || self.cx.events().borrow().has_due()
+        {
             return false;
         }
         self.cx.connections().close();
@@ -302,7 +307,7 @@ impl Channel {
     /// Ends the program for a reason that came from its statements.
     fn leave(&mut self, reason: Reason) {
         // Nobody is left who could start what is stopped.
-        self.lane.drop_aside();
+        self.channel_state.drop_suspended();
         match reason {
             // Motion that is planned keeps its triggers.
             Reason::Exit => {
@@ -328,9 +333,9 @@ impl Channel {
     /// Ends the program with an alarm: its robot stops on its path.
     fn fail(&mut self, alarm: Alarm) {
         if !matches!(self.phase, Phase::Ended(_)) {
-            let alarm = Alarm { channel: self.lane.id, ..alarm };
-            self.lane.alarmed.set(true);
-            self.lane.world.alarm(alarm.clone(), true);
+            let alarm = Alarm { channel: self.channel_state.id, ..alarm };
+            self.channel_state.alarmed.set(true);
+            self.channel_state.shared.alarm(alarm.clone(), true);
             self.end(Outcome::Alarm(alarm));
         }
     }
@@ -338,8 +343,8 @@ impl Channel {
     /// Ends the program where it is and stops its motion on the path.
     pub(super) fn end(&mut self, outcome: Outcome) {
         if !matches!(self.phase, Phase::Ended(_)) {
-            self.lane.stop_motion();
-            self.lane.paused.set(false);
+            self.channel_state.stop_motion();
+            self.channel_state.paused.set(false);
             self.end_with(Next::End(outcome));
         }
     }
@@ -349,12 +354,12 @@ impl Channel {
 fn load(program: Rc<dyn Program>, cx: Rc<Cx>) -> Running {
     Box::pin(async move {
         program.init(&cx).await?;
-        let world = cx.world();
-        let mut alarms = data::reload(&program.data(), &world.scripts.path().join(program.folder())).into_iter();
+        let shared = cx.shared();
+        let mut alarms = data::reload(&program.data(), &shared.scripts.path().join(program.folder())).into_iter();
         if let Some(first) = alarms.next() {
             // The first one ends the program, and is noted then; all of them come to the user.
-            let channel = cx.lane().id;
-            alarms.for_each(|alarm| world.alarm(Alarm { channel, ..alarm }, false));
+            let channel = cx.channel_state().id;
+            alarms.for_each(|alarm| shared.alarm(Alarm { channel, ..alarm }, false));
             return Err(Stop::alarm(first));
         }
         program.main(&cx).await

@@ -32,17 +32,17 @@ impl Channels {
 
     /// Those with a robot, in their order.
     pub(super) fn foreground(&self) -> impl Iterator<Item = &Channel> {
-        self.iter().filter(|channel| matches!(channel.lane().id, ChannelId::Foreground(_)))
+        self.iter().filter(|channel| matches!(channel.channel_state().id, ChannelId::Foreground(_)))
     }
 
     /// The foreground channel with this number, from 1.
     pub(super) fn numbered(&self, number: u8) -> Option<&Channel> {
-        self.foreground().find(|channel| channel.lane().id == ChannelId::Foreground(number))
+        self.foreground().find(|channel| channel.channel_state().id == ChannelId::Foreground(number))
     }
 
     /// The robots of the foreground channels, in their order.
     pub(super) fn units(&self) -> impl Iterator<Item = &Rc<RefCell<Unit>>> {
-        self.iter().filter_map(|channel| channel.lane().shared_unit())
+        self.iter().filter_map(|channel| channel.channel_state().shared_unit())
     }
 
     /// Does something to each of them, in their order.

@@ -7,11 +7,11 @@ mod channel;
 mod channels;
 mod external;
 mod foreground;
-mod keeper;
 mod of_cell;
 mod order;
 mod outcome;
 mod pendant;
+mod pointer_store;
 mod status;
 mod trace;
 
@@ -25,12 +25,12 @@ pub use foreground::Foreground;
 pub use outcome::{Outcome, State};
 pub use status::{ChannelStatus, RobotStatus, Status};
 
+use crate::context::shared_state::SharedState;
 use crate::context::system::{self, System};
-use crate::context::world::World;
 use crate::cycle::clock_source::Clock;
 use crate::fault::{Alarm, Fault, File};
 use crate::fieldbus::islands::Islands;
-use crate::io::{AxisName, Deed, Digital, IoDriver, Pendant, Playing, Pwm, Touch};
+use crate::io::{AxisName, Digital, Effect, IoDriver, Pendant, Playing, Pwm, RobotEffect};
 use crate::motion::{Joints, MotionRecord};
 use crate::robot::Robot;
 use crate::storage::state::StateError;
@@ -38,10 +38,10 @@ use crate::unit::Unit;
 use channel::Channel;
 use channels::Channels;
 use external::External;
-use keeper::Keeper;
+use pointer_store::PointerStore;
 
 /// How often changes of system variables are stored of which every one is kept, in s: what a kill may cost.
-const KEEP_EVERY: f64 = 1.0;
+const STORE_INTERVAL_S: f64 = 1.0;
 
 /// Runs a program.
 ///
@@ -97,7 +97,7 @@ const KEEP_EVERY: f64 = 1.0;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Controller {
-    world: Rc<World>,
+    shared: Rc<SharedState>,
     channels: Channels,
     /// The robot of the first channel.
     unit: Rc<RefCell<Unit>>,
@@ -107,12 +107,12 @@ pub struct Controller {
     io: Box<dyn IoDriver>,
     scenario: Playing,
     /// What a scenario does in this cycle, inputs aside; empty between cycles, with room for all that can come at once.
-    deeds: Vec<Deed>,
+    effects: Vec<Effect>,
     external: External,
     /// What stores where the programs stand, if it is stored at all.
-    keeper: Option<Keeper>,
+    pointer_store: Option<PointerStore>,
     /// The cycle from which on changes of system variables may be stored again of which every one is kept.
-    keeps_from: u64,
+    stores_from: u64,
 }
 
 impl Controller {
@@ -123,93 +123,93 @@ impl Controller {
 
     /// Runs one cycle.
     pub fn step(&mut self) -> State {
-        let world = &self.world;
-        let (cycle, rate) = (world.now.get(), world.rate);
+        let shared = &self.shared;
+        let (cycle, rate) = (shared.now.get(), shared.rate);
         self.clock.wait_for(cycle, rate.period());
-        self.meet_disk();
-        let world = &self.world;
+        self.finish_disk_work();
+        let shared = &self.shared;
         {
-            let mut image = world.io.borrow_mut();
+            let mut image = shared.io.borrow_mut();
             self.islands.read(image.inputs_mut());
             self.io.read(image.inputs_mut());
             image.outputs_reached(|output, since| {
                 self.islands.has_reached(output, since) && self.io.has_reached(output, since)
             });
             image.end_pulses_of(cycle);
-            self.scenario.play(cycle, &mut image, |deed| self.deeds.push(deed));
+            self.scenario.play(cycle, &mut image, |effect| self.effects.push(effect));
         }
-        for deed in self.deeds.drain(..) {
-            act(&mut self.channels, deed);
+        for effect in self.effects.drain(..) {
+            act(&mut self.channels, effect);
         }
-        self.listen();
-        self.hear_io();
-        self.channels.each(Channel::look);
+        self.read_external_control();
+        self.report_io_problems();
+        self.channels.each(Channel::scan_events);
         self.channels.each(Channel::poll);
-        self.channels.each(Channel::meet_trouble);
+        self.channels.each(Channel::handle_pending_alarm);
         self.channels.each(|channel| channel.step_robot(rate.time(cycle), rate.period()));
-        self.show();
-        self.islands.write(self.world.io.borrow().outputs_all(cycle));
-        self.io.write(self.world.io.borrow().outputs_all(cycle));
-        self.channels.each(Channel::meet_collision);
-        let world = &self.world;
-        world.flush();
-        if world.met_outside()
-            && let Some(warning) = self.clock.meet_outside()
+        self.write_external_outputs();
+        self.islands.write(self.shared.io.borrow().outputs_all(cycle));
+        self.io.write(self.shared.io.borrow().outputs_all(cycle));
+        self.channels.each(Channel::handle_collision);
+        let shared = &self.shared;
+        shared.flush();
+        if shared.take_real_time_need()
+            && let Some(warning) = self.clock.follow_real_time()
         {
-            world.warn(warning.into());
+            shared.warn(warning.into());
         }
         self.channels.each(Channel::finish_cycle);
-        self.keep_variables();
-        self.keep_pointers();
-        self.world.now.set(cycle + 1);
+        self.store_changed_variables();
+        self.note_pointers();
+        self.shared.now.set(cycle + 1);
         self.state()
     }
 
     /// Takes note of what was stored beside the cycles. Where cycles take no time of the world, what programs wait for is
     /// stored before the next one, so that a run does not depend on the disk.
-    fn meet_disk(&mut self) {
-        let world = &self.world;
-        if world.disk.is_waited_for() && !self.clock.is_real() {
-            world.disk.settle();
+    fn finish_disk_work(&mut self) {
+        let shared = &self.shared;
+        if shared.disk.is_waited_for() && !self.clock.is_real() {
+            shared.disk.settle();
         }
-        if world.state.borrow().is_saving() {
+        if shared.state.borrow().is_saving() {
             self.collect_saved();
         }
     }
 
     fn collect_saved(&self) {
-        let problems = self.world.state.borrow_mut().collect();
-        problems.into_iter().for_each(|problem| self.warn_of_kept(&problem));
+        let problems = self.shared.state.borrow_mut().collect();
+        problems.into_iter().for_each(|problem| self.warn_of_unstored(&problem));
     }
 
-    fn warn_of_kept(&self, problem: &StateError) {
-        self.world.warn(format!("system variables cannot be kept: {problem}"));
+    fn warn_of_unstored(&self, problem: &StateError) {
+        self.shared.warn(format!("system variables cannot be kept: {problem}"));
     }
 
     /// Begins to store the changes of system variables of which every one is kept: once a second at most, and when the
     /// programs have ended.
-    fn keep_variables(&mut self) {
-        let now = self.world.now.get();
-        let due = || now >= self.keeps_from || self.channels.outcome().is_some();
-        if self.system().has_changed() && due() && !self.world.state.borrow().is_saving() {
-            self.keeps_from = now + self.world.rate.cycles(KEEP_EVERY);
-            self.begin_to_keep();
+    fn store_changed_variables(&mut self) {
+        let now = self.shared.now.get();
+        let due = || now >= self.stores_from || self.channels.outcome().is_some();
+        if self.system().has_changed() && due() && !self.shared.state.borrow().is_saving() {
+            self.stores_from = now + self.shared.rate.cycles(STORE_INTERVAL_S);
+            self.begin_to_store();
         }
     }
 
-    fn begin_to_keep(&self) {
-        let kept = system::keep(self.system(), &mut self.world.state.borrow_mut(), &self.world.disk);
+    fn begin_to_store(&self) {
+        let kept = system::store_changed(self.system(), &mut self.shared.state.borrow_mut(), &self.shared.disk);
         if let Err(problem) = kept {
-            self.warn_of_kept(&problem);
+            self.warn_of_unstored(&problem);
         }
     }
 
     /// Leaves word of where the programs stand.
-    fn keep_pointers(&mut self) {
-        let Some(keeper) = &mut self.keeper else { return };
+    fn note_pointers(&mut self) {
+        let Some(pointer_store) = &mut self.pointer_store else { return };
         let pointers = self.channels.foreground().map(Channel::pointers);
-        if let Some(problem) = keeper.note(pointers, self.channels.outcome().is_some()) {
-            self.world.warn(problem);
+        if let Some(problem) = pointer_store.note(pointers, self.channels.outcome().is_some()) {
+            self.shared.warn(problem);
         }
     }
 
@@ -217,34 +217,34 @@ impl Controller {
     /// programs stand. What goes wrong is a warning. [`run`](Controller::run) does so at its end; dropping the controller does,
     /// too, but then nobody hears of it.
     pub fn settle_state(&mut self) {
-        self.world.disk.settle();
+        self.shared.disk.settle();
         self.collect_saved();
         if self.system().has_changed() {
-            self.begin_to_keep();
-            self.world.disk.settle();
+            self.begin_to_store();
+            self.shared.disk.settle();
             self.collect_saved();
         }
-        if let Some(problem) = self.keeper.as_mut().and_then(Keeper::settle) {
-            self.world.warn(problem);
+        if let Some(problem) = self.pointer_store.as_mut().and_then(PointerStore::settle) {
+            self.shared.warn(problem);
         }
     }
 
     /// Does what a PLC says.
-    fn listen(&mut self) {
-        let lane = self.channels.first().lane();
-        let world = &self.world;
+    fn read_external_control(&mut self) {
+        let channel_state = self.channels.first().channel_state();
+        let shared = &self.shared;
         let heard = self.external.listen(&external::Now {
-            io: &world.io.borrow(),
-            system: &lane.system,
-            cycle: world.now.get(),
-            rate: world.rate,
+            io: &shared.io.borrow(),
+            system: &channel_state.system,
+            cycle: shared.now.get(),
+            rate: shared.rate,
             paused: self.channels.state() == State::Paused,
         });
         let pressed = match heard {
             Ok(pressed) => pressed,
             Err(fault) => {
                 let (file, line) = self.channels.first().cx().place();
-                lane.trouble(Alarm::new(fault, file, line));
+                channel_state.raise_alarm(Alarm::new(fault, file, line));
                 return;
             }
         };
@@ -259,21 +259,21 @@ impl Controller {
     }
 
     /// Passes on what those tell who exchange inputs and outputs.
-    fn hear_io(&mut self) {
+    fn report_io_problems(&mut self) {
         while let Some(warning) = self.islands.take_warning().or_else(|| self.io.take_warning()) {
-            self.world.warn(warning);
+            self.shared.warn(warning);
         }
         if let Some(why) = self.islands.fault().or_else(|| self.io.fault()) {
-            self.channels.each(|channel| channel.lose_io(why));
+            self.channels.each(|channel| channel.fail_for_lost_io(why));
         }
     }
 
     /// Tells a PLC what the controller does.
-    fn show(&mut self) {
+    fn write_external_outputs(&mut self) {
         let state = self.channels.state();
-        let system = &self.channels.first().lane().system;
-        let servo_on = self.channels.first().lane().robot().is_some_and(|unit| unit.has_servo());
-        self.external.show(&mut self.world.io.borrow_mut(), system, state, servo_on);
+        let system = &self.channels.first().channel_state().system;
+        let servo_on = self.channels.first().channel_state().robot().is_some_and(|unit| unit.has_servo());
+        self.external.show(&mut self.shared.io.borrow_mut(), system, state, servo_on);
     }
 
     /// Runs until it [is over](Controller::is_over): for ever, where a program does not end.
@@ -291,8 +291,8 @@ impl Controller {
 
     /// Runs so many seconds of controller time, or until it [is over](Controller::is_over).
     pub fn run_for(&mut self, seconds: f64) -> State {
-        let end = self.world.now.get().saturating_add(self.world.rate.cycles(seconds));
-        while self.world.now.get() < end && !self.is_over() {
+        let end = self.shared.now.get().saturating_add(self.shared.rate.cycles(seconds));
+        while self.shared.now.get() < end && !self.is_over() {
             self.step();
         }
         self.state()
@@ -307,7 +307,8 @@ impl Controller {
     /// again. The scenario does where it presses the pendant's reset button, or plays a PLC that is wired to start programs
     /// (external auto control): as long as an event of it is on its way, the run is not over.
     pub fn is_over(&self) -> bool {
-        self.channels.outcome().is_some() && !(self.can_begin_again() && self.scenario.goes_on(&self.world.io.borrow()))
+        self.channels.outcome().is_some()
+            && !(self.can_begin_again() && self.scenario.goes_on(&self.shared.io.borrow()))
     }
 
     /// Whether somebody outside can start programs that have ended.
@@ -345,17 +346,17 @@ impl Controller {
 
     /// Controller time in s: the start of the next cycle.
     pub fn time(&self) -> f64 {
-        self.world.rate.time(self.world.now.get())
+        self.shared.rate.time(self.shared.now.get())
     }
 
     /// The running number of the next cycle, from 0.
     pub(crate) fn cycle(&self) -> u64 {
-        self.world.now.get()
+        self.shared.now.get()
     }
 
     /// How many cycles so many seconds take.
     pub(crate) fn cycles(&self, seconds: f64) -> u64 {
-        self.world.rate.cycles(seconds)
+        self.shared.rate.cycles(seconds)
     }
 
     /// How many cycles began late, on the real clock.
@@ -375,7 +376,7 @@ impl Controller {
 
     /// The system variables.
     pub fn system(&self) -> &System {
-        &self.channels.first().lane().system
+        &self.channels.first().channel_state().system
     }
 
     /// The axes as the robot reports them, in deg (mm).
@@ -398,7 +399,7 @@ impl Controller {
 
     /// Where the Modbus TCP server listens, if there is one.
     pub fn modbus_tcp_address(&self) -> Option<SocketAddr> {
-        self.world.buses.modbus_tcp_address()
+        self.shared.buses.modbus_tcp_address()
     }
 
     /// The robot of the first channel.
@@ -408,12 +409,12 @@ impl Controller {
 
     /// Warnings since the last call.
     pub fn take_warnings(&mut self) -> Vec<String> {
-        self.world.take_warnings()
+        self.shared.take_warnings()
     }
 
     /// Alarms since the last call, the one that stopped the program first.
     pub fn take_alarms(&mut self) -> Vec<Alarm> {
-        self.world.take_alarms()
+        self.shared.take_alarms()
     }
 
     /// Sets a digital input, from 1.
@@ -421,7 +422,7 @@ impl Controller {
     /// # Errors
     /// There is no such channel.
     pub fn set_di(&mut self, channel: i32, level: bool) -> Result<(), Fault> {
-        self.world.io.borrow_mut().set_digital(Digital::Di, channel, level)
+        self.shared.io.borrow_mut().set_digital(Digital::Di, channel, level)
     }
 
     /// The level of a digital input, from 1.
@@ -429,7 +430,7 @@ impl Controller {
     /// # Errors
     /// There is no such channel.
     pub fn di(&self, channel: i32) -> Result<bool, Fault> {
-        self.world.io.borrow().digital(Digital::Di, channel)
+        self.shared.io.borrow().digital(Digital::Di, channel)
     }
 
     /// The level of a digital output, from 1.
@@ -437,7 +438,7 @@ impl Controller {
     /// # Errors
     /// There is no such channel.
     pub fn dout(&self, channel: i32) -> Result<bool, Fault> {
-        self.world.io.borrow().digital(Digital::Do, channel)
+        self.shared.io.borrow().digital(Digital::Do, channel)
     }
 
     /// Sets an analog input, from 1, in V or mA.
@@ -445,7 +446,7 @@ impl Controller {
     /// # Errors
     /// There is no such channel, or its type cannot carry the value.
     pub fn set_ai(&mut self, channel: i32, value: f64) -> Result<(), Fault> {
-        self.world.io.borrow_mut().set_ai(channel, value)
+        self.shared.io.borrow_mut().set_ai(channel, value)
     }
 
     /// The value of an analog output, from 1, in V or mA.
@@ -453,7 +454,7 @@ impl Controller {
     /// # Errors
     /// There is no such channel.
     pub fn ao(&self, channel: i32) -> Result<f64, Fault> {
-        self.world.io.borrow().ao(channel)
+        self.shared.io.borrow().ao(channel)
     }
 
     /// What a PWM output does, from 1.
@@ -461,7 +462,7 @@ impl Controller {
     /// # Errors
     /// There is no such channel.
     pub fn pwm(&self, channel: i32) -> Result<Pwm, Fault> {
-        self.world.io.borrow().pwm(channel)
+        self.shared.io.borrow().pwm(channel)
     }
 
     /// Sets an internal input signal, from 1.
@@ -469,7 +470,7 @@ impl Controller {
     /// # Errors
     /// There is no such channel.
     pub fn set_internal(&mut self, channel: i32, level: bool) -> Result<(), Fault> {
-        self.world.io.borrow_mut().set_digital(Digital::InternalIn, channel, level)
+        self.shared.io.borrow_mut().set_digital(Digital::InternalIn, channel, level)
     }
 
     /// Sets an internal output signal, from 1: the internal PLC's, which programs can only read.
@@ -477,7 +478,7 @@ impl Controller {
     /// # Errors
     /// There is no such channel.
     pub fn set_internal_output(&mut self, channel: i32, level: bool) -> Result<(), Fault> {
-        self.world.io.borrow_mut().set_digital(Digital::InternalOut, channel, level)
+        self.shared.io.borrow_mut().set_digital(Digital::InternalOut, channel, level)
     }
 
     /// The level of an internal output signal, from 1.
@@ -485,7 +486,7 @@ impl Controller {
     /// # Errors
     /// There is no such channel.
     pub fn internal(&self, channel: i32) -> Result<bool, Fault> {
-        self.world.io.borrow().digital(Digital::InternalOut, channel)
+        self.shared.io.borrow().digital(Digital::InternalOut, channel)
     }
 }
 
@@ -497,35 +498,35 @@ impl Drop for Controller {
 
 /// The place of an axis of a channel's robot, counted from 0. That there is such an axis was checked.
 fn place(channel: &Channel, axis: AxisName) -> Option<usize> {
-    channel.lane().robot().and_then(|unit| axis.place(unit.robot()))
+    channel.channel_state().robot().and_then(|unit| axis.place(unit.robot()))
 }
 
 /// Does what a scenario says, inputs aside. The pendant's buttons count for all channels.
-fn act(channels: &mut Channels, deed: Deed) {
-    let (number, touch) = match deed {
-        Deed::Pendant(button) => return pendant::press(channels, button),
-        Deed::Robot(number, touch) => (number, touch),
+fn act(channels: &mut Channels, effect: Effect) {
+    let (number, robot_effect) = match effect {
+        Effect::Pendant(button) => return pendant::press(channels, button),
+        Effect::Robot(number, robot_effect) => (number, robot_effect),
     };
     // That there is such a channel was checked.
     let Some(channel) = channels.numbered(number) else { return };
-    match touch {
-        Touch::Jog(axis, by) => {
+    match robot_effect {
+        RobotEffect::Jog(axis, by) => {
             if let Some(place) = place(channel, axis) {
                 pendant::jog(channel, place + 1, by);
             }
         }
-        Touch::Hand(axis, by) => {
+        RobotEffect::Hand(axis, by) => {
             if let Some(place) = place(channel, axis) {
                 pendant::move_by_hand(channel, place + 1, by);
             }
         }
-        Touch::Force(force) => {
-            if let Some(mut unit) = channel.lane().robot_mut() {
+        RobotEffect::Force(force) => {
+            if let Some(mut unit) = channel.channel_state().robot_mut() {
                 unit.outside_mut().force = force;
             }
         }
-        Touch::Torque(axis, torque) => {
-            if let Some(mut unit) = channel.lane().robot_mut()
+        RobotEffect::Torque(axis, torque) => {
+            if let Some(mut unit) = channel.channel_state().robot_mut()
                 && let Some(place) = unit.outside_mut().torques.get_mut(axis)
             {
                 *place = torque;
@@ -537,7 +538,10 @@ fn act(channels: &mut Channels, deed: Deed) {
 /// Sets the speed override of all robots, in %.
 fn set_override(channels: &Channels, percent: f64) {
     let percent = percent.clamp(0.0, 100.0);
-    channels.iter().filter_map(|channel| channel.lane().robot_mut()).for_each(|mut unit| unit.set_override(percent));
+    channels
+        .iter()
+        .filter_map(|channel| channel.channel_state().robot_mut())
+        .for_each(|mut unit| unit.set_override(percent));
 }
 
 /// A program cannot be reset while it runs.

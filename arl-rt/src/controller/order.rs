@@ -13,10 +13,10 @@ impl Controller {
         let order = Order::parse(text).map_err(|error| error.message)?;
         let robots: Vec<_> = self.channels.units().map(|unit| unit.borrow().shared_robot()).collect();
         let robots: Vec<_> = robots.iter().map(|robot| &**robot).collect();
-        // A deed may look at the image itself.
-        let mut deeds = Vec::new();
-        order.carry_out(&mut self.world.io.borrow_mut(), &robots, |deed| deeds.push(deed))?;
-        deeds.into_iter().for_each(|deed| act(&mut self.channels, deed));
+        // An effect may look at the image itself.
+        let mut effects = Vec::new();
+        order.carry_out(&mut self.shared.io.borrow_mut(), &robots, |effect| effects.push(effect))?;
+        effects.into_iter().for_each(|effect| act(&mut self.channels, effect));
         Ok(())
     }
 }

@@ -73,7 +73,7 @@ impl Controller {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn set_loop(&mut self, on: bool) {
-        self.channels.each(|channel| channel.lane().repeats.set(on));
+        self.channels.each(|channel| channel.channel_state().repeats.set(on));
     }
 
     /// Jogs an axis of the first channel's robot, from 1 (external axes come behind its own), by so many deg (mm), at manual speed,
@@ -101,19 +101,19 @@ pub(super) fn press(channels: &mut Channels, button: Pendant) {
             let ended = channels.state() == State::Ended;
             channels.each(|channel| reset(channel, ended));
         }
-        Pendant::Clear => channels.each(|channel| channel.lane().alarmed.set(false)),
+        Pendant::Clear => channels.each(|channel| channel.channel_state().alarmed.set(false)),
         Pendant::ServoOn => channels.each(|channel| servo_on(channel)),
         Pendant::ServoOff => channels.each(|channel| servo_off(channel)),
     }
 }
 
 fn refuse(channel: &Channel, what: &str, why: &str) {
-    channel.lane().world.warn(format!("{what} is refused: {why}"));
+    channel.channel_state().shared.warn(format!("{what} is refused: {why}"));
 }
 
 /// Whether the program may go on; warns where not.
 fn may_go_on(channel: &Channel, what: &str) -> bool {
-    let servo = channel.lane().robot().is_none_or(|unit| unit.has_servo());
+    let servo = channel.channel_state().robot().is_none_or(|unit| unit.has_servo());
     if !servo {
         refuse(channel, what, "the servo is off");
     }
@@ -122,42 +122,42 @@ fn may_go_on(channel: &Channel, what: &str) -> bool {
 
 fn start(channel: &mut Channel) {
     if may_go_on(channel, "start") {
-        channel.lane().stepping.on.set(false);
-        channel.lane().stepping.until.set(None);
+        channel.channel_state().stepping.on.set(false);
+        channel.channel_state().stepping.until.set(None);
         go_on(channel);
     }
 }
 
 /// Lets program and robot go on: back to the path first, where the robot was moved.
 fn go_on(channel: &Channel) {
-    let lane = channel.lane();
-    if lane.paused.replace(false)
-        && let Some(mut unit) = lane.robot_mut()
+    let channel_state = channel.channel_state();
+    if channel_state.paused.replace(false)
+        && let Some(mut unit) = channel_state.robot_mut()
     {
         unit.go_on(channel.cx().place());
     }
 }
 
 fn pause(channel: &Channel) {
-    let lane = channel.lane();
-    if channel.outcome().is_none() && !lane.paused.replace(true) {
-        lane.stepping.until.set(None);
-        if let Some(mut unit) = lane.robot_mut() {
+    let channel_state = channel.channel_state();
+    if channel.outcome().is_none() && !channel_state.paused.replace(true) {
+        channel_state.stepping.until.set(None);
+        if let Some(mut unit) = channel_state.robot_mut() {
             unit.pause();
         }
     }
 }
 
 fn step(channel: &mut Channel) {
-    let under_way = channel.lane().stepping.on.get() && channel.state() == State::Running;
+    let under_way = channel.channel_state().stepping.on.get() && channel.state() == State::Running;
     if under_way || !may_go_on(channel, "step") {
         return;
     }
-    let lane = channel.lane();
-    lane.stepping.on.set(true);
-    match lane.robot().and_then(|unit| unit.next_motion()) {
-        Some(motion) => lane.stepping.until.set(Some(motion)),
-        None => lane.stepping.left.set(1),
+    let channel_state = channel.channel_state();
+    channel_state.stepping.on.set(true);
+    match channel_state.robot().and_then(|unit| unit.next_motion()) {
+        Some(motion) => channel_state.stepping.until.set(Some(motion)),
+        None => channel_state.stepping.left.set(1),
     }
     go_on(channel);
 }
@@ -169,28 +169,31 @@ fn reset(channel: &mut Channel, ended: bool) {
         State::Running if ended => {}
         State::Running => refuse(channel, "reset", "the program runs: pause it first"),
         State::Paused => channel.end(Outcome::Stopped),
-        State::Ended if channel.lane().robot().is_some_and(|unit| !unit.has_servo()) => {
+        State::Ended if channel.channel_state().robot().is_some_and(|unit| !unit.has_servo()) => {
             refuse(channel, "reset", "the servo is off");
         }
-        State::Ended if channel.lane().alarmed.get() => refuse(channel, "reset", "the alarm has not been cleared"),
+        State::Ended if channel.channel_state().alarmed.get() => {
+            refuse(channel, "reset", "the alarm has not been cleared")
+        }
         State::Ended => channel.reset(),
     }
 }
 
 fn servo_off(channel: &Channel) {
     pause(channel);
-    if let Some(mut unit) = channel.lane().robot_mut() {
+    if let Some(mut unit) = channel.channel_state().robot_mut() {
         unit.servo_off();
     }
 }
 
 fn servo_on(channel: &Channel) {
-    let lane = channel.lane();
-    let Some(mut unit) = lane.robot_mut() else { return };
-    let keeps = lane.system.reset_pos_type.with(|kinds| kinds.first().is_some_and(|kind| *kind == "cmd"));
-    let threshold = lane.system.reset_pos_threshold.with(|all| all.first().copied().unwrap_or_default());
+    let channel_state = channel.channel_state();
+    let Some(mut unit) = channel_state.robot_mut() else { return };
+    let keeps = channel_state.system.reset_pos_type.with(|kinds| kinds.first().is_some_and(|kind| *kind == "cmd"));
+    let threshold = channel_state.system.reset_pos_threshold.with(|all| all.first().copied().unwrap_or_default());
     if !unit.servo_on(keeps.then_some(threshold)) {
-        lane.world
+        channel_state
+            .shared
             .warn("servo on: the robot was moved by more than $RESET_POS_THRESHOLD: it stays where it is now".into());
     }
 }
@@ -202,7 +205,7 @@ pub(super) fn jog(channel: &Channel, axis: usize, by: f64) {
         return;
     }
     let paused = channel.state() == State::Paused;
-    let jogged = channel.lane().robot_mut().map_or(Ok(()), |mut unit| {
+    let jogged = channel.channel_state().robot_mut().map_or(Ok(()), |mut unit| {
         if paused {
             unit.pause();
         }
@@ -215,7 +218,7 @@ pub(super) fn jog(channel: &Channel, axis: usize, by: f64) {
 
 /// Moves an axis, from 1, by hand.
 pub(super) fn move_by_hand(channel: &Channel, axis: usize, by: f64) {
-    let moved = channel.lane().robot_mut().map_or(Ok(()), |mut unit| unit.move_by_hand(axis, by));
+    let moved = channel.channel_state().robot_mut().map_or(Ok(()), |mut unit| unit.move_by_hand(axis, by));
     if let Err(why) = moved {
         refuse(channel, "moving the robot by hand", &why);
     }

@@ -67,7 +67,7 @@ pub struct RobotStatus {
 impl Controller {
     /// How everything stands.
     pub fn status(&self) -> Status {
-        let (unit, io) = (self.unit.borrow(), self.world.io.borrow());
+        let (unit, io) = (self.unit.borrow(), self.shared.io.borrow());
         Status {
             time: self.time(),
             mode: self.system().ctl_mode.get(),
@@ -82,14 +82,14 @@ impl Controller {
 }
 
 fn of_channel(channel: &Channel) -> ChannelStatus {
-    let lane = channel.lane();
+    let channel_state = channel.channel_state();
     ChannelStatus {
-        channel: lane.id,
+        channel: channel_state.id,
         program: channel.cx().program(),
         state: channel.state(),
         outcome: channel.outcome().cloned(),
         place: channel.cx().place(),
-        robot: lane.robot().map(|unit| RobotStatus {
+        robot: channel_state.robot().map(|unit| RobotStatus {
             robot: unit.shared_robot(),
             motion: unit.motion_pointer(),
             joints: *unit.setpoint(),

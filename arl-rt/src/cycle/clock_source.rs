@@ -8,7 +8,7 @@ pub trait Clock {
     fn wait_for(&mut self, cycle: u64, period: f64);
 
     /// The program begins to talk to the world: from the next cycle on its time counts. Returns what the user should know.
-    fn meet_outside(&mut self) -> Option<&'static str> {
+    fn follow_real_time(&mut self) -> Option<&'static str> {
         None
     }
 
@@ -52,7 +52,7 @@ impl Clock for VirtualClock {
         }
     }
 
-    fn meet_outside(&mut self) -> Option<&'static str> {
+    fn follow_real_time(&mut self) -> Option<&'static str> {
         const WARNING: &str = "the run is connected to the outside: from here on its cycles take real time";
         let first = self.real.is_none();
         self.real.get_or_insert_with(RealClock::new);

@@ -1,7 +1,7 @@
 //! The length of a control cycle, and how seconds become cycles.
 
 /// The longest wait in cycles: what no program outlives.
-const FOREVER: f64 = 9e15;
+const MAX_WAIT_CYCLES: f64 = 9e15;
 
 /// The length of the control cycle. It is a whole number of microseconds, so that times stay exact.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -43,7 +43,7 @@ impl Rate {
         // A thousandth of a cycle of slack, so that 0.003 s are three cycles of 1 ms whatever the last bit says.
         let cycles = (seconds * 1e6 / f64::from(self.micros) - 1e-3).ceil();
         if cycles >= 1.0 {
-            cycles.min(FOREVER) as u64
+            cycles.min(MAX_WAIT_CYCLES) as u64
         } else if seconds > 0.0 {
             1
         } else {

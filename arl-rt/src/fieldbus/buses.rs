@@ -10,7 +10,7 @@ use super::modbus_tcp::ModbusTcp;
 use super::settings::{BusSettings, ModbusTcpSettings};
 
 /// How many different reports a run may give, so that they never fill the memory.
-const MOST_REPORTS: usize = 100;
+const MAX_REPORTS: usize = 100;
 
 /// The field buses of a controller.
 pub(crate) struct Buses {
@@ -39,7 +39,7 @@ impl Buses {
     /// Whether nobody has told the user this yet, and there is room for one more report; notes that it is told now.
     pub(crate) fn is_new_report(&self, text: &str) -> bool {
         let mut reported = self.reported.borrow_mut();
-        reported.len() < MOST_REPORTS && reported.insert(text.to_owned())
+        reported.len() < MAX_REPORTS && reported.insert(text.to_owned())
     }
 
     /// The Modbus TCP server and its tables.

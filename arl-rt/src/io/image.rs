@@ -10,7 +10,7 @@ use super::channel::{Output, channel_fault, place};
 use crate::fault::Fault;
 
 /// The most channels that one call may name.
-const MOST_AT_ONCE: i64 = 32;
+const MAX_GROUP_CHANNELS: i64 = 32;
 
 /// The inputs and outputs as the program sees them. Channels count from 1.
 #[derive(Debug)]
@@ -227,9 +227,9 @@ impl Image {
                 "{name} {from} to {to} is a reversed range: the first channel comes first, {to} to {from}"
             )));
         }
-        if i64::from(to) - i64::from(from) >= MOST_AT_ONCE {
+        if i64::from(to) - i64::from(from) >= MAX_GROUP_CHANNELS {
             return Err(channel_fault(format!(
-                "{name} {from} to {to} are more than {MOST_AT_ONCE} channels, which is the most that one int holds"
+                "{name} {from} to {to} are more than {MAX_GROUP_CHANNELS} channels, which is the most that one int holds"
             )));
         }
         Ok(first..last + 1)

@@ -14,4 +14,4 @@ pub use image::{Image, Inputs, Outputs, Pwm};
 pub use scenario::{Pendant, Scenario};
 
 pub(crate) use image::Digital;
-pub(crate) use scenario::{AxisName, Deed, Order, Playing, Touch};
+pub(crate) use scenario::{AxisName, Effect, Order, Playing, RobotEffect};

@@ -90,16 +90,16 @@ const WORDS: [(&str, Pendant); 7] = [
 
 /// What an event does besides setting inputs.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) enum Deed {
+pub(crate) enum Effect {
     /// Somebody uses the pendant.
     Pendant(Pendant),
     /// Somebody touches the robot of a foreground channel, counted from 1.
-    Robot(u8, Touch),
+    Robot(u8, RobotEffect),
 }
 
 /// What is done to a robot.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) enum Touch {
+pub(crate) enum RobotEffect {
     /// A force pushes the TCP: in the world, N.
     Force([f64; 3]),
     /// A torque (Nm; N of a linear axis) turns an axis, counted from 0.
@@ -152,7 +152,7 @@ impl fmt::Display for AxisName {
 enum Action {
     Digital(Digital, i32, bool),
     Analog(i32, f64),
-    Deed(Deed),
+    Effect(Effect),
 }
 
 impl Action {
@@ -161,19 +161,19 @@ impl Action {
         let found = match *self {
             Action::Digital(what, channel, _) => image.digital(what, channel).map(drop),
             Action::Analog(channel, value) => image.check_ai(channel, value),
-            Action::Deed(Deed::Pendant(_)) => return Ok(()),
-            Action::Deed(Deed::Robot(channel, touch)) => return moves(robots, channel, touch),
+            Action::Effect(Effect::Pendant(_)) => return Ok(()),
+            Action::Effect(Effect::Robot(channel, robot_effect)) => return moves(robots, channel, robot_effect),
         };
         found.map_err(|fault| format!("sets an input to what it cannot have: {fault}"))
     }
 
     /// Does what was checked; hands everything but inputs to `do_it`.
-    fn play(&self, image: &mut Image, do_it: &mut impl FnMut(Deed)) {
+    fn play(&self, image: &mut Image, do_it: &mut impl FnMut(Effect)) {
         let _ = match *self {
             Action::Digital(what, channel, level) => image.set_digital(what, channel, level),
             Action::Analog(channel, value) => image.set_ai(channel, value),
-            Action::Deed(deed) => {
-                do_it(deed);
+            Action::Effect(effect) => {
+                do_it(effect);
                 Ok(())
             }
         };
@@ -204,7 +204,7 @@ impl Order {
         &self,
         image: &mut Image,
         robots: &[&Robot],
-        mut do_it: impl FnMut(Deed),
+        mut do_it: impl FnMut(Effect),
     ) -> Result<(), String> {
         for action in &self.actions {
             action.check(image, robots).map_err(|problem| format!("the order {problem}"))?;
@@ -293,28 +293,28 @@ impl Scenario {
 }
 
 /// Whether something can be done to the robot of a channel.
-fn moves(robots: &[&Robot], channel: u8, touch: Touch) -> Result<(), String> {
+fn moves(robots: &[&Robot], channel: u8, robot_effect: RobotEffect) -> Result<(), String> {
     let Some(robot) = robots.get(usize::from(channel).wrapping_sub(1)) else {
         let count = robots.len();
         return Err(format!("is about the robot of channel {channel}, but there are {count} channels with a robot"));
     };
     let own = robot.own_axes().len();
-    match touch {
-        Touch::Jog(axis, _) | Touch::Hand(axis, _) if axis.place(robot).is_none() => {
+    match robot_effect {
+        RobotEffect::Jog(axis, _) | RobotEffect::Hand(axis, _) if axis.place(robot).is_none() => {
             let external = match robot.external_axes().len() {
                 0 => String::new(),
                 count => format!(" and ej1 to ej{count}"),
             };
             Err(format!("moves {axis}, but robot {} has j1 to j{own}{external}", robot.name))
         }
-        Touch::Jog(..) | Touch::Hand(..) => Ok(()),
-        Touch::Torque(axis, _) if axis >= own => {
+        RobotEffect::Jog(..) | RobotEffect::Hand(..) => Ok(()),
+        RobotEffect::Torque(axis, _) if axis >= own => {
             Err(format!("turns j{}, but robot {} has j1 to j{own}", axis + 1, robot.name))
         }
-        Touch::Force(_) | Touch::Torque(..) if robot.links.is_empty() => {
+        RobotEffect::Force(_) | RobotEffect::Torque(..) if robot.links.is_empty() => {
             Err(format!("pushes the robot, but the file of robot {} has no [[link]]", robot.name))
         }
-        Touch::Force(_) | Touch::Torque(..) => Ok(()),
+        RobotEffect::Force(_) | RobotEffect::Torque(..) => Ok(()),
     }
 }
 
@@ -382,23 +382,25 @@ fn actions(source: Source<'_>, event: &Section<'_>) -> Result<Vec<Action>, Setti
                 &mut actions,
             )?,
             "ai" => analogs(source, value, &mut actions)?,
-            "pendant" => actions.push(Action::Deed(Deed::Pendant(pendant(event, source, value)?))),
+            "pendant" => actions.push(Action::Effect(Effect::Pendant(pendant(event, source, value)?))),
             "override" => {
                 let percent = event.number(key, "percent", 0.0, 100.0)?.unwrap_or(100.0);
-                actions.push(Action::Deed(Deed::Pendant(Pendant::Override(percent))));
+                actions.push(Action::Effect(Effect::Pendant(Pendant::Override(percent))));
             }
-            "force" => actions.push(Action::Deed(Deed::Robot(channel, force(event, value)?))),
+            "force" => actions.push(Action::Effect(Effect::Robot(channel, force(event, value)?))),
             "torque" => {
                 for (key, torque) in axes(source, (key, "a torque in Nm"), value, OWN_AXES)? {
                     if let AxisName::Own(axis) = AxisName::of(key) {
-                        actions.push(Action::Deed(Deed::Robot(channel, Touch::Torque(axis, torque))));
+                        actions.push(Action::Effect(Effect::Robot(channel, RobotEffect::Torque(axis, torque))));
                     }
                 }
             }
             "jog" | "hand" => {
-                let touch = if key == "jog" { Touch::Jog } else { Touch::Hand };
+                let robot_effect = if key == "jog" { RobotEffect::Jog } else { RobotEffect::Hand };
                 let moved = axes(source, (key, LENGTH), value, ALL_AXES)?.into_iter();
-                actions.extend(moved.map(|(key, by)| Action::Deed(Deed::Robot(channel, touch(AxisName::of(key), by)))));
+                actions.extend(
+                    moved.map(|(key, by)| Action::Effect(Effect::Robot(channel, robot_effect(AxisName::of(key), by)))),
+                );
             }
             _ => {}
         }
@@ -474,12 +476,12 @@ fn analogs(source: Source<'_>, value: &Value<'_>, actions: &mut Vec<Action>) -> 
 }
 
 /// A force on the TCP.
-fn force(event: &Section<'_>, value: &Value<'_>) -> Result<Touch, SettingsError> {
+fn force(event: &Section<'_>, value: &Value<'_>) -> Result<RobotEffect, SettingsError> {
     let wrong = || event.wrong("force", value, "three components in N, like [0, 0, 80]");
     let components = value.get_ref().as_array().ok_or_else(wrong)?;
     let components: Option<Vec<f64>> = components.iter().map(|component| number(component.get_ref())).collect();
     let force = components.and_then(|components| <[f64; 3]>::try_from(components).ok());
-    force.map(Touch::Force).ok_or_else(wrong)
+    force.map(RobotEffect::Force).ok_or_else(wrong)
 }
 
 /// What is done to axes.
@@ -536,14 +538,14 @@ impl Playing {
         Self { events, rate, due, before_in, before_out, before_pwm: image.pwms() }
     }
 
-    /// How many deeds a cycle may have at most, if no event comes twice in it.
-    pub(crate) fn most_deeds(&self) -> usize {
+    /// How many effects a cycle may have at most, if no event comes twice in it.
+    pub(crate) fn max_effects(&self) -> usize {
         let actions = self.events.iter().flat_map(|event| &event.actions);
-        actions.filter(|action| matches!(action, Action::Deed(_))).count()
+        actions.filter(|action| matches!(action, Action::Effect(_))).count()
     }
 
     /// Sets what is due at the start of `cycle`; hands everything but inputs to `do_it`.
-    pub(crate) fn play(&mut self, cycle: u64, image: &mut Image, mut do_it: impl FnMut(Deed)) {
+    pub(crate) fn play(&mut self, cycle: u64, image: &mut Image, mut do_it: impl FnMut(Effect)) {
         if self.events.is_empty() {
             return;
         }
@@ -560,7 +562,7 @@ impl Playing {
 
     /// Whether somebody at the pendant makes programs begin again that have ended.
     pub(crate) fn resets(&self) -> bool {
-        let reset = Action::Deed(Deed::Pendant(Pendant::Reset));
+        let reset = Action::Effect(Effect::Pendant(Pendant::Reset));
         self.events.iter().any(|event| event.actions.contains(&reset))
     }
 
@@ -606,17 +608,17 @@ fn insert(due: &mut Vec<(u64, usize)>, cycle: u64, event: usize) {
 mod tests {
     use super::*;
 
-    fn play(text: &str, cycles: u64, mut each: impl FnMut(u64, &mut Image)) -> Vec<Deed> {
+    fn play(text: &str, cycles: u64, mut each: impl FnMut(u64, &mut Image)) -> Vec<Effect> {
         let scenario = Scenario::parse("io.toml", text).unwrap();
         scenario.check(&Channels::default(), &[&Robot::builtin("kr10-r1420").unwrap()]).unwrap();
         let mut image = Image::new(&Channels::default());
         let mut playing = Playing::new(scenario, &image, Rate::default());
-        let mut deeds = Vec::new();
+        let mut effects = Vec::new();
         for cycle in 0..cycles {
-            playing.play(cycle, &mut image, |deed| deeds.push(deed));
+            playing.play(cycle, &mut image, |effect| effects.push(effect));
             each(cycle, &mut image);
         }
-        deeds
+        effects
     }
 
     #[test]
@@ -648,7 +650,7 @@ mod tests {
     #[test]
     fn the_pendant_speaks() {
         let text = "[[event]]\nat = 0\npendant = \"start\"\noverride = 50\n";
-        assert_eq!(play(text, 1, |_, _| {}), [Pendant::Start, Pendant::Override(50.0)].map(Deed::Pendant));
+        assert_eq!(play(text, 1, |_, _| {}), [Pendant::Start, Pendant::Override(50.0)].map(Effect::Pendant));
     }
 
     #[test]
@@ -686,8 +688,9 @@ mod tests {
     #[test]
     fn forces_and_torques_are_told_in_order() {
         let text = "[[event]]\nat = 0\ntorque.j3 = -20.5\nforce = [1, 2.5, -3]\ntorque.j1 = 7\n";
-        let deeds = [Touch::Torque(2, -20.5), Touch::Torque(0, 7.0), Touch::Force([1.0, 2.5, -3.0])];
-        assert_eq!(play(text, 1, |_, _| {}), deeds.map(|touch| Deed::Robot(1, touch)));
+        let effects =
+            [RobotEffect::Torque(2, -20.5), RobotEffect::Torque(0, 7.0), RobotEffect::Force([1.0, 2.5, -3.0])];
+        assert_eq!(play(text, 1, |_, _| {}), effects.map(|robot_effect| Effect::Robot(1, robot_effect)));
     }
 
     #[test]

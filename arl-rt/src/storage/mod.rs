@@ -1,10 +1,10 @@
 //! What outlives a run: values that are kept when the controller is switched off, data files of programs, and the thread
 //! that writes files beside the cycle.
 
+pub(crate) mod atomic_file;
 pub mod data;
 pub(crate) mod disk;
-pub(crate) mod keep;
 pub(crate) mod pointers;
 pub(crate) mod script_dir;
 pub mod state;
-pub(crate) mod whole;
+pub(crate) mod state_format;

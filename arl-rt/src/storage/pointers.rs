@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use crate::cycle::channel_id::MOST_FOREGROUND;
 use crate::fault::File;
-use crate::storage::keep::Keep;
+use crate::storage::state_format::StateFormat;
 use crate::values::Str;
 
 /// What they are stored under.

@@ -9,8 +9,8 @@ use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use crate::storage::atomic_file;
 use crate::storage::disk::{Disk, Stage, Work};
-use crate::storage::whole;
 
 /// Where kept values live, by name.
 pub trait Storage {
@@ -73,7 +73,7 @@ impl Directory {
 
 impl Storage for Directory {
     fn begin(&mut self) {
-        whole::sweep(&self.0);
+        atomic_file::remove_leftovers(&self.0);
     }
 
     fn load(&self, name: &str) -> io::Result<Option<Vec<u8>>> {
@@ -86,7 +86,7 @@ impl Storage for Directory {
 
     fn store(&mut self, name: &str, content: &[u8]) -> io::Result<()> {
         fs::create_dir_all(&self.0)?;
-        whole::write(&self.path(name), content)
+        atomic_file::write(&self.path(name), content)
     }
 
     fn another(&self) -> Option<Box<dyn Storage + Send>> {
@@ -261,14 +261,14 @@ mod tests {
 
     #[test]
     fn what_is_damaged_is_noticed() {
-        let whole = seal("$A", "1\n2\n3\n");
-        assert_eq!(unseal("$A", whole.as_bytes()), Some("1\n2\n3\n"));
-        assert_eq!(unseal("$B", whole.as_bytes()), None, "another variable's");
-        for cut in 0..whole.len() {
-            assert_eq!(unseal("$A", &whole.as_bytes()[..cut]), None, "cut at {cut}");
+        let sealed = seal("$A", "1\n2\n3\n");
+        assert_eq!(unseal("$A", sealed.as_bytes()), Some("1\n2\n3\n"));
+        assert_eq!(unseal("$B", sealed.as_bytes()), None, "another variable's");
+        for cut in 0..sealed.len() {
+            assert_eq!(unseal("$A", &sealed.as_bytes()[..cut]), None, "cut at {cut}");
         }
-        for at in 0..whole.len() - 1 {
-            let mut changed = whole.clone().into_bytes();
+        for at in 0..sealed.len() - 1 {
+            let mut changed = sealed.clone().into_bytes();
             changed[at] ^= 1;
             assert_eq!(unseal("$A", &changed), None, "changed at {at}");
         }

@@ -16,10 +16,10 @@ use crate::values::{self, Joint, Pos, Tool, Wobj};
 use geometry::{Flaw, Triangle};
 
 /// Points found farther than this, mm, from where their coordinates put them are warned of.
-const MISFIT: f64 = 1.0;
+const MAX_MISFIT_MM: f64 = 1.0;
 
 /// How many mechanical units a channel has.
-const UNITS: i32 = 1;
+const MECHANICAL_UNITS: i32 = 1;
 
 /// The workpiece frame with its origin at the first place of the tool, the second on its +x axis, and the third in its xy
 /// plane on the +y side.
@@ -60,10 +60,10 @@ pub fn getwobj_indi(
             Triangle::Found => format!("of the taught points, {flaw}"),
         })
     })?;
-    if off > MISFIT {
+    if off > MAX_MISFIT_MM {
         let (file, line) = cx.place();
         let file = file.name();
-        cx.world().warn(format!(
+        cx.shared().warn(format!(
             "{file}:{line}: getwobj_indi: the distances between the taught points differ from those between p1, p2 and p3; \
              a point is {off:.3} mm from where its coordinates put it"
         ));
@@ -151,8 +151,9 @@ pub fn gettool_3p(cx: &Cx, j1: Joint, j2: Joint, j3: Joint, w: &Wobj) -> Result<
 /// There is no such unit, axes are unset, the tool is stationary, or the places are too near to each other or in a line.
 pub fn getbase_3p(cx: &Cx, j1: Joint, j2: Joint, j3: Joint, t: Tool, index: i32) -> Result<(), Fault> {
     let taught = Taught { base: Frame::identity(), ..Taught::new(cx, "getbase_3p") };
-    if !(1..=UNITS).contains(&index) {
-        let problem = format!("there is no mechanical unit {index}: this channel has {UNITS}, counted from 1");
+    if !(1..=MECHANICAL_UNITS).contains(&index) {
+        let problem =
+            format!("there is no mechanical unit {index}: this channel has {MECHANICAL_UNITS}, counted from 1");
         return Err(taught.refusal(problem));
     }
     let world_in_base = taught.through(taught.touched([j1, j2, j3], &t)?)?;
@@ -184,7 +185,7 @@ impl<'a> Taught<'a> {
     }
 
     fn flange_named(&self, name: &str, joint: &Joint) -> Result<Frame, Fault> {
-        let unit = self.cx.lane().unit(self.function)?;
+        let unit = self.cx.channel_state().unit(self.function)?;
         let own = unit.robot().own_axes().len();
         let mut axes = joint.axes();
         if axes.iter().take(own).any(|axis| is_open(*axis)) {

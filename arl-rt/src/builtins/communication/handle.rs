@@ -11,7 +11,7 @@ use crate::context::cx::{Cx, Level};
 use crate::fault::Fault;
 
 /// How long to wait after a failed attempt before the next one.
-const PAUSE: Duration = Duration::from_millis(100);
+const RETRY_PAUSE: Duration = Duration::from_millis(100);
 
 /// A handle: nothing, or a connection.
 #[derive(Default, Debug)]
@@ -76,7 +76,7 @@ impl Handle {
                 }
                 LinkState::Failed(reason) => {
                     self.tell(cx, format!("{function} {opening}: {reason}; it will be tried again"));
-                    if now.since.elapsed() < PAUSE {
+                    if now.since.elapsed() < RETRY_PAUSE {
                         return Ok(false);
                     }
                 }
@@ -124,9 +124,9 @@ impl Handle {
 
     /// Begins to open the connection; nothing where the system cannot.
     fn begin(&self, cx: &Cx, function: &'static str, opening: Opening) -> Option<Held> {
-        match Link::open(cx.connections(), &cx.world().opener, opening.clone()) {
+        match Link::open(cx.connections(), &cx.shared().opener, opening.clone()) {
             Ok(link) => {
-                cx.world().meet_outside();
+                cx.shared().need_real_time();
                 let (known_open, known_lost) = (Cell::new(false), Cell::new(false));
                 Some(Held { opening, link, since: Instant::now(), known_open, known_lost })
             }
@@ -224,7 +224,7 @@ impl Handle {
     fn tell(&self, cx: &Cx, text: String) {
         let mut told = self.told.borrow_mut();
         if *told != text {
-            cx.world().warn(text.clone());
+            cx.shared().warn(text.clone());
             *told = text;
         }
     }

@@ -13,4 +13,4 @@ pub mod socket;
 pub(crate) use melsec::answer_size as melsec_answer;
 
 /// How many different things a connection may tell the user, so that it never fills the memory.
-const MOST_TOLD: usize = 100;
+const MAX_TOLD_PROBLEMS: usize = 100;

@@ -12,7 +12,7 @@ use crate::fieldbus::modbus::{SIZE, SharedTables, Tables};
 use crate::values::{Parity, Stopbits, Str};
 
 /// The least period of [`setcycle`] in us.
-const SHORTEST: i32 = 500_000;
+const SHORTEST_CYCLE: i32 = 500_000;
 
 /// A Modbus slave. Its line is closed at first, and when the last that knows it is gone; its registers stay.
 #[derive(Clone, Default, Debug)]
@@ -43,7 +43,7 @@ pub async fn open(
     if baud_rate < 4800 {
         return Err(wrong(format!("baud_rate {baud_rate}: one of 4800, 9600, 19200, 38400, 57600, 115200")));
     }
-    let device = cx.world().network.device(&devname.to_text());
+    let device = cx.shared().network.device(&devname.to_text());
     let line = serial::settings(device, baud_rate, databits, stop_bits, parity)?;
     let tables = dev.tables.clone();
     dev.handle.open(cx, "open", Opening::Slave(SlaveSettings { line, unit, tables })).await
@@ -131,8 +131,8 @@ pub async fn clearbuff(cx: &Cx, dev: &ModbusDev) -> Result<bool, Fault> {
 /// A period below 500000 us; the line is not open, or lost.
 pub async fn setcycle(cx: &Cx, dev: &ModbusDev, cycle: i32) -> Result<(), Fault> {
     cx.motion_end().await;
-    if cycle < SHORTEST {
-        let problem = format!("{cycle} us: {SHORTEST} or more are possible").into();
+    if cycle < SHORTEST_CYCLE {
+        let problem = format!("{cycle} us: {SHORTEST_CYCLE} or more are possible").into();
         return Err(Fault::Domain { function: "setcycle", problem });
     }
     dev.assert_open("setcycle")
@@ -168,7 +168,7 @@ impl ModbusDev {
         }
         self.assert_open(function)?;
         loop {
-            match self.tables.at_once() {
+            match self.tables.try_lock() {
                 Some(mut tables) => return Ok(bytes(&mut tables, start, len).map(act)),
                 // A condition is looked at now or never.
                 None if cx.level() == Level::LOOKING => return Ok(None),

@@ -42,14 +42,14 @@ pub async fn getip(cx: &Cx, ip: &mut Str, if_name: &Str) -> Result<bool, Fault> 
     let Some(port) = port(cx, if_name) else { return Ok(false) };
     let find = |list: Vec<(String, PortSettings)>| list.into_iter().find(|it| it.0 == port).map(|it| it.1);
     let found = with_driver(cx, |driver| driver.get(port));
-    let found = found.unwrap_or_else(|| kept(&mut cx.world().state.borrow_mut()).map(find));
+    let found = found.unwrap_or_else(|| kept(&mut cx.shared().state.borrow_mut()).map(find));
     let found = told(cx, "getip", found).flatten();
     Ok(found.map(|settings| *ip = settings.address.to_string().into()).is_some())
 }
 
 /// What the driver makes of it, if there is one.
 fn with_driver<T>(cx: &Cx, ask: impl FnOnce(&mut dyn NetworkDriver) -> T) -> Option<T> {
-    let mut driver = cx.world().network_driver.borrow_mut();
+    let mut driver = cx.shared().network_driver.borrow_mut();
     driver.as_mut().map(|driver| ask(&mut **driver))
 }
 
@@ -83,7 +83,7 @@ fn kept(state: &mut State) -> io::Result<Vec<(String, PortSettings)>> {
 
 /// Keeps the settings of a port beside those of the others.
 async fn keep(cx: &Cx, port: &str, settings: PortSettings) -> io::Result<()> {
-    let saved = begin_to_keep(&mut cx.world().state.borrow_mut(), &cx.world().disk, port, settings)?;
+    let saved = begin_to_keep(&mut cx.shared().state.borrow_mut(), &cx.shared().disk, port, settings)?;
     storing::saved(saved, cx).await.map_err(io::Error::other)
 }
 
@@ -97,7 +97,7 @@ fn begin_to_keep(state: &mut State, disk: &Disk, port: &str, settings: PortSetti
 
 /// The result, with a warning of what went wrong.
 fn told<T>(cx: &Cx, function: &str, result: io::Result<T>) -> Option<T> {
-    result.map_err(|error| cx.world().warn(format!("{function}: {error}"))).ok()
+    result.map_err(|error| cx.shared().warn(format!("{function}: {error}"))).ok()
 }
 
 #[cfg(test)]

@@ -31,7 +31,7 @@ pub async fn open(
     parity: Parity,
 ) -> Result<bool, Fault> {
     cx.motion_end().await;
-    let device = cx.world().network.device(&devname.to_text());
+    let device = cx.shared().network.device(&devname.to_text());
     let settings = settings(device, baud_rate, character_size, stop, parity)?;
     dev.0.open(cx, "open", Opening::Line(settings)).await
 }

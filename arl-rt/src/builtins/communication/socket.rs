@@ -32,7 +32,7 @@ pub async fn connect(cx: &Cx, s: &Socket, ip: &Str, port: i32) -> Result<bool, F
 pub async fn accept(cx: &Cx, s: &Socket, ip: &Str, port: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
     let port = port_number("accept", port)?;
-    let host = cx.world().network.listen(&ip.to_text());
+    let host = cx.shared().network.listen(&ip.to_text());
     s.0.attempt(cx, "accept", Opening::Accept { host, port })
 }
 

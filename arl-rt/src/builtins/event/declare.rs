@@ -10,7 +10,7 @@ use crate::fault::{Done, Fault};
 use crate::values::Str;
 
 /// The shortest interval of a timer that repeats, in s (manual 6.7).
-const SHORTEST: f64 = 0.001;
+const SHORTEST_INTERVAL_S: f64 = 0.001;
 
 /// An event as it is declared: [`interrupt`], [`timer`] or [`trigger`].
 #[must_use = "an instruction does nothing until it is run"]
@@ -128,7 +128,7 @@ where
         const FUNCTION: &str = "timer";
         let priority = priority(self.priority, FUNCTION)?;
         let Every { name, interval, repeats } = self.when;
-        let least = if repeats { SHORTEST } else { 0.0 };
+        let least = if repeats { SHORTEST_INTERVAL_S } else { 0.0 };
         if !interval.is_finite() || interval < least {
             let problem = format!("the interval is {interval} s, but must be {least} s or more");
             return Err(Fault::Domain { function: FUNCTION, problem: problem.into() });

@@ -33,7 +33,7 @@ impl StopMove {
     /// # Errors
     /// The channel has no robot.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
-        cx.lane().unit_mut("stopmove")?.set_aside(self.stop, cx.level().number);
+        cx.channel_state().unit_mut("stopmove")?.set_aside(self.stop, cx.level().number);
         Ok(())
     }
 }
@@ -82,7 +82,7 @@ impl StartMove {
         let Skip(skip) = self.skip;
         let skip = u32::try_from(skip).map_err(|_| domain(format!("skip is {skip}, but must be 0 or more")))?;
         let (file, line) = cx.place();
-        let started = cx.lane().unit_mut("startmove")?.start_again(Start { skip, manual: false, line }, file);
+        let started = cx.channel_state().unit_mut("startmove")?.start_again(Start { skip, manual: false, line }, file);
         if started {
             Ok(())
         } else {

@@ -4,24 +4,24 @@ use crate::context::cx::Cx;
 use crate::motion::Progress;
 
 /// How much less than asked for counts as reached: what rounding leaves of a line, in mm.
-const ROUNDING: f64 = 1e-6;
+const ROUNDING_MM: f64 = 1e-6;
 /// The same in s.
-const ROUNDING_TIME: f64 = 1e-6;
+const ROUNDING_S: f64 = 1e-6;
 
 /// `T`: whether the motion has run for `t` s, counted at an override of 100 %.
 pub fn elapsed_time(cx: &Cx, t: f64) -> bool {
-    t >= 0.0 && progress(cx).is_some_and(|progress| progress.elapsed_time >= t - ROUNDING_TIME)
+    t >= 0.0 && progress(cx).is_some_and(|progress| progress.elapsed_time >= t - ROUNDING_S)
 }
 
 /// `S`: whether the TCP has gone `s` mm of its line. Never on axis motions.
 pub fn elapsed_distance(cx: &Cx, s: f64) -> bool {
-    s >= 0.0 && line(cx).is_some_and(|progress| progress.elapsed_distance >= s - ROUNDING)
+    s >= 0.0 && line(cx).is_some_and(|progress| progress.elapsed_distance >= s - ROUNDING_MM)
 }
 
 /// `StoEnd`: whether the TCP has at most `s` mm of its line left. Never on axis motions, and not where the line is shorter.
 pub fn left_distance(cx: &Cx, s: f64) -> bool {
-    let within = |progress: &Progress| s <= progress.elapsed_distance + progress.left_distance + ROUNDING;
-    s >= 0.0 && line(cx).filter(within).is_some_and(|progress| progress.left_distance <= s + ROUNDING)
+    let within = |progress: &Progress| s <= progress.elapsed_distance + progress.left_distance + ROUNDING_MM;
+    s >= 0.0 && line(cx).filter(within).is_some_and(|progress| progress.left_distance <= s + ROUNDING_MM)
 }
 
 /// `P`: whether `p` % of the motion are done.

@@ -68,7 +68,7 @@ pub(crate) fn scan(cx: &Cx) -> Result<(), Alarm> {
 }
 
 fn scan_interrupts(cx: &Cx) -> Result<(), Alarm> {
-    let (now, rate) = (cx.cycle(), cx.world().rate);
+    let (now, rate) = (cx.cycle(), cx.shared().rate);
     for at in 0.. {
         let mut table = cx.events().borrow_mut();
         let Some(event) = table.interrupts.get_mut(at) else { break };
@@ -139,7 +139,7 @@ fn scan_triggers(cx: &Cx) -> Result<(), Alarm> {
 }
 
 fn stage(cx: &Cx, motion: u64) -> Stage {
-    let Some(unit) = cx.lane().robot() else { return Stage::Over(None) };
+    let Some(unit) = cx.channel_state().robot() else { return Stage::Over(None) };
     match unit.progress() {
         _ if unit.is_over(motion) => Stage::Over(unit.left(motion)),
         // Those behind it may belong to motions that come in between.

@@ -9,7 +9,7 @@ use crate::values::Str;
 macro_rules! switch {
     (
         $(#[doc = $doc:literal])+
-        $name:ident $builder:ident |$table:ident, $found:ident, $now:ident| $deed:expr
+        $name:ident $builder:ident |$table:ident, $found:ident, $now:ident| $effect:expr
     ) => {
         $(#[doc = $doc])+
         pub fn $name() -> $builder {
@@ -46,7 +46,7 @@ macro_rules! switch {
                 let which = which(FUNCTION, self.name, self.priority)?;
                 let ($table, $now): (&mut Table, u64) = (&mut cx.events().borrow_mut(), cx.cycle());
                 let $found = $table.find(FUNCTION, &which)?;
-                $deed;
+                $effect;
                 Ok(())
             }
         }

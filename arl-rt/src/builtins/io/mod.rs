@@ -17,7 +17,7 @@ use crate::io::{Digital, Output, Pwm};
 /// There is no such channel.
 pub async fn setdo(cx: &Cx, chan: i32, value: bool) -> Result<(), Fault> {
     cx.motion_end().await;
-    cx.world().io.borrow_mut().set_digital(Digital::Do, chan, value)
+    cx.shared().io.borrow_mut().set_digital(Digital::Do, chan, value)
 }
 
 /// Sets up to 32 neighbouring digital outputs; the lowest bit of `value` is the first one's level.
@@ -26,7 +26,7 @@ pub async fn setdo(cx: &Cx, chan: i32, value: bool) -> Result<(), Fault> {
 /// Channels that do not exist, a reversed range, more than 32 channels.
 pub async fn setdo_group(cx: &Cx, from_chan: i32, to_chan: i32, value: i32) -> Result<(), Fault> {
     cx.motion_end().await;
-    cx.world().io.borrow_mut().set_digitals(Digital::Do, from_chan, to_chan, value)
+    cx.shared().io.borrow_mut().set_digitals(Digital::Do, from_chan, to_chan, value)
 }
 
 /// Sets a digital output and goes on when it has been sent: in the next cycle, or when the island that has it has taken it.
@@ -46,9 +46,9 @@ fn digital_outputs(from: i32, to: i32) -> impl Iterator<Item = Output> + Clone {
 
 /// Waits until outputs of this cycle have got to where they go, one cycle at least.
 async fn sent(cx: &Cx, outputs: impl Iterator<Item = Output> + Clone) {
-    cx.world().io.borrow_mut().await_outputs(outputs.clone(), cx.cycle());
+    cx.shared().io.borrow_mut().await_outputs(outputs.clone(), cx.cycle());
     cx.next_cycle().await;
-    while cx.world().io.borrow().awaits(outputs.clone()) {
+    while cx.shared().io.borrow().awaits(outputs.clone()) {
         cx.next_cycle().await;
     }
 }
@@ -64,7 +64,7 @@ pub async fn syncdo_group(cx: &Cx, from_chan: i32, to_chan: i32, value: i32) -> 
 }
 
 /// The shortest pulse that an output can give, in s.
-const SHORTEST_PULSE: f64 = 0.025;
+const SHORTEST_PULSE_S: f64 = 0.025;
 
 /// Puts a pulse on a digital output: the level for `width` seconds, but at least 25 ms, then the opposite level. The program
 /// goes on at once.
@@ -72,10 +72,10 @@ const SHORTEST_PULSE: f64 = 0.025;
 /// # Errors
 /// There is no such channel; the width is negative or not a number.
 pub async fn pulsedo(cx: &Cx, chan: i32, value: bool, width: f64) -> Result<(), Fault> {
-    let rate = cx.world().rate;
-    let cycles = wait_cycles(rate, width, "pulsedo")?.max(rate.cycles(SHORTEST_PULSE));
+    let rate = cx.shared().rate;
+    let cycles = wait_cycles(rate, width, "pulsedo")?.max(rate.cycles(SHORTEST_PULSE_S));
     cx.motion_end().await;
-    cx.world().io.borrow_mut().pulse(cx.lane().index, chan, value, cx.cycle() + cycles)
+    cx.shared().io.borrow_mut().pulse(cx.channel_state().index, chan, value, cx.cycle() + cycles)
 }
 
 /// The level of a digital output.
@@ -84,7 +84,7 @@ pub async fn pulsedo(cx: &Cx, chan: i32, value: bool, width: f64) -> Result<(), 
 /// There is no such channel.
 pub async fn getdo(cx: &Cx, chan: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
-    cx.world().io.borrow().digital(Digital::Do, chan)
+    cx.shared().io.borrow().digital(Digital::Do, chan)
 }
 
 /// The levels of up to 32 neighbouring digital outputs, the first in the lowest bit.
@@ -93,7 +93,7 @@ pub async fn getdo(cx: &Cx, chan: i32) -> Result<bool, Fault> {
 /// Channels that do not exist, a reversed range, more than 32 channels.
 pub async fn getdo_group(cx: &Cx, from_chan: i32, to_chan: i32) -> Result<i32, Fault> {
     cx.motion_end().await;
-    cx.world().io.borrow().digitals(Digital::Do, from_chan, to_chan)
+    cx.shared().io.borrow().digitals(Digital::Do, from_chan, to_chan)
 }
 
 /// The level of a digital input.
@@ -102,7 +102,7 @@ pub async fn getdo_group(cx: &Cx, from_chan: i32, to_chan: i32) -> Result<i32, F
 /// There is no such channel.
 pub async fn getdi(cx: &Cx, chan: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
-    cx.world().io.borrow().digital(Digital::Di, chan)
+    cx.shared().io.borrow().digital(Digital::Di, chan)
 }
 
 /// The levels of up to 32 neighbouring digital inputs, the first in the lowest bit.
@@ -111,7 +111,7 @@ pub async fn getdi(cx: &Cx, chan: i32) -> Result<bool, Fault> {
 /// Channels that do not exist, a reversed range, more than 32 channels.
 pub async fn getdi_group(cx: &Cx, from_chan: i32, to_chan: i32) -> Result<i32, Fault> {
     cx.motion_end().await;
-    cx.world().io.borrow().digitals(Digital::Di, from_chan, to_chan)
+    cx.shared().io.borrow().digitals(Digital::Di, from_chan, to_chan)
 }
 
 /// The level of an internal output signal.
@@ -120,7 +120,7 @@ pub async fn getdi_group(cx: &Cx, from_chan: i32, to_chan: i32) -> Result<i32, F
 /// There is no such signal.
 pub async fn getintdo(cx: &Cx, chan: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
-    cx.world().io.borrow().digital(Digital::InternalOut, chan)
+    cx.shared().io.borrow().digital(Digital::InternalOut, chan)
 }
 
 /// The level of an internal input signal.
@@ -129,7 +129,7 @@ pub async fn getintdo(cx: &Cx, chan: i32) -> Result<bool, Fault> {
 /// There is no such signal.
 pub async fn getintdi(cx: &Cx, chan: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
-    cx.world().io.borrow().digital(Digital::InternalIn, chan)
+    cx.shared().io.borrow().digital(Digital::InternalIn, chan)
 }
 
 /// The level of a digital input now, while the robot may still be on its way.
@@ -137,7 +137,7 @@ pub async fn getintdi(cx: &Cx, chan: i32) -> Result<bool, Fault> {
 /// # Errors
 /// There is no such channel.
 pub fn getnostopdi(cx: &Cx, chan: i32) -> Result<bool, Fault> {
-    cx.world().io.borrow().digital(Digital::Di, chan)
+    cx.shared().io.borrow().digital(Digital::Di, chan)
 }
 
 /// Sets frequency (Hz) and duty cycle (%) of a PWM output. True: it has been set.
@@ -153,7 +153,7 @@ pub async fn setpwm(cx: &Cx, channel: i32, freq: i32, ratio: i32) -> Result<bool
         frequency: frequency.ok_or_else(|| wrong(format!("{freq} Hz: 10 to 10000 are possible")))?,
         duty: duty.ok_or_else(|| wrong(format!("{ratio} %: 0 to 100 are possible")))?,
     };
-    cx.world().io.borrow_mut().set_pwm(channel, pwm)?;
+    cx.shared().io.borrow_mut().set_pwm(channel, pwm)?;
     Ok(true)
 }
 
@@ -176,10 +176,10 @@ impl SetDoInMotion {
     /// # Errors
     /// There is no such channel.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
-        let lane = cx.lane();
-        let mut io = cx.world().io.borrow_mut();
-        io.set_after(lane.index, cx.last_motion(), self.channel, self.value)?;
-        io.motions_ended(lane.index, |motion| lane.robot().is_none_or(|unit| unit.has_ended(motion)));
+        let channel_state = cx.channel_state();
+        let mut io = cx.shared().io.borrow_mut();
+        io.set_after(channel_state.index, cx.last_motion(), self.channel, self.value)?;
+        io.motions_ended(channel_state.index, |motion| channel_state.robot().is_none_or(|unit| unit.has_ended(motion)));
         Ok(())
     }
 }

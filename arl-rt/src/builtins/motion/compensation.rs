@@ -6,7 +6,7 @@ use crate::motion::{Reference, is_unset};
 use crate::values::{CompenType, Compendata, Str};
 
 /// What may be turned in all, in deg about each axis of a frame.
-const MOST_TURNED: f64 = 90.0;
+const MAX_TURN_DEG: f64 = 90.0;
 
 /// `startcompen`: begins to compensate the motions that follow.
 pub fn startcompen(data: Compendata) -> StartCompen {
@@ -41,7 +41,7 @@ impl StartCompen {
             }
         }
         let limits = limits.map(|(_, value)| value);
-        let mut unit = cx.lane().unit_mut("startcompen")?;
+        let mut unit = cx.channel_state().unit_mut("startcompen")?;
         match &mut unit.settings.compensation {
             Some(compensation) => compensation.limits = limits,
             None => unit.start_compensation(limits),
@@ -153,16 +153,16 @@ impl Compen {
         if let Some(value) = self.by.iter().find(|value| !value.is_finite() || is_unset(value.abs())) {
             return Err(domain("compen", format!("{value} is no number to compensate by")));
         }
-        let mut unit = cx.lane().unit_mut("compen")?;
+        let mut unit = cx.channel_state().unit_mut("compen")?;
         let Some(compensation) = &mut unit.settings.compensation else {
             return Err(domain("compen", "no compensation has been started: startcompen begins one".to_owned()));
         };
         let mut changed = *compensation;
         changed.add(reference, &self.by);
         let [_, _, _, turned @ ..] = changed.total(reference);
-        if let Some(angle) = turned.iter().find(|angle| angle.abs() > MOST_TURNED) {
+        if let Some(angle) = turned.iter().find(|angle| angle.abs() > MAX_TURN_DEG) {
             let problem =
-                format!("the path would be turned by {angle} deg in all, but at most {MOST_TURNED} deg is allowed");
+                format!("the path would be turned by {angle} deg in all, but at most {MAX_TURN_DEG} deg is allowed");
             return Err(domain("compen", problem));
         }
         *compensation = changed;
@@ -186,7 +186,7 @@ impl EndCompen {
     /// # Errors
     /// There is no compensation to end.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
-        let ended = cx.lane().unit_mut("endcompen")?.settings.compensation.take();
+        let ended = cx.channel_state().unit_mut("endcompen")?.settings.compensation.take();
         let none = || domain("endcompen", "there is no compensation to end: startcompen begins one".to_owned());
         ended.map(|_| ()).ok_or_else(none)
     }

@@ -91,7 +91,7 @@ fn carry(cx: &Cx, function: &'static str, load: &ToolInertiaPara) -> Result<(), 
             return refused(what, value, "a number");
         }
     }
-    cx.lane().unit_mut(function)?.set_load(Load::from(load));
+    cx.channel_state().unit_mut(function)?.set_load(Load::from(load));
     Ok(())
 }
 
@@ -126,9 +126,9 @@ impl StartDetect {
             let problem = format!("cid is {}, but must be 0 to 16", self.cid);
             return Err(Fault::Domain { function: FUNCTION, problem: problem.into() });
         };
-        let lane = cx.lane();
-        let sensitivity = lane.sensitivity(cid);
-        let mut unit = lane.unit_mut(FUNCTION)?;
+        let channel_state = cx.channel_state();
+        let sensitivity = channel_state.sensitivity(cid);
+        let mut unit = channel_state.unit_mut(FUNCTION)?;
         if unit.detect(Some(&sensitivity)) {
             return Ok(());
         }
@@ -161,7 +161,7 @@ impl EndDetect {
     /// There is no such unit.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         unit("enddetect", self.mu.as_ref())?;
-        cx.lane().unit_mut("enddetect")?.detect(None);
+        cx.channel_state().unit_mut("enddetect")?.detect(None);
         Ok(())
     }
 }

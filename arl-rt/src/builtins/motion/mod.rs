@@ -202,7 +202,7 @@ impl VelSet {
         if self.max < 0 {
             return Err(domain(format!("max is {} mm/s, but must be 0 or more", self.max)));
         }
-        let mut unit = cx.lane().unit_mut("velset")?;
+        let mut unit = cx.channel_state().unit_mut("velset")?;
         unit.settings.speed_percent = f64::from(self.percent);
         unit.settings.max_tcp = f64::from(self.max);
         Ok(())
@@ -235,7 +235,7 @@ impl AccSet {
                 return Err(Fault::Domain { function: "accset", problem: problem.into() });
             }
         }
-        let mut unit = cx.lane().unit_mut("accset")?;
+        let mut unit = cx.channel_state().unit_mut("accset")?;
         unit.settings.acc_percent = f64::from(self.acc);
         unit.settings.jerk_percent = f64::from(self.ramp);
         Ok(())

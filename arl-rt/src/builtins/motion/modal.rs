@@ -134,7 +134,7 @@ impl Modal {
             }
             (Pace::Percent(percent), Kind::Axes) => speed.per = percent,
             (Pace::Percent(percent), Kind::Line) => {
-                if let Some(unit) = cx.lane().robot() {
+                if let Some(unit) = cx.channel_state().robot() {
                     let tcp = &unit.robot().tcp;
                     speed.tcp = tcp.vel * percent / 100.0;
                     speed.ori = tcp.ori_vel * percent / 100.0;

@@ -24,7 +24,7 @@ const SLOWED: f64 = 0.98;
 /// The axes of a target.
 pub(super) fn joints(cx: &Cx, target: &Joint) -> Result<Joints, Fault> {
     let joints = Joints { axes: target.axes(), external: target.external() };
-    let unit = cx.lane().unit(MOTION)?;
+    let unit = cx.channel_state().unit(MOTION)?;
     let own = joints.axes.get(..unit.robot().own_axes().len()).unwrap_or_default();
     first(cx, &unit, own, &joints.external)?;
     sensible(own)?;
@@ -41,7 +41,7 @@ pub(super) fn pose(
     modal.setting.check().map_err(|unmoved| Fault::Motion(unmoved.to_string().into()))?;
     let system = cx.system();
     let (mut pose, external) = (target.components(), target.external());
-    let unit = cx.lane().unit(MOTION)?;
+    let unit = cx.channel_state().unit(MOTION)?;
     first(cx, &unit, &pose, &external)?;
     sensible(&pose)?;
     sensible(there(&unit, &external))?;
@@ -104,7 +104,7 @@ fn sensible(components: &[f64]) -> Result<(), Fault> {
 
 /// Hands a motion to the planner when there is room.
 pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<(), Fault> {
-    let lane = cx.lane();
+    let channel_state = cx.channel_state();
     if cx.spend() {
         cx.next_cycle().await;
     }
@@ -117,17 +117,17 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
     if cx.chain(kind) != kind || kind == 0 {
         cx.step_point().await;
     }
-    while !lane.unit(MOTION)?.takes(cx.level().number) {
+    while !channel_state.unit(MOTION)?.takes(cx.level().number) {
         cx.next_cycle().await;
     }
     // The return to the path: the first motion goes at manual speed, and stops.
-    let returns = lane.system.rpp_enable.get() && !cx.has_moved();
+    let returns = channel_state.system.rpp_enable.get() && !cx.has_moved();
     let target = match target {
         Target::Spline { pose, wobj, external } if returns => Target::Line { pose, wobj, external },
         target => target,
     };
     let (_, line) = cx.place();
-    let steps = lane.stepping.on.get();
+    let steps = channel_state.stepping.on.get();
     let command = Command {
         target,
         rig: modal.setting.rig(),
@@ -136,19 +136,19 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
         zone: if returns || steps { Zone::NONE } else { modal.zone },
         line,
     };
-    let current = lane.unit(MOTION)?.settings;
+    let current = channel_state.unit(MOTION)?.settings;
     let settings = Settings {
-        profile: match lane.system.vel_profile.get() {
+        profile: match channel_state.system.vel_profile.get() {
             VelProfile::T => VelocityProfile::T,
             VelProfile::S => VelocityProfile::S,
             VelProfile::O => VelocityProfile::O,
         },
-        wrist: lane.system.wrist.get(),
+        wrist: channel_state.system.wrist.get(),
         manual: current.manual || returns,
         compensation: current.compensation.filter(|_| !steps),
         ..current
     };
-    let circle_steps = if steps { lane.unit(MOTION)?.circle_steps(&command, &settings) } else { None };
+    let circle_steps = if steps { channel_state.unit(MOTION)?.circle_steps(&command, &settings) } else { None };
     if let Some([first, second]) = circle_steps {
         add(cx, &first, &settings).await?;
         cx.next_step().await;
@@ -164,30 +164,30 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
 
 /// Adds a motion to those that are planned.
 async fn add(cx: &Cx, command: &Command, settings: &Settings) -> Result<(), Fault> {
-    let lane = cx.lane();
+    let channel_state = cx.channel_state();
     let (file, line) = cx.place();
-    let planned = lane.unit_mut(MOTION)?.plan(command, settings, file);
+    let planned = channel_state.unit_mut(MOTION)?.plan(command, settings, file);
     if let Err(alarm) = planned {
         if (alarm.file, alarm.line) == (file, line) {
             return Err(alarm.fault);
         }
-        lane.trouble(alarm);
+        channel_state.raise_alarm(alarm);
         // The controller ends the program here.
         loop {
             cx.next_cycle().await;
         }
     }
-    let mut unit = lane.unit_mut(MOTION)?;
-    lane.system.cjoint.set(joint(unit.target()));
+    let mut unit = channel_state.unit_mut(MOTION)?;
+    channel_state.system.cjoint.set(joint(unit.target()));
     cx.moved(unit.motions().0);
     let file = cx.place().0.name();
     let (share, slowed) = unit.take_slowed();
     if share < SLOWED {
         let percent = if share < 0.01 { "less than 1".to_owned() } else { format!("{:.0}", 100.0 * share) };
-        cx.world().warn(format!("{file}:{slowed}: the weave or the compensation is too fast for the robot: the motion goes at {percent} % of its speed"));
+        cx.shared().warn(format!("{file}:{slowed}: the weave or the compensation is too fast for the robot: the motion goes at {percent} % of its speed"));
     }
     drop(unit);
-    lane.tell_of_corners(cx.world());
+    channel_state.warn_of_missing_blends(cx.shared());
     Ok(())
 }
 

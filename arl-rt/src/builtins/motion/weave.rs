@@ -26,7 +26,7 @@ impl StartWeave {
     /// A component is out of its range, or asks for what there is not: weld tracking, vibration, a weave of a SCARA robot.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
         let weave = figure(&self.weave)?;
-        cx.lane().unit_mut("startweave")?.settings.weave = Some(weave);
+        cx.channel_state().unit_mut("startweave")?.settings.weave = Some(weave);
         Ok(())
     }
 }
@@ -47,7 +47,7 @@ impl EndWeave {
     /// # Errors
     /// There is no weave to end.
     pub fn run(self, cx: &Cx) -> Result<(), Fault> {
-        let ended = cx.lane().unit_mut("endweave")?.settings.weave.take();
+        let ended = cx.channel_state().unit_mut("endweave")?.settings.weave.take();
         ended
             .map(|_| ())
             .ok_or_else(|| domain("endweave", "there is no weave to end: startweave begins one".to_owned()))

@@ -59,9 +59,9 @@ async fn save(
         );
         return Ok(false);
     };
-    let places = data::places(data, &cx.world().scripts.path().join(program.folder()));
+    let places = data::places(data, &cx.shared().scripts.path().join(program.folder()));
     let (written, name) = (value.clone(), point.name.clone());
-    let work = cx.world().disk.begin(move || {
+    let work = cx.shared().disk.begin(move || {
         let missing = || Failure::Problem(format!("the data file {data} is not there"));
         replace(&data::place(places).ok_or_else(missing)?, ty, &name, &written)
     });

@@ -18,7 +18,7 @@ use orders::{Next, Orders};
 pub(crate) use say::Voice;
 
 /// How often a state goes out, in s.
-const STATE_EVERY: f64 = 0.05;
+const STATE_INTERVAL_S: f64 = 0.05;
 
 /// Why a run is over before its program is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -38,7 +38,7 @@ pub(crate) fn drive(
     interrupted: &AtomicBool,
 ) -> Result<Option<Outcome>, Cut> {
     let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
-    let every = controller.cycles(STATE_EVERY).max(1);
+    let every = controller.cycles(STATE_INTERVAL_S).max(1);
     let orders = Orders::from_standard_input();
     let mut cut = None;
     voice.hello(controller);

@@ -4,9 +4,9 @@ use std::io::{BufRead, Read, stdin};
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
 
 /// How many orders may wait for their cycle; whoever sends more waits.
-const WAITING: usize = 256;
+const MAX_WAITING_ORDERS: usize = 256;
 /// The longest line in bytes; what is longer falls apart into several.
-const LINE: u64 = 1 << 16;
+const MAX_ORDER_BYTES: u64 = 1 << 16;
 
 /// What has come.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -25,11 +25,11 @@ pub(super) struct Orders(Receiver<String>);
 impl Orders {
     /// Reads the standard input on a thread of its own, so that no cycle waits for it.
     pub(super) fn from_standard_input() -> Self {
-        let (sender, orders) = sync_channel(WAITING);
+        let (sender, orders) = sync_channel(MAX_WAITING_ORDERS);
         std::thread::spawn(move || {
             let mut input = stdin().lock();
             let mut line = Vec::new();
-            while matches!(input.by_ref().take(LINE).read_until(b'\n', &mut line), Ok(1..)) {
+            while matches!(input.by_ref().take(MAX_ORDER_BYTES).read_until(b'\n', &mut line), Ok(1..)) {
                 let order = String::from_utf8_lossy(&line).trim().to_owned();
                 line.clear();
                 if !order.is_empty() && sender.send(order).is_err() {

@@ -11,7 +11,7 @@ use crate::fault::Alarm;
 use crate::robot::Axis;
 
 /// How many lines may wait to be written. Then states are left out, and everything else waits.
-const WAITING: usize = 1024;
+const MAX_WAITING_LINES: usize = 1024;
 
 /// The standard output, written by a thread of its own, so that no cycle waits for it as long as somebody reads.
 pub(crate) struct Voice {
@@ -23,7 +23,7 @@ pub(crate) struct Voice {
 impl Voice {
     /// The standard output.
     pub(crate) fn standard() -> Self {
-        let (lines, waiting) = sync_channel::<Option<String>>(WAITING);
+        let (lines, waiting) = sync_channel::<Option<String>>(MAX_WAITING_LINES);
         let writer = std::thread::spawn(move || {
             let mut out = stdout().lock();
             while let Ok(Some(line)) = waiting.recv() {

@@ -5,7 +5,7 @@ use crate::context::system::System;
 use crate::io::Pendant;
 
 /// How long a pulse must be that switches the servos, in s.
-const SERVO_PULSE: f64 = 0.03;
+const SERVO_PULSE_S: f64 = 0.03;
 
 /// What of an input counts.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -14,7 +14,7 @@ enum Means {
     Edge,
     /// That it goes on, and that it still is when the programs pause.
     Level,
-    /// That it has been on for [`SERVO_PULSE`].
+    /// That it has been on for [`SERVO_PULSE_S`].
     Pulse,
 }
 
@@ -46,7 +46,7 @@ impl Buttons {
     /// What the inputs of this cycle press.
     pub(super) fn listen(&mut self, now: &Now<'_>, active: bool) -> Pressed {
         let Now { io, system, cycle, rate, paused } = *now;
-        let pulse = rate.cycles(SERVO_PULSE);
+        let pulse = rate.cycles(SERVO_PULSE_S);
         let mut pressed = Pressed::default();
         let mut resetting = false;
         for ((place, watch), Button { channel, means, button }) in pressed.iter_mut().zip(&mut self.0).zip(&BUTTONS) {

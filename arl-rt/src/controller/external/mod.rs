@@ -4,9 +4,9 @@
 //! are written; in between lies the cycle.
 
 mod buttons;
-mod lamps;
 mod number;
 mod program_number;
+mod status_outputs;
 mod watch;
 
 use crate::context::system::System;
@@ -15,8 +15,8 @@ use crate::fault::Fault;
 use crate::io::Image;
 use crate::values::Controlmode;
 use buttons::{Buttons, Pressed};
-use lamps::Lamps;
 use program_number::ProgramNumber;
+use status_outputs::StatusOutputs;
 pub(super) use watch::Now;
 
 /// The side of the controller that a PLC sees.
@@ -26,13 +26,14 @@ pub(super) struct External {
     enabled: bool,
     buttons: Buttons,
     number: ProgramNumber,
-    lamps: Lamps,
+    status_outputs: StatusOutputs,
 }
 
 impl External {
     pub(super) fn new(enabled: bool) -> Self {
-        let (buttons, number, lamps) = (Buttons::default(), ProgramNumber::default(), Lamps::default());
-        Self { enabled, buttons, number, lamps }
+        let (buttons, number, status_outputs) =
+            (Buttons::default(), ProgramNumber::default(), StatusOutputs::default());
+        Self { enabled, buttons, number, status_outputs }
     }
 
     /// Looks at the inputs of this cycle: takes over the program number that the PLC gives; returns the buttons that it
@@ -60,7 +61,7 @@ impl External {
     /// Brings the outputs up to date that tell the PLC what the controller does.
     pub(super) fn show(&mut self, io: &mut Image, system: &System, state: State, servo_on: bool) {
         if self.enabled {
-            self.lamps.show(io, system, state, servo_on, self.number.taken());
+            self.status_outputs.show(io, system, state, servo_on, self.number.taken());
         }
     }
 }

@@ -138,7 +138,7 @@ impl Port {
     }
 
     fn read(&mut self, inputs: &mut Inputs<'_>) {
-        if let Some(state) = self.shared.at_once() {
+        if let Some(state) = self.shared.try_lock() {
             self.inputs.copy_from(&state.inputs);
             self.written = state.written;
             if state.turns != self.turns {
@@ -158,7 +158,7 @@ impl Port {
 
     fn write(&self, outputs: Outputs<'_>) {
         // Whoever copies them just now gets these in the next cycle.
-        let Some(mut state) = self.shared.at_once() else { return };
+        let Some(mut state) = self.shared.try_lock() else { return };
         let points = &self.island.points;
         for (bit, level) in points.dout.iter().zip(&mut state.outputs.bits) {
             *level = outputs.dout(bit.channel + 1);

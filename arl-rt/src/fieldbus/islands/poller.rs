@@ -12,8 +12,8 @@ use crate::cycle::catch_panic::catch_panic;
 use crate::fieldbus::modbus::client::{self, Refusal};
 
 /// How long the thread waits before it connects again: first, and at most. Each time is twice the one before.
-const SHORTEST_PAUSE: Duration = Duration::from_millis(100);
-const LONGEST_PAUSE: Duration = Duration::from_secs(5);
+const FIRST_RECONNECT_PAUSE: Duration = Duration::from_millis(100);
+const MAX_RECONNECT_PAUSE: Duration = Duration::from_secs(5);
 
 /// What the thread works with.
 pub(super) struct Poller {
@@ -36,7 +36,7 @@ impl Poller {
 
     /// Exchanges until it is told to stop.
     pub(super) fn run(mut self) {
-        let mut pause = SHORTEST_PAUSE;
+        let mut pause = FIRST_RECONNECT_PAUSE;
         while !self.shared.stops() {
             let begin = Instant::now();
             // Inputs that nobody exchanges any more are lost, whatever the reason: robots must not go by them.
@@ -45,11 +45,11 @@ impl Poller {
             let resting = (self.island.inputs == Rest::Zero).then_some(&self.resting[0]);
             self.shared.lose(why, resting);
             // One that comes and goes is not met more often than one that is gone.
-            if begin.elapsed() > LONGEST_PAUSE {
-                pause = SHORTEST_PAUSE;
+            if begin.elapsed() > MAX_RECONNECT_PAUSE {
+                pause = FIRST_RECONNECT_PAUSE;
             }
             self.sleep_until(Instant::now() + pause);
-            pause = (2 * pause).min(LONGEST_PAUSE);
+            pause = (2 * pause).min(MAX_RECONNECT_PAUSE);
         }
     }
 

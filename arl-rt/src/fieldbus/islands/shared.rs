@@ -42,7 +42,7 @@ impl Shared {
     }
 
     /// The images, unless somebody copies them just now: for the cycle.
-    pub(super) fn at_once(&self) -> Option<MutexGuard<'_, State>> {
+    pub(super) fn try_lock(&self) -> Option<MutexGuard<'_, State>> {
         match self.state.try_lock() {
             Ok(state) => Some(state),
             Err(TryLockError::Poisoned(state)) => Some(state.into_inner()),

@@ -9,7 +9,7 @@ mod tables;
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use crate::cycle::at_once::at_once;
+use crate::cycle::try_lock::try_lock;
 pub(crate) use tables::{SIZE, Tables};
 
 impl PartialEq for SharedTables {
@@ -38,7 +38,7 @@ impl SharedTables {
 
     /// The tables, unless somebody else has them for longer than it takes to copy what one request may ask for: its
     /// thread was interrupted just then. The cycle does not wait for that.
-    pub(crate) fn at_once(&self) -> Option<MutexGuard<'_, Tables>> {
-        at_once(&self.0)
+    pub(crate) fn try_lock(&self) -> Option<MutexGuard<'_, Tables>> {
+        try_lock(&self.0)
     }
 }

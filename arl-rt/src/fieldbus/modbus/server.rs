@@ -20,13 +20,13 @@ use crate::cycle::catch_panic::catch_panic;
 use connection::Connection;
 
 /// A connection that has been silent for so long makes room for a new one.
-const SILENCE: Duration = Duration::from_secs(60);
+const IDLE_TIMEOUT: Duration = Duration::from_secs(60);
 
 /// How long nobody is accepted after the system refused to.
-const PAUSE: Duration = Duration::from_millis(100);
+const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
 
 /// The stack of a connection's thread.
-const STACK: usize = 64 << 10;
+const STACK_BYTES: usize = 64 << 10;
 
 const LISTENER: Token = Token(0);
 const WAKER: Token = Token(1);
@@ -48,7 +48,7 @@ impl Server {
     /// # Errors
     /// The system has no such address or port, or it is taken or not allowed; no thread can be started.
     pub(crate) fn start(address: SocketAddr, connections: usize, tables: SharedTables) -> std::io::Result<Self> {
-        Self::with_patience(SILENCE, address, connections, tables)
+        Self::with_patience(IDLE_TIMEOUT, address, connections, tables)
     }
 
     /// A server where a connection that has been silent for so long makes room.
@@ -121,7 +121,7 @@ impl Door {
     fn run(mut self) {
         let mut events = Events::with_capacity(4);
         while !self.stop.load(Ordering::Acquire) {
-            match self.poll.poll(&mut events, self.refused.then_some(PAUSE)) {
+            match self.poll.poll(&mut events, self.refused.then_some(ACCEPT_PAUSE)) {
                 // Whoever it was about is sent away; the others can still come.
                 Ok(()) => drop(catch_panic(|| self.accept())),
                 Err(error) if error.kind() == ErrorKind::Interrupted => {}
@@ -160,7 +160,7 @@ impl Door {
         let Ok(connection) = Connection::new(stream) else { return };
         let (connection, tables) = (Arc::new(connection), self.tables.clone());
         let known = Arc::downgrade(&connection);
-        let thread = Builder::new().name(NAME.into()).stack_size(STACK).spawn(move || connection.serve(&tables));
+        let thread = Builder::new().name(NAME.into()).stack_size(STACK_BYTES).spawn(move || connection.serve(&tables));
         self.clients.extend(thread.map(|thread| Client { connection: known, thread }));
     }
 

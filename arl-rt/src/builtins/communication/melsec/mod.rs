@@ -16,7 +16,7 @@ use crate::values::Str;
 use frame::{LAST_REGISTER, MOST_REGISTERS, Start};
 
 /// How long a PLC may be silent: a second more than it may take by what it is told.
-const SILENCE: Duration = Duration::from_secs(5);
+const ANSWER_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// A connection to a PLC. It is closed at first, and when the last that knows it is gone.
 #[derive(Clone, Default, Debug)]
@@ -142,9 +142,9 @@ impl MelsecDev {
             }
             if code != 0 {
                 let text = format!("{function}: the PLC refuses with code {code:04x}h");
-                if talk.told.len() < super::MOST_TOLD && talk.told.insert(text.clone()) {
+                if talk.told.len() < super::MAX_TOLD_PROBLEMS && talk.told.insert(text.clone()) {
                     let (file, line) = cx.place();
-                    cx.world().warn(format!("{text} ({}:{line})", file.name()));
+                    cx.shared().warn(format!("{text} ({}:{line})", file.name()));
                 }
             }
             if same {
@@ -184,7 +184,7 @@ impl MelsecDev {
         })?;
         let problem = match found {
             Found::This(Ok(answer)) => return Ok(Some(answer)),
-            Found::NotYet if since.elapsed() < SILENCE => return Ok(None),
+            Found::NotYet if since.elapsed() < ANSWER_TIMEOUT => return Ok(None),
             Found::NotYet => "the PLC does not answer",
             Found::This(Err(problem)) => problem,
             Found::Lost(reason) => return Err(lost(function, &reason)),

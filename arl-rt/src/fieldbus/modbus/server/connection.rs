@@ -11,7 +11,7 @@ use crate::fieldbus::modbus::pdu::{self, Answer};
 
 /// What is kept of a connection's bytes before the rest has to wait in the system's buffers. Whole frames are answered at
 /// once, so that there is always room for the rest of one.
-const BUFFER: usize = 4 * LONGEST_FRAME;
+const BUFFER_BYTES: usize = 4 * LONGEST_FRAME;
 
 /// A connection to a client.
 pub(super) struct Connection {
@@ -47,8 +47,8 @@ impl Connection {
     /// Answers requests until the client goes, sends what is no Modbus, or the connection is ended. A client that does not
     /// take its answers is not read on.
     pub(super) fn serve(&self, tables: &SharedTables) {
-        let (mut input, mut filled) = ([0; BUFFER], 0);
-        let mut answers = Vec::with_capacity(BUFFER + LONGEST_FRAME);
+        let (mut input, mut filled) = ([0; BUFFER_BYTES], 0);
+        let mut answers = Vec::with_capacity(BUFFER_BYTES + LONGEST_FRAME);
         while let Some(count @ 1..) = self.receive(input.get_mut(filled..).unwrap_or_default()) {
             filled += count;
             let (done, sound) = answer(input.get(..filled).unwrap_or_default(), tables, &mut answers);

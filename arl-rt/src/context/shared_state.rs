@@ -18,7 +18,7 @@ use crate::storage::state::State;
 
 /// What all channels of a controller share: time, io, files, messages, alarms. Borrows of the cells end within the call that
 /// makes them.
-pub(crate) struct World {
+pub(crate) struct SharedState {
     /// The running number of the cycle.
     pub(crate) now: Cell<u64>,
     pub(crate) rate: Rate,
@@ -46,7 +46,7 @@ pub(crate) struct World {
     /// What sets up the network ports of the host, if anything does.
     pub(crate) network_driver: RefCell<Option<Box<dyn NetworkDriver>>>,
     /// Whether a program talks to the world, so that the world's time counts.
-    outside: Cell<bool>,
+    needs_real_time: Cell<bool>,
     pub(crate) buses: Buses,
     /// What opens the connections of programs.
     pub(crate) opener: Opener,
@@ -78,7 +78,7 @@ pub(crate) struct Parts {
     pub(crate) network_driver: Option<Box<dyn NetworkDriver>>,
 }
 
-impl World {
+impl SharedState {
     pub(crate) fn new(parts: Parts) -> Self {
         Self {
             buses: parts.buses,
@@ -86,7 +86,7 @@ impl World {
             network: parts.network,
             wiring: parts.wiring,
             network_driver: RefCell::new(parts.network_driver),
-            outside: Cell::new(false),
+            needs_real_time: Cell::new(false),
             now: Cell::new(0),
             rate: parts.rate,
             io: RefCell::new(parts.io),
@@ -118,14 +118,14 @@ impl World {
     }
 
     /// Says that the program talks to the world: from now on the world's time counts.
-    pub(crate) fn meet_outside(&self) {
-        self.outside.set(true);
+    pub(crate) fn need_real_time(&self) {
+        self.needs_real_time.set(true);
     }
 
     /// Whether somebody has said so since the last call.
     #[inline]
-    pub(crate) fn met_outside(&self) -> bool {
-        self.outside.replace(false)
+    pub(crate) fn take_real_time_need(&self) -> bool {
+        self.needs_real_time.replace(false)
     }
 
     /// Notes an alarm; the one that ends a program stands before others of it.
@@ -158,8 +158,8 @@ impl World {
     }
 }
 
-impl fmt::Debug for World {
+impl fmt::Debug for SharedState {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("World").field("now", &self.now.get()).finish_non_exhaustive()
+        f.debug_struct("SharedState").field("now", &self.now.get()).finish_non_exhaustive()
     }
 }

@@ -4,21 +4,21 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
-use crate::cycle::at_once::at_once;
 use crate::cycle::catch_panic::catch_panic;
 use crate::cycle::channel_id::MOST_FOREGROUND;
+use crate::cycle::try_lock::try_lock;
 use crate::storage::pointers::{self, Now, Table};
 use crate::storage::state::{self, Storage};
 
 /// How long the thread waits before it stores what has changed, unless the programs have ended: what a kill may cost.
-const PAUSE: Duration = Duration::from_secs(1);
+const STORE_INTERVAL: Duration = Duration::from_secs(1);
 
 /// How often who waits for the thread looks whether it is still there.
-const LOOK: Duration = Duration::from_millis(50);
+const THREAD_CHECK_INTERVAL: Duration = Duration::from_millis(50);
 
 /// Stores the pointers of the foreground channels on a thread of its own. The cycle leaves there what they are and goes on.
-pub(super) struct Keeper {
-    desk: Arc<Desk>,
+pub(super) struct PointerStore {
+    exchange: Arc<Exchange>,
     thread: Option<JoinHandle<()>>,
     /// What they were in the last cycle.
     noted: [Now; MOST_FOREGROUND],
@@ -29,14 +29,14 @@ pub(super) struct Keeper {
 }
 
 /// What the cycle and the thread share: a lock that both hold for copying only, and that the cycle does not wait for.
-struct Desk {
-    sheet: Mutex<Sheet>,
+struct Exchange {
+    pending: Mutex<Pending>,
     /// Rings when the thread shall not wait, and when it has stored something.
-    bell: Condvar,
+    changed: Condvar,
 }
 
 #[derive(Default)]
-struct Sheet {
+struct Pending {
     now: [Now; MOST_FOREGROUND],
     /// Whether the thread shall store this without waiting.
     hurry: bool,
@@ -46,23 +46,23 @@ struct Sheet {
     problem: Option<String>,
 }
 
-impl Desk {
-    fn lock(&self) -> MutexGuard<'_, Sheet> {
-        self.sheet.lock().unwrap_or_else(PoisonError::into_inner)
+impl Exchange {
+    fn lock(&self) -> MutexGuard<'_, Pending> {
+        self.pending.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The thread: stores what has changed since `kept`, which is there already.
     fn run(&self, storage: &mut dyn Storage, kept: &Table) {
         let mut stored = pointers::written(kept);
         let mut told = None;
-        let mut sheet = self.lock();
+        let mut pending = self.lock();
         loop {
-            (sheet, _) = self
-                .bell
-                .wait_timeout_while(sheet, PAUSE, |sheet| !sheet.hurry)
+            (pending, _) = self
+                .changed
+                .wait_timeout_while(pending, STORE_INTERVAL, |pending| !pending.hurry)
                 .unwrap_or_else(PoisonError::into_inner);
-            let (now, last) = (sheet.now, sheet.last);
-            drop(sheet);
+            let (now, last) = (pending.now, pending.last);
+            drop(pending);
             let mut table = kept.clone();
             table.iter_mut().zip(&now).for_each(|(kept, now)| *kept = kept.renewed(now));
             let text = pointers::written(&table);
@@ -72,19 +72,19 @@ impl Desk {
             } else {
                 catch_panic(store).unwrap_or_else(|| Err(state::panicked(pointers::STORED)))
             };
-            sheet = self.lock();
+            pending = self.lock();
             match done {
                 Ok(()) => (stored, told) = (text, None),
                 // Once, however often it is tried.
                 Err(error) if told.as_ref() != Some(&error) => {
-                    sheet.problem = Some(format!("where the programs stand cannot be kept: {error}"));
+                    pending.problem = Some(format!("where the programs stand cannot be kept: {error}"));
                     told = Some(error);
                 }
                 Err(_) => {}
             }
-            if sheet.now == now && sheet.last == last {
-                sheet.hurry = false;
-                self.bell.notify_all();
+            if pending.now == now && pending.last == last {
+                pending.hurry = false;
+                self.changed.notify_all();
             }
             if last {
                 return;
@@ -93,18 +93,18 @@ impl Desk {
     }
 }
 
-impl Keeper {
+impl PointerStore {
     /// Starts the thread. `kept` is what this storage has.
     ///
     /// # Errors
     /// The system gives no thread.
     pub(super) fn start(mut storage: Box<dyn Storage + Send>, kept: Table) -> std::io::Result<Self> {
-        let desk = Arc::new(Desk { sheet: Mutex::default(), bell: Condvar::new() });
-        let shared = Arc::clone(&desk);
+        let exchange = Arc::new(Exchange { pending: Mutex::default(), changed: Condvar::new() });
+        let shared = Arc::clone(&exchange);
         let thread = std::thread::Builder::new().name("arl-pointers".into());
         let thread = thread.spawn(move || shared.run(&mut *storage, &kept))?;
         let noted = Default::default();
-        Ok(Self { desk, thread: Some(thread), noted, news: false, hurried: false })
+        Ok(Self { exchange, thread: Some(thread), noted, news: false, hurried: false })
     }
 
     /// Notes the pointers as they are at the end of a cycle, of each channel from the first; `ended`: no program with a robot
@@ -121,37 +121,41 @@ impl Keeper {
         if !self.news && self.hurried == ended {
             return None;
         }
-        let mut sheet = at_once(&self.desk.sheet)?;
-        sheet.now = self.noted;
+        let mut pending = try_lock(&self.exchange.pending)?;
+        pending.now = self.noted;
         self.news = false;
         if ended && !self.hurried {
-            sheet.hurry = true;
+            pending.hurry = true;
             self.hurried = true;
-            self.desk.bell.notify_all();
+            self.exchange.changed.notify_all();
         }
-        sheet.problem.take()
+        pending.problem.take()
     }
 
     /// Waits until everything is stored. Gives what went wrong since the last call.
     pub(super) fn settle(&mut self) -> Option<String> {
         self.hurry(false);
-        self.desk.lock().problem.take()
+        self.exchange.lock().problem.take()
     }
 
     /// Has the thread store what was noted, and waits until it has.
     fn hurry(&mut self, last: bool) {
         self.news = false;
-        let mut sheet = self.desk.lock();
-        (sheet.now, sheet.hurry, sheet.last) = (self.noted, true, last);
-        self.desk.bell.notify_all();
+        let mut pending = self.exchange.lock();
+        (pending.now, pending.hurry, pending.last) = (self.noted, true, last);
+        self.exchange.changed.notify_all();
         // A thread that is gone would never answer.
-        while sheet.hurry && self.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
-            (sheet, _) = self.desk.bell.wait_timeout(sheet, LOOK).unwrap_or_else(PoisonError::into_inner);
+        while pending.hurry && self.thread.as_ref().is_some_and(|thread| !thread.is_finished()) {
+            (pending, _) = self
+                .exchange
+                .changed
+                .wait_timeout(pending, THREAD_CHECK_INTERVAL)
+                .unwrap_or_else(PoisonError::into_inner);
         }
     }
 }
 
-impl Drop for Keeper {
+impl Drop for PointerStore {
     fn drop(&mut self) {
         self.hurry(true);
         if let Some(thread) = self.thread.take() {
@@ -186,12 +190,12 @@ mod tests {
     #[test]
     fn a_storage_that_panics_is_told_and_tried_again() {
         let (sender, stored) = channel();
-        let mut keeper = Keeper::start(Box::new(PanicsOnce(false, sender)), Table::default()).unwrap();
+        let mut pointer_store = PointerStore::start(Box::new(PanicsOnce(false, sender)), Table::default()).unwrap();
         let now = Now { program: Some((File::new("a.arl"), 3)), motion: None };
-        assert_eq!(keeper.note([now].into_iter(), false), None);
-        let told = keeper.settle().unwrap();
+        assert_eq!(pointer_store.note([now].into_iter(), false), None);
+        let told = pointer_store.settle().unwrap();
         assert!(told.contains("the storage has panicked"), "{told}");
-        assert_eq!(keeper.settle(), None);
+        assert_eq!(pointer_store.settle(), None);
         let text = stored.try_recv().unwrap();
         assert!(text.contains("a.arl"), "{text}");
     }

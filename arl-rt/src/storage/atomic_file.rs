@@ -52,7 +52,7 @@ fn create_held(path: &Path) -> io::Result<fs::File> {
 }
 
 /// Removes from a directory what processes that were killed while they wrote have left there.
-pub(crate) fn sweep(directory: &Path) {
+pub(crate) fn remove_leftovers(directory: &Path) {
     // What cannot be looked at or removed stays: it does no harm.
     let Ok(entries) = fs::read_dir(directory) else { return };
     for entry in entries.filter_map(Result::ok) {
@@ -105,14 +105,14 @@ mod tests {
         for name in others {
             fs::write(path.join(name), "a user's").unwrap();
         }
-        sweep(&path);
+        remove_leftovers(&path);
         let mut left: BTreeSet<String> = others.map(String::from).into();
         left.insert("I.state.17.arl-new".into());
         assert_eq!(names(&path), left);
         drop(alive);
-        sweep(&path);
+        remove_leftovers(&path);
         assert!(!names(&path).contains("I.state.17.arl-new"));
-        sweep(&path.join("nowhere"));
+        remove_leftovers(&path.join("nowhere"));
         fs::remove_dir_all(&path).unwrap();
     }
 

@@ -7,20 +7,20 @@ use crate::values::Controlmode;
 
 /// The longest program number.
 const NUMBER_BITS: usize = 16;
-/// As many as [`Lamps::show`] shows.
-const LAMPS: usize = 6 + 5 + 2 + NUMBER_BITS;
+/// As many as [`StatusOutputs::show`] shows.
+const STATUS_OUTPUTS: usize = 6 + 5 + 2 + NUMBER_BITS;
 
 /// The outputs that the controller drives, in the order in which it shows them; 0: none.
 #[derive(Debug)]
-pub(super) struct Lamps([i32; LAMPS]);
+pub(super) struct StatusOutputs([i32; STATUS_OUTPUTS]);
 
-impl Default for Lamps {
+impl Default for StatusOutputs {
     fn default() -> Self {
-        Self([0; LAMPS])
+        Self([0; STATUS_OUTPUTS])
     }
 }
 
-impl Lamps {
+impl StatusOutputs {
     /// Drives all outputs that are wired. One that does not exist means that the cell does without.
     pub(super) fn show(&mut self, io: &mut Image, system: &System, state: State, servo_on: bool, number: u32) {
         let mode = system.ctl_mode.get();

@@ -8,7 +8,7 @@ use crate::values::{Array, CentroidPos, Frame, InertiaTensor, Joint, Pose, Store
 pub(crate) type Words<'a> = std::str::SplitAsciiWhitespace<'a>;
 
 /// A value that can be written as words and be read back to the last bit.
-pub(crate) trait Keep: Sized {
+pub(crate) trait StateFormat: Sized {
     /// Appends the words, each followed by a blank or a new line.
     fn write(&self, out: &mut String);
 
@@ -18,7 +18,7 @@ pub(crate) trait Keep: Sized {
 
 macro_rules! plain {
     ($($ty:ty),*) => { $(
-        impl Keep for $ty {
+        impl StateFormat for $ty {
             fn write(&self, out: &mut String) {
                 // Writing to a string does not fail.
                 let _ = write!(out, "{self:?} ");
@@ -33,7 +33,7 @@ macro_rules! plain {
 
 plain!(i32, f64, bool);
 
-impl Keep for Str {
+impl StateFormat for Str {
     /// In quotes, without blanks: what is not a plain character stands as `%` and two hexadecimal digits.
     fn write(&self, out: &mut String) {
         out.push('"');
@@ -62,7 +62,7 @@ impl Keep for Str {
     }
 }
 
-impl<T: Keep + Clone + Default, const N: usize, S: Store<T, N>> Keep for Array<T, N, S> {
+impl<T: StateFormat + Clone + Default, const N: usize, S: Store<T, N>> StateFormat for Array<T, N, S> {
     fn write(&self, out: &mut String) {
         for element in self.iter() {
             element.write(out);
@@ -82,13 +82,13 @@ impl<T: Keep + Clone + Default, const N: usize, S: Store<T, N>> Keep for Array<T
 
 macro_rules! structures {
     ($($ty:ident { $($field:ident)* })*) => { $(
-        impl Keep for $ty {
+        impl StateFormat for $ty {
             fn write(&self, out: &mut String) {
                 $( self.$field.write(out); )*
             }
 
             fn read(words: &mut Words<'_>) -> Option<Self> {
-                Some(Self { $($field: Keep::read(words)?,)* })
+                Some(Self { $($field: StateFormat::read(words)?,)* })
             }
         }
     )* };

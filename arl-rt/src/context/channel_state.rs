@@ -3,8 +3,8 @@
 use std::cell::{Cell, Ref, RefCell, RefMut};
 use std::rc::Rc;
 
+use crate::context::shared_state::SharedState;
 use crate::context::system::System;
-use crate::context::world::World;
 use crate::cycle::channel_id::ChannelId;
 use crate::fault::{Alarm, Fault, File};
 use crate::motion::{Progress, UnblendedTarget};
@@ -15,8 +15,8 @@ use crate::values::VelProfile;
 use arl_robot::cell::Sensitivity;
 
 /// What is one channel's own, whatever program it runs. Borrows of the cells end within the call that makes them.
-pub(crate) struct Lane {
-    pub(crate) world: Rc<World>,
+pub(crate) struct ChannelState {
+    pub(crate) shared: Rc<SharedState>,
     pub(crate) id: ChannelId,
     /// Its place among all channels, from 0, the foreground channels first.
     pub(crate) index: usize,
@@ -35,7 +35,7 @@ pub(crate) struct Lane {
     /// Whether an alarm has ended the program and nobody has acknowledged it.
     pub(crate) alarmed: Cell<bool>,
     /// What went wrong apart from the statement that runs, and ends the program.
-    trouble: RefCell<Option<Alarm>>,
+    pending_alarm: RefCell<Option<Alarm>>,
     /// Home points 1 to 5.
     homes: [Option<Vec<f64>>; 5],
     home_tolerance: f64,
@@ -64,18 +64,31 @@ pub(crate) struct Station {
     pub(crate) kept: Kept,
 }
 
-impl Lane {
+impl ChannelState {
     /// A foreground channel.
-    pub(crate) fn foreground(world: Rc<World>, id: ChannelId, index: usize, system: System, station: Station) -> Self {
+    pub(crate) fn foreground(
+        shared: Rc<SharedState>,
+        id: ChannelId,
+        index: usize,
+        system: System,
+        station: Station,
+    ) -> Self {
         let Station { unit, homes: [second, third, fourth, fifth], home_tolerance, collisions, kept } = station;
         let homes = [Some(unit.borrow().robot().home.clone()), second, third, fourth, fifth];
-        Self { homes, home_tolerance, collisions, kept, unit: Some(unit), ..Self::background(world, id, index, system) }
+        Self {
+            homes,
+            home_tolerance,
+            collisions,
+            kept,
+            unit: Some(unit),
+            ..Self::background(shared, id, index, system)
+        }
     }
 
     /// A background channel.
-    pub(crate) fn background(world: Rc<World>, id: ChannelId, index: usize, system: System) -> Self {
+    pub(crate) fn background(shared: Rc<SharedState>, id: ChannelId, index: usize, system: System) -> Self {
         Self {
-            world,
+            shared,
             id,
             index,
             system,
@@ -86,7 +99,7 @@ impl Lane {
             stepping: Stepping::default(),
             repeats: Cell::new(false),
             alarmed: Cell::new(false),
-            trouble: RefCell::default(),
+            pending_alarm: RefCell::default(),
             homes: [const { None }; 5],
             home_tolerance: 0.0,
             collisions: Vec::new(),
@@ -147,7 +160,7 @@ impl Lane {
 
     /// Stops all motion on its path and drops what was to follow.
     pub(crate) fn stop_motion(&self) {
-        self.world.io.borrow_mut().forget_motion(self.index);
+        self.shared.io.borrow_mut().forget_motion(self.index);
         if let Some(mut unit) = self.robot_mut() {
             unit.stop();
         }
@@ -184,7 +197,7 @@ impl Lane {
         let system = &self.system;
         // Outside a motion they keep what the last one left.
         if let Some(progress) = unit.progress() {
-            self.tell_progress(&progress);
+            self.set_progress_variables(&progress);
         }
         system.at_home.update(|at_home| {
             for (at, home) in at_home.iter_mut().zip(&self.homes) {
@@ -194,7 +207,7 @@ impl Lane {
     }
 
     /// Sets the variables that tell how far the motion has come.
-    pub(crate) fn tell_progress(&self, progress: &Progress) {
+    pub(crate) fn set_progress_variables(&self, progress: &Progress) {
         let system = &self.system;
         system.traj_elapse_time.set(progress.elapsed_time);
         system.traj_left_time.set(progress.left_time);
@@ -221,7 +234,7 @@ impl Lane {
     }
 
     /// Drops motion that is stopped and that nobody has started again; returns whether there was some.
-    pub(crate) fn drop_aside(&self) -> bool {
+    pub(crate) fn drop_suspended(&self) -> bool {
         self.robot_mut().is_some_and(|mut unit| unit.drop_aside())
     }
 
@@ -234,36 +247,36 @@ impl Lane {
     pub(crate) fn conclude_motion(&self) {
         let concluded = self.robot_mut().map_or(Ok(()), |mut unit| unit.conclude());
         if let Err(alarm) = concluded {
-            self.trouble(alarm);
+            self.raise_alarm(alarm);
         }
     }
 
     /// Ends the program with an alarm that is not that of the statement that runs. The first one counts.
-    pub(crate) fn trouble(&self, alarm: Alarm) {
-        self.trouble.borrow_mut().get_or_insert(alarm);
+    pub(crate) fn raise_alarm(&self, alarm: Alarm) {
+        self.pending_alarm.borrow_mut().get_or_insert(alarm);
     }
 
-    /// Whether the program is about to be ended by [`Lane::trouble`].
-    pub(crate) fn in_trouble(&self) -> bool {
-        self.trouble.borrow().is_some()
+    /// Whether the program is about to be ended by [`ChannelState::raise_alarm`].
+    pub(crate) fn has_pending_alarm(&self) -> bool {
+        self.pending_alarm.borrow().is_some()
     }
 
     /// Warns of targets that are not rounded off though they should be.
-    pub(crate) fn tell_of_corners(&self, world: &World) {
+    pub(crate) fn warn_of_missing_blends(&self, shared: &SharedState) {
         let Some(mut unit) = self.robot_mut() else { return };
         if let Some((file, UnblendedTarget { line, .. })) = unit.take_late() {
             let file = file.name();
-            world.warn(format!("{file}:{line}: the motion came too late to be blended with the one before it: the robot stops between the two"));
+            shared.warn(format!("{file}:{line}: the motion came too late to be blended with the one before it: the robot stops between the two"));
         }
         if let Some((file, UnblendedTarget { line, corner: Some(corner), .. })) = unit.take_unblended() {
             let file = file.name();
-            world.warn(format!("{file}:{line}: the target of the motion of line {corner} is not rounded off but reached with a stop: beside it the robot would leave its reach or an axis's range, or meet a singular point"));
+            shared.warn(format!("{file}:{line}: the target of the motion of line {corner} is not rounded off but reached with a stop: beside it the robot would leave its reach or an axis's range, or meet a singular point"));
         }
     }
 
     /// What went wrong apart from the statement that runs.
-    pub(crate) fn take_trouble(&self) -> Option<Alarm> {
+    pub(crate) fn take_pending_alarm(&self) -> Option<Alarm> {
         let broken = self.robot_mut().and_then(|mut unit| unit.take_broken());
-        self.trouble.borrow_mut().take().or(broken)
+        self.pending_alarm.borrow_mut().take().or(broken)
     }
 }
