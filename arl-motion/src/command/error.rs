@@ -1,3 +1,5 @@
+//! Why a motion cannot be planned.
+
 use std::fmt;
 
 use arl_robot::kinematics::CONFIGURATIONS;

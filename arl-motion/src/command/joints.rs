@@ -1,3 +1,5 @@
+//! Positions of all axes of a robot, its own and external ones.
+
 use nalgebra::SVector;
 
 use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES, Robot};

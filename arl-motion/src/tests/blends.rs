@@ -1,3 +1,5 @@
+//! Blends keep to their zones, whatever they lie between.
+
 use crate::tests::*;
 
 /// Corner points around a reachable place, and their lines with a zone.

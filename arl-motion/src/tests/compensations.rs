@@ -1,3 +1,5 @@
+//! Compensations shift and turn paths as asked, within their limits.
+
 use crate::tests::*;
 use nalgebra::Vector3;
 

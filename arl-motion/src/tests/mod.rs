@@ -1,6 +1,5 @@
 //! Properties of motion, from the sampled trace alone.
 
-mod asides;
 mod blends;
 mod carried;
 mod chained_overlays;
@@ -12,6 +11,7 @@ mod plans;
 mod prepared;
 mod short_stops;
 mod stops;
+mod suspensions;
 mod traces;
 mod ways;
 mod weaves;

@@ -1,3 +1,5 @@
+//! What planning accepts, what it refuses, and what it makes of a command.
+
 use crate::tests::*;
 use arl_robot::robot::VelocityProfile;
 

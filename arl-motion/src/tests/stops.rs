@@ -1,3 +1,5 @@
+//! Stops and overrides: they change time and never the path.
+
 use crate::tests::*;
 
 fn start() -> Joints {

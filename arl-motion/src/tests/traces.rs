@@ -1,3 +1,5 @@
+//! Whole motions from the trace: limits, targets, durations.
+
 use crate::tests::*;
 
 #[test]

@@ -1,3 +1,5 @@
+//! Weaves: their figures beside the path, their speed, their limits.
+
 use crate::tests::*;
 use nalgebra::Vector3;
 

@@ -1,3 +1,5 @@
+//! Whether a robot can follow a straight line of the TCP, told without planning it.
+
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::Carried;

@@ -1,3 +1,5 @@
+//! Kinematics in closed form against products of transforms, there and back.
+
 use nalgebra::{Matrix4, Rotation3, Translation3, UnitQuaternion, Vector3};
 
 use super::*;

@@ -1,3 +1,5 @@
+//! The robots that are built in.
+
 use super::RobotError;
 use crate::settings::nearest;
 

@@ -1,3 +1,5 @@
+//! What can be wrong with a robot file.
+
 use std::fmt;
 use std::ops::Range;
 

@@ -1,3 +1,5 @@
+//! Robot files: what is read, and what is refused.
+
 use super::*;
 
 fn error(text: &str) -> RobotError {

@@ -1,3 +1,5 @@
+//! Diagnostics as people and tools see them.
+
 use super::*;
 use crate::diagnostics::{Code, Diagnostic, FileId, Fix, Label, Location};
 use arl_lang::span::Span;

@@ -1,3 +1,5 @@
+//! Products and inverses of frames and poses against the matrices that they mean.
+
 use super::*;
 use crate::values::text::{Print, Style};
 

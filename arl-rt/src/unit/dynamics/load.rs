@@ -1,3 +1,5 @@
+//! A rigid body that is fixed to a frame: mass, centre of mass, inertia.
+
 use nalgebra::{Matrix3, Vector3};
 
 use crate::values::ToolInertiaPara;

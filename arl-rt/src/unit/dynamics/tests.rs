@@ -1,3 +1,5 @@
+//! Torques against those of another implementation, and against energy.
+
 use nalgebra::{Translation3, UnitQuaternion};
 
 use super::*;

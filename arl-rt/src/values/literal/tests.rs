@@ -1,3 +1,5 @@
+//! Values written as text, and read back.
+
 use super::*;
 use crate::values::text::Style;
 use crate::values::*;

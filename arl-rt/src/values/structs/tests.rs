@@ -1,3 +1,5 @@
+//! Structures: components, defaults, text.
+
 use super::*;
 use crate::values::*;
 use arl_lang::catalog::{Base, Component, Family, Start, Struct, StructDef};

@@ -1,3 +1,5 @@
+//! What the checks have looked at, and the worst that was seen.
+
 use std::collections::BTreeMap;
 use std::fmt;
 

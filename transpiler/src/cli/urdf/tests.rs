@@ -1,3 +1,5 @@
+//! Robots from URDF files.
+
 use super::*;
 
 /// A joint: name, type, xyz, rpy, axis.

@@ -1,3 +1,5 @@
+//! Motion that is suspended, and goes on.
+
 use crate::tests::*;
 use arl_robot::robot::VelocityProfile;
 
