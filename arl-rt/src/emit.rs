@@ -16,6 +16,6 @@ pub use crate::builtins::{
 pub use crate::context::cx::Cx;
 pub use crate::context::program::{Beside, BoxFuture, Program};
 pub use crate::fault::{At, Done, Fault, File, Stop};
-pub use crate::robot::Family;
 pub use crate::storage::data::{DataFile, DataVar};
 pub use crate::values::*;
+pub use arl_robot::robot::Family;

@@ -2,12 +2,28 @@
 //!
 //! The compiler turns an ARL program into an implementation of [`Program`]; a [`Controller`] runs it. Emitted code names
 //! everything through the prelude [`emit`].
+//!
+//! The rooms, from the ground up; each imports only those before it:
+//!
+//! - `cycle`: the control cycle, its length and its clock, and what it shares with threads beside it
+//! - [`fault`]: what goes wrong in a program, and the alarms that it becomes
+//! - [`values`]: the values of ARL, and how they are printed and read
+//! - `storage`: what outlives a run, and the thread that writes it
+//! - [`io`]: the image of inputs and outputs, the driver, and the scenario
+//! - [`fieldbus`]: DeviceNet, Modbus and io islands
+//! - [`communication`]: sockets and serial lines, with a thread for each
+//! - [`motion`]: commands become set-points
+//! - `unit`: the robot with its motion, its driver and its dynamics
+//! - `context`: what a running program sees of the controller
+//! - `builtins`: the functions and instructions that programs call
+//! - `controller`: runs programs cycle by cycle
+//! - `command`: a compiled program as a command
 
 mod builtins;
 mod command;
 pub mod communication;
 mod context;
-pub mod controller;
+mod controller;
 mod cycle;
 pub mod emit;
 pub mod fault;
@@ -22,7 +38,6 @@ pub mod values;
 /// What can be wrong with a file that users write.
 pub mod settings {
     pub use arl_robot::settings::SettingsError;
-    pub(crate) use arl_robot::settings::{Section, Source, Value, hint, kind, number, table};
 }
 
 /// Commands of motion in, a set-point each cycle out: the planner that moves robots.
@@ -35,9 +50,11 @@ pub use context::output::{Captured, Message, Output, Stream};
 pub use context::program::{BoxFuture, Elsewhere, Program};
 pub use context::{program, system};
 pub use controller::cell::{self, Cell};
-pub use controller::{Builder, ChannelStatus, Controller, Foreground, Outcome, RobotStatus, SetupError, State, Status};
+pub use controller::{
+    Builder, ChannelStatus, Controller, Foreground, Outcome, RobotStatus, SetupError, State, Status, StillRunning,
+};
 pub use cycle::channel_id::ChannelId;
-pub use cycle::clock_source;
+pub use cycle::{clock_source, rate};
 pub use fault::{Alarm, Fault, Reason, Stop};
 pub use storage::data::{DataFile, DataVar};
 pub use storage::{data, state};

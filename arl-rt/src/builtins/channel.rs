@@ -8,12 +8,12 @@ use crate::builtins::pose::{known, pose, setting};
 use crate::context::cx::Cx;
 use crate::cycle::channel_id::{ChannelId, MOST_FOREGROUND};
 use crate::fault::Fault;
-use crate::kinematics::Axes;
 use crate::motion::Joints;
-use crate::robot::Axis;
 use crate::storage::pointers::Spot;
 use crate::unit::{Unit, joint, tidy};
 use crate::values::{Joint, Jtci, Jttq, Jvel, Pose, Str, Tcpforce, Tool, UNSET, Wobj};
+use arl_robot::kinematics::Axes;
+use arl_robot::robot::Axis;
 
 /// A foreground channel, as all channels see it.
 struct Foreground<'a> {

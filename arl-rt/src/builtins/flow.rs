@@ -1,4 +1,4 @@
-//! Waiting, and ending the program.
+//! `waittime`, `waituntil`, `pause` and `assert`: waiting, and ending the program.
 
 use crate::context::cx::Cx;
 use crate::cycle::rate::Rate;

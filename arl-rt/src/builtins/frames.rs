@@ -3,9 +3,9 @@
 //! A frame's angles are in deg: a about z, b about the new y, c about the new x. A component that depends on an unset
 //! one of a pose is unset.
 
-use crate::kinematics;
 use crate::motion::is_unset;
 use crate::values::{Frame, Pose, Tool, UNSET, Wobj};
+use arl_robot::kinematics;
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Mul;
 

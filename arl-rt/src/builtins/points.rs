@@ -1,4 +1,5 @@
-//! 5.11: copies of program files, and points that a program writes into data files.
+//! `savearl`, `savefilepose` and `savefilejoint` (manual 5.11): program files are copied, points are written into data
+//! files.
 
 mod now;
 

@@ -1,4 +1,4 @@
-//! Where the robot is, and where it would be.
+//! `cjoint`, `cpose`, `getpose` and `getjoint`: where the robot is, and where it would be.
 
 pub use crate::builtins::frames::{offset, poseinv, reltool};
 
@@ -6,9 +6,9 @@ use crate::builtins::frames::{Setting, is_open};
 use crate::builtins::motion::wanted;
 use crate::context::cx::Cx;
 use crate::fault::Fault;
-use crate::kinematics::{Axes, CONFIGURATIONS, Refusal, frame_components};
 use crate::unit::{Unit, joint, tidy};
 use crate::values::{Joint, Pose, Tool, Wobj};
+use arl_robot::kinematics::{Axes, CONFIGURATIONS, Refusal, frame_components};
 
 /// The axes as the robot reports them now, in deg (mm); external axes that are not there are unset.
 pub fn cjoint(cx: &Cx) -> Joint {
@@ -59,7 +59,7 @@ pub fn getjoint(cx: &Cx, p: Pose, t: Tool, w: &Wobj) -> Result<Joint, Fault> {
     known("getjoint", &t, w)?;
     let unit = cx.channel_state().unit("getjoint")?;
     let robot = unit.robot();
-    let target = crate::kinematics::frame(components);
+    let target = arl_robot::kinematics::frame(components);
     let flange = setting(cx, &t, w).flange_of(&target).map_err(|unmoved| domain("getjoint", unmoved.to_string()))?;
     let near = unit.target().axes;
     let axes = robot

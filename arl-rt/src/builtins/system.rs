@@ -20,7 +20,7 @@ pub async fn savesv(cx: &Cx, svname: &Str) -> Result<(), Fault> {
         let Some(variable) = kept.iter().find(|kept| kept.name.eq_ignore_ascii_case(name)) else {
             let names: Vec<&str> = kept.iter().map(|kept| kept.name).collect();
             let problem =
-                format!("\"{text}\" is no system variable that is saved; {}", crate::settings::hint(name, &names));
+                format!("\"{text}\" is no system variable that is saved; {}", arl_robot::settings::hint(name, &names));
             return Err(Fault::Domain { function: "savesv", problem: problem.into() });
         };
         let shared = cx.shared();

@@ -1,4 +1,4 @@
-//! The `print` instruction.
+//! `print`: puts values together to a message and sends it to the operator panel, the terminal, a file or a string.
 
 use crate::context::cx::Cx;
 use crate::context::output::Targets;

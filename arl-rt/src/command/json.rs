@@ -1,4 +1,4 @@
-//! The little of JSON that is written.
+//! JSON is written by hand: strings, numbers and arrays.
 
 use std::fmt::Write;
 

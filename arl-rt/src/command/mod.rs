@@ -1,4 +1,6 @@
 //! A compiled program as a command: its command line, a run that another program drives, and reports.
+//!
+//! It imports everything, and nothing imports it but `lib.rs`.
 
 mod json;
 mod live;

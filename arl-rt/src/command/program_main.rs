@@ -19,9 +19,9 @@ use crate::controller::cell::Cell;
 use crate::controller::{Builder, Controller, Outcome, SetupError};
 use crate::cycle::clock_source::{RealClock, VirtualClock};
 use crate::io::Scenario;
-use crate::robot::Robot;
 use crate::storage::state::Directory;
 use crate::values::Controlmode;
+use arl_robot::robot::Robot;
 
 /// What the program's functions may fill of the stack, and what the thread has on top of that for everything else.
 const PROGRAM_STACK_BYTES: usize = 64 << 20;

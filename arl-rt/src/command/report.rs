@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::command::json::quoted;
 use crate::motion::{Closest, MotionRecord, Rate};
-use crate::robot::Robot;
+use arl_robot::robot::Robot;
 
 /// Under the last three stands which limit of the kind was closest, and how much of it was used.
 const HEAD: [&str; 10] =

@@ -1,4 +1,4 @@
-//! The connections that a program has opened.
+//! The connections that a program has opened, and the thread that opens them.
 
 use std::cell::RefCell;
 use std::io;

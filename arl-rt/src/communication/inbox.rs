@@ -1,4 +1,4 @@
-//! What has come from the other side and was not read yet.
+//! The receive buffer of a connection: what has come and was not read yet.
 
 /// How many bytes wait at most, in each direction of a connection.
 pub(crate) const CAPACITY: usize = 1 << 20;

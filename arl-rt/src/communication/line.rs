@@ -1,4 +1,4 @@
-//! Serial lines of the computer.
+//! Serial lines of the computer: their settings, and how they are opened.
 
 use std::fmt;
 use std::io;

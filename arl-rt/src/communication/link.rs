@@ -1,4 +1,4 @@
-//! A connection as the cycle sees it.
+//! A connection as the cycle sees it: reading and sending never wait.
 
 use std::io;
 use std::sync::Arc;

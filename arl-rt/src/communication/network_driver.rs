@@ -1,4 +1,4 @@
-//! The border to the network ports of the host.
+//! The trait of what sets up the network ports of the host.
 
 use std::io;
 use std::net::Ipv4Addr;

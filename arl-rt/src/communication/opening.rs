@@ -1,4 +1,4 @@
-//! Ways to open a connection.
+//! What a connection leads to, and how sockets connect and accept.
 
 use std::fmt;
 use std::io;

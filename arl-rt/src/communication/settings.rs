@@ -1,4 +1,4 @@
-//! What the cell says of connections.
+//! The settings of the cell for connections: where programs listen, and the names of serial lines.
 
 use std::collections::BTreeMap;
 

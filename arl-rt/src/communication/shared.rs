@@ -1,4 +1,4 @@
-//! What the cycle and the thread of a connection share.
+//! The cycle and the thread of a connection share buffers, how far the connection has come, and how it ended.
 
 use std::sync::atomic::{AtomicBool, Ordering, fence};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};

@@ -1,4 +1,4 @@
-//! The thread of a connection.
+//! The thread of a connection opens a stream and carries bytes both ways until the connection ends.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::time::{Duration, Instant};

@@ -1,4 +1,4 @@
-//! What is one channel's own: its robot, its modal system variables, and how its program fares.
+//! The state of one channel: its robot, its modal system variables, and how its program fares.
 
 use std::cell::{Cell, Ref, RefCell, RefMut};
 use std::rc::Rc;
@@ -8,11 +8,11 @@ use crate::context::system::System;
 use crate::cycle::channel_id::ChannelId;
 use crate::fault::{Alarm, Fault, File};
 use crate::motion::{Progress, UnblendedTarget};
-use crate::robot::VelocityProfile;
 use crate::storage::pointers::Kept;
 use crate::unit::{Collision, SENSITIVITY, Unit, joint};
 use crate::values::VelProfile;
 use arl_robot::cell::Sensitivity;
+use arl_robot::robot::VelocityProfile;
 
 /// What is one channel's own, whatever program it runs. Borrows of the cells end within the call that makes them.
 pub(crate) struct ChannelState {

@@ -20,8 +20,8 @@ use crate::context::shared_state::SharedState;
 use crate::context::system::System;
 use crate::fault::{Alarm, Fault, File};
 use crate::motion::Progress;
-use crate::robot::Family;
 use crate::values::Str;
+use arl_robot::robot::Family;
 
 /// How many turns of loops that do not wait fit into one cycle. A turn is a few nanoseconds at least, so that a cycle
 /// without waiting takes some tens of microseconds.

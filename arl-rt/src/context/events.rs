@@ -1,4 +1,5 @@
-//! The interrupts, timers and triggers that a program has declared, in the order of declaration, and what is due.
+//! The table of the interrupts, timers and triggers that a program has declared, in the order of declaration, and those
+//! that are due.
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, VecDeque};

@@ -1,4 +1,4 @@
-//! Where messages go: what `print` sends to the operator panel and the terminal.
+//! Where `print` sends messages: the trait of what takes them, a stream, and a buffer for tests.
 
 use std::cell::RefCell;
 use std::fmt;

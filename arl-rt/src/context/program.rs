@@ -7,8 +7,8 @@ use std::pin::Pin;
 
 use crate::context::cx::Cx;
 use crate::fault::{Done, File};
-use crate::robot::Family;
 use crate::storage::data::DataFile;
+use arl_robot::robot::Family;
 
 /// A piece of program that the controller polls once a cycle.
 pub type BoxFuture<'a> = Pin<Box<dyn Future<Output = Done<()>> + 'a>>;

@@ -1,4 +1,4 @@
-//! Random numbers that are the same in every run.
+//! The random numbers of programs, the same in every run.
 
 use std::cell::Cell;
 

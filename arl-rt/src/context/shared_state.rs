@@ -1,4 +1,4 @@
-//! What all channels of a controller share.
+//! The state that all channels of a controller share: time, io, files, messages, alarms.
 
 use std::cell::{Cell, RefCell};
 use std::fmt;

@@ -2,7 +2,7 @@
 
 use crate::context::system::Common;
 use crate::io::Channels;
-use crate::settings::{Section, SettingsError, Value, number};
+use arl_robot::settings::{Section, SettingsError, Value, number};
 
 /// What a key means.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

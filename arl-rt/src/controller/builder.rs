@@ -1,4 +1,4 @@
-//! What a controller can be given before it starts.
+//! The builder of a controller: what it can be given before it starts.
 
 use std::cell::RefCell;
 use std::fmt;
@@ -31,8 +31,6 @@ use crate::fieldbus::Buses;
 use crate::fieldbus::devicenet::{DeviceNet, SimulatedDeviceNet};
 use crate::fieldbus::islands::Islands;
 use crate::io::{Image, IoDriver, Playing, Scenario, SimulatedIo};
-use crate::kinematics::frame;
-use crate::robot::{Family, Robot, RobotError};
 use crate::storage::atomic_file;
 use crate::storage::pointers::{self, Table};
 use crate::storage::script_dir::ScriptDir;
@@ -41,6 +39,8 @@ use crate::unit::Unit;
 use crate::unit::robot_driver::RobotDriver;
 use crate::values::Controlmode;
 use arl_robot::cell::Sensitivity;
+use arl_robot::kinematics::frame;
+use arl_robot::robot::{Family, Robot, RobotError};
 
 /// What a controller can be given before it starts. Without anything it has the default robot, simulated, the default
 /// cell, and the virtual clock; messages go to the standard output, system variables are kept in memory only.

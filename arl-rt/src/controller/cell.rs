@@ -64,7 +64,7 @@ use crate::communication::{Listen, NetworkSettings};
 use crate::cycle::rate::Rate;
 use crate::fieldbus::BusSettings;
 use crate::io::Channels;
-use crate::settings::{Section, SettingsError, Source};
+use arl_robot::settings::{Section, SettingsError, Source};
 
 const TOP: &[&str] = &[
     "controller",

@@ -1,4 +1,4 @@
-//! All channels of a controller.
+//! All channels of a controller: the foreground ones by their numbers, then the background ones.
 
 use std::cell::RefCell;
 use std::rc::Rc;

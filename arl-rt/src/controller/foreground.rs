@@ -1,12 +1,12 @@
-//! What a foreground channel beyond the first is made of.
+//! The settings of a foreground channel beyond the first.
 
 use std::fmt;
 use std::io::Write;
 
 use crate::context::program::Program;
-use crate::robot::Robot;
 use crate::unit::robot_driver::{RobotDriver, SimulatedRobot};
 use arl_robot::cell::{Homes, Sensitivity};
+use arl_robot::robot::Robot;
 
 /// A foreground channel: a program and its own robot. Without more it is the default robot of the program's family,
 /// simulated.

@@ -1,4 +1,6 @@
 //! The controller: it owns the program, the robot, io and the clock, and runs them cycle by cycle.
+//!
+//! It imports all rooms but `command`.
 
 mod actions;
 mod builder;
@@ -32,9 +34,9 @@ use crate::fault::{Alarm, Fault, File};
 use crate::fieldbus::islands::Islands;
 use crate::io::{AxisName, Digital, Effect, IoDriver, Pendant, Playing, Pwm, RobotEffect};
 use crate::motion::{Joints, MotionRecord};
-use crate::robot::Robot;
 use crate::storage::state::StateError;
 use crate::unit::Unit;
+use arl_robot::robot::Robot;
 use channel::Channel;
 use channels::Channels;
 use external::External;

@@ -7,7 +7,7 @@ use super::builder::{Builder, SetupError};
 use super::foreground::Foreground;
 use crate::context::program::{Elsewhere, Other, Program};
 use crate::controller::cell::{Cell, CellChannel};
-use crate::robot::Robot;
+use arl_robot::robot::Robot;
 
 impl Builder {
     /// What stands around the robot, with the channels that the cell has: `programs` are the files that it names.

@@ -1,4 +1,4 @@
-//! Stores where the programs stand, beside the cycle.
+//! A thread beside the cycle stores the program and motion pointers.
 
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;

@@ -1,4 +1,4 @@
-//! How everything stands: what a screen shows.
+//! The status of a controller between two cycles, for a screen: channels, robots, inputs and outputs.
 
 use std::sync::Arc;
 
@@ -7,8 +7,8 @@ use super::{Controller, Outcome, State};
 use crate::cycle::channel_id::ChannelId;
 use crate::fault::File;
 use crate::motion::Joints;
-use crate::robot::Robot;
 use crate::values::Controlmode;
+use arl_robot::robot::Robot;
 
 /// How a controller stands between two cycles.
 #[derive(Clone, PartialEq, Debug)]

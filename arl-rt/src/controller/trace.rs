@@ -2,8 +2,8 @@
 
 use std::io::{self, BufWriter, Write};
 
-use crate::robot::{Family, own_axes};
 use crate::unit::Unit;
+use arl_robot::robot::{Family, own_axes};
 
 const HEADER: &str = "t,line,motion,j1,j2,j3,j4,j5,j6,ej1,ej2,ej3,ej4,ej5,ej6,x,y,z,a,b,c";
 

@@ -1,4 +1,4 @@
-//! Locks that the cycle shares with threads beside it.
+//! Locks that the cycle shares with threads beside it, and does not wait for.
 
 use std::sync::{Mutex, MutexGuard, TryLockError};
 

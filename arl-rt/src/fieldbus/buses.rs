@@ -1,4 +1,4 @@
-//! The field buses of a controller.
+//! The field buses of a controller, as the cell has them.
 
 use std::cell::{OnceCell, RefCell, RefMut};
 use std::collections::HashSet;

@@ -1,4 +1,4 @@
-//! DeviceNet: a buffer of bytes that is exchanged with the bus.
+//! The trait of a DeviceNet bus, a buffer of bytes that is exchanged, and a simulated one.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! Field buses: DeviceNet, Modbus and the MC protocol of Melsec PLCs.
+//! Field buses: DeviceNet, the Modbus TCP server, and io islands behind Modbus TCP.
 //!
 //! Whatever talks to the outside does so on threads beside the cycle. What turns bytes into requests and back is pure
 //! functions, which take any bytes without harm.

@@ -1,10 +1,10 @@
-//! What the cell file says of the buses.
+//! The settings of the cell for field buses.
 
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 
 use arl_robot::outline;
 
-use crate::settings::{Section, SettingsError};
+use arl_robot::settings::{Section, SettingsError};
 
 /// The buses of a cell.
 #[derive(Clone, PartialEq, Eq, Debug)]

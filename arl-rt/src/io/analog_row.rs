@@ -1,4 +1,4 @@
-//! A row of analog channels.
+//! A row of analog channels: their types and values.
 
 use super::AnalogType;
 use super::channel::{channel_fault, place};

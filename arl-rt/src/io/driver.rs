@@ -1,4 +1,4 @@
-//! The border to real inputs and outputs.
+//! The trait of what exchanges inputs and outputs with the outside.
 
 use super::channel::Output;
 use super::image::{Inputs, Outputs};

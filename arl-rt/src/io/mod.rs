@@ -1,4 +1,6 @@
 //! Inputs and outputs: the image that programs work on, the border to real ones, and the scenario that plays the outside.
+//!
+//! It imports `cycle` and `fault`.
 
 mod analog_row;
 mod bits;

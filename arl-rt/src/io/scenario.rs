@@ -31,8 +31,8 @@ use super::image::PWM_CHANNELS;
 use super::{Channels, Digital, Image, Pwm};
 use crate::cycle::channel_id::MOST_FOREGROUND;
 use crate::cycle::rate::Rate;
-use crate::robot::Robot;
-use crate::settings::{Section, SettingsError, Source, Value, hint, kind, number, table};
+use arl_robot::robot::Robot;
+use arl_robot::settings::{Section, SettingsError, Source, Value, hint, kind, number, table};
 
 const EVENT: &[&str] = &[
     "at",

@@ -1,4 +1,4 @@
-//! Files that are there whole, old or new, at whatever moment their writer is killed.
+//! Files are replaced atomically: they are there whole, old or new, at whatever moment their writer is killed.
 
 use std::fs;
 use std::io::{self, Write};

@@ -1,4 +1,4 @@
-//! Points that were taught again: `_data.arl` files are read once more when a program is loaded.
+//! Data files: `_data.arl` files with points that were taught again are read once more when a program is loaded.
 
 pub use crate::values::Teach;
 

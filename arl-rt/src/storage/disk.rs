@@ -1,4 +1,4 @@
-//! Work with the disk, beside the cycle: a write that has reached the disk takes longer than a cycle has.
+//! A thread beside the cycle works with the disk: a write that has reached the disk takes longer than a cycle has.
 
 use std::cell::{Cell, RefCell};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel, sync_channel};

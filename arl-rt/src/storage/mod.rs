@@ -1,5 +1,7 @@
 //! What outlives a run: values that are kept when the controller is switched off, data files of programs, and the thread
 //! that writes files beside the cycle.
+//!
+//! It imports `cycle`, `fault` and `values`.
 
 pub(crate) mod atomic_file;
 pub mod data;

@@ -1,4 +1,4 @@
-//! Values as words of text that lose nothing: the contents of state files.
+//! The format of state files: values as words of text that lose nothing.
 
 use std::fmt::Write;
 

@@ -3,8 +3,8 @@
 use std::collections::VecDeque;
 
 use super::effort::Effort;
-use crate::kinematics::Axes;
 use crate::unit::dynamics::Load;
+use arl_robot::kinematics::Axes;
 
 /// What changes with a motion.
 #[derive(Clone, Debug)]

@@ -3,11 +3,11 @@
 use nalgebra::Vector3;
 
 use super::Moving;
-use crate::kinematics::{Axes, Frame};
-use crate::robot::{ROBOT_AXES, Robot};
 use crate::unit::dynamics::{Dynamics, Load, Wrench};
 use arl_robot::cell::Sensitivity;
 use arl_robot::frames::Rig;
+use arl_robot::kinematics::{Axes, Frame};
+use arl_robot::robot::{ROBOT_AXES, Robot};
 
 /// The part of what an axis asks for at most by which it may differ, in %, where the cell file says nothing.
 pub(crate) const SENSITIVITY: f64 = 20.0;

@@ -11,17 +11,17 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use crate::fault::{Alarm, Fault, File};
-use crate::kinematics::{Axes, Frame, frame_components};
 use crate::motion::{
     Command, Compensation, Joints, MotionRecord, PlanError, Progress, Queue, Recorder, Settings, Start, Stop,
     UnblendedTarget, circle_steps,
 };
-use crate::robot::Robot;
 use crate::unit::dynamics::{Dynamics, Load};
 use crate::unit::robot_driver::{RobotDriver, settled};
 use crate::values::Joint;
 use arl_robot::cell::Sensitivity;
 use arl_robot::frames::Rig;
+use arl_robot::kinematics::{Axes, Frame, frame_components};
+use arl_robot::robot::Robot;
 use changes::{Change, Changes};
 use effort::Effort;
 pub(crate) use effort::{Collision, Outside, SENSITIVITY};

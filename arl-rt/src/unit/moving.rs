@@ -1,7 +1,7 @@
 //! How the axes move, told from where they are from cycle to cycle.
 
 use crate::motion::Joints;
-use crate::robot::{EXTERNAL_AXES, ROBOT_AXES};
+use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES};
 
 /// Where the axes are, in deg (mm), and how they move: differences of the last cycles, per s and s2.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,7 @@
 //! The border to the robot: set-points out, feedback in, once a cycle.
 
 use crate::motion::Joints;
-use crate::robot::ROBOT_AXES;
+use arl_robot::robot::ROBOT_AXES;
 
 /// How long the simulated robot's set-points take to be followed, in s.
 const LAG: f64 = 0.008;
@@ -99,7 +99,7 @@ pub(crate) fn settled(setpoint: &Joints, feedback: &Joints) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::robot::Robot;
+    use arl_robot::robot::Robot;
 
     #[test]
     fn the_simulated_robot_follows_and_settles_on_its_set_point() {

@@ -1,4 +1,4 @@
-//! The enumerations.
+//! The enumerations of ARL.
 
 use super::Str;
 use crate::values::text::{Print, Style, Typed};

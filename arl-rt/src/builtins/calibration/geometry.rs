@@ -4,7 +4,7 @@ use std::fmt;
 
 use nalgebra::{Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
-use crate::kinematics::Frame;
+use arl_robot::kinematics::Frame;
 
 /// Points that are nearer to each other than this, mm, give no direction: teaching them a tenth of a millimetre wrong
 /// would turn it by several degrees.
@@ -124,8 +124,8 @@ fn in_plane(plane: &Frame, points: &[Point3<f64>; 3]) -> ([Vector3<f64>; 3], Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kinematics::frame;
-    use crate::kinematics::random::Random;
+    use arl_robot::kinematics::frame;
+    use arl_robot::kinematics::random::Random;
 
     fn close(a: &Frame, b: &Frame) {
         assert!((a.translation.vector - b.translation.vector).norm() < 1e-9, "{a} {b}");

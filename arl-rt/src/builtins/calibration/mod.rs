@@ -10,9 +10,9 @@ use nalgebra::{Point3, UnitQuaternion, Vector3};
 use crate::builtins::frames::is_open;
 use crate::context::cx::Cx;
 use crate::fault::Fault;
-use crate::kinematics::{Frame, frame, frame_components};
 use crate::unit::tidy;
 use crate::values::{self, Joint, Pos, Tool, Wobj};
+use arl_robot::kinematics::{Frame, frame, frame_components};
 use geometry::{Flaw, Triangle};
 
 /// Points found farther than this, mm, from where their coordinates put them are warned of.

@@ -1,4 +1,5 @@
-//! What a program's handle holds, and what sockets and serial lines have in common.
+//! A handle of a program holds a connection or nothing. The rules of opening, reading, sending and closing are here, as
+//! sockets and serial lines share them.
 
 use std::cell::{Cell, RefCell};
 use std::time::{Duration, Instant};

@@ -7,10 +7,10 @@ use crate::builtins::storing;
 use crate::communication::{NetworkDriver, PortSettings};
 use crate::context::cx::Cx;
 use crate::fault::Fault;
-use crate::robot::Family;
 use crate::storage::disk::Disk;
 use crate::storage::state::{Saved, State};
 use crate::values::Str;
+use arl_robot::robot::Family;
 
 /// The name under which the settings are kept where there is no driver.
 const KEPT: &str = "NETWORK";

@@ -1,4 +1,4 @@
-//! `write`, `read` and `readuntil`, as sockets and serial lines have them alike. Each result goes with the name of the
+//! `write`, `read` and `readuntil` work alike on sockets and serial lines. Each result goes with the name of the
 //! function, for whoever says what a lost connection means.
 
 use super::handle::{Found, Handle, length};

@@ -1,4 +1,4 @@
-//! `interrupt`, `timer`, `trigger`.
+//! `interrupt`, `timer` and `trigger` declare events.
 
 use std::rc::Rc;
 

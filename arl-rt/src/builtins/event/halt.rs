@@ -1,4 +1,4 @@
-//! `stopmove` and `startmove`.
+//! `stopmove` and `startmove` suspend motion and go on with it.
 
 use crate::context::cx::Cx;
 use crate::fault::Fault;

@@ -1,4 +1,5 @@
-//! How far the motion is that is being executed: what triggers ask. Without a motion nothing has been reached.
+//! The conditions of triggers: how far the motion has come that is being executed. Without a motion nothing has been
+//! reached.
 
 use crate::context::cx::Cx;
 use crate::motion::Progress;

@@ -1,4 +1,4 @@
-//! Looking at conditions: once a cycle, before the program runs.
+//! The conditions of events are looked at once a cycle, before the program runs.
 
 use std::rc::Rc;
 use std::task::Poll;

@@ -1,4 +1,4 @@
-//! `enableint`, `disableint`, `delint`.
+//! `enableint`, `disableint` and `delint` enable, disable and delete interrupts and timers.
 
 use crate::context::cx::Cx;
 use crate::context::events::{Table, Which, priority};

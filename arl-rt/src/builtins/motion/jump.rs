@@ -1,4 +1,4 @@
-//! `jump`, and what it does where it looks before it sinks.
+//! `jump`: the robot rises, moves across and sinks; it can look at a condition before it sinks.
 
 use super::modal::{Kind, Modal, Pace, Resolved};
 use super::resolve;

@@ -1,13 +1,13 @@
-//! Targets, and the way to the planner.
+//! Targets of motion instructions become commands for the planner.
 
 use super::modal::{Kind, Resolved};
 use crate::context::cx::Cx;
 use crate::fault::Fault;
-use crate::kinematics::{CONFIGURATIONS, Wanted};
 use crate::motion::{Command, Joints, Settings, Target, UNSET, Zone, is_unset};
-use crate::robot::{EXTERNAL_AXES, VelocityProfile};
 use crate::unit::{Unit, joint};
 use crate::values::{Joint, Pose, VelProfile, is_set};
+use arl_robot::kinematics::{CONFIGURATIONS, Wanted};
+use arl_robot::robot::{EXTERNAL_AXES, VelocityProfile};
 
 /// What a background channel cannot do.
 const MOTION: &str = "motion";

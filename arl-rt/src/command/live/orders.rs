@@ -1,4 +1,4 @@
-//! The orders, as they come on the standard input.
+//! Orders are read from the standard input, a line each, on a thread of their own.
 
 use std::io::{BufRead, Read, stdin};
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};

@@ -1,4 +1,4 @@
-//! What goes out, a JSON object a line.
+//! States, messages, warnings and alarms go out on the standard output, a JSON object a line.
 
 use std::io::{Write, stdout};
 use std::sync::mpsc::{SyncSender, sync_channel};
@@ -8,7 +8,7 @@ use crate::command::json::{array, number, quoted};
 use crate::context::output::{Message, Output};
 use crate::controller::{ChannelStatus, Controller, Outcome, RobotStatus, State};
 use crate::fault::Alarm;
-use crate::robot::Axis;
+use arl_robot::robot::Axis;
 
 /// How many lines may wait to be written. Then states are left out, and everything else waits.
 const MAX_WAITING_LINES: usize = 1024;

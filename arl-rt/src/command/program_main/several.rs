@@ -1,4 +1,4 @@
-//! The traces of several robots.
+//! Each of several robots has its own trace file.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};

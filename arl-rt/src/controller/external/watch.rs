@@ -1,4 +1,4 @@
-//! Edges and pulses of an input.
+//! Edges and pulses of an input, found by looking at it once a cycle.
 
 use crate::context::system::System;
 use crate::cycle::rate::Rate;

@@ -1,4 +1,4 @@
-//! What the thread of an island and the cycle hand each other.
+//! The images that the thread of an island and the cycle hand each other.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};

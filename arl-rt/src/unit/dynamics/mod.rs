@@ -1,7 +1,7 @@
 //! Inverse dynamics: the torques that the axes need for a motion, by recursive Newton-Euler over the masses of the robot
 //! file and the load on the flange.
 //!
-//! The frames of the links. Six axes: at zero of all inner angles (see [`crate::kinematics::Opw`]) every frame points as the
+//! The frames of the links. Six axes: at zero of all inner angles (see [`arl_robot::kinematics::Opw`]) every frame points as the
 //! base; link 1 has its origin on axis 1 at the height of axis 2, link 2 on axis 2 in the arm's plane, link 3 on axis 3,
 //! links 4 to 6 in the wrist centre. SCARA: x points along the arm; link 1 has its origin on axis 1 at the height of the
 //! base, link 2 on axis 2 at that height, links 3 and 4 in the flange, and link 4 points as the flange.
@@ -12,8 +12,8 @@ mod tests;
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-use crate::kinematics::{Axes, Frame, Kinematics, Opw, Scara, sin_cos};
-use crate::robot::{Link, Robot};
+use arl_robot::kinematics::{Axes, Frame, Kinematics, Opw, Scara, sin_cos};
+use arl_robot::robot::{Link, Robot};
 
 pub use load::Load;
 

@@ -3,8 +3,8 @@
 use nalgebra::{Translation3, UnitQuaternion};
 
 use super::*;
-use crate::kinematics::random::Random;
 use crate::values::{CentroidPos, InertiaTensor, ToolInertiaPara};
+use arl_robot::kinematics::random::Random;
 
 /// Torques that Pinocchio has computed: see `scripts/newton-euler.py`.
 const CASES: &str = include_str!("../../../tests/data/newton-euler.txt");

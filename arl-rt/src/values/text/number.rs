@@ -1,4 +1,4 @@
-//! Numbers as text.
+//! Numbers become text and are read from it.
 
 use crate::values::Str;
 use std::fmt::Write;
