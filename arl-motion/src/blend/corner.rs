@@ -56,7 +56,8 @@ pub(crate) struct Blend {
 pub(crate) fn blend(robot: &Robot, from: &Motion, to: &Motion) -> Option<Blend> {
     let (mut leaving, mut joining) = parts(robot, from, to)?;
     for _ in 0..=ZONE_HALVINGS {
-        if let Some(blend) = (Corner { robot, from, to, leaving, joining, bends: [MidCurvature::NONE; 2] }).blend() {
+        if let Some(blend) = (Corner { robot, from, to, leaving, joining, curvatures: [MidCurvature::NONE; 2] }).blend()
+        {
             return Some(blend);
         }
         (leaving, joining) = (leaving / 2.0, joining / 2.0);
@@ -65,15 +66,15 @@ pub(crate) fn blend(robot: &Robot, from: &Motion, to: &Motion) -> Option<Blend> 
 }
 
 /// The blend from one motion, which is bent in its middle, to another. A bend is only possible where a whole half is taken.
-pub(crate) fn curved_blend(robot: &Robot, from: &Motion, to: &Motion, bends: [MidCurvature; 2]) -> Option<Blend> {
+pub(crate) fn curved_blend(robot: &Robot, from: &Motion, to: &Motion, curvatures: [MidCurvature; 2]) -> Option<Blend> {
     let (leaving, joining) = parts(robot, from, to)?;
-    let [start, end] = &bends;
+    let [start, end] = &curvatures;
     if (*start != MidCurvature::NONE && leaving != LARGEST_ZONE)
         || (*end != MidCurvature::NONE && joining != LARGEST_ZONE)
     {
         return None;
     }
-    Corner { robot, from, to, leaving, joining, bends }.blend()
+    Corner { robot, from, to, leaving, joining, curvatures }.blend()
 }
 
 #[cfg(test)]
@@ -90,7 +91,7 @@ struct Corner<'a> {
     leaving: f64,
     joining: f64,
     /// How the motions are bent at the ends of the blend.
-    bends: [MidCurvature; 2],
+    curvatures: [MidCurvature; 2],
 }
 
 impl Corner<'_> {
@@ -110,14 +111,14 @@ impl Corner<'_> {
         let time = 2.0 / (start_rate + end_rate);
         let even = || (Parametrization::between([[start_rate * time, 0.0], [end_rate * time, 0.0]]), time);
 
-        let mut bounds = Constraints::new(self.robot);
+        let mut constraints = Constraints::new(self.robot);
         let pace = common_pace(from, to);
         let (curve, parametrization, time) = match (&from.curve, &to.curve) {
             (Curve::Tool(a), Curve::Tool(b)) if a.goes_on(leave, b, join) => {
                 let curve = self.tool_curve(a, b);
                 let (start, end) = (along(&a.path.track, leave, vel_from), along(&b.path.track, join, vel_to));
-                let bends_little = is_gentle(&curve) && !self.swings();
-                let timed = if bends_little {
+                let is_gentle_blend = is_gentle(&curve) && !self.swings();
+                let timed = if is_gentle_blend {
                     Parametrization::gently(|order, at| curve.path.track.derivative(order, at), start, end)
                 } else if self.swings() {
                     // What is laid over a motion does not go evenly: it is met best by a parameter that does.
@@ -126,32 +127,32 @@ impl Corner<'_> {
                     Parametrization::along(&curve.path.track, start, end)
                 };
                 let (parametrization, time) = timed.unwrap_or_else(even);
-                if !(bends_little && self.glance_at_tool(&curve, &parametrization, &mut bounds, &pace)) {
-                    bounds.clear();
-                    self.walk_tool(&curve, &parametrization, &mut bounds, &pace)?;
+                if !(is_gentle_blend && self.glance_at_tool(&curve, &parametrization, &mut constraints, &pace)) {
+                    constraints.clear();
+                    self.walk_tool(&curve, &parametrization, &mut constraints, &pace)?;
                 }
                 (Curve::Tool(curve), parametrization, time)
             }
             _ => {
-                let [start, end] = &self.bends;
+                let [start, end] = &self.curvatures;
                 let from = axes_knot(self.robot, from, leave, slope_from, start)?;
                 let to = axes_knot(self.robot, to, join, slope_to, end)?;
                 let curve = Quintic::between(&from, &to);
                 let gentle = turns_gently(&curve);
                 let (parametrization, time) = self.time_axes((&curve, gentle), [start_rate, end_rate]);
-                self.look_at_axes((&curve, gentle), &parametrization, &mut bounds, &pace)?;
+                self.look_at_axes((&curve, gentle), &parametrization, &mut constraints, &pace)?;
                 (Curve::Axes(curve), parametrization, time)
             }
         };
-        let blend_limits = self.blend_limits(&bounds, time)?;
+        let blend_limits = self.blend_limits(&constraints, time)?;
         Some(Blend { leave, join, curve, parametrization, time, blend_limits })
     }
 
     /// How fast it may be crossed: evenly where it hardly bends.
-    fn blend_limits(&self, bounds: &Constraints, time: f64) -> Option<BlendLimits> {
-        let places = bounds.by_place();
+    fn blend_limits(&self, constraints: &Constraints, time: f64) -> Option<BlendLimits> {
+        let places = constraints.by_place();
         if places.is_empty() {
-            return Some(BlendLimits::even(passing(&bounds.rows, 1.0 / time)));
+            return Some(BlendLimits::even(passing(&constraints.rows, 1.0 / time)));
         }
         let approach = |motion: &Motion, taken: f64| {
             // From the motion's own parameter to the share of the blend, at the same speed.
@@ -172,20 +173,20 @@ impl Corner<'_> {
     fn tool_curve(&self, from: &ToolCurve, to: &ToolCurve) -> ToolCurve {
         let [(leave, slope_from), (join, slope_to)] = self.ends();
         let corner = from.rotation(1.0);
-        let [start, end] = &self.bends;
+        let [start, end] = &self.curvatures;
         let ([moved_from, turned_from], [moved_to, turned_to]) = (from.place(leave, &corner), to.place(join, &corner));
-        let knot = |[value, first, second]: [Vector3<f64>; 3], slope: f64, bend: Vector3<f64>| Knot {
+        let knot = |[value, first, second]: [Vector3<f64>; 3], slope: f64, curvature: Vector3<f64>| Knot {
             value: value.into(),
             first: (first * slope).into(),
-            second: ((second + bend) * slope * slope).into(),
+            second: ((second + curvature) * slope * slope).into(),
         };
-        let turning = |turned: [Vector3<f64>; 3], slope: f64, bend: &MidCurvature| {
+        let turning = |turned: [Vector3<f64>; 3], slope: f64, curvature: &MidCurvature| {
             let [value, ..] = turned;
-            let [_, second] = rotation::of_speeds(&value, &[Vector3::zeros(), bend.turning]);
+            let [_, second] = rotation::of_speeds(&value, &[Vector3::zeros(), curvature.turning]);
             knot(turned, slope, second)
         };
-        let external = |curve: &ToolCurve, at: f64, slope: f64, bend: &MidCurvature| {
-            scaled(curve.external.knot(at), slope, &bend.external())
+        let external = |curve: &ToolCurve, at: f64, slope: f64, curvature: &MidCurvature| {
+            scaled(curve.external.knot(at), slope, &curvature.external())
         };
         ToolCurve {
             path: TcpPath {
@@ -214,7 +215,7 @@ impl Corner<'_> {
         &self,
         curve: &ToolCurve,
         parametrization: &Parametrization,
-        bounds: &mut Constraints,
+        constraints: &mut Constraints,
         pace: &Pace,
     ) -> bool {
         let [(leave, _), _] = self.ends();
@@ -227,11 +228,11 @@ impl Corner<'_> {
             return false;
         }
         for (place, (_, rates)) in places.iter().zip(&found.rates) {
-            let known = bounds.rows.len();
+            let known = constraints.rows.len();
             let [first, second, third] = place.rates([rates.first, rates.second, rates.third]);
-            bounds.axes(&first, &second, &third, pace);
-            collect(place, curve, self.swings(), bounds, pace);
-            bounds.join(known);
+            constraints.axes(&first, &second, &third, pace);
+            collect(place, curve, self.swings(), constraints, pace);
+            constraints.join(known);
         }
         true
     }
@@ -241,7 +242,7 @@ impl Corner<'_> {
         &self,
         curve: &ToolCurve,
         parametrization: &Parametrization,
-        bounds: &mut Constraints,
+        constraints: &mut Constraints,
         pace: &Pace,
     ) -> Option<()> {
         let [(leave, _), _] = self.ends();
@@ -253,16 +254,16 @@ impl Corner<'_> {
         for (at, rates) in &found.rates {
             let share = inverse(parametrization, *at);
             let place = Place::at(parametrization, share);
-            bounds.place(share);
+            constraints.place(share);
             let [first, second, third] = place.rates([rates.first, rates.second, rates.third]);
-            bounds.axes(&first, &second, &third, pace);
-            bounds.external(&place.rates([1, 2, 3].map(|order| curve.external.derivative(order, place.at))), pace);
+            constraints.axes(&first, &second, &third, pace);
+            constraints.external(&place.rates([1, 2, 3].map(|order| curve.external.derivative(order, place.at))), pace);
         }
         for part in 0..=PARTS_OF_BLEND {
             let share = f64::from(part) / f64::from(PARTS_OF_BLEND);
             let place = Place::at(parametrization, share);
-            bounds.place(share);
-            collect(&place, curve, self.swings(), bounds, pace);
+            constraints.place(share);
+            collect(&place, curve, self.swings(), constraints, pace);
         }
         Some(())
     }
@@ -279,7 +280,7 @@ impl Corner<'_> {
     fn time_axes(&self, (curve, gentle): (&Quintic<ALL>, bool), rates: [f64; 2]) -> (Parametrization, f64) {
         let slowness = slowness(self.robot);
         let derivative = |order: usize, at: f64| SVector::from(curve.derivative(order, at)).component_mul(&slowness);
-        let [start, end] = &self.bends;
+        let [start, end] = &self.curvatures;
         let ends = [(0.0, rates[0], start.surge), (1.0, rates[1], end.surge)];
         let [start, end] = ends.map(|(at, rate, surge)| {
             let [speed, acc] = speed_and_acc(&derivative(1, at), &derivative(2, at), rate);
@@ -301,7 +302,7 @@ impl Corner<'_> {
         &self,
         (curve, gentle): (&Quintic<ALL>, bool),
         parametrization: &Parametrization,
-        bounds: &mut Constraints,
+        constraints: &mut Constraints,
         pace: &Pace,
     ) -> Option<()> {
         let parts = if gentle { PARTS_OF_GENTLE_BLEND } else { PARTS_OF_BLEND };
@@ -314,30 +315,30 @@ impl Corner<'_> {
             let share = f64::from(part) / f64::from(parts);
             let place = Place::at(parametrization, share);
             if !gentle {
-                bounds.place(share);
+                constraints.place(share);
             }
             let joints = Joints::of(&curve.at(place.at));
             if !within_ranges(self.robot, &joints) {
                 return None;
             }
-            let known = bounds.rows.len();
+            let known = constraints.rows.len();
             let derivatives = place.rates([1, 2, 3].map(|order| curve.derivative(order, place.at)));
-            bounds.all_axes(&derivatives, pace);
+            constraints.all_axes(&derivatives, pace);
             let [first, ..] = &derivatives;
             if pace.manual {
-                bounds.manual_place(&joints, first, &self.to.rig.carried);
+                constraints.manual_place(&joints, first, &self.to.rig.carried);
                 // Half of it is gone with what the first motion carries.
                 if self.from.rig.carried != self.to.rig.carried {
-                    bounds.manual_place(&joints, first, &self.from.rig.carried);
+                    constraints.manual_place(&joints, first, &self.from.rig.carried);
                 }
             }
             // Between two motions of the same TCP that one's limits hold, though it goes by the axes.
             if pace.tcp.is_finite() && self.from.rig.carried == self.to.rig.carried {
-                bounds.cap_place(&joints, first, &self.to.rig.carried, pace.tcp);
-                bounds.moving(&by_differences(tcp, share, 1.0), pace);
+                constraints.cap_place(&joints, first, &self.to.rig.carried, pace.tcp);
+                constraints.moving(&by_differences(tcp, share, 1.0), pace);
             }
             if gentle {
-                bounds.join(known);
+                constraints.join(known);
             }
         }
         Some(())
@@ -414,18 +415,18 @@ pub(crate) fn common_pace(from: &Motion, to: &Motion) -> Pace {
 }
 
 /// A knot that is bent as well, by a parameter that goes 1 by `slope`.
-fn scaled<const N: usize>(mut knot: Knot<N>, slope: f64, bend: &[f64; N]) -> Knot<N> {
+fn scaled<const N: usize>(mut knot: Knot<N>, slope: f64, curvature: &[f64; N]) -> Knot<N> {
     for value in &mut knot.first {
         *value *= slope;
     }
-    for (value, bend) in knot.second.iter_mut().zip(bend) {
-        *value = (*value + bend) * slope * slope;
+    for (value, curvature) in knot.second.iter_mut().zip(curvature) {
+        *value = (*value + curvature) * slope * slope;
     }
     knot
 }
 
 /// The axes within a motion with their derivatives.
-fn axes_knot(robot: &Robot, motion: &Motion, at: f64, slope: f64, bend: &MidCurvature) -> Option<Knot<ALL>> {
+fn axes_knot(robot: &Robot, motion: &Motion, at: f64, slope: f64, curvature: &MidCurvature) -> Option<Knot<ALL>> {
     let knot = match &motion.curve {
         Curve::Axes(axes) => axes.knot(at),
         Curve::Tool(tool) => {
@@ -436,7 +437,7 @@ fn axes_knot(robot: &Robot, motion: &Motion, at: f64, slope: f64, bend: &MidCurv
             Knot { value: joints.all(), first: all(first, external.first), second: all(second, external.second) }
         }
     };
-    Some(scaled(knot, slope, &bend.axes))
+    Some(scaled(knot, slope, &curvature.axes))
 }
 
 /// The joints within a motion, followed from its nearer end.
@@ -484,17 +485,17 @@ fn inverse(parametrization: &Parametrization, at: f64) -> f64 {
 
 /// Collects what limits the TCP, the tool's turning and the external axes at a place; of a TCP that is `swinging`, all of its
 /// acceleration.
-fn collect(place: &Place, curve: &ToolCurve, swinging: bool, bounds: &mut Constraints, pace: &Pace) {
+fn collect(place: &Place, curve: &ToolCurve, swinging: bool, constraints: &mut Constraints, pace: &Pace) {
     let moving = place.vectors([1, 2, 3].map(|order| curve.path.track.derivative(order, place.at)));
     if swinging {
-        bounds.swinging(&moving, pace);
+        constraints.swinging(&moving, pace);
     } else {
-        bounds.moving(&moving, pace);
+        constraints.moving(&moving, pace);
     }
     if pace.manual {
-        bounds.manual_moving(&moving);
-        bounds.manual_flange(curve, place.at, place.first);
+        constraints.manual_moving(&moving);
+        constraints.manual_flange(curve, place.at, place.first);
     }
-    bounds.turning(&place.vectors(curve.rotation_rates(place.at)), pace);
-    bounds.external(&place.rates([1, 2, 3].map(|order| curve.external.derivative(order, place.at))), pace);
+    constraints.turning(&place.vectors(curve.rotation_rates(place.at)), pace);
+    constraints.external(&place.rates([1, 2, 3].map(|order| curve.external.derivative(order, place.at))), pace);
 }

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use crate::blend::corner::{Blend, blend, curved_blend};
-use crate::blend::mid_curvature::{MidCurvature, bend};
+use crate::blend::mid_curvature::{MidCurvature, mid_curvature};
 use crate::plan::lay_overlay::joined;
 use crate::plan::motion::Motion;
 use arl_robot::robot::Robot;
@@ -24,7 +24,7 @@ pub(crate) struct Meeting {
 #[derive(Debug)]
 pub(crate) struct Junction {
     meeting: Meeting,
-    bent: Option<CurvedBlends>,
+    curved: Option<CurvedBlends>,
     /// Only looked for where nothing is bent.
     blended: Option<Blended>,
 }
@@ -32,7 +32,7 @@ pub(crate) struct Junction {
 /// A blend that meets the one before it in the middle of a motion, which is bent there.
 #[derive(Clone, Debug)]
 pub(crate) struct CurvedBlends {
-    pub(crate) bend: MidCurvature,
+    pub(crate) curvature: MidCurvature,
     /// The blend before, and the one behind.
     pub(crate) blends: [Blend; 2],
 }
@@ -51,15 +51,15 @@ impl Junction {
     /// Finds it.
     pub(crate) fn find(robot: &Robot, meeting: Meeting) -> Self {
         let Meeting { before, from, to } = &meeting;
-        let bent = before.as_ref().and_then(|(before, start)| find_curved(robot, before, *start, from, to));
-        let blended = if bent.is_none() { find_blended(robot, from, to) } else { None };
-        Self { meeting, bent, blended }
+        let curved = before.as_ref().and_then(|(before, start)| find_curved(robot, before, *start, from, to));
+        let blended = if curved.is_none() { find_blended(robot, from, to) } else { None };
+        Self { meeting, curved, blended }
     }
 
     /// What it leaves to the next one, if it is laid as it was found.
     pub(crate) fn leaves(&self) -> Before {
-        match (&self.bent, &self.blended) {
-            (Some(bent), _) => Some((Arc::clone(&self.meeting.from), bent.bend)),
+        match (&self.curved, &self.blended) {
+            (Some(curved), _) => Some((Arc::clone(&self.meeting.from), curved.curvature)),
             (None, Some(blended)) => Some((Arc::clone(&blended.from), MidCurvature::NONE)),
             (None, None) => None,
         }
@@ -72,18 +72,19 @@ impl Junction {
 }
 
 /// A bend between two motions, behind one that is bent like `start` where the blend begins; found already, or now.
-pub(crate) fn bent(
+pub(crate) fn curved(
     robot: &Robot,
     known: Option<&Junction>,
     (before, start): (&Arc<Motion>, MidCurvature),
     (from, to): (&Arc<Motion>, &Arc<Motion>),
 ) -> Option<CurvedBlends> {
     let known = known.filter(|known| {
-        let same = |(motion, bend): &(Arc<Motion>, MidCurvature)| Arc::ptr_eq(motion, before) && *bend == start;
+        let same =
+            |(motion, curvature): &(Arc<Motion>, MidCurvature)| Arc::ptr_eq(motion, before) && *curvature == start;
         known.is_of(from, to) && known.meeting.before.as_ref().is_some_and(same)
     });
     match known {
-        Some(known) => known.bent.clone(),
+        Some(known) => known.curved.clone(),
         None => find_curved(robot, before, start, from, to),
     }
 }
@@ -95,7 +96,7 @@ pub(crate) fn blended(
     from: &Arc<Motion>,
     to: &Arc<Motion>,
 ) -> Option<Blended> {
-    match known.filter(|known| known.is_of(from, to) && known.bent.is_none()) {
+    match known.filter(|known| known.is_of(from, to) && known.curved.is_none()) {
         Some(known) => known.blended.clone(),
         None => find_blended(robot, from, to),
     }
@@ -108,10 +109,10 @@ fn find_curved(
     from: &Motion,
     to: &Motion,
 ) -> Option<CurvedBlends> {
-    let bend = bend(robot, before, from, to).filter(|bend| *bend != MidCurvature::NONE)?;
-    let first = curved_blend(robot, before, from, [start, bend])?;
-    let second = curved_blend(robot, from, to, [bend, MidCurvature::NONE])?;
-    Some(CurvedBlends { bend, blends: [first, second] })
+    let curvature = mid_curvature(robot, before, from, to).filter(|curvature| *curvature != MidCurvature::NONE)?;
+    let first = curved_blend(robot, before, from, [start, curvature])?;
+    let second = curved_blend(robot, from, to, [curvature, MidCurvature::NONE])?;
+    Some(CurvedBlends { curvature, blends: [first, second] })
 }
 
 /// A weave goes on through the blend.

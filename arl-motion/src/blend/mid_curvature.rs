@@ -60,7 +60,7 @@ impl MidCurvature {
 type Changes<const N: usize> = [SVector<f64, N>; 3];
 
 /// How `here` is bent between two motions; `None` where the blends at its ends do not meet, or lead different things.
-pub(crate) fn bend(robot: &Robot, before: &Motion, here: &Motion, after: &Motion) -> Option<MidCurvature> {
+pub(crate) fn mid_curvature(robot: &Robot, before: &Motion, here: &Motion, after: &Motion) -> Option<MidCurvature> {
     // What is laid over a motion keeps its own shape.
     if [before, here, after].iter().any(|motion| motion.laid.is_some()) {
         return None;
@@ -70,7 +70,7 @@ pub(crate) fn bend(robot: &Robot, before: &Motion, here: &Motion, after: &Motion
     if !meet || before.corner.is_some() || here.corner.is_some() {
         return None;
     }
-    let mut bend = MidCurvature::NONE;
+    let mut curvature = MidCurvature::NONE;
     match (&before.curve, &here.curve, &after.curve) {
         (Curve::Tool(a), Curve::Tool(b), Curve::Tool(c)) => {
             if !a.goes_on(0.5, b, 0.5) || !b.goes_on(0.5, c, 0.5) || !b.is_even() {
@@ -85,35 +85,35 @@ pub(crate) fn bend(robot: &Robot, before: &Motion, here: &Motion, after: &Motion
             if let Some(direction) = track[1].try_normalize(1e-12)
                 && matches!(&b.path.track, crate::geometry::track::Track::Poly(_))
             {
-                let second = lengths.bend(&track);
-                bend.position = second - direction * direction.dot(&second);
+                let second = lengths.curvature(&track);
+                curvature.position = second - direction * direction.dot(&second);
             }
             let speed = |curve: &crate::plan::curve::ToolCurve, at: f64| {
                 let [speed, ..] = curve.rotation_rates(at);
                 speed
             };
-            bend.turning = lengths.bend(&[speed(a, 1.0), speed(b, 0.5), speed(c, 0.0)]);
+            curvature.turning = lengths.curvature(&[speed(a, 1.0), speed(b, 0.5), speed(c, 0.0)]);
             let external =
                 [a.external.derivative(1, 1.0), b.external.derivative(1, 0.5), c.external.derivative(1, 0.0)];
-            let second = lengths.bend_each(&external.map(SVector::from));
-            bend.axes = Joints { axes: [0.0; 6], external: second.into() }.all();
+            let second = lengths.curvature_of_each(&external.map(SVector::from));
+            curvature.axes = Joints { axes: [0.0; 6], external: second.into() }.all();
         }
         (Curve::Axes(a), Curve::Axes(b), Curve::Axes(c)) if b.is_even() => {
             let slowness = slowness(robot);
             let rates = [a.derivative(1, 1.0), b.derivative(1, 0.5), c.derivative(1, 0.0)]
                 .map(|rates| SVector::from(rates).component_mul(&slowness));
             let [_, direction, _] = &rates;
-            let second = Lengths::new(rates.map(|rates| rates.norm()))?.bend(&rates);
+            let second = Lengths::new(rates.map(|rates| rates.norm()))?.curvature(&rates);
             let turn = second - direction * (direction.dot(&second) / direction.norm_squared());
-            bend.axes =
+            curvature.axes =
                 std::array::from_fn(|index| if slowness[index] > 0.0 { turn[index] / slowness[index] } else { 0.0 });
             let times = [before, here, after].map(|motion| 1.0 / motion.rate);
             let speeds = rates.map(|rates| SVector::<f64, 1>::new(rates.norm()));
-            bend.surge = Lengths::new(times)?.bend(&speeds).x * here.rate * here.rate;
+            curvature.surge = Lengths::new(times)?.curvature(&speeds).x * here.rate * here.rate;
         }
         _ => return None,
     }
-    Some(bend)
+    Some(curvature)
 }
 
 /// How far three motions go.
@@ -125,13 +125,13 @@ impl Lengths {
     }
 
     /// The second derivative of something by the middle motion's parameter, from the first ones by each motion's own.
-    fn bend<const N: usize>(&self, rates: &Changes<N>) -> SVector<f64, N> {
+    fn curvature<const N: usize>(&self, rates: &Changes<N>) -> SVector<f64, N> {
         let ([first, second], scale) = self.corners(rates);
         self.limited(&first, &second, scale)
     }
 
     /// The same for things that have nothing to do with each other.
-    fn bend_each<const N: usize>(&self, rates: &Changes<N>) -> SVector<f64, N> {
+    fn curvature_of_each<const N: usize>(&self, rates: &Changes<N>) -> SVector<f64, N> {
         let ([first, second], scale) = self.corners(rates);
         SVector::from_fn(|index, _| {
             let one = |all: &SVector<f64, N>| SVector::<f64, 1>::new(all.get(index).copied().unwrap_or(0.0));
@@ -165,8 +165,8 @@ impl Lengths {
         let apart = (-first.dot(second)).max(0.0);
         let together = if apart > 0.0 { e / (e + apart) } else { 1.0 };
         let longer = (LONG_MOTION_FACTOR * before.min(after) / here).min(1.0);
-        let bend = mean * (together * longer * here * here);
-        if bend.norm() > NO_TURN * here * scale { bend } else { SVector::zeros() }
+        let curvature = mean * (together * longer * here * here);
+        if curvature.norm() > NO_TURN * here * scale { curvature } else { SVector::zeros() }
     }
 }
 
@@ -180,7 +180,7 @@ mod tests {
         let point = |index: f64| Vector3::new((index * step).cos(), (index * step).sin(), 0.0) * radius;
         let travel = [0.0, 1.0, 2.0].map(|index| point(index + 1.0) - point(index));
         let lengths = Lengths::new(travel.map(|travel| travel.norm())).unwrap();
-        let second = lengths.bend(&travel) / travel[1].norm_squared();
+        let second = lengths.curvature(&travel) / travel[1].norm_squared();
         let middle = (point(1.0) + point(2.0)) / 2.0;
         let wanted = -middle / middle.norm_squared();
         assert!((second - wanted).norm() < 1e-3 * wanted.norm(), "{second} {wanted}");
@@ -190,9 +190,9 @@ mod tests {
     fn a_zigzag_or_a_single_corner_is_hardly_bent() {
         let lengths = Lengths::new([1.0; 3]).unwrap();
         let (x, y) = (Vector3::x(), Vector3::y());
-        assert!(lengths.bend(&[x, y, x]).norm() < 0.01);
-        assert!(lengths.bend(&[x, x, y]).norm() < 0.02);
+        assert!(lengths.curvature(&[x, y, x]).norm() < 0.01);
+        assert!(lengths.curvature(&[x, x, y]).norm() < 0.02);
         let long = Lengths::new([0.1, 10.0, 0.1]).unwrap();
-        assert!(long.bend(&[x * 0.1, y * 10.0, x * -0.1]).norm() < 0.5);
+        assert!(long.curvature(&[x * 0.1, y * 10.0, x * -0.1]).norm() < 0.5);
     }
 }

@@ -304,10 +304,10 @@ impl Segment {
         robot: &Robot,
         (at, joints): (f64, &Joints),
         rise: Option<f64>,
-        bounds: &mut Constraints,
+        constraints: &mut Constraints,
     ) -> Option<[[f64; ALL]; 3]> {
         let Some(pace) = self.pace.as_ref().filter(|_| rise.is_some() || self.is_free) else {
-            bounds.cell(&self.lowest_limits());
+            constraints.cell(&self.lowest_limits());
             return None;
         };
         let width = (self.to - self.from) / self.time;
@@ -319,28 +319,28 @@ impl Segment {
             .map_or(even, |parametrization| Place::at(parametrization, share))
             .scaled(width);
         let rates = place.rates(self.curve.rates(&robot.kinematics, place.at, joints)?);
-        bounds.all_axes(&rates, pace);
+        constraints.all_axes(&rates, pace);
         match &self.curve {
             Curve::Axes(_) => {
                 if pace.manual {
-                    bounds.manual_place(joints, &rates[0], &self.rig.carried);
+                    constraints.manual_place(joints, &rates[0], &self.rig.carried);
                 }
                 if pace.tcp.is_finite() {
-                    bounds.moving(&self.moving_by_axes(&robot.kinematics, at, joints), pace);
+                    constraints.moving(&self.moving_by_axes(&robot.kinematics, at, joints), pace);
                 }
             }
             Curve::Tool(curve) => {
                 let moving = place.vectors([1, 2, 3].map(|order| curve.path.track.derivative(order, place.at)));
-                bounds.moving(&moving, pace);
-                bounds.turning(&place.vectors(curve.rotation_rates(place.at)), pace);
+                constraints.moving(&moving, pace);
+                constraints.turning(&place.vectors(curve.rotation_rates(place.at)), pace);
                 if pace.manual {
-                    bounds.manual_moving(&moving);
-                    bounds.manual_flange(curve, place.at, place.first);
+                    constraints.manual_moving(&moving);
+                    constraints.manual_flange(curve, place.at, place.first);
                 }
             }
         }
         if let Some(rise) = rise.filter(|_| !self.is_free) {
-            bounds.rising_in(rise);
+            constraints.rising_in(rise);
         }
         Some(rates)
     }

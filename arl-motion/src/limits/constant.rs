@@ -8,7 +8,7 @@ use crate::limits::profile::Limits;
 /// `first` a + `second` v2, and jerk `first` j + 3 `second` v a + `third` v3. What works with constant limits of the
 /// parameter takes magnitudes of the derivatives.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(crate) struct Bound {
+pub(crate) struct Constraint {
     pub(crate) first: f64,
     pub(crate) second: f64,
     pub(crate) third: f64,
@@ -17,7 +17,7 @@ pub(crate) struct Bound {
     pub(crate) jerk: f64,
 }
 
-impl Bound {
+impl Constraint {
     /// A quantity that changes evenly, by `by` in all.
     pub(crate) fn even(by: f64, vel: f64, acc: f64, jerk: f64) -> Self {
         Self { first: by.abs(), second: 0.0, third: 0.0, vel, acc, jerk }
@@ -35,31 +35,36 @@ const SPEED_SHARES: [f64; 9] = [1.0, 0.95, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3];
 const ACC_SHARES: [f64; 5] = [1.0, 0.9, 0.75, 0.6, 0.4];
 
 /// The highest speed at which no bound is broken, where there is no acceleration.
-pub(crate) fn highest_speed(bounds: &[Bound]) -> f64 {
-    lowest(bounds.iter().flat_map(|bound| {
-        [bound.vel / bound.first, (bound.acc / bound.second).sqrt(), (bound.jerk / bound.third).cbrt()]
+pub(crate) fn highest_speed(constraints: &[Constraint]) -> f64 {
+    lowest(constraints.iter().flat_map(|constraint| {
+        [
+            constraint.vel / constraint.first,
+            (constraint.acc / constraint.second).sqrt(),
+            (constraint.jerk / constraint.third).cbrt(),
+        ]
     }))
 }
 
 /// Limits under which the way from 0 to 1 is done soon and no bound is broken, whatever moves within them.
-pub(crate) fn quickest(bounds: &[Bound]) -> Limits {
-    let vel = highest_speed(bounds);
-    if let Some(limits) = hardly_curved(bounds, vel) {
+pub(crate) fn quickest(constraints: &[Constraint]) -> Limits {
+    let vel = highest_speed(constraints);
+    if let Some(limits) = hardly_curved(constraints, vel) {
         return limits;
     }
-    let curved = bounds.iter().any(|bound| bound.second > 0.0 || bound.third > 0.0);
+    let curved = constraints.iter().any(|constraint| constraint.second > 0.0 || constraint.third > 0.0);
     let (speeds, accs) = if curved { (&SPEED_SHARES[..], &ACC_SHARES[..]) } else { (&[1.0][..], &[1.0][..]) };
     let mut best: Option<(f64, Limits)> = None;
     for share in speeds {
         let vel = vel * share;
-        let most = lowest(bounds.iter().flat_map(|bound| {
-            let by_acc = (bound.acc - bound.second * vel * vel) / bound.first;
-            [by_acc, (bound.jerk - bound.third * vel * vel * vel) / (3.0 * bound.second * vel)]
+        let most = lowest(constraints.iter().flat_map(|constraint| {
+            let by_acc = (constraint.acc - constraint.second * vel * vel) / constraint.first;
+            [by_acc, (constraint.jerk - constraint.third * vel * vel * vel) / (3.0 * constraint.second * vel)]
         }));
         for share in accs {
             let acc = most * share;
-            let jerk = lowest(bounds.iter().map(|bound| {
-                (bound.jerk - 3.0 * bound.second * vel * acc - bound.third * vel * vel * vel) / bound.first
+            let jerk = lowest(constraints.iter().map(|constraint| {
+                (constraint.jerk - 3.0 * constraint.second * vel * acc - constraint.third * vel * vel * vel)
+                    / constraint.first
             }));
             let limits = Limits { vel, acc, jerk };
             if acc > 0.0 && jerk > 0.0 {
@@ -77,24 +82,24 @@ pub(crate) fn quickest(bounds: &[Bound]) -> Limits {
 const AS_GOOD_SHARE: f64 = 0.98;
 
 /// The limits of a way on which hardly anything is lost to its curvature at the speed `vel`.
-fn hardly_curved(bounds: &[Bound], vel: f64) -> Option<Limits> {
+fn hardly_curved(constraints: &[Constraint], vel: f64) -> Option<Limits> {
     let mut rest = Limits { vel, acc: 1e12, jerk: 1e12 };
     let mut moving = rest;
-    for bound in bounds.iter().filter(|bound| bound.first > 0.0) {
-        let curve = bound.second * vel;
-        rest.acc = rest.acc.min(bound.acc / bound.first);
-        moving.acc = moving.acc.min((bound.acc - curve * vel) / bound.first);
+    for constraint in constraints.iter().filter(|constraint| constraint.first > 0.0) {
+        let curve = constraint.second * vel;
+        rest.acc = rest.acc.min(constraint.acc / constraint.first);
+        moving.acc = moving.acc.min((constraint.acc - curve * vel) / constraint.first);
     }
-    for bound in bounds.iter().filter(|bound| bound.first > 0.0) {
-        let (curve, twist) = (bound.second * vel, bound.third * vel * vel * vel);
-        rest.jerk = rest.jerk.min(bound.jerk / bound.first);
-        moving.jerk = moving.jerk.min((bound.jerk - 3.0 * curve * moving.acc - twist) / bound.first);
+    for constraint in constraints.iter().filter(|constraint| constraint.first > 0.0) {
+        let (curve, twist) = (constraint.second * vel, constraint.third * vel * vel * vel);
+        rest.jerk = rest.jerk.min(constraint.jerk / constraint.first);
+        moving.jerk = moving.jerk.min((constraint.jerk - 3.0 * curve * moving.acc - twist) / constraint.first);
     }
     // What does not move at first may yet be curved.
-    let still = bounds.iter().filter(|bound| bound.first <= 0.0);
-    let met = |bound: &Bound| {
-        let (curve, twist) = (bound.second * vel, bound.third * vel * vel * vel);
-        curve * vel <= bound.acc && 3.0 * curve * moving.acc + twist <= bound.jerk
+    let still = constraints.iter().filter(|constraint| constraint.first <= 0.0);
+    let met = |constraint: &Constraint| {
+        let (curve, twist) = (constraint.second * vel, constraint.third * vel * vel * vel);
+        curve * vel <= constraint.acc && 3.0 * curve * moving.acc + twist <= constraint.jerk
     };
     let good =
         moving.acc >= AS_GOOD_SHARE * rest.acc && moving.jerk >= AS_GOOD_SHARE * rest.jerk && still.clone().all(met);
@@ -109,20 +114,24 @@ const PASSING_ACC_SHARES: [f64; 9] = [0.95, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0
 const LEAST_SHARE_LEFT: f64 = 0.08;
 
 /// Limits for passing through without stopping, no faster than `fastest`, under which no bound is broken.
-pub(crate) fn passing(bounds: &[Bound], fastest: f64) -> Limits {
-    let vel = highest_speed(bounds);
-    let acc_at = |vel: f64| lowest(bounds.iter().map(|bound| (bound.acc - bound.second * vel * vel) / bound.first));
-    let jerk_at =
-        |vel: f64, acc: f64| {
-            lowest(bounds.iter().map(|bound| {
-                (bound.jerk - 3.0 * bound.second * vel * acc - bound.third * vel * vel * vel) / bound.first
-            }))
-        };
+pub(crate) fn passing(constraints: &[Constraint], fastest: f64) -> Limits {
+    let vel = highest_speed(constraints);
+    let acc_at = |vel: f64| {
+        lowest(constraints.iter().map(|constraint| (constraint.acc - constraint.second * vel * vel) / constraint.first))
+    };
+    let jerk_at = |vel: f64, acc: f64| {
+        lowest(constraints.iter().map(|constraint| {
+            (constraint.jerk - 3.0 * constraint.second * vel * acc - constraint.third * vel * vel * vel)
+                / constraint.first
+        }))
+    };
     let (acc_at_rest, jerk_at_rest) = (acc_at(0.0), jerk_at(0.0, 0.0));
     // At half the speed something is left of both in any case, if no more than what the jerk leaves of the acceleration.
     let half = (vel * 0.5).min(fastest);
-    let by_jerk = |bound: &Bound| (bound.jerk - bound.third * half * half * half) / (3.0 * bound.second * half);
-    let acc = 0.5 * lowest(bounds.iter().map(by_jerk)).min(acc_at(half));
+    let by_jerk = |constraint: &Constraint| {
+        (constraint.jerk - constraint.third * half * half * half) / (3.0 * constraint.second * half)
+    };
+    let acc = 0.5 * lowest(constraints.iter().map(by_jerk)).min(acc_at(half));
     let mut found = Limits { vel: half, acc, jerk: jerk_at(half, acc) };
     for share in PASSING_SHARES {
         let vel = (vel * share).min(fastest);
@@ -153,7 +162,7 @@ fn lowest(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 #[cfg(test)]
-impl Bound {
+impl Constraint {
     /// Any, over orders of magnitude.
     pub(crate) fn random(random: &mut arl_robot::kinematics::random::Random) -> Self {
         let mut some = |low: f64, high: f64| 10.0_f64.powf(random.between(low, high));
@@ -185,11 +194,11 @@ mod tests {
     fn no_bound_is_broken_by_any_motion_within_the_limits() {
         let mut random = Random::new(21);
         for _ in 0..2000 {
-            let bounds: Vec<Bound> = (0..20).map(|_| Bound::random(&mut random)).collect();
-            let limits = quickest(&bounds);
+            let constraints: Vec<Constraint> = (0..20).map(|_| Constraint::random(&mut random)).collect();
+            let limits = quickest(&constraints);
             assert!(limits.vel > 0.0 && limits.acc > 0.0 && limits.jerk > 0.0);
-            for bound in &bounds {
-                bound.assert_kept(limits);
+            for constraint in &constraints {
+                constraint.assert_kept(limits);
             }
         }
     }
@@ -198,19 +207,20 @@ mod tests {
     fn no_bound_is_broken_by_whatever_passes() {
         let mut random = Random::new(22);
         for round in 0..3000 {
-            let bounds: Vec<Bound> = (0..1 + round % 20).map(|_| Bound::random(&mut random)).collect();
-            let fastest = highest_speed(&bounds) * 10.0_f64.powf(random.between(-1.0, 1.0));
-            let limits = passing(&bounds, fastest);
+            let constraints: Vec<Constraint> = (0..1 + round % 20).map(|_| Constraint::random(&mut random)).collect();
+            let fastest = highest_speed(&constraints) * 10.0_f64.powf(random.between(-1.0, 1.0));
+            let limits = passing(&constraints, fastest);
             assert!(limits.vel > 0.0 && limits.acc > 0.0 && limits.jerk > 0.0 && limits.vel <= fastest);
-            for bound in &bounds {
-                bound.assert_kept(limits);
+            for constraint in &constraints {
+                constraint.assert_kept(limits);
             }
         }
     }
 
     #[test]
     fn even_motion_takes_its_limits_whole() {
-        let limits = quickest(&[Bound::even(-90.0, 180.0, 900.0, 9000.0), Bound::even(10.0, 100.0, 1000.0, 1e4)]);
+        let limits =
+            quickest(&[Constraint::even(-90.0, 180.0, 900.0, 9000.0), Constraint::even(10.0, 100.0, 1000.0, 1e4)]);
         assert_eq!(limits, Limits { vel: 2.0, acc: 10.0, jerk: 100.0 });
     }
 }

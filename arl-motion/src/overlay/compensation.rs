@@ -4,7 +4,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use crate::command::{Compensation, Reference, Settings};
 use crate::geometry::tcp_path::TcpPath;
-use crate::limits::constant::Bound;
+use crate::limits::constant::Constraint;
 use crate::overlay::path_frame::{PathFrame, Rates, carried};
 use crate::overlay::{easing, paced, times};
 use arl_robot::frames::{Carried, Rig};
@@ -198,7 +198,7 @@ impl Shift {
     }
 
     /// What keeps its growing within its limits.
-    pub(crate) fn bounds(&self) -> Vec<Bound> {
+    pub(crate) fn constraints(&self) -> Vec<Constraint> {
         const PLACES: u32 = 24;
         let mut rows = Vec::new();
         for place in 0..=if self.grows() { PLACES } else { 0 } {
@@ -206,7 +206,7 @@ impl Shift {
             for (by, limits) in self.by.iter().zip(self.limits.chunks(3)) {
                 if let (&[vel, acc, jerk], true) = (limits, *by > NO_GROWTH) {
                     let [first, second, third] = [first, second, third].map(|rate| rate.abs() * by);
-                    rows.push(Bound { first, second, third, vel, acc, jerk });
+                    rows.push(Constraint { first, second, third, vel, acc, jerk });
                 }
             }
         }

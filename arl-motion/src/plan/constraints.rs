@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 
 use crate::command::joints::{ALL, Joints};
 use crate::geometry::parametrization::Parametrization;
-use crate::limits::constant::Bound;
+use crate::limits::constant::Constraint;
 use crate::limits::profile::Limits;
 use crate::plan::curve::{Curve, ToolCurve};
 use arl_robot::frames::Carried;
@@ -73,13 +73,13 @@ pub(crate) struct PlaceBounds<'a> {
     /// Shares of the blend's nominal time.
     pub(crate) from: f64,
     pub(crate) to: f64,
-    pub(crate) rows: &'a [Bound],
+    pub(crate) rows: &'a [Constraint],
 }
 
 /// The limits found so far.
 pub(crate) struct Constraints<'a> {
     robot: &'a Robot,
-    pub(crate) rows: Vec<Bound>,
+    pub(crate) rows: Vec<Constraint>,
     /// Whether the rows keep the signs of the derivatives.
     signed: bool,
     /// Where the rows of a place begin, with its share of the nominal time.
@@ -97,8 +97,8 @@ impl<'a> Constraints<'a> {
         Self { signed: true, ..Self::new(robot) }
     }
 
-    fn push(&mut self, bound: Bound) {
-        self.rows.push(if self.signed { bound } else { bound.size() });
+    fn push(&mut self, constraint: Constraint) {
+        self.rows.push(if self.signed { constraint } else { constraint.size() });
     }
 
     /// Forgets all rows.
@@ -134,10 +134,10 @@ impl<'a> Constraints<'a> {
             return;
         }
         let (joined, new) = self.rows.split_at_mut(known);
-        for (bound, new) in joined.iter_mut().zip(new) {
-            bound.first = bound.first.max(new.first);
-            bound.second = bound.second.max(new.second);
-            bound.third = bound.third.max(new.third);
+        for (constraint, new) in joined.iter_mut().zip(new) {
+            constraint.first = constraint.first.max(new.first);
+            constraint.second = constraint.second.max(new.second);
+            constraint.third = constraint.third.max(new.third);
         }
         self.rows.truncate(known);
     }
@@ -145,7 +145,7 @@ impl<'a> Constraints<'a> {
     /// All axes go evenly from `start` to `end`.
     pub(crate) fn even_axes(&mut self, start: &Joints, end: &Joints, pace: &Pace) {
         for (axis, (start, end)) in self.robot.own_axes().iter().zip(start.axes.iter().zip(&end.axes)) {
-            self.push(Bound::even(end - start, axis.vel * pace.axes, axis.acc * pace.acc, axis.jerk * pace.jerk));
+            self.push(Constraint::even(end - start, axis.vel * pace.axes, axis.acc * pace.acc, axis.jerk * pace.jerk));
         }
         self.even_external(start, end, pace);
     }
@@ -156,7 +156,7 @@ impl<'a> Constraints<'a> {
         for (axis, way) in self.robot.external_axes().iter().zip(ways) {
             let programmed = if axis.linear { pace.linear } else { pace.turning };
             let vel = axis.vel.min(programmed);
-            self.push(Bound::even(way, vel, axis.acc * pace.acc, axis.jerk * pace.jerk));
+            self.push(Constraint::even(way, vel, axis.acc * pace.acc, axis.jerk * pace.jerk));
         }
     }
 
@@ -179,13 +179,13 @@ impl<'a> Constraints<'a> {
     /// The parameter's acceleration takes at least `time` s to rise to what the rows of this place leave it.
     pub(crate) fn rising_in(&mut self, time: f64) {
         let acc = self.rows.iter().map(|row| row.acc / row.first.abs()).fold(f64::INFINITY, f64::min);
-        self.push(Bound::even(1.0, f64::INFINITY, f64::INFINITY, acc / time));
+        self.push(Constraint::even(1.0, f64::INFINITY, f64::INFINITY, acc / time));
     }
 
     /// Constant limits of the parameter itself.
     pub(crate) fn cell(&mut self, limits: &Limits) {
         let Limits { vel, acc, jerk } = *limits;
-        self.push(Bound::even(1.0, vel, acc, jerk));
+        self.push(Constraint::even(1.0, vel, acc, jerk));
     }
 
     /// The TCP on its way, and the turning of the tool.
@@ -243,7 +243,7 @@ impl<'a> Constraints<'a> {
     pub(crate) fn cap_tool(&mut self, curve: &ToolCurve, vel: f64) {
         for place in places(curve) {
             let first = curve.path.track.derivative(1, place).norm();
-            self.push(Bound::even(first, vel, f64::INFINITY, f64::INFINITY));
+            self.push(Constraint::even(first, vel, f64::INFINITY, f64::INFINITY));
         }
     }
 
@@ -283,7 +283,7 @@ impl<'a> Constraints<'a> {
     fn cap_point(&mut self, joints: &Joints, rates: &[f64; ALL], place: &Vector3<f64>, vel: f64) {
         let rates = Joints::of(rates).axes;
         let speed = self.robot.kinematics.point_velocity(&joints.axes, &rates, place).norm() * BETWEEN_SAMPLES_FACTOR;
-        self.push(Bound::even(speed, vel, f64::INFINITY, f64::INFINITY));
+        self.push(Constraint::even(speed, vel, f64::INFINITY, f64::INFINITY));
     }
 
     /// The speed of the flange in manual operation at a place of a way whose parameter changes by `rate`, where the tool
@@ -292,7 +292,7 @@ impl<'a> Constraints<'a> {
         if let Carried::Workpiece(_) = curve.carried {
             let [first, ..] = curve.twist(at).of_place(&curve.flange(at).translation.vector);
             let speed = first.norm() * rate * BETWEEN_SAMPLES_FACTOR;
-            self.push(Bound::even(speed, MANUAL_SPEED_MM_S, f64::INFINITY, f64::INFINITY));
+            self.push(Constraint::even(speed, MANUAL_SPEED_MM_S, f64::INFINITY, f64::INFINITY));
         }
     }
 }
@@ -309,19 +309,19 @@ fn places(curve: &ToolCurve) -> impl Iterator<Item = f64> + use<> {
 }
 
 /// A value with these derivatives, between whose places it changes a little more.
-fn row([first, second, third]: [f64; 3], [vel, acc, jerk]: [f64; 3]) -> Bound {
+fn row([first, second, third]: [f64; 3], [vel, acc, jerk]: [f64; 3]) -> Constraint {
     let more = |value: f64| value * BETWEEN_SAMPLES_FACTOR;
-    Bound { first: more(first), second: more(second), third: more(third), vel, acc, jerk }
+    Constraint { first: more(first), second: more(second), third: more(third), vel, acc, jerk }
 }
 
 /// A speed along a way whose derivatives are given, with how it changes along the way.
-fn along(rates: &[Vector3<f64>; 3], (vel, acc, jerk): (f64, f64, f64)) -> Bound {
+fn along(rates: &[Vector3<f64>; 3], (vel, acc, jerk): (f64, f64, f64)) -> Constraint {
     let [p1, p2, p3] = rates;
     let first = p1.norm();
     if first < 1e-12 {
-        return Bound { first: 0.0, second: p2.norm(), third: p3.norm(), vel, acc, jerk };
+        return Constraint { first: 0.0, second: p2.norm(), third: p3.norm(), vel, acc, jerk };
     }
     let second = p1.dot(p2) / first;
     let third = (p2.norm_squared() + p1.dot(p3) - second * second) / first;
-    Bound { first, second, third, vel, acc, jerk }
+    Constraint { first, second, third, vel, acc, jerk }
 }

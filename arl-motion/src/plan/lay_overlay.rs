@@ -6,7 +6,7 @@ use crate::command::Reference;
 use crate::command::Settings;
 use crate::command::error::PlanError;
 use crate::command::joints::Joints;
-use crate::limits::constant::{Bound, passing, quickest};
+use crate::limits::constant::{Constraint, passing, quickest};
 use crate::overlay::compensation::{Led, Shift};
 use crate::overlay::path_frame::PathFrame;
 use crate::overlay::weave::Pattern;
@@ -177,9 +177,9 @@ impl Laid {
         }
         let moves = self.plain.limits.is_some() || self.shift.is_some_and(|shift| shift.grows());
         let limits = moves.then(|| {
-            let bounds = self.bounds(robot, &curve, &found.rates);
+            let constraints = self.constraints(robot, &curve, &found.rates);
             // A segment of a spline meets its neighbours at full speed.
-            if self.plain.curve.is_paced() { passing(&bounds, self.plain.rate) } else { quickest(&bounds) }
+            if self.plain.curve.is_paced() { passing(&constraints, self.plain.rate) } else { quickest(&constraints) }
         });
         let own = self.plain.limits.map(|_| self.plain.rate);
         let rate = own.or(limits.map(|limits| limits.vel)).unwrap_or(1.0);
@@ -188,11 +188,11 @@ impl Laid {
     }
 
     /// Everything that limits the parameter: the plain motion's own limits, the axes, the TCP, the compensation's limits.
-    fn bounds(&self, robot: &Robot, curve: &ToolCurve, rates: &[(f64, Rates)]) -> Vec<Bound> {
-        let mut bounds = Constraints::new(robot);
+    fn constraints(&self, robot: &Robot, curve: &ToolCurve, rates: &[(f64, Rates)]) -> Vec<Constraint> {
+        let mut constraints = Constraints::new(robot);
         let pace = &self.plain.pace;
         if let Some(limits) = self.plain.limits {
-            bounds.rows.push(Bound::even(1.0, limits.vel, limits.acc, limits.jerk));
+            constraints.rows.push(Constraint::even(1.0, limits.vel, limits.acc, limits.jerk));
         }
         for places in rates.chunks(PLACES_OF_CONSTRAINT) {
             let mut most = Most::default();
@@ -203,14 +203,14 @@ impl Laid {
                 highest(&mut axes.third, &rates.third);
                 most.see(curve, *at);
                 if pace.manual {
-                    bounds.manual_flange(curve, *at, 1.0);
+                    constraints.manual_flange(curve, *at, 1.0);
                 }
             }
-            bounds.axes(&axes.first, &axes.second, &axes.third, pace);
-            bounds.rows.extend(most.rows(robot, pace.acc, pace.jerk, self.fastest));
+            constraints.axes(&axes.first, &axes.second, &axes.third, pace);
+            constraints.rows.extend(most.rows(robot, pace.acc, pace.jerk, self.fastest));
         }
-        bounds.rows.extend(self.shift.iter().flat_map(Shift::bounds));
-        bounds.rows
+        constraints.rows.extend(self.shift.iter().flat_map(Shift::constraints));
+        constraints.rows
     }
 }
 
@@ -241,15 +241,15 @@ impl Most {
         }
     }
 
-    fn rows(&self, robot: &Robot, acc: f64, jerk: f64, fastest: f64) -> [Bound; 3] {
+    fn rows(&self, robot: &Robot, acc: f64, jerk: f64, fastest: f64) -> [Constraint; 3] {
         let tcp = &robot.tcp;
         let row = |rates: [f64; 3], [vel, acc, jerk]: [f64; 3]| {
             let [first, second, third] = rates.map(|rate| rate * BETWEEN_SAMPLES_FACTOR);
-            Bound { first, second, third, vel, acc, jerk }
+            Constraint { first, second, third, vel, acc, jerk }
         };
         let turning = self.turning.map(f64::to_degrees);
         [
-            Bound::even(self.speed * BETWEEN_SAMPLES_FACTOR, tcp.vel.min(fastest), f64::INFINITY, f64::INFINITY),
+            Constraint::even(self.speed * BETWEEN_SAMPLES_FACTOR, tcp.vel.min(fastest), f64::INFINITY, f64::INFINITY),
             row(self.weaving, [f64::INFINITY, tcp.acc * acc, tcp.jerk * jerk]),
             row(turning, [tcp.ori_vel, tcp.ori_acc * acc, tcp.ori_jerk * jerk]),
         ]

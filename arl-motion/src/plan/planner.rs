@@ -209,13 +209,13 @@ impl Planner<'_> {
         let end = self.within_ranges(end)?;
         let curve = Curve::even_axes(self.start, &end);
         let moves = self.moves(&end);
-        let bounds = |pace: &Pace, bounds: &mut Constraints| bounds.even_axes(self.start, &end, pace);
-        let caps = |bounds: &mut Constraints| {
+        let constraints = |pace: &Pace, constraints: &mut Constraints| constraints.even_axes(self.start, &end, pace);
+        let caps = |constraints: &mut Constraints| {
             if self.settings.manual && moves {
-                bounds.manual_axes(&curve, &self.command.rig.carried, self.start);
+                constraints.manual_axes(&curve, &self.command.rig.carried, self.start);
             }
         };
-        self.motion(&curve, end, moves, [0.0, 0.0], bounds, caps)
+        self.motion(&curve, end, moves, [0.0, 0.0], constraints, caps)
     }
 
     pub(crate) fn tool(&self, track: Track, turning: Vector3<f64>, external: &[f64; 6]) -> Result<Motion, PlanError> {
@@ -256,19 +256,19 @@ impl Planner<'_> {
         let end = self.within_ranges(end)?;
         let mut pace = self.pace(true)?;
         pace.tcp = pace.tcp.min(self.programmed_cap()?);
-        let mut bounds = Constraints::new(self.robot);
-        bounds.tool(&curve, &pace);
-        bounds.external_along(&curve, &pace);
+        let mut constraints = Constraints::new(self.robot);
+        constraints.tool(&curve, &pace);
+        constraints.external_along(&curve, &pace);
         if self.settings.manual {
-            bounds.cap_tool(&curve, crate::plan::constraints::MANUAL_SPEED_MM_S);
+            constraints.cap_tool(&curve, crate::plan::constraints::MANUAL_SPEED_MM_S);
             for (at, _) in &found.rates {
-                bounds.manual_flange(&curve, *at, 1.0);
+                constraints.manual_flange(&curve, *at, 1.0);
             }
         }
         for (_, rates) in &found.rates {
-            bounds.axes(&rates.first, &rates.second, &rates.third, &pace);
+            constraints.axes(&rates.first, &rates.second, &rates.third, &pace);
         }
-        let limits = passing(&bounds.rows, 1.0 / time);
+        let limits = passing(&constraints.rows, 1.0 / time);
         Ok(Motion {
             start: *self.start,
             end,
@@ -323,24 +323,24 @@ impl Planner<'_> {
         let end = self.within_ranges(Joints { axes, ..end })?;
         let moves = goes || self.moves(&end);
 
-        let bounds = |pace: &Pace, bounds: &mut Constraints| {
-            bounds.even_external(self.start, &end, pace);
-            bounds.tool(&curve, pace);
+        let constraints = |pace: &Pace, constraints: &mut Constraints| {
+            constraints.even_external(self.start, &end, pace);
+            constraints.tool(&curve, pace);
             for (_, rates) in found.iter().flat_map(|found| &found.rates) {
-                bounds.axes(&rates.first, &rates.second, &rates.third, pace);
+                constraints.axes(&rates.first, &rates.second, &rates.third, pace);
             }
         };
         let programmed_cap = self.programmed_cap()?;
-        let caps = |bounds: &mut Constraints| {
-            bounds.cap_tool(&curve, programmed_cap);
+        let caps = |constraints: &mut Constraints| {
+            constraints.cap_tool(&curve, programmed_cap);
             if self.settings.manual {
-                bounds.cap_tool(&curve, crate::plan::constraints::MANUAL_SPEED_MM_S);
+                constraints.cap_tool(&curve, crate::plan::constraints::MANUAL_SPEED_MM_S);
                 for (at, _) in found.iter().flat_map(|found| &found.rates) {
-                    bounds.manual_flange(&curve, *at, 1.0);
+                    constraints.manual_flange(&curve, *at, 1.0);
                 }
             }
         };
-        self.motion(&Curve::Tool(curve.clone()), end, moves, [length, angle], bounds, caps)
+        self.motion(&Curve::Tool(curve.clone()), end, moves, [length, angle], constraints, caps)
     }
 
     /// A singular point that `$WRIST` would pass is told as such.
@@ -448,28 +448,29 @@ impl Planner<'_> {
         caps: impl Fn(&mut Constraints),
     ) -> Result<Motion, PlanError> {
         let is_tool = matches!(curve, Curve::Tool(_));
-        let (mut pace, mut bounds) = (self.free(), Constraints::new(self.robot));
+        let (mut pace, mut constraints) = (self.free(), Constraints::new(self.robot));
         let mut highest = f64::INFINITY;
         let limits = match self.command.duration {
             None => {
                 pace = self.pace(is_tool)?;
                 pace.tcp = pace.tcp.min(if is_tool { self.programmed_cap()? } else { f64::INFINITY });
-                collect(&pace, &mut bounds);
-                caps(&mut bounds);
-                moves.then(|| quickest(&bounds.rows))
+                collect(&pace, &mut constraints);
+                caps(&mut constraints);
+                moves.then(|| quickest(&constraints.rows))
             }
             Some(duration) => {
-                collect(&pace, &mut bounds);
-                let free = if moves { quickest(&bounds.rows).duration_braking(1.0, LOOK_AHEAD_MARGIN) } else { 0.0 };
+                collect(&pace, &mut constraints);
+                let free =
+                    if moves { quickest(&constraints.rows).duration_braking(1.0, LOOK_AHEAD_MARGIN) } else { 0.0 };
                 if !duration.is_finite() || duration <= 0.0 || is_unset(duration) {
                     return Err(PlanError::NoSpeed { what: "the duration in s", value: duration });
                 }
                 if duration < free * (1.0 - 1e-9) {
                     return Err(PlanError::Duration { wanted: duration, least: free });
                 }
-                caps(&mut bounds);
+                caps(&mut constraints);
                 moves.then(|| {
-                    let capped = quickest(&bounds.rows);
+                    let capped = quickest(&constraints.rows);
                     highest = capped.vel;
                     let at = |vel: f64| Limits { vel, ..capped };
                     // Only its speed is lower: it stops as soon as any other motion.
@@ -480,7 +481,7 @@ impl Planner<'_> {
         // Where one motion leaves something of its speed for its own ramps, and its neighbour does not, the way through both
         // is still an even one.
         let rate = match limits {
-            Some(_) if self.command.duration.is_none() => highest_speed(&bounds.rows),
+            Some(_) if self.command.duration.is_none() => highest_speed(&constraints.rows),
             limits => limits.map_or(1.0, |limits| limits.vel),
         };
         Ok(Motion {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::command::joints::{ALL, Joints};
 use crate::follow::segment::{LedTool, Segment};
-use crate::limits::constant::Bound;
+use crate::limits::constant::Constraint;
 use crate::plan::constraints::{Constraints, Pace};
 use crate::time_optimal::solver::{Edge, Row, Way, places};
 use arl_robot::robot::Robot;
@@ -159,16 +159,16 @@ impl ConstraintSampler {
         });
 
         let mut way = Way::new();
-        let mut bounds = Constraints::signed(&self.robot);
+        let mut constraints = Constraints::signed(&self.robot);
         let mut walk = Walk::new(self, many);
         for (station, next) in stations.iter().zip(stations.iter().skip(1).map(Some).chain([None])) {
             let mut at = station.0;
             let mut is_place = station.1;
             loop {
-                let step = walk.rows(at, spacing, &mut bounds);
+                let step = walk.rows(at, spacing, &mut constraints);
                 // A singular point is between places.
-                if is_place && !bounds.rows.is_empty() {
-                    let rows = bounds.rows.drain(..).map(row);
+                if is_place && !constraints.rows.is_empty() {
+                    let rows = constraints.rows.drain(..).map(row);
                     match walk.jump {
                         Some(before) => way.push_jump(at, rows, before),
                         None => way.push(at, rows),
@@ -264,7 +264,7 @@ impl<'a> Walk<'a> {
 
     /// Adds the limits at `at`; where a segment begins, those of the one before as well. Returns a step over which the motion
     /// changes little, no longer than `spacing`.
-    fn rows(&mut self, at: f64, spacing: f64, bounds: &mut Constraints) -> f64 {
+    fn rows(&mut self, at: f64, spacing: f64, constraints: &mut Constraints) -> f64 {
         let mut step = spacing;
         self.jump = None;
         while let Some(segment) = self.sampler.segments.get(self.index) {
@@ -279,11 +279,11 @@ impl<'a> Walk<'a> {
             let sides = if jumps { [here - beside, here + beside] } else { [here; 2] };
             for (side, at) in sides.iter().take(if jumps { 2 } else { 1 }).enumerate() {
                 if side > 0 && here > 0.0 {
-                    self.jump = Some(bounds.rows.len());
+                    self.jump = Some(constraints.rows.len());
                 }
                 let at = at.clamp(0.0, segment.time);
                 let here = (at, &self.joints);
-                if let Some(rates) = segment.limit(&self.sampler.robot, here, self.sampler.rise, bounds) {
+                if let Some(rates) = segment.limit(&self.sampler.robot, here, self.sampler.rise, constraints) {
                     let longest = (STEP_SHARE_OF_SCALE * scale(&self.sampler.robot, &rates))
                         .max(CLOSEST_SHARE_OF_SPACING * spacing);
                     step = step.min(longest);
@@ -294,7 +294,7 @@ impl<'a> Walk<'a> {
                 break;
             }
             (self.before, self.index) = (end, self.index + 1);
-            self.jump = Some(bounds.rows.len());
+            self.jump = Some(constraints.rows.len());
         }
         step
     }
@@ -312,7 +312,7 @@ fn scale(robot: &Robot, rates: &[[f64; ALL]; 3]) -> f64 {
     if scale.is_nan() { f64::INFINITY } else { scale }
 }
 
-fn row(bound: Bound) -> Row {
-    let Bound { first, second, third, vel, acc, jerk } = bound;
+fn row(bound: Constraint) -> Row {
+    let Constraint { first, second, third, vel, acc, jerk } = bound;
     Row { first, second, third, vel: vel.min(1e12), acc, jerk }
 }

@@ -6,7 +6,7 @@ mod end_zones;
 
 use std::ops::Range;
 
-use crate::limits::constant::Bound;
+use crate::limits::constant::Constraint;
 use crate::limits::profile::Limits;
 use crate::plan::constraints::PlaceBounds;
 pub(crate) use duration::Approach;
@@ -46,7 +46,7 @@ pub(crate) fn find_blend_limits(
     approaches: &[Approach; 2],
 ) -> Option<BlendLimits> {
     let rows = || places.iter().flat_map(|place| place.rows).filter(|row| row.first > 0.0);
-    let lowest = |of: fn(&Bound) -> f64| rows().map(of).fold(1e12, f64::min);
+    let lowest = |of: fn(&Constraint) -> f64| rows().map(of).fold(1e12, f64::min);
     let (acc, jerk) = (lowest(|row| row.acc / row.first), lowest(|row| row.jerk / row.first));
     let sites: Vec<Site> = places.iter().map(Site::new).collect();
     let mut best: Option<(f64, BlendLimits)> = None;
@@ -82,7 +82,7 @@ pub(crate) fn find_blend_limits(
 /// A place with the parts that it speaks for, and bounds that are as strict as all of its own together.
 struct Site<'a> {
     parts: Range<usize>,
-    rows: &'a [Bound],
+    rows: &'a [Constraint],
     /// What the speed, the acceleration and its square, the jerk, the product of both and the cube use of the limits.
     vel: f64,
     acc: [f64; 2],
@@ -92,7 +92,7 @@ struct Site<'a> {
 impl<'a> Site<'a> {
     fn new(place: &PlaceBounds<'a>) -> Self {
         let [first, last] = [place.from, place.to].map(|share| share.clamp(0.0, 1.0) * PARTS as f64);
-        let most = |of: fn(&Bound) -> f64| place.rows.iter().map(of).fold(0.0, f64::max);
+        let most = |of: fn(&Constraint) -> f64| place.rows.iter().map(of).fold(0.0, f64::max);
         Self {
             parts: first.floor() as usize..last.ceil() as usize,
             rows: place.rows,
@@ -131,8 +131,8 @@ fn lower_speeds(speeds: &mut [f64; PARTS], sites: &[Site], acc: f64, jerk: f64) 
 }
 
 /// The highest speed up to `speed` at which a bound holds with this acceleration and jerk.
-fn fastest_within(row: &Bound, speed: f64, acc: f64, jerk: f64) -> f64 {
-    let Bound { first, second, third, .. } = *row;
+fn fastest_within(row: &Constraint, speed: f64, acc: f64, jerk: f64) -> f64 {
+    let Constraint { first, second, third, .. } = *row;
     let mut speed = if first * speed > row.vel { row.vel / first } else { speed };
     let left = row.acc - first * acc;
     if second * speed * speed > left {
@@ -160,12 +160,12 @@ mod tests {
     use super::*;
     use arl_robot::kinematics::random::Random;
 
-    fn random_places(random: &mut Random) -> Vec<(f64, Vec<Bound>)> {
-        (0..=30).map(|place| (f64::from(place) / 30.0, (0..6).map(|_| Bound::random(random)).collect())).collect()
+    fn random_places(random: &mut Random) -> Vec<(f64, Vec<Constraint>)> {
+        (0..=30).map(|place| (f64::from(place) / 30.0, (0..6).map(|_| Constraint::random(random)).collect())).collect()
     }
 
     /// Each speaks for the way to its neighbours.
-    fn bounds_of(places: &[(f64, Vec<Bound>)]) -> Vec<PlaceBounds<'_>> {
+    fn bounds_of(places: &[(f64, Vec<Constraint>)]) -> Vec<PlaceBounds<'_>> {
         let around = 1.0 / 30.0;
         places.iter().map(|(share, rows)| PlaceBounds { from: share - around, to: share + around, rows }).collect()
     }
@@ -175,17 +175,18 @@ mod tests {
         let mut random = Random::new(31);
         for _ in 0..300 {
             let places = random_places(&mut random);
-            let bounds = bounds_of(&places);
+            let constraints = bounds_of(&places);
             let approach = Approach { limits: Limits { vel: 1.0, acc: 4.0, jerk: 40.0 }, length: 1.0 };
-            let BlendLimits { speeds, acc, jerk, end_zones } = find_blend_limits(&bounds, 1.0, &[approach; 2]).unwrap();
+            let BlendLimits { speeds, acc, jerk, end_zones } =
+                find_blend_limits(&constraints, 1.0, &[approach; 2]).unwrap();
             assert!(acc > 0.0 && jerk > 0.0);
             for (share, rows) in &places {
                 let part = ((share * PARTS as f64) as usize).min(PARTS - 1);
                 let vel = speeds[part];
                 let is_arm = part < end_zones.parts || part >= PARTS - end_zones.parts;
                 let (acc, jerk) = if is_arm { (end_zones.acc, end_zones.jerk) } else { (acc, jerk) };
-                for bound in rows {
-                    bound.assert_kept(Limits { vel, acc, jerk });
+                for constraint in rows {
+                    constraint.assert_kept(Limits { vel, acc, jerk });
                 }
             }
         }
@@ -196,16 +197,16 @@ mod tests {
         let mut random = Random::new(33);
         for _ in 0..300 {
             let places = random_places(&mut random);
-            let bounds = bounds_of(&places);
-            let sites: Vec<Site> = bounds.iter().map(Site::new).collect();
+            let constraints = bounds_of(&places);
+            let sites: Vec<Site> = constraints.iter().map(Site::new).collect();
             let approach = |random: &mut Random| Approach {
                 limits: Limits { vel: 1.0, acc: random.between(1.0, 40.0), jerk: random.between(10.0, 4000.0) },
                 length: random.between(0.0, 2.0),
             };
             let approaches = [approach(&mut random), approach(&mut random)];
-            let found = find_blend_limits(&bounds, 1.0, &approaches).unwrap();
+            let found = find_blend_limits(&constraints, 1.0, &approaches).unwrap();
             let least = duration(&found, &approaches);
-            let most = |of: fn(&Bound) -> f64| {
+            let most = |of: fn(&Constraint) -> f64| {
                 places.iter().flat_map(|(_, rows)| rows).filter(|row| row.first > 0.0).map(of).fold(1e12, f64::min)
             };
             let (acc, jerk) = (most(|row| row.acc / row.first), most(|row| row.jerk / row.first));
@@ -222,8 +223,8 @@ mod tests {
 
     #[test]
     fn only_the_sharp_part_is_slow() {
-        let even = Bound::even(1.0, 1.0, 10.0, 100.0);
-        let sharp = Bound { second: 200.0, third: 2000.0, ..even };
+        let even = Constraint::even(1.0, 1.0, 10.0, 100.0);
+        let sharp = Constraint { second: 200.0, third: 2000.0, ..even };
         let rows = [[even], [sharp], [even]];
         let shares = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0];
         let row = |share: f64| &rows[usize::from((share - 0.5).abs() < 0.05)];
@@ -237,8 +238,8 @@ mod tests {
 
     #[test]
     fn the_ends_of_a_hairpin_have_the_limits_of_the_ways_beside() {
-        let even = Bound::even(1.0, 1.0, 10.0, 1000.0);
-        let sharp = Bound { second: 400.0, third: 40_000.0, ..even };
+        let even = Constraint::even(1.0, 1.0, 10.0, 1000.0);
+        let sharp = Constraint { second: 400.0, third: 40_000.0, ..even };
         let rows = [[even], [sharp]];
         let place = |index: u32| {
             let share = f64::from(index) / 64.0;

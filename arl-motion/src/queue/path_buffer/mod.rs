@@ -95,7 +95,7 @@ struct Tail {
 struct Joined {
     before: Arc<Motion>,
     /// How the motion before is bent where the blend begins.
-    bend: MidCurvature,
+    curvature: MidCurvature,
     /// How many segments there are from the blend's first half on.
     segments: usize,
 }
@@ -112,7 +112,7 @@ fn began(taken: &[(Arc<Segment>, bool)]) -> bool {
 
 impl Tail {
     fn meeting(&self, next: &Arc<Motion>) -> Meeting {
-        let before: Before = self.joined.as_ref().map(|joined| (Arc::clone(&joined.before), joined.bend));
+        let before: Before = self.joined.as_ref().map(|joined| (Arc::clone(&joined.before), joined.curvature));
         Meeting { before, from: Arc::clone(&self.motion), to: Arc::clone(next) }
     }
 }
@@ -192,7 +192,7 @@ impl PathBuffer {
     /// How the last motion is joined by the one before it.
     pub(crate) fn joining(&self) -> Joining {
         let joined = self.tail.as_ref().and_then(|tail| tail.joined.as_ref());
-        Joining::Known(joined.map(|joined| (Arc::clone(&joined.before), joined.bend)))
+        Joining::Known(joined.map(|joined| (Arc::clone(&joined.before), joined.curvature)))
     }
 
     /// Appends a motion that [`limit_rise`] has made ready, with what has been prepared for it. Returns why the motion before it is not
@@ -215,9 +215,10 @@ impl PathBuffer {
         }
         let tail = tail.filter(|_| !self.segments.is_empty());
         let known = prepared.zip(tail.as_ref()).map(|(prepared, tail)| prepared.take(robot, || tail.meeting(motion)));
-        let bent = tail.as_ref().and_then(|tail| self.bent(robot, known, tail, motion));
-        let mut joined = tail.as_ref().zip(bent).and_then(|(tail, bent)| {
-            self.join_curved(tail, &bent, (motion, limits), number, cycle).map(|segments| (bent.bend, segments))
+        let curved = tail.as_ref().and_then(|tail| self.curved(robot, known, tail, motion));
+        let mut joined = tail.as_ref().zip(curved).and_then(|(tail, curved)| {
+            self.join_curved(tail, &curved, (motion, limits), number, cycle)
+                .map(|segments| (curved.curvature, segments))
         });
         let late = UnblendedTarget { number, line: motion.line, corner: None };
         let mut unblended = motion.flows.then_some(late);
@@ -245,7 +246,7 @@ impl PathBuffer {
                 self.push(&whole, |_| false);
             }
         }
-        let joined = joined.zip(before).map(|((bend, segments), before)| Joined { before, bend, segments });
+        let joined = joined.zip(before).map(|((curvature, segments), before)| Joined { before, curvature, segments });
         self.settle(joined.as_ref().map_or(1, |joined| joined.segments));
         self.timing.find_entries(LOOK_AHEAD_MARGIN, cycle);
         self.tail = Some(Tail { motion: end, joined });
@@ -253,18 +254,18 @@ impl PathBuffer {
     }
 
     /// How the last motion bends towards the next one; `None` where it does not, or the robot is on the blend before already.
-    fn bent(
+    fn curved(
         &self,
         robot: &Robot,
         known: Option<&junction::Junction>,
         tail: &Tail,
         motion: &Arc<Motion>,
     ) -> Option<CurvedBlends> {
-        let Joined { before, bend, segments } = tail.joined.as_ref()?;
+        let Joined { before, curvature, segments } = tail.joined.as_ref()?;
         if self.segments.len() <= *segments {
             return None;
         }
-        junction::bent(robot, known, (before, *bend), (&tail.motion, motion))
+        junction::curved(robot, known, (before, *curvature), (&tail.motion, motion))
     }
 
     /// Puts a blend behind the last one where the two meet in the middle of the last motion, and bends both there; returns
@@ -272,13 +273,13 @@ impl PathBuffer {
     fn join_curved(
         &mut self,
         tail: &Tail,
-        bent: &CurvedBlends,
+        curved: &CurvedBlends,
         (motion, limits): (&Motion, Limits),
         number: u64,
         cycle: f64,
     ) -> Option<usize> {
         let Joined { before, segments: count, .. } = tail.joined.as_ref()?;
-        let [first, next] = &bent.blends;
+        let [first, next] = &curved.blends;
         let (left, last) = (self.segments.get(self.segments.len() - *count)?.number, self.segments.back()?.number);
         let circle_steps = [
             Segment::half(first, (before, &tail.motion), left, true),
