@@ -3,7 +3,7 @@
 
     python3 -m venv venv && venv/bin/pip install pin && venv/bin/python scripts/newton-euler.py
 
-The frames of the links are those that arl-rt/src/dynamics/mod.rs describes. A line: robot; axes (deg, mm), speeds and
+The frames of the links are those that arl-rt/src/unit/dynamics/mod.rs describes. A line: robot; axes (deg, mm), speeds and
 accelerations (the same per s, per s2); the load's mass (kg), centre (mm) and inertia (kg mm2); force (N) and torque (Nm) on
 the flange, in the base; the base's rotation vector (rad); the torques (Nm, N).
 """

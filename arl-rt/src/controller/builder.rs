@@ -300,16 +300,7 @@ impl Builder {
     pub fn build(self, program: Box<dyn Program>) -> Result<Controller, SetupError> {
         let Builder { cell, background, .. } = self;
         let count = 1 + self.foreground.len();
-        if count > MOST_FOREGROUND {
-            let text = format!("{count} foreground channels: a controller has at most {MOST_FOREGROUND}");
-            return Err(SetupError::Channels(text));
-        }
-        if background.len() > usize::from(u8::MAX) {
-            return Err(SetupError::Channels(format!(
-                "{} background channels: at most 255 are possible",
-                background.len()
-            )));
-        }
+        check_channels(count, background.len())?;
         for program in std::iter::once(&program).chain(self.foreground.iter().map(|it| &it.program)).chain(&background)
         {
             atomic_file::remove_leftovers(&self.script_dir.join(program.folder()));
@@ -317,10 +308,7 @@ impl Builder {
         let common = Rc::new(Common::new());
         let mut state = State::new(self.storage);
         system::load(&common.kept_own(), &mut state)?;
-        let pointers = match state.load(pointers::STORED)? {
-            Some(text) => pointers::read(&text).ok_or_else(|| state.damaged(pointers::STORED))?,
-            None => Table::default(),
-        };
+        let pointers = load_pointers(&mut state)?;
         let beside = state.another();
         // What the cell wires is so, whatever a program has saved.
         cell.external.apply(&common);
@@ -363,13 +351,7 @@ impl Builder {
         if let Some(note) = note {
             shared.warn(note);
         }
-        // Where the system has no thread for it now, whoever opens the first connection, or writes the first file, tries again.
-        if uses.connections {
-            let _ = shared.opener.start();
-        }
-        if beside.is_some() {
-            let _ = shared.disk.start();
-        }
+        start_threads(&shared, uses.connections, beside.is_some());
         let site = Site {
             shared: Rc::clone(&shared),
             common,
@@ -391,11 +373,7 @@ impl Builder {
         }
         let channels = Channels::new(first, channels);
         let effects = Vec::with_capacity(scenario.max_effects());
-        let pointer_store = beside.map(|storage| PointerStore::start(storage, pointers)).transpose();
-        let pointer_store = pointer_store.map_err(|error| {
-            let problem = format!("the thread that keeps where the programs stand cannot be started: {error}");
-            SetupError::Outside(problem)
-        })?;
+        let pointer_store = beside.map(|storage| start_pointer_store(storage, pointers)).transpose()?;
         let (clock, io) = (self.clock, self.io);
         Ok(Controller {
             shared,
@@ -411,6 +389,44 @@ impl Builder {
             stores_from: 0,
         })
     }
+}
+
+/// Refuses more channels than a controller has.
+fn check_channels(foreground: usize, background: usize) -> Result<(), SetupError> {
+    if foreground > MOST_FOREGROUND {
+        let text = format!("{foreground} foreground channels: a controller has at most {MOST_FOREGROUND}");
+        return Err(SetupError::Channels(text));
+    }
+    if background > usize::from(u8::MAX) {
+        return Err(SetupError::Channels(format!("{background} background channels: at most 255 are possible")));
+    }
+    Ok(())
+}
+
+/// Where the programs stood when the controller was switched off.
+fn load_pointers(state: &mut State) -> Result<Table, SetupError> {
+    match state.load(pointers::STORED)? {
+        Some(text) => Ok(pointers::read(&text).ok_or_else(|| state.damaged(pointers::STORED))?),
+        None => Ok(Table::default()),
+    }
+}
+
+/// Starts the threads that open connections and write files, before a cycle needs them. Where the system has no thread for it now,
+/// whoever opens the first connection, or writes the first file, tries again.
+fn start_threads(shared: &SharedState, opens_connections: bool, writes_files: bool) {
+    if opens_connections {
+        let _ = shared.opener.start();
+    }
+    if writes_files {
+        let _ = shared.disk.start();
+    }
+}
+
+/// Starts the thread that keeps where the programs stand.
+fn start_pointer_store(storage: Box<dyn Storage + Send>, pointers: Table) -> Result<PointerStore, SetupError> {
+    PointerStore::start(storage, pointers).map_err(|error| {
+        SetupError::Outside(format!("the thread that keeps where the programs stand cannot be started: {error}"))
+    })
 }
 
 /// How near to a home point is at home where nobody says it, in deg (mm).

@@ -3,8 +3,8 @@
 //! A blend that bends sharply leaves little acceleration and jerk to all of it, though its ends hardly bend. Where these keep
 //! what is there beside the blend, the robot slows down all the way to where it bends, and not before the blend begins.
 
-use crate::blend::blend_limits::duration::{Approach, alike, duration, shortest};
-use crate::blend::blend_limits::{BlendLimits, PARTS, Site, lower_speeds};
+use crate::blend::blend_limits::duration::alike;
+use crate::blend::blend_limits::{BlendLimits, PARTS, Quickest, Site, lower_speeds};
 use crate::limits::profile::Limits;
 
 /// Acceleration and jerk at both ends of a blend.
@@ -22,23 +22,18 @@ const END_ZONE_PARTS: [usize; 4] = [2, 4, 5, 6];
 const END_ZONE_SHARES: [[f64; 2]; 2] = [[0.9, 0.6], [0.9, 0.9]];
 const MIDDLE_SHARES: [[f64; 2]; 4] = [[0.06, 0.35], [0.06, 0.6], [0.25, 0.35], [0.25, 0.6]];
 
-/// The quickest limits of a blend, with the time that it takes, and those with end zones. `acc` and `jerk` are what is there at rest.
-pub(crate) fn quickest(
-    best: (f64, BlendLimits),
-    sites: &[Site],
-    (fastest, acc, jerk): (f64, f64, f64),
-    approaches: &[Approach; 2],
-) -> BlendLimits {
-    let (mut least, mut blend_limits) = best;
-    let of = |[acc_share, jerk_share]: [f64; 2]| Limits {
-        vel: f64::INFINITY,
-        acc: acc * acc_share,
-        jerk: jerk * jerk_share,
-    };
+/// Tries limits with end zones, where some without have been found. `at_rest` is what all places leave of the acceleration and the
+/// jerk at rest.
+pub(crate) fn try_end_zones(quickest: &mut Quickest<'_>, sites: &[Site], fastest: f64, at_rest: &Limits) {
+    if quickest.best.is_none() {
+        return;
+    }
+    let of = |[acc, jerk]: [f64; 2]| Limits { acc: at_rest.acc * acc, jerk: at_rest.jerk * jerk, ..*at_rest };
+    let approaches = quickest.approaches;
     let is_like_a_way = |outer: &Limits| approaches.iter().any(|approach| alike(&approach.limits, outer));
     let outers: Vec<Limits> = END_ZONE_SHARES.into_iter().map(of).filter(is_like_a_way).collect();
     if outers.is_empty() {
-        return blend_limits;
+        return;
     }
     let with_speeds = |limits: Limits| {
         let mut speeds = [fastest; PARTS];
@@ -46,24 +41,28 @@ pub(crate) fn quickest(
         (limits, speeds)
     };
     let middles = MIDDLE_SHARES.map(|shares| with_speeds(of(shares)));
-    for (outer, outer_speeds) in outers.into_iter().map(with_speeds) {
-        for (middle, middle_speeds) in middles.iter().filter(|(middle, _)| !alike(middle, &outer)) {
+    for outer in outers.into_iter().map(with_speeds) {
+        for middle in middles.iter().filter(|(middle, _)| !alike(middle, &outer.0)) {
             for parts in END_ZONE_PARTS {
-                let speeds = std::array::from_fn(|part| {
-                    let speeds = if part < parts || part >= PARTS - parts { &outer_speeds } else { middle_speeds };
-                    speeds.get(part).copied().unwrap_or(0.0)
-                });
-                if shortest(&speeds, approaches) >= least {
-                    continue;
-                }
-                let end_zones = EndZones { parts, acc: outer.acc, jerk: outer.jerk };
-                let other = BlendLimits { speeds, acc: middle.acc, jerk: middle.jerk, end_zones };
-                let time = duration(&other, approaches);
-                if time < least {
-                    (least, blend_limits) = (time, other);
-                }
+                try_parts(quickest, parts, &outer, middle);
             }
         }
     }
-    blend_limits
+}
+
+/// Tries limits with so many parts in each end zone, of the limits and speeds `outer`, around those of `middle`.
+fn try_parts(
+    quickest: &mut Quickest<'_>,
+    parts: usize,
+    (outer, outer_speeds): &(Limits, [f64; PARTS]),
+    (middle, middle_speeds): &(Limits, [f64; PARTS]),
+) {
+    let speeds = std::array::from_fn(|part| {
+        let speeds = if part < parts || part >= PARTS - parts { outer_speeds } else { middle_speeds };
+        speeds.get(part).copied().unwrap_or(0.0)
+    });
+    if quickest.may_be_beaten_by(&speeds) {
+        let end_zones = EndZones { parts, acc: outer.acc, jerk: outer.jerk };
+        quickest.consider(BlendLimits { speeds, acc: middle.acc, jerk: middle.jerk, end_zones });
+    }
 }

@@ -39,17 +39,30 @@ impl BlendLimits {
 const ACC_SHARES: [f64; 5] = [0.06, 0.12, 0.25, 0.5, 0.9];
 const JERK_SHARES: [f64; 4] = [0.15, 0.35, 0.6, 0.9];
 
-/// The quickest limits to cross with, no faster than `fastest`, under which no bound is broken.
+/// The quickest limits to pass a blend with, no faster than `fastest`, under which no constraint is broken.
 pub(crate) fn find_blend_limits(
     places: &[PlaceBounds],
     fastest: f64,
     approaches: &[Approach; 2],
 ) -> Option<BlendLimits> {
+    let at_rest = limits_at_rest(places);
+    let sites: Vec<Site> = places.iter().map(Site::new).collect();
+    let mut quickest = Quickest { approaches, best: None };
+    try_shares(&mut quickest, &sites, fastest, &at_rest);
+    end_zones::try_end_zones(&mut quickest, &sites, fastest, &at_rest);
+    let (_, limits) = quickest.best?;
+    limits.speeds.iter().all(|speed| *speed > 0.0).then_some(limits)
+}
+
+/// The acceleration and the jerk that the constraints of all places leave at rest.
+fn limits_at_rest(places: &[PlaceBounds]) -> Limits {
     let rows = || places.iter().flat_map(|place| place.rows).filter(|row| row.first > 0.0);
     let lowest = |of: fn(&Constraint) -> f64| rows().map(of).fold(1e12, f64::min);
-    let (acc, jerk) = (lowest(|row| row.acc / row.first), lowest(|row| row.jerk / row.first));
-    let sites: Vec<Site> = places.iter().map(Site::new).collect();
-    let mut best: Option<(f64, BlendLimits)> = None;
+    Limits { vel: f64::INFINITY, acc: lowest(|row| row.acc / row.first), jerk: lowest(|row| row.jerk / row.first) }
+}
+
+/// Tries pairs of an acceleration and a jerk, the same for all of the blend.
+fn try_shares(quickest: &mut Quickest<'_>, sites: &[Site], fastest: f64, at_rest: &Limits) {
     // Speeds only fall with the acceleration and the jerk: those of the pairs before are a bound, which is often enough to know
     // that a pair is slower than another one.
     let mut with_less_acc = [[fastest; PARTS]; JERK_SHARES.len()];
@@ -59,24 +72,38 @@ pub(crate) fn find_blend_limits(
             for (speed, other) in known.iter_mut().zip(with_less_jerk) {
                 *speed = speed.min(other);
             }
-            let may_be_best =
-                |speeds: &[f64; PARTS]| best.as_ref().is_none_or(|(least, _)| shortest(speeds, approaches) < *least);
-            let (acc, jerk) = (acc * acc_share, jerk * jerk_share);
-            if may_be_best(known) {
-                lower_speeds(known, &sites, acc, jerk);
-                if may_be_best(known) {
-                    let blend_limits = BlendLimits { speeds: *known, acc, jerk, end_zones: EndZones::default() };
-                    let time = duration(&blend_limits, approaches);
-                    if best.as_ref().is_none_or(|(least, _)| time < *least) {
-                        best = Some((time, blend_limits));
-                    }
+            let (acc, jerk) = (at_rest.acc * acc_share, at_rest.jerk * jerk_share);
+            if quickest.may_be_beaten_by(known) {
+                lower_speeds(known, sites, acc, jerk);
+                if quickest.may_be_beaten_by(known) {
+                    quickest.consider(BlendLimits { speeds: *known, acc, jerk, end_zones: EndZones::default() });
                 }
             }
             with_less_jerk = *known;
         }
     }
-    let best = best.map(|best| end_zones::quickest(best, &sites, (fastest, acc, jerk), approaches));
-    best.filter(|blend_limits| blend_limits.speeds.iter().all(|speed| *speed > 0.0))
+}
+
+/// The quickest limits that have been found so far.
+struct Quickest<'a> {
+    approaches: &'a [Approach; 2],
+    /// With the time that they take, in s.
+    best: Option<(f64, BlendLimits)>,
+}
+
+impl Quickest<'_> {
+    /// Whether limits with these speeds, or lower ones, may be quicker.
+    fn may_be_beaten_by(&self, speeds: &[f64; PARTS]) -> bool {
+        self.best.as_ref().is_none_or(|(least, _)| shortest(speeds, self.approaches) < *least)
+    }
+
+    /// Takes these limits if they are quicker.
+    fn consider(&mut self, limits: BlendLimits) {
+        let time = duration(&limits, self.approaches);
+        if self.best.as_ref().is_none_or(|(least, _)| time < *least) {
+            self.best = Some((time, limits));
+        }
+    }
 }
 
 /// A place with the parts that it speaks for, and bounds that are as strict as all of its own together.
