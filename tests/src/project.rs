@@ -231,7 +231,8 @@ fn manifest(name: &str, workspace: &Path) -> String {
         "[package]\nname = \"{name}\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n[workspace]\n\n\
          [dependencies]\narl-rt = {{ path = {runtime:?}, default-features = false, features = [\"serial\"] }}\n\n\
          [profile.dev]\ndebug = false\n\n\
-         [profile.dev.package]\narl-rt = {{ opt-level = 1 }}\nnalgebra = {{ opt-level = 2 }}\n\n\
+         [profile.dev.package]\narl-motion = {{ opt-level = 2 }}\narl-robot = {{ opt-level = 2 }}\n\
+         arl-rt = {{ opt-level = 1 }}\nnalgebra = {{ opt-level = 2 }}\nsimba = {{ opt-level = 2 }}\n\n\
          [profile.release]\nopt-level = 2\ncodegen-units = 16\n"
     )
 }
