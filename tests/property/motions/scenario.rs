@@ -60,22 +60,28 @@ const LONG: f64 = 60.0;
 impl Scenario {
     /// A scenario of a kind.
     pub(crate) fn grow(random: &mut Random, kind: Disturbance, robot: &Robot) -> Scenario {
-        let mut text = String::new();
-        let mut add = |at: f64, what: &str| write!(text, "[[event]]\nat = {at:.3}\n{what}\n\n").unwrap();
+        let mut text = String::from("event = [\n");
+        let mut add = |at: f64, what: &str| writeln!(text, "    {{ at = {at:.3}, {what} }},").unwrap();
         match kind {
             Disturbance::Overrides => overrides(random, &mut add),
             Disturbance::Inputs => inputs(random, &mut add),
             Disturbance::Pauses => pauses(random, robot, &mut add),
             Disturbance::Steps => steps(random, &mut add),
         }
+        text.push_str("]\n");
         Scenario::read(&text, robot)
     }
 
-    /// Reads a scenario of this kind.
+    /// Reads a scenario of this kind: an event a line, as `{ at = SECONDS, WHAT },`.
     pub(crate) fn read(text: &str, robot: &Robot) -> Scenario {
         let (mut events, mut at) = (Vec::new(), 0.0);
-        for line in text.lines() {
-            let Some((key, value)) = line.split_once(" = ") else { continue };
+        let rows = text.lines().map(str::trim).filter(|line| !["event = [", "]", ""].contains(line));
+        let rows = rows.map(|row| {
+            let inner = row.strip_prefix("{ ").and_then(|row| row.strip_suffix(" },"));
+            inner.unwrap_or_else(|| panic!("one event a line, as a row of `event = [`: {row}"))
+        });
+        for line in rows.flat_map(|event| event.split(", ")) {
+            let (key, value) = line.split_once(" = ").unwrap_or_else(|| panic!("{line}"));
             let number = || value.parse::<f64>().unwrap_or_else(|_| panic!("{line}"));
             let of = |name: &str| key.strip_prefix(name).and_then(|rest| rest.parse::<usize>().ok());
             let deed = match (key, value) {
