@@ -110,7 +110,7 @@ fn workspace() -> &'static Path {
 /// A program beside which stands what is expected of it.
 fn is_case(path: &Path) -> bool {
     let expected = |ending: &&str| path.with_extension(ending).is_file();
-    path.extension().is_some_and(|ending| ending == "arl") && ["out", "err", "alarm"].iter().any(|it| expected(&it))
+    path.extension().is_some_and(|ending| ending == "arl") && ["out", "err", "alarm"].iter().any(expected)
 }
 
 /// The cases below a folder.
