@@ -150,127 +150,211 @@ pub enum Hint {
     InstructionValue,
 }
 
-/// The kinds of mistakes in the form of a program.
-#[derive(Clone, PartialEq, Debug)]
-pub enum SyntaxErrorKind {
-    /// A character that means nothing in ARL.
-    UnknownCharacter(char),
-    /// A character from outside ASCII that looks like one that was meant: what was found, what was meant.
-    LooksLike(char, char),
-    /// Letters from outside ASCII in a name.
-    ForeignLetters(Box<str>),
-    /// A string without its closing quote.
-    UnclosedText,
-    /// A block comment without its end.
-    UnclosedComment,
-    /// An escape that strings do not have.
-    BadEscape(char),
-    /// An int that needs more than 32 bits.
-    IntTooLarge(Box<str>),
-    /// A double beyond the largest one.
-    DoubleTooLarge,
-    /// A binary number with other digits than 0 and 1.
-    BinaryDigits(Box<str>),
-    /// An exponent without digits.
-    NoExponent(Box<str>),
-    /// `0x3e`: its value.
-    OtherHexadecimal(u32),
-    /// A word that begins like a number and is none.
-    BadNumber(Box<str>),
-    /// `$` without a name.
-    BareDollar,
-    /// `\` before the end of the line.
-    Backslash,
-    /// Text in single quotes.
-    SingleQuotes,
-    /// `#name` outside of the macro.
-    SpliceOutsideMacro,
-    /// `#` that splices nothing.
-    BareSplice,
-    /// A file of 4 GB or more.
-    FileTooLarge,
+/// Declares the kinds: number, title, what each is.
+macro_rules! syntax_errors {
+    ($dollar:tt $($number:literal $title:literal =>
+        $(#[doc = $doc:literal])+ $variant:ident $(($($tuple:tt)*))? $({ $($fields:tt)* })?,)+
+    ) => {
+        /// The kinds of mistakes in the form of a program.
+        #[derive(Clone, PartialEq, Debug)]
+        pub enum SyntaxErrorKind {
+            $($(#[doc = $doc])+ $variant $(($($tuple)*))? $({ $($fields)* })?,)+
+        }
 
-    /// Something that cannot stand here.
-    Unexpected {
-        /// What was found.
-        found: Box<str>,
-        /// What could have stood there.
-        expected: Box<str>,
-        /// What may help.
-        hint: Hint,
-    },
-    /// The line ends where something is missing.
-    EndsEarly {
-        /// What could have followed.
-        expected: Box<str>,
-        /// What may help.
-        hint: Hint,
-    },
-    /// A closing bracket is missing.
-    MissingClose(Bracket),
-    /// A closing bracket that closes nothing.
-    StrayClose(Bracket),
-    /// A bracket is closed by another kind's: opened, found.
-    WrongClose(Bracket, Bracket),
-    /// A comma is missing in front of this.
-    MissingComma(Box<str>),
-    /// The colon behind `case x` or `default` is missing.
-    MissingColon,
-    /// A value is missing between these two; the second is empty at the end of the line.
-    MissingValue(Box<str>, Box<str>),
-    /// A `;` at the end of the line.
-    Semicolon,
-    /// Two statements on one line.
-    SeveralStatements,
-    /// A reserved word where a name belongs.
-    ReservedWord(Box<str>),
-    /// A label with something behind it.
-    LabelNotAlone(Box<str>),
-    /// `else if`
-    ElseIf,
-    /// `then`, `do` and the like behind a condition.
-    Then(Box<str>),
-    /// A block in braces.
-    BlockBrace,
-    /// An assignment to something that is no variable.
-    NotAssignable(Box<str>),
-    /// A unit that is not behind the value of an argument.
-    MisplacedUnit,
-    /// Too many levels of brackets, operators or members in one expression.
-    TooManyLevels,
-    /// `{x:1}`
-    ComponentColon(Box<str>),
-    /// `int a += 1`
-    CompoundStartValue,
+        impl SyntaxErrorKind {
+            /// Its number: 101.. for characters and numbers, 120.. for lines, 140.. for blocks. Numbers never change.
+            pub const fn number(&self) -> u16 {
+                match self {
+                    $(Self::$variant { .. } => $number,)+
+                }
+            }
+        }
 
-    /// A block that is never closed; a function's name, empty for others.
-    UnclosedBlock(BlockKind, Box<str>),
-    /// A closing line without a block.
-    StrayEnd(BlockKind),
-    /// A block that is closed by another kind's word: opened, the line that opens it, found.
-    WrongEnd(BlockKind, u32, BlockKind),
-    /// A statement outside of functions.
-    OutsideFunction,
-    /// A function among statements of the macro.
-    FuncAmongStatements,
-    /// `import` inside a function.
-    ImportInside,
-    /// A statement between `switch` and the first `case`.
-    BeforeFirstCase,
-    /// `case` or `default` without a `switch`.
-    CaseOutsideSwitch,
-    /// `elseif` or `else` without an `if`.
-    BranchOutsideIf(&'static str),
-    /// `elseif` or `else` behind `else`.
-    BranchAfterElse(&'static str),
-    /// A second `default`.
-    SecondDefault,
-    /// Too many blocks in blocks.
-    TooManyBlocks,
-    /// `end if`, `end`, `wend`: what was written, the block, the line that opens it.
-    OtherEnd(Box<str>, BlockKind, u32),
-    /// More than one statement where a single expression was asked for.
-    NotOneExpression,
+        /// Every number with its title.
+        pub const TITLES: &[(u16, &str)] = &[$(($number, $title)),+];
+
+        /// Gives every number with its title, as literals, to the macro of that name.
+        #[doc(hidden)]
+        #[macro_export]
+        macro_rules! each_syntax_code {
+            ($dollar then:ident) => {
+                $dollar then! { $($number $title)+ }
+            };
+        }
+    };
+}
+
+syntax_errors! { $
+    101 "A character that means nothing in ARL" =>
+        /// A character that means nothing in ARL.
+        UnknownCharacter(char),
+    102 "A character that only looks like the one that was meant" =>
+        /// A character from outside ASCII that looks like one that was meant: what was found, what was meant.
+        LooksLike(char, char),
+    103 "Letters in a name that names cannot have" =>
+        /// Letters from outside ASCII in a name.
+        ForeignLetters(Box<str>),
+    104 "A string without its closing quote" =>
+        /// A string without its closing quote.
+        UnclosedText,
+    105 "A block comment without its end" =>
+        /// A block comment without its end.
+        UnclosedComment,
+    106 "An escape that strings do not have" =>
+        /// An escape that strings do not have.
+        BadEscape(char),
+    107 "An int beyond 32 bits" =>
+        /// An int that needs more than 32 bits.
+        IntTooLarge(Box<str>),
+    108 "A double beyond the largest one" =>
+        /// A double beyond the largest one.
+        DoubleTooLarge,
+    109 "A binary number with other digits than 0 and 1" =>
+        /// A binary number with other digits than 0 and 1.
+        BinaryDigits(Box<str>),
+    110 "An exponent without digits" =>
+        /// An exponent without digits.
+        NoExponent(Box<str>),
+    111 "A hexadecimal number in another language's notation" =>
+        /// `0x3e`: its value.
+        OtherHexadecimal(u32),
+    112 "A word that begins like a number and is none" =>
+        /// A word that begins like a number and is none.
+        BadNumber(Box<str>),
+    113 "A `$` without a name" =>
+        /// `$` without a name.
+        BareDollar,
+    114 "A `\\` before the end of its line" =>
+        /// `\` before the end of the line.
+        Backslash,
+    115 "Text in single quotes" =>
+        /// Text in single quotes.
+        SingleQuotes,
+    116 "A Rust value outside of the macro" =>
+        /// `#name` outside of the macro.
+        SpliceOutsideMacro,
+    117 "A `#` that splices nothing" =>
+        /// `#` that splices nothing.
+        BareSplice,
+    118 "A file of 4 GB or more" =>
+        /// A file of 4 GB or more.
+        FileTooLarge,
+
+    120 "Something that cannot stand here" =>
+        /// Something that cannot stand here.
+        Unexpected {
+            /// What was found.
+            found: Box<str>,
+            /// What could have stood there.
+            expected: Box<str>,
+            /// What may help.
+            hint: Hint,
+        },
+    121 "A line that ends too early" =>
+        /// The line ends where something is missing.
+        EndsEarly {
+            /// What could have followed.
+            expected: Box<str>,
+            /// What may help.
+            hint: Hint,
+        },
+    122 "A closing bracket is missing" =>
+        /// A closing bracket is missing.
+        MissingClose(Bracket),
+    123 "A closing bracket that closes nothing" =>
+        /// A closing bracket that closes nothing.
+        StrayClose(Bracket),
+    124 "A bracket closed by another kind of bracket" =>
+        /// A bracket is closed by another kind's: opened, found.
+        WrongClose(Bracket, Bracket),
+    125 "A comma is missing" =>
+        /// A comma is missing in front of this.
+        MissingComma(Box<str>),
+    126 "The colon of a case is missing" =>
+        /// The colon behind `case x` or `default` is missing.
+        MissingColon,
+    127 "A value is missing" =>
+        /// A value is missing between these two; the second is empty at the end of the line.
+        MissingValue(Box<str>, Box<str>),
+    128 "A `;` at the end of a line" =>
+        /// A `;` at the end of the line.
+        Semicolon,
+    129 "Two statements on one line" =>
+        /// Two statements on one line.
+        SeveralStatements,
+    130 "A reserved word where a name belongs" =>
+        /// A reserved word where a name belongs.
+        ReservedWord(Box<str>),
+    131 "A label with something behind it" =>
+        /// A label with something behind it.
+        LabelNotAlone(Box<str>),
+    132 "`else if` instead of `elseif`" =>
+        /// `else if`
+        ElseIf,
+    133 "A word of another language behind a condition" =>
+        /// `then`, `do` and the like behind a condition.
+        Then(Box<str>),
+    134 "A block in braces" =>
+        /// A block in braces.
+        BlockBrace,
+    135 "An assignment to something that is no variable" =>
+        /// An assignment to something that is no variable.
+        NotAssignable(Box<str>),
+    136 "A unit that is not behind the value of an argument" =>
+        /// A unit that is not behind the value of an argument.
+        MisplacedUnit,
+    137 "An expression with too many levels" =>
+        /// Too many levels of brackets, operators or members in one expression.
+        TooManyLevels,
+    138 "A colon behind the name of a component" =>
+        /// `{x:1}`
+        ComponentColon(Box<str>),
+    139 "A start value with an operator" =>
+        /// `int a += 1`
+        CompoundStartValue,
+
+    140 "A block that is never closed" =>
+        /// A block that is never closed; a function's name, empty for others.
+        UnclosedBlock(BlockKind, Box<str>),
+    141 "A closing line without a block" =>
+        /// A closing line without a block.
+        StrayEnd(BlockKind),
+    142 "A block closed by another block's word" =>
+        /// A block that is closed by another kind's word: opened, the line that opens it, found.
+        WrongEnd(BlockKind, u32, BlockKind),
+    143 "A statement outside of functions" =>
+        /// A statement outside of functions.
+        OutsideFunction,
+    144 "A function among statements" =>
+        /// A function among statements of the macro.
+        FuncAmongStatements,
+    145 "`import` inside a function" =>
+        /// `import` inside a function.
+        ImportInside,
+    146 "A statement before the first case" =>
+        /// A statement between `switch` and the first `case`.
+        BeforeFirstCase,
+    147 "A case without its switch" =>
+        /// `case` or `default` without a `switch`.
+        CaseOutsideSwitch,
+    148 "A branch without its if" =>
+        /// `elseif` or `else` without an `if`.
+        BranchOutsideIf(&'static str),
+    149 "A branch behind the else" =>
+        /// `elseif` or `else` behind `else`.
+        BranchAfterElse(&'static str),
+    150 "A second default" =>
+        /// A second `default`.
+        SecondDefault,
+    151 "Too many blocks in blocks" =>
+        /// Too many blocks in blocks.
+        TooManyBlocks,
+    152 "The end of a block in another language's words" =>
+        /// `end if`, `end`, `wend`: what was written, the block, the line that opens it.
+        OtherEnd(Box<str>, BlockKind, u32),
+    153 "More or less than one expression" =>
+        /// More than one statement where a single expression was asked for.
+        NotOneExpression,
 }
 
 /// How many brackets may be open at one place.
@@ -278,78 +362,6 @@ pub const BRACKET_LEVELS: usize = 200;
 
 /// How many blocks may be open at one place.
 pub const BLOCK_LEVELS: usize = 200;
-
-/// A kind's number and its title.
-macro_rules! numbers {
-    ($($number:literal $pattern:pat => $title:literal,)*) => {
-        impl SyntaxErrorKind {
-            /// Its number: 101.. for characters and numbers, 120.. for lines, 140.. for blocks. Numbers never change.
-            pub const fn number(&self) -> u16 {
-                match self {
-                    $($pattern => $number,)*
-                }
-            }
-        }
-
-        /// Every number with its title.
-        pub const TITLES: &[(u16, &str)] = &[$(($number, $title),)*];
-    };
-}
-
-numbers! {
-    101 SyntaxErrorKind::UnknownCharacter(_) => "A character that means nothing in ARL",
-    102 SyntaxErrorKind::LooksLike(..) => "A character that only looks like the one that was meant",
-    103 SyntaxErrorKind::ForeignLetters(_) => "Letters in a name that names cannot have",
-    104 SyntaxErrorKind::UnclosedText => "A string without its closing quote",
-    105 SyntaxErrorKind::UnclosedComment => "A block comment without its end",
-    106 SyntaxErrorKind::BadEscape(_) => "An escape that strings do not have",
-    107 SyntaxErrorKind::IntTooLarge(_) => "An int beyond 32 bits",
-    108 SyntaxErrorKind::DoubleTooLarge => "A double beyond the largest one",
-    109 SyntaxErrorKind::BinaryDigits(_) => "A binary number with other digits than 0 and 1",
-    110 SyntaxErrorKind::NoExponent(_) => "An exponent without digits",
-    111 SyntaxErrorKind::OtherHexadecimal(_) => "A hexadecimal number in another language's notation",
-    112 SyntaxErrorKind::BadNumber(_) => "A word that begins like a number and is none",
-    113 SyntaxErrorKind::BareDollar => "A `$` without a name",
-    114 SyntaxErrorKind::Backslash => "A `\\` before the end of its line",
-    115 SyntaxErrorKind::SingleQuotes => "Text in single quotes",
-    116 SyntaxErrorKind::SpliceOutsideMacro => "A Rust value outside of the macro",
-    117 SyntaxErrorKind::BareSplice => "A `#` that splices nothing",
-    118 SyntaxErrorKind::FileTooLarge => "A file of 4 GB or more",
-    120 SyntaxErrorKind::Unexpected { .. } => "Something that cannot stand here",
-    121 SyntaxErrorKind::EndsEarly { .. } => "A line that ends too early",
-    122 SyntaxErrorKind::MissingClose(_) => "A closing bracket is missing",
-    123 SyntaxErrorKind::StrayClose(_) => "A closing bracket that closes nothing",
-    124 SyntaxErrorKind::WrongClose(..) => "A bracket closed by another kind of bracket",
-    125 SyntaxErrorKind::MissingComma(_) => "A comma is missing",
-    126 SyntaxErrorKind::MissingColon => "The colon of a case is missing",
-    127 SyntaxErrorKind::MissingValue(..) => "A value is missing",
-    128 SyntaxErrorKind::Semicolon => "A `;` at the end of a line",
-    129 SyntaxErrorKind::SeveralStatements => "Two statements on one line",
-    130 SyntaxErrorKind::ReservedWord(_) => "A reserved word where a name belongs",
-    131 SyntaxErrorKind::LabelNotAlone(_) => "A label with something behind it",
-    132 SyntaxErrorKind::ElseIf => "`else if` instead of `elseif`",
-    133 SyntaxErrorKind::Then(_) => "A word of another language behind a condition",
-    134 SyntaxErrorKind::BlockBrace => "A block in braces",
-    135 SyntaxErrorKind::NotAssignable(_) => "An assignment to something that is no variable",
-    136 SyntaxErrorKind::MisplacedUnit => "A unit that is not behind the value of an argument",
-    137 SyntaxErrorKind::TooManyLevels => "An expression with too many levels",
-    138 SyntaxErrorKind::ComponentColon(_) => "A colon behind the name of a component",
-    139 SyntaxErrorKind::CompoundStartValue => "A start value with an operator",
-    140 SyntaxErrorKind::UnclosedBlock(..) => "A block that is never closed",
-    141 SyntaxErrorKind::StrayEnd(_) => "A closing line without a block",
-    142 SyntaxErrorKind::WrongEnd(..) => "A block closed by another block's word",
-    143 SyntaxErrorKind::OutsideFunction => "A statement outside of functions",
-    144 SyntaxErrorKind::FuncAmongStatements => "A function among statements",
-    145 SyntaxErrorKind::ImportInside => "`import` inside a function",
-    146 SyntaxErrorKind::BeforeFirstCase => "A statement before the first case",
-    147 SyntaxErrorKind::CaseOutsideSwitch => "A case without its switch",
-    148 SyntaxErrorKind::BranchOutsideIf(_) => "A branch without its if",
-    149 SyntaxErrorKind::BranchAfterElse(_) => "A branch behind the else",
-    150 SyntaxErrorKind::SecondDefault => "A second default",
-    151 SyntaxErrorKind::TooManyBlocks => "Too many blocks in blocks",
-    152 SyntaxErrorKind::OtherEnd(..) => "The end of a block in another language's words",
-    153 SyntaxErrorKind::NotOneExpression => "More or less than one expression",
-}
 
 #[cfg(test)]
 mod tests {

@@ -1,7 +1,6 @@
 //! `arl2rs explain` and `arl2rs doc`
 
 use super::failure::Failure;
-use super::pages::PAGES;
 use crate::diagnostics::{Code, info, registry};
 use crate::near::nearest;
 use arl_lang::catalog;
@@ -13,13 +12,10 @@ pub(super) fn explain(code: &str) -> Result<String, Failure> {
     let Some(code) = number else {
         return Err(Failure::Usage(format!("`{code}` is no code of a diagnostic; codes look like ARL0203")));
     };
-    let name = code.to_string();
-    if let Some((_, page)) = PAGES.iter().find(|(page, _)| *page == name) {
-        return Ok((*page).to_string());
-    }
     match info(code) {
-        Some(info) => Ok(format!("# {name}: {}\n\nThere is no page for this code yet.\n", info.title)),
+        Some(info) => Ok(info.page.to_string()),
         None => {
+            let name = code.to_string();
             let names: Vec<String> = registry().iter().map(|info| info.code.to_string()).collect();
             let near = nearest(&name, names.iter().map(String::as_str));
             let hint = near.map(|near| format!("; did you mean {near}?")).unwrap_or_default();

@@ -8,7 +8,6 @@ mod check;
 mod emit;
 mod explain;
 mod failure;
-mod pages;
 mod pendant;
 mod plot;
 mod program;

@@ -1,66 +1,78 @@
 //! Arguments that do not fit their instruction or function.
 
-use super::{Code, Problem};
+use super::Problem;
+use super::registry::problems;
 use arl_lang::catalog::Range;
 
-/// What is wrong with an argument.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) enum ArgumentProblem {
-    /// More arguments than parameters.
-    TooMany { callee: String, most: usize },
-    /// A parameter that must be there.
-    Missing { callee: String, parameter: String, signature: String },
-    /// A label that the callee does not have.
-    UnknownLabel { callee: String, label: String, labels: String, near: Option<String> },
-    /// A parameter that got two values.
-    Twice { parameter: String },
-    /// Two parameters that exclude each other.
-    Exclusive { first: String, second: String },
-    /// A bare value that no free parameter takes.
-    NoParameter { callee: String, ty: String, labels: String },
-    /// Bare braces.
-    BareBrace { callee: String, labels: String },
-    /// A value where a variable is written.
-    NotAVariable { callee: String, parameter: String },
-    /// A unit that the parameter does not have.
-    WrongUnit { parameter: String, unit: &'static str, units: String },
-    /// A unit behind something that is not a number.
-    UnitOfNoNumber,
-    /// A constant outside the parameter's range.
-    Range { parameter: String, value: String, range: Range },
-    /// 9e+09 for a parameter that takes numbers that are set.
-    NotSet { parameter: String },
-    /// A constant length that the array beside it does not have, which has so many bytes.
-    Length { parameter: String, value: i64, bytes: usize, most: i64 },
-    /// A name that is none of a system variable that can be saved.
-    NotKept { name: String, near: Option<String> },
-    /// No overload takes these types.
-    NoOverload { callee: String, types: String, signatures: String },
-    /// Events behind an instruction that is not a motion.
-    Events { callee: String },
+problems! {
+    /// What is wrong with an argument.
+    pub(crate) enum ArgumentProblem {
+        error 401 "Too many arguments" => {
+            /// More arguments than parameters.
+            TooMany { callee: String, most: usize },
+        }
+        error 402 "A mandatory argument is missing" => {
+            /// A parameter that must be there.
+            Missing { callee: String, parameter: String, signature: String },
+        }
+        error 403 "A label that is not known" => {
+            /// A label that the callee does not have.
+            UnknownLabel { callee: String, label: String, labels: String, near: Option<String> },
+        }
+        error 404 "An argument given twice" => {
+            /// A parameter that got two values.
+            Twice { parameter: String },
+        }
+        error 405 "Arguments that exclude each other" => {
+            /// Two parameters that exclude each other.
+            Exclusive { first: String, second: String },
+        }
+        error 406 "An argument that no parameter takes" => {
+            /// A bare value that no free parameter takes.
+            NoParameter { callee: String, ty: String, labels: String },
+        }
+        error 407 "Braces without a label" => {
+            /// Bare braces.
+            BareBrace { callee: String, labels: String },
+        }
+        error 408 "A value where a variable is written" => {
+            /// A value where a variable is written.
+            NotAVariable { callee: String, parameter: String },
+        }
+        error 409 "A wrong unit" => {
+            /// A unit that the parameter does not have.
+            WrongUnit { parameter: String, unit: &'static str, units: String },
+        }
+        error 410 "A unit behind something that is not a number" => {
+            /// A unit behind something that is not a number.
+            UnitOfNoNumber,
+        }
+        error 411 "A constant argument out of range" => {
+            /// A constant outside the parameter's range.
+            Range { parameter: String, value: String, range: Range },
+            /// 9e+09 for a parameter that takes numbers that are set.
+            NotSet { parameter: String },
+        }
+        error 412 "Argument types that the function does not take" => {
+            /// No overload takes these types.
+            NoOverload { callee: String, types: String, signatures: String },
+        }
+        error 413 "Events behind something that is not a motion" => {
+            /// Events behind an instruction that is not a motion.
+            Events { callee: String },
+        }
+        error 414 "A length that an array does not have" => {
+            /// A constant length that the array beside it does not have, which has so many bytes.
+            Length { parameter: String, value: i64, bytes: usize, most: i64 },
+        }
+        error 415 "A system variable that cannot be saved" => {
+            /// A name that is none of a system variable that can be saved.
+            NotKept { name: String, near: Option<String> },
+        }
+    }
 }
 
 impl Problem for ArgumentProblem {
-    fn code(&self) -> Code {
-        Code(match self {
-            ArgumentProblem::TooMany { .. } => 401,
-            ArgumentProblem::Missing { .. } => 402,
-            ArgumentProblem::UnknownLabel { .. } => 403,
-            ArgumentProblem::Twice { .. } => 404,
-            ArgumentProblem::Exclusive { .. } => 405,
-            ArgumentProblem::NoParameter { .. } => 406,
-            ArgumentProblem::BareBrace { .. } => 407,
-            ArgumentProblem::NotAVariable { .. } => 408,
-            ArgumentProblem::WrongUnit { .. } => 409,
-            ArgumentProblem::UnitOfNoNumber => 410,
-            ArgumentProblem::Range { .. } | ArgumentProblem::NotSet { .. } => 411,
-            ArgumentProblem::NoOverload { .. } => 412,
-            ArgumentProblem::Events { .. } => 413,
-            ArgumentProblem::Length { .. } => 414,
-            ArgumentProblem::NotKept { .. } => 415,
-        })
-    }
-
     fn message(&self) -> String {
         match self {
             ArgumentProblem::TooMany { callee, most } => {

@@ -1,24 +1,23 @@
 //! Components of structures.
 
-use super::{Code, Problem};
+use super::Problem;
+use super::registry::problems;
 use arl_lang::catalog::Component;
 
-/// A constant that makes no sense in a component.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) struct ComponentRange {
-    /// The structure's name.
-    pub(crate) structure: &'static str,
-    /// The component, which has a range.
-    pub(crate) component: &'static Component,
-    /// The constant as it is written.
-    pub(crate) value: String,
+problems! {
+    warning 911 "A component out of its range" =>
+    /// A constant that makes no sense in a component.
+    pub(crate) struct ComponentRange {
+        /// The structure's name.
+        pub(crate) structure: &'static str,
+        /// The component, which has a range.
+        pub(crate) component: &'static Component,
+        /// The constant as it is written.
+        pub(crate) value: String,
+    }
 }
 
 impl Problem for ComponentRange {
-    fn code(&self) -> Code {
-        Code(911)
-    }
-
     fn message(&self) -> String {
         let Self { structure, component, value } = self;
         let range = component.range.map_or_else(|| "another number".to_owned(), |range| range.to_string());

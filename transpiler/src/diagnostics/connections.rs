@@ -1,18 +1,28 @@
 //! Ports, stations, lines, registers and bytes that connections and buses do not have.
 
-use super::{Code, Problem};
+use super::Problem;
+use super::registry::problems;
 
-/// What is wrong with an argument.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) enum ConnectionProblem {
-    /// A value that the parameter does not take.
-    Value { param: &'static str, value: i32, allowed: String },
-    /// So many of these from `start` on: there are `size`, from 0 on. `result` is what becomes of the call.
-    Missing { unit: Unit, start: i64, count: i64, size: i64, result: &'static str },
-    /// A serial line to which the cell gives no device; it knows others.
-    Line { name: String, known: Vec<String> },
-    /// Registers or coils in a cell without a server.
-    Unseen { name: &'static str },
+problems! {
+    /// What is wrong with an argument.
+    pub(crate) enum ConnectionProblem {
+        error 807 "An argument that a connection cannot have" => {
+            /// A value that the parameter does not take.
+            Value { param: &'static str, value: i32, allowed: String },
+        }
+        error 808 "Registers or bytes that a bus does not have" => {
+            /// So many of these from `start` on: there are `size`, from 0 on. `result` is what becomes of the call.
+            Missing { unit: Unit, start: i64, count: i64, size: i64, result: &'static str },
+        }
+        error 809 "A serial line without a device" => {
+            /// A serial line to which the cell gives no device; it knows others.
+            Line { name: String, known: Vec<String> },
+        }
+        warning 853 "Registers that no PLC reaches" => {
+            /// Registers or coils in a cell without a server.
+            Unseen { name: &'static str },
+        }
+    }
 }
 
 /// What a call names, one of them and several.
@@ -23,15 +33,6 @@ pub(crate) struct Unit {
 }
 
 impl Problem for ConnectionProblem {
-    fn code(&self) -> Code {
-        Code(match self {
-            ConnectionProblem::Value { .. } => 807,
-            ConnectionProblem::Missing { .. } => 808,
-            ConnectionProblem::Line { .. } => 809,
-            ConnectionProblem::Unseen { .. } => 853,
-        })
-    }
-
     fn message(&self) -> String {
         match self {
             ConnectionProblem::Value { param, value, allowed } => {

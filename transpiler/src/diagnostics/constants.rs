@@ -1,45 +1,51 @@
 //! Constant expressions that cannot be computed, and places where more is accepted than the manual allows.
 
-use super::{Code, Problem};
+use super::Problem;
+use super::registry::problems;
 
-/// What is wrong with a constant.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) enum ConstantProblem {
-    /// Division by a constant zero.
-    DivideByZero,
-    /// A constant shift count outside the width.
-    ShiftCount { count: i64, most: u32 },
-    /// A constant index outside the array.
-    Index { index: i64, size: u32 },
-    /// A constant that depends on itself.
-    Circular { name: String },
-    /// A constant expression that wraps.
-    Overflow { ty: &'static str, value: String },
-    /// A double divided by a literal zero.
-    DoubleByZero,
-    /// A name written in another case than declared.
-    OtherCase { declared: String },
-    /// A conversion that the controller does not know.
-    ExtendedConversion { from: String, to: String },
-    /// A spelling or form that the manual does not have.
-    Extended { what: String },
+problems! {
+    /// What is wrong with a constant.
+    pub(crate) enum ConstantProblem {
+        error 801 "A constant division by zero" => {
+            /// Division by a constant zero.
+            DivideByZero,
+        }
+        error 802 "A constant shift out of range" => {
+            /// A constant shift count outside the width.
+            ShiftCount { count: i64, most: u32 },
+        }
+        error 803 "A constant index out of range" => {
+            /// A constant index outside the array.
+            Index { index: i64, size: u32 },
+        }
+        error 804 "A constant that depends on itself" => {
+            /// A constant that depends on itself.
+            Circular { name: String },
+        }
+        warning 851 "A constant expression that wraps" => {
+            /// A constant expression that wraps.
+            Overflow { ty: &'static str, value: String },
+        }
+        warning 852 "A double divided by zero" => {
+            /// A double divided by a literal zero.
+            DoubleByZero,
+        }
+        warning 951 "A name in another case than declared" => {
+            /// A name written in another case than declared.
+            OtherCase { declared: String },
+        }
+        warning 952 "A conversion beyond the manual" => {
+            /// A conversion that the controller does not know.
+            ExtendedConversion { from: String, to: String },
+        }
+        warning 953 "A form beyond the manual" => {
+            /// A spelling or form that the manual does not have.
+            Extended { what: String },
+        }
+    }
 }
 
 impl Problem for ConstantProblem {
-    fn code(&self) -> Code {
-        Code(match self {
-            ConstantProblem::DivideByZero => 801,
-            ConstantProblem::ShiftCount { .. } => 802,
-            ConstantProblem::Index { .. } => 803,
-            ConstantProblem::Circular { .. } => 804,
-            ConstantProblem::Overflow { .. } => 851,
-            ConstantProblem::DoubleByZero => 852,
-            ConstantProblem::OtherCase { .. } => 951,
-            ConstantProblem::ExtendedConversion { .. } => 952,
-            ConstantProblem::Extended { .. } => 953,
-        })
-    }
-
     fn message(&self) -> String {
         match self {
             ConstantProblem::DivideByZero => "division by zero".into(),

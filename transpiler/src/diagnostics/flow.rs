@@ -1,72 +1,87 @@
 //! Functions, statements and their order.
 
-use super::{Code, Problem};
+use super::Problem;
+use super::registry::problems;
 
-/// What is wrong with a function or statement.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) enum FlowProblem {
-    /// A program without `main`.
-    NoMain,
-    /// `main` with parameters or a result.
-    MainSignature { what: &'static str },
-    /// Two functions of one name.
-    FunctionTwice { name: String },
-    /// `return` without a value in a function that has a result.
-    ReturnWithoutValue { result: String },
-    /// `return` with a value in a void function.
-    ReturnWithValue,
-    /// `break` outside loops.
-    BreakOutside { in_switch: bool },
-    /// `continue` outside loops.
-    ContinueOutside,
-    /// Two cases with one value.
-    CaseTwice { value: String },
-    /// A case that is not constant.
-    CaseNotConstant,
-    /// A switch on a type that cannot be compared with constants.
-    SwitchType { ty: String },
-    /// A condition that waits or moves.
-    ConditionWaits { culprit: String },
-    /// A first motion that leaves open where it begins.
-    FirstMotion { instruction: String, missing: String },
-    /// Statements that cannot be reached.
-    Unreachable,
-    /// A variable that is never read.
-    UnusedVariable { name: String },
-    /// A label that no goto names.
-    UnusedLabel { name: String },
-    /// An imported module that is not used.
-    UnusedImport { module: String },
-    /// The end of a function with a result can be reached.
-    MissingReturn { name: String, result: String },
-    /// An expression whose value is thrown away and which does nothing.
-    NoEffect,
+problems! {
+    /// What is wrong with a function or statement.
+    pub(crate) enum FlowProblem {
+        error 501 "A program without main" => {
+            /// A program without `main`.
+            NoMain,
+        }
+        error 502 "A main with parameters or a result" => {
+            /// `main` with parameters or a result.
+            MainSignature { what: &'static str },
+        }
+        error 503 "A function defined twice" => {
+            /// Two functions of one name.
+            FunctionTwice { name: String },
+        }
+        error 504 "A return without a value" => {
+            /// `return` without a value in a function that has a result.
+            ReturnWithoutValue { result: String },
+        }
+        error 505 "A return with a value in a void function" => {
+            /// `return` with a value in a void function.
+            ReturnWithValue,
+        }
+        error 506 "A break outside of loops" => {
+            /// `break` outside loops.
+            BreakOutside { in_switch: bool },
+        }
+        error 507 "A continue outside of loops" => {
+            /// `continue` outside loops.
+            ContinueOutside,
+        }
+        error 508 "A case value that stands twice" => {
+            /// Two cases with one value.
+            CaseTwice { value: String },
+        }
+        error 509 "A case value that is not constant" => {
+            /// A case that is not constant.
+            CaseNotConstant,
+        }
+        error 511 "A switch on a type that it cannot compare" => {
+            /// A switch on a type that cannot be compared with constants.
+            SwitchType { ty: String },
+        }
+        error 512 "A condition that waits or moves" => {
+            /// A condition that waits or moves.
+            ConditionWaits { culprit: String },
+        }
+        error 513 "A first motion that is not fully set" => {
+            /// A first motion that leaves open where it begins.
+            FirstMotion { instruction: String, missing: String },
+        }
+        warning 901 "Statements that are never reached" => {
+            /// Statements that cannot be reached.
+            Unreachable,
+        }
+        warning 902 "A variable that is never read" => {
+            /// A variable that is never read.
+            UnusedVariable { name: String },
+        }
+        warning 903 "A label that is never used" => {
+            /// A label that no goto names.
+            UnusedLabel { name: String },
+        }
+        warning 904 "An import that is never used" => {
+            /// An imported module that is not used.
+            UnusedImport { module: String },
+        }
+        warning 905 "The end of a function reached without return" => {
+            /// The end of a function with a result can be reached.
+            MissingReturn { name: String, result: String },
+        }
+        warning 906 "A value that is not used" => {
+            /// An expression whose value is thrown away and which does nothing.
+            NoEffect,
+        }
+    }
 }
 
 impl Problem for FlowProblem {
-    fn code(&self) -> Code {
-        Code(match self {
-            FlowProblem::NoMain => 501,
-            FlowProblem::MainSignature { .. } => 502,
-            FlowProblem::FunctionTwice { .. } => 503,
-            FlowProblem::ReturnWithoutValue { .. } => 504,
-            FlowProblem::ReturnWithValue => 505,
-            FlowProblem::BreakOutside { .. } => 506,
-            FlowProblem::ContinueOutside => 507,
-            FlowProblem::CaseTwice { .. } => 508,
-            FlowProblem::CaseNotConstant => 509,
-            FlowProblem::SwitchType { .. } => 511,
-            FlowProblem::ConditionWaits { .. } => 512,
-            FlowProblem::FirstMotion { .. } => 513,
-            FlowProblem::Unreachable => 901,
-            FlowProblem::UnusedVariable { .. } => 902,
-            FlowProblem::UnusedLabel { .. } => 903,
-            FlowProblem::UnusedImport { .. } => 904,
-            FlowProblem::MissingReturn { .. } => 905,
-            FlowProblem::NoEffect => 906,
-        })
-    }
-
     fn message(&self) -> String {
         match self {
             FlowProblem::NoMain => "the program has no function `main`".into(),

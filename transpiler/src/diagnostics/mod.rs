@@ -131,10 +131,14 @@ pub struct Diagnostic {
     pub fix: Option<Fix>,
 }
 
-/// A typed problem: the data arises where the mistake is found, the words are here.
-pub(crate) trait Problem {
-    /// Its code; the registry knows the severity.
+/// What has a code. `problems!` of the registry writes this for what it declares.
+pub(crate) trait Coded {
+    /// The code; the registry knows the severity.
     fn code(&self) -> Code;
+}
+
+/// A typed problem: the data arises where the mistake is found, the words are here.
+pub(crate) trait Problem: Coded {
     /// What is wrong, in the program's terms.
     fn message(&self) -> String;
     /// A few words at the place; may be empty.

@@ -1,36 +1,39 @@
 //! Files and modules.
 
-use super::{Code, Problem};
+use super::Problem;
+use super::registry::problems;
 
-/// What is wrong with a file.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) enum ModuleProblem {
-    /// No such file.
-    Missing { path: String },
-    /// A file that cannot be read.
-    Unreadable { path: String, reason: String },
-    /// A file that is neither UTF-8 nor GB18030.
-    Encoding { path: String, offset: usize, utf16: bool },
-    /// A file name that cannot be used in front of `::`.
-    ModuleName { path: String },
-    /// Two imported files of one name.
-    SameName { name: String, first: String },
-    /// A function in a data file.
-    FunctionInData,
+problems! {
+    /// What is wrong with a file.
+    pub(crate) enum ModuleProblem {
+        error 601 "A file that is not there" => {
+            /// No such file.
+            Missing { path: String },
+        }
+        error 602 "A file that cannot be read" => {
+            /// A file that cannot be read.
+            Unreadable { path: String, reason: String },
+        }
+        error 603 "A file of unknown encoding" => {
+            /// A file that is neither UTF-8 nor GB18030.
+            Encoding { path: String, offset: usize, utf16: bool },
+        }
+        error 604 "A file name that cannot name a module" => {
+            /// A file name that cannot be used in front of `::`.
+            ModuleName { path: String },
+        }
+        error 605 "Two modules of one name" => {
+            /// Two imported files of one name.
+            SameName { name: String, first: String },
+        }
+        error 606 "A function in a data file" => {
+            /// A function in a data file.
+            FunctionInData,
+        }
+    }
 }
 
 impl Problem for ModuleProblem {
-    fn code(&self) -> Code {
-        Code(match self {
-            ModuleProblem::Missing { .. } => 601,
-            ModuleProblem::Unreadable { .. } => 602,
-            ModuleProblem::Encoding { .. } => 603,
-            ModuleProblem::ModuleName { .. } => 604,
-            ModuleProblem::SameName { .. } => 605,
-            ModuleProblem::FunctionInData => 606,
-        })
-    }
-
     fn message(&self) -> String {
         match self {
             ModuleProblem::Missing { path } => format!("there is no file \"{path}\""),

@@ -1,61 +1,72 @@
 //! Names that mean nothing, or too much.
 
-use super::{Code, Problem};
+use super::Problem;
+use super::registry::problems;
 
-/// What is wrong with a name.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) enum NameProblem {
-    /// No variable or constant of this name.
-    /// `quoted`: the text that is probably meant; `ty`: a type that would do.
-    UnknownVariable { name: String, near: Option<String>, is_function: bool, quoted: Option<String>, ty: String },
-    /// No function of this name.
-    UnknownFunction { name: String, near: Option<String>, is_instruction: bool },
-    /// Neither a module nor an enumeration.
-    UnknownModule { name: String, looked: String },
-    /// No type of this name.
-    UnknownType { name: String, near: Option<String> },
-    /// Declared before in the same scope.
-    Duplicate { name: String, what: &'static str },
-    /// A global variable that is declared further down.
-    VariableBelow { name: String },
-    /// A function that is defined further down.
-    FunctionBelow { name: String },
-    /// A structure has no such component.
-    UnknownComponent { name: String, ty: String, components: String, near: Option<String> },
-    /// No system variable of this name.
-    UnknownSystem { name: String, near: Option<String> },
-    /// An enumeration has no such constant.
-    UnknownConstant { name: String, ty: String, constants: String },
-    /// No instruction of this name.
-    UnknownInstruction { name: String, near: Option<String>, is_function: bool },
-    /// `goto` to a label that the function does not have.
-    UnknownLabel { name: String, near: Option<String> },
-    /// A module has no such variable or function.
-    NotInModule { name: String, module: String, what: &'static str, near: Option<String> },
-    /// A spelling of other manuals that is not accepted.
-    Renamed { name: String, now: String },
+problems! {
+    /// What is wrong with a name.
+    pub(crate) enum NameProblem {
+        error 201 "A variable that is not known" => {
+            /// No variable or constant of this name.
+            /// `quoted`: the text that is probably meant; `ty`: a type that would do.
+            UnknownVariable { name: String, near: Option<String>, is_function: bool, quoted: Option<String>, ty: String },
+        }
+        error 202 "A function that is not known" => {
+            /// No function of this name.
+            UnknownFunction { name: String, near: Option<String>, is_instruction: bool },
+        }
+        error 203 "A module or enumeration that is not known" => {
+            /// Neither a module nor an enumeration.
+            UnknownModule { name: String, looked: String },
+        }
+        error 204 "A type that is not known" => {
+            /// No type of this name.
+            UnknownType { name: String, near: Option<String> },
+        }
+        error 205 "A name declared twice in one scope" => {
+            /// Declared before in the same scope.
+            Duplicate { name: String, what: &'static str },
+        }
+        error 206 "A global variable used above its declaration" => {
+            /// A global variable that is declared further down.
+            VariableBelow { name: String },
+        }
+        error 207 "A function called above its definition" => {
+            /// A function that is defined further down.
+            FunctionBelow { name: String },
+        }
+        error 208 "A component that the structure does not have" => {
+            /// A structure has no such component.
+            UnknownComponent { name: String, ty: String, components: String, near: Option<String> },
+        }
+        error 209 "A system variable that is not known" => {
+            /// No system variable of this name.
+            UnknownSystem { name: String, near: Option<String> },
+        }
+        error 210 "A constant that the enumeration does not have" => {
+            /// An enumeration has no such constant.
+            UnknownConstant { name: String, ty: String, constants: String },
+        }
+        error 211 "An instruction that is not known" => {
+            /// No instruction of this name.
+            UnknownInstruction { name: String, near: Option<String>, is_function: bool },
+        }
+        error 212 "A label that the function does not have" => {
+            /// `goto` to a label that the function does not have.
+            UnknownLabel { name: String, near: Option<String> },
+        }
+        error 213 "A name that the module does not have" => {
+            /// A module has no such variable or function.
+            NotInModule { name: String, module: String, what: &'static str, near: Option<String> },
+        }
+        error 214 "An old or misprinted name" => {
+            /// A spelling of other manuals that is not accepted.
+            Renamed { name: String, now: String },
+        }
+    }
 }
 
 impl Problem for NameProblem {
-    fn code(&self) -> Code {
-        Code(match self {
-            NameProblem::UnknownVariable { .. } => 201,
-            NameProblem::UnknownFunction { .. } => 202,
-            NameProblem::UnknownModule { .. } => 203,
-            NameProblem::UnknownType { .. } => 204,
-            NameProblem::Duplicate { .. } => 205,
-            NameProblem::VariableBelow { .. } => 206,
-            NameProblem::FunctionBelow { .. } => 207,
-            NameProblem::UnknownComponent { .. } => 208,
-            NameProblem::UnknownSystem { .. } => 209,
-            NameProblem::UnknownConstant { .. } => 210,
-            NameProblem::UnknownInstruction { .. } => 211,
-            NameProblem::UnknownLabel { .. } => 212,
-            NameProblem::NotInModule { .. } => 213,
-            NameProblem::Renamed { .. } => 214,
-        })
-    }
-
     fn message(&self) -> String {
         match self {
             NameProblem::UnknownVariable { name, .. } => format!("there is no variable `{name}` here"),

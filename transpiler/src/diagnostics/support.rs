@@ -1,27 +1,27 @@
 //! What is known but does not run on this robot, or in the background.
 
-use super::{Code, Problem};
+use super::Problem;
+use super::registry::problems;
 
-/// What is not supported.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) enum SupportProblem {
-    /// Something that the checker gave up on without a reason: a mistake of the compiler.
-    Lost,
-    /// Exists for the other robot family only.
-    OtherFamily { name: String, family: &'static str },
-    /// Needs a robot, in a program for a background channel.
-    Background { name: String },
+problems! {
+    /// What is not supported.
+    pub(crate) enum SupportProblem {
+        error 702 "Something for the other kind of robot" => {
+            /// Exists for the other robot family only.
+            OtherFamily { name: String, family: &'static str },
+        }
+        error 703 "Something that arl2rs cannot make sense of" => {
+            /// Something that the checker gave up on without a reason: a mistake of the compiler.
+            Lost,
+        }
+        error 704 "Something that needs a robot, in the background" => {
+            /// Needs a robot, in a program for a background channel.
+            Background { name: String },
+        }
+    }
 }
 
 impl Problem for SupportProblem {
-    fn code(&self) -> Code {
-        Code(match self {
-            SupportProblem::OtherFamily { .. } => 702,
-            SupportProblem::Lost => 703,
-            SupportProblem::Background { .. } => 704,
-        })
-    }
-
     fn message(&self) -> String {
         match self {
             SupportProblem::Lost => "arl2rs could not make sense of this, and cannot say why".into(),

@@ -1,24 +1,23 @@
 //! Values of system variables.
 
-use super::{Code, Problem};
+use super::Problem;
+use super::registry::problems;
 use arl_lang::catalog::Takes;
 
-/// A constant that a system variable does not take.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) struct NotTaken {
-    /// The variable's name, without `$`.
-    pub(crate) variable: &'static str,
-    /// The constant as it is written.
-    pub(crate) value: String,
-    /// What it takes.
-    pub(crate) takes: Takes,
+problems! {
+    warning 912 "A value that a system variable does not take" =>
+    /// A constant that a system variable does not take.
+    pub(crate) struct NotTaken {
+        /// The variable's name, without `$`.
+        pub(crate) variable: &'static str,
+        /// The constant as it is written.
+        pub(crate) value: String,
+        /// What it takes.
+        pub(crate) takes: Takes,
+    }
 }
 
 impl Problem for NotTaken {
-    fn code(&self) -> Code {
-        Code(912)
-    }
-
     fn message(&self) -> String {
         format!("`${}` does not take {}: an alarm when it is assigned", self.variable, self.value)
     }

@@ -1,6 +1,7 @@
 //! Targets that a robot cannot reach.
 
-use super::{Code, Problem};
+use super::registry::problems;
+use super::{Code, Coded, Problem};
 use arl_robot::kinematics::{CONFIGURATIONS, Singularity};
 use arl_robot::robot::{Axis, Robot};
 
@@ -11,22 +12,32 @@ pub(crate) struct TargetProblem {
     kind: Kind,
 }
 
-#[derive(Clone, PartialEq, Debug)]
-enum Kind {
-    /// A joint target beyond the range of an axis, deg (mm).
-    Joint { axis: Axis, value: f64, by: f64 },
-    /// A pose that needs an axis beyond its range; `others` are the configurations that do not.
-    Pose { axis: Axis, value: f64, by: f64, cfg: u8, others: Vec<u8> },
-    /// A pose farther away than the arm is long, mm.
-    OutOfReach { by: f64 },
-    /// A pose for which a SCARA would have to tilt its flange, deg.
-    Tilted { by: f64 },
-    /// A configuration that the robot has not.
-    NoSuchCfg { cfg: i32 },
-    /// A pose that other configurations reach.
-    Configuration { cfg: u8, others: Vec<u8> },
-    /// A line that passes a singular point `along` it, 0 to 1.
-    Singular { along: f64, at: Singularity },
+problems! {
+    /// What is wrong with it.
+    enum Kind {
+        warning 907 "A target beyond the range of an axis" => {
+            /// A joint target beyond the range of an axis, deg (mm).
+            Joint { axis: Axis, value: f64, by: f64 },
+            /// A pose that needs an axis beyond its range; `others` are the configurations that do not.
+            Pose { axis: Axis, value: f64, by: f64, cfg: u8, others: Vec<u8> },
+        }
+        warning 908 "A pose that the robot cannot reach" => {
+            /// A pose farther away than the arm is long, mm.
+            OutOfReach { by: f64 },
+            /// A pose for which a SCARA would have to tilt its flange, deg.
+            Tilted { by: f64 },
+        }
+        warning 909 "A configuration that does not reach its pose" => {
+            /// A configuration that the robot has not.
+            NoSuchCfg { cfg: i32 },
+            /// A pose that other configurations reach.
+            Configuration { cfg: u8, others: Vec<u8> },
+        }
+        warning 910 "A line that passes a singular point" => {
+            /// A line that passes a singular point `along` it, 0 to 1.
+            Singular { along: f64, at: Singularity },
+        }
+    }
 }
 
 impl TargetProblem {
@@ -66,16 +77,13 @@ impl TargetProblem {
 /// What becomes of a motion with such a target.
 const ALARM: &str = "the motion would end in an alarm";
 
-impl Problem for TargetProblem {
+impl Coded for TargetProblem {
     fn code(&self) -> Code {
-        Code(match self.kind {
-            Kind::Joint { .. } | Kind::Pose { .. } => 907,
-            Kind::OutOfReach { .. } | Kind::Tilted { .. } => 908,
-            Kind::NoSuchCfg { .. } | Kind::Configuration { .. } => 909,
-            Kind::Singular { .. } => 910,
-        })
+        self.kind.code()
     }
+}
 
+impl Problem for TargetProblem {
     fn message(&self) -> String {
         let robot = &self.robot;
         match &self.kind {

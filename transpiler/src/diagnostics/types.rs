@@ -1,106 +1,131 @@
 //! Values of the wrong type, and things that cannot be written.
 
-use super::{Code, Problem};
+use super::Problem;
+use super::registry::problems;
 
-/// What is wrong with a type or value.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) enum TypeProblem {
-    /// A value of one type where another is wanted.
-    Mismatch { found: String, wanted: String, what: String, use_instead: Option<String> },
-    /// A constant that the wanted type cannot hold.
-    DoesNotFit { value: String, wanted: String, range: String },
-    /// An operator that does not work on these types.
-    Operator { operator: String, left: String, right: Option<String>, hint: Option<String> },
-    /// Indexing something that is not an array.
-    NotAnArray { ty: String },
-    /// Too many or too few indices.
-    IndexCount { found: usize, wanted: usize },
-    /// An index that is not an integer.
-    IndexType { found: String },
-    /// A component of something that has none.
-    NotAStructure { ty: String },
-    /// Braces where a single value is wanted.
-    BraceForValue { wanted: String },
-    /// Braces where nothing says which type they make.
-    BraceWithoutType,
-    /// More values than components or elements.
-    TooManyValues { wanted: usize, ty: String },
-    /// Named and unnamed values in one pair of braces.
-    MixedBraces,
-    /// A component that is given twice.
-    ComponentTwice { name: String },
-    /// Writing a const.
-    AssignConst { name: String },
-    /// Writing something that is no variable.
-    NotAssignable { text: String },
-    /// Writing a system variable that the controller keeps.
-    ReadOnly { name: String },
-    /// Comparing structures or arrays.
-    Compare { ty: String },
-    /// Copying a handle.
-    HandleCopy { ty: String },
-    /// Using the result of something that has none.
-    NoValue { what: String },
-    /// An array size that is not a positive constant.
-    ArraySize,
-    /// An array beyond 10 000 elements.
-    ArrayTooLarge { len: u64 },
-    /// More dimensions than supported.
-    TooManyDimensions { most: usize },
-    /// A const without a value.
-    ConstWithoutValue { name: String },
-    /// A variable of type void.
-    VoidVariable,
-    /// A type of the other robot family.
-    OtherFamily { name: String, family: &'static str },
-    /// An int literal of 2^31 or more where no uint is wanted.
-    WideLiteral { text: String },
-    /// A spliced Rust value whose type is not known.
-    SpliceType,
-    /// An array where a single value is wanted, or the other way round.
-    Dimensions { found: String, wanted: String },
-    /// More rows in braces than the array has.
-    TooManyRows { rows: usize },
-    /// A single value between rows in braces.
-    NotARow { row: usize },
-    /// A result type that is an array or handle.
-    ResultType { ty: String },
+problems! {
+    /// What is wrong with a type or value.
+    pub(crate) enum TypeProblem {
+        error 301 "A value of the wrong type" => {
+            /// A value of one type where another is wanted.
+            Mismatch { found: String, wanted: String, what: String, use_instead: Option<String> },
+            /// Braces where a single value is wanted.
+            BraceForValue { wanted: String },
+        }
+        error 302 "A constant that does not fit its type" => {
+            /// A constant that the wanted type cannot hold.
+            DoesNotFit { value: String, wanted: String, range: String },
+        }
+        error 303 "An operator on types that it does not work on" => {
+            /// An operator that does not work on these types.
+            Operator { operator: String, left: String, right: Option<String>, hint: Option<String> },
+        }
+        error 304 "An index on something that is not an array" => {
+            /// Indexing something that is not an array.
+            NotAnArray { ty: String },
+        }
+        error 305 "The wrong number of indices" => {
+            /// Too many or too few indices.
+            IndexCount { found: usize, wanted: usize },
+        }
+        error 306 "An index that is not an integer" => {
+            /// An index that is not an integer.
+            IndexType { found: String },
+        }
+        error 307 "A component of something that is not a structure" => {
+            /// A component of something that has none.
+            NotAStructure { ty: String },
+        }
+        error 308 "Braces without a type" => {
+            /// Braces where nothing says which type they make.
+            BraceWithoutType,
+        }
+        error 309 "Too many values in braces" => {
+            /// More values than components or elements.
+            TooManyValues { wanted: usize, ty: String },
+        }
+        error 310 "Named and unnamed values mixed in braces" => {
+            /// Named and unnamed values in one pair of braces.
+            MixedBraces,
+        }
+        error 311 "A component given twice" => {
+            /// A component that is given twice.
+            ComponentTwice { name: String },
+        }
+        error 312 "A const that is written" => {
+            /// Writing a const.
+            AssignConst { name: String },
+        }
+        error 313 "Something written that is not a variable" => {
+            /// Writing something that is no variable.
+            NotAssignable { text: String },
+        }
+        error 314 "A read-only system variable that is written" => {
+            /// Writing a system variable that the controller keeps.
+            ReadOnly { name: String },
+        }
+        error 315 "Structures or arrays compared" => {
+            /// Comparing structures or arrays.
+            Compare { ty: String },
+        }
+        error 316 "A handle that is copied" => {
+            /// Copying a handle.
+            HandleCopy { ty: String },
+        }
+        error 317 "A value taken from something that has none" => {
+            /// Using the result of something that has none.
+            NoValue { what: String },
+        }
+        error 318 "An array size that is not a positive constant" => {
+            /// An array size that is not a positive constant.
+            ArraySize,
+        }
+        error 319 "An array of more than 10000 elements" => {
+            /// An array beyond 10 000 elements.
+            ArrayTooLarge { len: u64 },
+        }
+        error 320 "An array of too many dimensions" => {
+            /// More dimensions than supported.
+            TooManyDimensions { most: usize },
+        }
+        error 321 "A const without a value" => {
+            /// A const without a value.
+            ConstWithoutValue { name: String },
+        }
+        error 322 "A variable of type void" => {
+            /// A variable of type void.
+            VoidVariable,
+        }
+        error 323 "A type of the other kind of robot" => {
+            /// A type of the other robot family.
+            OtherFamily { name: String, family: &'static str },
+        }
+        error 324 "A whole number beyond int" => {
+            /// An int literal of 2^31 or more where no uint is wanted.
+            WideLiteral { text: String },
+        }
+        error 325 "A Rust value of unknown ARL type" => {
+            /// A spliced Rust value whose type is not known.
+            SpliceType,
+        }
+        error 326 "An array and a value of another size" => {
+            /// An array where a single value is wanted, or the other way round.
+            Dimensions { found: String, wanted: String },
+        }
+        error 327 "Braces that do not fit the array" => {
+            /// More rows in braces than the array has.
+            TooManyRows { rows: usize },
+            /// A single value between rows in braces.
+            NotARow { row: usize },
+        }
+        error 328 "A result of a type that cannot be returned" => {
+            /// A result type that is an array or handle.
+            ResultType { ty: String },
+        }
+    }
 }
 
 impl Problem for TypeProblem {
-    fn code(&self) -> Code {
-        Code(match self {
-            TypeProblem::Mismatch { .. } | TypeProblem::BraceForValue { .. } => 301,
-            TypeProblem::DoesNotFit { .. } => 302,
-            TypeProblem::Operator { .. } => 303,
-            TypeProblem::NotAnArray { .. } => 304,
-            TypeProblem::IndexCount { .. } => 305,
-            TypeProblem::IndexType { .. } => 306,
-            TypeProblem::NotAStructure { .. } => 307,
-            TypeProblem::BraceWithoutType => 308,
-            TypeProblem::TooManyValues { .. } => 309,
-            TypeProblem::MixedBraces => 310,
-            TypeProblem::ComponentTwice { .. } => 311,
-            TypeProblem::AssignConst { .. } => 312,
-            TypeProblem::NotAssignable { .. } => 313,
-            TypeProblem::ReadOnly { .. } => 314,
-            TypeProblem::Compare { .. } => 315,
-            TypeProblem::HandleCopy { .. } => 316,
-            TypeProblem::NoValue { .. } => 317,
-            TypeProblem::ArraySize => 318,
-            TypeProblem::ArrayTooLarge { .. } => 319,
-            TypeProblem::TooManyDimensions { .. } => 320,
-            TypeProblem::ConstWithoutValue { .. } => 321,
-            TypeProblem::VoidVariable => 322,
-            TypeProblem::OtherFamily { .. } => 323,
-            TypeProblem::WideLiteral { .. } => 324,
-            TypeProblem::SpliceType => 325,
-            TypeProblem::Dimensions { .. } => 326,
-            TypeProblem::TooManyRows { .. } | TypeProblem::NotARow { .. } => 327,
-            TypeProblem::ResultType { .. } => 328,
-        })
-    }
-
     fn message(&self) -> String {
         match self {
             TypeProblem::Mismatch { found, wanted, what, .. } => {
