@@ -4,6 +4,8 @@
 
 #![allow(clippy::unwrap_used, reason = "tests may fail")]
 
+use arl_lang::catalog;
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 /// The folders of arl-motion, from the ground up.
@@ -36,6 +38,36 @@ fn folders_of_arl_rt_import_from_below_only() {
 #[test]
 fn folders_of_arl_motion_import_from_below_only() {
     assert_layers("arl-motion/src", MOTION);
+}
+
+/// Where the compiler looks at what built-ins mean; all that it knows of one stands in its catalog entry.
+const COMPILER: &[&str] = &["transpiler/src/check", "transpiler/src/effects", "transpiler/src/emit"];
+
+/// Names of built-ins that are names of something else there: of Rust functions, of a kind of name.
+const OTHER_THINGS: &[&str] = &["init", "label"];
+
+#[test]
+fn the_compiler_knows_no_builtin_by_its_name() {
+    let entries = catalog::all_entries().iter().flat_map(|entry| [entry.name, entry.path]);
+    let known: HashSet<&str> = entries.chain(catalog::system_variables().map(|variable| variable.name)).collect();
+    assert!(known.contains("waituntil") && known.contains("socket::connect") && known.contains("DFTOOL"));
+    let mut faults = Vec::new();
+    for folder in COMPILER {
+        let files = rust_files(&Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(folder));
+        assert!(!files.is_empty(), "{folder} has files");
+        // The words of Rust are listed in one file.
+        for file in files.iter().filter(|file| !file.ends_with("emit/names.rs")) {
+            let text = std::fs::read_to_string(file).unwrap();
+            for (line, words) in (1..).zip(text.lines()) {
+                let code = words.split("//").next().unwrap_or_default();
+                let literals = code.split('"').skip(1).step_by(2);
+                for name in literals.filter(|literal| known.contains(literal) && !OTHER_THINGS.contains(literal)) {
+                    faults.push(format!("{}:{line}: \"{name}\" belongs into its catalog entry", file.display()));
+                }
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
 /// The imports of every file below `source` go to folders below its own; `layers` names all folders, from the ground up.

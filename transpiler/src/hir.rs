@@ -9,7 +9,7 @@
 //! - a built-in's arguments stand in source order, each parameter's presence is respected, defaults are filled in.
 
 use arl_lang::ast::{BinaryOp, Step, UnaryOp};
-use arl_lang::catalog::{Base, Entry, Enum, Family, Struct, SystemVariable};
+use arl_lang::catalog::{Base, Entry, Enum, Family, Space, Struct, SystemVariable};
 use arl_lang::span::Span;
 use std::sync::{PoisonError, RwLock};
 
@@ -362,25 +362,10 @@ pub struct Builtin {
     pub args: Vec<Bound>,
 }
 
-/// What opens connections.
-const OPENERS: [&str; 6] = [
-    "socket::connect",
-    "socket::accept",
-    "serial::open",
-    "modbus_rtu::open",
-    "modbus_rtu::open_stopbits_first",
-    "melsec::open",
-];
-
 impl Builtin {
-    /// Whether it opens a connection.
-    pub(crate) fn connects(&self) -> bool {
-        OPENERS.contains(&self.entry.path)
-    }
-
     /// Whether it uses registers or coils of the controller's Modbus TCP server.
     pub(crate) fn is_served(&self) -> bool {
-        self.entry.path.starts_with("modbus_tcp::")
+        matches!(self.entry.space(), Some(Space::ModbusRegister | Space::ModbusCoil))
     }
 }
 

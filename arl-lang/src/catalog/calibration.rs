@@ -1,6 +1,7 @@
 //! 5.9: frames from taught points.
 
 use super::declare::{base, entries, folded, kind, param_type};
+use super::facts::Role;
 
 entries! { pub(super) CALIBRATION =
     /// Workpiece frame from three taught points.
@@ -72,6 +73,6 @@ entries! { pub(super) CALIBRATION =
         t: tool "the tool",
         index: int [at_least(1.0)] "number of the mechanical unit, from 1",
     )
-        { "5.9.8", calibration::getbase_3p, acts, fails, foreground;
+        { "5.9.8", calibration::getbase_3p, acts, fails, foreground, changes(Role::Frame);
           "joint j1 = {1,0,120,0,30,0}\njoint j2 = {10,0,120,0,30,0}\njoint j3 = {15,0,110,0,30,0}\ngetbase_3p(j1,j2,j3,$TOOL0,1)\nprint $BASE" }
 }

@@ -1,6 +1,7 @@
 //! 5.7 and 5.12.1: conversions between types.
 
 use super::declare::{base, entries, folded, kind, param_type};
+use super::facts::Form;
 
 entries! { pub(super) CONVERT =
     /// Whole part of a number, cut towards zero. Beyond the range of int: alarm.
@@ -61,5 +62,5 @@ entries! { pub(super) CONVERT =
           "byte raw[4]\nftobytes(1.23,raw,0)\nprint tofloat(raw,0)" }
     /// Name of a value's type; of an array with its sizes, of an enumeration's constant its enumeration.
     fn typeof(v: any "the value") -> string
-        { "5.12.1", convert::type_name, pure; "double value = 3.1415\nprint typeof(value)" }
+        { "5.12.1", convert::type_name, pure, form(Form::TypeOf); "double value = 3.1415\nprint typeof(value)" }
 }

@@ -15,9 +15,8 @@
 //! of it, `any` everything but handles. The marks in brackets are the methods of [`Param`] below, the marks behind the
 //! path those of [`Entry`].
 
-use super::entry::{
-    Access, Effect, Entry, Kind, Mode, Param, ParamType, Presence, Range, Restore, SystemVariable, Takes,
-};
+use super::entry::{Access, Effect, Entry, Kind, Mode, Param, ParamType, Presence, Restore, SystemVariable, Takes};
+use super::facts::{Accepted, Form, Motion, PoseShift, Range, Relation, Role, Space};
 use super::types::{Base, Component, Family, Start};
 use crate::ast::Unit;
 
@@ -104,7 +103,7 @@ macro_rules! entries {
         $kind:ident $name:ident (
             $($param:ident : $ty:tt $([$($mark:ident $(($($arg:expr),*))?),*])? $about:literal),* $(,)?
         ) $(-> $result:ident)?
-            { $section:literal, $module:ident :: $function:ident, $effect:ident
+            { $section:literal, $module:ident :: $function:ident, $effect:ident $(($how:expr))?
                 $(, $flag:ident $(($($value:expr),*))?)* ; $example:literal }
     )*) => {
         $vis const $table: &[$crate::catalog::Entry] = &[$(
@@ -115,7 +114,7 @@ macro_rules! entries {
                 ),*] })
                 $(.result(base!($result)))?
                 .place($section, concat!(stringify!($module), "::", stringify!($function)), $example)
-                .$effect()
+                .$effect($($how)?)
                 $(.$flag($($($value),*)?))*
         ),*];
     };
@@ -193,6 +192,10 @@ impl Param {
             set: false,
             keeps: false,
             counts: None,
+            addresses: None,
+            relation: None,
+            accepts: None,
+            delays: false,
             doc,
         }
     }
@@ -244,6 +247,16 @@ setters! { Param:
     keeps() { keeps = true }
     /// A number of parts of the array beside it, of so many bits each.
     counts(bits: u32) { counts = Some(bits) }
+    /// The first place that is meant, or the last one, of this space.
+    addresses(space: Space) { addresses = Some(space) }
+    /// How many places are meant; so many of it are one place.
+    extent(per_place: u32) { relation = Some(Relation::Extent(per_place)) }
+    /// The value that the addressed place gets.
+    content() { relation = Some(Relation::Content) }
+    /// What a connection accepts.
+    accepts(numbers: Accepted) { accepts = Some(numbers) }
+    /// A time for which the call waits.
+    delays() { delays = true }
     /// Other labels.
     alias(names: &'static [&'static str]) { aliases = names }
     /// The builder's method, where the folded name is a word of Rust.
@@ -264,6 +277,12 @@ impl Entry {
             effect: Effect::Pure,
             fails: false,
             background: true,
+            form: Form::Call,
+            motion: None,
+            shift: None,
+            changes: None,
+            connects: false,
+            uses_disk: false,
             path: "",
             doc: trimmed(doc),
             section: "",
@@ -284,13 +303,23 @@ setters! { Entry:
     /// Looks at or changes the controller at once.
     acts() { effect = Effect::Acts }
     /// Plans motion; not in the background.
-    plans() { effect = Effect::Plans, background = false }
+    plans(motion: Motion) { effect = Effect::Plans, background = false, motion = Some(motion) }
     /// Takes its time; motion goes on.
     lasts() { effect = Effect::Lasts }
     /// Waits until all earlier motion has ended.
     waits() { effect = Effect::Waits }
     /// Ends the program or starts it again.
     ends() { effect = Effect::Ends }
+    /// Not translated as a plain call.
+    form(form: Form) { form = form }
+    /// Shifts and turns the pose `p`.
+    shifts(axes: PoseShift) { shift = Some(axes) }
+    /// Changes what motion depends on.
+    changes(role: Role) { changes = Some(role) }
+    /// Opens a connection.
+    connects() { connects = true }
+    /// Waits for the disk.
+    uses_disk() { uses_disk = true }
     /// An alarm is possible.
     fails() { fails = true }
     /// Not in background channels.
@@ -315,6 +344,7 @@ impl SystemVariable {
             takes: Takes::All,
             restore: Restore::Reset,
             default: "",
+            role: None,
             field,
             doc: trimmed(doc),
             section: "",
@@ -342,6 +372,8 @@ setters! { SystemVariable:
     readonly() { access = Access::ReadOnly }
     /// The least and greatest value.
     range(low: f64, high: f64) { takes = Takes::Range(low, high) }
+    /// What it is to motion.
+    role(role: Role) { role = Some(role) }
     /// The texts that it takes.
     words(words: &'static [&'static str]) { takes = Takes::Words(words) }
     /// Other spellings.

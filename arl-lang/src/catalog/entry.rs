@@ -1,7 +1,6 @@
 //! How a built-in is declared.
 
-use std::fmt;
-
+use super::facts::{Accepted, Form, Motion, PoseShift, Range, Relation, Role, Space};
 use super::types::{Base, Family};
 use crate::ast::Unit;
 
@@ -82,43 +81,6 @@ pub enum Presence {
     },
 }
 
-/// The numbers that make sense somewhere.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Range {
-    /// From the least to the greatest.
-    Within(f64, f64),
-    /// Those above this one.
-    Above(f64),
-    /// This one and those above it.
-    AtLeast(f64),
-    /// This one and those below it.
-    AtMost(f64),
-}
-
-impl Range {
-    /// Whether a number is one of them.
-    pub fn holds(self, number: f64) -> bool {
-        match self {
-            Self::Within(low, high) => (low..=high).contains(&number),
-            Self::Above(low) => number > low,
-            Self::AtLeast(low) => number >= low,
-            Self::AtMost(high) => number <= high,
-        }
-    }
-}
-
-impl fmt::Display for Range {
-    /// As the end of "must be".
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Within(low, high) => write!(f, "in {low} to {high}"),
-            Self::Above(low) => write!(f, "above {low}"),
-            Self::AtLeast(low) => write!(f, "{low} or more"),
-            Self::AtMost(high) => write!(f, "{high} or less"),
-        }
-    }
-}
-
 /// A parameter.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Param {
@@ -146,6 +108,14 @@ pub struct Param {
     pub keeps: bool,
     /// How many bits each of what it counts takes in the array that is given beside it.
     pub counts: Option<u32>,
+    /// What it addresses; the first parameter of a call that addresses something says what the call is about.
+    pub addresses: Option<Space>,
+    /// How it is related to the parameter that addresses something.
+    pub relation: Option<Relation>,
+    /// What a connection accepts; held against constants where the cell is known.
+    pub accepts: Option<Accepted>,
+    /// Whether it is a time for which the call waits.
+    pub delays: bool,
     /// What it means, with its unit and what happens without it.
     pub doc: &'static str,
 }
@@ -173,6 +143,18 @@ pub struct Entry {
     pub fails: bool,
     /// Whether it may run in a background channel.
     pub background: bool,
+    /// How the compiler translates its use.
+    pub form: Form,
+    /// Which motion it plans; there is one where the effect is [`Effect::Plans`].
+    pub motion: Option<Motion>,
+    /// How it shifts the pose `p`, where it does.
+    pub shift: Option<PoseShift>,
+    /// What it changes of what motion depends on.
+    pub changes: Option<Role>,
+    /// Whether it opens a connection.
+    pub connects: bool,
+    /// Whether it waits for the disk.
+    pub uses_disk: bool,
     /// The runtime's function, below `arl_rt`: `math::sqrt`.
     pub path: &'static str,
     /// One sentence or two.
@@ -181,6 +163,13 @@ pub struct Entry {
     pub section: &'static str,
     /// A program fragment (statements of a `main`) that uses it.
     pub example: &'static str,
+}
+
+impl Entry {
+    /// What a call is about: what its first parameter that addresses something addresses.
+    pub fn space(&self) -> Option<Space> {
+        self.params.iter().find_map(|param| param.addresses)
+    }
 }
 
 /// Who may write a system variable.
@@ -235,6 +224,8 @@ pub struct SystemVariable {
     pub restore: Restore,
     /// Its default, as ARL text.
     pub default: &'static str,
+    /// What it is to motion.
+    pub role: Option<Role>,
     /// The field of the runtime's system variables (`cx.system().field`).
     pub field: &'static str,
     /// What it means, with its unit.

@@ -1,6 +1,7 @@
 //! 6 and 7: interrupts, timers, triggers.
 
 use super::declare::{base, entries, folded, kind, param_type};
+use super::facts::Form;
 use crate::ast::Unit;
 
 entries! { pub(super) INTERRUPT =
@@ -11,7 +12,7 @@ entries! { pub(super) INTERRUPT =
         when: bool [condition] "the event: false before, true now; it may not wait or move",
         do: any [action, rust("action")] "what is done, as a rule a call",
     )
-        { "6.1", event::interrupt, acts, fails; "interrupt 1,when:getdi(6),do:setdo(1,true)\nwaittime 1" }
+        { "6.1", event::interrupt, acts, fails, form(Form::Event); "interrupt 1,when:getdi(6),do:setdo(1,true)\nwaittime 1" }
     /// Disables interrupts: they keep watching their conditions, but lose the events. Without arguments all of them. One
     /// that does not exist: alarm.
     instr disableint(
@@ -39,7 +40,7 @@ entries! { pub(super) INTERRUPT =
         rmode: bool [otherwise("false")] "true: again and again; false: once",
         do: any [action, rust("action")] "what is done, as a rule a call",
     )
-        { "6.7", event::timer, acts, fails;
+        { "6.7", event::timer, acts, fails, form(Form::Event);
           "timer name:\"t1\",priority:1,interval:1,rmode:true,do:setdo(1,true)\nwaittime 2" }
     /// Declares an event of the next motion: when the condition becomes true while it runs, the action is done.
     instr trigger(
@@ -47,6 +48,6 @@ entries! { pub(super) INTERRUPT =
         when: bool [condition] "the event, as a rule T, S, StoEnd or P",
         do: any [action, rust("action")] "what is done",
     )
-        { "7.1", event::trigger, acts, fails, foreground;
+        { "7.1", event::trigger, acts, fails, foreground, form(Form::Event);
           "joint j = {0,-90,90,0,45,0}\ntrigger 1,when:T(0.5),do:setdo(2,true)\nmovej j,vp:20%" }
 }

@@ -221,6 +221,20 @@ pub fn renamed(name: &str) -> Option<&'static str> {
     find(&INDEX.renamed, name.trim_start_matches('$'))
 }
 
+/// The instruction that an event behind a motion is short for (manual 7.1).
+pub fn trigger() -> Option<&'static Entry> {
+    instructions("trigger").first()
+}
+
+/// Those of the aliases that are spellings of older and later editions of the language; the others are this one's own.
+pub(super) const OTHER_EDITIONS: &[&str] =
+    &["startweavelin", "startweavespa", "DETECT_SOCK_CLOSE", "ERR_SOCK_CLOSED", "mu_name"];
+
+/// Whether a name is spelled as another edition of the language spells it, in any case.
+pub fn is_of_other_edition(written: &str) -> bool {
+    OTHER_EDITIONS.iter().any(|other| other.eq_ignore_ascii_case(written))
+}
+
 fn is_named(asked: &str, name: &str, aliases: &[&str]) -> bool {
     name.eq_ignore_ascii_case(asked) || aliases.iter().any(|alias| alias.eq_ignore_ascii_case(asked))
 }

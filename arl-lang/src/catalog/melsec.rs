@@ -1,16 +1,22 @@
 //! 5.6.5: Melsec. The controller is a client of the PLC (MC protocol, 3E frames).
 
 use super::declare::{base, entries, folded, kind, param_type};
+use super::facts::{Accepted, Space};
+
+/// Bytes of a D register; of an odd number the last register's low byte alone.
+const BYTES: u32 = 2;
+/// The bytes that one request carries.
+const LENGTH: Accepted = Accepted::Range(0, 1920);
 
 entries! { pub(super) MELSEC =
     /// Connects to a PLC; true when the connection stands.
     fn open(
         dev: melsec_dev "the connection",
         ip: string "the PLC's address",
-        port: int "the PLC's port",
-        slave_id: int "station number, 0 to 247; 0 is all stations, 255 the default",
+        port: int [accepts(Accepted::Range(1, 65535))] "the PLC's port",
+        slave_id: int [accepts(Accepted::RangeOr(0, 247, 255))] "station number, 0 to 247; 0 is all stations, 255 the default",
     ) -> bool
-        { "5.6.5.1", melsec::open, waits, fails; "melsec_dev mc\nwaituntil open(mc,\"10.20.220.92\",8080,255)" }
+        { "5.6.5.1", melsec::open, waits, fails, connects; "melsec_dev mc\nwaituntil open(mc,\"10.20.220.92\",8080,255)" }
     /// Closes a connection; closing one that is not open does nothing.
     fn close(dev: melsec_dev "the connection")
         { "5.6.5.2", melsec::close, waits; "melsec_dev mc\nclose(mc)" }
@@ -18,8 +24,8 @@ entries! { pub(super) MELSEC =
     fn read(
         dev: melsec_dev "the connection",
         data: string [out] "gets the text",
-        start: int "number of the first D register",
-        len: int "how many bytes; of an odd number the last register's low byte",
+        start: int [addresses(Space::MelsecRegister)] "number of the first D register",
+        len: int [extent(BYTES), accepts(LENGTH)] "how many bytes; of an odd number the last register's low byte",
     ) -> bool
         { "5.6.5.3", melsec::read_string, waits, fails;
           "melsec_dev mc\nstring data\nwaituntil open(mc,\"10.20.220.92\",8080,255)\nwaituntil read(mc,data,6000,10)" }
@@ -27,8 +33,8 @@ entries! { pub(super) MELSEC =
     fn read(
         dev: melsec_dev "the connection",
         data: [byte] [out] "gets the bytes",
-        start: int "number of the first D register",
-        len: int [counts(8)] "how many bytes; of an odd number the last register's low byte",
+        start: int [addresses(Space::MelsecRegister)] "number of the first D register",
+        len: int [counts(8), extent(BYTES), accepts(LENGTH)] "how many bytes; of an odd number the last register's low byte",
     ) -> bool
         { "5.6.5.3", melsec::read_bytes, waits, fails;
           "melsec_dev mc\nbyte data[24]\nwaituntil open(mc,\"10.20.220.92\",8080,255)\nwaituntil read(mc,data,6000,24)" }
@@ -36,8 +42,8 @@ entries! { pub(super) MELSEC =
     fn write(
         dev: melsec_dev "the connection",
         data: string "the text",
-        start: int "number of the first D register",
-        len: int [optional] "how many bytes; all of the text without it; an odd number writes 0 into the high byte left over",
+        start: int [addresses(Space::MelsecRegister)] "number of the first D register",
+        len: int [optional, extent(BYTES), accepts(LENGTH)] "how many bytes; all of the text without it; an odd number writes 0 into the high byte left over",
     ) -> bool
         { "5.6.5.4", melsec::write_string, waits, fails;
           "melsec_dev mc\nwaituntil open(mc,\"10.20.220.92\",8080,255)\nwaituntil write(mc,\"abcd\",6000)" }
@@ -45,8 +51,8 @@ entries! { pub(super) MELSEC =
     fn write(
         dev: melsec_dev "the connection",
         data: [byte] "the bytes",
-        start: int "number of the first D register",
-        len: int [counts(8)] "how many bytes; an odd number writes 0 into the high byte left over",
+        start: int [addresses(Space::MelsecRegister)] "number of the first D register",
+        len: int [counts(8), extent(BYTES), accepts(LENGTH)] "how many bytes; an odd number writes 0 into the high byte left over",
     ) -> bool
         { "5.6.5.4", melsec::write_bytes, waits, fails;
           "melsec_dev mc\nbyte data[4] = {1,2,3,4}\nwaituntil open(mc,\"10.20.220.92\",8080,255)\nwaituntil write(mc,data,6000,4)" }

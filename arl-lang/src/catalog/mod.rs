@@ -14,6 +14,7 @@ mod declare;
 mod devicenet;
 mod entry;
 mod enums;
+mod facts;
 mod handles;
 mod interrupt;
 mod io;
@@ -38,5 +39,6 @@ mod trigger;
 mod types;
 
 pub use entry::*;
+pub use facts::*;
 pub use lookup::*;
 pub use types::*;

@@ -1,31 +1,34 @@
 //! 5.6.6: Modbus RTU. The controller is the slave; these functions work on its own holding registers.
 
 use super::declare::{base, entries, folded, kind, param_type};
+use super::facts::{Accepted, Space};
+
+const SPEEDS: Accepted = Accepted::OneOf(&[4800, 9600, 19200, 38400, 57600, 115_200]);
 
 entries! { pub(super) MODBUS_RTU =
     /// Opens a serial line as a Modbus slave; whether it worked.
     fn open(
         dev: modbus_dev "the slave",
-        devname: string "name of the device, such as \"rtserMB0\"",
-        slave_id: int "our station number, 1 to 247",
-        baud_rate: int "speed, bit/s: 4800, 9600, 19200, 38400, 57600 or 115200",
+        devname: string [addresses(Space::SerialLine)] "name of the device, such as \"rtserMB0\"",
+        slave_id: int [accepts(Accepted::Range(1, 247))] "our station number, 1 to 247",
+        baud_rate: int [accepts(SPEEDS)] "speed, bit/s: 4800, 9600, 19200, 38400, 57600 or 115200",
         parity: {parity} "parity",
-        databits: int "bits a character, 5 to 8",
+        databits: int [accepts(Accepted::Range(5, 8))] "bits a character, 5 to 8",
         stop_bits: {stopbits} "stop bits",
     ) -> bool
-        { "5.6.6.1", modbus_rtu::open, waits, fails;
+        { "5.6.6.1", modbus_rtu::open, waits, fails, connects;
           "modbus_dev m\nprint open(m,\"rtserMB0\",1,115200,none,8,one)" }
     /// Opens a serial line as a Modbus slave, with the stop bits in front and the parity at the end.
     fn open(
         dev: modbus_dev "the slave",
-        devname: string "name of the device, such as \"rtserMB0\"",
-        slave_id: int "our station number, 1 to 247",
-        baud_rate: int "speed, bit/s: 4800, 9600, 19200, 38400, 57600 or 115200",
+        devname: string [addresses(Space::SerialLine)] "name of the device, such as \"rtserMB0\"",
+        slave_id: int [accepts(Accepted::Range(1, 247))] "our station number, 1 to 247",
+        baud_rate: int [accepts(SPEEDS)] "speed, bit/s: 4800, 9600, 19200, 38400, 57600 or 115200",
         stop_bits: {stopbits} "stop bits",
-        databits: int "bits a character, 5 to 8",
+        databits: int [accepts(Accepted::Range(5, 8))] "bits a character, 5 to 8",
         parity: {parity} "parity",
     ) -> bool
-        { "5.6.6.1", modbus_rtu::open_stopbits_first, waits, fails;
+        { "5.6.6.1", modbus_rtu::open_stopbits_first, waits, fails, connects;
           "modbus_dev m\nprint open(m,\"rtserMB0\",1,115200,one,8,none)" }
     /// Closes the line; closing one that is not open does nothing.
     fn close(dev: modbus_dev "the slave")
@@ -34,8 +37,8 @@ entries! { pub(super) MODBUS_RTU =
     fn read(
         dev: modbus_dev "the slave",
         data: string [out] "gets the text",
-        start: int "offset of the first byte",
-        len: int "how many bytes",
+        start: int [addresses(Space::SlaveByte)] "offset of the first byte",
+        len: int [extent(1)] "how many bytes",
     ) -> bool
         { "5.6.6.3", modbus_rtu::read_string, waits, fails;
           "modbus_dev m\nstring data\nopen(m,\"rtserMB0\",1,115200,none,8,one)\nread(m,data,0,4)" }
@@ -43,21 +46,21 @@ entries! { pub(super) MODBUS_RTU =
     fn read(
         dev: modbus_dev "the slave",
         data: [byte] [out] "gets the bytes",
-        start: int "offset of the first byte",
-        len: int [counts(8)] "how many bytes",
+        start: int [addresses(Space::SlaveByte)] "offset of the first byte",
+        len: int [counts(8), extent(1)] "how many bytes",
     ) -> bool
         { "5.6.6.3", modbus_rtu::read_bytes, waits, fails;
           "modbus_dev m\nbyte data[4]\nopen(m,\"rtserMB0\",1,115200,none,8,one)\nread(m,data,0,4)" }
     /// Writes a text into holding registers; whether it worked.
-    fn write(dev: modbus_dev "the slave", data: string "the text", start: int "offset of the first byte") -> bool
+    fn write(dev: modbus_dev "the slave", data: string "the text", start: int [addresses(Space::SlaveByte)] "offset of the first byte") -> bool
         { "5.6.6.4", modbus_rtu::write_string, waits, fails;
           "modbus_dev m\nopen(m,\"rtserMB0\",1,115200,none,8,one)\nwrite(m,\"abcd\",0)" }
     /// Writes bytes into holding registers; whether it worked.
     fn write(
         dev: modbus_dev "the slave",
         data: [byte] "the bytes",
-        start: int "offset of the first byte",
-        len: int [counts(8)] "how many bytes",
+        start: int [addresses(Space::SlaveByte)] "offset of the first byte",
+        len: int [counts(8), extent(1)] "how many bytes",
     ) -> bool
         { "5.6.6.4", modbus_rtu::write_bytes, waits, fails;
           "modbus_dev m\nbyte data[4] = {31h,32h,33h,34h}\nopen(m,\"rtserMB0\",1,115200,none,8,one)\nwrite(m,data,0,4)" }
@@ -65,7 +68,7 @@ entries! { pub(super) MODBUS_RTU =
     fn clearbuff(dev: modbus_dev "the slave") -> bool
         { "5.6.6.5", modbus_rtu::clearbuff, waits, fails; "modbus_dev m\nprint clearbuff(m)" }
     /// Sets how often registers and line are exchanged. Below 500000: alarm.
-    fn setcycle(dev: modbus_dev "the slave", cycle: int "the period, us, 500000 or more")
+    fn setcycle(dev: modbus_dev "the slave", cycle: int [accepts(Accepted::Range(500_000, i32::MAX))] "the period, us, 500000 or more")
         { "5.6.6.6", modbus_rtu::setcycle, waits, fails;
           "modbus_dev m\nopen(m,\"rtserMB0\",1,115200,none,8,one)\nsetcycle(m,1000000)" }
 }

@@ -1,6 +1,7 @@
 //! 3.2 and 3.3: motion.
 
 use super::declare::{base, entries, folded, kind, param_type};
+use super::facts::{Form, Motion, Role};
 use super::types::Family;
 use crate::ast::Unit;
 
@@ -21,7 +22,7 @@ entries! { pub(super) MOTION =
         t: tool [optional] "the tool, whose speed is limited in manual mode; it goes to $DFTOOL, which stands in without it",
         dura: double [optional, units(&[Unit::Second]), above(0.0), set()] "how long the motion takes, s; the speed is then ignored",
     )
-        { "3.2.1", motion::movej, plans, fails, exclusive(AXIS);
+        { "3.2.1", motion::movej, plans(Motion::Joint), fails, exclusive(AXIS);
           "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nmovej j:{j1 30},v:{per 10},sp:-1%" }
     /// Moves to a pose by the axes' shortest way; all arrive together. The TCP's path is not defined. Unset components stay
     /// where they are; the first motion of a program needs all of them.
@@ -36,7 +37,7 @@ entries! { pub(super) MOTION =
         w: wobj [optional] "the frame of the target; it goes to $DFWOBJ, which stands in without it",
         dura: double [optional, units(&[Unit::Second]), above(0.0), set()] "how long the motion takes, s; the speed is then ignored",
     )
-        { "3.2.2", motion::ptp, plans, fails, exclusive(AXIS);
+        { "3.2.2", motion::ptp, plans(Motion::PointToPoint), fails, exclusive(AXIS);
           "joint j = {0,-90,90,0,45,0}\npose p = getpose(j,$FLANGE,$WORLD)\nptp p,vp:20%" }
     /// Moves the TCP on a straight line; the tool turns along with it. The arm configuration of the start is kept.
     instr lin(
@@ -51,7 +52,7 @@ entries! { pub(super) MOTION =
         w: wobj [optional] "the frame of the target; it goes to $DFWOBJ, which stands in without it",
         dura: double [optional, units(&[Unit::Second]), above(0.0), set()] "how long the motion takes, s; the speed is then ignored",
     )
-        { "3.2.3", motion::lin, plans, fails, exclusive(PATH);
+        { "3.2.3", motion::lin, plans(Motion::Line), fails, exclusive(PATH);
           "joint j = {0,-90,90,0,45,0}\npose p = getpose(j,$FLANGE,$WORLD)\nptp p,vp:20%\np.z = p.z - 50\nlin p,vl:100mm/s" }
     /// Moves the TCP through taught points on a smooth curve, without pause.
     instr spl(
@@ -65,7 +66,7 @@ entries! { pub(super) MOTION =
         t: tool [optional] "the tool whose TCP moves; it goes to $DFTOOL, which stands in without it",
         w: wobj [optional] "the frame of the target; it goes to $DFWOBJ, which stands in without it",
     )
-        { "3.2.4", motion::spl, plans, fails, exclusive(PATH);
+        { "3.2.4", motion::spl, plans(Motion::Spline), fails, exclusive(PATH);
           "joint j = {0,-90,90,0,45,0}\npose p = getpose(j,$FLANGE,$WORLD)\nptp p,vp:20%\np.y = p.y + 50\nspl p\np.x = p.x + 50\nspl p" }
     /// Moves the TCP on an arc through an auxiliary point to the target. Points on one line: alarm.
     instr cir(
@@ -82,7 +83,7 @@ entries! { pub(super) MOTION =
         CA: double [optional, units(&[Unit::Degree]), range(-7200.0, 7200.0), set()] "angle of the arc, deg: the motion ends there, p only shapes the circle",
         dura: double [optional, units(&[Unit::Second]), above(0.0), set()] "how long the motion takes, s; the speed is then ignored",
     )
-        { "3.2.5", motion::cir, plans, fails, exclusive(PATH);
+        { "3.2.5", motion::cir, plans(Motion::Arc), fails, exclusive(PATH);
           "joint j = {0,-90,90,0,45,0}\npose p = getpose(j,$FLANGE,$WORLD)\nptp p,vp:20%\npose m = offset(p,50,50,0,0,0,0)\np.x = p.x + 100\ncir m,p,vl:100mm/s" }
     /// Moves the TCP on an arc that consecutive ccir instructions make together, one point each. Fewer than three points,
     /// points on one line, equal neighbours, or a stop of the look-ahead between them: alarm 12002.
@@ -97,7 +98,7 @@ entries! { pub(super) MOTION =
         t: tool [optional] "the tool whose TCP moves; it goes to $DFTOOL, which stands in without it",
         w: wobj [optional] "the frame of the target; it goes to $DFWOBJ, which stands in without it",
     )
-        { "3.2.6", motion::ccir, plans, fails, exclusive(PATH), only(Family::SixAxis);
+        { "3.2.6", motion::ccir, plans(Motion::JoinedArc), fails, exclusive(PATH), only(Family::SixAxis);
           "joint j = {0,-90,90,0,45,0}\npose p = getpose(j,$FLANGE,$WORLD)\nptp p,vp:20%\np.x = p.x + 50\np.y = p.y + 50\nccir p\np.x = p.x + 50\np.y = p.y - 50\nccir p" }
     /// Lifts, moves over and lowers: the fast way from place to place of a SCARA robot. Start or target above the limit Z:
     /// alarm 12042.
@@ -114,7 +115,7 @@ entries! { pub(super) MOTION =
         s: bool [otherwise("false")] "true: goes on to the next motion without stopping at the target",
         sig: bool [condition, otherwise("false")] "looked at before sinking: where it holds, the robot stops above the target",
     )
-        { "3.3.6", motion::jump, plans, fails, exclusive(&[&["v", "vp"]]), only(Family::Scara);
+        { "3.3.6", motion::jump, plans(Motion::Jump), fails, form(Form::Jump), exclusive(&[&["v", "vp"]]), only(Family::Scara);
           "pose p = {x 400,y 100,z 50,a 0,b 0,c 0}\njump p,vp:50%,a:30,b:30" }
     /// Lays a weave over the lines, circles and splines that follow, up to endweave. It begins and ends on the path; what is
     /// too fast for the robot slows the path down.
@@ -127,7 +128,7 @@ entries! { pub(super) MOTION =
         { "3.2.7.2", motion::endweave, acts, fails, foreground, only(Family::SixAxis); "endweave" }
     /// Begins to compensate the lines, circles and splines that follow, up to endcompen. All limits must be above 0.
     instr startcompen(data: compendata "how fast the compensation may grow")
-        { "3.2.11.1", motion::startcompen, acts, fails, foreground, only(Family::SixAxis);
+        { "3.2.11.1", motion::startcompen, acts, fails, foreground, changes(Role::Compensation), only(Family::SixAxis);
           "compendata limits = {200,600,1000,200,50,1000}\nstartcompen data:limits\nendcompen" }
     /// Shifts and turns the lines, circles and splines that follow, up to endcompen, by as much more. At most 90 deg in all
     /// about each axis.

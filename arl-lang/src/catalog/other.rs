@@ -1,6 +1,7 @@
 //! 5.12: time, files, system variables.
 
 use super::declare::{base, entries, folded, kind, param_type};
+use super::facts::Space;
 
 entries! { pub(super) OTHER =
     /// Time of day as hh:mm:ss.
@@ -28,18 +29,18 @@ entries! { pub(super) OTHER =
         { "5.12.7", files::gettextstr, waits, fails;
           "print to:file,filepath:\"notes.txt\",\"first line\",endl\nprint to:hmi,gettextstr(\"notes.txt\",1)" }
     /// Name of the file that the motion being executed stands in, or the last one, if only before the controller was switched on.
-    fn curmpfile(channel_index: int [range(1.0, 6.0)] "the foreground channel, 1 to 6") -> string
+    fn curmpfile(channel_index: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the foreground channel, 1 to 6") -> string
         { "5.12.8", channel::curmpfile, acts, fails; "print curmpfile(1)" }
     /// Line of the motion being executed, or the last one, if only before the controller was switched on.
-    fn curmpline(channel_index: int [range(1.0, 6.0)] "the foreground channel, 1 to 6") -> int
+    fn curmpline(channel_index: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the foreground channel, 1 to 6") -> int
         { "5.12.9", channel::curmpline, acts, fails; "print curmpline(1)" }
     /// Name of the file that the program stands in; until it runs, the one in which the channel's program stood when the controller
     /// was switched off.
-    fn curppfile(channel_index: int [range(1.0, 6.0)] "the foreground channel, 1 to 6") -> string
+    fn curppfile(channel_index: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the foreground channel, 1 to 6") -> string
         { "5.12.10", channel::curppfile, acts, fails; "print curppfile(1)" }
     /// Line that the program stands on; until it runs, the one on which the channel's program stood when the controller was switched
     /// off.
-    fn curppline(channel_index: int [range(1.0, 6.0)] "the foreground channel, 1 to 6") -> int
+    fn curppline(channel_index: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the foreground channel, 1 to 6") -> int
         { "5.12.11", channel::curppline, acts, fails; "print curppline(1)" }
     /// Size of a file in the script directory, bytes. A file that is missing: alarm.
     fn filesize(file_name: string "the file") -> int

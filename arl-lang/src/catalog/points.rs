@@ -9,14 +9,14 @@ entries! { pub(super) POINTS =
         file_dst: string "the copy",
         mode: bool "true: a file of that name is overwritten, false: it is left alone and the result is false",
     ) -> bool
-        { "5.11.1", points::savearl, waits, fails; "print savearl(\"recipe1.arl\",\"recipe2.arl\",true)" }
+        { "5.11.1", points::savearl, waits, fails, uses_disk; "print savearl(\"recipe1.arl\",\"recipe2.arl\",true)" }
     /// Writes a pose to a point of a data file; it counts from the next load on. A file or point that is missing: false.
     fn savefilepose(
         file_name: string "the _data.arl file",
         pose_name: string [alias(&["p_name"])] "name of the pose in it",
         p: pose "the value",
     ) -> bool
-        { "5.11.2", points::savefilepose, waits, fails;
+        { "5.11.2", points::savefilepose, waits, fails, uses_disk;
           "pose a = {x 0,y 10,z 15,a 0,b 90,c 0}\nprint savefilepose(\"recipe1_data.arl\",\"p1\",a)" }
     /// Writes a joint to a point of a data file; it counts from the next load on. A file or point that is missing: false.
     fn savefilejoint(
@@ -24,7 +24,7 @@ entries! { pub(super) POINTS =
         joint_name: string [alias(&["pose_name"])] "name of the joint in it",
         j: joint "the value",
     ) -> bool
-        { "5.11.3", points::savefilejoint, waits, fails;
+        { "5.11.3", points::savefilejoint, waits, fails, uses_disk;
           "joint a = {0,10,20,30,40,50}\nprint savefilejoint(\"recipe1_data.arl\",\"j1\",a)" }
     /// Writes a pose to a point of the program of a foreground channel; it counts at once.
     fn saveposenow(

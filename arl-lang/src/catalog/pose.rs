@@ -1,6 +1,7 @@
 //! 5.8: where the robot is and what it feels.
 
 use super::declare::{base, entries, folded, kind, param_type};
+use super::facts::{PoseShift, Space};
 
 entries! { pub(super) POSE =
     /// Axis positions that the robot reports now; external axes that are not there stay unset.
@@ -33,7 +34,7 @@ entries! { pub(super) POSE =
         ry: double "turn about the new y, deg",
         rx: double "turn about the new x, deg",
     ) -> pose
-        { "5.8.6", pose::offset, pure;
+        { "5.8.6", pose::offset, pure, shifts(PoseShift::Workpiece);
           "pose p = {x 1500,y 500,z 500,a 0,b 0,c 0}\nprint offset(p,10,20,30,60,50,40)" }
     /// Shifts and turns a target along the axes of its own tool frame.
     fn reltool(
@@ -45,39 +46,39 @@ entries! { pub(super) POSE =
         ry: double "turn about the new y, deg",
         rx: double "turn about the new x, deg",
     ) -> pose
-        { "5.8.7", pose::reltool, pure;
+        { "5.8.7", pose::reltool, pure, shifts(PoseShift::Tool);
           "pose p = {x 1500,y 500,z 500,a 0,b 0,c 0}\nprint reltool(p,10,20,30,40,50,60)" }
     /// Torques of the axes of a foreground channel, N*m.
     fn cjttq(
-        chan_no: int [range(1.0, 6.0)] "the channel, 1 to 6",
+        chan_no: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the channel, 1 to 6",
         ls_cmd: bool "true: as commanded, false: as measured",
     ) -> jttq
         { "5.8.8", channel::cjttq, acts, fails, alias(&["cjtq"]); "print cjttq(1,true)" }
     /// Motor currents of the axes of a foreground channel, A.
     fn cjtci(
-        chan_no: int [range(1.0, 6.0)] "the channel, 1 to 6",
+        chan_no: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the channel, 1 to 6",
         ls_cmd: bool "true: as commanded, false: as measured",
     ) -> jtci
         { "5.8.9", channel::cjtci, acts, fails, alias(&["cjtcj", "cjtc"]); "print cjtci(1,true)" }
     /// Axis positions of the target that a foreground channel moves to.
-    fn channeltojoint(chan_no: int [range(1.0, 6.0)] "the channel, 1 to 6") -> joint
+    fn channeltojoint(chan_no: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the channel, 1 to 6") -> joint
         { "5.8.10", channel::channeltojoint, acts, fails; "print channeltojoint(1)" }
     /// Pose of the target that a foreground channel moves to.
     fn channeltopose(
-        chan_no: int [range(1.0, 6.0)] "the channel, 1 to 6",
+        chan_no: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the channel, 1 to 6",
         t: tool "the tool",
         w: wobj "the workpiece frame",
     ) -> pose
         { "5.8.11", channel::channeltopose, acts, fails; "print channeltopose(1,$FLANGE,$WORLD)" }
     /// Axis positions of a foreground channel now.
     fn channeljoint(
-        chan_no: int [range(1.0, 6.0)] "the channel, 1 to 6",
+        chan_no: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the channel, 1 to 6",
         ls_cmd: bool "true: as commanded, false: as measured",
     ) -> joint
         { "5.8.12", channel::channeljoint, acts, fails; "print channeljoint(1,true)" }
     /// Pose of the TCP of a foreground channel now.
     fn channelpose(
-        chan_no: int [range(1.0, 6.0)] "the channel, 1 to 6",
+        chan_no: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the channel, 1 to 6",
         t: tool "the tool",
         w: wobj "the workpiece frame",
         ls_cmd: bool "true: as commanded, false: as measured",
@@ -85,13 +86,13 @@ entries! { pub(super) POSE =
         { "5.8.13", channel::channelpose, acts, fails; "print channelpose(1,$FLANGE,$WORLD,true)" }
     /// Speeds of the axes of a foreground channel, rad/s.
     fn channeljointvel(
-        chan_no: int [range(1.0, 6.0)] "the channel, 1 to 6",
+        chan_no: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the channel, 1 to 6",
         ls_cmd: bool "true: as commanded, false: as measured",
     ) -> jvel
         { "5.8.14", channel::channeljointvel, acts, fails; "print channeljointvel(1,true)" }
     /// Speed of the TCP of a foreground channel, mm/s.
     fn channeltcpvel(
-        chan_no: int [range(1.0, 6.0)] "the channel, 1 to 6",
+        chan_no: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the channel, 1 to 6",
         t: tool "the tool",
         w: wobj "the workpiece frame",
         ls_cmd: bool "true: as commanded, false: as measured",
@@ -99,7 +100,7 @@ entries! { pub(super) POSE =
         { "5.8.15", channel::channeltcpvel, acts, fails; "print channeltcpvel(1,$FLANGE,$WORLD,true)" }
     /// Force and torque that a foreground channel's robot exerts at its TCP, N and N*m.
     fn ctcpforce(
-        chan_no: int [range(1.0, 6.0)] "the channel, 1 to 6",
+        chan_no: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the channel, 1 to 6",
         t: tool "the tool",
         w: wobj "the workpiece frame",
     ) -> tcpforce

@@ -1,18 +1,19 @@
 //! 5.6.2: serial lines. Each call tries once and says whether it is done; `waituntil` repeats it.
 
 use super::declare::{base, entries, folded, kind, param_type};
+use super::facts::{Accepted, Space};
 
 entries! { pub(super) SERIAL =
     /// Opens a serial line; whether it worked.
     fn open(
         dev: iodev "the line",
-        devname: string "name of the device: \"/dev/ttyS0\" is com1, \"/dev/ttyS1\" com2",
-        baud_rate: int "speed, bit/s: 300, 600, 1200, 2400, 4800, 9600, 19200, 38400, 57600 or 115200",
-        character_size: int "bits a character, 5 to 8",
+        devname: string [addresses(Space::SerialLine)] "name of the device: \"/dev/ttyS0\" is com1, \"/dev/ttyS1\" com2",
+        baud_rate: int [accepts(Accepted::OneOf(&[300, 600, 1200, 2400, 4800, 9600, 19200, 38400, 57600, 115_200]))] "speed, bit/s: 300, 600, 1200, 2400, 4800, 9600, 19200, 38400, 57600 or 115200",
+        character_size: int [accepts(Accepted::Range(5, 8))] "bits a character, 5 to 8",
         stop_bits: {stopbits} "stop bits",
         prt: {parity} "parity",
     ) -> bool
-        { "5.6.2.1", serial::open, waits, fails; "iodev s\nprint open(s,\"/dev/ttyS0\",9600,8,one,none)" }
+        { "5.6.2.1", serial::open, waits, fails, connects; "iodev s\nprint open(s,\"/dev/ttyS0\",9600,8,one,none)" }
     /// Closes a serial line; closing one that is not open does nothing.
     fn close(dev: iodev "the line")
         { "5.6.2.2", serial::close, waits; "iodev s\nclose(s)" }

@@ -1,6 +1,7 @@
 //! 5.6.1: sockets. Each call tries once and says whether it is done; `waituntil` repeats it.
 
 use super::declare::{base, entries, folded, kind, param_type};
+use super::facts::Accepted;
 
 entries! { pub(super) SOCKET =
     /// Sets address, gateway and mask of a network port; whether it worked.
@@ -10,7 +11,7 @@ entries! { pub(super) SOCKET =
         mask: string "the mask of the subnet",
         if_name: string [otherwise("\"eth1\"")] "the port: eth1 without it",
     ) -> bool
-        { "5.6.1.1", socket::setip, waits, fails;
+        { "5.6.1.1", socket::setip, waits, fails, uses_disk;
           "print setip(\"10.20.210.93\",\"10.20.210.1\",\"255.255.255.0\",\"eth1\")" }
     /// Reads the address of a network port; whether it worked.
     fn getip(
@@ -19,11 +20,11 @@ entries! { pub(super) SOCKET =
     ) -> bool
         { "5.6.1.2", socket::getip, waits, fails; "string ip\nif(getip(ip)) print ip" }
     /// Connects to a server; true when the connection stands.
-    fn connect(s: socket "the connection", ip: string "the server's address", port: int "the server's port") -> bool
-        { "5.6.1.3", socket::connect, waits, fails; "socket s\nwaituntil connect(s,\"192.168.0.40\",2888),maxtime:5" }
+    fn connect(s: socket "the connection", ip: string "the server's address", port: int [accepts(Accepted::Range(1, 65535))] "the server's port") -> bool
+        { "5.6.1.3", socket::connect, waits, fails, connects; "socket s\nwaituntil connect(s,\"192.168.0.40\",2888),maxtime:5" }
     /// Listens for a client; true when one has connected.
-    fn accept(s: socket "the connection", ip: string "our own address", port: int "the port to listen on") -> bool
-        { "5.6.1.4", socket::accept, waits, fails; "socket s\nwaituntil accept(s,\"192.168.0.40\",2888),maxtime:5" }
+    fn accept(s: socket "the connection", ip: string "our own address", port: int [accepts(Accepted::Range(1, 65535))] "the port to listen on") -> bool
+        { "5.6.1.4", socket::accept, waits, fails, connects; "socket s\nwaituntil accept(s,\"192.168.0.40\",2888),maxtime:5" }
     /// Error state of a connection: 0, or $ERR_SOCKET_CLOSED when the other side has closed it.
     fn geterror(s: socket "the connection") -> int
         { "5.6.1.5", socket::geterror, waits, fails; "socket s\nprint geterror(s)" }

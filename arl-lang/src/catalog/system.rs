@@ -1,6 +1,7 @@
 //! The system variables: chapter 10, the settings of chapter 9, and those of the sockets.
 
 use super::declare::{base, folded, variables};
+use super::facts::Role;
 
 variables! { pub(super) DATA =
     /// 100 ints for the user; savesv keeps them.
@@ -29,11 +30,11 @@ variables! { pub(super) DATA =
     WOBJS_NAME: string[32] = "{\"\"}" { "10.1.12", permanent; "$WOBJS_NAME[1] = \"pallet\"\nprint $WOBJS_NAME[1]" }
     /// Where the bases of the mechanical units stand in the world.
     BASE: wobj[3] = "{{{0,0,0,0,0,0},false},{{0,0,0,0,0,0},false},{{0,0,0,0,0,0},false}}"
-        { "10.1.13", saved; "print $BASE[0]" }
+        { "10.1.13", saved, role(Role::Frame); "print $BASE[0]" }
     /// The flange as a tool: no tool at all.
-    FLANGE: tool = "{{0,0,0,0,0,0},false}" { "10.1.14", permanent, readonly, alias(&["TOOL0"]); "print $FLANGE" }
+    FLANGE: tool = "{{0,0,0,0,0,0},false}" { "10.1.14", permanent, role(Role::Flange), readonly, alias(&["TOOL0"]); "print $FLANGE" }
     /// The world as a workpiece frame.
-    WORLD: wobj = "{{0,0,0,0,0,0},false,\"WORLD\"}" { "10.1.15", permanent, readonly; "print $WORLD" }
+    WORLD: wobj = "{{0,0,0,0,0,0},false,\"WORLD\"}" { "10.1.15", permanent, role(Role::World), readonly; "print $WORLD" }
     /// 32 loads, for toolload and toolswitch.
     TOOL_INERTIA: tool_inertia_para[32] = "{{0}}" { "3.5.6", saved; "$TOOL_INERTIA[3].m = 1500\nprint $TOOL_INERTIA[3].m" }
 }
@@ -41,23 +42,23 @@ variables! { pub(super) DATA =
 variables! { pub(super) FUNCTION =
     /// Whether lines and arcs may pass near the wrist singularity (axis 5 at 0): the TCP's position is kept at the cost of
     /// its orientation.
-    WRIST: bool = "false" { "10.2.1", reset; "$WRIST = true" }
+    WRIST: bool = "false" { "10.2.1", reset, role(Role::WristPassage); "$WRIST = true" }
     /// Whether targets are reached in the configuration they were taught in (cfg and turn); false: in the one nearest to
     /// the current axes.
     CONFIG_CHECK: bool = "true"
-        { "10.2.2", reset, alias(&["Congfig_check", "check_congfig", "check_config"]); "$CONFIG_CHECK = false" }
+        { "10.2.2", reset, role(Role::ConfigurationCheck), alias(&["Congfig_check", "check_congfig", "check_config"]); "$CONFIG_CHECK = false" }
     /// Speed of motions that give none: per %, tcp mm/s, ori deg/s, exj deg/s, exl mm/s.
     DFSPEED: speed = "{5,50,400,5,5}" { "10.2.3", reset; "$DFSPEED.per = 20\nprint $DFSPEED" }
     /// Blending of motions that give none.
     DFSLIP: slip = "{-1.0,-1.0}" { "10.2.4", reset; "print $DFSLIP" }
     /// Tool of motions that give none.
-    DFTOOL: tool = "{{0,0,0,0,0,0},false}" { "10.2.5", reset; "$DFTOOL = $TOOLS[1]\nprint $DFTOOL" }
+    DFTOOL: tool = "{{0,0,0,0,0,0},false}" { "10.2.5", reset, role(Role::DefaultTool); "$DFTOOL = $TOOLS[1]\nprint $DFTOOL" }
     /// Workpiece frame of motions that give none.
-    DFWOBJ: wobj = "{{0,0,0,0,0,0},false}" { "10.2.6", reset; "$DFWOBJ = $WOBJS[1]\nprint $DFWOBJ" }
+    DFWOBJ: wobj = "{{0,0,0,0,0,0},false}" { "10.2.6", reset, role(Role::DefaultWorkpiece); "$DFWOBJ = $WOBJS[1]\nprint $DFWOBJ" }
     /// Whether targets' a, b, c are ignored: the tool keeps its orientation.
-    IGNORE_ORI: bool = "false" { "10.2.7", reset; "$IGNORE_ORI = true" }
+    IGNORE_ORI: bool = "false" { "10.2.7", reset, role(Role::Frame); "$IGNORE_ORI = true" }
     /// Whether the tool turns along with the path on arcs.
-    ORI_REF_PATH: bool = "false" { "10.2.8", reset; "$ORI_REF_PATH = true" }
+    ORI_REF_PATH: bool = "false" { "10.2.8", reset, role(Role::ArcOrientation); "$ORI_REF_PATH = true" }
     /// Speed profile of the motions that follow; at first the robot file's.
     VEL_PROFILE: vel_profile = "S_TYPE" { "10.2.9", reset; "$VEL_PROFILE = S_TYPE\nprint $VEL_PROFILE" }
     /// Time since the motion being executed began, s.
@@ -85,9 +86,9 @@ variables! { pub(super) FUNCTION =
     /// The operating mode.
     CTL_MODE: controlmode = "AUTO" { "10.2.21", startup, readonly; "print $CTL_MODE" }
     /// Shift and turn of all workpiece frames: x, y, z mm, a, b, c deg.
-    WOBJ_OFFSET: double[6] = "{0,0,0,0,0,0}" { "10.2.22", reset; "$WOBJ_OFFSET = {50,50,50,0,0,0}\nprint $WOBJ_OFFSET" }
+    WOBJ_OFFSET: double[6] = "{0,0,0,0,0,0}" { "10.2.22", reset, role(Role::Frame); "$WOBJ_OFFSET = {50,50,50,0,0,0}\nprint $WOBJ_OFFSET" }
     /// Shift and turn of all tools: x, y, z mm, a, b, c deg.
-    TOOL_OFFSET: double[6] = "{0,0,0,0,0,0}" { "10.2.23", reset; "$TOOL_OFFSET = {50,0,0,0,0,0}\nprint $TOOL_OFFSET" }
+    TOOL_OFFSET: double[6] = "{0,0,0,0,0,0}" { "10.2.23", reset, role(Role::Frame); "$TOOL_OFFSET = {50,0,0,0,0,0}\nprint $TOOL_OFFSET" }
     /// Where each mechanical unit believes to be at servo-on: "feedback", where it is; "cmd", where it was sent last, if it
     /// is near enough.
     RESET_POS_TYPE: string[100] = "{\"\"}"

@@ -349,3 +349,66 @@ fn defaults_of_system_variables_are_read_without_a_mistake() {
         assert_eq!(braces, wanted, "${}: {}", variable.name, variable.default);
     }
 }
+
+#[test]
+fn forms_and_effects_fit_each_other() {
+    for entry in all_entries() {
+        let name = entry.name;
+        let repeats = entry.params.iter().any(|param| matches!(param.mode, Mode::Condition | Mode::Action));
+        let has_form = matches!(entry.form, Form::WaitUntil | Form::Jump | Form::Event);
+        assert_eq!(repeats, has_form, "{name}: a condition or an action needs a form of its own");
+        let ends = matches!(entry.form, Form::Exit | Form::Restart);
+        assert_eq!(ends, entry.effect == Effect::Ends, "{name}: only `exit` and `restart` end the program");
+        assert_eq!(entry.motion.is_some(), entry.effect == Effect::Plans, "{name}: what plans is a motion");
+        assert!(!(entry.connects || entry.uses_disk) || entry.effect == Effect::Waits, "{name}: it takes its time");
+        let delays = entry.params.iter().any(|param| param.delays);
+        assert!(!delays || entry.effect == Effect::Waits, "{name}: what delays waits");
+    }
+}
+
+#[test]
+fn motions_and_shifts_have_the_parameters_that_checks_read() {
+    for entry in all_entries() {
+        let target = match entry.motion {
+            Some(Motion::Joint) => Some("j"),
+            Some(_) => Some("p"),
+            None => entry.shift.map(|_| "p"),
+        };
+        let by = if entry.shift.is_some() { &["dx", "dy", "dz", "rz", "ry", "rx"][..] } else { &[] };
+        for label in target.iter().chain(by) {
+            assert!(entry.params.iter().any(|param| param.name == *label), "{}: no parameter `{label}`", entry.name);
+        }
+    }
+}
+
+#[test]
+fn what_is_related_has_something_addressed_before_it() {
+    for entry in all_entries() {
+        let mut spaces = Vec::new();
+        for param in entry.params {
+            let at = format!("{}, {}", entry.name, param.name);
+            spaces.extend(param.addresses);
+            if let Some(relation) = param.relation {
+                assert!(!spaces.is_empty(), "{at}: it is related to nothing");
+                let is_value = relation == Relation::Content;
+                assert_eq!(is_value, spaces.last() == Some(&Space::AnalogOutput), "{at}: levels are content");
+                assert!(relation != Relation::Extent(0), "{at}: none of it is one place");
+            }
+            let whole = param.ty == ParamType::One(Base::Int);
+            assert!(whole || param.accepts.is_none(), "{at}: only whole numbers are accepted or not");
+        }
+        assert!(spaces.windows(2).all(|pair| pair[0] == pair[1]), "{}: it addresses two spaces", entry.name);
+        assert!(spaces.len() < 3, "{}: a first and a last place at most", entry.name);
+    }
+}
+
+#[test]
+fn spellings_of_other_editions_are_aliases() {
+    let of_entries = all_entries().iter().flat_map(|entry| entry.aliases.iter().copied());
+    let of_params = all_entries().iter().flat_map(|entry| entry.params).flat_map(|param| param.aliases.iter().copied());
+    let of_variables = system_variables().flat_map(|variable| variable.aliases.iter().copied());
+    let aliases: HashSet<&str> = of_entries.chain(of_params).chain(of_variables).collect();
+    let strangers: Vec<_> = OTHER_EDITIONS.iter().filter(|name| !aliases.contains(**name)).collect();
+    assert!(strangers.is_empty(), "no entry has the alias {strangers:?}");
+    assert!(is_of_other_edition("StartWeaveLin") && !is_of_other_edition("startweave"));
+}

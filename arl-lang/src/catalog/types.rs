@@ -1,6 +1,6 @@
 //! The types that ARL knows by itself.
 
-use super::entry::Range;
+use super::facts::Range;
 
 /// Which kind of robot a program is checked for; some types and instructions differ.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug, Default)]

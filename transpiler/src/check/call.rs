@@ -8,7 +8,7 @@ use crate::diagnostics::names::NameProblem;
 use crate::diagnostics::support::SupportProblem;
 use crate::hir::{Bound, Builtin, Expr, ExprKind, FuncId, Passed, Type, Value};
 use arl_lang::ast;
-use arl_lang::catalog::{self, Base, Entry, Family, ParamType, Presence};
+use arl_lang::catalog::{self, Base, Entry, Family, Form, ParamType, Presence};
 use arl_lang::span::Span;
 use arl_lang::symbol::Symbol;
 
@@ -95,7 +95,7 @@ impl Checker<'_> {
             return self.report_family(body, call.name.span, all.first()?);
         };
         self.strict_case(body, call.name.span, first.name);
-        if first.name == "typeof" {
+        if first.form == Form::TypeOf {
             return self.type_of(body, first, call, span);
         }
         let fitting: Vec<&'static Entry> =

@@ -4,7 +4,7 @@ use crate::diagnostics::flow::FlowProblem;
 use crate::diagnostics::{Diagnostic, Location, Problem};
 use crate::hir::{Builtin, Expr, ExprKind, FuncId, Passed, Program, Stmt};
 use crate::visit;
-use arl_lang::catalog::{Effect, Entry, Kind, Mode};
+use arl_lang::catalog::{Effect, Entry, Form, Kind, Mode};
 use arl_lang::span::Span;
 
 /// Reports every condition that waits or moves.
@@ -14,9 +14,9 @@ pub(crate) fn check(program: &Program, locate: &dyn Fn(crate::hir::ModuleId, Spa
     let of_events = culprits(&facts, takes_cycles);
     let mut out = Vec::new();
     for (func, facts) in program.funcs.iter().zip(&facts) {
-        for (holder, condition) in &facts.conditions {
-            let found = match *holder {
-                "waituntil" => waiting(program, condition, &of_waits, waits),
+        for (form, condition) in &facts.conditions {
+            let found = match form {
+                Form::WaitUntil => waiting(program, condition, &of_waits, waits),
                 _ => waiting(program, condition, &of_events, takes_cycles),
             };
             if let Some((span, culprit)) = found {
@@ -34,8 +34,8 @@ struct Facts<'a> {
     uses: Vec<&'static Entry>,
     /// The functions that it calls.
     calls: Vec<FuncId>,
-    /// The conditions in it, each with the instruction that has it.
-    conditions: Vec<(&'static str, &'a Expr)>,
+    /// The conditions in it, each with the form of the instruction that has it.
+    conditions: Vec<(Form, &'a Expr)>,
 }
 
 fn facts(block: &[Stmt]) -> Facts<'_> {
@@ -45,7 +45,7 @@ fn facts(block: &[Stmt]) -> Facts<'_> {
             ExprKind::Call(func, _) => facts.calls.push(*func),
             ExprKind::Builtin(builtin) => {
                 facts.uses.push(builtin.entry);
-                facts.conditions.extend(conditions(builtin).map(|condition| (builtin.entry.name, condition)));
+                facts.conditions.extend(conditions(builtin).map(|condition| (builtin.entry.form, condition)));
             }
             _ => {}
         });
@@ -94,13 +94,10 @@ fn waits(entry: &Entry) -> bool {
     entry.kind == Kind::Instruction && (entry.effect.takes_time() || entry.effect == Effect::Ends)
 }
 
-/// Functions that wait for the disk besides.
-const WRITERS: [&str; 4] = ["savearl", "savefilepose", "savefilejoint", "setip"];
-
 /// Whether it waits, or is a function that takes cycles even where nothing is to be waited for: the condition of an event has
 /// one to itself.
 fn takes_cycles(entry: &Entry) -> bool {
-    waits(entry) || entry.effect == Effect::Lasts || WRITERS.contains(&entry.name)
+    waits(entry) || entry.effect == Effect::Lasts || entry.uses_disk
 }
 
 /// Where in a condition something waits, and what it is.

@@ -7,13 +7,10 @@ use crate::diagnostics::support::SupportProblem;
 use crate::diagnostics::{Diagnostic, FileId, Files, Label, Location, Problem, Severity};
 use crate::hir::{self, FuncId, GlobalId, LabelId, LocalId, ModuleId, Type, Value};
 use arl_lang::ast;
-use arl_lang::catalog::{Base, Entry, Family};
+use arl_lang::catalog::{self, Base, Entry, Family};
 use arl_lang::span::Span;
 use arl_lang::symbol::{Interner, Symbol};
 use std::collections::{HashMap, HashSet};
-
-/// Spellings of older and later editions, accepted for names that this one spells otherwise.
-const OTHER_EDITIONS: &[&str] = &["startweavelin", "startweavespa", "DETECT_SOCK_CLOSE", "ERR_SOCK_CLOSED", "mu_name"];
 
 /// The whole check: modules in, a checked program and diagnostics out.
 pub(crate) struct Checker<'a> {
@@ -259,7 +256,7 @@ impl<'a> Checker<'a> {
         if written != declared && written.eq_ignore_ascii_case(declared) {
             let problem = ConstantProblem::OtherCase { declared: declared.to_string() };
             self.report::<()>(body, span, problem);
-        } else if OTHER_EDITIONS.iter().any(|other| other.eq_ignore_ascii_case(written)) && written != declared {
+        } else if catalog::is_of_other_edition(written) && written != declared {
             let what = format!("`{written}`, which is `{declared}` there");
             self.strict_form(body, span, &what);
         }

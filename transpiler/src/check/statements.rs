@@ -193,7 +193,7 @@ impl Checker<'_> {
         let condition = self.condition(body, event);
         let action = self.action(body, action, None);
         self.has_conditions = true;
-        let entry = catalog::instructions("trigger").first()?;
+        let entry = catalog::trigger()?;
         let mut args = Vec::new();
         for (at, param) in entry.params.iter().enumerate() {
             if let Presence::Default(text) = param.presence {

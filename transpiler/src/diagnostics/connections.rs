@@ -2,13 +2,14 @@
 
 use super::Problem;
 use super::registry::problems;
+use arl_lang::catalog::Accepted;
 
 problems! {
     /// What is wrong with an argument.
     pub(crate) enum ConnectionProblem {
         error 807 "An argument that a connection cannot have" => {
             /// A value that the parameter does not take.
-            Value { param: &'static str, value: i32, allowed: String },
+            Value { param: &'static str, value: i32, accepted: Accepted },
         }
         error 808 "Registers or bytes that a bus does not have" => {
             /// So many of these from `start` on: there are `size`, from 0 on. `result` is what becomes of the call.
@@ -35,8 +36,8 @@ pub(crate) struct Unit {
 impl Problem for ConnectionProblem {
     fn message(&self) -> String {
         match self {
-            ConnectionProblem::Value { param, value, allowed } => {
-                format!("`{param}` cannot be {value}: it is {allowed}")
+            ConnectionProblem::Value { param, value, accepted } => {
+                format!("`{param}` cannot be {value}: it is {accepted}")
             }
             ConnectionProblem::Missing { unit, start, count: 0 | 1, .. } => format!("there is no {} {start}", unit.one),
             ConnectionProblem::Missing { unit, start, count: ..0, .. } => {

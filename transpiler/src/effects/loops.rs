@@ -103,11 +103,12 @@ fn may_skip(stmt: &Stmt) -> bool {
 fn gives_back(stmt: &Stmt) -> bool {
     let StmtKind::Eval(Expr { kind: ExprKind::Builtin(builtin), .. }) = &stmt.kind else { return false };
     let known_wait = || {
-        builtin.entry.name == "waittime"
-            && builtin.args.iter().any(|arg| match &arg.value {
-                Passed::Value(Expr { kind: ExprKind::Const(Value::Double(time)), .. }) => *time > 0.0,
-                _ => false,
-            })
+        builtin.args.iter().any(|arg| match &arg.value {
+            Passed::Value(Expr { kind: ExprKind::Const(Value::Double(time)), .. }) => {
+                *time > 0.0 && builtin.entry.params.get(arg.param).is_some_and(|param| param.delays)
+            }
+            _ => false,
+        })
     };
     builtin.entry.effect == Effect::Plans || known_wait()
 }

@@ -195,7 +195,7 @@ fn beside(unit: &Unit<'_>) -> Option<TokenStream> {
     let (mut connections, mut modbus_tcp) = (false, false);
     let mut look = |expr: &Expr| {
         if let ExprKind::Builtin(builtin) = &expr.kind {
-            connections |= builtin.connects();
+            connections |= builtin.entry.connects;
             modbus_tcp |= builtin.is_served();
         }
     };

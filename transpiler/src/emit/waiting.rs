@@ -7,29 +7,24 @@ use super::fragment::{Fragment, Precedence};
 use super::places::{Calm, Written};
 use super::sequence::Mode;
 use crate::hir::{Bound, Builtin, Expr, ExprKind, Passed, Place, Value};
-use arl_lang::catalog::{Effect, Mode as ParamMode};
+use arl_lang::catalog::{Form, Mode as ParamMode};
 use proc_macro2::TokenStream;
 use quote::quote;
 
 impl<'p> Body<'p, '_> {
     /// The code for a special form; `None` where the general rule holds.
     pub(super) fn special(&mut self, builtin: &'p Builtin) -> Option<Fragment> {
-        let entry = builtin.entry;
-        if entry.effect == Effect::Ends {
-            let stop = ending(builtin);
-            return Some(Fragment::settled(quote!(())).after(quote!(return Err(#stop);)));
+        let nothing = || Fragment::settled(quote!(()));
+        match builtin.entry.form {
+            Form::Call | Form::TypeOf => None,
+            Form::Exit | Form::Restart => {
+                let stop = ending(builtin);
+                Some(nothing().after(quote!(return Err(#stop);)))
+            }
+            Form::WaitUntil => Some(nothing().after(self.waituntil(builtin))),
+            Form::Jump => self.looking(builtin),
+            Form::Event => Some(self.event(builtin)),
         }
-        let repeated = entry.params.iter().any(|param| matches!(param.mode, ParamMode::Condition | ParamMode::Action));
-        if !repeated {
-            return None;
-        }
-        if entry.name == "waituntil" {
-            return Some(Fragment::settled(quote!(())).after(self.waituntil(builtin)));
-        }
-        if entry.name == "jump" {
-            return self.looking(builtin);
-        }
-        Some(self.event(builtin))
     }
 
     /// A `jump` that looks at its `sig` above the target; `None` where that is false anyway.
@@ -47,7 +42,7 @@ impl<'p> Body<'p, '_> {
         let line = moved.then(|| self.line_statement());
         let call = instruction_call(entry, &arguments, quote!(above));
         let above = self.checked(quote!(#call.await));
-        let name = self.fresh("jump");
+        let name = self.fresh(entry.name);
         let unmet = self.negated(condition);
         self.acts = true;
         let (first, unmet) = (&unmet.before, &unmet.tokens);
@@ -112,5 +107,5 @@ impl<'p> Body<'p, '_> {
 
 /// Why the program ends.
 pub(super) fn ending(builtin: &Builtin) -> TokenStream {
-    if builtin.entry.name.eq_ignore_ascii_case("restart") { quote!(Stop::restart()) } else { quote!(Stop::exit()) }
+    if builtin.entry.form == Form::Restart { quote!(Stop::restart()) } else { quote!(Stop::exit()) }
 }

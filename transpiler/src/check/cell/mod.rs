@@ -6,6 +6,7 @@ mod connections;
 use crate::diagnostics::{Diagnostic, Location, Problem};
 use crate::hir::{Builtin, Expr, ExprKind, ModuleId, Passed, Program, Value};
 use crate::visit;
+use arl_lang::catalog::{Param, Relation, Space};
 use arl_lang::span::Span;
 use arl_robot::outline::Outline;
 
@@ -36,18 +37,25 @@ pub(crate) fn check(program: &Program, cell: &Outline, locate: &dyn Fn(ModuleId,
     found
 }
 
-/// The value that is passed to the parameter with this index.
-fn argument(builtin: &Builtin, param: usize) -> Option<&Expr> {
-    let bound = builtin.args.iter().find(|bound| bound.param == param)?;
-    match &bound.value {
-        Passed::Value(value) => Some(value),
-        Passed::Out(_) => None,
-    }
+/// The values that are passed, each with its parameter, in the order of the parameters.
+fn given(builtin: &Builtin) -> impl Iterator<Item = (&'static Param, &Expr)> {
+    builtin.entry.params.iter().enumerate().filter_map(|(at, param)| {
+        let bound = builtin.args.iter().find(|bound| bound.param == at)?;
+        match &bound.value {
+            Passed::Value(value) => Some((param, value)),
+            Passed::Out(_) => None,
+        }
+    })
 }
 
-/// The value that is passed to the parameter with this name.
-fn named<'a>(builtin: &'a Builtin, param: &str) -> Option<&'a Expr> {
-    argument(builtin, builtin.entry.params.iter().position(|known| known.name == param)?)
+/// The values that address something, and what.
+fn addressed(builtin: &Builtin) -> impl Iterator<Item = (Space, &Expr)> {
+    given(builtin).filter_map(|(param, value)| Some((param.addresses?, value)))
+}
+
+/// The value that has such a relation to what is addressed.
+fn related(builtin: &Builtin, wanted: impl Fn(Relation) -> bool) -> Option<(Relation, &Expr)> {
+    given(builtin).find_map(|(param, value)| Some((param.relation.filter(|relation| wanted(*relation))?, value)))
 }
 
 /// A constant whole number and its place.

@@ -5,7 +5,7 @@ use super::super::first_motion::{known_structure, known_value};
 use super::facts::argument;
 use super::state::State;
 use crate::hir::{Builtin, Expr, ExprKind, Func, Program, Root, Value};
-use arl_lang::catalog::{Struct, UNSET};
+use arl_lang::catalog::{PoseShift, Role, Struct, UNSET};
 use arl_robot::frames::Mount;
 use arl_robot::kinematics::{Frame, frame};
 
@@ -47,22 +47,19 @@ impl<'a> Scope<'a> {
 
     /// What `offset` and `reltool` make of a pose.
     fn moved(self, function: &'a Builtin) -> Option<Pose> {
-        let along_the_tool = match function.entry.name {
-            "offset" => false,
-            "reltool" => true,
-            _ => return None,
-        };
+        let shift = function.entry.shift?;
         let pose = self.pose(argument(function, "p")?)?;
         let mut by = [0.0; 6];
         for (place, name) in by.iter_mut().zip(["dx", "dy", "dz", "rz", "ry", "rx"]) {
             *place = argument(function, name).and_then(number).filter(|by| by.is_finite())?;
         }
         let by = frame(by);
-        let frame = if along_the_tool {
-            pose.frame * by
-        } else {
-            let place = pose.frame.translation.vector + by.translation.vector;
-            Frame::from_parts(place.into(), by.rotation * pose.frame.rotation)
+        let frame = match shift {
+            PoseShift::Tool => pose.frame * by,
+            PoseShift::Workpiece => {
+                let place = pose.frame.translation.vector + by.translation.vector;
+                Frame::from_parts(place.into(), by.rotation * pose.frame.rotation)
+            }
         };
         Some(Pose { frame, ..pose })
     }
@@ -72,11 +69,11 @@ impl<'a> Scope<'a> {
         if let ExprKind::Place(place) = &value.kind
             && let Root::System(variable) = place.root
         {
-            return match variable.name {
-                "FLANGE" => Some(super::state::flange()),
-                "WORLD" => Some(super::state::world()),
-                "DFTOOL" if place.path.is_empty() => state.tool,
-                "DFWOBJ" if place.path.is_empty() => state.wobj,
+            return match variable.role {
+                Some(Role::Flange) => Some(super::state::flange()),
+                Some(Role::World) => Some(super::state::world()),
+                Some(Role::DefaultTool) if place.path.is_empty() => state.tool,
+                Some(Role::DefaultWorkpiece) if place.path.is_empty() => state.wobj,
                 _ => None,
             };
         }

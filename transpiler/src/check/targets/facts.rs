@@ -4,10 +4,7 @@ use super::constants::Scope;
 use super::state::{Change, Changes, State};
 use crate::hir::{Builtin, Expr, ExprKind, FuncId, Passed, Place, Program, Root, Stmt};
 use crate::visit;
-use arl_lang::catalog::Effect;
-
-/// What stands between a pose and the flange beside tool and workpiece, or makes parts of a pose count no more.
-const FRAMES: [&str; 4] = ["BASE", "TOOL_OFFSET", "WOBJ_OFFSET", "IGNORE_ORI"];
+use arl_lang::catalog::{Effect, Role};
 
 /// Facts about a program.
 pub(super) struct Facts {
@@ -121,13 +118,25 @@ impl Facts {
         }
     }
 
+    /// Something changes what has this role.
+    fn changed(&mut self, role: Role) {
+        match role {
+            Role::Frame => self.plain_frames = false,
+            Role::ConfigurationCheck => self.as_taught = false,
+            Role::WristPassage => self.lines_keep_cfg = false,
+            Role::ArcOrientation => self.arcs_turn_to_targets = false,
+            Role::Compensation => self.lines_are_exact = false,
+            // These are followed along the statements.
+            Role::DefaultTool | Role::DefaultWorkpiece => {}
+            // These are read-only.
+            Role::Flange | Role::World => {}
+        }
+    }
+
     fn see(&mut self, expr: &Expr) {
         let mut written = |place: &Place| {
             let Root::System(variable) = place.root else { return };
-            self.plain_frames &= !FRAMES.contains(&variable.name);
-            self.as_taught &= variable.name != "CONFIG_CHECK";
-            self.lines_keep_cfg &= variable.name != "WRIST";
-            self.arcs_turn_to_targets &= variable.name != "ORI_REF_PATH";
+            variable.role.into_iter().for_each(|role| self.changed(role));
         };
         match &expr.kind {
             ExprKind::Assign(both) => written(&both.0),
@@ -135,8 +144,7 @@ impl Facts {
             ExprKind::Step(_, place) => written(place),
             ExprKind::Builtin(builtin) => {
                 outs(builtin).for_each(written);
-                self.plain_frames &= builtin.entry.name != "getbase_3p";
-                self.lines_are_exact &= builtin.entry.name != "startcompen";
+                builtin.entry.changes.into_iter().for_each(|role| self.changed(role));
             }
             _ => {}
         }
@@ -150,9 +158,9 @@ fn direct(scope: Scope<'_>, expr: &Expr) -> Changes {
     let mut write = |place: &Place, value: Option<&Expr>| {
         let Root::System(variable) = place.root else { return };
         let change = || Change::from(value.and_then(|value| scope.mount(value, &State::UNKNOWN)));
-        match variable.name {
-            "DFTOOL" => changes.tool.and(change()),
-            "DFWOBJ" => changes.wobj.and(change()),
+        match variable.role {
+            Some(Role::DefaultTool) => changes.tool.and(change()),
+            Some(Role::DefaultWorkpiece) => changes.wobj.and(change()),
             _ => {}
         }
     };

@@ -7,7 +7,7 @@ use super::state::{State, flange, world};
 use crate::diagnostics::targets::TargetProblem;
 use crate::hir::{Block, Builtin, Expr, ExprKind, For, ModuleId, Place, Program, Root, Stmt, StmtKind};
 use crate::visit;
-use arl_lang::catalog::Effect;
+use arl_lang::catalog::{Effect, Motion, Role};
 use arl_lang::span::Span;
 use arl_robot::Robot;
 use arl_robot::frames::Setting;
@@ -21,13 +21,6 @@ enum Way {
     /// Along a path, in the configuration of the start.
     Path,
 }
-
-/// The motions that end at a pose given as their parameter `p`.
-const TO_A_POSE: [(&str, Way); 5] =
-    [("ptp", Way::Axes), ("jump", Way::Axes), ("lin", Way::Path), ("cir", Way::Path), ("spl", Way::Path)];
-
-/// The motions that keep the configuration of their start.
-const KEEPING: [&str; 4] = ["lin", "cir", "ccir", "spl"];
 
 /// Tells what is wrong with a target in a module.
 type Tell<'a> = dyn FnMut(ModuleId, Span, TargetProblem) + 'a;
@@ -179,15 +172,16 @@ impl<'a> Walk<'a, '_> {
     fn assign(&mut self, place: &Place, value: &'a Expr) {
         let Root::System(variable) = place.root else { return };
         let mount = |state: &State| self.scope.mount(value, state);
-        match variable.name {
-            "DFTOOL" => self.state.tool = mount(&self.state),
-            "DFWOBJ" => self.state.wobj = mount(&self.state),
+        match variable.role {
+            Some(Role::DefaultTool) => self.state.tool = mount(&self.state),
+            Some(Role::DefaultWorkpiece) => self.state.wobj = mount(&self.state),
             _ => {}
         }
     }
 
     /// A motion: what it says of tool and workpiece stays for those behind it.
     fn motion(&mut self, motion: &'a Builtin) {
+        let Some(kind) = motion.entry.motion else { return };
         if let Some(tool) = argument(motion, "t") {
             self.state.tool = self.scope.mount(tool, &self.state);
         }
@@ -197,13 +191,16 @@ impl<'a> Walk<'a, '_> {
         self.state.may(&self.facts.anytime);
         let before = (self.state.cfg, self.state.axes);
         (self.state.cfg, self.state.axes) = (None, None);
-        if KEEPING.contains(&motion.entry.name) && self.facts.lines_keep_cfg {
+        if kind.keeps_configuration() && self.facts.lines_keep_cfg {
             self.state.cfg = before.0;
         }
-        match TO_A_POSE.iter().find(|(name, _)| *name == motion.entry.name) {
-            Some((_, way)) => self.pose_target(motion, *way, before.1),
-            None if motion.entry.name == "movej" => self.joint_target(motion),
-            None => {}
+        match kind {
+            Motion::Joint => self.joint_target(motion),
+            Motion::PointToPoint | Motion::Jump => self.pose_target(motion, Way::Axes, before.1),
+            Motion::Line | Motion::Spline => self.pose_target(motion, Way::Path, before.1),
+            Motion::Arc if self.facts.arcs_turn_to_targets => self.pose_target(motion, Way::Path, before.1),
+            // Where such an arc ends is not known from its instruction alone.
+            Motion::Arc | Motion::JoinedArc => {}
         }
     }
 
@@ -223,9 +220,6 @@ impl<'a> Walk<'a, '_> {
 
     fn pose_target(&mut self, motion: &'a Builtin, way: Way, start: Option<[f64; 6]>) {
         if !self.facts.plain_frames || argument(motion, "ca").is_some() {
-            return;
-        }
-        if motion.entry.name == "cir" && !self.facts.arcs_turn_to_targets {
             return;
         }
         let Some(target) = argument(motion, "p") else { return };
@@ -250,7 +244,7 @@ impl<'a> Walk<'a, '_> {
             Verdict::Open => {}
             Verdict::Reached(axes) => {
                 let Some(cfg) = cfg else { return };
-                if let (Some(start), "lin", true) = (start, motion.entry.name, self.is_plain_line()) {
+                if let (Some(start), Some(Motion::Line), true) = (start, motion.entry.motion, self.is_plain_line()) {
                     let line = Line {
                         start: &start,
                         carried: setting.rig().carried,
