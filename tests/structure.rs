@@ -30,6 +30,28 @@ const RUNTIME: &[&str] = &[
     "fuzzing",
 ];
 
+/// The files and folders of the compiler, from the ground up.
+const TRANSPILER: &[&str] = &[
+    "near",
+    "sources",
+    "diagnostics",
+    "hir",
+    "visit",
+    "effects",
+    "check",
+    "emit",
+    "render",
+    "compile",
+    "build_door",
+    "cli",
+    "main",
+];
+
+#[test]
+fn folders_of_the_compiler_import_from_below_only() {
+    assert_layers("transpiler/src", TRANSPILER);
+}
+
 #[test]
 fn folders_of_arl_rt_import_from_below_only() {
     assert_layers("arl-rt/src", RUNTIME);

@@ -1,6 +1,6 @@
 //! The syntax tree of one file, as the parser makes it: names are symbols, nothing is resolved yet.
 //!
-//! Every node carries the bytes it was read from. Blocks are nested already (see `nest`).
+//! Every node carries the bytes it was read from. Blocks are nested already (see `blocks`).
 
 use crate::span::Span;
 use crate::symbol::Symbol;

@@ -8,7 +8,7 @@ use crate::ast::BinaryOp;
 use crate::span::Span;
 use crate::symbol::Symbol;
 use crate::syntax_error::{Bracket, Hint, SyntaxError, SyntaxErrorKind};
-use crate::token::{Placed, Token};
+use crate::token::{Placed, Token, open_brackets};
 
 /// A line and the place where the grammar refuses it.
 struct Refused<'a> {
@@ -53,23 +53,6 @@ pub(crate) fn explain(
 /// The number of the token that begins at `offset`.
 fn position(tokens: &[Placed], offset: u32) -> usize {
     tokens.partition_point(|token| token.0 < offset)
-}
-
-/// The brackets that `tokens` leave open, outermost first.
-pub(crate) fn open_brackets(tokens: &[Placed]) -> Vec<(Bracket, Span)> {
-    let mut open = Vec::new();
-    for (start, token, end) in tokens {
-        match token {
-            Token::ParenOpen => open.push((Bracket::Paren, Span::new(*start, *end))),
-            Token::BracketOpen => open.push((Bracket::Square, Span::new(*start, *end))),
-            Token::BraceOpen => open.push((Bracket::Brace, Span::new(*start, *end))),
-            Token::ParenClose | Token::BracketClose | Token::BraceClose => {
-                open.pop();
-            }
-            _ => {}
-        }
-    }
-    open
 }
 
 impl Refused<'_> {

@@ -1,6 +1,6 @@
 // Made of grammar.lalrpop; renew it with: cargo run -p arl-lang --example renew_grammar
 // auto-generated: "lalrpop 0.23.2"
-// sha3: 68fda8d3657c39298cb73bc89de27f9dc028a2b3d6e12ba4e2d6b427b019cf8b
+// sha3: 220f3ae034617e402ff940c98a7524086d0caf97e8c66bcd36be2da8cd5c062d
 // features: 
 use crate::ast::*;
 use crate::line::{FuncHead, Line, LineKind};

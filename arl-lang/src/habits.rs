@@ -1,11 +1,10 @@
 //! Habits from other languages that can be recognised from the ends of a line: the error is reported, and the line
 //! is read as it was meant.
 
-use crate::explain::open_brackets;
 use crate::line::{Line, LineKind};
 use crate::span::Span;
 use crate::syntax_error::{SyntaxError, SyntaxErrorKind};
-use crate::token::{Placed, Token};
+use crate::token::{Placed, Token, open_brackets};
 
 /// What was found in a line.
 #[derive(Default)]

@@ -5,14 +5,14 @@ use logos::Logos;
 
 use crate::adapt::{Adapter, PlacedLexeme};
 use crate::ast::{Block, Expr, ExprKind, File, StmtKind};
+use crate::blocks::{Blocks, Doubts, error_at};
 use crate::explain::explain;
 use crate::grammar::LineParser;
 use crate::habits::repair;
 use crate::lexer::{Lexeme, LexicalError};
 use crate::line::LineKind;
-use crate::nest::{Doubts, Nest, error_at};
 use crate::number::{Number, NumberError, NumberValue};
-use crate::salvage::{Salvaged, salvage};
+use crate::recovery::{Recovered, recover};
 use crate::span::Span;
 use crate::symbol::{Interner, Symbol};
 use crate::syntax_error::{SyntaxError, SyntaxErrorKind};
@@ -72,9 +72,9 @@ pub struct Splice {
 pub fn parse(source: &str, interner: &mut Interner, options: ParseOptions) -> Parsed {
     let mut parser = Parser::new(source, interner, options, false);
     parser.run();
-    let Parser { nest, context, splices, .. } = parser;
+    let Parser { blocks, context, splices, .. } = parser;
     let mut errors = context.errors;
-    let file = nest.file(&mut errors);
+    let file = blocks.file(&mut errors);
     Parsed { file, errors: in_order(errors), splices }
 }
 
@@ -82,9 +82,9 @@ pub fn parse(source: &str, interner: &mut Interner, options: ParseOptions) -> Pa
 pub fn parse_statements(source: &str, interner: &mut Interner, options: ParseOptions) -> ParsedStatements {
     let mut parser = Parser::new(source, interner, options, true);
     parser.run();
-    let Parser { nest, context, splices, .. } = parser;
+    let Parser { blocks, context, splices, .. } = parser;
     let mut errors = context.errors;
-    let block = nest.block(&mut errors);
+    let block = blocks.block(&mut errors);
     ParsedStatements { block, errors: in_order(errors), splices }
 }
 
@@ -120,7 +120,7 @@ struct Parser<'a> {
     adapter: Adapter<'a>,
     context: Context<'a>,
     grammar: LineParser,
-    nest: Nest<'a>,
+    blocks: Blocks<'a>,
     splices: Vec<Splice>,
     void: Symbol,
 }
@@ -147,7 +147,7 @@ impl<'a> Parser<'a> {
             adapter,
             context: Context { source, errors, endl },
             grammar: LineParser::new(),
-            nest: Nest::new(source, only_statements),
+            blocks: Blocks::new(source, only_statements),
             splices: Vec::new(),
             void,
         }
@@ -278,11 +278,11 @@ impl<'a> Parser<'a> {
             ..Doubts::default()
         };
         if let Some(line) = habits.whole {
-            return self.nest.take(line, doubts, &mut self.context.errors);
+            return self.blocks.take(line, doubts, &mut self.context.errors);
         }
         let tokens = self.adapter.tokens.as_slice();
         if broken {
-            self.salvage(tokens.len(), doubts);
+            self.recover(tokens.len(), doubts);
             return;
         }
         let before = self.context.errors.len();
@@ -300,7 +300,7 @@ impl<'a> Parser<'a> {
                         self.context.errors.push(SyntaxError::new(SyntaxErrorKind::BlockBrace, expr.span));
                     }
                 }
-                self.nest.take(line, doubts, &mut self.context.errors);
+                self.blocks.take(line, doubts, &mut self.context.errors);
             }
             Err(error) => {
                 self.context.errors.truncate(before);
@@ -310,23 +310,23 @@ impl<'a> Parser<'a> {
                     let goes_on = |prefix: &[Placed], next| goes_on(grammar, source, endl, prefix, next);
                     let (error, at) = explain(&error, source, tokens, endl, &goes_on);
                     self.context.errors.push(error);
-                    return self.salvage(at, doubts);
+                    return self.recover(at, doubts);
                 }
-                self.salvage(tokens.len(), doubts);
+                self.recover(tokens.len(), doubts);
             }
         }
     }
 
     /// Takes what can be made of a line that is wrong from its token `at` on.
-    fn salvage(&mut self, at: usize, mut doubts: Doubts) {
+    fn recover(&mut self, at: usize, mut doubts: Doubts) {
         let tokens = self.adapter.tokens.as_slice();
         let mut context = Context { source: self.source, errors: Vec::new(), endl: self.context.endl };
         let good = tokens.get(..at).unwrap_or(tokens);
         let read = self.grammar.parse(&mut context, good.iter().copied()).ok();
-        let Some(Salvaged { line, may_open, drop }) = salvage(tokens, read, self.void) else { return };
+        let Some(Recovered { line, may_open, drop }) = recover(tokens, read, self.void) else { return };
         doubts.may_open = may_open;
         doubts.drop = drop;
-        self.nest.take(line, doubts, &mut self.context.errors);
+        self.blocks.take(line, doubts, &mut self.context.errors);
     }
 }
 

@@ -1,7 +1,9 @@
 //! The tokens of the grammar: what the token adapter makes of the lexer's.
 
 use crate::ast::{BinaryOp, Radix, Unit};
+use crate::span::Span;
 use crate::symbol::Symbol;
+use crate::syntax_error::Bracket;
 
 /// A token of the grammar; its text is under the span that travels with it.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -80,3 +82,20 @@ pub(crate) enum Token {
 
 /// A token between its first byte and the byte behind its last one.
 pub(crate) type Placed = (u32, Token, u32);
+
+/// The brackets that `tokens` leave open, outermost first.
+pub(crate) fn open_brackets(tokens: &[Placed]) -> Vec<(Bracket, Span)> {
+    let mut open = Vec::new();
+    for (start, token, end) in tokens {
+        match token {
+            Token::ParenOpen => open.push((Bracket::Paren, Span::new(*start, *end))),
+            Token::BracketOpen => open.push((Bracket::Square, Span::new(*start, *end))),
+            Token::BraceOpen => open.push((Bracket::Brace, Span::new(*start, *end))),
+            Token::ParenClose | Token::BracketClose | Token::BraceClose => {
+                open.pop();
+            }
+            _ => {}
+        }
+    }
+    open
+}

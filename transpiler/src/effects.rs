@@ -5,6 +5,7 @@ pub(crate) mod facts;
 pub(crate) mod flow;
 pub(crate) mod graph;
 pub(crate) mod loops;
+pub(crate) mod parts;
 pub(crate) mod ranges;
 
 use crate::hir::{Effects, FuncId, Program};

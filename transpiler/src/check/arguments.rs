@@ -7,7 +7,6 @@
 use super::context::{Body, Checker};
 use super::convert::{Typed, integer, number};
 use super::name::constant;
-use super::statements::does_something;
 use crate::diagnostics::arguments::ArgumentProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Bound, Expr, ExprKind, FuncId, Passed, Type, Value};
@@ -557,4 +556,10 @@ fn default_value(text: &str, base: Base, span: Span) -> Option<Expr> {
         Base::Void | Base::Struct(_) | Base::Handle(_) => return None,
     };
     Some(constant(value, span).expr)
+}
+
+/// Whether an expression may stand for what it does.
+pub(super) fn does_something(expr: &ast::Expr) -> bool {
+    use ast::ExprKind::{Assign, Call, Error, Step};
+    matches!(expr.kind, Assign(..) | Step(..) | Call(_) | Error)
 }

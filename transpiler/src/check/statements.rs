@@ -1,6 +1,6 @@
 //! Statements and function bodies.
 
-use super::arguments::Callee;
+use super::arguments::{Callee, does_something};
 use super::context::{Body, Checker, State};
 use super::convert::{Typed, integer};
 use crate::diagnostics::arguments::ArgumentProblem;
@@ -410,12 +410,6 @@ impl Checker<'_> {
 pub(crate) fn near_instruction(name: &str) -> Option<&'static str> {
     let entries = catalog::all_entries().iter().filter(|entry| entry.kind == Kind::Instruction);
     crate::near::nearest(name, entries.map(|entry| entry.name))
-}
-
-/// Whether an expression may stand for what it does.
-pub(super) fn does_something(expr: &ast::Expr) -> bool {
-    use ast::ExprKind::{Assign, Call, Error, Step};
-    matches!(expr.kind, Assign(..) | Step(..) | Call(_) | Error)
 }
 
 /// A text that is equal for equal constants of one type.

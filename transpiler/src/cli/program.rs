@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::progress::Progress;
 use super::project::{Emitted, EmittedOther};
 use super::runtime::{Runtime, hash_state};
-use super::several::{self, Other};
+use super::several::{self, Other, absolute};
 use super::stamp::{Freshness, Recording, Stamp};
 use super::{cargo, project, robots, show};
 use crate::CheckOptions;
@@ -125,10 +125,6 @@ impl<'a> Job<'a> {
         self.others.iter().for_each(|(other, options)| (other, of_options(options)).hash(&mut hasher));
         hasher.finish()
     }
-}
-
-pub(super) fn absolute(path: &Path) -> Result<PathBuf, Failure> {
-    std::path::absolute(path).map_err(|error| Failure::io("use", path, &error))
 }
 
 /// Compiles a program, with those that its cell names, unless that was done before.

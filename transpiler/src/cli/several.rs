@@ -2,7 +2,6 @@
 
 use super::args::Checking;
 use super::failure::Failure;
-use super::program::absolute;
 use super::robots;
 use arl_robot::Family;
 use arl_robot::cell::{CellChannel, Programs};
@@ -103,6 +102,11 @@ fn kind(family: Family) -> &'static str {
         Family::SixAxis => "a six-axis robot",
         Family::Scara => "a SCARA robot",
     }
+}
+
+/// The path from the root, with a message that names it where there is none.
+pub(super) fn absolute(path: &Path) -> Result<PathBuf, Failure> {
+    std::path::absolute(path).map_err(|error| Failure::io("use", path, &error))
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Arguments that do not fit their instruction or function.
 
 use super::Problem;
-use super::registry::problems;
+use super::declare::problems;
 use arl_lang::catalog::Range;
 
 problems! {

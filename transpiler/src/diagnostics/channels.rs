@@ -1,7 +1,7 @@
 //! Channels that a cell does not have, of io and those of programs, and values that its channels do not carry.
 
 use super::Problem;
-use super::registry::problems;
+use super::declare::problems;
 use arl_robot::channels::AnalogType;
 
 problems! {

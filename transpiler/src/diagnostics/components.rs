@@ -1,7 +1,7 @@
 //! Components of structures.
 
 use super::Problem;
-use super::registry::problems;
+use super::declare::problems;
 use arl_lang::catalog::Component;
 
 problems! {

@@ -1,7 +1,7 @@
 //! Ports, stations, lines, registers and bytes that connections and buses do not have.
 
 use super::Problem;
-use super::registry::problems;
+use super::declare::problems;
 use arl_lang::catalog::Accepted;
 
 problems! {

@@ -1,7 +1,7 @@
 //! Constant expressions that cannot be computed, and places where more is accepted than the manual allows.
 
 use super::Problem;
-use super::registry::problems;
+use super::declare::problems;
 
 problems! {
     /// What is wrong with a constant.

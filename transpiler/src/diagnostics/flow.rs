@@ -1,7 +1,7 @@
 //! Functions, statements and their order.
 
 use super::Problem;
-use super::registry::problems;
+use super::declare::problems;
 
 problems! {
     /// What is wrong with a function or statement.

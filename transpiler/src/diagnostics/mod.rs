@@ -7,6 +7,7 @@ pub(crate) mod components;
 #[cfg(feature = "cli")]
 pub(crate) mod connections;
 pub(crate) mod constants;
+mod declare;
 pub(crate) mod flow;
 pub(crate) mod modules;
 pub(crate) mod names;
@@ -17,7 +18,8 @@ pub(crate) mod system;
 pub(crate) mod targets;
 pub(crate) mod types;
 
-pub use registry::{CodeInfo, info, registry};
+pub use declare::CodeInfo;
+pub use registry::{info, registry};
 
 use arl_lang::span::{LineIndex, Span};
 

@@ -1,7 +1,7 @@
 //! Files and modules.
 
 use super::Problem;
-use super::registry::problems;
+use super::declare::problems;
 
 problems! {
     /// What is wrong with a file.

@@ -1,7 +1,7 @@
 //! Names that mean nothing, or too much.
 
 use super::Problem;
-use super::registry::problems;
+use super::declare::problems;
 
 problems! {
     /// What is wrong with a name.

@@ -1,7 +1,7 @@
 //! What is known but does not run on this robot, or in the background.
 
 use super::Problem;
-use super::registry::problems;
+use super::declare::problems;
 
 problems! {
     /// What is not supported.

@@ -1,7 +1,7 @@
 //! Values of system variables.
 
 use super::Problem;
-use super::registry::problems;
+use super::declare::problems;
 use arl_lang::catalog::Takes;
 
 problems! {

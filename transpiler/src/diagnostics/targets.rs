@@ -1,6 +1,6 @@
 //! Targets that a robot cannot reach.
 
-use super::registry::problems;
+use super::declare::problems;
 use super::{Code, Coded, Problem};
 use arl_robot::kinematics::{CONFIGURATIONS, Singularity};
 use arl_robot::robot::{Axis, Robot};

@@ -1,7 +1,7 @@
 //! Values of the wrong type, and things that cannot be written.
 
 use super::Problem;
-use super::registry::problems;
+use super::declare::problems;
 
 problems! {
     /// What is wrong with a type or value.

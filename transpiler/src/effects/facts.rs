@@ -141,59 +141,6 @@ fn plain_truth(expr: &Expr, wanted: bool) -> Option<&Expr> {
     }
 }
 
-/// Adds the locals that an expression writes, also as an argument that a built-in writes.
-pub(crate) fn local_writes(expr: &Expr, out: &mut Vec<LocalId>) {
-    let mut target = |place: &Place| {
-        if let Root::Local(id) = place.root {
-            out.push(id);
-        }
-    };
-    match &expr.kind {
-        ExprKind::Assign(sides) | ExprKind::AssignOp(_, sides) => target(&sides.0),
-        ExprKind::Step(_, place) => target(place),
-        ExprKind::Builtin(builtin) => {
-            for arg in &builtin.args {
-                if let Passed::Out(place) = &arg.value {
-                    target(place);
-                }
-            }
-        }
-        _ => {}
-    }
-    children(expr).into_iter().for_each(|child| local_writes(child, out));
-}
-
-/// The expressions directly inside an expression, those of its indices included.
-pub(crate) fn children(expr: &Expr) -> Vec<&Expr> {
-    fn indices(place: &Place) -> impl Iterator<Item = &Expr> {
-        place.path.iter().flat_map(|step| match step {
-            Projection::Index(indices, _) => indices.as_slice(),
-            Projection::Field(..) => &[],
-        })
-    }
-    match &expr.kind {
-        ExprKind::Const(_) | ExprKind::Splice(_) => Vec::new(),
-        ExprKind::Place(place) | ExprKind::Step(_, place) => indices(place).collect(),
-        ExprKind::FieldOf(inner, ..) | ExprKind::Convert(inner) | ExprKind::Unary(_, inner) => vec![inner],
-        ExprKind::Binary(_, sides) => vec![&sides.0, &sides.1],
-        ExprKind::Assign(sides) | ExprKind::AssignOp(_, sides) => {
-            indices(&sides.0).chain(std::iter::once(&sides.1)).collect()
-        }
-        ExprKind::Call(_, values) | ExprKind::Array(values) => values.iter().collect(),
-        ExprKind::Builtin(builtin) => {
-            let mut all = Vec::new();
-            for arg in &builtin.args {
-                match &arg.value {
-                    Passed::Value(value) => all.push(value),
-                    Passed::Out(place) => all.extend(indices(place)),
-                }
-            }
-            all
-        }
-        ExprKind::Struct(_, values) => values.iter().flatten().collect(),
-    }
-}
-
 struct Collector<'a> {
     scope: Scope<'a>,
     /// Whether the effects of called functions count.

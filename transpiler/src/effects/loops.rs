@@ -1,6 +1,6 @@
 //! Which loops run a known number of rounds, and which have to give the cycle back by themselves.
 
-use super::{facts, flow};
+use super::{flow, parts};
 use crate::hir::{Block, Expr, ExprKind, For, Func, LocalId, LoopInfo, Passed, Place, Root, Stmt, StmtKind, Value};
 use arl_lang::ast::BinaryOp;
 use arl_lang::catalog::{Base, Effect};
@@ -202,6 +202,6 @@ fn stmt_writes(stmt: &Stmt, id: LocalId) -> bool {
 
 fn expr_writes(expr: &Expr, id: LocalId) -> bool {
     let mut writes = Vec::new();
-    facts::local_writes(expr, &mut writes);
+    parts::local_writes(expr, &mut writes);
     writes.contains(&id)
 }

@@ -69,7 +69,7 @@ impl<'p> Body<'p, '_> {
         let settle = keep || !(item || (self.plain_local(place.root).is_some() && facts.quiet()));
         let (before, reached, value_fragment) = self.sides(place, Some((value, Mode::Placed)), settle);
         let fragment = self.limited(place, value_fragment, Some(value));
-        if let Some(declared) = self.joined_let(place, Some(value)) {
+        if let Some(declared) = self.deferred_let(place, Some(value)) {
             let (first, tokens) = (&fragment.before, &fragment.tokens);
             return (quote!(#before #first #declared = #tokens;), reached);
         }

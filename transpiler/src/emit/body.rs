@@ -2,7 +2,7 @@
 
 use super::comments::{Comments, clean};
 use super::fragment::Fragment;
-use super::goto::Machine;
+use super::machine::Machine;
 use super::names::{Names, ident, is_taken_value};
 use super::usage::Usage;
 use crate::effects::facts::{self, Facts, Scope};
@@ -10,7 +10,7 @@ use crate::effects::ranges::Ranges;
 use crate::hir::{Expr, Func, FuncId, LocalId, ModuleId, Program, Value};
 use arl_lang::catalog::Family;
 use arl_lang::span::{LineIndex, Span};
-use proc_macro2::{Ident, Literal, TokenStream, TokenTree};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use std::collections::HashSet;
 
@@ -80,6 +80,15 @@ pub(super) enum Exit {
     State(usize),
 }
 
+/// Whether a block is the end of the function, so that its last statement gives the result.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Tail {
+    /// What comes behind the block runs afterwards.
+    Inner,
+    /// Nothing comes behind it.
+    Function,
+}
+
 /// Emits the statements of one function, or an expression outside functions.
 pub(super) struct Body<'p, 'u> {
     pub(super) unit: &'u Unit<'p>,
@@ -108,7 +117,7 @@ pub(super) struct Body<'p, 'u> {
     /// Whether the function is compiled into its callers.
     pub(super) inlined: bool,
     /// The locals that are declared at their first assignment, until that comes.
-    pub(super) joined: HashSet<LocalId>,
+    pub(super) deferred: HashSet<LocalId>,
     /// Whether something that needs the program pointer has been emitted since the flag was cleared.
     pub(super) acts: bool,
 }
@@ -144,7 +153,7 @@ impl<'p, 'u> Body<'p, 'u> {
             commented: 0,
             guard: None,
             inlined: false,
-            joined: HashSet::new(),
+            deferred: HashSet::new(),
             acts: false,
         }
     }
@@ -275,13 +284,4 @@ impl<'p, 'u> Body<'p, 'u> {
 pub(super) fn label(name: &str, number: usize) -> syn::Lifetime {
     let text = if number == 1 { format!("'{name}") } else { format!("'{name}{number}") };
     syn::Lifetime::new(&text, proc_macro2::Span::call_site())
-}
-
-/// Whether a name occurs in the code.
-pub(super) fn mentions(code: &TokenStream, name: &str) -> bool {
-    code.clone().into_iter().any(|token| match token {
-        TokenTree::Ident(word) => word == name,
-        TokenTree::Group(group) => mentions(&group.stream(), name),
-        _ => false,
-    })
 }

@@ -1,10 +1,11 @@
 //! Interrupts, timers and triggers: their conditions and actions become async closures that own what they need, since they
 //! run when the function that declares them may be over.
 
-use super::body::{Body, mentions};
+use super::body::{Body, Tail};
 use super::calls::{Argument, instruction_call};
 use super::fragment::Fragment;
-use super::statements::{Tail, is_unit, without_detour};
+use super::statements::{is_unit, without_detour};
+use super::tokens::mentions;
 use super::types::is_copy;
 use crate::effects::captures;
 use crate::hir::{Builtin, Expr, ExprKind, Passed, Type};

@@ -5,7 +5,7 @@ use super::consts::{constant, typed_constant};
 use super::fragment::{Fragment, Precedence};
 use super::names::ident;
 use super::operators::infix;
-use super::sequence::{Mode, Operand};
+use super::sequence::{Mode, Operand, nested};
 use super::types::{array_type, base_type, component, is_copy, start_value, type_name};
 use crate::hir::{Expr, ExprKind, Type, Value};
 use arl_lang::ast::{BinaryOp, UnaryOp};
@@ -254,16 +254,4 @@ impl<'p> Body<'p, '_> {
             quote!(#place.clone())
         })
     }
-}
-
-/// A reference for printing, with the sizes of an array of more than one dimension, which Rust keeps flat.
-pub(super) fn nested(reference: Fragment, ty: Type) -> Fragment {
-    if ty.dims().len() < 2 {
-        return reference;
-    }
-    let sizes = ty.dims().iter().map(|size| Literal::u16_unsuffixed(*size));
-    reference.map(Precedence::Unary, |array| {
-        let array = &array.tokens;
-        quote!(&text::nested(#array, &[#(#sizes),*]))
-    })
 }

@@ -1,9 +1,9 @@
 //! Functions: signature, attributes, body.
 
-use super::body::{Body, Unit, mentions};
-use super::statements::Tail;
+use super::body::{Body, Tail, Unit};
+use super::mentions;
+use super::tokens::mentions;
 use super::types::{base_type, is_number, rust_type};
-use super::usage;
 use crate::effects::flow;
 use crate::hir::{Func, FuncId, Stmt, StmtKind};
 use arl_lang::catalog::Base;
@@ -110,7 +110,7 @@ impl<'p> Body<'p, '_> {
         self.guard = guard;
         let rest_code = self.until_end(rest);
         let name = self.fresh("deeper");
-        let used = func.params.iter().filter(|param| rest.iter().any(|stmt| usage::mentions(stmt, **param)));
+        let used = func.params.iter().filter(|param| rest.iter().any(|stmt| mentions::in_statement(stmt, **param)));
         let (mut params, mut args) = (TokenStream::new(), TokenStream::new());
         if mentions(&rest_code, "g") {
             params.extend(quote!(g: &Globals,));

@@ -12,42 +12,18 @@
 //! - Names of locals are distinct in such functions, as all hoisted ones share a scope.
 //! - Each jump backwards gives the cycle back when the budget is used up, as each round of a loop does.
 
-use super::body::{Body, Exit, Loop, mentions};
+use super::body::{Body, Exit, Loop, Tail};
 use super::loops::give_back;
+use super::machine::{Machine, State};
 use super::names::ident;
-use super::statements::Tail;
+use super::tokens::jumps;
 use super::types::{rust_type, shared_type, shared_value, start_value};
 use crate::effects::flow;
 use crate::hir::{Arm, Expr, For, Func, LabelId, Local, LocalId, LoopInfo, Stmt, StmtKind};
 use arl_lang::span::Span;
-use proc_macro2::{Ident, TokenStream, TokenTree};
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use std::collections::{HashMap, HashSet};
-
-/// What is known about the machine while its states are emitted.
-pub(super) struct Machine {
-    variable: Ident,
-    label: syn::Lifetime,
-    states: Vec<State>,
-    of_label: HashMap<LabelId, usize>,
-    /// The locals that are visible at each label.
-    visible_at: HashMap<LabelId, Vec<LocalId>>,
-    hoisted: HashSet<LocalId>,
-    /// The states that the declarations of locals stand in.
-    declared_in: HashMap<LocalId, usize>,
-    /// Whether this run only looks which states mention which variables.
-    trial: bool,
-    /// The state whose code grows.
-    current: usize,
-    /// Whether its end is reached.
-    open: bool,
-}
-
-#[derive(Debug)]
-struct State {
-    name: Ident,
-    code: TokenStream,
-}
 
 impl<'p> Body<'p, '_> {
     /// The body of a function with `goto`.
@@ -467,53 +443,6 @@ impl<'p> Body<'p, '_> {
         self.close(head);
         self.open(after);
         self.visible.truncate(visible);
-    }
-}
-
-impl Machine {
-    /// Whether a variable is mentioned in another state than that of its declaration.
-    fn is_shared(&self, id: LocalId, name: &Ident) -> bool {
-        let (name, home) = (name.to_string(), self.declared_in.get(&id));
-        self.states.iter().enumerate().any(|(at, state)| Some(&at) != home && mentions(&state.code, &name))
-    }
-
-    /// The states that can be reached from the first one.
-    fn reached(&self) -> Vec<bool> {
-        let names: HashMap<String, usize> =
-            self.states.iter().enumerate().map(|(at, state)| (state.name.to_string(), at)).collect();
-        let mut reached = vec![false; self.states.len()];
-        let mut open = vec![0];
-        while let Some(at) = open.pop() {
-            let (Some(seen), Some(state)) = (reached.get_mut(at), self.states.get(at)) else { continue };
-            if !std::mem::replace(seen, true) {
-                words(&state.code, &mut |word| open.extend(names.get(&word.to_string())));
-            }
-        }
-        reached
-    }
-}
-
-/// Whether the machine's label is named.
-fn jumps(code: &TokenStream) -> bool {
-    let mut quoted = false;
-    code.clone().into_iter().any(|token| match token {
-        TokenTree::Ident(word) => std::mem::take(&mut quoted) && word == "machine",
-        TokenTree::Group(group) => jumps(&group.stream()),
-        TokenTree::Punct(sign) => {
-            quoted = sign.as_char() == '\'';
-            false
-        }
-        TokenTree::Literal(_) => false,
-    })
-}
-
-fn words(code: &TokenStream, found: &mut dyn FnMut(&Ident)) {
-    for token in code.clone() {
-        match token {
-            TokenTree::Ident(word) => found(&word),
-            TokenTree::Group(group) => words(&group.stream(), found),
-            _ => {}
-        }
     }
 }
 

@@ -7,9 +7,8 @@
 //! What lives across an `.await` lies in the memory of the future, and the compiler cannot keep it in a register in
 //! between. Numbers that a loop changes are therefore handed to the wait and come back from it.
 
-use super::body::{Body, Exit, Loop, label};
+use super::body::{Body, Exit, Loop, Tail, label};
 use super::fragment::{Fragment, Precedence};
-use super::statements::Tail;
 use crate::effects::{flow, loops};
 use crate::hir::{Expr, For, LocalId, LoopInfo, Stmt, StmtKind};
 use proc_macro2::{Literal, TokenStream};

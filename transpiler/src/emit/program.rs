@@ -1,6 +1,7 @@
 //! The file as a whole: a module for each ARL file, all variables, and what the controller runs.
 
-use super::body::{Unit, mentions};
+use super::body::Unit;
+use super::tokens::mentions;
 use super::variables::{self, Init};
 use super::{functions, names};
 use crate::hir::{Expr, ExprKind, FuncId, Module, ModuleId};

@@ -4,11 +4,10 @@
 //! operands to its left, so those go into temporaries wherever that could be noticed.
 
 use super::body::Body;
-use super::expressions::nested;
 use super::fragment::{Fragment, Precedence};
 use crate::effects::facts::{self, Facts};
 use crate::hir::{Expr, Type};
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 /// How a value is wanted.
@@ -99,4 +98,16 @@ impl<'p> Body<'p, '_> {
             Operand::Index(indices, array) => facts::of_indices(self.scope(), indices, *array),
         }
     }
+}
+
+/// A reference for printing, with the sizes of an array of more than one dimension, which Rust keeps flat.
+pub(super) fn nested(reference: Fragment, ty: Type) -> Fragment {
+    if ty.dims().len() < 2 {
+        return reference;
+    }
+    let sizes = ty.dims().iter().map(|size| Literal::u16_unsuffixed(*size));
+    reference.map(Precedence::Unary, |array| {
+        let array = &array.tokens;
+        quote!(&text::nested(#array, &[#(#sizes),*]))
+    })
 }

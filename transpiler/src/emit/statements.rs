@@ -1,6 +1,6 @@
 //! Statements and blocks.
 
-use super::body::{Body, Exit};
+use super::body::{Body, Exit, Tail};
 use super::fragment::{Fragment, Precedence};
 use super::sequence::Mode;
 use super::switch;
@@ -12,22 +12,13 @@ use arl_lang::catalog::Base;
 use proc_macro2::{TokenStream, TokenTree};
 use quote::quote;
 
-/// Whether a block is the end of the function, so that its last statement gives the result.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Tail {
-    /// What comes behind the block runs afterwards.
-    Inner,
-    /// Nothing comes behind it.
-    Function,
-}
-
 impl<'p> Body<'p, '_> {
     /// The statements of a block, as a scope.
     pub(super) fn block(&mut self, block: &'p [Stmt], tail: Tail) -> TokenStream {
         let visible = self.visible.len();
         let statements = flow::reachable(block);
         let last = statements.len().saturating_sub(1);
-        self.find_joined(&statements);
+        self.find_deferred(&statements);
         let mut out = TokenStream::new();
         let mut guard = self.guard.take();
         for (at, stmt) in statements.into_iter().enumerate() {
@@ -103,7 +94,7 @@ impl<'p> Body<'p, '_> {
         self.note_declaration(id);
         let code = if self.is_hoisted(id) {
             quote!(#name = #tokens;)
-        } else if self.joined.contains(&id) {
+        } else if self.deferred.contains(&id) {
             TokenStream::new()
         } else if self.usage.is_late(id) {
             let (mutable, ty) = (self.mutable(id), rust_type(local.ty, family));

@@ -1,10 +1,9 @@
 //! `switch`: a `match` where Rust has patterns for the values, a chain of comparisons for strings.
 
-use super::body::Body;
+use super::body::{Body, Tail};
 use super::consts::constant;
 use super::fragment::Fragment;
 use super::sequence::Mode;
-use super::statements::Tail;
 use crate::effects::flow;
 use crate::hir::{Arm, Expr, ExprKind, Stmt, StmtKind, Value};
 use arl_lang::catalog::Base;

@@ -2,11 +2,13 @@
 //! them: a value that nobody reads is not assigned at the declaration, a variable that nobody reads has a `_` in front.
 
 use super::compound::stepped;
+use super::mentions::indices;
 use super::types::is_number;
 use super::usage_graph::{Graph, Kept, Readers, Site, writes_only};
-use crate::effects::facts::{self, children};
+use crate::effects::facts;
+use crate::effects::parts::children;
 use crate::effects::{flow, loops};
-use crate::hir::{Expr, ExprKind, Func, FuncId, LocalId, LoopInfo, Passed, Place, Projection, Root, Stmt, StmtKind};
+use crate::hir::{Expr, ExprKind, Func, FuncId, LocalId, LoopInfo, Passed, Place, Root, Stmt, StmtKind};
 
 /// How a local is used.
 #[derive(Clone, Copy, Default, Debug)]
@@ -212,33 +214,4 @@ impl Usage {
         self.mark(place, |local| local.read = true);
         self.mark_written(place);
     }
-}
-
-/// Whether a statement mentions a local.
-pub(super) fn mentions(stmt: &Stmt, id: LocalId) -> bool {
-    flow::expressions(stmt).any(|expr| expr_mentions(expr, id))
-        || flow::blocks(stmt).any(|block| block.iter().any(|stmt| mentions(stmt, id)))
-}
-
-/// Whether an expression mentions a local.
-pub(super) fn expr_mentions(expr: &Expr, id: LocalId) -> bool {
-    let is_it = |place: &Place| matches!(place.root, Root::Local(other) if other == id);
-    let own = match &expr.kind {
-        ExprKind::Place(place) | ExprKind::Step(_, place) => is_it(place),
-        ExprKind::Assign(sides) | ExprKind::AssignOp(_, sides) => is_it(&sides.0),
-        ExprKind::Builtin(builtin) => builtin.args.iter().any(|arg| match &arg.value {
-            Passed::Out(place) => is_it(place),
-            Passed::Value(_) => false,
-        }),
-        _ => false,
-    };
-    own || children(expr).into_iter().any(|child| expr_mentions(child, id))
-}
-
-/// The index expressions of a place.
-pub(super) fn indices(place: &Place) -> impl Iterator<Item = &Expr> {
-    place.path.iter().flat_map(|step| match step {
-        Projection::Index(indices, _) => indices.as_slice(),
-        Projection::Field(..) => &[],
-    })
 }

@@ -4,8 +4,9 @@
 //! `goto` are left out, as their states hide the flow from rustc.
 
 use super::compound::{is_native, stepped};
-use super::usage::{expr_mentions, indices};
-use crate::effects::facts::{self, children};
+use super::mentions::{in_expression, indices};
+use crate::effects::facts;
+use crate::effects::parts::children;
 use crate::effects::{flow, loops};
 use crate::hir::{Expr, ExprKind, Func, FuncId, LocalId, LoopInfo, Passed, Place, Root, Stmt, StmtKind};
 use arl_lang::ast::BinaryOp;
@@ -575,5 +576,5 @@ impl Builder<'_> {
 fn is_update(op: BinaryOp, sides: &(Place, Expr)) -> bool {
     let (place, value) = sides;
     let Root::Local(id) = place.root else { return false };
-    is_native(op, place, value) && !expr_mentions(value, id)
+    is_native(op, place, value) && !in_expression(value, id)
 }

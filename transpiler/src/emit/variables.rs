@@ -1,11 +1,12 @@
 //! The global variables of a module: their structure, their first values, and the slots for values that are read again
 //! at load.
 
-use super::body::{Body, Unit, mentions};
+use super::body::{Body, Unit};
 use super::consts::typed_constant;
 use super::fragment::Fragment;
 use super::places::{Calm, Written};
 use super::points;
+use super::tokens::mentions;
 use super::types::{is_handle, start_value, variable_type};
 use crate::hir::{Expr, ExprKind, Global, GlobalId, ModuleId, Place, Root, Value};
 use proc_macro2::{Literal, TokenStream};

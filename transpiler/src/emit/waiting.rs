@@ -97,7 +97,7 @@ impl<'p> Body<'p, '_> {
             Some(_) => waiting,
             None => self.settle(waiting, "timed_out"),
         };
-        if let Some(declared) = self.joined_let(flag, None) {
+        if let Some(declared) = self.deferred_let(flag, None) {
             return quote!(#start #declared = #waiting;);
         }
         let write = self.write(&reached, Written::Value(waiting), Calm::Local);

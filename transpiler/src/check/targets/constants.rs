@@ -2,9 +2,8 @@
 
 use super::super::convert::number;
 use super::super::first_motion::{known_structure, known_value};
-use super::facts::argument;
 use super::state::State;
-use crate::hir::{Builtin, Expr, ExprKind, Func, Program, Root, Value};
+use crate::hir::{Builtin, Expr, ExprKind, Func, Passed, Program, Root, Value};
 use arl_lang::catalog::{PoseShift, Role, Struct, UNSET};
 use arl_robot::frames::Mount;
 use arl_robot::kinematics::{Frame, frame};
@@ -133,4 +132,13 @@ fn flag(value: &Expr) -> Option<bool> {
         ExprKind::Const(Value::Bool(flag)) => Some(*flag),
         _ => None,
     }
+}
+
+/// The value that is given for a parameter.
+pub(super) fn argument<'a>(builtin: &'a Builtin, name: &str) -> Option<&'a Expr> {
+    let wanted = builtin.entry.params.iter().position(|param| param.name.eq_ignore_ascii_case(name))?;
+    builtin.args.iter().find(|bound| bound.param == wanted).and_then(|bound| match &bound.value {
+        Passed::Value(value) => Some(value),
+        Passed::Out(_) => None,
+    })
 }

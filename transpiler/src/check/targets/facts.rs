@@ -1,6 +1,6 @@
 //! What holds for a program as a whole: which system variables it writes, and what its functions may change.
 
-use super::constants::Scope;
+use super::constants::{Scope, argument};
 use super::state::{Change, Changes, State};
 use crate::hir::{Builtin, Expr, ExprKind, FuncId, Passed, Place, Program, Root, Stmt};
 use crate::visit;
@@ -180,15 +180,6 @@ fn direct(scope: Scope<'_>, expr: &Expr) -> Changes {
         _ => {}
     }
     changes
-}
-
-/// The value that is given for a parameter.
-pub(super) fn argument<'a>(builtin: &'a Builtin, name: &str) -> Option<&'a Expr> {
-    let wanted = builtin.entry.params.iter().position(|param| param.name.eq_ignore_ascii_case(name))?;
-    builtin.args.iter().find(|bound| bound.param == wanted).and_then(|bound| match &bound.value {
-        Passed::Value(value) => Some(value),
-        Passed::Out(_) => None,
-    })
 }
 
 fn outs(builtin: &Builtin) -> impl Iterator<Item = &Place> {

@@ -1,7 +1,7 @@
 //! Goes along the statements of each function and looks at its motions, knowing what holds there.
 
-use super::constants::Scope;
-use super::facts::{Facts, argument};
+use super::constants::{Scope, argument};
+use super::facts::Facts;
 use super::judge::{self, Line, Verdict};
 use super::state::{State, flange, world};
 use crate::diagnostics::targets::TargetProblem;

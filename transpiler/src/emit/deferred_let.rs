@@ -4,7 +4,7 @@
 //! of their declaration.
 
 use super::body::Body;
-use super::usage::{expr_mentions, mentions};
+use super::mentions::{in_expression, in_statement};
 use super::usage_graph::writes_only;
 use crate::hir::{Expr, ExprKind, LocalId, Passed, Place, Root, Stmt, StmtKind};
 use proc_macro2::TokenStream;
@@ -15,24 +15,24 @@ const REACH: usize = 64;
 
 impl Body<'_, '_> {
     /// Notes which of the variables that a block declares get their `let` at their first assignment.
-    pub(super) fn find_joined(&mut self, statements: &[&Stmt]) {
+    pub(super) fn find_deferred(&mut self, statements: &[&Stmt]) {
         for (at, stmt) in statements.iter().enumerate() {
             let StmtKind::Let(id, _) = stmt.kind else { continue };
             if !self.usage.is_late(id) {
                 continue;
             }
             let rest = statements.iter().skip(at + 1).take(REACH);
-            if rest.into_iter().find(|stmt| mentions(stmt, id)).is_some_and(|stmt| only_assigns(stmt, id)) {
-                self.joined.insert(id);
+            if rest.into_iter().find(|stmt| in_statement(stmt, id)).is_some_and(|stmt| only_assigns(stmt, id)) {
+                self.deferred.insert(id);
             }
         }
     }
 
     /// `let`, where the assignment to this place is the declaration, too; with the type where the value does not show
     /// it.
-    pub(super) fn joined_let(&mut self, place: &Place, value: Option<&Expr>) -> Option<TokenStream> {
+    pub(super) fn deferred_let(&mut self, place: &Place, value: Option<&Expr>) -> Option<TokenStream> {
         let id = self.plain_local(place.root)?;
-        if !place.path.is_empty() || !self.joined.remove(&id) {
+        if !place.path.is_empty() || !self.deferred.remove(&id) {
             return None;
         }
         let (mutable, name) = (self.mutable(id), self.local(id));
@@ -50,10 +50,10 @@ fn only_assigns(stmt: &Stmt, id: LocalId) -> bool {
     let StmtKind::Eval(expr) = &stmt.kind else { return false };
     let is_it = |place: &Place| matches!(place.root, Root::Local(other) if other == id) && place.path.is_empty();
     match &expr.kind {
-        ExprKind::Assign(sides) => is_it(&sides.0) && !expr_mentions(&sides.1, id),
+        ExprKind::Assign(sides) => is_it(&sides.0) && !in_expression(&sides.1, id),
         ExprKind::Builtin(builtin) if writes_only(builtin.entry) => builtin.args.iter().all(|arg| match &arg.value {
             Passed::Out(place) => is_it(place),
-            Passed::Value(value) => !expr_mentions(value, id),
+            Passed::Value(value) => !in_expression(value, id),
         }),
         _ => false,
     }

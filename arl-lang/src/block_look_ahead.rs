@@ -5,7 +5,7 @@ use crate::line::LineKind;
 use crate::syntax_error::BlockKind;
 
 /// How many lines are looked at.
-const FORESIGHT: usize = 400;
+const MOST_LINES: usize = 400;
 
 /// What a line means for the blocks.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -61,7 +61,7 @@ pub(crate) fn missing(blocks: &[(BlockKind, bool)]) -> usize {
 pub(crate) fn mistakes(mut stack: Stack, events: impl Iterator<Item = Event>) -> usize {
     let mut count = 0;
     for (seen, event) in events.enumerate() {
-        if seen >= FORESIGHT {
+        if seen >= MOST_LINES {
             return count;
         }
         let (Event::Close(kind) | Event::Branch(kind)) = event else {

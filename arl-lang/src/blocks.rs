@@ -1,10 +1,10 @@
-//! Nests lines into blocks with a stack of its own, so that a missing or a wrong closing line is one error that
+//! Sorts lines into blocks with a stack of its own, so that a missing or a wrong closing line is one error that
 //! knows its opening line, and depth costs no call stack.
 
 use std::collections::VecDeque;
 
 use crate::ast::{Arm, Block, Expr, File, For, Func, If, Item, Stmt, StmtKind, Switch};
-use crate::foresee::{self, Event, Stack};
+use crate::block_look_ahead::{self, Event, Stack};
 use crate::line::{FuncHead, Line, LineKind};
 use crate::span::{LineIndex, Span};
 use crate::syntax_error::{BLOCK_LEVELS, BlockKind, Bracket, Hint, SyntaxError, SyntaxErrorKind};
@@ -71,7 +71,7 @@ impl Open {
 }
 
 /// Takes lines in order and makes a file, or a block of statements, of them.
-pub(crate) struct Nest<'source> {
+pub(crate) struct Blocks<'source> {
     source: &'source str,
     lines: Option<LineIndex>,
     frames: Vec<Frame>,
@@ -96,7 +96,7 @@ pub(crate) struct Nest<'source> {
     last: Span,
 }
 
-impl<'source> Nest<'source> {
+impl<'source> Blocks<'source> {
     pub(crate) fn new(source: &'source str, only_statements: bool) -> Self {
         Self {
             source,
@@ -335,7 +335,7 @@ impl<'source> Nest<'source> {
         let stack: Stack = self.frames.iter().map(|frame| (frame.kind.kind(), frame.is_quiet())).collect();
         let after = |position: usize| {
             let mut stack = stack.clone();
-            let missing = foresee::missing(stack.get(position + 1..).unwrap_or_default());
+            let missing = block_look_ahead::missing(stack.get(position + 1..).unwrap_or_default());
             stack.truncate(if closes { position } else { position + 1 });
             missing + self.mistakes_to_come(stack)
         };
@@ -362,7 +362,10 @@ impl<'source> Nest<'source> {
 
     /// How many mistakes the lines that wait contain when `stack` is open.
     fn mistakes_to_come(&self, stack: Stack) -> usize {
-        foresee::mistakes(stack, self.waiting.iter().map(|(line, doubts)| Event::of(&line.kind, doubts.may_open)))
+        block_look_ahead::mistakes(
+            stack,
+            self.waiting.iter().map(|(line, doubts)| Event::of(&line.kind, doubts.may_open)),
+        )
     }
 
     /// Whether a line is indented like the innermost block and unlike the block at `position`.

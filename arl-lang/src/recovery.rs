@@ -2,15 +2,15 @@
 //! that the error costs this line only.
 
 use crate::ast::{Decl, Expr, For, FuncParam, Ident, Stmt, StmtKind, TypeRef, Var};
+use crate::blocks::error_at;
 use crate::explain::begins_value;
 use crate::line::{FuncHead, Line, LineKind};
-use crate::nest::error_at;
 use crate::span::Span;
 use crate::symbol::Symbol;
 use crate::token::{Placed, Token};
 
 /// A line made of one that could not be read.
-pub(crate) struct Salvaged {
+pub(crate) struct Recovered {
     pub(crate) line: Line,
     /// It opens a block, or it does not.
     pub(crate) may_open: bool,
@@ -20,7 +20,7 @@ pub(crate) struct Salvaged {
 
 /// What to keep of `tokens`. `read` is the line that its good beginning makes, if it makes one, and `void` the
 /// symbol of that type.
-pub(crate) fn salvage(tokens: &[Placed], read: Option<Line>, void: Symbol) -> Option<Salvaged> {
+pub(crate) fn recover(tokens: &[Placed], read: Option<Line>, void: Symbol) -> Option<Recovered> {
     let (first, last) = (tokens.first()?, tokens.last()?);
     let span = Span::new(first.0, last.2);
     let unknown = || error_at(span);
@@ -31,7 +31,7 @@ pub(crate) fn salvage(tokens: &[Placed], read: Option<Line>, void: Symbol) -> Op
             // `if(a) endif`, `if(a) if(b) x()`: whole on their line. `if(a) while(b)`: the inner block goes on.
             Some(end) if matches!(tokens.get(end), Some((_, Token::If | Token::EndIf, _))) => return None,
             Some(end) if tokens.get(end).is_some_and(|next| is_opener(next.1)) => {
-                return salvage(tokens.get(end..).unwrap_or_default(), None, void);
+                return recover(tokens.get(end..).unwrap_or_default(), None, void);
             }
             // `if(a) && (b)`, `if(a) )`: there is no statement behind the condition.
             Some(end) if tokens.get(end).is_none_or(|next| !may_begin_statement(next.1)) => {
@@ -80,7 +80,7 @@ pub(crate) fn salvage(tokens: &[Placed], read: Option<Line>, void: Symbol) -> Op
         },
         _ => return None,
     };
-    Some(Salvaged { line: Line { kind, span }, may_open, drop })
+    Some(Recovered { line: Line { kind, span }, may_open, drop })
 }
 
 /// Whether the token opens a block, `if` excepted.
