@@ -2,7 +2,7 @@
 
 use crate::builtins::communication::melsec_answer;
 use crate::communication::Inbox;
-use crate::fieldbus::modbus::rtu::Heard;
+use crate::fieldbus::modbus::rtu::ReceiveBuffer;
 use crate::fieldbus::modbus::{Tables, client, mbap, pdu};
 use arl_robot::islands::Table;
 
@@ -36,7 +36,7 @@ pub fn island(table: u8, count: u16, bytes: &[u8]) {
 
 /// What comes over the line of a Modbus RTU slave, in pieces, some of them after a silence.
 pub fn modbus_rtu(pieces: &[(bool, &[u8])]) {
-    let (mut heard, mut tables, mut answer) = (Heard::default(), Tables::default(), pdu::Answer::new());
+    let (mut heard, mut tables, mut answer) = (ReceiveBuffer::default(), Tables::default(), pdu::Answer::new());
     for (after_silence, piece) in pieces {
         heard.hear(piece, *after_silence);
         while let Some(request) = heard.take() {

@@ -9,7 +9,7 @@ use crate::context::cx::Cx;
 use crate::cycle::channel_id::{ChannelId, MOST_FOREGROUND};
 use crate::fault::Fault;
 use crate::motion::Joints;
-use crate::storage::pointers::Spot;
+use crate::storage::pointers::CodePosition;
 use crate::unit::{Unit, joint, tidy};
 use crate::values::{Joint, Jtci, Jttq, Jvel, Pose, Str, Tcpforce, Tool, UNSET, Wobj};
 use arl_robot::kinematics::Axes;
@@ -125,14 +125,14 @@ impl Foreground<'_> {
     }
 
     /// Where the motion stands that is being executed, or was last, if only before the controller was switched on.
-    fn motion_pointer(&self) -> Spot {
+    fn motion_pointer(&self) -> CodePosition {
         let kept = || self.cx.channel_state().kept().motion.clone();
-        let now = self.unit.motion_pointer().map(Spot::from);
+        let now = self.unit.motion_pointer().map(CodePosition::from);
         now.or_else(kept).unwrap_or_else(|| (self.cx.program(), 0).into())
     }
 
     /// Where the program stands, or stood before the controller was switched on.
-    fn program_pointer(&self) -> Spot {
+    fn program_pointer(&self) -> CodePosition {
         let channel_state = self.cx.channel_state();
         let kept = channel_state.kept().program.clone().filter(|_| !channel_state.begun.get());
         kept.unwrap_or_else(|| self.cx.place().into())

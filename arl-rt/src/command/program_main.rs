@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::builtins::time;
-use crate::command::live::{self, Cut, Voice};
+use crate::command::live::{self, Cut, LineWriter};
 use crate::command::report;
 use crate::context::program::Program;
 pub use crate::context::program::{Make, Other};
@@ -253,7 +253,7 @@ fn run(program: Box<dyn Program>, others: &[Other], options: Options, interrupte
         }
     };
     let repeats = options.repeats;
-    let voice = options.live.then(Voice::standard);
+    let voice = options.live.then(LineWriter::standard);
     let controller = set_up(options, others).and_then(|builder| {
         let builder = match &voice {
             Some(voice) => builder.output(voice.messages()),

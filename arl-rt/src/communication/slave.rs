@@ -11,7 +11,7 @@ use super::shared::{LinkState, Shared};
 use super::stream::{Stream, attempt, wait};
 use crate::fieldbus::modbus::SharedTables;
 use crate::fieldbus::modbus::pdu::{self, Answer};
-use crate::fieldbus::modbus::rtu::{self, Heard, LONGEST_FRAME, Request};
+use crate::fieldbus::modbus::rtu::{self, LONGEST_FRAME, ReceiveBuffer, Request};
 use crate::values::{Parity, Stopbits};
 
 /// How long the rest of a request may take. Adapters hand over what they got in pieces, so that 3.5 characters between two
@@ -67,7 +67,7 @@ fn exchange(
     settings: &SlaveSettings,
 ) -> std::io::Result<()> {
     let mut events = Events::with_capacity(4);
-    let mut heard = Heard::default();
+    let mut heard = ReceiveBuffer::default();
     let mut last = Instant::now();
     let mut piece = [0; LONGEST_FRAME];
     while !shared.is_closing() {

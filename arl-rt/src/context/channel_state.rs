@@ -8,7 +8,7 @@ use crate::context::system::System;
 use crate::cycle::channel_id::ChannelId;
 use crate::fault::{Alarm, Fault, File};
 use crate::motion::{Progress, UnblendedTarget};
-use crate::storage::pointers::Kept;
+use crate::storage::pointers::StoredPointers;
 use crate::unit::{Collision, SENSITIVITY, Unit, joint};
 use crate::values::VelProfile;
 use arl_robot::cell::Sensitivity;
@@ -24,7 +24,7 @@ pub(crate) struct ChannelState {
     /// The robot; a background channel has none.
     unit: Option<Rc<RefCell<Unit>>>,
     /// Where a program stood here before the controller was switched on.
-    kept: Kept,
+    kept: StoredPointers,
     /// Whether a program has run here since.
     pub(crate) begun: Cell<bool>,
     /// Whether the program waits for the start button.
@@ -61,7 +61,7 @@ pub(crate) struct Station {
     pub(crate) homes: [Option<Vec<f64>>; 4],
     pub(crate) home_tolerance: f64,
     pub(crate) collisions: Vec<(u8, Sensitivity)>,
-    pub(crate) kept: Kept,
+    pub(crate) kept: StoredPointers,
 }
 
 impl ChannelState {
@@ -93,7 +93,7 @@ impl ChannelState {
             index,
             system,
             unit: None,
-            kept: Kept::default(),
+            kept: StoredPointers::default(),
             begun: Cell::new(false),
             paused: Cell::new(false),
             stepping: Stepping::default(),
@@ -107,7 +107,7 @@ impl ChannelState {
     }
 
     /// Where a program stood here before the controller was switched on.
-    pub(crate) fn kept(&self) -> &Kept {
+    pub(crate) fn kept(&self) -> &StoredPointers {
         &self.kept
     }
 

@@ -41,8 +41,8 @@ macro_rules! system {
             }
 
             /// The variables that are kept when the controller is switched off.
-            pub(crate) fn kept_own(&self) -> Vec<Kept<'_>> {
-                let all: Vec<Option<Kept<'_>>> =
+            pub(crate) fn kept_own(&self) -> Vec<RetainedVariable<'_>> {
+                let all: Vec<Option<RetainedVariable<'_>>> =
                     vec![$( system!(@keep $restore self.$field, $name, $ty, $default), )*];
                 all.into_iter().flatten().collect()
             }
@@ -68,10 +68,10 @@ macro_rules! system {
     (@changed Permanent $self:ident.$field:ident) => { $self.$field.is_changed() };
     (@changed $other:ident $self:ident.$field:ident) => { false };
     (@keep Saved $self:ident.$field:ident, $name:literal, $ty:ty, $default:expr) => {
-        Some(Kept::new($name, false, &$self.$field, || encode::<$ty>(&$default)))
+        Some(RetainedVariable::new($name, false, &$self.$field, || encode::<$ty>(&$default)))
     };
     (@keep Permanent $self:ident.$field:ident, $name:literal, $ty:ty, $default:expr) => {
-        Some(Kept::new($name, true, &$self.$field, || encode::<$ty>(&$default)))
+        Some(RetainedVariable::new($name, true, &$self.$field, || encode::<$ty>(&$default)))
     };
     (@keep $other:ident $self:ident.$field:ident, $name:literal, $ty:ty, $default:expr) => {
         None
@@ -266,18 +266,18 @@ impl System {
     }
 
     /// The variables that are kept when the controller is switched off, as this channel sees them.
-    pub(crate) fn kept(&self) -> Vec<Kept<'_>> {
+    pub(crate) fn kept(&self) -> Vec<RetainedVariable<'_>> {
         let mut kept = self.common.kept_own();
         kept.extend(self.kept_by_channel());
         kept
     }
 
     /// Those of them that are the channel's own: where its robot stands.
-    pub(crate) fn kept_by_channel(&self) -> Vec<Kept<'_>> {
+    pub(crate) fn kept_by_channel(&self) -> Vec<RetainedVariable<'_>> {
         let ChannelId::Foreground(number) = self.channel else { return Vec::new() };
         let own = self.kept_own().into_iter();
         let stored = |name: &'static str| BASES.get(usize::from(number)).copied().unwrap_or(name);
-        own.map(|kept| Kept { stored: stored(kept.name), ..kept }).collect()
+        own.map(|kept| RetainedVariable { stored: stored(kept.name), ..kept }).collect()
     }
 
     /// Name and value of every variable, for tests that compare with the catalog.
@@ -326,7 +326,7 @@ impl Default for System {
 const BASES: [&str; MOST_FOREGROUND + 1] = ["BASE", "BASE", "BASE.2", "BASE.3", "BASE.4", "BASE.5", "BASE.6"];
 
 /// A variable that is kept when the controller is switched off.
-pub(crate) struct Kept<'a> {
+pub(crate) struct RetainedVariable<'a> {
     /// The name without `$`.
     pub(crate) name: &'static str,
     /// What its file is called.
@@ -337,7 +337,7 @@ pub(crate) struct Kept<'a> {
     default: fn() -> String,
 }
 
-impl<'a> Kept<'a> {
+impl<'a> RetainedVariable<'a> {
     fn new(name: &'static str, always: bool, slot: &'a dyn Slot, default: fn() -> String) -> Self {
         Self { name, stored: name, always, slot, default }
     }
@@ -412,7 +412,7 @@ fn encode<T: StateFormat>(value: &T) -> String {
 }
 
 /// Gives kept variables the values that were saved last.
-pub(crate) fn load(variables: &[Kept<'_>], state: &mut State) -> Result<(), StateError> {
+pub(crate) fn load(variables: &[RetainedVariable<'_>], state: &mut State) -> Result<(), StateError> {
     for kept in variables {
         let text = state.load(kept.stored)?;
         if let Some(text) = text

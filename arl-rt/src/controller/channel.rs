@@ -13,7 +13,7 @@ use crate::context::programs::Programs;
 use crate::controller::trace::Trace;
 use crate::fault::{Alarm, Fault, Reason, Stop};
 use crate::storage::data;
-use crate::storage::pointers::Now;
+use crate::storage::pointers::CurrentPointers;
 
 /// How many bytes of stack a program may use in one poll where nobody says otherwise: half of what a thread gets.
 pub(super) const PROGRAM_STACK_BYTES: usize = 1 << 20;
@@ -98,9 +98,9 @@ impl Channel {
     }
 
     /// The program and motion pointers, as far as they are not those that were kept.
-    pub(super) fn pointers(&self) -> Now {
+    pub(super) fn pointers(&self) -> CurrentPointers {
         let motion = self.channel_state.robot().and_then(|unit| unit.motion_pointer());
-        Now { program: self.channel_state.begun.get().then(|| self.cx.place()), motion }
+        CurrentPointers { program: self.channel_state.begun.get().then(|| self.cx.place()), motion }
     }
 
     /// What the program does at the moment.

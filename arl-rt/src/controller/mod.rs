@@ -235,7 +235,7 @@ impl Controller {
     fn read_external_control(&mut self) {
         let channel_state = self.channels.first().channel_state();
         let shared = &self.shared;
-        let heard = self.external.listen(&external::Now {
+        let heard = self.external.listen(&external::InputSnapshot {
             io: &shared.io.borrow(),
             system: &channel_state.system,
             cycle: shared.now.get(),

@@ -7,7 +7,7 @@ use std::time::Duration;
 use crate::cycle::catch_panic::catch_panic;
 use crate::cycle::channel_id::MOST_FOREGROUND;
 use crate::cycle::try_lock::try_lock;
-use crate::storage::pointers::{self, Now, Table};
+use crate::storage::pointers::{self, CurrentPointers, Table};
 use crate::storage::state::{self, Storage};
 
 /// How long the thread waits before it stores what has changed, unless the programs have ended: what a kill may cost.
@@ -21,7 +21,7 @@ pub(super) struct PointerStore {
     exchange: Arc<Exchange>,
     thread: Option<JoinHandle<()>>,
     /// What they were in the last cycle.
-    noted: [Now; MOST_FOREGROUND],
+    noted: [CurrentPointers; MOST_FOREGROUND],
     /// Whether the thread does not know that yet.
     news: bool,
     /// Whether the thread was told that the programs have ended.
@@ -37,7 +37,7 @@ struct Exchange {
 
 #[derive(Default)]
 struct Pending {
-    now: [Now; MOST_FOREGROUND],
+    now: [CurrentPointers; MOST_FOREGROUND],
     /// Whether the thread shall store this without waiting.
     hurry: bool,
     /// Whether it shall end then.
@@ -110,7 +110,7 @@ impl PointerStore {
     /// Notes the pointers as they are at the end of a cycle, of each channel from the first; `ended`: no program with a robot
     /// runs. Never waits. Gives what went wrong since the last call.
     #[inline]
-    pub(super) fn note(&mut self, now: impl Iterator<Item = Now>, ended: bool) -> Option<String> {
+    pub(super) fn note(&mut self, now: impl Iterator<Item = CurrentPointers>, ended: bool) -> Option<String> {
         for (noted, now) in self.noted.iter_mut().zip(now) {
             if *noted != now {
                 *noted = now;
@@ -191,7 +191,7 @@ mod tests {
     fn a_storage_that_panics_is_told_and_tried_again() {
         let (sender, stored) = channel();
         let mut pointer_store = PointerStore::start(Box::new(PanicsOnce(false, sender)), Table::default()).unwrap();
-        let now = Now { program: Some((File::new("a.arl"), 3)), motion: None };
+        let now = CurrentPointers { program: Some((File::new("a.arl"), 3)), motion: None };
         assert_eq!(pointer_store.note([now].into_iter(), false), None);
         let told = pointer_store.settle().unwrap();
         assert!(told.contains("the storage has panicked"), "{told}");

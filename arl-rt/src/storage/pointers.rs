@@ -13,44 +13,44 @@ pub(crate) const STORED: &str = "POINTERS";
 
 /// A line of a file of a program that need not be there any more.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(crate) struct Spot {
+pub(crate) struct CodePosition {
     pub(crate) file: Str,
     pub(crate) line: u32,
 }
 
 /// What was kept of a channel.
 #[derive(Clone, PartialEq, Eq, Default, Debug)]
-pub(crate) struct Kept {
+pub(crate) struct StoredPointers {
     /// Where its program stood.
-    pub(crate) program: Option<Spot>,
+    pub(crate) program: Option<CodePosition>,
     /// The motion that was executed last.
-    pub(crate) motion: Option<Spot>,
+    pub(crate) motion: Option<CodePosition>,
 }
 
 /// What was kept of all foreground channels, by their numbers from 1.
-pub(crate) type Table = [Kept; MOST_FOREGROUND];
+pub(crate) type Table = [StoredPointers; MOST_FOREGROUND];
 
 /// The pointers of a channel as they are now; nothing as long as they are still those that were kept.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
-pub(crate) struct Now {
+pub(crate) struct CurrentPointers {
     /// Where its program stands.
     pub(crate) program: Option<(File, u32)>,
     /// The motion that is executed, or was last.
     pub(crate) motion: Option<(File, u32)>,
 }
 
-impl From<(File, u32)> for Spot {
+impl From<(File, u32)> for CodePosition {
     fn from((file, line): (File, u32)) -> Self {
         Self { file: file.name().into(), line }
     }
 }
 
-impl Kept {
+impl StoredPointers {
     /// What is to be kept now.
-    pub(crate) fn renewed(&self, now: &Now) -> Self {
+    pub(crate) fn renewed(&self, now: &CurrentPointers) -> Self {
         Self {
-            program: now.program.map(Spot::from).or_else(|| self.program.clone()),
-            motion: now.motion.map(Spot::from).or_else(|| self.motion.clone()),
+            program: now.program.map(CodePosition::from).or_else(|| self.program.clone()),
+            motion: now.motion.map(CodePosition::from).or_else(|| self.motion.clone()),
         }
     }
 }
@@ -64,7 +64,7 @@ pub(crate) fn written(table: &Table) -> String {
     let mut text = String::new();
     for (number, kept) in (1..).zip(table) {
         for (word, spot) in [(PROGRAM, &kept.program), (MOTION, &kept.motion)] {
-            let Some(Spot { file, line }) = spot else { continue };
+            let Some(CodePosition { file, line }) = spot else { continue };
             // Writing to a string does not fail.
             let _ = write!(text, "{word} {number} ");
             file.write(&mut text);
@@ -81,7 +81,7 @@ pub(crate) fn read(text: &str) -> Option<Table> {
         let mut words = line.split_ascii_whitespace();
         let word = words.next()?;
         let number: usize = words.next()?.parse().ok()?;
-        let spot = Spot { file: Str::read(&mut words)?, line: words.next()?.parse().ok()? };
+        let spot = CodePosition { file: Str::read(&mut words)?, line: words.next()?.parse().ok()? };
         let kept = table.get_mut(number.checked_sub(1)?)?;
         let place = match word {
             PROGRAM => &mut kept.program,
@@ -102,8 +102,9 @@ mod tests {
     #[test]
     fn text_gives_the_pointers_back() {
         let mut table = Table::default();
-        table[0] = Kept { program: Some((File::new("a b \u{e4}.arl"), 12).into()), motion: None };
-        table[5] = Kept::default().renewed(&Now { program: None, motion: Some((File::new("c.arl"), 0)) });
+        table[0] = StoredPointers { program: Some((File::new("a b \u{e4}.arl"), 12).into()), motion: None };
+        table[5] = StoredPointers::default()
+            .renewed(&CurrentPointers { program: None, motion: Some((File::new("c.arl"), 0)) });
         let text = written(&table);
         assert_eq!(read(&text), Some(table), "{text}");
         assert_eq!(read(""), Some(Table::default()));
@@ -111,11 +112,11 @@ mod tests {
 
     #[test]
     fn what_is_known_by_now_takes_the_place_of_what_was_kept() {
-        let spot = |file, line| Some(Spot::from((File::new(file), line)));
-        let kept = Kept { program: spot("old.arl", 3), motion: spot("old.arl", 2) };
-        let now = Now { program: Some((File::new("new.arl"), 1)), motion: None };
-        assert_eq!(kept.renewed(&now), Kept { program: spot("new.arl", 1), motion: spot("old.arl", 2) });
-        assert_eq!(kept.renewed(&Now::default()), kept);
+        let spot = |file, line| Some(CodePosition::from((File::new(file), line)));
+        let kept = StoredPointers { program: spot("old.arl", 3), motion: spot("old.arl", 2) };
+        let now = CurrentPointers { program: Some((File::new("new.arl"), 1)), motion: None };
+        assert_eq!(kept.renewed(&now), StoredPointers { program: spot("new.arl", 1), motion: spot("old.arl", 2) });
+        assert_eq!(kept.renewed(&CurrentPointers::default()), kept);
     }
 
     #[test]

@@ -36,7 +36,7 @@ enum Reach {
 
 /// How a variable is kept.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Kept {
+enum Storage {
     Local,
     Handle,
     Cell,
@@ -83,13 +83,13 @@ pub(super) enum Written<'p> {
 }
 
 impl Reached {
-    fn kept(&self) -> Kept {
+    fn kept(&self) -> Storage {
         match self.root {
-            Root::Local(_) if !self.shared => Kept::Local,
-            _ if is_handle(self.whole) => Kept::Handle,
-            _ if is_copy(self.whole) => Kept::Cell,
-            Root::Global(_) if is_cells(self.whole) => Kept::Cells,
-            _ => Kept::Shared,
+            Root::Local(_) if !self.shared => Storage::Local,
+            _ if is_handle(self.whole) => Storage::Handle,
+            _ if is_copy(self.whole) => Storage::Cell,
+            Root::Global(_) if is_cells(self.whole) => Storage::Cells,
+            _ => Storage::Shared,
         }
     }
 
@@ -204,7 +204,7 @@ impl<'p> Body<'p, '_> {
     /// The value of a place whose indices are known, to keep.
     pub(super) fn read_reached(&mut self, place: &Reached) -> Fragment {
         match place.kept() {
-            Kept::Local => Self::owned(self.look_at_reached(place), place.ty),
+            Storage::Local => Self::owned(self.look_at_reached(place), place.ty),
             _ => self.look_at_reached(place),
         }
     }
@@ -213,18 +213,18 @@ impl<'p> Body<'p, '_> {
         let variable = self.variable(place.root);
         let steps = place.steps();
         let tokens = match (place.kept(), place.path.split_first()) {
-            (Kept::Local | Kept::Handle, _) => quote!(#variable #steps),
-            (Kept::Cell, _) => quote!(#variable.get()#steps),
-            (Kept::Shared | Kept::Cells, Some((Reach::At(at), rest))) => {
+            (Storage::Local | Storage::Handle, _) => quote!(#variable #steps),
+            (Storage::Cell, _) => quote!(#variable.get()#steps),
+            (Storage::Shared | Storage::Cells, Some((Reach::At(at), rest))) => {
                 let rest = self::steps(rest);
                 quote!(#variable.item(#at)#rest)
             }
-            (Kept::Shared, Some(_)) => {
+            (Storage::Shared, Some(_)) => {
                 let it = self.fresh("it");
                 let copy = if is_copy(place.ty) { TokenStream::new() } else { quote!(.clone()) };
                 quote!(#variable.with(|#it| #it #steps #copy))
             }
-            (Kept::Shared | Kept::Cells, _) => quote!(#variable.get()),
+            (Storage::Shared | Storage::Cells, _) => quote!(#variable.get()),
         };
         Fragment::postfix(tokens)
     }
@@ -248,18 +248,18 @@ impl<'p> Body<'p, '_> {
         let variable = self.variable(place.root);
         let item = matches!(place.path.as_slice(), [Reach::At(_)]);
         match (place.kept(), written) {
-            (Kept::Local, written) => {
+            (Storage::Local, written) => {
                 let target = self.target(place);
                 let (before, change) = self.changed(place.ty, &target, written);
                 quote!(#before #change;)
             }
             // The checker has no assignment to handles.
-            (Kept::Handle, _) => TokenStream::new(),
+            (Storage::Handle, _) => TokenStream::new(),
             (_, Written::Value(value)) if place.path.is_empty() => {
                 let (before, value) = (&value.before, &value.tokens);
                 quote!(#before #variable.set(#value);)
             }
-            (Kept::Cells | Kept::Shared, Written::Value(value)) if item => {
+            (Storage::Cells | Storage::Shared, Written::Value(value)) if item => {
                 let (before, value, at) = (&value.before, &value.tokens, place.first_index());
                 quote!(#before #variable.set_item(#at, #value);)
             }
@@ -288,7 +288,7 @@ impl<'p> Body<'p, '_> {
     /// `variable.update(|it| ..)`; the value is computed before, unless it may be computed in there.
     fn update(&mut self, place: &Reached, variable: &TokenStream, written: Written<'p>, calm: Calm) -> TokenStream {
         let kept = place.kept();
-        let inside = if kept == Kept::Shared { calm == Calm::Local } else { calm != Calm::No };
+        let inside = if kept == Storage::Shared { calm == Calm::Local } else { calm != Calm::No };
         let settle = |body: &mut Self, value: Fragment| {
             let mut value = if inside { value } else { body.settle(value, "value") };
             (std::mem::take(&mut value.before), value)
@@ -304,7 +304,7 @@ impl<'p> Body<'p, '_> {
             }
         };
         let it = self.fresh("it");
-        if kept == Kept::Shared {
+        if kept == Storage::Shared {
             let steps = place.steps();
             let target = if place.path.is_empty() { quote!(*#it) } else { quote!(#it #steps) };
             let (_, change) = self.changed(place.ty, &target, written);

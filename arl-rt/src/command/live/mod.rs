@@ -7,15 +7,15 @@
 //! The first line that goes out is `{"hello":...}`: the channels with their programs, robots and axes. Then come `state`
 //! (20 times a second), `message`, `warning`, `alarm`, and `refused` for an order that could not be carried out.
 
+mod line_writer;
 mod orders;
-mod say;
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::controller::{Controller, Outcome};
 use orders::{Next, Orders};
 
-pub(crate) use say::Voice;
+pub(crate) use line_writer::LineWriter;
 
 /// How often a state goes out, in s.
 const STATE_INTERVAL_S: f64 = 0.05;
@@ -33,7 +33,7 @@ pub(crate) enum Cut {
 /// ended last, or why it was stopped.
 pub(crate) fn drive(
     controller: &mut Controller,
-    voice: &Voice,
+    voice: &LineWriter,
     max_time: Option<f64>,
     interrupted: &AtomicBool,
 ) -> Result<Option<Outcome>, Cut> {
@@ -65,7 +65,7 @@ pub(crate) fn drive(
 }
 
 /// Carries out what has come; whether more may come.
-fn obey(controller: &mut Controller, voice: &Voice, orders: &Orders) -> bool {
+fn obey(controller: &mut Controller, voice: &LineWriter, orders: &Orders) -> bool {
     loop {
         match orders.next() {
             Next::Order(order) => {

@@ -1,6 +1,6 @@
 //! The inputs with which a PLC works the controller like somebody at the pendant.
 
-use super::watch::{Now, Seen, Watch};
+use super::edge_detector::{EdgeDetector, InputSnapshot, InputState};
 use crate::context::system::System;
 use crate::io::Pendant;
 
@@ -40,12 +40,12 @@ pub(in crate::controller) type Pressed = [Option<Pendant>; BUTTONS.len()];
 
 /// The inputs that work buttons.
 #[derive(Debug, Default)]
-pub(super) struct Buttons([Watch; BUTTONS.len()]);
+pub(super) struct Buttons([EdgeDetector; BUTTONS.len()]);
 
 impl Buttons {
     /// What the inputs of this cycle press.
-    pub(super) fn listen(&mut self, now: &Now<'_>, active: bool) -> Pressed {
-        let Now { io, system, cycle, rate, paused } = *now;
+    pub(super) fn listen(&mut self, now: &InputSnapshot<'_>, active: bool) -> Pressed {
+        let InputSnapshot { io, system, cycle, rate, paused } = *now;
         let pulse = rate.cycles(SERVO_PULSE_S);
         let mut pressed = Pressed::default();
         let mut resetting = false;
@@ -60,7 +60,7 @@ impl Buttons {
     }
 }
 
-fn is_pressed(means: Means, seen: Seen, pulse: u64, paused: bool) -> bool {
+fn is_pressed(means: Means, seen: InputState, pulse: u64, paused: bool) -> bool {
     match means {
         Means::Edge => seen.rises,
         Means::Level => seen.rises || paused && seen.cycles > 0,

@@ -4,10 +4,10 @@
 //! are written; in between lies the cycle.
 
 mod buttons;
+mod edge_detector;
 mod number;
 mod program_number;
 mod status_outputs;
-mod watch;
 
 use crate::context::system::System;
 use crate::controller::State;
@@ -15,9 +15,9 @@ use crate::fault::Fault;
 use crate::io::Image;
 use crate::values::Controlmode;
 use buttons::{Buttons, Pressed};
+pub(super) use edge_detector::InputSnapshot;
 use program_number::ProgramNumber;
 use status_outputs::StatusOutputs;
-pub(super) use watch::Now;
 
 /// The side of the controller that a PLC sees.
 #[derive(Debug)]
@@ -41,8 +41,8 @@ impl External {
     ///
     /// # Errors
     /// It gives no program number, though it says so.
-    pub(super) fn listen(&mut self, now: &Now<'_>) -> Result<Pressed, Fault> {
-        let Now { io, system, cycle, .. } = *now;
+    pub(super) fn listen(&mut self, now: &InputSnapshot<'_>) -> Result<Pressed, Fault> {
+        let InputSnapshot { io, system, cycle, .. } = *now;
         let active = self.enabled && is_activated(io, system);
         system.ext_ctl_act.set(active);
         if !self.enabled {

@@ -1,7 +1,7 @@
 //! The program number that a PLC gives.
 
+use super::edge_detector::EdgeDetector;
 use super::number;
-use super::watch::Watch;
 use crate::context::system::System;
 use crate::fault::Fault;
 use crate::io::Image;
@@ -12,7 +12,7 @@ const ONE_OUT_OF: i32 = 2;
 /// The program number that a PLC gives.
 #[derive(Debug, Default)]
 pub(super) struct ProgramNumber {
-    valid: Watch,
+    valid: EdgeDetector,
     /// The inputs of the number that was taken last, lowest bit first.
     taken: u32,
 }

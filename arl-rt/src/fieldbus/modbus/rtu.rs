@@ -26,13 +26,13 @@ pub(crate) struct Request {
 /// What came over the line and is not done with. The line carries the answers of other slaves, too, whose length a request
 /// does not have: what comes after a silence may be a new request though the bytes before it are still waiting for their rest.
 #[derive(Default, Debug)]
-pub(crate) struct Heard {
+pub(crate) struct ReceiveBuffer {
     bytes: Vec<u8>,
     /// Where the bytes stand that came after a silence, but the first; ascending.
     starts: Vec<usize>,
 }
 
-impl Heard {
+impl ReceiveBuffer {
     pub(crate) fn is_empty(&self) -> bool {
         self.bytes.is_empty()
     }
@@ -162,7 +162,7 @@ mod tests {
         let wanted = Some(Request { unit: 17, pdu: vec![3, 0, 0, 0, 1] });
         // Another slave's answers, whole or cut: too short for a request to write registers, and not one to read them.
         for other in [frame(5, &[16, 0, 0, 0, 2]), frame(5, &[3, 4, 1, 2, 3, 4]), frame(5, &[16, 0, 0])] {
-            let mut heard = Heard::default();
+            let mut heard = ReceiveBuffer::default();
             heard.hear(&other, true);
             assert_eq!(heard.take(), None);
             heard.hear(&request[..3], true);
@@ -177,7 +177,7 @@ mod tests {
     fn a_request_may_come_in_pieces_and_be_followed_by_the_next() {
         let write = frame(17, &[16, 0, 1, 0, 2, 4, 0, 10, 1, 2]);
         let read = frame(17, &[3, 0, 0, 0, 1]);
-        let mut heard = Heard::default();
+        let mut heard = ReceiveBuffer::default();
         for piece in write.chunks(1) {
             assert_eq!(heard.take(), None);
             heard.hear(piece, true);
@@ -192,7 +192,7 @@ mod tests {
     #[test]
     fn noise_does_not_grow() {
         let mut noise = Noise::new(6);
-        let mut heard = Heard::default();
+        let mut heard = ReceiveBuffer::default();
         for at in 0..20_000 {
             heard.hear(&noise.bytes(LONGEST_FRAME), at % 3 == 0);
             if at % 2 == 0 {

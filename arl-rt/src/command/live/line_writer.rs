@@ -14,13 +14,13 @@ use arl_robot::robot::Axis;
 const MAX_WAITING_LINES: usize = 1024;
 
 /// The standard output, written by a thread of its own, so that no cycle waits for it as long as somebody reads.
-pub(crate) struct Voice {
+pub(crate) struct LineWriter {
     /// The last thing sent is nothing: the end.
     lines: SyncSender<Option<String>>,
     writer: Option<JoinHandle<()>>,
 }
 
-impl Voice {
+impl LineWriter {
     /// The standard output.
     pub(crate) fn standard() -> Self {
         let (lines, waiting) = sync_channel::<Option<String>>(MAX_WAITING_LINES);
@@ -90,7 +90,7 @@ impl Voice {
     }
 }
 
-impl Drop for Voice {
+impl Drop for LineWriter {
     fn drop(&mut self) {
         let _ = self.lines.send(None);
         if let Some(writer) = self.writer.take() {

@@ -5,7 +5,7 @@ use crate::cycle::rate::Rate;
 use crate::io::Image;
 
 /// What is looked at in a cycle.
-pub(in crate::controller) struct Now<'a> {
+pub(in crate::controller) struct InputSnapshot<'a> {
     /// The inputs.
     pub(in crate::controller) io: &'a Image,
     /// What says which of them mean what.
@@ -20,7 +20,7 @@ pub(in crate::controller) struct Now<'a> {
 
 /// What an input does in this cycle.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
-pub(super) struct Seen {
+pub(super) struct InputState {
     /// It is on.
     pub(super) on: bool,
     /// It has just gone on.
@@ -31,7 +31,7 @@ pub(super) struct Seen {
 
 /// Follows the input that a system variable names.
 #[derive(Clone, Copy, Default, Debug)]
-pub(super) struct Watch {
+pub(super) struct EdgeDetector {
     /// The input that was looked at last; 0 before the first look.
     channel: i32,
     level: bool,
@@ -39,13 +39,13 @@ pub(super) struct Watch {
     since: Option<u64>,
 }
 
-impl Watch {
+impl EdgeDetector {
     /// Looks at the input. Edges count while `active` only, and only after a look at the same input: one that is on when it
     /// begins to count must go off first.
-    pub(super) fn look(&mut self, io: &Image, channel: i32, cycle: u64, active: bool) -> Seen {
+    pub(super) fn look(&mut self, io: &Image, channel: i32, cycle: u64, active: bool) -> InputState {
         let Some(on) = io.input(channel) else {
             *self = Self::default();
-            return Seen::default();
+            return InputState::default();
         };
         let rises = active && on && !self.level && self.channel == channel;
         if rises {
@@ -55,7 +55,7 @@ impl Watch {
             self.since = None;
         }
         (self.channel, self.level) = (channel, on);
-        Seen { on: on && active, rises, cycles: self.since.map_or(0, |since| cycle - since + 1) }
+        InputState { on: on && active, rises, cycles: self.since.map_or(0, |since| cycle - since + 1) }
     }
 }
 
@@ -66,7 +66,7 @@ mod tests {
 
     /// What a watch tells of levels in a row, each with whether it counts.
     fn rises(levels: &[(i32, bool, bool)]) -> Vec<(bool, u64)> {
-        let (mut io, mut watch) = (Image::new(&Channels::default()), Watch::default());
+        let (mut io, mut watch) = (Image::new(&Channels::default()), EdgeDetector::default());
         let mut cycle = 0;
         let look = |(channel, level, active): &(i32, bool, bool)| {
             io.set_digital(Digital::Di, *channel, *level).unwrap();
@@ -102,7 +102,7 @@ mod tests {
     fn an_input_that_is_not_there_is_off() {
         let io = Image::new(&Channels::default());
         for channel in [0, -1, 65, i32::MIN, i32::MAX] {
-            assert_eq!(Watch::default().look(&io, channel, 0, true), Seen::default());
+            assert_eq!(EdgeDetector::default().look(&io, channel, 0, true), InputState::default());
         }
     }
 }
