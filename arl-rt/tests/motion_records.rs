@@ -4,6 +4,7 @@ mod common;
 
 use arl_rt::Controller;
 use arl_rt::emit::*;
+use arl_rt::motion::MotionKind;
 use arl_rt::motion::{Limited, MotionRecord};
 use common::*;
 
@@ -41,7 +42,14 @@ fn records() -> (Vec<MotionRecord>, f64) {
 fn every_motion_has_its_figures() {
     let (records, time) = records();
     let lines: Vec<_> = records.iter().map(|record| (record.number, record.line, record.kind)).collect();
-    let expected = [(1, 3, "movej"), (2, 4, "ptp"), (3, 5, "lin"), (4, 6, "lin"), (5, 7, "lin"), (6, 9, "movej")];
+    let expected = [
+        (1, 3, MotionKind::Joints),
+        (2, 4, MotionKind::Pose),
+        (3, 5, MotionKind::Line),
+        (4, 6, MotionKind::Line),
+        (5, 7, MotionKind::Line),
+        (6, 9, MotionKind::Joints),
+    ];
     assert_eq!(lines, expected);
     let moving: f64 = records.iter().map(|record| record.duration).sum();
     assert!(moving < time - 0.49 && moving > time - 0.52, "{moving} {time}");
@@ -108,7 +116,7 @@ fn motions_that_wait_for_the_next_one_are_recorded_when_they_go() {
     assert_eq!(controller.run(), arl_rt::Outcome::Ended);
     let records = controller.motions();
     let kinds: Vec<_> = records.iter().map(|record| record.kind).collect();
-    assert_eq!(kinds, ["movej", "lin", "spl", "spl", "lin"]);
+    assert_eq!(kinds, [MotionKind::Joints, MotionKind::Line, MotionKind::Spline, MotionKind::Spline, MotionKind::Line]);
     for record in &records {
         assert!(record.start.is_some() && record.duration > 0.1 && record.reached > 0.0, "{record:?}");
         // A zone stays what it is where motions flow into each other.

@@ -210,7 +210,7 @@ impl Corner<'_> {
         }
     }
 
-    /// Collects the limits of a way of the TCP that hardly bends; returns whether a few places are enough to know them.
+    /// Collects the limits of a path of the TCP that hardly bends; returns whether a few places are enough to know them.
     fn glance_at_tool(
         &self,
         curve: &ToolCurve,
@@ -237,7 +237,7 @@ impl Corner<'_> {
         true
     }
 
-    /// Collects the limits of any way of the TCP; `None` where it cannot be gone.
+    /// Collects the limits of any path of the TCP; `None` where it cannot be gone.
     fn walk_tool(
         &self,
         curve: &ToolCurve,
@@ -297,7 +297,7 @@ impl Corner<'_> {
         })
     }
 
-    /// Collects the limits of a way of the axes; `None` where it leaves a range.
+    /// Collects the limits of a path of the axes; `None` where it leaves a range.
     fn look_at_axes(
         &self,
         (curve, gentle): (&Quintic<ALL>, bool),
@@ -384,7 +384,7 @@ fn along(track: &Track, at: f64, rate: f64) -> [f64; 2] {
     speed_and_acc(&track.derivative(1, at), &track.derivative(2, at), rate)
 }
 
-/// The speed and the acceleration along a way, from its derivatives by a parameter that goes at a rate.
+/// The speed and the acceleration along a path, from its derivatives by a parameter that goes at a rate.
 fn speed_and_acc<const N: usize>(first: &SVector<f64, N>, second: &SVector<f64, N>, rate: f64) -> [f64; 2] {
     let length = first.norm();
     [length * rate, if length > 0.0 { first.dot(second) / length * rate * rate } else { 0.0 }]

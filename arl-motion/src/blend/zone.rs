@@ -147,7 +147,7 @@ fn tcp_part(robot: &Robot, motion: &Motion, distance: f64, of: f64) -> f64 {
     near
 }
 
-/// Where the TCP is on its way at a share of an axis motion, in mm.
+/// Where the TCP is on its path at a share of an axis motion, in mm.
 fn tcp_place(robot: &Robot, motion: &Motion, at: f64) -> Vector3<f64> {
     let joints: Joints = motion.curve.joints(&robot.kinematics, at, &motion.start);
     motion.rig.carried.way_at(&robot.kinematics.forward(&joints.axes)).translation.vector

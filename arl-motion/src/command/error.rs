@@ -69,7 +69,7 @@ pub enum PlanError {
         /// The height that must not be passed, in mm.
         highest: f64,
     },
-    /// A ccir that no other one follows, before it or behind it.
+    /// A circle through targets of its neighbours, without a neighbour of its kind.
     LoneCircle,
     /// A motion turned out not to be possible only when the one behind it was known, or none followed.
     Earlier {
@@ -90,7 +90,17 @@ pub enum PlanError {
         /// The shortest that its limits allow, in s.
         least: f64,
     },
-    /// A speed, a duration, or the override of `velset`, is not above zero, or no number; or a duration is beyond all measure.
+    /// The override of programmed speeds is not above zero, or no number.
+    NoOverride {
+        /// The override in percent.
+        percent: f64,
+    },
+    /// The highest speed of the TCP is not above zero, or no number.
+    NoHighestSpeed {
+        /// The speed in mm/s.
+        value: f64,
+    },
+    /// A speed or a duration is not above zero, or no number; or a duration is beyond all measure.
     NoSpeed {
         /// What is meant, with its unit.
         what: &'static str,
@@ -155,15 +165,20 @@ impl fmt::Display for PlanError {
             }
             PlanError::NoSuchCfg { cfg } => write!(f, "the robot has no configuration cfg {cfg}: {CONFIGURATIONS}"),
             PlanError::AboveLimit { height, highest } => {
-                write!(f, "the jump starts or ends at the height {height:.3}, above its limit of {highest:.3}")
+                write!(f, "the gate starts or ends at the height {height:.3}, above its limit of {highest:.3}")
             }
-            PlanError::LoneCircle => write!(
-                f,
-                "one ccir alone makes no arc: it takes another one right behind it, before the program waits for the robot"
-            ),
+            PlanError::LoneCircle => {
+                write!(f, "a circle through the targets of neighbours takes two motions of its kind in a row")
+            }
             PlanError::Earlier { line, error } => write!(f, "line {line}: {error}"),
             PlanError::Duration { wanted, least } => {
                 write!(f, "the motion cannot be done in {wanted} s, it takes at least {least:.3} s")
+            }
+            PlanError::NoOverride { percent } => {
+                write!(f, "the override of speeds is {percent} %: it must be a number above 0")
+            }
+            PlanError::NoHighestSpeed { value } => {
+                write!(f, "the highest speed of the TCP is {value} mm/s: it must be a number above 0")
             }
             PlanError::NoSpeed { what, value } if value.is_finite() && *value > 0.0 => {
                 write!(f, "{what} is {value:e}, which is too much")
@@ -181,7 +196,7 @@ impl fmt::Display for PlanError {
             PlanError::NotForThisRobot => write!(f, "this robot knows no such motion"),
             PlanError::NoWayBack => write!(
                 f,
-                "the robot cannot go straight back to its path: it stands in another configuration, or in another turn of an axis, than where it was stopped; movej it near that place first"
+                "the robot cannot go straight back to its path: it stands in another configuration, or in another turn of an axis, than where it was stopped; move its axes near that place first"
             ),
             PlanError::Full => write!(f, "the look-ahead is full"),
             PlanError::Stopping => write!(f, "the robot is still stopping"),

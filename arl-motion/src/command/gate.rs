@@ -1,4 +1,4 @@
-//! The form of a gate (`jump`): how a motion rises, goes over and sinks.
+//! The form of a gate: how a motion rises, goes over and sinks.
 
 /// The form of a gate.
 #[derive(Clone, Copy, PartialEq, Debug)]

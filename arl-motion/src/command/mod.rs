@@ -46,35 +46,35 @@ impl Command {
 /// Where a motion goes. Components that are [`crate::command::UNSET`] stay as they are where the motion starts.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Target {
-    /// movej: all axes to their positions, arriving together.
+    /// All axes to their positions, arriving together.
     Joints(Joints),
-    /// ptp: the TCP to a pose, all axes arriving together.
+    /// The TCP to a pose, all axes arriving together.
     Pose {
         /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
         pose: [f64; 6],
-        /// The workpiece frame in what the TCP's way is seen from ([`arl_robot::frames::Carried`]), translation in mm.
+        /// The workpiece frame in what the TCP's path is seen from ([`arl_robot::frames::Carried`]), translation in mm.
         wobj: Frame,
         /// The solution that is wanted.
         wanted: Wanted,
         /// External axes in deg (mm).
         external: [f64; EXTERNAL_AXES],
     },
-    /// lin: the TCP along a straight line, turning evenly; the configuration stays that of the start.
+    /// The TCP along a straight line, turning evenly; the configuration stays that of the start.
     Line {
         /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
         pose: [f64; 6],
-        /// The workpiece frame in what the TCP's way is seen from ([`arl_robot::frames::Carried`]), translation in mm.
+        /// The workpiece frame in what the TCP's path is seen from ([`arl_robot::frames::Carried`]), translation in mm.
         wobj: Frame,
         /// External axes in deg (mm).
         external: [f64; EXTERNAL_AXES],
     },
-    /// cir: the TCP along a circle through a point on the way, turning evenly; the configuration stays that of the start.
+    /// The TCP along a circle through a point on the way, turning evenly; the configuration stays that of the start.
     Arc {
         /// x, y, z in mm of the point on the way, in the workpiece frame.
         via: [f64; 3],
         /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
         pose: [f64; 6],
-        /// The workpiece frame in what the TCP's way is seen from ([`arl_robot::frames::Carried`]), translation in mm.
+        /// The workpiece frame in what the TCP's path is seen from ([`arl_robot::frames::Carried`]), translation in mm.
         wobj: Frame,
         /// How far to go along the circle, in deg, in place of going to `pose`; below 0 goes the other way round.
         angle: Option<f64>,
@@ -83,7 +83,7 @@ pub enum Target {
         /// External axes in deg (mm).
         external: [f64; EXTERNAL_AXES],
     },
-    /// jump: up, over and down to a pose, with robots whose third axis lifts.
+    /// The TCP up, over and down to a pose, with robots whose third axis lifts.
     Gate {
         /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
         pose: [f64; 6],
@@ -96,7 +96,7 @@ pub enum Target {
         /// Its form.
         gate: Gate,
     },
-    /// ccir: the TCP along the circle through start, target and the target of the next motion of this kind or, in the last
+    /// The TCP along the circle through start, target and the target of the next motion of this kind or, in the last
     /// one, through the start of the one before it. It takes two in a row at least.
     Circle {
         /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
@@ -108,7 +108,7 @@ pub enum Target {
         /// External axes in deg (mm).
         external: [f64; EXTERNAL_AXES],
     },
-    /// spl: the TCP, the tool's rotation and the external axes smoothly through the targets of all motions of this kind in
+    /// The TCP, the tool's rotation and the external axes smoothly through the targets of all motions of this kind in
     /// a row, without a stop.
     Spline {
         /// x, y, z in mm, a, b, c in deg, in the workpiece frame.
@@ -120,7 +120,49 @@ pub enum Target {
     },
 }
 
+/// The kinds of targets, without their data.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum MotionKind {
+    /// [`Target::Joints`]
+    Joints,
+    /// [`Target::Pose`]
+    Pose,
+    /// [`Target::Gate`]
+    Gate,
+    /// [`Target::Line`]
+    Line,
+    /// [`Target::Arc`]
+    Arc,
+    /// [`Target::Circle`]
+    Circle,
+    /// [`Target::Spline`]
+    Spline,
+}
+
+impl MotionKind {
+    /// Whether the TCP is led along a path, at a speed in mm/s; else the axes are, at a share of their speeds.
+    pub fn leads_tcp(self) -> bool {
+        match self {
+            Self::Line | Self::Arc | Self::Circle | Self::Spline => true,
+            Self::Joints | Self::Pose | Self::Gate => false,
+        }
+    }
+}
+
 impl Target {
+    /// Which kind it is.
+    pub fn kind(&self) -> MotionKind {
+        match self {
+            Self::Joints(_) => MotionKind::Joints,
+            Self::Pose { .. } => MotionKind::Pose,
+            Self::Gate { .. } => MotionKind::Gate,
+            Self::Line { .. } => MotionKind::Line,
+            Self::Arc { .. } => MotionKind::Arc,
+            Self::Circle { .. } => MotionKind::Circle,
+            Self::Spline { .. } => MotionKind::Spline,
+        }
+    }
+
     /// All axes to these positions, in deg (mm); external axes stay where they are.
     pub fn axes(axes: [f64; ROBOT_AXES]) -> Self {
         Self::Joints(Joints { axes, external: [UNSET; EXTERNAL_AXES] })
@@ -138,7 +180,7 @@ impl Target {
 pub struct Zone {
     /// Percent of the largest zone, which is half of the motion; 0 or more goes before all others.
     pub percent: f64,
-    /// Distance of the TCP along its way, in mm.
+    /// Distance of the TCP along its path, in mm.
     pub tcp: f64,
     /// Angle by which the tool still has to turn, in deg.
     pub ori: f64,
@@ -183,13 +225,13 @@ impl Speed {
 /// What holds for all motions until it is changed.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Settings {
-    /// `velset` override: percent of all programmed speeds, above 0 to 100.
+    /// The override: percent of all programmed speeds, above 0 to 100.
     pub speed_percent: f64,
-    /// `velset` max: the highest speed of the TCP on lines, in mm/s; infinite where there is none.
+    /// The highest speed of the TCP on lines, in mm/s; infinite where there is none.
     pub max_tcp: f64,
-    /// `accset` acc: percent of all accelerations. Below 20 counts as 20, above 100 as 100.
+    /// Percent of all accelerations. Below 20 counts as 20, above 100 as 100.
     pub acc_percent: f64,
-    /// `accset` ramp: percent of all jerks. Below 20 counts as 20, above 100 as 100.
+    /// Percent of all jerks. Below 20 counts as 20, above 100 as 100.
     pub jerk_percent: f64,
     /// How the speed rises and falls: with T no jerk is limited.
     pub profile: VelocityProfile,

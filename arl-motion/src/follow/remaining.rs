@@ -63,7 +63,7 @@ impl Leg {
     }
 }
 
-/// The highest of a range of speeds whose way is not too long.
+/// The highest of a range of speeds whose path is not too long.
 fn highest(low: f64, high: f64, excess: impl Fn(f64) -> f64) -> f64 {
     search::highest(low, high, Enough { value: SPEED_TOLERANCE * high, excess: WAY_TOLERANCE_S }, excess)
 }

@@ -70,7 +70,7 @@ struct Arm {
     jerk: f64,
 }
 
-/// A tool that is led along a way.
+/// A tool that is led along a path.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LedTool {
     /// Where the TCP is, in mm.
@@ -215,7 +215,7 @@ impl Segment {
         self.parametrization.is_none() && matches!(self.curve, Curve::Axes(_))
     }
 
-    /// The tool whose way is limited, after `at` s of nominal time, where the joints are `joints`. `None` where it is the axes that are
+    /// The tool whose path is limited, after `at` s of nominal time, where the joints are `joints`. `None` where it is the axes that are
     /// led, but for blends between motions that lead the TCP, and where it is not known what limits it.
     pub(crate) fn tool(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<LedTool> {
         let pace = self.pace?;

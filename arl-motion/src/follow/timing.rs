@@ -1,4 +1,4 @@
-//! What limits the speed along the way ahead, as the governor sees it: stretches of constant acceleration and jerk, each
+//! What limits the speed along the path ahead, as the governor sees it: stretches of constant acceleration and jerk, each
 //! cut into cells of constant speed. Lengths are s of nominal time.
 
 use std::collections::VecDeque;
@@ -13,7 +13,7 @@ pub(crate) struct Cell {
     pub(crate) limits: Limits,
 }
 
-/// A part of the way on which one acceleration and one jerk hold.
+/// A part of the path on which one acceleration and one jerk hold.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Stretch {
     pub(crate) cells: VecDeque<Cell>,

@@ -118,7 +118,7 @@ impl Parametrization {
         Some((along, time))
     }
 
-    /// Along a way that is so long per unit of the parameter, and changes so, at every place: with a speed that goes
+    /// Along a path that is so long per unit of the parameter, and changes so, at every place: with a speed that goes
     /// smoothly from `start` over `middle` to `end`, per s; with the nominal time in s. All of it is above zero.
     pub(crate) fn eased(gait: impl Fn(f64) -> [f64; 2], [start, middle, end]: [f64; 3]) -> (Self, f64) {
         const STEPS: usize = 4 * PARTS;

@@ -80,7 +80,7 @@ impl<const N: usize> Quintic<N> {
     }
 }
 
-/// Values along a way: a polynomial of the way's parameter or, where it has a pace of its own, of the parametrization that the
+/// Values along a path: a polynomial of the way's parameter or, where it has a pace of its own, of the parametrization that the
 /// parameter stands for.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Way<const N: usize> {

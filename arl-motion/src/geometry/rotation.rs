@@ -1,4 +1,4 @@
-//! Rotation vectors that change along a way, and the speed of rotation that they mean.
+//! Rotation vectors that change along a path, and the speed of rotation that they mean.
 
 use nalgebra::{Matrix3, Vector3};
 

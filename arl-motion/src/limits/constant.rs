@@ -45,7 +45,7 @@ pub(crate) fn highest_speed(constraints: &[Constraint]) -> f64 {
     }))
 }
 
-/// Limits under which the way from 0 to 1 is done soon and no bound is broken, whatever moves within them.
+/// Limits under which the path from 0 to 1 is done soon and no bound is broken, whatever moves within them.
 pub(crate) fn quickest(constraints: &[Constraint]) -> Limits {
     let vel = highest_speed(constraints);
     if let Some(limits) = hardly_curved(constraints, vel) {
@@ -81,7 +81,7 @@ pub(crate) fn quickest(constraints: &[Constraint]) -> Limits {
 /// How much of the acceleration and of the jerk that are there at rest is as good as all.
 const AS_GOOD_SHARE: f64 = 0.98;
 
-/// The limits of a way on which hardly anything is lost to its curvature at the speed `vel`.
+/// The limits of a path on which hardly anything is lost to its curvature at the speed `vel`.
 fn hardly_curved(constraints: &[Constraint], vel: f64) -> Option<Limits> {
     let mut rest = Limits { vel, acc: 1e12, jerk: 1e12 };
     let mut moving = rest;

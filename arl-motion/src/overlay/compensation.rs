@@ -10,7 +10,7 @@ use crate::overlay::{easing, paced, times};
 use arl_robot::frames::{Carried, Rig};
 use arl_robot::kinematics::frame;
 
-/// How far, in mm, and how, as a rotation vector in rad, the TCP is led away from its way: along and about the axes of what the
+/// How far, in mm, and how, as a rotation vector in rad, the TCP is led away from its path: along and about the axes of what the
 /// way is seen from, unless said otherwise.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(crate) struct Lead {
@@ -44,14 +44,14 @@ pub(crate) struct Led {
     pub(crate) lead: Lead,
     /// Which compensation it is; 0 for none.
     pub(crate) number: u32,
-    /// y of [`Reference::ModifyPath`], along the axes of the way.
+    /// y of [`Reference::ModifyPath`], along the axes of the path.
     across: Option<Vector3<f64>>,
     /// What the robot carries.
     carried: Option<Carried>,
 }
 
 impl Led {
-    /// What of it a motion takes over: nothing under another compensation or none, or where ways are seen from elsewhere.
+    /// What of it a motion takes over: nothing under another compensation or none, or where paths are seen from elsewhere.
     pub(crate) fn for_next(&self, settings: &Settings, rig: &Rig) -> Self {
         let goes_on = settings.compensation.is_some_and(|compensation| compensation.number == self.number);
         let alike = match (self.carried, rig.carried) {
@@ -66,7 +66,7 @@ impl Led {
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Shift {
     from: Lead,
-    /// In axes of what the way is seen from.
+    /// In axes of what the path is seen from.
     fixed: Lead,
     /// In axes of the tool.
     tool: Lead,
@@ -94,7 +94,7 @@ const LEAST_GROWTH_SHARE: f64 = 1.0 / 16.0;
 
 impl Shift {
     /// The compensation of a motion along `curve` that takes `seconds` at its full speed. `workpiece` and `world` are the
-    /// orientations of the workpiece frame and of the world, seen like the way.
+    /// orientations of the workpiece frame and of the world, seen like the path.
     pub(crate) fn new(
         compensation: &Compensation,
         before: &Led,

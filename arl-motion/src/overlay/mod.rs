@@ -1,4 +1,4 @@
-//! What is laid over a way of the TCP: a weave beside it, and a compensation that shifts and turns it.
+//! What is laid over a path of the TCP: a weave beside it, and a compensation that shifts and turns it.
 //!
 //! Both are part of the geometry: functions of the path parameter. So what checks, limits and governs the motion sees
 //! them, and the override, stops and late motions change their time but never their shape.
@@ -17,7 +17,7 @@ use weave::Pattern;
 
 pub(crate) use compensation::Led;
 
-/// What is laid over a way of the TCP.
+/// What is laid over a path of the TCP.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Overlay {
     /// The frame of the path, where anything needs it.
@@ -89,13 +89,13 @@ impl Woven {
 }
 
 impl Overlay {
-    /// What the weave adds to the place of the TCP, in mm, along the axes of what the way is seen from, with its derivatives by the parameter.
+    /// What the weave adds to the place of the TCP, in mm, along the axes of what the path is seen from, with its derivatives by the parameter.
     pub(crate) fn weaving(&self, at: f64) -> Option<Rates> {
         let (woven, frame) = (self.woven.as_ref()?, self.frame.as_ref()?);
         Some(carried(&frame.rotation(at), &frame.turning(at), &woven.at(at)))
     }
 
-    /// What is added to the place of the TCP, in mm, along the axes of what the way is seen from, with its derivatives by the parameter.
+    /// What is added to the place of the TCP, in mm, along the axes of what the path is seen from, with its derivatives by the parameter.
     pub(crate) fn offset(&self, curve: &TcpPath, at: f64) -> Rates {
         let woven = self.weaving(at).unwrap_or([Vector3::zeros(); 4]);
         let shifted = self.shift.as_ref().map(|shift| shift.offset(curve, self.frame.as_ref(), at));
@@ -106,7 +106,7 @@ impl Overlay {
         })
     }
 
-    /// What turns the TCP besides, about axes of what the way is seen from.
+    /// What turns the TCP besides, about axes of what the path is seen from.
     pub(crate) fn turned(&self, curve: &TcpPath, at: f64) -> UnitQuaternion<f64> {
         let shift = self.shift.as_ref();
         UnitQuaternion::from_scaled_axis(

@@ -41,7 +41,7 @@ enum Turns {
 }
 
 impl PathFrame {
-    /// The frame of a way of the TCP; `None` where it has no direction.
+    /// The frame of a path of the TCP; `None` where it has no direction.
     ///
     /// # Errors
     /// The tool points along the path at its start or its end.
@@ -104,7 +104,7 @@ impl PathFrame {
     }
 }
 
-/// The axes along a way of the TCP at `at`, and how fast they turn there, in rad per unit.
+/// The axes along a path of the TCP at `at`, and how fast they turn there, in rad per unit.
 fn directed(curve: &TcpPath, at: f64) -> Result<(UnitQuaternion<f64>, Vector3<f64>), PlanError> {
     /// A vector and its derivative, made of length 1.
     fn unit(vector: Vector3<f64>, change: Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {

@@ -1,4 +1,4 @@
-//! Motions whose way depends on the one behind them: it is planned when that one is known, or none comes.
+//! Motions whose path depends on the one behind them: it is planned when that one is known, or none comes.
 
 use crate::command::error::PlanError;
 use crate::command::joints::Joints;
@@ -16,12 +16,12 @@ use arl_robot::robot::Robot;
 /// Points of a spline that are not so far from each other, in mm, are the same: the tool only turns there.
 const SAME_POINT_MM: f64 = 1e-3;
 
-/// The kinds of motion that make one way together with their neighbours.
+/// The kinds of motion that make one path together with their neighbours.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Kind {
-    /// ccir
+    /// Circles through targets of neighbours ([`crate::command::Target::Circle`]).
     Circle,
-    /// spl
+    /// Splines ([`crate::command::Target::Spline`]).
     Spline,
 }
 
@@ -49,7 +49,7 @@ pub(crate) enum Before {
 }
 
 impl Target {
-    /// The kind of way that this makes with its neighbours.
+    /// The kind of path that this makes with its neighbours.
     pub(crate) fn chained(&self) -> Option<(Kind, &[f64; 6], &Frame, &[f64; 6])> {
         match self {
             Target::Circle { pose, wobj, external, .. } => Some((Kind::Circle, pose, wobj, external)),
@@ -101,7 +101,7 @@ impl Held {
         self.kind == Kind::Spline || self.before.is_some()
     }
 
-    /// Whether the motion that comes next makes one way with this one.
+    /// Whether the motion that comes next makes one path with this one.
     pub(crate) fn goes_on(&self, robot: &Robot, next: &Held) -> bool {
         self.kind == next.kind
             && match self.kind {
@@ -136,7 +136,7 @@ impl Held {
         Place { tcp, external: self.start.external }
     }
 
-    /// Plans it, without what is laid over it, with the motion of its way that comes next; returns also what it leaves to that
+    /// Plans it, without what is laid over it, with the motion of its path that comes next; returns also what it leaves to that
     /// one.
     ///
     /// # Errors
@@ -150,7 +150,7 @@ impl Held {
         planned.map_err(|error| self.failed(error))
     }
 
-    /// Whether its weave goes on into the motion that makes one way with it.
+    /// Whether its weave goes on into the motion that makes one path with it.
     pub(crate) fn weaves_on(&self, next: &Held) -> bool {
         self.kind == Kind::Spline && self.settings.weave == next.settings.weave
     }

@@ -13,9 +13,9 @@ use arl_robot::robot::{Axis, EXTERNAL_AXES, Robot};
 
 /// The highest speed of the TCP in manual low-speed mode, in mm/s.
 pub(crate) const MANUAL_SPEED_MM_S: f64 = 250.0;
-/// Between the places where a way is checked, derivatives are a little larger than at them.
+/// Between the places where a path is checked, derivatives are a little larger than at them.
 const BETWEEN_SAMPLES_FACTOR: f64 = 1.005;
-/// Places at which a curved way of the TCP is looked at; and of each part of one whose pace is made of parts: there the way may
+/// Places at which a curved path of the TCP is looked at; and of each part of one whose pace is made of parts: there the way may
 /// turn within a small part of its time.
 const PLACES_OF_CURVE: u32 = 24;
 const PLACES_OF_PART: u32 = 6;
@@ -188,7 +188,7 @@ impl<'a> Constraints<'a> {
         self.push(Constraint::even(1.0, vel, acc, jerk));
     }
 
-    /// The TCP on its way, and the turning of the tool.
+    /// The TCP on its path, and the turning of the tool.
     pub(crate) fn tool(&mut self, curve: &ToolCurve, pace: &Pace) {
         for place in places(curve) {
             self.moving(&[1, 2, 3].map(|order| curve.path.track.derivative(order, place)), pace);
@@ -203,7 +203,7 @@ impl<'a> Constraints<'a> {
     }
 
     /// The TCP at a place where these are the derivatives of its position, in mm, and where it swings to and fro: all of its
-    /// acceleration counts, not only that along its way.
+    /// acceleration counts, not only that along its path.
     pub(crate) fn swinging(&mut self, rates: &[Vector3<f64>; 3], pace: &Pace) {
         let tcp = &self.robot.tcp;
         let limits = [tcp.vel.min(pace.tcp), tcp.acc * pace.acc, tcp.jerk * pace.jerk];
@@ -232,7 +232,7 @@ impl<'a> Constraints<'a> {
         }
     }
 
-    /// The external axes all along a way.
+    /// The external axes all along a path.
     pub(crate) fn external_along(&mut self, curve: &ToolCurve, pace: &Pace) {
         for place in places(curve) {
             self.external(&[1, 2, 3].map(|order| curve.external.derivative(order, place)), pace);
@@ -286,7 +286,7 @@ impl<'a> Constraints<'a> {
         self.push(Constraint::even(speed, vel, f64::INFINITY, f64::INFINITY));
     }
 
-    /// The speed of the flange in manual operation at a place of a way whose parameter changes by `rate`, where the tool
+    /// The speed of the flange in manual operation at a place of a path whose parameter changes by `rate`, where the tool
     /// stands; else it is the TCP's that counts.
     pub(crate) fn manual_flange(&mut self, curve: &ToolCurve, at: f64, rate: f64) {
         if let Carried::Workpiece(_) = curve.carried {
@@ -314,7 +314,7 @@ fn row([first, second, third]: [f64; 3], [vel, acc, jerk]: [f64; 3]) -> Constrai
     Constraint { first: more(first), second: more(second), third: more(third), vel, acc, jerk }
 }
 
-/// A speed along a way whose derivatives are given, with how it changes along the way.
+/// A speed along a path whose derivatives are given, with how it changes along the path.
 fn along(rates: &[Vector3<f64>; 3], (vel, acc, jerk): (f64, f64, f64)) -> Constraint {
     let [p1, p2, p3] = rates;
     let first = p1.norm();

@@ -24,12 +24,12 @@ pub(crate) enum Curve {
     Tool(ToolCurve),
 }
 
-/// A way of the TCP, seen from what [`Carried`] says.
+/// A path of the TCP, seen from what [`Carried`] says.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct ToolCurve {
-    /// The position of the TCP and the orientation of the tool, without what is laid over the way.
+    /// The position of the TCP and the orientation of the tool, without what is laid over the path.
     pub(crate) path: TcpPath,
-    /// What the robot moves along the way.
+    /// What the robot moves along the path.
     pub(crate) carried: Carried,
     /// The external axes.
     pub(crate) external: Way<EXTERNAL_AXES>,
@@ -37,7 +37,7 @@ pub(crate) struct ToolCurve {
     pub(crate) cfg: u8,
     /// Where axis 4 is led through the wrist singularity.
     pub(crate) passages: Vec<Passage>,
-    /// What is laid over the way.
+    /// What is laid over the path.
     pub(crate) over: Option<Box<Overlay>>,
 }
 
@@ -107,7 +107,7 @@ impl ToolCurve {
         self.passages.iter().rev().find(|passage| passage.to < at).map_or(self.cfg, |passage| passage.cfg_behind)
     }
 
-    /// Whether the TCP can go from one way over to another: they lead the same TCP, and no passage makes their orientations
+    /// Whether the TCP can go from one path over to another: they lead the same TCP, and no passage makes their orientations
     /// inexact there.
     pub(crate) fn goes_on(&self, leave: f64, to: &ToolCurve, join: f64) -> bool {
         let exact = self.passages.iter().all(|passage| passage.to < leave)
@@ -242,7 +242,7 @@ impl Curve {
     pub(crate) fn joints(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> Joints {
         match self {
             Curve::Axes(axes) => Joints::of(&axes.at(at)),
-            // Planning has walked the way; where rounding alone misses the edge of the reach, the axes stay.
+            // Planning has walked the path; where rounding alone misses the edge of the reach, the axes stay.
             Curve::Tool(tool) => Joints {
                 axes: tool.axes(kinematics, at, &near.axes).unwrap_or(near.axes),
                 external: tool.external.at(at),

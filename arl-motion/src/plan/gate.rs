@@ -1,4 +1,4 @@
-//! Gates (jump): straight up, over, and straight down to the target, with rounded corners.
+//! Gates: straight up, over, and straight down to the target, with rounded corners.
 //!
 //! A gate is three axis motions in a row under one number. It rises by `rise` before anything else moves, and by as much
 //! again while it goes over already; on the other side the same with `sink`. Where the highest place that is allowed leaves

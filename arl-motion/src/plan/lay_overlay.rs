@@ -42,7 +42,7 @@ pub(crate) struct Beginning<'a> {
     pub(crate) goes_on: bool,
 }
 
-/// Lays over `plain` what the settings say. `workpiece` is the orientation of the workpiece frame, seen like the way.
+/// Lays over `plain` what the settings say. `workpiece` is the orientation of the workpiece frame, seen like the path.
 pub(crate) fn lay(
     robot: &Robot,
     plain: Motion,

@@ -31,9 +31,9 @@ pub struct Motion {
     pub(crate) profile: VelocityProfile,
     /// The speed that it could have, where a duration was programmed.
     pub(crate) timed: Option<f64>,
-    /// The length of the TCP's way in mm, 0 for axis motions.
+    /// The length of the TCP's path in mm, 0 for axis motions.
     pub(crate) length: f64,
-    /// The angle in deg by which the tool turns on its way, 0 for axis motions.
+    /// The angle in deg by which the tool turns on its path, 0 for axis motions.
     pub(crate) angle: f64,
     pub(crate) zone: Zone,
     /// The parts of this motion and of the next one that a blend takes, where that is not left to the zone.
@@ -112,7 +112,7 @@ impl Motion {
         self.laid.as_ref().map_or_else(Led::default, |laid| laid.led())
     }
 
-    /// The length of the TCP's way in mm; 0 for axis motions.
+    /// The length of the TCP's path in mm; 0 for axis motions.
     pub fn length(&self) -> f64 {
         self.length
     }

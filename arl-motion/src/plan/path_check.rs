@@ -1,4 +1,4 @@
-//! Walks a way of the TCP before it is moved: is it reachable, within the ranges of the axes, clear of singular points, and how do
+//! Walks a path of the TCP before it is moved: is it reachable, within the ranges of the axes, clear of singular points, and how do
 //! the axes move along it?
 
 use crate::command::error::PlanError;
@@ -109,7 +109,7 @@ fn jump_ahead(curve: &ToolCurve, at: f64) -> f64 {
 /// An axis may be beside where the place before made it bound to be by this part of what the axes moved since.
 const EXPECTED_SHARE: f64 = 0.02;
 
-/// Looks at a short way at a few places, the first and the last of which are its ends; `None` where that is not enough to
+/// Looks at a short path at a few places, the first and the last of which are its ends; `None` where that is not enough to
 /// know how the axes move, or where they must not go: [`check_path`] tells then.
 pub(crate) fn check_gentle_path<const N: usize>(
     robot: &Robot,
@@ -205,7 +205,7 @@ impl Walk<'_> {
         rates.scale(&self.robot.axes)
     }
 
-    /// The same where something is laid over the way: how the axes change along the plain way tells how near a singular
+    /// The same where something is laid over the path: how the axes change along the plain path tells how near a singular
     /// point is, while a weave would be at rest now and then.
     fn scale_of_way(&self, rates: &Rates, at: f64, axes: &Axes) -> f64 {
         let plain = self.plain.as_ref().and_then(|plain| Some((plain, self.plain_rates(at, axes)?)));
@@ -215,7 +215,7 @@ impl Walk<'_> {
         self.scale(&plain_rates) * slower
     }
 
-    /// Whether only what is laid over the way makes the axes' motion change so quickly.
+    /// Whether only what is laid over the path makes the axes' motion change so quickly.
     fn is_plain_clear(&self, at: f64, axes: &Axes) -> bool {
         self.plain.is_some() && self.plain_rates(at, axes).is_some_and(|plain| self.scale(&plain) >= SINGULAR_SCALE)
     }
@@ -225,7 +225,7 @@ impl Walk<'_> {
     }
 
     /// How far to skip ahead, by whole figures of a weave, when the last one has been walked for `walked`: with the
-    /// derivatives of the axes along the plain way.
+    /// derivatives of the axes along the plain path.
     fn figures_alike(&self, at: f64, walked: f64, axes: &Axes) -> Option<(f64, Rates)> {
         let (figure, until) = self.curve.over.as_ref()?.figures()?;
         if walked < figure {

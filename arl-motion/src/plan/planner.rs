@@ -93,12 +93,12 @@ pub(crate) struct Planner<'a> {
 }
 
 impl Planner<'_> {
-    /// The TCP's frame at the start, on its way.
+    /// The TCP's frame at the start, on its path.
     pub(crate) fn start_frame(&self) -> Frame {
         self.command.rig.carried.way_at(&self.robot.kinematics.forward(&self.start.axes))
     }
 
-    /// The TCP's frame at the target, on its way; unset components stay as at the start, seen in the workpiece frame.
+    /// The TCP's frame at the target, on its path; unset components stay as at the start, seen in the workpiece frame.
     pub(crate) fn target_frame(&self, pose: &[f64; 6], wobj: &Frame) -> Result<Frame, PlanError> {
         if pose.iter().any(|value| !value.is_finite()) {
             return Err(PlanError::NotANumber);
@@ -241,7 +241,7 @@ impl Planner<'_> {
         }
     }
 
-    /// A segment of a smooth way, nominally in `time` s; it joins the motion before it without a stop where it `flows`.
+    /// A segment of a smooth path, nominally in `time` s; it joins the motion before it without a stop where it `flows`.
     pub(crate) fn segment(
         &self,
         mut curve: ToolCurve,
@@ -306,7 +306,7 @@ impl Planner<'_> {
         }
     }
 
-    /// A motion along a way of the TCP, which starts where the robot is.
+    /// A motion along a path of the TCP, which starts where the robot is.
     fn along(&self, mut curve: ToolCurve, end: Joints) -> Result<Motion, PlanError> {
         self.find_passages(&mut curve);
         let length = curve.path.track.length();
@@ -383,11 +383,11 @@ impl Planner<'_> {
         pairs.into_iter().any(|(start, end)| (end - start).abs() > NO_DISTANCE)
     }
 
-    /// A programmed speed under the override of `velset`.
+    /// A programmed speed under the override.
     fn programmed(&self, what: &'static str, value: f64) -> Result<f64, PlanError> {
         let percent = self.settings.speed_percent;
         if percent.is_nan() || percent <= 0.0 {
-            return Err(PlanError::NoSpeed { what: "the override of velset in percent", value: percent });
+            return Err(PlanError::NoOverride { percent });
         }
         if value.is_finite() && value > 0.0 {
             Ok(value * percent / 100.0)
@@ -398,8 +398,7 @@ impl Planner<'_> {
 
     fn programmed_cap(&self) -> Result<f64, PlanError> {
         let value = self.settings.max_tcp;
-        let what = "the highest speed of velset in mm/s";
-        if value.is_nan() || value <= 0.0 { Err(PlanError::NoSpeed { what, value }) } else { Ok(value) }
+        if value.is_nan() || value <= 0.0 { Err(PlanError::NoHighestSpeed { value }) } else { Ok(value) }
     }
 
     /// The programmed speeds, as far as this kind of motion uses them.

@@ -81,7 +81,7 @@ pub struct Queue {
     /// What was stopped and put away, and what is about to be.
     suspension: Suspension,
     stop: Option<Stop>,
-    /// Whether a fast stop is on its way to rest.
+    /// Whether a fast stop is on its path to rest.
     braking_hard: bool,
     dropping: bool,
     /// The commanded positions.
@@ -163,7 +163,7 @@ impl Queue {
         waiting < LOOK_AHEAD as u64 || (waiting < MOST_MOTIONS_AHEAD && self.is_short_of_way())
     }
 
-    /// Plans a motion from the end of the last one and appends it; returns its running number, from 1. A motion whose way
+    /// Plans a motion from the end of the last one and appends it; returns its running number, from 1. A motion whose path
     /// depends on the next one waits for that one, or for [`Queue::conclude`].
     ///
     /// # Errors

@@ -6,7 +6,7 @@ use crate::queue::Queue;
 /// For so many cycles what is left of a motion is counted down before it is found anew.
 const CYCLES_BETWEEN_FORECASTS: u32 = 16;
 /// How far the motion being executed has come. Times are those at an override of 100 %. A blend belongs to the motion that
-/// is joined, whose way counts from the target that is rounded off (manual 7.3).
+/// is joined, whose path counts from the target that is rounded off (manual 7.3).
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Progress {
     /// The running number of the motion.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::blend::zone::{self, Rounding};
 use crate::command::joints::ALL;
-use crate::command::{Command, Settings, Target};
+use crate::command::{Command, MotionKind, Settings};
 use crate::plan::constraints::MANUAL_SPEED_MM_S;
 use crate::plan::motion::Motion;
 use crate::queue::{Laid, Queue, Step};
@@ -12,7 +12,7 @@ use arl_robot::frames::Carried;
 use arl_robot::kinematics::Frame;
 use arl_robot::robot::{ROBOT_AXES, Robot, VelocityProfile};
 
-/// TCP ways shorter than this, mm, have no speed: then the tool's turning is what was programmed.
+/// TCP paths shorter than this, mm, have no speed: then the tool's turning is what was programmed.
 const NO_DISTANCE_MM: f64 = 1e-6;
 
 /// A figure with its unit.
@@ -40,7 +40,7 @@ pub enum Rate {
 pub enum Limited {
     /// The axis with this index in [`Robot::axes`].
     Axis(usize),
-    /// The TCP on its way.
+    /// The TCP on its path.
     Tcp,
     /// The turning of the tool.
     Turning,
@@ -97,9 +97,9 @@ pub struct MotionRecord {
     pub number: u64,
     /// Its program line.
     pub line: u32,
-    /// `movej`, `ptp`, `lin`, `cir`, `ccir`, `spl` or `jump`.
-    pub kind: &'static str,
-    /// The programmed speed, under the override of `velset`: % of the axes' limits on axis motions, else mm/s, or deg/s
+    /// Where it goes, and how.
+    pub kind: MotionKind,
+    /// The programmed speed, under the override: % of the axes' limits on axis motions, else mm/s, or deg/s
     /// where only the tool turns; or the programmed duration in s.
     pub programmed: Figure,
     /// The highest speed in the same unit; for a duration, how long it took.
@@ -108,7 +108,7 @@ pub struct MotionRecord {
     pub start: Option<f64>,
     /// How long it was executed, in s.
     pub duration: f64,
-    /// The way of the TCP against the workpiece, in mm.
+    /// The path of the TCP against the workpiece, in mm.
     pub way: f64,
     /// The zone at its end, where one was asked for.
     pub blend: Option<Rounding>,
@@ -151,7 +151,7 @@ pub struct Recorder {
     /// Speeds, accelerations of the axes.
     rates: [[f64; ALL]; 2],
     way: Frame,
-    /// Speed and acceleration of the TCP along its way, then of the tool's turning.
+    /// Speed and acceleration of the TCP along its path, then of the tool's turning.
     moving: [f64; 2],
     turning: [f64; 2],
     /// How many of the TCP's derivatives are known: after a change of what is carried none is.
@@ -184,15 +184,8 @@ impl Recorder {
 
     /// Notes a motion that the queue has taken. Its way may become known only with the next one.
     pub fn planned(&mut self, queue: &mut Queue, number: u64, command: &Command, settings: &Settings) {
-        let (kind, along_tool) = match command.target {
-            Target::Joints(_) => ("movej", false),
-            Target::Pose { .. } => ("ptp", false),
-            Target::Gate { .. } => ("jump", false),
-            Target::Line { .. } => ("lin", true),
-            Target::Arc { .. } => ("cir", true),
-            Target::Circle { .. } => ("ccir", true),
-            Target::Spline { .. } => ("spl", true),
-        };
+        let kind = command.target.kind();
+        let along_tool = kind.leads_tcp();
         self.records.push(MotionRecord {
             number,
             line: command.line,

@@ -22,7 +22,7 @@ use way_back::{Skipped, Way};
 const SAME_PLACE_DEG_OR_MM: f64 = 1e-6;
 /// How many motions are planned anew in a cycle.
 const REPLANNED_A_CYCLE: usize = 4;
-/// A stop on its way to rest.
+/// A stop on its path to rest.
 #[derive(Clone, Debug)]
 struct Stopping {
     stop: Stop,
@@ -332,7 +332,7 @@ impl Queue {
                 return;
             };
             if !self.layer.requests.going && start.skip > 0 && suspended.leads_on() {
-                // It was stopped on its way to another one, or before that, whose motions are meant.
+                // It was stopped on its path to another one, or before that, whose motions are meant.
                 self.pass_on(start);
                 continue;
             }
@@ -365,7 +365,7 @@ impl Queue {
         }
     }
 
-    /// Skips motions of what is below the one on top, to which the robot was on its way.
+    /// Skips motions of what is below the one on top, to which the robot was on its path.
     fn pass_on(&mut self, start: Start) {
         self.layer.requests.starts.pop_front();
         if let Some(mut suspended) = self.suspension.suspended.pop() {

@@ -15,7 +15,7 @@ fn held_line(robot: &Robot, start: &Joints, part: &Frame, travel: [f64; 3], turn
     Command { rig, ..command(Target::Line { pose, wobj: *part, external: [UNSET; 6] }) }
 }
 
-/// The way of the TCP against the flange.
+/// The path of the TCP against the flange.
 fn way(robot: &Robot, command: &Command, row: &Step) -> Frame {
     command.rig.carried.way_at(&robot.kinematics.forward(&row.joints.axes))
 }

@@ -1,4 +1,4 @@
-//! Weaves and compensations over the motions that make one way together: ccir and spl.
+//! Weaves and compensations over the motions that make one path together: circles and splines.
 
 use crate::tests::*;
 use nalgebra::Vector3;

@@ -1,4 +1,4 @@
-//! Motions that make one way with their neighbours: ccir and spl.
+//! Motions that make one path with their neighbours: ccir and spl.
 
 use nalgebra::Vector3;
 

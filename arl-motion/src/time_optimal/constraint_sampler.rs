@@ -19,7 +19,7 @@ const COARSE_DENSITY: f64 = 0.2;
 const MOST_COARSE_PLACES: usize = 40;
 /// Two places are no closer than this part of the spacing.
 const CLOSEST_SHARE_OF_SPACING: f64 = 1.0 / 256.0;
-/// A step as part of the way over which the motion changes.
+/// A step as part of the path over which the motion changes.
 const STEP_SHARE_OF_SCALE: f64 = 0.06;
 /// So many places are in each part of a blend, if they do not get too close.
 const PLACES_OF_BLEND_PART: u32 = 3;
@@ -43,7 +43,7 @@ pub(crate) struct ConstraintSampler {
     /// Where the last segment ends, and whether the robot has to stop there.
     pub(crate) end: f64,
     pub(crate) stops: bool,
-    /// How long an acceleration takes to rise at least, in s, where the way is looked at for a stop: then each place has limits of its
+    /// How long an acceleration takes to rise at least, in s, where the path is looked at for a stop: then each place has limits of its
     /// own, whatever the profile.
     rise: Option<f64>,
 }
@@ -121,13 +121,13 @@ impl ConstraintSampler {
         self.look_at(to, (density, MOST_PLACES), start, end)
     }
 
-    /// A short part of the way from rest on, up to `to` at most, at a few places.
+    /// A short part of the path from rest on, up to `to` at most, at a few places.
     pub(crate) fn sample_short_part(&self, to: f64) -> Option<Prospect> {
         let end = if to < self.end { Edge { vel: 1.0, acc: 0.0 } } else { Edge::REST };
         self.look_at(to.min(self.end), (COARSE_DENSITY, MOST_COARSE_PLACES), Edge::REST, end)
     }
 
-    /// Goes along the way by itself.
+    /// Goes along the path by itself.
     pub(crate) fn sample_coarsely(&self) -> Stroll<'_> {
         Stroll { sampler: self, joints: self.near, index: 0, before: self.passed }
     }
@@ -216,7 +216,7 @@ struct Walk<'a> {
     jump: Option<usize>,
 }
 
-/// Where the axes are at places of the way, one behind the other.
+/// Where the axes are at places of the path, one behind the other.
 pub(crate) struct Stroll<'a> {
     sampler: &'a ConstraintSampler,
     joints: Joints,
@@ -225,7 +225,7 @@ pub(crate) struct Stroll<'a> {
     before: f64,
 }
 
-/// Where everything is at a place of the way.
+/// Where everything is at a place of the path.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Point {
     /// The parameter.

@@ -188,7 +188,7 @@ impl Ahead {
         self.easing.map_or([self.share, 0.0, 0.0], |easing| easing.scaling.at(easing.time))
     }
 
-    /// The limits along the way in hand, and where it ends; behind that the path may be another one by now.
+    /// The limits along the path in hand, and where it ends; behind that the path may be another one by now.
     fn limits(&self) -> Option<(&Arc<LimitCheck>, f64)> {
         match (&self.ramp, &self.main) {
             (Some(ramp), _) => Some((&ramp.check, ramp.end)),
@@ -300,7 +300,7 @@ impl LawFollower {
         let ramp = glimpsed.and_then(|Prospect { way, end }| {
             let mut ramp = Ramp::setting_off(start, &Arc::new(LimitCheck::new(way)), end, share, time)?;
             ramp.arrives = sampler.stops && sampler.end - ramp.end <= NO_TIME_S;
-            // It must not rest on its way before the law is there.
+            // It must not rest on its path before the law is there.
             (ramp.arrives || ramp.duration() > time).then_some(ramp)
         });
         (self.harder, self.pause) = (0.0, 0.0);

@@ -35,10 +35,10 @@ const MOST_STOP_PLACES_TRIED: usize = 12;
 const STOP_STEP_FACTOR: f64 = 1.4;
 const SHORTEST_STOP_SHARE: f64 = 0.96;
 const STOP_DENSITIES: [f64; 2] = [1.0, 2.0];
-/// With so many places on all the ways that were tried, it has to do what was found.
+/// With so many places on all the paths that were tried, it has to do what was found.
 const MOST_STOP_SAMPLES: usize = 1500;
 /// A stop that the governor does within so many s is short; another one has to take less than this part of its time, and is looked
-/// for at this part of its way first.
+/// for at this part of its path first.
 const SHORT_STOP_S: f64 = 0.1;
 const SHORTER_STOP_SHARE_OF_TIME: f64 = 0.8;
 const SHORTER_STOP_SHARE_OF_WAY: f64 = 0.5;
@@ -203,7 +203,7 @@ fn find(sampler: &ConstraintSampler, start: Edge, wanted: impl Fn() -> bool) -> 
     None
 }
 
-/// The fastest law along a way that keeps the limits by its places, with the share of them that its set-points use. Where that
+/// The fastest law along a path that keeps the limits by its places, with the share of them that its set-points use. Where that
 /// is a little too much, the limits are lowered.
 fn temperate(sampler: &ConstraintSampler, way: &Way, start: Edge, wanted: &impl Fn() -> bool) -> Option<(Law, f64)> {
     let mut limits = way.clone();

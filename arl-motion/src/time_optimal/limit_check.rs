@@ -102,7 +102,7 @@ impl LimitCheck {
     }
 }
 
-/// What counts between two places of a way.
+/// What counts between two places of a path.
 #[derive(Clone, Copy)]
 enum Between {
     /// The less that is used of the limits of either, for a law: it was found for what lies between.
@@ -124,7 +124,7 @@ fn used(rows: &[Row], now: &Moment, harder: f64) -> f64 {
     })
 }
 
-/// How much of the limits a law uses along the way that it was found for; `None` where it goes backwards.
+/// How much of the limits a law uses along the path that it was found for; `None` where it goes backwards.
 pub(crate) fn used_by_law(way: &Way, law: &Law) -> Option<Used> {
     let looked = Look { way, harder: 1.0, between: Between::Least };
     let mut used = Used::default();
@@ -158,7 +158,7 @@ fn moments(duration: f64) -> impl Iterator<Item = f64> {
     (0..=count).map(move |step| duration * f64::from(step) / f64::from(count))
 }
 
-/// How the limits along a way are looked at.
+/// How the limits along a path are looked at.
 struct Look<'a> {
     way: &'a Way,
     /// How many times as high limits of acceleration and jerk are.

@@ -21,7 +21,7 @@ const MOST_SHARE_OF_SPEED: f64 = 0.9;
 const MOST_SHARE_OF_ACCELERATION: f64 = 0.95;
 const MOST_SHARE_OF_JERK: f64 = 0.98;
 const TRIED_SHARES: usize = 6;
-/// How often the way is measured anew over which a ramp needs its limits.
+/// How often the path is measured anew over which a ramp needs its limits.
 const MOST_MEASUREMENTS: usize = 8;
 /// Halvings of the time for which it speeds up on a short way: as many as it takes to end it exactly.
 const TIME_HALVINGS: u32 = 52;
@@ -110,7 +110,7 @@ impl Ramp {
     }
 
     /// One that sets off from rest, speeds up for `time` s, or as long as the way up to `end` allows, and rests before `end`: with
-    /// the limits of the way at a share of the speed.
+    /// the limits of the path at a share of the speed.
     pub(crate) fn setting_off(start: State, check: &Arc<LimitCheck>, end: f64, share: f64, time: f64) -> Option<Self> {
         let sets_off = |hardness: &f64| {
             let ramp = |limits: &Limits, time: f64| {

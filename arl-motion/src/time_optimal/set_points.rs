@@ -23,7 +23,7 @@ const TURN_BACK_RAD: f64 = 0.1;
 type Limits = [f64; 3];
 
 /// The share of what motions may have of speed, acceleration and jerk, the latter two `harder` times as high, that set-points
-/// along a law use, by their differences: of each axis, and of the TCP along its way and its turning where that is led.
+/// along a law use, by their differences: of each axis, and of the TCP along its path and its turning where that is led.
 pub(crate) fn used_by_set_points(sampler: &ConstraintSampler, law: &Law, harder: f64) -> Used {
     let mut sample_coarsely = sampler.sample_coarsely();
     let mut last: VecDeque<Point> = VecDeque::with_capacity(3 * PHASES_OF_CYCLE + 1);
@@ -85,8 +85,8 @@ fn used_by_tool(sampler: &ConstraintSampler, points: [&Point; 4], harder: f64) -
     by_way.max(used_along(turns, highest(limits), harder))
 }
 
-/// The share of limits along a way that three steps in a row use. What turns back, or all but, slows down and speeds up again at
-/// once: its speed along its way has no jerk to speak of.
+/// The share of limits along a path that three steps in a row use. What turns back, or all but, slows down and speeds up again at
+/// once: its speed along its path has no jerk to speak of.
 fn used_along(ways: [Vector3<f64>; 3], [vel, acc, jerk]: Limits, harder: f64) -> f64 {
     let [first, _, last] = &ways;
     let jerk = if first.angle(last) > TURN_BACK_RAD { f64::INFINITY } else { jerk };
@@ -114,7 +114,7 @@ mod tests {
     fn what_turns_back_has_no_jerk_along_its_way() {
         let limits = [1e3, 1e3, 1e4];
         let along = |ways: [f64; 3]| used_along(ways.map(|way| Vector3::new(0.0, way, 0.0)), limits, 1.0);
-        // Slowing down evenly, through rest and back: the speed along the way falls and rises.
+        // Slowing down evenly, through rest and back: the speed along the path falls and rises.
         let turned = along([1.5e-4, 0.5e-4, -0.5e-4]);
         assert!(turned < 1e-3, "{turned}");
         // The same on the way.

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use crate::command::json::quoted;
-use crate::motion::{Closest, MotionRecord, Rate};
+use crate::motion::{Closest, MotionKind, MotionRecord, Rate};
 use arl_robot::robot::Robot;
 
 /// Under the last three stands which limit of the kind was closest, and how much of it was used.
@@ -80,6 +80,7 @@ fn json(channel: usize, records: &[MotionRecord], robot: &Robot, time: f64) -> S
     let mut text = String::new();
     for record in executed(records) {
         let MotionRecord { number, line, kind, programmed, reached, duration, way, .. } = record;
+        let kind = instruction(*kind);
         let start = record.start.unwrap_or_default();
         let _ = write!(
             text,
@@ -142,6 +143,19 @@ struct Line<'a> {
     closest: [Option<Closest>; 3],
 }
 
+/// The instruction that makes such motions.
+fn instruction(kind: MotionKind) -> &'static str {
+    match kind {
+        MotionKind::Joints => "movej",
+        MotionKind::Pose => "ptp",
+        MotionKind::Gate => "jump",
+        MotionKind::Line => "lin",
+        MotionKind::Arc => "cir",
+        MotionKind::Circle => "ccir",
+        MotionKind::Spline => "spl",
+    }
+}
+
 impl<'a> Line<'a> {
     fn of(record: &'a MotionRecord) -> Self {
         Self {
@@ -188,7 +202,7 @@ impl<'a> Line<'a> {
         });
         [
             self.first.line.to_string(),
-            self.first.kind.to_owned(),
+            instruction(self.first.kind).to_owned(),
             self.runs.to_string(),
             range(self.programmed, unit),
             range(self.reached, unit),

@@ -4,16 +4,17 @@ mod changes;
 pub mod dynamics;
 mod effort;
 mod moving;
+mod refusal;
 pub mod robot_driver;
 mod servo;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use crate::fault::{Alarm, Fault, File};
+use crate::fault::{Alarm, File};
 use crate::motion::{
-    Command, Compensation, Joints, MotionRecord, PlanError, Progress, Queue, Recorder, Settings, Start, Stop,
-    UnblendedTarget, circle_steps,
+    Command, Compensation, Joints, MotionRecord, Progress, Queue, Recorder, Settings, Start, Stop, UnblendedTarget,
+    circle_steps,
 };
 use crate::unit::dynamics::{Dynamics, Load};
 use crate::unit::robot_driver::{RobotDriver, settled};
@@ -26,6 +27,7 @@ use changes::{Change, Changes};
 use effort::Effort;
 pub(crate) use effort::{Collision, Outside, SENSITIVITY};
 pub(crate) use moving::Moving;
+use refusal::alarm;
 
 /// For how many cycles a robot that never stands quite where it shall must be near enough to count as settled.
 const SETTLING: u32 = 8;
@@ -479,18 +481,6 @@ impl Unit {
         self.changes.clear(&mut self.effort);
         self.files.clear();
         self.settings = Settings { manual: self.settings.manual, ..Settings::default() };
-    }
-}
-
-/// The alarm of a motion, here or in an earlier line of another file.
-fn alarm(error: PlanError, earlier: File, (file, line): (File, u32)) -> Alarm {
-    match error {
-        PlanError::Earlier { line, error } => alarm(*error, earlier, (earlier, line)),
-        PlanError::NoCircle | PlanError::LoneCircle => {
-            Alarm::new(Fault::ArcPlane(error.to_string().into()), file, line)
-        }
-        PlanError::AboveLimit { .. } => Alarm::new(Fault::GateHeight(error.to_string().into()), file, line),
-        error => Alarm::new(Fault::Motion(error.to_string().into()), file, line),
     }
 }
 

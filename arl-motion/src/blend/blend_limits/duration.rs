@@ -13,7 +13,7 @@ pub(crate) struct Approach {
     pub(crate) length: f64,
 }
 
-/// A part of the way on which one speed is allowed.
+/// A part of the path on which one speed is allowed.
 #[derive(Clone, Copy)]
 struct Part {
     length: f64,

@@ -28,7 +28,7 @@ pub(crate) struct Demand {
     pub(crate) cell: Option<usize>,
 }
 
-/// What has to be over at the end of the way.
+/// What has to be over at the end of the path.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Kind {
     /// The speed has come down to the goal, and stays there.

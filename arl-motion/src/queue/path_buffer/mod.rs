@@ -82,7 +82,7 @@ pub struct UnblendedTarget {
     pub corner: Option<u32>,
 }
 
-/// The end of the way.
+/// The end of the path.
 #[derive(Clone, Debug)]
 struct Tail {
     motion: Arc<Motion>,
@@ -130,8 +130,8 @@ impl PathBuffer {
         rounded.then(|| (before.number, before.leave))
     }
 
-    /// The motion that counts as being executed, and the share of its way that is done. A blend belongs to the motion that
-    /// is joined (manual 7.3), whose way still counts from the target that is rounded off.
+    /// The motion that counts as being executed, and the share of its path that is done. A blend belongs to the motion that
+    /// is joined (manual 7.3), whose path still counts from the target that is rounded off.
     pub(crate) fn current(&self) -> Option<(&Segment, f64)> {
         let first = self.segments.front()?;
         match self.segments.get(1).filter(|_| first.leaves()) {

@@ -1,6 +1,6 @@
 //! Shorter stops in the profiles S and T.
 //!
-//! The governor knows one acceleration and one jerk for each part of the way: those of its hardest place at full speed. Where the
+//! The governor knows one acceleration and one jerk for each part of the path: those of its hardest place at full speed. Where the
 //! robot is slower, or elsewhere on that part, it could brake harder. So when it stops, the shortest way to rest is looked
 //! for beside the cycle, with the limits of each place, from the state that the governor's stop leads to meanwhile. If that is
 //! much shorter, a follower takes over and leads to rest; from there the governor goes on as before.

@@ -1,8 +1,8 @@
-//! Why a way cannot be timed.
+//! Why a path cannot be timed.
 
 use std::fmt;
 
-/// Why there is no motion along a way.
+/// Why there is no motion along a path.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Refusal {
     /// Fewer than two places.
@@ -17,7 +17,7 @@ pub enum Refusal {
         /// The index of its place.
         place: usize,
     },
-    /// Nothing moves along the way.
+    /// Nothing moves along the path.
     Still,
     /// A speed or acceleration at the start or the end that is no number, or a speed below zero.
     Edge,

@@ -216,7 +216,7 @@ impl<'a> Climb<'a> {
         }
     }
 
-    /// The duration, in units of the way's length and the speed that is 1.
+    /// The duration, in units of the path's length and the speed that is 1.
     fn duration(&self) -> f64 {
         let of = |site: &Site, three: &[f64]| site.weight / dot(&site.square, three).sqrt();
         let stretches = self.program.stretches.iter().zip(self.coefficients.windows(3));

@@ -1,4 +1,4 @@
-//! A timed way: the path parameter over time.
+//! A timed path: the path parameter over time.
 
 use crate::time_optimal::solver::warp::Warp;
 
@@ -30,11 +30,11 @@ pub(crate) struct Stretch {
     time: f64,
 }
 
-/// A motion along a way, from its first place to its last.
+/// A motion along a path, from its first place to its last.
 #[derive(Clone, Debug)]
 pub struct Law {
     warp: Warp,
-    /// The end of the way in the path parameter.
+    /// The end of the path in the path parameter.
     end: f64,
     stretches: Vec<Stretch>,
     duration: f64,

@@ -28,7 +28,7 @@ pub use way::{Row, Way};
 
 use warp::Warp;
 
-/// How the path parameter moves at an end of the way.
+/// How the path parameter moves at an end of the path.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Edge {
     /// Its speed, per s; not negative.
@@ -57,7 +57,7 @@ pub fn places(from: f64, to: f64, count: usize, start: Edge, end: Edge) -> Vec<f
 
 /// The fastest motion along `way` from `start` to `end`.
 ///
-/// Limits are kept at the places of the way, and between them as far as the places are close: some 100 where the path bends
+/// Limits are kept at the places of the path, and between them as far as the places are close: some 100 where the path bends
 /// once. From rest to rest there always is a motion. Without jerk limits the acceleration jumps, and that of the edges does
 /// not count.
 ///

@@ -2,10 +2,10 @@
 //!
 //! The square x of the speed is a quadratic spline: the acceleration, half its slope, is continuous and changes evenly
 //! from place to place. Its coefficients are the corners of the spline's control polygon, one for each stretch, in whose
-//! middle it lies, and one at either end of the way. The three that count in a stretch give x and the acceleration at its
+//! middle it lies, and one at either end of the path. The three that count in a stretch give x and the acceleration at its
 //! ends, and its bend; every limit is a function of these.
 //!
-//! Indices: a way that is timed here has three places or more; there is one stretch less, and one coefficient more.
+//! Indices: a path that is timed here has three places or more; there is one stretch less, and one coefficient more.
 
 use crate::time_optimal::solver::lanes::{LANES, Lanes};
 use crate::time_optimal::solver::screen::Screen;
@@ -17,7 +17,7 @@ use crate::time_optimal::solver::{Edge, Refusal, Row, Way, reach};
 pub(crate) struct Site {
     pub(crate) square: [f64; 3],
     pub(crate) slope: [f64; 3],
-    /// The share of the way that counts with the speed here.
+    /// The share of the path that counts with the speed here.
     pub(crate) weight: f64,
     /// Its limits on speed and acceleration, and those on the jerk, which stretches share: from where to where.
     pub(crate) limits: [(usize, usize); 2],
@@ -48,7 +48,7 @@ pub(crate) struct Limits {
     pub(crate) bend: Lanes,
 }
 
-/// The problem, in units of the way's length and of a speed at which everything is within its limits.
+/// The problem, in units of the path's length and of a speed at which everything is within its limits.
 #[derive(Debug)]
 pub(crate) struct Program {
     pub(crate) warp: Warp,

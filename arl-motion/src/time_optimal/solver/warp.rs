@@ -1,6 +1,6 @@
 //! A parameter in which motion from and to rest is smooth.
 
-/// Which share of the way the warped part at an end at rest takes.
+/// Which share of the path the warped part at an end at rest takes.
 const SHARE: f64 = 0.25;
 /// The path parameter that a warped part of length 1 takes.
 const PART: f64 = 0.6;

@@ -52,7 +52,7 @@ pub struct Way {
 }
 
 impl Way {
-    /// A way without places.
+    /// A path without places.
     pub fn new() -> Self {
         Self::default()
     }
