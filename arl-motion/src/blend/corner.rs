@@ -12,8 +12,9 @@ use crate::blend::zone::parts;
 use crate::command::LARGEST_ZONE;
 use crate::command::joints::{ALL, Joints, slowness};
 use crate::geometry::derivatives::{Place, by_differences};
+use crate::geometry::paced_quintic::PacedQuintic;
 use crate::geometry::parametrization::Parametrization;
-use crate::geometry::quintic::{Knot, Quintic, Way};
+use crate::geometry::quintic::{Knot, Quintic};
 use crate::geometry::rotation;
 use crate::geometry::tcp_path::TcpPath;
 use crate::geometry::track::Track;
@@ -124,7 +125,7 @@ impl Corner<'_> {
                     // What is laid over a motion does not go evenly: it is met best by a parameter that does.
                     None
                 } else {
-                    Parametrization::along(&curve.path.track, start, end)
+                    Parametrization::along(|order, at| curve.path.track.derivative(order, at), start, end)
                 };
                 let (parametrization, time) = timed.unwrap_or_else(even);
                 if !(is_gentle_blend && self.glance_at_tool(&curve, &parametrization, &mut constraints, &pace)) {
@@ -364,7 +365,7 @@ fn turns_gently(curve: &Quintic<ALL>) -> bool {
 }
 
 /// The same for one way; changes up to `little` are little.
-fn is_gentle_way<const N: usize>(way: &Way<N>, little: f64) -> bool {
+fn is_gentle_way<const N: usize>(way: &PacedQuintic<N>, little: f64) -> bool {
     changes_little([1, 2].map(|order| [0.0, 1.0].map(|at| way.derivative(order, at))), little)
 }
 

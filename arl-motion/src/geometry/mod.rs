@@ -2,6 +2,7 @@
 
 pub(crate) mod arc;
 pub(crate) mod derivatives;
+pub(crate) mod paced_quintic;
 pub(crate) mod parametrization;
 pub(crate) mod quintic;
 pub(crate) mod rotation;

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use nalgebra::SVector;
 
 use crate::geometry::quintic::{Knot, Quintic};
-use crate::geometry::track::Track;
 
 /// Parts of the time, each with a polynomial of its own.
 const PARTS: usize = 16;
@@ -63,12 +62,16 @@ impl Parametrization {
         Some((Self::One(whole), time))
     }
 
-    /// Along `track`, with a speed in mm/s that goes smoothly from that of `start` to that of `end`, and so do their
-    /// accelerations, in mm/s2; with the nominal time in s. `None` where the track or the speed stands still or turns back
+    /// Along the path with these derivatives, with a speed in mm/s that goes smoothly from that of `start` to that of `end`, and so do their
+    /// accelerations, in mm/s2; with the nominal time in s. `None` where the path or the speed stands still or turns back
     /// somewhere.
-    pub(crate) fn along(track: &Track, [start, start_acc]: [f64; 2], [end, end_acc]: [f64; 2]) -> Option<(Self, f64)> {
+    pub(crate) fn along<const N: usize>(
+        derivative: impl Fn(usize, f64) -> SVector<f64, N>,
+        [start, start_acc]: [f64; 2],
+        [end, end_acc]: [f64; 2],
+    ) -> Option<(Self, f64)> {
         const STEPS: usize = PARTS * PLACES_OF_PART;
-        let speed = |at: f64| track.derivative(1, at).norm();
+        let speed = |at: f64| derivative(1, at).norm();
         // The way up to each place, by Simpson's rule.
         let mut ways = [0.0; STEPS + 1];
         let step = 1.0 / STEPS as f64;
@@ -108,7 +111,7 @@ impl Parametrization {
                 let there = ways.get(base as usize).copied().unwrap_or(0.0) + part;
                 at = (at + (way - there) / speed(at)).clamp(0.0, 1.0);
             }
-            let (first, second) = (track.derivative(1, at), track.derivative(2, at));
+            let (first, second) = (derivative(1, at), derivative(2, at));
             let rate = time * wanted(x) / first.norm();
             let by_acc = rise * (1.0 + x * (3.0 * x - 4.0)) + fall * x * (3.0 * x - 2.0);
             let change = time * ((end - start) * 6.0 * x * (1.0 - x) + by_acc);
@@ -223,6 +226,7 @@ fn parameter(ways: &[f64], way: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::track::Track;
 
     #[test]
     fn the_speed_along_a_bend_is_even() {
@@ -231,7 +235,8 @@ mod tests {
             Quintic::between(&knot([0.0, 0.0, 0.0], [40.0, 0.0, 0.0]), &knot([20.0, 20.0, 0.0], [0.0, 40.0, 0.0]));
         let track = Track::Poly(bend.into());
         for (start, end) in [(100.0, 100.0), (50.0, 300.0)] {
-            let (parametrization, time) = Parametrization::along(&track, [start, 0.0], [end, 0.0]).unwrap();
+            let (parametrization, time) =
+                Parametrization::along(|order, at| track.derivative(order, at), [start, 0.0], [end, 0.0]).unwrap();
             assert!((track.length() / time - f64::midpoint(start, end)).abs() < 1e-3);
             let mut before = 0.0;
             for step in 0..=1000 {
@@ -254,7 +259,8 @@ mod tests {
             Quintic::between(&knot([0.0; 3], [40.0, 0.0, 0.0]), &knot([20.0, 20.0, 0.0], [0.0, 40.0, 5.0])).into(),
         );
         let (start, end) = ([100.0, 400.0], [150.0, -300.0]);
-        let (parametrization, time) = Parametrization::along(&track, start, end).unwrap();
+        let (parametrization, time) =
+            Parametrization::along(|order, at| track.derivative(order, at), start, end).unwrap();
         for (share, [speed, acc]) in [(0.0, start), (1.0, end)] {
             let (first, second) = (track.derivative(1, share), track.derivative(2, share));
             let (rate, change) =

@@ -1,9 +1,5 @@
 //! Polynomials of the fifth degree: straight ways, blends, splines.
 
-use std::sync::Arc;
-
-use crate::geometry::parametrization::Parametrization;
-
 /// What the powers get by the first, second and third derivative.
 const FACTORS: [[f64; 6]; 3] =
     [[0.0, 1.0, 2.0, 3.0, 4.0, 5.0], [0.0, 0.0, 2.0, 6.0, 12.0, 20.0], [0.0, 0.0, 0.0, 6.0, 24.0, 60.0]];
@@ -78,68 +74,6 @@ impl<const N: usize> Quintic<N> {
     pub(crate) fn is_even(&self) -> bool {
         self.0.iter().skip(2).all(|power| power.iter().all(|value| *value == 0.0))
     }
-}
-
-/// Values along a path: a polynomial of the way's parameter or, where it has a pace of its own, of the parametrization that the
-/// parameter stands for.
-#[derive(Clone, PartialEq, Debug)]
-pub(crate) struct Way<const N: usize> {
-    poly: Quintic<N>,
-    pace: Option<Arc<Parametrization>>,
-}
-
-impl<const N: usize> From<Quintic<N>> for Way<N> {
-    fn from(poly: Quintic<N>) -> Self {
-        Self { poly, pace: None }
-    }
-}
-
-impl<const N: usize> Way<N> {
-    /// A polynomial at a pace.
-    pub(crate) fn paced(poly: Quintic<N>, pace: Arc<Parametrization>) -> Self {
-        Self { poly, pace: Some(pace) }
-    }
-
-    /// Whether it has a pace of its own.
-    pub(crate) fn is_paced(&self) -> bool {
-        self.pace.is_some()
-    }
-
-    /// The values at `at`.
-    pub(crate) fn at(&self, at: f64) -> [f64; N] {
-        self.poly.at(self.pace.as_ref().map_or(at, |pace| pace.at(at)))
-    }
-
-    /// The derivative of the order `order`, 1 to 3, at `at`.
-    pub(crate) fn derivative(&self, order: usize, at: f64) -> [f64; N] {
-        let Some(pace) = &self.pace else { return self.poly.derivative(order, at) };
-        let place = pace.at(at);
-        let [a, b, c] = [1, 2, 3].map(|order| pace.derivative(order, at));
-        let of = |order: usize| self.poly.derivative(order, place);
-        match order {
-            1 => of(1).map(|first| first * a),
-            2 => sum([of(1), of(2), [0.0; N]], [b, a * a, 0.0]),
-            _ => sum([of(1), of(2), of(3)], [c, 3.0 * a * b, a * a * a]),
-        }
-    }
-
-    /// The values at `at` with their first two derivatives.
-    pub(crate) fn knot(&self, at: f64) -> Knot<N> {
-        Knot { value: self.at(at), first: self.derivative(1, at), second: self.derivative(2, at) }
-    }
-
-    /// Whether it goes evenly.
-    pub(crate) fn is_even(&self) -> bool {
-        self.pace.is_none() && self.poly.is_even()
-    }
-}
-
-fn sum<const N: usize>([a, b, c]: [[f64; N]; 3], [x, y, z]: [f64; 3]) -> [f64; N] {
-    let mut out = [0.0; N];
-    for (((out, a), b), c) in out.iter_mut().zip(a).zip(b).zip(c) {
-        *out = a * x + b * y + c * z;
-    }
-    out
 }
 
 fn times_plus<const N: usize>(sum: [f64; N], at: f64, add: &[f64; N]) -> [f64; N] {

@@ -9,8 +9,9 @@ use std::sync::Arc;
 
 use nalgebra::{SVector, Vector3};
 
+use crate::geometry::paced_quintic::PacedQuintic;
 use crate::geometry::parametrization::Parametrization;
-use crate::geometry::quintic::{Knot, Quintic, Way};
+use crate::geometry::quintic::{Knot, Quintic};
 use crate::geometry::rotation;
 use crate::geometry::tcp_path::TcpPath;
 use crate::geometry::track::Track;
@@ -93,7 +94,7 @@ pub(crate) fn segment(
     [from, to]: [&Place; 2],
     [start, end]: [Option<&Passing>; 2],
     speed: f64,
-) -> (TcpPath, Way<EXTERNAL_AXES>, f64) {
+) -> (TcpPath, PacedQuintic<EXTERNAL_AXES>, f64) {
     let chord = from.chord(to);
     let scaled = |[first, second]: [Vector3<f64>; 2]| [first * chord, second * (chord * chord)];
     let turning = from.turning(to);
@@ -118,11 +119,11 @@ pub(crate) fn segment(
     let (parametrization, time) = Parametrization::eased(|at| gait(&moved, chord, at), [start, speed, end]);
     let pace = Arc::new(parametrization);
     let path = TcpPath {
-        track: Track::Poly(Way::paced(moved, pace.clone())),
+        track: Track::Poly(PacedQuintic::paced(moved, pace.clone())),
         base: from.tcp.rotation,
-        turning: Way::paced(turned, pace.clone()),
+        turning: PacedQuintic::paced(turned, pace.clone()),
     };
-    (path, Way::paced(external, pace), time)
+    (path, PacedQuintic::paced(external, pace), time)
 }
 
 /// From `start` by `way`; where an end's derivatives are not given, it goes on as a parabola.

@@ -2,7 +2,7 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use crate::geometry::quintic::Way;
+use crate::geometry::paced_quintic::PacedQuintic;
 use crate::geometry::rotation;
 use crate::geometry::track::Track;
 
@@ -14,7 +14,7 @@ pub(crate) struct TcpPath {
     /// The orientation to which `turning` is added.
     pub(crate) base: UnitQuaternion<f64>,
     /// A rotation vector in rad, about the axes of what the path is seen from.
-    pub(crate) turning: Way<3>,
+    pub(crate) turning: PacedQuintic<3>,
 }
 
 impl TcpPath {

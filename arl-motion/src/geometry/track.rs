@@ -2,13 +2,14 @@
 
 use nalgebra::Vector3;
 
-use crate::geometry::quintic::{Quintic, Way};
+use crate::geometry::paced_quintic::PacedQuintic;
+use crate::geometry::quintic::Quintic;
 
 /// Where a point goes.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) enum Track {
     /// By polynomials, in mm.
-    Poly(Way<3>),
+    Poly(PacedQuintic<3>),
     /// Along a circle.
     Arc(Arc),
 }

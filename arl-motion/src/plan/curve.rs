@@ -3,7 +3,8 @@
 use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use crate::command::joints::{ALL, Joints};
-use crate::geometry::quintic::{Quintic, Way};
+use crate::geometry::paced_quintic::PacedQuintic;
+use crate::geometry::quintic::Quintic;
 use crate::geometry::rotation;
 use crate::geometry::tcp_path::TcpPath;
 use crate::geometry::track::Track;
@@ -32,7 +33,7 @@ pub(crate) struct ToolCurve {
     /// What the robot moves along the path.
     pub(crate) carried: Carried,
     /// The external axes.
-    pub(crate) external: Way<EXTERNAL_AXES>,
+    pub(crate) external: PacedQuintic<EXTERNAL_AXES>,
     /// The configuration at the start, which only a passage changes.
     pub(crate) cfg: u8,
     /// Where axis 4 is led through the wrist singularity.
@@ -199,7 +200,7 @@ fn measured(rotation: impl Fn(f64) -> UnitQuaternion<f64>, at: f64, h: f64) -> [
 
 impl Curve {
     /// The external axes of an axis curve; of others, those that they have.
-    pub(crate) fn external(&self) -> Way<EXTERNAL_AXES> {
+    pub(crate) fn external(&self) -> PacedQuintic<EXTERNAL_AXES> {
         match self {
             Curve::Axes(axes) => Quintic(axes.0.map(|power| Joints::of(&power).external)).into(),
             Curve::Tool(tool) => tool.external.clone(),

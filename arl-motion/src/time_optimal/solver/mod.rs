@@ -20,6 +20,7 @@ mod screen;
 #[cfg(test)]
 mod tests;
 mod warp;
+mod warped_row;
 mod way;
 
 pub use error::Refusal;

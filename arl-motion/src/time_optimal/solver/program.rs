@@ -9,8 +9,9 @@
 
 use crate::time_optimal::solver::lanes::{LANES, Lanes};
 use crate::time_optimal::solver::screen::Screen;
-use crate::time_optimal::solver::warp::{Place, Warp};
-use crate::time_optimal::solver::{Edge, Refusal, Row, Way, reach};
+use crate::time_optimal::solver::warp::Warp;
+use crate::time_optimal::solver::warped_row::WarpedRow;
+use crate::time_optimal::solver::{Edge, Refusal, Way, reach};
 
 /// One end of a stretch: what of the stretch's three coefficients makes up x and the acceleration here.
 #[derive(Clone, Copy, Default, Debug)]
@@ -75,17 +76,6 @@ const RESERVE: f64 = 1.005;
 /// How many stretches next to rest have limits in the middle.
 const MIDDLES: usize = 4;
 
-/// The rows of a place over the warped parameter, divided by their limits.
-#[derive(Clone, Copy, Default, Debug)]
-pub(crate) struct Warped {
-    /// Of x by velocity.
-    pub(crate) vel: f64,
-    /// Of the acceleration and x.
-    pub(crate) acc: [f64; 2],
-    /// Of the bend, the acceleration and x.
-    pub(crate) jerk: [f64; 3],
-}
-
 /// A share of the highest square of the warped parameter's speed that no motion comes down to, but for one that fails.
 const ALMOST_REST: f64 = 1e-9;
 
@@ -106,7 +96,7 @@ impl Program {
         let mut ends = vec![0];
         for (index, at) in places.iter().enumerate() {
             let place = warp.place(*at);
-            rows.extend(way.rows(index).iter().filter(|row| row.moves()).map(|row| Warped::new(row, place)));
+            rows.extend(way.rows(index).iter().filter(|row| row.moves()).map(|row| WarpedRow::new(row, place)));
             ends.push(rows.len());
         }
         // Close to rest the rows change so much that a stretch has limits in its middle as well.
@@ -117,7 +107,7 @@ impl Program {
         for index in &middles {
             let place = warp.place(0.5 * (places[*index] + places[index + 1]));
             for side in [*index, index + 1] {
-                rows.extend(way.rows(side).iter().filter(|row| row.moves()).map(|row| Warped::new(row, place)));
+                rows.extend(way.rows(side).iter().filter(|row| row.moves()).map(|row| WarpedRow::new(row, place)));
             }
             ends.push(rows.len());
         }
@@ -327,29 +317,5 @@ fn pack(all: &mut Vec<Limits>, limits: impl Iterator<Item = [f64; 3]>) {
             (last.square.0[lane], last.slope.0[lane], last.bend.0[lane]) = (square, slope, bend);
         }
         lane += 1;
-    }
-}
-
-impl Warped {
-    fn new(row: &Row, place: Place) -> Self {
-        let slope = place.first;
-        let first = row.first * slope;
-        let second = row.second * slope * slope + row.first * place.second;
-        let third =
-            row.third * slope * slope * slope + 3.0 * row.second * slope * place.second + row.first * place.third;
-        // An infinite limit leaves zeros.
-        Self {
-            vel: (first / row.vel) * (first / row.vel),
-            acc: [first / row.acc, second / row.acc],
-            jerk: [first / row.jerk, 3.0 * second / row.jerk, third / row.jerk],
-        }
-    }
-
-    /// Over the squares of speed in units of `unit`.
-    fn scale(&mut self, unit: f64, hold: f64) {
-        let turn = unit * unit.sqrt() * hold;
-        self.vel *= unit;
-        self.acc.iter_mut().for_each(|value| *value *= unit * hold);
-        self.jerk.iter_mut().for_each(|value| *value *= turn);
     }
 }

@@ -3,7 +3,7 @@
 //! At any place a few of the rows hold back all others. Leaving out the others makes the problem several times smaller;
 //! the solution is then reviewed against all of them. Ranges of rows are those between the ends of two places.
 
-use crate::time_optimal::solver::program::Warped;
+use crate::time_optimal::solver::warped_row::WarpedRow;
 
 /// Whether a row's limits count upwards and downwards.
 #[derive(Clone, Copy, Default, Debug)]
@@ -15,7 +15,7 @@ pub(crate) struct CountingLimits {
 /// All rows, and which of their limits are kept.
 #[derive(Debug)]
 pub(crate) struct Screen {
-    rows: Vec<Warped>,
+    rows: Vec<WarpedRow>,
     kept: Vec<CountingLimits>,
     /// Where the rows of each place begin and end.
     ends: Vec<usize>,
@@ -30,7 +30,7 @@ const EXCESS: f64 = 1.002;
 
 impl Screen {
     /// With the rows, where those of each place begin, and the highest x that each place can have.
-    pub(crate) fn new(rows: Vec<Warped>, ends: Vec<usize>, most: impl Iterator<Item = f64>) -> Self {
+    pub(crate) fn new(rows: Vec<WarpedRow>, ends: Vec<usize>, most: impl Iterator<Item = f64>) -> Self {
         let mut kept = vec![CountingLimits::default(); rows.len()];
         for (range, most) in ends.windows(2).zip(most) {
             let (rows, kept) = (&rows[range[0]..range[1]], &mut kept[range[0]..range[1]]);
@@ -51,7 +51,7 @@ impl Screen {
     }
 
     /// The rows of a place.
-    pub(crate) fn rows(&self, place: usize) -> impl Iterator<Item = (&Warped, &CountingLimits)> {
+    pub(crate) fn rows(&self, place: usize) -> impl Iterator<Item = (&WarpedRow, &CountingLimits)> {
         let range = self.range(place);
         self.rows[range.clone()].iter().zip(&self.kept[range])
     }
@@ -84,7 +84,7 @@ impl Screen {
 }
 
 /// Keeps those limits that hold back the acceleration at x, and those that hold back the bend at some accelerations.
-fn compare(rows: &[Warped], kept: &mut [CountingLimits], square: f64) {
+fn compare(rows: &[WarpedRow], kept: &mut [CountingLimits], square: f64) {
     let (mut low, mut high) = ((f64::NEG_INFINITY, 0, 0), (f64::INFINITY, 0, 0));
     for (index, row) in rows.iter().enumerate() {
         narrow(row.acc[0], row.acc[1] * square, 1.0, index, &mut low, &mut high);
