@@ -250,7 +250,9 @@ fn velset_and_accset_slow_down() {
     let least = |percent| duration(&movej, &Settings { acc_percent: percent, ..Settings::default() });
     assert_eq!(least(1.0), least(20.0));
     let none = plan_one(&movej, &Settings { speed_percent: 0.0, ..Settings::default() });
-    assert!(matches!(none, Err(PlanError::NoSpeed { .. })));
+    assert!(matches!(none, Err(PlanError::NoOverride { percent: 0.0 })));
+    let none = plan_one(&line, &Settings { max_tcp: 0.0, ..Settings::default() });
+    assert!(matches!(none, Err(PlanError::NoHighestSpeed { value: 0.0 })));
     assert!(plan_one(&Command { speed: Speed { percent: 0.0, ..fast() }, ..movej }, &Settings::default()).is_err());
 }
 
