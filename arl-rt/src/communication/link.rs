@@ -48,19 +48,35 @@ impl Link {
         Some(result)
     }
 
-    /// Sends bytes behind those sent before. False, and nothing is sent, where they have no room yet, or the thread has the
-    /// bytes just now.
-    pub(crate) fn send(&self, bytes: &[u8]) -> bool {
-        let sent = self.0.try_lock().is_some_and(|mut common| common.put(bytes));
+    /// Sends bytes behind those sent before. False, and nothing is sent, where they have no room yet; nothing at all where
+    /// the thread has the bytes just now.
+    pub(crate) fn send(&self, bytes: &[u8]) -> Option<bool> {
+        let sent = self.0.try_lock()?.put(bytes);
         if sent {
             self.0.wake();
         }
-        sent
+        Some(sent)
     }
 }
 
 impl Drop for Link {
     fn drop(&mut self) {
         self.0.close();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::inbox::CAPACITY;
+    use super::*;
+
+    #[test]
+    fn that_the_thread_has_the_bytes_is_not_that_there_is_no_room() {
+        let link = Link(Arc::new(Shared::new(false)));
+        let held = link.0.lock();
+        assert_eq!(link.send(b"hello"), None);
+        drop(held);
+        assert_eq!(link.send(b"hello"), Some(true));
+        assert_eq!(link.send(&[0; CAPACITY]), Some(false));
     }
 }

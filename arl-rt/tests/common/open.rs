@@ -27,7 +27,7 @@ pub fn all() -> (usize, usize) {
 /// Something is left.
 pub fn wait_for(then: (usize, usize)) {
     let start = Instant::now();
-    while all() != then && start.elapsed() < Duration::from_secs(5) {
+    while all() != then && start.elapsed() < Duration::from_secs(60) {
         std::thread::sleep(Duration::from_millis(5));
     }
     assert_eq!(all(), then, "descriptors and threads are left");

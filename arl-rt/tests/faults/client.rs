@@ -23,7 +23,7 @@ where
         let port = i32::from(listener.local_addr().unwrap().port());
         let peer = std::thread::spawn(move || peer(listener));
         let (mut controller, messages) = common::controller(Controller::builder(), program(port));
-        controller.run_for(30.0);
+        controller.run_for(600.0);
         let outcome = controller.outcome().cloned();
         let place = controller.place();
         drop(controller);

@@ -77,7 +77,8 @@ impl Robot {
         if self.controller.outcome().is_some() {
             self.controller.reset().unwrap();
         }
-        self.controller.run_for(60.0);
+        // Far longer than anything takes, also on a machine with a lot to do: what never ends is told all the same.
+        self.controller.run_for(600.0);
         let place = self.controller.place();
         let outcome = self.controller.outcome().cloned().unwrap_or_else(|| panic!("still running: {place:?}"));
         let all = self.messages.text();

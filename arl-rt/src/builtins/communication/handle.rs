@@ -38,7 +38,7 @@ struct Held {
 pub(super) enum Found<T> {
     /// What was asked for.
     This(T),
-    /// Not enough has come, there is no room, or the thread has the bytes just now.
+    /// Not enough has come, or there is no room; or it could not be looked at just now.
     NotYet,
     /// The connection is lost, for this reason.
     Lost(String),
@@ -171,8 +171,21 @@ impl Handle {
         })
     }
 
-    /// Sends bytes.
-    pub(super) fn send(&self, function: &'static str, bytes: &[u8]) -> Result<Found<()>, Fault> {
+    /// Sends bytes. Where the thread has the buffer, they are sent in the next cycle: many programs do not ask whether a
+    /// message has gone, and it is not lost for a thread that was interrupted.
+    pub(super) async fn send(&self, cx: &Cx, function: &'static str, bytes: &[u8]) -> Result<Found<()>, Fault> {
+        loop {
+            match self.try_send(function, bytes)? {
+                Some(found) => return Ok(found),
+                // A condition is looked at now or never.
+                None if cx.level() == Level::LOOKING => return Ok(Found::NotYet),
+                None => cx.next_cycle().await,
+            }
+        }
+    }
+
+    /// Sends bytes; nothing where the thread has the buffer just now.
+    pub(super) fn try_send(&self, function: &'static str, bytes: &[u8]) -> Result<Option<Found<()>>, Fault> {
         if bytes.len() > CAPACITY {
             let text = format!("{} bytes are too many: at most {CAPACITY} at once", bytes.len());
             return Err(Fault::Domain { function, problem: text.into() });
@@ -180,9 +193,9 @@ impl Handle {
         self.with(function, |held| {
             if let LinkState::Lost(reason) = held.link.state() {
                 held.known_lost.set(true);
-                return Ok(Found::Lost(reason));
+                return Ok(Some(Found::Lost(reason)));
             }
-            Ok(if held.link.send(bytes) { Found::This(()) } else { Found::NotYet })
+            Ok(held.link.send(bytes).map(|sent| if sent { Found::This(()) } else { Found::NotYet }))
         })
     }
 

@@ -140,8 +140,8 @@ pub async fn setcycle(cx: &Cx, dev: &ModbusDev, cycle: i32) -> Result<(), Fault>
 
 impl ModbusDev {
     fn assert_open(&self, function: &'static str) -> Result<(), Fault> {
-        match self.handle.send(function, &[])? {
-            Found::Lost(reason) => Err(fault(function, &format!("the line is lost: {reason}"))),
+        match self.handle.try_send(function, &[])? {
+            Some(Found::Lost(reason)) => Err(fault(function, &format!("the line is lost: {reason}"))),
             _ => Ok(()),
         }
     }

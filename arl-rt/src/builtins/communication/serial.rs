@@ -66,7 +66,7 @@ pub async fn close(cx: &Cx, dev: &Iodev) {
 /// The line is not open, or lost; the text is longer than 1 MiB.
 pub async fn write_string(cx: &Cx, dev: &Iodev, data: &Str) -> Result<bool, Fault> {
     cx.motion_end().await;
-    done(transfer::write(&dev.0, data.as_bytes())?)
+    done(transfer::write(cx, &dev.0, data.as_bytes()).await?)
 }
 
 /// Sends the first `len` bytes; true when all of them are on their way.
@@ -75,7 +75,7 @@ pub async fn write_string(cx: &Cx, dev: &Iodev, data: &Str) -> Result<bool, Faul
 /// The line is not open, or lost; a length below 0 or beyond the array.
 pub async fn write_bytes(cx: &Cx, dev: &Iodev, data: &[u8], len: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
-    done(transfer::write_first(&dev.0, data, len)?)
+    done(transfer::write_first(cx, &dev.0, data, len).await?)
 }
 
 /// Takes exactly `len` bytes when so many have come.

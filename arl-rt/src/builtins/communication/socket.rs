@@ -58,7 +58,7 @@ pub async fn close(cx: &Cx, s: &Socket) {
 /// The socket is not connected, or not any more; the text is longer than 1 MiB.
 pub async fn write_string(cx: &Cx, s: &Socket, data: &Str) -> Result<bool, Fault> {
     cx.motion_end().await;
-    done(cx, transfer::write(&s.0, data.as_bytes())?)
+    done(cx, transfer::write(cx, &s.0, data.as_bytes()).await?)
 }
 
 /// Sends the first `len` bytes; true when all of them are on their way.
@@ -67,7 +67,7 @@ pub async fn write_string(cx: &Cx, s: &Socket, data: &Str) -> Result<bool, Fault
 /// The socket is not connected, or not any more; a length below 0 or beyond the array.
 pub async fn write_bytes(cx: &Cx, s: &Socket, data: &[u8], len: i32) -> Result<bool, Fault> {
     cx.motion_end().await;
-    done(cx, transfer::write_first(&s.0, data, len)?)
+    done(cx, transfer::write_first(cx, &s.0, data, len).await?)
 }
 
 /// Takes exactly `len` bytes when so many have come.

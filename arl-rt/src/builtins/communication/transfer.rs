@@ -3,20 +3,21 @@
 
 use super::handle::{Found, Handle, length};
 use crate::communication::inbox::CAPACITY;
+use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::values::Str;
 
 type Transfer = Result<(&'static str, Found<()>), Fault>;
 
 /// Sends a text.
-pub(super) fn write(handle: &Handle, bytes: &[u8]) -> Transfer {
-    Ok(("write", handle.send("write", bytes)?))
+pub(super) async fn write(cx: &Cx, handle: &Handle, bytes: &[u8]) -> Transfer {
+    Ok(("write", handle.send(cx, "write", bytes).await?))
 }
 
 /// Sends the first bytes of an array.
-pub(super) fn write_first(handle: &Handle, data: &[u8], len: i32) -> Transfer {
+pub(super) async fn write_first(cx: &Cx, handle: &Handle, data: &[u8], len: i32) -> Transfer {
     let length = length("write", len, data.len(), "the size of the array")?;
-    write(handle, data.get(..length).unwrap_or_default())
+    write(cx, handle, data.get(..length).unwrap_or_default()).await
 }
 
 /// Takes so many bytes as a text.

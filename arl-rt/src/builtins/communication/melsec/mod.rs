@@ -153,8 +153,8 @@ impl MelsecDev {
         }
         if len == 0 {
             // Nothing to be asked; a connection that is not open is told all the same.
-            return Ok(match self.handle.send(function, &[])? {
-                Found::Lost(reason) => return Err(lost(function, &reason)),
+            return Ok(match self.handle.try_send(function, &[])? {
+                Some(Found::Lost(reason)) => return Err(lost(function, &reason)),
                 _ => Some(Vec::new()),
             });
         }
@@ -167,10 +167,11 @@ impl MelsecDev {
                 return Err(fault(function, "the PLC has sent more than it was asked for"));
             }
         }
-        match self.handle.send(function, &request)? {
-            Found::This(()) => talk.asked = Some(Asked { request, since: Instant::now() }),
-            Found::NotYet => {}
-            Found::Lost(reason) => return Err(lost(function, &reason)),
+        // What could not be sent is asked again in the next cycle: the call says that it is not done.
+        match self.handle.try_send(function, &request)? {
+            Some(Found::This(())) => talk.asked = Some(Asked { request, since: Instant::now() }),
+            Some(Found::NotYet) | None => {}
+            Some(Found::Lost(reason)) => return Err(lost(function, &reason)),
         }
         Ok(None)
     }
