@@ -57,6 +57,16 @@ fn every_case_was_looked_at() {
     assert_eq!(RUN.looked_at, Some(cases), "{}", RUN.said);
 }
 
+#[test]
+fn all_cases_in_the_forms_of_large_programs() {
+    // Not at the same time: some cases use ports of their own.
+    let usual = LazyLock::force(&RUN);
+    let all_forms = run(&["--all-forms"]);
+    assert_eq!(all_forms.looked_at, usual.looked_at, "{}", all_forms.said);
+    let failures: Vec<String> = all_forms.failures.iter().map(|(path, why)| format!("{path}\n{why}\n")).collect();
+    assert!(failures.is_empty(), "{} of the cases failed\n{}", failures.len(), failures.join("\n"));
+}
+
 /// What the command said of all cases.
 struct Run {
     /// How many cases it tells of; nothing where it came to no end.
@@ -67,9 +77,13 @@ struct Run {
     said: String,
 }
 
-static RUN: LazyLock<Run> = LazyLock::new(|| {
+static RUN: LazyLock<Run> = LazyLock::new(|| run(&[]));
+
+/// Runs all cases, with these options.
+fn run(options: &[&str]) -> Run {
     let output = Command::new(env!("CARGO_BIN_EXE_arl2rs"))
         .args(["test", CORPUS, EXAMPLE])
+        .args(options)
         .current_dir(workspace())
         .env("ARL2RS_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
         .env("NO_COLOR", "1")
@@ -85,7 +99,7 @@ static RUN: LazyLock<Run> = LazyLock::new(|| {
     // The exit code agrees with what is told.
     let looked_at = looked_at.filter(|_| output.status.success() == failures.is_empty());
     Run { looked_at, failures, said }
-});
+}
 
 /// How many cases there were, from the last line: `N passed, N failed`.
 fn looked_at(summary: &str, failures: usize) -> Option<usize> {

@@ -55,7 +55,7 @@ fn emitted(arl: &str) -> String {
     assert_eq!(text, emit(program, &EmitOptions::default()), "the same program gives the same text");
     syn::parse_file(&text).unwrap_or_else(|error| panic!("{error}\n{text}"));
     let tokens = emit_tokens(program).to_string();
-    assert!(!tokens.contains("ARL__") && !text.contains("ARL__"), "a marker is left:\n{text}");
+    assert!(!tokens.contains("ARL_") && !text.contains("ARL_"), "a marker is left:\n{text}");
     text
 }
 
@@ -133,6 +133,7 @@ files! {
     control "control.txt"
     functions "functions.txt"
     gotos "goto.txt"
+    rows "rows.txt"
     builtins "builtins.txt"
     names "names.txt"
     whole_files "files.txt"

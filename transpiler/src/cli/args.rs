@@ -71,6 +71,9 @@ pub(super) enum Command {
         /// Folders with cases, searched with their subfolders.
         #[arg(required = true, value_name = "DIR")]
         dirs: Vec<PathBuf>,
+        /// Emit the forms for large programs wherever they are possible, also in small ones.
+        #[arg(long, hide = true)]
+        all_forms: bool,
     },
     /// Explain a diagnostic: `arl2rs explain ARL0203`.
     Explain {

@@ -50,7 +50,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Build { file, out, release, checking } => done(emit::build(&file, out.as_deref(), release, &checking)),
         Command::Run { file, options } => run::run(&file, &options),
         Command::Plot { trace, plot, robot } => done(run::plot(&trace, &plot, robot.as_deref())),
-        Command::Test { dirs } => test::test(&dirs),
+        Command::Test { dirs, all_forms } => test::test(&dirs, all_forms),
         Command::Explain { code } => print(explain::explain(&code)),
         Command::Doc { name } => print(explain::doc(&name)),
         Command::Robots { import: Some(file), .. } => print(urdf::import(&file)),

@@ -1,9 +1,11 @@
 //! What is known while the statements of one function are emitted.
 
-use super::comments::{Comments, clean};
+use super::Sizes;
 use super::fragment::Fragment;
 use super::machine::Machine;
+use super::marks::{Marks, clean};
 use super::names::{Names, ident, is_taken_value};
+use super::rows::Columns;
 use super::usage::Usage;
 use crate::effects::facts::{self, Facts, Scope};
 use crate::effects::ranges::Ranges;
@@ -11,20 +13,21 @@ use crate::hir::{Expr, Func, FuncId, LocalId, ModuleId, Program, Value};
 use arl_lang::catalog::Family;
 use arl_lang::span::{LineIndex, Span};
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::quote;
+use quote::{ToTokens, quote};
 use std::collections::HashSet;
 
 /// What all functions of an emission share.
 pub(super) struct Unit<'p> {
     pub(super) program: &'p Program,
     pub(super) names: Names,
-    pub(super) comments: Comments,
+    pub(super) marks: Marks,
     /// Where the lines of each module begin.
     pub(super) lines: Vec<LineIndex>,
     /// The functions that move the program pointer.
     pub(super) movers: Vec<bool>,
     /// The functions that something calls.
     pub(super) reached: Vec<bool>,
+    pub(super) sizes: Sizes,
 }
 
 impl Unit<'_> {
@@ -120,6 +123,8 @@ pub(super) struct Body<'p, 'u> {
     pub(super) deferred: HashSet<LocalId>,
     /// Whether something that needs the program pointer has been emitted since the flag was cleared.
     pub(super) acts: bool,
+    /// What stands for constants and for the line while the statements of a table are emitted.
+    pub(super) columns: Columns,
 }
 
 impl<'p, 'u> Body<'p, 'u> {
@@ -155,6 +160,7 @@ impl<'p, 'u> Body<'p, 'u> {
             inlined: false,
             deferred: HashSet::new(),
             acts: false,
+            columns: Columns::default(),
         }
     }
 
@@ -197,7 +203,7 @@ impl<'p, 'u> Body<'p, 'u> {
             return TokenStream::new();
         }
         self.commented = line;
-        self.unit.comments.mark(self.unit.text(self.module, span))
+        self.unit.marks.comment(self.unit.text(self.module, span))
     }
 
     /// A fallible call of the runtime: its fault becomes an alarm at the current line.
@@ -206,8 +212,9 @@ impl<'p, 'u> Body<'p, 'u> {
         quote!(#call.at(FILE, #line)?)
     }
 
-    pub(super) fn line_number(&self) -> Literal {
-        Literal::u32_unsuffixed(self.line)
+    fn line_number(&self) -> TokenStream {
+        let number = || Literal::u32_unsuffixed(self.line).into_token_stream();
+        self.columns.line().unwrap_or_else(number)
     }
 
     /// `cx.line(FILE, n);` where what was emitted since the last call needs the program pointer.
@@ -243,8 +250,14 @@ impl<'p, 'u> Body<'p, 'u> {
     /// A name that stays reserved for the whole function.
     pub(super) fn reserve(&mut self, wanted: &str) -> Ident {
         let name = self.fresh(wanted);
+        self.temporaries.pop();
         self.taken.insert(name.to_string());
         name
+    }
+
+    /// Gives back what [`Self::reserve`] took.
+    pub(super) fn release(&mut self, name: &Ident) {
+        self.taken.remove(&name.to_string());
     }
 
     /// A number for labels that no other loop of the function has.

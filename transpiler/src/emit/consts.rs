@@ -16,6 +16,14 @@ pub(super) fn typed_constant(value: &Value) -> Fragment {
     literal(value, true)
 }
 
+/// A constant as text, where its type is known; a string as a literal of Rust's own.
+pub(super) fn text(value: &Value) -> String {
+    match value {
+        Value::String(text) => Literal::string(text).to_string(),
+        value => constant(value).tokens.to_string().replace(' ', ""),
+    }
+}
+
 fn literal(value: &Value, typed: bool) -> Fragment {
     let fragment = match value {
         Value::Int(i32::MIN) => Fragment::postfix(quote!(i32::MIN)),

@@ -82,7 +82,7 @@ impl<'p> Body<'p, '_> {
         let cx = if mentions(&body, "cx") || mentions(&result, "cx") { quote!(cx) } else { quote!(_) };
         let body = if body.is_empty() { result } else { quote!({ #body #result }) };
         let taken = self.taken_along(expr);
-        let moves = (!taken.is_empty()).then(|| quote!(move));
+        let moves = (!taken.is_empty() || self.columns.are_in(&body)).then(|| quote!(move));
         let closure = quote!(async #moves |#cx: &Cx| #body);
         let own: TokenStream = taken.into_values().flatten().collect();
         if own.is_empty() { closure } else { quote!({ #own #closure }) }

@@ -16,6 +16,9 @@ use quote::quote;
 impl<'p> Body<'p, '_> {
     /// An expression, wanted in some way.
     pub(super) fn expression(&mut self, expr: &'p Expr, mode: Mode) -> Fragment {
+        if let Some(column) = self.columns.of(expr, mode) {
+            return column;
+        }
         match mode {
             Mode::Value => self.value(expr),
             Mode::Typed => self.typed_value(expr),
@@ -32,7 +35,7 @@ impl<'p> Body<'p, '_> {
     /// An expression as a value to keep.
     pub(super) fn value(&mut self, expr: &'p Expr) -> Fragment {
         match &expr.kind {
-            ExprKind::Const(value) => constant(value),
+            ExprKind::Const(value) => self.columns.of(expr, Mode::Value).unwrap_or_else(|| constant(value)),
             ExprKind::Place(place) => self.read(place),
             ExprKind::FieldOf(inner, id, index) => {
                 let field = component(*id, *index, self.family());
@@ -60,7 +63,7 @@ impl<'p> Body<'p, '_> {
     /// The value as the receiver of a method or an argument whose type nothing else tells.
     pub(super) fn typed_value(&mut self, expr: &'p Expr) -> Fragment {
         match &expr.kind {
-            ExprKind::Const(value) => typed_constant(value),
+            ExprKind::Const(value) => self.columns.of(expr, Mode::Value).unwrap_or_else(|| typed_constant(value)),
             _ => self.value(expr),
         }
     }

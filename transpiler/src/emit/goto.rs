@@ -15,7 +15,8 @@
 use super::body::{Body, Exit, Loop, Tail};
 use super::loops::give_back;
 use super::machine::{Machine, State};
-use super::names::ident;
+use super::names::{camel_case, ident};
+use super::rows::Group;
 use super::tokens::jumps;
 use super::types::{rust_type, shared_type, shared_value, start_value};
 use crate::effects::flow;
@@ -243,7 +244,15 @@ impl<'p> Body<'p, '_> {
     /// The statements of a block whose labels are states.
     fn states(&mut self, block: &'p [Stmt]) {
         let visible = self.visible.len();
-        for stmt in flow::reachable(block) {
+        for group in self.groups(flow::reachable(block)) {
+            let stmt = match group {
+                Group::Alone(stmt) => stmt,
+                Group::Table(rows) => {
+                    let code = self.table(&rows);
+                    self.append(code);
+                    continue;
+                }
+            };
             self.stand_at(stmt.span);
             match &stmt.kind {
                 StmtKind::Label(label) => {
@@ -487,15 +496,4 @@ fn labels(block: &[Stmt], visible: &mut Vec<LocalId>, found: &mut HashMap<LabelI
         }
     }
     visible.truncate(before);
-}
-
-/// `after_stop` as `AfterStop`.
-fn camel_case(name: &str) -> String {
-    let mut out = String::new();
-    for part in name.split('_').filter(|part| !part.is_empty()) {
-        let mut letters = part.chars();
-        out.extend(letters.next().map(|first| first.to_ascii_uppercase()));
-        out.push_str(letters.as_str());
-    }
-    if out.starts_with(|c: char| c.is_ascii_alphabetic()) { out } else { format!("Label{out}") }
 }

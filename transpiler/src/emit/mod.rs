@@ -3,7 +3,6 @@
 mod assignments;
 mod body;
 mod calls;
-mod comments;
 mod compound;
 mod consts;
 mod deferred_let;
@@ -14,12 +13,14 @@ mod functions;
 mod goto;
 mod loops;
 mod machine;
+mod marks;
 mod mentions;
 mod names;
 mod operators;
 mod places;
 mod points;
 mod program;
+mod rows;
 mod sequence;
 mod statements;
 mod switch;
@@ -33,7 +34,7 @@ mod waiting;
 use crate::effects;
 use crate::hir::Program;
 use body::Unit;
-use comments::Comments;
+use marks::Marks;
 use names::Names;
 use proc_macro2::TokenStream;
 
@@ -42,12 +43,34 @@ use proc_macro2::TokenStream;
 pub struct EmitOptions {
     /// No comment in the first line that says where the code comes from.
     pub no_header: bool,
+    /// From which sizes on code takes the forms that are compiled sooner.
+    pub sizes: Sizes,
+}
+
+/// From which sizes on code takes the forms that are compiled sooner. They change nothing of what a program does.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Sizes {
+    /// So many like statements in a row become a table.
+    pub table: usize,
+    /// So many rows for each kind of statement in it.
+    pub rows_of_a_kind: usize,
+}
+
+impl Default for Sizes {
+    fn default() -> Self {
+        Self { table: 8, rows_of_a_kind: 4 }
+    }
+}
+
+impl Sizes {
+    /// All forms wherever they are possible: for tests.
+    pub const LEAST: Self = Self { table: 1, rows_of_a_kind: 1 };
 }
 
 /// The Rust for a checked program whose effects are known (see [`crate::effects::infer`]). The same program gives the
 /// same text.
 pub fn emit(program: &Program, options: &EmitOptions) -> String {
-    let unit = Unit::new(program);
+    let unit = Unit::new(program, options.sizes);
     let tokens = program::items(&unit);
     let printed = match syn::parse2::<syn::File>(tokens.clone()) {
         Ok(file) => prettyplease::unparse(&file),
@@ -57,29 +80,25 @@ pub fn emit(program: &Program, options: &EmitOptions) -> String {
             format!("compile_error!({text:?});\n/*\n{}\n*/\n", tokens.to_string().replace("*/", "* /"))
         }
     };
-    let text = unit.comments.fill(&printed);
+    let text = unit.marks.fill(&printed);
     if options.no_header { text } else { format!("{}{text}", header(program)) }
 }
 
 /// The same as tokens, without comments: what the macro expands to.
 pub fn emit_tokens(program: &Program) -> TokenStream {
-    let unit = Unit::new(program);
-    comments::without_marks(program::items(&unit))
+    let unit = Unit::new(program, Sizes::default());
+    unit.marks.without_comments(program::items(&unit))
 }
 
 fn header(program: &Program) -> String {
     let file = program.modules.first().map_or("", |module| module.file.as_str());
-    format!(
-        "// Emitted by arl2rs {} from {}. Changes belong there.\n\n",
-        env!("CARGO_PKG_VERSION"),
-        comments::clean(file)
-    )
+    format!("// Emitted by arl2rs {} from {}. Changes belong there.\n\n", env!("CARGO_PKG_VERSION"), marks::clean(file))
 }
 
 impl<'p> Unit<'p> {
-    fn new(program: &'p Program) -> Self {
+    fn new(program: &'p Program, sizes: Sizes) -> Self {
         let lines = program.modules.iter().map(|module| arl_lang::span::LineIndex::new(&module.source)).collect();
         let (movers, reached) = (effects::pointer_movers(program), effects::reached(program));
-        Self { program, names: Names::new(program), comments: Comments::default(), lines, movers, reached }
+        Self { program, names: Names::new(program), marks: Marks::default(), lines, movers, reached, sizes }
     }
 }

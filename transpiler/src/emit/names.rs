@@ -45,6 +45,17 @@ pub(super) fn field(name: &str) -> Ident {
 /// What a name of nothing but underscores becomes.
 const UNDERSCORE: &str = "underscore";
 
+/// `after_stop` as `AfterStop`.
+pub(super) fn camel_case(name: &str) -> String {
+    let mut out = String::new();
+    for part in name.split('_').filter(|part| !part.is_empty()) {
+        let mut letters = part.chars();
+        out.extend(letters.next().map(|first| first.to_ascii_uppercase()));
+        out.push_str(letters.as_str());
+    }
+    if out.starts_with(|c: char| c.is_ascii_alphabetic()) { out } else { format!("Label{out}") }
+}
+
 /// The name without doubled underscores, with underscores behind it as long as it is taken.
 fn tidy(name: &str, taken: &dyn Fn(&str) -> bool) -> String {
     let mut tidy = String::with_capacity(name.len() + 1);
@@ -84,8 +95,22 @@ pub(super) fn mentions_prelude(code: &TokenStream) -> bool {
 
 /// Types of the prelude begin with a capital letter, as do a few names that are not of it.
 fn is_type(word: &str) -> bool {
-    const OTHERS: &[&str] =
-        &["Globals", "Variables", "Default", "Ok", "Err", "Some", "None", "Box", "Self", "State", "ARL__"];
+    const OTHERS: &[&str] = &[
+        "Globals",
+        "Variables",
+        "Default",
+        "Ok",
+        "Err",
+        "Some",
+        "None",
+        "Box",
+        "Self",
+        "State",
+        "Row",
+        "ARL__",
+        "ROWS",
+        "ARL_ROWS__",
+    ];
     word.starts_with(|c: char| c.is_ascii_uppercase()) && !OTHERS.contains(&word) && word != "FILE"
 }
 

@@ -38,7 +38,7 @@ pub(super) fn items(unit: &Unit<'_>) -> TokenStream {
 }
 
 fn blank(unit: &Unit<'_>) -> TokenStream {
-    unit.comments.mark(String::new())
+    unit.marks.comment(String::new())
 }
 
 fn one_module(unit: &Unit<'_>, id: ModuleId, module: &Module) -> (TokenStream, Parts) {

@@ -2,6 +2,7 @@
 
 use super::body::{Body, Exit, Tail};
 use super::fragment::{Fragment, Precedence};
+use super::rows::Group;
 use super::sequence::Mode;
 use super::switch;
 use super::types::{rust_type, shared_type, shared_value, start_value};
@@ -17,16 +18,24 @@ impl<'p> Body<'p, '_> {
     pub(super) fn block(&mut self, block: &'p [Stmt], tail: Tail) -> TokenStream {
         let visible = self.visible.len();
         let statements = flow::reachable(block);
-        let last = statements.len().saturating_sub(1);
         self.find_deferred(&statements);
         let mut out = TokenStream::new();
         let mut guard = self.guard.take();
-        for (at, stmt) in statements.into_iter().enumerate() {
-            if guard.is_some() && self.calls_itself(stmt) {
+        let groups = self.groups(statements);
+        let last = groups.len().saturating_sub(1);
+        for (at, group) in groups.into_iter().enumerate() {
+            let calls_itself = |body: &Self| match &group {
+                Group::Alone(stmt) => body.calls_itself(stmt),
+                Group::Table(rows) => rows.iter().any(|row| body.calls_itself(row.stmt)),
+            };
+            if guard.is_some() && calls_itself(self) {
                 out.extend(guard.take());
             }
-            let tail = if at == last { tail } else { Tail::Inner };
-            out.extend(self.statement(stmt, tail));
+            out.extend(match group {
+                Group::Alone(stmt) if at == last => self.statement(stmt, tail),
+                Group::Alone(stmt) => self.statement(stmt, Tail::Inner),
+                Group::Table(rows) => self.table(&rows),
+            });
         }
         self.visible.truncate(visible);
         out

@@ -100,7 +100,7 @@ impl<'p> Body<'p, '_> {
             return TokenStream::new();
         }
         self.commented = line;
-        self.unit.comments.mark_arm(self.unit.text(self.module, arm.span))
+        self.unit.marks.comment_of_arm(self.unit.text(self.module, arm.span))
     }
 
     /// The statement that chooses the arm of a decomposed switch: each arm's code stands for its body.

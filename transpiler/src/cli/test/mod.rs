@@ -16,7 +16,7 @@ use super::several;
 use crate::CheckOptions;
 use crate::compile::{Compiled, check_program, compile_program};
 use crate::diagnostics::Files;
-use crate::emit::EmitOptions;
+use crate::emit::{EmitOptions, Sizes};
 use crate::render::{Position, human};
 use crate::sources::FileSystem;
 use case::{Case, Found};
@@ -30,8 +30,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// What a case came to: nothing to say, or how it failed.
 type Verdict = Result<(), String>;
 
-/// Runs all cases; the last line on standard output is `N passed, N failed`.
-pub(super) fn test(dirs: &[PathBuf]) -> Result<ExitCode, Failure> {
+/// Runs all cases; the last line on standard output is `N passed, N failed`. With `all_forms` the forms of large programs
+/// are emitted wherever they are possible.
+pub(super) fn test(dirs: &[PathBuf], all_forms: bool) -> Result<ExitCode, Failure> {
+    let sizes = if all_forms { Sizes::LEAST } else { Sizes::default() };
+    let emitting = EmitOptions { sizes, ..EmitOptions::default() };
     let found = find(dirs)?;
     let progress = Progress::start("checking");
     let mut verdicts: Vec<Option<Verdict>> = Vec::new();
@@ -40,7 +43,7 @@ pub(super) fn test(dirs: &[PathBuf]) -> Result<ExitCode, Failure> {
     for (at, found) in found.iter().enumerate() {
         verdicts.push(match &found.case {
             Err(problem) => Some(Err(problem.clone())),
-            Ok(case) if case.runs() => match emit(case) {
+            Ok(case) if case.runs() => match emit(case, &emitting) {
                 Ok(rust) => {
                     runs.push((at, case));
                     emitted.push(batch::Case { source: found.source.clone(), rust });
@@ -51,7 +54,7 @@ pub(super) fn test(dirs: &[PathBuf]) -> Result<ExitCode, Failure> {
             Ok(case) => Some(check(case)),
         });
     }
-    for ((at, _), verdict) in runs.iter().zip(run_all(dirs, &runs, &emitted, &progress)?) {
+    for ((at, _), verdict) in runs.iter().zip(run_all(&name_of_run(dirs, all_forms), &runs, &emitted, &progress)?) {
         if let Some(slot) = verdicts.get_mut(*at) {
             *slot = Some(verdict);
         }
@@ -92,23 +95,22 @@ fn said(failure: Failure) -> String {
 }
 
 /// The Rust of a case that is to run, with the programs that its cell names.
-fn emit(case: &Case) -> Result<Emitted, String> {
+fn emit(case: &Case, emitting: &EmitOptions) -> Result<Emitted, String> {
     let checking = checking(case);
     let cell = case.options.cell.as_ref().map(|cell| case.source.with_file_name(cell));
-    let first = rust(&case.source, &checking)?;
+    let first = rust(&case.source, &checking, emitting)?;
     let mut others = Vec::new();
     for other in several::named(cell.as_deref(), checking.robot.as_deref()).map_err(said)? {
-        let rust =
-            rust(&other.path, &other.checking(&checking)).map_err(|problem| format!("{}: {problem}", other.file))?;
+        let rust = rust(&other.path, &other.checking(&checking), emitting)
+            .map_err(|problem| format!("{}: {problem}", other.file))?;
         let folder = other.folder(&case.source).map_err(said)?;
         others.push(EmittedOther { file: other.file, folder, rust });
     }
     Ok(Emitted { first, others })
 }
 
-fn rust(file: &Path, checking: &Checking) -> Result<String, String> {
-    let compiled = compile_program(file, &FileSystem, &options(checking)?, &EmitOptions::default())
-        .map_err(|bug| bug.to_string())?;
+fn rust(file: &Path, checking: &Checking, emitting: &EmitOptions) -> Result<String, String> {
+    let compiled = compile_program(file, &FileSystem, &options(checking)?, emitting).map_err(|bug| bug.to_string())?;
     match &compiled.rust {
         Some(rust) => Ok(rust.clone()),
         None => Err(format!("it does not compile:\n{}", shown_errors(&compiled))),
@@ -140,9 +142,15 @@ fn found_errors(compiled: &Compiled, files: &Files) -> Vec<FoundError> {
     compiled.errors().map(found).collect()
 }
 
-/// Compiles the cases that run, and runs them, several at once.
+/// What the programs of a run are kept by: another run of the same folders finds them again.
+fn name_of_run(dirs: &[PathBuf], all_forms: bool) -> PathBuf {
+    let folders: PathBuf = dirs.iter().filter_map(|dir| std::path::absolute(dir).ok()).collect();
+    folders.join(if all_forms { "tests-all-forms" } else { "tests" })
+}
+
+/// Compiles the cases that run, and runs them, several at once. The programs are kept by this name.
 fn run_all(
-    dirs: &[PathBuf],
+    name: &Path,
     runs: &[(usize, &Case)],
     emitted: &[batch::Case],
     progress: &Progress,
@@ -151,8 +159,7 @@ fn run_all(
         return Ok(Vec::new());
     }
     let cache = Cache::find()?;
-    let key: PathBuf = dirs.iter().filter_map(|dir| std::path::absolute(dir).ok()).collect();
-    let place = cache.program(&key.join("tests"));
+    let place = cache.program(name);
     let _lock = place.lock(false)?;
     progress.say(&format!("compiling {} cases", runs.len()));
     let compiled = batch::compile(&place, &cache, emitted, progress)?;

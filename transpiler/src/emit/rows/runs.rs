@@ -1,0 +1,97 @@
+//! Which statements become tables.
+
+use super::shape::{Row, Shape};
+use crate::effects::flow;
+use crate::emit::Sizes;
+use crate::emit::body::Body;
+use crate::hir::{ExprKind, Stmt};
+use std::collections::HashMap;
+
+/// Statements that are emitted together.
+#[derive(Debug)]
+pub(in crate::emit) enum Group<'p> {
+    /// One as it stands.
+    Alone(&'p Stmt),
+    /// Those of a table.
+    Table(Vec<Row<'p>>),
+}
+
+/// A kind that is found once in a run stands between two tables where these have so many rows each, on the average, and
+/// before and behind all tables: there it reads better than in a table.
+const ROWS_BESIDE: usize = 32;
+
+/// So often a run is cut where a kind is found once.
+const MOST_CUTS: usize = 8;
+
+impl<'p> Body<'p, '_> {
+    /// The statements of a block in the groups that they are emitted in.
+    pub(in crate::emit) fn groups(&self, statements: Vec<&'p Stmt>) -> Vec<Group<'p>> {
+        let sizes = self.unit.sizes;
+        let mut groups = Vec::with_capacity(statements.len());
+        let mut run = Vec::new();
+        for stmt in statements {
+            match self.row(stmt) {
+                Some(row) => run.push(row),
+                None => {
+                    arrange(sizes, std::mem::take(&mut run), MOST_CUTS, &mut groups);
+                    groups.push(Group::Alone(stmt));
+                }
+            }
+        }
+        arrange(sizes, run, MOST_CUTS, &mut groups);
+        groups
+    }
+
+    /// A statement as a row, where it may be one: it writes and declares no local, and goes on to the next.
+    fn row(&self, stmt: &'p Stmt) -> Option<Row<'p>> {
+        let row = Row::of(stmt, self.family())?;
+        let is_call = matches!(row.expr.kind, ExprKind::Call(..) | ExprKind::Builtin(_) | ExprKind::Assign(_));
+        (is_call && !flow::ends(row.expr) && self.facts(row.expr).writes.is_empty()).then_some(row)
+    }
+}
+
+/// Puts a run into tables and single statements.
+fn arrange<'p>(sizes: Sizes, run: Vec<Row<'p>>, cuts: usize, groups: &mut Vec<Group<'p>>) {
+    let mut counts: HashMap<&Shape, usize> = HashMap::new();
+    run.iter().for_each(|row| *counts.entry(&row.shape).or_default() += 1);
+    let single: Vec<bool> = run.iter().map(|row| counts.get(&row.shape) == Some(&1)).collect();
+    let (kinds, once) = (counts.len(), single.iter().filter(|single| **single).count());
+    let is_table = run.len() >= sizes.table && run.len() >= sizes.rows_of_a_kind.saturating_mul(kinds);
+    let at_an_end = single.first() == Some(&true) || single.last() == Some(&true);
+    let far_between = run.len() >= ROWS_BESIDE.saturating_mul(once + 1);
+    let cut = once > 0 && (at_an_end || far_between) && sizes.table > 1;
+    if is_table && !cut && !run.is_empty() {
+        groups.push(Group::Table(run));
+        return;
+    }
+    if once > 0 && cuts > 0 {
+        let mut piece = Vec::new();
+        for (row, single) in run.into_iter().zip(single) {
+            if single {
+                arrange(sizes, std::mem::take(&mut piece), cuts - 1, groups);
+                groups.push(Group::Alone(row.stmt));
+            } else {
+                piece.push(row);
+            }
+        }
+        arrange(sizes, piece, cuts - 1, groups);
+        return;
+    }
+    stretches(sizes, run, groups);
+}
+
+/// Puts the stretches of one kind into tables where they are long enough.
+fn stretches<'p>(sizes: Sizes, run: Vec<Row<'p>>, groups: &mut Vec<Group<'p>>) {
+    let mut rows = run.into_iter().peekable();
+    while let Some(first) = rows.next() {
+        let mut stretch = vec![first];
+        while let Some(row) = rows.next_if(|row| stretch.first().is_some_and(|first| first.shape == row.shape)) {
+            stretch.push(row);
+        }
+        if stretch.len() >= sizes.table {
+            groups.push(Group::Table(stretch));
+        } else {
+            groups.extend(stretch.into_iter().map(|row| Group::Alone(row.stmt)));
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! What statements have in common when they differ in constants only.
+
+use crate::effects::captures;
+use crate::hir::{Expr, ExprKind, Passed, Place, Projection, Root, Stmt, StmtKind, Value};
+use arl_lang::catalog::{Family, Presence};
+
+/// A statement without the constants that may differ between the rows of a table.
+#[derive(Clone, PartialEq, Eq, Hash, Default, Debug)]
+pub(super) struct Shape(Vec<u8>);
+
+/// A constant that is an argument, a component of one, or what a global variable is set to: the code around it is the
+/// same for all values.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hole<'p> {
+    /// The constant.
+    pub(super) expr: &'p Expr,
+    /// Its value.
+    pub(super) value: &'p Value,
+    /// What it is for: the label of the parameter, the component.
+    pub(super) name: &'p str,
+}
+
+/// A statement as a row of a table.
+#[derive(Debug)]
+pub(in crate::emit) struct Row<'p> {
+    pub(in crate::emit) stmt: &'p Stmt,
+    /// The expression that it is.
+    pub(super) expr: &'p Expr,
+    pub(super) shape: Shape,
+    pub(super) holes: Vec<Hole<'p>>,
+}
+
+impl<'p> Row<'p> {
+    /// The statement, where it is an expression; whether it may stand in a table is not asked here.
+    pub(super) fn of(stmt: &'p Stmt, family: Family) -> Option<Self> {
+        let StmtKind::Eval(expr) = &stmt.kind else { return None };
+        let mut walk = Walk { family, shape: Vec::new(), holes: Vec::new() };
+        walk.expr(expr, None);
+        Some(Self { stmt, expr, shape: Shape(walk.shape), holes: walk.holes })
+    }
+}
+
+struct Walk<'p> {
+    family: Family,
+    shape: Vec<u8>,
+    holes: Vec<Hole<'p>>,
+}
+
+impl<'p> Walk<'p> {
+    fn word(&mut self, word: impl std::fmt::Debug) {
+        use std::io::Write;
+        // A vector takes all that is written to it.
+        let _ = write!(self.shape, "{word:?};");
+    }
+
+    /// An expression; a constant may differ where it is `open` and has a name.
+    fn expr(&mut self, expr: &'p Expr, open: Option<&'p str>) {
+        self.word(std::mem::discriminant(&expr.kind));
+        match &expr.kind {
+            ExprKind::Const(value) => match open {
+                Some(name) => {
+                    self.word(value.base());
+                    self.holes.push(Hole { expr, value, name });
+                }
+                None => self.constant(value),
+            },
+            ExprKind::Place(place) => self.place(place),
+            ExprKind::FieldOf(inner, id, index) => {
+                self.word((id, index));
+                self.expr(inner, None);
+            }
+            ExprKind::Convert(inner) => {
+                self.word(expr.ty);
+                self.expr(inner, None);
+            }
+            ExprKind::Unary(op, inner) => {
+                self.word(op);
+                self.expr(inner, None);
+            }
+            ExprKind::Binary(op, sides) => {
+                self.word(op);
+                self.expr(&sides.0, None);
+                self.expr(&sides.1, None);
+            }
+            ExprKind::Assign(sides) => {
+                // What a system variable takes is looked at while compiling, where it is known.
+                let open = matches!(sides.0.root, Root::Global(_)).then_some("value");
+                self.place(&sides.0);
+                self.expr(&sides.1, open);
+            }
+            ExprKind::AssignOp(op, sides) => {
+                self.word(op);
+                self.place(&sides.0);
+                self.expr(&sides.1, None);
+            }
+            ExprKind::Step(step, place) => {
+                self.word(step);
+                self.place(place);
+            }
+            ExprKind::Call(id, args) => {
+                self.word((id, args.len()));
+                args.iter().for_each(|arg| self.expr(arg, Some("value")));
+            }
+            ExprKind::Builtin(builtin) => {
+                let entry = builtin.entry;
+                self.word((std::ptr::from_ref(entry), builtin.args.len()));
+                for arg in &builtin.args {
+                    self.word(arg.param);
+                    let name = entry.params.get(arg.param).map(|param| match param.presence {
+                        Presence::Repeat { .. } => "value",
+                        _ => param.rust,
+                    });
+                    match &arg.value {
+                        Passed::Value(value) if captures::is_later(entry, arg) => self.expr(value, None),
+                        Passed::Value(value) => self.expr(value, name),
+                        Passed::Out(place) => self.place(place),
+                    }
+                }
+            }
+            ExprKind::Struct(id, values) => {
+                let components = id.def(self.family).components;
+                let mut given: Vec<usize> =
+                    (0..values.len()).filter(|at| matches!(values.get(*at), Some(Some(_)))).collect();
+                // They are evaluated as they stand in the program.
+                given.sort_by_key(|at| values.get(*at).and_then(Option::as_ref).map(|value| value.span.start));
+                self.word((id, &given));
+                for at in given {
+                    let name = open.and_then(|_| components.get(at)).map(|component| component.name);
+                    values.get(at).into_iter().flatten().for_each(|value| self.expr(value, name));
+                }
+            }
+            ExprKind::Array(values) => {
+                self.word((expr.ty, values.len()));
+                values.iter().for_each(|value| self.expr(value, None));
+            }
+            ExprKind::Splice(number) => self.word(number),
+        }
+    }
+
+    /// A constant that must be the same.
+    fn constant(&mut self, value: &Value) {
+        match value {
+            // Bits, as -0 equals 0 and NaN does not equal itself.
+            Value::Double(value) => self.word(value.to_bits()),
+            value => self.word(value),
+        }
+    }
+
+    fn place(&mut self, place: &'p Place) {
+        match place.root {
+            Root::System(variable) => self.word(std::ptr::from_ref(variable)),
+            root => self.word(root),
+        }
+        for step in &place.path {
+            match step {
+                Projection::Field(id, index) => self.word((id, index)),
+                Projection::Index(indices, array) => {
+                    self.word((array, indices.len()));
+                    indices.iter().for_each(|index| self.expr(index, None));
+                }
+            }
+        }
+    }
+}
