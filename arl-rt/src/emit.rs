@@ -1,6 +1,7 @@
 //! The prelude of emitted code: everything that a compiled program names.
 
 pub use std::cell::Cell;
+pub use std::pin::pin;
 pub use std::rc::Rc;
 
 pub use crate::builtins::clock::Clock;
@@ -9,6 +10,7 @@ pub use crate::builtins::communication::modbus_rtu::{self, ModbusDev};
 pub use crate::builtins::communication::serial::{self, Iodev};
 pub use crate::builtins::communication::socket::{self, Socket};
 pub use crate::builtins::ops::*;
+pub use crate::builtins::part::{Leave, part};
 pub use crate::builtins::{
     bits, calibration, channel, clock, convert, devicenet, event, files, flow, frames, io, math, modbus_tcp, motion,
     points, pose, strings, system, text, time,

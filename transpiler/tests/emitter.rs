@@ -6,10 +6,13 @@
 #![allow(clippy::disallowed_methods, clippy::expect_used, clippy::panic, reason = "tests read files, and may fail")]
 
 use arl2rs::diagnostics::Severity;
-use arl2rs::emit::{EmitOptions, emit, emit_tokens};
+use arl2rs::emit::{EmitOptions, Sizes, emit, emit_tokens};
 use arl2rs::{CheckOptions, SourceError, Sources, check};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+
+/// Parts as soon as a block waits four times.
+const SHORT_PARTS: Sizes = Sizes { table: 100, rows_of_a_kind: 4, awaits: 3, awaits_of_a_part: 2, least_awaits: 1 };
 
 /// Files of a case: `main.arl`, and what stands behind `//// name` lines.
 struct Files(HashMap<PathBuf, String>);
@@ -42,7 +45,7 @@ impl Sources for Files {
 }
 
 /// The whole file that a program becomes.
-fn emitted(arl: &str) -> String {
+fn emitted(arl: &str, sizes: Sizes) -> String {
     let checked = check(Path::new("t.arl"), &Files::new(arl), &CheckOptions::default());
     let errors: Vec<String> = checked
         .diagnostics
@@ -51,8 +54,9 @@ fn emitted(arl: &str) -> String {
         .map(|diagnostic| diagnostic.message.to_string())
         .collect();
     let Some(program) = &checked.program else { panic!("refused: {errors:?}\n{arl}") };
-    let text = emit(program, &EmitOptions::default());
-    assert_eq!(text, emit(program, &EmitOptions::default()), "the same program gives the same text");
+    let options = EmitOptions { sizes, ..EmitOptions::default() };
+    let text = emit(program, &options);
+    assert_eq!(text, emit(program, &options), "the same program gives the same text");
     syn::parse_file(&text).unwrap_or_else(|error| panic!("{error}\n{text}"));
     let tokens = emit_tokens(program).to_string();
     assert!(!tokens.contains("ARL_") && !text.contains("ARL_"), "a marker is left:\n{text}");
@@ -100,10 +104,11 @@ fn compare(file: &str) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/emitter").join(file);
     let text = std::fs::read_to_string(&path).expect("the cases");
     let whole = file == "files.txt";
+    let sizes = if file == "parts.txt" { SHORT_PARTS } else { Sizes::default() };
     let mut renewed = String::new();
     let mut wrong = Vec::new();
     for case in cases(&text) {
-        let emitted = emitted(&case.arl);
+        let emitted = emitted(&case.arl, sizes);
         let now = if whole { emitted } else { module_only(&emitted) };
         renewed.push_str(&format!("==== {}\n{}----\n{now}\n", case.name, case.arl));
         if now.trim_end() != case.rust.trim_end() {
@@ -134,6 +139,7 @@ files! {
     functions "functions.txt"
     gotos "goto.txt"
     rows "rows.txt"
+    parts "parts.txt"
     builtins "builtins.txt"
     names "names.txt"
     whole_files "files.txt"

@@ -19,6 +19,7 @@ pub mod math;
 pub mod modbus_tcp;
 pub mod motion;
 pub mod ops;
+pub(crate) mod part;
 pub mod points;
 pub mod pose;
 mod storing;

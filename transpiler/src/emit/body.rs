@@ -5,6 +5,7 @@ use super::fragment::Fragment;
 use super::machine::Machine;
 use super::marks::{Marks, clean};
 use super::names::{Names, ident, is_taken_value};
+use super::parts::{Frame, Weights};
 use super::rows::Columns;
 use super::usage::Usage;
 use crate::effects::facts::{self, Facts, Scope};
@@ -123,6 +124,12 @@ pub(super) struct Body<'p, 'u> {
     pub(super) deferred: HashSet<LocalId>,
     /// Whether something that needs the program pointer has been emitted since the flag was cleared.
     pub(super) acts: bool,
+    /// The parts that are being emitted, the innermost last.
+    pub(super) frames: Vec<Frame>,
+    /// The locals that live in front of the parts of their block.
+    pub(super) hoisted: HashSet<LocalId>,
+    /// How many `.await`s the statements have.
+    pub(super) weights: Weights,
     /// What stands for constants and for the line while the statements of a table are emitted.
     pub(super) columns: Columns,
 }
@@ -131,12 +138,15 @@ impl<'p, 'u> Body<'p, 'u> {
     /// For a function.
     pub(super) fn of_function(unit: &'u Unit<'p>, func: &'p Func) -> Self {
         let waits = |id: FuncId| unit.program.funcs.get(id.0 as usize).is_some_and(|func| func.effects.waits);
-        let usage = Usage::of_function(func, &waits);
-        let names = unit.names.locals(func, &|local| !usage.is_read(local));
-        let taken = names.iter().map(Ident::to_string).collect();
-        let visible = func.params.clone();
         let ranges = Ranges::of_function(func);
-        Self { func: Some(func), usage, ranges, names, taken, visible, ..Self::outside(unit, func.module) }
+        let mut body = Self { func: Some(func), ranges, ..Self::outside(unit, func.module) };
+        body.weights = body.weigh(func);
+        let scattered = func.has_goto || body.weights.cut;
+        body.usage = Usage::of_function(func, scattered, &waits);
+        body.names = unit.names.locals(func, scattered, &|local| !body.usage.is_read(local));
+        body.taken = body.names.iter().map(Ident::to_string).collect();
+        body.visible.clone_from(&func.params);
+        body
     }
 
     /// For expressions outside functions.
@@ -160,6 +170,9 @@ impl<'p, 'u> Body<'p, 'u> {
             inlined: false,
             deferred: HashSet::new(),
             acts: false,
+            frames: Vec::new(),
+            hoisted: HashSet::new(),
+            weights: Weights::default(),
             columns: Columns::default(),
         }
     }

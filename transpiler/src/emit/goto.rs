@@ -16,6 +16,7 @@ use super::body::{Body, Exit, Loop, Tail};
 use super::loops::give_back;
 use super::machine::{Machine, State};
 use super::names::{camel_case, ident};
+use super::parts::Leave;
 use super::rows::Group;
 use super::tokens::jumps;
 use super::types::{rust_type, shared_type, shared_value, start_value};
@@ -40,7 +41,7 @@ impl<'p> Body<'p, '_> {
         };
         (self.commented, self.visible) = (commented, visible);
         self.run(func, variable, hoisted, false);
-        self.finish(func)
+        self.finish()
     }
 
     fn run(&mut self, func: &'p Func, variable: Ident, hoisted: HashSet<LocalId>, trial: bool) {
@@ -67,25 +68,15 @@ impl<'p> Body<'p, '_> {
     }
 
     /// The loop around the states that can be reached, and the variables outside it.
-    fn finish(&mut self, func: &'p Func) -> TokenStream {
+    fn finish(&mut self) -> TokenStream {
         let Some(machine) = self.machine.take() else { return TokenStream::new() };
-        let family = self.family();
         let reached = machine.reached();
         self.usage.drops = reached.contains(&false);
         let states: Vec<&State> =
             machine.states.iter().zip(&reached).filter(|(_, reached)| **reached).map(|(state, _)| state).collect();
         let mut hoisted: Vec<LocalId> = machine.hoisted.iter().copied().collect();
         hoisted.sort_unstable();
-        let variables = hoisted.into_iter().filter_map(|id| {
-            let local = func.locals.get(id.0 as usize)?;
-            let (name, start) = (self.local(id), self.first_value(local));
-            let ty = match local.shared {
-                true => Some(shared_type(local.ty, family)),
-                false => (!local.ty.is_array()).then(|| rust_type(local.ty, family)),
-            };
-            let ty = ty.map(|ty| quote!(: #ty));
-            Some(quote!(let mut #name #ty = #start;))
-        });
+        let variables = hoisted.into_iter().map(|id| self.hoisted_variable(id));
         let names = states.iter().map(|state| &state.name);
         let arms = states.iter().map(|state| {
             let (name, code) = (&state.name, &state.code);
@@ -104,15 +95,27 @@ impl<'p> Body<'p, '_> {
         }
     }
 
+    /// A variable that lives in front of where it is declared, with its start value.
+    pub(super) fn hoisted_variable(&self, id: LocalId) -> Option<TokenStream> {
+        let (local, family) = (self.func?.locals.get(id.0 as usize)?, self.family());
+        let (name, start) = (self.local(id), self.first_value(local));
+        let ty = match local.shared {
+            true => Some(shared_type(local.ty, family)),
+            false => (!local.ty.is_array()).then(|| rust_type(local.ty, family)),
+        };
+        let ty = ty.map(|ty| quote!(: #ty));
+        Some(quote!(let mut #name #ty = #start;))
+    }
+
     /// What a variable is before its declaration.
     fn first_value(&self, local: &Local) -> TokenStream {
         let start = start_value(local.ty, self.family());
         if local.shared { shared_value(local.ty, start) } else { start }
     }
 
-    /// Whether the declaration of a local is an assignment to a variable outside the machine.
+    /// Whether the declaration of a local is an assignment to a variable outside the machine, or in front of parts.
     pub(super) fn is_hoisted(&self, id: LocalId) -> bool {
-        self.machine.as_ref().is_some_and(|machine| machine.hoisted.contains(&id))
+        self.hoisted.contains(&id) || self.machine.as_ref().is_some_and(|machine| machine.hoisted.contains(&id))
     }
 
     /// Notes where a declaration stands.
@@ -153,14 +156,23 @@ impl<'p> Body<'p, '_> {
 
     /// A jump from inside a statement to a state.
     pub(super) fn jump(&mut self, state: usize) -> TokenStream {
-        let inside = self.loops.iter().any(|outer| !matches!(outer.on_continue, Exit::State(_)));
         let set = self.set_state(state);
+        let go_on = self.go_on();
+        quote!(#set #go_on)
+    }
+
+    /// The next round of the machine's loop.
+    pub(super) fn go_on(&mut self) -> TokenStream {
+        if let Some(leave) = self.leave_part(Leave::Jump, None) {
+            return leave;
+        }
+        let inside = self.loops.iter().any(|outer| !matches!(outer.on_continue, Exit::State(_)));
         match &self.machine {
             Some(machine) if inside => {
                 let label = &machine.label;
-                quote!(#set continue #label;)
+                quote!(continue #label;)
             }
-            _ => quote!(#set continue;),
+            _ => quote!(continue;),
         }
     }
 
@@ -244,15 +256,16 @@ impl<'p> Body<'p, '_> {
     /// The statements of a block whose labels are states.
     fn states(&mut self, block: &'p [Stmt]) {
         let visible = self.visible.len();
+        let mut whole = Vec::new();
         for group in self.groups(flow::reachable(block)) {
             let stmt = match group {
-                Group::Alone(stmt) => stmt,
-                Group::Table(rows) => {
-                    let code = self.table(&rows);
-                    self.append(code);
+                Group::Alone(stmt) if is_state(stmt) => stmt,
+                group => {
+                    whole.push(group);
                     continue;
                 }
             };
+            self.whole(std::mem::take(&mut whole));
             self.stand_at(stmt.span);
             match &stmt.kind {
                 StmtKind::Label(label) => {
@@ -279,16 +292,21 @@ impl<'p> Body<'p, '_> {
                     self.append(comment);
                     self.decompose(stmt);
                 }
-                _ => {
-                    let code = self.statement(stmt, Tail::Inner);
-                    self.append(code);
-                    if flow::diverges(stmt) {
-                        self.shut();
-                    }
-                }
+                _ => {}
             }
         }
+        self.whole(whole);
         self.visible.truncate(visible);
+    }
+
+    /// Statements that stay whole inside a state.
+    fn whole(&mut self, groups: Vec<Group<'p>>) {
+        let diverges = groups.last().is_some_and(|group| matches!(group, Group::Alone(stmt) if flow::diverges(stmt)));
+        let code = self.grouped(groups, Tail::Inner);
+        self.append(code);
+        if diverges {
+            self.shut();
+        }
     }
 
     /// `break` or `continue` of a decomposed loop.
@@ -453,6 +471,12 @@ impl<'p> Body<'p, '_> {
         self.open(after);
         self.visible.truncate(visible);
     }
+}
+
+/// Whether a statement of a block with labels begins a state, ends one, or is taken apart.
+fn is_state(stmt: &Stmt) -> bool {
+    matches!(stmt.kind, StmtKind::Label(_) | StmtKind::Goto(_) | StmtKind::Break | StmtKind::Continue)
+        || flow::has_label(stmt)
 }
 
 /// The locals that are declared at the top and in statements with labels.

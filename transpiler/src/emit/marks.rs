@@ -50,14 +50,17 @@ impl Marks {
         let text_of =
             |rest: &str| rest.split_once(')').and_then(|(number, _)| texts.get(number.parse::<usize>().ok()?));
         let mut out = String::with_capacity(printed.len() * 2);
-        for line in printed.lines() {
+        let mut lines = printed.lines();
+        while let Some(line) = lines.next() {
             let code = line.trim_start();
             let indent = line.get(..line.len() - code.len()).unwrap_or("");
             if let Some(text) = code.strip_prefix(COMMENT_CALL).and_then(text_of) {
                 put_comment(&mut out, indent, text);
-            } else if let Some((front, rows)) = rows_call(code).and_then(|(front, rest)| Some((front, text_of(rest)?)))
-            {
-                put_rows(&mut out, indent, front, rows);
+            } else if let Some((front, rest)) = rows_call(code) {
+                // A long line is broken behind the parenthesis.
+                let broken = rest.is_empty().then(|| lines.by_ref().take(2).map(str::trim).collect::<String>());
+                let rows = text_of(broken.as_deref().unwrap_or(rest));
+                put_rows(&mut out, indent, front, rows.map_or("", String::as_str));
             } else {
                 out.push_str(line);
                 out.push('\n');
@@ -163,6 +166,9 @@ mod tests {
         let expected = "    static ROWS: [(u32, f64); 2] = [\n        (1, -2.5),\n        (2, 3.0)\n    ];\n\
                         let s = \"= ARL_ROWS__!(0);\";\n";
         assert_eq!(marks.fill(printed), expected);
+        let broken = "static ROWS: [(u32, f64); 2] = ARL_ROWS__!(\n    0\n);\nlet x = 1;\n";
+        let expected = "static ROWS: [(u32, f64); 2] = [\n    (1, -2.5),\n    (2, 3.0)\n];\nlet x = 1;\n";
+        assert_eq!(marks.fill(broken), expected);
         let comment = marks.comment("1: lin".into());
         let code = marks.without_comments(quote!(#comment static ROWS: [(u32, f64); 2] = #rows;));
         let expected = quote!(

@@ -17,6 +17,7 @@ mod marks;
 mod mentions;
 mod names;
 mod operators;
+mod parts;
 mod places;
 mod points;
 mod program;
@@ -54,17 +55,23 @@ pub struct Sizes {
     pub table: usize,
     /// So many rows for each kind of statement in it.
     pub rows_of_a_kind: usize,
+    /// A block with more `.await`s than this is in parts.
+    pub awaits: usize,
+    /// A part has at most so many, where its statements have no more each.
+    pub awaits_of_a_part: usize,
+    /// A part has at least so many.
+    pub least_awaits: usize,
 }
 
 impl Default for Sizes {
     fn default() -> Self {
-        Self { table: 8, rows_of_a_kind: 4 }
+        Self { table: 8, rows_of_a_kind: 4, awaits: 64, awaits_of_a_part: 32, least_awaits: 8 }
     }
 }
 
 impl Sizes {
     /// All forms wherever they are possible: for tests.
-    pub const LEAST: Self = Self { table: 1, rows_of_a_kind: 1 };
+    pub const LEAST: Self = Self { table: 1, rows_of_a_kind: 1, awaits: 1, awaits_of_a_part: 1, least_awaits: 1 };
 }
 
 /// The Rust for a checked program whose effects are known (see [`crate::effects::infer`]). The same program gives the

@@ -17,7 +17,7 @@ const KEYWORDS: &[&str] = &[
 
 /// Functions of the prelude, and the names that emitted functions give to what they are passed.
 const VALUES: &[&str] =
-    &["cx", "g", "div", "rem", "rem_double", "shl", "shr", "index", "index2", "in_range", "one_of", "truth"];
+    &["cx", "g", "part", "div", "rem", "rem_double", "shl", "shr", "index", "index2", "in_range", "one_of", "truth"];
 
 /// What a module must not hide: crates, and what the functions of the program as a whole are passed.
 const OUTSIDE: &[&str] = &["arl_rt", "core", "std", "alloc", "cx", "g"];
@@ -173,8 +173,8 @@ impl Names {
     }
 
     /// The names of a function's locals. Two of them may share a name where the program hides one behind the other, but
-    /// not in functions with `goto`, whose variables share a scope.
-    pub(super) fn locals(&self, func: &Func, unread: &dyn Fn(LocalId) -> bool) -> Vec<Ident> {
+    /// not where variables of several blocks share a scope: in functions with `goto` or parts, which are `scattered`.
+    pub(super) fn locals(&self, func: &Func, scattered: bool, unread: &dyn Fn(LocalId) -> bool) -> Vec<Ident> {
         let mut by_name: HashMap<String, String> = HashMap::new();
         let mut used = HashSet::new();
         let mut out = Vec::with_capacity(func.locals.len());
@@ -184,7 +184,7 @@ impl Names {
             let lead = if unread(LocalId(at as u32)) && !name.starts_with('_') { "_" } else { "" };
             let wanted = format!("{lead}{name}");
             // `depth` that nobody reads and `_depth` are two.
-            let key = if func.has_goto { at.to_string() } else { format!("{lead} {}", local.name) };
+            let key = if scattered { at.to_string() } else { format!("{lead} {}", local.name) };
             let name = by_name.entry(key).or_insert_with(|| {
                 let taken =
                     |name: &str| is_keyword(name) || is_taken_value(name) || self.has_function(func.module, name);

@@ -2,7 +2,7 @@
 
 use super::body::{Body, Exit, Tail};
 use super::fragment::{Fragment, Precedence};
-use super::rows::Group;
+use super::parts::Leave;
 use super::sequence::Mode;
 use super::switch;
 use super::types::{rust_type, shared_type, shared_value, start_value};
@@ -19,24 +19,8 @@ impl<'p> Body<'p, '_> {
         let visible = self.visible.len();
         let statements = flow::reachable(block);
         self.find_deferred(&statements);
-        let mut out = TokenStream::new();
-        let mut guard = self.guard.take();
         let groups = self.groups(statements);
-        let last = groups.len().saturating_sub(1);
-        for (at, group) in groups.into_iter().enumerate() {
-            let calls_itself = |body: &Self| match &group {
-                Group::Alone(stmt) => body.calls_itself(stmt),
-                Group::Table(rows) => rows.iter().any(|row| body.calls_itself(row.stmt)),
-            };
-            if guard.is_some() && calls_itself(self) {
-                out.extend(guard.take());
-            }
-            out.extend(match group {
-                Group::Alone(stmt) if at == last => self.statement(stmt, tail),
-                Group::Alone(stmt) => self.statement(stmt, Tail::Inner),
-                Group::Table(rows) => self.table(&rows),
-            });
-        }
+        let out = self.grouped(groups, tail);
         self.visible.truncate(visible);
         out
     }
@@ -217,7 +201,10 @@ impl<'p> Body<'p, '_> {
     }
 
     /// `break`, `continue`
-    fn leave(&mut self, breaks: bool) -> TokenStream {
+    pub(super) fn leave(&mut self, breaks: bool) -> TokenStream {
+        if let Some(leave) = self.leave_part(if breaks { Leave::Break } else { Leave::Continue }, None) {
+            return leave;
+        }
         let Some(innermost) = self.loops.last() else { return TokenStream::new() };
         let exit = if breaks { &innermost.on_break } else { &innermost.on_continue };
         match exit.clone() {
@@ -236,14 +223,15 @@ impl<'p> Body<'p, '_> {
             None => value.map(|value| self.value(value)),
         };
         let before = value.as_ref().map(|value| value.before.clone());
-        let fails = self.func.is_some_and(|func| func.effects.fails);
-        let direct = value.as_ref().filter(|_| fails).and_then(without_detour);
-        let result = direct.or_else(|| self.result(value.map(|value| value.tokens)));
-        let code = match (tail, result) {
-            (Tail::Function, Some(result)) => quote!(#before #result),
-            (Tail::Function, None) => quote!(#before),
+        let direct = value.as_ref().filter(|_| self.fails() && self.frames.is_empty()).and_then(without_detour);
+        let tokens = value.map(|value| value.tokens);
+        let code = match (tail, direct) {
+            (Tail::Function, direct) => {
+                let result = direct.or_else(|| self.result(tokens));
+                quote!(#before #result)
+            }
             (Tail::Inner, Some(result)) => quote!(#before return #result;),
-            (Tail::Inner, None) => quote!(#before return;),
+            (Tail::Inner, None) => self.return_of(quote!(#before), tokens),
         };
         let pointer = self.pointer();
         quote!(#pointer #code)

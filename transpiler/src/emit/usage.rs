@@ -38,9 +38,10 @@ pub(super) struct Usage {
 }
 
 impl Usage {
-    /// Looks through a function; `waits` tells of which functions calls may wait.
-    pub(super) fn of_function(func: &Func, waits: &dyn Fn(FuncId) -> bool) -> Self {
-        let mut usage = Self::of_plain_locals(func, waits);
+    /// Looks through a function; `waits` tells of which functions calls may wait, and `scattered` that its statements are
+    /// taken apart: then rustc cannot follow its flow.
+    pub(super) fn of_function(func: &Func, scattered: bool, waits: &dyn Fn(FuncId) -> bool) -> Self {
+        let mut usage = Self::of_plain_locals(func, scattered, waits);
         // What events see is a cell: nobody knows who reads it, and changing it does not change the variable.
         for (usage, _) in usage.locals.iter_mut().zip(&func.locals).filter(|(_, local)| local.shared) {
             *usage = Local { read: true, ..Local::default() };
@@ -48,10 +49,10 @@ impl Usage {
         usage
     }
 
-    fn of_plain_locals(func: &Func, waits: &dyn Fn(FuncId) -> bool) -> Self {
+    fn of_plain_locals(func: &Func, scattered: bool, waits: &dyn Fn(FuncId) -> bool) -> Self {
         let mut usage = Self { locals: vec![Local::default(); func.locals.len()], ..Self::default() };
         usage.block(&func.body);
-        if func.has_goto {
+        if scattered {
             usage.wastes = !func.locals.is_empty();
             return usage;
         }

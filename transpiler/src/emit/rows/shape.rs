@@ -6,7 +6,7 @@ use arl_lang::catalog::{Family, Presence};
 
 /// A statement without the constants that may differ between the rows of a table.
 #[derive(Clone, PartialEq, Eq, Hash, Default, Debug)]
-pub(super) struct Shape(Vec<u8>);
+pub(in crate::emit) struct Shape(Vec<u8>);
 
 /// A constant that is an argument, a component of one, or what a global variable is set to: the code around it is the
 /// same for all values.
@@ -25,8 +25,8 @@ pub(super) struct Hole<'p> {
 pub(in crate::emit) struct Row<'p> {
     pub(in crate::emit) stmt: &'p Stmt,
     /// The expression that it is.
-    pub(super) expr: &'p Expr,
-    pub(super) shape: Shape,
+    pub(in crate::emit) expr: &'p Expr,
+    pub(in crate::emit) shape: Shape,
     pub(super) holes: Vec<Hole<'p>>,
 }
 

@@ -1,0 +1,130 @@
+//! The code of a block with parts.
+
+use super::leave::Frame;
+use super::plan::Piece;
+use crate::emit::body::{Body, Tail};
+use crate::emit::mentions;
+use crate::emit::rows::Group;
+use crate::hir::{LocalId, Stmt, StmtKind};
+use proc_macro2::TokenStream;
+use quote::quote;
+use std::collections::{HashMap, HashSet};
+
+impl<'p> Body<'p, '_> {
+    /// The code of groups that stand in a block one after the other, in parts where they are many.
+    pub(in crate::emit) fn grouped(&mut self, groups: Vec<Group<'p>>, tail: Tail) -> TokenStream {
+        let weights: Vec<usize> = groups.iter().map(|group| self.group_weight(group)).collect();
+        let pieces = self.planned(&groups, &weights);
+        let mut out = TokenStream::new();
+        if pieces.iter().any(|piece| matches!(piece, Piece::Part(_))) {
+            // It would stand in front of the first statement that leads back to the function, in a part.
+            out.extend(self.guard.take());
+            for id in outside_parts(&groups, &pieces) {
+                out.extend(self.hoisted_variable(id));
+                self.hoisted.insert(id);
+            }
+        }
+        out.extend(self.pieces(&pieces, &groups, tail));
+        out
+    }
+
+    fn pieces(&mut self, pieces: &[Piece], groups: &[Group<'p>], tail: Tail) -> TokenStream {
+        let mut out = TokenStream::new();
+        let last = pieces.len().saturating_sub(1);
+        for (at, piece) in pieces.iter().enumerate() {
+            let tail = if at == last { tail } else { Tail::Inner };
+            out.extend(match piece {
+                Piece::Group(number) => groups.get(*number).map(|group| self.group(group, tail)),
+                Piece::Part(pieces) => Some(self.part(pieces, groups)),
+            });
+        }
+        out
+    }
+
+    fn group(&mut self, group: &Group<'p>, tail: Tail) -> TokenStream {
+        let calls_itself = self.guard.is_some()
+            && match group {
+                Group::Alone(stmt) => self.calls_itself(stmt),
+                Group::Table(rows) => rows.iter().any(|row| self.calls_itself(row.stmt)),
+            };
+        let guard = if calls_itself { self.guard.take() } else { None };
+        let own = self.guard.take();
+        let code = match group {
+            Group::Alone(stmt) => self.statement(stmt, tail),
+            Group::Table(rows) => self.table(rows),
+        };
+        self.guard = own;
+        quote!(#guard #code)
+    }
+
+    /// `let lines = async { .. }; part(pin!(lines)).await?;`
+    fn part(&mut self, pieces: &[Piece], groups: &[Group<'p>]) -> TokenStream {
+        self.frames.push(Frame { loops: self.loops.len(), leaves: Vec::new() });
+        let code = self.pieces(pieces, groups, Tail::Inner);
+        let leaves = self.frames.pop().map(|frame| frame.leaves).unwrap_or_default();
+        let ask = self.fails().then(|| quote!(?));
+        let lines = self.reserve("lines");
+        self.release(&lines);
+        if leaves.is_empty() {
+            let end = self.fails().then(|| quote!(Done::Ok(())));
+            return quote!(let #lines = async { #code #end }; part(pin!(#lines)).await #ask;);
+        }
+        let returns = leaves.contains(&super::Leave::Return);
+        let end = self.ended(if returns { quote!(Leave::On) } else { quote!(Leave::<()>::On) });
+        let arms: Vec<TokenStream> = leaves.into_iter().map(|how| self.arm_of(how)).collect();
+        quote! {
+            let #lines = async { #code #end };
+            match part(pin!(#lines)).await #ask {
+                #(#arms)*
+                _ => {}
+            }
+        }
+    }
+}
+
+/// The locals that are declared in a part and mentioned outside it, in the order of their declarations.
+fn outside_parts(groups: &[Group<'_>], pieces: &[Piece]) -> Vec<LocalId> {
+    let mut part_of = vec![0; groups.len()];
+    number_parts(pieces, 0, &mut 0, &mut part_of);
+    let mut declared: Vec<LocalId> = Vec::new();
+    let mut home: HashMap<LocalId, usize> = HashMap::new();
+    for (group, part) in groups.iter().zip(&part_of) {
+        if let Group::Alone(Stmt { kind: StmtKind::Let(id, _), .. }) = group
+            && *part != 0
+        {
+            declared.push(*id);
+            home.insert(*id, *part);
+        }
+    }
+    let mut outside = HashSet::new();
+    for (group, part) in groups.iter().zip(&part_of) {
+        let mut see = |id: LocalId| {
+            if home.get(&id).is_some_and(|home| home != part) {
+                outside.insert(id);
+            }
+        };
+        match group {
+            Group::Alone(stmt) => mentions::each_local(stmt, &mut see),
+            Group::Table(rows) => rows.iter().for_each(|row| mentions::each_local(row.stmt, &mut see)),
+        }
+    }
+    declared.retain(|id| outside.contains(id));
+    declared
+}
+
+/// Numbers the parts that groups stand in directly; 0 is outside.
+fn number_parts(pieces: &[Piece], own: usize, last: &mut usize, part_of: &mut [usize]) {
+    for piece in pieces {
+        match piece {
+            Piece::Group(number) => {
+                if let Some(part) = part_of.get_mut(*number) {
+                    *part = own;
+                }
+            }
+            Piece::Part(pieces) => {
+                *last += 1;
+                number_parts(pieces, *last, last, part_of);
+            }
+        }
+    }
+}
