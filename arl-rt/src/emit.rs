@@ -19,5 +19,6 @@ pub use crate::context::cx::Cx;
 pub use crate::context::program::{Beside, BoxFuture, Program};
 pub use crate::fault::{At, Done, Fault, File, Stop};
 pub use crate::storage::data::{DataFile, DataVar};
+pub use crate::storage::slots::Slots;
 pub use crate::values::*;
 pub use arl_robot::robot::Family;

@@ -9,5 +9,6 @@ pub mod random;
 pub mod rivals;
 pub mod run;
 pub mod script;
+pub mod sizes;
 pub mod splines;
 pub mod statistics;

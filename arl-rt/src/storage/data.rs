@@ -2,6 +2,7 @@
 
 pub use crate::values::Teach;
 
+use std::collections::HashMap;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
@@ -60,7 +61,7 @@ pub fn teach_file(data: &DataFile<'_>, content: &[u8]) -> Vec<Alarm> {
     if !parsed.errors.is_empty() {
         return parsed.errors.iter().map(|error| alarm(line(&text, error.span), error.kind.message())).collect();
     }
-    let declared: Vec<(&Decl, &Var)> = parsed
+    let declared: HashMap<String, (&Decl, &Var)> = parsed
         .file
         .items
         .iter()
@@ -69,6 +70,9 @@ pub fn teach_file(data: &DataFile<'_>, content: &[u8]) -> Vec<Alarm> {
             _ => None,
         })
         .flat_map(|decl| decl.vars.iter().map(move |var| (decl, var)))
+        // The first of two of one name counts.
+        .rev()
+        .map(|(decl, var)| (names.name(var.name.symbol).to_ascii_lowercase(), (decl, var)))
         .collect();
     data.vars
         .iter()
@@ -78,10 +82,13 @@ pub fn teach_file(data: &DataFile<'_>, content: &[u8]) -> Vec<Alarm> {
 }
 
 /// Gives one variable its value.
-fn teach(wanted: &DataVar<'_>, declared: &[(&Decl, &Var)], names: &Interner) -> Result<(), (Option<Span>, String)> {
+fn teach(
+    wanted: &DataVar<'_>,
+    declared: &HashMap<String, (&Decl, &Var)>,
+    names: &Interner,
+) -> Result<(), (Option<Span>, String)> {
     let name = wanted.name;
-    let found = declared.iter().find(|(_, var)| names.name(var.name.symbol).eq_ignore_ascii_case(name));
-    let Some((decl, var)) = found else {
+    let Some((decl, var)) = declared.get(&name.to_ascii_lowercase()) else {
         return Err((
             None,
             format!("the program needs {} {name}, which is no longer declared here", wanted.slot.type_name()),

@@ -8,5 +8,6 @@ pub mod data;
 pub(crate) mod disk;
 pub(crate) mod pointers;
 pub(crate) mod script_dir;
+pub(crate) mod slots;
 pub mod state;
 pub(crate) mod state_format;

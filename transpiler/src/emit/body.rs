@@ -7,6 +7,7 @@ use super::marks::{Marks, clean};
 use super::names::{Names, ident, is_taken_value};
 use super::parts::{Frame, Weights};
 use super::rows::Columns;
+use super::slots::Slots;
 use super::usage::Usage;
 use crate::effects::facts::{self, Facts, Scope};
 use crate::effects::ranges::Ranges;
@@ -29,6 +30,8 @@ pub(super) struct Unit<'p> {
     /// The functions that something calls.
     pub(super) reached: Vec<bool>,
     pub(super) sizes: Sizes,
+    /// The variables that are in arrays.
+    pub(super) slots: Slots,
 }
 
 impl Unit<'_> {

@@ -23,6 +23,8 @@ mod points;
 mod program;
 mod rows;
 mod sequence;
+mod slots;
+mod slots_init;
 mod statements;
 mod switch;
 mod tokens;
@@ -38,6 +40,7 @@ use body::Unit;
 use marks::Marks;
 use names::Names;
 use proc_macro2::TokenStream;
+use slots::Slots;
 
 /// How to emit.
 #[derive(Clone, Debug, Default)]
@@ -61,17 +64,20 @@ pub struct Sizes {
     pub awaits_of_a_part: usize,
     /// A part has at least so many.
     pub least_awaits: usize,
+    /// More variables of one type and module than this are an array.
+    pub variables: usize,
 }
 
 impl Default for Sizes {
     fn default() -> Self {
-        Self { table: 8, rows_of_a_kind: 4, awaits: 64, awaits_of_a_part: 32, least_awaits: 8 }
+        Self { table: 8, rows_of_a_kind: 4, awaits: 64, awaits_of_a_part: 32, least_awaits: 8, variables: 64 }
     }
 }
 
 impl Sizes {
     /// All forms wherever they are possible: for tests.
-    pub const LEAST: Self = Self { table: 1, rows_of_a_kind: 1, awaits: 1, awaits_of_a_part: 1, least_awaits: 1 };
+    pub const LEAST: Self =
+        Self { table: 1, rows_of_a_kind: 1, awaits: 1, awaits_of_a_part: 1, least_awaits: 1, variables: 0 };
 }
 
 /// The Rust for a checked program whose effects are known (see [`crate::effects::infer`]). The same program gives the
@@ -106,6 +112,8 @@ impl<'p> Unit<'p> {
     fn new(program: &'p Program, sizes: Sizes) -> Self {
         let lines = program.modules.iter().map(|module| arl_lang::span::LineIndex::new(&module.source)).collect();
         let (movers, reached) = (effects::pointer_movers(program), effects::reached(program));
-        Self { program, names: Names::new(program), marks: Marks::default(), lines, movers, reached, sizes }
+        let names = Names::new(program);
+        let slots = Slots::new(program, &names, sizes);
+        Self { program, names, slots, marks: Marks::default(), lines, movers, reached, sizes }
     }
 }

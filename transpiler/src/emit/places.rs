@@ -8,11 +8,11 @@ use super::fragment::{Fragment, Precedence};
 use super::sequence::Operand;
 use super::types::{component, differs, is_cells, is_copy, is_handle, type_name};
 use crate::effects::facts::{self, Facts};
-use crate::hir::{Expr, LocalId, Place, Projection, Root, Type, Value};
+use crate::hir::{Expr, GlobalId, LocalId, Place, Projection, Root, Type, Value};
 use arl_lang::ast::BinaryOp;
 use arl_lang::catalog::{Base, Struct, Takes};
 use proc_macro2::{Ident, Literal, TokenStream};
-use quote::quote;
+use quote::{ToTokens, quote};
 
 /// A place whose indices have been emitted.
 #[derive(Clone, Debug)]
@@ -25,6 +25,8 @@ pub(super) struct Reached {
     /// The type of what the path leads to.
     pub(super) ty: Type,
     path: Vec<Reach>,
+    /// The column of a table that says which variable of an array is meant.
+    column: Option<Ident>,
 }
 
 /// A step of a path.
@@ -141,7 +143,8 @@ impl<'p> Body<'p, '_> {
             })
             .collect();
         let shared = matches!(place.root, Root::Local(_)) && self.plain_local(place.root).is_none();
-        Reached { root: place.root, shared, whole: self.variable_type(place.root), ty: place.ty, path }
+        let whole = self.variable_type(place.root);
+        Reached { root: place.root, shared, whole, ty: place.ty, path, column: self.columns.slot(place) }
     }
 
     /// A local variable that is a plain one in Rust, too: that events do not see.
@@ -165,8 +168,8 @@ impl<'p> Body<'p, '_> {
     }
 
     /// The variable itself: `count`, `g.pick.count`, `cx.system().dfspeed`.
-    fn variable(&self, root: Root) -> TokenStream {
-        match root {
+    fn variable(&self, place: &Reached) -> TokenStream {
+        match place.root {
             Root::Local(id) => {
                 let name = self.local(id);
                 quote!(#name)
@@ -174,7 +177,15 @@ impl<'p> Body<'p, '_> {
             Root::Global(id) => {
                 let owner = self.program().globals.get(id.0 as usize).map_or(self.module, |global| global.module);
                 let (module, name) = (self.unit.names.module(owner), self.unit.names.global(id.0));
-                quote!(g.#module.#name)
+                match self.unit.slots.of(id) {
+                    Some((array, _)) => {
+                        let field = &array.field;
+                        let at = place.column.as_ref().map(ToTokens::to_token_stream);
+                        let at = at.unwrap_or_else(|| self.place_in_array(id));
+                        quote!(g.#module.#field[#at])
+                    }
+                    None => quote!(g.#module.#name),
+                }
             }
             Root::System(variable) => {
                 let name = super::names::field(variable.field);
@@ -185,6 +196,14 @@ impl<'p> Body<'p, '_> {
                 }
             }
         }
+    }
+
+    /// `at::p17`: where a variable is in its array.
+    pub(super) fn place_in_array(&self, id: GlobalId) -> TokenStream {
+        let owner = self.program().globals.get(id.0 as usize).map_or(self.module, |global| global.module);
+        let (module, name) = (self.unit.names.module(owner), self.unit.names.global(id.0));
+        let path = (owner != self.module).then(|| quote!(super::#module::));
+        quote!(#path at::#name)
     }
 
     /// The value of a place, to keep.
@@ -210,7 +229,7 @@ impl<'p> Body<'p, '_> {
     }
 
     fn look_at_reached(&mut self, place: &Reached) -> Fragment {
-        let variable = self.variable(place.root);
+        let variable = self.variable(place);
         let steps = place.steps();
         let tokens = match (place.kept(), place.path.split_first()) {
             (Storage::Local | Storage::Handle, _) => quote!(#variable #steps),
@@ -231,7 +250,7 @@ impl<'p> Body<'p, '_> {
 
     /// The place itself, of a local variable.
     pub(super) fn target(&self, place: &Reached) -> TokenStream {
-        let (variable, steps) = (self.variable(place.root), place.steps());
+        let (variable, steps) = (self.variable(place), place.steps());
         quote!(#variable #steps)
     }
 
@@ -245,7 +264,7 @@ impl<'p> Body<'p, '_> {
 
     /// The statement that writes a place whose indices are known. `calm` tells where the value may be computed.
     pub(super) fn write(&mut self, place: &Reached, written: Written<'p>, calm: Calm) -> TokenStream {
-        let variable = self.variable(place.root);
+        let variable = self.variable(place);
         let item = matches!(place.path.as_slice(), [Reach::At(_)]);
         match (place.kept(), written) {
             (Storage::Local, written) => {

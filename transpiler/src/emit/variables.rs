@@ -6,11 +6,14 @@ use super::consts::typed_constant;
 use super::fragment::Fragment;
 use super::places::{Calm, Written};
 use super::points;
+use super::slots::is_constant;
+use super::slots_init;
 use super::tokens::mentions;
-use super::types::{is_handle, start_value, variable_type};
+use super::types::{is_handle, rust_type, start_value, variable_type};
 use crate::hir::{Expr, ExprKind, Global, GlobalId, ModuleId, Place, Root, Value};
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
+use std::collections::HashMap;
 
 /// So many variables get their first values in one function; beyond it, rustc's time grows faster than the length.
 const MOST_IN_ONE: usize = 64;
@@ -37,27 +40,67 @@ pub(super) fn structure(unit: &Unit<'_>, module: ModuleId, globals: &[(GlobalId,
     let family = unit.family();
     let file = unit.program.modules.get(module.0 as usize).map_or("", |module| module.file.as_str());
     let doc = format!(" The global variables of `{file}`.");
-    let fields = globals.iter().map(|(id, global)| {
+    let alone = globals.iter().filter(|(id, _)| unit.slots.of(*id).is_none());
+    let fields = alone.map(|(id, global)| {
         let (name, ty) = (unit.names.global(id.0), variable_type(global.ty, family));
         quote!(pub #name: #ty)
     });
+    let arrays = unit.slots.of_module(module).map(|array| {
+        let (name, ty) = (&array.field, rust_type(array.ty, family));
+        let count = Literal::usize_unsuffixed(array.members.len());
+        quote!(pub #name: Slots<#ty, #count>)
+    });
+    let places = places(unit, module);
     quote! {
         #[doc = #doc]
         #[derive(Default)]
         pub struct Variables {
-            #(#fields),*
+            #(#fields,)*
+            #(#arrays,)*
         }
+        #places
     }
+}
+
+/// `pub mod at { .. }`: where the variables are in their arrays.
+fn places(unit: &Unit<'_>, module: ModuleId) -> Option<TokenStream> {
+    let places: Vec<TokenStream> = unit
+        .slots
+        .of_module(module)
+        .flat_map(|array| array.members.iter().enumerate())
+        .map(|(at, id)| {
+            let (name, at) = (unit.names.global(id.0), Literal::usize_unsuffixed(at));
+            quote!(pub const #name: usize = #at;)
+        })
+        .collect();
+    let blank = unit.marks.comment(String::new());
+    (!places.is_empty()).then(|| {
+        quote! {
+            #blank
+            /// Where variables are in their arrays.
+            #[allow(non_upper_case_globals, dead_code)]
+            pub mod at {
+                #(#places)*
+            }
+        }
+    })
 }
 
 /// The functions that give the variables their first values. `again` tells that all start values come first.
 pub(super) fn init(unit: &Unit<'_>, module: ModuleId, globals: &[(GlobalId, &Global)]) -> (TokenStream, Init) {
     let mut all = Init::default();
     let mut parts = Vec::new();
-    for chunk in globals.chunks(MOST_IN_ONE) {
+    for chunk in steps(unit, globals).chunks(MOST_IN_ONE) {
         let mut code = TokenStream::new();
         let mut part = Init::default();
-        for (id, global) in chunk {
+        for step in chunk {
+            let (id, global) = match step {
+                Step::Alone(id, global) => (id, global),
+                Step::Array(members) => {
+                    code.extend(slots_init::first_values(unit, module, members));
+                    continue;
+                }
+            };
             code.extend(first_value(unit, module, *id, global));
             if let Some(init) = &global.init {
                 let facts = Body::outside(unit, module).facts(init);
@@ -89,6 +132,38 @@ pub(super) fn init(unit: &Unit<'_>, module: ModuleId, globals: &[(GlobalId, &Glo
     }
     let whole = init_function(quote!(pub), "init", all, &calls, "Gives all variables their first values.");
     (quote!(impl Variables { #whole #functions }), all)
+}
+
+/// What is given first values at once.
+enum Step<'p> {
+    Alone(GlobalId, &'p Global),
+    /// Variables of one array.
+    Array(Vec<GlobalId>),
+}
+
+/// The steps in which the variables get their first values. Those of arrays wait until somebody may look at them.
+fn steps<'p>(unit: &Unit<'p>, globals: &[(GlobalId, &'p Global)]) -> Vec<Step<'p>> {
+    let mut steps = Vec::new();
+    let mut waiting: Vec<Vec<GlobalId>> = Vec::new();
+    let mut fields: HashMap<String, usize> = HashMap::new();
+    for (id, global) in globals {
+        let Some((array, _)) = unit.slots.of(*id) else {
+            if !global.init.as_ref().is_none_or(is_constant) {
+                steps.extend(waiting.drain(..).map(Step::Array));
+                fields.clear();
+            }
+            steps.push(Step::Alone(*id, global));
+            continue;
+        };
+        let next = waiting.len();
+        let at = *fields.entry(array.field.to_string()).or_insert(next);
+        if at == next {
+            waiting.push(Vec::new());
+        }
+        waiting.get_mut(at).into_iter().for_each(|members| members.push(*id));
+    }
+    steps.extend(waiting.into_iter().map(Step::Array));
+    steps
 }
 
 fn init_function(vis: TokenStream, name: &str, init: Init, code: &TokenStream, doc: &str) -> TokenStream {
@@ -153,7 +228,10 @@ fn first_value(unit: &Unit<'_>, module: ModuleId, id: GlobalId, global: &Global)
 pub(super) fn data(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
     let file = unit.program.modules.get(module.0 as usize).map_or("", |module| module.file.as_str());
     let globals = unit.program.globals.iter().enumerate();
-    let vars = globals.filter(|(_, global)| global.module == module && global.teachable).map(|(at, global)| {
+    let alone = globals.filter(|(at, global)| {
+        global.module == module && global.teachable && unit.slots.of(GlobalId(*at as u32)).is_none()
+    });
+    let vars = alone.map(|(at, global)| {
         let name = &global.name;
         let sizes: Vec<Literal> = match global.ty.dims() {
             dims if dims.len() > 1 => dims.iter().map(|size| Literal::u16_unsuffixed(*size)).collect(),
@@ -168,11 +246,35 @@ pub(super) fn data(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
         };
         quote!(DataVar { name: #name, sizes: &[#(#sizes),*], slot: #slot })
     });
+    let vars = quote!(Vec::from([#(#vars),*]));
+    let arrays: Vec<TokenStream> = unit
+        .slots
+        .of_module(module)
+        .filter(|array| array.teachable)
+        .map(|array| {
+            let name =
+                |id: &GlobalId| unit.program.globals.get(id.0 as usize).map_or("", |global| global.name.as_str());
+            let rows = array.members.iter().map(|id| format!("{},\n", Literal::string(name(id)))).collect();
+            let (rows, field) = (unit.marks.rows(rows), &array.field);
+            let count = Literal::usize_unsuffixed(array.members.len());
+            quote! {
+                {
+                    static NAMES: [&str; #count] = #rows;
+                    vars.extend(self.#field.named(&NAMES));
+                }
+            }
+        })
+        .collect();
+    let body = if arrays.is_empty() {
+        quote!(DataFile { file: #file, vars: #vars })
+    } else {
+        quote!(let mut vars = #vars; #(#arrays)* DataFile { file: #file, vars })
+    };
     quote! {
         impl Variables {
             /// The variables whose values are read again at load.
             pub fn data(&self) -> DataFile<'_> {
-                DataFile { file: #file, vars: Vec::from([#(#vars),*]) }
+                #body
             }
         }
     }

@@ -11,4 +11,5 @@ mod shape;
 mod table;
 
 pub(super) use runs::Group;
-pub(super) use table::Columns;
+pub(super) use shape::{Hole, Shape, of_value};
+pub(super) use table::{Columns, Entry, Lead};

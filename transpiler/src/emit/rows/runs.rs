@@ -44,7 +44,7 @@ impl<'p> Body<'p, '_> {
 
     /// A statement as a row, where it may be one: it writes and declares no local, and goes on to the next.
     fn row(&self, stmt: &'p Stmt) -> Option<Row<'p>> {
-        let row = Row::of(stmt, self.family())?;
+        let row = Row::of(stmt, self.family(), &self.unit.slots)?;
         let is_call = matches!(row.expr.kind, ExprKind::Call(..) | ExprKind::Builtin(_) | ExprKind::Assign(_));
         (is_call && !flow::ends(row.expr) && self.facts(row.expr).writes.is_empty()).then_some(row)
     }

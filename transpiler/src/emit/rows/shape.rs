@@ -1,23 +1,29 @@
 //! What statements have in common when they differ in constants only.
 
 use crate::effects::captures;
-use crate::hir::{Expr, ExprKind, Passed, Place, Projection, Root, Stmt, StmtKind, Value};
+use crate::emit::slots::Slots;
+use crate::hir::{Expr, ExprKind, GlobalId, Passed, Place, Projection, Root, Stmt, StmtKind, Value};
 use arl_lang::catalog::{Family, Presence};
 
 /// A statement without the constants that may differ between the rows of a table.
 #[derive(Clone, PartialEq, Eq, Hash, Default, Debug)]
 pub(in crate::emit) struct Shape(Vec<u8>);
 
-/// A constant that is an argument, a component of one, or what a global variable is set to: the code around it is the
-/// same for all values.
+/// What may differ: the code around it is the same whatever stands there.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Hole<'p> {
-    /// The constant.
-    pub(super) expr: &'p Expr,
-    /// Its value.
-    pub(super) value: &'p Value,
+pub(in crate::emit) struct Hole<'p> {
+    pub(super) filling: Filling<'p>,
     /// What it is for: the label of the parameter, the component.
     pub(super) name: &'p str,
+}
+
+/// What stands in a hole.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Filling<'p> {
+    /// A constant that is an argument, a component of one, or what a global variable is set to.
+    Constant(&'p Expr, &'p Value),
+    /// A variable that is in an array.
+    Variable(&'p Place, GlobalId),
 }
 
 /// A statement as a row of a table.
@@ -32,21 +38,30 @@ pub(in crate::emit) struct Row<'p> {
 
 impl<'p> Row<'p> {
     /// The statement, where it is an expression; whether it may stand in a table is not asked here.
-    pub(super) fn of(stmt: &'p Stmt, family: Family) -> Option<Self> {
+    pub(super) fn of(stmt: &'p Stmt, family: Family, slots: &Slots) -> Option<Self> {
         let StmtKind::Eval(expr) = &stmt.kind else { return None };
-        let mut walk = Walk { family, shape: Vec::new(), holes: Vec::new() };
+        let mut walk = Walk { family, slots: Some(slots), shape: Vec::new(), holes: Vec::new() };
         walk.expr(expr, None);
         Some(Self { stmt, expr, shape: Shape(walk.shape), holes: walk.holes })
     }
 }
 
-struct Walk<'p> {
+/// The shape and the holes of a value, where a constant alone is one.
+pub(in crate::emit) fn of_value<'p>(value: &'p Expr, family: Family) -> (Shape, Vec<Hole<'p>>) {
+    let mut walk = Walk { family, slots: None, shape: Vec::new(), holes: Vec::new() };
+    walk.expr(value, Some("value"));
+    (Shape(walk.shape), walk.holes)
+}
+
+struct Walk<'p, 's> {
     family: Family,
+    /// The variables that are in arrays.
+    slots: Option<&'s Slots>,
     shape: Vec<u8>,
     holes: Vec<Hole<'p>>,
 }
 
-impl<'p> Walk<'p> {
+impl<'p> Walk<'p, '_> {
     fn word(&mut self, word: impl std::fmt::Debug) {
         use std::io::Write;
         // A vector takes all that is written to it.
@@ -60,11 +75,11 @@ impl<'p> Walk<'p> {
             ExprKind::Const(value) => match open {
                 Some(name) => {
                     self.word(value.base());
-                    self.holes.push(Hole { expr, value, name });
+                    self.holes.push(Hole { filling: Filling::Constant(expr, value), name });
                 }
                 None => self.constant(value),
             },
-            ExprKind::Place(place) => self.place(place),
+            ExprKind::Place(place) => self.place(place, open),
             ExprKind::FieldOf(inner, id, index) => {
                 self.word((id, index));
                 self.expr(inner, None);
@@ -85,17 +100,17 @@ impl<'p> Walk<'p> {
             ExprKind::Assign(sides) => {
                 // What a system variable takes is looked at while compiling, where it is known.
                 let open = matches!(sides.0.root, Root::Global(_)).then_some("value");
-                self.place(&sides.0);
+                self.place(&sides.0, None);
                 self.expr(&sides.1, open);
             }
             ExprKind::AssignOp(op, sides) => {
                 self.word(op);
-                self.place(&sides.0);
+                self.place(&sides.0, None);
                 self.expr(&sides.1, None);
             }
             ExprKind::Step(step, place) => {
                 self.word(step);
-                self.place(place);
+                self.place(place, None);
             }
             ExprKind::Call(id, args) => {
                 self.word((id, args.len()));
@@ -113,7 +128,7 @@ impl<'p> Walk<'p> {
                     match &arg.value {
                         Passed::Value(value) if captures::is_later(entry, arg) => self.expr(value, None),
                         Passed::Value(value) => self.expr(value, name),
-                        Passed::Out(place) => self.place(place),
+                        Passed::Out(place) => self.place(place, None),
                     }
                 }
             }
@@ -146,10 +161,19 @@ impl<'p> Walk<'p> {
         }
     }
 
-    fn place(&mut self, place: &'p Place) {
-        match place.root {
-            Root::System(variable) => self.word(std::ptr::from_ref(variable)),
-            root => self.word(root),
+    /// A place; a variable of an array may differ where it is `open` and has a name.
+    fn place(&mut self, place: &'p Place, open: Option<&'p str>) {
+        let slots = self.slots;
+        match (place.root, open) {
+            (Root::System(variable), _) => self.word(std::ptr::from_ref(variable)),
+            (Root::Global(id), Some(name)) => match slots.and_then(|slots| slots.of(id)) {
+                Some((array, _)) => {
+                    self.word((array.module, array.field.to_string()));
+                    self.holes.push(Hole { filling: Filling::Variable(place, id), name });
+                }
+                None => self.word(place.root),
+            },
+            (root, _) => self.word(root),
         }
         for step in &place.path {
             match step {

@@ -1,6 +1,6 @@
 //! The code of a table: its rows, and the loop over them.
 
-use super::shape::{Hole, Row, Shape};
+use super::shape::{Filling, Hole, Row, Shape};
 use crate::emit::body::{Body, Tail};
 use crate::emit::consts;
 use crate::emit::fragment::{Fragment, Precedence};
@@ -8,7 +8,7 @@ use crate::emit::names::{camel_case, field, ident};
 use crate::emit::sequence::Mode;
 use crate::emit::tokens::mentions;
 use crate::emit::types::base_type;
-use crate::hir::{Expr, ExprKind, Value};
+use crate::hir::{Expr, ExprKind, Place, Value};
 use arl_lang::catalog::{Base, Family};
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{ToTokens, quote};
@@ -20,6 +20,8 @@ pub(in crate::emit) struct Columns {
     line: Option<Ident>,
     /// The columns of the constants, which are told by where they are.
     of: HashMap<*const Expr, Ident>,
+    /// The columns that say which variable of an array is meant.
+    slots: HashMap<*const Place, Ident>,
 }
 
 impl Columns {
@@ -30,7 +32,16 @@ impl Columns {
 
     /// Whether code names one of them.
     pub(in crate::emit) fn are_in(&self, code: &TokenStream) -> bool {
-        self.line.iter().chain(self.of.values()).any(|name| mentions(code, &name.to_string()))
+        self.line
+            .iter()
+            .chain(self.of.values())
+            .chain(self.slots.values())
+            .any(|name| mentions(code, &name.to_string()))
+    }
+
+    /// The column that says which variable of an array a place is.
+    pub(in crate::emit) fn slot(&self, place: &Place) -> Option<Ident> {
+        if self.slots.is_empty() { None } else { self.slots.get(&std::ptr::from_ref(place)).cloned() }
     }
 
     /// The column of a constant, in the way in which it is wanted.
@@ -50,111 +61,155 @@ impl Columns {
     }
 }
 
-/// Statements of one shape.
+/// What becomes a row.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::emit) struct Entry<'r, 'p> {
+    /// What stands in the first column: the line, say.
+    pub(in crate::emit) lead: usize,
+    pub(in crate::emit) shape: &'r Shape,
+    pub(in crate::emit) holes: &'r [Hole<'p>],
+}
+
+/// The first column of a table.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::emit) struct Lead<'a> {
+    pub(in crate::emit) name: &'a Ident,
+    /// Its type.
+    pub(in crate::emit) ty: &'a TokenStream,
+}
+
+/// Rows of one shape.
 struct Kind<'r, 'p> {
-    /// The one that is emitted.
-    first: &'r Row<'p>,
+    holes: &'r [Hole<'p>],
     /// The columns: the numbers of the constants that differ, and their names.
     columns: Vec<(usize, Ident)>,
+    /// The name of the variant, where there are several kinds.
+    name: Ident,
     code: TokenStream,
 }
 
 impl<'p> Body<'p, '_> {
-    /// The code of a table.
+    /// The code of a table of statements.
     pub(in crate::emit) fn table(&mut self, rows: &[Row<'p>]) -> TokenStream {
-        let mut numbers: HashMap<&Shape, usize> = HashMap::new();
-        let mut of_kind: Vec<Vec<&Row<'p>>> = Vec::new();
-        for row in rows {
-            let next = of_kind.len();
-            let number = *numbers.entry(&row.shape).or_insert(next);
-            if number == next {
-                of_kind.push(Vec::new());
-            }
-            of_kind.get_mut(number).into_iter().for_each(|rows| rows.push(row));
-        }
-        let line = self.reserve("line");
-        let kinds: Vec<Kind<'_, 'p>> = of_kind.iter().filter_map(|rows| self.kind(rows, &line)).collect();
-        let code = self.loop_over(rows, &kinds, &numbers, &line);
-        self.release(&line);
+        let line_of = |row: &Row<'p>| self.unit.line(self.module, row.stmt.span) as usize;
+        let entries: Vec<Entry<'_, 'p>> =
+            rows.iter().map(|row| Entry { lead: line_of(row), shape: &row.shape, holes: &row.holes }).collect();
+        let name = self.reserve("line");
+        let lead = Lead { name: &name, ty: &quote!(u32) };
+        let word = |at: usize, body: &Self| rows.get(at).map_or_else(String::new, |row| word(row.expr, body));
+        let code = self.tabulate(&entries, lead, &word, &mut |body, at| {
+            body.columns.line = Some(name.clone());
+            rows.get(at).map(|row| body.statement(row.stmt, Tail::Inner)).unwrap_or_default()
+        });
+        self.release(&name);
         code
     }
 
-    /// A kind of statement with its code.
-    fn kind<'r>(&mut self, rows: &[&'r Row<'p>], line: &Ident) -> Option<Kind<'r, 'p>> {
-        let first = *rows.first()?;
-        let differs = |(at, hole): (usize, &Hole<'p>)| {
-            let other = |row: &&Row<'p>| row.holes.get(at).is_none_or(|other| !same(hole.value, other.value));
-            rows.iter().any(other).then_some((at, *hole))
-        };
-        let varying: Vec<(usize, Hole<'p>)> = first.holes.iter().enumerate().filter_map(differs).collect();
-        let columns: Vec<(usize, Ident)> =
-            varying.iter().map(|(at, hole)| (*at, self.reserve(&field(hole.name).to_string()))).collect();
-        let of =
-            varying.iter().zip(&columns).map(|((_, hole), (_, name))| (std::ptr::from_ref(hole.expr), name.clone()));
-        self.columns = Columns { line: Some(line.clone()), of: of.collect() };
-        let code = self.statement(first.stmt, Tail::Inner);
-        self.columns = Columns::default();
-        columns.iter().for_each(|(_, name)| self.release(name));
-        Some(Kind { first, columns, code })
+    /// The code of a table: `emit` makes the code for the entry with a number, with the columns in place of what differs
+    /// between those of its shape, and `word` says what its kind is called.
+    pub(in crate::emit) fn tabulate(
+        &mut self,
+        entries: &[Entry<'_, 'p>],
+        lead: Lead<'_>,
+        word: &dyn Fn(usize, &Self) -> String,
+        emit: &mut dyn FnMut(&mut Self, usize) -> TokenStream,
+    ) -> TokenStream {
+        let mut numbers: HashMap<&Shape, usize> = HashMap::new();
+        let mut of_kind: Vec<Vec<usize>> = Vec::new();
+        for (at, entry) in entries.iter().enumerate() {
+            let next = of_kind.len();
+            let number = *numbers.entry(entry.shape).or_insert(next);
+            if number == next {
+                of_kind.push(Vec::new());
+            }
+            of_kind.get_mut(number).into_iter().for_each(|kind| kind.push(at));
+        }
+        let mut used = HashSet::new();
+        let mut kinds = Vec::new();
+        for members in &of_kind {
+            let Some(first) = members.first() else { continue };
+            let name = distinct(word(*first, self), &mut used);
+            kinds.extend(self.kind(entries, members, name, emit));
+        }
+        self.loop_over(entries, &kinds, &numbers, lead)
     }
 
-    /// The rows, and the loop that runs them.
+    /// The rows of a shape with their code.
+    fn kind<'r>(
+        &mut self,
+        entries: &[Entry<'r, 'p>],
+        members: &[usize],
+        name: Ident,
+        emit: &mut dyn FnMut(&mut Self, usize) -> TokenStream,
+    ) -> Option<Kind<'r, 'p>> {
+        let first = *members.first()?;
+        let holes = entries.get(first)?.holes;
+        let differs = |(at, hole): (usize, &Hole<'p>)| {
+            let rows = members.iter().filter_map(|member| entries.get(*member));
+            let mut others = rows.filter_map(|row| row.holes.get(at));
+            others.any(|other| !same(hole.filling, other.filling)).then_some((at, *hole))
+        };
+        let varying: Vec<(usize, Hole<'p>)> = holes.iter().enumerate().filter_map(differs).collect();
+        let columns: Vec<(usize, Ident)> =
+            varying.iter().map(|(at, hole)| (*at, self.reserve(&field(hole.name).to_string()))).collect();
+        for ((_, hole), (_, name)) in varying.iter().zip(&columns) {
+            match hole.filling {
+                Filling::Constant(expr, _) => _ = self.columns.of.insert(std::ptr::from_ref(expr), name.clone()),
+                Filling::Variable(place, _) => _ = self.columns.slots.insert(std::ptr::from_ref(place), name.clone()),
+            }
+        }
+        let code = emit(self, first);
+        self.columns = Columns::default();
+        columns.iter().for_each(|(_, name)| self.release(name));
+        Some(Kind { holes, columns, name, code })
+    }
+
+    /// The rows, and the loop over them.
     fn loop_over(
         &mut self,
-        rows: &[Row<'p>],
+        entries: &[Entry<'_, 'p>],
         kinds: &[Kind<'_, 'p>],
         numbers: &HashMap<&Shape, usize>,
-        line: &Ident,
+        lead: Lead<'_>,
     ) -> TokenStream {
-        let with_line = kinds.iter().any(|kind| mentions(&kind.code, &line.to_string()));
-        let line_type = with_line.then(|| quote!(u32));
-        let line_name = with_line.then(|| line.to_token_stream());
-        let names: Vec<Ident> = kind_names(self, kinds);
-        let types = |kind: &Kind<'_, 'p>, in_enum: bool| -> Vec<TokenStream> {
-            let holes = kind.columns.iter().filter_map(|(at, _)| kind.first.holes.get(*at));
-            holes.map(|hole| column_type(hole.value.base(), self.family(), in_enum)).collect()
-        };
-        let columns = |kind: &Kind<'_, 'p>| -> Vec<TokenStream> {
-            kind.columns.iter().map(|(_, name)| name.to_token_stream()).collect()
-        };
+        let led = kinds.iter().any(|kind| mentions(&kind.code, &lead.name.to_string()));
+        let lead_type = led.then(|| lead.ty.clone());
+        let lead_name = led.then(|| lead.name.to_token_stream());
+        let family = self.family();
         let (declared, row_type, pattern, code) = match kinds {
             [kind] => {
-                let types: Vec<_> = line_type.into_iter().chain(types(kind, false)).collect();
-                let names: Vec<_> = line_name.into_iter().chain(columns(kind)).collect();
+                let types: Vec<_> = lead_type.into_iter().chain(kind.types(family, false)).collect();
+                let names: Vec<_> = lead_name.into_iter().chain(kind.names()).collect();
                 (TokenStream::new(), tuple(&types), tuple(&names), kind.code.clone())
             }
             kinds => {
-                let variants = kinds.iter().zip(&names).map(|(kind, name)| {
-                    let types = types(kind, true);
-                    if types.is_empty() { quote!(#name) } else { quote!(#name(#(#types),*)) }
-                });
+                let variants = kinds.iter().map(|kind| kind.with(kind.types(family, true)));
                 let declared = quote!(#[derive(Clone, Copy)] enum Row { #(#variants),* });
-                let arms = kinds.iter().zip(&names).map(|(kind, name)| {
-                    let (columns, code) = (columns(kind), &kind.code);
-                    let columns = (!columns.is_empty()).then(|| quote!((#(#columns),*)));
-                    quote!(Row::#name #columns => { #code })
+                let arms = kinds.iter().map(|kind| {
+                    let (pattern, code) = (kind.with(kind.names()), &kind.code);
+                    quote!(Row::#pattern => { #code })
                 });
                 let row = self.fresh("row");
-                let types: Vec<_> = line_type.into_iter().chain([quote!(Row)]).collect();
-                let names: Vec<_> = line_name.into_iter().chain([quote!(#row)]).collect();
+                let types: Vec<_> = lead_type.into_iter().chain([quote!(Row)]).collect();
+                let names: Vec<_> = lead_name.into_iter().chain([quote!(#row)]).collect();
                 (declared, tuple(&types), tuple(&names), quote!(match #row { #(#arms)* }))
             }
         };
-        let text = rows.iter().map(|row| {
-            let number = numbers.get(&row.shape).copied().unwrap_or(0);
-            let line = with_line.then(|| self.unit.line(self.module, row.stmt.span).to_string());
-            let values = kinds.get(number).into_iter().flat_map(|kind| &kind.columns);
-            let values = values.filter_map(|(at, _)| Some(consts::text(row.holes.get(*at)?.value)));
-            match (kinds, names.get(number)) {
-                ([_], _) | (_, None) => in_row(line.into_iter().chain(values)),
-                (_, Some(name)) => {
+        let text = entries.iter().map(|entry| {
+            let first = led.then(|| entry.lead.to_string());
+            let kind = numbers.get(entry.shape).and_then(|number| kinds.get(*number));
+            let columns = kind.map_or(&[][..], |kind| kind.columns.as_slice());
+            let values = columns.iter().filter_map(|(at, _)| Some(self.in_column(entry.holes.get(*at)?.filling)));
+            match kind.filter(|_| kinds.len() > 1) {
+                None => in_row(first.into_iter().chain(values)),
+                Some(Kind { name, .. }) => {
                     let values: Vec<String> = values.collect();
                     let values = if values.is_empty() { String::new() } else { format!("({})", values.join(", ")) };
-                    in_row(line.into_iter().chain([format!("Row::{name}{values}")]))
+                    in_row(first.into_iter().chain([format!("Row::{name}{values}")]))
                 }
             }
         });
-        let count = Literal::usize_unsuffixed(rows.len());
+        let count = Literal::usize_unsuffixed(entries.len());
         let rows = self.unit.marks.rows(text.collect());
         quote! {
             {
@@ -168,25 +223,55 @@ impl<'p> Body<'p, '_> {
     }
 }
 
-/// The names of the kinds: of the instructions and functions that they call.
-fn kind_names(body: &Body<'_, '_>, kinds: &[Kind<'_, '_>]) -> Vec<Ident> {
-    let mut used = HashSet::new();
-    let name_of = |stmt: &Expr| match &stmt.kind {
+impl Body<'_, '_> {
+    /// What stands in a column.
+    fn in_column(&self, filling: Filling<'_>) -> String {
+        match filling {
+            Filling::Constant(_, value) => consts::text(value),
+            Filling::Variable(_, id) => self.place_in_array(id).to_string().replace(' ', ""),
+        }
+    }
+}
+
+impl Kind<'_, '_> {
+    fn names(&self) -> Vec<TokenStream> {
+        self.columns.iter().map(|(_, name)| name.to_token_stream()).collect()
+    }
+
+    fn types(&self, family: Family, in_enum: bool) -> Vec<TokenStream> {
+        let holes = self.columns.iter().filter_map(|(at, _)| self.holes.get(*at));
+        let types = holes.map(|hole| match hole.filling {
+            Filling::Constant(_, value) => column_type(value.base(), family, in_enum),
+            Filling::Variable(..) => quote!(usize),
+        });
+        types.collect()
+    }
+
+    /// `Lin(x, y)`
+    fn with(&self, parts: Vec<TokenStream>) -> TokenStream {
+        let name = &self.name;
+        if parts.is_empty() { quote!(#name) } else { quote!(#name(#(#parts),*)) }
+    }
+}
+
+/// What a kind of statement is called: as the instruction or the function that it calls.
+fn word(expr: &Expr, body: &Body<'_, '_>) -> String {
+    match &expr.kind {
         ExprKind::Builtin(builtin) => camel_case(&builtin.entry.name.to_ascii_lowercase()),
         ExprKind::Call(id, _) => camel_case(&body.unit.names.func(id.0).to_string()),
         _ => "Set".to_owned(),
-    };
-    let names = kinds.iter().map(|kind| {
-        let wanted = name_of(kind.first.expr);
-        let mut name = if wanted == "Self" { "SelfCall".to_owned() } else { wanted.clone() };
-        let mut number = 2;
-        while !used.insert(name.clone()) {
-            name = format!("{wanted}{number}");
-            number += 1;
-        }
-        ident(&name)
-    });
-    names.collect()
+    }
+}
+
+/// A name that no other kind has.
+fn distinct(wanted: String, used: &mut HashSet<String>) -> Ident {
+    let mut name = if wanted == "Self" { "SelfCall".to_owned() } else { wanted.clone() };
+    let mut number = 2;
+    while !used.insert(name.clone()) {
+        name = format!("{wanted}{number}");
+        number += 1;
+    }
+    ident(&name)
 }
 
 /// The type of a column; a `static` needs no lifetime for its texts.
@@ -215,10 +300,14 @@ fn in_row(values: impl Iterator<Item = String>) -> String {
     }
 }
 
-/// Whether two constants are the same to the last bit.
-fn same(one: &Value, other: &Value) -> bool {
+/// Whether the same stands in two holes, constants to the last bit.
+fn same(one: Filling<'_>, other: Filling<'_>) -> bool {
     match (one, other) {
-        (Value::Double(one), Value::Double(other)) => one.to_bits() == other.to_bits(),
-        (one, other) => one == other,
+        (Filling::Constant(_, Value::Double(one)), Filling::Constant(_, Value::Double(other))) => {
+            one.to_bits() == other.to_bits()
+        }
+        (Filling::Constant(_, one), Filling::Constant(_, other)) => one == other,
+        (Filling::Variable(_, one), Filling::Variable(_, other)) => one == other,
+        _ => false,
     }
 }
