@@ -197,9 +197,12 @@ fn text(lexer: &mut Lexer<'_>) -> Result<(), LexicalError> {
 
 fn single_quotes(lexer: &mut Lexer<'_>) -> Result<(), LexicalError> {
     let rest = lexer.remainder();
-    let end = to_line_end(rest);
-    let close = rest.bytes().take(end).position(|byte| byte == b'\'');
-    lexer.bump(close.map_or(end, |at| at + 1));
+    let stop = rest.bytes().enumerate().find(|(_, byte)| matches!(byte, b'\'' | b'\n' | b'\r'));
+    lexer.bump(match stop {
+        Some((at, b'\'')) => at + 1,
+        Some((at, _)) => at,
+        None => rest.len(),
+    });
     Err(LexicalError::SingleQuotes)
 }
 
@@ -220,15 +223,12 @@ fn comment(lexer: &mut Lexer<'_>) -> FilterResult<(), LexicalError> {
 /// `\` and blanks up to the line end, which no longer ends the line.
 fn continuation(lexer: &mut Lexer<'_>) -> FilterResult<(), LexicalError> {
     let rest = lexer.remainder();
-    let end = to_line_end(rest);
-    let blank = rest.bytes().take(end).all(|byte| matches!(byte, b' ' | b'\t' | 0x0b | 0x0c));
-    if !blank {
-        return FilterResult::Error(LexicalError::Backslash);
-    }
+    let end = rest.bytes().take_while(|byte| matches!(byte, b' ' | b'\t' | 0x0b | 0x0c)).count();
     let line_end = match rest.as_bytes().get(end..) {
         Some([b'\r', b'\n', ..]) => 2,
-        Some([_, ..]) => 1,
-        _ => 0,
+        Some([b'\r' | b'\n', ..]) => 1,
+        None | Some([]) => 0,
+        Some(_) => return FilterResult::Error(LexicalError::Backslash),
     };
     lexer.bump(end + line_end);
     FilterResult::Skip
@@ -275,8 +275,9 @@ fn foreign(lexer: &mut Lexer<'_>) -> FilterResult<(), LexicalError> {
     if let Some(ascii) = look_alike(first) {
         if ascii == '"' {
             let rest = lexer.remainder();
-            let line = rest.get(..to_line_end(rest)).unwrap_or_default();
-            let close = line.char_indices().find(|(_, c)| *c == '"' || look_alike(*c) == Some('"'));
+            let ends = |c: char| matches!(c, '"' | '\n' | '\r') || look_alike(c) == Some('"');
+            let stop = rest.char_indices().find(|(_, c)| ends(*c));
+            let close = stop.filter(|(_, c)| !matches!(c, '\n' | '\r'));
             lexer.bump(close.map_or(0, |(at, c)| at + c.len_utf8()));
         }
         return FilterResult::Error(LexicalError::LooksLike(ascii));
@@ -303,7 +304,7 @@ fn splice(lexer: &mut Lexer<'_>) -> Result<(), LexicalError> {
         return Ok(());
     }
     let end = splice_end(rest);
-    lexer.bump(end.unwrap_or(to_line_end(rest)));
+    lexer.bump(end.unwrap_or_else(|| to_line_end(rest)));
     end.map(|_| ()).ok_or(LexicalError::UnclosedSplice)
 }
 

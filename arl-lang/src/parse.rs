@@ -1,12 +1,12 @@
 //! Source text to syntax tree. Every entry reads to the end and reports all mistakes, each once.
 
-use lalrpop_util::ParseError;
 use logos::Logos;
 
 use crate::adapt::{Adapter, PlacedLexeme};
 use crate::ast::{Block, Expr, ExprKind, File, StmtKind};
 use crate::blocks::{Blocks, Doubts, error_at};
 use crate::explain::explain;
+use crate::followers::Followers;
 use crate::grammar::LineParser;
 use crate::habits::repair;
 use crate::lexer::{Lexeme, LexicalError};
@@ -16,7 +16,7 @@ use crate::recovery::{Recovered, recover};
 use crate::span::Span;
 use crate::symbol::{Interner, Symbol};
 use crate::syntax_error::{SyntaxError, SyntaxErrorKind};
-use crate::token::{Placed, Token};
+use crate::token::Placed;
 use crate::tree::Context;
 
 /// What is read besides plain ARL.
@@ -120,6 +120,7 @@ struct Parser<'a> {
     adapter: Adapter<'a>,
     context: Context<'a>,
     grammar: LineParser,
+    followers: Followers,
     blocks: Blocks<'a>,
     splices: Vec<Splice>,
     void: Symbol,
@@ -147,6 +148,7 @@ impl<'a> Parser<'a> {
             adapter,
             context: Context { source, errors, endl },
             grammar: LineParser::new(),
+            followers: Followers::default(),
             blocks: Blocks::new(source, only_statements),
             splices: Vec::new(),
             void,
@@ -307,7 +309,8 @@ impl<'a> Parser<'a> {
                 if !quiet {
                     let (source, endl) = (self.source, self.context.endl);
                     let grammar = &self.grammar;
-                    let goes_on = |prefix: &[Placed], next| goes_on(grammar, source, endl, prefix, next);
+                    let followers = &self.followers;
+                    let goes_on = |prefix: &[Placed], next| followers.can_follow(grammar, source, endl, prefix, next);
                     let (error, at) = explain(&error, source, tokens, endl, &goes_on);
                     self.context.errors.push(error);
                     return self.recover(at, doubts);
@@ -354,16 +357,4 @@ fn punctuation(meant: char) -> Instead {
         ' ' => return Instead::Nothing,
         _ => return Instead::Broken,
     })
-}
-
-/// Whether the tokens can be followed by `next`, or by the end of the line.
-fn goes_on(grammar: &LineParser, source: &str, endl: Symbol, tokens: &[Placed], next: Option<Token>) -> bool {
-    let mut context = Context { source, errors: Vec::new(), endl };
-    let behind = u32::MAX;
-    let next = next.map(|next| (behind, next, behind));
-    match grammar.parse(&mut context, tokens.iter().copied().chain(next)) {
-        Ok(_) => true,
-        Err(ParseError::UnrecognizedEof { .. }) => next.is_some(),
-        Err(_) => false,
-    }
 }

@@ -32,10 +32,16 @@ impl std::fmt::Debug for Span {
     }
 }
 
-/// Where the lines of a text begin, to turn offsets into lines and columns.
+/// How many bytes of a text share an entry of [`LineIndex`]'s count of characters.
+const BLOCK: usize = 1024;
+
+/// Where the lines of a text begin, to turn offsets into lines and columns. Each answer takes the same time, however long
+/// the line is.
 #[derive(Clone, Debug)]
 pub struct LineIndex {
     starts: Vec<u32>,
+    /// For each block of the text, how many bytes before it do not begin a character; nothing where all of them do.
+    continued: Vec<u32>,
 }
 
 impl LineIndex {
@@ -49,7 +55,16 @@ impl LineIndex {
                 starts.push(at as u32 + 1);
             }
         }
-        Self { starts }
+        let mut continued = Vec::new();
+        if !source.is_ascii() {
+            let mut before = 0;
+            for block in bytes.chunks(BLOCK) {
+                continued.push(before);
+                before += continuations(block);
+            }
+            continued.push(before);
+        }
+        Self { starts, continued }
     }
 
     /// The 1-based line that holds `offset`.
@@ -61,8 +76,16 @@ impl LineIndex {
     pub fn line_column(&self, source: &str, offset: u32) -> (u32, u32) {
         let line = self.line(offset);
         let start = self.starts.get(line as usize - 1).copied().unwrap_or(0);
-        let before = source.get(start as usize..(offset as usize).min(source.len())).unwrap_or("");
-        (line, before.chars().count() as u32 + 1)
+        let offset = offset.min(source.len() as u32).max(start);
+        (line, self.characters(source, offset) - self.characters(source, start) + 1)
+    }
+
+    /// How many characters begin before `offset`.
+    fn characters(&self, source: &str, offset: u32) -> u32 {
+        let block = offset as usize / BLOCK;
+        let Some(before) = self.continued.get(block) else { return offset };
+        let rest = source.as_bytes().get(block * BLOCK..offset as usize).unwrap_or_default();
+        offset - before - continuations(rest)
     }
 
     /// The bytes of the 1-based `line`, with its line end; `None` beyond the last.
@@ -75,5 +98,29 @@ impl LineIndex {
     /// How many lines there are.
     pub fn count(&self) -> u32 {
         self.starts.len() as u32
+    }
+}
+
+/// How many bytes of UTF-8 do not begin a character.
+fn continuations(bytes: &[u8]) -> u32 {
+    bytes.iter().filter(|byte| **byte & 0xc0 == 0x80).count() as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::LineIndex;
+
+    #[test]
+    fn columns_count_characters_in_lines_of_any_length() {
+        let source = format!("a\r\n{}\rä{}b", "äx€".repeat(1000), "\u{1f916}".repeat(700));
+        let index = LineIndex::new(&source);
+        let mut expected = (1, 1);
+        for (at, character) in source.char_indices() {
+            assert_eq!(index.line_column(&source, at as u32), expected, "at {at}");
+            let ends = character == '\n' || (character == '\r' && !source[at..].starts_with("\r\n"));
+            expected = if ends { (expected.0 + 1, 1) } else { (expected.0, expected.1 + 1) };
+        }
+        assert_eq!(index.line_column(&source, source.len() as u32), expected);
+        assert_eq!(index.line_column(&source, source.len() as u32 + 9), expected);
     }
 }

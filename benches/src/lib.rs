@@ -2,6 +2,8 @@
 
 pub mod cell;
 pub mod chains;
+pub mod cost;
+pub mod inputs;
 pub mod kernels;
 pub mod lua;
 pub mod programs;

@@ -8,6 +8,7 @@ use super::context::{Body, Checker};
 use super::convert::{Typed, integer, number};
 use super::name::constant;
 use crate::diagnostics::arguments::ArgumentProblem;
+use crate::diagnostics::listed;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Bound, Expr, ExprKind, FuncId, Passed, Type, Value};
 use arl_lang::ast::{self, Arg, Unit};
@@ -121,7 +122,7 @@ impl<'a> Checker<'a> {
                 let Some(slot) = self.funcs.get(func.0 as usize) else { return String::new() };
                 let params = slot.ast.params.iter().map(|param| self.excerpt(slot.module, param.span));
                 let params: Vec<String> = params.collect();
-                format!("{}({})", self.text(slot.module, slot.ast.name.span), params.join(", "))
+                format!("{}({})", self.text(slot.module, slot.ast.name.span), listed(&params))
             }
         }
     }
@@ -225,8 +226,8 @@ impl<'a> Checker<'a> {
             let problem = ArgumentProblem::UnknownLabel {
                 callee: callee.into(),
                 label: self.text(body.module, label.span).into(),
-                near: crate::near::nearest(wanted, labels.iter().copied()).map(Into::into),
-                labels: labels.join(", "),
+                near: self.hints.nearest(wanted, labels.len(), || labels.iter().copied()).map(Into::into),
+                labels: listed(&labels),
             };
             return self.report(body, label.span, problem);
         };
@@ -316,7 +317,7 @@ impl<'a> Checker<'a> {
         }
         let labels: Vec<&str> =
             params.iter().enumerate().filter(|(at, param)| free(*at, param)).map(|(_, param)| param.name).collect();
-        let problem = ArgumentProblem::NoParameter { callee: callee.into(), ty, labels: labels.join(", ") };
+        let problem = ArgumentProblem::NoParameter { callee: callee.into(), ty, labels: listed(&labels) };
         self.report(body, arg.value.span, problem)
     }
 

@@ -58,11 +58,12 @@ impl Checker<'_> {
         let name = self.names.name(call.name.symbol);
         let is_instruction = !catalog::instructions(name).is_empty();
         let scope = self.scopes.get(body.module.0 as usize)?;
-        let mut known: Vec<&str> = scope.funcs.keys().map(|symbol| self.names.name(*symbol)).collect();
-        known.sort_unstable();
-        let builtin =
-            catalog::all_entries().iter().filter(|entry| entry.kind == catalog::Kind::Function).map(|entry| entry.name);
-        let near = crate::near::nearest(name, known.into_iter().chain(builtin)).map(Into::into);
+        let builtin = catalog::all_entries();
+        let known = || {
+            let functions = builtin.iter().filter(|entry| entry.kind == catalog::Kind::Function);
+            scope.funcs.keys().map(|symbol| self.names.name(*symbol)).chain(functions.map(|entry| entry.name))
+        };
+        let near = self.hints.nearest(name, scope.funcs.len() + builtin.len(), known).map(Into::into);
         let name = self.text(body.module, call.name.span).to_string();
         self.report(body, call.name.span, NameProblem::UnknownFunction { name, near, is_instruction })
     }

@@ -30,6 +30,8 @@ pub(crate) struct Checker<'a> {
     pub(crate) splices: Vec<Option<Type>>,
     /// Catalog functions by name, looked up once per name.
     pub(crate) functions: HashMap<Symbol, &'static [Entry]>,
+    /// Looks for the names that were meant.
+    pub(crate) hints: crate::near::Hints,
     /// Whether any argument is a condition, so that conditions have to be looked at.
     pub(crate) has_conditions: bool,
 }
@@ -56,6 +58,8 @@ pub(crate) struct GlobalSlot<'a> {
     pub(crate) var: &'a ast::Var,
     /// Number of the item in its file.
     pub(crate) item: u32,
+    /// The variable of this module that has the name already.
+    pub(crate) earlier: Option<GlobalId>,
     pub(crate) state: State,
     /// `None` until checked, and where the declaration is wrong.
     pub(crate) ty: Option<Type>,
@@ -146,7 +150,7 @@ impl Body {
     }
 
     /// All names of locals that are known here.
-    pub(crate) fn visible(&self) -> impl Iterator<Item = Symbol> {
+    pub(crate) fn visible(&self) -> impl ExactSizeIterator<Item = Symbol> {
         self.scope.keys().copied()
     }
 

@@ -38,12 +38,7 @@ impl<'a> Checker<'a> {
         let id = GlobalId(self.globals.len() as u32);
         let Some(scope) = self.scopes.get_mut(module.0 as usize) else { return };
         let earlier = scope.globals.get(&var.name.symbol).copied();
-        if let Some(earlier) = earlier {
-            let first = self.globals.get(earlier.0 as usize).map_or(var.name.span, |slot| slot.var.name.span);
-            let name = self.text(module, var.name.span).to_string();
-            let problem = NameProblem::Duplicate { name, what: "variable" };
-            self.report_in::<()>(module, var.name.span, problem, &[(module, first, "first declared here")]);
-        } else {
+        if earlier.is_none() {
             scope.globals.insert(var.name.symbol, id);
         }
         self.globals.push(GlobalSlot {
@@ -51,6 +46,7 @@ impl<'a> Checker<'a> {
             decl,
             var,
             item,
+            earlier,
             state: State::Pending,
             ty: None,
             value: None,
@@ -101,6 +97,7 @@ impl<'a> Checker<'a> {
         if let Some(slot) = self.globals.get_mut(id.0 as usize) {
             slot.ty = ty;
         }
+        self.report_second(id);
         let init = self.initialiser(&mut body, decl, var, ty);
         let value = constant_value(decl, ty, init.as_ref());
         if ty.is_none() || init.is_none() != var.init.is_none() {
@@ -111,6 +108,17 @@ impl<'a> Checker<'a> {
             slot.init = init;
             slot.value = value;
         }
+    }
+
+    /// Reports a global variable whose name an earlier one has. What has no type was reported, and is perhaps no declaration
+    /// at all.
+    fn report_second(&mut self, id: GlobalId) {
+        let Some(slot) = self.globals.get(id.0 as usize).filter(|slot| slot.ty.is_some()) else { return };
+        let (module, at) = (slot.module, slot.var.name.span);
+        let Some(earlier) = slot.earlier.and_then(|earlier| self.globals.get(earlier.0 as usize)) else { return };
+        let first = earlier.var.name.span;
+        let problem = NameProblem::Duplicate { name: self.text(module, at).to_string(), what: "variable" };
+        self.report_in::<()>(module, at, problem, &[(module, first, "first declared here")]);
     }
 
     /// Checks a function's parameters and result, once.
@@ -278,7 +286,8 @@ impl<'a> Checker<'a> {
         constant: bool,
         value: Option<Value>,
     ) -> LocalId {
-        if let Some(earlier) = body.find_innermost(name.symbol) {
+        // What has no type was reported, and is perhaps no declaration at all.
+        if let Some(earlier) = body.find_innermost(name.symbol).filter(|_| ty.is_some()) {
             let first = body.locals.get(earlier.0 as usize).map_or(name.span, |local| local.span);
             let text = self.text(body.module, name.span).to_string();
             let labels = [(body.module, first, "first declared here")];

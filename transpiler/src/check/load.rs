@@ -56,6 +56,8 @@ pub(crate) struct Loaded {
     /// The Rust values spliced into statements.
     pub(crate) splices: Vec<Splice>,
     by_path: HashMap<PathBuf, ModuleId>,
+    /// What is in `read`.
+    looked_for: HashSet<PathBuf>,
     /// The files that could not be decoded.
     broken: HashSet<PathBuf>,
 }
@@ -71,7 +73,7 @@ pub(crate) fn load(main: &Path, start: Start<'_>, sources: &dyn Sources, options
             loaded.add(&main, shown, text.as_bytes(), None);
         }
         Start::File => {
-            loaded.read.push(main.clone());
+            loaded.looks_for(&main);
             match sources.read(&main) {
                 Ok(bytes) => {
                     loaded.add(&main, shown, &bytes, None);
@@ -93,6 +95,15 @@ pub(crate) fn load(main: &Path, start: Start<'_>, sources: &dyn Sources, options
 }
 
 impl Loaded {
+    /// Notes a file that is looked for; whether that is so for the first time.
+    fn looks_for(&mut self, path: &Path) -> bool {
+        let first = self.looked_for.insert(path.to_path_buf());
+        if first {
+            self.read.push(path.to_path_buf());
+        }
+        first
+    }
+
     /// Decodes and parses a file; `None` where it cannot be decoded.
     fn add(&mut self, path: &Path, shown: String, bytes: &[u8], from: Option<Location>) -> Option<ModuleId> {
         let text = match arl_lang::text::decode(bytes) {
@@ -302,10 +313,7 @@ impl Follow<'_> {
         if self.loaded.broken.contains(&path) {
             return None;
         }
-        let first_look = !self.loaded.read.contains(&path);
-        if first_look {
-            self.loaded.read.push(path.clone());
-        }
+        let first_look = self.loaded.looks_for(&path);
         let shown = path.strip_prefix(self.root).unwrap_or(&path).display().to_string();
         match self.sources.read(&path) {
             Ok(bytes) => self.loaded.add(&path, shown, &bytes, asked.map(|(_, at)| at)),

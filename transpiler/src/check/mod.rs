@@ -102,6 +102,7 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
         splices: spliced.iter().map(|splice| splice.ty.map(hir::Type::scalar)).collect(),
         functions: HashMap::new(),
         errors,
+        hints: crate::near::Hints::default(),
         has_conditions: false,
     };
     checker.collect(&first_values_order(&modules));

@@ -5,10 +5,12 @@ use super::convert::{Literal, Typed};
 use super::place::PlaceOrValue;
 use crate::diagnostics::names::NameProblem;
 use crate::hir::{Expr, ExprKind, GlobalId, ModuleId, Place, Root, Type, Value};
+use crate::near::Hints;
 use arl_lang::ast;
 use arl_lang::catalog::{self, Base, ConstantValue, Enum, Struct};
 use arl_lang::span::Span;
-use arl_lang::symbol::Symbol;
+use arl_lang::symbol::{Interner, Symbol};
+use std::collections::HashMap;
 
 impl Checker<'_> {
     /// A name without `::`: a local, a global of this module or its data file, a constant, an enumeration's constant,
@@ -80,16 +82,14 @@ impl Checker<'_> {
         let is_function =
             self.scopes.get(body.module.0 as usize).is_some_and(|scope| scope.funcs.contains_key(&symbol))
                 || !catalog::functions(name).is_empty();
-        let mut near = body.nearest_local(self.names, name);
+        let mut near = body.nearest_local(&mut self.hints, self.names, name);
         if near.is_none() && name.len() > 2 {
             near = catalog::system_variable(name).map(|variable| format!("${}", variable.name));
         }
         if near.is_none() {
             let globals = self.scopes.get(body.module.0 as usize).map(|scope| &scope.globals);
-            let mut known: Vec<&str> =
-                globals.into_iter().flatten().map(|(symbol, _)| self.names.name(*symbol)).collect();
-            known.sort_unstable();
-            near = crate::near::nearest(name, known.into_iter()).map(Into::into);
+            let known = || globals.into_iter().flatten().map(|(symbol, _)| self.names.name(*symbol));
+            near = self.hints.nearest(name, globals.map_or(0, HashMap::len), known).map(Into::into);
         }
         if let (None, Some(Base::Enum(id))) = (&near, want.map(|want| want.base)) {
             return self.unknown_constant(body, id, span);
@@ -253,10 +253,8 @@ impl Checker<'_> {
 
 impl Body {
     /// The visible local whose name is nearest.
-    fn nearest_local(&self, names: &arl_lang::symbol::Interner, name: &str) -> Option<String> {
-        let mut known: Vec<&str> = self.visible().map(|symbol| names.name(symbol)).collect();
-        known.sort_unstable();
-        crate::near::nearest(name, known.into_iter()).map(Into::into)
+    fn nearest_local(&self, hints: &mut Hints, names: &Interner, name: &str) -> Option<String> {
+        hints.nearest(name, self.visible().len(), || self.visible().map(|symbol| names.name(symbol))).map(Into::into)
     }
 }
 

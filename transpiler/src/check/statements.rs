@@ -238,7 +238,7 @@ impl Checker<'_> {
 
     pub(crate) fn report_unknown_instruction<T>(&mut self, body: &Body, symbol: Symbol, span: Span) -> Option<T> {
         let is_function = self.names_function(body, symbol);
-        let near = near_instruction(self.names.name(symbol)).map(Into::into);
+        let near = self.hints.nearest(self.names.name(symbol), instructions().count(), instructions).map(Into::into);
         let name = self.text(body.module, span).to_string();
         self.report(body, span, NameProblem::UnknownInstruction { name, near, is_function })
     }
@@ -372,7 +372,8 @@ impl Checker<'_> {
             return Some(StmtKind::Goto(id));
         }
         let wanted = self.names.name(name.symbol);
-        let near = crate::near::nearest(wanted, body.labels.iter().map(|label| label.name.as_str())).map(Into::into);
+        let labels = || body.labels.iter().map(|label| label.name.as_str());
+        let near = self.hints.nearest(wanted, body.labels.len(), labels).map(Into::into);
         let name_text = self.text(body.module, name.span).to_string();
         self.report(body, name.span, NameProblem::UnknownLabel { name: name_text, near })
     }
@@ -406,10 +407,14 @@ impl Checker<'_> {
     }
 }
 
+/// The names of all instructions.
+fn instructions() -> impl Iterator<Item = &'static str> {
+    catalog::all_entries().iter().filter(|entry| entry.kind == Kind::Instruction).map(|entry| entry.name)
+}
+
 /// The instruction whose name is nearest.
 pub(crate) fn near_instruction(name: &str) -> Option<&'static str> {
-    let entries = catalog::all_entries().iter().filter(|entry| entry.kind == Kind::Instruction);
-    crate::near::nearest(name, entries.map(|entry| entry.name))
+    crate::near::nearest(name, instructions())
 }
 
 /// A text that is equal for equal constants of one type.

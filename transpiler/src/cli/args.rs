@@ -1,5 +1,6 @@
 //! What the command understands.
 
+use super::show::MOST_SHOWN;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -21,6 +22,9 @@ pub(super) enum Command {
         /// How to show what was found.
         #[arg(long, value_enum, default_value_t = Format::Human)]
         format: Format,
+        /// Show people at most so many errors and warnings, errors first; 0 for all. JSON always has all.
+        #[arg(long, value_name = "N", default_value_t = MOST_SHOWN)]
+        max_errors: usize,
         #[command(flatten)]
         checking: Checking,
     },

@@ -5,7 +5,7 @@ use super::failure::{COMPILE_ERRORS, Failure};
 use super::program::check_options;
 use super::robot;
 use super::several;
-use super::show;
+use super::show::{self, Limit};
 use crate::CheckOptions;
 use crate::compile::{Compiled, check_program};
 use crate::render::json;
@@ -17,10 +17,9 @@ use std::process::ExitCode;
 
 /// Checks each file as a program, and those that the cell names. A data file, and a file that an earlier one uses, is a
 /// module and needs no `main`.
-pub(super) fn check(files: &[PathBuf], format: Format, checking: &Checking) -> Result<ExitCode, Failure> {
+pub(super) fn check(files: &[PathBuf], format: Format, limit: Limit, checking: &Checking) -> Result<ExitCode, Failure> {
     let options = options(checking)?;
     let others = several::named(checking.cell.as_deref(), checking.robot.as_deref())?;
-    let mut reporter = Reporter { format, said: HashSet::new() };
     let mut used = HashSet::new();
     let (programs, modules): (Vec<&PathBuf>, Vec<&PathBuf>) = files.iter().partition(|file| !is_data(file));
     let same =
@@ -35,6 +34,9 @@ pub(super) fn check(files: &[PathBuf], format: Format, checking: &Checking) -> R
     for other in &others {
         all.push((&other.path, self::options(&other.checking(checking))?));
     }
+    // A single program says nothing twice.
+    let said = (all.len() + modules.len() > 1).then(HashSet::new);
+    let mut reporter = Reporter { format, limit, said };
     let mut refused = false;
     let mut later = Vec::new();
     for (file, options) in all {
@@ -75,7 +77,9 @@ fn is_data(file: &Path) -> bool {
 /// Shows what was found, a module's mistakes only once.
 struct Reporter {
     format: Format,
-    said: HashSet<String>,
+    limit: Limit,
+    /// What was shown, as JSON; none where nothing can come twice.
+    said: Option<HashSet<String>>,
 }
 
 impl Reporter {
@@ -83,18 +87,18 @@ impl Reporter {
     fn report(&mut self, mut compiled: Compiled) -> bool {
         let refused = compiled.checked.has_errors();
         let files = compiled.shown_files();
-        let lines: Vec<String> =
-            compiled.checked.diagnostics.iter().map(|diagnostic| json(diagnostic, &files)).collect();
-        let mut new = lines.iter().map(|line| self.said.insert(line.clone()));
-        compiled.checked.diagnostics.retain(|_| new.next().unwrap_or(true));
+        if let Some(said) = &mut self.said {
+            compiled.checked.diagnostics.retain(|diagnostic| said.insert(json(diagnostic, &files)));
+        }
         match self.format {
-            Format::Human => show::diagnostics(&compiled),
+            Format::Human => show::diagnostics(&compiled, &mut self.limit),
             Format::Json => {
-                let mut out = std::io::stdout().lock();
+                let mut out = std::io::BufWriter::new(std::io::stdout().lock());
                 for diagnostic in &compiled.checked.diagnostics {
                     // Nobody reads on: then there is nobody to tell.
                     let _ = writeln!(out, "{}", json(diagnostic, &files));
                 }
+                let _ = out.flush();
             }
         }
         refused

@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 /// Writes the Rust of a program to standard output, or to NAME.rs in a folder.
 pub(super) fn emit(file: &Path, out: Option<&Path>, checking: &Checking) -> Result<(), Failure> {
     let mut compiled = compile_program(file, &FileSystem, &check_options(checking)?, &EmitOptions::default())?;
-    show::diagnostics(&compiled);
+    show::diagnostics(&compiled, &mut show::Limit::default());
     let rust = compiled.rust.take().ok_or(Failure::Shown)?;
     let Some(folder) = out else {
         let mut out = std::io::stdout().lock();

@@ -45,7 +45,9 @@ pub fn main() -> ExitCode {
 
 fn dispatch(command: Command) -> Result<ExitCode, Failure> {
     match command {
-        Command::Check { files, format, checking } => check::check(&files, format, &checking),
+        Command::Check { files, format, max_errors, checking } => {
+            check::check(&files, format, show::Limit::of(max_errors), &checking)
+        }
         Command::Emit { file, out, checking } => done(emit::emit(&file, out.as_deref(), &checking)),
         Command::Build { file, out, release, checking } => done(emit::build(&file, out.as_deref(), release, &checking)),
         Command::Run { file, options } => run::run(&file, &options),

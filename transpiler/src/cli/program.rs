@@ -100,7 +100,8 @@ impl<'a> Job<'a> {
         for (other, options) in &self.others {
             programs.push(emit(&other.path, options)?);
         }
-        let said: String = programs.iter().map(show::rendered).collect();
+        let mut limit = show::Limit::default();
+        let said: String = programs.iter().map(|compiled| show::rendered(compiled, &mut limit)).collect();
         show::again(&said);
         let rust: Option<Vec<String>> = programs.iter_mut().map(|compiled| compiled.rust.take()).collect();
         let mut rust = rust.ok_or(Failure::Shown)?.into_iter();

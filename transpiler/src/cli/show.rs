@@ -15,25 +15,62 @@ pub(super) fn warning(text: &str) {
     eprintln!("\u{1b}[1m\u{1b}[93mwarning\u{1b}[0m\u{1b}[1m: {text}\u{1b}[0m");
 }
 
+/// How many diagnostics people are shown by default.
+pub(super) const MOST_SHOWN: usize = 50;
+
+/// How many diagnostics may still be shown; none for any number.
+pub(super) struct Limit(Option<usize>);
+
+impl Limit {
+    /// At most so many; 0 for any number.
+    pub(super) fn of(most: usize) -> Self {
+        Self((most > 0).then_some(most))
+    }
+
+    /// Which of them are shown, in the order of the text: warnings only where all errors are.
+    fn take<'a>(&mut self, all: &'a [Diagnostic]) -> Vec<&'a Diagnostic> {
+        let Some(left) = &mut self.0 else { return all.iter().collect() };
+        let is_error = |diagnostic: &Diagnostic| diagnostic.severity == Severity::Error;
+        let mut errors = *left;
+        let mut warnings = left.saturating_sub(all.iter().filter(|diagnostic| is_error(diagnostic)).count());
+        let fits = |diagnostic: &&Diagnostic| {
+            let room = if is_error(diagnostic) { &mut errors } else { &mut warnings };
+            let fits = *room > 0;
+            *room = room.saturating_sub(1);
+            fits
+        };
+        let shown: Vec<&Diagnostic> = all.iter().filter(fits).collect();
+        *left -= shown.len();
+        shown
+    }
+}
+
+impl Default for Limit {
+    fn default() -> Self {
+        Self::of(MOST_SHOWN)
+    }
+}
+
 /// Errors and warnings of a program, then how many there were.
-pub(super) fn diagnostics(compiled: &Compiled) {
-    eprint!("{}", rendered(compiled));
+pub(super) fn diagnostics(compiled: &Compiled, limit: &mut Limit) {
+    eprint!("{}", rendered(compiled, limit));
 }
 
 /// The same as text, with terminal colours.
-pub(super) fn rendered(compiled: &Compiled) -> String {
+pub(super) fn rendered(compiled: &Compiled, limit: &mut Limit) -> String {
     let all = &compiled.checked.diagnostics;
     if all.is_empty() {
         return String::new();
     }
     let files = compiled.shown_files();
-    let mut text: String = all.iter().map(|diagnostic| human(diagnostic, &files, true) + "\n").collect();
-    text += &summary(all, &files);
+    let shown = limit.take(all);
+    let mut text: String = shown.iter().map(|diagnostic| human(diagnostic, &files, true) + "\n").collect();
+    text += &summary(all, shown.len(), &files);
     text
 }
 
 /// `error: pick.arl: 2 errors, 1 warning`
-fn summary(all: &[Diagnostic], files: &Files) -> String {
+fn summary(all: &[Diagnostic], shown: usize, files: &Files) -> String {
     let count = |severity| all.iter().filter(|diagnostic| diagnostic.severity == severity).count();
     let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
     let main = files.iter().next().map_or("", |(_, file)| file.name.as_str());
@@ -45,7 +82,11 @@ fn summary(all: &[Diagnostic], files: &Files) -> String {
     if warnings > 0 {
         parts.push(plural(warnings, "warning"));
     }
-    format!("\u{1b}[1m\u{1b}[{style}m{word}\u{1b}[0m\u{1b}[1m: {main}: {}\u{1b}[0m\n", parts.join(", "))
+    let rest = match all.len() - shown {
+        0 => String::new(),
+        rest => format!("; {rest} of them not shown: `arl2rs check --max-errors 0` shows all"),
+    };
+    format!("\u{1b}[1m\u{1b}[{style}m{word}\u{1b}[0m\u{1b}[1m: {main}: {}{rest}\u{1b}[0m\n", parts.join(", "))
 }
 
 fn plural(count: usize, word: &str) -> String {

@@ -11,12 +11,13 @@ pub(crate) const MOST_ROUNDS: u64 = 250_000;
 /// Drops labels that no `goto` names and `default`s that nothing reaches, then fills in [`LoopInfo`] and `counted` of every loop of a function.
 pub(super) fn judge(func: &mut Func) {
     let unused: Vec<bool> = func.labels.iter().map(|label| !label.used).collect();
-    drop_unused(&mut func.body, &unused);
+    let any = unused.contains(&true);
+    drop_unused(&mut func.body, if any { &unused } else { &[] });
     block_rounds(&mut func.body, &mut 0);
 }
 
 fn drop_unused(block: &mut Block, unused: &[bool]) {
-    if unused.contains(&true) {
+    if !unused.is_empty() {
         block.retain(|stmt| match stmt.kind {
             StmtKind::Label(id) => unused.get(id.0 as usize) != Some(&true),
             _ => true,

@@ -8,6 +8,7 @@ use super::names::{Names, ident, is_taken_value};
 use super::parts::{Frame, Weights};
 use super::rows::Columns;
 use super::slots::Slots;
+use super::temporaries::Temporaries;
 use super::usage::Usage;
 use crate::effects::facts::{self, Facts, Scope};
 use crate::effects::ranges::Ranges;
@@ -109,7 +110,7 @@ pub(super) struct Body<'p, 'u> {
     /// The line that alarms are reported on.
     pub(super) line: u32,
     /// Temporaries of the current statement.
-    temporaries: Vec<String>,
+    temporaries: Temporaries,
     /// Names that temporaries must not take.
     taken: HashSet<String>,
     labels: usize,
@@ -162,7 +163,7 @@ impl<'p, 'u> Body<'p, 'u> {
             usage: Usage::default(),
             ranges: Ranges::default(),
             line: 0,
-            temporaries: Vec::new(),
+            temporaries: Temporaries::default(),
             taken: HashSet::new(),
             labels: 0,
             loops: Vec::new(),
@@ -250,23 +251,15 @@ impl<'p, 'u> Body<'p, 'u> {
     /// A name for a temporary that nothing in reach has.
     pub(super) fn fresh(&mut self, wanted: &str) -> Ident {
         let wanted = if is_taken_value(wanted) { "value" } else { wanted };
-        let mut name = wanted.to_owned();
-        let mut number = 2;
-        while self.taken.contains(&name)
-            || self.temporaries.contains(&name)
-            || self.unit.names.has_function(self.module, &name)
-        {
-            name = format!("{wanted}{number}");
-            number += 1;
-        }
-        self.temporaries.push(name.clone());
-        ident(&name)
+        let (taken, names, module) = (&self.taken, &self.unit.names, self.module);
+        let is_taken = |name: &str| taken.contains(name) || names.has_function(module, name);
+        ident(&self.temporaries.give(wanted, is_taken))
     }
 
     /// A name that stays reserved for the whole function.
     pub(super) fn reserve(&mut self, wanted: &str) -> Ident {
         let name = self.fresh(wanted);
-        self.temporaries.pop();
+        self.temporaries.truncate(self.temporaries.len() - 1);
         self.taken.insert(name.to_string());
         name
     }

@@ -3,21 +3,21 @@
 use super::body::Body;
 use super::fragment::{Fragment, Precedence};
 use super::names::{field, ident};
-use super::places::{Calm, Reached, Written};
 use super::sequence::{Mode, Operand};
-use super::types::{differs, is_copy, is_handle, type_name};
+use super::types::{differs, is_copy, type_name};
+use super::written_back::Back;
 use crate::effects::facts;
-use crate::hir::{Bound, Builtin, Expr, FuncId, LocalId, Passed, Place, Root, Type};
+use crate::hir::{Bound, Builtin, Expr, FuncId, Passed, Root, Type};
 use arl_lang::catalog::{Base, Effect, Entry, Kind, Mode as ParamMode, ParamType, Presence};
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 /// An argument on its way to the runtime.
 pub(super) struct Argument<'p> {
     pub(super) param: usize,
     pub(super) value: Fragment,
-    /// A place that has to be written after the call, and the temporary that holds its value until then.
-    pub(super) back: Option<(&'p Place, Reached, Ident)>,
+    /// A place that has to be written after the call.
+    pub(super) back: Option<Back<'p>>,
 }
 
 impl<'p> Body<'p, '_> {
@@ -64,7 +64,9 @@ impl<'p> Body<'p, '_> {
         } else {
             self.acts |= acts;
         }
+        let in_turn = arguments.iter().filter_map(|argument| argument.back.as_ref()).any(Back::is_in_turn);
         let mut call = match entry.kind {
+            Kind::Instruction if in_turn => self.call_in_turn(entry, &arguments, &mut before),
             Kind::Function => self.function_call(entry, &arguments),
             Kind::Instruction => instruction_call(entry, &arguments, quote!(run)),
         };
@@ -79,7 +81,7 @@ impl<'p> Body<'p, '_> {
             call = quote!(#name::from(#call));
         }
         let backs: Vec<_> = arguments.into_iter().filter_map(|argument| argument.back).collect();
-        if backs.is_empty() {
+        if backs.is_empty() || in_turn {
             return Fragment::postfix(call).after(before);
         }
         // Variables that others see are written after the call, so the call is a statement of its own.
@@ -91,9 +93,8 @@ impl<'p> Body<'p, '_> {
             before.extend(quote!(let #name = #call;));
             Fragment::settled(quote!(#name))
         };
-        for (place, reached, name) in backs {
-            let value = self.limited(place, Fragment::settled(quote!(#name)), None);
-            before.extend(self.write(&reached, Written::Value(value), Calm::Local));
+        for back in &backs {
+            before.extend(self.write_back(back));
         }
         result.after(before)
     }
@@ -119,8 +120,8 @@ impl<'p> Body<'p, '_> {
             let mode = entry.params.get(arg.param).map(|param| param.mode);
             matches!(mode, Some(ParamMode::Condition | ParamMode::Action))
         };
-        let args = || builtin.args.iter().enumerate().filter(|(_, arg)| !later(arg));
-        let operands: Vec<Operand<'p>> = args().flat_map(|(_, arg)| self.argument_operands(entry, arg)).collect();
+        let args = || builtin.args.iter().filter(|arg| !later(arg));
+        let operands: Vec<Operand<'p>> = args().flat_map(|arg| self.argument_operands(entry, arg)).collect();
         let moved = reordered(entry, &builtin.args);
         let loud: Vec<bool> = operands.iter().map(|operand| !self.operand_facts(operand).quiet()).collect();
         let several = loud.iter().filter(|loud| **loud).count() > 1;
@@ -128,7 +129,9 @@ impl<'p> Body<'p, '_> {
         let (first, fragments) = self.sequence(&operands, |at| apart && loud.get(at) == Some(&true));
         before.extend(first);
         let mut fragments = fragments.into_iter();
-        for (at, arg) in args() {
+        let touched = self.touched(builtin);
+        let in_turn = self.takes_turns(builtin, &touched);
+        for arg in args() {
             let (value, back) = match &arg.value {
                 Passed::Value(_) => {
                     let value = fragments.next().unwrap_or_else(|| Fragment::settled(quote!(())));
@@ -136,8 +139,12 @@ impl<'p> Body<'p, '_> {
                 }
                 Passed::Out(place) => {
                     let indices: Vec<Fragment> = fragments.by_ref().take(Self::index_operands(place).len()).collect();
-                    let shared = self.is_used_elsewhere(builtin, at, place);
-                    self.out_argument(place, indices, shared, &mut before)
+                    let shared = match place.root {
+                        Root::Local(id) => touched.contains(&id),
+                        _ => true,
+                    };
+                    let (value, back) = self.out_argument(place, indices, shared, &mut before);
+                    (value, back.map(|back| if in_turn { back } else { back.at_once(&mut before) }))
                 }
             };
             out.push(Argument { param: arg.param, value, back });
@@ -163,53 +170,6 @@ impl<'p> Body<'p, '_> {
             Passed::Value(expr) => vec![Operand::Expr(expr, passing(entry, arg.param, expr.ty))],
             Passed::Out(place) => Self::index_operands(place),
         }
-    }
-
-    /// `&mut place` for a local variable; for others a temporary that is written back.
-    fn out_argument(
-        &mut self,
-        place: &'p Place,
-        indices: Vec<Fragment>,
-        shared: bool,
-        before: &mut TokenStream,
-    ) -> (Fragment, Option<(&'p Place, Reached, Ident)>) {
-        if is_handle(place.ty) {
-            return (self.handle(place), None);
-        }
-        let local = self.plain_local(place.root).is_some() && !shared;
-        if local {
-            let reached = self.reached(place, indices);
-            let target = self.target(&reached);
-            return (Fragment::new(quote!(&mut #target), Precedence::Unary), None);
-        }
-        let mut settled = Vec::new();
-        for index in indices {
-            let index = self.settle(index, "at");
-            before.extend(index.before.clone());
-            settled.push(Fragment { before: TokenStream::new(), ..index });
-        }
-        let reached = self.reached(place, settled);
-        let old = self.read_reached(&reached);
-        let name = self.fresh("out");
-        let (first, old) = (&old.before, &old.tokens);
-        before.extend(quote!(#first let mut #name = #old;));
-        (Fragment::new(quote!(&mut #name), Precedence::Unary), Some((place, reached, name)))
-    }
-
-    /// Whether a variable that the call writes occurs among its other arguments, too.
-    fn is_used_elsewhere(&self, builtin: &'p Builtin, own: usize, place: &Place) -> bool {
-        let Root::Local(id) = place.root else { return true };
-        let touches = |reads: &[LocalId], writes: &[LocalId]| reads.contains(&id) || writes.contains(&id);
-        builtin.args.iter().enumerate().any(|(at, arg)| {
-            at != own
-                && match &arg.value {
-                    Passed::Value(expr) => {
-                        let facts = self.facts(expr);
-                        touches(&facts.reads, &facts.writes)
-                    }
-                    Passed::Out(other) => touches(&facts::of_place(self.scope(), other).reads, &[]),
-                }
-        })
     }
 
     /// `math::atan2(y, x)`: all parameters in the order of the catalog.
@@ -279,7 +239,7 @@ fn passing(entry: &Entry, param: usize, ty: Type) -> Mode {
 }
 
 /// `math::sqrt`
-fn path(text: &str) -> TokenStream {
+pub(super) fn path(text: &str) -> TokenStream {
     let mut parts = text.split("::").map(ident);
     let first = parts.next();
     quote!(#first #(::#parts)*)

@@ -51,6 +51,7 @@ impl<'p> Body<'p, '_> {
             variable,
             label: syn::Lifetime::new("'machine", proc_macro2::Span::call_site()),
             states: Vec::new(),
+            named: HashSet::new(),
             of_label: HashMap::new(),
             visible_at,
             hoisted,
@@ -193,7 +194,7 @@ impl<'p> Body<'p, '_> {
         let Some(machine) = &mut self.machine else { return 0 };
         let mut name = if wanted == "Self" { "SelfLabel".to_owned() } else { wanted.to_owned() };
         let mut number = 2;
-        while machine.states.iter().any(|state| state.name == name) {
+        while !machine.named.insert(name.clone()) {
             name = format!("{wanted}{number}");
             number += 1;
         }

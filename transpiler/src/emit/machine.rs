@@ -10,6 +10,8 @@ pub(super) struct Machine {
     pub(super) variable: Ident,
     pub(super) label: syn::Lifetime,
     pub(super) states: Vec<State>,
+    /// The names of the states.
+    pub(super) named: HashSet<String>,
     pub(super) of_label: HashMap<LabelId, usize>,
     /// The locals that are visible at each label.
     pub(super) visible_at: HashMap<LabelId, Vec<LocalId>>,

@@ -27,12 +27,14 @@ mod slots;
 mod slots_init;
 mod statements;
 mod switch;
+mod temporaries;
 mod tokens;
 mod types;
 mod usage;
 mod usage_graph;
 mod variables;
 mod waiting;
+mod written_back;
 
 use crate::effects;
 use crate::hir::Program;

@@ -9,7 +9,8 @@ use std::fmt::Write;
 pub fn json(diagnostic: &Diagnostic, files: &Files) -> String {
     let at = Position::of(diagnostic.primary.at, files);
     let file = files.get(diagnostic.primary.at.file).map_or("", |file| file.name.as_str());
-    let mut text = String::from("{");
+    let mut text = String::with_capacity(256);
+    text.push('{');
     text_member(&mut text, "code", Some(&diagnostic.code.to_string()));
     text_member(&mut text, "severity", Some(severity_word(diagnostic.severity)));
     text_member(&mut text, "message", Some(&diagnostic.message));
@@ -17,7 +18,8 @@ pub fn json(diagnostic: &Diagnostic, files: &Files) -> String {
     for (name, number) in
         [("line", at.line), ("column", at.column), ("end_line", at.end_line), ("end_column", at.end_column)]
     {
-        text += &format!(",\"{name}\":{number}");
+        // Writing to a string cannot fail.
+        let _ = write!(text, ",\"{name}\":{number}");
     }
     text_member(&mut text, "help", diagnostic.help.as_deref());
     text.push('}');
@@ -28,7 +30,9 @@ fn text_member(out: &mut String, name: &str, value: Option<&str>) {
     if !out.ends_with('{') {
         out.push(',');
     }
-    *out += &format!("\"{name}\":");
+    out.push('"');
+    *out += name;
+    *out += "\":";
     match value {
         Some(value) => quote(out, value),
         None => *out += "null",
@@ -37,19 +41,23 @@ fn text_member(out: &mut String, name: &str, value: Option<&str>) {
 
 fn quote(out: &mut String, value: &str) {
     out.push('"');
-    for c in value.chars() {
-        match c {
-            '"' => *out += "\\\"",
-            '\\' => *out += "\\\\",
-            '\n' => *out += "\\n",
-            '\r' => *out += "\\r",
-            '\t' => *out += "\\t",
-            c if (c as u32) < 0x20 || c == '\u{7f}' => {
+    let mut rest = value;
+    while let Some(at) = rest.bytes().position(|byte| byte < 0x20 || matches!(byte, b'"' | b'\\' | 0x7f)) {
+        let (plain, special) = rest.split_at(at);
+        *out += plain;
+        match special.as_bytes().first() {
+            Some(b'"') => *out += "\\\"",
+            Some(b'\\') => *out += "\\\\",
+            Some(b'\n') => *out += "\\n",
+            Some(b'\r') => *out += "\\r",
+            Some(b'\t') => *out += "\\t",
+            other => {
                 // Writing to a string cannot fail.
-                let _ = write!(out, "\\u{:04x}", c as u32);
+                let _ = write!(out, "\\u{:04x}", other.copied().unwrap_or_default());
             }
-            c => out.push(c),
         }
+        rest = special.get(1..).unwrap_or_default();
     }
+    *out += rest;
     out.push('"');
 }
