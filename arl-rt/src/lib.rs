@@ -48,6 +48,7 @@ pub use command::program_main;
 pub use context::cx::Cx;
 pub use context::output::{Captured, Message, Output, Stream};
 pub use context::program::{BoxFuture, Elsewhere, Program};
+pub use context::standstill::{Standstill, WaitsFor};
 pub use context::{program, system};
 pub use controller::cell::{self, Cell};
 pub use controller::{

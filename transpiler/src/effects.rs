@@ -77,12 +77,14 @@ pub fn infer(program: &mut Program) {
             effects.fails |= facts.fails;
             effects.context |= facts.context;
             effects.globals |= facts.globals;
+            effects.changes |= facts.changes;
         }
         for callee in callees().filter_map(|callee| program.funcs.get(*callee)).map(|func| func.effects) {
             effects.waits |= callee.waits;
             effects.fails |= callee.fails;
             effects.context |= callee.context;
             effects.globals |= callee.globals;
+            effects.changes |= callee.changes;
         }
         for func in group {
             if let Some(func) = program.funcs.get_mut(func) {

@@ -187,6 +187,8 @@ pub struct Effects {
     pub context: bool,
     /// It reads or writes global variables.
     pub globals: bool,
+    /// It changes what others may see: it does not only look and compute.
+    pub changes: bool,
     /// It may call itself, directly or not: calls to an `async` one are boxed.
     pub recursive: bool,
 }

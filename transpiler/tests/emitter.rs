@@ -12,8 +12,15 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 /// Parts as soon as a block waits four times.
-const SHORT_PARTS: Sizes =
-    Sizes { table: 100, rows_of_a_kind: 4, awaits: 3, awaits_of_a_part: 2, least_awaits: 1, variables: 3 };
+const SHORT_PARTS: Sizes = Sizes {
+    table: 100,
+    rows_of_a_kind: 4,
+    awaits: 3,
+    awaits_of_a_part: 2,
+    least_awaits: 1,
+    awaits_of_a_program: 20,
+    variables: 3,
+};
 
 /// Files of a case: `main.arl`, and what stands behind `//// name` lines.
 struct Files(HashMap<PathBuf, String>);

@@ -14,5 +14,5 @@ entries! { pub(super) CLOCK =
         { "5.3.4", clock::clkreset, acts; "clock c\nclkreset(c)" }
     /// Reads a clock in controller time, s.
     fn clkread(c: clock "the clock") -> double
-        { "5.3.5", clock::clkread, acts; "clock c\nclkstart(c)\nwaittime 0.5\nclkstop(c)\nprint clkread(c) >= 0.5" }
+        { "5.3.5", clock::clkread, acts, looks; "clock c\nclkstart(c)\nwaittime 0.5\nclkstop(c)\nprint clkread(c) >= 0.5" }
 }

@@ -283,6 +283,7 @@ impl Entry {
             changes: None,
             connects: false,
             uses_disk: false,
+            looks: false,
             path: "",
             doc: trimmed(doc),
             section: "",
@@ -320,6 +321,8 @@ setters! { Entry:
     connects() { connects = true }
     /// Waits for the disk.
     uses_disk() { uses_disk = true }
+    /// Only looks at what is there.
+    looks() { looks = true }
     /// An alarm is possible.
     fails() { fails = true }
     /// Not in background channels.

@@ -155,6 +155,8 @@ pub struct Entry {
     pub connects: bool,
     /// Whether it waits for the disk.
     pub uses_disk: bool,
+    /// Whether it changes nothing although it takes the context: it only looks at what is there.
+    pub looks: bool,
     /// The runtime's function, below `arl_rt`: `math::sqrt`.
     pub path: &'static str,
     /// One sentence or two.

@@ -38,22 +38,22 @@ entries! { pub(super) IO =
         { "5.5.6", io::pulsedo, waits, fails; "pulsedo(5,true,0.2)\nwaittime 0.1\nprint getdo(5)" }
     /// Level of a digital output.
     fn getdo(chan: int [addresses(Space::DigitalOutput)] "the output") -> bool
-        { "5.5.7", io::getdo, waits, fails; "setdo(3,true)\nprint getdo(3)" }
+        { "5.5.7", io::getdo, waits, looks, fails; "setdo(3,true)\nprint getdo(3)" }
     /// Levels of up to 32 neighbouring digital outputs, lowest bit for the first.
     fn getdo(from_chan: int [addresses(Space::DigitalOutput)] "the first output", to_chan: int [addresses(Space::DigitalOutput)] "the last output") -> int
-        { "5.5.8", io::getdo_group, waits, fails; "setdo(5,8,1001b)\nprint getdo(5,8)" }
+        { "5.5.8", io::getdo_group, waits, looks, fails; "setdo(5,8,1001b)\nprint getdo(5,8)" }
     /// Level of a digital input.
     fn getdi(chan: int [addresses(Space::DigitalInput)] "the input") -> bool
-        { "5.5.9", io::getdi, waits, fails; "print getdi(4)" }
+        { "5.5.9", io::getdi, waits, looks, fails; "print getdi(4)" }
     /// Levels of up to 32 neighbouring digital inputs, lowest bit for the first.
     fn getdi(from_chan: int [addresses(Space::DigitalInput)] "the first input", to_chan: int [addresses(Space::DigitalInput)] "the last input") -> int
-        { "5.5.10", io::getdi_group, waits, fails; "print getdi(6,9)" }
+        { "5.5.10", io::getdi_group, waits, looks, fails; "print getdi(6,9)" }
     /// Value of an analog input: V or mA, as the channel is configured.
     fn getai(chan: int [addresses(Space::AnalogInput)] "the input") -> double
-        { "5.5.11", io::getai, waits, fails; "print getai(2)" }
+        { "5.5.11", io::getai, waits, looks, fails; "print getai(2)" }
     /// Level of a digital input now, without waiting for motion: the program may be far ahead of the robot.
     fn getnostopdi(chan: int [addresses(Space::DigitalInput)] "the input") -> bool
-        { "5.5.12", io::getnostopdi, acts, fails; "print getnostopdi(4)" }
+        { "5.5.12", io::getnostopdi, acts, looks, fails; "print getnostopdi(4)" }
     /// Sets an analog output. A value outside the channel's type: alarm.
     fn setao(chan: int [addresses(Space::AnalogOutput)] "the output", value: double [content] "-10 to 10 V, or 4 to 20 mA, as the channel is configured")
         { "5.5.13", io::setao, waits, fails; "setao(2,5.2)" }
@@ -62,13 +62,13 @@ entries! { pub(super) IO =
         { "5.5.14", io::syncao, waits, fails; "syncao(2,5.2)" }
     /// Value of an analog output: V or mA, as the channel is configured.
     fn getao(chan: int [addresses(Space::AnalogOutput)] "the output") -> double
-        { "5.5.15", io::getao, waits, fails; "setao(1,5.2)\nprint getao(1)" }
+        { "5.5.15", io::getao, waits, looks, fails; "setao(1,5.2)\nprint getao(1)" }
     /// Level of an internal output signal.
     fn getintdo(chan: int [addresses(Space::InternalSignal)] "the signal") -> bool
-        { "5.5.16", io::getintdo, waits, fails; "print getintdo(1)" }
+        { "5.5.16", io::getintdo, waits, looks, fails; "print getintdo(1)" }
     /// Level of an internal input signal.
     fn getintdi(chan: int [addresses(Space::InternalSignal)] "the signal") -> bool
-        { "5.5.17", io::getintdi, waits, fails; "print getintdi(1)" }
+        { "5.5.17", io::getintdi, waits, looks, fails; "print getintdi(1)" }
     /// Sets frequency and duty cycle of a PWM output; true: it has been set. Another channel, frequency or duty cycle
     /// than the controller has: alarm.
     fn setpwm(

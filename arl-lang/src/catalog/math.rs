@@ -88,7 +88,7 @@ entries! { pub(super) MATH =
         { "5.1.24", math::hypot, pure; "print hypot(6,8)" }
     /// A random whole number, 0 to 2147483647. On the virtual clock the numbers follow from the seed.
     fn rand() -> int
-        { "5.1.25", math::rand, acts; "int x = rand()\nprint x >= 0" }
+        { "5.1.25", math::rand, acts, looks; "int x = rand()\nprint x >= 0" }
     /// Distance of a point from the origin.
     fn norm(p: pos "the point") -> double
         { "5.1.26", math::norm, pure; "pos p = {300,400,500}\nprint norm(p)" }

@@ -6,10 +6,10 @@ use super::facts::Space;
 entries! { pub(super) OTHER =
     /// Time of day as hh:mm:ss.
     fn ctime() -> string
-        { "5.12.2", time::ctime, acts; "print strlen(ctime())" }
+        { "5.12.2", time::ctime, acts, looks; "print strlen(ctime())" }
     /// Date as YYYY-MM-DD.
     fn cdate() -> string
-        { "5.12.3", time::cdate, acts; "print strlen(cdate())" }
+        { "5.12.3", time::cdate, acts, looks; "print strlen(cdate())" }
     /// Raises an alarm with file and line where a condition does not hold.
     fn assert(x: bool "what must hold")
         { "5.12.4", flow::assert, pure, fails; "int a = 6\nassert(a == 6)" }
@@ -30,18 +30,18 @@ entries! { pub(super) OTHER =
           "print to:file,filepath:\"notes.txt\",\"first line\",endl\nprint to:hmi,gettextstr(\"notes.txt\",1)" }
     /// Name of the file that the motion being executed stands in, or the last one, if only before the controller was switched on.
     fn curmpfile(channel_index: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the foreground channel, 1 to 6") -> string
-        { "5.12.8", channel::curmpfile, acts, fails; "print curmpfile(1)" }
+        { "5.12.8", channel::curmpfile, acts, looks, fails; "print curmpfile(1)" }
     /// Line of the motion being executed, or the last one, if only before the controller was switched on.
     fn curmpline(channel_index: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the foreground channel, 1 to 6") -> int
-        { "5.12.9", channel::curmpline, acts, fails; "print curmpline(1)" }
+        { "5.12.9", channel::curmpline, acts, looks, fails; "print curmpline(1)" }
     /// Name of the file that the program stands in; until it runs, the one in which the channel's program stood when the controller
     /// was switched off.
     fn curppfile(channel_index: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the foreground channel, 1 to 6") -> string
-        { "5.12.10", channel::curppfile, acts, fails; "print curppfile(1)" }
+        { "5.12.10", channel::curppfile, acts, looks, fails; "print curppfile(1)" }
     /// Line that the program stands on; until it runs, the one on which the channel's program stood when the controller was switched
     /// off.
     fn curppline(channel_index: int [range(1.0, 6.0), addresses(Space::ForegroundChannel)] "the foreground channel, 1 to 6") -> int
-        { "5.12.11", channel::curppline, acts, fails; "print curppline(1)" }
+        { "5.12.11", channel::curppline, acts, looks, fails; "print curppline(1)" }
     /// Size of a file in the script directory, bytes. A file that is missing: alarm.
     fn filesize(file_name: string "the file") -> int
         { "5.12.12", files::filesize, waits, fails;

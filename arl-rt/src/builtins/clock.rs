@@ -47,5 +47,6 @@ pub fn clkreset(cx: &Cx, c: &Clock) {
 
 /// What a clock shows, in s.
 pub fn clkread(cx: &Cx, c: &Clock) -> f64 {
+    cx.goes_on();
     cx.shared().rate.time(c.cycles(cx.cycle()))
 }

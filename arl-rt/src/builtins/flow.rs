@@ -62,6 +62,7 @@ impl<'a> WaitUntil<'a> {
             None => None,
         };
         self.cx.motion_end().await;
+        self.cx.goes_on();
         Ok(Wait { cx: self.cx, over: cycles.map(|cycles| self.cx.cycle() + cycles) })
     }
 }

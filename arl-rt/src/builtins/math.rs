@@ -221,6 +221,7 @@ pub fn trunc(num: f64, n: i32, round: bool) -> Result<f64, Fault> {
 
 /// `rand`: a number from 0 to 2147483647. The row follows from the controller's seed.
 pub fn rand(cx: &Cx) -> i32 {
+    cx.goes_on();
     cx.shared().random.next()
 }
 

@@ -21,6 +21,7 @@ pub fn cdate(cx: &Cx) -> Str {
 }
 
 fn now(cx: &Cx) -> i64 {
+    cx.goes_on();
     cx.shared().start_date.saturating_add(cx.time() as i64)
 }
 

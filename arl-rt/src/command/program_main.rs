@@ -15,6 +15,7 @@ use crate::command::live::{self, Cut, LineWriter};
 use crate::command::report;
 use crate::context::program::Program;
 pub use crate::context::program::{Make, Other};
+use crate::context::standstill::Standstill;
 use crate::controller::cell::Cell;
 use crate::controller::{Builder, Controller, Outcome, SetupError};
 use crate::cycle::clock_source::{RealClock, VirtualClock};
@@ -62,7 +63,8 @@ Options:
   --start-time T        the date at the start: now, or a time like 2000-01-01T00:00:00
   --help                this text
 
-Exit codes: 0 ended, 2 usage, 3 alarm, 4 the time was over, 130 interrupted.
+Exit codes: 0 ended, 2 usage, 3 alarm, 4 the time was over or nothing could change
+any more, 130 interrupted.
 ";
 
 /// What the command line says.
@@ -284,6 +286,19 @@ fn run(program: Box<dyn Program>, others: &[Other], options: Options, interrupte
     code
 }
 
+/// Says who waits for what in vain.
+fn say_standstill(time: f64, waiting: &[Standstill]) {
+    eprintln!(
+        "nothing can change any more after {time} s: no event of a scenario is left, nothing moves, and no timer runs"
+    );
+    for standstill in waiting {
+        match waiting.len() {
+            1 => eprintln!("  {standstill}"),
+            _ => eprintln!("  {}: {standstill}", standstill.channel),
+        }
+    }
+}
+
 /// The exit code of a run that was driven from outside.
 fn code(driven: Result<Option<Outcome>, Cut>) -> u8 {
     match driven {
@@ -340,6 +355,13 @@ fn watch(controller: &mut Controller, max_time: Option<f64>, interrupted: &Atomi
         }
         controller.step();
         say(controller);
+        if code.is_none()
+            && let Some(waiting) = controller.standstill()
+        {
+            code = Some(EXIT_MAX_TIME);
+            say_standstill(controller.time(), &waiting);
+            controller.stop();
+        }
     }
     controller.settle_state();
     say(controller);

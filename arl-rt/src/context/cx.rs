@@ -17,6 +17,7 @@ use crate::context::output::Targets;
 use crate::context::program::Program;
 use crate::context::programs::Programs;
 use crate::context::shared_state::SharedState;
+use crate::context::standstill::{Waiting, WaitsFor};
 use crate::context::system::System;
 use crate::fault::{Alarm, Fault, File};
 use crate::motion::Progress;
@@ -61,6 +62,7 @@ pub struct Cx {
     connections: Connections,
     /// The motion that triggers are asked about, where that is not the one being executed.
     looked_at: Cell<Option<Progress>>,
+    waiting: Waiting,
 }
 
 /// What of the program runs: which motion it waits for.
@@ -113,6 +115,7 @@ impl Cx {
             events: RefCell::default(),
             connections: Connections::default(),
             looked_at: Cell::new(None),
+            waiting: Waiting::default(),
         }
     }
 
@@ -162,6 +165,37 @@ impl Cx {
     #[inline]
     pub fn next_cycle(&self) -> NextCycle<'_> {
         NextCycle { cx: self, from: self.cycle() }
+    }
+
+    /// Waits for the next cycle, in a loop that ends when somebody else changes something: `waituntil` with a condition that
+    /// changes nothing itself. A run whose programs all wait like this and that nobody can change is at its end.
+    #[inline]
+    pub fn change(&self) -> NextCycle<'_> {
+        self.wait_for(WaitsFor::Condition)
+    }
+
+    /// The same for something else.
+    #[inline]
+    pub(crate) fn wait_for(&self, waits_for: WaitsFor) -> NextCycle<'_> {
+        self.waiting.note(self.cycle(), waits_for);
+        self.next_cycle()
+    }
+
+    /// Says that something goes on in this cycle: the program does something, begins to wait, or looks at what changes by
+    /// itself, like time.
+    #[inline]
+    pub fn goes_on(&self) {
+        self.waiting.note_action(self.cycle());
+    }
+
+    /// What the program has waited for in this cycle, where it did nothing else.
+    pub(crate) fn waits_in(&self, cycle: u64) -> Option<WaitsFor> {
+        self.waiting.in_cycle(cycle)
+    }
+
+    /// The last cycle in which it did something else.
+    pub(crate) fn acted(&self) -> u64 {
+        self.waiting.acted()
     }
 
     /// The running number of the cycle, from 0.
@@ -426,8 +460,9 @@ impl Cx {
             return;
         }
         self.channel_state.conclude_motion();
+        self.goes_on();
         while self.channel_state.has_pending_alarm() || !self.is_motion_over() {
-            self.next_cycle().await;
+            self.wait_for(WaitsFor::Motion).await;
         }
     }
 }

@@ -63,7 +63,7 @@ impl Ticking {
 
     /// Whether an interval is over in this cycle.
     pub(crate) fn is_over(&mut self, now: u64, rate: Rate) -> bool {
-        if self.ticks > 0 && !self.repeats {
+        if self.has_ended() {
             return false;
         }
         let length = self.interval.max(rate.period());
@@ -71,6 +71,11 @@ impl Ticking {
         let over = now >= self.start + rate.cycles(length * (self.ticks + 1) as f64).max(1);
         self.ticks += u64::from(over);
         over
+    }
+
+    /// Whether no interval is left to be counted.
+    fn has_ended(&self) -> bool {
+        self.ticks > 0 && !self.repeats
     }
 
     fn begin_anew(&mut self, now: u64) {
@@ -343,6 +348,13 @@ impl Table {
     /// Whether an interrupt or a timer is declared.
     pub(crate) fn watches(&self) -> bool {
         !self.interrupts.is_empty()
+    }
+
+    /// Whether a timer runs.
+    pub(crate) fn ticks(&self) -> bool {
+        let ticks =
+            |event: &Event| matches!(&event.source, Source::Time(ticking) if event.enabled && !ticking.has_ended());
+        self.interrupts.iter().any(ticks)
     }
 
     /// Whether an event waits to be handled.

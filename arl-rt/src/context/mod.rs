@@ -12,5 +12,6 @@ pub mod program;
 pub(crate) mod programs;
 pub(crate) mod random;
 pub(crate) mod shared_state;
+pub(crate) mod standstill;
 pub mod system;
 pub(crate) mod wiring;

@@ -31,6 +31,11 @@ impl Default for Actions {
 }
 
 impl Actions {
+    /// Whether none runs.
+    pub(super) fn is_empty(&self) -> bool {
+        self.stack.is_empty()
+    }
+
     /// Drops them all where they are.
     pub(super) fn clear(&mut self) {
         self.stack.clear();
@@ -40,6 +45,7 @@ impl Actions {
     pub(super) fn begin(&mut self, cx: &Rc<Cx>) {
         let running = self.stack.last().map(|action| action.event.priority);
         let Some(mut event) = cx.events().borrow_mut().take_due(running) else { return };
+        cx.goes_on();
         let level = cx.enter_level(Level::action(self.stack.len() as u32 + 1));
         event.action.begin(Rc::clone(cx));
         self.stack.push(Action { event, level, pointer: cx.pointer() });
@@ -53,6 +59,7 @@ impl Actions {
         if let Poll::Ready(Ok(())) = polled
             && let Some(top) = self.stack.pop()
         {
+            cx.goes_on();
             let ended = cx.level();
             let mut events = cx.events().borrow_mut();
             events.unbind(ended.number);

@@ -67,6 +67,8 @@ pub struct Builder {
     seed: u64,
     start_date: i64,
     stack: usize,
+    /// Whether somebody outside may change something: drivers that are not ours.
+    has_outside: bool,
 }
 
 impl Default for Builder {
@@ -92,6 +94,7 @@ impl Default for Builder {
             seed: random::SEED,
             start_date: time::YEAR_2000,
             stack: PROGRAM_STACK_BYTES,
+            has_outside: false,
         }
     }
 }
@@ -137,18 +140,21 @@ impl Builder {
     /// What moves the robot of the first channel.
     pub fn robot_driver(mut self, driver: impl RobotDriver + 'static) -> Self {
         self.body.driver = Box::new(driver);
+        self.has_outside = true;
         self
     }
 
     /// What exchanges inputs and outputs, beside the islands of the cell.
     pub fn io_driver(mut self, driver: impl IoDriver + 'static) -> Self {
         self.io = Box::new(driver);
+        self.has_outside = true;
         self
     }
 
     /// The DeviceNet bus; without it a simulated one, of the size that the cell gives.
     pub fn devicenet(mut self, bus: impl DeviceNet + 'static) -> Self {
         self.devicenet = Some(Box::new(bus));
+        self.has_outside = true;
         self
     }
 
@@ -330,6 +336,7 @@ impl Builder {
         let note = buses.start(uses.modbus_tcp && self.clock.is_real()).map_err(SetupError::Outside)?;
         let islands = Islands::start(&cell.islands).map_err(SetupError::Outside)?;
         let outside = buses.is_outside() || !islands.is_empty();
+        let has_outside = self.has_outside || others.iter().any(|(_, it)| it.body.has_driver);
         let external = External::new(cell.external.enabled);
         let shared = Rc::new(SharedState::new(Parts {
             rate,
@@ -385,6 +392,7 @@ impl Builder {
             scenario,
             effects,
             external,
+            has_outside,
             pointer_store,
             stores_from: 0,
         })

@@ -10,6 +10,7 @@ use crate::context::channel_state::ChannelState;
 use crate::context::cx::{Cx, Level};
 use crate::context::program::{Program, Running};
 use crate::context::programs::Programs;
+use crate::context::standstill::WaitsFor;
 use crate::controller::trace::Trace;
 use crate::fault::{Alarm, Fault, Reason, Stop};
 use crate::storage::data;
@@ -17,6 +18,9 @@ use crate::storage::pointers::CurrentPointers;
 
 /// How many bytes of stack a program may use in one poll where nobody says otherwise: half of what a thread gets.
 pub(super) const PROGRAM_STACK_BYTES: usize = 1 << 20;
+
+/// After so many cycles of rest the program has seen that its robot rests: the one in which it came to rest, and one more.
+const SEEN_AT_REST: u32 = 2;
 
 /// What the program does.
 enum Phase {
@@ -39,6 +43,15 @@ enum Next {
     End(Outcome),
 }
 
+/// What a program does that does nothing by itself.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Repose {
+    /// It has ended.
+    Ended,
+    /// It waits for what does not come by itself.
+    Waiting(WaitsFor),
+}
+
 /// A program, how far it has come, and its robot.
 pub(super) struct Channel {
     channel_state: Rc<ChannelState>,
@@ -54,6 +67,8 @@ pub(super) struct Channel {
     running: bool,
     /// Whether it has come to `exit`.
     exits: bool,
+    /// For how many cycles its robot has had nothing to do.
+    rested: u32,
 }
 
 impl Channel {
@@ -68,7 +83,19 @@ impl Channel {
         let cx = Rc::new(Cx::new(Rc::clone(&channel_state), Rc::clone(&program), programs));
         let phase = Phase::Running(load(Rc::clone(&program), Rc::clone(&cx)));
         let actions = Actions::default();
-        Self { channel_state, program, cx, stack, phase, actions, seen: Ok(()), trace, running: true, exits: false }
+        Self {
+            channel_state,
+            program,
+            cx,
+            stack,
+            phase,
+            actions,
+            seen: Ok(()),
+            trace,
+            running: true,
+            exits: false,
+            rested: 0,
+        }
     }
 
     /// Starts the program from its beginning, global variables included. Pulses end, and the system variables of the manual's
@@ -118,6 +145,29 @@ impl Channel {
             Phase::Ended(outcome) if !self.cx.is_loading() => Some(outcome),
             _ => None,
         }
+    }
+
+    /// What the program has done in this cycle, the last one, if neither it nor its robot did anything.
+    pub(super) fn repose(&self, cycle: u64) -> Option<Repose> {
+        if self.outcome().is_some() {
+            return Some(Repose::Ended);
+        }
+        let paused = self.channel_state.paused.get();
+        let waits_for = match self.phase {
+            Phase::Running(_) | Phase::Concluding if paused => WaitsFor::StartButton,
+            Phase::Running(_) => self.cx.waits_in(cycle)?,
+            Phase::Concluding if !self.actions.is_empty() => self.cx.waits_in(cycle)?,
+            // Statements have ended, and an interrupt may start what is stopped.
+            Phase::Concluding => WaitsFor::Motion,
+            Phase::RunningOut(_) | Phase::Ended(_) => return None,
+        };
+        let goes_on = self.cx.is_loading()
+            || self.channel_state.has_pending_alarm()
+            || self.cx.events().borrow().ticks()
+            || (self.actions.is_empty() && !paused && self.cx.events().borrow().has_due())
+            || self.cx.acted() >= cycle
+            || (self.channel_state.robot().is_some() && self.rested < SEEN_AT_REST);
+        (!goes_on).then_some(Repose::Waiting(waits_for))
     }
 
     /// Looks for events.
@@ -197,6 +247,8 @@ impl Channel {
     pub(super) fn step_robot(&mut self, time: f64, period: f64) {
         let Some(mut unit) = self.channel_state.robot_mut() else { return };
         unit.step(period);
+        let rests = unit.rests() && (self.channel_state.paused.get() || !unit.moves());
+        self.rested = if rests { self.rested.saturating_add(1) } else { 0 };
         self.channel_state.update_system(&unit);
         let mut image = self.channel_state.shared.io.borrow_mut();
         image.motions_ended(self.channel_state.index, |motion| unit.has_ended(motion));

@@ -19,6 +19,8 @@ pub struct Foreground {
 pub(super) struct Body {
     pub(super) robot: Option<Robot>,
     pub(super) driver: Box<dyn RobotDriver>,
+    /// Whether the driver is not ours.
+    pub(super) has_driver: bool,
     pub(super) trace: Option<Box<dyn Write>>,
     pub(super) homes: Homes,
     pub(super) collisions: Vec<(u8, Sensitivity)>,
@@ -29,6 +31,7 @@ impl Default for Body {
         Self {
             robot: None,
             driver: Box::new(SimulatedRobot::new()),
+            has_driver: false,
             trace: None,
             homes: Homes::default(),
             collisions: Vec::new(),
@@ -51,6 +54,7 @@ impl Foreground {
     /// What moves the robot.
     pub fn robot_driver(mut self, driver: impl RobotDriver + 'static) -> Self {
         self.body.driver = Box::new(driver);
+        self.body.has_driver = true;
         self
     }
 

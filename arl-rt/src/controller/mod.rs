@@ -14,6 +14,7 @@ mod order;
 mod outcome;
 mod pendant;
 mod pointer_store;
+mod standstill;
 mod status;
 mod trace;
 
@@ -113,6 +114,8 @@ pub struct Controller {
     external: External,
     /// What stores where the programs stand, if it is stored at all.
     pointer_store: Option<PointerStore>,
+    /// Whether somebody outside may change something: drivers that are not ours.
+    has_outside: bool,
     /// The cycle from which on changes of system variables may be stored again of which every one is kept.
     stores_from: u64,
 }
@@ -278,16 +281,21 @@ impl Controller {
         self.external.show(&mut self.shared.io.borrow_mut(), system, state, servo_on);
     }
 
-    /// Runs until it [is over](Controller::is_over): for ever, where a program does not end.
+    /// Runs until it [is over](Controller::is_over), or at a [standstill](Controller::standstill): for ever, where a program
+    /// does not end.
     pub fn run(&mut self) -> Outcome {
         loop {
-            match self.channels.outcome().cloned() {
-                Some(outcome) if self.is_over() => {
-                    self.settle_state();
-                    return outcome;
+            let outcome = match self.channels.outcome().cloned() {
+                Some(outcome) if self.is_over() => Some(outcome),
+                _ => {
+                    self.step();
+                    self.standstill().map(Outcome::Standstill)
                 }
-                _ => self.step(),
             };
+            if let Some(outcome) = outcome {
+                self.settle_state();
+                return outcome;
+            }
         }
     }
 

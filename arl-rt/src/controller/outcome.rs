@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::context::standstill::Standstill;
 use crate::fault::Alarm;
 
 /// How a program ended.
@@ -13,6 +14,9 @@ pub enum Outcome {
     Alarm(Alarm),
     /// [`Controller::stop`](super::Controller::stop) stopped it.
     Stopped,
+    /// It waits, and nothing can change any more: [`Controller::standstill`](super::Controller::standstill). It has not ended:
+    /// whoever changes an input or presses a button can let it run on.
+    Standstill(Vec<Standstill>),
 }
 
 impl fmt::Display for Outcome {
@@ -21,6 +25,10 @@ impl fmt::Display for Outcome {
             Outcome::Ended => write!(f, "the program ended"),
             Outcome::Alarm(alarm) => write!(f, "{alarm}"),
             Outcome::Stopped => write!(f, "the program was stopped"),
+            Outcome::Standstill(waiting) => {
+                write!(f, "nothing can change any more")?;
+                waiting.iter().try_for_each(|standstill| write!(f, "; {standstill}"))
+            }
         }
     }
 }

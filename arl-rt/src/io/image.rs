@@ -296,6 +296,11 @@ impl Image {
     }
 
     /// Whether a pulse of a program's channel is still running.
+    pub(crate) fn has_pulses(&self) -> bool {
+        self.running_pulses > 0 || !self.awaited.is_empty()
+    }
+
+    /// Whether a pulse of the program's channel `owner` is on.
     pub(crate) fn pulsing(&self, owner: usize) -> bool {
         self.running_pulses > 0 && self.pulses.iter().flatten().any(|pulse| pulse.owner == owner)
     }

@@ -416,6 +416,11 @@ impl Unit {
         self.settled >= SETTLING || self.commanded.at == self.reported.at
     }
 
+    /// Whether the robot stands still, at the end of a motion or within one.
+    pub(crate) fn rests(&self) -> bool {
+        self.queue.rests() && self.is_settled()
+    }
+
     /// One interpolation step, and the exchange with the driver.
     pub(crate) fn step(&mut self, period: f64) {
         let step = self.queue.step(period, self.override_percent);

@@ -57,11 +57,18 @@ pub(super) fn other(other: &EmittedOther, module: &str) -> String {
 /// How far programs are optimised: far enough for loops, and soon done.
 const PROGRAM_LEVEL: u8 = 1;
 
-/// What reads files at the start, or is not used at all, needs no optimisation: it would take longer to compile.
-const READERS: &str = "\
-arl-lang = { opt-level = 1 }
+/// How the runtime is compiled. It never changes, so that working in few large pieces is what takes least; and what reads
+/// files at the start, is only compiled where it is used, or is not used at all, needs no optimisation of its own.
+const RUNTIME: &str = "\
+arl-lang = { opt-level = 1, codegen-units = 2 }
+arl-motion = { codegen-units = 2 }
+arl-robot = { codegen-units = 2 }
+arl-rt = { opt-level = 2, codegen-units = 4 }
 encoding_rs = { opt-level = 0 }
-simba = { opt-level = 1 }
+libc = { opt-level = 0 }
+nalgebra = { opt-level = 0 }
+rustix = { opt-level = 0 }
+simba = { opt-level = 0 }
 toml = { opt-level = 0 }
 toml_parser = { opt-level = 0 }
 wide = { opt-level = 0 }
@@ -76,10 +83,10 @@ pub(super) fn manifest(folder: &Path, name: &str, runtime: &Runtime, level: u8) 
          [package]\nname = \"{name}\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n\
          [workspace]\n\n\
          [dependencies]\narl-rt = {}\n\n\
-         [profile.dev]\nopt-level = 3\ndebug = false\nincremental = true\noverflow-checks = false\n\
-         debug-assertions = false\n\n\
-         [profile.dev.package]\n\"{name}\" = {{ opt-level = {level} }}\n\
-         {READERS}\n\
+         [profile.dev]\nopt-level = 3\ndebug = false\nincremental = false\nlto = \"off\"\n\
+         overflow-checks = false\ndebug-assertions = false\n\n\
+         [profile.dev.package]\n\"{name}\" = {{ opt-level = {level}, incremental = true }}\n\
+         {RUNTIME}\n\
          [profile.release]\nlto = \"thin\"\n",
         runtime.dependency()
     );

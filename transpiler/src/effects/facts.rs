@@ -18,8 +18,10 @@ pub(crate) struct Facts {
     pub(crate) writes: Vec<LocalId>,
     /// Whether variables are read that others may write: global and system variables.
     pub(crate) world: bool,
-    /// Whether something is changed that others may see, or may end the program on purpose.
+    /// Whether something is looked at or changed that others may see, or may end the program on purpose.
     pub(crate) acts: bool,
+    /// Whether something is changed that others may see.
+    pub(crate) changes: bool,
     /// Whether there may be an alarm.
     pub(crate) fails: bool,
     /// Whether the cycle may be given back.
@@ -223,6 +225,7 @@ impl Collector<'_> {
                 let conditions = entry.params.iter().any(|param| matches!(param.mode, Mode::Condition | Mode::Action));
                 let pure = entry.effect == Effect::Pure;
                 self.facts.acts |= !pure;
+                self.facts.changes |= !pure && !entry.looks;
                 let context = (!pure && entry.effect != Effect::Ends) || conditions;
                 self.facts.context |= context;
                 self.facts.points |= context;
@@ -254,6 +257,7 @@ impl Collector<'_> {
         self.facts.globals |= effects.globals;
         self.facts.world |= effects.globals || effects.context;
         self.facts.acts |= effects.globals || effects.context;
+        self.facts.changes |= effects.changes;
     }
 
     fn read(&mut self, place: &Place) {
@@ -282,8 +286,9 @@ impl Collector<'_> {
             Root::Local(id) => {
                 self.facts.writes.push(id);
                 self.facts.acts |= self.is_shared(id);
+                self.facts.changes |= self.is_shared(id);
             }
-            Root::Global(_) | Root::System(_) => self.facts.acts = true,
+            Root::Global(_) | Root::System(_) => (self.facts.acts, self.facts.changes) = (true, true),
         }
         self.facts.fails |= limit(place, value).is_some();
     }

@@ -30,6 +30,8 @@ pub(super) struct Unit<'p> {
     pub(super) movers: Vec<bool>,
     /// The functions that something calls.
     pub(super) reached: Vec<bool>,
+    /// The functions that are compiled by themselves.
+    pub(super) apart: Vec<bool>,
     pub(super) sizes: Sizes,
     /// The variables that are in arrays.
     pub(super) slots: Slots,

@@ -42,7 +42,12 @@ impl<'p> Body<'p, '_> {
         let mut call = quote!(#path(#cx #g #(#args),*));
         if effects.waits {
             let boxed = effects.recursive && self.func.is_some_and(|own| own.effects.recursive);
-            call = if boxed { quote!(Box::pin(#call).await) } else { quote!(#call.await) };
+            let apart = self.unit.apart.get(id.0 as usize) == Some(&true);
+            call = match (boxed, apart) {
+                (true, _) => quote!(Box::pin(#call).await),
+                (false, true) => quote!(part(pin!(#call)).await),
+                (false, false) => quote!(#call.await),
+            };
         }
         if effects.fails {
             call = quote!(#call?);

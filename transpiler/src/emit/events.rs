@@ -37,11 +37,13 @@ impl<'p> Body<'p, '_> {
     fn watched(&mut self, expr: &'p Expr) -> TokenStream {
         let value = self.apart(|body| body.value(expr));
         let before = &value.before;
+        // What changes something by being looked at may never come to rest.
+        let goes_on = self.changes_something(expr).then(|| quote!(cx.goes_on();));
         let result = without_detour(&value).unwrap_or_else(|| {
             let value = &value.tokens;
             quote!(Ok(#value))
         });
-        self.closure(expr, quote!(#before), result)
+        self.closure(expr, quote!(#goes_on #before), result)
     }
 
     /// `async |cx: &Cx| action.await`

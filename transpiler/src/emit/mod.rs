@@ -66,20 +66,37 @@ pub struct Sizes {
     pub awaits_of_a_part: usize,
     /// A part has at least so many.
     pub least_awaits: usize,
+    /// In a program with more than this, functions with at least as many as a part are compiled by themselves.
+    pub awaits_of_a_program: usize,
     /// More variables of one type and module than this are an array.
     pub variables: usize,
 }
 
 impl Default for Sizes {
     fn default() -> Self {
-        Self { table: 8, rows_of_a_kind: 4, awaits: 64, awaits_of_a_part: 32, least_awaits: 8, variables: 64 }
+        Self {
+            table: 8,
+            rows_of_a_kind: 4,
+            awaits: 64,
+            awaits_of_a_part: 32,
+            least_awaits: 8,
+            awaits_of_a_program: 256,
+            variables: 64,
+        }
     }
 }
 
 impl Sizes {
     /// All forms wherever they are possible: for tests.
-    pub const LEAST: Self =
-        Self { table: 1, rows_of_a_kind: 1, awaits: 1, awaits_of_a_part: 1, least_awaits: 1, variables: 0 };
+    pub const LEAST: Self = Self {
+        table: 1,
+        rows_of_a_kind: 1,
+        awaits: 1,
+        awaits_of_a_part: 1,
+        least_awaits: 1,
+        awaits_of_a_program: 0,
+        variables: 0,
+    };
 }
 
 /// The Rust for a checked program whose effects are known (see [`crate::effects::infer`]). The same program gives the
@@ -116,6 +133,7 @@ impl<'p> Unit<'p> {
         let (movers, reached) = (effects::pointer_movers(program), effects::reached(program));
         let names = Names::new(program);
         let slots = Slots::new(program, &names, sizes);
-        Self { program, names, slots, marks: Marks::default(), lines, movers, reached, sizes }
+        let apart = parts::apart(program, sizes);
+        Self { program, names, slots, marks: Marks::default(), lines, movers, reached, apart, sizes }
     }
 }

@@ -75,8 +75,8 @@ impl<'p> Body<'p, '_> {
             Some(wait) => quote!(#limit_before let #wait = #start;),
             None => quote!(#start;),
         };
-        let next = quote!(cx.next_cycle().await;);
         let Some(condition) = condition else { return start };
+        let next = self.next_look(condition, limit.is_some());
         let met = self.on_trial(|body| body.value(condition));
         let Some(flag) = flag else {
             if !met.before.is_empty() {
@@ -102,6 +102,21 @@ impl<'p> Body<'p, '_> {
         }
         let write = self.write(&reached, Written::Value(waiting), Calm::Local);
         quote!(#start #flag_before #write)
+    }
+
+    /// Waits until the condition is looked at again. Where that changes something, or where time ends the wait, the program
+    /// does not only wait.
+    fn next_look(&self, condition: &Expr, is_limited: bool) -> TokenStream {
+        match is_limited || self.changes_something(condition) {
+            true => quote!(cx.next_cycle().await;),
+            false => quote!(cx.change().await;),
+        }
+    }
+
+    /// Whether looking at a condition changes something.
+    pub(super) fn changes_something(&self, condition: &Expr) -> bool {
+        let facts = self.facts(condition);
+        facts.changes || !facts.writes.is_empty()
     }
 }
 

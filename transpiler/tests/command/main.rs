@@ -8,6 +8,7 @@ mod pointers;
 mod repeating;
 mod running;
 mod several;
+mod standstill;
 mod system_variables;
 mod telling;
 mod testing;

@@ -2,6 +2,7 @@
 
 use super::modal::{Kind, Resolved};
 use crate::context::cx::Cx;
+use crate::context::standstill::WaitsFor;
 use crate::fault::Fault;
 use crate::motion::{Command, Joints, Settings, Target, UNSET, Zone, is_unset};
 use crate::unit::{Unit, joint};
@@ -117,8 +118,9 @@ pub(super) async fn plan(cx: &Cx, modal: &Resolved, target: Target) -> Result<()
     if cx.chain(kind) != kind || kind == 0 {
         cx.step_point().await;
     }
+    cx.goes_on();
     while !channel_state.unit(MOTION)?.takes(cx.level().number) {
-        cx.next_cycle().await;
+        cx.wait_for(WaitsFor::Motion).await;
     }
     // The return to the path: the first motion goes at manual speed, and stops.
     let returns = channel_state.system.rpp_enable.get() && !cx.has_moved();

@@ -141,6 +141,7 @@ fn word(status: &ChannelStatus) -> &'static str {
         (_, Some(Outcome::Ended)) => "ended",
         (_, Some(Outcome::Alarm(_))) => "alarm",
         (_, Some(Outcome::Stopped)) => "stopped",
+        (_, Some(Outcome::Standstill(_))) => "standstill",
         (State::Paused, None) => "paused",
         (_, None) => "running",
     }

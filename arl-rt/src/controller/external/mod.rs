@@ -53,6 +53,11 @@ impl External {
         Ok(pressed)
     }
 
+    /// Whether a PLC is wired.
+    pub(super) fn is_wired(&self) -> bool {
+        self.enabled
+    }
+
     /// Whether a PLC is wired that may start programs.
     pub(super) fn starts(&self, system: &System) -> bool {
         self.enabled && system.start_prog_di.get() > 0 && system.ctl_mode.get() == Controlmode::Auto

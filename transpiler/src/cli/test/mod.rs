@@ -228,10 +228,14 @@ fn judge(case: &Case, outcome: &Outcome) -> Verdict {
     if problems.is_empty() { Ok(()) } else { Err(problems.join("\n")) }
 }
 
+/// What a program says that waits in vain.
+const STANDSTILL: &str = "nothing can change any more";
+
 fn ending(outcome: &Outcome) -> String {
     match outcome.code {
         Some(0) => "ended".into(),
         Some(3) => "ended with an alarm".into(),
+        Some(4) if outcome.said.contains(STANDSTILL) => "waits for what nobody brings about".into(),
         Some(4) => "ran out of controller time".into(),
         Some(101) => "ended by a bug in arl2rs".into(),
         Some(code) => format!("ended with exit code {code}"),

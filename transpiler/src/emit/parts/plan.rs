@@ -79,8 +79,15 @@ pub(super) fn weight_of(pieces: &[Piece], weights: &[usize]) -> usize {
 mod tests {
     use super::*;
 
-    const SIZES: Sizes =
-        Sizes { table: 8, rows_of_a_kind: 4, awaits: 6, awaits_of_a_part: 4, least_awaits: 2, variables: 64 };
+    const SIZES: Sizes = Sizes {
+        table: 8,
+        rows_of_a_kind: 4,
+        awaits: 6,
+        awaits_of_a_part: 4,
+        least_awaits: 2,
+        awaits_of_a_program: 256,
+        variables: 64,
+    };
 
     /// `0 (1 2) 3`
     fn shown(pieces: &[Piece]) -> String {

@@ -1,0 +1,47 @@
+//! Whether a run can go on: programs may wait for what nobody brings about any more.
+
+use super::Controller;
+use super::channel::Repose;
+use crate::context::standstill::Standstill;
+
+/// Seconds for which everything must have waited where a PLC is wired, whose signals take effect with delays.
+const PLC_DELAY_S: f64 = 1.0;
+
+impl Controller {
+    /// The programs that wait in vain, if nothing can change any more: all programs wait for conditions, for the start button
+    /// or for stopped motion, nothing moves, no timer runs, no pulse is on, no event of the scenario is left, and there is no
+    /// outside: no driver of your own, no bus, no connection, and no real clock. `None` where something may still happen, and
+    /// when the programs have ended.
+    ///
+    /// Whoever holds the controller can still change an input or press a button; then it goes on.
+    pub fn standstill(&self) -> Option<Vec<Standstill>> {
+        let cycle = self.shared.now.get().checked_sub(1)?;
+        // What runs mostly runs: that is found out first.
+        let first = self.channels.first().repose(cycle)?;
+        if self.has_outside || self.clock.is_real() || self.is_busy() {
+            return None;
+        }
+        let mut waiting = Vec::new();
+        for (at, channel) in self.channels.iter().enumerate() {
+            let repose = if at == 0 { first } else { channel.repose(cycle)? };
+            if let Repose::Waiting(waits_for) = repose {
+                let (file, line) = channel.cx().place();
+                waiting.push(Standstill { channel: channel.channel_state().id, file, line, waits_for });
+            }
+        }
+        let since = cycle.saturating_sub(self.channels.iter().map(|channel| channel.cx().acted()).max()?);
+        let delay = if self.external.is_wired() { self.shared.rate.cycles(PLC_DELAY_S) } else { 0 };
+        (!waiting.is_empty() && since >= delay).then_some(waiting)
+    }
+
+    /// Whether something is on its way beside the programs and their robots.
+    fn is_busy(&self) -> bool {
+        let shared = &self.shared;
+        let io = shared.io.borrow();
+        shared.disk.is_waited_for()
+            || io.has_pulses()
+            || self.scenario.goes_on(&io)
+            || !self.islands.is_empty()
+            || shared.buses.modbus_tcp_address().is_some()
+    }
+}

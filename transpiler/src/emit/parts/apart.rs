@@ -1,0 +1,29 @@
+//! Which functions are compiled by themselves: LLVM puts a function that has one caller into it, and takes long for what
+//! becomes of that in a large program.
+
+use crate::emit::Sizes;
+use crate::hir::{ExprKind, Program};
+use crate::visit;
+
+/// For each function, whether its calls go through a pointer.
+pub(in crate::emit) fn apart(program: &Program, sizes: Sizes) -> Vec<bool> {
+    let weights: Vec<usize> = program.funcs.iter().map(|func| weight(program, &func.body)).collect();
+    let large = weights.iter().sum::<usize>() > sizes.awaits_of_a_program;
+    let waits = program.funcs.iter().map(|func| func.effects.waits);
+    weights.into_iter().zip(waits).map(|(weight, waits)| large && waits && weight >= sizes.least_awaits).collect()
+}
+
+/// How many `.await`s the statements have, about.
+fn weight(program: &Program, body: &[crate::hir::Stmt]) -> usize {
+    let mut weight = 0;
+    for stmt in body {
+        visit::exprs_in_stmt(stmt, &mut |expr| {
+            weight += usize::from(match &expr.kind {
+                ExprKind::Builtin(builtin) => builtin.entry.effect.takes_time(),
+                ExprKind::Call(id, _) => program.funcs.get(id.0 as usize).is_some_and(|func| func.effects.waits),
+                _ => false,
+            });
+        });
+    }
+    weight
+}

@@ -1,0 +1,53 @@
+//! Programs that wait for what nobody brings about.
+
+use super::Folder;
+
+const WAITS: &str = "func void main()\n    print \"before\"\n    waituntil getdi(1)\n    print \"never\"\nendfunc\n";
+
+#[test]
+fn a_run_ends_where_nothing_can_change() {
+    let folder = Folder::new("standstill").with("a.arl", WAITS);
+    let answer = folder.arl2rs(&["run", "a.arl"]);
+    answer
+        .is(4, "before\n")
+        .says("nothing can change any more after 1.00")
+        .says("  a.arl:3 waits for its condition, which does not hold");
+    // Where time is limited, and where there is no hurry, the program goes on waiting.
+    let limited = folder.arl2rs(&["run", "a.arl", "--max-time", "0.001"]);
+    limited.is(4, "before\n").says("the time is over: 0.001 s");
+    let real = folder.arl2rs(&["run", "a.arl", "--clock", "real", "--max-time", "0.05"]);
+    real.is(4, "before\n").says("the time is over: 0.05 s");
+}
+
+#[test]
+fn a_case_that_waits_in_vain_fails_unless_it_sets_a_time() {
+    let stopped = "bool started\n\nfunc void halt()\n    stopmove\nendfunc\n\nfunc void main()\n    interrupt when:started, do:halt()\n    \
+                   movej j:{0,-90,90,0,60,0}\n    started = true\n    movej j:{0,-90,90,0,90,0}\n    setdo(1,true)\nendfunc\n";
+    let beside = "func void main()\n    waituntil getdo(7)\nendfunc\n";
+    let cell = "[[channel]]\nprogram = \"beside.arl\"\nbackground = true\n";
+    let folder = Folder::new("vain")
+        .with("cases/button.arl", "func void main()\n    pause\nendfunc\n")
+        .with("cases/button.out", "")
+        .with("cases/limited.arl", WAITS)
+        .with("cases/limited.out", "before\n")
+        .with("cases/limited.toml", "max_time = 2\n")
+        .with("cases/motion.arl", stopped)
+        .with("cases/motion.out", "")
+        .with("cases/several.arl", "func void main()\n    waituntil getdo(8)\nendfunc\n")
+        .with("cases/several.out", "")
+        .with("cases/several.toml", "cell = \"cell.toml\"\n")
+        .with("cases/cell.toml", cell)
+        .with("cases/beside.arl", beside);
+    let answer = folder.arl2rs(&["test", "cases"]);
+    assert_eq!(answer.code, Some(1));
+    for words in [
+        "1 passed, 3 failed",
+        "it waits for what nobody brings about",
+        "button.arl:2 waits for the start button",
+        "motion.arl:12 waits for motion that is stopped",
+        "channel 1: several.arl:2 waits for its condition",
+        "background channel 1: beside.arl:2 waits for its condition",
+    ] {
+        assert!(answer.out.contains(words), "{words} is not in\n{}", answer.out);
+    }
+}
