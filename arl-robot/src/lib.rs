@@ -8,6 +8,7 @@ pub mod frames;
 pub mod islands;
 pub mod kinematics;
 pub mod outline;
+pub mod regular_file;
 pub mod robot;
 pub mod settings;
 

@@ -29,8 +29,8 @@ macro_rules! folders {
 folders! {
     arguments arrays bits buses calibration channels clocks compensation constants control conversions convert
     enums external functions interrupts io load math modules motion operators other pendant points pose print
-    progress scan scara scopes serial sockets stops strings structures system text timers triggers types waits
-    weave
+    progress scan scara scopes serial sockets standstill stops strings structures system text timers triggers types
+    waits weave
 }
 
 #[test]

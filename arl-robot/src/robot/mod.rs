@@ -11,6 +11,8 @@ pub use arl_lang::catalog::Family;
 pub use error::RobotError;
 
 use crate::kinematics::Kinematics;
+use crate::regular_file;
+use std::path::Path;
 
 /// How many axes a joint vector holds at most: six of the robot.
 pub const ROBOT_AXES: usize = 6;
@@ -152,7 +154,7 @@ impl Robot {
             return Robot::parse(name_or_path, text);
         }
         let looks_like_path = name_or_path.ends_with(".toml") || name_or_path.contains(['/', '\\']);
-        match std::fs::read_to_string(name_or_path) {
+        match regular_file::read_text(Path::new(name_or_path)) {
             Ok(text) => Robot::parse(name_or_path, &text),
             Err(_) if !looks_like_path => Err(builtin::unknown(name_or_path)),
             Err(error) => Err(RobotError::of_file(name_or_path, format!("cannot read the robot file: {error}"))),

@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use arl_robot::regular_file;
+
 use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::values::Str;
@@ -19,7 +21,7 @@ pub async fn gettextstr(cx: &Cx, file_path: &Str, line_no: i32, external_file: b
     cx.motion_end().await;
     let inner = Path::new(if external_file { USB } else { "" });
     let path = cx.shared().scripts.below(file_path, inner)?;
-    let text = fs::read(path).map_err(|_| Fault::NoSuchFile(file_path.to_text().into()))?;
+    let text = regular_file::read(&path).map_err(|_| Fault::NoSuchFile(file_path.to_text().into()))?;
     let whole = text.strip_suffix(b"\n").unwrap_or(&text);
     let mut lines = whole.split(|byte| *byte == b'\n').take(if text.is_empty() { 0 } else { usize::MAX });
     let count = lines.clone().count();

@@ -100,6 +100,7 @@ impl Pause {
     pub async fn run(self, cx: &Cx) -> Result<(), Fault> {
         cx.motion_end().await;
         cx.channel_state().paused.set(true);
+        cx.goes_on();
         while cx.channel_state().paused.get() {
             cx.next_cycle().await;
         }

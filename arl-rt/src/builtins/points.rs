@@ -6,12 +6,12 @@ mod now;
 pub use now::{savejointnow, saveposenow};
 
 use std::fmt::Write as _;
-use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
 use arl_lang::ast::{Item, Var};
 use arl_lang::symbol::Interner;
+use arl_robot::regular_file;
 
 use crate::builtins::channel::warn_of;
 use crate::builtins::storing::done;
@@ -64,7 +64,7 @@ fn copy(from: &Path, to: &Path, replaces: bool) -> Result<(), Failure> {
     if to.exists() && !replaces {
         return Err(Failure::Refused);
     }
-    let content = fs::read(from).map_err(|error| problem(from, format_args!("cannot be read: {error}")))?;
+    let content = regular_file::read(from).map_err(|error| problem(from, format_args!("cannot be read: {error}")))?;
     write(to, &content)
 }
 
@@ -173,7 +173,7 @@ impl Components {
 /// Puts a value in place of the one that a variable of this type has in a file. Fails where there is no such file or variable, where
 /// the file has mistakes, and where it cannot be written.
 fn replace(path: &Path, ty: &str, variable: &str, value: &str) -> Result<(), Failure> {
-    let content = fs::read(path).map_err(|error| problem(path, format_args!("cannot be read: {error}")))?;
+    let content = regular_file::read(path).map_err(|error| problem(path, format_args!("cannot be read: {error}")))?;
     let text =
         arl_lang::text::decode(&content).map_err(|error| problem(path, format_args!("cannot be read: {error}")))?;
     let (place, value) = match place(&text, ty, variable).map_err(|what| problem(path, what))? {
@@ -214,6 +214,7 @@ fn place(text: &str, ty: &str, variable: &str) -> Result<Place, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     fn replaced(name: &str, content: &[u8], ty: &str, variable: &str) -> Option<Vec<u8>> {
         let folder = std::env::temp_dir().join(format!("arl-rt-points-{name}-{}", std::process::id()));

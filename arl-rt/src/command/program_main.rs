@@ -15,6 +15,7 @@ use crate::command::live::{self, Cut, LineWriter};
 use crate::command::report;
 use crate::context::program::Program;
 pub use crate::context::program::{Make, Other};
+use crate::context::standard_error::tell;
 use crate::context::standstill::Standstill;
 use crate::controller::cell::Cell;
 use crate::controller::{Builder, Controller, Outcome, SetupError};
@@ -152,12 +153,12 @@ fn watch_for_interrupts(interrupted: &Arc<AtomicBool>) -> std::io::Result<()> {
 }
 
 fn fail(code: u8, text: &str) -> ExitCode {
-    eprintln!("error: {text}");
+    tell(format_args!("error: {text}"));
     ExitCode::from(code)
 }
 
 fn warn(text: &str) {
-    eprintln!("warning: {text}");
+    tell(format_args!("warning: {text}"));
 }
 
 /// Reads the command line; nothing where help was asked for.
@@ -250,7 +251,7 @@ fn run(program: Box<dyn Program>, others: &[Other], options: Options, interrupte
     let report = match options.report.clone().map(report_to).transpose() {
         Ok(report) => report,
         Err(error) => {
-            eprintln!("error: {error}");
+            tell(format_args!("error: {error}"));
             return EXIT_USAGE;
         }
     };
@@ -266,7 +267,7 @@ fn run(program: Box<dyn Program>, others: &[Other], options: Options, interrupte
     let mut controller = match controller {
         Ok(controller) => controller,
         Err(SetupFailure { code, text }) => {
-            eprintln!("error: {text}");
+            tell(format_args!("error: {text}"));
             return code;
         }
     };
@@ -288,13 +289,13 @@ fn run(program: Box<dyn Program>, others: &[Other], options: Options, interrupte
 
 /// Says who waits for what in vain.
 fn say_standstill(time: f64, waiting: &[Standstill]) {
-    eprintln!(
+    tell(format_args!(
         "nothing can change any more after {time} s: no event of a scenario is left, nothing moves, and no timer runs"
-    );
+    ));
     for standstill in waiting {
         match waiting.len() {
-            1 => eprintln!("  {standstill}"),
-            _ => eprintln!("  {}: {standstill}", standstill.channel),
+            1 => tell(format_args!("  {standstill}")),
+            _ => tell(format_args!("  {}: {standstill}", standstill.channel)),
         }
     }
 }
@@ -342,15 +343,12 @@ fn watch(controller: &mut Controller, max_time: Option<f64>, interrupted: &Atomi
         if code.is_none() && interrupted.load(Ordering::Relaxed) {
             code = Some(EXIT_INTERRUPTED);
             controller.stop();
-            eprintln!("interrupted: the robot stops on its path");
+            tell(format_args!("interrupted: the robot stops on its path"));
         } else if code.is_none() && controller.cycle() >= last {
             code = Some(EXIT_MAX_TIME);
             let (file, line) = controller.place();
-            eprintln!(
-                "the time is over: {} s; the program stands at {}:{line}",
-                max_time.unwrap_or_default(),
-                file.name()
-            );
+            let limit = max_time.unwrap_or_default();
+            tell(format_args!("the time is over: {limit} s; the program stands at {}:{line}", file.name()));
             controller.stop();
         }
         controller.step();
@@ -378,7 +376,7 @@ fn say(controller: &mut Controller) {
         warn(&text);
     }
     for alarm in controller.take_alarms() {
-        eprintln!("{alarm}");
+        tell(format_args!("{alarm}"));
     }
 }
 

@@ -435,6 +435,7 @@ impl Cx {
         }
         if stepping.left.get() == 0 && stepping.on.get() {
             self.channel_state.paused.set(true);
+            self.goes_on();
             self.next_cycle().await;
         }
         stepping.left.set(0);

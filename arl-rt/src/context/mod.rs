@@ -12,6 +12,7 @@ pub mod program;
 pub(crate) mod programs;
 pub(crate) mod random;
 pub(crate) mod shared_state;
+pub(crate) mod standard_error;
 pub(crate) mod standstill;
 pub mod system;
 pub(crate) mod wiring;

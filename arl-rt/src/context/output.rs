@@ -2,9 +2,10 @@
 
 use std::cell::RefCell;
 use std::fmt;
-use std::io::Write;
+use std::io::{self, BufWriter, Write};
 use std::rc::Rc;
 
+use crate::context::standard_error::tell;
 use crate::cycle::channel_id::ChannelId;
 use crate::values::Printto;
 
@@ -39,19 +40,32 @@ impl<F: FnMut(&Message<'_>)> Output for F {
 }
 
 /// Writes messages to a stream, each ended by a newline.
-pub struct Stream<W: Write>(std::io::BufWriter<W>);
+pub struct Stream<W: Write> {
+    stream: BufWriter<W>,
+    /// What it is called where people are told that it cannot be written; taken when they have been.
+    name: Option<&'static str>,
+}
 
 impl<W: Write> Stream<W> {
     /// A buffer before the stream; it is emptied at the end of each cycle with messages.
     pub fn new(stream: W) -> Self {
-        Self(std::io::BufWriter::new(stream))
+        Self { stream: BufWriter::new(stream), name: None }
+    }
+
+    /// Nobody may read the other end any more, or the disk be full: a robot does not stop for that. People are told once.
+    fn note(&mut self, written: io::Result<()>) {
+        if let Err(error) = written
+            && let Some(name) = self.name.take()
+        {
+            tell(format_args!("warning: {name} cannot be written: {error}; what the program prints is lost"));
+        }
     }
 }
 
 impl Stream<std::io::Stdout> {
-    /// The standard output.
+    /// The standard output. Where it cannot be written, standard error says so once.
     pub fn standard() -> Self {
-        Self::new(std::io::stdout())
+        Self { name: Some("standard output"), ..Self::new(io::stdout()) }
     }
 }
 
@@ -63,15 +77,14 @@ impl<W: Write> fmt::Debug for Stream<W> {
 
 impl<W: Write> Output for Stream<W> {
     fn message(&mut self, message: &Message<'_>) {
-        // Nobody may read the other end any more; a robot does not stop for that.
-        let _ = self.0.write_all(message.text);
-        if !message.text.ends_with(b"\n") {
-            let _ = self.0.write_all(b"\n");
-        }
+        let end: &[u8] = if message.text.ends_with(b"\n") { b"" } else { b"\n" };
+        let written = self.stream.write_all(message.text).and_then(|()| self.stream.write_all(end));
+        self.note(written);
     }
 
     fn flush(&mut self) {
-        let _ = self.0.flush();
+        let written = self.stream.flush();
+        self.note(written);
     }
 }
 

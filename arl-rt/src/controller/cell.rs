@@ -56,6 +56,7 @@ use std::path::Path;
 use arl_robot::cell::collisions;
 use arl_robot::islands::Island;
 use arl_robot::outline;
+use arl_robot::regular_file;
 
 pub use crate::context::wiring::Wiring;
 pub use arl_robot::cell::{CellChannel, Homes, Programs, Sensitivity};
@@ -113,7 +114,7 @@ impl Cell {
     /// The file cannot be read, or what it says is not a cell.
     pub fn load(path: &Path) -> Result<Cell, SettingsError> {
         let name = path.display().to_string();
-        let text = std::fs::read_to_string(path)
+        let text = regular_file::read_text(path)
             .map_err(|error| SettingsError::of_file(&name, format!("cannot read the cell file: {error}")))?;
         Cell::parse(&name, &text)
     }

@@ -235,6 +235,7 @@ impl Channel {
                 }
                 Next::End(outcome) => Phase::Ended(outcome.clone()),
             };
+            self.cx.goes_on();
         }
     }
 
@@ -261,6 +262,7 @@ impl Channel {
         if self.channel_state.stepping.until.get().is_some_and(|motion| unit.is_over(motion)) {
             self.channel_state.stepping.until.set(None);
             self.channel_state.paused.set(true);
+            self.cx.goes_on();
             unit.pause();
         }
     }
@@ -315,6 +317,7 @@ impl Channel {
                     let polled = program.as_mut().poll(&mut context);
                     if let Poll::Ready(Ok(())) = polled {
                         self.phase = Phase::Concluding;
+                        self.cx.goes_on();
                     }
                     polled
                 }
@@ -368,6 +371,7 @@ impl Channel {
                 self.actions.clear();
                 self.cx.leave_level(Level::PROGRAM);
                 self.phase = Phase::Concluding;
+                self.cx.goes_on();
             }
             Reason::Restart => self.end_with(Next::Restart),
             Reason::Alarm(alarm) => self.fail(alarm),
@@ -380,6 +384,7 @@ impl Channel {
         self.cx.forget_events();
         self.cx.connections().close();
         self.phase = Phase::RunningOut(next);
+        self.cx.goes_on();
     }
 
     /// Ends the program with an alarm: its robot stops on its path.

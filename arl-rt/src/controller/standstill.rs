@@ -30,7 +30,8 @@ impl Controller {
             }
         }
         let since = cycle.saturating_sub(self.channels.iter().map(|channel| channel.cx().acted()).max()?);
-        let delay = if self.external.is_wired() { self.shared.rate.cycles(PLC_DELAY_S) } else { 0 };
+        // What one program did last, another may only see in the next cycle.
+        let delay = if self.external.is_wired() { self.shared.rate.cycles(PLC_DELAY_S) } else { 1 };
         (!waiting.is_empty() && since >= delay).then_some(waiting)
     }
 

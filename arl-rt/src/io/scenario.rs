@@ -20,6 +20,8 @@
 //! channel = 2         # whose robot is pushed, jogged or moved; without it that of channel 1
 //! ```
 
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
 use std::fmt;
 use std::path::Path;
 
@@ -31,6 +33,7 @@ use super::image::PWM_CHANNELS;
 use super::{Channels, Digital, Image, Pwm};
 use crate::cycle::channel_id::MOST_FOREGROUND;
 use crate::cycle::rate::Rate;
+use arl_robot::regular_file;
 use arl_robot::robot::Robot;
 use arl_robot::settings::{Section, SettingsError, Source, Value, hint, kind, number, table};
 
@@ -246,7 +249,7 @@ impl Scenario {
     /// The file cannot be read, or what it says is not a scenario.
     pub fn load(path: &Path) -> Result<Scenario, SettingsError> {
         let name = path.display().to_string();
-        let text = std::fs::read_to_string(path)
+        let text = regular_file::read_text(path)
             .map_err(|error| SettingsError::of_file(&name, format!("cannot read the io scenario: {error}")))?;
         Scenario::parse(&name, &text)
     }
@@ -256,16 +259,29 @@ impl Scenario {
     /// # Errors
     /// The text is not TOML, or not a scenario: with line, column and what was expected.
     pub fn parse(file: &str, text: &str) -> Result<Scenario, SettingsError> {
-        let source = Source { file, text };
-        let root = source.parse()?;
-        let top = Section::new(source, "the io scenario", root.get_ref(), &["event"])?;
-        let Some(events) = top.find("event") else { return Ok(Scenario::default()) };
-        let array = events
-            .get_ref()
-            .as_array()
-            .ok_or_else(|| top.wrong("event", events, "tables that begin with [[event]]"))?;
-        let events = array.iter().map(|value| event(source, value)).collect::<Result<_, _>>()?;
-        Ok(Scenario { events })
+        // As a whole, a long text takes many times its size, so it is read table by table. Only the whole tells where mistakes
+        // are, and whether the parts would mean something else together.
+        match Self::by_tables(file, text) {
+            Some(scenario) => Ok(scenario),
+            None => Ok(Scenario { events: events(Source { file, text })? }),
+        }
+    }
+
+    /// The scenario, where nothing stands in front of the first table, no text has several lines, and there is no mistake.
+    fn by_tables(file: &str, text: &str) -> Option<Scenario> {
+        if text.contains("\"\"\"") || text.contains("'''") {
+            return None;
+        }
+        let mut tables = tables_of(text);
+        let before = Source { file, text: tables.next()? };
+        if !before.parse().ok()?.get_ref().is_empty() {
+            return None;
+        }
+        let mut scenario = Scenario::default();
+        for text in tables {
+            scenario.events.extend(events(Source { file, text }).ok()?);
+        }
+        Some(scenario)
     }
 
     /// Whether all channels and axes that the scenario names exist, and the masses that it needs; `robots` are those of the
@@ -290,6 +306,40 @@ impl Scenario {
         }
         Ok(())
     }
+}
+
+/// A text in parts: what is in front of the first line that begins a table of `event`, then table by table.
+fn tables_of(text: &str) -> impl Iterator<Item = &str> {
+    let mut rest = Some(text);
+    let mut is_first = true;
+    std::iter::from_fn(move || {
+        let text = rest?;
+        // The line that begins a table is its own, not the next one's.
+        let own = if std::mem::take(&mut is_first) { 0 } else { text.find('\n').map_or(text.len(), |end| end + 1) };
+        let begins = |line: &str| line.trim_start().starts_with("[[event]]");
+        let mut at = own;
+        let lines = text.get(own..).unwrap_or_default().split_inclusive('\n');
+        for line in lines {
+            if begins(line) {
+                let (table, more) = text.split_at_checked(at)?;
+                rest = Some(more);
+                return Some(table);
+            }
+            at += line.len();
+        }
+        rest = None;
+        Some(text)
+    })
+}
+
+/// The events of a text.
+fn events(source: Source<'_>) -> Result<Vec<Event>, SettingsError> {
+    let root = source.parse()?;
+    let top = Section::new(source, "the io scenario", root.get_ref(), &["event"])?;
+    let Some(events) = top.find("event") else { return Ok(Vec::new()) };
+    let array =
+        events.get_ref().as_array().ok_or_else(|| top.wrong("event", events, "tables that begin with [[event]]"))?;
+    array.iter().map(|value| event(source, value)).collect()
 }
 
 /// Whether something can be done to the robot of a channel.
@@ -517,9 +567,11 @@ fn pendant(event: &Section<'_>, source: Source<'_>, value: &Value<'_>) -> Result
 #[derive(Debug)]
 pub(crate) struct Playing {
     events: Vec<Event>,
+    /// The places of those events that wait for an edge.
+    watching: Vec<usize>,
+    resets: bool,
     rate: Rate,
-    /// Events on their way, by cycle and then by the order in which they were set off.
-    due: Vec<(u64, usize)>,
+    due: Due,
     before_in: Bits,
     before_out: Bits,
     before_pwm: [Pwm; PWM_CHANNELS],
@@ -528,14 +580,17 @@ pub(crate) struct Playing {
 impl Playing {
     pub(crate) fn new(scenario: Scenario, image: &Image, rate: Rate) -> Self {
         let events = scenario.events;
-        let mut due = Vec::with_capacity(events.len() * 4 + 16);
+        let (mut due, mut watching) = (Due::with_room(events.len() * 4 + 16), Vec::new());
         for (at, event) in events.iter().enumerate() {
-            if let Cause::At(time) = event.cause {
-                insert(&mut due, rate.cycles(time), at);
+            match event.cause {
+                Cause::At(time) => due.add(rate.cycles(time), at),
+                Cause::Edge { .. } | Cause::Pwm(_) => watching.push(at),
             }
         }
+        let reset = Action::Effect(Effect::Pendant(Pendant::Reset));
+        let resets = events.iter().any(|event| event.actions.contains(&reset));
         let (before_in, before_out) = (image.inputs().clone(), image.outputs().clone());
-        Self { events, rate, due, before_in, before_out, before_pwm: image.pwms() }
+        Self { events, watching, resets, rate, due, before_in, before_out, before_pwm: image.pwms() }
     }
 
     /// How many effects a cycle may have at most, if no event comes twice in it.
@@ -550,10 +605,7 @@ impl Playing {
             return;
         }
         self.find_edges(cycle, image);
-        while let Some(&(when, at)) = self.due.first()
-            && when <= cycle
-        {
-            self.due.remove(0);
+        while let Some(at) = self.due.take(cycle) {
             for action in self.events.get(at).map(|event| event.actions.as_slice()).unwrap_or_default() {
                 action.play(image, &mut do_it);
             }
@@ -562,13 +614,17 @@ impl Playing {
 
     /// Whether somebody at the pendant makes programs begin again that have ended.
     pub(crate) fn resets(&self) -> bool {
-        let reset = Action::Effect(Effect::Pendant(Pendant::Reset));
-        self.events.iter().any(|event| event.actions.contains(&reset))
+        self.resets
     }
 
     /// Whether an event is on its way, or will be in the next cycle by what has changed in this one.
     pub(crate) fn goes_on(&self, image: &Image) -> bool {
-        !self.due.is_empty() || self.events.iter().any(|event| self.has_edge(event, image))
+        !self.due.is_empty() || self.watched().any(|(_, event)| self.has_edge(event, image))
+    }
+
+    /// The events that wait for an edge, with their places.
+    fn watched(&self) -> impl Iterator<Item = (usize, &Event)> {
+        self.watching.iter().filter_map(|at| Some((*at, self.events.get(*at)?)))
     }
 
     /// Whether an event is set off by what has changed since the last cycle.
@@ -585,23 +641,48 @@ impl Playing {
     }
 
     fn find_edges(&mut self, cycle: u64, image: &Image) {
-        for (at, event) in self.events.iter().enumerate() {
-            if self.has_edge(event, image) {
-                // The outside has seen the edge at the end of the cycle before.
-                let due = cycle.saturating_sub(1) + self.rate.cycles(event.after);
-                insert(&mut self.due, due, at);
-            }
+        let mut due = std::mem::take(&mut self.due);
+        for (at, event) in self.watched().filter(|(_, event)| self.has_edge(event, image)) {
+            // The outside has seen the edge at the end of the cycle before.
+            due.add(cycle.saturating_sub(1) + self.rate.cycles(event.after), at);
         }
+        self.due = due;
         self.before_pwm = image.pwms();
         self.before_in.copy_from(image.inputs());
         self.before_out.copy_from(image.outputs());
     }
 }
 
-/// Keeps `due` in order; events of one cycle stay in the order in which they came.
-fn insert(due: &mut Vec<(u64, usize)>, cycle: u64, event: usize) {
-    let place = due.partition_point(|(when, _)| *when <= cycle);
-    due.insert(place, (cycle, event));
+/// Events on their way: the earliest comes first, and those of one cycle in the order in which they were set off.
+#[derive(Default, Debug)]
+struct Due {
+    /// Cycle, how many were set off before, and the event.
+    waiting: BinaryHeap<Reverse<(u64, u64, usize)>>,
+    added: u64,
+}
+
+impl Due {
+    fn with_room(room: usize) -> Self {
+        Self { waiting: BinaryHeap::with_capacity(room), added: 0 }
+    }
+
+    fn add(&mut self, cycle: u64, event: usize) {
+        self.waiting.push(Reverse((cycle, self.added, event)));
+        self.added += 1;
+    }
+
+    /// The next event that is due in a cycle or was due before.
+    fn take(&mut self, cycle: u64) -> Option<usize> {
+        let Reverse((when, ..)) = self.waiting.peek()?;
+        if *when > cycle {
+            return None;
+        }
+        self.waiting.pop().map(|Reverse((_, _, event))| event)
+    }
+
+    fn is_empty(&self) -> bool {
+        self.waiting.is_empty()
+    }
 }
 
 #[cfg(test)]

@@ -1,8 +1,10 @@
 //! The script directory: the files of a program, all of them below it.
 
 use std::fs;
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Component, Path, PathBuf};
+
+use arl_robot::regular_file;
 
 use crate::fault::Fault;
 use crate::values::Str;
@@ -69,6 +71,12 @@ impl ScriptDir {
         let directory = path.parent().unwrap_or(&self.0);
         if !directory.is_dir() {
             return Err(fault(format!("its directory {} does not exist", directory.display())));
+        }
+        match regular_file::expect(&path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                return Err(fault(format!("cannot be written: {error}")));
+            }
+            _ => {}
         }
         let mut file = fs::OpenOptions::new()
             .append(true)

@@ -9,6 +9,8 @@ use std::path::PathBuf;
 use std::rc::Rc;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use arl_robot::regular_file;
+
 use crate::storage::atomic_file;
 use crate::storage::disk::{Disk, Stage, Work};
 
@@ -77,7 +79,7 @@ impl Storage for Directory {
     }
 
     fn load(&self, name: &str) -> io::Result<Option<Vec<u8>>> {
-        match fs::read(self.path(name)) {
+        match regular_file::read(&self.path(name)) {
             Ok(content) => Ok(Some(content)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             Err(error) => Err(error),

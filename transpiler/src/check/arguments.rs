@@ -16,6 +16,7 @@ use arl_lang::catalog::{
     self, Access, Base, Entry, Kind, Mode, ParamType, Presence, Range, Restore, SystemVariable, UNSET,
 };
 use arl_lang::span::Span;
+use std::collections::HashMap;
 use std::fmt;
 
 /// Who gets the arguments.
@@ -54,6 +55,36 @@ struct Pair<'e> {
     arg: &'e Arg,
     /// Checked already, to find its parameter by type.
     typed: Option<Typed>,
+}
+
+/// From so many parameters on, labels are looked up in a table.
+const MANY_PARAMETERS: usize = 32;
+
+/// Where parameters stand, by their folded names; none where there are few to look through.
+struct Labels(Option<HashMap<String, usize>>);
+
+impl Labels {
+    fn of(params: &[Parameter<'_>]) -> Self {
+        Self((params.len() >= MANY_PARAMETERS).then(|| {
+            let mut places = HashMap::with_capacity(params.len());
+            for (at, param) in params.iter().enumerate() {
+                for name in param.aliases.iter().copied().chain([param.name]) {
+                    places.entry(name.to_ascii_lowercase()).or_insert(at);
+                }
+            }
+            places
+        }))
+    }
+
+    fn find(&self, params: &[Parameter<'_>], wanted: &str) -> Option<usize> {
+        let is_it = |name: &&str| name.eq_ignore_ascii_case(wanted);
+        match &self.0 {
+            Some(places) => places.get(&wanted.to_ascii_lowercase()).copied(),
+            None => {
+                params.iter().position(|param| is_it(&param.name) || param.aliases.iter().any(|alias| is_it(alias)))
+            }
+        }
+    }
 }
 
 impl<'a> Checker<'a> {
@@ -121,8 +152,7 @@ impl<'a> Checker<'a> {
             Callee::User(func) => {
                 let Some(slot) = self.funcs.get(func.0 as usize) else { return String::new() };
                 let params = slot.ast.params.iter().map(|param| self.excerpt(slot.module, param.span));
-                let params: Vec<String> = params.collect();
-                format!("{}({})", self.text(slot.module, slot.ast.name.span), listed(&params))
+                format!("{}({})", self.text(slot.module, slot.ast.name.span), listed(params))
             }
         }
     }
@@ -178,9 +208,10 @@ impl<'a> Checker<'a> {
         by_type: bool,
     ) -> Vec<Pair<'e>> {
         let mut taken = vec![0usize; params.len()];
+        let labels = Labels::of(params);
         let mut slots: Vec<Option<usize>> = Vec::with_capacity(args.len());
         for arg in args {
-            let param = arg.label.and_then(|label| self.labelled(body, name, params, label, &taken));
+            let param = arg.label.and_then(|label| self.labelled(body, name, params, &labels, label, &taken));
             if let Some(count) = param.and_then(|param| taken.get_mut(param)) {
                 *count += 1;
             }
@@ -208,26 +239,24 @@ impl<'a> Checker<'a> {
         pairs
     }
 
+    #[expect(clippy::too_many_arguments, reason = "the state of one walk over the arguments")]
     fn labelled(
         &mut self,
         body: &Body,
         callee: &str,
         params: &[Parameter<'_>],
+        places: &Labels,
         label: ast::Ident,
         taken: &[usize],
     ) -> Option<usize> {
         let wanted = self.names.name(label.symbol);
-        let named = |param: &Parameter<'_>| {
-            param.name.eq_ignore_ascii_case(wanted)
-                || param.aliases.iter().any(|alias| alias.eq_ignore_ascii_case(wanted))
-        };
-        let Some(at) = params.iter().position(named) else {
-            let labels: Vec<&str> = params.iter().map(|param| param.name).collect();
+        let Some(at) = places.find(params, wanted) else {
+            let names = || params.iter().map(|param| param.name);
             let problem = ArgumentProblem::UnknownLabel {
                 callee: callee.into(),
                 label: self.text(body.module, label.span).into(),
-                near: self.hints.nearest(wanted, labels.len(), || labels.iter().copied()).map(Into::into),
-                labels: listed(&labels),
+                near: self.hints.nearest(wanted, params.len(), names).map(Into::into),
+                labels: listed(names()),
             };
             return self.report(body, label.span, problem);
         };
@@ -317,7 +346,7 @@ impl<'a> Checker<'a> {
         }
         let labels: Vec<&str> =
             params.iter().enumerate().filter(|(at, param)| free(*at, param)).map(|(_, param)| param.name).collect();
-        let problem = ArgumentProblem::NoParameter { callee: callee.into(), ty, labels: listed(&labels) };
+        let problem = ArgumentProblem::NoParameter { callee: callee.into(), ty, labels: listed(labels.into_iter()) };
         self.report(body, arg.value.span, problem)
     }
 

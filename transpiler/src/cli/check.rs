@@ -1,5 +1,6 @@
 //! `arl2rs check`
 
+use super::answer;
 use super::args::{Checking, Format};
 use super::failure::{COMPILE_ERRORS, Failure};
 use super::program::check_options;
@@ -48,10 +49,10 @@ pub(super) fn check(files: &[PathBuf], format: Format, limit: Limit, checking: &
         if compiled.checked.program.is_none() && file.canonicalize().is_ok_and(|path| used.contains(&path)) {
             compiled = as_module(file, &options)?;
         }
-        refused |= reporter.report(compiled);
+        refused |= reporter.report(compiled)?;
     }
     for file in modules {
-        refused |= reporter.report(as_module(file, &options)?);
+        refused |= reporter.report(as_module(file, &options)?)?;
     }
     Ok(if refused { ExitCode::from(COMPILE_ERRORS) } else { ExitCode::SUCCESS })
 }
@@ -84,7 +85,7 @@ struct Reporter {
 
 impl Reporter {
     /// Says whether there were errors.
-    fn report(&mut self, mut compiled: Compiled) -> bool {
+    fn report(&mut self, mut compiled: Compiled) -> Result<bool, Failure> {
         let refused = compiled.checked.has_errors();
         let files = compiled.shown_files();
         if let Some(said) = &mut self.said {
@@ -94,13 +95,11 @@ impl Reporter {
             Format::Human => show::diagnostics(&compiled, &mut self.limit),
             Format::Json => {
                 let mut out = std::io::BufWriter::new(std::io::stdout().lock());
-                for diagnostic in &compiled.checked.diagnostics {
-                    // Nobody reads on: then there is nobody to tell.
-                    let _ = writeln!(out, "{}", json(diagnostic, &files));
-                }
-                let _ = out.flush();
+                let mut lines = compiled.checked.diagnostics.iter().map(|diagnostic| json(diagnostic, &files));
+                let outcome = lines.try_for_each(|line| writeln!(out, "{line}")).and_then(|()| out.flush());
+                answer::written(outcome)?;
             }
         }
-        refused
+        Ok(refused)
     }
 }

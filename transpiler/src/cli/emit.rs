@@ -1,5 +1,6 @@
 //! `arl2rs emit` and `arl2rs build`
 
+use super::answer;
 use super::args::Checking;
 use super::cache::{Cache, write_if_changed};
 use super::failure::Failure;
@@ -9,7 +10,6 @@ use super::show;
 use crate::compile::compile_program;
 use crate::emit::EmitOptions;
 use crate::sources::FileSystem;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 /// Writes the Rust of a program to standard output, or to NAME.rs in a folder.
@@ -18,13 +18,7 @@ pub(super) fn emit(file: &Path, out: Option<&Path>, checking: &Checking) -> Resu
     show::diagnostics(&compiled, &mut show::Limit::default());
     let rust = compiled.rust.take().ok_or(Failure::Shown)?;
     let Some(folder) = out else {
-        let mut out = std::io::stdout().lock();
-        return match out.write_all(rust.as_bytes()).and_then(|()| out.flush()) {
-            Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
-                Err(Failure::Other(format!("cannot write to standard output: {error}")))
-            }
-            _ => Ok(()),
-        };
+        return answer::write(&rust);
     };
     let name = compiled.checked.program.as_ref().map_or("program", |program| program.name.as_str());
     write_if_changed(&folder.join(format!("{name}.rs")), rust.as_bytes())?;

@@ -1,6 +1,7 @@
 //! The `arl2rs` command.
 #![expect(clippy::disallowed_methods, reason = "the command reads and writes files and starts processes")]
 
+mod answer;
 mod args;
 mod cache;
 mod cargo;
@@ -27,7 +28,6 @@ use crate::compile::{guard, on_large_stack, remember_panics};
 use args::{Cli, Command};
 use clap::Parser;
 use failure::Failure;
-use std::io::Write;
 use std::process::ExitCode;
 
 /// Does what the command line says; gives the exit code: 0 done, 1 compile errors, 2 usage, 3 alarm, 4 out of time, 130
@@ -66,9 +66,9 @@ fn done(outcome: Result<(), Failure>) -> Result<ExitCode, Failure> {
 
 /// The answer of a command that only tells something.
 fn print(text: Result<String, Failure>) -> Result<ExitCode, Failure> {
-    let text = text?;
-    let mut out = std::io::stdout().lock();
-    // Nobody reads on: then there is nobody to tell.
-    let _ = out.write_all(text.as_bytes()).and_then(|()| if text.ends_with('\n') { Ok(()) } else { writeln!(out) });
-    Ok(ExitCode::SUCCESS)
+    let mut text = text?;
+    if !text.ends_with('\n') {
+        text.push('\n');
+    }
+    done(answer::write(&text))
 }

@@ -15,6 +15,7 @@ use crate::compile::{Compiled, compile_program};
 use crate::emit::EmitOptions;
 use crate::sources::FileSystem;
 use arl_robot::outline::Outline;
+use arl_robot::regular_file;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
@@ -42,7 +43,7 @@ pub(super) fn check_options(checking: &Checking) -> Result<CheckOptions, Failure
 /// What a cell file has for programs.
 fn outline(cell: &Path) -> Result<Outline, Failure> {
     let name = cell.display().to_string();
-    let text = std::fs::read_to_string(cell)
+    let text = regular_file::read_text(cell)
         .map_err(|error| Failure::Usage(format!("{name}: cannot read the cell file: {error}")))?;
     Outline::of_cell(&name, &text).map_err(|error| Failure::Usage(error.to_string()))
 }
@@ -102,7 +103,7 @@ impl<'a> Job<'a> {
         }
         let mut limit = show::Limit::default();
         let said: String = programs.iter().map(|compiled| show::rendered(compiled, &mut limit)).collect();
-        show::again(&said);
+        show::say(&said);
         let rust: Option<Vec<String>> = programs.iter_mut().map(|compiled| compiled.rust.take()).collect();
         let mut rust = rust.ok_or(Failure::Shown)?.into_iter();
         let first = rust.next().ok_or(Failure::Shown)?;
@@ -178,7 +179,7 @@ fn state(place: &Place, identity: u64) -> (Freshness, Option<Stamp>) {
 
 /// Shows the warnings again and leaves the rest as it is.
 fn start_again(place: &Place, stamp: &Stamp, lock: Lock) -> Result<Ready, Failure> {
-    show::again(&std::fs::read_to_string(place.folder.join("said")).unwrap_or_default());
+    show::say(&std::fs::read_to_string(place.folder.join("said")).unwrap_or_default());
     Ok(Ready { program: place.folder.join(&stamp.program), lock, sources: sources(stamp) })
 }
 

@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use crate::near::nearest;
 use arl_lang::catalog::Family;
-use arl_robot::Robot;
+use arl_robot::{Robot, regular_file};
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -48,7 +48,7 @@ pub(super) fn text(robot: Option<&str>) -> Result<(String, Cow<'static, str>), F
     if let Some(text) = Robot::text(robot) {
         return Ok((robot.to_owned(), text.into()));
     }
-    match std::fs::read_to_string(robot) {
+    match regular_file::read_text(Path::new(robot)) {
         Ok(text) => Ok((robot.to_owned(), text.into())),
         Err(error) if error.kind() == std::io::ErrorKind::NotFound && is_name(robot) => {
             Err(Failure::Usage(unknown(robot)))

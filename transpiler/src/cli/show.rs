@@ -3,16 +3,17 @@
 use crate::compile::Compiled;
 use crate::diagnostics::{Diagnostic, Files, Severity};
 use crate::render::human;
-use anstream::{ColorChoice, eprint, eprintln};
+use anstream::ColorChoice;
+use std::io::Write;
 
 /// An error of the command itself.
 pub(super) fn error(text: &str) {
-    eprintln!("\u{1b}[1m\u{1b}[91merror\u{1b}[0m\u{1b}[1m: {text}\u{1b}[0m");
+    say(&format!("\u{1b}[1m\u{1b}[91merror\u{1b}[0m\u{1b}[1m: {text}\u{1b}[0m\n"));
 }
 
 /// A warning of the command itself.
 pub(super) fn warning(text: &str) {
-    eprintln!("\u{1b}[1m\u{1b}[93mwarning\u{1b}[0m\u{1b}[1m: {text}\u{1b}[0m");
+    say(&format!("\u{1b}[1m\u{1b}[93mwarning\u{1b}[0m\u{1b}[1m: {text}\u{1b}[0m\n"));
 }
 
 /// How many diagnostics people are shown by default.
@@ -53,7 +54,7 @@ impl Default for Limit {
 
 /// Errors and warnings of a program, then how many there were.
 pub(super) fn diagnostics(compiled: &Compiled, limit: &mut Limit) {
-    eprint!("{}", rendered(compiled, limit));
+    say(&rendered(compiled, limit));
 }
 
 /// The same as text, with terminal colours.
@@ -93,9 +94,10 @@ fn plural(count: usize, word: &str) -> String {
     if count == 1 { format!("1 {word}") } else { format!("{count} {word}s") }
 }
 
-/// Shows text that was rendered before, without colours where they are not wanted.
-pub(super) fn again(rendered: &str) {
-    eprint!("{rendered}");
+/// Says text that may have colours, without them where they are not wanted.
+pub(super) fn say(rendered: &str) {
+    // Where nobody can read it there is nobody to tell; the exit code says enough.
+    let _ = anstream::stderr().lock().write_all(rendered.as_bytes());
 }
 
 /// Whether standard error is a terminal that somebody looks at.

@@ -81,9 +81,9 @@ impl Files {
 const MOST_LISTED: usize = 20;
 
 /// Names for a message, the last ones as their number where there are many.
-pub(crate) fn listed(names: &[impl AsRef<str>]) -> String {
-    let shown: Vec<&str> = names.iter().take(MOST_LISTED).map(AsRef::as_ref).collect();
+pub(crate) fn listed(names: impl ExactSizeIterator<Item = impl Into<String>>) -> String {
     let more = names.len().saturating_sub(MOST_LISTED);
+    let shown: Vec<String> = names.take(MOST_LISTED).map(Into::into).collect();
     let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
     shown.join(", ") + &rest
 }

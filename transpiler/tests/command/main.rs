@@ -4,6 +4,7 @@
 
 mod checking;
 mod killing;
+mod odd_files;
 mod pointers;
 mod repeating;
 mod running;

@@ -16,6 +16,7 @@ use ratatui::crossterm::event::{self, Event};
 
 use super::failure::{Failure, INTERRUPTED};
 use super::program::Ready;
+use super::show;
 use keys::Wish;
 use link::Link;
 use model::{Model, Weight};
@@ -38,7 +39,7 @@ pub(super) fn run(mut command: Command, ready: Ready) -> Result<ExitCode, Failur
     let code = shown.map_err(|error| Failure::Other(format!("the terminal cannot be used: {error}")))?;
     // What the screen took with it, and somebody may want to copy.
     for (_, text) in model.log.iter().filter(|(weight, _)| *weight == Weight::Alarm) {
-        eprintln!("{text}");
+        show::say(&format!("{text}\n"));
     }
     Ok(ExitCode::from(code))
 }

@@ -6,6 +6,7 @@ mod diff;
 mod execute;
 mod expect;
 
+use super::answer;
 use super::args::Checking;
 use super::cache::Cache;
 use super::failure::{COMPILE_ERRORS, Failure};
@@ -60,7 +61,7 @@ pub(super) fn test(dirs: &[PathBuf], all_forms: bool) -> Result<ExitCode, Failur
         }
     }
     drop(progress);
-    Ok(report(&found, verdicts))
+    report(&found, verdicts)
 }
 
 fn find(dirs: &[PathBuf]) -> Result<Vec<Found>, Failure> {
@@ -244,7 +245,7 @@ fn ending(outcome: &Outcome) -> String {
 }
 
 /// Tells what failed, then how many.
-fn report(found: &[Found], verdicts: Vec<Option<Verdict>>) -> ExitCode {
+fn report(found: &[Found], verdicts: Vec<Option<Verdict>>) -> Result<ExitCode, Failure> {
     let here = std::env::current_dir().unwrap_or_default();
     let (mut passed, mut failed) = (0, 0);
     for (found, verdict) in found.iter().zip(verdicts) {
@@ -253,12 +254,12 @@ fn report(found: &[Found], verdicts: Vec<Option<Verdict>>) -> ExitCode {
             Err(problem) => {
                 failed += 1;
                 let source = found.source.strip_prefix(&here).unwrap_or(&found.source);
-                anstream::println!("FAILED {}\n{}\n", source.display(), indented(&problem));
+                answer::write_coloured(&format!("FAILED {}\n{}\n\n", source.display(), indented(&problem)))?;
             }
         }
     }
-    anstream::println!("{passed} passed, {failed} failed");
-    if failed == 0 { ExitCode::SUCCESS } else { ExitCode::from(COMPILE_ERRORS) }
+    answer::write_coloured(&format!("{passed} passed, {failed} failed\n"))?;
+    Ok(if failed == 0 { ExitCode::SUCCESS } else { ExitCode::from(COMPILE_ERRORS) })
 }
 
 fn indented(text: &str) -> String {

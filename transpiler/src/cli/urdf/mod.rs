@@ -5,6 +5,7 @@ mod fit;
 mod place;
 
 use super::failure::Failure;
+use arl_robot::regular_file;
 use chain::{Chain, Moving};
 use fit::{Scara, SixAxes};
 use std::fmt::Write;
@@ -23,7 +24,7 @@ ori_jerk = 20000.0
 
 /// The robot file of the robot in a URDF file.
 pub(super) fn import(file: &Path) -> Result<String, Failure> {
-    let text = std::fs::read_to_string(file)
+    let text = regular_file::read_text(file)
         .map_err(|error| Failure::Usage(format!("cannot read {}: {error}", file.display())))?;
     robot_file(&text, &file.file_name().unwrap_or_default().to_string_lossy())
         .map_err(|problem| Failure::Usage(format!("{}: {problem}", file.display())))
