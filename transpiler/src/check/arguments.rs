@@ -80,9 +80,7 @@ impl Labels {
         let is_it = |name: &&str| name.eq_ignore_ascii_case(wanted);
         match &self.0 {
             Some(places) => places.get(&wanted.to_ascii_lowercase()).copied(),
-            None => {
-                params.iter().position(|param| is_it(&param.name) || param.aliases.iter().any(|alias| is_it(alias)))
-            }
+            None => params.iter().position(|param| is_it(&param.name) || param.aliases.iter().any(is_it)),
         }
     }
 }
@@ -239,7 +237,6 @@ impl<'a> Checker<'a> {
         pairs
     }
 
-    #[expect(clippy::too_many_arguments, reason = "the state of one walk over the arguments")]
     fn labelled(
         &mut self,
         body: &Body,
