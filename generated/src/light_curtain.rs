@@ -35,7 +35,7 @@ pub mod light_curtain {
         cx.line(FILE, 16);
         flow::waituntil(cx).start().await.at(FILE, 16)?;
         while io::getdi(cx, 1).await.at(FILE, 16)? {
-            cx.next_cycle().await;
+            cx.change().await;
         }
         // 17: setdo(1, false)
         cx.line(FILE, 17);

@@ -79,7 +79,7 @@ pub mod pick_and_place {
             cx.line(FILE, 38);
             flow::waituntil(cx).start().await.at(FILE, 38)?;
             while !io::getdi(cx, 1).await.at(FILE, 38)? {
-                cx.next_cycle().await;
+                cx.change().await;
             }
             // 39: lin feeder, vl:200mm/s
             cx.line(FILE, 39);

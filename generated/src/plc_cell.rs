@@ -81,7 +81,7 @@ pub mod plc_cell {
         cx.line(FILE, 21);
         flow::waituntil(cx).start().await.at(FILE, 21)?;
         while cx.system().pgno.get() < 0 {
-            cx.next_cycle().await;
+            cx.change().await;
         }
         // 22: $PGNO_REQ = false
         cx.system().pgno_req.set(false);
