@@ -1,8 +1,9 @@
 //! Text to lexemes. The lexer never fails: what it cannot read becomes an error in the place of a lexeme.
 
-use logos::{FilterResult, Logos};
-
 use crate::number::{Number, NumberError, read_number};
+use logos::FilterResult;
+
+pub use crate::lexeme::Lexeme;
 
 /// What cannot be read.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -34,133 +35,13 @@ pub enum LexicalError {
     UnclosedSplice,
 }
 
-/// A lexeme; its text is under its span.
-#[derive(Logos, Clone, Copy, PartialEq, Debug)]
-#[logos(error = LexicalError)]
-#[logos(skip r"[ \t\x0b\x0c]+")]
-#[logos(skip(r"//[^\r\n]*", allow_greedy = true))]
-#[allow(missing_docs, reason = "the names say it all")]
-pub enum Lexeme {
-    #[regex(r"\r\n|\n|\r")]
-    Newline,
-    /// A name or a word of the language.
-    #[regex(r"[A-Za-z_][A-Za-z0-9_]*")]
-    Word,
-    /// `$NAME`
-    #[regex(r"\$[A-Za-z_][A-Za-z0-9_]*")]
-    #[token("$", bare_dollar)]
-    System,
-    #[regex(r"[0-9]|\.[0-9]", number)]
-    Number(Number),
-    /// A string with its quotes; its escapes are good.
-    #[token("\"", text)]
-    #[token("'", single_quotes)]
-    Text,
-    /// `#name` or `#(tokens)`.
-    #[token("#", splice)]
-    Splice,
-    #[token("+")]
-    Plus,
-    #[token("-")]
-    Minus,
-    #[token("*")]
-    Star,
-    #[token("/")]
-    Slash,
-    #[token("%")]
-    Percent,
-    #[token("<<")]
-    ShiftLeft,
-    #[token(">>")]
-    ShiftRight,
-    #[token("<")]
-    Less,
-    #[token("<=")]
-    LessEqual,
-    #[token(">")]
-    Greater,
-    #[token(">=")]
-    GreaterEqual,
-    #[token("==")]
-    Equal,
-    #[token("!=")]
-    NotEqual,
-    #[token("&")]
-    BitAnd,
-    #[token("^")]
-    BitXor,
-    #[token("|")]
-    BitOr,
-    #[token("&&")]
-    And,
-    #[token("||")]
-    Or,
-    #[token("!")]
-    Not,
-    #[token("~")]
-    Complement,
-    #[token("++")]
-    PlusPlus,
-    #[token("--")]
-    MinusMinus,
-    #[token("=")]
-    Assign,
-    #[token("+=")]
-    AddAssign,
-    #[token("-=")]
-    SubtractAssign,
-    #[token("*=")]
-    MultiplyAssign,
-    #[token("/=")]
-    DivideAssign,
-    #[token("%=")]
-    RemainderAssign,
-    #[token("<<=")]
-    ShiftLeftAssign,
-    #[token(">>=")]
-    ShiftRightAssign,
-    #[token("&=")]
-    AndAssign,
-    #[token("|=")]
-    OrAssign,
-    #[token("^=")]
-    XorAssign,
-    #[token("(")]
-    ParenOpen,
-    #[token(")")]
-    ParenClose,
-    #[token("[")]
-    BracketOpen,
-    #[token("]")]
-    BracketClose,
-    #[token("{")]
-    BraceOpen,
-    #[token("}")]
-    BraceClose,
-    #[token(",")]
-    Comma,
-    #[token(";")]
-    Semicolon,
-    #[token(":")]
-    Colon,
-    #[token("::")]
-    Scope,
-    #[token(".")]
-    Dot,
-    /// Stands for a value that could not be read. The lexer never makes it itself: these rules skip or fail.
-    #[token("/*", comment)]
-    #[token("\\", continuation)]
-    #[regex(r"[^\x00-\x7f]", foreign)]
-    Faulty,
-}
-
 type Lexer<'source> = logos::Lexer<'source, Lexeme>;
 
-fn bare_dollar(_: &mut Lexer<'_>) -> Result<(), LexicalError> {
+pub(crate) fn bare_dollar(_: &mut Lexer<'_>) -> Result<(), LexicalError> {
     Err(LexicalError::BareDollar)
 }
 
-fn number(lexer: &mut Lexer<'_>) -> Result<Number, LexicalError> {
+pub(crate) fn number(lexer: &mut Lexer<'_>) -> Result<Number, LexicalError> {
     let start = lexer.span().start;
     let (length, number) = read_number(lexer.source().get(start..).unwrap_or_default());
     lexer.bump(length.saturating_sub(lexer.span().len()));
@@ -172,7 +53,7 @@ fn to_line_end(rest: &str) -> usize {
     rest.bytes().position(|byte| matches!(byte, b'\n' | b'\r')).unwrap_or(rest.len())
 }
 
-fn text(lexer: &mut Lexer<'_>) -> Result<(), LexicalError> {
+pub(crate) fn text(lexer: &mut Lexer<'_>) -> Result<(), LexicalError> {
     let rest = lexer.remainder();
     let mut bad = None;
     let mut bytes = rest.bytes().enumerate();
@@ -195,7 +76,7 @@ fn text(lexer: &mut Lexer<'_>) -> Result<(), LexicalError> {
     Err(LexicalError::UnclosedText)
 }
 
-fn single_quotes(lexer: &mut Lexer<'_>) -> Result<(), LexicalError> {
+pub(crate) fn single_quotes(lexer: &mut Lexer<'_>) -> Result<(), LexicalError> {
     let rest = lexer.remainder();
     let stop = rest.bytes().enumerate().find(|(_, byte)| matches!(byte, b'\'' | b'\n' | b'\r'));
     lexer.bump(match stop {
@@ -206,7 +87,7 @@ fn single_quotes(lexer: &mut Lexer<'_>) -> Result<(), LexicalError> {
     Err(LexicalError::SingleQuotes)
 }
 
-fn comment(lexer: &mut Lexer<'_>) -> FilterResult<(), LexicalError> {
+pub(crate) fn comment(lexer: &mut Lexer<'_>) -> FilterResult<(), LexicalError> {
     let rest = lexer.remainder();
     match rest.find("*/") {
         Some(at) => {
@@ -221,7 +102,7 @@ fn comment(lexer: &mut Lexer<'_>) -> FilterResult<(), LexicalError> {
 }
 
 /// `\` and blanks up to the line end, which no longer ends the line.
-fn continuation(lexer: &mut Lexer<'_>) -> FilterResult<(), LexicalError> {
+pub(crate) fn continuation(lexer: &mut Lexer<'_>) -> FilterResult<(), LexicalError> {
     let rest = lexer.remainder();
     let end = rest.bytes().take_while(|byte| matches!(byte, b' ' | b'\t' | 0x0b | 0x0c)).count();
     let line_end = match rest.as_bytes().get(end..) {
@@ -268,7 +149,7 @@ pub fn look_alike(found: char) -> Option<char> {
     LOOK_ALIKES.iter().find(|(foreign, _)| *foreign == found).map(|(_, ascii)| *ascii)
 }
 
-fn foreign(lexer: &mut Lexer<'_>) -> FilterResult<(), LexicalError> {
+pub(crate) fn foreign(lexer: &mut Lexer<'_>) -> FilterResult<(), LexicalError> {
     let Some(first) = lexer.slice().chars().next() else {
         return FilterResult::Error(LexicalError::UnknownCharacter);
     };
@@ -292,7 +173,7 @@ fn foreign(lexer: &mut Lexer<'_>) -> FilterResult<(), LexicalError> {
     FilterResult::Error(LexicalError::ForeignLetters)
 }
 
-fn splice(lexer: &mut Lexer<'_>) -> Result<(), LexicalError> {
+pub(crate) fn splice(lexer: &mut Lexer<'_>) -> Result<(), LexicalError> {
     let rest = lexer.remainder();
     if !rest.starts_with('(') {
         let length = rest.bytes().take_while(|byte| byte.is_ascii_alphanumeric() || *byte == b'_').count();

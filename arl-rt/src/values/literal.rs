@@ -4,6 +4,7 @@ use super::{Array, Enumeration, Store, Str, Structure, TeachError, TeachProblem}
 use crate::values::text::{Print, Typed};
 use arl_lang::ast::{BraceItem, Expr, ExprKind, Radix, UnaryOp};
 use arl_lang::catalog::{Base, base_type, enum_constant};
+use arl_lang::span::Span;
 use arl_lang::symbol::Interner;
 
 /// A value that a literal can be read into.
@@ -186,45 +187,70 @@ fn put_constant<E: Enumeration + Typed>(place: &mut E, value: &Expr, names: &Int
 
 /// Reads the braces of a structure.
 fn put_structure<S: Structure + Typed>(place: &mut S, value: &Expr, names: &Interner) -> Result<(), TeachError> {
-    let read = Read::new(value, names);
-    let Read::Brace(items) = read else {
-        return Err(read.mismatch(S::NAME.to_owned(), value));
+    let shape = Shape {
+        name: S::NAME,
+        components: S::COMPONENTS,
+        positional: S::POSITIONAL,
+        component_index: S::component_index,
     };
-    let named = items.first().is_some_and(|item| item.name.is_some());
-    if items.iter().any(|item| item.name.is_some() != named) {
-        return Err(TeachError::new(TeachProblem::Mixed, value));
-    }
-    if !named && items.len() > S::POSITIONAL {
-        let problem = TeachProblem::TooMany { expected: S::NAME.to_owned(), most: S::POSITIONAL };
-        return Err(TeachError::new(problem, value));
-    }
-    let mut seen = 0_u32;
-    for (at, item) in items.iter().enumerate() {
-        let index = match item.name {
-            None => at,
-            Some(ident) => {
-                let name = names.name(ident.symbol);
-                S::component_index(name).ok_or_else(|| TeachError {
-                    path: String::new(),
-                    problem: TeachProblem::Component {
-                        structure: S::NAME,
-                        name: name.to_owned(),
-                        known: S::COMPONENTS,
-                    },
-                    span: ident.span,
-                })?
-            }
+    shape.read(value, names, &mut |index, value| match place.component_mut(index) {
+        Some(component) => component.put(value, names),
+        None => Ok(()),
+    })
+}
+
+/// What reading a structure has to know of its type: so it is compiled once, not for each of them.
+struct Shape {
+    name: &'static str,
+    components: &'static [&'static str],
+    positional: usize,
+    component_index: fn(&str) -> Option<usize>,
+}
+
+impl Shape {
+    /// Reads braces, and hands on each value with the number of its component.
+    fn read(
+        &self,
+        value: &Expr,
+        names: &Interner,
+        put: &mut dyn FnMut(usize, &Expr) -> Result<(), TeachError>,
+    ) -> Result<(), TeachError> {
+        let read = Read::new(value, names);
+        let Read::Brace(items) = read else {
+            return Err(read.mismatch(self.name.to_owned(), value));
         };
-        let name = S::COMPONENTS.get(index).copied().unwrap_or_default();
-        if seen & (1 << index) != 0 {
-            return Err(TeachError::new(TeachProblem::Twice(name.to_owned()), &item.value));
+        let named = items.first().is_some_and(|item| item.name.is_some());
+        if items.iter().any(|item| item.name.is_some() != named) {
+            return Err(TeachError::new(TeachProblem::Mixed, value));
         }
-        seen |= 1 << index;
-        if let Some(component) = place.component_mut(index) {
-            component.put(&item.value, names).map_err(|error| error.inside(name))?;
+        if !named && items.len() > self.positional {
+            let problem = TeachProblem::TooMany { expected: self.name.to_owned(), most: self.positional };
+            return Err(TeachError::new(problem, value));
         }
+        let mut seen = 0_u32;
+        for (at, item) in items.iter().enumerate() {
+            let index = match item.name {
+                None => at,
+                Some(ident) => self.index(names.name(ident.symbol), ident.span)?,
+            };
+            let name = self.components.get(index).copied().unwrap_or_default();
+            if seen & (1 << index) != 0 {
+                return Err(TeachError::new(TeachProblem::Twice(name.to_owned()), &item.value));
+            }
+            seen |= 1 << index;
+            put(index, &item.value).map_err(|error| error.inside(name))?;
+        }
+        Ok(())
     }
-    Ok(())
+
+    /// The number of the component with this name.
+    fn index(&self, name: &str, span: Span) -> Result<usize, TeachError> {
+        (self.component_index)(name).ok_or_else(|| TeachError {
+            path: String::new(),
+            problem: TeachProblem::Component { structure: self.name, name: name.to_owned(), known: self.components },
+            span,
+        })
+    }
 }
 
 macro_rules! literals {

@@ -79,6 +79,16 @@ pub(super) enum Command {
         #[arg(long, hide = true)]
         all_forms: bool,
     },
+    /// Remove compiled programs and runtimes; they are compiled again when they are needed.
+    ///
+    /// They are in `~/.cache/arl2rs`, `~/Library/Caches/arl2rs` or `%LOCALAPPDATA%\arl2rs`, or in the folder that the variable
+    /// ARL2RS_CACHE names. ARL2RS_CACHE_LIMIT is how many gigabytes they may take (4, or `none`): beyond that, what was not used
+    /// for longest goes.
+    Clean {
+        /// Only what was not used for so many days.
+        #[arg(long, value_name = "DAYS")]
+        older: Option<u32>,
+    },
     /// Explain a diagnostic: `arl2rs explain ARL0203`.
     Explain {
         /// The code.

@@ -2,7 +2,9 @@
 
 use super::failure::{Failure, INTERRUPTED};
 use super::progress::Progress;
+use super::trouble;
 use serde::Deserialize;
+use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -15,6 +17,8 @@ pub(super) struct Built {
     pub(super) programs: Vec<(String, PathBuf)>,
     /// What rustc and cargo refused; empty when all went well.
     pub(super) errors: Vec<RustError>,
+    /// How many packages were compiled.
+    compiled: usize,
 }
 
 /// An error of rustc in emitted code.
@@ -84,7 +88,17 @@ pub(super) fn build(folder: &Path, target: &Path, release: bool, progress: &Prog
     }
     let status = child.wait().map_err(|error| Failure::io("wait for", Path::new(&cargo), &error))?;
     let complaints = complaints.join().unwrap_or_default();
-    if !status.success() && built.errors.is_empty() {
+    if status.success() {
+        return Ok(built);
+    }
+    // Emitted Rust that is wrong has a place; what has none is about what is around the compiler.
+    let around: BTreeSet<&str> =
+        built.errors.iter().filter(|error| error.file.is_none()).map(|error| error.rendered.as_str()).collect();
+    let around = if around.is_empty() { complaints.clone() } else { around.into_iter().collect() };
+    if let Some(trouble) = trouble::of(&anstream::adapter::strip_str(&around).to_string()) {
+        return Err(Failure::Other(trouble));
+    }
+    if built.errors.is_empty() {
         return Err(Failure::Other(format!("cargo could not compile the program:\n{}", complaints.trim_end())));
     }
     Ok(built)
@@ -94,6 +108,7 @@ pub(super) fn build(folder: &Path, target: &Path, release: bool, progress: &Prog
 struct Message {
     reason: String,
     executable: Option<PathBuf>,
+    fresh: Option<bool>,
     message: Option<Rustc>,
     target: Option<Target>,
 }
@@ -124,13 +139,22 @@ impl Built {
         match message.reason.as_str() {
             "compiler-artifact" => {
                 let name = message.target.map(|target| target.name).unwrap_or_default();
-                progress.say(&format!("compiling: {name} done"));
+                // What is there already comes first, and at once.
+                if message.fresh == Some(false) {
+                    self.compiled += 1;
+                    progress.say(&words(self.compiled, &name));
+                }
                 self.programs.extend(message.executable.map(|executable| (name, executable)));
             }
             "compiler-message" => self.errors.extend(message.message.and_then(error)),
             _ => {}
         }
     }
+}
+
+/// What is said while packages are compiled: those of the runtime come first, once for all programs.
+fn words(compiled: usize, last: &str) -> String {
+    format!("compiling the runtime, once for all programs: {compiled} packages done, last {last}")
 }
 
 /// An error with a place; the closing "aborting due to 2 previous errors" has none and is left out.

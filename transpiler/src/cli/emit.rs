@@ -31,19 +31,12 @@ pub(super) fn build(file: &Path, out: Option<&Path>, release: bool, checking: &C
     let done = job.compile(&FileSystem)?;
     let cache = Cache::find()?;
     let place = job.place(&cache)?;
-    let lock = place.lock(false)?;
-    let executable = compile_rust(&cache, &place, &Runtime::find(), &done.rust, &job.main()?, release)?;
-    drop(lock);
     let to = out.map_or_else(|| default_name(file), Path::to_path_buf);
     if let Some(folder) = to.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         std::fs::create_dir_all(folder).map_err(|error| Failure::io("make the folder", folder, &error))?;
     }
-    // A program that runs cannot be written over, but it can be removed.
-    if to.is_file() {
-        std::fs::remove_file(&to).map_err(|error| Failure::io("replace", &to, &error))?;
-    }
-    std::fs::copy(&executable, &to).map_err(|error| Failure::io("write", &to, &error))?;
-    Ok(())
+    let _lock = place.lock(false)?;
+    compile_rust(&cache, &place, Runtime::find(), &done.rust, &job.main()?, release, &to)
 }
 
 fn default_name(file: &Path) -> PathBuf {

@@ -6,6 +6,7 @@ mod args;
 mod cache;
 mod cargo;
 mod check;
+mod clean;
 mod emit;
 mod explain;
 mod failure;
@@ -22,6 +23,7 @@ mod several;
 mod show;
 mod stamp;
 mod test;
+mod trouble;
 mod urdf;
 
 use crate::compile::{guard, on_large_stack, remember_panics};
@@ -53,6 +55,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Run { file, options } => run::run(&file, &options),
         Command::Plot { trace, plot, robot } => done(run::plot(&trace, &plot, robot.as_deref())),
         Command::Test { dirs, all_forms } => test::test(&dirs, all_forms),
+        Command::Clean { older } => done(clean::clean(older)),
         Command::Explain { code } => print(explain::explain(&code)),
         Command::Doc { name } => print(explain::doc(&name)),
         Command::Robots { import: Some(file), .. } => print(urdf::import(&file)),

@@ -116,7 +116,7 @@ impl<'a> Job<'a> {
     }
 
     /// A number that changes with everything but the sources: this command, the runtime, the options, the channels.
-    fn identity(&self, runtime: &Runtime) -> u64 {
+    fn identity(&self, runtime: Runtime) -> u64 {
         let mut hasher = DefaultHasher::new();
         if let Ok(command) = std::env::current_exe() {
             hash_state(&command, &mut hasher);
@@ -135,7 +135,7 @@ pub(super) fn prepare(file: &Path, cell: Option<&Path>, checking: &Checking) -> 
     let cache = Cache::find()?;
     let place = job.place(&cache)?;
     let runtime = Runtime::find();
-    let identity = job.identity(&runtime);
+    let identity = job.identity(runtime);
     let lock = place.lock(true)?;
     if let (Freshness::Fresh, Some(stamp)) = state(&place, identity) {
         return start_again(&place, &stamp, lock);
@@ -154,7 +154,7 @@ pub(super) fn prepare(file: &Path, cell: Option<&Path>, checking: &Checking) -> 
     let kept = stamp.filter(|stamp| read_again && only_values(stamp, &done.programs, &read));
     let program = match kept {
         Some(stamp) => stamp.program,
-        None => build(&cache, &place, &runtime, &done, &job.main()?)?,
+        None => build(&cache, &place, runtime, &done, &job.main()?)?,
     };
     write_if_changed(&place.folder.join("said"), done.said.as_bytes())?;
     let path = place.folder.join(&program);
@@ -188,40 +188,43 @@ fn sources(stamp: &Stamp) -> Vec<PathBuf> {
 }
 
 /// Compiles the Rust and puts the program into its place under a name of its own, so that older ones run on.
-fn build(cache: &Cache, place: &Place, runtime: &Runtime, done: &Done, main: &Path) -> Result<String, Failure> {
-    let executable = compile_rust(cache, place, runtime, &done.rust, main, false)?;
+fn build(cache: &Cache, place: &Place, runtime: Runtime, done: &Done, main: &Path) -> Result<String, Failure> {
     let mut hasher = DefaultHasher::new();
     (&done.rust.first, &done.rust.others, runtime.state()).hash(&mut hasher);
     let checked = done.programs.first().and_then(|compiled| compiled.checked.program.as_ref());
     let stem = checked.map_or("program", |program| program.name.as_str());
     let name = format!("{stem}-{:016x}{}", hasher.finish(), std::env::consts::EXE_SUFFIX);
-    let path = place.folder.join(&name);
     remove_old(place, &name);
-    std::fs::copy(&executable, &path).map_err(|error| Failure::io("write", &path, &error))?;
+    compile_rust(cache, place, runtime, &done.rust, main, false, &place.folder.join(&name))?;
     Ok(name)
 }
 
-/// Compiles emitted Rust with cargo; the executable is where cargo put it.
+/// Compiles emitted Rust with cargo; the executable is put at `to`.
 pub(super) fn compile_rust(
     cache: &Cache,
     place: &Place,
-    runtime: &Runtime,
+    runtime: Runtime,
     rust: &Emitted,
     main: &Path,
     release: bool,
-) -> Result<PathBuf, Failure> {
+    to: &Path,
+) -> Result<(), Failure> {
     let folder = main.parent().unwrap_or(Path::new("/"));
-    project::write(place, runtime, rust, folder)?;
-    let profile = if release { "release" } else { "debug" };
-    let first = !cache.target().join(profile).is_dir();
-    let words = if first { "compiling the runtime (only this once) and the program" } else { "compiling" };
-    let progress = Progress::start(words);
-    let built = cargo::build(&place.folder, &cache.target(), release, &progress)?;
-    drop(progress);
-    match built.programs.into_iter().next() {
-        Some((_, program)) if built.errors.is_empty() => Ok(program),
-        _ => Err(cargo::bug(&built.errors, main)),
+    let runtime = runtime.unpack(cache)?;
+    project::write(place, &runtime, rust, folder)?;
+    let progress = Progress::start("compiling");
+    let built = cargo::build(&place.folder, &runtime.target(), release, &progress)?;
+    let executable = match built.programs.into_iter().next() {
+        Some((_, program)) if built.errors.is_empty() => program,
+        _ => return Err(cargo::bug(&built.errors, main)),
+    };
+    // A program that runs cannot be written over, but it can be removed.
+    if to.is_file() {
+        std::fs::remove_file(to).map_err(|error| Failure::io("replace", to, &error))?;
     }
+    std::fs::copy(&executable, to).map_err(|error| Failure::io("write", to, &error))?;
+    cache.keep_limit(place, &runtime.give_back());
+    Ok(())
 }
 
 /// Removes programs of earlier states. One that runs goes on where the system allows it.

@@ -2,7 +2,7 @@
 
 use super::cache::{Place, write_if_changed};
 use super::failure::Failure;
-use super::runtime::Runtime;
+use super::runtime::Unpacked;
 use std::path::Path;
 
 /// The emitted Rust of what becomes one program.
@@ -25,7 +25,7 @@ pub(super) struct EmittedOther {
 }
 
 /// Writes the project of a program. `folder` is that of its files.
-pub(super) fn write(place: &Place, runtime: &Runtime, rust: &Emitted, folder: &Path) -> Result<(), Failure> {
+pub(super) fn write(place: &Place, runtime: &Unpacked, rust: &Emitted, folder: &Path) -> Result<(), Failure> {
     manifest(&place.folder, &place.name, runtime, PROGRAM_LEVEL)?;
     let source = |name: &str| place.folder.join("src").join(name);
     write_if_changed(&source("program.rs"), rust.first.as_bytes())?;
@@ -57,26 +57,27 @@ pub(super) fn other(other: &EmittedOther, module: &str) -> String {
 /// How far programs are optimised: far enough for loops, and soon done.
 const PROGRAM_LEVEL: u8 = 1;
 
-/// How the runtime is compiled. It never changes, so that working in few large pieces is what takes least; and what reads
-/// files at the start, is only compiled where it is used, or is not used at all, needs no optimisation of its own.
+/// How the runtime is compiled, which everybody waits for once. What moves robots is as fast as it can be. The rest of the
+/// runtime is mostly called, and seldom loops: small is fast enough there. What reads files at the start, is only compiled
+/// where it is used, or is not used at all, needs no optimisation of its own.
 const RUNTIME: &str = "\
 arl-lang = { opt-level = 1, codegen-units = 2 }
-arl-motion = { codegen-units = 2 }
-arl-robot = { codegen-units = 2 }
-arl-rt = { opt-level = 2, codegen-units = 4 }
+arl-motion = { opt-level = 2, codegen-units = 8 }
+arl-robot = { opt-level = 2, codegen-units = 4 }
+arl-rt = { opt-level = \"s\", codegen-units = 8 }
 encoding_rs = { opt-level = 0 }
 libc = { opt-level = 0 }
+libm = { opt-level = 0 }
 nalgebra = { opt-level = 0 }
 rustix = { opt-level = 0 }
 simba = { opt-level = 0 }
 toml = { opt-level = 0 }
 toml_parser = { opt-level = 0 }
-wide = { opt-level = 0 }
 winnow = { opt-level = 0 }
 ";
 
 /// Writes Cargo.toml, and Cargo.lock where the versions of other packages are known.
-pub(super) fn manifest(folder: &Path, name: &str, runtime: &Runtime, level: u8) -> Result<(), Failure> {
+pub(super) fn manifest(folder: &Path, name: &str, runtime: &Unpacked, level: u8) -> Result<(), Failure> {
     // Not `package."*"`: that would also optimise what only runs while compiling.
     let text = format!(
         "# Written by arl2rs.\n\
@@ -88,10 +89,10 @@ pub(super) fn manifest(folder: &Path, name: &str, runtime: &Runtime, level: u8) 
          [profile.dev.package]\n\"{name}\" = {{ opt-level = {level}, incremental = true }}\n\
          {RUNTIME}\n\
          [profile.release]\nlto = \"thin\"\n",
-        runtime.dependency()
+        runtime.dependency
     );
     write_if_changed(&folder.join("Cargo.toml"), text.as_bytes())?;
-    let Some(lock) = runtime.lock_file().and_then(|path| std::fs::read(path).ok()) else { return Ok(()) };
+    let Some(lock) = runtime.lock_file.as_ref().and_then(|path| std::fs::read(path).ok()) else { return Ok(()) };
     // cargo takes out of the lock file what the project does not need, so a copy tells whether the original changed.
     if write_if_changed(&folder.join("base.lock"), &lock)? {
         std::fs::write(folder.join("Cargo.lock"), &lock)

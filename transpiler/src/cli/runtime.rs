@@ -1,67 +1,124 @@
-//! Where programs get the runtime from: the checkout that this command was built from, or the registry.
+//! Where programs get the runtime from.
 
+use super::cache::{Cache, Lock, write_if_changed};
+use super::failure::Failure;
+use arl_sources::{Carried, Origin};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
-/// The runtime that compiled programs use.
-#[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) enum Runtime {
-    /// The workspace that has the package `arl-rt`.
-    Checkout(PathBuf),
-    /// The version of this command, from the registry.
-    Registry,
+/// The runtime that programs are compiled with.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Runtime(Origin);
+
+/// A runtime that programs can be compiled with; nobody removes it from the cache as long as this lives.
+#[derive(Debug)]
+pub(super) struct Unpacked {
+    /// Its folder in the cache.
+    pub(super) folder: PathBuf,
+    /// The value of `arl-rt` under `[dependencies]`.
+    pub(super) dependency: String,
+    /// The lock file that says which versions of other packages to take.
+    pub(super) lock_file: Option<PathBuf>,
+    _lock: Lock,
+}
+
+impl Unpacked {
+    /// The folder that all programs are compiled in, so that the runtime is compiled once.
+    pub(super) fn target(&self) -> PathBuf {
+        self.folder.join("target")
+    }
+
+    /// Gives it back: from now on it may be removed. Its folder.
+    pub(super) fn give_back(self) -> PathBuf {
+        self.folder
+    }
 }
 
 impl Runtime {
-    /// The checkout that this command was built from, as long as it is there.
+    /// The one of this command.
     pub(super) fn find() -> Self {
-        let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).parent().map(Path::to_path_buf);
-        match checkout.filter(|folder| folder.join("arl-rt/Cargo.toml").is_file()) {
-            Some(folder) => Self::Checkout(folder),
-            None => Self::Registry,
-        }
-    }
-
-    /// The value of `arl-rt` under `[dependencies]`.
-    pub(super) fn dependency(&self) -> String {
-        match self {
-            Runtime::Checkout(folder) => {
-                format!(
-                    "{{ path = {:?}, default-features = false, features = [\"serial\"] }}",
-                    folder.join("arl-rt").display().to_string()
-                )
-            }
-            Runtime::Registry => {
-                format!(
-                    "{{ version = \"={}\", default-features = false, features = [\"serial\"] }}",
-                    env!("CARGO_PKG_VERSION")
-                )
-            }
-        }
-    }
-
-    /// The lock file that says which versions of other packages to take.
-    pub(super) fn lock_file(&self) -> Option<PathBuf> {
-        match self {
-            Runtime::Checkout(folder) => Some(folder.join("Cargo.lock")),
-            Runtime::Registry => None,
-        }
+        Self(arl_sources::ORIGIN)
     }
 
     /// A number that changes with the runtime's sources.
-    pub(super) fn state(&self) -> u64 {
+    pub(super) fn state(self) -> u64 {
         let mut hasher = DefaultHasher::new();
         env!("CARGO_PKG_VERSION").hash(&mut hasher);
-        if let Runtime::Checkout(folder) = self {
-            folder.hash(&mut hasher);
-            for part in ["arl-rt", "arl-motion", "arl-robot", "arl-lang"] {
-                hash_state(&folder.join(part).join("Cargo.toml"), &mut hasher);
-                hash_tree(&folder.join(part).join("src"), &mut hasher);
+        match self.0 {
+            Origin::Checkout(folder) => {
+                let folder = Path::new(folder);
+                for part in ["arl-rt", "arl-motion", "arl-robot", "arl-lang"] {
+                    hash_state(&folder.join(part).join("Cargo.toml"), &mut hasher);
+                    hash_tree(&folder.join(part).join("src"), &mut hasher);
+                }
+                hash_state(&folder.join("Cargo.lock"), &mut hasher);
             }
-            hash_state(&folder.join("Cargo.lock"), &mut hasher);
+            Origin::Carried(carried) => carried.state.hash(&mut hasher),
+            Origin::Registry => {}
         }
         hasher.finish()
     }
+
+    /// Its name in the cache.
+    fn name(self) -> String {
+        let version = env!("CARGO_PKG_VERSION");
+        match self.0 {
+            Origin::Checkout(folder) => {
+                let mut hasher = DefaultHasher::new();
+                folder.hash(&mut hasher);
+                format!("checkout-{:016x}", hasher.finish())
+            }
+            Origin::Carried(carried) => format!("{version}-{}", carried.state),
+            Origin::Registry => version.into(),
+        }
+    }
+
+    /// Makes it ready: carried sources are written into the cache.
+    ///
+    /// # Errors
+    /// The checkout is gone, or the cache cannot be written.
+    pub(super) fn unpack(self, cache: &Cache) -> Result<Unpacked, Failure> {
+        let folder = cache.runtime(&self.name());
+        let lock = Lock::take(&folder, true, "waiting for another arl2rs that removes this runtime")?;
+        let options = "default-features = false, features = [\"serial\"]";
+        let below =
+            |workspace: &Path| format!("{{ path = {:?}, {options} }}", workspace.join("arl-rt").display().to_string());
+        let (dependency, lock_file) = match self.0 {
+            Origin::Checkout(workspace) => {
+                let workspace = Path::new(workspace);
+                if !workspace.join("arl-rt/Cargo.toml").is_file() {
+                    return Err(gone(workspace));
+                }
+                (below(workspace), Some(workspace.join("Cargo.lock")))
+            }
+            Origin::Carried(carried) => {
+                let workspace = folder.join("sources");
+                write(carried, &workspace)?;
+                (below(&workspace), Some(workspace.join("Cargo.lock")))
+            }
+            Origin::Registry => (format!("{{ version = \"={}\", {options} }}", env!("CARGO_PKG_VERSION")), None),
+        };
+        Ok(Unpacked { folder, dependency, lock_file, _lock: lock })
+    }
+}
+
+fn gone(checkout: &Path) -> Failure {
+    Failure::Other(format!(
+        "this arl2rs works on the checkout {}, which is gone, so that no program can be compiled\n\
+         help: `cargo install --locked --path transpiler` in a checkout installs a command that carries what it needs",
+        checkout.display()
+    ))
+}
+
+/// Writes the files that are not there or not right: somebody may have tidied up. What is right keeps its time, so that
+/// cargo does not compile it again.
+fn write(carried: &Carried, workspace: &Path) -> Result<(), Failure> {
+    let Some(parent) = workspace.parent() else { return Ok(()) };
+    let _alone = Lock::take(&parent.join("unpacking"), false, "waiting for another arl2rs that unpacks the runtime")?;
+    for (name, text) in carried.files {
+        write_if_changed(&workspace.join(name), text.as_bytes())?;
+    }
+    Ok(())
 }
 
 /// Hashes names, sizes and times of change, not contents: this runs at each start.

@@ -1,6 +1,6 @@
 //! `explain`, `doc`, `robots`, and usage.
 
-use super::Folder;
+use super::{Answer, Folder};
 
 #[test]
 fn usage_mistakes_end_with_two() {
@@ -9,6 +9,26 @@ fn usage_mistakes_end_with_two() {
     folder.arl2rs(&["check"]).is(2, "").says("FILE");
     folder.arl2rs(&["run", "a.arl", "--clock", "fast"]).is(2, "").says("virtual");
     folder.arl2rs(&["fly"]).is(2, "").says("fly");
+}
+
+#[test]
+fn a_cache_is_cleaned_and_limited() {
+    let folder = Folder::new("clean");
+    folder.write("kept.txt", "not ours");
+    let clean = |words: &[&str], limit: &str| {
+        let mut command = folder.command(words);
+        command.env("ARL2RS_CACHE", &folder.path).env("ARL2RS_CACHE_LIMIT", limit);
+        Answer::of(command.output().expect("the command starts"))
+    };
+    let nothing = format!("nothing to remove from {}\n", folder.path.display());
+    clean(&["clean"], "").is(0, &nothing);
+    folder.write("programs/arl-a-00000001/stamp", "arl2rs stamp 1\n");
+    clean(&["clean", "--older", "1"], "none").is(0, &nothing);
+    let removed = format!("removed 1 compiled program from {}: 15 B\n", folder.path.display());
+    clean(&["clean"], "2.5").is(0, &removed);
+    assert!(folder.has("kept.txt") && !folder.has("programs/arl-a-00000001"));
+    clean(&["clean"], "0.2").is(2, "").says("ARL2RS_CACHE_LIMIT").says("at least 1");
+    folder.arl2rs(&["clean", "--older", "-1"]).is(2, "");
 }
 
 #[test]

@@ -1,11 +1,11 @@
 //! All cases compiled together, in a few programs.
 
-use crate::cli::cache::{Cache, Place, write_if_changed};
+use crate::cli::cache::{Place, write_if_changed};
 use crate::cli::cargo::{self, RustError};
 use crate::cli::failure::Failure;
 use crate::cli::progress::Progress;
 use crate::cli::project::{self, Emitted};
-use crate::cli::runtime::Runtime;
+use crate::cli::runtime::Unpacked;
 use std::collections::{BTreeMap, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
@@ -31,19 +31,18 @@ pub(super) const CASE: &str = "ARL2RS_CASE";
 /// Compiles all cases; for each, in their order, the program or rustc's errors.
 pub(super) fn compile(
     place: &Place,
-    cache: &Cache,
+    runtime: &Unpacked,
     cases: &[Case],
     progress: &Progress,
 ) -> Result<Vec<Result<Compiled, String>>, Failure> {
-    let runtime = Runtime::find();
     let names: Vec<String> = cases.iter().map(|case| name(&case.source)).collect();
     let parts = parts(cases.len());
     let mut refused: HashMap<usize, String> = HashMap::new();
     // Errors that rustc finds late hide behind those that it finds early, so a few rounds may be needed.
     for _ in 0..4 {
         let kept = || (0..cases.len()).filter(|at| !refused.contains_key(at));
-        write(place, &runtime, cases, &names, kept(), parts)?;
-        let built = cargo::build(&place.folder, &cache.target(), false, progress)?;
+        write(place, runtime, cases, &names, kept(), parts)?;
+        let built = cargo::build(&place.folder, &runtime.target(), false, progress)?;
         if built.errors.is_empty() {
             let programs: HashMap<String, PathBuf> = built.programs.into_iter().collect();
             return Ok(names
@@ -109,7 +108,7 @@ fn name(source: &Path) -> String {
 
 fn write(
     place: &Place,
-    runtime: &Runtime,
+    runtime: &Unpacked,
     cases: &[Case],
     names: &[String],
     kept: impl Iterator<Item = usize>,

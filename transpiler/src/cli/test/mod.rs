@@ -13,6 +13,7 @@ use super::failure::{COMPILE_ERRORS, Failure};
 use super::program::check_options;
 use super::progress::Progress;
 use super::project::{Emitted, EmittedOther};
+use super::runtime::Runtime;
 use super::several;
 use crate::CheckOptions;
 use crate::compile::{Compiled, check_program, compile_program};
@@ -163,7 +164,8 @@ fn run_all(
     let place = cache.program(name);
     let _lock = place.lock(false)?;
     progress.say(&format!("compiling {} cases", runs.len()));
-    let compiled = batch::compile(&place, &cache, emitted, progress)?;
+    let runtime = Runtime::find().unpack(&cache)?;
+    let compiled = batch::compile(&place, &runtime, emitted, progress)?;
     let scratch = std::env::temp_dir().join(format!("arl2rs-test-{}", std::process::id()));
     let next = AtomicUsize::new(0);
     let verdicts: Mutex<Vec<Verdict>> = Mutex::new(runs.iter().map(|_| Err("it was not run".into())).collect());
@@ -194,6 +196,7 @@ fn run_all(
     });
     // What stays in the system's folder for such files does no harm.
     let _ = std::fs::remove_dir_all(&scratch);
+    cache.keep_limit(&place, &runtime.give_back());
     Ok(verdicts.into_inner().unwrap_or_default())
 }
 

@@ -1,18 +1,33 @@
-//! Where compiled programs are kept.
+//! Where compiled programs are kept: a folder `programs` with one for each program, and a folder `runtime` with one for each
+//! runtime: its sources, where the command carries them, and what cargo made with it.
+
+mod limit;
+mod lock;
+mod old;
+
+pub(super) use lock::Lock;
+pub(super) use old::Removed;
 
 use super::failure::Failure;
-use std::fs::{File, TryLockError};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
+
+const PROGRAMS: &str = "programs";
+const RUNTIMES: &str = "runtime";
 
 /// The folder of all compiled programs of a user.
 #[derive(Clone, Debug)]
 pub(super) struct Cache {
     root: PathBuf,
+    /// How many bytes it may take; none for any number.
+    limit: Option<u64>,
 }
 
 impl Cache {
     /// `$ARL2RS_CACHE`, else the user's cache folder.
+    ///
+    /// # Errors
+    /// There is no such folder, or `$ARL2RS_CACHE_LIMIT` is no limit.
     pub(super) fn find() -> Result<Self, Failure> {
         let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
         let home = || {
@@ -30,12 +45,17 @@ impl Cache {
             Failure::Other("there is no folder for compiled programs: set ARL2RS_CACHE to one".into())
         })?;
         let root = std::path::absolute(&root).map_err(|error| Failure::io("use", &root, &error))?;
-        Ok(Self { root })
+        Ok(Self { root, limit: limit::read()? })
     }
 
-    /// The folder that all programs are compiled in, so that the runtime is compiled once.
-    pub(super) fn target(&self) -> PathBuf {
-        self.root.join("target")
+    /// Its folder.
+    pub(super) fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// The folder of a runtime.
+    pub(super) fn runtime(&self, name: &str) -> PathBuf {
+        self.root.join(RUNTIMES).join(name)
     }
 
     /// The place of the program whose main file is `main`, an absolute path.
@@ -62,7 +82,7 @@ impl Cache {
             .collect();
         // A package's name begins with a letter.
         let name = format!("arl-{stem}-{:08x}", hasher.finish() as u32);
-        Place { folder: self.root.join("programs").join(&name), name }
+        Place { folder: self.root.join(PROGRAMS).join(&name), name }
     }
 }
 
@@ -80,29 +100,8 @@ impl Place {
 
     /// Waits until no other process compiles this program. `shared` is for starting it.
     pub(super) fn lock(&self, shared: bool) -> Result<Lock, Failure> {
-        std::fs::create_dir_all(&self.folder).map_err(|error| Failure::io("make the folder", &self.folder, &error))?;
-        let path = self.folder.join("lock");
-        let fail = |error: std::io::Error| Failure::io("lock", &path, &error);
-        let file = File::options().read(true).write(true).create(true).truncate(false).open(&path).map_err(fail)?;
-        match if shared { file.try_lock_shared() } else { file.try_lock() } {
-            Ok(()) => {}
-            Err(TryLockError::WouldBlock) => {
-                let waiting = super::progress::Progress::start("waiting for another arl2rs that compiles this program");
-                if shared { file.lock_shared() } else { file.lock() }.map_err(fail)?;
-                drop(waiting);
-            }
-            // A file system without locks: two runs at once are the user's business there.
-            Err(TryLockError::Error(error)) if error.kind() == std::io::ErrorKind::Unsupported => {}
-            Err(TryLockError::Error(error)) => return Err(fail(error)),
-        }
-        Ok(Lock { _file: file })
+        Lock::take(&self.folder, shared, "waiting for another arl2rs that compiles this program")
     }
-}
-
-/// Held until dropped, or until the process becomes the program.
-#[derive(Debug)]
-pub(super) struct Lock {
-    _file: File,
 }
 
 /// Writes a file unless it already has this content; says whether it wrote.
@@ -119,7 +118,7 @@ mod tests {
 
     #[test]
     fn places_differ_by_path_and_are_package_names() {
-        let cache = Cache { root: "/cache".into() };
+        let cache = Cache { root: "/cache".into(), limit: None };
         let one = cache.program(Path::new("/a/Pick me.arl"));
         let other = cache.program(Path::new("/b/Pick me.arl"));
         assert!(one.name.starts_with("arl-pick_me-"), "{}", one.name);

@@ -1,0 +1,64 @@
+//! Folders of the cache that one process changes at a time.
+
+use crate::cli::failure::Failure;
+use crate::cli::progress::Progress;
+use std::fs::{File, TryLockError};
+use std::io::ErrorKind;
+use std::path::Path;
+use std::time::SystemTime;
+
+/// Held until dropped, or until the process becomes the program.
+#[derive(Debug)]
+pub(in crate::cli) struct Lock {
+    _file: File,
+}
+
+impl Lock {
+    /// Locks a folder, which is made where there is none, and notes that it is used now. `words` say what is waited for.
+    pub(in crate::cli) fn take(folder: &Path, shared: bool, words: &str) -> Result<Self, Failure> {
+        loop {
+            std::fs::create_dir_all(folder).map_err(|error| Failure::io("make the folder", folder, &error))?;
+            let path = folder.join(NAME);
+            let lock = lock(&path, shared, words).map_err(|error| Failure::io("lock", &path, &error))?;
+            // Who was waited for may have removed the folder.
+            if path.exists() {
+                // Where the time cannot be set it is older than it should be: the folder goes earlier, and is made again.
+                let _ = lock.set_modified(SystemTime::now());
+                return Ok(Self { _file: lock });
+            }
+        }
+    }
+
+    /// Locks a folder that nobody uses; nothing where somebody does. Notes no use.
+    pub(super) fn of_unused(folder: &Path) -> Option<Self> {
+        let file = File::options().read(true).write(true).create(true).truncate(false).open(folder.join(NAME)).ok()?;
+        match file.try_lock() {
+            Ok(()) => Some(Self { _file: file }),
+            Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => Some(Self { _file: file }),
+            Err(_) => None,
+        }
+    }
+}
+
+fn lock(path: &Path, shared: bool, words: &str) -> std::io::Result<File> {
+    let file = File::options().read(true).write(true).create(true).truncate(false).open(path)?;
+    match if shared { file.try_lock_shared() } else { file.try_lock() } {
+        Ok(()) => {}
+        Err(TryLockError::WouldBlock) => {
+            let _waiting = Progress::start(words);
+            if shared { file.lock_shared() } else { file.lock() }?;
+        }
+        // A file system without locks: two runs at once are the user's business there.
+        Err(TryLockError::Error(error)) if error.kind() == ErrorKind::Unsupported => {}
+        Err(TryLockError::Error(error)) => return Err(error),
+    }
+    Ok(file)
+}
+
+/// When a folder was used last; that of its making, where nobody locked it.
+pub(super) fn last_use(folder: &Path) -> Option<SystemTime> {
+    let of = |path: &Path| std::fs::metadata(path).and_then(|data| data.modified()).ok();
+    of(&folder.join(NAME)).or_else(|| of(folder))
+}
+
+const NAME: &str = "lock";

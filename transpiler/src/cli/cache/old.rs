@@ -1,0 +1,190 @@
+//! What the cache holds, and how it is removed.
+
+use super::lock::{Lock, last_use};
+use super::{Cache, PROGRAMS, RUNTIMES};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+
+/// What was removed, and what was not.
+#[derive(Clone, PartialEq, Eq, Default, Debug)]
+pub(in crate::cli) struct Removed {
+    pub(in crate::cli) programs: usize,
+    pub(in crate::cli) runtimes: usize,
+    pub(in crate::cli) bytes: u64,
+    /// The folders that were not: another process uses them, or they cannot be removed.
+    pub(in crate::cli) kept: Vec<PathBuf>,
+}
+
+/// A folder of the cache.
+#[derive(Clone, Debug)]
+pub(super) struct Entry {
+    pub(super) folder: PathBuf,
+    pub(super) is_program: bool,
+    pub(super) used: SystemTime,
+}
+
+impl Cache {
+    /// What it holds, programs first, each from the one that was not used for longest.
+    pub(super) fn entries(&self) -> Vec<Entry> {
+        let mut all = Vec::new();
+        for (name, is_program) in [(PROGRAMS, true), (RUNTIMES, false)] {
+            let mut some: Vec<Entry> = folders(&self.root.join(name))
+                .map(|folder| Entry { used: last_use(&folder).unwrap_or(SystemTime::UNIX_EPOCH), folder, is_program })
+                .collect();
+            some.sort_by(|a, b| (a.used, &a.folder).cmp(&(b.used, &b.folder)));
+            all.append(&mut some);
+        }
+        all
+    }
+
+    /// Removes what was not used for so long.
+    pub(in crate::cli) fn clean(&self, unused_for: Duration) -> Removed {
+        let now = SystemTime::now();
+        let mut removed = Removed::default();
+        // What is used in the future is not old, unless all is to go.
+        let is_old = |entry: &Entry| {
+            unused_for.is_zero() || now.duration_since(entry.used).is_ok_and(|unused| unused >= unused_for)
+        };
+        for entry in self.entries().iter().filter(|entry| is_old(entry)) {
+            self.remove(entry, &mut removed);
+        }
+        removed
+    }
+
+    /// Removes a program with what cargo keeps of it, or a runtime; not one that somebody uses.
+    pub(super) fn remove(&self, entry: &Entry, removed: &mut Removed) {
+        let Some(lock) = Lock::of_unused(&entry.folder) else {
+            removed.kept.push(entry.folder.clone());
+            return;
+        };
+        let mut bytes = 0;
+        if entry.is_program {
+            let made = folders(&self.root.join(RUNTIMES)).flat_map(|runtime| made_of(&entry.folder, &runtime));
+            bytes += made.map(|path| remove(&path)).sum::<u64>();
+        }
+        // Windows removes no folder with an open file in it; elsewhere nobody gets in between.
+        let lock = (!cfg!(windows)).then_some(lock);
+        bytes += remove(&entry.folder);
+        drop(lock);
+        removed.bytes += bytes;
+        match (entry.folder.exists(), entry.is_program) {
+            (true, _) => removed.kept.push(entry.folder.clone()),
+            (false, true) => removed.programs += 1,
+            (false, false) => removed.runtimes += 1,
+        }
+    }
+}
+
+/// What cargo made of a program, for its own use, in the folder of a runtime.
+fn made_of(program: &Path, runtime: &Path) -> Vec<PathBuf> {
+    let Some(package) = program.file_name().map(|name| name.to_string_lossy().into_owned()) else { return Vec::new() };
+    let profiles = folders(&runtime.join("target"));
+    let places = profiles.flat_map(|profile| {
+        ["", "deps", "incremental", ".fingerprint"]
+            .map(|name| if name.is_empty() { profile.clone() } else { profile.join(name) })
+    });
+    let paths = places.flat_map(|place| entries(&place));
+    paths.filter(|path| path.file_name().is_some_and(|name| is_made_of(&name.to_string_lossy(), &package))).collect()
+}
+
+/// Whether cargo gives this name to something that it makes of a package: `package`, `package-0123456789abcdef.d`, or the
+/// parts of a program of tests, `package-part1`.
+fn is_made_of(name: &str, package: &str) -> bool {
+    let same = |(a, b): (u8, u8)| a == b || (a == b'_' && b == b'-');
+    let rest = name.get(package.len()..);
+    name.len() >= package.len()
+        && name.bytes().zip(package.bytes()).all(same)
+        && rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['-', '.']) || rest.starts_with("_part"))
+}
+
+/// How many bytes the files below a folder take, or a file; one with several names counts once among them.
+pub(super) fn bytes(path: &Path) -> u64 {
+    let Ok(data) = std::fs::symlink_metadata(path) else { return 0 };
+    if data.is_dir() { entries(path).map(|path| bytes(&path)).sum() } else { data.len() / names(&data) }
+}
+
+#[cfg(unix)]
+fn names(data: &std::fs::Metadata) -> u64 {
+    std::os::unix::fs::MetadataExt::nlink(data).max(1)
+}
+
+#[cfg(not(unix))]
+fn names(_: &std::fs::Metadata) -> u64 {
+    1
+}
+
+/// Removes a folder or a file and says how many bytes that gave back. What cannot be removed stays.
+fn remove(path: &Path) -> u64 {
+    let before = bytes(path);
+    let _ = if path.is_dir() { std::fs::remove_dir_all(path) } else { std::fs::remove_file(path) };
+    before - bytes(path).min(before)
+}
+
+fn entries(folder: &Path) -> impl Iterator<Item = PathBuf> + use<> {
+    std::fs::read_dir(folder).into_iter().flatten().filter_map(|entry| Some(entry.ok()?.path()))
+}
+
+fn folders(folder: &Path) -> impl Iterator<Item = PathBuf> + use<> {
+    entries(folder).filter(|path| path.is_dir())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_of_what_cargo_makes() {
+        let package = "arl-pick_me-0a1b2c3d";
+        for name in [
+            "arl-pick_me-0a1b2c3d",
+            "arl-pick_me-0a1b2c3d.d",
+            "arl_pick_me_0a1b2c3d-00ff.d",
+            "arl-pick_me-0a1b2c3d-part1",
+        ] {
+            assert!(is_made_of(name, package), "{name}");
+        }
+        for name in ["arl-pick_me-0a1b2c3", "arl-pick_me-0a1b2c3d4", "libarl_rt-00ff.rlib", "arl-pick-me-0a1b2c3d", ""]
+        {
+            assert!(!is_made_of(name, package), "{name}");
+        }
+    }
+
+    #[test]
+    fn what_is_old_goes_with_what_cargo_made_of_it() {
+        let root = std::env::temp_dir().join(format!("arl2rs-old-{}", std::process::id()));
+        let cache = Cache { root: root.clone(), limit: None };
+        let day = Duration::from_secs(24 * 3600);
+        let program = |name: &str, age: u32| {
+            let folder = root.join("programs").join(name);
+            drop(Lock::take(&folder, true, "").expect("a lock"));
+            let lock = std::fs::File::options().write(true).open(folder.join("lock")).expect("the lock");
+            lock.set_modified(SystemTime::now() - day * age).expect("the time is set");
+            std::fs::write(folder.join("stamp"), "four").expect("written");
+            let deps = root.join("runtime/r/target/debug/deps");
+            std::fs::create_dir_all(&deps).expect("a folder");
+            std::fs::write(deps.join(format!("{}-00ff", name.replace('-', "_"))), "seven..").expect("written");
+        };
+        program("arl-a-00000001", 3);
+        program("arl-b-00000002", 1);
+        program("arl-c-00000003", 3);
+        std::fs::write(root.join("not ours"), "stays").expect("written");
+        let used = Lock::take(&root.join("programs/arl-c-00000003"), true, "").expect("a lock");
+        std::fs::File::options()
+            .write(true)
+            .open(root.join("programs/arl-c-00000003/lock"))
+            .and_then(|lock| lock.set_modified(SystemTime::now() - day * 3))
+            .expect("the time is set");
+
+        let removed = cache.clean(day * 2);
+        let kept = vec![root.join("programs/arl-c-00000003")];
+        assert_eq!(removed, Removed { programs: 1, runtimes: 0, bytes: 11, kept });
+        let left: Vec<_> = entries(&root.join("runtime/r/target/debug/deps")).collect();
+        assert_eq!(left.len(), 2, "{left:?}");
+
+        drop(used);
+        let removed = cache.clean(Duration::ZERO);
+        assert_eq!((removed.programs, removed.runtimes, removed.kept), (2, 1, Vec::new()));
+        assert_eq!(std::fs::read_to_string(root.join("not ours")).expect("it is there"), "stays");
+        std::fs::remove_dir_all(&root).expect("removed");
+    }
+}
