@@ -5,6 +5,7 @@ use std::fmt;
 use std::marker::PhantomData;
 
 use crate::cycle::channel_id::ChannelId;
+use crate::values::Str;
 
 /// A fault without its place; [`At::at`] makes an alarm of it.
 #[derive(Clone, PartialEq, Debug)]
@@ -60,6 +61,8 @@ pub enum Fault {
     Depth,
     /// `assert` of something false.
     Assertion,
+    /// A string of so many bytes, more than [`Str::MOST`](crate::values::Str::MOST).
+    TooLong(usize),
     /// A file that is missing, not readable or not where programs may go.
     File {
         /// The path as the program wrote it.
@@ -141,6 +144,7 @@ impl Fault {
             Fault::Depth => 20007,
             Fault::Assertion => 20008,
             Fault::File { .. } => 20009,
+            Fault::TooLong(_) => 20011,
             Fault::Channel(_) => 20010,
             Fault::Motion(_) => 20020,
             Fault::Collision(_) => 20021,
@@ -180,6 +184,9 @@ impl fmt::Display for Fault {
             Fault::Depth => write!(f, "functions call each other too deep"),
             Fault::Assertion => write!(f, "assertion failed"),
             Fault::File { path, problem } => write!(f, "file \"{path}\": {problem}"),
+            Fault::TooLong(length) => {
+                write!(f, "a string of {length} bytes is too long: at most {} are allowed", Str::MOST)
+            }
             Fault::NoSuchFile(path) => write!(f, "the file \"{path}\" does not exist or is damaged"),
             Fault::NoSuchLine { line, count } => {
                 write!(f, "line {line} was asked for, but the file has {count} lines")

@@ -4,6 +4,7 @@ pub(crate) mod captures;
 pub(crate) mod facts;
 pub(crate) mod flow;
 pub(crate) mod graph;
+pub(crate) mod growth;
 pub(crate) mod loops;
 pub(crate) mod parts;
 pub(crate) mod ranges;
@@ -61,6 +62,7 @@ fn calls(direct: &[Facts]) -> Vec<Vec<usize>> {
 
 /// Fills in the effects of all functions and the findings about their loops.
 pub fn infer(program: &mut Program) {
+    growth::mark(program);
     for func in &mut program.funcs {
         captures::mark(func);
         loops::judge(func);

@@ -341,6 +341,8 @@ pub enum ExprKind {
     Assign(Box<(Place, Expr)>),
     /// `place op= value`; the value has the place's type, but for shifts (an int) and `pose *= frame`.
     AssignOp(BinaryOp, Box<(Place, Expr)>),
+    /// A sum of strings that is kept, and could be longer than a string may be.
+    Grown(Box<Expr>),
     /// `++`, `--`
     Step(Step, Box<Place>),
     /// A call of a user's function.

@@ -39,7 +39,12 @@ pub(crate) fn exprs<'a, F: FnMut(&'a Expr)>(expr: &'a Expr, see: &mut F) {
     match &expr.kind {
         ExprKind::Const(_) | ExprKind::Splice(_) => {}
         ExprKind::Place(inner) | ExprKind::Step(_, inner) => place(inner, see),
-        ExprKind::FieldOf(inner, ..) | ExprKind::Convert(inner) | ExprKind::Unary(_, inner) => exprs(inner, see),
+        ExprKind::FieldOf(inner, ..)
+        | ExprKind::Convert(inner)
+        | ExprKind::Unary(_, inner)
+        | ExprKind::Grown(inner) => {
+            exprs(inner, see);
+        }
         ExprKind::Binary(_, both) => {
             exprs(&both.0, see);
             exprs(&both.1, see);

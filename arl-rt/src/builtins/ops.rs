@@ -4,6 +4,29 @@ use crate::fault::Fault;
 use crate::values::{Array, Joint, JointScara, Store, Str, UNSET};
 use std::ops::{Add, Neg, Sub};
 
+/// Appends to a string.
+///
+/// # Errors
+/// [`Fault::TooLong`] where it would become longer than [`Str::MOST`]; then nothing is appended.
+#[inline]
+pub fn append(text: &mut Str, more: impl AsRef<[u8]>) -> Result<(), Fault> {
+    let more = more.as_ref();
+    if text.len() + more.len() > Str::MOST {
+        return Err(Fault::TooLong(text.len() + more.len()));
+    }
+    text.push_bytes(more);
+    Ok(())
+}
+
+/// The same string.
+///
+/// # Errors
+/// [`Fault::TooLong`] where it is longer than [`Str::MOST`].
+#[inline]
+pub fn fits(text: Str) -> Result<Str, Fault> {
+    if text.len() > Str::MOST { Err(Fault::TooLong(text.len())) } else { Ok(text) }
+}
+
 /// The integers of ARL.
 pub trait Integer: Copy {
     /// The width in bits.

@@ -21,6 +21,9 @@ enum Text {
 }
 
 impl Str {
+    /// How many bytes a string of a program may have: 16 MiB.
+    pub const MOST: usize = 16 << 20;
+
     /// The empty string.
     pub const fn new() -> Self {
         Self(Text::Static(&[]))

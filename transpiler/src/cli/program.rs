@@ -194,8 +194,8 @@ fn build(cache: &Cache, place: &Place, runtime: Runtime, done: &Done, main: &Pat
     let checked = done.programs.first().and_then(|compiled| compiled.checked.program.as_ref());
     let stem = checked.map_or("program", |program| program.name.as_str());
     let name = format!("{stem}-{:016x}{}", hasher.finish(), std::env::consts::EXE_SUFFIX);
-    remove_old(place, &name);
     compile_rust(cache, place, runtime, &done.rust, main, false, &place.folder.join(&name))?;
+    remove_old(place, &name);
     Ok(name)
 }
 

@@ -1,7 +1,7 @@
 //! What evaluating expressions and running statements involves.
 
 use super::ranges::Ranges;
-use super::{captures, flow};
+use super::{captures, flow, growth};
 use crate::hir::{
     Effects, Expr, ExprKind, Func, FuncId, LocalId, Passed, Place, Program, Projection, Root, Stmt, StmtKind, Type,
     Value,
@@ -183,6 +183,10 @@ impl Collector<'_> {
             ExprKind::Const(_) | ExprKind::Splice(_) => {}
             ExprKind::Place(place) => self.read(place),
             ExprKind::FieldOf(inner, ..) | ExprKind::Convert(inner) | ExprKind::Unary(_, inner) => self.expr(inner),
+            ExprKind::Grown(inner) => {
+                self.expr(inner);
+                self.facts.fails = true;
+            }
             ExprKind::Binary(op, sides) => {
                 self.expr(&sides.0);
                 self.expr(&sides.1);
@@ -196,7 +200,7 @@ impl Collector<'_> {
             ExprKind::AssignOp(op, sides) => {
                 self.read(&sides.0);
                 self.expr(&sides.1);
-                self.facts.fails |= self.operator_fails(*op, sides.0.ty, &sides.1);
+                self.facts.fails |= self.operator_fails(*op, sides.0.ty, &sides.1) || growth::appends(*op, &sides.0);
                 self.write(&sides.0, None);
             }
             ExprKind::Step(_, place) => {

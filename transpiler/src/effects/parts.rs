@@ -13,7 +13,12 @@ pub(crate) fn children(expr: &Expr) -> Vec<&Expr> {
     match &expr.kind {
         ExprKind::Const(_) | ExprKind::Splice(_) => Vec::new(),
         ExprKind::Place(place) | ExprKind::Step(_, place) => indices(place).collect(),
-        ExprKind::FieldOf(inner, ..) | ExprKind::Convert(inner) | ExprKind::Unary(_, inner) => vec![inner],
+        ExprKind::FieldOf(inner, ..)
+        | ExprKind::Convert(inner)
+        | ExprKind::Unary(_, inner)
+        | ExprKind::Grown(inner) => {
+            vec![inner]
+        }
         ExprKind::Binary(_, sides) => vec![&sides.0, &sides.1],
         ExprKind::Assign(sides) | ExprKind::AssignOp(_, sides) => {
             indices(&sides.0).chain(std::iter::once(&sides.1)).collect()

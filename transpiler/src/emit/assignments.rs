@@ -8,7 +8,7 @@ use super::operators::{may_fail, text_mode};
 use super::places::{Calm, Reached, Written};
 use super::sequence::{Mode, Operand};
 use super::types::is_copy;
-use crate::effects::facts;
+use crate::effects::{facts, growth};
 use crate::hir::{Expr, ExprKind, Place, Projection, Root, Value};
 use arl_lang::ast::{BinaryOp, Step};
 use arl_lang::catalog::Base;
@@ -79,7 +79,8 @@ impl<'p> Body<'p, '_> {
 
     /// `place op= value`: the old value is read first.
     fn assign_op(&mut self, op: BinaryOp, place: &'p Place, value: &'p Expr, keep: bool) -> (TokenStream, Reached) {
-        if op == BinaryOp::Add && place.ty.base == Base::String {
+        let appends = growth::appends(op, place);
+        if appends {
             let mut more = Vec::new();
             leaves(value, &mut more);
             if self.may_append(place, &more) {
@@ -102,6 +103,7 @@ impl<'p> Body<'p, '_> {
             before.extend(right.before.clone());
             let known = self.constant(value);
             let new = self.operation(op, place.ty, Fragment { before: TokenStream::new(), ..old }, &right, known);
+            let new = if appends { self.fitting(new) } else { new };
             let new = self.limited(place, new, None);
             let write = self.write(&reached, Written::Value(new), Calm::No);
             return (quote!(#before #write), reached);
@@ -112,6 +114,7 @@ impl<'p> Body<'p, '_> {
         let written = if fails || !is_copy(place.ty) {
             let old = self.read_reached(&reached);
             let new = self.operation(op, place.ty, old, &right, known);
+            let new = if appends { self.fitting(new) } else { new };
             Written::Value(self.limited(place, new, None).after(right.before))
         } else {
             Written::Step { op, value: right, known, native }
@@ -168,6 +171,7 @@ impl<'p> Body<'p, '_> {
         if place.ty.base != Base::String || place.ty.is_array() || !place.path.is_empty() {
             return None;
         }
+        let ExprKind::Grown(value) = &value.kind else { return None };
         let mut parts = Vec::new();
         leaves(value, &mut parts);
         let (first, more) = parts.split_first()?;
@@ -201,11 +205,7 @@ impl<'p> Body<'p, '_> {
         for part in parts {
             let facts = self.facts(part);
             let fragment = self.expression(part, text_mode(part));
-            out.extend(self.write(
-                &reached,
-                Written::Step { op: BinaryOp::Add, value: fragment, known: None, native: true },
-                Calm::of(&facts),
-            ));
+            out.extend(self.append_to(&reached, fragment, Calm::of(&facts)));
         }
         (out, reached)
     }

@@ -48,6 +48,10 @@ impl<'p> Body<'p, '_> {
             ExprKind::Unary(UnaryOp::Not, inner) => self.negated(inner),
             ExprKind::Unary(op, inner) => self.unary(*op, inner),
             ExprKind::Binary(op, sides) => self.binary(*op, &sides.0, &sides.1),
+            ExprKind::Grown(sum) => {
+                let sum = self.value(sum);
+                self.fitting(sum)
+            }
             ExprKind::Assign(_) | ExprKind::AssignOp(..) | ExprKind::Step(..) => self.assignment_value(expr, true),
             ExprKind::Call(id, args) => self.call(*id, args),
             ExprKind::Builtin(builtin) => self.builtin(builtin),

@@ -16,8 +16,23 @@ const KEYWORDS: &[&str] = &[
 ];
 
 /// Functions of the prelude, and the names that emitted functions give to what they are passed.
-const VALUES: &[&str] =
-    &["cx", "g", "part", "div", "rem", "rem_double", "shl", "shr", "index", "index2", "in_range", "one_of", "truth"];
+const VALUES: &[&str] = &[
+    "append",
+    "cx",
+    "fits",
+    "g",
+    "part",
+    "div",
+    "rem",
+    "rem_double",
+    "shl",
+    "shr",
+    "index",
+    "index2",
+    "in_range",
+    "one_of",
+    "truth",
+];
 
 /// What a module must not hide: crates, and what the functions of the program as a whole are passed.
 const OUTSIDE: &[&str] = &["arl_rt", "core", "std", "alloc", "cx", "g"];

@@ -169,6 +169,14 @@ impl<'p> Body<'p, '_> {
         }
     }
 
+    /// A string that may have become too long: `fits(a + &b).at(FILE, 3)?`
+    pub(super) fn fitting(&self, text: Fragment) -> Fragment {
+        text.map(Precedence::Postfix, |text| {
+            let tokens = &text.tokens;
+            self.checked(quote!(fits(#tokens)))
+        })
+    }
+
     /// `a + b` of strings: the left one is copied, or was made for the purpose; the right one is looked at.
     fn joined(&mut self, left: &'p Expr, right: &'p Expr) -> Fragment {
         let left_mode = match text_mode(left) {

@@ -286,6 +286,21 @@ impl<'p> Body<'p, '_> {
         }
     }
 
+    /// The statement that appends a string to a variable: `append(&mut text, &more).at(FILE, 3)?;`
+    pub(super) fn append_to(&mut self, place: &Reached, more: Fragment, calm: Calm) -> TokenStream {
+        let variable = self.variable(place);
+        if place.kept() == Storage::Local {
+            let (before, more) = (&more.before, &more.tokens);
+            let appended = self.checked(quote!(append(&mut #variable, #more)));
+            return quote!(#before #appended;);
+        }
+        let more = if calm == Calm::Local { more } else { self.settle(more, "value") };
+        let it = self.fresh("it");
+        let (before, more) = (&more.before, &more.tokens);
+        let appended = self.checked(quote!(#variable.update(|#it| append(#it, #more))));
+        quote!(#before #appended;)
+    }
+
     /// `target = value`, `target += value`, with the statements before.
     fn changed(&self, ty: Type, target: &TokenStream, written: Written<'p>) -> (TokenStream, TokenStream) {
         match written {

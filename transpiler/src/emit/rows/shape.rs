@@ -88,6 +88,7 @@ impl<'p> Walk<'p, '_> {
                 self.word(expr.ty);
                 self.expr(inner, None);
             }
+            ExprKind::Grown(inner) => self.expr(inner, None),
             ExprKind::Unary(op, inner) => {
                 self.word(op);
                 self.expr(inner, None);

@@ -1,0 +1,116 @@
+//! Strings that could grow without end. Where a sum of strings is kept, and a part of it has no limit of its own, it is
+//! checked whether a string may be that long. What is only looked at (printed, compared) needs no check: it is made of few
+//! strings, each of which may be that long.
+
+use super::loops;
+use crate::hir::{Expr, ExprKind, Passed, Place, Program, Projection, Root, Stmt, StmtKind, Value};
+use arl_lang::ast::BinaryOp;
+use arl_lang::catalog::Base;
+
+/// Marks all such sums: [`ExprKind::Grown`].
+pub(crate) fn mark(program: &mut Program) {
+    let globals: Vec<bool> = program.globals.iter().map(|global| global.value.is_some()).collect();
+    for func in &mut program.funcs {
+        let locals: Vec<bool> = func.locals.iter().map(|local| local.value.is_some()).collect();
+        Marker { globals: &globals, locals: &locals }.block(&mut func.body);
+    }
+}
+
+/// Whether `place += value` makes a string longer.
+pub(crate) fn appends(op: BinaryOp, place: &Place) -> bool {
+    op == BinaryOp::Add && place.ty.base == Base::String && !place.ty.is_array()
+}
+
+/// Which variables have values that are known, and therefore a limit.
+struct Marker<'a> {
+    globals: &'a [bool],
+    locals: &'a [bool],
+}
+
+impl Marker<'_> {
+    fn block(&self, block: &mut [Stmt]) {
+        block.iter_mut().for_each(|stmt| self.stmt(stmt));
+    }
+
+    fn stmt(&self, stmt: &mut Stmt) {
+        match &mut stmt.kind {
+            StmtKind::Let(_, value) | StmtKind::Return(value) => value.iter_mut().for_each(|value| self.kept(value)),
+            StmtKind::Eval(expr)
+            | StmtKind::While(expr, ..)
+            | StmtKind::Repeat(_, expr, _)
+            | StmtKind::Switch(expr, _) => {
+                self.expr(expr);
+            }
+            StmtKind::If(arms, _) => arms.iter_mut().for_each(|(condition, _)| self.expr(condition)),
+            StmtKind::For(each) => each.condition.iter_mut().chain(&mut each.step).for_each(|expr| self.expr(expr)),
+            StmtKind::Loop(..) | StmtKind::Break | StmtKind::Continue | StmtKind::Goto(_) | StmtKind::Label(_) => {}
+        }
+        loops::inner_blocks(stmt).into_iter().for_each(|block| self.block(block));
+    }
+
+    /// An expression whose value is put into a variable, handed to a function of the program, or returned by one.
+    fn kept(&self, expr: &mut Expr) {
+        self.expr(expr);
+        let is_sum = matches!(&expr.kind, ExprKind::Binary(BinaryOp::Add, _));
+        if is_sum && expr.ty.base == Base::String && self.is_unlimited(expr) {
+            let sum = std::mem::replace(&mut expr.kind, ExprKind::Const(Value::Bool(false)));
+            expr.kind = ExprKind::Grown(Box::new(Expr { kind: sum, ..*expr }));
+        }
+    }
+
+    /// The parts of an expression.
+    fn expr(&self, expr: &mut Expr) {
+        match &mut expr.kind {
+            ExprKind::Const(_) | ExprKind::Splice(_) => {}
+            ExprKind::Place(place) | ExprKind::Step(_, place) => self.place(place),
+            ExprKind::FieldOf(inner, ..)
+            | ExprKind::Convert(inner)
+            | ExprKind::Unary(_, inner)
+            | ExprKind::Grown(inner) => self.expr(inner),
+            ExprKind::Binary(_, sides) => {
+                self.expr(&mut sides.0);
+                self.expr(&mut sides.1);
+            }
+            ExprKind::Assign(sides) => {
+                self.place(&mut sides.0);
+                self.kept(&mut sides.1);
+            }
+            ExprKind::AssignOp(_, sides) => {
+                self.place(&mut sides.0);
+                self.expr(&mut sides.1);
+            }
+            ExprKind::Call(_, values) | ExprKind::Array(values) => values.iter_mut().for_each(|value| self.kept(value)),
+            ExprKind::Struct(_, values) => values.iter_mut().flatten().for_each(|value| self.kept(value)),
+            ExprKind::Builtin(builtin) => builtin.args.iter_mut().for_each(|arg| match &mut arg.value {
+                Passed::Value(value) => self.expr(value),
+                Passed::Out(place) => self.place(place),
+            }),
+        }
+    }
+
+    fn place(&self, place: &mut Place) {
+        for step in &mut place.path {
+            if let Projection::Index(indices, _) = step {
+                indices.iter_mut().for_each(|index| self.expr(index));
+            }
+        }
+    }
+
+    /// Whether one of the strings that an expression is made of may have any length.
+    fn is_unlimited(&self, expr: &Expr) -> bool {
+        match &expr.kind {
+            ExprKind::Binary(_, sides) => self.is_unlimited(&sides.0) || self.is_unlimited(&sides.1),
+            // Texts of numbers and other values are short, and no function that is built in makes a string longer.
+            ExprKind::Const(_) | ExprKind::Builtin(_) => false,
+            ExprKind::Place(place) => {
+                let known = match place.root {
+                    Root::Local(id) => self.locals.get(id.0 as usize),
+                    Root::Global(id) => self.globals.get(id.0 as usize),
+                    Root::System(_) => None,
+                };
+                known != Some(&true)
+            }
+            _ => true,
+        }
+    }
+}
