@@ -1,12 +1,11 @@
 //! What a program can be held against before it runs: that part of a cell file which says what there is around the robot.
 
 use std::collections::BTreeMap;
-use std::path::Path;
 
-use crate::cell::Programs;
+use crate::cell::Cell;
 use crate::channels::Channels;
 use crate::islands::Island;
-use crate::settings::{Section, SettingsError, Source};
+use crate::settings::{Section, SettingsError};
 
 /// What a cell has for programs.
 #[derive(Clone, PartialEq, Debug)]
@@ -32,25 +31,24 @@ pub const DEVICENET: u32 = 512;
 const MOST_DEVICENET: u32 = 65536;
 
 impl Outline {
-    /// That of the cell file with this text; `file` names it in errors. Nothing else of the file is looked at.
+    /// That of a cell.
+    pub fn of(cell: &Cell) -> Outline {
+        Outline {
+            channels: cell.channels.clone(),
+            islands: cell.islands.clone(),
+            lines: cell.network.devices.clone(),
+            devicenet: cell.buses.devicenet as u32,
+            modbus_tcp: cell.buses.modbus_tcp.is_some(),
+            foreground: 1 + cell.programs.channels.iter().filter(|channel| !channel.background).count() as u32,
+        }
+    }
+
+    /// That of the cell file with this text; `file` names it in errors.
     ///
     /// # Errors
-    /// The text is not TOML, or what it says of these things is wrong: with line, column and what was expected.
+    /// The text is not TOML, or not a cell: with line, column and what was expected.
     pub fn of_cell(file: &str, text: &str) -> Result<Outline, SettingsError> {
-        let source = Source { file, text };
-        let root = source.parse()?;
-        let keys: Vec<&str> = root.get_ref().keys().map(|key| key.get_ref().as_ref()).collect();
-        let top = Section::new(source, "the cell file", root.get_ref(), &keys)?;
-        let channels = Channels::read(&top)?;
-        let programs = Programs::read(&top, Path::new(""))?;
-        Ok(Outline {
-            islands: Island::read_all(source, top.find("island"), &channels)?,
-            channels,
-            lines: lines(&top)?,
-            devicenet: devicenet(&top)?,
-            modbus_tcp: top.find("modbus_tcp").is_some(),
-            foreground: 1 + programs.channels.iter().filter(|channel| !channel.background).count() as u32,
-        })
+        Cell::parse(file, text).map(|cell| Outline::of(&cell))
     }
 }
 
@@ -58,7 +56,7 @@ impl Outline {
 ///
 /// # Errors
 /// What stands there are no devices.
-pub fn lines(top: &Section<'_>) -> Result<BTreeMap<String, String>, SettingsError> {
+pub(crate) fn lines(top: &Section<'_>) -> Result<BTreeMap<String, String>, SettingsError> {
     const WHAT: &str = "the path of a device, like \"/dev/ttyUSB0\"";
     let Some(value) = top.find("serial") else { return Ok(BTreeMap::new()) };
     let table = value.get_ref().as_table().ok_or_else(|| top.wrong("serial", value, "the table [serial]"))?;
@@ -74,7 +72,7 @@ pub fn lines(top: &Section<'_>) -> Result<BTreeMap<String, String>, SettingsErro
 ///
 /// # Errors
 /// What stands there is no size.
-pub fn devicenet(top: &Section<'_>) -> Result<u32, SettingsError> {
+pub(crate) fn devicenet(top: &Section<'_>) -> Result<u32, SettingsError> {
     let Some(section) = top.table("devicenet", "[devicenet]", &["size"])? else { return Ok(DEVICENET) };
     Ok(section.count("size", "how many bytes the bus exchanges", MOST_DEVICENET)?.unwrap_or(DEVICENET))
 }
@@ -85,8 +83,8 @@ mod tests {
     use crate::channels::AnalogType;
 
     #[test]
-    fn of_a_cell_file_only_what_programs_see_counts() {
-        let text = "[controller]\nwhatever = 1\n[io]\ndi = 16\nao = [\"mA\"]\n[serial]\n\"/dev/ttyS0\" = \"/dev/ttyUSB0\"\n\
+    fn what_programs_see_of_a_cell() {
+        let text = "[controller]\ncycle = 2\n[io]\ndi = 16\nao = [\"mA\"]\n[serial]\n\"/dev/ttyS0\" = \"/dev/ttyUSB0\"\n\
                     [devicenet]\nsize = 16\n[modbus_tcp]\n";
         let outline = Outline::of_cell("cell.toml", text).unwrap();
         let channels = &outline.channels;

@@ -5,7 +5,6 @@ use std::fmt;
 use std::marker::PhantomData;
 
 use crate::cycle::channel_id::ChannelId;
-use crate::values::Str;
 
 /// A fault without its place; [`At::at`] makes an alarm of it.
 #[derive(Clone, PartialEq, Debug)]
@@ -61,8 +60,13 @@ pub enum Fault {
     Depth,
     /// `assert` of something false.
     Assertion,
-    /// A string of so many bytes, more than [`Str::MOST`](crate::values::Str::MOST).
-    TooLong(usize),
+    /// A string that is too long.
+    TooLong {
+        /// How many bytes it would have.
+        length: usize,
+        /// How many it may have.
+        most: usize,
+    },
     /// A file that is missing, not readable or not where programs may go.
     File {
         /// The path as the program wrote it.
@@ -144,7 +148,7 @@ impl Fault {
             Fault::Depth => 20007,
             Fault::Assertion => 20008,
             Fault::File { .. } => 20009,
-            Fault::TooLong(_) => 20011,
+            Fault::TooLong { .. } => 20011,
             Fault::Channel(_) => 20010,
             Fault::Motion(_) => 20020,
             Fault::Collision(_) => 20021,
@@ -184,8 +188,8 @@ impl fmt::Display for Fault {
             Fault::Depth => write!(f, "functions call each other too deep"),
             Fault::Assertion => write!(f, "assertion failed"),
             Fault::File { path, problem } => write!(f, "file \"{path}\": {problem}"),
-            Fault::TooLong(length) => {
-                write!(f, "a string of {length} bytes is too long: at most {} are allowed", Str::MOST)
+            Fault::TooLong { length, most } => {
+                write!(f, "a string of {length} bytes is too long: at most {most} are allowed")
             }
             Fault::NoSuchFile(path) => write!(f, "the file \"{path}\" does not exist or is damaged"),
             Fault::NoSuchLine { line, count } => {

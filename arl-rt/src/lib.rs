@@ -42,6 +42,7 @@ pub mod settings {
 
 /// Commands of motion in, a set-point each cycle out: the planner that moves robots.
 pub use arl_motion as motion;
+pub use arl_robot::cell::{self, Cell, Rate};
 pub use arl_robot::{Family, Robot, islands, kinematics, robot};
 pub use builtins::{frames, ops, text};
 pub use command::program_main;
@@ -50,12 +51,11 @@ pub use context::output::{Captured, Message, Output, Stream};
 pub use context::program::{BoxFuture, Elsewhere, Program};
 pub use context::standstill::{Standstill, WaitsFor};
 pub use context::{program, system};
-pub use controller::cell::{self, Cell};
 pub use controller::{
     Builder, ChannelStatus, Controller, Foreground, Outcome, RobotStatus, SetupError, State, Status, StillRunning,
 };
 pub use cycle::channel_id::ChannelId;
-pub use cycle::{clock_source, rate};
+pub use cycle::clock_source;
 pub use fault::{Alarm, Fault, Reason, Stop};
 pub use storage::data::{DataFile, DataVar};
 pub use storage::{data, state};

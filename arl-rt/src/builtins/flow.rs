@@ -1,8 +1,8 @@
 //! `waittime`, `waituntil`, `pause` and `assert`: waiting, and ending the program.
 
 use crate::context::cx::Cx;
-use crate::cycle::rate::Rate;
 use crate::fault::Fault;
+use arl_robot::cell::Rate;
 
 /// `waittime`: waits until all planned motion has ended, then for `time` seconds, counted in cycles.
 pub fn waittime(time: f64) -> WaitTime {

@@ -11,9 +11,7 @@ use std::ops::{Add, Neg, Sub};
 #[inline]
 pub fn append(text: &mut Str, more: impl AsRef<[u8]>) -> Result<(), Fault> {
     let more = more.as_ref();
-    if text.len() + more.len() > Str::MOST {
-        return Err(Fault::TooLong(text.len() + more.len()));
-    }
+    within(text.len() + more.len())?;
     text.push_bytes(more);
     Ok(())
 }
@@ -24,7 +22,12 @@ pub fn append(text: &mut Str, more: impl AsRef<[u8]>) -> Result<(), Fault> {
 /// [`Fault::TooLong`] where it is longer than [`Str::MOST`].
 #[inline]
 pub fn fits(text: Str) -> Result<Str, Fault> {
-    if text.len() > Str::MOST { Err(Fault::TooLong(text.len())) } else { Ok(text) }
+    within(text.len()).map(|()| text)
+}
+
+#[inline]
+fn within(length: usize) -> Result<(), Fault> {
+    if length > Str::MOST { Err(Fault::TooLong { length, most: Str::MOST }) } else { Ok(()) }
 }
 
 /// The integers of ARL.

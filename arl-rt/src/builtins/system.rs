@@ -2,7 +2,7 @@
 
 use crate::builtins::storing;
 use crate::context::cx::Cx;
-use crate::context::system;
+use crate::context::{system, wiring};
 use crate::fault::Fault;
 use crate::values::Str;
 
@@ -37,5 +37,5 @@ pub fn init(cx: &Cx) {
     channel_state.reset_system();
     system.cjoint.set(current);
     system::restore(system, &cx.shared().state.borrow());
-    cx.shared().wiring.apply(system);
+    wiring::apply(&cx.shared().wiring, system);
 }

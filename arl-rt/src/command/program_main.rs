@@ -17,12 +17,12 @@ use crate::context::program::Program;
 pub use crate::context::program::{Make, Other};
 use crate::context::standard_error::tell;
 use crate::context::standstill::Standstill;
-use crate::controller::cell::Cell;
 use crate::controller::{Builder, Controller, Outcome, SetupError};
 use crate::cycle::clock_source::{RealClock, VirtualClock};
 use crate::io::Scenario;
 use crate::storage::state::Directory;
 use crate::values::Controlmode;
+use arl_robot::cell::Cell;
 use arl_robot::robot::Robot;
 
 /// What the program's functions may fill of the stack, and what the thread has on top of that for everything else.

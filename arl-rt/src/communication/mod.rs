@@ -10,14 +10,13 @@ pub(crate) mod line;
 pub(crate) mod link;
 mod network_driver;
 pub(crate) mod opening;
-mod settings;
 pub(crate) mod shared;
 pub(crate) mod slave;
 mod stream;
 mod worker;
 
+pub use arl_robot::cell::{Listen, NetworkSettings};
 pub(crate) use connections::{Connections, Opener};
 #[cfg(feature = "fuzzing")]
 pub(crate) use inbox::Inbox;
 pub use network_driver::{NetworkDriver, PortSettings};
-pub use settings::{Listen, NetworkSettings};

@@ -7,9 +7,9 @@ use std::rc::Rc;
 use std::task::{Context, Poll};
 
 use crate::context::cx::Cx;
-use crate::cycle::rate::Rate;
 use crate::fault::{Done, Fault, File};
 use crate::values::Str;
+use arl_robot::cell::Rate;
 
 /// More events than that are the work of a loop that declares them again and again.
 const MAX_EVENTS: usize = 1024;

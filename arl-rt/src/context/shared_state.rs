@@ -6,15 +6,15 @@ use std::fmt;
 use crate::communication::{NetworkDriver, NetworkSettings, Opener};
 use crate::context::output::{Message, Output};
 use crate::context::random::Random;
-use crate::context::wiring::Wiring;
 use crate::cycle::channel_id::ChannelId;
-use crate::cycle::rate::Rate;
 use crate::fault::Alarm;
 use crate::fieldbus::Buses;
 use crate::io::Image;
 use crate::storage::disk::Disk;
 use crate::storage::script_dir::ScriptDir;
 use crate::storage::state::State;
+use arl_robot::cell::Rate;
+use arl_robot::cell::Wiring;
 
 /// What all channels of a controller share: time, io, files, messages, alarms. Borrows of the cells end within the call that
 /// makes them.

@@ -22,7 +22,7 @@ use crate::context::programs::{Loadable, Programs};
 use crate::context::random::{self, Random};
 use crate::context::shared_state::{Listeners, Parts, SharedState};
 use crate::context::system::{self, Common, System};
-use crate::controller::cell::Cell;
+use crate::context::wiring;
 use crate::controller::trace::Trace;
 use crate::cycle::channel_id::{ChannelId, MOST_FOREGROUND};
 use crate::cycle::clock_source::{Clock, VirtualClock};
@@ -38,7 +38,7 @@ use crate::storage::state::{Memory, State, StateError, Storage};
 use crate::unit::Unit;
 use crate::unit::robot_driver::RobotDriver;
 use crate::values::Controlmode;
-use arl_robot::cell::Sensitivity;
+use arl_robot::cell::{Cell, fit};
 use arl_robot::kinematics::frame;
 use arl_robot::robot::{Family, Robot, RobotError};
 
@@ -317,7 +317,7 @@ impl Builder {
         let pointers = load_pointers(&mut state)?;
         let beside = state.another();
         // What the cell wires is so, whatever a program has saved.
-        cell.external.apply(&common);
+        wiring::apply(&cell.external, &common);
         common.ctl_mode.set(self.mode);
         let io = Image::new(&cell.channels).for_programs(count + background.len());
         let rate = cell.rate;
@@ -517,24 +517,7 @@ fn robot_of(body: &Body, program: &dyn Program) -> Result<Robot, SetupError> {
     if robot.family != family {
         return Err(SetupError::Family { program: family, robot: robot.name, family: robot.family });
     }
-    for home in body.homes.points.iter().flatten() {
-        if home.len() != robot.axes.len() {
-            let (found, name, axes) = (home.len(), &robot.name, robot.axes.len());
-            let text = format!("a home point of the cell has {found} positions; robot {name} has {axes} axes");
-            return Err(SetupError::Cell(text));
-        }
-    }
-    for (cid, sensitivity) in &body.collisions {
-        let (own, name) = (robot.own_axes().len(), &robot.name);
-        if let Sensitivity::Torques(torques) = sensitivity
-            && torques.len() != own
-        {
-            let found = torques.len();
-            let text =
-                format!("collision condition {cid} of the cell has {found} torques; robot {name} has {own} axes");
-            return Err(SetupError::Cell(text));
-        }
-    }
+    fit(&body.homes, &body.collisions, &robot).map_err(SetupError::Cell)?;
     Ok(robot)
 }
 

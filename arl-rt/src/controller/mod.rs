@@ -4,7 +4,6 @@
 
 mod actions;
 mod builder;
-pub mod cell;
 mod channel;
 mod channels;
 mod external;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::builder::{Builder, SetupError};
 use super::foreground::Foreground;
 use crate::context::program::{Elsewhere, Other, Program};
-use crate::controller::cell::{Cell, CellChannel};
+use arl_robot::cell::{Cell, CellChannel};
 use arl_robot::robot::Robot;
 
 impl Builder {

@@ -6,5 +6,4 @@
 pub(crate) mod catch_panic;
 pub(crate) mod channel_id;
 pub mod clock_source;
-pub mod rate;
 pub(crate) mod try_lock;

@@ -7,7 +7,7 @@ use std::net::SocketAddr;
 use super::devicenet::DeviceNet;
 use super::modbus::SharedTables;
 use super::modbus_tcp::ModbusTcp;
-use super::settings::{BusSettings, ModbusTcpSettings};
+use super::{BusSettings, ModbusTcpSettings};
 
 /// How many different reports a run may give, so that they never fill the memory.
 const MAX_REPORTS: usize = 100;

@@ -10,7 +10,6 @@ pub(crate) mod modbus;
 mod modbus_tcp;
 #[cfg(test)]
 pub(crate) mod noise;
-mod settings;
 
+pub use arl_robot::cell::{BusSettings, ModbusTcpSettings};
 pub(crate) use buses::Buses;
-pub use settings::{BusSettings, ModbusTcpSettings};

@@ -3,9 +3,9 @@
 use std::cell::OnceCell;
 use std::net::SocketAddr;
 
+use super::ModbusTcpSettings;
 use super::modbus::SharedTables;
 use super::modbus::server::Server;
-use super::settings::ModbusTcpSettings;
 
 /// The tables, and the server where there is one.
 #[derive(Default)]

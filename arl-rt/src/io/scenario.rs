@@ -32,7 +32,7 @@ use super::bits::Bits;
 use super::image::PWM_CHANNELS;
 use super::{Channels, Digital, Image, Pwm};
 use crate::cycle::channel_id::MOST_FOREGROUND;
-use crate::cycle::rate::Rate;
+use arl_robot::cell::Rate;
 use arl_robot::regular_file;
 use arl_robot::robot::Robot;
 use arl_robot::settings::{Section, SettingsError, Source, Value, hint, kind, number, table};

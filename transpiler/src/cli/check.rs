@@ -11,6 +11,7 @@ use crate::CheckOptions;
 use crate::compile::{Compiled, check_program};
 use crate::render::json;
 use crate::sources::FileSystem;
+use arl_robot::cell::{Cell, fit};
 use std::collections::HashSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -20,6 +21,7 @@ use std::process::ExitCode;
 /// module and needs no `main`.
 pub(super) fn check(files: &[PathBuf], format: Format, limit: Limit, checking: &Checking) -> Result<ExitCode, Failure> {
     let options = options(checking)?;
+    cell_fits(checking)?;
     let others = several::named(checking.cell.as_deref(), checking.robot.as_deref())?;
     let mut used = HashSet::new();
     let (programs, modules): (Vec<&PathBuf>, Vec<&PathBuf>) = files.iter().partition(|file| !is_data(file));
@@ -65,6 +67,21 @@ fn options(checking: &Checking) -> Result<CheckOptions, Failure> {
         options.robot = Some(robot::load(Some(robot))?);
     }
     Ok(options)
+}
+
+/// Whether what the cell says of robots is for them: what the program would refuse when it starts.
+fn cell_fits(checking: &Checking) -> Result<(), Failure> {
+    let Some(path) = &checking.cell else { return Ok(()) };
+    let cell = Cell::load(path).map_err(|error| Failure::Usage(error.to_string()))?;
+    let fits = |homes, collisions, robot: Option<&str>| {
+        let wrong = |text| Failure::Usage(format!("{}: {text}", path.display()));
+        fit(homes, collisions, &robot::load(robot)?).map_err(wrong)
+    };
+    if !checking.background {
+        fits(&cell.homes, &cell.collisions, checking.robot.as_deref())?;
+    }
+    let mut with_robot = cell.programs.channels.iter().filter(|channel| !channel.background);
+    with_robot.try_for_each(|channel| fits(&channel.homes, &channel.collisions, channel.robot.as_deref()))
 }
 
 fn as_module(file: &Path, options: &CheckOptions) -> Result<Compiled, Failure> {

@@ -14,8 +14,8 @@ use crate::Sources;
 use crate::compile::{Compiled, compile_program};
 use crate::emit::EmitOptions;
 use crate::sources::FileSystem;
+use arl_robot::cell::Cell;
 use arl_robot::outline::Outline;
-use arl_robot::regular_file;
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
@@ -42,10 +42,8 @@ pub(super) fn check_options(checking: &Checking) -> Result<CheckOptions, Failure
 
 /// What a cell file has for programs.
 fn outline(cell: &Path) -> Result<Outline, Failure> {
-    let name = cell.display().to_string();
-    let text = regular_file::read_text(cell)
-        .map_err(|error| Failure::Usage(format!("{name}: cannot read the cell file: {error}")))?;
-    Outline::of_cell(&name, &text).map_err(|error| Failure::Usage(error.to_string()))
+    let cell = Cell::load(cell).map_err(|error| Failure::Usage(error.to_string()))?;
+    Ok(Outline::of(&cell))
 }
 
 /// What becomes one program: that of the command line, and those that its cell names.

@@ -4,8 +4,7 @@ use super::args::Checking;
 use super::failure::Failure;
 use super::robots;
 use arl_robot::Family;
-use arl_robot::cell::{CellChannel, Programs};
-use arl_robot::regular_file;
+use arl_robot::cell::{Cell, CellChannel};
 use std::path::{Path, PathBuf};
 
 /// A program beside the first one.
@@ -39,9 +38,7 @@ impl Other {
 /// The file cannot be read, or its channels are none.
 pub(super) fn named(cell: Option<&Path>, robot: Option<&str>) -> Result<Vec<Other>, Failure> {
     let Some(cell) = cell else { return Ok(Vec::new()) };
-    let text = regular_file::read_text(cell)
-        .map_err(|error| Failure::Usage(format!("{}: cannot read the cell file: {error}", cell.display())))?;
-    let programs = Programs::of_cell(cell, &text).map_err(|error| Failure::Usage(error.to_string()))?;
+    let programs = Cell::load(cell).map_err(|error| Failure::Usage(error.to_string()))?.programs;
     let folder = cell.parent().unwrap_or(Path::new(""));
     let mut all = All { cell, folder, others: Vec::new() };
     for file in programs.load {

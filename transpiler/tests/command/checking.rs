@@ -187,3 +187,29 @@ fn foreground_channels_are_those_of_the_cell() {
     two.is(1, "").says("a.arl:3:19").says("foreground channel 3 does not exist: the cell has channels 1 to 2");
     assert!(!two.err.contains("a.arl:2:"), "{}", two.err);
 }
+
+#[test]
+fn a_cell_that_a_run_refuses_is_refused_by_a_check_in_the_same_words() {
+    let folder = Folder::new("same_cell").with("a.arl", "func void main()\n    print 1\nendfunc\n");
+    let channel = "[[channel]]\nprogram = \"a.arl\"\nrobot = \"hsr065\"\n";
+    for (cell, words) in [
+        ("[controller]\ncycle = nan\n".to_owned(), ":2"),
+        ("[modbus_tcp]\nport = 99999\n".into(), "a TCP port"),
+        ("[[collision]]\ncid = 99\npercent = 10\n".into(), "the number of a condition from 0 to 16"),
+        ("[home]\nhome2 = [0, 1, 2]\n".into(), "has 3 positions"),
+        ("[[collision]]\ncid = 1\ntorque = [1, 2]\n".into(), "has 2 torques"),
+        (format!("{channel}home3 = [1]\n"), "robot hsr065 has 4 axes"),
+        ("[external]\nstart_prog_di = 65\n".into(), "the cell has DI 1 to 64"),
+        ("[network]\nlisten = \"nowhere\"\n".into(), "\"loopback\""),
+        ("[networks]\n".into(), "did you mean `network`?"),
+    ] {
+        folder.write("cell.toml", &cell);
+        let checked = folder.arl2rs(&["check", "a.arl", "--cell", "cell.toml"]);
+        checked.is(2, "").says(words);
+        let ran = folder.arl2rs(&["run", "a.arl", "--cell", "cell.toml"]);
+        ran.is(2, "").says(words);
+    }
+    folder.write("cell.toml", "[home]\nhome2 = [0, 1, 2, 3]\n");
+    folder.arl2rs(&["check", "a.arl", "--cell", "cell.toml", "--robot", "hsr065"]).is(0, "");
+    folder.arl2rs(&["check", "a.arl", "--cell", "cell.toml", "--background"]).is(0, "");
+}

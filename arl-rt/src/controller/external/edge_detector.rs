@@ -1,8 +1,8 @@
 //! Edges and pulses of an input, found by looking at it once a cycle.
 
 use crate::context::system::System;
-use crate::cycle::rate::Rate;
 use crate::io::Image;
+use arl_robot::cell::Rate;
 
 /// What is looked at in a cycle.
 pub(in crate::controller) struct InputSnapshot<'a> {

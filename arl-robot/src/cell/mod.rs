@@ -1,4 +1,18 @@
-//! What a cell file says of programs and their robots: the command compiles by it, and the runtime runs by it.
+//! The cell file: the command compiles by it, and the runtime runs by it.
+
+mod buses;
+mod external;
+mod file;
+mod fit;
+mod network;
+mod rate;
+
+pub use buses::{BusSettings, ModbusTcpSettings};
+pub use external::Wiring;
+pub use file::Cell;
+pub use fit::fit;
+pub use network::{Listen, NetworkSettings};
+pub use rate::Rate;
 
 use std::path::{Path, PathBuf};
 
@@ -70,19 +84,6 @@ impl Programs {
         let tables = tables(top, "channel", "tables that begin with [[channel]]")?;
         let channels = tables.iter().map(|value| channel(top.source, value, folder)).collect::<Result<_, _>>()?;
         Ok(Self { channels, load: load(top)? })
-    }
-
-    /// The programs of the cell file with this text; `file` is its path. Nothing else of it is looked at.
-    ///
-    /// # Errors
-    /// The text is not TOML, or has channels that are none: with line, column and what was expected.
-    pub fn of_cell(file: &Path, text: &str) -> Result<Self, SettingsError> {
-        let name = file.display().to_string();
-        let source = Source { file: &name, text };
-        let root = source.parse()?;
-        let keys: Vec<&str> = root.get_ref().keys().map(|key| key.get_ref().as_ref()).collect();
-        let top = Section::new(source, "the cell file", root.get_ref(), &keys)?;
-        Self::read(&top, file.parent().unwrap_or(Path::new("")))
     }
 }
 
@@ -201,7 +202,7 @@ mod tests {
     use super::*;
 
     fn programs(text: &str) -> Result<Programs, SettingsError> {
-        Programs::of_cell(Path::new("cells/cell.toml"), text)
+        Cell::parse("cells/cell.toml", text).map(|cell| cell.programs)
     }
 
     #[test]

@@ -1,5 +1,7 @@
 //! The settings of the cell for connections: where programs listen, and the names of serial lines.
 
+use crate::outline;
+use crate::settings::{Section, SettingsError};
 use std::collections::BTreeMap;
 
 /// The address on which programs listen where the cell says nothing: this computer only.
@@ -26,18 +28,40 @@ pub enum Listen {
     Address(String),
 }
 
+const NETWORK: &[&str] = &["listen"];
+
 impl NetworkSettings {
+    /// Reads `[network]` and `[serial]` of a cell file.
+    ///
+    /// # Errors
+    /// What stands there is no address, or no devices.
+    pub fn read(top: &Section<'_>) -> Result<Self, SettingsError> {
+        let network = top.table("network", "[network]", NETWORK)?;
+        let listen = network.map_or(Ok(Listen::default()), |network| listen(&network))?;
+        Ok(Self { listen, devices: outline::lines(top)? })
+    }
+
     /// The path of the device that a program calls so.
-    pub(crate) fn device(&self, name: &str) -> String {
+    pub fn device(&self, name: &str) -> String {
         self.devices.get(name).map_or(name, String::as_str).to_owned()
     }
 
     /// The address to listen on where the program says this one.
-    pub(crate) fn listen(&self, program: &str) -> String {
+    pub fn listen(&self, program: &str) -> String {
         match &self.listen {
             Listen::Loopback => LOOPBACK.into(),
             Listen::Program => program.into(),
             Listen::Address(address) => address.clone(),
         }
+    }
+}
+
+fn listen(network: &Section<'_>) -> Result<Listen, SettingsError> {
+    let Some(value) = network.find("listen") else { return Ok(Listen::Loopback) };
+    match value.get_ref().as_str() {
+        Some("loopback") => Ok(Listen::Loopback),
+        Some("program") => Ok(Listen::Program),
+        Some(address) if address.parse::<std::net::IpAddr>().is_ok() => Ok(Listen::Address(address.into())),
+        _ => Err(network.wrong("listen", value, "\"loopback\", \"program\", or an address like \"192.168.0.40\"")),
     }
 }

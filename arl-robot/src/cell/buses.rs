@@ -2,9 +2,8 @@
 
 use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 
-use arl_robot::outline;
-
-use arl_robot::settings::{Section, SettingsError};
+use crate::outline;
+use crate::settings::{Section, SettingsError};
 
 /// The buses of a cell.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -42,7 +41,10 @@ const MODBUS_TCP: &[&str] = &["address", "port", "connections"];
 
 impl BusSettings {
     /// Reads them from the cell file.
-    pub(crate) fn read(top: &Section<'_>) -> Result<Self, SettingsError> {
+    ///
+    /// # Errors
+    /// What stands there are no buses.
+    pub fn read(top: &Section<'_>) -> Result<Self, SettingsError> {
         let modbus_tcp = top.table("modbus_tcp", "[modbus_tcp]", MODBUS_TCP)?;
         let devicenet = outline::devicenet(top)? as usize;
         Ok(Self { devicenet, modbus_tcp: modbus_tcp.as_ref().map(modbus_tcp_server).transpose()? })

@@ -37,7 +37,7 @@
 //! [devicenet]
 //! size = 512                   # bytes that the bus exchanges
 //!
-//! [[island]]                   # inputs and outputs behind Modbus TCP: arl_rt::islands
+//! [[island]]                   # inputs and outputs behind Modbus TCP
 //! address = "192.168.0.20"
 //! di = [{ channel = 1, count = 8, discrete_input = 0 }]
 //!
@@ -51,21 +51,12 @@
 //! background = true            # it has no robot
 //! ```
 
+use super::{BusSettings, Homes, NetworkSettings, Programs, Rate, Sensitivity, Wiring, collisions};
+use crate::channels::Channels;
+use crate::islands::Island;
+use crate::regular_file;
+use crate::settings::{Section, SettingsError, Source};
 use std::path::Path;
-
-use arl_robot::cell::collisions;
-use arl_robot::islands::Island;
-use arl_robot::outline;
-use arl_robot::regular_file;
-
-pub use crate::context::wiring::Wiring;
-pub use arl_robot::cell::{CellChannel, Homes, Programs, Sensitivity};
-
-use crate::communication::{Listen, NetworkSettings};
-use crate::cycle::rate::Rate;
-use crate::fieldbus::BusSettings;
-use crate::io::Channels;
-use arl_robot::settings::{Section, SettingsError, Source};
 
 const TOP: &[&str] = &[
     "controller",
@@ -82,7 +73,6 @@ const TOP: &[&str] = &[
     "load",
 ];
 const CONTROLLER: &[&str] = &["cycle"];
-const NETWORK: &[&str] = &["listen"];
 
 /// What stands around the robot.
 #[derive(Clone, PartialEq, Default, Debug)]
@@ -135,35 +125,23 @@ impl Cell {
             }
         }
         cell.channels = Channels::read(&top)?;
-        if let Some(network) = top.table("network", "[network]", NETWORK)? {
-            cell.network.listen = listen(&network)?;
-        }
+        cell.network = NetworkSettings::read(&top)?;
         cell.buses = BusSettings::read(&top)?;
         cell.islands = Island::read_all(source, top.find("island"), &cell.channels)?;
         let folder = Path::new(file).parent().unwrap_or(Path::new(""));
         cell.programs = Programs::read(&top, folder)?;
         cell.external = Wiring::read(&top, &cell.channels)?;
-        cell.network.devices = outline::lines(&top)?;
         cell.homes = Homes::of_cell(&top)?;
         cell.collisions = collisions(&top)?;
         Ok(cell)
     }
 }
 
-fn listen(network: &Section<'_>) -> Result<Listen, SettingsError> {
-    let Some(value) = network.find("listen") else { return Ok(Listen::Loopback) };
-    match value.get_ref().as_str() {
-        Some("loopback") => Ok(Listen::Loopback),
-        Some("program") => Ok(Listen::Program),
-        Some(address) if address.parse::<std::net::IpAddr>().is_ok() => Ok(Listen::Address(address.into())),
-        _ => Err(network.wrong("listen", value, "\"loopback\", \"program\", or an address like \"192.168.0.40\"")),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::io::AnalogType;
+    use crate::cell::Listen;
+    use crate::channels::AnalogType;
 
     #[test]
     fn an_empty_file_is_the_default_cell() {
