@@ -4,6 +4,7 @@ pub mod cell;
 pub mod chains;
 pub mod cost;
 pub mod inputs;
+pub mod instructions;
 pub mod kernels;
 pub mod lua;
 pub mod programs;
