@@ -128,21 +128,8 @@ pub(crate) struct Range<'a> {
 
 /// The range that a loop runs through: `for(int i = a; i < b; i++)` whose body writes neither `i` nor `b`.
 pub(crate) fn range(each: &For) -> Option<Range<'_>> {
-    let [Stmt { kind: StmtKind::Let(local, Some(from)), .. }] = each.init.as_slice() else { return None };
-    if each.shared {
-        return None;
-    }
-    let ExprKind::Binary(op, sides) = &each.condition.as_ref()?.kind else { return None };
-    let to = &sides.1;
-    let is_variable = |place: &Place| matches!(place.root, Root::Local(id) if id == *local) && place.path.is_empty();
-    let whole = matches!(from.ty.base, Base::Int | Base::Uint | Base::Byte);
-    let tested = matches!(&sides.0.kind, ExprKind::Place(place) if is_variable(place));
-    let steps = match &each.step.as_ref()?.kind {
-        ExprKind::Step(step, place) => step.up && is_variable(place),
-        ExprKind::AssignOp(BinaryOp::Add, sides) => is_variable(&sides.0) && whole_number(&sides.1) == Some(1),
-        _ => false,
-    };
-    if !whole || !tested || !steps || each.body.iter().any(flow::has_label) {
+    let Head { local, from, op, to, step } = Head::of(each)?;
+    if !step.is_none_or(|step| whole_number(step) == Some(1)) {
         return None;
     }
     let bound = match &to.kind {
@@ -158,14 +145,51 @@ pub(crate) fn range(each: &For) -> Option<Range<'_>> {
         BinaryOp::LessEqual => is_below_the_greatest(to),
         _ => return None,
     };
-    if *op == BinaryOp::LessEqual && !beyond {
+    if op == BinaryOp::LessEqual && !beyond {
         return None;
     }
-    let written = |id: LocalId| each.body.iter().any(|stmt| stmt_writes(stmt, id));
-    if written(*local) || bound.is_some_and(|id| id == *local || written(id)) {
+    if bound.is_some_and(|id| id == local || each.body.iter().any(|stmt| stmt_writes(stmt, id))) {
         return None;
     }
-    Some(Range { local: *local, from, to, beyond })
+    Some(Range { local, from, to, beyond })
+}
+
+/// A `for` whose variable only its step writes, by adding to it: `for(int i = from; i op to; i = i + step)`.
+pub(crate) struct Head<'a> {
+    pub(crate) local: LocalId,
+    pub(crate) from: &'a Expr,
+    pub(crate) op: BinaryOp,
+    pub(crate) to: &'a Expr,
+    /// What is added; none for `i++`.
+    pub(crate) step: Option<&'a Expr>,
+}
+
+impl<'a> Head<'a> {
+    pub(crate) fn of(each: &'a For) -> Option<Self> {
+        let [Stmt { kind: StmtKind::Let(local, Some(from)), .. }] = each.init.as_slice() else { return None };
+        let ExprKind::Binary(op, sides) = &each.condition.as_ref()?.kind else { return None };
+        let is_variable =
+            |place: &Place| matches!(place.root, Root::Local(id) if id == *local) && place.path.is_empty();
+        let reads_variable = |expr: &Expr| matches!(&expr.kind, ExprKind::Place(place) if is_variable(place));
+        let step = match &each.step.as_ref()?.kind {
+            ExprKind::Step(step, place) if step.up && is_variable(place) => None,
+            ExprKind::AssignOp(BinaryOp::Add, sides) if is_variable(&sides.0) => Some(&sides.1),
+            ExprKind::Assign(sides) if is_variable(&sides.0) => match &sides.1.kind {
+                ExprKind::Binary(BinaryOp::Add, sum) if reads_variable(&sum.0) => Some(&sum.1),
+                _ => return None,
+            },
+            _ => return None,
+        };
+        let whole = matches!(from.ty.base, Base::Int | Base::Uint | Base::Byte);
+        let elsewhere = each.body.iter().any(|stmt| flow::has_label(stmt) || stmt_writes(stmt, *local));
+        (whole && reads_variable(&sides.0) && !each.shared && !elsewhere).then_some(Self {
+            local: *local,
+            from,
+            op: *op,
+            to: &sides.1,
+            step,
+        })
+    }
 }
 
 /// The number of rounds of a loop with constant bounds.

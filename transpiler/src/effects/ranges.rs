@@ -2,7 +2,7 @@
 //! its array needs no check.
 
 use super::{flow, loops};
-use crate::hir::{Expr, ExprKind, Func, LocalId, Root, Stmt, StmtKind, Type, Value};
+use crate::hir::{Expr, ExprKind, For, Func, LocalId, Root, Stmt, StmtKind, Type, Value};
 use arl_lang::ast::BinaryOp;
 use arl_lang::catalog::Base;
 use std::collections::HashMap;
@@ -32,11 +32,30 @@ impl Ranges {
                 // The variable does not reach `to`; where it may equal it, `to` is no limit of its type.
                 let to = self.interval(range.to).map_or(greatest, |(_, to)| to) - i64::from(!range.beyond);
                 self.0.insert(range.local, (from, to.max(from)));
+            } else if let StmtKind::For(each) = &stmt.kind
+                && let Some((local, range)) = self.climbing(each)
+            {
+                self.0.insert(local, range);
             }
             for inner in flow::blocks(stmt) {
                 self.block(inner);
             }
         }
+    }
+
+    /// The values in the rounds of a loop that climbs to a constant by steps that are not negative, and never so far that
+    /// the variable wraps.
+    fn climbing(&self, each: &For) -> Option<(LocalId, Interval)> {
+        let head = loops::Head::of(each)?;
+        let (least, greatest) = limits(head.from.ty)?;
+        let (from, _) = self.interval(head.from).unwrap_or((least, greatest));
+        let last = match head.op {
+            BinaryOp::Less => loops::whole_number(head.to)? - 1,
+            BinaryOp::LessEqual => loops::whole_number(head.to)?,
+            _ => return None,
+        };
+        let (shortest, longest) = head.step.map_or(Some((1, 1)), |step| self.interval(step))?;
+        (shortest >= 0 && last + longest <= greatest).then_some((head.local, (from, last.max(from))))
     }
 
     /// Whether an expression is a constant or a variable that a loop counts.
