@@ -48,7 +48,7 @@ macro_rules! kernels {
 }
 
 kernels! {
-    sieve(3, 400) = |cx, _, size| sieve(cx, size).await?;
+    sieve(3, 400) = |cx, _, size| sieve(cx, size).await;
     matrix(2, 100) = |cx, _, size| matrix(cx, size).await;
     collatz(1000, 60_000) = |cx, _, size| collatz(cx, size).await;
     crc(3, 300) = |cx, g, size| crc(cx, g, size).await?;

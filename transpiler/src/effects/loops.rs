@@ -129,7 +129,7 @@ pub(crate) struct Range<'a> {
 /// The range that a loop runs through: `for(int i = a; i < b; i++)` whose body writes neither `i` nor `b`.
 pub(crate) fn range(each: &For) -> Option<Range<'_>> {
     let Head { local, from, op, to, step } = Head::of(each)?;
-    if !step.is_none_or(|step| whole_number(step) == Some(1)) {
+    if step.is_some_and(|step| whole_number(step) != Some(1)) {
         return None;
     }
     let bound = match &to.kind {
