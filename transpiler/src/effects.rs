@@ -8,6 +8,7 @@ pub(crate) mod growth;
 pub(crate) mod loops;
 pub(crate) mod parts;
 pub(crate) mod ranges;
+mod walks;
 
 use crate::hir::{Effects, FuncId, Program};
 use facts::Facts;

@@ -274,9 +274,57 @@ pub struct LoopInfo {
     /// Whether a round may pass without waiting, so that the loop has to give the cycle back by itself.
     pub spends: bool,
     /// What a round counts when the loop spends: itself and all rounds of the counted loops inside.
-    pub rounds: u32,
+    pub rounds: i32,
+    /// Where they are counted then.
+    pub counting: Counting,
     /// The number of the loop in its function.
     pub number: u32,
+}
+
+impl LoopInfo {
+    /// Whether each round of the loop is counted in the context.
+    pub(crate) fn counts_in_context(self) -> bool {
+        self.spends && self.counting == Counting::InContext
+    }
+
+    /// Whether the loop spends rounds that it counts in a variable of its own.
+    pub(crate) fn counts_alone(self) -> bool {
+        self.spends && self.counting == Counting::Alone
+    }
+}
+
+/// Where the rounds of a loop are counted.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub enum Counting {
+    /// In the context, or not at all: something inside counts there, too, or gives the cycle back.
+    #[default]
+    InContext,
+    /// In a variable of its own: nothing inside counts in the context.
+    Alone,
+    /// All at once behind the loop: it climbs in equal steps to a constant, so they are few and can be calculated. It does
+    /// not give the cycle back in between.
+    Behind,
+    /// Likewise, for a `while` that this variable takes to its end.
+    Walking(Walk),
+    /// Nowhere: the rounds of a `for` are few. Those of loops in it are counted behind them, and there the cycle is given
+    /// back.
+    Inside,
+}
+
+impl Counting {
+    /// Whether they are counted behind the loop.
+    pub(crate) fn is_behind(self) -> bool {
+        matches!(self, Self::Behind | Self::Walking(_))
+    }
+}
+
+/// A variable that goes on in equal steps, one in each round of a loop.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Walk {
+    /// The variable.
+    pub local: LocalId,
+    /// What each round adds to it; never 0.
+    pub step: i32,
 }
 
 /// `for(init; condition; step)`
@@ -292,8 +340,6 @@ pub struct For {
     pub body: Block,
     /// What the effects pass found out.
     pub info: LoopInfo,
-    /// Where the loop is `for(int i = a; i < b; i++)` with `i` written nowhere else and `b` constant, and does not wait.
-    pub counted: bool,
     /// Whether an event may see a variable of the head change; filled in by the effects pass.
     pub shared: bool,
 }

@@ -16,6 +16,7 @@ use crate::context::events::Table;
 use crate::context::output::Targets;
 use crate::context::program::Program;
 use crate::context::programs::Programs;
+use crate::context::rounds::Rounds;
 use crate::context::shared_state::SharedState;
 use crate::context::standstill::{Waiting, WaitsFor};
 use crate::context::system::System;
@@ -26,15 +27,15 @@ use arl_robot::robot::Family;
 
 /// How many turns of loops that do not wait fit into one cycle. A turn is a few nanoseconds at least, so that a cycle
 /// without waiting takes some tens of microseconds.
-const LOOP_TURNS_PER_CYCLE: u32 = 20_000;
+const LOOP_TURNS_PER_CYCLE: i32 = 20_000;
 
 /// The view of the controller that a program has: passed to every function that acts, moves or waits.
 ///
 /// Everything here happens on the thread of the controller; nothing locks.
 pub struct Cx {
     channel_state: Rc<ChannelState>,
-    /// Turns of loops that are left in this cycle.
-    budget: Cell<u32>,
+    /// Turns of loops that are left in this cycle; below 0 there were too few.
+    budget: Cell<i32>,
     /// The address below which the stack must not grow.
     stack_floor: Cell<usize>,
     program: Rc<dyn Program>,
@@ -154,11 +155,23 @@ impl Cx {
 
     /// Counts so many turns of loops, as [`Cx::spend`] counts one.
     #[inline]
-    pub fn spend_rounds(&self, rounds: u32) -> bool {
-        let left = self.budget.get();
-        // One instruction: whoever has too little left waits for the next cycle, which brings a whole budget.
-        self.budget.set(left.wrapping_sub(rounds));
-        left < rounds
+    pub fn spend_rounds(&self, rounds: i32) -> bool {
+        // Whoever has too little left waits for the next cycle, which brings a whole budget: nothing wraps.
+        let left = self.budget.get().wrapping_sub(rounds);
+        self.budget.set(left);
+        left < 0
+    }
+
+    /// Counts so many turns of loops that have run without being counted. Whoever counts next waits if they were too many.
+    #[inline]
+    pub fn charge(&self, rounds: i32) {
+        self.budget.set(self.budget.get().saturating_sub(rounds));
+    }
+
+    /// The turns of loops that are left in this cycle, for a loop in which nothing else counts.
+    #[inline]
+    pub fn rounds(&self) -> Rounds<'_> {
+        Rounds { budget: &self.budget, left: self.budget.get() }
     }
 
     /// Waits for the next cycle.
@@ -248,12 +261,12 @@ impl Cx {
     }
 
     /// Gives what runs a whole cycle's budget; returns what was left.
-    pub(crate) fn renew_budget(&self) -> u32 {
+    pub(crate) fn renew_budget(&self) -> i32 {
         self.budget.replace(LOOP_TURNS_PER_CYCLE)
     }
 
     /// Gives back what was left.
-    pub(crate) fn restore_budget(&self, budget: u32) {
+    pub(crate) fn restore_budget(&self, budget: i32) {
         self.budget.set(budget);
     }
 

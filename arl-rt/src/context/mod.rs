@@ -11,6 +11,7 @@ pub(crate) mod output;
 pub mod program;
 pub(crate) mod programs;
 pub(crate) mod random;
+pub(crate) mod rounds;
 pub(crate) mod shared_state;
 pub(crate) mod standard_error;
 pub(crate) mod standstill;

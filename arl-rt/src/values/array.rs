@@ -85,6 +85,20 @@ impl<T: Clone + Default, const N: usize, S: Store<T, N>> Array<T, N, S> {
     }
 }
 
+impl<T, const N: usize, S: Store<T, N>> Array<T, N, S> {
+    /// Where the elements are, for a loop that uses many of them.
+    #[inline]
+    pub fn elements(&self) -> &[T; N] {
+        self.elements.elements()
+    }
+
+    /// Where the elements are, for a loop that writes to them.
+    #[inline]
+    pub fn elements_mut(&mut self) -> &mut [T; N] {
+        self.elements.elements_mut()
+    }
+}
+
 impl<T: Clone + Default, const N: usize, S: Store<T, N>> Default for Array<T, N, S> {
     fn default() -> Self {
         Self::start()

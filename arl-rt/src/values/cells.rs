@@ -28,26 +28,56 @@ impl<T: Copy + Default, const N: usize, S: Store<T, N>> Cells<T, N, S> {
         }
     }
 
+    /// Where the elements are, for a loop that uses many of them.
+    #[inline]
+    pub fn elements(&self) -> Elements<'_, T, N> {
+        Elements(&self.elements)
+    }
+
     /// The element with this index; the start value beyond the last.
     #[inline]
     pub fn item(&self, index: usize) -> T {
-        // Indexing behind a test of the index: rustc sees that it cannot fail. The test of what `get` returns stays.
-        if index < N { self.elements[index].get() } else { T::default() }
+        self.elements().item(index)
     }
 
     /// Puts a value into the element with this index; nothing happens beyond the last.
     #[inline]
     pub fn set_item(&self, index: usize, value: T) {
-        if index < N {
-            self.elements[index].set(value);
-        }
+        self.elements().set_item(index, value);
     }
 
     /// Changes the element with this index.
     #[inline]
     pub fn update_item(&self, index: usize, change: impl FnOnce(T) -> T) {
+        self.elements().update_item(index, change);
+    }
+}
+
+/// The elements of [`Cells`].
+#[derive(Clone, Copy)]
+pub struct Elements<'a, T, const N: usize>(&'a [Cell<T>; N]);
+
+impl<T: Copy + Default, const N: usize> Elements<'_, T, N> {
+    /// The element with this index; the start value beyond the last.
+    #[inline]
+    pub fn item(self, index: usize) -> T {
+        // Indexing behind a test of the index: rustc sees that it cannot fail. The test of what `get` returns stays.
+        if index < N { self.0[index].get() } else { T::default() }
+    }
+
+    /// Puts a value into the element with this index; nothing happens beyond the last.
+    #[inline]
+    pub fn set_item(self, index: usize, value: T) {
         if index < N {
-            let cell = &self.elements[index];
+            self.0[index].set(value);
+        }
+    }
+
+    /// Changes the element with this index.
+    #[inline]
+    pub fn update_item(self, index: usize, change: impl FnOnce(T) -> T) {
+        if index < N {
+            let cell = &self.0[index];
             cell.set(change(cell.get()));
         }
     }
@@ -63,9 +93,15 @@ impl<T: Copy + Default, const N: usize, S: Store<T, N>> Default for Cells<T, N, 
     }
 }
 
+impl<T: Copy + fmt::Debug, const N: usize> fmt::Debug for Elements<'_, T, N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.0.iter().map(Cell::get)).finish()
+    }
+}
+
 impl<T: Copy + Default + fmt::Debug, const N: usize, S: Store<T, N>> fmt::Debug for Cells<T, N, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_list().entries(self.elements.iter().map(Cell::get)).finish()
+        self.elements().fmt(f)
     }
 }
 

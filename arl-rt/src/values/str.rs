@@ -120,6 +120,21 @@ impl Str {
         }
     }
 
+    /// Two texts one after the other. What takes more than half of the room without an allocation will hardly stay there:
+    /// mostly a third text follows.
+    fn sum(first: &[u8], second: &[u8]) -> Str {
+        let length = first.len() + second.len();
+        if length <= INLINE / 2 {
+            let mut bytes = small(first);
+            put(&mut bytes, first.len(), second);
+            return Self(Text::Inline { length: length as u8, bytes });
+        }
+        let mut joined = Vec::with_capacity(length.max(2 * INLINE + 2));
+        joined.extend_from_slice(first);
+        joined.extend_from_slice(second);
+        Self(Text::Heap(joined))
+    }
+
     /// All parts one after the other.
     pub fn concat(parts: &[&Str]) -> Str {
         let mut all = Str::with_capacity(parts.iter().map(|part| part.len()).sum());
@@ -303,10 +318,7 @@ macro_rules! appends {
 
             #[inline]
             fn add(self, more: $more) -> Str {
-                let mut all = Str::with_capacity(self.len() + more.len());
-                all.push_bytes(self.as_bytes());
-                all.push_bytes(more.as_bytes());
-                all
+                Str::sum(self.as_bytes(), more.as_bytes())
             }
         }
     )* };

@@ -6,7 +6,7 @@ use crate::diagnostics::components::ComponentRange;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Expr, ExprKind, Type, Value};
 use arl_lang::ast::{self, BinaryOp, BraceItem, UnaryOp};
-use arl_lang::catalog::{Base, Start, Struct, UNSET};
+use arl_lang::catalog::{self, Base, Start, Struct, UNSET};
 use arl_lang::span::Span;
 
 impl Checker<'_> {
@@ -136,7 +136,7 @@ impl Checker<'_> {
     ) -> Option<()> {
         let total: usize = dims.iter().map(|dim| *dim as usize).product();
         let begin = out.len();
-        if dims.len() > 1 && self.is_nested(items, want.base) {
+        if dims.len() > 1 && self.is_nested(body, items, want.base) {
             let rows = dims.first().map_or(0, |rows| *rows as usize);
             let inner = dims.get(1..).unwrap_or(&[]);
             let row_len: usize = inner.iter().map(|dim| *dim as usize).product();
@@ -178,14 +178,44 @@ impl Checker<'_> {
     }
 
     /// Whether the braces of an array of several dimensions are rows of braces, not elements one after the other.
-    fn is_nested(&self, items: &[BraceItem], base: Base) -> bool {
+    fn is_nested(&mut self, body: &Body, items: &[BraceItem], base: Base) -> bool {
         let first_brace = |items: &[BraceItem]| match items.first().map(|item| &item.value.kind) {
             Some(ast::ExprKind::Brace(inner)) => Some(inner.len()),
             _ => None,
         };
         let Some(ast::ExprKind::Brace(inner)) = items.first().map(|item| &item.value.kind) else { return false };
-        // Elements that are structures have braces themselves: rows are braces of braces then.
-        !matches!(base, Base::Struct(_)) || first_brace(inner).is_some() && !self.opens_structure(inner, base)
+        // Elements that are structures have braces themselves: rows are braces of braces then, or of such values.
+        !matches!(base, Base::Struct(_))
+            || first_brace(inner).is_some() && !self.opens_structure(inner, base)
+            || inner.first().is_some_and(|item| item.name.is_none() && self.plainly_is(body, &item.value, base))
+    }
+
+    /// Whether a variable, an element of one, or a call has a value of this type, as far as its name tells.
+    fn plainly_is(&mut self, body: &Body, expr: &ast::Expr, base: Base) -> bool {
+        match &expr.kind {
+            ast::ExprKind::Name(symbol) => {
+                let ty = match body.find(*symbol) {
+                    Some(local) => body.local_type(local),
+                    None => self.find_global(body, *symbol).and_then(|(id, _)| {
+                        self.check_global(id);
+                        self.globals.get(id.0 as usize)?.ty
+                    }),
+                };
+                ty.is_some_and(|ty| ty.base == base)
+            }
+            ast::ExprKind::System(symbol) => {
+                catalog::system_variable(self.names.name(*symbol)).is_some_and(|variable| variable.ty == base)
+            }
+            ast::ExprKind::Index(both) => self.plainly_is(body, &both.0, base),
+            ast::ExprKind::Call(call) if call.module.is_none() => {
+                let own = self.scopes.get(body.module.0 as usize).and_then(|scope| scope.funcs.get(&call.name.symbol));
+                match own {
+                    Some(id) => self.funcs.get(id.0 as usize).is_some_and(|func| func.result == Some(base)),
+                    None => catalog::functions(self.names.name(call.name.symbol)).iter().any(|entry| entry.result == base),
+                }
+            }
+            _ => false,
+        }
     }
 
     /// Whether the items are those of one structure whose first component is a structure itself (`tool`, `wobj`).

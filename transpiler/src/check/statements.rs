@@ -293,7 +293,7 @@ impl Checker<'_> {
             None => None,
         };
         let info = LoopInfo::default();
-        Some(StmtKind::For(Box::new(For { init, condition, step, body: block, info, counted: false, shared: false })))
+        Some(StmtKind::For(Box::new(For { init, condition, step, body: block, info, shared: false })))
     }
 
     fn switch(&mut self, body: &mut Body, switch: &ast::Switch) -> Option<StmtKind> {

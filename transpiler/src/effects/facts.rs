@@ -172,6 +172,12 @@ impl Collector<'_> {
             }),
             _ => false,
         };
+        let info = match &stmt.kind {
+            StmtKind::For(each) => Some(each.info),
+            StmtKind::While(_, _, info) => Some(*info),
+            _ => None,
+        };
+        self.facts.context |= info.is_some_and(|info| info.counting.is_behind());
         if gives_back {
             self.facts.waits = true;
             self.facts.context = true;

@@ -1,19 +1,24 @@
 //! Which loops run a known number of rounds, and which have to give the cycle back by themselves.
 
+use super::ranges::Ranges;
+use super::walks::Walks;
 use super::{flow, parts};
-use crate::hir::{Block, Expr, ExprKind, For, Func, LocalId, LoopInfo, Passed, Place, Root, Stmt, StmtKind, Value};
+use crate::hir::{
+    Block, Counting, Expr, ExprKind, For, Func, LocalId, LoopInfo, Passed, Place, Root, Stmt, StmtKind, Value,
+};
 use arl_lang::ast::BinaryOp;
 use arl_lang::catalog::{Base, Effect};
 
 /// The most rounds (of nested loops together) that may pass before they are counted and the cycle can be given back.
 pub(crate) const MOST_ROUNDS: u64 = 250_000;
 
-/// Drops labels that no `goto` names and `default`s that nothing reaches, then fills in [`LoopInfo`] and `counted` of every loop of a function.
+/// Drops labels that no `goto` names and `default`s that nothing reaches, then fills in [`LoopInfo`] of every loop of a function.
 pub(super) fn judge(func: &mut Func) {
     let unused: Vec<bool> = func.labels.iter().map(|label| !label.used).collect();
     let any = unused.contains(&true);
     drop_unused(&mut func.body, if any { &unused } else { &[] });
-    block_rounds(&mut func.body, &mut 0);
+    let (ranges, walks) = (Ranges::of_function(func), Walks::of_function(func));
+    Judge { ranges, walks, number: 0 }.block(&mut func.body);
 }
 
 fn drop_unused(block: &mut Block, unused: &[bool]) {
@@ -43,38 +48,123 @@ pub(super) fn inner_blocks(stmt: &mut Stmt) -> Vec<&mut Block> {
     }
 }
 
-/// The rounds that the loops of a block may run without giving the cycle back; `number` is that of the last loop.
-fn block_rounds(block: &mut Block, number: &mut u32) -> u64 {
-    let mut rounds: u64 = 0;
-    for stmt in block {
-        let inside =
-            inner_blocks(stmt).into_iter().map(|block| block_rounds(block, number)).fold(0, u64::saturating_add);
-        let counted = match &mut stmt.kind {
-            StmtKind::For(each) => {
-                let all = known_rounds(each).map(|known| known.saturating_mul(inside.max(1)));
-                each.counted = all.is_some_and(|all| all <= MOST_ROUNDS);
-                all.filter(|_| each.counted)
+/// What happens in a block.
+#[derive(Clone, Copy, Debug)]
+struct Inside {
+    /// The rounds that its loops run without counting them.
+    rounds: u64,
+    /// The most rounds that they run without giving the cycle back.
+    most: u64,
+    /// The part of these in loops whose rounds are counted behind them: there the cycle can be given back, too.
+    behind: u64,
+    /// Whether all of it calculates: nothing in it uses the context, gives the cycle back or jumps.
+    alone: bool,
+}
+
+impl Inside {
+    fn and(self, other: Self) -> Self {
+        Self {
+            rounds: self.rounds.saturating_add(other.rounds),
+            most: self.most.saturating_add(other.most),
+            behind: self.behind.saturating_add(other.behind),
+            alone: self.alone && other.alone,
+        }
+    }
+}
+
+struct Judge {
+    ranges: Ranges,
+    walks: Walks,
+    /// That of the last loop.
+    number: u32,
+}
+
+impl Judge {
+    fn block(&mut self, block: &mut Block) -> Inside {
+        let nothing = Inside { rounds: 0, most: 0, behind: 0, alone: true };
+        block.iter_mut().fold(nothing, |all, stmt| all.and(self.stmt(stmt)))
+    }
+
+    fn stmt(&mut self, stmt: &mut Stmt) -> Inside {
+        let own = Inside { rounds: 0, most: 0, behind: 0, alone: calculates(stmt) };
+        let inside = inner_blocks(stmt).into_iter().fold(own, |all, block| all.and(self.block(block)));
+        let times = |rounds: u64| rounds.saturating_mul(inside.most.max(1));
+        if let StmtKind::For(each) = &mut stmt.kind {
+            if let Some(known) = known_rounds(each).filter(|known| times(*known) <= MOST_ROUNDS) {
+                let rounds = known.saturating_mul(inside.rounds.max(1));
+                return Inside { rounds, most: times(known), behind: 0, ..inside };
             }
-            _ => None,
-        };
-        if counted.is_none() {
-            let spends = repeats(stmt);
-            if let Some(info) = info(stmt) {
-                *number += 1;
-                *info = LoopInfo {
-                    spends,
-                    rounds: u32::try_from(inside).map_or(u32::MAX, |all| all.saturating_add(1)),
-                    number: *number,
-                };
-                if spends {
-                    // Each round pays for what is inside.
-                    continue;
-                }
+            if let Some(most) = self.ranges.most_rounds(each).filter(|most| times(*most) <= MOST_ROUNDS)
+                && inside.alone
+                && !leaves(&each.body)
+            {
+                each.info = LoopInfo { counting: Counting::Behind, ..self.info(inside) };
+                return Inside { rounds: 0, most: times(most), behind: times(most), alone: true };
+            }
+            let others = inside.most.saturating_sub(inside.behind).max(1);
+            if inside.behind > 0
+                && let Some(known) = known_rounds(each).filter(|known| known.saturating_mul(others) <= MOST_ROUNDS)
+            {
+                each.info.counting = Counting::Inside;
+                wait_behind(&mut each.body);
+                let rounds = known.saturating_mul(inside.rounds.max(1));
+                return Inside { rounds, most: known.saturating_mul(others), behind: 0, alone: false };
             }
         }
-        rounds = rounds.saturating_add(counted.unwrap_or(inside));
+        if let StmtKind::While(condition, body, info) = &mut stmt.kind
+            && let Some((walk, most)) = self.walks.of_while(condition, body)
+            && times(most) <= MOST_ROUNDS
+            && inside.alone
+            && !leaves(body)
+        {
+            *info = LoopInfo { counting: Counting::Walking(walk), ..self.info(inside) };
+            return Inside { rounds: 0, most: times(most), behind: times(most), alone: true };
+        }
+        let spends = repeats(stmt);
+        let Some(info) = info(stmt) else { return inside };
+        // Where a round is long anyway, nothing is gained.
+        let alone = inside.alone && inside.rounds == 0;
+        let counting = if alone { Counting::Alone } else { Counting::InContext };
+        *info = LoopInfo { spends, counting, ..self.info(inside) };
+        // Each round pays for what is inside.
+        if spends { Inside { rounds: 0, most: 0, behind: 0, alone: false } } else { Inside { behind: 0, ..inside } }
     }
-    rounds
+
+    /// For the next loop, with what is inside it.
+    fn info(&mut self, inside: Inside) -> LoopInfo {
+        self.number += 1;
+        let rounds = i32::try_from(inside.rounds).map_or(i32::MAX, |all| all.saturating_add(1));
+        LoopInfo { spends: false, rounds, counting: Counting::InContext, number: self.number }
+    }
+}
+
+/// Lets the loops of a block that are counted behind them, those in other loops left aside, give the cycle back there.
+fn wait_behind(block: &mut Block) {
+    for stmt in block {
+        match info(stmt) {
+            Some(info) => info.spends |= info.counting.is_behind(),
+            None => inner_blocks(stmt).into_iter().for_each(wait_behind),
+        }
+    }
+}
+
+/// Whether a statement, the blocks in it left aside, calculates.
+fn calculates(stmt: &Stmt) -> bool {
+    !matches!(stmt.kind, StmtKind::Goto(_) | StmtKind::Label(_)) && flow::expressions(stmt).all(is_calculation)
+}
+
+fn is_calculation(expr: &Expr) -> bool {
+    let itself = match &expr.kind {
+        ExprKind::Call(..) => false,
+        ExprKind::Builtin(builtin) => builtin.entry.effect == Effect::Pure,
+        _ => true,
+    };
+    itself && parts::children(expr).into_iter().all(is_calculation)
+}
+
+/// Whether a block may be left for something else than what comes behind the loop.
+fn leaves(block: &[Stmt]) -> bool {
+    block.iter().any(|stmt| matches!(stmt.kind, StmtKind::Return(_)) || flow::blocks(stmt).any(leaves))
 }
 
 fn info(stmt: &mut Stmt) -> Option<&mut LoopInfo> {
@@ -154,6 +244,11 @@ pub(crate) fn range(each: &For) -> Option<Range<'_>> {
     Some(Range { local, from, to, beyond })
 }
 
+/// The range that a loop is emitted as: none where its variable is needed behind it, or kept while it waits.
+pub(crate) fn emitted_range(each: &For) -> Option<Range<'_>> {
+    range(each).filter(|_| each.info.counting == Counting::InContext)
+}
+
 /// A `for` whose variable only its step writes, by adding to it: `for(int i = from; i op to; i = i + step)`.
 pub(crate) struct Head<'a> {
     pub(crate) local: LocalId,
@@ -192,11 +287,21 @@ impl<'a> Head<'a> {
     }
 }
 
-/// The number of rounds of a loop with constant bounds.
+/// The number of rounds of a loop with constant bounds and a constant step.
 fn known_rounds(each: &For) -> Option<u64> {
-    let range = range(each)?;
-    let (from, to) = (whole_number(range.from)?, whole_number(range.to)?);
-    Some((to + i64::from(range.beyond) - from).max(0).unsigned_abs())
+    let head = Head::of(each)?;
+    let step = head.step.map_or(Some(1), whole_number).filter(|step| *step > 0)?;
+    let (from, to) = (whole_number(head.from)?, whole_number(head.to)?);
+    let beyond = match head.op {
+        BinaryOp::Less => 0,
+        BinaryOp::LessEqual => 1,
+        _ => return None,
+    };
+    let way = (to + beyond - from).max(0);
+    // The variable must not wrap on its way beyond the end.
+    let last = from + (way + step - 1) / step * step;
+    let rounds = ((way + step - 1) / step).unsigned_abs();
+    (last <= greatest(head.from)?).then_some(rounds)
 }
 
 /// The value of a constant integer.
@@ -209,12 +314,17 @@ pub(crate) fn whole_number(expr: &Expr) -> Option<i64> {
     }
 }
 
-fn is_below_the_greatest(expr: &Expr) -> bool {
-    match &expr.kind {
-        ExprKind::Const(Value::Int(value)) => *value < i32::MAX,
-        ExprKind::Const(Value::Uint(value)) => *value < u32::MAX,
-        ExprKind::Const(Value::Byte(value)) => *value < u8::MAX,
-        _ => false,
+fn is_below_the_greatest(constant: &Expr) -> bool {
+    whole_number(constant).zip(greatest(constant)).is_some_and(|(value, greatest)| value < greatest)
+}
+
+/// The greatest value of an integer's type.
+fn greatest(expr: &Expr) -> Option<i64> {
+    match expr.ty.base {
+        Base::Int => Some(i64::from(i32::MAX)),
+        Base::Uint => Some(i64::from(u32::MAX)),
+        Base::Byte => Some(i64::from(u8::MAX)),
+        _ => None,
     }
 }
 
@@ -225,7 +335,16 @@ fn stmt_writes(stmt: &Stmt, id: LocalId) -> bool {
         || flow::blocks(stmt).any(|block| block.iter().any(|stmt| stmt_writes(stmt, id)))
 }
 
-fn expr_writes(expr: &Expr, id: LocalId) -> bool {
+/// How many times a statement and those inside it write a local variable.
+pub(super) fn writes_in(stmt: &Stmt, id: LocalId) -> usize {
+    let mut writes = Vec::new();
+    flow::expressions(stmt).for_each(|expr| parts::local_writes(expr, &mut writes));
+    let own = writes.into_iter().filter(|written| *written == id).count();
+    let declared = usize::from(matches!(stmt.kind, StmtKind::Let(declared, _) if declared == id));
+    own + declared + flow::blocks(stmt).flatten().map(|stmt| writes_in(stmt, id)).sum::<usize>()
+}
+
+pub(super) fn expr_writes(expr: &Expr, id: LocalId) -> bool {
     let mut writes = Vec::new();
     parts::local_writes(expr, &mut writes);
     writes.contains(&id)

@@ -58,6 +58,21 @@ impl Ranges {
         (shortest >= 0 && last + longest <= greatest).then_some((head.local, (from, last.max(from))))
     }
 
+    /// The most rounds of a loop that climbs from 0 or more to a constant in equal steps; none where nobody knows.
+    pub(crate) fn most_rounds(&self, each: &For) -> Option<u64> {
+        let head = loops::Head::of(each)?;
+        let (_, (from, last)) = self.climbing(each)?;
+        let equal = head.step.is_none_or(|step| self.is_counted(step));
+        let (shortest, _) = head.step.map_or(Some((1, 1)), |step| self.interval(step))?;
+        let known = equal && from >= 0 && shortest > 0 && head.from.ty.base == Base::Int;
+        known.then(|| ((last - from) / shortest + 1).unsigned_abs())
+    }
+
+    /// The values of a variable that a loop counts.
+    pub(crate) fn of_local(&self, id: LocalId) -> Option<Interval> {
+        self.0.get(&id).copied()
+    }
+
     /// Whether an expression is a constant or a variable that a loop counts.
     pub(crate) fn is_counted(&self, expr: &Expr) -> bool {
         match &expr.kind {

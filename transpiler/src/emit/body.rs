@@ -1,6 +1,7 @@
 //! What is known while the statements of one function are emitted.
 
 use super::Sizes;
+use super::elements::LookedUp;
 use super::fragment::Fragment;
 use super::machine::Machine;
 use super::marks::{Marks, clean};
@@ -117,6 +118,9 @@ pub(super) struct Body<'p, 'u> {
     taken: HashSet<String>,
     labels: usize,
     pub(super) loops: Vec<Loop>,
+    /// What counts the rounds of the loop around, where that is not the context.
+    pub(super) counter: Option<Ident>,
+    pub(super) looked_up: LookedUp,
     /// The locals that ARL sees at this place.
     pub(super) visible: Vec<LocalId>,
     pub(super) machine: Option<Machine>,
@@ -169,6 +173,8 @@ impl<'p, 'u> Body<'p, 'u> {
             taken: HashSet::new(),
             labels: 0,
             loops: Vec::new(),
+            counter: None,
+            looked_up: LookedUp::new(),
             visible: Vec::new(),
             machine: None,
             commented: 0,

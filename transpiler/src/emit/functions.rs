@@ -123,9 +123,16 @@ impl<'p> Body<'p, '_> {
             args.extend(quote!(#name,));
         }
         self.inlined = true;
+        // A result that is passed on as it is hides from LLVM that what is compiled into the callers cannot fail.
+        let end = if func.result == Base::Void {
+            quote!(return #name(cx, #args);)
+        } else {
+            let value = self.fresh("value");
+            quote!(let #value = #name(cx, #args)?; return Ok(#value);)
+        };
         quote! {
             #first
-            return #name(cx, #args);
+            #end
 
             #[doc = " What is left when the function calls itself. The lines above are compiled into its callers."]
             fn #name(cx: &Cx, #params) #result {

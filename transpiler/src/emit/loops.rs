@@ -5,14 +5,42 @@
 //! labelled block around the body.
 //!
 //! What lives across an `.await` lies in the memory of the future, and the compiler cannot keep it in a register in
-//! between. Numbers that a loop changes are therefore handed to the wait and come back from it.
+//! between. Numbers that a loop changes are therefore handed to the wait and come back from it. Where nothing inside a loop
+//! counts rounds or waits, the wait is taken out of it altogether: an inner loop runs as long as there are rounds left.
 
 use super::body::{Body, Exit, Loop, Tail, label};
 use super::fragment::{Fragment, Precedence};
 use crate::effects::{flow, loops};
-use crate::hir::{Expr, For, LocalId, LoopInfo, Stmt, StmtKind};
-use proc_macro2::{Literal, TokenStream};
+use crate::hir::{Counting, Expr, ExprKind, For, LocalId, LoopInfo, Root, Stmt, StmtKind, Walk};
+use crate::visit;
+use arl_lang::ast::BinaryOp;
+use arl_lang::catalog::Base;
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
+use std::collections::HashSet;
+
+/// What of the checked program is in a loop.
+struct Parts<'a, 'p> {
+    blocks: &'a [&'p [Stmt]],
+    exprs: &'a [&'p Expr],
+}
+
+/// Variables in memory that a loop has copies of: in registers, as long as nothing waits.
+struct Copies {
+    read: Vec<Ident>,
+    /// These are written back.
+    written: Vec<Ident>,
+}
+
+/// The pieces of a loop.
+struct Turns {
+    /// `'name:`, where something jumps to it.
+    label: TokenStream,
+    /// What is looked at before each round.
+    condition: Option<TokenStream>,
+    /// What runs in each round.
+    round: TokenStream,
+}
 
 impl<'p> Body<'p, '_> {
     /// `while(c)`
@@ -20,29 +48,49 @@ impl<'p> Body<'p, '_> {
         if flow::always(condition) {
             return self.endless_loop(body, info);
         }
-        let (head, condition) = self.head(condition);
-        let rounds = self.rounds(body, info);
-        match head {
-            Some(head) => quote!(loop { #head #rounds }),
-            None => quote!(while #condition { #rounds }),
-        }
+        let turns = self.turns(info, true, Parts { blocks: &[body], exprs: &[condition] }, |emitter| {
+            let (head, condition) = emitter.head(condition, info);
+            let rounds = emitter.rounds(body, info);
+            Turns { label: TokenStream::new(), condition, round: quote!(#head #rounds) }
+        });
+        let Counting::Walking(Walk { local, step }) = info.counting else { return turns };
+        let name = self.local(local);
+        let first = self.fresh("first");
+        let way = if step > 0 { quote!(#name - #first) } else { quote!(#first - #name) };
+        let count = match step.unsigned_abs() {
+            1 => way,
+            step => {
+                let step = Literal::u32_unsuffixed(step);
+                quote!(steps(#way, #step))
+            }
+        };
+        let charged = self.charged(count, info);
+        quote!(let #first = #name; #turns #charged)
     }
 
-    /// A condition at the start of each round: statements that break out, where it does not fit into a `while`.
-    fn head(&mut self, condition: &'p Expr) -> (Option<TokenStream>, TokenStream) {
+    /// A condition at the start of each round: for a `while`, or statements that break out where it does not fit into one.
+    fn head(&mut self, condition: &'p Expr, info: LoopInfo) -> (TokenStream, Option<TokenStream>) {
         let value = self.on_trial(|body| body.value_alone(condition));
         let pointer = self.pointer();
-        if pointer.is_empty() && value.before.is_empty() {
-            return (None, value.tokens);
+        // A loop that counts alone looks at its condition once more when it has given the cycle back.
+        let once = info.counts_alone() && {
+            let facts = self.facts(condition);
+            facts.changes || !facts.writes.is_empty()
+        };
+        if pointer.is_empty() && value.before.is_empty() && !once {
+            let tokens = if info.counts_alone() { value.at(Precedence::And) } else { value.tokens };
+            return (TokenStream::new(), Some(tokens));
         }
         let Fragment { before, tokens: unmet, .. } = self.negated(condition);
-        (Some(quote!(#pointer #before if #unmet { break; })), TokenStream::new())
+        (quote!(#pointer #before if #unmet { break; }), None)
     }
 
     /// `loop`
     pub(super) fn endless_loop(&mut self, body: &'p [Stmt], info: LoopInfo) -> TokenStream {
-        let rounds = self.rounds(body, info);
-        quote!(loop { #rounds })
+        self.turns(info, flow::breaks(body), Parts { blocks: &[body], exprs: &[] }, |emitter| {
+            let round = emitter.rounds(body, info);
+            Turns { label: TokenStream::new(), condition: None, round }
+        })
     }
 
     /// A loop's body where nothing comes behind it.
@@ -66,9 +114,14 @@ impl<'p> Body<'p, '_> {
 
     /// `repeat` ... `until(c)`
     pub(super) fn repeat_loop(&mut self, body: &'p [Stmt], until: &'p Expr, info: LoopInfo) -> TokenStream {
+        let parts = Parts { blocks: &[body], exprs: &[until] };
+        self.turns(info, true, parts, |emitter| emitter.repeat_until(body, until, info))
+    }
+
+    fn repeat_until(&mut self, body: &'p [Stmt], until: &'p Expr, info: LoopInfo) -> Turns {
         let (label, statements) = self.round_with_rest(body, Some(until), info);
         if !flow::goes_round(body) {
-            return quote!(#label loop { #statements });
+            return Turns { label, condition: None, round: statements };
         }
         self.stand_at(until.span);
         let comment = self.comment(until.span);
@@ -76,7 +129,8 @@ impl<'p> Body<'p, '_> {
         let pointer = self.pointer();
         let (before, met) = (&condition.before, &condition.tokens);
         let spend = self.spend(info);
-        quote!(#label loop { #statements #comment #pointer #before if #met { break; } #spend })
+        let round = quote!(#statements #comment #pointer #before if #met { break; } #spend);
+        Turns { label, condition: None, round }
     }
 
     /// The body of a loop with something behind it, and the label that the loop needs.
@@ -133,7 +187,7 @@ impl<'p> Body<'p, '_> {
     /// `for(init; condition; step)`
     pub(super) fn for_loop(&mut self, each: &'p For) -> TokenStream {
         let visible = self.visible.len();
-        let code = match loops::range(each) {
+        let code = match loops::emitted_range(each) {
             Some(range) => self.range_loop(each, &range),
             None => self.general_for(each),
         };
@@ -166,11 +220,25 @@ impl<'p> Body<'p, '_> {
             init.extend(self.with_own_temporaries(|body| body.statement(stmt, Tail::Inner)));
         }
         let hides = self.visible.iter().skip(before).any(|id| outer.contains(&self.local(*id).to_string()));
+        let ends = !each.condition.as_ref().is_none_or(flow::always) || flow::breaks(&each.body);
+        let exprs: Vec<&Expr> = each.condition.iter().chain(&each.step).collect();
+        let parts = Parts { blocks: &[&each.body], exprs: &exprs };
+        let turns = self.turns(each.info, ends, parts, |emitter| emitter.turns_of_for(each));
+        let code = match self.rounds_behind(each) {
+            Some((first, count)) => quote!(#init #first #turns #count),
+            None => quote!(#init #turns),
+        };
+        if hides { quote!({ #code }) } else { code }
+    }
+
+    /// The condition, body and step of a `for`.
+    fn turns_of_for(&mut self, each: &'p For) -> Turns {
         let line = self.line;
         let (head, condition) = match &each.condition {
-            Some(condition) if !flow::always(condition) => self.head(condition),
-            _ => (Some(TokenStream::new()), TokenStream::new()),
+            Some(condition) if !flow::always(condition) => self.head(condition, each.info),
+            _ => (TokenStream::new(), None),
         };
+        let condition = condition.map(|condition| self.climbs_from_zero(each).unwrap_or(condition));
         let (label, statements) = self.round_with_rest(&each.body, each.step.as_ref(), each.info);
         self.line = line;
         let rest = if flow::goes_round(&each.body) {
@@ -181,32 +249,195 @@ impl<'p> Body<'p, '_> {
         } else {
             TokenStream::new()
         };
-        let code = match head {
-            Some(head) => quote!(#init #label loop { #head #statements #rest }),
-            None => quote!(#init #label while #condition { #statements #rest }),
-        };
-        if hides { quote!({ #code }) } else { code }
+        Turns { label, condition, round: quote!(#head #statements #rest) }
     }
 
-    /// `if cx.spend() { .. }`, where a loop has to give the cycle back by itself.
+    /// The condition of a loop whose variable climbs from 0 or more, said so that rustc knows that, too, and leaves out its
+    /// own check of an index. With constants it finds out by itself.
+    fn climbs_from_zero(&self, each: &For) -> Option<TokenStream> {
+        let head = loops::Head::of(each)?;
+        let (least, _) = self.ranges.of_local(head.local)?;
+        let known = |expr| loops::whole_number(expr).is_some();
+        let waits = each.info.spends || each.info.counting == Counting::Inside;
+        let obvious = known(head.from) && head.step.is_none_or(known) && !waits;
+        if obvious || least < 0 || head.from.ty.base != Base::Int {
+            return None;
+        }
+        let to = Literal::u32_unsuffixed(u32::try_from(loops::whole_number(head.to)?).ok()?);
+        let name = self.local(head.local);
+        match head.op {
+            BinaryOp::Less => Some(quote!((#name as u32) < #to)),
+            BinaryOp::LessEqual => Some(quote!(#name as u32 <= #to)),
+            _ => None,
+        }
+    }
+
+    /// For a loop whose rounds are counted behind it: what goes before and behind the loop.
+    fn rounds_behind(&mut self, each: &'p For) -> Option<(TokenStream, TokenStream)> {
+        if each.info.counting != Counting::Behind {
+            return None;
+        }
+        let head = loops::Head::of(each)?;
+        let name = self.local(head.local);
+        let first = self.fresh("first");
+        let way = quote!(#name - #first);
+        let count = match head.step {
+            None => way,
+            Some(step) if loops::whole_number(step) == Some(1) => way,
+            Some(step) => {
+                let step = self.value_alone(step).tokens;
+                quote!(steps(#way, #step))
+            }
+        };
+        let charged = self.charged(count, each.info);
+        Some((quote!(let #first = #name;), charged))
+    }
+
+    /// The statement that counts so many rounds behind a loop.
+    fn charged(&self, count: TokenStream, info: LoopInfo) -> TokenStream {
+        let count = match info.rounds {
+            1 => quote!(#count + 1),
+            rounds => {
+                let rounds = Literal::i32_unsuffixed(rounds);
+                quote!((#count + 1) * #rounds)
+            }
+        };
+        match &self.counter {
+            Some(counter) => quote!(#counter.charge(#count);),
+            None if info.spends => {
+                let wait = self.wait_for_cycle(info);
+                quote!(if cx.spend_rounds(#count) { #wait })
+            }
+            None => quote!(cx.charge(#count);),
+        }
+    }
+
+    /// A loop that may end or not.
+    fn turns(
+        &mut self,
+        info: LoopInfo,
+        ends: bool,
+        parts: Parts<'_, 'p>,
+        emit: impl FnOnce(&mut Self) -> Turns,
+    ) -> TokenStream {
+        if !info.counts_alone() {
+            let before = self.looked_up.len();
+            let behind = info.counting.is_behind() && self.counter.is_none();
+            let elements = if behind { self.look_up(parts.blocks, parts.exprs) } else { TokenStream::new() };
+            let Turns { label, condition, round } = emit(self);
+            self.forget_looked_up(before);
+            let turns = match condition {
+                Some(condition) => quote!(#label while #condition { #round }),
+                None => quote!(#label loop { #round }),
+            };
+            return if elements.is_empty() { turns } else { quote!({ #elements #turns }) };
+        }
+        let counter = self.reserve("rounds");
+        let outer = self.counter.replace(counter.clone());
+        let before = self.looked_up.len();
+        let elements = self.look_up(parts.blocks, parts.exprs);
+        let Copies { read, written } = self.copies(info, &parts);
+        let Turns { label, condition, round } = emit(self);
+        self.counter = outer;
+        self.forget_looked_up(before);
+        self.release(&counter);
+        let taken = quote!(#counter.take());
+        let condition = condition.map(|condition| quote!(#condition &&));
+        let wait = self.wait_for_cycle(info);
+        let rounds = quote!(
+            let mut #counter = cx.rounds();
+            #elements
+            #(let #read = #read;)*
+        );
+        if written.is_empty() {
+            let done = ends.then(|| quote!(if !#counter.are_spent() { break; }));
+            return quote!(loop {
+                {
+                    #rounds
+                    #label while #condition #taken { #round }
+                    #done
+                }
+                #wait
+            });
+        }
+        let spent = self.fresh("spent");
+        let (let_spent, target, value, done) = if ends {
+            (
+                quote!(let #spent;),
+                quote!((#(#written,)* #spent)),
+                quote!((#(#written,)* #counter.are_spent())),
+                quote!(if !#spent { break; }),
+            )
+        } else {
+            let several = |written: &[Ident]| match written {
+                [one] => quote!(#one),
+                several => quote!((#(#several),*)),
+            };
+            (TokenStream::new(), several(&written), several(&written), TokenStream::new())
+        };
+        quote!(loop {
+            #let_spent
+            #target = {
+                #rounds
+                #(let mut #written = #written;)*
+                #label while #condition #taken { #round }
+                #value
+            };
+            #done
+            #wait
+        })
+    }
+
+    /// The variables in memory that a loop uses.
+    fn copies(&self, info: LoopInfo, parts: &Parts<'_, 'p>) -> Copies {
+        let (mut read, mut written) = (HashSet::new(), HashSet::new());
+        let mut see = |expr: &'p Expr| {
+            let (place, writes) = match &expr.kind {
+                ExprKind::Place(place) => (&**place, false),
+                ExprKind::Step(_, place) => (&**place, true),
+                ExprKind::Assign(both) | ExprKind::AssignOp(_, both) => (&both.0, true),
+                _ => return,
+            };
+            if let Root::Local(id) = place.root {
+                if writes { &mut written } else { &mut read }.insert(id);
+            }
+        };
+        parts.blocks.iter().copied().flatten().for_each(|stmt| visit::exprs_in_stmt(stmt, &mut see));
+        parts.exprs.iter().for_each(|expr| visit::exprs(expr, &mut see));
+        let in_memory = self.usage.in_memory(info).iter().copied().filter(|id| self.is_seen(*id));
+        let (written, others): (Vec<_>, Vec<_>) = in_memory.partition(|id| written.contains(id));
+        let named = |ids: Vec<LocalId>| ids.into_iter().map(|id| self.local(id)).collect();
+        Copies { read: named(others.into_iter().filter(|id| read.contains(id)).collect()), written: named(written) }
+    }
+
+    /// Where a loop has to give the cycle back by itself: counts a round, and waits when none is left.
     pub(super) fn spend(&self, info: LoopInfo) -> TokenStream {
-        if !info.spends {
+        if !info.counts_in_context() {
             return TokenStream::new();
         }
-        let rounds = Literal::u32_unsuffixed(info.rounds);
-        let spent = if info.rounds == 1 { quote!(cx.spend()) } else { quote!(cx.spend_rounds(#rounds)) };
-        // A variable that another one of the same name hides stays in memory.
-        let is_seen = |id: &&LocalId| {
-            let name = self.local(**id);
-            self.visible.iter().rfind(|other| self.local(**other) == name) == Some(*id)
-        };
-        let kept: Vec<_> = self.usage.kept(info).iter().filter(is_seen).map(|id| self.local(*id)).collect();
-        let wait = match kept.as_slice() {
+        let wait = self.wait_for_cycle(info);
+        if info.rounds == 1 {
+            return quote!(if cx.spend() { #wait });
+        }
+        let rounds = Literal::i32_unsuffixed(info.rounds);
+        quote!(if cx.spend_rounds(#rounds) { #wait })
+    }
+
+    /// Whether no other variable of the same name hides a variable. One that is hidden stays in memory.
+    fn is_seen(&self, id: LocalId) -> bool {
+        let name = self.local(id);
+        self.visible.iter().rfind(|other| self.local(**other) == name) == Some(&id)
+    }
+
+    /// Waits for the next cycle and keeps what the loop needs.
+    fn wait_for_cycle(&self, info: LoopInfo) -> TokenStream {
+        let kept = self.usage.kept(info).iter().copied().filter(|id| self.is_seen(*id));
+        let kept: Vec<_> = kept.map(|id| self.local(id)).collect();
+        match kept.as_slice() {
             [] => quote!(cx.next_cycle().await;),
             [kept] => quote!(#kept = cx.next_cycle().keeping(#kept).await;),
             kept => quote!((#(#kept),*) = cx.next_cycle().keeping((#(#kept),*)).await;),
-        };
-        quote!(if #spent { #wait })
+        }
     }
 }
 

@@ -6,6 +6,7 @@ mod calls;
 mod compound;
 mod consts;
 mod deferred_let;
+mod elements;
 mod events;
 mod expressions;
 mod fragment;

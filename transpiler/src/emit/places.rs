@@ -167,6 +167,12 @@ impl<'p> Body<'p, '_> {
         ty.unwrap_or(Type::scalar(Base::Void))
     }
 
+    /// A variable as a whole.
+    pub(super) fn whole_variable(&self, root: Root) -> TokenStream {
+        let whole = self.variable_type(root);
+        self.variable(&Reached { root, shared: false, whole, ty: whole, path: Vec::new(), column: None })
+    }
+
     /// The variable itself: `count`, `g.pick.count`, `cx.system().dfspeed`.
     fn variable(&self, place: &Reached) -> TokenStream {
         match place.root {
@@ -175,6 +181,9 @@ impl<'p> Body<'p, '_> {
                 quote!(#name)
             }
             Root::Global(id) => {
+                if let Some(elements) = self.elements_of(id).filter(|_| !place.path.is_empty()) {
+                    return quote!(#elements);
+                }
                 let owner = self.program().globals.get(id.0 as usize).map_or(self.module, |global| global.module);
                 let (module, name) = (self.unit.names.module(owner), self.unit.names.global(id.0));
                 match self.unit.slots.of(id) {

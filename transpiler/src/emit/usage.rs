@@ -75,14 +75,18 @@ impl Usage {
             let own = usage.get(id);
             number && own.read && own.written && !own.parts && !shared(id)
         };
-        usage.kept = graph.kept(&wanted);
+        let plain = |id: LocalId| {
+            let number = func.locals.get(id.0 as usize).is_some_and(|local| is_number(local.ty));
+            number && !usage.get(id).parts && !shared(id)
+        };
+        usage.kept = graph.kept(&wanted, &plain);
         let late = |id: LocalId| usage.locals.get(id.0 as usize).is_some_and(|local| local.late);
         for id in graph.assigned_again(&late) {
             if let Some(local) = usage.locals.get_mut(id.0 as usize) {
                 local.again = true;
             }
         }
-        for id in usage.kept.values().flatten() {
+        for id in usage.kept.handed.values().flatten() {
             if let Some(local) = usage.locals.get_mut(id.0 as usize) {
                 local.again = true;
             }
@@ -90,9 +94,14 @@ impl Usage {
         usage
     }
 
-    /// What a loop keeps while it gives the cycle back.
+    /// What a loop hands over while it gives the cycle back.
     pub(super) fn kept(&self, info: LoopInfo) -> &[LocalId] {
-        self.kept.get(&info.number).map_or(&[], Vec::as_slice)
+        self.kept.handed.get(&info.number).map_or(&[], Vec::as_slice)
+    }
+
+    /// What it needs behind that and lies in memory meanwhile.
+    pub(super) fn in_memory(&self, info: LoopInfo) -> &[LocalId] {
+        self.kept.in_memory.get(&info.number).map_or(&[], Vec::as_slice)
     }
 
     fn get(&self, id: LocalId) -> Local {
@@ -141,7 +150,7 @@ impl Usage {
         match &stmt.kind {
             StmtKind::Eval(expr) => self.effect(expr),
             StmtKind::For(each) => {
-                if let Some(range) = loops::range(each) {
+                if let Some(range) = loops::emitted_range(each) {
                     self.expr(range.from);
                     self.expr(range.to);
                 } else {

@@ -19,8 +19,14 @@ const MOST_BITS: usize = 1 << 26;
 /// More locals than this are not kept while a loop gives the cycle back: nobody could read that.
 const MOST_KEPT: usize = 8;
 
-/// What to keep while the loop with this number gives the cycle back.
-pub(super) type Kept = HashMap<u32, Vec<LocalId>>;
+/// What the loops with these numbers do with locals while they give the cycle back.
+#[derive(Default, Debug)]
+pub(super) struct Kept {
+    /// What is handed to the wait and comes back from it.
+    pub(super) handed: HashMap<u32, Vec<LocalId>>,
+    /// What lies in memory while they wait, and is needed behind the wait.
+    pub(super) in_memory: HashMap<u32, Vec<LocalId>>,
+}
 
 /// What kind of write.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -104,8 +110,9 @@ impl Graph {
     }
 
     /// Of the locals that are written inside loops and of which it is asked whether they are `wanted`: those that are
-    /// live where each loop gives the cycle back. Locals that are live where something else waits are left out.
-    pub(super) fn kept(&self, wanted: &dyn Fn(LocalId) -> bool) -> Kept {
+    /// live where each loop gives the cycle back. Locals that are live where something else waits lie in memory, as all
+    /// that are not handed over; `plain` tells which of these may be looked at there.
+    pub(super) fn kept(&self, wanted: &dyn Fn(LocalId) -> bool, plain: &dyn Fn(LocalId) -> bool) -> Kept {
         let live = self.live_at_start(Readers::All);
         let (mut waiting, mut pauses) = (Set::new(self.words), Vec::new());
         for node in &self.nodes {
@@ -129,8 +136,16 @@ impl Graph {
         }) {
             candidates.retain(|id| *id != first);
         }
-        let kept = |live: &Set| candidates.iter().copied().filter(|id| live.contains(*id)).collect();
-        pauses.iter().map(|(number, live)| (*number, kept(live))).collect()
+        let handed = |live: &Set| candidates.iter().copied().filter(|id| live.contains(*id)).collect();
+        let in_memory = |live: &Set| {
+            let others = live.iter().filter(|id| plain(*id) && !candidates.contains(id));
+            let others: Vec<LocalId> = others.collect();
+            others.get(others.len().saturating_sub(MOST_KEPT)..).unwrap_or_default().to_vec()
+        };
+        Kept {
+            handed: pauses.iter().map(|(number, live)| (*number, handed(live))).collect(),
+            in_memory: pauses.iter().map(|(number, live)| (*number, in_memory(live))).collect(),
+        }
     }
 
     fn live_at_end(&self, node: &Node, live: &[Set]) -> Set {
@@ -205,6 +220,11 @@ impl Set {
 
     fn contains(&self, id: LocalId) -> bool {
         self.0.get(id.0 as usize / 64).is_some_and(|word| word & (1 << (id.0 % 64)) != 0)
+    }
+
+    fn iter(&self) -> impl Iterator<Item = LocalId> {
+        let ids = 0..u32::try_from(self.0.len() * 64).unwrap_or(u32::MAX);
+        ids.map(LocalId).filter(|id| self.contains(*id))
     }
 
     fn add(&mut self, id: LocalId) {
@@ -356,18 +376,19 @@ impl Builder<'_> {
                 self.join(ends);
             }
             StmtKind::While(condition, body, info) => {
-                let head = self.step();
+                let head = self.head(*info);
                 self.expr(condition, true);
                 let out = if flow::always(condition) { None } else { self.current };
                 self.step();
                 self.round(body, *info, head, out);
+                self.pause_behind(*info);
             }
             StmtKind::Loop(body, info) => {
-                let head = self.step();
+                let head = self.head(*info);
                 self.round(body, *info, head, None);
             }
             StmtKind::Repeat(body, until, info) => self.repeat(body, until, *info),
-            StmtKind::For(each) => match loops::range(each) {
+            StmtKind::For(each) => match loops::emitted_range(each) {
                 Some(range) => {
                     self.expr(range.from, true);
                     self.expr(range.to, true);
@@ -401,9 +422,25 @@ impl Builder<'_> {
         }
     }
 
-    /// Where a loop gives the cycle back.
+    /// The start of a round. Loops that count alone give the cycle back there.
+    fn head(&mut self, info: LoopInfo) -> usize {
+        let head = self.step();
+        if info.counts_alone() {
+            self.op(Op::Pause(info.number));
+        }
+        head
+    }
+
+    /// Where other loops give the cycle back.
     fn pause(&mut self, info: LoopInfo) {
-        if info.spends {
+        if info.counts_in_context() {
+            self.op(Op::Pause(info.number));
+        }
+    }
+
+    /// Behind a loop whose rounds are counted there.
+    fn pause_behind(&mut self, info: LoopInfo) {
+        if info.spends && info.counting.is_behind() {
             self.op(Op::Pause(info.number));
         }
     }
@@ -432,7 +469,7 @@ impl Builder<'_> {
     }
 
     fn repeat(&mut self, body: &[Stmt], until: &Expr, info: LoopInfo) {
-        let head = self.step();
+        let head = self.head(info);
         let test = self.node();
         self.loops.push(Loop { breaks: Vec::new(), continues: test, continued: false });
         self.block(body);
@@ -451,7 +488,7 @@ impl Builder<'_> {
 
     fn general_for(&mut self, each: &crate::hir::For) {
         self.block(&each.init);
-        let head = self.step();
+        let head = self.head(each.info);
         each.condition.iter().for_each(|condition| self.expr(condition, true));
         let out = if each.condition.as_ref().is_none_or(flow::always) { None } else { self.current };
         self.step();
@@ -467,6 +504,7 @@ impl Builder<'_> {
         self.link(back, head);
         let breaks = self.loops.pop().map_or_else(Vec::new, |done| done.breaks);
         self.join(std::iter::once(out).chain(breaks.into_iter().map(Some)));
+        self.pause_behind(each.info);
     }
 
     /// An expression in the order of its evaluation; `wanted` tells whether its value is used.

@@ -1,0 +1,77 @@
+//! Turns of loops that calculate and look at nothing in the context.
+
+use std::cell::Cell;
+
+/// The turns that loops may make in this cycle. What is left goes back to the context when this is dropped.
+///
+/// It lives between two waits, so that the number is in a register: in the context, and in what lives across a wait, it is in
+/// memory, and so is all else that the loop uses.
+#[derive(Debug)]
+pub struct Rounds<'a> {
+    pub(super) budget: &'a Cell<i32>,
+    /// Below 0 where a round did not take place.
+    pub(super) left: i32,
+}
+
+impl Rounds<'_> {
+    /// Counts a round; false where none is left: the loop has to give the cycle back first.
+    #[inline(always)]
+    pub fn take(&mut self) -> bool {
+        // At -1 the loop ends, so it goes no lower.
+        self.left = self.left.wrapping_sub(1);
+        self.left >= 0
+    }
+
+    /// Counts rounds that have taken place without being counted: less than 2^30.
+    #[inline(always)]
+    pub fn charge(&mut self, rounds: i32) {
+        // A subtraction that saturates takes four instructions more. From -1 this one cannot wrap.
+        self.left = self.left.wrapping_sub(rounds).max(0);
+    }
+
+    /// Whether there was a round to be made and none left.
+    #[inline(always)]
+    pub fn are_spent(&self) -> bool {
+        self.left < 0
+    }
+}
+
+impl Drop for Rounds<'_> {
+    #[inline(always)]
+    fn drop(&mut self) {
+        self.budget.set(self.left);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_loop_that_ends_with_its_last_round_is_not_spent() {
+        let budget = Cell::new(2);
+        let mut rounds = Rounds { budget: &budget, left: 2 };
+        assert!(rounds.take() && rounds.take() && !rounds.are_spent());
+        assert!(!rounds.take() && rounds.are_spent());
+    }
+
+    #[test]
+    fn what_is_left_goes_back() {
+        let budget = Cell::new(20);
+        let mut rounds = Rounds { budget: &budget, left: 20 };
+        assert!(rounds.take());
+        rounds.charge(4);
+        drop(rounds);
+        assert_eq!(budget.get(), 15);
+    }
+
+    #[test]
+    fn what_is_charged_does_not_end_a_loop_that_breaks() {
+        let budget = Cell::new(20);
+        let mut rounds = Rounds { budget: &budget, left: 20 };
+        assert!(rounds.take());
+        rounds.charge(1 << 29);
+        assert!(!rounds.are_spent());
+        assert!(!rounds.take() && rounds.are_spent());
+    }
+}
