@@ -11,7 +11,7 @@ use crate::storage::data::DataFile;
 use arl_robot::robot::Family;
 
 /// A piece of program that the controller polls once a cycle.
-pub type BoxFuture<'a> = Pin<Box<dyn Future<Output = Done<()>> + 'a>>;
+pub type BoxFuture<'a, T = ()> = Pin<Box<dyn Future<Output = Done<T>> + 'a>>;
 
 /// A piece of program that owns what it borrows from.
 pub(crate) type Running = BoxFuture<'static>;

@@ -211,7 +211,9 @@ impl Checker<'_> {
                 let own = self.scopes.get(body.module.0 as usize).and_then(|scope| scope.funcs.get(&call.name.symbol));
                 match own {
                     Some(id) => self.funcs.get(id.0 as usize).is_some_and(|func| func.result == Some(base)),
-                    None => catalog::functions(self.names.name(call.name.symbol)).iter().any(|entry| entry.result == base),
+                    None => {
+                        catalog::functions(self.names.name(call.name.symbol)).iter().any(|entry| entry.result == base)
+                    }
                 }
             }
             _ => false,

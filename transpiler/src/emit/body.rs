@@ -9,6 +9,7 @@ use super::names::{Names, ident, is_taken_value};
 use super::parts::{Frame, Weights};
 use super::rows::Columns;
 use super::slots::Slots;
+use super::templates::Templates;
 use super::temporaries::Temporaries;
 use super::usage::Usage;
 use crate::effects::facts::{self, Facts, Scope};
@@ -36,6 +37,8 @@ pub(super) struct Unit<'p> {
     pub(super) sizes: Sizes,
     /// The variables that are in arrays.
     pub(super) slots: Slots,
+    /// The calls that are made of functions of their own.
+    pub(super) templates: Templates<'p>,
 }
 
 impl Unit<'_> {
@@ -142,6 +145,8 @@ pub(super) struct Body<'p, 'u> {
     pub(super) weights: Weights,
     /// What stands for constants and for the line while the statements of a table are emitted.
     pub(super) columns: Columns,
+    /// Whether the function of a template is emitted.
+    pub(super) in_template: bool,
 }
 
 impl<'p, 'u> Body<'p, 'u> {
@@ -186,6 +191,7 @@ impl<'p, 'u> Body<'p, 'u> {
             hoisted: HashSet::new(),
             weights: Weights::default(),
             columns: Columns::default(),
+            in_template: false,
         }
     }
 
@@ -237,7 +243,7 @@ impl<'p, 'u> Body<'p, 'u> {
         quote!(#call.at(FILE, #line)?)
     }
 
-    fn line_number(&self) -> TokenStream {
+    pub(super) fn line_number(&self) -> TokenStream {
         let number = || Literal::u32_unsuffixed(self.line).into_token_stream();
         self.columns.line().unwrap_or_else(number)
     }

@@ -54,7 +54,10 @@ impl<'p> Body<'p, '_> {
             }
             ExprKind::Assign(_) | ExprKind::AssignOp(..) | ExprKind::Step(..) => self.assignment_value(expr, true),
             ExprKind::Call(id, args) => self.call(*id, args),
-            ExprKind::Builtin(builtin) => self.builtin(builtin),
+            ExprKind::Builtin(builtin) => match self.template_call(expr, builtin) {
+                Some(call) => call,
+                None => self.builtin(builtin),
+            },
             ExprKind::Struct(id, values) => self.structure(*id, values),
             ExprKind::Array(values) => self.array(expr.ty, values),
             ExprKind::Splice(number) => {

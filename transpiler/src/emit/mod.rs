@@ -28,6 +28,7 @@ mod slots;
 mod slots_init;
 mod statements;
 mod switch;
+mod templates;
 mod temporaries;
 mod tokens;
 mod types;
@@ -44,6 +45,7 @@ use marks::Marks;
 use names::Names;
 use proc_macro2::TokenStream;
 use slots::Slots;
+use templates::Templates;
 
 /// How to emit.
 #[derive(Clone, Debug, Default)]
@@ -69,6 +71,8 @@ pub struct Sizes {
     pub least_awaits: usize,
     /// In a program with more than this, functions with at least as many as a part are compiled by themselves.
     pub awaits_of_a_program: usize,
+    /// And calls that are found so often, with other constants, become a function.
+    pub uses_of_a_template: usize,
     /// More variables of one type and module than this are an array.
     pub variables: usize,
 }
@@ -82,6 +86,7 @@ impl Default for Sizes {
             awaits_of_a_part: 32,
             least_awaits: 8,
             awaits_of_a_program: 256,
+            uses_of_a_template: 4,
             variables: 64,
         }
     }
@@ -96,6 +101,7 @@ impl Sizes {
         awaits_of_a_part: 1,
         least_awaits: 1,
         awaits_of_a_program: 0,
+        uses_of_a_template: 1,
         variables: 0,
     };
 }
@@ -132,9 +138,13 @@ impl<'p> Unit<'p> {
     fn new(program: &'p Program, sizes: Sizes) -> Self {
         let lines = program.modules.iter().map(|module| arl_lang::span::LineIndex::new(&module.source)).collect();
         let (movers, reached) = (effects::pointer_movers(program), effects::reached(program));
-        let names = Names::new(program);
+        let mut names = Names::new(program);
         let slots = Slots::new(program, &names, sizes);
         let apart = parts::apart(program, sizes);
-        Self { program, names, slots, marks: Marks::default(), lines, movers, reached, apart, sizes }
+        let templates = match parts::is_large(program, sizes) {
+            true => Templates::new(program, &mut names, &slots, sizes),
+            false => Templates::default(),
+        };
+        Self { program, names, slots, templates, marks: Marks::default(), lines, movers, reached, apart, sizes }
     }
 }

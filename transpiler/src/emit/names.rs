@@ -183,6 +183,16 @@ impl Names {
     }
 
     /// Whether a module has a function of this Rust name.
+    /// A name for one more function of a module: `lin_1`.
+    pub(super) fn new_function(&mut self, module: ModuleId, wanted: &str) -> Ident {
+        let wanted = wanted.to_ascii_lowercase();
+        let Some(names) = self.functions_of.get_mut(module.0 as usize) else { return ident(&wanted) };
+        let name = (1..).map(|number| format!("{wanted}_{number}")).find(|name| !names.contains(name));
+        let name = name.unwrap_or(wanted);
+        names.insert(name.clone());
+        ident(&name)
+    }
+
     pub(super) fn has_function(&self, module: ModuleId, name: &str) -> bool {
         self.functions_of.get(module.0 as usize).is_some_and(|names| names.contains(name))
     }

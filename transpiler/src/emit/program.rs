@@ -65,6 +65,10 @@ fn one_module(unit: &Unit<'_>, id: ModuleId, module: &Module) -> (TokenStream, P
         content.extend(blank(unit));
         content.extend(functions::function(unit, FuncId(at as u32), func));
     }
+    for item in unit.templates.items(id) {
+        content.extend(blank(unit));
+        content.extend(item.clone());
+    }
     let file = &module.file;
     let uses_globals = mentions(&content, "Globals").then(|| {
         quote!(

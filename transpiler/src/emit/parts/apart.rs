@@ -8,9 +8,14 @@ use crate::visit;
 /// For each function, whether its calls go through a pointer.
 pub(in crate::emit) fn apart(program: &Program, sizes: Sizes) -> Vec<bool> {
     let weights: Vec<usize> = program.funcs.iter().map(|func| weight(program, &func.body)).collect();
-    let large = weights.iter().sum::<usize>() > sizes.awaits_of_a_program;
+    let large = is_large(program, sizes);
     let waits = program.funcs.iter().map(|func| func.effects.waits);
     weights.into_iter().zip(waits).map(|(weight, waits)| large && waits && weight >= sizes.least_awaits).collect()
+}
+
+/// Whether a program has many `.await`s.
+pub(in crate::emit) fn is_large(program: &Program, sizes: Sizes) -> bool {
+    program.funcs.iter().map(|func| weight(program, &func.body)).sum::<usize>() > sizes.awaits_of_a_program
 }
 
 /// How many `.await`s the statements have, about.

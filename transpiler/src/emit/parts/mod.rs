@@ -17,6 +17,6 @@ mod part;
 mod plan;
 mod weight;
 
-pub(super) use apart::apart;
+pub(super) use apart::{apart, is_large};
 pub(super) use leave::{Frame, Leave};
 pub(super) use weight::Weights;

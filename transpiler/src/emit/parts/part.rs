@@ -19,7 +19,9 @@ impl<'p> Body<'p, '_> {
         if pieces.iter().any(|piece| matches!(piece, Piece::Part(_))) {
             // It would stand in front of the first statement that leads back to the function, in a part.
             out.extend(self.guard.take());
-            for id in outside_parts(&groups, &pieces) {
+            // What lives in front of all states does so for the parts of one, too.
+            let of_states = self.machine.as_ref().map(|machine| machine.hoisted.clone()).unwrap_or_default();
+            for id in outside_parts(&groups, &pieces).into_iter().filter(|id| !of_states.contains(id)) {
                 out.extend(self.hoisted_variable(id));
                 self.hoisted.insert(id);
             }

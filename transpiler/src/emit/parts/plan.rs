@@ -86,6 +86,7 @@ mod tests {
         awaits_of_a_part: 4,
         least_awaits: 2,
         awaits_of_a_program: 256,
+        uses_of_a_template: 4,
         variables: 64,
     };
 

@@ -91,6 +91,9 @@ impl<'p> Body<'p, '_> {
     }
 
     fn expression_weight(&self, expr: &Expr) -> usize {
+        if let (ExprKind::Builtin(builtin), true) = (&expr.kind, self.unit.templates.have(expr)) {
+            return usize::from(builtin.entry.effect.takes_time());
+        }
         let own = match &expr.kind {
             ExprKind::Builtin(builtin) if builtin.entry.effect.takes_time() => match builtin.entry.form {
                 Form::WaitUntil | Form::Jump => 2,

@@ -11,5 +11,5 @@ mod shape;
 mod table;
 
 pub(super) use runs::Group;
-pub(super) use shape::{Hole, Shape, of_value};
-pub(super) use table::{Columns, Entry, Lead};
+pub(super) use shape::{Filling, Hole, Shape, of_call, of_value};
+pub(super) use table::{Columns, Entry, Lead, column_type, same};

@@ -2,7 +2,7 @@
 
 use crate::effects::captures;
 use crate::emit::slots::Slots;
-use crate::hir::{Expr, ExprKind, GlobalId, Passed, Place, Projection, Root, Stmt, StmtKind, Value};
+use crate::hir::{Expr, ExprKind, Func, GlobalId, LocalId, Passed, Place, Projection, Root, Stmt, StmtKind, Value};
 use arl_lang::catalog::{Family, Presence};
 
 /// A statement without the constants that may differ between the rows of a table.
@@ -12,14 +12,14 @@ pub(in crate::emit) struct Shape(Vec<u8>);
 /// What may differ: the code around it is the same whatever stands there.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::emit) struct Hole<'p> {
-    pub(super) filling: Filling<'p>,
+    pub(in crate::emit) filling: Filling<'p>,
     /// What it is for: the label of the parameter, the component.
-    pub(super) name: &'p str,
+    pub(in crate::emit) name: &'p str,
 }
 
 /// What stands in a hole.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Filling<'p> {
+pub(in crate::emit) enum Filling<'p> {
     /// A constant that is an argument, a component of one, or what a global variable is set to.
     Constant(&'p Expr, &'p Value),
     /// A variable that is in an array.
@@ -40,7 +40,7 @@ impl<'p> Row<'p> {
     /// The statement, where it is an expression; whether it may stand in a table is not asked here.
     pub(super) fn of(stmt: &'p Stmt, family: Family, slots: &Slots) -> Option<Self> {
         let StmtKind::Eval(expr) = &stmt.kind else { return None };
-        let mut walk = Walk { family, slots: Some(slots), shape: Vec::new(), holes: Vec::new() };
+        let mut walk = Walk { slots: Some(slots), ..Walk::new(family) };
         walk.expr(expr, None);
         Some(Self { stmt, expr, shape: Shape(walk.shape), holes: walk.holes })
     }
@@ -48,20 +48,39 @@ impl<'p> Row<'p> {
 
 /// The shape and the holes of a value, where a constant alone is one.
 pub(in crate::emit) fn of_value<'p>(value: &'p Expr, family: Family) -> (Shape, Vec<Hole<'p>>) {
-    let mut walk = Walk { family, slots: None, shape: Vec::new(), holes: Vec::new() };
+    let mut walk = Walk::new(family);
     walk.expr(value, Some("value"));
     (Shape(walk.shape), walk.holes)
+}
+
+/// The shape, the holes and the local variables of a call in a function, whatever the names of these are.
+pub(in crate::emit) fn of_call<'p>(
+    call: &'p Expr,
+    func: &'p Func,
+    family: Family,
+    slots: &Slots,
+) -> (Shape, Vec<Hole<'p>>, Vec<LocalId>) {
+    let mut walk = Walk { slots: Some(slots), func: Some(func), ..Walk::new(family) };
+    walk.expr(call, None);
+    (Shape(walk.shape), walk.holes, walk.locals)
 }
 
 struct Walk<'p, 's> {
     family: Family,
     /// The variables that are in arrays.
     slots: Option<&'s Slots>,
+    /// Where local variables are told by their order and types alone: their function.
+    func: Option<&'p Func>,
     shape: Vec<u8>,
     holes: Vec<Hole<'p>>,
+    locals: Vec<LocalId>,
 }
 
 impl<'p> Walk<'p, '_> {
+    fn new(family: Family) -> Self {
+        Self { family, slots: None, func: None, shape: Vec::new(), holes: Vec::new(), locals: Vec::new() }
+    }
+
     fn word(&mut self, word: impl std::fmt::Debug) {
         use std::io::Write;
         // A vector takes all that is written to it.
@@ -174,6 +193,14 @@ impl<'p> Walk<'p, '_> {
                 }
                 None => self.word(place.root),
             },
+            (Root::Local(id), _) if self.func.is_some() => {
+                let known = self.locals.iter().position(|known| *known == id);
+                let at = known.unwrap_or_else(|| {
+                    self.locals.push(id);
+                    self.locals.len() - 1
+                });
+                self.word((at, self.func.and_then(|func| func.locals.get(id.0 as usize)).map(|local| local.ty)));
+            }
             (root, _) => self.word(root),
         }
         for step in &place.path {

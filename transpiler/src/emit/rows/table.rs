@@ -25,6 +25,25 @@ pub(in crate::emit) struct Columns {
 }
 
 impl Columns {
+    /// Columns for the line and for what stands in holes.
+    pub(in crate::emit) fn new<'h>(line: Ident, holes: impl Iterator<Item = (&'h Hole<'h>, &'h Ident)>) -> Self {
+        let mut columns = Self { line: Some(line), ..Self::default() };
+        holes.for_each(|(hole, name)| columns.put(hole, name));
+        columns
+    }
+
+    fn put(&mut self, hole: &Hole<'_>, name: &Ident) {
+        match hole.filling {
+            Filling::Constant(expr, _) => _ = self.of.insert(std::ptr::from_ref(expr), name.clone()),
+            Filling::Variable(place, _) => _ = self.slots.insert(std::ptr::from_ref(place), name.clone()),
+        }
+    }
+
+    /// Whether there are none.
+    pub(in crate::emit) fn is_empty(&self) -> bool {
+        self.line.is_none() && self.of.is_empty() && self.slots.is_empty()
+    }
+
     /// The line of the row.
     pub(in crate::emit) fn line(&self) -> Option<TokenStream> {
         self.line.as_ref().map(ToTokens::to_token_stream)
@@ -153,10 +172,7 @@ impl<'p> Body<'p, '_> {
         let columns: Vec<(usize, Ident)> =
             varying.iter().map(|(at, hole)| (*at, self.reserve(&field(hole.name).to_string()))).collect();
         for ((_, hole), (_, name)) in varying.iter().zip(&columns) {
-            match hole.filling {
-                Filling::Constant(expr, _) => _ = self.columns.of.insert(std::ptr::from_ref(expr), name.clone()),
-                Filling::Variable(place, _) => _ = self.columns.slots.insert(std::ptr::from_ref(place), name.clone()),
-            }
+            self.columns.put(hole, name);
         }
         let code = emit(self, first);
         self.columns = Columns::default();
@@ -225,7 +241,7 @@ impl<'p> Body<'p, '_> {
 
 impl Body<'_, '_> {
     /// What stands in a column.
-    fn in_column(&self, filling: Filling<'_>) -> String {
+    pub(in crate::emit) fn in_column(&self, filling: Filling<'_>) -> String {
         match filling {
             Filling::Constant(_, value) => consts::text(value),
             Filling::Variable(_, id) => self.place_in_array(id).to_string().replace(' ', ""),
@@ -275,7 +291,7 @@ fn distinct(wanted: String, used: &mut HashSet<String>) -> Ident {
 }
 
 /// The type of a column; a `static` needs no lifetime for its texts.
-fn column_type(base: Base, family: Family, in_enum: bool) -> TokenStream {
+pub(in crate::emit) fn column_type(base: Base, family: Family, in_enum: bool) -> TokenStream {
     match base {
         Base::String if in_enum => quote!(&'static str),
         Base::String => quote!(&str),
@@ -301,7 +317,7 @@ fn in_row(values: impl Iterator<Item = String>) -> String {
 }
 
 /// Whether the same stands in two holes, constants to the last bit.
-fn same(one: Filling<'_>, other: Filling<'_>) -> bool {
+pub(in crate::emit) fn same(one: Filling<'_>, other: Filling<'_>) -> bool {
     match (one, other) {
         (Filling::Constant(_, Value::Double(one)), Filling::Constant(_, Value::Double(other))) => {
             one.to_bits() == other.to_bits()
