@@ -58,6 +58,11 @@ pub enum Fault {
     },
     /// Functions call each other too deep.
     Depth,
+    /// Functions that call each other hold too much.
+    DepthBytes {
+        /// How many bytes their strings and arrays may have together.
+        most: usize,
+    },
     /// `assert` of something false.
     Assertion,
     /// A string that is too long.
@@ -145,7 +150,7 @@ impl Fault {
             Fault::Domain { .. } => 20004,
             Fault::Text { .. } => 20005,
             Fault::Range { .. } | Fault::Word { .. } => 20006,
-            Fault::Depth => 20007,
+            Fault::Depth | Fault::DepthBytes { .. } => 20007,
             Fault::Assertion => 20008,
             Fault::File { .. } => 20009,
             Fault::TooLong { .. } => 20011,
@@ -186,6 +191,11 @@ impl fmt::Display for Fault {
                 Ok(())
             }
             Fault::Depth => write!(f, "functions call each other too deep"),
+            Fault::DepthBytes { most } => write!(
+                f,
+                "functions call each other too deep: the strings and arrays that were handed to them have more than \
+                 {most} bytes together"
+            ),
             Fault::Assertion => write!(f, "assertion failed"),
             Fault::File { path, problem } => write!(f, "file \"{path}\": {problem}"),
             Fault::TooLong { length, most } => {

@@ -25,8 +25,9 @@ use crate::values::Controlmode;
 use arl_robot::cell::Cell;
 use arl_robot::robot::Robot;
 
-/// What the program's functions may fill of the stack, and what the thread has on top of that for everything else.
-const PROGRAM_STACK_BYTES: usize = 64 << 20;
+/// What the program's functions may fill of the stack, and what the thread has on top of that for everything else. Each
+/// cycle goes down the whole chain of functions that wait for each other, so that a long one takes long.
+const PROGRAM_STACK_BYTES: usize = 8 << 20;
 const CONTROLLER_STACK_BYTES: usize = 1 << 20;
 
 /// The directory below the script directory that keeps system variables where no other is named.

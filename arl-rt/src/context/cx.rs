@@ -29,6 +29,9 @@ use arl_robot::robot::Family;
 /// without waiting takes some tens of microseconds.
 const LOOP_TURNS_PER_CYCLE: i32 = 20_000;
 
+/// What the functions that call each other may hold of strings and arrays.
+const MOST_BYTES_HELD: usize = 256 << 20;
+
 /// The view of the controller that a program has: passed to every function that acts, moves or waits.
 ///
 /// Everything here happens on the thread of the controller; nothing locks.
@@ -38,6 +41,8 @@ pub struct Cx {
     budget: Cell<i32>,
     /// The address below which the stack must not grow.
     stack_floor: Cell<usize>,
+    /// How many bytes the functions that call each other hold.
+    held: Cell<usize>,
     program: Rc<dyn Program>,
     /// The program that shall run here instead.
     next: RefCell<Option<Rc<dyn Program>>>,
@@ -102,6 +107,7 @@ impl Cx {
             channel_state,
             budget: Cell::new(LOOP_TURNS_PER_CYCLE),
             stack_floor: Cell::new(0),
+            held: Cell::new(0),
             program,
             next: RefCell::default(),
             programs,
@@ -242,6 +248,21 @@ impl Cx {
     #[inline]
     pub fn enter(&self) -> Result<(), Fault> {
         if stack_pointer() < self.stack_floor.get() { Err(Fault::Depth) } else { Ok(()) }
+    }
+
+    /// Enters a function that may call itself, to which strings and arrays of so many bytes were handed; they count as held
+    /// until the result is dropped.
+    ///
+    /// # Errors
+    /// [`Fault::Depth`], and [`Fault::DepthBytes`]: the functions that call each other hold more than 256 MiB.
+    pub fn enter_with(&self, bytes: usize) -> Result<Held<'_>, Fault> {
+        self.enter()?;
+        let held = self.held.get().saturating_add(bytes);
+        if held > MOST_BYTES_HELD {
+            return Err(Fault::DepthBytes { most: MOST_BYTES_HELD });
+        }
+        self.held.set(held);
+        Ok(Held { held: &self.held, bytes })
     }
 
     /// The global variables of the program that runs: what `G` is must be known, as conditions and actions do that outlive
@@ -495,6 +516,20 @@ impl fmt::Debug for Cx {
 fn stack_pointer() -> usize {
     let here = 0_u8;
     (&raw const here) as usize
+}
+
+/// What a function that may call itself holds, until this is dropped.
+#[derive(Debug)]
+#[must_use = "what is dropped at once is not held"]
+pub struct Held<'a> {
+    held: &'a Cell<usize>,
+    bytes: usize,
+}
+
+impl Drop for Held<'_> {
+    fn drop(&mut self) {
+        self.held.set(self.held.get().saturating_sub(self.bytes));
+    }
 }
 
 /// Ready in the cycle after the one in which it was made.

@@ -3,11 +3,11 @@
 use super::body::{Body, Tail, Unit};
 use super::mentions;
 use super::tokens::mentions;
-use super::types::{base_type, is_number, rust_type};
+use super::types::{base_type, bytes, is_number, rust_type};
 use crate::effects::flow;
-use crate::hir::{Func, FuncId, Stmt, StmtKind};
+use crate::hir::{Func, FuncId, LocalId, Stmt, StmtKind};
 use arl_lang::catalog::Base;
-use proc_macro2::TokenStream;
+use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
 /// The most statements that are compiled into every call of a function that calls itself.
@@ -40,10 +40,7 @@ pub(super) fn function(unit: &Unit<'_>, id: FuncId, func: &Func) -> TokenStream 
         (false, None) => TokenStream::new(),
     };
     body.stand_at(func.span);
-    let guard = effects.recursive.then(|| {
-        let enter = body.checked(quote!(cx.enter()));
-        quote!(#enter;)
-    });
+    let guard = effects.recursive.then(|| body.entered(func));
     let statements = if func.has_goto {
         let machine = body.machine(func);
         quote!(#guard #machine)
@@ -74,6 +71,29 @@ pub(super) fn function(unit: &Unit<'_>, id: FuncId, func: &Func) -> TokenStream 
 }
 
 impl<'p> Body<'p, '_> {
+    /// `cx.enter().at(FILE, 3)?;`, with what the function is handed of strings and arrays.
+    fn entered(&mut self, func: &Func) -> TokenStream {
+        let handed: Vec<TokenStream> = func.params.iter().filter_map(|id| self.handed_bytes(func, *id)).collect();
+        if handed.is_empty() {
+            let enter = self.checked(quote!(cx.enter()));
+            return quote!(#enter;);
+        }
+        let held = self.reserve("_held");
+        let enter = self.checked(quote!(cx.enter_with(#(#handed)+*)));
+        quote!(let #held = #enter;)
+    }
+
+    /// How many bytes a string or an array takes besides its place among the parameters.
+    fn handed_bytes(&self, func: &Func, id: LocalId) -> Option<TokenStream> {
+        let ty = func.locals.get(id.0 as usize)?.ty;
+        let name = self.local(id);
+        if ty.is_array() {
+            let size = Literal::usize_unsuffixed(bytes(ty.base, self.family()).saturating_mul(ty.len()));
+            return Some(quote!(#size));
+        }
+        (ty.base == Base::String && !self.is_shared(id) && self.usage.is_read(id)).then(|| quote!(#name.len()))
+    }
+
     /// The statements up to the end of the function.
     fn until_end(&mut self, block: &'p [Stmt]) -> TokenStream {
         let statements = self.block(block, Tail::Function);

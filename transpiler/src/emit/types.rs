@@ -78,7 +78,7 @@ pub(super) fn array_type(ty: Type, family: Family) -> Ident {
 }
 
 /// About the size of a value in memory.
-fn bytes(base: Base, family: Family) -> usize {
+pub(super) fn bytes(base: Base, family: Family) -> usize {
     match base {
         Base::Void => 0,
         Base::Bool | Base::Byte | Base::Enum(_) => 1,
