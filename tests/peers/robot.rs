@@ -6,6 +6,7 @@ use std::process::{Child, ChildStderr, Command, Stdio};
 use std::sync::LazyLock;
 
 use arl_tests::project::{Project, compile};
+use arl2rs::emit::Sizes;
 
 static PROGRAMS: LazyLock<Programs> = LazyLock::new(Programs::build);
 
@@ -23,7 +24,7 @@ impl Programs {
         let names = files.iter().map(|file| file.file_stem().unwrap().to_string_lossy().into_owned()).collect();
         let rust = files.iter().map(|file| {
             let (name, text) = (file.file_name().unwrap().to_string_lossy(), std::fs::read_to_string(file).unwrap());
-            compile(&[(name.into_owned(), text)]).unwrap()
+            compile(&[(name.into_owned(), text)], Sizes::DEFAULT).unwrap()
         });
         let project = Project::new(env!("CARGO_TARGET_TMPDIR"), "arl-peers");
         let command = project.build_choosing(&rust.collect::<Vec<_>>()).unwrap();

@@ -15,6 +15,10 @@ use arl_tests::project::{Project, Run, compile};
 use arl_tests::random::Random;
 use arl_tests::tree::Program;
 use arl_tests::write::write;
+use arl2rs::emit::Sizes;
+
+/// Programs take turns: as they come, and in all forms that large programs have.
+const FORMS: [Sizes; 2] = [Sizes::DEFAULT, Sizes::LEAST];
 
 fn number(name: &str, usual: u64) -> u64 {
     std::env::var(name).ok().and_then(|text| text.parse().ok()).unwrap_or(usual)
@@ -66,8 +70,8 @@ fn compare(name: &str, cases: &[Case]) {
     let project = Project::new(env!("CARGO_TARGET_TMPDIR"), name);
     let mut programs = Vec::new();
     let mut failures = Vec::new();
-    for case in cases {
-        match compile(&case.files) {
+    for (case, sizes) in cases.iter().zip(FORMS.into_iter().cycle()) {
+        match compile(&case.files, sizes) {
             Ok(rust) => programs.push(rust),
             Err(errors) => failures.push(format!("seed {}: refused\n{errors}{}", case.seed, case.text())),
         }

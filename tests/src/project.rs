@@ -1,6 +1,6 @@
 //! Compiles ARL in memory, and a cargo project of what was emitted, and runs its programs.
 
-use arl2rs::emit::{EmitOptions, emit};
+use arl2rs::emit::{EmitOptions, Sizes, emit};
 use arl2rs::{CheckOptions, SourceError, Sources, check};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -19,23 +19,23 @@ impl Sources for Files {
     }
 }
 
-/// The Rust of a program, whose main file is the first.
+/// The Rust of a program, whose main file is the first, in the forms of programs of such sizes.
 ///
 /// # Errors
 /// The compile errors, a line each.
-pub fn compile(files: &[(String, String)]) -> Result<String, String> {
-    compile_for(files, &CheckOptions::default())
+pub fn compile(files: &[(String, String)], sizes: Sizes) -> Result<String, String> {
+    compile_for(files, &CheckOptions::default(), sizes)
 }
 
 /// The Rust of a program that is checked with these options.
 ///
 /// # Errors
 /// The compile errors, a line each.
-pub fn compile_for(files: &[(String, String)], options: &CheckOptions) -> Result<String, String> {
+pub fn compile_for(files: &[(String, String)], options: &CheckOptions, sizes: Sizes) -> Result<String, String> {
     let sources = Files(files.iter().map(|(name, text)| (name.into(), text.clone().into_bytes())).collect());
     let checked = check(Path::new(&files[0].0), &sources, options);
     match &checked.program {
-        Some(program) => Ok(emit(program, &EmitOptions::default())),
+        Some(program) => Ok(emit(program, &EmitOptions { sizes, ..EmitOptions::default() })),
         None => {
             let errors =
                 checked.diagnostics.iter().filter(|found| found.severity == arl2rs::diagnostics::Severity::Error);

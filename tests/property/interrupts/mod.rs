@@ -3,7 +3,7 @@
 mod model;
 mod plan;
 
-use crate::{Run, difference, first_seed, report, times};
+use crate::{FORMS, Run, difference, first_seed, report, times};
 use arl_tests::project::{Project, compile};
 use arl_tests::random::Random;
 use model::{End, Model};
@@ -65,8 +65,8 @@ fn interrupts_do_what_the_rules_say() {
     let project = Project::new(env!("CARGO_TARGET_TMPDIR"), "arl-property-interrupts");
     let mut programs = Vec::new();
     let mut failures = Vec::new();
-    for case in &cases {
-        match compile(&[("main.arl".into(), case.text.clone())]) {
+    for (case, sizes) in cases.iter().zip(FORMS.into_iter().cycle()) {
+        match compile(&[("main.arl".into(), case.text.clone())], sizes) {
             Ok(rust) => programs.push(rust),
             Err(errors) => failures.push(format!("seed {}: refused\n{errors}{}", case.seed, case.text)),
         }

@@ -14,6 +14,7 @@ use arl_lang::catalog::Family;
 use arl_tests::project::{Project, compile_for};
 use arl_tests::random::Random;
 use arl2rs::CheckOptions;
+use arl2rs::emit::Sizes;
 use check::Tally;
 use grow::{ROOMS, Wishes};
 use plan::{Kind, Mode, Plan, Zone};
@@ -92,11 +93,20 @@ impl Case {
         }
     }
 
-    /// The Rust of the program.
-    fn compile(&self) -> Result<String, String> {
+    /// The Rust of the program, in the forms of programs of such sizes.
+    fn compile(&self, sizes: Sizes) -> Result<String, String> {
         let family = if self.robot.scara { Family::Scara } else { Family::SixAxis };
         let options = CheckOptions { family, ..CheckOptions::default() };
-        compile_for(&[("main.arl".into(), self.plan.text.clone())], &options)
+        compile_for(&[("main.arl".into(), self.plan.text.clone())], &options, sizes)
+    }
+
+    /// Whether two programs of a command, the same in other forms, go the same way to the last bit.
+    fn go_the_same_way(&self, project: &Project, command: &Path, [one, other]: [usize; 2]) -> bool {
+        let trace = |at: usize| {
+            let said = self.run(project, command, at, true).err();
+            (said, std::fs::read(self.file(project, "disturbed.csv")).unwrap())
+        };
+        trace(one) == trace(other)
     }
 
     /// Runs the program `at` of a command, undisturbed and then as the scenario says, and tells what is wrong with the
@@ -319,15 +329,18 @@ fn kept() -> Vec<Case> {
 
 #[test]
 fn motions_keep_limits_paths_corners_and_targets() {
-    let grown = (first_seed()..first_seed() + 8 * times()).map(Case::new);
+    let grown_count = 8 * times() as usize;
+    let grown = (first_seed()..).map(Case::new).take(grown_count);
     // What was kept is the same whatever the seed.
     let kept = if first_seed() == 0 { kept() } else { Vec::new() };
     let cases: Vec<Case> = grown.chain(kept).collect();
     let project = Project::new(env!("CARGO_TARGET_TMPDIR"), "arl-property-motions");
     let mut failures = Vec::new();
     let mut programs = Vec::new();
-    for case in &cases {
-        match case.compile() {
+    // Those that are grown anew once more, in all forms that large programs have.
+    let again = cases.iter().take(grown_count).map(|case| (case, Sizes::LEAST));
+    for (case, sizes) in cases.iter().map(|case| (case, Sizes::default())).chain(again) {
+        match case.compile(sizes) {
             Ok(rust) => programs.push(rust),
             Err(errors) => failures.push(case.failure(&project, &[errors])),
         }
@@ -339,10 +352,17 @@ fn motions_keep_limits_paths_corners_and_targets() {
     let halves = std::thread::scope(|scope| {
         let halves = [0, 1].map(|half| {
             let cases = all.iter().skip(half).step_by(2);
-            let (project, command) = (&project, &command);
+            let (project, command, all) = (&project, &command, &all);
             scope.spawn(move || -> (Vec<String>, Tally) {
                 let mut tally = Tally::default();
-                let failures = cases.filter_map(|(at, case)| case.test(project, command, *at, &mut tally)).collect();
+                let mut failures = Vec::new();
+                for (at, case) in cases {
+                    failures.extend(case.test(project, command, *at, &mut tally));
+                    let all_forms = all.len() + at;
+                    if *at < grown_count && !case.go_the_same_way(project, command, [*at, all_forms]) {
+                        failures.push(case.failure(project, &["in other forms it goes another way".into()]));
+                    }
+                }
                 (failures, tally)
             })
         });

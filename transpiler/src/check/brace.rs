@@ -4,7 +4,7 @@ use super::context::{Body, Checker};
 use super::convert::number;
 use crate::diagnostics::components::ComponentRange;
 use crate::diagnostics::types::TypeProblem;
-use crate::hir::{Expr, ExprKind, Type, Value};
+use crate::hir::{Expr, ExprKind, GlobalId, Type, Value};
 use arl_lang::ast::{self, BinaryOp, BraceItem, UnaryOp};
 use arl_lang::catalog::{self, Base, Start, Struct, UNSET};
 use arl_lang::span::Span;
@@ -192,32 +192,42 @@ impl Checker<'_> {
 
     /// Whether a variable, an element of one, or a call has a value of this type, as far as its name tells.
     fn plainly_is(&mut self, body: &Body, expr: &ast::Expr, base: Base) -> bool {
-        match &expr.kind {
-            ast::ExprKind::Name(symbol) => {
-                let ty = match body.find(*symbol) {
-                    Some(local) => body.local_type(local),
-                    None => self.find_global(body, *symbol).and_then(|(id, _)| {
-                        self.check_global(id);
-                        self.globals.get(id.0 as usize)?.ty
-                    }),
-                };
-                ty.is_some_and(|ty| ty.base == base)
+        let ty = match &expr.kind {
+            ast::ExprKind::Name(symbol) => match body.find(*symbol) {
+                Some(local) => body.local_type(local),
+                None => self.find_global(body, *symbol).and_then(|(id, _)| self.global_type(id)),
+            },
+            ast::ExprKind::Path { scope, system: false, name } => {
+                let found = self.find_module(body, *scope).and_then(|module| self.scopes.get(module.0 as usize));
+                let id = found.and_then(|scope| scope.globals.get(&name.symbol)).copied();
+                id.and_then(|id| self.global_type(id))
             }
             ast::ExprKind::System(symbol) => {
-                catalog::system_variable(self.names.name(*symbol)).is_some_and(|variable| variable.ty == base)
+                catalog::system_variable(self.names.name(*symbol)).map(|variable| Type::scalar(variable.ty))
             }
-            ast::ExprKind::Index(both) => self.plainly_is(body, &both.0, base),
-            ast::ExprKind::Call(call) if call.module.is_none() => {
-                let own = self.scopes.get(body.module.0 as usize).and_then(|scope| scope.funcs.get(&call.name.symbol));
-                match own {
-                    Some(id) => self.funcs.get(id.0 as usize).is_some_and(|func| func.result == Some(base)),
-                    None => {
-                        catalog::functions(self.names.name(call.name.symbol)).iter().any(|entry| entry.result == base)
-                    }
-                }
-            }
-            _ => false,
-        }
+            ast::ExprKind::Index(both) => return self.plainly_is(body, &both.0, base),
+            ast::ExprKind::Call(call) => self.call_type(body, call),
+            _ => None,
+        };
+        ty.is_some_and(|ty| ty.base == base)
+    }
+
+    fn global_type(&mut self, id: GlobalId) -> Option<Type> {
+        self.check_global(id);
+        self.globals.get(id.0 as usize)?.ty
+    }
+
+    /// What a call gives, where that does not depend on its arguments.
+    fn call_type(&self, body: &Body, call: &ast::Call) -> Option<Type> {
+        let module = match call.module {
+            Some(module) => self.find_module(body, module)?,
+            None => body.module,
+        };
+        let result = match self.scopes.get(module.0 as usize)?.funcs.get(&call.name.symbol) {
+            Some(own) => self.funcs.get(own.0 as usize)?.result?,
+            None => catalog::functions(self.names.name(call.name.symbol)).first()?.result,
+        };
+        Some(Type::scalar(result))
     }
 
     /// Whether the items are those of one structure whose first component is a structure itself (`tool`, `wobj`).

@@ -3,6 +3,7 @@
 
 use super::body::Body;
 use super::types::{array_type, is_cells};
+use crate::effects::facts;
 use crate::hir::{Expr, ExprKind, GlobalId, LocalId, Passed, Place, Projection, Root, Stmt, Type};
 use crate::visit;
 use proc_macro2::{Ident, TokenStream};
@@ -25,10 +26,12 @@ struct Uses<'p>(Vec<Use<'p>>);
 
 impl<'p> Uses<'p> {
     fn see(&mut self, expr: &'p Expr) {
+        // What stays the same anyway is not written.
+        let writes = facts::same_anyway(expr).is_none();
         match &expr.kind {
             ExprKind::Place(place) => self.place(place, false),
-            ExprKind::Step(_, place) => self.place(place, true),
-            ExprKind::Assign(both) | ExprKind::AssignOp(_, both) => self.place(&both.0, true),
+            ExprKind::Step(_, place) => self.place(place, writes),
+            ExprKind::Assign(both) | ExprKind::AssignOp(_, both) => self.place(&both.0, writes),
             ExprKind::Builtin(builtin) => builtin.args.iter().for_each(|arg| {
                 if let Passed::Out(place) = &arg.value {
                     // Built-ins may be handed the variable itself.
@@ -66,34 +69,36 @@ fn is_same(one: Root, other: Root) -> bool {
 }
 
 impl<'p> Body<'p, '_> {
-    /// The statements that look up the elements of the arrays that a loop with these parts uses.
-    pub(super) fn look_up(&mut self, blocks: &[&'p [Stmt]], exprs: &[&'p Expr]) -> TokenStream {
+    /// The statements that look up the elements of the arrays that a loop with these parts uses, with the names of these.
+    pub(super) fn look_up(&mut self, blocks: &[&'p [Stmt]], exprs: &[&'p Expr]) -> Vec<(Ident, TokenStream)> {
         let mut uses = Uses::default();
         for stmt in blocks.iter().copied().flatten() {
             visit::exprs_in_stmt(stmt, &mut |expr| uses.see(expr));
         }
         exprs.iter().for_each(|expr| visit::exprs(expr, &mut |expr| uses.see(expr)));
-        uses.0.iter().filter(|used| used.elements_only).map(|used| self.look_up_array(used)).collect()
+        uses.0.iter().filter(|used| used.elements_only).filter_map(|used| self.look_up_array(used)).collect()
     }
 
-    fn look_up_array(&mut self, used: &Use<'p>) -> TokenStream {
+    fn look_up_array(&mut self, used: &Use<'p>) -> Option<(Ident, TokenStream)> {
         match used.place.root {
             Root::Global(id) => {
                 if !self.program().globals.get(id.0 as usize).is_some_and(|global| is_cells(global.ty)) {
-                    return TokenStream::new();
+                    return None;
                 }
                 let variable = self.whole_variable(used.place.root);
                 let wanted = self.unit.names.global(id.0).to_string();
                 let name = self.reserve(&wanted);
                 self.looked_up.push((id, name.clone()));
-                quote!(let #name = #variable.elements();)
+                let statement = quote!(let #name = #variable.elements(););
+                Some((name, statement))
             }
             Root::Local(id) if self.visible.contains(&id) && self.has_pointer(id) => {
                 let name = self.local(id);
                 let how = if used.written { quote!(elements_mut) } else { quote!(elements) };
-                quote!(let #name = #name.#how();)
+                let statement = quote!(let #name = #name.#how(););
+                Some((name, statement))
             }
-            _ => TokenStream::new(),
+            _ => None,
         }
     }
 

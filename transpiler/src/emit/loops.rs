@@ -10,7 +10,8 @@
 
 use super::body::{Body, Exit, Loop, Tail, label};
 use super::fragment::{Fragment, Precedence};
-use crate::effects::{flow, loops};
+use super::tokens::uses_variable;
+use crate::effects::{facts, flow, loops};
 use crate::hir::{Counting, Expr, ExprKind, For, LocalId, LoopInfo, Root, Stmt, StmtKind, Walk};
 use crate::visit;
 use arl_lang::ast::BinaryOp;
@@ -323,20 +324,22 @@ impl<'p> Body<'p, '_> {
         if !info.counts_alone() {
             let before = self.looked_up.len();
             let behind = info.counting.is_behind() && self.counter.is_none();
-            let elements = if behind { self.look_up(parts.blocks, parts.exprs) } else { TokenStream::new() };
+            let elements = if behind { self.look_up(parts.blocks, parts.exprs) } else { Vec::new() };
             let Turns { label, condition, round } = emit(self);
             self.forget_looked_up(before);
             let turns = match condition {
                 Some(condition) => quote!(#label while #condition { #round }),
                 None => quote!(#label loop { #round }),
             };
+            let used = elements.into_iter().filter(|(name, _)| uses_variable(&turns, &name.to_string()));
+            let elements: TokenStream = used.map(|(_, statement)| statement).collect();
             return if elements.is_empty() { turns } else { quote!({ #elements #turns }) };
         }
         let counter = self.reserve("rounds");
         let outer = self.counter.replace(counter.clone());
         let before = self.looked_up.len();
         let elements = self.look_up(parts.blocks, parts.exprs);
-        let Copies { read, written } = self.copies(info, &parts);
+        let Copies { mut read, mut written } = self.copies(info, &parts);
         let Turns { label, condition, round } = emit(self);
         self.counter = outer;
         self.forget_looked_up(before);
@@ -344,9 +347,15 @@ impl<'p> Body<'p, '_> {
         let taken = quote!(#counter.take());
         let condition = condition.map(|condition| quote!(#condition &&));
         let wait = self.wait_for_cycle(info);
+        // What changes nothing has been left out.
+        let turns = quote!(#condition #round);
+        let is_used = |name: &Ident| uses_variable(&turns, &name.to_string());
+        read.retain(is_used);
+        written.retain(is_used);
+        let elements = elements.into_iter().filter(|(name, _)| is_used(name)).map(|(_, statement)| statement);
         let rounds = quote!(
             let mut #counter = cx.rounds();
-            #elements
+            #(#elements)*
             #(let #read = #read;)*
         );
         if written.is_empty() {
@@ -398,6 +407,8 @@ impl<'p> Body<'p, '_> {
                 ExprKind::Assign(both) | ExprKind::AssignOp(_, both) => (&both.0, true),
                 _ => return,
             };
+            // What stays the same anyway is not written.
+            let writes = writes && facts::same_anyway(expr).is_none();
             if let Root::Local(id) = place.root {
                 if writes { &mut written } else { &mut read }.insert(id);
             }

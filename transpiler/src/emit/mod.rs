@@ -79,20 +79,23 @@ pub struct Sizes {
 
 impl Default for Sizes {
     fn default() -> Self {
-        Self {
-            table: 8,
-            rows_of_a_kind: 4,
-            awaits: 64,
-            awaits_of_a_part: 32,
-            least_awaits: 8,
-            awaits_of_a_program: 256,
-            uses_of_a_template: 4,
-            variables: 64,
-        }
+        Self::DEFAULT
     }
 }
 
 impl Sizes {
+    /// What costs least to compile.
+    pub const DEFAULT: Self = Self {
+        table: 8,
+        rows_of_a_kind: 4,
+        awaits: 64,
+        awaits_of_a_part: 32,
+        least_awaits: 8,
+        awaits_of_a_program: 256,
+        uses_of_a_template: 4,
+        variables: 64,
+    };
+
     /// All forms wherever they are possible: for tests.
     pub const LEAST: Self = Self {
         table: 1,

@@ -14,7 +14,7 @@ use super::places::{Calm, Written};
 use super::rows::{Columns, Filling, Hole, Shape, column_type, of_call, same};
 use super::slots::Slots;
 use super::statements::without_detour;
-use super::tokens::mentions;
+use super::tokens::{mentions, uses_variable};
 use super::types::{base_type, is_copy, rust_type};
 use crate::effects::captures;
 use crate::effects::parts::children;
@@ -23,7 +23,7 @@ use crate::hir::{
 };
 use crate::visit;
 use arl_lang::ast::{BinaryOp, UnaryOp};
-use arl_lang::catalog::{Base, Form};
+use arl_lang::catalog::{Base, Effect, Form};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use std::cell::OnceCell;
@@ -187,7 +187,9 @@ fn may_be_one(builtin: &Builtin, func: &Func) -> bool {
         });
         reads
     };
+    // What only calculates is soon compiled, and may be in a loop that does nothing else.
     form && entry.fails
+        && entry.effect != Effect::Pure
         && !reads_flag()
         && builtin.args.iter().all(|arg| match &arg.value {
             Passed::Value(value) => {
@@ -290,7 +292,8 @@ impl<'p> Template<'p> {
             let ty = rust_type(ty, family);
             Some(quote!(#name: #ty))
         });
-        let [cx, g, led, waits] = ["cx", "g", &line.to_string(), "await"].map(|word| mentions(&code, word));
+        let [cx, g, led] = ["cx", "g", &line.to_string()].map(|word| uses_variable(&code, word));
+        let waits = mentions(&code, "await");
         let life = waits.then(|| quote!('a));
         let cx_param = cx.then(|| quote!(cx: &#life Cx,));
         let g_param = g.then(|| quote!(g: &#life Globals,));

@@ -74,9 +74,13 @@ impl<'p> Body<'p, '_> {
         let returns = leaves.contains(&super::Leave::Return);
         let end = self.ended(if returns { quote!(Leave::On) } else { quote!(Leave::<()>::On) });
         let arms: Vec<TokenStream> = leaves.into_iter().map(|how| self.arm_of(how)).collect();
+        // A statement of its own ends what the part borrows: the arms may need it.
+        let left = self.reserve("left");
+        self.release(&left);
         quote! {
             let #lines = async { #code #end };
-            match part(pin!(#lines)).await #ask {
+            let #left = part(pin!(#lines)).await #ask;
+            match #left {
                 #(#arms)*
                 _ => {}
             }

@@ -6,7 +6,7 @@ use crate::emit::consts;
 use crate::emit::fragment::{Fragment, Precedence};
 use crate::emit::names::{camel_case, field, ident};
 use crate::emit::sequence::Mode;
-use crate::emit::tokens::mentions;
+use crate::emit::tokens::{mentions, uses_variable};
 use crate::emit::types::base_type;
 use crate::hir::{Expr, ExprKind, Place, Value};
 use arl_lang::catalog::{Base, Family};
@@ -188,7 +188,7 @@ impl<'p> Body<'p, '_> {
         numbers: &HashMap<&Shape, usize>,
         lead: Lead<'_>,
     ) -> TokenStream {
-        let led = kinds.iter().any(|kind| mentions(&kind.code, &lead.name.to_string()));
+        let led = kinds.iter().any(|kind| uses_variable(&kind.code, &lead.name.to_string()));
         let lead_type = led.then(|| lead.ty.clone());
         let lead_name = led.then(|| lead.name.to_token_stream());
         let family = self.family();
