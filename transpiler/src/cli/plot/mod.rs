@@ -60,7 +60,7 @@ fn draw(outline: &Outline, robot: &Robot, ran: &Ran, rows: Rows) -> Result<Strin
     let mut movement = Movement::default();
     for row in rows {
         let moved = movement.next(row?);
-        ways.push(&moved);
+        ways.push(outline, &moved);
         times.push(&moved);
     }
     head(outline, robot, ran, &mut picture);

@@ -3,6 +3,8 @@
 use super::super::failure::Failure;
 use super::super::robot::AXES;
 use super::trace::{Movement, Row};
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 /// A motion: from when to when its line was executed.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -24,6 +26,8 @@ pub(super) struct Outline {
     pub(super) stretches: Vec<Stretch>,
     /// The lines with motions, in the order of their first execution.
     pub(super) lines: Vec<u32>,
+    /// Where each line is among them.
+    places: HashMap<u32, usize>,
     /// The highest speed of the TCP, mm/s.
     pub(super) speed: f64,
     /// The highest speed of each axis, deg/s (mm/s).
@@ -41,6 +45,7 @@ impl Outline {
             space: [[f64::INFINITY, f64::NEG_INFINITY]; 3],
             stretches: Vec::new(),
             lines: Vec::new(),
+            places: HashMap::new(),
             speed: 0.0,
             axes: [0.0; AXES],
         };
@@ -71,17 +76,22 @@ impl Outline {
             _ => {
                 let from = if row.t > self.time[0] { before } else { row.t };
                 self.stretches.push(Stretch { line: row.line, motion: row.motion, from, to: row.t });
-                if !self.lines.contains(&row.line) {
+                if let Entry::Vacant(place) = self.places.entry(row.line) {
+                    place.insert(self.lines.len());
                     self.lines.push(row.line);
                 }
             }
         }
     }
 
+    /// Where a line is among the lines with motions.
+    pub(super) fn place(&self, line: u32) -> Option<usize> {
+        self.places.get(&line).copied()
+    }
+
     /// The colour of a line's motions.
     pub(super) fn colour(&self, line: u32) -> &'static str {
-        let at = self.lines.iter().position(|known| *known == line).unwrap_or(0);
-        colour(at)
+        colour(self.place(line).unwrap_or(0))
     }
 }
 

@@ -51,6 +51,11 @@ impl Line {
         *self = Self { kept: std::mem::take(&mut self.kept), anchor: Some(point), ..Self::default() };
     }
 
+    /// Whether the pen is down.
+    pub(super) fn is_down(&self) -> bool {
+        self.anchor.is_some()
+    }
+
     /// Lifts the pen.
     pub(super) fn lift(&mut self) {
         if let Some(last) = self.last.take() {

@@ -1,6 +1,6 @@
 //! The way of the TCP from the top, the front and the side, all at one scale.
 
-use super::outline::Outline;
+use super::outline::{Outline, colour};
 use super::scale::{Scale, label, step, ticks};
 use super::svg::{Anchor, Area, Picture};
 use super::thin::Line;
@@ -16,6 +16,9 @@ const VIEWS: [(&str, usize, usize); 3] = [("Top", 0, 1), ("Front (against x)", 1
 /// The least extent of a view, mm.
 const LEAST: f64 = 10.0;
 
+/// Of more lines than these, neighbours are drawn as one: nobody could tell them apart, and each is a piece of the picture.
+const MOST_WAYS: usize = 1000;
+
 /// One view.
 struct View {
     title: &'static str,
@@ -25,7 +28,9 @@ struct View {
     ranges: [[f64; 2]; 2],
     across: Scale,
     upward: Scale,
-    /// The way so far, by line of the program.
+    /// How many lines are drawn as one.
+    together: usize,
+    /// The way so far, by line of the program: the first of those that are drawn as one.
     ways: BTreeMap<u32, Line>,
     current: Option<u32>,
     last: Option<[f64; 2]>,
@@ -64,6 +69,7 @@ impl Views {
                 ranges,
                 across: Scale::new(ranges[0], area.x, area.right()),
                 upward: Scale::new(ranges[1], area.bottom(), area.y),
+                together: outline.lines.len().div_ceil(MOST_WAYS).max(1),
                 ways: BTreeMap::new(),
                 current: None,
                 last: None,
@@ -75,8 +81,8 @@ impl Views {
     }
 
     /// The next cycle.
-    pub(super) fn push(&mut self, moved: &Moved) {
-        self.views.iter_mut().for_each(|view| view.push(moved));
+    pub(super) fn push(&mut self, outline: &Outline, moved: &Moved) {
+        self.views.iter_mut().for_each(|view| view.push(outline, moved));
     }
 
     /// Draws the views.
@@ -88,7 +94,7 @@ impl Views {
 }
 
 impl View {
-    fn push(&mut self, moved: &Moved) {
+    fn push(&mut self, outline: &Outline, moved: &Moved) {
         let component = |at: usize| moved.row.tcp.get(at).copied().unwrap_or_default();
         let point = [self.across.at(component(self.right)), self.upward.at(component(self.up))];
         let before = self.last.replace(point);
@@ -96,7 +102,7 @@ impl View {
             self.lift();
             return;
         }
-        let line = moved.row.line;
+        let line = self.drawn_as(outline, moved.row.line);
         if self.current != Some(line) {
             self.lift();
             self.current = Some(line);
@@ -104,8 +110,14 @@ impl View {
         let from = if moved.speed.is_some() { before.unwrap_or(point) } else { point };
         // Quarters of a pixel: what is drawn there already is not drawn again.
         let rounded = |value: f64| (value * 4.0).round() as i32;
-        let new = self.drawn.insert((line, [from[0], from[1], point[0], point[1]].map(rounded)));
         let way = self.ways.entry(line).or_default();
+        let [begin, end] = [from, point].map(|[x, y]| [rounded(x), rounded(y)]);
+        if begin == end && way.is_down() {
+            // Too short to be seen by itself.
+            way.push(point);
+            return;
+        }
+        let new = self.drawn.insert((line, [begin[0], begin[1], end[0], end[1]]));
         if !new {
             way.lift();
             return;
@@ -115,6 +127,12 @@ impl View {
         }
         way.push(from);
         way.push(point);
+    }
+
+    /// The first of the lines that a line is drawn with.
+    fn drawn_as(&self, outline: &Outline, line: u32) -> u32 {
+        let first = outline.place(line).and_then(|at| outline.lines.get(at / self.together * self.together));
+        first.copied().unwrap_or(line)
     }
 
     fn lift(&mut self) {
@@ -127,10 +145,11 @@ impl View {
 
     fn draw(mut self, outline: &Outline, step: f64, picture: &mut Picture) {
         self.ground(step, picture);
-        for line in &outline.lines {
+        // Colours come again after some lines: next to each other they are distinct however many lines are drawn as one.
+        for (at, line) in outline.lines.iter().step_by(self.together).enumerate() {
             let Some(way) = self.ways.remove(line) else { continue };
             let points = way.finish();
-            picture.path(&points, "way", outline.colour(*line));
+            picture.path(&points, "way", colour(at));
             if let Some(place) = longest(&points) {
                 self.marks.push((*line, place));
             }
@@ -195,5 +214,36 @@ fn longest(points: &[Option<[f64; 2]>]) -> Option<[f64; 2]> {
     match best {
         Some((from, to)) => Some([f64::midpoint(from[0], to[0]), f64::midpoint(from[1], to[1])]),
         None => points.iter().flatten().next().copied(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::robot::AXES;
+    use super::super::trace::{Movement, Row};
+    use super::*;
+
+    /// The views of a way around a circle of 100 mm, so many lines for so many turns.
+    fn drawn(lines: u32, turns: f64) -> String {
+        let row = |line: u32| {
+            let angle = f64::from(line) / f64::from(lines) * turns * std::f64::consts::TAU;
+            let tcp = [900.0 + 100.0 * angle.cos(), 100.0 * angle.sin(), 500.0];
+            Row { t: f64::from(line) * 1e-3, line: line + 1, motion: u64::from(line) + 1, axes: [f64::NAN; AXES], tcp }
+        };
+        let outline = Outline::of((0..lines).map(|line| Ok(row(line)))).unwrap().unwrap();
+        let area = Area { x: 0.0, y: 0.0, width: 1100.0, height: 330.0 };
+        let (mut views, mut movement) = (Views::new(&outline, &area, 46.0), Movement::default());
+        (0..lines).for_each(|line| views.push(&outline, &movement.next(row(line))));
+        let mut picture = Picture::default();
+        views.draw(&outline, &mut picture);
+        picture.finish(1100.0, 330.0, "t")
+    }
+
+    #[test]
+    fn many_lines_are_drawn_together() {
+        assert_eq!(drawn(300, 1.0).matches("<path").count(), 3 * 300, "each line for itself");
+        let many = drawn(50_000, 50.0);
+        assert!(many.matches("<path").count() <= 3 * MOST_WAYS);
+        assert!(many.len() < 1_000_000, "{} bytes", many.len());
     }
 }
