@@ -171,7 +171,8 @@ impl Cx {
     /// Counts so many turns of loops that have run without being counted. Whoever counts next waits if they were too many.
     #[inline]
     pub fn charge(&self, rounds: i32) {
-        self.budget.set(self.budget.get().saturating_sub(rounds));
+        // Never far below 0, however often it is called before something waits: whoever counts next must not wrap.
+        self.budget.set(self.budget.get().saturating_sub(rounds).max(-1));
     }
 
     /// The turns of loops that are left in this cycle, for a loop in which nothing else counts.

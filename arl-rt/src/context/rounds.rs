@@ -17,7 +17,7 @@ impl Rounds<'_> {
     /// Counts a round; false where none is left: the loop has to give the cycle back first.
     #[inline(always)]
     pub fn take(&mut self) -> bool {
-        // At -1 the loop ends, so it goes no lower.
+        // Below 0 the loop ends, so it goes no lower.
         self.left = self.left.wrapping_sub(1);
         self.left >= 0
     }
@@ -25,7 +25,7 @@ impl Rounds<'_> {
     /// Counts rounds that have taken place without being counted: less than 2^30.
     #[inline(always)]
     pub fn charge(&mut self, rounds: i32) {
-        // A subtraction that saturates takes four instructions more. From -1 this one cannot wrap.
+        // A subtraction that saturates takes four instructions more. This one cannot wrap: a round took place, so none is owed.
         self.left = self.left.wrapping_sub(rounds).max(0);
     }
 
@@ -52,6 +52,13 @@ mod tests {
         let budget = Cell::new(2);
         let mut rounds = Rounds { budget: &budget, left: 2 };
         assert!(rounds.take() && rounds.take() && !rounds.are_spent());
+        assert!(!rounds.take() && rounds.are_spent());
+    }
+
+    #[test]
+    fn what_others_owe_is_no_round() {
+        let budget = Cell::new(-1);
+        let mut rounds = Rounds { budget: &budget, left: -1 };
         assert!(!rounds.take() && rounds.are_spent());
     }
 

@@ -58,14 +58,8 @@ impl<'p> Body<'p, '_> {
         let name = self.local(local);
         let first = self.fresh("first");
         let way = if step > 0 { quote!(#name - #first) } else { quote!(#first - #name) };
-        let count = match step.unsigned_abs() {
-            1 => way,
-            step => {
-                let step = Literal::u32_unsuffixed(step);
-                quote!(steps(#way, #step))
-            }
-        };
-        let charged = self.charged(count, info);
+        let step = Some(step.unsigned_abs()).filter(|step| *step != 1).map(Literal::u32_unsuffixed);
+        let charged = self.charged(way, step.map(|step| quote!(#step)), info);
         quote!(let #first = #name; #turns #charged)
     }
 
@@ -282,20 +276,15 @@ impl<'p> Body<'p, '_> {
         let name = self.local(head.local);
         let first = self.fresh("first");
         let way = quote!(#name - #first);
-        let count = match head.step {
-            None => way,
-            Some(step) if loops::whole_number(step) == Some(1) => way,
-            Some(step) => {
-                let step = self.value_alone(step).tokens;
-                quote!(steps(#way, #step))
-            }
-        };
-        let charged = self.charged(count, each.info);
+        let step = head.step.filter(|step| loops::whole_number(step) != Some(1));
+        let step = step.map(|step| self.value_alone(step).tokens);
+        let charged = self.charged(way, step, each.info);
         Some((quote!(let #first = #name;), charged))
     }
 
-    /// The statement that counts so many rounds behind a loop.
-    fn charged(&self, count: TokenStream, info: LoopInfo) -> TokenStream {
+    /// The statement that counts the rounds of a loop behind it, whose variable has gone a way in such steps, or in those of 1.
+    fn charged(&self, way: TokenStream, step: Option<TokenStream>, info: LoopInfo) -> TokenStream {
+        let count = step.map_or_else(|| way.clone(), |step| quote!(steps(#way, #step)));
         let count = match info.rounds {
             1 => quote!(#count + 1),
             rounds => {

@@ -16,8 +16,8 @@ use super::slots::Slots;
 use super::statements::without_detour;
 use super::tokens::{mentions, uses_variable};
 use super::types::{base_type, is_copy, rust_type};
-use crate::effects::captures;
 use crate::effects::parts::children;
+use crate::effects::{captures, flow};
 use crate::hir::{
     Builtin, Expr, ExprKind, Func, FuncId, LocalId, ModuleId, Passed, Place, Program, Projection, Root, Stmt, StmtKind,
 };
@@ -33,7 +33,7 @@ use std::collections::HashMap;
 const MOST_PARAMETERS: usize = 4;
 
 /// A call that may become one of a template.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Use<'p> {
     func: FuncId,
     expr: &'p Expr,
@@ -111,7 +111,7 @@ impl<'p> Templates<'p> {
     }
 
     fn add(&mut self, uses: Vec<Use<'p>>, program: &Program, names: &mut Names) {
-        let Some(first) = uses.first().map(take) else { return };
+        let Some(first) = uses.first().cloned() else { return };
         let Some(module) = program.funcs.get(first.func.0 as usize).map(|func| func.module) else { return };
         let differs = |at: &usize| {
             let filling = |found: &Use<'p>| found.holes.get(*at).map(|hole| hole.filling);
@@ -141,12 +141,6 @@ impl<'p> Templates<'p> {
     }
 }
 
-/// The same use once more: its expressions are borrowed.
-fn take<'p>(found: &Use<'p>) -> Use<'p> {
-    let Use { func, expr, builtin, .. } = *found;
-    Use { func, expr, builtin, holes: found.holes.clone(), locals: found.locals.clone() }
-}
-
 /// Calls `see` for what statements do, and for the parts of their conditions.
 fn each_call<'p>(block: &'p [Stmt], see: &mut dyn FnMut(&'p Expr)) {
     for stmt in block {
@@ -156,7 +150,7 @@ fn each_call<'p>(block: &'p [Stmt], see: &mut dyn FnMut(&'p Expr)) {
             StmtKind::While(condition, ..) | StmtKind::Repeat(_, condition, _) => conditions(condition, see),
             _ => {}
         }
-        crate::effects::flow::blocks(stmt).for_each(|block| each_call(block, see));
+        flow::blocks(stmt).for_each(|block| each_call(block, see));
     }
 }
 
