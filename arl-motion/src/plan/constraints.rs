@@ -315,6 +315,9 @@ fn row([first, second, third]: [f64; 3], [vel, acc, jerk]: [f64; 3]) -> Constrai
 }
 
 /// A speed along a path whose derivatives are given, with how it changes along the path.
+///
+/// Where a path all but turns back, its speed falls and rises at once, and has no jerk to speak of. There the part of the jerk
+/// along the path counts, which is the smaller one.
 fn along(rates: &[Vector3<f64>; 3], (vel, acc, jerk): (f64, f64, f64)) -> Constraint {
     let [p1, p2, p3] = rates;
     let first = p1.norm();
@@ -322,6 +325,8 @@ fn along(rates: &[Vector3<f64>; 3], (vel, acc, jerk): (f64, f64, f64)) -> Constr
         return Constraint { first: 0.0, second: p2.norm(), third: p3.norm(), vel, acc, jerk };
     }
     let second = p1.dot(p2) / first;
-    let third = (p2.norm_squared() + p1.dot(p3) - second * second) / first;
+    let along = p1.dot(p3) / first;
+    let of_speed = along + (p2.norm_squared() - second * second) / first;
+    let third = if of_speed.abs() < along.abs() { of_speed } else { along };
     Constraint { first, second, third, vel, acc, jerk }
 }

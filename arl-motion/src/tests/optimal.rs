@@ -37,6 +37,46 @@ fn a_corner_is_quicker_than_with_constant_limits() {
     }
 }
 
+/// Lines of so many mm to and fro with a corner of 150 deg, the tool turned by 12 deg at every other target; how many cycles they
+/// take.
+fn to_and_fro(side: f64, zone: f64) -> f64 {
+    let robot = robot("kr10-r1420");
+    let mut queue = Queue::new(robot.clone(), start());
+    let origin = frame_components(&robot.kinematics.forward(&start().axes));
+    let (mut pose, mut heading) = (origin, 0.0_f64);
+    for index in 0..6 {
+        let (sine, cosine) = heading.sin_cos();
+        (pose[1], pose[2]) = (pose[1] + side * sine, pose[2] - side * cosine);
+        pose[4] = origin[4] + if index % 2 == 0 { 12.0 } else { 0.0 };
+        heading += 150_f64.to_radians();
+        let speed = Speed { tcp: 300.0, ..fast() };
+        queue.add(&Command { zone: Zone { tcp: zone, ..Zone::NONE }, speed, ..lin(pose) }, &optimal()).unwrap();
+    }
+    let rows = run(&mut queue, 100.0);
+    assert_within_limits(&robot, &rows, &format!("{side} {zone}"));
+    rows.len() as f64
+}
+
+#[test]
+fn a_tool_that_turns_back_and_forth_hardly_slows_a_blend_down() {
+    // The tool's speed has a kink where it turns back: its jerk would be without bounds there.
+    for (side, zone, most) in [(35.0, 0.1, 1.1), (35.0, 2.0, 1.0), (60.0, 8.0, 0.95)] {
+        let (blended, stopped) = (to_and_fro(side, zone), to_and_fro(side, -1.0));
+        assert!(blended <= most * stopped, "{side} mm, zone {zone}: {blended} cycles, {stopped} with stops");
+    }
+}
+
+#[test]
+fn an_even_motion_alone_has_its_closed_form() {
+    let robot = robot("kr10-r1420");
+    let took = |settings: &Settings| {
+        let mut queue = Queue::new(robot.clone(), start());
+        queue.add(&movej([30.0, -80.0, 70.0, 10.0, 40.0, 20.0]), settings).unwrap();
+        run(&mut queue, 100.0)
+    };
+    assert!(took(&optimal()) == took(&Settings::default()));
+}
+
 #[test]
 fn chains_of_all_kinds_keep_every_limit() {
     run_chains(&optimal(), 92, 3);

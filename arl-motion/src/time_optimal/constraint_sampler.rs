@@ -6,7 +6,7 @@ use crate::command::joints::{ALL, Joints};
 use crate::follow::segment::{LedTool, Segment};
 use crate::limits::constant::Constraint;
 use crate::plan::constraints::{Constraints, Pace};
-use crate::time_optimal::solver::{Edge, Row, Way, places};
+use crate::time_optimal::solver::{Edge, Row, Way, places, thinned};
 use arl_robot::robot::Robot;
 
 /// The longest nominal time, in s, between two places, and how many places there are at least and at most.
@@ -21,10 +21,19 @@ const MOST_COARSE_PLACES: usize = 40;
 const CLOSEST_SHARE_OF_SPACING: f64 = 1.0 / 256.0;
 /// A step as part of the path over which the motion changes.
 const STEP_SHARE_OF_SCALE: f64 = 0.06;
+/// The part of a speed that counts at the next place.
+const FORGOTTEN_SHARE: f64 = 0.7;
 /// So many places are in each part of a blend, if they do not get too close.
 const PLACES_OF_BLEND_PART: u32 = 3;
+/// By so much of the distance from a blend the places beside it may be farther apart than those in it: where it is sharp the robot
+/// is slow beside it, as beside a stop.
+const GROWTH_BESIDE_BLEND: f64 = 0.4;
+/// A speed, as part of the full one, below which a start counts as if it had it.
+const SLOWEST_START: f64 = 1e-4;
 /// How far beside a place its sides are looked at, as part of the segment.
 const BESIDE_SHARE: f64 = 1e-9;
+/// Nor closer than about so many s: set-points are no closer either, and tell the mean of a jerk over three cycles.
+const CLOSEST_S: f64 = 0.003;
 /// With more segments than this ahead, their ends are no places of their own.
 const MOST_SEGMENTS_WITH_ENDS: usize = 150;
 /// How often the end is brought nearer because there are too many places before it.
@@ -51,6 +60,8 @@ pub(crate) struct ConstraintSampler {
 /// A part of the path that is ready to be timed.
 pub(crate) struct Prospect {
     pub(crate) way: Way,
+    /// The same without places that are closer together in time than set-points show, if there are any.
+    pub(crate) thinned: Option<Way>,
     /// Where it ends; earlier than was asked for where there is too much to be seen.
     pub(crate) end: f64,
 }
@@ -136,7 +147,11 @@ impl ConstraintSampler {
         let mut to = to;
         for _ in 0..MOST_SHORTENINGS {
             match self.walk(to, fineness, start, end) {
-                Ok(way) => return Some(Prospect { way, end: to }),
+                Ok(way) => {
+                    let is_thinned = fineness.0 >= 1.0 && !self.joints(to).1;
+                    let thinned = if is_thinned { thinned(&way, [start, end], CLOSEST_S / fineness.0) } else { None };
+                    return Some(Prospect { way, thinned, end: to });
+                }
                 Err(reached) => to = self.at + 0.8 * (reached - self.at),
             }
         }
@@ -160,12 +175,19 @@ impl ConstraintSampler {
 
         let mut way = Way::new();
         let mut constraints = Constraints::signed(&self.robot);
-        let mut walk = Walk::new(self, many);
+        let is_coarse = density < 1.0;
+        let mut walk = Walk::new(self, many || is_coarse);
+        let grades = if many || is_coarse { Vec::new() } else { self.grades(spacing, start) };
+        let mut grade = 0;
         for (station, next) in stations.iter().zip(stations.iter().skip(1).map(Some).chain([None])) {
             let mut at = station.0;
             let mut is_place = station.1;
             loop {
                 let step = walk.rows(at, spacing, &mut constraints);
+                while grades.get(grade + 1).is_some_and(|next| next.at <= at) {
+                    grade += 1;
+                }
+                let step = step.min(spacing_at(&grades, grade, at));
                 // A singular point is between places.
                 if is_place && !constraints.rows.is_empty() {
                     let rows = constraints.rows.drain(..).map(row);
@@ -186,6 +208,37 @@ impl ConstraintSampler {
         Ok(way)
     }
 
+    /// How far apart places may be where segments meet, and where it begins.
+    fn grades(&self, spacing: f64, start: Edge) -> Vec<Grade> {
+        // What begins slowly goes no farther from place to place at first than it takes time.
+        let slow = if start.vel > 0.0 { spacing * start.vel.clamp(SLOWEST_START, 1.0) } else { spacing };
+        let mut grades = vec![Grade { at: self.at, spacing: slow }];
+        let (mut at, mut before) = (self.passed, spacing);
+        for segment in &self.segments {
+            let own = if segment.parametrization.is_some() { spacing_in_blend(segment, spacing) } else { spacing };
+            if let Some(start) = grades.last_mut() {
+                start.spacing = start.spacing.min(own).min(before);
+            }
+            at += segment.time;
+            grades.push(Grade { at: at.max(self.at), spacing: own });
+            before = own;
+        }
+        let farther = |grades: &mut [Grade], indices: &mut dyn Iterator<Item = usize>| {
+            let mut last: Option<Grade> = None;
+            for index in indices {
+                let Some(grade) = grades.get_mut(index) else { continue };
+                if let Some(last) = last {
+                    grade.spacing = grade.spacing.min(last.spacing + GROWTH_BESIDE_BLEND * (grade.at - last.at).abs());
+                }
+                last = Some(*grade);
+            }
+        };
+        let count = grades.len();
+        farther(&mut grades, &mut (0..count));
+        farther(&mut grades, &mut (0..count).rev());
+        grades
+    }
+
     /// Where derivatives jump before `to`: between segments and within them; and whether these are too many to be places.
     fn joints(&self, to: f64) -> (Vec<f64>, bool) {
         let mut joints = Vec::new();
@@ -203,6 +256,28 @@ impl ConstraintSampler {
     }
 }
 
+/// How far apart places may be where they are `at`.
+#[derive(Clone, Copy, Debug)]
+struct Grade {
+    at: f64,
+    spacing: f64,
+}
+
+/// How far behind `at`, which is behind the grade `index`, the next place may be.
+fn spacing_at(grades: &[Grade], index: usize, at: f64) -> f64 {
+    let before = grades.get(index).map_or(f64::INFINITY, |grade| grade.spacing + GROWTH_BESIDE_BLEND * (at - grade.at));
+    // The next place itself is nearer to what comes.
+    let behind = grades.get(index + 1).map_or(f64::INFINITY, |grade| {
+        (grade.spacing + GROWTH_BESIDE_BLEND * (grade.at - at)) / (1.0 + GROWTH_BESIDE_BLEND)
+    });
+    before.min(behind)
+}
+
+/// How far apart places are in a blend.
+fn spacing_in_blend(segment: &Segment, spacing: f64) -> f64 {
+    (segment.time / f64::from(PLACES_OF_BLEND_PART * segment.bends())).min(spacing)
+}
+
 /// Goes along the path.
 struct Walk<'a> {
     sampler: &'a ConstraintSampler,
@@ -214,6 +289,8 @@ struct Walk<'a> {
     before: f64,
     /// Where derivatives jump: how many of the rows are those of the side before.
     jump: Option<usize>,
+    /// How fast an axis is, by its highest speed, or was shortly before.
+    fastest: f64,
 }
 
 /// Where the axes are at places of the path, one behind the other.
@@ -259,7 +336,7 @@ impl Stroll<'_> {
 
 impl<'a> Walk<'a> {
     fn new(sampler: &'a ConstraintSampler, many: bool) -> Self {
-        Self { sampler, many, joints: sampler.near, index: 0, before: sampler.passed, jump: None }
+        Self { sampler, many, joints: sampler.near, index: 0, before: sampler.passed, jump: None, fastest: 0.0 }
     }
 
     /// Adds the limits at `at`; where a segment begins, those of the one before as well. Returns a step over which the motion
@@ -274,7 +351,7 @@ impl<'a> Walk<'a> {
             let beside = BESIDE_SHARE * segment.time;
             let jumps = segment.jumps_beside(here, 2.0 * beside);
             if segment.bends() > 1 && !self.many {
-                step = step.min((segment.time / f64::from(PLACES_OF_BLEND_PART * segment.bends())).max(spacing / 16.0));
+                step = step.min(spacing_in_blend(segment, spacing));
             }
             let sides = if jumps { [here - beside, here + beside] } else { [here; 2] };
             for (side, at) in sides.iter().take(if jumps { 2 } else { 1 }).enumerate() {
@@ -284,7 +361,7 @@ impl<'a> Walk<'a> {
                 let at = at.clamp(0.0, segment.time);
                 let here = (at, &self.joints);
                 if let Some(rates) = segment.limit(&self.sampler.robot, here, self.sampler.rise, constraints) {
-                    let longest = (STEP_SHARE_OF_SCALE * scale(&self.sampler.robot, &rates))
+                    let longest = (STEP_SHARE_OF_SCALE * scale(&self.sampler.robot, &rates, &mut self.fastest))
                         .max(CLOSEST_SHARE_OF_SPACING * spacing);
                     step = step.min(longest);
                 }
@@ -300,15 +377,17 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// The time over which the motion changes substantially.
-fn scale(robot: &Robot, rates: &[[f64; ALL]; 3]) -> f64 {
+/// The time over which the motion changes substantially; `fastest` is what is left of the speed shortly before. Where everything turns
+/// back the speed is low, and the motion changes no faster for that.
+fn scale(robot: &Robot, rates: &[[f64; ALL]; 3], fastest: &mut f64) -> f64 {
     let own = robot.own_axes();
     let [first, second, third] = rates.map(|all| {
         let joints = Joints::of(&all);
         let values = joints.axes.iter().take(own.len()).chain(&joints.external);
         values.zip(&robot.axes).map(|(rate, axis)| rate.abs() / axis.vel).fold(0.0, f64::max)
     });
-    let scale = (first / second).min((first / third).sqrt());
+    *fastest = first.max(FORGOTTEN_SHARE * *fastest);
+    let scale = (*fastest / second).min((*fastest / third).sqrt());
     if scale.is_nan() { f64::INFINITY } else { scale }
 }
 

@@ -12,7 +12,7 @@ use std::thread;
 use crate::time_optimal::constraint_sampler::{ConstraintSampler, Prospect};
 use crate::time_optimal::limit_check::{LimitCheck, MOST_USED_SHARE, law_keeps, used_by_law};
 use crate::time_optimal::set_points::used_by_set_points;
-use crate::time_optimal::solver::{Edge, Law, Way, fastest};
+use crate::time_optimal::solver::{Edge, Law, Way, fastest, fastest_like};
 use crate::time_optimal::stop_prediction::StopPrediction;
 
 /// How long finding a law may take, in s of controller time.
@@ -25,9 +25,12 @@ const LEAST_LAW_S: f64 = 1.5;
 /// they change much between the places, closer ones are needed.
 const SHARES_AND_DENSITIES: [(f64, f64); 5] = [(1.0, 1.0), (1.0, 2.0), (0.4, 2.0), (0.15, 3.0), (0.15, 6.0)];
 /// How often the limits are lowered where a law uses too much of them; by how much more than it takes; and up to which share.
-const MOST_TEMPERINGS: usize = 4;
+const MOST_TEMPERINGS: i32 = 6;
+/// So much of the limits a law may use; a stop may use a little more, so that there is one from any state of a law, and what uses more than
+/// that is no law.
+const TEMPERED_USE: f64 = 1.006;
 const TEMPERED_SHARE: f64 = 0.998;
-const MOST_TEMPERED_USE: f64 = 1.1;
+const MOST_TEMPERED_USE: f64 = 4.0;
 /// A stop has a little more acceleration and jerk to go by than a law, so that there is one from any state of a law; it is looked
 /// for at so many places at most, so much farther ahead each time, until one is known to be so near the shortest.
 const STOP_LIMIT_FACTOR: f64 = 1.004;
@@ -175,22 +178,22 @@ fn find(sampler: &ConstraintSampler, start: Edge, wanted: impl Fn() -> bool) -> 
     while wanted() {
         let to = if sampler.at + 1.2 * window < stop { sampler.at + window } else { stop };
         let attempt = |(share, density): &(f64, f64)| {
-            let Prospect { way, end } =
+            let Prospect { way, thinned, end } =
                 sampler.look(sampler.at + share * (to - sampler.at), *density, start, Edge::REST)?;
-            let (law, used) = temperate(sampler, &way, start, &wanted)?;
+            let (law, used) = temperate(sampler, thinned.as_ref().unwrap_or(&way), start, &wanted)?;
             Some((way, end, law, used))
         };
-        // Between the places a law may ask for more than there is; better so than none.
+        // Between the places a law may ask for more than there is: a little is better than none.
         let mut best: Option<(Way, f64, Law, f64)> = None;
         for attempt in SHARES_AND_DENSITIES.iter().take_while(|_| wanted()).filter_map(attempt) {
             if best.as_ref().is_none_or(|(.., least)| attempt.3 < *least) {
                 best = Some(attempt);
             }
-            if best.as_ref().is_some_and(|(.., used)| *used <= MOST_USED_SHARE) {
+            if best.as_ref().is_some_and(|(.., used)| *used <= TEMPERED_USE) {
                 break;
             }
         }
-        let Some((way, end, law, _)) = best else { return found };
+        let Some((way, end, law, _)) = best.filter(|(.., used)| *used <= MOST_USED_SHARE) else { return found };
         let ahead = law.duration();
         let stops = sampler.stops && end >= stop;
         found = Some(Found { law: Arc::new(law), check: Arc::new(LimitCheck::new(way)), end, stops });
@@ -208,22 +211,25 @@ fn find(sampler: &ConstraintSampler, start: Edge, wanted: impl Fn() -> bool) -> 
 fn temperate(sampler: &ConstraintSampler, way: &Way, start: Edge, wanted: &impl Fn() -> bool) -> Option<(Law, f64)> {
     let mut limits = way.clone();
     let mut best: Option<(Law, f64)> = None;
-    for _ in 0..=MOST_TEMPERINGS {
-        let Some(law) = fastest(&limits, start, Edge::REST).ok().filter(|_| wanted()) else { break };
-        let mut used = used_by_law(way, &law)?;
-        // Close to rest, from a state that moves, the limits between the places are not certain.
-        if used.beyond.is_none() {
-            used = used_by_set_points(sampler, &law, 1.0);
+    let mut last: Option<Law> = None;
+    for round in 0..=MOST_TEMPERINGS {
+        let solved = match &last {
+            Some(last) => fastest_like(last, &limits, start, Edge::REST),
+            None => fastest(&limits, start, Edge::REST),
+        };
+        let Some(law) = solved.ok().filter(|_| wanted()) else { break };
+        last = Some(law.clone());
+        let mut used = used_by_law(way, &law, TEMPERED_USE)?;
+        if used.beyond.is_empty() {
+            used = used_by_set_points(sampler, &law, 1.0, TEMPERED_USE);
             if best.as_ref().is_none_or(|(_, least)| used.most < *least) {
                 best = Some((law, used.most));
             }
         }
-        match used.beyond {
-            Some(beyond) if used.most < MOST_TEMPERED_USE => {
-                limits.lower(beyond, TEMPERED_SHARE * MOST_USED_SHARE / used.most)
-            }
-            _ => break,
+        if used.beyond.is_empty() || used.most > MOST_TEMPERED_USE {
+            break;
         }
+        limits.lower(&used.beyond, TEMPERED_SHARE.powi(1 + 2 * round) * TEMPERED_USE);
     }
     best
 }
@@ -246,12 +252,13 @@ fn find_stop(
             if looked_at > MOST_STOP_SAMPLES {
                 return None;
             }
-            let Prospect { way, end } = sampler.look(to, density, start, Edge::REST)?;
-            looked_at += way.places().len();
+            let Prospect { way, thinned, end } = sampler.look(to, density, start, Edge::REST)?;
+            let sparse = thinned.as_ref().unwrap_or(&way);
+            looked_at += sparse.places().len();
             let law =
-                fastest(&way.hardened(STOP_LIMIT_FACTOR * harder), start, Edge::REST).ok().filter(|_| end >= to)?;
-            let is_smooth = || used_by_set_points(sampler, &law, harder).beyond.is_none();
-            if law_keeps(&way, &law, harder) && is_smooth() {
+                fastest(&sparse.hardened(STOP_LIMIT_FACTOR * harder), start, Edge::REST).ok().filter(|_| end >= to)?;
+            let is_smooth = || used_by_set_points(sampler, &law, harder, MOST_USED_SHARE).beyond.is_empty();
+            if law_keeps(sparse, &law, harder) && is_smooth() {
                 let stops = sampler.stops && end >= sampler.end;
                 return Some(Found { law: Arc::new(law), check: Arc::new(LimitCheck::new(way)), end, stops });
             }

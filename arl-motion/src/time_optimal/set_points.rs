@@ -12,7 +12,7 @@ use crate::time_optimal::solver::Law;
 /// s between two set-points.
 const SET_POINT_CYCLE_S: f64 = 0.001;
 /// The robot may come to a law at any time within a cycle: so many of them are looked at.
-const PHASES_OF_CYCLE: usize = 2;
+const PHASES_OF_CYCLE: usize = 8;
 /// So many set-points at rest tell how a motion begins and ends.
 const SET_POINTS_AT_REST: i32 = 3;
 
@@ -24,10 +24,10 @@ type Limits = [f64; 3];
 
 /// The share of what motions may have of speed, acceleration and jerk, the latter two `harder` times as high, that set-points
 /// along a law use, by their differences: of each axis, and of the TCP along its path and its turning where that is led.
-pub(crate) fn used_by_set_points(sampler: &ConstraintSampler, law: &Law, harder: f64) -> Used {
+pub(crate) fn used_by_set_points(sampler: &ConstraintSampler, law: &Law, harder: f64, allowed: f64) -> Used {
     let mut sample_coarsely = sampler.sample_coarsely();
     let mut last: VecDeque<Point> = VecDeque::with_capacity(3 * PHASES_OF_CYCLE + 1);
-    let mut used = Used::default();
+    let mut used = Used::of(allowed);
     // Where it stands before or behind, set-points are those of a robot at rest.
     let first = if law.at(0.0).vel == 0.0 { -SET_POINTS_AT_REST } else { 0 };
     let end = (law.duration() / SET_POINT_CYCLE_S) as i32 + SET_POINTS_AT_REST;

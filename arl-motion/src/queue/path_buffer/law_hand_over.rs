@@ -499,7 +499,7 @@ impl PathBuffer {
     fn request_next_law(&mut self, robot: &Arc<Robot>, cycle: f64) {
         let Some(stop) = self.segments.iter().position(|segment| segment.stops) else { return };
         let Some(last) = self.segments.get(stop) else { return };
-        if self.segments.get(stop + 1).is_none_or(|first| !first.is_free) {
+        if self.segments.get(stop + 1).is_none_or(|first| !first.is_free) || self.is_alone(robot, stop + 1) {
             return;
         }
         let behind = self.segments.iter().skip(stop + 1);

@@ -464,7 +464,7 @@ impl PathBuffer {
         pacing: Pacing,
         mut passed: impl FnMut(Arc<Segment>),
     ) -> bool {
-        self.choose_leader();
+        self.choose_leader(robot);
         self.shorten_stop(robot, here, cycle, pacing);
         if !self.follow_law(robot, here, cycle, pacing) {
             let pacing = self.settling(cycle, pacing);
@@ -502,12 +502,21 @@ impl PathBuffer {
         stands
     }
 
-    /// Whoever leads the robot from rest leads it until it stops: laws where the first motion has the profile O.
-    fn choose_leader(&mut self) {
+    /// Whoever leads the robot from rest leads it until it stops: laws, but where a motion with the same limits everywhere is to be
+    /// gone from rest to rest. For that one the governor needs no search, and no law is faster.
+    fn choose_leader(&mut self, robot: &Robot) {
         let is_free = || self.segments.front().is_some_and(|first| first.is_free);
-        if self.state.rests() && matches!(self.leader, Leader::Governor) && is_free() {
+        if self.state.rests() && matches!(self.leader, Leader::Governor) && is_free() && !self.is_alone(robot, 0) {
             self.leader = Leader::Laws(Box::default());
         }
+    }
+
+    /// Whether the segment of an index, at whose start the robot rests, is an even motion that will not be blended with the next one.
+    fn is_alone(&self, robot: &Robot, index: usize) -> bool {
+        let Some(segment) = self.segments.get(index) else { return false };
+        let stays =
+            || index + 1 < self.segments.len() || self.tail.as_ref().is_some_and(|tail| !asks(robot, &tail.motion));
+        segment.is_even() && segment.stops && segment.duration().is_some() && stays()
     }
 
     /// The pacing with the way to a share of the speed that is new.

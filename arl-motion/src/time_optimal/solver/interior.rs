@@ -23,6 +23,8 @@ const ROUNDS: usize = 4;
 const TOLERANCE: f64 = 1.003;
 /// The duration is so close to what it can be at best, as a share of it.
 const GAP: f64 = 5e-4;
+/// By so much limits may be exceeded, as a share of them.
+const MOST_EXCESS: f64 = 1e-4;
 /// The sum of slack times price to begin with, as a share of the duration.
 const FIRST_GAP: f64 = 10.0;
 
@@ -68,10 +70,20 @@ struct Prices {
 
 /// The fastest motion within all limits of `way`.
 pub(crate) fn solve(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
+    let law = solve_near(way, start, end, None)?;
+    if !law.is_paced() {
+        return Ok(law);
+    }
+    // Between two places nothing but the acceleration's slope is free. With a parameter that goes as the time does that is enough.
+    Ok(solve_near(way, start, end, Some(law.warped_speeds())).unwrap_or(law))
+}
+
+/// The same, of which the warped parameter's speeds are about known.
+pub(crate) fn solve_near(way: &Way, start: Edge, end: Edge, known: Option<Vec<f64>>) -> Result<Law, Refusal> {
     if way.places().len() < 3 {
         return Err(Refusal::Short);
     }
-    let mut program = Program::new(way, start, end)?;
+    let mut program = Program::new(way, start, end, known)?;
     let coefficients = settle(&mut program)?;
     let mut squares = Vec::with_capacity(program.places.len());
     let mut laws = Vec::with_capacity(program.stretches.len());
@@ -84,7 +96,8 @@ pub(crate) fn solve(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
         }
         squares.push(to.0 * program.unit);
     }
-    Ok(Law::new(program.warp, &program.places, &squares, laws.into_iter()))
+    let Program { warp, places, .. } = program;
+    Ok(Law::new(warp, &places, &squares, laws.into_iter()))
 }
 
 /// The way up to the optimum.
@@ -145,6 +158,8 @@ struct Forecast {
     primal: Lanes,
     dual: Lanes,
     gap: Lanes,
+    /// By how much limits are exceeded where they are most.
+    excess: Lanes,
     /// Slack times change of price, price times change of slack, and change times change.
     sums: [Lanes; 3],
 }
@@ -176,7 +191,9 @@ impl<'a> Climb<'a> {
             let forecast = self.predict();
             let gap = forecast.gap.sum();
             let duration = self.duration();
-            if gap < GAP * duration && (before - duration).abs() < 0.5 * GAP * duration {
+            // A given state at an end may exceed them.
+            let keeps = self.program.fixed != [false; 2] || forecast.excess.most() < MOST_EXCESS;
+            if keeps && gap < GAP * duration && (before - duration).abs() < 0.5 * GAP * duration {
                 break;
             }
             before = duration;
@@ -310,6 +327,7 @@ impl<'a> Climb<'a> {
                         forecast.primal = forecast.primal.more(rate);
                         forecast.dual = forecast.dual.more(less);
                         forecast.gap += slack * price;
+                        forecast.excess = forecast.excess.more(here.of(limits) - value);
                         forecast.sums[0] += slack * price_step;
                         forecast.sums[1] += price * slack_step;
                         forecast.sums[2] += left;

@@ -1,6 +1,6 @@
 //! A timed path: the path parameter over time.
 
-use crate::time_optimal::solver::warp::Warp;
+use crate::time_optimal::solver::paced_warp::PacedWarp;
 
 /// How the path parameter moves at a moment.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -33,7 +33,7 @@ pub(crate) struct Stretch {
 /// A motion along a path, from its first place to its last.
 #[derive(Clone, Debug)]
 pub struct Law {
-    warp: Warp,
+    warp: PacedWarp,
     /// The end of the path in the path parameter.
     end: f64,
     stretches: Vec<Stretch>,
@@ -44,7 +44,7 @@ impl Law {
     /// From the warped places, the squares of the warped parameter's speed there, and its acceleration at the start of
     /// each stretch; `bends` as in [`Stretch`].
     pub(crate) fn new(
-        warp: Warp,
+        warp: PacedWarp,
         places: &[f64],
         squares: &[f64],
         stretches: impl Iterator<Item = (f64, f64)>,
@@ -56,8 +56,19 @@ impl Law {
             stretch
         });
         let stretches = stretches.collect();
-        let end = warp.place(warp.length()).at;
+        let end = warp.place(places.len().saturating_sub(1), warp.length()).at;
         Self { warp, end, stretches, duration: time }
+    }
+
+    /// Whether it was found over a parameter that goes about as the time does.
+    pub(crate) fn is_paced(&self) -> bool {
+        self.warp.is_paced()
+    }
+
+    /// How fast the warped parameter goes at the places.
+    pub(crate) fn warped_speeds(&self) -> Vec<f64> {
+        let last = self.stretches.last().map(|last| last.after(self.duration - last.time).1);
+        self.warp.speeds(self.stretches.iter().map(|stretch| stretch.vel).chain(last))
     }
 
     /// How long the motion takes, in s.
@@ -74,7 +85,7 @@ impl Law {
         };
         let (at, vel, acc) = stretch.after(time - stretch.time);
         let jerk = stretch.bend * vel;
-        let place = self.warp.place(at.min(self.warp.length()));
+        let place = self.warp.place(index, at.min(self.warp.length()));
         Moment {
             at: place.at,
             vel: place.first * vel,

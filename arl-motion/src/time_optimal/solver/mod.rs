@@ -7,13 +7,16 @@
 //! the tangents with every step (`interior`) climbs to the optimum.
 //!
 //! At rest, x as a function of the path parameter has an infinite bend. The problem is therefore stated over a warped
-//! parameter (`warp`) of which the path parameter is the cube near rest: constant jerk is then constant speed.
+//! parameter (`warp`) of which the path parameter is the cube near rest: constant jerk is then constant speed. Over that one
+//! a first guess of the speed makes a parameter that goes about as the time does (`paced_warp`).
 
 mod banded;
 mod error;
+mod guess;
 mod interior;
 mod lanes;
 mod law;
+mod paced_warp;
 mod program;
 mod reach;
 mod screen;
@@ -24,6 +27,7 @@ mod warped_row;
 mod way;
 
 pub use error::Refusal;
+pub(crate) use guess::thinned;
 pub use law::{Law, Moment};
 pub use way::{Row, Way};
 
@@ -69,11 +73,21 @@ pub fn places(from: f64, to: f64, count: usize, start: Edge, end: Edge) -> Vec<f
 /// A way of fewer than two places or without order, rows that are no numbers or without positive limits, a way along
 /// which nothing moves, and edges that no motion within the limits has.
 pub fn fastest(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
-    way.check()?;
-    for edge in [start, end] {
-        if !(edge.vel >= 0.0 && edge.vel.is_finite() && edge.acc.is_finite()) {
-            return Err(Refusal::Edge);
-        }
-    }
+    check(way, [start, end])?;
     if way.limits_jerk() { interior::solve(way, start, end) } else { reach::solve(way, start, end) }
+}
+
+/// The same where `like` is the fastest motion along it with limits that are about the same at the same places.
+pub(crate) fn fastest_like(like: &Law, way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
+    if !like.is_paced() {
+        return fastest(way, start, end);
+    }
+    check(way, [start, end])?;
+    interior::solve_near(way, start, end, Some(like.warped_speeds()))
+}
+
+fn check(way: &Way, edges: [Edge; 2]) -> Result<(), Refusal> {
+    way.check()?;
+    let is_sound = |edge: &Edge| edge.vel >= 0.0 && edge.vel.is_finite() && edge.acc.is_finite();
+    if edges.iter().all(is_sound) { Ok(()) } else { Err(Refusal::Edge) }
 }

@@ -7,11 +7,13 @@
 //!
 //! Indices: a path that is timed here has three places or more; there is one stretch less, and one coefficient more.
 
+use crate::time_optimal::solver::guess::guess_speeds;
 use crate::time_optimal::solver::lanes::{LANES, Lanes};
+use crate::time_optimal::solver::paced_warp::PacedWarp;
 use crate::time_optimal::solver::screen::Screen;
-use crate::time_optimal::solver::warp::Warp;
+use crate::time_optimal::solver::warp::{Place, Warp};
 use crate::time_optimal::solver::warped_row::WarpedRow;
-use crate::time_optimal::solver::{Edge, Refusal, Way, reach};
+use crate::time_optimal::solver::{Edge, Refusal, Row, Way, reach};
 
 /// One end of a stretch: what of the stretch's three coefficients makes up x and the acceleration here.
 #[derive(Clone, Copy, Default, Debug)]
@@ -52,7 +54,7 @@ pub(crate) struct Limits {
 /// The problem, in units of the path's length and of a speed at which everything is within its limits.
 #[derive(Debug)]
 pub(crate) struct Program {
-    pub(crate) warp: Warp,
+    pub(crate) warp: PacedWarp,
     /// The warped places.
     pub(crate) places: Vec<f64>,
     pub(crate) stretches: Vec<Stretch>,
@@ -68,6 +70,18 @@ pub(crate) struct Program {
     screen: Screen,
     /// The stretches with limits in the middle.
     middles: Vec<usize>,
+    /// The places at which derivatives of the path jump.
+    jumps: Vec<bool>,
+}
+
+/// Where the screen has the rows of a place for the side before it, and for the one behind; behind those of all places it
+/// has those of the middles.
+fn before(place: usize) -> usize {
+    2 * place
+}
+
+fn behind(place: usize) -> usize {
+    2 * place + 1
 }
 
 /// By so much acceleration and jerk are limited more strictly, for what happens between the places, and to leave room for
@@ -80,7 +94,8 @@ const MIDDLES: usize = 4;
 const ALMOST_REST: f64 = 1e-9;
 
 impl Program {
-    pub(crate) fn new(way: &Way, start: Edge, end: Edge) -> Result<Self, Refusal> {
+    /// With what the warped parameter's speeds are about, where that is known.
+    pub(crate) fn new(way: &Way, start: Edge, end: Edge, known: Option<Vec<f64>>) -> Result<Self, Refusal> {
         let (from, to) = way.span()?;
         let warp = Warp::new(from, to, start.rests(), end.rests());
         let last = way.places().len() - 1;
@@ -92,12 +107,20 @@ impl Program {
         let places: Vec<f64> = way.places().iter().enumerate().map(place).collect();
         // Without jerk limits it is faster everywhere.
         let most = reach::squares(way, start, end)?;
+        let warp = match known {
+            Some(speeds) => PacedWarp::near(warp, &places, speeds),
+            None => PacedWarp::guessed(warp, &places, guess_speeds(way, &warp, &places, [start, end])),
+        };
+        let places: Vec<f64> = warp.places().collect();
         let mut rows = Vec::new();
         let mut ends = vec![0];
-        for (index, at) in places.iter().enumerate() {
-            let place = warp.place(*at);
-            rows.extend(way.rows(index).iter().filter(|row| row.moves()).map(|row| WarpedRow::new(row, place)));
+        let mut push = |all: &mut dyn Iterator<Item = &Row>, place: Place| {
+            rows.extend(all.filter(|row| row.moves()).map(|row| WarpedRow::new(row, place)));
             ends.push(rows.len());
+        };
+        for (index, at) in places.iter().enumerate() {
+            push(&mut way.rows_before(index).iter(), warp.place(index.saturating_sub(1), *at));
+            push(&mut way.rows_behind(index).iter(), warp.place(index, *at));
         }
         // Close to rest the rows change so much that a stretch has limits in its middle as well.
         let count = MIDDLES.min(last / 2);
@@ -105,11 +128,8 @@ impl Program {
         let to = if end.rests() { last - count..last } else { 0..0 };
         let middles: Vec<usize> = from.chain(to).collect();
         for index in &middles {
-            let place = warp.place(0.5 * (places[*index] + places[index + 1]));
-            for side in [*index, index + 1] {
-                rows.extend(way.rows(side).iter().filter(|row| row.moves()).map(|row| WarpedRow::new(row, place)));
-            }
-            ends.push(rows.len());
+            let mut of_both = way.rows_behind(*index).iter().chain(way.rows_before(index + 1));
+            push(&mut of_both, warp.place(*index, 0.5 * (places[*index] + places[index + 1])));
         }
         let unit = rows.iter().fold(f64::INFINITY, |unit, row| {
             let jerk = row.jerk[2];
@@ -121,9 +141,9 @@ impl Program {
         let unit = 0.8 * unit;
         let hold = if start.rests() && end.rests() { RESERVE } else { 1.0 };
         rows.iter_mut().for_each(|row| row.scale(unit, hold));
-        let most = most.iter().zip(&places).map(|(square, at)| {
-            let slope = warp.place(*at).first;
-            square / (slope * slope * unit)
+        let most = most.iter().zip(&places).enumerate().flat_map(|(index, (square, at))| {
+            let slope = warp.place(index, *at).first;
+            [square / (slope * slope * unit); 2]
         });
         let screen = Screen::new(rows, ends, most.chain(middles.iter().map(|_| f64::INFINITY)));
         let mut program = Self {
@@ -137,6 +157,7 @@ impl Program {
             fixed: [!start.rests(), !end.rests()],
             screen,
             middles,
+            jumps: (0..=last).map(|index| way.rows_before(index).len() < way.rows(index).len()).collect(),
         };
         program.lay(last);
         program.limit();
@@ -184,11 +205,11 @@ impl Program {
 
     /// The limits that may count.
     fn limit(&mut self) {
-        let Self { stretches, limits, prices, screen, middles, .. } = self;
+        let Self { stretches, limits, prices, screen, middles, jumps, .. } = self;
         limits.clear();
         *prices = 0;
         let last = stretches.len() - 1;
-        let mut place = |place: usize| {
+        let place = |limits: &mut Vec<Limits>, place: usize| {
             let first = limits.len();
             let speed = [screen.speed(place), 0.0, 0.0];
             let rows = screen.rows(place).flat_map(|(row, kept)| signs([row.acc[1], row.acc[0], 0.0], kept.acc));
@@ -201,21 +222,19 @@ impl Program {
             pack(limits, rows);
             [(first, middle), (middle, limits.len())]
         };
-        let mut here = place(0);
         for (index, stretch) in stretches.iter_mut().enumerate() {
-            let next = place(index + 1);
             let [left, right, middle] = &mut stretch.sites;
-            left.limits = here;
-            // What does not depend on the bend is limited once a place.
-            right.limits = if index == last { next } else { [(0, 0), next[1]] };
+            left.limits = place(limits, behind(index));
+            let next = place(limits, before(index + 1));
+            // What does not depend on the bend is limited once a place, if it does not jump there.
+            right.limits = if index == last || jumps[index + 1] { next } else { [(0, 0), next[1]] };
             if let Some(extra) = middles.iter().position(|middle| *middle == index) {
-                middle.limits = place(last + 2 + extra);
+                middle.limits = place(limits, before(last + 2) + extra);
             }
             for site in [left, right, middle] {
                 site.prices = *prices;
                 *prices += site.limits.iter().map(|(from, to)| to - from).sum::<usize>();
             }
-            here = next;
         }
     }
 
@@ -226,8 +245,10 @@ impl Program {
         let last = self.stretches.len() - 1;
         for (index, (stretch, three)) in self.stretches.iter().zip(coefficients.windows(3)).enumerate() {
             let bend = dot(&stretch.bend, three);
-            let middle = self.middles.iter().position(|middle| *middle == index).map(|extra| last + 2 + extra);
-            for (site, place) in stretch.sites.iter().zip([index, index + 1].into_iter().chain(middle)) {
+            let extra = self.middles.iter().position(|middle| *middle == index);
+            let middle = extra.map(|extra| before(last + 2) + extra);
+            for (site, place) in stretch.sites.iter().zip([behind(index), before(index + 1)].into_iter().chain(middle))
+            {
                 let (share, more) = self.screen.review(place, dot(&site.square, three), dot(&site.slope, three), bend);
                 used = f64::max(used, share);
                 added |= more;
@@ -258,20 +279,22 @@ impl Program {
 
     /// The coefficients to begin with: those that the edges give, and others that lead away from them smoothly.
     fn begin(&mut self, start: Edge, end: Edge) {
-        let Self { first, fixed, places, unit, .. } = self;
+        let Self { first, fixed, places, unit, warp, .. } = self;
         if *fixed == [false; 2] {
             return;
         }
         let last = places.len() - 1;
         let length = places[last];
         // x and its slope at both ends; and the way over which the slope fades out.
-        let state = |edge: Edge, fixed: bool| {
-            let (square, slope) =
-                if fixed { (edge.vel * edge.vel / *unit, 2.0 * edge.acc / *unit) } else { (1.0, 0.0) };
+        let state = |edge: Edge, at: usize, fixed: bool| {
+            let place = warp.place(at, places[at]);
+            let square = edge.vel * edge.vel / (place.first * place.first);
+            let slope = 2.0 * (edge.acc - place.second * square) / place.first;
+            let (square, slope) = if fixed { (square / *unit, slope / *unit) } else { (1.0, 0.0) };
             let fading = (0.5 * square / slope.abs().max(f64::MIN_POSITIVE)).min(length / 3.0);
             (square, slope, fading)
         };
-        let (from, to) = (state(start, fixed[0]), state(end, fixed[1]));
+        let (from, to) = (state(start, 0, fixed[0]), state(end, last, fixed[1]));
         let least = 0.1 * f64::min(from.0, to.0);
         for (index, slot) in first.iter_mut().enumerate() {
             let at = match index {

@@ -2,6 +2,7 @@
 //! that takes the highest of them.
 
 use crate::time_optimal::solver::law::Law;
+use crate::time_optimal::solver::paced_warp::PacedWarp;
 use crate::time_optimal::solver::warp::Warp;
 use crate::time_optimal::solver::{Edge, Refusal, Way};
 
@@ -24,7 +25,7 @@ pub(crate) fn solve(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
     let slopes = pairs.map(|(at, square)| (0.5 * (square[1] - square[0]) / (at[1] - at[0]), 0.0));
     let warp = Warp::new(from, to, false, false);
     let places: Vec<f64> = way.places().iter().map(|at| at - from).collect();
-    Ok(Law::new(warp, &places, &squares, slopes))
+    Ok(Law::new(PacedWarp::even(warp, &places), &places, &squares, slopes))
 }
 
 /// The squares of its speed at the places.

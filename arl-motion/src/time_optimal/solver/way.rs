@@ -120,16 +120,40 @@ impl Way {
         way
     }
 
-    /// Makes all limits lower, to a `share` of them, at the places from one parameter to another and those beside, but for the
-    /// first place: the state there is what it is.
-    pub fn lower(&mut self, [from, to]: [f64; 2], share: f64) {
-        let first = self.at.partition_point(|at| *at < from).saturating_sub(1).max(1);
-        let last = self.at.partition_point(|at| *at <= to).min(self.at.len().saturating_sub(1));
-        let start = self.ends.get(first - 1).copied().unwrap_or(self.rows.len());
-        let end = self.ends.get(last).copied().unwrap_or(start);
-        for row in self.rows.get_mut(start..end).unwrap_or_default() {
-            (row.vel, row.acc, row.jerk) = (row.vel * share, row.acc * share, row.jerk * share);
+    /// Makes limits lower that a motion uses too much of: for the stretch from one parameter to another, with the share that is
+    /// used there, those at its places and at the places beside it, so that `most` of them would be used. The first place stays: the
+    /// state there is what it is.
+    pub fn lower(&mut self, used: &[([f64; 2], f64)], most: f64) {
+        let mut factors = vec![1.0_f64; self.at.len()];
+        for ([from, to], share) in used {
+            let first = self.at.partition_point(|at| at < from).saturating_sub(1).max(1);
+            let behind = self.at.partition_point(|at| at <= to) + 1;
+            for factor in factors.get_mut(first..behind.min(self.at.len())).unwrap_or_default() {
+                *factor = factor.min(most / share);
+            }
         }
+        let mut start = 0;
+        for (factor, end) in factors.iter().zip(&self.ends) {
+            for row in self.rows.get_mut(start..*end).unwrap_or_default() {
+                (row.vel, row.acc, row.jerk) = (row.vel * factor, row.acc * factor, row.jerk * factor);
+            }
+            start = *end;
+        }
+    }
+
+    /// The way with those places only that are to be kept.
+    pub(crate) fn only(&self, keep: &[bool]) -> Self {
+        let mut kept = Self::new();
+        for (index, (at, _)) in self.at.iter().zip(keep).enumerate().filter(|(_, (_, keep))| **keep) {
+            let before = self.rows_before(index).len();
+            let rows = self.rows(index);
+            if before < rows.len() {
+                kept.push_jump(*at, rows.iter().copied(), before);
+            } else {
+                kept.push(*at, rows.iter().copied());
+            }
+        }
+        kept
     }
 
     /// The first and the last path parameter.
@@ -176,13 +200,13 @@ mod tests {
             way.push(f64::from(at), [Row { first: 1.0, second: 0.0, third: 0.0, vel: 1.0, acc: 1.0, jerk: 1.0 }]);
         }
         let jerks = |way: &Way| (0..6).map(|index| way.rows(index)[0].jerk).collect::<Vec<f64>>();
-        way.lower([2.5, 2.5], 0.5);
+        way.lower(&[([2.5, 2.5], 2.0)], 1.0);
         assert_eq!(jerks(&way), [1.0, 1.0, 0.5, 0.5, 1.0, 1.0]);
-        way.lower([0.2, 0.3], 0.5);
+        way.lower(&[([0.2, 0.3], 2.0)], 1.0);
         assert_eq!(jerks(&way), [1.0, 0.5, 0.5, 0.5, 1.0, 1.0]);
-        way.lower([4.0, 5.0], 0.5);
+        way.lower(&[([4.0, 5.0], 2.0)], 1.0);
         assert_eq!(jerks(&way), [1.0, 0.5, 0.5, 0.25, 0.5, 0.5]);
-        way.lower([9.0, 9.0], 0.5);
+        way.lower(&[([9.0, 9.0], 2.0)], 1.0);
         assert_eq!(jerks(&way), [1.0, 0.5, 0.5, 0.25, 0.5, 0.25]);
     }
 

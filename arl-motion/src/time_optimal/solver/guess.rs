@@ -1,0 +1,67 @@
+//! About how fast a motion can be at each place, without a search.
+
+use crate::time_optimal::solver::warp::Warp;
+use crate::time_optimal::solver::warped_row::WarpedRow;
+use crate::time_optimal::solver::{Edge, Way};
+
+/// Of the fastest rise from rest with limited jerk the power 3/4 of the speed's square grows evenly with the way, by so much with the
+/// root of the jerk; a part of it leaves room for accelerations to begin and end.
+const RISE: f64 = 2.12;
+const GUESSED_SHARE_OF_RISE: f64 = 0.5;
+
+/// About how fast the warped parameter can go at the places, `places` in its own terms: as the limits leave it at an even speed,
+/// and as it can be reached from their neighbours.
+pub(crate) fn guess_speeds(way: &Way, warp: &Warp, places: &[f64], edges: [Edge; 2]) -> Vec<f64> {
+    let last = places.len().saturating_sub(1);
+    let mut squares = Vec::with_capacity(places.len());
+    // How much the square may grow, and its power 3/4.
+    let mut rises = Vec::with_capacity(places.len());
+    for (index, at) in places.iter().enumerate() {
+        let place = warp.place(*at);
+        let edge = edges.iter().zip([0, last]).find(|(edge, at)| *at == index && !edge.rests());
+        let given = edge.map_or(f64::INFINITY, |(edge, _)| edge.vel * edge.vel / (place.first * place.first));
+        let (mut square, mut acc, mut jerk) = (given, f64::INFINITY, f64::INFINITY);
+        for row in way.rows(index).iter().filter(|row| row.moves()) {
+            let row = WarpedRow::new(row, place);
+            square =
+                square.min(1.0 / row.vel).min(1.0 / row.acc[1].abs()).min(1.0 / (row.jerk[2] * row.jerk[2]).cbrt());
+            acc = acc.min(1.0 / row.acc[0].abs());
+            jerk = jerk.min(1.0 / row.jerk[0].abs());
+        }
+        squares.push(square);
+        rises.push([2.0 * acc, GUESSED_SHARE_OF_RISE * RISE * jerk.sqrt()]);
+    }
+    let highest = squares.iter().copied().filter(|square| square.is_finite()).fold(0.0, f64::max);
+    squares.iter_mut().for_each(|square| *square = square.min(highest));
+    let mut bind = |from: usize, to: usize| {
+        let width = (places[to] - places[from]).abs();
+        let [by_acc, by_jerk] = [0, 1].map(|order: usize| rises[from][order].min(rises[to][order]) * width);
+        let by_jerk = (squares[from].powf(0.75) + by_jerk).powf(4.0 / 3.0);
+        squares[to] = squares[to].min(squares[from] + by_acc).min(by_jerk);
+    };
+    (1..places.len()).for_each(|to| bind(to - 1, to));
+    (1..places.len()).rev().for_each(|from| bind(from, from - 1));
+    squares.iter().map(|square| square.sqrt()).collect()
+}
+
+/// With so few places none is left out.
+const FEW_PLACES: usize = 160;
+
+/// The way without places that are closer together than about so many s; `None` where nothing is left out.
+pub(crate) fn thinned(way: &Way, edges: [Edge; 2], closest: f64) -> Option<Way> {
+    let (from, to) = way.span().ok().filter(|_| way.places().len() > FEW_PLACES)?;
+    let warp = Warp::new(from, to, edges[0].rests(), edges[1].rests());
+    let places: Vec<f64> = way.places().iter().map(|at| warp.find(*at)).collect();
+    let speeds = guess_speeds(way, &warp, &places, edges);
+    let (mut since, mut keep) = (0.0, vec![true]);
+    for (place, speed) in places.windows(2).zip(speeds.windows(2)) {
+        since += (place[1] - place[0]) / f64::midpoint(speed[0], speed[1]);
+        let far = since >= closest;
+        keep.push(far);
+        since = if far { 0.0 } else { since };
+    }
+    if let Some(last) = keep.last_mut() {
+        *last = true;
+    }
+    Some(way.only(&keep))
+}
