@@ -54,6 +54,36 @@ fn a_robot_that_goes_on_amid_a_stop_keeps_to_its_way_and_limits() {
     }
 }
 
+/// Prints the table of docs/speed.md.
+#[test]
+#[ignore = "a measurement"]
+fn stops_beside_the_slowest_axis_alone() {
+    for profile in [VelocityProfile::T, VelocityProfile::S, VelocityProfile::O] {
+        let mut ratios = Vec::new();
+        for seed in 0..48 {
+            let (mut random, robot) =
+                (Random::new(seed), with_external_axes(["kr10-r1420", "tx2-60"][seed as usize % 2]));
+            let queue = random_chain(&robot, &mut random, &Settings { profile, ..Settings::default() });
+            let length = run(&mut queue.clone(), 100.0).len() as f64;
+            for _ in 0..8 {
+                let mut queue = queue.clone();
+                let rows = go_on(&mut queue, random.between(2.0, 0.95 * length));
+                queue.stop_on_path(Stop::General);
+                let mut cycles = 0;
+                while !queue.rests() {
+                    queue.step(CYCLE, 100.0);
+                    cycles += 1;
+                }
+                ratios.push(f64::from(cycles) * CYCLE / least_stop(&robot, &rows[rows.len() - 2..]).max(0.05));
+            }
+        }
+        ratios.sort_by(f64::total_cmp);
+        let slow = ratios.iter().filter(|ratio| **ratio > 2.0).count();
+        let (half, worst) = (ratios[ratios.len() / 2], ratios[ratios.len() - 1]);
+        println!("{profile:?}: {} stops, half {half:.2}, more than twice {slow}, worst {worst:.1}", ratios.len());
+    }
+}
+
 /// Motions that have been planned, and how many cycles they take.
 struct Chain {
     profile: VelocityProfile,

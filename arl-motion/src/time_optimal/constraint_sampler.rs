@@ -17,22 +17,23 @@ const MOST_PLACES: usize = 900;
 /// The density of places for a short part, and how many there are at most.
 const COARSE_DENSITY: f64 = 0.2;
 const MOST_COARSE_PLACES: usize = 40;
-/// Two places are no closer than this part of the spacing.
+/// Outside of blends two places are no closer than this part of the spacing.
 const CLOSEST_SHARE_OF_SPACING: f64 = 1.0 / 256.0;
 /// A step as part of the path over which the motion changes.
 const STEP_SHARE_OF_SCALE: f64 = 0.06;
-/// The part of a speed that counts at the next place.
+/// The part of the highest speed before that still counts at the next place, for how far the motion changes: where everything turns back
+/// the speed is low for a moment, and the motion changes no faster for that.
 const FORGOTTEN_SHARE: f64 = 0.7;
-/// So many places are in each part of a blend, if they do not get too close.
+/// So many places are in each part of a blend.
 const PLACES_OF_BLEND_PART: u32 = 3;
 /// By so much of the distance from a blend the places beside it may be farther apart than those in it: where it is sharp the robot
 /// is slow beside it, as beside a stop.
 const GROWTH_BESIDE_BLEND: f64 = 0.4;
-/// A speed, as part of the full one, below which a start counts as if it had it.
+/// A start that is slower than this part of the full speed has its places as if it were as fast.
 const SLOWEST_START: f64 = 1e-4;
 /// How far beside a place its sides are looked at, as part of the segment.
 const BESIDE_SHARE: f64 = 1e-9;
-/// Nor closer than about so many s: set-points are no closer either, and tell the mean of a jerk over three cycles.
+/// A law is found without places that are closer together than about so many s: set-points tell the mean of a jerk over three cycles.
 const CLOSEST_S: f64 = 0.003;
 /// With more segments than this ahead, their ends are no places of their own.
 const MOST_SEGMENTS_WITH_ENDS: usize = 150;
@@ -147,8 +148,8 @@ impl ConstraintSampler {
         let mut to = to;
         for _ in 0..MOST_SHORTENINGS {
             match self.walk(to, fineness, start, end) {
-                Ok(way) => {
-                    let is_thinned = fineness.0 >= 1.0 && !self.joints(to).1;
+                Ok((way, many)) => {
+                    let is_thinned = fineness.0 >= 1.0 && !many;
                     let thinned = if is_thinned { thinned(&way, [start, end], CLOSEST_S / fineness.0) } else { None };
                     return Some(Prospect { way, thinned, end: to });
                 }
@@ -158,8 +159,9 @@ impl ConstraintSampler {
         None
     }
 
-    /// The way with a density of places, or how far it got with as many as there may be.
-    fn walk(&self, to: f64, (density, most): (f64, usize), start: Edge, end: Edge) -> Result<Way, f64> {
+    /// The way with a density of places, and whether it has too many segments for places of their own; or how far it got with as many
+    /// places as there may be.
+    fn walk(&self, to: f64, (density, most): (f64, usize), start: Edge, end: Edge) -> Result<(Way, bool), f64> {
         let count = (density * ((to - self.at) / LONGEST_SPACING_S).clamp(FEWEST_PLACES, MOST_EVEN_PLACES)) as usize;
         let spacing = (to - self.at) / count as f64;
         let mut stations: Vec<(f64, bool)> =
@@ -205,7 +207,7 @@ impl ConstraintSampler {
                 }
             }
         }
-        Ok(way)
+        Ok((way, many))
     }
 
     /// How far apart places may be where segments meet, and where it begins.
@@ -223,19 +225,18 @@ impl ConstraintSampler {
             grades.push(Grade { at: at.max(self.at), spacing: own });
             before = own;
         }
-        let farther = |grades: &mut [Grade], indices: &mut dyn Iterator<Item = usize>| {
-            let mut last: Option<Grade> = None;
-            for index in indices {
-                let Some(grade) = grades.get_mut(index) else { continue };
-                if let Some(last) = last {
-                    grade.spacing = grade.spacing.min(last.spacing + GROWTH_BESIDE_BLEND * (grade.at - last.at).abs());
-                }
-                last = Some(*grade);
-            }
+        let bind = |last: &mut f64, grade: &mut Grade, width: f64| {
+            grade.spacing = grade.spacing.min(*last + GROWTH_BESIDE_BLEND * width);
+            *last = grade.spacing;
         };
-        let count = grades.len();
-        farther(&mut grades, &mut (0..count));
-        farther(&mut grades, &mut (0..count).rev());
+        let (mut spacing, mut at) = (f64::INFINITY, self.at);
+        for grade in &mut grades {
+            bind(&mut spacing, grade, grade.at - std::mem::replace(&mut at, grade.at));
+        }
+        spacing = f64::INFINITY;
+        for grade in grades.iter_mut().rev() {
+            bind(&mut spacing, grade, std::mem::replace(&mut at, grade.at) - grade.at);
+        }
         grades
     }
 
@@ -377,8 +378,7 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// The time over which the motion changes substantially; `fastest` is what is left of the speed shortly before. Where everything turns
-/// back the speed is low, and the motion changes no faster for that.
+/// The time over which the motion changes substantially; `fastest` is what is left of the speed before.
 fn scale(robot: &Robot, rates: &[[f64; ALL]; 3], fastest: &mut f64) -> f64 {
     let own = robot.own_axes();
     let [first, second, third] = rates.map(|all| {

@@ -34,9 +34,8 @@ const SCALING_DURATIONS_S: [f64; 7] = [0.03, 0.06, 0.12, 0.25, 0.5, 1.0, 2.0];
 /// A stop that takes longer, in s, is begun, and a shorter one looked for, which has to be shorter by so much.
 const LONG_STOP_S: f64 = 0.05;
 const LEAST_GAIN_S: f64 = 0.004;
-/// A law is joined with this part of the acceleration and jerk, or the second where that cannot be: between the places limits are not
-/// certain.
-const JOINING_SHARES_OF_LIMITS: [f64; 2] = [0.985, 0.995];
+/// A law is joined with this part of the acceleration and jerk, where that can be: between the places limits are not certain.
+const JOINING_SHARE_OF_LIMITS: f64 = 0.985;
 /// So long may a change of the override take that follows the law in hand all the time, where there is another way.
 const QUICK_SCALING_S: f64 = 0.25;
 /// What sets off from rest looks ahead for so many times the time in which it does.
@@ -318,7 +317,7 @@ impl LawFollower {
             let shares = [share, (now.acc - share * share * there.acc) / there.vel, 0.0];
             let main = Drive { found, time };
             let join = |harder: f64| main.easing(shares, self.ahead.share, harder, f64::INFINITY);
-            let easing = JOINING_SHARES_OF_LIMITS.into_iter().find_map(join)?;
+            let easing = join(JOINING_SHARE_OF_LIMITS).or_else(|| join(1.0))?;
             Some(Ahead { main: Some(main), share: self.ahead.share, easing: Some(easing), ramp: None })
         });
         self.in_vain = joined.is_none();

@@ -12,7 +12,7 @@ use std::thread;
 use crate::time_optimal::constraint_sampler::{ConstraintSampler, Prospect};
 use crate::time_optimal::limit_check::{LimitCheck, MOST_USED_SHARE, law_keeps, used_by_law};
 use crate::time_optimal::set_points::used_by_set_points;
-use crate::time_optimal::solver::{Edge, Law, Way, fastest, fastest_like};
+use crate::time_optimal::solver::{Edge, Law, Way, fastest, fastest_near};
 use crate::time_optimal::stop_prediction::StopPrediction;
 
 /// How long finding a law may take, in s of controller time.
@@ -24,11 +24,12 @@ const LEAST_LAW_S: f64 = 1.5;
 /// Parts of the way, and how many times as many places on it, with which a law is looked for until one keeps the limits: where
 /// they change much between the places, closer ones are needed.
 const SHARES_AND_DENSITIES: [(f64, f64); 5] = [(1.0, 1.0), (1.0, 2.0), (0.4, 2.0), (0.15, 3.0), (0.15, 6.0)];
-/// How often the limits are lowered where a law uses too much of them; by how much more than it takes; and up to which share.
+/// How often the limits are lowered where a law uses too much of them.
 const MOST_TEMPERINGS: i32 = 6;
 /// So much of the limits a law may use; a stop may use a little more, so that there is one from any state of a law, and what uses more than
 /// that is no law.
 const TEMPERED_USE: f64 = 1.006;
+/// They are lowered by more than it takes, each time by the square of this more, where no more than so much of them is used.
 const TEMPERED_SHARE: f64 = 0.998;
 const MOST_TEMPERED_USE: f64 = 4.0;
 /// A stop has a little more acceleration and jerk to go by than a law, so that there is one from any state of a law; it is looked
@@ -211,14 +212,14 @@ fn find(sampler: &ConstraintSampler, start: Edge, wanted: impl Fn() -> bool) -> 
 fn temperate(sampler: &ConstraintSampler, way: &Way, start: Edge, wanted: &impl Fn() -> bool) -> Option<(Law, f64)> {
     let mut limits = way.clone();
     let mut best: Option<(Law, f64)> = None;
-    let mut last: Option<Law> = None;
+    let mut speeds = None;
     for round in 0..=MOST_TEMPERINGS {
-        let solved = match &last {
-            Some(last) => fastest_like(last, &limits, start, Edge::REST),
+        let solved = match speeds {
+            Some(speeds) => fastest_near(&limits, start, Edge::REST, speeds),
             None => fastest(&limits, start, Edge::REST),
         };
         let Some(law) = solved.ok().filter(|_| wanted()) else { break };
-        last = Some(law.clone());
+        speeds = law.paced_speeds();
         let mut used = used_by_law(way, &law, TEMPERED_USE)?;
         if used.beyond.is_empty() {
             used = used_by_set_points(sampler, &law, 1.0, TEMPERED_USE);

@@ -9,8 +9,6 @@ pub(crate) const MOST_USED_SHARE: f64 = 1.008;
 /// By the limits at its places a motion that is known to be within them may use so much: set-points smear out what is shorter than
 /// they are apart.
 const MOST_KNOWN_SHARE: f64 = 1.0095;
-/// A programmed speed is kept more exactly than that: what is more than it counts so many times.
-const SPEED_STRICTNESS: f64 = 40.0;
 /// A speed below zero, in s of nominal time per s, that is rounding.
 const BACKWARDS_ROUNDING: f64 = 1e-9;
 /// No limits.
@@ -91,12 +89,12 @@ impl LimitCheck {
     /// Whether a law that is followed at another share of its speed keeps its limits, those of acceleration and jerk times
     /// `harder`.
     pub(crate) fn keeps(&self, motion: &impl Timed, harder: f64) -> bool {
-        keeps(&Look { way: &self.way, harder, between: Between::Even, strictness: SPEED_STRICTNESS }, motion)
+        keeps(&Look { way: &self.way, harder, between: Between::Even }, motion)
     }
 
     /// The same for a motion that does not follow a law.
     pub(crate) fn surely_keeps(&self, motion: &impl Timed, harder: f64) -> bool {
-        keeps(&Look { way: &self.way, harder, between: Between::Most, strictness: SPEED_STRICTNESS }, motion)
+        keeps(&Look { way: &self.way, harder, between: Between::Most }, motion)
     }
 
     /// The limits that the parameter has all the way between two places where it hardly moves.
@@ -127,20 +125,19 @@ enum Between {
 }
 
 /// The share of the limits, those of acceleration and jerk times `harder`, that a motion uses.
-fn used(rows: &[Row], now: &Moment, harder: f64, strictness: f64) -> f64 {
+fn used(rows: &[Row], now: &Moment, harder: f64) -> f64 {
     rows.iter().fold(0.0_f64, |used, row| {
         let acc = row.first * now.acc + row.second * now.vel * now.vel;
         let jerk =
             row.first * now.jerk + 3.0 * row.second * now.vel * now.acc + row.third * now.vel * now.vel * now.vel;
         let (acc, jerk) = ((acc / row.acc).abs() / harder, (jerk / row.jerk).abs() / harder);
-        let vel = (row.first * now.vel / row.vel).abs();
-        used.max(vel + (strictness - 1.0) * (vel - 1.0).max(0.0)).max(acc).max(jerk)
+        used.max((row.first * now.vel / row.vel).abs()).max(acc).max(jerk)
     })
 }
 
 /// How much of the limits a law uses, of `allowed`, along the path that it was found for; `None` where it goes backwards.
 pub(crate) fn used_by_law(way: &Way, law: &Law, allowed: f64) -> Option<Used> {
-    let looked = Look { way, harder: 1.0, between: Between::Least, strictness: 1.0 };
+    let looked = Look { way, harder: 1.0, between: Between::Least };
     let mut used = Used::of(allowed);
     for now in moments(law.duration()).map(|time| law.at(time)) {
         if now.vel.is_nan() || now.vel < -BACKWARDS_ROUNDING {
@@ -153,7 +150,7 @@ pub(crate) fn used_by_law(way: &Way, law: &Law, allowed: f64) -> Option<Used> {
 
 /// Whether a law along `way` goes forwards and keeps the limits, those of acceleration and jerk times `harder`.
 pub(crate) fn law_keeps(way: &Way, law: &Law, harder: f64) -> bool {
-    keeps(&Look { way, harder, between: Between::Least, strictness: 1.0 }, law)
+    keeps(&Look { way, harder, between: Between::Least }, law)
 }
 
 /// Whether a motion goes forwards and keeps the limits.
@@ -181,15 +178,13 @@ struct Look<'a> {
     /// How many times as high limits of acceleration and jerk are.
     harder: f64,
     between: Between,
-    /// How many times as much an excess of speed counts as others.
-    strictness: f64,
 }
 
 impl Look<'_> {
     /// The share of the limits that is used.
     fn used_at(&self, now: &Moment) -> f64 {
         let (way, places) = (self.way, self.way.places());
-        let used = |rows: &[Row]| used(rows, now, self.harder, self.strictness);
+        let used = |rows: &[Row]| used(rows, now, self.harder);
         let next = places.partition_point(|place| *place <= now.at).clamp(1, places.len() - 1);
         match self.between {
             Between::Least => used(way.rows(next - 1)).min(used(way.rows(next))),

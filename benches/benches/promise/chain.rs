@@ -60,7 +60,7 @@ pub(crate) enum Kind {
 /// All kinds.
 pub(crate) const ALL: [Kind; 6] = [Kind::Corners, Kind::Turning, Kind::External, Kind::Tool, Kind::Axes, Kind::Mixed];
 
-/// How often they come in turn: corners as often as all others but one together.
+/// In which order they come: corners, and tools that turn, twice as often as the others.
 const TURNS: [Kind; 8] =
     [Kind::Corners, Kind::Turning, Kind::Corners, Kind::External, Kind::Tool, Kind::Axes, Kind::Mixed, Kind::Turning];
 
@@ -151,7 +151,8 @@ impl Chain {
         let own = self.robot.own_axes().len();
         let joints =
             |axes: &Axes| axes.iter().take(own).map(|value| format!("{value:.3}")).collect::<Vec<String>>().join(", ");
-        let mut text = format!("// robot {}\nfunc void main()\n", self.robot.name);
+        let with = if self.kind == Kind::External { ", with ej1 in deg and ej2 in mm" } else { "" };
+        let mut text = format!("// robot {}{with}\nfunc void main()\n", self.robot.name);
         let _ = writeln!(text, "  movej j:{{{}}}\n  waittime 0", joints(&self.start.axes));
         let zone = format!("{}:{}", if self.is_percent { "sp" } else { "sl" }, self.zone);
         for (goal, external) in &self.goals {

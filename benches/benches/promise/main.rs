@@ -18,11 +18,11 @@ const PROFILES: [VelocityProfile; 3] = [VelocityProfile::T, VelocityProfile::S, 
 /// What is promised: so many times the time with exact stops, and so many s.
 const PROMISED_FACTOR: f64 = 1.003;
 const PROMISED_S: f64 = 2.0 * CYCLE;
-/// Zones of so many mm at so many mm/s keep all of theirs, and gain.
-const KEPT_ZONE_MM: f64 = 5.0;
+/// Zones of so many mm and more are told of by themselves.
+const LARGE_ZONE_MM: f64 = 5.0;
 /// So many chains that are farthest from the promise are printed.
 const WORST: usize = 10;
-/// No chain takes so many s.
+/// What takes longer, in s, is not waited for.
 const LONGEST_S: f64 = 300.0;
 
 /// What became of a chain in a profile.
@@ -80,7 +80,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// How long the chain takes, and the kept share of each zone that was asked for. `None` where the robot cannot go it.
+/// How long the chain takes in s, [`LONGEST_S`] at most, and the kept share of each zone that was asked for. `None` where the robot cannot
+/// go it, whatever the profile.
 fn run(chain: &Chain, zones: bool, settings: &Settings) -> Option<(f64, Vec<f64>)> {
     let mut queue = Queue::new(chain.robot.clone(), chain.start);
     let mut recorder = Recorder::new(chain.robot.clone(), &mut queue);
@@ -90,13 +91,10 @@ fn run(chain: &Chain, zones: bool, settings: &Settings) -> Option<(f64, Vec<f64>
     }
     queue.conclude().ok()?;
     let mut cycles = 0_u32;
-    while !queue.idle() {
+    while !queue.idle() && f64::from(cycles) * CYCLE < LONGEST_S {
         let step = queue.step(CYCLE, 100.0);
         recorder.step(&mut queue, &step, CYCLE);
         cycles += 1;
-        if f64::from(cycles) * CYCLE > LONGEST_S {
-            return None;
-        }
     }
     let records = recorder.records();
     let asked = records.iter().take(records.len() - 1).filter_map(|record| record.blend);
@@ -132,11 +130,11 @@ fn table(chains: &[Chain], results: &[Outcome]) {
 
 /// How much of their zones motions keep.
 fn kept(chains: &[Chain], results: &[Outcome]) {
-    println!("kept of the zones asked for: all, half or more, less, none");
+    println!("kept of the zones asked for, which are half of a motion at most: all, half or more, less, none");
     for profile in PROFILES {
         let of = || results.iter().filter(move |result| result.profile == profile);
         for (name, large) in [("small", false), ("5 mm and more", true)] {
-            let is_large = |chain: &Chain| !chain.is_percent && chain.zone >= KEPT_ZONE_MM;
+            let is_large = |chain: &Chain| !chain.is_percent && chain.zone >= LARGE_ZONE_MM;
             let shares: Vec<f64> = of()
                 .filter(|result| is_large(&chains[result.chain]) == large)
                 .flat_map(|result| result.kept.iter().copied())

@@ -502,8 +502,8 @@ impl PathBuffer {
         stands
     }
 
-    /// Whoever leads the robot from rest leads it until it stops: laws, but where a motion with the same limits everywhere is to be
-    /// gone from rest to rest. For that one the governor needs no search, and no law is faster.
+    /// Whoever leads the robot from rest leads it until it stops: laws where the first motion has the profile O, but for one with the
+    /// same limits everywhere that is to be gone from rest to rest. For that one the governor needs no search, and no law is faster.
     fn choose_leader(&mut self, robot: &Robot) {
         let is_free = || self.segments.front().is_some_and(|first| first.is_free);
         if self.state.rests() && matches!(self.leader, Leader::Governor) && is_free() && !self.is_alone(robot, 0) {

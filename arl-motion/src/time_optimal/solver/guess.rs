@@ -44,10 +44,10 @@ pub(crate) fn guess_speeds(way: &Way, warp: &Warp, places: &[f64], edges: [Edge;
     squares.iter().map(|square| square.sqrt()).collect()
 }
 
-/// With so few places none is left out.
+/// With so few places none is left out: a law is found soon enough.
 const FEW_PLACES: usize = 160;
 
-/// The way without places that are closer together than about so many s; `None` where nothing is left out.
+/// The way without places that are closer together than about so many s; `None` where it has few of them.
 pub(crate) fn thinned(way: &Way, edges: [Edge; 2], closest: f64) -> Option<Way> {
     let (from, to) = way.span().ok().filter(|_| way.places().len() > FEW_PLACES)?;
     let warp = Warp::new(from, to, edges[0].rests(), edges[1].rests());

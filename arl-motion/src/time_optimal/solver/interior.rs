@@ -71,11 +71,10 @@ struct Prices {
 /// The fastest motion within all limits of `way`.
 pub(crate) fn solve(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
     let law = solve_near(way, start, end, None)?;
-    if !law.is_paced() {
-        return Ok(law);
-    }
-    // Between two places nothing but the acceleration's slope is free. With a parameter that goes as the time does that is enough.
-    Ok(solve_near(way, start, end, Some(law.warped_speeds())).unwrap_or(law))
+    // Between two places nothing but the acceleration's slope is free. With a parameter that goes as the time does that is enough; the
+    // guess is not that near.
+    let nearer = law.paced_speeds().and_then(|speeds| solve_near(way, start, end, Some(speeds)).ok());
+    Ok(nearer.unwrap_or(law))
 }
 
 /// The same, of which the warped parameter's speeds are about known.

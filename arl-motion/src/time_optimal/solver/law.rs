@@ -15,16 +15,16 @@ pub struct Moment {
     pub jerk: f64,
 }
 
-/// The stretch from one place to the next, in which the warped parameter's acceleration changes evenly with the warped
+/// The stretch from one place to the next, in which the paced parameter's acceleration changes evenly with the paced
 /// parameter.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Stretch {
-    /// The warped parameter where it begins.
+    /// The paced parameter where it begins.
     pub(crate) at: f64,
-    /// Speed and acceleration of the warped parameter there.
+    /// Speed and acceleration of the paced parameter there.
     pub(crate) vel: f64,
     pub(crate) acc: f64,
-    /// How the acceleration changes with the warped parameter.
+    /// How the acceleration changes with the paced parameter.
     pub(crate) bend: f64,
     /// When it begins.
     time: f64,
@@ -41,7 +41,7 @@ pub struct Law {
 }
 
 impl Law {
-    /// From the warped places, the squares of the warped parameter's speed there, and its acceleration at the start of
+    /// From the paced places, the squares of the paced parameter's speed there, and its acceleration at the start of
     /// each stretch; `bends` as in [`Stretch`].
     pub(crate) fn new(
         warp: PacedWarp,
@@ -60,13 +60,8 @@ impl Law {
         Self { warp, end, stretches, duration: time }
     }
 
-    /// Whether it was found over a parameter that goes about as the time does.
-    pub(crate) fn is_paced(&self) -> bool {
-        self.warp.is_paced()
-    }
-
-    /// How fast the warped parameter goes at the places.
-    pub(crate) fn warped_speeds(&self) -> Vec<f64> {
+    /// How fast the warped parameter goes at the places; `None` where the law was found over that one itself.
+    pub(crate) fn paced_speeds(&self) -> Option<Vec<f64>> {
         let last = self.stretches.last().map(|last| last.after(self.duration - last.time).1);
         self.warp.speeds(self.stretches.iter().map(|stretch| stretch.vel).chain(last))
     }
@@ -106,7 +101,7 @@ impl Law {
 }
 
 impl Stretch {
-    /// The warped parameter, its speed and its acceleration after `time`.
+    /// The paced parameter, its speed and its acceleration after `time`.
     fn after(&self, time: f64) -> (f64, f64, f64) {
         let Self { vel, acc, bend, .. } = *self;
         let (odd, even) = growth(bend, time);

@@ -77,13 +77,10 @@ pub fn fastest(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
     if way.limits_jerk() { interior::solve(way, start, end) } else { reach::solve(way, start, end) }
 }
 
-/// The same where `like` is the fastest motion along it with limits that are about the same at the same places.
-pub(crate) fn fastest_like(like: &Law, way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
-    if !like.is_paced() {
-        return fastest(way, start, end);
-    }
+/// The same where about the speeds are known ([`Law::paced_speeds`]): those with other limits at the same places.
+pub(crate) fn fastest_near(way: &Way, start: Edge, end: Edge, speeds: Vec<f64>) -> Result<Law, Refusal> {
     check(way, [start, end])?;
-    interior::solve_near(way, start, end, Some(like.warped_speeds()))
+    interior::solve_near(way, start, end, Some(speeds))
 }
 
 fn check(way: &Way, edges: [Edge; 2]) -> Result<(), Refusal> {

@@ -1,4 +1,4 @@
-//! The problem with jerk limits, stated over the warped parameter.
+//! The problem with jerk limits, stated over the paced parameter.
 //!
 //! The square x of the speed is a quadratic spline: the acceleration, half its slope, is continuous and changes evenly
 //! from place to place. Its coefficients are the corners of the spline's control polygon, one for each stretch, in whose
@@ -55,7 +55,7 @@ pub(crate) struct Limits {
 #[derive(Debug)]
 pub(crate) struct Program {
     pub(crate) warp: PacedWarp,
-    /// The warped places.
+    /// The paced places.
     pub(crate) places: Vec<f64>,
     pub(crate) stretches: Vec<Stretch>,
     pub(crate) limits: Vec<Limits>,
@@ -90,7 +90,7 @@ const RESERVE: f64 = 1.005;
 /// How many stretches next to rest have limits in the middle.
 const MIDDLES: usize = 4;
 
-/// A share of the highest square of the warped parameter's speed that no motion comes down to, but for one that fails.
+/// A share of the highest square of the paced parameter's speed that no motion comes down to, but for one that fails.
 const ALMOST_REST: f64 = 1e-9;
 
 impl Program {
