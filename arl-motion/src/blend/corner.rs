@@ -8,7 +8,7 @@ use nalgebra::{SVector, Vector3};
 
 use crate::blend::blend_limits::{Approach, BlendLimits, find_blend_limits};
 use crate::blend::mid_curvature::MidCurvature;
-use crate::blend::zone::parts;
+use crate::blend::zone::{asked_parts, parts};
 use crate::command::LARGEST_ZONE;
 use crate::command::joints::{ALL, Joints, slowness};
 use crate::geometry::derivatives::{Place, by_differences};
@@ -22,7 +22,7 @@ use crate::limits::constant::passing;
 use crate::limits::profile::Limits;
 use crate::plan::constraints::{Constraints, Pace};
 use crate::plan::curve::{Curve, ToolCurve};
-use crate::plan::motion::Motion;
+use crate::plan::motion::{CornerEnd, GivenCorner, Motion};
 use crate::plan::path_check::{check_gentle_path, check_path};
 use arl_robot::kinematics::Rates;
 use arl_robot::robot::{ROBOT_AXES, Robot};
@@ -55,15 +55,16 @@ pub(crate) struct Blend {
 
 /// The blend that the first motion's zone asks for; `None` where it asks for none, or there is no way.
 pub(crate) fn blend(robot: &Robot, from: &Motion, to: &Motion) -> Option<Blend> {
-    let (mut leaving, mut joining) = parts(robot, from, to)?;
-    for _ in 0..=ZONE_HALVINGS {
-        if let Some(blend) = (Corner { robot, from, to, leaving, joining, curvatures: [MidCurvature::NONE; 2] }).blend()
-        {
-            return Some(blend);
-        }
-        (leaving, joining) = (leaving / 2.0, joining / 2.0);
-    }
-    None
+    let found = |(leaving, joining): (f64, f64)| {
+        let form =
+            Corner { robot, from, to, leaving, joining, curvatures: [MidCurvature::NONE; 2], given: from.corner };
+        form.blend().or_else(|| from.corner.and_then(|_| Corner { given: None, ..form }.blend()))
+    };
+    let (asked, largest) = (asked_parts(robot, from, to)?, parts(robot, from, to)?);
+    let (leaving, joining) = asked;
+    let halved = (0..=ZONE_HALVINGS).map(|halvings| f64::from(1 << halvings));
+    let smaller = halved.map(|by| (leaving / by, joining / by));
+    (largest != asked).then_some(largest).into_iter().chain(smaller).find_map(found)
 }
 
 /// The blend from one motion, which is bent in its middle, to another. A bend is only possible where a whole half is taken.
@@ -75,7 +76,7 @@ pub(crate) fn curved_blend(robot: &Robot, from: &Motion, to: &Motion, curvatures
     {
         return None;
     }
-    Corner { robot, from, to, leaving, joining, curvatures }.blend()
+    Corner { robot, from, to, leaving, joining, curvatures, given: None }.blend()
 }
 
 #[cfg(test)]
@@ -93,12 +94,28 @@ struct Corner<'a> {
     joining: f64,
     /// How the motions are bent at the ends of the blend.
     curvatures: [MidCurvature; 2],
+    /// How the motions are met, where that is given.
+    given: Option<GivenCorner>,
 }
 
 impl Corner<'_> {
     /// The parameters at which the motions are left and joined, and how long the tangents are there.
     fn ends(&self) -> [(f64, f64); 2] {
-        [(1.0 - self.leaving, TANGENT_PER_ZONE * self.leaving), (self.joining, TANGENT_PER_ZONE * self.joining)]
+        let [leaving, joining] = self.met();
+        [(1.0 - self.leaving, leaving.speed), (self.joining, joining.speed)]
+    }
+
+    /// How the motions are met.
+    fn met(&self) -> [CornerEnd; 2] {
+        let plain = |part: f64| CornerEnd { part, speed: TANGENT_PER_ZONE * part, acc: 0.0 };
+        let as_given = |part: f64, end: CornerEnd| {
+            let share = part / end.part;
+            CornerEnd { part, speed: end.speed * share, acc: end.acc * share }
+        };
+        match self.given {
+            Some(given) => [as_given(self.leaving, given.leaving), as_given(self.joining, given.joining)],
+            None => [plain(self.leaving), plain(self.joining)],
+        }
     }
 
     fn blend(&self) -> Option<Blend> {
@@ -136,11 +153,16 @@ impl Corner<'_> {
             }
             _ => {
                 let [start, end] = &self.curvatures;
-                let from = axes_knot(self.robot, from, leave, slope_from, start)?;
-                let to = axes_knot(self.robot, to, join, slope_to, end)?;
+                let [left, joined] = self.met();
+                let from = rising(axes_knot(self.robot, from, leave, slope_from, start)?, &left);
+                let to = rising(axes_knot(self.robot, to, join, slope_to, end)?, &joined);
                 let curve = Quintic::between(&from, &to);
-                let gentle = turns_gently(&curve);
+                let gentle = self.given.is_none() && turns_gently(&curve);
                 let (parametrization, time) = self.time_axes((&curve, gentle), [start_rate, end_rate]);
+                // Ends that are met too differently have no even form.
+                if self.given.is_some() && !rises(&parametrization) {
+                    return None;
+                }
                 self.look_at_axes((&curve, gentle), &parametrization, &mut constraints, &pace)?;
                 (Curve::Axes(curve), parametrization, time)
             }
@@ -290,11 +312,14 @@ impl Corner<'_> {
         let timed = if gentle { Parametrization::gently(derivative, start, end) } else { None };
         timed.unwrap_or_else(|| {
             let time = 2.0 / (rates[0] + rates[1]);
-            let ends = ends.map(|(at, rate, surge)| {
+            // Where the curve is met with an acceleration, its parameter makes up for that: the motions are even.
+            let [left, joined] = self.met().map(|met| -met.acc / met.speed);
+            let end = |(at, rate, surge): (f64, f64, f64), made_up: f64| {
                 let second = if surge == 0.0 { 0.0 } else { surge / derivative(1, at).norm() };
-                [rate * time, second * time * time]
-            });
-            (Parametrization::between(ends), time)
+                [rate * time, (second + made_up * rate * rate) * time * time]
+            };
+            let [first, last] = ends;
+            (Parametrization::between([end(first, left), end(last, joined)]), time)
         })
     }
 
@@ -344,6 +369,11 @@ impl Corner<'_> {
         }
         Some(())
     }
+}
+
+/// Whether a curve goes forwards all along, nowhere at less than a tenth of its mean speed.
+fn rises(parametrization: &Parametrization) -> bool {
+    shares::<{ PARTS_OF_BLEND as usize + 1 }>().iter().all(|share| parametrization.derivative(1, *share) >= 0.1)
 }
 
 /// Shares of the whole, from 0 to 1.
@@ -439,6 +469,14 @@ fn axes_knot(robot: &Robot, motion: &Motion, at: f64, slope: f64, curvature: &Mi
         }
     };
     Some(scaled(knot, slope, &curvature.axes))
+}
+
+/// A knot that is met with an acceleration along its motion.
+fn rising<const N: usize>(mut knot: Knot<N>, met: &CornerEnd) -> Knot<N> {
+    for (second, first) in knot.second.iter_mut().zip(&knot.first) {
+        *second += first * met.acc / met.speed;
+    }
+    knot
 }
 
 /// The joints within a motion, followed from its nearer end.

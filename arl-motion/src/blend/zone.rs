@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::blend::smoothing::is_smooth;
 use crate::command::LARGEST_ZONE;
 use crate::command::joints::{Joints, is_unset};
 use crate::plan::curve::Curve;
@@ -30,7 +31,7 @@ enum Measure {
 pub struct Rounding {
     /// The size that was asked for.
     pub asked: f64,
-    /// The size that was used; 0 where the robot stops at the target.
+    /// The size that was used, of the asked one; 0 where the robot stops at the target.
     pub used: f64,
     /// `%` of the largest zone, `mm`, or `deg`.
     pub unit: &'static str,
@@ -38,8 +39,10 @@ pub struct Rounding {
 
 /// The zone of a motion that is left at the share `leave`; `None` where none was asked for.
 pub(crate) fn rounding(robot: &Robot, motion: &Motion, leave: f64) -> Option<Rounding> {
-    let (measure, size, _) = leaving(robot, motion)?;
-    let part = 1.0 - leave;
+    let (measure, size, asked) = leaving(robot, motion)?;
+    // What is rounded off before that is within a thousandth of a millimetre.
+    let part = (1.0 - leave).min(asked);
+    let leave = 1.0 - part;
     Some(match (measure, &motion.curve) {
         (Measure::Share, _) => {
             Rounding { asked: 100.0 * size / LARGEST_ZONE, used: 100.0 * part / LARGEST_ZONE, unit: "%" }
@@ -59,9 +62,16 @@ pub(crate) fn rounding(robot: &Robot, motion: &Motion, leave: f64) -> Option<Rou
 const LEAST_ZONE: f64 = 1e-6;
 
 /// The parts that a blend takes from the end of one motion and from the start of the next; `None` where none is asked for.
+/// In a dense chain they are whole halves, whatever the zone.
 pub(crate) fn parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f64)> {
-    if from.corner.is_some() {
-        return from.corner;
+    let asked = asked_parts(robot, from, to)?;
+    Some(if is_smooth(from, to) { (LARGEST_ZONE, LARGEST_ZONE) } else { asked })
+}
+
+/// The parts that the zone asks for.
+pub(crate) fn asked_parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f64)> {
+    if let Some(given) = &from.corner {
+        return Some(given.parts());
     }
     let (measure, size, leaving) = leaving(robot, from)?;
     let time = |motion: &Motion, part: f64| part / motion.rate;
@@ -73,7 +83,7 @@ pub(crate) fn parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f
         None => time(from, leaving) / time(to, 1.0),
     };
     // What the next motion is left by is no longer there to be entered.
-    let free = to.corner.map_or(LARGEST_ZONE, |(leaving, _)| (1.0 - leaving).min(LARGEST_ZONE));
+    let free = to.corner.map_or(LARGEST_ZONE, |given| (1.0 - given.leaving.part).min(LARGEST_ZONE));
     let entering = entering.min(free);
     (entering > LEAST_ZONE).then_some((leaving, entering))
 }

@@ -362,10 +362,16 @@ fn is_known(motion: &Motion) -> bool {
     motion.laid.is_none()
 }
 
-/// Whether every place of a motion has limits of its own: in the profile O, unless its duration is given or it weaves, which
-/// wants an even speed.
+/// Whether every place of a motion has limits of its own: in the profile O, and in gates in the profile S, unless its duration is given or
+/// it weaves, which wants an even speed. A gate is known from rest to rest, and its lift is so much faster than its corners
+/// that constant limits would waste most of them.
 fn is_free(motion: &Motion) -> bool {
-    motion.profile == VelocityProfile::O && motion.timed.is_none() && is_known(motion)
+    let asks = match motion.profile {
+        VelocityProfile::O => true,
+        VelocityProfile::S => motion.in_gate,
+        VelocityProfile::T => false,
+    };
+    asks && motion.timed.is_none() && is_known(motion)
 }
 
 /// The next lower speed of a fine grid, on which the full speed lies: so that stretches of almost the same speed can be

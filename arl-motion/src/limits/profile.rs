@@ -34,7 +34,7 @@ impl Limits {
     }
 
     /// The highest speed of the shortest profile from rest to rest over `distance`.
-    fn peak(&self, distance: f64) -> f64 {
+    pub(crate) fn peak(&self, distance: f64) -> f64 {
         let Limits { vel, acc, jerk } = *self;
         let ramp = acc / jerk;
         // The speed whose two ramps take up the whole distance: with the full acceleration, else without.

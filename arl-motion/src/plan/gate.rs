@@ -7,7 +7,8 @@
 use crate::command::error::PlanError;
 use crate::command::joints::{Joints, is_unset};
 use crate::command::{Command, Gate, LARGEST_ZONE, Lift, Settings, Speed, Target, Zone};
-use crate::plan::motion::Motion;
+use crate::limits::profile::{Change, Limits, State};
+use crate::plan::motion::{CornerEnd, GivenCorner, Motion};
 use crate::plan::planner::Planner;
 use arl_robot::kinematics::Kinematics;
 use arl_robot::robot::Robot;
@@ -18,6 +19,8 @@ const LIFT_AXIS: usize = 2;
 const NO_DISTANCE_MM: f64 = 1e-6;
 /// How much of the way over a corner may take.
 const LARGEST_CORNER_SHARE: f64 = 0.5;
+/// An acceleration of the form of a corner takes so many s to rise at least, also without a limit of the jerk.
+const LEAST_RISE_S: f64 = 0.004;
 /// The part of the way down that a corner leaves to stop in, whatever is asked for.
 const STOPPING_SHARE: f64 = 0.02;
 /// The zone of a gate that goes on without a stop, in percent of the largest.
@@ -74,28 +77,71 @@ pub(crate) fn plan(
     }
     let (up, over) = (at(start, top), at(&end, top));
     let mut motions = Vec::with_capacity(3);
-    let mut push = |motion: Motion, corner: Option<(f64, f64)>| {
-        motions.push(Motion { corner, ends: false, zone: Zone::NONE, ..motion });
+    let mut push = |motion: Motion, corner: Option<GivenCorner>| {
+        motions.push(Motion { corner, ends: false, zone: Zone::NONE, in_gate: true, ..motion });
     };
     // The share of a way of the lift that is left when it has gone straight for so long.
     let rest = |way: f64, straight: f64| 1.0 - (straight / way).min(1.0);
-    let round = |leaving: f64, joining: f64| (leaving > 0.0 && joining > 0.0).then_some((leaving, joining));
+    let going_over = part(&up, over, &(command.clone(), *settings))?;
     if top - from > NO_DISTANCE_MM {
-        push(part(start, up, &lifting(&gate.rising))?, round(rest(top - from, gate.rise), LARGEST_CORNER_SHARE));
+        let rising = part(start, up, &lifting(&gate.rising))?;
+        let corner = corner(&rising, rest(top - from, gate.rise), &going_over);
+        push(rising, corner.map(|[lift, over]| GivenCorner { leaving: lift.reversed(), joining: over }));
     }
-    let sinks = top - to > NO_DISTANCE_MM && !gate.stays;
-    // Where it goes on smoothly, the corner leaves the next blend its part.
-    let most = 1.0 - if gate.smooth { SMOOTH_ZONE_PERCENT / 100.0 * LARGEST_ZONE } else { STOPPING_SHARE };
-    let corner = if sinks { round(LARGEST_CORNER_SHARE, rest(top - to, gate.sink).min(most)) } else { None };
-    push(part(&up, over, &(command.clone(), *settings))?, corner);
-    if sinks {
-        push(part(&over, end, &lifting(&gate.falling))?, None);
+    if top - to > NO_DISTANCE_MM && !gate.stays {
+        let sinking = part(&over, end, &lifting(&gate.falling))?;
+        // Where it goes on smoothly, the corner leaves the next blend its part.
+        let most = 1.0 - if gate.smooth { SMOOTH_ZONE_PERCENT / 100.0 * LARGEST_ZONE } else { STOPPING_SHARE };
+        let corner = corner(&sinking, rest(top - to, gate.sink).min(most), &going_over);
+        push(going_over, corner.map(|[lift, over]| GivenCorner { leaving: over.reversed(), joining: lift }));
+        push(sinking, None);
+    } else {
+        push(going_over, None);
     }
     if let Some(last) = motions.last_mut() {
         (last.ends, last.zone) = (true, zone(gate));
     }
     share_out(&mut motions);
     Ok(motions)
+}
+
+/// The corner that takes `share` of a way of the lift: while the lift goes from there to where it rests, the way over begins. Returns how it
+/// meets both, each seen from where the other one rests. So a corner takes about as long as both of them would by
+/// themselves, and neither waits for the other one.
+fn corner(lifting: &Motion, share: f64, over: &Motion) -> Option<[CornerEnd; 2]> {
+    let [lift, over] = [lifting, over].map(|motion| motion.limits.map(|limits| limits.rising_in(LEAST_RISE_S)));
+    let (lift, over) = (lift?, over?);
+    if share <= 0.0 {
+        return None;
+    }
+    let time = time_to(&lift, share);
+    let over_time = time.min(time_to(&over, LARGEST_CORNER_SHARE));
+    let end = |part: f64, state: State, time: f64| {
+        // A lift that has hardly set off is met as fast as it is on average.
+        CornerEnd { part, speed: (state.vel * time).max(part), acc: state.acc * time * time }
+    };
+    let (lifted, gone_over) = (state_after(&lift, time), state_after(&over, over_time));
+    // A way over that is short has the same form in less time.
+    Some([end(share, lifted, time), end(gone_over.at, gone_over, over_time)])
+}
+
+/// How long a motion from rest to rest takes at least for a share of its way from one end, in s.
+fn time_to(limits: &Limits, share: f64) -> f64 {
+    let half = |share: f64| limits.duration(2.0 * share) / 2.0;
+    if share <= 0.5 { half(share) } else { limits.duration(1.0) - half(1.0 - share) }
+}
+
+/// How far a motion from rest to rest has come, and how fast it is, so many s after its start.
+fn state_after(limits: &Limits, time: f64) -> State {
+    let whole = limits.duration(1.0);
+    let peak = limits.peak(1.0);
+    let speeding_up = Change::new(0.0, 0.0, peak, limits);
+    if 2.0 * time <= whole {
+        return speeding_up.after(State::default(), time);
+    }
+    // What is left is the same, seen from the other end.
+    let left = speeding_up.after(State::default(), (whole - time).max(0.0));
+    State { at: 1.0 - left.at, vel: left.vel, acc: -left.acc }
 }
 
 /// Lets each part be as much of the gate as it takes of the time.

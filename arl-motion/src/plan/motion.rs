@@ -36,8 +36,10 @@ pub struct Motion {
     /// The angle in deg by which the tool turns on its path, 0 for axis motions.
     pub(crate) angle: f64,
     pub(crate) zone: Zone,
-    /// The parts of this motion and of the next one that a blend takes, where that is not left to the zone.
-    pub(crate) corner: Option<(f64, f64)>,
+    /// The form of the blend with the next motion, where that is not left to the zone.
+    pub(crate) corner: Option<GivenCorner>,
+    /// Whether it is a part of a gate.
+    pub(crate) in_gate: bool,
     /// Whether the instruction ends with it.
     pub(crate) ends: bool,
     /// From which share of the instruction to which it goes.
@@ -115,6 +117,37 @@ impl Motion {
     /// The length of the TCP's path in mm; 0 for axis motions.
     pub fn length(&self) -> f64 {
         self.length
+    }
+}
+
+/// A blend between two motions of the axes that is given: where it leaves the first one and where it joins the second.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct GivenCorner {
+    pub(crate) leaving: CornerEnd,
+    pub(crate) joining: CornerEnd,
+}
+
+/// One end of a given blend, in parts of the motion that is met there.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) struct CornerEnd {
+    /// How much of the motion the blend takes.
+    pub(crate) part: f64,
+    /// How fast the motion is met, as it goes on, and how that speed rises: by the blend's own parameter, which goes from 0 to 1.
+    pub(crate) speed: f64,
+    pub(crate) acc: f64,
+}
+
+impl CornerEnd {
+    /// The same where the motion is gone the other way.
+    pub(crate) fn reversed(self) -> Self {
+        Self { acc: -self.acc, ..self }
+    }
+}
+
+impl GivenCorner {
+    /// The parts that it takes.
+    pub(crate) fn parts(&self) -> (f64, f64) {
+        (self.leaving.part, self.joining.part)
     }
 }
 

@@ -22,7 +22,7 @@ fn tcp_zone(distance: f64) -> Zone {
 }
 
 /// Distance in mm of a point from the line between two others.
-fn off(at: &nalgebra::Vector3<f64>, a: &nalgebra::Vector3<f64>, b: &nalgebra::Vector3<f64>) -> f64 {
+pub(super) fn off(at: &nalgebra::Vector3<f64>, a: &nalgebra::Vector3<f64>, b: &nalgebra::Vector3<f64>) -> f64 {
     let way = b - a;
     let along = ((at - a).dot(&way) / way.norm_squared()).clamp(0.0, 1.0);
     (at - a - way * along).norm()

@@ -176,3 +176,38 @@ fn gates_go_on_smoothly_into_each_other() {
     let numbers: Vec<u64> = rows.iter().skip(1).map(|row| row.motion).collect();
     assert!(numbers.windows(2).all(|pair| pair[1] == pair[0] || pair[1] == pair[0] + 1) && numbers.last() == Some(&3));
 }
+
+/// The least time in s of an axis from rest over a way, at whose end it may be at any speed.
+fn least_rise(robot: &Robot, profile: VelocityProfile, way: f64) -> f64 {
+    let lift = &robot.axes[2];
+    let jerk = if profile == VelocityProfile::T { 1e9 } else { lift.jerk };
+    let limits = crate::limits::profile::Limits { vel: lift.vel, acc: lift.acc, jerk };
+    // Half of a motion from rest to rest over twice the way.
+    limits.duration(2.0 * way) / 2.0
+}
+
+/// A gate is beside its lower bound: rising from rest without a stop, the way over alone, and sinking into rest.
+#[test]
+fn gates_take_little_longer_than_rising_going_over_and_sinking() {
+    let robot = robot("hsr065");
+    let (from, to) = (at([-80.0, 60.0, 0.0, 10.0]), at([30.0, 70.0, 20.0, -90.0]));
+    for (profile, most) in [(VelocityProfile::T, 1.09), (VelocityProfile::S, 1.06), (VelocityProfile::O, 1.06)] {
+        let settings = Settings { profile, ..Settings::default() };
+        for rise in [10.0, 15.0, 25.0, 40.0, 60.0] {
+            let (rows, _) = run_gate(&robot, &from, &to, plain(rise, rise), &settings);
+            let [vel, acc, jerk] = usage(&robot, &rows);
+            assert!(
+                vel <= 1.01 && acc <= 1.01 && (jerk <= 1.01 || profile == VelocityProfile::T),
+                "{profile:?} {rise}"
+            );
+            let mut queue = Queue::new(robot.clone(), from);
+            let mut over = rows.last().unwrap().joints;
+            over.axes[2] = from.axes[2];
+            queue.add(&movej(over.axes), &settings).unwrap();
+            let over = (run(&mut queue, 100.0).len() - 1) as f64 * CYCLE;
+            let bound = over + 2.0 * least_rise(&robot, profile, rise);
+            let took = (rows.len() - 1) as f64 * CYCLE;
+            assert!(took <= most * bound, "{profile:?}, {rise} mm: {took} s, {bound} s at least");
+        }
+    }
+}

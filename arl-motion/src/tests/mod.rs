@@ -5,6 +5,7 @@ mod carried;
 mod chained_overlays;
 mod chains;
 mod compensations;
+mod dense_chains;
 mod gates;
 mod optimal;
 mod plans;

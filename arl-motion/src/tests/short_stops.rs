@@ -4,7 +4,7 @@ use crate::tests::*;
 use arl_robot::robot::VelocityProfile;
 
 /// How much longer a stop may take than one of the axes would alone.
-const LONGER: f64 = 3.0;
+const LONGER: f64 = 3.5;
 
 /// Chains of which most have a place where nothing but looking for the shortest way to rest finds a short one.
 const CHAINS: [(VelocityProfile, [(&str, u64); 4]); 3] = [

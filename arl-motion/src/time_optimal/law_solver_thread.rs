@@ -212,14 +212,15 @@ fn find(sampler: &ConstraintSampler, start: Edge, wanted: impl Fn() -> bool) -> 
 fn temperate(sampler: &ConstraintSampler, way: &Way, start: Edge, wanted: &impl Fn() -> bool) -> Option<(Law, f64)> {
     let mut limits = way.clone();
     let mut best: Option<(Law, f64)> = None;
-    let mut speeds = None;
+    let mut speeds: Option<Vec<f64>> = None;
     for round in 0..=MOST_TEMPERINGS {
-        let solved = match speeds {
-            Some(speeds) => fastest_near(&limits, start, Edge::REST, speeds),
+        let solved = match &speeds {
+            Some(speeds) => fastest_near(&limits, start, Edge::REST, speeds.clone()),
             None => fastest(&limits, start, Edge::REST),
         };
         let Some(law) = solved.ok().filter(|_| wanted()) else { break };
-        speeds = law.paced_speeds();
+        // Always those of the first law: what is lowered for one parameter is lowered for it.
+        speeds = speeds.or_else(|| law.paced_speeds());
         let mut used = used_by_law(way, &law, TEMPERED_USE)?;
         if used.beyond.is_empty() {
             used = used_by_set_points(sampler, &law, 1.0, TEMPERED_USE);

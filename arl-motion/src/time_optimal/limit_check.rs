@@ -186,14 +186,14 @@ impl Look<'_> {
         let (way, places) = (self.way, self.way.places());
         let used = |rows: &[Row]| used(rows, now, self.harder);
         let next = places.partition_point(|place| *place <= now.at).clamp(1, places.len() - 1);
+        let [before, behind] = [way.rows_behind(next - 1), way.rows_before(next)].map(used);
         match self.between {
-            Between::Least => used(way.rows(next - 1)).min(used(way.rows(next))),
+            Between::Least => before.min(behind),
             Between::Even => {
                 let part = (now.at - places[next - 1]) / (places[next] - places[next - 1]);
-                let [before, behind] = [way.rows_behind(next - 1), way.rows_before(next)].map(used);
                 before + part.clamp(0.0, 1.0) * (behind - before)
             }
-            Between::Most => used(way.rows_behind(next - 1)).max(used(way.rows_before(next))),
+            Between::Most => before.max(behind),
         }
     }
 }

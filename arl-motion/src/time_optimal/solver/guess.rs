@@ -47,16 +47,17 @@ pub(crate) fn guess_speeds(way: &Way, warp: &Warp, places: &[f64], edges: [Edge;
 /// With so few places none is left out: a law is found soon enough.
 const FEW_PLACES: usize = 160;
 
-/// The way without places that are closer together than about so many s; `None` where it has few of them.
+/// The way without places that are closer together than about so many s, but for those where derivatives jump; `None` where it has few of
+/// them.
 pub(crate) fn thinned(way: &Way, edges: [Edge; 2], closest: f64) -> Option<Way> {
     let (from, to) = way.span().ok().filter(|_| way.places().len() > FEW_PLACES)?;
     let warp = Warp::new(from, to, edges[0].rests(), edges[1].rests());
     let places: Vec<f64> = way.places().iter().map(|at| warp.find(*at)).collect();
     let speeds = guess_speeds(way, &warp, &places, edges);
     let (mut since, mut keep) = (0.0, vec![true]);
-    for (place, speed) in places.windows(2).zip(speeds.windows(2)) {
+    for (index, (place, speed)) in (1..).zip(places.windows(2).zip(speeds.windows(2))) {
         since += (place[1] - place[0]) / f64::midpoint(speed[0], speed[1]);
-        let far = since >= closest;
+        let far = since >= closest || way.jumps(index);
         keep.push(far);
         since = if far { 0.0 } else { since };
     }

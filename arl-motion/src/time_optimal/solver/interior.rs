@@ -12,7 +12,7 @@ use std::ops::Range;
 use crate::time_optimal::solver::banded::Banded;
 use crate::time_optimal::solver::lanes::{LANES, Lanes};
 use crate::time_optimal::solver::law::Law;
-use crate::time_optimal::solver::program::{Limits, Program, Site, dot};
+use crate::time_optimal::solver::program::{Beginning, Limits, Program, Site, dot};
 use crate::time_optimal::solver::{Edge, Refusal, Way};
 
 /// At most so many steps are taken; 15 to 30 are needed.
@@ -59,6 +59,10 @@ fn settle(program: &mut Program) -> Result<Vec<f64>, Refusal> {
     Ok(coefficients)
 }
 
+/// A law is found again over its own speeds as long as its duration falls by at least this part, so many times at most.
+const LEAST_GAIN: f64 = 0.003;
+const MOST_APPROACHES: usize = 6;
+
 /// Slacks and prices of limits, and their changes in a step.
 #[derive(Clone, Copy, Default, Debug)]
 struct Prices {
@@ -70,11 +74,19 @@ struct Prices {
 
 /// The fastest motion within all limits of `way`.
 pub(crate) fn solve(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
-    let law = solve_near(way, start, end, None)?;
+    let mut law = solve_near(way, start, end, None)?;
     // Between two places nothing but the acceleration's slope is free. With a parameter that goes as the time does that is enough; the
     // guess is not that near.
-    let nearer = law.paced_speeds().and_then(|speeds| solve_near(way, start, end, Some(speeds)).ok());
-    Ok(nearer.unwrap_or(law))
+    for _ in 0..MOST_APPROACHES {
+        let nearer = law.paced_speeds().and_then(|speeds| solve_near(way, start, end, Some(speeds)).ok());
+        let Some(nearer) = nearer.filter(|nearer| nearer.duration() < law.duration()) else { break };
+        let gain = 1.0 - nearer.duration() / law.duration();
+        law = nearer;
+        if gain < LEAST_GAIN {
+            break;
+        }
+    }
+    Ok(law)
 }
 
 /// The same, of which the warped parameter's speeds are about known.
@@ -82,8 +94,20 @@ pub(crate) fn solve_near(way: &Way, start: Edge, end: Edge, known: Option<Vec<f6
     if way.places().len() < 3 {
         return Err(Refusal::Short);
     }
-    let mut program = Program::new(way, start, end, known)?;
-    let coefficients = settle(&mut program)?;
+    // From a state that is given neither beginning always leads to a motion.
+    let from = |beginning: Beginning, known: Option<Vec<f64>>| {
+        let mut program = Program::new(way, [start, end], known, beginning)?;
+        let coefficients = settle(&mut program)?;
+        Ok(law(program, &coefficients))
+    };
+    match from(Beginning::Guessed, known.clone()) {
+        Err(Refusal::Fast) => from(Beginning::Smooth, known),
+        found => found,
+    }
+}
+
+/// The motion with these coefficients.
+fn law(program: Program, coefficients: &[f64]) -> Law {
     let mut squares = Vec::with_capacity(program.places.len());
     let mut laws = Vec::with_capacity(program.stretches.len());
     for (stretch, three) in program.stretches.iter().zip(coefficients.windows(3)) {
@@ -96,7 +120,7 @@ pub(crate) fn solve_near(way: &Way, start: Edge, end: Edge, known: Option<Vec<f6
         squares.push(to.0 * program.unit);
     }
     let Program { warp, places, .. } = program;
-    Ok(Law::new(warp, &places, &squares, laws.into_iter()))
+    Law::new(warp, &places, &squares, laws.into_iter())
 }
 
 /// The way up to the optimum.

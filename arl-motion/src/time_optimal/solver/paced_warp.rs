@@ -73,6 +73,11 @@ impl PacedWarp {
         (!self.is_even).then(|| self.knots.iter().zip(own).map(|(knot, own)| knot.first * own).collect())
     }
 
+    /// How fast this one goes at the places where the warped parameter has these speeds.
+    pub(crate) fn own_speeds(&self, warped: &[f64]) -> impl Iterator<Item = f64> {
+        self.knots.iter().zip(warped).map(|(knot, speed)| speed / knot.first)
+    }
+
     /// The warped parameter itself.
     pub(crate) fn even(warp: Warp, places: &[f64]) -> Self {
         let knot = |at: &f64| Knot { at: *at, value: *at, first: 1.0, second: 0.0, third: 0.0 };

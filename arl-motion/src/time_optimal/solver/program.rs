@@ -84,6 +84,18 @@ fn behind(place: usize) -> usize {
     2 * place + 1
 }
 
+/// The motion to begin with, where a state at an end is given.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Beginning {
+    /// No faster than is guessed at any place: near the optimum where places differ much.
+    Guessed,
+    /// Smoothly from end to end.
+    Smooth,
+}
+
+/// Of the square of a guessed speed the first motion has this share: it may be too high a guess.
+const SHARE_OF_GUESS: f64 = 0.5;
+
 /// By so much acceleration and jerk are limited more strictly, for what happens between the places, and to leave room for
 /// a motion that starts on the way of another; that one has no such reserve.
 const RESERVE: f64 = 1.005;
@@ -95,7 +107,12 @@ const ALMOST_REST: f64 = 1e-9;
 
 impl Program {
     /// With what the warped parameter's speeds are about, where that is known.
-    pub(crate) fn new(way: &Way, start: Edge, end: Edge, known: Option<Vec<f64>>) -> Result<Self, Refusal> {
+    pub(crate) fn new(
+        way: &Way,
+        [start, end]: [Edge; 2],
+        known: Option<Vec<f64>>,
+        beginning: Beginning,
+    ) -> Result<Self, Refusal> {
         let (from, to) = way.span()?;
         let warp = Warp::new(from, to, start.rests(), end.rests());
         let last = way.places().len() - 1;
@@ -107,10 +124,12 @@ impl Program {
         let places: Vec<f64> = way.places().iter().enumerate().map(place).collect();
         // Without jerk limits it is faster everywhere.
         let most = reach::squares(way, start, end)?;
+        let guess = guess_speeds(way, &warp, &places, [start, end]);
         let warp = match known {
             Some(speeds) => PacedWarp::near(warp, &places, speeds),
-            None => PacedWarp::guessed(warp, &places, guess_speeds(way, &warp, &places, [start, end])),
+            None => PacedWarp::guessed(warp, &places, guess.clone()),
         };
+        let guess: Vec<f64> = warp.own_speeds(&guess).collect();
         let places: Vec<f64> = warp.places().collect();
         let mut rows = Vec::new();
         let mut ends = vec![0];
@@ -157,11 +176,11 @@ impl Program {
             fixed: [!start.rests(), !end.rests()],
             screen,
             middles,
-            jumps: (0..=last).map(|index| way.rows_before(index).len() < way.rows(index).len()).collect(),
+            jumps: (0..=last).map(|index| way.jumps(index)).collect(),
         };
         program.lay(last);
         program.limit();
-        program.begin(start, end);
+        program.begin([start, end], &guess, beginning);
         Ok(program)
     }
 
@@ -278,12 +297,12 @@ impl Program {
     }
 
     /// The coefficients to begin with: those that the edges give, and others that lead away from them smoothly.
-    fn begin(&mut self, start: Edge, end: Edge) {
+    fn begin(&mut self, [start, end]: [Edge; 2], guess: &[f64], beginning: Beginning) {
         let Self { first, fixed, places, unit, warp, .. } = self;
+        let last = places.len() - 1;
         if *fixed == [false; 2] {
             return;
         }
-        let last = places.len() - 1;
         let length = places[last];
         // x and its slope at both ends; and the way over which the slope fades out.
         let state = |edge: Edge, at: usize, fixed: bool| {
@@ -306,6 +325,11 @@ impl Program {
             let blend = share * share * (3.0 - 2.0 * share);
             let faded = from.1 * at * (-at / from.2).exp() - to.1 * left * (-left / to.2).exp();
             *slot = (from.0 + (to.0 - from.0) * blend + faded).max(least);
+            if beginning == Beginning::Guessed {
+                let beside = [index.saturating_sub(1), index.min(last)].map(|at| guess.get(at).copied());
+                let speed = beside.into_iter().flatten().fold(f64::INFINITY, f64::min);
+                *slot = slot.min(SHARE_OF_GUESS * speed * speed / *unit);
+            }
         }
         let widths = [places[1], places[last - 1] - length];
         let size = first.len();

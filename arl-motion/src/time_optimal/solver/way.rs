@@ -98,6 +98,11 @@ impl Way {
         self.rows.get(start..end).unwrap_or_default()
     }
 
+    /// Whether derivatives jump at the place `index`.
+    pub(crate) fn jumps(&self, index: usize) -> bool {
+        self.rows_before(index).len() < self.rows(index).len()
+    }
+
     /// The places' path parameters.
     pub fn places(&self) -> &[f64] {
         &self.at

@@ -1,0 +1,56 @@
+//! Chains of lines whose corners are so flat that the whole of both halves can be rounded off without leaving them noticeably.
+//!
+//! A dense chain stands for a smooth path. Where its zones took less than half of each line, the curvature would rise and fall
+//! once a line, and jerk would allow but a small part of the speed. So the size of a zone says nothing there: a curve
+//! that stays that close to the programmed lines is on them.
+
+use nalgebra::SVector;
+
+use crate::command::LARGEST_ZONE;
+use crate::geometry::track::Track;
+use crate::plan::curve::Curve;
+use crate::plan::motion::Motion;
+
+/// How far such a curve leaves the lines at most, in mm: of the TCP, and of linear external axes.
+const MOST_OFF_MM: f64 = 0.001;
+/// How far the tool, and turning external axes, are off at most, in deg.
+const MOST_OFF_DEG: f64 = 0.001;
+/// A curve with curvature in the middle of lines (see [`crate::blend::mid_curvature`]) leaves a corner by no more than this part of its
+/// zone times the change of direction, in rad.
+const OFF_PER_TURN: f64 = 0.25;
+/// Lines of which one is more times as long as the other, or with speeds that differ by a larger part, are no chain.
+const MOST_TIMES_AS_LONG: f64 = 4.0;
+const LARGEST_DIFFERENCE_OF_SPEEDS: f64 = 0.01;
+
+/// Whether the corner between two motions is one of such a chain.
+pub(crate) fn is_smooth(from: &Motion, to: &Motion) -> bool {
+    let plain = |motion: &Motion| motion.laid.is_none() && motion.timed.is_none() && motion.corner.is_none();
+    let (Curve::Tool(a), Curve::Tool(b)) = (&from.curve, &to.curve) else { return false };
+    let (Track::Poly(way), Track::Poly(way_on)) = (&a.path.track, &b.path.track) else { return false };
+    if !(plain(from) && plain(to) && a.is_even() && b.is_even() && a.goes_on(LARGEST_ZONE, b, LARGEST_ZONE)) {
+        return false;
+    }
+    let (shorter, longer) = (from.length.min(to.length), from.length.max(to.length));
+    let speeds = [from, to].map(|motion| motion.rate * motion.length);
+    let [slower, faster] = [speeds[0].min(speeds[1]), speeds[0].max(speeds[1])];
+    if shorter <= 1e-9
+        || longer > MOST_TIMES_AS_LONG * shorter
+        || slower < faster * (1.0 - LARGEST_DIFFERENCE_OF_SPEEDS)
+    {
+        return false;
+    }
+    let zone = LARGEST_ZONE * shorter;
+    // Derivatives by the parameter of each line become those by its length.
+    let off = |first: f64, second: f64| OFF_PER_TURN * zone * (second / to.length - first / from.length).abs();
+    let norm_off = |first: [f64; 3], second: [f64; 3]| {
+        let [first, second] = [SVector::from(first) / from.length, SVector::from(second) / to.length];
+        OFF_PER_TURN * zone * (second - first).norm()
+    };
+    let moved = norm_off(way.derivative(1, 1.0), way_on.derivative(1, 0.0));
+    let [turning, ..] = a.rotation_rates(1.0);
+    let [turning_on, ..] = b.rotation_rates(0.0);
+    let turned = norm_off(turning.into(), turning_on.into()).to_degrees();
+    let external = a.external.derivative(1, 1.0).into_iter().zip(b.external.derivative(1, 0.0));
+    let external = external.map(|(first, second)| off(first, second)).fold(0.0, f64::max);
+    moved <= MOST_OFF_MM && turned <= MOST_OFF_DEG && external <= MOST_OFF_MM.min(MOST_OFF_DEG)
+}

@@ -1,0 +1,133 @@
+//! Dense chains of lines stand for a smooth path, whatever their zones.
+
+use arl_robot::robot::VelocityProfile;
+
+use crate::tests::*;
+
+/// The length of each line in mm, how many there are, and their speed in mm/s.
+const STEP: f64 = 0.2;
+const LINES: u32 = 5000;
+const SPEED: f64 = 500.0;
+/// Where the path starts, in deg.
+const START: [f64; 6] = [35.0, -90.0, 90.0, 0.0, 45.0, 0.0];
+
+/// The targets of a winding path, of 130 mm radius at least, in mm from its start.
+fn winding() -> Vec<[f64; 2]> {
+    let mut at = [0.0, 0.0];
+    let next = |index: u32| {
+        let heading = 0.6 * (f64::from(index) * STEP * std::f64::consts::TAU / 500.0).sin();
+        at = [at[0] + STEP * heading.sin(), at[1] + STEP * heading.cos()];
+        at
+    };
+    (0..LINES).map(next).collect()
+}
+
+/// Runs the path with a zone in mm.
+fn wind(robot: &Arc<Robot>, zone: f64, profile: VelocityProfile) -> Vec<Step> {
+    let start = axes(START);
+    let mut queue = Queue::new(robot.clone(), start);
+    let settings = Settings { profile, ..Settings::default() };
+    let origin = frame_components(&robot.kinematics.forward(&START));
+    let mut targets = winding().into_iter().peekable();
+    let mut rows = vec![Step { joints: start, tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+    while targets.peek().is_some() || !queue.idle() {
+        while queue.has_room()
+            && let Some([across, along]) = targets.next()
+        {
+            let pose = [origin[0] + across, origin[1] + along, origin[2], origin[3], origin[4], origin[5]];
+            let zone = Zone { tcp: zone, ..Zone::NONE };
+            queue.add(&Command { zone, speed: Speed { tcp: SPEED, ..fast() }, ..lin(pose) }, &settings).unwrap();
+        }
+        rows.push(queue.step(CYCLE, 100.0));
+        assert!(rows.len() < 100_000);
+    }
+    rows
+}
+
+#[test]
+fn dense_lines_keep_their_speed_whatever_their_zone() {
+    let robot = robot("kr10-r1420");
+    for profile in [VelocityProfile::T, VelocityProfile::S, VelocityProfile::O] {
+        let with_halves = wind(&robot, 0.1, profile);
+        assert_within_limits(
+            &robot,
+            &with_halves[..if profile == VelocityProfile::T { 1 } else { with_halves.len() }],
+            "winding",
+        );
+        let travels =
+            with_halves.windows(2).map(|pair| pair[1].tcp.translation.vector - pair[0].tcp.translation.vector);
+        let speeds: Vec<f64> = travels.map(|travel| travel.norm() / CYCLE).collect();
+        let keeps = |speed: &f64| *speed >= 0.99 * SPEED;
+        let (first, last) = (speeds.iter().position(keeps).unwrap(), speeds.iter().rposition(keeps).unwrap());
+        assert!(speeds[first..=last].iter().all(keeps), "{profile:?}");
+        // The ramps.
+        assert!(first < 200 && speeds.len() - last < 250, "{profile:?}: {first}, {}", speeds.len() - last);
+        for zone in [0.099_999_9, 0.100_000_1, 0.08, 0.02, 0.002] {
+            let rows = wind(&robot, zone, profile);
+            let same =
+                rows.len() == with_halves.len() && rows.iter().zip(&with_halves).all(|(a, b)| a.joints == b.joints);
+            assert!(same, "{profile:?}: a zone of {zone} mm, {} cycles, {} with halves", rows.len(), with_halves.len());
+        }
+    }
+}
+
+#[test]
+fn dense_lines_are_left_by_a_thousandth_of_a_millimetre_at_most() {
+    let robot = robot("kr10-r1420");
+    let start = robot.kinematics.forward(&START).translation.vector;
+    let targets: Vec<_> = [[0.0; 2]].into_iter().chain(winding()).collect();
+    let mut line = 0;
+    for row in wind(&robot, 0.02, VelocityProfile::S) {
+        let travel = row.tcp.translation.vector - start;
+        assert!(travel.z.abs() < 1e-6);
+        let off = |index: usize| {
+            let [from, to] = [targets[index], targets[index + 1]].map(|[x, y]| nalgebra::Vector3::new(x, y, 0.0));
+            super::blends::off(&travel, &from, &to)
+        };
+        while line + 2 < targets.len() && off(line + 1) < off(line) {
+            line += 1;
+        }
+        assert!(off(line) <= 0.001, "{} mm off line {line}", off(line));
+    }
+    assert_eq!(line, targets.len() - 2);
+}
+
+#[test]
+fn lines_that_turn_sharply_or_change_their_speed_keep_their_zones() {
+    let robot = robot("kr10-r1420");
+    let start = axes(START);
+    let [x, y, z, a, b, c] = frame_components(&robot.kinematics.forward(&START));
+    // How far the lines turn in deg, how long they are in mm, their speeds in mm/s, and what is used of a zone of a tenth.
+    let cases = [
+        (0.01, [0.2, 0.2], [500.0, 500.0], 0.5),
+        (1.0, [0.2, 0.2], [500.0, 500.0], 0.5),
+        (5.0, [0.2, 0.2], [500.0, 500.0], 0.1),
+        (0.01, [0.2, 1.0], [500.0, 500.0], 0.1),
+        (0.01, [0.2, 0.2], [500.0, 400.0], 0.1),
+        (0.0, [80.0, 80.0], [500.0, 500.0], 0.5),
+        (0.05, [80.0, 80.0], [500.0, 500.0], 0.1),
+    ];
+    for (angle, [first, second], speeds, used) in cases {
+        let (sine, cosine) = f64::to_radians(angle).sin_cos();
+        let corner = [x, y + first, z, a, b, c];
+        let end = [x, y + first + second * cosine, z + second * sine, a, b, c];
+        let mut queue = Queue::new(robot.clone(), start);
+        for (pose, speed) in [corner, end].into_iter().zip(speeds) {
+            let command = Command {
+                zone: Zone { tcp: 0.1 * first, ..Zone::NONE },
+                speed: Speed { tcp: speed, ..fast() },
+                ..lin(pose)
+            };
+            queue.add(&command, &Settings::default()).unwrap();
+        }
+        let mut left = 1.0;
+        while !queue.idle() {
+            queue.step(CYCLE, 100.0);
+            if let Some(progress) = queue.progress().filter(|progress| progress.motion == 1) {
+                left = progress.share;
+            }
+        }
+        let way = 500.0 * CYCLE / first;
+        assert!(left <= 1.0 - used + 1e-9 && left > 1.0 - used - way.min(0.2) - 1e-9, "{angle} deg: left at {left}");
+    }
+}
