@@ -8,6 +8,7 @@ use nalgebra::{SVector, Vector3};
 
 use crate::blend::blend_limits::{Approach, BlendLimits, find_blend_limits};
 use crate::blend::mid_curvature::MidCurvature;
+use crate::blend::smoothing::is_smooth;
 use crate::blend::zone::{asked_parts, parts};
 use crate::command::LARGEST_ZONE;
 use crate::command::joints::{ALL, Joints, slowness};
@@ -56,15 +57,12 @@ pub(crate) struct Blend {
 /// The blend that the first motion's zone asks for; `None` where it asks for none, or there is no way.
 pub(crate) fn blend(robot: &Robot, from: &Motion, to: &Motion) -> Option<Blend> {
     let found = |(leaving, joining): (f64, f64)| {
-        let form =
-            Corner { robot, from, to, leaving, joining, curvatures: [MidCurvature::NONE; 2], given: from.corner };
-        form.blend().or_else(|| from.corner.and_then(|_| Corner { given: None, ..form }.blend()))
+        Corner { robot, from, to, leaving, joining, curvatures: [MidCurvature::NONE; 2] }.blend()
     };
-    let (asked, largest) = (asked_parts(robot, from, to)?, parts(robot, from, to)?);
-    let (leaving, joining) = asked;
-    let halved = (0..=ZONE_HALVINGS).map(|halvings| f64::from(1 << halvings));
-    let smaller = halved.map(|by| (leaving / by, joining / by));
-    (largest != asked).then_some(largest).into_iter().chain(smaller).find_map(found)
+    let (leaving, joining) = asked_parts(robot, from, to)?;
+    let smooth = is_smooth(from, to).then_some((LARGEST_ZONE, LARGEST_ZONE));
+    let smaller = (0..=ZONE_HALVINGS).map(|halvings| f64::from(1 << halvings)).map(|by| (leaving / by, joining / by));
+    smooth.into_iter().chain(smaller).find_map(found)
 }
 
 /// The blend from one motion, which is bent in its middle, to another. A bend is only possible where a whole half is taken.
@@ -76,7 +74,7 @@ pub(crate) fn curved_blend(robot: &Robot, from: &Motion, to: &Motion, curvatures
     {
         return None;
     }
-    Corner { robot, from, to, leaving, joining, curvatures, given: None }.blend()
+    Corner { robot, from, to, leaving, joining, curvatures }.blend()
 }
 
 #[cfg(test)]
@@ -94,8 +92,6 @@ struct Corner<'a> {
     joining: f64,
     /// How the motions are bent at the ends of the blend.
     curvatures: [MidCurvature; 2],
-    /// How the motions are met, where that is given.
-    given: Option<GivenCorner>,
 }
 
 impl Corner<'_> {
@@ -105,16 +101,14 @@ impl Corner<'_> {
         [(1.0 - self.leaving, leaving.speed), (self.joining, joining.speed)]
     }
 
-    /// How the motions are met.
+    /// How the motions are met: as is given, at the parts that are taken, or at a speed that leaves blends of lines no other
+    /// acceleration than across.
     fn met(&self) -> [CornerEnd; 2] {
-        let plain = |part: f64| CornerEnd { part, speed: TANGENT_PER_ZONE * part, acc: 0.0 };
-        let as_given = |part: f64, end: CornerEnd| {
-            let share = part / end.part;
-            CornerEnd { part, speed: end.speed * share, acc: end.acc * share }
-        };
-        match self.given {
-            Some(given) => [as_given(self.leaving, given.leaving), as_given(self.joining, given.joining)],
-            None => [plain(self.leaving), plain(self.joining)],
+        match self.from.corner {
+            Some(GivenCorner { leaving, joining }) => [leaving.taking(self.leaving), joining.taking(self.joining)],
+            None => {
+                [self.leaving, self.joining].map(|part| CornerEnd { part, speed: TANGENT_PER_ZONE * part, acc: 0.0 })
+            }
         }
     }
 
@@ -157,12 +151,8 @@ impl Corner<'_> {
                 let from = rising(axes_knot(self.robot, from, leave, slope_from, start)?, &left);
                 let to = rising(axes_knot(self.robot, to, join, slope_to, end)?, &joined);
                 let curve = Quintic::between(&from, &to);
-                let gentle = self.given.is_none() && turns_gently(&curve);
+                let gentle = self.from.corner.is_none() && turns_gently(&curve);
                 let (parametrization, time) = self.time_axes((&curve, gentle), [start_rate, end_rate]);
-                // Ends that are met too differently have no even form.
-                if self.given.is_some() && !rises(&parametrization) {
-                    return None;
-                }
                 self.look_at_axes((&curve, gentle), &parametrization, &mut constraints, &pace)?;
                 (Curve::Axes(curve), parametrization, time)
             }
@@ -311,15 +301,19 @@ impl Corner<'_> {
         });
         let timed = if gentle { Parametrization::gently(derivative, start, end) } else { None };
         timed.unwrap_or_else(|| {
-            let time = 2.0 / (rates[0] + rates[1]);
             // Where the curve is met with an acceleration, its parameter makes up for that: the motions are even.
             let [left, joined] = self.met().map(|met| -met.acc / met.speed);
-            let end = |(at, rate, surge): (f64, f64, f64), made_up: f64| {
-                let second = if surge == 0.0 { 0.0 } else { surge / derivative(1, at).norm() };
-                [rate * time, (second + made_up * rate * rate) * time * time]
+            let within = |time: f64| {
+                let end = |(at, rate, surge): (f64, f64, f64), made_up: f64| {
+                    let second = if surge == 0.0 { 0.0 } else { surge / derivative(1, at).norm() };
+                    [rate * time, (second + made_up * rate * rate) * time * time]
+                };
+                let [first, last] = ends;
+                (Parametrization::between([end(first, left), end(last, joined)]), time)
             };
-            let [first, last] = ends;
-            (Parametrization::between([end(first, left), end(last, joined)]), time)
+            let mean = within(2.0 / (rates[0] + rates[1]));
+            // In less time it goes forwards all along.
+            if rises(&mean.0) { mean } else { within(1.0 / rates[0].max(rates[1])) }
         })
     }
 
@@ -371,9 +365,9 @@ impl Corner<'_> {
     }
 }
 
-/// Whether a curve goes forwards all along, nowhere at less than a tenth of its mean speed.
+/// Whether a curve's parameter goes forwards all along.
 fn rises(parametrization: &Parametrization) -> bool {
-    shares::<{ PARTS_OF_BLEND as usize + 1 }>().iter().all(|share| parametrization.derivative(1, *share) >= 0.1)
+    shares::<{ PARTS_OF_BLEND as usize + 1 }>().iter().all(|share| parametrization.derivative(1, *share) > 0.0)
 }
 
 /// Shares of the whole, from 0 to 1.

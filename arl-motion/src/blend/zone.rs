@@ -31,7 +31,7 @@ enum Measure {
 pub struct Rounding {
     /// The size that was asked for.
     pub asked: f64,
-    /// The size that was used, of the asked one; 0 where the robot stops at the target.
+    /// The size that was used, at most the asked one; 0 where the robot stops at the target.
     pub used: f64,
     /// `%` of the largest zone, `mm`, or `deg`.
     pub unit: &'static str,
@@ -40,7 +40,7 @@ pub struct Rounding {
 /// The zone of a motion that is left at the share `leave`; `None` where none was asked for.
 pub(crate) fn rounding(robot: &Robot, motion: &Motion, leave: f64) -> Option<Rounding> {
     let (measure, size, asked) = leaving(robot, motion)?;
-    // What is rounded off before that is within a thousandth of a millimetre.
+    // In a dense chain more may be rounded off: that stays on the path but for a thousandth of a millimetre.
     let part = (1.0 - leave).min(asked);
     let leave = 1.0 - part;
     Some(match (measure, &motion.curve) {
@@ -68,7 +68,7 @@ pub(crate) fn parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f
     Some(if is_smooth(from, to) { (LARGEST_ZONE, LARGEST_ZONE) } else { asked })
 }
 
-/// The parts that the zone asks for.
+/// The parts that the zone asks for, or that are given.
 pub(crate) fn asked_parts(robot: &Robot, from: &Motion, to: &Motion) -> Option<(f64, f64)> {
     if let Some(given) = &from.corner {
         return Some(given.parts());

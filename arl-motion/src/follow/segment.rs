@@ -362,9 +362,8 @@ fn is_known(motion: &Motion) -> bool {
     motion.laid.is_none()
 }
 
-/// Whether every place of a motion has limits of its own: in the profile O, and in gates in the profile S, unless its duration is given or
-/// it weaves, which wants an even speed. A gate is known from rest to rest, and its lift is so much faster than its corners
-/// that constant limits would waste most of them.
+/// Whether every place of a motion has limits of its own: in the profile O, and in the profile S along gates, where constant limits would
+/// waste most of their corners; unless its duration is given or it weaves, which wants an even speed.
 fn is_free(motion: &Motion) -> bool {
     let asks = match motion.profile {
         VelocityProfile::O => true,

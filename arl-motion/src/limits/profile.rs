@@ -34,7 +34,7 @@ impl Limits {
     }
 
     /// The highest speed of the shortest profile from rest to rest over `distance`.
-    pub(crate) fn peak(&self, distance: f64) -> f64 {
+    fn peak(&self, distance: f64) -> f64 {
         let Limits { vel, acc, jerk } = *self;
         let ramp = acc / jerk;
         // The speed whose two ramps take up the whole distance: with the full acceleration, else without.
@@ -51,7 +51,29 @@ impl Limits {
         2.0 * ramp.duration() + if peak > 0.0 { rest / peak } else { 0.0 }
     }
 
-    /// The same where slowing down counts on `braking` times the acceleration and jerk only.
+    /// How long the shortest profile from rest to rest over 1 takes for a share of that from its start.
+    pub(crate) fn time_to(&self, share: f64) -> f64 {
+        let (mut before, mut behind) = (0.0, self.duration(1.0));
+        for _ in 0..60 {
+            let middle = f64::midpoint(before, behind);
+            if self.state_after(middle).at < share { before = middle } else { behind = middle }
+        }
+        behind
+    }
+
+    /// The state of the same profile `time` after its start.
+    pub(crate) fn state_after(&self, time: f64) -> State {
+        let whole = self.duration(1.0);
+        let speeding_up = Change::new(0.0, 0.0, self.peak(1.0), self);
+        if 2.0 * time <= whole {
+            return speeding_up.after(State::default(), time);
+        }
+        // What is left is the same, seen from the other end.
+        let left = speeding_up.after(State::default(), (whole - time).max(0.0));
+        State { at: 1.0 - left.at, vel: left.vel, acc: -left.acc }
+    }
+
+    /// [`Limits::duration`] where slowing down counts on `braking` times the acceleration and jerk only.
     pub(crate) fn duration_braking(&self, distance: f64, braking: f64) -> f64 {
         let gently = Self { acc: self.acc * braking, jerk: self.jerk * braking, ..*self };
         let ramps = |peak: f64| [Change::new(0.0, 0.0, peak, self), Change::new(peak, 0.0, 0.0, &gently)];
@@ -190,6 +212,22 @@ mod tests {
         // Jerk only: four equal phases of t with 2 j t3 covered.
         let limits = Limits { vel: 10.0, acc: 10.0, jerk: 4.0 };
         assert!((limits.duration(1.0) - 4.0 * 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_profile_is_where_it_is_at_the_time_that_it_takes_there() {
+        let mut random = Random::new(33);
+        for _ in 0..500 {
+            let limits = Limits {
+                vel: random.between(0.5, 5.0),
+                acc: random.between(0.5, 20.0),
+                jerk: random.between(1.0, 500.0),
+            };
+            let share = random.between(0.0, 1.0);
+            let state = limits.state_after(limits.time_to(share));
+            assert!((state.at - share).abs() < 1e-9, "{share} {state:?} {limits:?}");
+            assert!(state.vel <= limits.vel * 1.000_001 && state.acc.abs() <= limits.acc * 1.000_001, "{state:?}");
+        }
     }
 
     #[test]

@@ -3,11 +3,13 @@
 //! A gate is three axis motions in a row under one number. It rises by `rise` before anything else moves, and by as much
 //! again while it goes over already; on the other side the same with `sink`. Where the highest place that is allowed leaves
 //! no room for the second half, the corner is a right angle, in which the robot stops.
+//!
+//! How much of the way over a corner takes depends on what is programmed for both, not on the override.
 
 use crate::command::error::PlanError;
 use crate::command::joints::{Joints, is_unset};
 use crate::command::{Command, Gate, LARGEST_ZONE, Lift, Settings, Speed, Target, Zone};
-use crate::limits::profile::{Change, Limits, State};
+use crate::limits::profile::{Limits, State};
 use crate::plan::motion::{CornerEnd, GivenCorner, Motion};
 use crate::plan::planner::Planner;
 use arl_robot::kinematics::Kinematics;
@@ -82,19 +84,29 @@ pub(crate) fn plan(
     };
     // The share of a way of the lift that is left when it has gone straight for so long.
     let rest = |way: f64, straight: f64| 1.0 - (straight / way).min(1.0);
-    let going_over = part(&up, over, &(command.clone(), *settings))?;
+    let way_over = (command.clone(), *settings);
+    // The form of a corner is the same at every override, and in manual operation.
+    let form = |from: &Joints, to: Joints, (command, settings): &(Command, Settings)| {
+        let settings = Settings { speed_percent: 100.0, manual: false, ..*settings };
+        part(from, to, &(command.clone(), settings)).map(|motion| motion.limits)
+    };
+    let form_over = form(&up, over, &way_over)?;
     if top - from > NO_DISTANCE_MM {
-        let rising = part(start, up, &lifting(&gate.rising))?;
-        let corner = corner(&rising, rest(top - from, gate.rise), &going_over);
-        push(rising, corner.map(|[lift, over]| GivenCorner { leaving: lift.reversed(), joining: over }));
+        let rising = lifting(&gate.rising);
+        let corner = corner(form(start, up, &rising)?, rest(top - from, gate.rise), form_over);
+        push(
+            part(start, up, &rising)?,
+            corner.map(|[lift, over]| GivenCorner { leaving: lift.reversed(), joining: over }),
+        );
     }
+    let going_over = part(&up, over, &way_over)?;
     if top - to > NO_DISTANCE_MM && !gate.stays {
-        let sinking = part(&over, end, &lifting(&gate.falling))?;
+        let sinking = lifting(&gate.falling);
         // Where it goes on smoothly, the corner leaves the next blend its part.
         let most = 1.0 - if gate.smooth { SMOOTH_ZONE_PERCENT / 100.0 * LARGEST_ZONE } else { STOPPING_SHARE };
-        let corner = corner(&sinking, rest(top - to, gate.sink).min(most), &going_over);
+        let corner = corner(form(&over, end, &sinking)?, rest(top - to, gate.sink).min(most), form_over);
         push(going_over, corner.map(|[lift, over]| GivenCorner { leaving: over.reversed(), joining: lift }));
-        push(sinking, None);
+        push(part(&over, end, &sinking)?, None);
     } else {
         push(going_over, None);
     }
@@ -108,40 +120,20 @@ pub(crate) fn plan(
 /// The corner that takes `share` of a way of the lift: while the lift goes from there to where it rests, the way over begins. Returns how it
 /// meets both, each seen from where the other one rests. So a corner takes about as long as both of them would by
 /// themselves, and neither waits for the other one.
-fn corner(lifting: &Motion, share: f64, over: &Motion) -> Option<[CornerEnd; 2]> {
-    let [lift, over] = [lifting, over].map(|motion| motion.limits.map(|limits| limits.rising_in(LEAST_RISE_S)));
-    let (lift, over) = (lift?, over?);
+fn corner(lift: Option<Limits>, share: f64, over: Option<Limits>) -> Option<[CornerEnd; 2]> {
+    let [lift, over] = [lift?, over?].map(|limits| limits.rising_in(LEAST_RISE_S));
     if share <= 0.0 {
         return None;
     }
-    let time = time_to(&lift, share);
-    let over_time = time.min(time_to(&over, LARGEST_CORNER_SHARE));
+    let time = lift.time_to(share);
+    // A way over that is short has the same form in less time.
+    let over_time = time.min(over.time_to(LARGEST_CORNER_SHARE));
     let end = |part: f64, state: State, time: f64| {
         // A lift that has hardly set off is met as fast as it is on average.
         CornerEnd { part, speed: (state.vel * time).max(part), acc: state.acc * time * time }
     };
-    let (lifted, gone_over) = (state_after(&lift, time), state_after(&over, over_time));
-    // A way over that is short has the same form in less time.
-    Some([end(share, lifted, time), end(gone_over.at, gone_over, over_time)])
-}
-
-/// How long a motion from rest to rest takes at least for a share of its way from one end, in s.
-fn time_to(limits: &Limits, share: f64) -> f64 {
-    let half = |share: f64| limits.duration(2.0 * share) / 2.0;
-    if share <= 0.5 { half(share) } else { limits.duration(1.0) - half(1.0 - share) }
-}
-
-/// How far a motion from rest to rest has come, and how fast it is, so many s after its start.
-fn state_after(limits: &Limits, time: f64) -> State {
-    let whole = limits.duration(1.0);
-    let peak = limits.peak(1.0);
-    let speeding_up = Change::new(0.0, 0.0, peak, limits);
-    if 2.0 * time <= whole {
-        return speeding_up.after(State::default(), time);
-    }
-    // What is left is the same, seen from the other end.
-    let left = speeding_up.after(State::default(), (whole - time).max(0.0));
-    State { at: 1.0 - left.at, vel: left.vel, acc: -left.acc }
+    let gone_over = over.state_after(over_time);
+    Some([end(share, lift.state_after(time), time), end(gone_over.at, gone_over, over_time)])
 }
 
 /// Lets each part be as much of the gate as it takes of the time.

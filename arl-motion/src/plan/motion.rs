@@ -38,7 +38,7 @@ pub struct Motion {
     pub(crate) zone: Zone,
     /// The form of the blend with the next motion, where that is not left to the zone.
     pub(crate) corner: Option<GivenCorner>,
-    /// Whether it is a part of a gate.
+    /// Whether it is a part of a gate that goes over to another place.
     pub(crate) in_gate: bool,
     /// Whether the instruction ends with it.
     pub(crate) ends: bool,
@@ -138,6 +138,12 @@ pub(crate) struct CornerEnd {
 }
 
 impl CornerEnd {
+    /// The same form, smaller or larger, where it takes another part.
+    pub(crate) fn taking(self, part: f64) -> Self {
+        let share = part / self.part;
+        Self { part, speed: self.speed * share, acc: self.acc * share }
+    }
+
     /// The same where the motion is gone the other way.
     pub(crate) fn reversed(self) -> Self {
         Self { acc: -self.acc, ..self }

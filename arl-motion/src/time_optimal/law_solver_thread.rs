@@ -215,7 +215,7 @@ fn temperate(sampler: &ConstraintSampler, way: &Way, start: Edge, wanted: &impl 
     let mut speeds: Option<Vec<f64>> = None;
     for round in 0..=MOST_TEMPERINGS {
         let solved = match &speeds {
-            Some(speeds) => fastest_near(&limits, start, Edge::REST, speeds.clone()),
+            Some(speeds) => fastest_near(&limits, start, Edge::REST, speeds),
             None => fastest(&limits, start, Edge::REST),
         };
         let Some(law) = solved.ok().filter(|_| wanted()) else { break };

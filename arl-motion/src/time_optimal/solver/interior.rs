@@ -28,6 +28,10 @@ const MOST_EXCESS: f64 = 1e-4;
 /// The sum of slack times price to begin with, as a share of the duration.
 const FIRST_GAP: f64 = 10.0;
 
+/// A law is found again over its own speeds as long as its duration falls by at least this part, so many times at most.
+const LEAST_GAIN: f64 = 0.003;
+const MOST_APPROACHES: usize = 6;
+
 /// The coefficients of the fastest motion, with all limits kept.
 fn settle(program: &mut Program) -> Result<Vec<f64>, Refusal> {
     let free = program.fixed == [false; 2];
@@ -59,10 +63,6 @@ fn settle(program: &mut Program) -> Result<Vec<f64>, Refusal> {
     Ok(coefficients)
 }
 
-/// A law is found again over its own speeds as long as its duration falls by at least this part, so many times at most.
-const LEAST_GAIN: f64 = 0.003;
-const MOST_APPROACHES: usize = 6;
-
 /// Slacks and prices of limits, and their changes in a step.
 #[derive(Clone, Copy, Default, Debug)]
 struct Prices {
@@ -78,7 +78,7 @@ pub(crate) fn solve(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
     // Between two places nothing but the acceleration's slope is free. With a parameter that goes as the time does that is enough; the
     // guess is not that near.
     for _ in 0..MOST_APPROACHES {
-        let nearer = law.paced_speeds().and_then(|speeds| solve_near(way, start, end, Some(speeds)).ok());
+        let nearer = law.paced_speeds().and_then(|speeds| solve_near(way, start, end, Some(&speeds)).ok());
         let Some(nearer) = nearer.filter(|nearer| nearer.duration() < law.duration()) else { break };
         let gain = 1.0 - nearer.duration() / law.duration();
         law = nearer;
@@ -90,20 +90,21 @@ pub(crate) fn solve(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
 }
 
 /// The same, of which the warped parameter's speeds are about known.
-pub(crate) fn solve_near(way: &Way, start: Edge, end: Edge, known: Option<Vec<f64>>) -> Result<Law, Refusal> {
+pub(crate) fn solve_near(way: &Way, start: Edge, end: Edge, known: Option<&[f64]>) -> Result<Law, Refusal> {
     if way.places().len() < 3 {
         return Err(Refusal::Short);
     }
+    let mut program = Program::new(way, [start, end], known)?;
     // From a state that is given neither beginning always leads to a motion.
-    let from = |beginning: Beginning, known: Option<Vec<f64>>| {
-        let mut program = Program::new(way, [start, end], known, beginning)?;
-        let coefficients = settle(&mut program)?;
-        Ok(law(program, &coefficients))
+    program.begin(Beginning::Guessed);
+    let coefficients = match settle(&mut program) {
+        Err(_) => {
+            program.begin(Beginning::Smooth);
+            settle(&mut program)?
+        }
+        Ok(coefficients) => coefficients,
     };
-    match from(Beginning::Guessed, known.clone()) {
-        Err(Refusal::Fast) => from(Beginning::Smooth, known),
-        found => found,
-    }
+    Ok(law(program, &coefficients))
 }
 
 /// The motion with these coefficients.

@@ -78,7 +78,7 @@ pub fn fastest(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
 }
 
 /// The same where about the speeds are known ([`Law::paced_speeds`]): those with other limits at the same places.
-pub(crate) fn fastest_near(way: &Way, start: Edge, end: Edge, speeds: Vec<f64>) -> Result<Law, Refusal> {
+pub(crate) fn fastest_near(way: &Way, start: Edge, end: Edge, speeds: &[f64]) -> Result<Law, Refusal> {
     check(way, [start, end])?;
     interior::solve_near(way, start, end, Some(speeds))
 }

@@ -67,6 +67,9 @@ pub(crate) struct Program {
     pub(crate) first: Vec<f64>,
     /// Whether the first two coefficients, and the last two, are given.
     pub(crate) fixed: [bool; 2],
+    edges: [Edge; 2],
+    /// About how fast the paced parameter can go at the places, where a state at an end is given.
+    guess: Vec<f64>,
     screen: Screen,
     /// The stretches with limits in the middle.
     middles: Vec<usize>,
@@ -107,12 +110,7 @@ const ALMOST_REST: f64 = 1e-9;
 
 impl Program {
     /// With what the warped parameter's speeds are about, where that is known.
-    pub(crate) fn new(
-        way: &Way,
-        [start, end]: [Edge; 2],
-        known: Option<Vec<f64>>,
-        beginning: Beginning,
-    ) -> Result<Self, Refusal> {
+    pub(crate) fn new(way: &Way, [start, end]: [Edge; 2], known: Option<&[f64]>) -> Result<Self, Refusal> {
         let (from, to) = way.span()?;
         let warp = Warp::new(from, to, start.rests(), end.rests());
         let last = way.places().len() - 1;
@@ -124,9 +122,12 @@ impl Program {
         let places: Vec<f64> = way.places().iter().enumerate().map(place).collect();
         // Without jerk limits it is faster everywhere.
         let most = reach::squares(way, start, end)?;
-        let guess = guess_speeds(way, &warp, &places, [start, end]);
+        let edges = [start, end];
+        let fixed = edges.map(|edge| !edge.rests());
+        let guess =
+            if known.is_none() || fixed != [false; 2] { guess_speeds(way, &warp, &places, edges) } else { Vec::new() };
         let warp = match known {
-            Some(speeds) => PacedWarp::near(warp, &places, speeds),
+            Some(speeds) => PacedWarp::near(warp, &places, speeds.to_vec()),
             None => PacedWarp::guessed(warp, &places, guess.clone()),
         };
         let guess: Vec<f64> = warp.own_speeds(&guess).collect();
@@ -173,14 +174,15 @@ impl Program {
             prices: 0,
             unit,
             first: vec![1.0; last + 2],
-            fixed: [!start.rests(), !end.rests()],
+            fixed,
+            edges,
+            guess,
             screen,
             middles,
             jumps: (0..=last).map(|index| way.jumps(index)).collect(),
         };
         program.lay(last);
         program.limit();
-        program.begin([start, end], &guess, beginning);
         Ok(program)
     }
 
@@ -296,13 +298,14 @@ impl Program {
         })
     }
 
-    /// The coefficients to begin with: those that the edges give, and others that lead away from them smoothly.
-    fn begin(&mut self, [start, end]: [Edge; 2], guess: &[f64], beginning: Beginning) {
-        let Self { first, fixed, places, unit, warp, .. } = self;
-        let last = places.len() - 1;
+    /// The coefficients to begin with: those that the edges give, and others that lead away from them. From rest to rest, what all
+    /// limits allow everywhere, whatever is chosen.
+    pub(crate) fn begin(&mut self, beginning: Beginning) {
+        let Self { first, fixed, places, unit, warp, edges: [start, end], guess, .. } = self;
         if *fixed == [false; 2] {
             return;
         }
+        let last = places.len() - 1;
         let length = places[last];
         // x and its slope at both ends; and the way over which the slope fades out.
         let state = |edge: Edge, at: usize, fixed: bool| {
@@ -313,7 +316,7 @@ impl Program {
             let fading = (0.5 * square / slope.abs().max(f64::MIN_POSITIVE)).min(length / 3.0);
             (square, slope, fading)
         };
-        let (from, to) = (state(start, 0, fixed[0]), state(end, last, fixed[1]));
+        let (from, to) = (state(*start, 0, fixed[0]), state(*end, last, fixed[1]));
         let least = 0.1 * f64::min(from.0, to.0);
         for (index, slot) in first.iter_mut().enumerate() {
             let at = match index {

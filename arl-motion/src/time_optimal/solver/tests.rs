@@ -327,3 +327,17 @@ fn nothing_panics_whatever_the_rows_are() {
         }
     }
 }
+
+#[test]
+fn places_where_derivatives_jump_are_not_left_out() {
+    let row = |third: f64| Row { first: 1.0, second: 0.0, third, vel: 1.0, acc: 10.0, jerk: 100.0 };
+    let mut way = Way::new();
+    for index in 0..400 {
+        let at = f64::from(index) * 1e-3;
+        if index % 50 == 25 { way.push_jump(at, [row(0.0), row(50.0)], 1) } else { way.push(at, [row(0.0)]) }
+    }
+    let thinned = thinned(&way, [Edge::REST; 2], 0.02).unwrap();
+    let jumps = |way: &Way| (0..way.places().len()).filter(|index| way.jumps(*index)).count();
+    assert_eq!((jumps(&way), jumps(&thinned)), (8, 8));
+    assert!(thinned.places().len() < 200, "{}", thinned.places().len());
+}
