@@ -179,7 +179,7 @@ impl ConstraintSampler {
         let mut constraints = Constraints::signed(&self.robot);
         let is_coarse = density < 1.0;
         let mut walk = Walk::new(self, many || is_coarse);
-        let grades = if many || is_coarse { Vec::new() } else { self.grades(spacing, start) };
+        let grades = if is_coarse { Vec::new() } else { self.grades(spacing, start, many) };
         let mut grade = 0;
         for (station, next) in stations.iter().zip(stations.iter().skip(1).map(Some).chain([None])) {
             let mut at = station.0;
@@ -190,6 +190,8 @@ impl ConstraintSampler {
                     grade += 1;
                 }
                 let step = step.min(spacing_at(&grades, grade, at));
+                // Where many segments meet, some of these places are close enough to the start.
+                is_place |= at - way.places().last().copied().unwrap_or(self.at) >= step;
                 // A singular point is between places.
                 if is_place && !constraints.rows.is_empty() {
                     let rows = constraints.rows.drain(..).map(row);
@@ -210,13 +212,13 @@ impl ConstraintSampler {
         Ok((way, many))
     }
 
-    /// How far apart places may be where segments meet, and where it begins.
-    fn grades(&self, spacing: f64, start: Edge) -> Vec<Grade> {
+    /// How far apart places may be where it begins, and where segments meet if there are not too many.
+    fn grades(&self, spacing: f64, start: Edge, many: bool) -> Vec<Grade> {
         // What begins slowly goes no farther from place to place at first than it takes time.
         let slow = if start.vel > 0.0 { spacing * start.vel.clamp(SLOWEST_START, 1.0) } else { spacing };
         let mut grades = vec![Grade { at: self.at, spacing: slow }];
         let (mut at, mut before) = (self.passed, spacing);
-        for segment in &self.segments {
+        for segment in self.segments.iter().filter(|_| !many) {
             let own = if segment.parametrization.is_some() { spacing_in_blend(segment, spacing) } else { spacing };
             if let Some(start) = grades.last_mut() {
                 start.spacing = start.spacing.min(own).min(before);

@@ -162,6 +162,8 @@ pub(crate) struct RenewalRequest {
     /// Where, in s of nominal time.
     pub(crate) at: f64,
     pub(crate) start: Edge,
+    /// The law that leads there.
+    pub(crate) law: Option<Arc<Law>>,
     /// The share of its speed at which the law will be followed.
     pub(crate) share: f64,
     /// How many cycles it is until then.
@@ -353,6 +355,7 @@ impl LawFollower {
         (there.vel > 0.0).then_some(RenewalRequest {
             at: there.at,
             start: Edge { vel: there.vel, acc: there.acc },
+            law: Some(Arc::clone(&main.found.law)),
             share: then.share,
             cycles,
         })
@@ -368,7 +371,7 @@ impl LawFollower {
         }
         let State { at, vel, acc } = then.unwrap_or(State { at: end, vel: 0.0, acc: 0.0 });
         let start = if then.is_some() { Edge { vel: vel / share, acc: acc / (share * share) } } else { Edge::REST };
-        Some(RenewalRequest { at, start, share, cycles })
+        Some(RenewalRequest { at, start, law: None, share, cycles })
     }
 
     /// How it will go on from after so many cycles on.

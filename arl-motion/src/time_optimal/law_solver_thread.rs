@@ -12,7 +12,7 @@ use std::thread;
 use crate::time_optimal::constraint_sampler::{ConstraintSampler, Prospect};
 use crate::time_optimal::limit_check::{LimitCheck, MOST_USED_SHARE, law_keeps, used_by_law};
 use crate::time_optimal::set_points::used_by_set_points;
-use crate::time_optimal::solver::{Edge, Law, Way, fastest, fastest_near};
+use crate::time_optimal::solver::{Edge, Law, Pace, Way, fastest, fastest_behind, fastest_near};
 use crate::time_optimal::stop_prediction::StopPrediction;
 
 /// How long finding a law may take, in s of controller time.
@@ -79,8 +79,9 @@ struct Task {
 
 /// What is looked for.
 pub(crate) enum LawRequest {
-    /// The fastest law from a state to rest at the end of what the sampler sees or as far as is looked ahead.
-    Fastest(Edge),
+    /// The fastest law from a state to rest at the end of what the sampler sees or as far as is looked ahead, with the law that leads
+    /// to that state.
+    Fastest(Edge, Option<Arc<Law>>),
     /// The shortest one from a state to rest, about so far ahead, with acceleration and jerk `harder` times as high.
     Shortest { start: Edge, about: f64, harder: f64 },
     /// The shortest one to rest, from the state that the robot has so many cycles from now, if that is much sooner than the
@@ -152,7 +153,7 @@ impl Task {
         let Self { sampler, request, result } = self;
         let wanted = || !result.forsaken.load(Ordering::Relaxed);
         let find = || match request {
-            LawRequest::Fastest(start) => find(&sampler, start, wanted),
+            LawRequest::Fastest(start, law) => find(&sampler, start, law.as_deref(), wanted),
             LawRequest::Shortest { start, about, harder } => find_stop(&sampler, start, (about, harder), wanted),
             LawRequest::ShorterStop(prediction, cycles) => find_shorter_stop(sampler, *prediction, cycles, wanted),
         };
@@ -170,7 +171,7 @@ thread_local! {
 }
 
 /// The fastest law from a state on.
-fn find(sampler: &ConstraintSampler, start: Edge, wanted: impl Fn() -> bool) -> Option<Found> {
+fn find(sampler: &ConstraintSampler, start: Edge, before: Option<&Law>, wanted: impl Fn() -> bool) -> Option<Found> {
     #[cfg(test)]
     FOUND_HERE.with(|count| count.set(count.get() + 1));
     let stop = sampler.end;
@@ -181,7 +182,7 @@ fn find(sampler: &ConstraintSampler, start: Edge, wanted: impl Fn() -> bool) -> 
         let attempt = |(share, density): &(f64, f64)| {
             let Prospect { way, thinned, end } =
                 sampler.look(sampler.at + share * (to - sampler.at), *density, start, Edge::REST)?;
-            let (law, used) = temperate(sampler, thinned.as_ref().unwrap_or(&way), start, &wanted)?;
+            let (law, used) = temperate(sampler, thinned.as_ref().unwrap_or(&way), (start, before), &wanted)?;
             Some((way, end, law, used))
         };
         // Between the places a law may ask for more than there is: a little is better than none.
@@ -209,18 +210,23 @@ fn find(sampler: &ConstraintSampler, start: Edge, wanted: impl Fn() -> bool) -> 
 
 /// The fastest law along a path that keeps the limits by its places, with the share of them that its set-points use. Where that
 /// is a little too much, the limits are lowered.
-fn temperate(sampler: &ConstraintSampler, way: &Way, start: Edge, wanted: &impl Fn() -> bool) -> Option<(Law, f64)> {
+fn temperate(
+    sampler: &ConstraintSampler,
+    way: &Way,
+    (start, before): (Edge, Option<&Law>),
+    wanted: &impl Fn() -> bool,
+) -> Option<(Law, f64)> {
     let mut limits = way.clone();
     let mut best: Option<(Law, f64)> = None;
-    let mut speeds: Option<Vec<f64>> = None;
+    let mut pace: Option<Pace> = None;
     for round in 0..=MOST_TEMPERINGS {
-        let solved = match &speeds {
-            Some(speeds) => fastest_near(&limits, start, Edge::REST, speeds),
-            None => fastest(&limits, start, Edge::REST),
+        let solved = match &pace {
+            Some(pace) => fastest_near(&limits, start, Edge::REST, pace),
+            None => fastest_behind(&limits, start, Edge::REST, before),
         };
         let Some(law) = solved.ok().filter(|_| wanted()) else { break };
-        // Always those of the first law: what is lowered for one parameter is lowered for it.
-        speeds = speeds.or_else(|| law.paced_speeds());
+        // Always that of the first law: what is lowered for one parameter is lowered for it.
+        pace = pace.or_else(|| law.pace());
         let mut used = used_by_law(way, &law, TEMPERED_USE)?;
         if used.beyond.is_empty() {
             used = used_by_set_points(sampler, &law, 1.0, TEMPERED_USE);

@@ -12,7 +12,7 @@ use crate::time_optimal::solver::Law;
 /// s between two set-points.
 const SET_POINT_CYCLE_S: f64 = 0.001;
 /// The robot may come to a law at any time within a cycle: so many of them are looked at.
-const PHASES_OF_CYCLE: usize = 8;
+const PHASES_OF_CYCLE: usize = 2;
 /// So many set-points at rest tell how a motion begins and ends.
 const SET_POINTS_AT_REST: i32 = 3;
 

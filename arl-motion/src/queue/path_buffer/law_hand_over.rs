@@ -16,7 +16,7 @@ use crate::queue::path_buffer::{ACCELERATION_RISE_CYCLES, NEAR_STOP_S, PathBuffe
 use crate::time_optimal::constraint_sampler::ConstraintSampler;
 use crate::time_optimal::law_follower::{LawFollower, RenewalRequest, StopRequest};
 use crate::time_optimal::law_solver_thread::{FIRST_LOOK_AHEAD_S, Found, LawRequest, LawSolver, Search};
-use crate::time_optimal::solver::Edge;
+use crate::time_optimal::solver::{Edge, Law};
 use arl_robot::robot::Robot;
 
 /// A law looks no farther than so many s of nominal time.
@@ -185,7 +185,7 @@ impl PathBuffer {
             Some(renewal) => {
                 let purpose = Purpose::Offer(Box::new(offered));
                 let sampler = draft.sampler(robot, here, renewal.at);
-                self.search(sampler, renewal.start, LawSolver::cycles(cycle), purpose);
+                self.search(sampler, (renewal.start, renewal.law), LawSolver::cycles(cycle), purpose);
             }
             None => self.answer = Some(Answer::Refused),
         }
@@ -262,8 +262,14 @@ impl PathBuffer {
         )
     }
 
-    fn search(&mut self, sampler: ConstraintSampler, start: Edge, cycles: u32, purpose: Purpose) {
-        self.search_for(LawRequest::Fastest(start), sampler, cycles, purpose);
+    fn search(
+        &mut self,
+        sampler: ConstraintSampler,
+        (start, law): (Edge, Option<Arc<Law>>),
+        cycles: u32,
+        purpose: Purpose,
+    ) {
+        self.search_for(LawRequest::Fastest(start, law), sampler, cycles, purpose);
     }
 
     pub(crate) fn search_for(
@@ -479,17 +485,17 @@ impl PathBuffer {
             }
             let sampler = self.sampler(robot, here, self.passed + self.at);
             follower.set_off(&sampler, share, searching(cycle));
-            self.search(sampler, Edge::REST, LawSolver::cycles(cycle), Purpose::Start);
+            self.search(sampler, (Edge::REST, None), LawSolver::cycles(cycle), Purpose::Start);
             return;
         }
         let cycles = LawSolver::cycles(cycle);
         let renewal = follower.renewal_after_stop(cycles, cycle, share).map(|renewal| (renewal, true));
         let renewal = renewal.or_else(|| Some((follower.renewal(cycles, cycle)?, false)));
-        if let Some((RenewalRequest { at, start, share, cycles }, braking)) = renewal {
+        if let Some((RenewalRequest { at, start, law, share, cycles }, braking)) = renewal {
             // What is looked for from the next stop on can wait.
             self.cancel();
             let sampler = self.sampler(robot, here, at);
-            self.search(sampler, start, cycles, if braking { Purpose::GoOn(share) } else { Purpose::Renew });
+            self.search(sampler, (start, law), cycles, if braking { Purpose::GoOn(share) } else { Purpose::Renew });
         } else if self.next.is_none() && self.pending.is_none() && follower.stops() {
             self.request_next_law(robot, cycle);
         }
@@ -511,7 +517,7 @@ impl PathBuffer {
             FARTHEST_LOOK_S,
             (settled, LOOK_AHEAD_FACTOR * FIRST_LOOK_AHEAD_S),
         );
-        self.search(sampler, Edge::REST, LawSolver::cycles(cycle), Purpose::Next);
+        self.search(sampler, (Edge::REST, None), LawSolver::cycles(cycle), Purpose::Next);
     }
 }
 

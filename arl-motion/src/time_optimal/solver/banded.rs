@@ -19,6 +19,20 @@ impl Banded {
         self.columns.get_mut(first..).unwrap_or_default()
     }
 
+    /// Takes from the sides of the other equations what the unknown `index` makes of them when it is `value`.
+    pub(crate) fn shift(&self, index: usize, value: f64, sides: &mut [f64]) {
+        for beside in 1..=2 {
+            if let (Some(column), Some(side)) = (self.columns.get(index), sides.get_mut(index + beside)) {
+                *side -= column[beside] * value;
+            }
+            let before = index.checked_sub(beside);
+            let column = before.and_then(|before| self.columns.get(before));
+            if let (Some(column), Some(side)) = (column, before.and_then(|before| sides.get_mut(before))) {
+                *side -= column[beside] * value;
+            }
+        }
+    }
+
     /// Makes the unknown `index` zero, whatever the equations say.
     pub(crate) fn pin(&mut self, index: usize) {
         for back in 1..=2 {
@@ -89,6 +103,36 @@ mod tests {
             matrix.factor();
             matrix.solve(&mut values);
             assert!(values.iter().zip(&wanted).all(|(value, wanted)| (value - wanted).abs() < 1e-10));
+        }
+    }
+
+    #[test]
+    fn an_unknown_can_be_given() {
+        let mut random = Random::new(32);
+        let size = 9;
+        for given in 0..size {
+            let mut matrix = Banded::default();
+            matrix.reset(size);
+            for column in matrix.from(0) {
+                *column = [random.between(3.0, 5.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0)];
+            }
+            let columns = matrix.columns.clone();
+            let sides: Vec<f64> = (0..size).map(|_| random.between(-1.0, 1.0)).collect();
+            let mut values = sides.clone();
+            matrix.shift(given, 2.5, &mut values);
+            matrix.pin(given);
+            values[given] = 2.5;
+            matrix.factor();
+            matrix.solve(&mut values);
+            assert!((values[given] - 2.5).abs() < 1e-12);
+            for row in (0..size).filter(|row| *row != given) {
+                let own = columns[row][0] * values[row];
+                let beside = (1..=2).map(|away| {
+                    let below = row.checked_sub(away).map_or(0.0, |column| columns[column][away] * values[column]);
+                    below + values.get(row + away).map_or(0.0, |value| columns[row][away] * value)
+                });
+                assert!((own + beside.sum::<f64>() - sides[row]).abs() < 1e-10, "{given} {row}");
+            }
         }
     }
 }

@@ -44,6 +44,22 @@ pub(crate) fn guess_speeds(way: &Way, warp: &Warp, places: &[f64], edges: [Edge;
     squares.iter().map(|square| square.sqrt()).collect()
 }
 
+/// How often speeds are smoothed at once: a kink of theirs would be one of the problem that has none of its own.
+const SMOOTHINGS: usize = 24;
+
+/// Speeds with less of a kink, each time between those of their neighbours by their logarithms.
+pub(crate) fn smooth(speeds: Vec<f64>) -> Vec<f64> {
+    let last = speeds.len().saturating_sub(1);
+    (0..SMOOTHINGS).fold(speeds, |speeds, _| {
+        let at = |index: usize| speeds.get(index).copied().unwrap_or(1.0);
+        let one = |index: usize| {
+            let (before, here, behind) = (at(index.saturating_sub(1)), at(index), at((index + 1).min(last)));
+            here.sqrt() * (before * behind).sqrt().sqrt()
+        };
+        (0..=last).map(one).collect()
+    })
+}
+
 /// With so few places none is left out: a law is found soon enough.
 const FEW_PLACES: usize = 160;
 

@@ -12,7 +12,7 @@ use std::ops::Range;
 use crate::time_optimal::solver::banded::Banded;
 use crate::time_optimal::solver::lanes::{LANES, Lanes};
 use crate::time_optimal::solver::law::Law;
-use crate::time_optimal::solver::program::{Beginning, Limits, Program, Site, dot};
+use crate::time_optimal::solver::program::{Beginning, Known, Limits, Program, Site, dot};
 use crate::time_optimal::solver::{Edge, Refusal, Way};
 
 /// At most so many steps are taken; 15 to 30 are needed.
@@ -21,20 +21,30 @@ const STEPS: usize = 80;
 const ROUNDS: usize = 4;
 /// By so much a given speed and acceleration at an end may exceed the limits.
 const TOLERANCE: f64 = 1.003;
-/// The duration is so close to what it can be at best, as a share of it.
+/// The duration is so close to what it can be at best, as a share of it; and where it is found again over its own pace.
 const GAP: f64 = 5e-4;
+const ROUGH_GAP: f64 = 0.02;
 /// By so much limits may be exceeded, as a share of them.
 const MOST_EXCESS: f64 = 1e-4;
-/// The sum of slack times price to begin with, as a share of the duration.
+/// The sum of slack times price to begin with, and the least slack; where the motion is about known, the first is a share of its
+/// duration.
 const FIRST_GAP: f64 = 10.0;
+const LEAST_SLACK: f64 = 0.1;
+const KNOWN_GAP: f64 = 0.05;
+const LEAST_KNOWN_SLACK: f64 = 0.003;
+/// After so many steps of less than this share in a row there is no way on.
+const STUCK_STEPS: u32 = 4;
+const STUCK_SHARE: f64 = 0.01;
+/// By so little the coefficients that states at the ends give are missed, as a share.
+const NO_MISS: f64 = 1e-6;
 
-/// A law is found again over its own speeds as long as its duration falls by at least this part, so many times at most.
+/// A law is found again over its own pace as long as its duration falls by at least this part, so many times at most.
 const LEAST_GAIN: f64 = 0.003;
 const MOST_APPROACHES: usize = 6;
 
-/// The coefficients of the fastest motion, with all limits kept.
-fn settle(program: &mut Program) -> Result<Vec<f64>, Refusal> {
-    let free = program.fixed == [false; 2];
+/// The coefficients of the fastest motion, with all limits kept, of which the duration is so close to what it can be at best.
+fn settle(program: &mut Program, gap: f64) -> Result<Vec<f64>, Refusal> {
+    let free = program.given.is_empty();
     let mut coefficients = program.first.clone();
     let mut used = 0.0;
     for round in 0..=ROUNDS {
@@ -42,7 +52,7 @@ fn settle(program: &mut Program) -> Result<Vec<f64>, Refusal> {
         coefficients.clone_from(&program.first);
         if round < ROUNDS {
             let mut climb = Climb::new(program);
-            climb.run();
+            climb.run(gap);
             if climb.coefficients.iter().all(|value| value.is_finite()) {
                 coefficients = climb.coefficients;
             }
@@ -57,7 +67,7 @@ fn settle(program: &mut Program) -> Result<Vec<f64>, Refusal> {
         // Everything slows down with x in this share, the jerk even more.
         let share = 1.0 / f64::max(used, 1.0);
         coefficients.iter_mut().for_each(|value| *value *= share);
-    } else if used > TOLERANCE || program.stops(&coefficients) {
+    } else if used > TOLERANCE || program.missed(&coefficients) > NO_MISS || program.stops(&coefficients) {
         return Err(Refusal::Fast);
     }
     Ok(coefficients)
@@ -72,13 +82,13 @@ struct Prices {
     price_step: Lanes,
 }
 
-/// The fastest motion within all limits of `way`.
-pub(crate) fn solve(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
-    let mut law = solve_near(way, start, end, None)?;
+/// The fastest motion within all limits of `way`, behind a law if there is one.
+pub(crate) fn solve(way: &Way, edges: [Edge; 2], before: Option<&Law>) -> Result<Law, Refusal> {
+    let mut law = solve_near(way, edges, before.map_or(Known::Nothing, Known::Before))?;
     // Between two places nothing but the acceleration's slope is free. With a parameter that goes as the time does that is enough; the
     // guess is not that near.
     for _ in 0..MOST_APPROACHES {
-        let nearer = law.paced_speeds().and_then(|speeds| solve_near(way, start, end, Some(&speeds)).ok());
+        let nearer = law.pace().and_then(|pace| solve_near(way, edges, Known::Pace(&pace)).ok());
         let Some(nearer) = nearer.filter(|nearer| nearer.duration() < law.duration()) else { break };
         let gain = 1.0 - nearer.duration() / law.duration();
         law = nearer;
@@ -89,22 +99,21 @@ pub(crate) fn solve(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
     Ok(law)
 }
 
-/// The same, of which the warped parameter's speeds are about known.
-pub(crate) fn solve_near(way: &Way, start: Edge, end: Edge, known: Option<&[f64]>) -> Result<Law, Refusal> {
+/// The same, with what is known of it.
+pub(crate) fn solve_near(way: &Way, edges: [Edge; 2], known: Known) -> Result<Law, Refusal> {
     if way.places().len() < 3 {
         return Err(Refusal::Short);
     }
-    let mut program = Program::new(way, [start, end], known)?;
-    // From a state that is given neither beginning always leads to a motion.
-    program.begin(Beginning::Guessed);
-    let coefficients = match settle(&mut program) {
-        Err(_) => {
-            program.begin(Beginning::Smooth);
-            settle(&mut program)?
+    let mut program = Program::new(way, edges, known)?;
+    let is_last = matches!(known, Known::Pace(_)) || program.warp.is_even();
+    let gap = if is_last { GAP } else { ROUGH_GAP };
+    for beginning in program.beginnings() {
+        program.begin(beginning);
+        if let Ok(coefficients) = settle(&mut program, gap) {
+            return Ok(law(program, &coefficients));
         }
-        Ok(coefficients) => coefficients,
-    };
-    Ok(law(program, &coefficients))
+    }
+    Err(Refusal::Fast)
 }
 
 /// The motion with these coefficients.
@@ -203,10 +212,10 @@ impl<'a> Climb<'a> {
         }
     }
 
-    fn run(&mut self) {
+    fn run(&mut self, most_gap: f64) {
         self.price();
         let count = (self.prices.len() * LANES) as f64;
-        let mut before = f64::INFINITY;
+        let (mut before, mut stuck) = (f64::INFINITY, 0);
         for _ in 0..STEPS {
             self.assemble();
             self.matrix.factor();
@@ -216,8 +225,9 @@ impl<'a> Climb<'a> {
             let gap = forecast.gap.sum();
             let duration = self.duration();
             // A given state at an end may exceed them.
-            let keeps = self.program.fixed != [false; 2] || forecast.excess.most() < MOST_EXCESS;
-            if keeps && gap < GAP * duration && (before - duration).abs() < 0.5 * GAP * duration {
+            let keeps = !self.program.given.is_empty() || forecast.excess.most() < MOST_EXCESS;
+            let is_near = gap < most_gap * duration && (before - duration).abs() < 0.5 * most_gap * duration;
+            if keeps && is_near && self.program.missed(&self.coefficients) < NO_MISS {
                 break;
             }
             before = duration;
@@ -231,7 +241,8 @@ impl<'a> Climb<'a> {
             }
             self.matrix.solve(&mut self.step);
             let (primal, dual) = self.correct(centre);
-            if !self.take(primal, dual) {
+            stuck = if primal < STUCK_SHARE { stuck + 1 } else { 0 };
+            if stuck == STUCK_STEPS || !self.take(primal, dual) {
                 break;
             }
         }
@@ -239,8 +250,12 @@ impl<'a> Climb<'a> {
 
     /// Slacks as they are, and prices that all weigh the same.
     fn price(&mut self) {
+        let (gap, least) = match self.program.beginning {
+            Beginning::Known => (KNOWN_GAP * self.duration(), LEAST_KNOWN_SLACK),
+            Beginning::Even | Beginning::Smooth => (FIRST_GAP, LEAST_SLACK),
+        };
         let Self { program, coefficients, prices, .. } = self;
-        let weight = FIRST_GAP / (prices.len() * LANES) as f64;
+        let weight = gap / (prices.len() * LANES) as f64;
         for (stretch, three) in program.stretches.iter().zip(coefficients.windows(3)) {
             let bend = dot(&stretch.bend, three);
             for site in &stretch.sites {
@@ -249,7 +264,7 @@ impl<'a> Climb<'a> {
                     for (limits, prices) in program.limits[range].iter().zip(&mut prices[bought]) {
                         let room = Lanes::all(most.value) - here.of(limits);
                         // What is exceeded needs a slack of the size of the excess.
-                        prices.slack = room.more(Lanes::all(0.1)).more(-room);
+                        prices.slack = room.more(Lanes::all(least)).more(-room);
                         prices.price = Lanes::all(weight) * prices.slack.inverse();
                     }
                 }
@@ -318,10 +333,13 @@ impl<'a> Climb<'a> {
                 gather(&mut push[index..], &three, off);
             }
         }
-        for index in pinned(program, size) {
-            matrix.pin(index);
-            pull[index] = 0.0;
-            push[index] = 0.0;
+        for (index, value) in &program.given {
+            matrix.shift(*index, value - coefficients[*index], pull);
+        }
+        for (index, value) in &program.given {
+            matrix.pin(*index);
+            pull[*index] = value - coefficients[*index];
+            push[*index] = 0.0;
         }
     }
 
@@ -366,8 +384,8 @@ impl<'a> Climb<'a> {
                 gather(&mut correction[index..], &three, to);
             }
         }
-        for index in pinned(program, coefficients.len()) {
-            correction[index] = 0.0;
+        for (index, _) in &program.given {
+            correction[*index] = 0.0;
         }
         forecast
     }
@@ -427,14 +445,6 @@ const NEAR: f64 = 0.99;
 /// The longest possible share of a step that uses things up at these rates, 1/[`NEAR`] at most.
 fn length(rates: Lanes) -> f64 {
     1.0 / rates.most().max(NEAR)
-}
-
-/// The coefficients that the edges give.
-fn pinned(program: &Program, size: usize) -> impl Iterator<Item = usize> {
-    let [first, last] = program.fixed;
-    let from = if first { 0..2 } else { 0..0 };
-    let to = if last { size - 2..size } else { 0..0 };
-    from.chain(to)
 }
 
 /// Adds W' M W, with the rows of W and the upper rows of M, to the first three columns.

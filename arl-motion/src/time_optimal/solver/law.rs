@@ -1,5 +1,6 @@
 //! A timed path: the path parameter over time.
 
+use crate::time_optimal::solver::pace::Pace;
 use crate::time_optimal::solver::paced_warp::PacedWarp;
 
 /// How the path parameter moves at a moment.
@@ -60,10 +61,12 @@ impl Law {
         Self { warp, end, stretches, duration: time }
     }
 
-    /// How fast the warped parameter goes at the places; `None` where the law was found over that one itself.
-    pub(crate) fn paced_speeds(&self) -> Option<Vec<f64>> {
+    /// When it is at its places; `None` where the law was found over the warped parameter itself.
+    pub(crate) fn pace(&self) -> Option<Pace> {
         let last = self.stretches.last().map(|last| last.after(self.duration - last.time).1);
-        self.warp.speeds(self.stretches.iter().map(|stretch| stretch.vel).chain(last))
+        let speeds = self.warp.speeds(self.stretches.iter().map(|stretch| stretch.vel).chain(last))?;
+        let times = self.stretches.iter().map(|stretch| stretch.time).chain([self.duration]).collect();
+        Some(Pace { times, ends: [*speeds.first()?, *speeds.last()?] })
     }
 
     /// How long the motion takes, in s.

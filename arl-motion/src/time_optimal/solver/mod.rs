@@ -16,6 +16,7 @@ mod guess;
 mod interior;
 mod lanes;
 mod law;
+mod pace;
 mod paced_warp;
 mod program;
 mod reach;
@@ -29,8 +30,10 @@ mod way;
 pub use error::Refusal;
 pub(crate) use guess::thinned;
 pub use law::{Law, Moment};
+pub(crate) use pace::Pace;
 pub use way::{Row, Way};
 
+use program::Known;
 use warp::Warp;
 
 /// How the path parameter moves at an end of the path.
@@ -73,14 +76,19 @@ pub fn places(from: f64, to: f64, count: usize, start: Edge, end: Edge) -> Vec<f
 /// A way of fewer than two places or without order, rows that are no numbers or without positive limits, a way along
 /// which nothing moves, and edges that no motion within the limits has.
 pub fn fastest(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
-    check(way, [start, end])?;
-    if way.limits_jerk() { interior::solve(way, start, end) } else { reach::solve(way, start, end) }
+    fastest_behind(way, start, end, None)
 }
 
-/// The same where about the speeds are known ([`Law::paced_speeds`]): those with other limits at the same places.
-pub(crate) fn fastest_near(way: &Way, start: Edge, end: Edge, speeds: &[f64]) -> Result<Law, Refusal> {
+/// The same where a law leads to the start, and on along the same path, as far as that goes.
+pub(crate) fn fastest_behind(way: &Way, start: Edge, end: Edge, before: Option<&Law>) -> Result<Law, Refusal> {
     check(way, [start, end])?;
-    interior::solve_near(way, start, end, Some(speeds))
+    if way.limits_jerk() { interior::solve(way, [start, end], before) } else { reach::solve(way, start, end) }
+}
+
+/// The same where about the pace is known ([`Law::pace`]): that with other limits at the same places.
+pub(crate) fn fastest_near(way: &Way, start: Edge, end: Edge, pace: &Pace) -> Result<Law, Refusal> {
+    check(way, [start, end])?;
+    interior::solve_near(way, [start, end], Known::Pace(pace))
 }
 
 fn check(way: &Way, edges: [Edge; 2]) -> Result<(), Refusal> {

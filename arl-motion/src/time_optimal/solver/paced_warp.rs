@@ -8,6 +8,8 @@
 //! Invariant: the path parameter is a function of it with two continuous derivatives that only grows. Third derivatives
 //! jump at the places.
 
+use crate::time_optimal::solver::guess::smooth;
+use crate::time_optimal::solver::pace::Pace;
 use crate::time_optimal::solver::warp::{Place, Warp};
 
 /// The warped parameter ([`Warp`]) over the paced one from one place to the next: a cubic.
@@ -35,10 +37,8 @@ pub(crate) struct PacedWarp {
 /// How many times as fast it is at one place as at another, at least, for a parameter of its own to be worth while, and at
 /// neighbouring places at most.
 const LEAST_RANGE: f64 = 20.0;
-const FARTHEST_APART: f64 = 1.5;
-/// How often speeds are smoothed at once, and how many times as often where the paced parameter would turn back: a kink of theirs would
-/// be one of the problem that has none of its own.
-const SMOOTHINGS: usize = 24;
+const FARTHEST_APART: f64 = 5.0;
+/// How many times guessed speeds are smoothed at most, because the paced parameter would turn back otherwise.
 const ATTEMPTS: usize = 4;
 /// It grows at no place by less than this part of what it does between its neighbours.
 const LEAST_GROWTH: f64 = 0.1;
@@ -53,17 +53,12 @@ impl PacedWarp {
         if most < LEAST_RANGE * least || apart > FARTHEST_APART || apart.is_nan() {
             return Self::even(warp, places);
         }
-        Self::near(warp, places, smooth(speeds))
-    }
-
-    /// With speeds that are nearly right.
-    pub(crate) fn near(warp: Warp, places: &[f64], speeds: Vec<f64>) -> Self {
         let mut speeds = speeds;
         for _ in 0..ATTEMPTS {
-            if let Some(paced) = Self::through(warp, places, &speeds) {
+            speeds = smooth(speeds);
+            if let Some(paced) = Pace::at_speeds(places, &speeds).and_then(|pace| Self::along(warp, places, &pace)) {
                 return paced;
             }
-            speeds = smooth(speeds);
         }
         Self::even(warp, places)
     }
@@ -73,11 +68,6 @@ impl PacedWarp {
         (!self.is_even).then(|| self.knots.iter().zip(own).map(|(knot, own)| knot.first * own).collect())
     }
 
-    /// How fast this one goes at the places where the warped parameter has these speeds.
-    pub(crate) fn own_speeds(&self, warped: &[f64]) -> impl Iterator<Item = f64> {
-        self.knots.iter().zip(warped).map(|(knot, speed)| speed / knot.first)
-    }
-
     /// The warped parameter itself.
     pub(crate) fn even(warp: Warp, places: &[f64]) -> Self {
         let knot = |at: &f64| Knot { at: *at, value: *at, first: 1.0, second: 0.0, third: 0.0 };
@@ -85,14 +75,10 @@ impl PacedWarp {
         Self { warp, knots: places.iter().map(knot).collect(), length, is_even: true }
     }
 
-    /// The spline through the places, as far apart as they are in time; `None` where that turns back.
-    fn through(warp: Warp, places: &[f64], speeds: &[f64]) -> Option<Self> {
-        let widths: Vec<f64> = places
-            .windows(2)
-            .zip(speeds.windows(2))
-            .map(|(place, speed)| (place[1] - place[0]) / f64::midpoint(speed[0], speed[1]))
-            .collect();
-        let slopes = slopes(places, &widths, [*speeds.first()?, *speeds.last()?]);
+    /// The spline through the places, as far apart as they are in time along a motion; `None` where that turns back.
+    pub(crate) fn along(warp: Warp, places: &[f64], pace: &Pace) -> Option<Self> {
+        let widths: Vec<f64> = pace.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        let slopes = slopes(places, &widths, pace.ends);
         let mut at = 0.0;
         let mut knots = Vec::with_capacity(places.len());
         for ((place, slope), width) in places.windows(2).zip(slopes.windows(2)).zip(&widths) {
@@ -113,6 +99,11 @@ impl PacedWarp {
         let second = last.second + width * last.third;
         knots.push(Knot { at, value: *places.last()?, first: *slopes.last()?, second, third: 0.0 });
         at.is_finite().then_some(Self { warp, knots, length: at, is_even: false })
+    }
+
+    /// Whether it is the warped parameter itself.
+    pub(crate) fn is_even(&self) -> bool {
+        self.is_even
     }
 
     /// The paced parameter goes from 0 to this.
@@ -171,19 +162,6 @@ impl PacedWarp {
     }
 }
 
-/// Speeds with less of a kink, each time between those of their neighbours by their logarithms.
-fn smooth(speeds: Vec<f64>) -> Vec<f64> {
-    let last = speeds.len().saturating_sub(1);
-    (0..SMOOTHINGS).fold(speeds, |speeds, _| {
-        let at = |index: usize| speeds.get(index).copied().unwrap_or(1.0);
-        let one = |index: usize| {
-            let (before, here, behind) = (at(index.saturating_sub(1)), at(index), at((index + 1).min(last)));
-            here.sqrt() * (before * behind).sqrt().sqrt()
-        };
-        (0..=last).map(one).collect()
-    })
-}
-
 /// The slopes at all places of the spline through `values`, `widths` apart, that has the slopes `ends` at its ends.
 fn slopes(values: &[f64], widths: &[f64], [first, last]: [f64; 2]) -> Vec<f64> {
     // Each slope by the next one: slope = offset - factor * next.
@@ -212,8 +190,8 @@ mod tests {
     fn it_is_smooth_and_found_back() {
         let places: Vec<f64> = (0..=60).map(|index| (f64::from(index) / 60.0).powi(2) * 3.0).collect();
         let warp = Warp::new(-1.0, 2.0, false, false);
-        let speeds = places.iter().map(|place| 0.1 + (place - 1.0).abs()).collect();
-        let paced = PacedWarp::near(warp, &places, speeds);
+        let speeds = smooth(places.iter().map(|place| 0.1 + (place - 1.0).abs()).collect());
+        let paced = PacedWarp::along(warp, &places, &Pace::at_speeds(&places, &speeds).unwrap()).unwrap();
         assert!(!paced.is_even);
         let knots: Vec<f64> = paced.places().collect();
         for (index, pair) in knots.windows(2).enumerate() {

@@ -9,6 +9,8 @@
 
 use crate::time_optimal::solver::guess::guess_speeds;
 use crate::time_optimal::solver::lanes::{LANES, Lanes};
+use crate::time_optimal::solver::law::Law;
+use crate::time_optimal::solver::pace::Pace;
 use crate::time_optimal::solver::paced_warp::PacedWarp;
 use crate::time_optimal::solver::screen::Screen;
 use crate::time_optimal::solver::warp::{Place, Warp};
@@ -65,11 +67,11 @@ pub(crate) struct Program {
     pub(crate) unit: f64,
     /// The coefficients to begin with.
     pub(crate) first: Vec<f64>,
-    /// Whether the first two coefficients, and the last two, are given.
-    pub(crate) fixed: [bool; 2],
+    /// What those were made from.
+    pub(crate) beginning: Beginning,
+    /// The coefficients that states at the ends give, two for each.
+    pub(crate) given: Vec<(usize, f64)>,
     edges: [Edge; 2],
-    /// About how fast the paced parameter can go at the places, where a state at an end is given.
-    guess: Vec<f64>,
     screen: Screen,
     /// The stretches with limits in the middle.
     middles: Vec<usize>,
@@ -87,21 +89,40 @@ fn behind(place: usize) -> usize {
     2 * place + 1
 }
 
-/// The motion to begin with, where a state at an end is given.
+/// The motion to begin with.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Beginning {
-    /// No faster than is guessed at any place: near the optimum where places differ much.
-    Guessed,
+    /// At an even speed that all limits allow everywhere, whatever is chosen; states at the ends are come to on the way up.
+    Even,
     /// Smoothly from end to end.
     Smooth,
+    /// About as is known.
+    Known,
 }
 
-/// Of the square of a guessed speed the first motion has this share: it may be too high a guess.
-const SHARE_OF_GUESS: f64 = 0.5;
+/// What is known of a motion.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Known<'a> {
+    Nothing,
+    /// The pace of all of it.
+    Pace(&'a Pace),
+    /// The law that leads to its start, and on along the same path.
+    Before(&'a Law),
+}
+
+/// A state at an end is come to from an even speed if the square of its own is no higher by more than so many times.
+const HIGHEST_FROM_EVEN: f64 = 6.0;
+/// What is known begins with this share of the square of the speed, but for the time beside a given state, in s, where that counts.
+const SHARE_OF_KNOWN: f64 = 0.97;
+const GIVEN_STATE_S: f64 = 0.1;
 
 /// By so much acceleration and jerk are limited more strictly, for what happens between the places, and to leave room for
 /// a motion that starts on the way of another; that one has no such reserve.
 const RESERVE: f64 = 1.005;
+/// At a given start limits are as much higher as it takes for the state there, and by so much more; this fades out over so many
+/// places. The law before it was found over other places, where it may have used all that there is.
+const START_RESERVE: f64 = 0.003;
+const START_PLACES: usize = 50;
 /// How many stretches next to rest have limits in the middle.
 const MIDDLES: usize = 4;
 
@@ -109,8 +130,7 @@ const MIDDLES: usize = 4;
 const ALMOST_REST: f64 = 1e-9;
 
 impl Program {
-    /// With what the warped parameter's speeds are about, where that is known.
-    pub(crate) fn new(way: &Way, [start, end]: [Edge; 2], known: Option<&[f64]>) -> Result<Self, Refusal> {
+    pub(crate) fn new(way: &Way, [start, end]: [Edge; 2], known: Known) -> Result<Self, Refusal> {
         let (from, to) = way.span()?;
         let warp = Warp::new(from, to, start.rests(), end.rests());
         let last = way.places().len() - 1;
@@ -123,14 +143,15 @@ impl Program {
         // Without jerk limits it is faster everywhere.
         let most = reach::squares(way, start, end)?;
         let edges = [start, end];
-        let fixed = edges.map(|edge| !edge.rests());
-        let guess =
-            if known.is_none() || fixed != [false; 2] { guess_speeds(way, &warp, &places, edges) } else { Vec::new() };
-        let warp = match known {
-            Some(speeds) => PacedWarp::near(warp, &places, speeds.to_vec()),
-            None => PacedWarp::guessed(warp, &places, guess.clone()),
+        let guess = || guess_speeds(way, &warp, &places, edges);
+        let along = match known {
+            Known::Nothing => None,
+            Known::Pace(pace) => PacedWarp::along(warp, &places, pace),
+            Known::Before(law) => Pace::behind(law, (way.places(), &places), &warp, &guess())
+                .and_then(|pace| PacedWarp::along(warp, &places, &pace)),
         };
-        let guess: Vec<f64> = warp.own_speeds(&guess).collect();
+        let is_known = along.is_some() && matches!(known, Known::Pace(_));
+        let warp = along.unwrap_or_else(|| PacedWarp::guessed(warp, &places, guess()));
         let places: Vec<f64> = warp.places().collect();
         let mut rows = Vec::new();
         let mut ends = vec![0];
@@ -161,11 +182,16 @@ impl Program {
         let unit = 0.8 * unit;
         let hold = if start.rests() && end.rests() { RESERVE } else { 1.0 };
         rows.iter_mut().for_each(|row| row.scale(unit, hold));
+        let given = given(&warp, &places, edges, unit);
+        if !start.rests() {
+            ease(&mut rows, &ends, given_state(start, warp.place(0, 0.0), unit));
+        }
         let most = most.iter().zip(&places).enumerate().flat_map(|(index, (square, at))| {
             let slope = warp.place(index, *at).first;
             [square / (slope * slope * unit); 2]
         });
-        let screen = Screen::new(rows, ends, most.chain(middles.iter().map(|_| f64::INFINITY)));
+        let screen =
+            Screen::new(rows, ends, most.chain(middles.iter().map(|_| f64::INFINITY)), is_known.then_some(1.0 / unit));
         let mut program = Self {
             warp,
             places,
@@ -174,9 +200,9 @@ impl Program {
             prices: 0,
             unit,
             first: vec![1.0; last + 2],
-            fixed,
+            beginning: if is_known { Beginning::Known } else { Beginning::Even },
+            given,
             edges,
-            guess,
             screen,
             middles,
             jumps: (0..=last).map(|index| way.jumps(index)).collect(),
@@ -281,6 +307,12 @@ impl Program {
         (used, added)
     }
 
+    /// By which share coefficients miss those that states at the ends give, at most.
+    pub(crate) fn missed(&self, coefficients: &[f64]) -> f64 {
+        let off = |(index, value): &(usize, f64)| ((value - coefficients[*index]) / value).abs();
+        self.given.iter().map(off).fold(0.0, f64::max)
+    }
+
     /// Whether the motion would come to rest, or almost, on the way.
     pub(crate) fn stops(&self, coefficients: &[f64]) -> bool {
         let squares = || {
@@ -298,50 +330,103 @@ impl Program {
         })
     }
 
-    /// The coefficients to begin with: those that the edges give, and others that lead away from them. From rest to rest, what all
-    /// limits allow everywhere, whatever is chosen.
+    /// What to begin with, one after the other until something leads to a motion.
+    pub(crate) fn beginnings(&self) -> Vec<Beginning> {
+        let known = (self.beginning == Beginning::Known).then_some(Beginning::Known);
+        let is_high = self.given.iter().any(|(_, value)| *value > HIGHEST_FROM_EVEN);
+        let even = (!is_high).then_some(Beginning::Even);
+        let smooth = (!self.given.is_empty()).then_some(Beginning::Smooth);
+        [known, even, smooth].into_iter().flatten().collect()
+    }
+
+    /// Makes the coefficients to begin with.
     pub(crate) fn begin(&mut self, beginning: Beginning) {
-        let Self { first, fixed, places, unit, warp, edges: [start, end], guess, .. } = self;
-        if *fixed == [false; 2] {
-            return;
+        self.beginning = beginning;
+        self.first = match beginning {
+            Beginning::Even => vec![1.0; self.first.len()],
+            Beginning::Smooth => self.smooth(),
+            Beginning::Known => self.known(),
+        };
+        if beginning != Beginning::Even {
+            for (index, value) in &self.given {
+                self.first[*index] = *value;
+            }
         }
-        let last = places.len() - 1;
-        let length = places[last];
+    }
+
+    /// Where the coefficients lie.
+    fn corners(&self) -> impl Iterator<Item = f64> {
+        let ends = [self.places.first(), self.places.last()].map(|end| end.copied());
+        let middles = self.places.windows(2).map(|pair| f64::midpoint(pair[0], pair[1]));
+        ends[0].into_iter().chain(middles).chain(ends[1])
+    }
+
+    /// From end to end, in whose states x has its slope.
+    fn smooth(&self) -> Vec<f64> {
+        let length = self.warp.length();
+        let last = self.places.len() - 1;
         // x and its slope at both ends; and the way over which the slope fades out.
-        let state = |edge: Edge, at: usize, fixed: bool| {
-            let place = warp.place(at, places[at]);
-            let square = edge.vel * edge.vel / (place.first * place.first);
-            let slope = 2.0 * (edge.acc - place.second * square) / place.first;
-            let (square, slope) = if fixed { (square / *unit, slope / *unit) } else { (1.0, 0.0) };
+        let state = |edge: Edge, at: usize| {
+            let (square, slope) = if edge.rests() {
+                (1.0, 0.0)
+            } else {
+                given_state(edge, self.warp.place(at, self.places[at]), self.unit)
+            };
             let fading = (0.5 * square / slope.abs().max(f64::MIN_POSITIVE)).min(length / 3.0);
             (square, slope, fading)
         };
-        let (from, to) = (state(*start, 0, fixed[0]), state(*end, last, fixed[1]));
+        let [start, end] = self.edges;
+        let (from, to) = (state(start, 0), state(end, last));
         let least = 0.1 * f64::min(from.0, to.0);
-        for (index, slot) in first.iter_mut().enumerate() {
-            let at = match index {
-                0 => 0.0,
-                _ if index > last => length,
-                _ => 0.5 * (places[index - 1] + places[index]),
-            };
+        let at = |at: f64| {
             let (share, left) = (at / length, length - at);
             let blend = share * share * (3.0 - 2.0 * share);
             let faded = from.1 * at * (-at / from.2).exp() - to.1 * left * (-left / to.2).exp();
-            *slot = (from.0 + (to.0 - from.0) * blend + faded).max(least);
-            if beginning == Beginning::Guessed {
-                let beside = [index.saturating_sub(1), index.min(last)].map(|at| guess.get(at).copied());
-                let speed = beside.into_iter().flatten().fold(f64::INFINITY, f64::min);
-                *slot = slot.min(SHARE_OF_GUESS * speed * speed / *unit);
-            }
-        }
-        let widths = [places[1], places[last - 1] - length];
-        let size = first.len();
-        for ((state, width), (at, next)) in [from, to].iter().zip(widths).zip([(0, 1), (size - 1, size - 2)]) {
-            if fixed[usize::from(at > 0)] {
-                first[at] = state.0;
-                first[next] = state.0 + 0.5 * state.1 * width;
-            }
-        }
+            (from.0 + (to.0 - from.0) * blend + faded).max(least)
+        };
+        self.corners().map(at).collect()
+    }
+
+    /// The paced parameter goes as the time does.
+    fn known(&self) -> Vec<f64> {
+        let length = self.warp.length();
+        let by_edge = |edge: &Edge, away: f64| {
+            if edge.rests() { 1.0 } else { 1.0 - (-(away / GIVEN_STATE_S) * (away / GIVEN_STATE_S)).exp() }
+        };
+        let [start, end] = &self.edges;
+        let slower = |at: f64| (1.0 - SHARE_OF_KNOWN) * by_edge(start, at) * by_edge(end, length - at);
+        self.corners().map(|at| (1.0 - slower(at)) / self.unit).collect()
+    }
+}
+
+/// x and its slope at a given state at a place.
+fn given_state(edge: Edge, place: Place, unit: f64) -> (f64, f64) {
+    let square = edge.vel * edge.vel / (place.first * place.first);
+    let slope = 2.0 * (edge.acc - place.second * square) / place.first;
+    (square / unit, slope / unit)
+}
+
+/// The coefficients that states at the ends give.
+fn given(warp: &PacedWarp, places: &[f64], [start, end]: [Edge; 2], unit: f64) -> Vec<(usize, f64)> {
+    let last = places.len() - 1;
+    let two = |edge: Edge, at: usize, beside: usize, [first, next]: [usize; 2]| {
+        let (square, slope) = given_state(edge, warp.place(at, places[at]), unit);
+        let there = square + 0.5 * slope * (places[beside] - places[at]);
+        if edge.rests() { None } else { Some([(first, square), (next, there)]) }
+    };
+    let both = [two(start, 0, 1, [0, 1]), two(end, last, last - 1, [last + 1, last])];
+    both.into_iter().flatten().flatten().collect()
+}
+
+/// Raises the limits of the first places for the state at the start, x and its slope.
+fn ease(rows: &mut [WarpedRow], ends: &[usize], (square, slope): (f64, f64)) {
+    let used = |row: &WarpedRow| (0.5 * row.acc[0] * slope + row.acc[1] * square).abs().max(row.vel * square);
+    let first = ends.get(behind(0) + 1).and_then(|end| rows.get(..*end)).unwrap_or_default();
+    let most = first.iter().map(used).fold(1.0, f64::max) - 1.0 + START_RESERVE;
+    for place in 0..START_PLACES.min(ends.len() / 2) {
+        let factor = 1.0 / (1.0 + most * (1.0 - place as f64 / START_PLACES as f64));
+        let sides = [before(place), behind(place) + 1].map(|side| ends.get(side).copied().unwrap_or(rows.len()));
+        rows.get_mut(sides[0]..sides[1]).unwrap_or_default().iter_mut().for_each(|row| row.ease(factor));
     }
 }
 

@@ -25,18 +25,30 @@ pub(crate) struct Screen {
 
 /// Shares of the highest x at which the limits are compared.
 const SHARES: [f64; 4] = [0.03, 0.3, 0.65, 1.0];
+/// The same of what x is about.
+const SHARES_OF_KNOWN: [f64; 2] = [0.4, 1.0];
 /// A limit that is left out may be exceeded by so much before it is added.
 const EXCESS: f64 = 1.002;
 
 impl Screen {
-    /// With the rows, where those of each place begin, and the highest x that each place can have.
-    pub(crate) fn new(rows: Vec<WarpedRow>, ends: Vec<usize>, most: impl Iterator<Item = f64>) -> Self {
+    /// With the rows, where those of each place begin, and the highest x that each place can have; or what x is about everywhere,
+    /// where that is known.
+    pub(crate) fn new(
+        rows: Vec<WarpedRow>,
+        ends: Vec<usize>,
+        most: impl Iterator<Item = f64>,
+        known: Option<f64>,
+    ) -> Self {
         let mut kept = vec![CountingLimits::default(); rows.len()];
         for (range, most) in ends.windows(2).zip(most) {
             let (rows, kept) = (&rows[range[0]..range[1]], &mut kept[range[0]..range[1]]);
             // Close to rest nothing else may limit x.
             let by_jerk = rows.iter().map(|row| 1.0 / (row.jerk[2] * row.jerk[2]).cbrt()).fold(f64::INFINITY, f64::min);
             let most = if most.is_finite() { most } else { by_jerk.min(1e6) };
+            if let Some(known) = known {
+                SHARES_OF_KNOWN.iter().for_each(|share| compare(rows, kept, share * known));
+                continue;
+            }
             for share in SHARES {
                 compare(rows, kept, share * most);
             }

@@ -196,7 +196,9 @@ fn a_motion_goes_on_from_states_on_its_way() {
                 }
             };
             let used = spline.usage(&rest, false);
-            assert!(used.iter().all(|used| *used < 1.0075), "{part}: {used:?}");
+            // Near rest the places of an even way are far apart in time.
+            let most = if part < 0.1 { 1.015 } else { 1.005 };
+            assert!(used.iter().all(|used| *used < most), "{part}: {used:?}");
             let now = rest.at(0.0);
             assert!(
                 (now.vel / edge.vel - 1.0).abs() < 1e-9 && (now.acc - edge.acc).abs() < 1e-6 * (1.0 + edge.acc.abs())
@@ -204,6 +206,29 @@ fn a_motion_goes_on_from_states_on_its_way() {
             let share = rest.duration() / ((1.0 - part) * law.duration());
             assert!((share - 1.0).abs() < 0.01, "{part}: {share}");
         }
+    }
+}
+
+#[test]
+fn a_motion_goes_on_behind_a_law_that_ends_sooner() {
+    let mut random = Random::new(66);
+    let robot = Robot::builtin("kr10-r1420").unwrap();
+    for _ in 0..4 {
+        let spline = Spline::random(&robot, &mut random, 6, 0.4);
+        let way = spline.way(0.0, Edge::REST, true);
+        let whole = fastest(&way, Edge::REST, Edge::REST).unwrap();
+        // A law that stops on half of the way, of which about a third is gone: there the two are the same.
+        let half: Vec<bool> = way.places().iter().map(|at| *at <= 0.5 * spline.length()).collect();
+        let short = fastest(&way.only(&half), Edge::REST, Edge::REST).unwrap();
+        let moment = short.at(0.3 * short.duration());
+        let edge = Edge { vel: moment.vel, acc: moment.acc };
+        let rest = fastest_behind(&spline.way(moment.at, edge, true), edge, Edge::REST, Some(&short)).unwrap();
+        let now = rest.at(0.0);
+        assert!((now.vel / edge.vel - 1.0).abs() < 1e-6, "{} {}", now.vel, edge.vel);
+        let used = spline.usage(&rest, false);
+        assert!(used.iter().all(|used| *used < 1.01), "{used:?}");
+        let left = whole.duration() - whole.time_at(moment.at);
+        assert!((rest.duration() / left - 1.0).abs() < 0.02, "{} {left}", rest.duration());
     }
 }
 

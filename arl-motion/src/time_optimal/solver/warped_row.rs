@@ -36,4 +36,10 @@ impl WarpedRow {
         self.acc.iter_mut().for_each(|value| *value *= unit * hold);
         self.jerk.iter_mut().for_each(|value| *value *= turn);
     }
+
+    /// With a share of what the limits are used.
+    pub(crate) fn ease(&mut self, factor: f64) {
+        self.vel *= factor;
+        self.acc.iter_mut().chain(&mut self.jerk).for_each(|value| *value *= factor);
+    }
 }
