@@ -190,7 +190,7 @@ impl ConstraintSampler {
                     grade += 1;
                 }
                 let step = step.min(spacing_at(&grades, grade, at));
-                // Where many segments meet, some of these places are close enough to the start.
+                // Where too many segments meet for places of their own, those that are far enough from the last place are some all the same.
                 is_place |= at - way.places().last().copied().unwrap_or(self.at) >= step;
                 // A singular point is between places.
                 if is_place && !constraints.rows.is_empty() {

@@ -15,21 +15,21 @@ use crate::time_optimal::solver::law::Law;
 use crate::time_optimal::solver::program::{Beginning, Known, Limits, Program, Site, dot};
 use crate::time_optimal::solver::{Edge, Refusal, Way};
 
-/// At most so many steps are taken; 15 to 30 are needed.
+/// At most so many steps are taken; 10 to 30 are needed, up to 60 from a given state.
 const STEPS: usize = 80;
 /// How often limits that were left out may be added.
 const ROUNDS: usize = 4;
 /// By so much a given speed and acceleration at an end may exceed the limits.
 const TOLERANCE: f64 = 1.003;
-/// The duration is so close to what it can be at best, as a share of it; and where it is found again over its own pace.
+/// The duration is so close to what it can be at best, as a share of it; the second where it is found again over its own pace then.
 const GAP: f64 = 5e-4;
 const ROUGH_GAP: f64 = 0.02;
 /// By so much limits may be exceeded, as a share of them.
 const MOST_EXCESS: f64 = 1e-4;
-/// The sum of slack times price to begin with, and the least slack; where the motion is about known, the first is a share of its
-/// duration.
+/// The sum of slack times price to begin with, in units of the duration at an even speed, and the least slack.
 const FIRST_GAP: f64 = 10.0;
 const LEAST_SLACK: f64 = 0.1;
+/// The same where the motion is about known; the sum as a share of its duration.
 const KNOWN_GAP: f64 = 0.05;
 const LEAST_KNOWN_SLACK: f64 = 0.003;
 /// After so many steps of less than this share in a row there is no way on.
@@ -48,7 +48,7 @@ fn settle(program: &mut Program, gap: f64) -> Result<Vec<f64>, Refusal> {
     let mut coefficients = program.first.clone();
     let mut used = 0.0;
     for round in 0..=ROUNDS {
-        // Where all else fails, the motion to begin with is slow enough for everything.
+        // Where all else fails there is the motion to begin with; from rest to rest it is slowed down below as far as it takes.
         coefficients.clone_from(&program.first);
         if round < ROUNDS {
             let mut climb = Climb::new(program);

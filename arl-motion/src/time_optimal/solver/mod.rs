@@ -69,8 +69,9 @@ pub fn places(from: f64, to: f64, count: usize, start: Edge, end: Edge) -> Vec<f
 /// once. From rest to rest there always is a motion. Without jerk limits the acceleration jumps, and that of the edges does
 /// not count.
 ///
-/// A motion that starts on the way of another one has half a percent of acceleration and jerk more to go by. Where only
-/// braking is left that is still not always enough, and the start is refused as too fast: the old law remains valid.
+/// A motion that starts on the way of another one has half a percent of acceleration and jerk more to go by, and up to 0.3 % of
+/// all limits more at its first 50 places. What the state there uses beyond the limits, up to 1 %, comes on top. Where only braking
+/// is left that is still not always enough, and the start is refused as too fast: the old law remains valid.
 ///
 /// # Errors
 /// A way of fewer than two places or without order, rows that are no numbers or without positive limits, a way along

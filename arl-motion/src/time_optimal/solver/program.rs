@@ -69,6 +69,8 @@ pub(crate) struct Program {
     pub(crate) first: Vec<f64>,
     /// What those were made from.
     pub(crate) beginning: Beginning,
+    /// Whether the paced parameter goes about as the time does along a motion that is known.
+    is_known: bool,
     /// The coefficients that states at the ends give, two for each.
     pub(crate) given: Vec<(usize, f64)>,
     edges: [Edge; 2],
@@ -122,6 +124,8 @@ const RESERVE: f64 = 1.005;
 /// At a given start limits are as much higher as it takes for the state there, and by so much more; this fades out over so many
 /// places. The law before it was found over other places, where it may have used all that there is.
 const START_RESERVE: f64 = 0.003;
+/// No state that a law leads to uses more of them.
+const MOST_USED_AT_START: f64 = 1.01;
 const START_PLACES: usize = 50;
 /// How many stretches next to rest have limits in the middle.
 const MIDDLES: usize = 4;
@@ -184,7 +188,7 @@ impl Program {
         rows.iter_mut().for_each(|row| row.scale(unit, hold));
         let given = given(&warp, &places, edges, unit);
         if !start.rests() {
-            ease(&mut rows, &ends, given_state(start, warp.place(0, 0.0), unit));
+            ease(&mut rows, &ends, given_state(start, warp.place(0, 0.0), unit))?;
         }
         let most = most.iter().zip(&places).enumerate().flat_map(|(index, (square, at))| {
             let slope = warp.place(index, *at).first;
@@ -200,7 +204,8 @@ impl Program {
             prices: 0,
             unit,
             first: vec![1.0; last + 2],
-            beginning: if is_known { Beginning::Known } else { Beginning::Even },
+            beginning: Beginning::Even,
+            is_known,
             given,
             edges,
             screen,
@@ -216,14 +221,10 @@ impl Program {
     fn lay(&mut self, last: usize) {
         let places = &self.places;
         let length = self.warp.length();
-        let corner = |index: usize| match index {
-            0 => places[0],
-            _ if index > last => places[last],
-            _ => 0.5 * (places[index - 1] + places[index]),
-        };
+        let corners: Vec<f64> = self.corners().collect();
         // What of the coefficients `index` and `index` + 1 makes up x and the acceleration at a place.
         let shares = |index: usize| {
-            let (before, after) = (corner(index), corner(index + 1));
+            let (before, after) = (corners[index], corners[index + 1]);
             let share = (places[index] - before) / (after - before);
             ([1.0 - share, share], 0.5 / (after - before))
         };
@@ -332,7 +333,7 @@ impl Program {
 
     /// What to begin with, one after the other until something leads to a motion.
     pub(crate) fn beginnings(&self) -> Vec<Beginning> {
-        let known = (self.beginning == Beginning::Known).then_some(Beginning::Known);
+        let known = self.is_known.then_some(Beginning::Known);
         let is_high = self.given.iter().any(|(_, value)| *value > HIGHEST_FROM_EVEN);
         let even = (!is_high).then_some(Beginning::Even);
         let smooth = (!self.given.is_empty()).then_some(Beginning::Smooth);
@@ -418,16 +419,21 @@ fn given(warp: &PacedWarp, places: &[f64], [start, end]: [Edge; 2], unit: f64) -
     both.into_iter().flatten().flatten().collect()
 }
 
-/// Raises the limits of the first places for the state at the start, x and its slope.
-fn ease(rows: &mut [WarpedRow], ends: &[usize], (square, slope): (f64, f64)) {
+/// Raises the limits of the first places for the state at the start, x and its slope; not for one that is far beyond them.
+fn ease(rows: &mut [WarpedRow], ends: &[usize], (square, slope): (f64, f64)) -> Result<(), Refusal> {
     let used = |row: &WarpedRow| (0.5 * row.acc[0] * slope + row.acc[1] * square).abs().max(row.vel * square);
-    let first = ends.get(behind(0) + 1).and_then(|end| rows.get(..*end)).unwrap_or_default();
-    let most = first.iter().map(used).fold(1.0, f64::max) - 1.0 + START_RESERVE;
+    let first = [behind(0), behind(0) + 1].map(|side| ends.get(side).copied().unwrap_or(rows.len()));
+    let used = rows.get(first[0]..first[1]).unwrap_or_default().iter().map(used).fold(1.0, f64::max);
+    if used > MOST_USED_AT_START {
+        return Err(Refusal::Fast);
+    }
+    let most = used - 1.0 + START_RESERVE;
     for place in 0..START_PLACES.min(ends.len() / 2) {
         let factor = 1.0 / (1.0 + most * (1.0 - place as f64 / START_PLACES as f64));
         let sides = [before(place), behind(place) + 1].map(|side| ends.get(side).copied().unwrap_or(rows.len()));
         rows.get_mut(sides[0]..sides[1]).unwrap_or_default().iter_mut().for_each(|row| row.ease(factor));
     }
+    Ok(())
 }
 
 /// The sum of what three coefficients make up.

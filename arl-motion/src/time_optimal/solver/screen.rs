@@ -42,13 +42,13 @@ impl Screen {
         let mut kept = vec![CountingLimits::default(); rows.len()];
         for (range, most) in ends.windows(2).zip(most) {
             let (rows, kept) = (&rows[range[0]..range[1]], &mut kept[range[0]..range[1]]);
-            // Close to rest nothing else may limit x.
-            let by_jerk = rows.iter().map(|row| 1.0 / (row.jerk[2] * row.jerk[2]).cbrt()).fold(f64::INFINITY, f64::min);
-            let most = if most.is_finite() { most } else { by_jerk.min(1e6) };
             if let Some(known) = known {
                 SHARES_OF_KNOWN.iter().for_each(|share| compare(rows, kept, share * known));
                 continue;
             }
+            // Close to rest nothing else may limit x.
+            let by_jerk = rows.iter().map(|row| 1.0 / (row.jerk[2] * row.jerk[2]).cbrt()).fold(f64::INFINITY, f64::min);
+            let most = if most.is_finite() { most } else { by_jerk.min(1e6) };
             for share in SHARES {
                 compare(rows, kept, share * most);
             }

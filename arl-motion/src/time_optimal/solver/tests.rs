@@ -233,6 +233,30 @@ fn a_motion_goes_on_behind_a_law_that_ends_sooner() {
 }
 
 #[test]
+fn the_pace_behind_a_law_is_its_own_until_it_slows_down_for_its_end() {
+    let way = line(200, Limits { vel: 1.0, acc: 4.0, jerk: 40.0 });
+    let half: Vec<bool> = way.places().iter().map(|at| *at <= 0.5).collect();
+    let short = fastest(&way.only(&half), Edge::REST, Edge::REST).unwrap();
+    let on: Vec<bool> = way.places().iter().map(|at| *at >= 0.1).collect();
+    let (way, from) = (way.only(&on), short.time_at(way.only(&on).places()[0]));
+    let moment = short.at(from);
+    let edges = [Edge { vel: moment.vel, acc: moment.acc }, Edge::REST];
+    let warp = Warp::new(way.places()[0], 1.0, false, true);
+    let warped: Vec<f64> = way.places().iter().map(|at| warp.find(*at)).collect();
+    let guess = guess::guess_speeds(&way, &warp, &warped, edges);
+    let pace = Pace::behind(&short, (way.places(), &warped), &warp, &guess).unwrap();
+    assert!(pace.times.windows(2).all(|pair| pair[1] > pair[0]));
+    for (at, time) in way.places().iter().zip(&pace.times) {
+        if *at < 0.24 {
+            assert!((short.time_at(*at) - from - time).abs() < 1e-9, "{at}");
+        }
+    }
+    let last = pace.times.last().unwrap();
+    let rest = fastest_behind(&way, edges[0], Edge::REST, Some(&short)).unwrap();
+    assert!((0.7..1.6).contains(&(last / rest.duration())), "{last} {}", rest.duration());
+}
+
+#[test]
 fn a_motion_can_end_moving() {
     let limits = Limits { vel: 1.0, acc: 4.0, jerk: 40.0 };
     let end = Edge { vel: 0.5, acc: 0.0 };
@@ -299,7 +323,7 @@ fn what_cannot_be_timed_is_refused() {
     for bad in [-1.0, f64::NAN, f64::INFINITY] {
         assert_eq!(fastest(&way, Edge { vel: bad, acc: 0.0 }, Edge::REST).map(|_| ()), Err(Refusal::Edge));
     }
-    for fast in [Edge { vel: 2.0, acc: 0.0 }, Edge { vel: 0.99, acc: 3.9 }] {
+    for fast in [Edge { vel: 2.0, acc: 0.0 }, Edge { vel: 0.99, acc: 3.9 }, Edge { vel: 0.5, acc: -4.08 }] {
         assert_eq!(fastest(&way, fast, Edge::REST).map(|_| ()), Err(Refusal::Fast), "{fast:?}");
     }
 }
