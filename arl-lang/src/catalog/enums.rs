@@ -28,8 +28,8 @@ enumeration! { VEL_PROFILE =
     /// How the speed of a motion rises and falls. The system variable `$VEL_PROFILE` holds the one in use.
     VelProfile, "$VEL_PROFILE", "VelProfile", "2.6.1" {
         T_TYPE => T "trapezoid: limited acceleration, short but with shocks",
-        S_TYPE => S "limited jerk: smooth",
-        O_TYPE => O "the fastest that the axes' limits allow",
+        S_TYPE => S "limited jerk, as fast as the axes' limits allow at each place",
+        O_TYPE => O "the same as `S_TYPE`",
     }
 }
 

@@ -21,6 +21,12 @@ use arl_robot::robot::{Robot, VelocityProfile};
 /// Parts of half a blend.
 const PARTS_OF_HALF: usize = blend_limits::PARTS / 2;
 
+/// How far beside a singular point rates are looked for, as shares of the segment.
+const SHARES_BESIDE_SINGULAR: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.05];
+
+/// Three derivatives of all axes.
+type Rates = [[f64; ALL]; 3];
+
 /// A stretch of the way with constant limits. Its own parameter is the time, in s, that it takes at its full speed: so
 /// that motions and blends meet with the same speed.
 #[derive(Clone, Debug)]
@@ -58,7 +64,7 @@ pub(crate) struct Segment {
     pub(crate) length: f64,
     /// The programmed speeds, where it is known what limits each of its places.
     pub(crate) pace: Option<Pace>,
-    /// Whether each place has limits of its own even while the robot goes on: in the profile O.
+    /// Whether each place has limits of its own even while the robot goes on: not in the profile T.
     pub(crate) is_free: bool,
 }
 
@@ -305,20 +311,13 @@ impl Segment {
         (at, joints): (f64, &Joints),
         rise: Option<f64>,
         constraints: &mut Constraints,
-    ) -> Option<[[f64; ALL]; 3]> {
+    ) -> Option<Rates> {
         let Some(pace) = self.pace.as_ref().filter(|_| rise.is_some() || self.is_free) else {
             constraints.cell(&self.lowest_limits());
             return None;
         };
-        let width = (self.to - self.from) / self.time;
-        let share = self.from + at * width;
-        let even = Place { at: share, first: 1.0, second: 0.0, third: 0.0 };
-        let place = self
-            .parametrization
-            .as_ref()
-            .map_or(even, |parametrization| Place::at(parametrization, share))
-            .scaled(width);
-        let rates = place.rates(self.curve.rates(&robot.kinematics, place.at, joints)?);
+        let (at, place, joints, rates) = self.regular(&robot.kinematics, at, joints)?;
+        let joints = &joints;
         constraints.all_axes(&rates, pace);
         match &self.curve {
             Curve::Axes(_) => {
@@ -345,6 +344,28 @@ impl Segment {
         Some(rates)
     }
 
+    /// The place after `at` s of nominal time with the rates there; of a singular point that beside it, towards the middle, as the axes
+    /// go on evenly. `None` where all that is beside it is singular, too.
+    fn regular(&self, kinematics: &Kinematics, at: f64, joints: &Joints) -> Option<(f64, Place, Joints, Rates)> {
+        let width = (self.to - self.from) / self.time;
+        let look = |at: f64, joints: Joints| {
+            let share = self.from + at * width;
+            let even = Place { at: share, first: 1.0, second: 0.0, third: 0.0 };
+            let place = self
+                .parametrization
+                .as_ref()
+                .map_or(even, |parametrization| Place::at(parametrization, share))
+                .scaled(width);
+            Some((at, place, joints, place.rates(self.curve.rates(kinematics, place.at, &joints)?)))
+        };
+        let beside = |share: &f64| {
+            let away = share * self.time;
+            let at = if at < 0.5 * self.time { at + away } else { at - away };
+            look(at, self.joints_on(kinematics, at, joints))
+        };
+        look(at, *joints).or_else(|| SHARES_BESIDE_SINGULAR.iter().find_map(beside))
+    }
+
     /// The share of the motion that is done at its end.
     pub(crate) fn share_at_end(&self) -> f64 {
         self.shares[1]
@@ -362,15 +383,10 @@ fn is_known(motion: &Motion) -> bool {
     motion.laid.is_none()
 }
 
-/// Whether every place of a motion has limits of its own: in the profile O, and in the profile S along gates, where constant limits would
-/// waste most of their corners; unless its duration is given or it weaves, which wants an even speed.
+/// Whether every place of a motion has limits of its own: in the profiles S and O, unless its duration is given or it weaves, which wants
+/// an even speed.
 fn is_free(motion: &Motion) -> bool {
-    let asks = match motion.profile {
-        VelocityProfile::O => true,
-        VelocityProfile::S => motion.in_gate,
-        VelocityProfile::T => false,
-    };
-    asks && motion.timed.is_none() && is_known(motion)
+    motion.profile != VelocityProfile::T && motion.timed.is_none() && is_known(motion)
 }
 
 /// The next lower speed of a fine grid, on which the full speed lies: so that stretches of almost the same speed can be

@@ -80,7 +80,7 @@ pub(crate) fn plan(
     let (up, over) = (at(start, top), at(&end, top));
     let mut motions = Vec::with_capacity(3);
     let mut push = |motion: Motion, corner: Option<GivenCorner>| {
-        motions.push(Motion { corner, ends: false, zone: Zone::NONE, in_gate: true, ..motion });
+        motions.push(Motion { corner, ends: false, zone: Zone::NONE, ..motion });
     };
     // The share of a way of the lift that is left when it has gone straight for so long.
     let rest = |way: f64, straight: f64| 1.0 - (straight / way).min(1.0);

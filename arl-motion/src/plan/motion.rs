@@ -38,8 +38,6 @@ pub struct Motion {
     pub(crate) zone: Zone,
     /// The form of the blend with the next motion, where that is not left to the zone.
     pub(crate) corner: Option<GivenCorner>,
-    /// Whether it is a part of a gate that goes over to another place.
-    pub(crate) in_gate: bool,
     /// Whether the instruction ends with it.
     pub(crate) ends: bool,
     /// From which share of the instruction to which it goes.

@@ -27,6 +27,8 @@ const SHORT_MOTION_S: f64 = 0.02;
 /// Enough way ahead, in s at full speed; and where laws look along it.
 const ENOUGH_AHEAD_S: f64 = 0.5;
 const ENOUGH_AHEAD_FOR_LAWS_S: f64 = 5.0;
+/// How long, in s, a robot at rest waits for motions that come cycle by cycle.
+const LONGEST_GATHERING_S: f64 = 0.05;
 
 /// A motion that waits.
 #[derive(Clone, Debug)]
@@ -114,7 +116,7 @@ impl Waiting {
 impl Queue {
     /// Whether so little way is ahead that more than the motions that can always wait may be added.
     pub(crate) fn is_short_of_way(&self) -> bool {
-        // In the profile O motions may wait for a law.
+        // Motions may wait for a law.
         let lays = self.layer.waiting.is_empty() || !(self.layer.path.is_asking() || self.layer.path.is_laid_down());
         lays && self.way_ahead() < LOOK_AHEAD_S
     }
@@ -152,7 +154,7 @@ impl Queue {
         let sets_off =
             self.layer.path.rests() && way(motion) < SHORT_MOTION_S && self.layer.path.time_left() < ENOUGH_AHEAD_S;
         let hurries = time < LEAST_WAIT_S || overlaid || sets_off;
-        // In the profile O it may have to wait all the same.
+        // It may have to wait for a law all the same.
         let waits = self.layer.path.is_asking() || self.layer.path.is_laid_down();
         let is_blended = !overlaid && motion.goes() && !motion.flows && asks(&self.robot, last);
         let prepared = (is_blended && (waits || !hurries)).then(|| {
@@ -174,6 +176,24 @@ impl Queue {
     /// As [`crate::queue::path_buffer::PathBuffer::spare`].
     fn spare(&mut self) -> f64 {
         *self.spare.get_or_insert_with(|| self.layer.path.spare())
+    }
+
+    /// Whether a robot at rest waits one more cycle because motions come that laws can then lead along from the start: a law in hand
+    /// would have to be found anew for each of them, and the last ones might come too late.
+    pub(crate) fn gathers(&mut self, cycle: f64) -> bool {
+        let path = &self.layer.path;
+        let comes_more = || {
+            let last = self.layer.waiting.last().or_else(|| path.last().map(|motion| &**motion));
+            self.layer.held.is_some() || last.is_some_and(|last| asks(&self.robot, last))
+        };
+        let gathers = self.taken.count > 0
+            && self.gathered < LONGEST_GATHERING_S
+            && path.rests()
+            && path.wants_laws()
+            && self.way_ahead() < ENOUGH_AHEAD_FOR_LAWS_S
+            && comes_more();
+        self.gathered = if gathers { self.gathered + cycle } else { 0.0 };
+        gathers
     }
 
     /// A cycle begins.

@@ -106,6 +106,8 @@ pub struct Queue {
     spare: Option<f64>,
     /// How long the robot has stood still, in s, for a motion that is held back.
     waited: f64,
+    /// How long it has stood still, in s, while motions came.
+    gathered: f64,
     broken: Option<PlanError>,
     /// What was laid on the way, where somebody watches.
     laid: Option<Vec<Laid>>,
@@ -144,6 +146,7 @@ impl Queue {
             taken: Done::default(),
             spare: None,
             waited: 0.0,
+            gathered: 0.0,
             broken: None,
             laid: None,
             slowed: (1.0, 0),
@@ -431,11 +434,12 @@ impl Queue {
     /// next one ends exactly at its target, and the next one starts with the cycle after.
     pub fn step(&mut self, dt: f64, override_percent: f64) -> Step {
         self.cycle = dt;
+        let gathers = self.gathers(dt);
         self.count_cycle();
         self.left.clear();
         let speed = if override_percent > 0.0 { override_percent.min(100.0) / 100.0 } else { 0.0 };
         let pacing = self.choose_pacing(speed);
-        let (motion, line) = self.advance(dt, speed, pacing);
+        let (motion, line) = if gathers { self.stand() } else { self.advance(dt, speed, pacing) };
         self.take_answer();
         self.lay_waiting();
         self.end_empty();
@@ -485,8 +489,7 @@ impl Queue {
         if rested && !stands && self.layer.path.awaits_law() {
             // The motion has not begun.
             self.layer.execution = before;
-            self.layer.progress = self.progress_on_way(0.0);
-            return (0, 0);
+            return self.stand();
         }
         let executed = self.place_on_path((motion, line), arrived.as_deref().filter(|_| stands));
         self.layer.progress = match arrived.filter(|_| stands) {
@@ -494,6 +497,12 @@ impl Queue {
             None => self.progress_on_way(passed),
         };
         executed
+    }
+
+    /// Stands still before a motion that will begin; returns that none is executed.
+    fn stand(&mut self) -> (u64, u32) {
+        self.layer.progress = self.progress_on_way(0.0);
+        (0, 0)
     }
 
     /// Has the path's leader go on for a cycle; returns the segment that was left behind last, and whether the robot has come to a

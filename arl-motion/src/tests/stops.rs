@@ -61,16 +61,25 @@ pub(crate) fn change_override(settings: &Settings, seed: u64, rounds: u32, hold:
     for round in 0..rounds {
         let mut queue = motions();
         let mut rows = vec![reference[0]];
-        let (mut percent, mut left) = (100.0, 0);
+        let (mut percent, mut left, mut due) = (100.0, 0, 0.0);
         while !queue.idle() {
             if left == 0 {
-                percent = if random.between(0.0, 1.0) < 0.2 { 0.0 } else { random.between(1.0, 100.0) };
+                let slides = hold(round) == 1;
+                percent = match random.between(0.0, 1.0) {
+                    _ if slides => f64::clamp(percent + random.between(-3.0, 3.0), 1.0, 100.0),
+                    0.0..0.2 => 0.0,
+                    _ => random.between(1.0, 100.0),
+                };
                 left = random.between(1.0, f64::from(hold(round)) + 0.5) as u32;
             }
             left -= 1;
             rows.push(queue.step(CYCLE, percent));
+            due += CYCLE * percent / 100.0;
             assert!(rows.len() < 500_000);
         }
+        // A slider that moves all the time costs little.
+        let takes = moves(&reference) * CYCLE;
+        assert!(hold(round) > 1 || due < 1.3 * takes, "{round}: {due} s at full speed in place of {takes}");
         assert_within_limits(&robot, &rows, "override");
         assert_same_path(&robot, &rows, &reference);
         assert_eq!(rows.last().unwrap().joints, reference.last().unwrap().joints);
@@ -81,17 +90,25 @@ pub(crate) fn change_override(settings: &Settings, seed: u64, rounds: u32, hold:
 fn a_lower_override_is_reached_soon() {
     let robot = robot("kr10-r1420");
     let mut queue = two_motions(&robot, &Settings::default());
-    let mut speed = 0.0;
-    for cycle in 0..1100 {
-        let before = queue.tcp();
-        let step = queue.step(CYCLE, if cycle < 400 { 100.0 } else { 10.0 });
-        speed = (step.tcp.translation.vector - before.translation.vector).norm() / CYCLE;
-        if cycle == 399 {
-            assert!(speed > 500.0, "{speed}");
-        }
+    let speed = |a: &Step, b: &Step| (b.tcp.translation.vector - a.tcp.translation.vector).norm() / CYCLE;
+    let mut full = queue.clone();
+    let mut at_full: Vec<Step> = Vec::new();
+    while !full.rests() || at_full.len() < 400 {
+        at_full.push(full.step(CYCLE, 100.0));
     }
-    // A tenth of the 1883 mm/s that the axes allow.
-    assert!((speed - 188.3).abs() < 0.1, "{speed}");
+    let mut rows: Vec<Step> = Vec::new();
+    for cycle in 0..1100 {
+        rows.push(queue.step(CYCLE, if cycle < 400 { 100.0 } else { 10.0 }));
+    }
+    let [before, now] = [&rows[398], &rows[399]];
+    assert!(speed(before, now) > 500.0);
+    // A tenth of the speed that it has there at full speed.
+    let [before, now] = [&rows[1098], &rows[1099]];
+    let there = |row: &Step| (row.tcp.translation.vector - now.tcp.translation.vector).norm();
+    let nearest = (1..at_full.len()).min_by(|a, b| there(&at_full[*a]).total_cmp(&there(&at_full[*b]))).unwrap();
+    let (speed, full) = (speed(before, now), speed(&at_full[nearest - 1], &at_full[nearest]));
+    // It comes to that from below, as slowly as the override has it.
+    assert!(speed > 0.075 * full && speed < 0.1001 * full && full > 500.0, "{speed} of {full} mm/s");
 }
 
 #[test]
@@ -245,6 +262,6 @@ fn progress_counts_time_at_full_override_and_mm_of_lines() {
     }
     let slow = slow.progress().unwrap();
     assert!((slow.elapsed_time - 0.4).abs() < 1e-6, "{slow:?}");
-    // The same motion but for what whole cycles make of it.
-    assert!((slow.elapsed_distance - now.elapsed_distance).abs() < 0.5, "{slow:?} {now:?}");
+    // The same motion but for what setting off makes of it until there is a law.
+    assert!((slow.elapsed_distance - now.elapsed_distance).abs() < 2.0, "{slow:?} {now:?}");
 }

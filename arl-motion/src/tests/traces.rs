@@ -128,7 +128,7 @@ fn a_line_takes_its_programmed_speed() {
         .skip(1)
         .map(|pair| (pair[1].tcp.translation.vector - pair[0].tcp.translation.vector).norm() / CYCLE);
     let highest = speeds.fold(0.0, f64::max);
-    assert!((highest - 400.0).abs() < 0.01, "{highest}");
+    assert!(highest > 399.6 && highest < 400.04, "{highest}");
 }
 
 #[test]
@@ -189,5 +189,6 @@ fn manual_mode_limits_the_tcp_on_every_motion() {
         .windows(2)
         .skip(1)
         .map(|pair| (pair[1].tcp.translation.vector - pair[0].tcp.translation.vector).norm() / CYCLE);
-    assert!((speeds.fold(0.0, f64::max) - 250.0).abs() < 0.01);
+    let highest = speeds.fold(0.0, f64::max);
+    assert!(highest > 249.7 && highest < 250.03, "{highest}");
 }

@@ -1,4 +1,4 @@
-//! Looks along the path for the profile O: how everything moves at places close enough together, and within which limits.
+//! Looks along the path for a time law: how everything moves at places close enough together, and within which limits.
 
 use std::sync::Arc;
 
@@ -33,6 +33,8 @@ const GROWTH_BESIDE_BLEND: f64 = 0.4;
 const SLOWEST_START: f64 = 1e-4;
 /// How far beside a place its sides are looked at, as part of the segment.
 const BESIDE_SHARE: f64 = 1e-9;
+/// Places as near to each other, as part of the way, are the same.
+const SAME_PLACE_SHARE: f64 = 1e-9;
 /// A law is found without places that are closer together than about so many s: set-points tell the mean of a jerk over three cycles.
 const CLOSEST_S: f64 = 0.003;
 /// With more segments than this ahead, their ends are no places of their own.
@@ -149,6 +151,11 @@ impl ConstraintSampler {
         for _ in 0..MOST_SHORTENINGS {
             match self.walk(to, fineness, start, end) {
                 Ok((way, many)) => {
+                    // Where a singular point is all that is known of an end, no motion along the rest leads there.
+                    let [first, last] = [*way.places().first()?, *way.places().last()?];
+                    if (first - self.at).max(to - last) > SAME_PLACE_SHARE * (to - self.at) {
+                        return None;
+                    }
                     let is_thinned = fineness.0 >= 1.0 && !many;
                     let thinned = if is_thinned { thinned(&way, [start, end], CLOSEST_S / fineness.0) } else { None };
                     return Some(Prospect { way, thinned, end: to });
@@ -170,7 +177,7 @@ impl ConstraintSampler {
         stations.extend(joints.into_iter().map(|at| (at, !many)));
         stations.sort_by(|a, b| a.0.total_cmp(&b.0));
         stations.dedup_by(|next, kept| {
-            let same = next.0 - kept.0 <= 1e-9 * spacing;
+            let same = next.0 - kept.0 <= SAME_PLACE_SHARE * spacing;
             kept.1 |= same && next.1;
             same
         });
@@ -192,7 +199,6 @@ impl ConstraintSampler {
                 let step = step.min(spacing_at(&grades, grade, at));
                 // Where too many segments meet for places of their own, those that are far enough from the last place are some all the same.
                 is_place |= at - way.places().last().copied().unwrap_or(self.at) >= step;
-                // A singular point is between places.
                 if is_place && !constraints.rows.is_empty() {
                     let rows = constraints.rows.drain(..).map(row);
                     match walk.jump {

@@ -1,4 +1,4 @@
-//! How the robot goes along the path in the profile O.
+//! How the robot goes along the path where time laws lead.
 //!
 //! Invariant: the law in hand leads the robot to rest on the path, within all limits, at whatever share of its speed it is
 //! followed. Another one takes its place only when it starts from the robot's very state; where none is found, the robot
@@ -269,10 +269,15 @@ impl LawFollower {
         }
     }
 
-    /// s until the parameter is at `at`, at full speed; `None` where no law leads there.
-    pub(crate) fn time_to(&self, at: f64) -> Option<f64> {
-        let main = self.ahead.main.as_ref().filter(|main| at <= main.found.end)?;
-        Some((main.found.law.time_at(at) - main.time).max(0.0))
+    /// s until the parameter is at `at` at full speed, or at where the law is known to be followed to if that is nearer, and where that
+    /// is; `None` where it does not follow a law.
+    pub(crate) fn time_to(&self, at: f64) -> Option<(f64, f64)> {
+        let Drive { found: Found { law, end, stops, .. }, time } = self.ahead.main.as_ref()?;
+        // What comes later will be another law, if there is one.
+        let renewed = law.duration() * (1.0 - RENEWED_AT_SHARE_LEFT);
+        let sure = if *stops || *time >= renewed { *end } else { law.at(renewed).at };
+        let to = at.min(sure);
+        Some(((law.time_at(to) - time).max(0.0), to))
     }
 
     /// The state a cycle later, in s of nominal time since the path began; `None` where it rests already.

@@ -1,4 +1,4 @@
-//! Finds laws for the profile O beside the cycle: on a thread of its own, from a copy of what there is to know.
+//! Finds laws beside the cycle: on a thread of its own, from a copy of what there is to know.
 //!
 //! A law is asked for in one cycle and taken over a fixed number of cycles later, whenever it was really found: so a run is the
 //! same at every clock, and on every machine. If it is not found by then, that cycle waits for it.
@@ -10,6 +10,7 @@ use std::sync::{Arc, OnceLock};
 use std::thread;
 
 use crate::time_optimal::constraint_sampler::{ConstraintSampler, Prospect};
+use crate::time_optimal::law_memory::{LawMemory, key};
 use crate::time_optimal::limit_check::{LimitCheck, MOST_USED_SHARE, law_keeps, used_by_law};
 use crate::time_optimal::set_points::used_by_set_points;
 use crate::time_optimal::solver::{Edge, Law, Pace, Way, fastest, fastest_behind, fastest_near};
@@ -122,7 +123,7 @@ impl LawSolver {
         // Without a thread the law has to be found at once.
         if let Some(task) = refused {
             self.tasks = None;
-            task.run();
+            task.run(&mut LawMemory::default());
         }
         Search { result, left: cycles }
     }
@@ -144,16 +145,19 @@ impl Search {
 /// Starts the thread; it ends when nobody can ask it any more.
 fn begin() -> Option<Sender<Task>> {
     let (tasks, asked) = channel::<Task>();
-    let work = move || asked.iter().for_each(Task::run);
+    let work = move || {
+        let mut memory = LawMemory::default();
+        asked.iter().for_each(|task| task.run(&mut memory));
+    };
     thread::Builder::new().name("laws".into()).spawn(work).ok().map(|_| tasks)
 }
 
 impl Task {
-    fn run(self) {
+    fn run(self, memory: &mut LawMemory) {
         let Self { sampler, request, result } = self;
         let wanted = || !result.forsaken.load(Ordering::Relaxed);
         let find = || match request {
-            LawRequest::Fastest(start, law) => find(&sampler, start, law.as_deref(), wanted),
+            LawRequest::Fastest(start, law) => find(&sampler, (start, law.as_deref()), memory, wanted),
             LawRequest::Shortest { start, about, harder } => find_stop(&sampler, start, (about, harder), wanted),
             LawRequest::ShorterStop(prediction, cycles) => find_shorter_stop(sampler, *prediction, cycles, wanted),
         };
@@ -171,7 +175,12 @@ thread_local! {
 }
 
 /// The fastest law from a state on.
-fn find(sampler: &ConstraintSampler, start: Edge, before: Option<&Law>, wanted: impl Fn() -> bool) -> Option<Found> {
+fn find(
+    sampler: &ConstraintSampler,
+    (start, before): (Edge, Option<&Law>),
+    memory: &mut LawMemory,
+    wanted: impl Fn() -> bool,
+) -> Option<Found> {
     #[cfg(test)]
     FOUND_HERE.with(|count| count.set(count.get() + 1));
     let stop = sampler.end;
@@ -179,15 +188,20 @@ fn find(sampler: &ConstraintSampler, start: Edge, before: Option<&Law>, wanted: 
     let mut found = None;
     while wanted() {
         let to = if sampler.at + 1.2 * window < stop { sampler.at + window } else { stop };
-        let attempt = |(share, density): &(f64, f64)| {
+        let mut attempt = |(share, density): &(f64, f64)| {
             let Prospect { way, thinned, end } =
                 sampler.look(sampler.at + share * (to - sampler.at), *density, start, Edge::REST)?;
-            let (law, used) = temperate(sampler, thinned.as_ref().unwrap_or(&way), (start, before), &wanted)?;
+            let sparse = thinned.as_ref().unwrap_or(&way);
+            let found = || {
+                let found = temperate(sampler, sparse, (start, before), &wanted);
+                (found.map(|(law, used)| (Arc::new(law), used)), wanted())
+            };
+            let (law, used) = memory.recall(key(sparse, start, before), found)?;
             Some((way, end, law, used))
         };
         // Between the places a law may ask for more than there is: a little is better than none.
-        let mut best: Option<(Way, f64, Law, f64)> = None;
-        for attempt in SHARES_AND_DENSITIES.iter().take_while(|_| wanted()).filter_map(attempt) {
+        let mut best: Option<(Way, f64, Arc<Law>, f64)> = None;
+        for attempt in SHARES_AND_DENSITIES.iter().take_while(|_| wanted()).filter_map(&mut attempt) {
             if best.as_ref().is_none_or(|(.., least)| attempt.3 < *least) {
                 best = Some(attempt);
             }
@@ -198,7 +212,7 @@ fn find(sampler: &ConstraintSampler, start: Edge, before: Option<&Law>, wanted: 
         let Some((way, end, law, _)) = best.filter(|(.., used)| *used <= MOST_USED_SHARE) else { return found };
         let ahead = law.duration();
         let stops = sampler.stops && end >= stop;
-        found = Some(Found { law: Arc::new(law), check: Arc::new(LimitCheck::new(way)), end, stops });
+        found = Some(Found { law, check: Arc::new(LimitCheck::new(way)), end, stops });
         if end < to || to >= stop || ahead >= LEAST_LAW_S {
             return found;
         }

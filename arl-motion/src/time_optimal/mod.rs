@@ -1,7 +1,8 @@
-//! The profile O: the fastest motion along the path ahead, and the thread that finds it beside the cycle.
+//! The profiles S and O: the fastest motion along the path ahead, and the thread that finds it beside the cycle.
 
 pub(crate) mod constraint_sampler;
 pub(crate) mod law_follower;
+pub(crate) mod law_memory;
 pub(crate) mod law_solver_thread;
 pub(crate) mod limit_check;
 pub(crate) mod ramp;

@@ -1,4 +1,4 @@
-//! Ramps of the profile O: ways to rest with constant limits, which need neither a look along the path nor a solver; and in
+//! Ramps beside time laws: ways to rest with constant limits, which need neither a look along the path nor a solver; and in
 //! their place the shortest way to rest, where it has been found.
 
 use std::sync::Arc;

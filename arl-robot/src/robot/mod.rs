@@ -32,9 +32,9 @@ pub const fn own_axes(family: Family) -> usize {
 pub enum VelocityProfile {
     /// Trapezoidal: acceleration limited.
     T,
-    /// Jerk limited, with limits that are constant along the path.
+    /// Jerk limited: as fast at each place as every axis allows.
     S,
-    /// The fastest that every axis allows.
+    /// The same as `S`.
     O,
 }
 

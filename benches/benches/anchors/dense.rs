@@ -151,7 +151,7 @@ fn share_of_speed(robot: &Arc<Robot>, profile: VelocityProfile) -> Result<f64, B
     let most = chain.most;
     let end = [(chain.point)(most as f64)];
     let single = ways(lines(robot, end, Zone::NONE, chain.speed).collect())?;
-    let full = |pair: &[f64]| (pair[1] - pair[0]) / CYCLE >= 0.9999 * chain.speed;
+    let full = |pair: &[f64]| (pair[1] - pair[0]) / CYCLE >= 0.999 * chain.speed;
     let from = single.windows(2).find(|pair| full(pair)).ok_or("too short for its speed")?[0];
     let to = single.windows(2).rfind(|pair| full(pair)).ok_or("too short for its speed")?[1];
     let short = ways(some_commands(robot, chain, most))?;

@@ -155,6 +155,7 @@ impl PathBuffer {
         let Some(follower) = self.leader.follower() else { return };
         let mut draft = Self {
             segments: self.segments.clone(),
+            ends: self.ends.clone(),
             at: self.at,
             passed: self.passed,
             tail: self.tail.clone(),
@@ -238,14 +239,8 @@ impl PathBuffer {
 
     /// Where the robot has to stop next, in s of nominal time since the path began.
     fn next_stop(&self) -> f64 {
-        let mut end = self.passed;
-        for segment in &self.segments {
-            end += segment.time;
-            if segment.stops {
-                break;
-            }
-        }
-        end
+        let stop = self.segments.iter().position(|segment| segment.stops);
+        stop.and_then(|stop| self.ends.get(stop).copied()).unwrap_or(self.end())
     }
 
     /// What a law from `at` on has to know: the path up to the next stop, or as far as a law looks; but for its last segments

@@ -3,6 +3,7 @@
 mod law_hand_over;
 mod leader;
 mod shorter_stop;
+mod time_left;
 
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -14,7 +15,6 @@ use crate::blend::zone::asks;
 use crate::command::LARGEST_ZONE;
 use crate::command::joints::Joints;
 use crate::follow::governor::{Governor, Pacing};
-use crate::follow::remaining::{self, Leg};
 use crate::follow::segment::Segment;
 use crate::follow::timing::Timing;
 use crate::limits::profile::{Change, LOOK_AHEAD_MARGIN, Limits, State};
@@ -41,6 +41,8 @@ const ACCELERATION_RISE_CYCLES: f64 = 4.0;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PathBuffer {
     segments: VecDeque<Arc<Segment>>,
+    /// Where each of them ends, in s of nominal time since the path began.
+    ends: VecDeque<f64>,
     /// Where the robot is on the first segment, in s of nominal time.
     at: f64,
     /// The length of a cycle in s.
@@ -169,7 +171,7 @@ impl PathBuffer {
     }
 
     /// For how many s, at its full speed, the robot can go on before it may have to brake for the next motion: or rather for the end
-    /// of what that one does not change. In the profile O a law has to lead that far.
+    /// of what that one does not change. Where laws lead, one has to lead that far.
     pub(crate) fn spare(&self) -> f64 {
         let Some(last) = self.segments.back() else { return 0.0 };
         if self.wants_laws() {
@@ -354,7 +356,7 @@ impl PathBuffer {
 
     /// Where the last segment ends, in s of nominal time since the path began.
     fn end(&self) -> f64 {
-        self.passed + self.segments.iter().map(|segment| segment.time).sum::<f64>()
+        self.ends.back().copied().unwrap_or(self.passed)
     }
 
     /// Goes on from the last motion without a stop; returns whether the robot is still able to.
@@ -422,6 +424,7 @@ impl PathBuffer {
         for (index, cell) in segment.cells().enumerate() {
             self.timing.push(cell, segment.stops, may || index > 0);
         }
+        self.ends.push_back(self.end() + segment.time);
         self.segments.push_back(segment);
     }
 
@@ -435,6 +438,7 @@ impl PathBuffer {
     fn take_back(&mut self, count: usize) -> Vec<(Arc<Segment>, bool)> {
         let mut taken = Vec::with_capacity(count);
         for segment in (0..count).map_while(|_| self.segments.pop_back()) {
+            self.ends.pop_back();
             let mut began = false;
             for _ in segment.cells() {
                 began = self.timing.pop();
@@ -490,19 +494,31 @@ impl PathBuffer {
                 break;
             }
             self.at = if stops { 0.0 } else { self.at - first.time };
-            self.passed = if stops { 0.0 } else { self.passed + first.time };
+            self.passed += first.time;
             if let Some(segment) = self.segments.pop_front() {
+                self.ends.pop_front();
                 self.gone += 1;
                 passed(segment);
             }
             if stops {
+                self.begin();
                 break;
             }
         }
         stands
     }
 
-    /// Whoever leads the robot from rest leads it until it stops: laws where the first motion has the profile O, but for one with the
+    /// The path begins where the robot stands.
+    fn begin(&mut self) {
+        self.passed = 0.0;
+        let mut end = 0.0;
+        for (known, segment) in self.ends.iter_mut().zip(&self.segments) {
+            end += segment.time;
+            *known = end;
+        }
+    }
+
+    /// Whoever leads the robot from rest leads it until it stops: laws where the first motion is free, but for one with the
     /// same limits everywhere that is to be gone from rest to rest. For that one the governor needs no search, and no law is faster.
     fn choose_leader(&mut self, robot: &Robot) {
         let is_free = || self.segments.front().is_some_and(|first| first.is_free);
@@ -541,6 +557,7 @@ impl PathBuffer {
     pub(crate) fn keep_to_stop(&mut self) {
         let kept = self.segments.iter().position(|segment| segment.stops).map_or(0, |last| last + 1);
         self.segments.truncate(kept);
+        self.ends.truncate(kept);
         self.timing.keep_to_stop();
         self.tail = None;
         self.keep_laws_to_stop();
@@ -550,33 +567,5 @@ impl PathBuffer {
     pub(crate) fn clear(&mut self) {
         self.cancel();
         *self = Self { law_solver: std::mem::take(&mut self.law_solver), ..Self::default() };
-    }
-
-    /// How long the motion that counts as being executed still takes, in s, when it has run for `elapsed` s at full speed:
-    /// exact where it begins and ends at rest, else as its segments and those behind them allow.
-    pub(crate) fn time_to_end(&self, elapsed: f64) -> f64 {
-        let (Some(first), Some((current, _))) = (self.segments.front(), self.current()) else { return 0.0 };
-        if let Some(duration) = current.duration().filter(|_| self.leader.follower().is_none()) {
-            return (duration - elapsed).max(0.0);
-        }
-        let own = |segment: &&Arc<Segment>| segment.number == current.number && !segment.leaves();
-        let later = self.segments.iter().skip(1).take_while(own);
-        let end = self.passed + first.time + later.clone().map(|segment| segment.time).sum::<f64>();
-        if let Some(time) = self.leader.follower().and_then(|follower| follower.time_to(end)) {
-            return time;
-        }
-        let mut legs = [Leg { length: 0.0, limits: first.limits }; remaining::MOST_LEGS];
-        let (mut known, mut at, mut stops) = (0, self.at, false);
-        for (leg, segment) in legs.iter_mut().zip([first].into_iter().chain(later)) {
-            let length = (segment.time - at).max(0.0);
-            let vel = if length > 0.0 { length / segment.time_from(at) } else { segment.limits.vel };
-            *leg = Leg { length, limits: Limits { vel, ..segment.limits } };
-            (known, at, stops) = (known + 1, 0.0, segment.stops);
-        }
-        let legs = legs.get(..known).unwrap_or_default();
-        let way: f64 = legs.iter().map(|leg| leg.length).sum();
-        let exit =
-            if stops { 0.0 } else { self.timing.highest_speed(self.state.at + way, LOOK_AHEAD_MARGIN, self.cycle) };
-        remaining::time_over(legs, exit, self.state.vel, self.state.acc)
     }
 }

@@ -69,6 +69,24 @@ impl Law {
         Some(Pace { times, ends: [*speeds.first()?, *speeds.last()?] })
     }
 
+    /// How many stretches it has.
+    pub(crate) fn stretches(&self) -> usize {
+        self.stretches.len()
+    }
+
+    /// Tells all that makes it what it is.
+    pub(crate) fn numbers(&self, note: &mut impl FnMut(u64)) {
+        note(self.stretches.len() as u64);
+        let Self { warp, end, stretches, duration } = self;
+        [*end, *duration, warp.length()].into_iter().for_each(|number| note(number.to_bits()));
+        for (index, Stretch { at, vel, acc, bend, time }) in stretches.iter().enumerate() {
+            let place = warp.place(index, *at);
+            [*vel, *acc, *bend, *time, place.at, place.first, place.second, place.third]
+                .into_iter()
+                .for_each(|number| note(number.to_bits()));
+        }
+    }
+
     /// How long the motion takes, in s.
     pub fn duration(&self) -> f64 {
         self.duration

@@ -75,7 +75,7 @@ pub(crate) struct Program {
     pub(crate) given: Vec<(usize, f64)>,
     edges: [Edge; 2],
     screen: Screen,
-    /// The stretches with limits in the middle.
+    /// The stretches with limits in the middle, from first to last.
     middles: Vec<usize>,
     /// The places at which derivatives of the path jump.
     jumps: Vec<bool>,
@@ -121,14 +121,20 @@ const GIVEN_STATE_S: f64 = 0.1;
 /// By so much acceleration and jerk are limited more strictly, for what happens between the places, and to leave room for
 /// a motion that starts on the way of another; that one has no such reserve.
 const RESERVE: f64 = 1.005;
+/// The same for the square of the speed, whatever is at the ends.
+const RESERVE_OF_SPEED: f64 = 1.0008;
 /// At a given start limits are as much higher as it takes for the state there, and by so much more; this fades out over so many
 /// places. The law before it was found over other places, where it may have used all that there is.
 const START_RESERVE: f64 = 0.003;
+const START_RESERVE_OF_SPEED: f64 = 2e-4;
 /// No state that a law leads to uses more of them.
 const MOST_USED_AT_START: f64 = 1.01;
 const START_PLACES: usize = 50;
-/// How many stretches next to rest have limits in the middle.
+/// How many stretches next to rest have all limits in the middle.
 const MIDDLES: usize = 4;
+/// A stretch has speed limits in its middle where the square of the speed may come as near to them as this part of it: what is as fast
+/// as it may be at all places would be faster between them.
+const NEAR_SPEED_LIMIT: f64 = 0.8;
 
 /// A share of the highest square of the paced parameter's speed that no motion comes down to, but for one that fails.
 const ALMOST_REST: f64 = 1e-9;
@@ -159,22 +165,21 @@ impl Program {
         let places: Vec<f64> = warp.places().collect();
         let mut rows = Vec::new();
         let mut ends = vec![0];
-        let mut push = |all: &mut dyn Iterator<Item = &Row>, place: Place| {
-            rows.extend(all.filter(|row| row.moves()).map(|row| WarpedRow::new(row, place)));
+        let mut push = |all: &mut dyn Iterator<Item = Row>, place: Place| {
+            rows.extend(all.filter(Row::moves).map(|row| WarpedRow::new(&row, place)));
             ends.push(rows.len());
         };
         for (index, at) in places.iter().enumerate() {
-            push(&mut way.rows_before(index).iter(), warp.place(index.saturating_sub(1), *at));
-            push(&mut way.rows_behind(index).iter(), warp.place(index, *at));
+            push(&mut way.rows_before(index).iter().copied(), warp.place(index.saturating_sub(1), *at));
+            push(&mut way.rows_behind(index).iter().copied(), warp.place(index, *at));
         }
-        // Close to rest the rows change so much that a stretch has limits in its middle as well.
-        let count = MIDDLES.min(last / 2);
-        let from = if start.rests() { 0..count } else { 0..0 };
-        let to = if end.rests() { last - count..last } else { 0..0 };
-        let middles: Vec<usize> = from.chain(to).collect();
-        for index in &middles {
-            let mut of_both = way.rows_behind(*index).iter().chain(way.rows_before(index + 1));
-            push(&mut of_both, warp.place(*index, 0.5 * (places[*index] + places[index + 1])));
+        let middles = middles(way, &warp, &places, (edges, &most));
+        for Middle { stretch, place, limits } in &middles {
+            let of_both = way.rows_behind(*stretch).iter().chain(way.rows_before(stretch + 1));
+            match limits {
+                Counting::All => push(&mut of_both.copied(), *place),
+                Counting::Speed => push(&mut of_both.map(Row::of_speed), *place),
+            }
         }
         let unit = rows.iter().fold(f64::INFINITY, |unit, row| {
             let jerk = row.jerk[2];
@@ -185,10 +190,10 @@ impl Program {
         }
         let unit = 0.8 * unit;
         let hold = if start.rests() && end.rests() { RESERVE } else { 1.0 };
-        rows.iter_mut().for_each(|row| row.scale(unit, hold));
+        rows.iter_mut().for_each(|row| row.scale(unit, [RESERVE_OF_SPEED, hold]));
         let given = given(&warp, &places, edges, unit);
         if !start.rests() {
-            ease(&mut rows, &ends, given_state(start, warp.place(0, 0.0), unit))?;
+            ease(&mut rows, &ends, &middles, given_state(start, warp.place(0, 0.0), unit))?;
         }
         let most = most.iter().zip(&places).enumerate().flat_map(|(index, (square, at))| {
             let slope = warp.place(index, *at).first;
@@ -209,7 +214,7 @@ impl Program {
             given,
             edges,
             screen,
-            middles,
+            middles: middles.iter().map(|middle| middle.stretch).collect(),
             jumps: (0..=last).map(|index| way.jumps(index)).collect(),
         };
         program.lay(last);
@@ -276,7 +281,7 @@ impl Program {
             let next = place(limits, before(index + 1));
             // What does not depend on the bend is limited once a place, if it does not jump there.
             right.limits = if index == last || jumps[index + 1] { next } else { [(0, 0), next[1]] };
-            if let Some(extra) = middles.iter().position(|middle| *middle == index) {
+            if let Ok(extra) = middles.binary_search(&index) {
                 middle.limits = place(limits, before(last + 2) + extra);
             }
             for site in [left, right, middle] {
@@ -293,8 +298,7 @@ impl Program {
         let last = self.stretches.len() - 1;
         for (index, (stretch, three)) in self.stretches.iter().zip(coefficients.windows(3)).enumerate() {
             let bend = dot(&stretch.bend, three);
-            let extra = self.middles.iter().position(|middle| *middle == index);
-            let middle = extra.map(|extra| before(last + 2) + extra);
+            let middle = self.middles.binary_search(&index).ok().map(|extra| before(last + 2) + extra);
             for (site, place) in stretch.sites.iter().zip([behind(index), before(index + 1)].into_iter().chain(middle))
             {
                 let (share, more) = self.screen.review(place, dot(&site.square, three), dot(&site.slope, three), bend);
@@ -400,6 +404,42 @@ impl Program {
     }
 }
 
+/// A stretch with limits in its middle.
+struct Middle {
+    stretch: usize,
+    /// The path parameter there.
+    place: Place,
+    limits: Counting,
+}
+
+/// Which limits count.
+enum Counting {
+    All,
+    Speed,
+}
+
+/// The stretches with limits in their middles: those close to rest, where rows change so much, and those of the highest speed; `most` is
+/// the highest square of the speed at each place.
+fn middles(way: &Way, warp: &PacedWarp, places: &[f64], ([start, end], most): ([Edge; 2], &[f64])) -> Vec<Middle> {
+    let last = places.len() - 1;
+    let count = MIDDLES.min(last / 2);
+    let is_near_rest = |stretch: usize| (start.rests() && stretch < count) || (end.rests() && stretch + count >= last);
+    // The highest square of the speed by speed limits alone.
+    let highest = |rows: &[Row]| rows.iter().map(|row| (row.vel / row.first).powi(2)).fold(f64::INFINITY, f64::min);
+    let middle = |stretch: usize| {
+        let [from, to] = [places[stretch], places[stretch + 1]];
+        let place = warp.place(stretch, f64::midpoint(from, to));
+        if is_near_rest(stretch) {
+            return Some(Middle { stretch, place, limits: Counting::All });
+        }
+        let ends = [highest(way.rows_behind(stretch)), highest(way.rows_before(stretch + 1))];
+        let is_fast = |(end, most): (&f64, &f64)| *most > NEAR_SPEED_LIMIT * end;
+        let may_exceed = ends.iter().zip(&most[stretch..]).all(is_fast);
+        may_exceed.then_some(Middle { stretch, place, limits: Counting::Speed })
+    };
+    (0..last).filter_map(middle).collect()
+}
+
 /// x and its slope at a given state at a place.
 fn given_state(edge: Edge, place: Place, unit: f64) -> (f64, f64) {
     let square = edge.vel * edge.vel / (place.first * place.first);
@@ -419,19 +459,37 @@ fn given(warp: &PacedWarp, places: &[f64], [start, end]: [Edge; 2], unit: f64) -
     both.into_iter().flatten().flatten().collect()
 }
 
-/// Raises the limits of the first places for the state at the start, x and its slope; not for one that is far beyond them.
-fn ease(rows: &mut [WarpedRow], ends: &[usize], (square, slope): (f64, f64)) -> Result<(), Refusal> {
-    let used = |row: &WarpedRow| (0.5 * row.acc[0] * slope + row.acc[1] * square).abs().max(row.vel * square);
-    let first = [behind(0), behind(0) + 1].map(|side| ends.get(side).copied().unwrap_or(rows.len()));
-    let used = rows.get(first[0]..first[1]).unwrap_or_default().iter().map(used).fold(1.0, f64::max);
-    if used > MOST_USED_AT_START {
+/// Raises the limits of the first places, and of the stretches between them, for the state at the start, x and its slope; not for one
+/// that is far beyond them.
+fn ease(
+    rows: &mut [WarpedRow],
+    ends: &[usize],
+    middles: &[Middle],
+    (square, slope): (f64, f64),
+) -> Result<(), Refusal> {
+    let range = |rows: &[WarpedRow], from: usize, to: usize| {
+        let [from, to] = [from, to].map(|side| ends.get(side).copied().unwrap_or(rows.len()));
+        from..to
+    };
+    let first = rows.get(range(rows, behind(0), behind(0) + 1)).unwrap_or_default();
+    let by_speed = first.iter().map(|row| row.vel * square).fold(1.0, f64::max);
+    let by_rest = first.iter().map(|row| (0.5 * row.acc[0] * slope + row.acc[1] * square).abs()).fold(1.0, f64::max);
+    if by_speed.max(by_rest) > MOST_USED_AT_START {
         return Err(Refusal::Fast);
     }
-    let most = used - 1.0 + START_RESERVE;
-    for place in 0..START_PLACES.min(ends.len() / 2) {
-        let factor = 1.0 / (1.0 + most * (1.0 - place as f64 / START_PLACES as f64));
-        let sides = [before(place), behind(place) + 1].map(|side| ends.get(side).copied().unwrap_or(rows.len()));
-        rows.get_mut(sides[0]..sides[1]).unwrap_or_default().iter_mut().for_each(|row| row.ease(factor));
+    let most = [by_speed - 1.0 + START_RESERVE_OF_SPEED, by_rest.max(by_speed) - 1.0 + START_RESERVE];
+    let raise = |rows: std::ops::Range<usize>, all: &mut [WarpedRow], place: usize| {
+        let fading = 1.0 - place as f64 / START_PLACES as f64;
+        let [speed, rest] = most.map(|most| 1.0 / (1.0 + most * fading));
+        all.get_mut(rows).unwrap_or_default().iter_mut().for_each(|row| row.ease(speed, rest));
+    };
+    let places = (ends.len() - 1 - middles.len()) / 2;
+    for place in 0..START_PLACES.min(places) {
+        raise(range(rows, before(place), behind(place) + 1), rows, place);
+    }
+    for (index, middle) in middles.iter().enumerate().filter(|(_, middle)| middle.stretch < START_PLACES) {
+        let side = before(places) + index;
+        raise(range(rows, side, side + 1), rows, middle.stretch);
     }
     Ok(())
 }

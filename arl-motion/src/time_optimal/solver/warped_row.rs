@@ -29,17 +29,18 @@ impl WarpedRow {
         }
     }
 
-    /// Over the squares of speed in units of `unit`.
-    pub(crate) fn scale(&mut self, unit: f64, hold: f64) {
+    /// Over the squares of speed in units of `unit`, with limits that are so many times as strict: on the square of the speed, and on
+    /// acceleration and jerk.
+    pub(crate) fn scale(&mut self, unit: f64, [speed, hold]: [f64; 2]) {
         let turn = unit * unit.sqrt() * hold;
-        self.vel *= unit;
+        self.vel *= unit * speed;
         self.acc.iter_mut().for_each(|value| *value *= unit * hold);
         self.jerk.iter_mut().for_each(|value| *value *= turn);
     }
 
-    /// With a share of what the limits are used.
-    pub(crate) fn ease(&mut self, factor: f64) {
-        self.vel *= factor;
+    /// With a share of what the limits are used: of that on the square of the speed, and of the others.
+    pub(crate) fn ease(&mut self, speed: f64, factor: f64) {
+        self.vel *= speed;
         self.acc.iter_mut().chain(&mut self.jerk).for_each(|value| *value *= factor);
     }
 }

@@ -32,6 +32,11 @@ impl Row {
             && self.jerk > 0.0
     }
 
+    /// The same without limits but that of the speed.
+    pub(crate) fn of_speed(&self) -> Self {
+        Self { acc: f64::INFINITY, jerk: f64::INFINITY, ..*self }
+    }
+
     /// Whether the quantity moves here at all.
     pub(crate) fn moves(&self) -> bool {
         self.first != 0.0 || self.second != 0.0 || self.third != 0.0
@@ -101,6 +106,17 @@ impl Way {
     /// Whether derivatives jump at the place `index`.
     pub(crate) fn jumps(&self, index: usize) -> bool {
         self.rows_before(index).len() < self.rows(index).len()
+    }
+
+    /// Tells all that makes it what it is.
+    pub(crate) fn numbers(&self, note: &mut impl FnMut(u64)) {
+        let Self { at, rows, ends, sides } = self;
+        note(at.len() as u64);
+        at.iter().for_each(|at| note(at.to_bits()));
+        ends.iter().chain(sides.iter().flatten()).for_each(|index| note(*index as u64));
+        for Row { first, second, third, vel, acc, jerk } in rows {
+            [first, second, third, vel, acc, jerk].into_iter().for_each(|number| note(number.to_bits()));
+        }
     }
 
     /// The places' path parameters.

@@ -8,6 +8,8 @@ use crate::motion::Progress;
 const ROUNDING_MM: f64 = 1e-6;
 /// The same in s.
 const ROUNDING_S: f64 = 1e-6;
+/// The same in percent.
+const ROUNDING_PERCENT: f64 = 1e-6;
 
 /// `T`: whether the motion has run for `t` s, counted at an override of 100 %.
 pub fn elapsed_time(cx: &Cx, t: f64) -> bool {
@@ -27,7 +29,7 @@ pub fn left_distance(cx: &Cx, s: f64) -> bool {
 
 /// `P`: whether `p` % of the motion are done.
 pub fn elapsed_percent(cx: &Cx, p: f64) -> bool {
-    p >= 0.0 && progress(cx).is_some_and(|progress| progress.share * 100.0 >= p)
+    p >= 0.0 && progress(cx).is_some_and(|progress| progress.share * 100.0 >= p - ROUNDING_PERCENT)
 }
 
 fn progress(cx: &Cx) -> Option<Progress> {

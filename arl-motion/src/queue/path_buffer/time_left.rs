@@ -1,0 +1,54 @@
+//! How long the motion that is executed still takes.
+
+use std::sync::Arc;
+
+use crate::follow::remaining::{self, Leg};
+use crate::follow::segment::Segment;
+use crate::limits::profile::{LOOK_AHEAD_MARGIN, Limits};
+use crate::queue::path_buffer::PathBuffer;
+
+/// How many times as long as at full speed what lies behind the known part of a law is thought to take at most.
+const SLOWEST_BEHIND_LAW: f64 = 2.0;
+
+impl PathBuffer {
+    /// How long the way between two places takes at the full speed of all of its parts, in s.
+    fn time_between(&self, from: f64, to: f64) -> f64 {
+        let starts = [self.passed].into_iter().chain(self.ends.iter().copied());
+        let time = |(segment, start): (&Arc<Segment>, f64)| {
+            let [left, right] = [from, to].map(|at| (at - start).clamp(0.0, segment.time));
+            segment.time_from(left) - segment.time_from(right)
+        };
+        self.segments.iter().zip(starts).take_while(|(_, start)| *start < to).map(time).sum()
+    }
+
+    /// How long the motion that counts as being executed still takes, in s, when it has run for `elapsed` s at full speed:
+    /// exact where it begins and ends at rest, else as its segments and those behind them allow.
+    pub(crate) fn time_to_end(&self, elapsed: f64) -> f64 {
+        let (Some(first), Some((current, _))) = (self.segments.front(), self.current()) else { return 0.0 };
+        if let Some(duration) = current.duration().filter(|_| self.leader.follower().is_none()) {
+            return (duration - elapsed).max(0.0);
+        }
+        let own = |segment: &&Arc<Segment>| segment.number == current.number && !segment.leaves();
+        let later = self.segments.iter().skip(1).take_while(own);
+        let end = self.passed + first.time + later.clone().map(|segment| segment.time).sum::<f64>();
+        if let Some((time, known)) = self.leader.follower().and_then(|follower| follower.time_to(end)) {
+            // Behind what is known it goes on as it does before, by what is programmed.
+            let [by_law, behind] = [self.time_between(self.passed + self.at, known), self.time_between(known, end)];
+            let factor = if by_law > 0.0 { (time / by_law).min(SLOWEST_BEHIND_LAW) } else { 1.0 };
+            return time + behind * factor;
+        }
+        let mut legs = [Leg { length: 0.0, limits: first.limits }; remaining::MOST_LEGS];
+        let (mut known, mut at, mut stops) = (0, self.at, false);
+        for (leg, segment) in legs.iter_mut().zip([first].into_iter().chain(later)) {
+            let length = (segment.time - at).max(0.0);
+            let vel = if length > 0.0 { length / segment.time_from(at) } else { segment.limits.vel };
+            *leg = Leg { length, limits: Limits { vel, ..segment.limits } };
+            (known, at, stops) = (known + 1, 0.0, segment.stops);
+        }
+        let legs = legs.get(..known).unwrap_or_default();
+        let way: f64 = legs.iter().map(|leg| leg.length).sum();
+        let exit =
+            if stops { 0.0 } else { self.timing.highest_speed(self.state.at + way, LOOK_AHEAD_MARGIN, self.cycle) };
+        remaining::time_over(legs, exit, self.state.vel, self.state.acc)
+    }
+}

@@ -1,0 +1,141 @@
+//! Laws that were found before, for programs that do the same again and again.
+//!
+//! A law is a function of what it was found from, so one that is remembered is the one that would be found. What it was found from is
+//! known by a fingerprint of 128 bits: places, the derivatives and limits of all that moves there, the state at the start, and the
+//! law before. Two ways that are the same in all of these to the last bit, and yet another between the places, do not come up.
+
+use std::collections::HashMap;
+use std::collections::hash_map::DefaultHasher;
+use std::hash::Hasher;
+use std::sync::Arc;
+
+use crate::time_optimal::solver::{Edge, Law, Way};
+
+/// So many stretches are remembered of all laws together, of 80 bytes each.
+const MOST_STRETCHES: usize = 60_000;
+/// What was not found takes as much room as a law of so many stretches.
+const ROOM_OF_NOTHING: usize = 10;
+
+/// A law, and how much its set-points use of the limits; `None` where there is none.
+pub(crate) type Answer = Option<(Arc<Law>, f64)>;
+
+/// The last laws that were found.
+#[derive(Debug, Default)]
+pub(crate) struct LawMemory {
+    known: HashMap<u128, Remembered>,
+    /// How many stretches there are, and how often something was asked for.
+    stretches: usize,
+    asked: u64,
+}
+
+#[derive(Debug)]
+struct Remembered {
+    answer: Answer,
+    /// When it was asked for last.
+    asked: u64,
+}
+
+impl LawMemory {
+    /// What was found from the same; else what `find` finds, which is remembered if it may be.
+    pub(crate) fn recall(&mut self, key: u128, find: impl FnOnce() -> (Answer, bool)) -> Answer {
+        self.asked += 1;
+        if let Some(known) = self.known.get_mut(&key) {
+            known.asked = self.asked;
+            return known.answer.clone();
+        }
+        let (answer, is_final) = find();
+        if is_final {
+            self.stretches += room(&answer);
+            self.known.insert(key, Remembered { answer: answer.clone(), asked: self.asked });
+            self.forget();
+        }
+        answer
+    }
+
+    /// Forgets what was not asked for for the longest time, until the rest is little enough.
+    fn forget(&mut self) {
+        while self.stretches > MOST_STRETCHES
+            && let Some(oldest) = self.known.iter().min_by_key(|(_, known)| known.asked).map(|(key, _)| *key)
+            && let Some(gone) = self.known.remove(&oldest)
+        {
+            self.stretches -= room(&gone.answer);
+        }
+    }
+}
+
+fn room(answer: &Answer) -> usize {
+    answer.as_ref().map_or(ROOM_OF_NOTHING, |(law, _)| law.stretches())
+}
+
+/// The fingerprint of what a law is found from.
+pub(crate) fn key(way: &Way, start: Edge, before: Option<&Law>) -> u128 {
+    // The second one begins elsewhere, so that the two have nothing to do with each other.
+    let mut halves = [DefaultHasher::new(), DefaultHasher::new()];
+    halves[1].write_u64(1);
+    let mut note = |number: u64| halves.iter_mut().for_each(|half| half.write_u64(number));
+    way.numbers(&mut note);
+    [start.vel, start.acc].into_iter().for_each(|number| note(number.to_bits()));
+    if let Some(law) = before {
+        law.numbers(&mut note);
+    }
+    let [high, low] = halves.map(|half| u128::from(half.finish()));
+    high << 64 | low
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::time_optimal::solver::{Row, fastest, places};
+
+    fn way(places: &[f64], second: f64) -> Way {
+        let mut way = Way::new();
+        for at in places {
+            let bent = if *at > 1.0 { second } else { 0.0 };
+            way.push(*at, [Row { first: 1.0, second: bent, third: 0.0, vel: 1.0, acc: 5.0, jerk: 50.0 }]);
+        }
+        way
+    }
+
+    fn find(way: &Way) -> (Answer, bool) {
+        (fastest(way, Edge::REST, Edge::REST).ok().map(|law| (Arc::new(law), 1.0)), true)
+    }
+
+    #[test]
+    fn the_same_is_found_once_and_everything_counts() {
+        let all = places(0.0, 2.0, 60, Edge::REST, Edge::REST);
+        let mut memory = LawMemory::default();
+        let (plain, bent) = (way(&all, 0.0), way(&all, 1e-12));
+        let first = memory.recall(key(&plain, Edge::REST, None), || find(&plain)).unwrap();
+        let again = memory.recall(key(&plain, Edge::REST, None), || panic!("it is known")).unwrap();
+        assert!(Arc::ptr_eq(&first.0, &again.0));
+        let state = Edge { vel: 0.5, acc: 0.0 };
+        let keys = [
+            key(&plain, Edge::REST, None),
+            key(&bent, Edge::REST, None),
+            key(&plain, state, None),
+            key(&plain, Edge { acc: 1e-300, ..state }, None),
+            key(&plain, state, Some(&first.0)),
+        ];
+        for (index, key) in keys.iter().enumerate() {
+            assert!(keys.iter().skip(index + 1).all(|other| other != key), "{index}");
+        }
+    }
+
+    #[test]
+    fn what_was_not_asked_for_for_longest_goes() {
+        let all = places(0.0, 2.0, 60, Edge::REST, Edge::REST);
+        let plain = way(&all, 0.0);
+        let (law, _) = find(&plain);
+        let mut memory = LawMemory::default();
+        let most = (MOST_STRETCHES / law.as_ref().unwrap().0.stretches()) as u128;
+        for key in 0..most {
+            memory.recall(key, || (law.clone(), true));
+        }
+        memory.recall(0, || panic!("it is known"));
+        memory.recall(most, || (law.clone(), true));
+        assert!(memory.known.contains_key(&0) && !memory.known.contains_key(&1) && memory.stretches <= MOST_STRETCHES);
+        // What nobody wanted any more was not looked for to its end.
+        memory.recall(most + 1, || (None, false));
+        assert!(!memory.known.contains_key(&(most + 1)));
+    }
+}
