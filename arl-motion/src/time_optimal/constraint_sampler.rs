@@ -37,8 +37,10 @@ const BESIDE_SHARE: f64 = 1e-9;
 const SAME_PLACE_SHARE: f64 = 1e-9;
 /// A law is found without places that are closer together than about so many s: set-points tell the mean of a jerk over three cycles.
 const CLOSEST_S: f64 = 0.003;
-/// With more segments than this ahead, their ends are no places of their own.
+/// With more segments than this ahead, their ends are no places of their own; they are looked at where they are farther apart than this
+/// part of the spacing.
 const MOST_SEGMENTS_WITH_ENDS: usize = 150;
+const CLOSEST_ENDS_SHARE: f64 = 0.1;
 /// How often the end is brought nearer because there are too many places before it.
 const MOST_SHORTENINGS: usize = 6;
 
@@ -89,10 +91,10 @@ impl ConstraintSampler {
             stops: false,
             rise: None,
         };
-        let mut settled_at = None;
         for (index, segment) in segments.enumerate() {
-            if index == settled {
-                settled_at = Some((sampler.segments.len(), sampler.end));
+            if index == settled && sampler.end >= room && !sampler.segments.is_empty() {
+                sampler.stops = false;
+                break;
             }
             sampler.end += segment.time;
             if sampler.segments.is_empty() && sampler.end <= at && !segment.stops {
@@ -104,10 +106,6 @@ impl ConstraintSampler {
             if segment.stops || sampler.end > farthest {
                 break;
             }
-        }
-        if let Some((count, end)) = settled_at.filter(|(count, end)| *count > 0 && *end >= room) {
-            sampler.segments.truncate(count);
-            (sampler.end, sampler.stops) = (end, false);
         }
         sampler
     }
@@ -173,7 +171,7 @@ impl ConstraintSampler {
         let spacing = (to - self.at) / count as f64;
         let mut stations: Vec<(f64, bool)> =
             places(self.at, to, count, start, end).into_iter().map(|at| (at, true)).collect();
-        let (joints, many) = self.joints(to);
+        let (joints, many) = self.joints(to, CLOSEST_ENDS_SHARE * spacing);
         stations.extend(joints.into_iter().map(|at| (at, !many)));
         stations.sort_by(|a, b| a.0.total_cmp(&b.0));
         stations.dedup_by(|next, kept| {
@@ -248,8 +246,9 @@ impl ConstraintSampler {
         grades
     }
 
-    /// Where derivatives jump before `to`: between segments and within them; and whether these are too many to be places.
-    fn joints(&self, to: f64) -> (Vec<f64>, bool) {
+    /// Where derivatives jump before `to`: between segments and within them; and whether these are too many to be places, of which
+    /// those are left out then that are nearer to each other than `closest`.
+    fn joints(&self, to: f64, closest: f64) -> (Vec<f64>, bool) {
         let mut joints = Vec::new();
         let (mut start, mut count) = (self.passed, 0);
         for segment in &self.segments {
@@ -261,7 +260,16 @@ impl ConstraintSampler {
             joints.extend(inner.filter(|at| *at > self.at && *at < to));
             start += segment.time;
         }
-        (joints, count > MOST_SEGMENTS_WITH_ENDS)
+        let many = count > MOST_SEGMENTS_WITH_ENDS;
+        if many {
+            let mut last = self.at;
+            joints.retain(|at| {
+                let is_far = *at - last >= closest;
+                last = if is_far { *at } else { last };
+                is_far
+            });
+        }
+        (joints, many)
     }
 }
 
@@ -348,11 +356,23 @@ impl<'a> Walk<'a> {
         Self { sampler, many, joints: sampler.near, index: 0, before: sampler.passed, jump: None, fastest: 0.0 }
     }
 
+    /// Leaves segments behind that end before `at`: too many of them meet for places of their own there.
+    fn skip_to(&mut self, at: f64) {
+        while let Some(segment) = self.sampler.segments.get(self.index)
+            && !segment.stops
+            && self.before + segment.time < at
+            && self.index + 1 < self.sampler.segments.len()
+        {
+            (self.before, self.index) = (self.before + segment.time, self.index + 1);
+        }
+    }
+
     /// Adds the limits at `at`; where a segment begins, those of the one before as well. Returns a step over which the motion
     /// changes little, no longer than `spacing`.
     fn rows(&mut self, at: f64, spacing: f64, constraints: &mut Constraints) -> f64 {
         let mut step = spacing;
         self.jump = None;
+        self.skip_to(at - SAME_PLACE_SHARE * spacing);
         while let Some(segment) = self.sampler.segments.get(self.index) {
             let here = (at - self.before).min(segment.time);
             self.joints = segment.joints_on(&self.sampler.robot.kinematics, here, &self.joints);

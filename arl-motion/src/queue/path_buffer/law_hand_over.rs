@@ -26,6 +26,14 @@ const LOOK_AHEAD_FACTOR: f64 = 1.2;
 /// With so much path, in s of nominal time, laws leave its end out; a little more, as they begin where the robot will be.
 pub(crate) const LOOKED_AHEAD_S: f64 = LOOK_AHEAD_FACTOR * FIRST_LOOK_AHEAD_S + 0.2;
 
+/// Of so many segments this part stays open behind a law that looks so many s ahead at least: each motion that joins what a law leads
+/// along waits for another law, and too many would.
+const SEGMENTS_OF_DENSE_CHAIN: usize = 1500;
+const OPEN_SHARE_OF_DENSE_CHAIN: f64 = 0.4;
+const LEAST_LAW_ON_DENSE_CHAIN_S: f64 = 0.4;
+/// An offer for which no law was found is made again so many s later.
+const OFFERED_AGAIN_AFTER_S: f64 = 0.01;
+
 /// A law that is being looked for, and what for.
 #[derive(Clone, Debug)]
 pub(crate) struct PendingLaw {
@@ -92,6 +100,7 @@ impl PathBuffer {
         let waits = |pending: &PendingLaw| offers(pending) || (self.leads_on(pending) && self.changes(pending.reach));
         // It rests soon, and goes on as the governor says.
         self.pending.as_ref().is_some_and(waits)
+            || (self.offer_pause > 0.0 && self.is_laid_down())
             || (matches!(self.leader, Leader::ShorterStop(_)) && self.is_laid_down())
     }
 
@@ -244,17 +253,16 @@ impl PathBuffer {
     }
 
     /// What a law from `at` on has to know: the path up to the next stop, or as far as a law looks; but for its last segments
-    /// where it is long enough without.
+    /// where it is long enough without, and for a part of a dense chain, so that motions join that behind the law.
     fn sampler(&self, robot: &Arc<Robot>, near: &Joints, at: f64) -> ConstraintSampler {
-        let segments = self.segments.iter();
-        let settled = self.segments.len().saturating_sub(self.open());
-        ConstraintSampler::new(
-            robot,
-            (segments, self.passed),
-            (at, near),
-            at + FARTHEST_LOOK_S,
-            (settled, at + LOOK_AHEAD_FACTOR * FIRST_LOOK_AHEAD_S),
-        )
+        let segments = self.segments.len();
+        let settled = if segments > SEGMENTS_OF_DENSE_CHAIN {
+            ((segments as f64 * (1.0 - OPEN_SHARE_OF_DENSE_CHAIN)) as usize, at + LEAST_LAW_ON_DENSE_CHAIN_S)
+        } else {
+            (segments.saturating_sub(self.open()), at + LOOK_AHEAD_FACTOR * FIRST_LOOK_AHEAD_S)
+        };
+        let ahead = (self.segments.iter(), self.passed);
+        ConstraintSampler::new(robot, ahead, (at, near), at + FARTHEST_LOOK_S, settled)
     }
 
     fn search(
@@ -282,9 +290,6 @@ impl PathBuffer {
     pub(crate) fn cancel(&mut self) {
         if let Some(pending) = self.pending.take() {
             pending.search.cancel();
-            if let Purpose::Offer(_) = pending.purpose {
-                self.answer = Some(Answer::Refused);
-            }
         }
     }
 
@@ -434,7 +439,8 @@ impl PathBuffer {
             Purpose::StopRequest(harder) => follower.stop_along(found, harder),
             Purpose::Next => self.next = Some(Next { found, reach }),
             Purpose::Offer(draft) if follower.renew(found) => self.take(*draft),
-            Purpose::Offer(_) => self.answer = Some(Answer::Refused),
+            // It is made again, as long as there is time.
+            Purpose::Offer(_) => self.offer_pause = OFFERED_AGAIN_AFTER_S,
             // It has a follower already.
             Purpose::ShorterStop => {}
         }
@@ -449,11 +455,12 @@ impl PathBuffer {
                 pending.search.cancel();
                 self.take(*draft);
             }
-            Purpose::Offer(_) => {
-                pending.search.cancel();
-                self.answer = Some(Answer::Refused);
-            }
-            Purpose::Start | Purpose::Renew | Purpose::GoOn(_) | Purpose::StopRequest(_) | Purpose::ShorterStop => {
+            Purpose::Offer(_)
+            | Purpose::Start
+            | Purpose::Renew
+            | Purpose::GoOn(_)
+            | Purpose::StopRequest(_)
+            | Purpose::ShorterStop => {
                 pending.search.cancel();
             }
         }

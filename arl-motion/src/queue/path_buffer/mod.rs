@@ -61,8 +61,9 @@ pub(crate) struct PathBuffer {
     law_solver: LawSolver,
     pending: Option<PendingLaw>,
     next: Option<Next>,
-    /// What became of motions that were offered.
+    /// What became of motions that were offered, and s until they are offered again where nothing did.
     answer: Option<Answer>,
+    offer_pause: f64,
     appending: Appending,
     /// How many segments have been left behind.
     gone: u64,
@@ -468,6 +469,7 @@ impl PathBuffer {
         pacing: Pacing,
         mut passed: impl FnMut(Arc<Segment>),
     ) -> bool {
+        self.offer_pause = (self.offer_pause - cycle).max(0.0);
         self.choose_leader(robot);
         self.shorten_stop(robot, here, cycle, pacing);
         if !self.follow_law(robot, here, cycle, pacing) {
