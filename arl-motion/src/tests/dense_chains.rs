@@ -73,6 +73,27 @@ fn dense_lines_keep_their_speed_whatever_their_zone() {
     }
 }
 
+#[test]
+fn very_dense_lines_that_come_while_the_robot_goes_keep_their_speed() {
+    // More of them than are ahead at once, ten a cycle: each time that laws led to the last one, those behind it would wait for another.
+    let robot = robot("kr10-r1420");
+    let (step, speed) = (0.06, 600.0);
+    let at = |index: u32| {
+        let angle = f64::from(index) * step / 100.0;
+        [100.0 * (1.0 - angle.cos()), 100.0 * angle.sin()]
+    };
+    let circle: Vec<[f64; 2]> = (1..=12_000).map(at).collect();
+    for profile in [VelocityProfile::T, VelocityProfile::S] {
+        let rows = go_through(&robot, &circle, speed, 0.01, profile);
+        let travels = rows.windows(2).map(|pair| pair[1].tcp.translation.vector - pair[0].tcp.translation.vector);
+        let speeds: Vec<f64> = travels.map(|travel| travel.norm() / CYCLE).collect();
+        let keeps = |now: &f64| *now >= 0.99 * speed;
+        let (first, last) = (speeds.iter().position(keeps).unwrap(), speeds.iter().rposition(keeps).unwrap());
+        assert!(speeds[first..=last].iter().all(keeps), "{profile:?}");
+        assert!(first < 350 && speeds.len() - last < 350, "{profile:?}: {first}, {}", speeds.len() - last);
+    }
+}
+
 /// How far the path leaves the lines from the first target to the others at most, in mm, and how many of them it came by.
 fn farthest_off(rows: &[Step], targets: &[[f64; 2]]) -> (f64, usize) {
     let start = rows[0].tcp.translation.vector;

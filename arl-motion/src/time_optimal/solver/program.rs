@@ -124,7 +124,8 @@ const RESERVE: f64 = 1.005;
 /// The same for the square of the speed, whatever is at the ends.
 const RESERVE_OF_SPEED: f64 = 1.0008;
 /// At a given start limits are as much higher as it takes for the state there, and by so much more; this fades out over so many
-/// places. The law before it was found over other places, where it may have used all that there is.
+/// places. The law before it was found over other places, where it may have used all that there is. Hardly so the limit of the square
+/// of the speed, which is programmed.
 const START_RESERVE: f64 = 0.003;
 const START_RESERVE_OF_SPEED: f64 = 2e-4;
 /// No state that a law leads to uses more of them.
