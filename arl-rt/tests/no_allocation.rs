@@ -34,6 +34,8 @@ fn cycles_without_statements_allocate_nothing() {
                 .run(cx)
                 .at(FILE, 1)?;
             motion::startdetect(1).run(cx).at(FILE, 1)?;
+            // A cycle that asks for a time law copies the way for the thread that finds it.
+            cx.system().vel_profile.set(VelProfile::T);
             motion::movej(bent(60.0)).vp(100.0).run(cx).await.at(FILE, 1)?;
             motion::toolload(ToolInertiaPara { m: 500.0, ..Default::default() }).run(cx).at(FILE, 2)?;
             motion::movej(bent(-60.0)).vp(100.0).run(cx).await.at(FILE, 2)?;
