@@ -42,7 +42,7 @@ fn with_external_axes(name: &str) -> Arc<Robot> {
     Arc::new(Robot::parse("with external axes", &text).unwrap())
 }
 
-fn axes(axes: [f64; 6]) -> Joints {
+pub(crate) fn axes(axes: [f64; 6]) -> Joints {
     Joints { axes, external: [UNSET; 6] }
 }
 
@@ -50,7 +50,7 @@ fn fast() -> Speed {
     Speed { percent: 100.0, tcp: 1e4, ori: 1e4, exj: 1e4, exl: 1e4 }
 }
 
-fn command(target: Target) -> Command {
+pub(crate) fn command(target: Target) -> Command {
     Command { target, rig: Rig::bare(), speed: fast(), duration: None, zone: Zone::NONE, line: 7 }
 }
 

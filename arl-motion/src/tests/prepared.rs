@@ -117,3 +117,35 @@ fn what_comes_in_time_is_blended_whatever_the_robot_does() {
         }
     }
 }
+
+#[test]
+fn motions_that_come_one_by_one_join_the_path() {
+    let mut random = Random::new(233);
+    let mut late = 0;
+    for name in ["kr10-r1420", "kr6-r700"] {
+        let robot = robot(name);
+        // So many motions every so many cycles: while the robot rests, and while laws lead it.
+        for (every, together) in [(1, 1), (1, 2), (2, 1), (30, 1), (60, 1), (90, 1), (120, 1)] {
+            let (start, commands) = chain(&robot, &mut random, 40.0, 40);
+            let mut queue = Queue::new(Arc::clone(&robot), start);
+            let mut commands = commands.iter();
+            let mut rows = vec![Step { joints: start, tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+            while commands.len() > 0 || !queue.idle() {
+                let count = match rows.len() {
+                    1 if every > 2 => 6,
+                    cycle if cycle % every == 0 => together,
+                    _ => 0,
+                };
+                for command in commands.by_ref().take(count) {
+                    // What is out of reach is left out.
+                    let _ = queue.add(command, &Settings::default());
+                }
+                rows.push(queue.step(CYCLE, 100.0));
+                late += u32::from(queue.take_late().is_some());
+                assert!(rows.len() < 100_000);
+            }
+            assert_within_limits(&robot, &rows, &format!("{name} {every} {together}"));
+        }
+    }
+    assert!(late <= 1, "{late} came too late");
+}

@@ -87,6 +87,29 @@ pub(crate) fn change_override(settings: &Settings, seed: u64, rounds: u32, hold:
 }
 
 #[test]
+fn an_override_that_jumps_each_cycle_breaks_no_limit() {
+    let robot = robot("kr10-r1420");
+    let reference = run(&mut two_motions(&robot, &Settings::default()), 100.0);
+    let mut random = Random::new(43);
+    for round in 0..4 {
+        let mut queue = two_motions(&robot, &Settings::default());
+        let mut rows = vec![reference[0]];
+        while !queue.idle() {
+            let jumps = (500 * round..500 * round + 3000).contains(&rows.len());
+            let percent = match random.between(0.0, 1.0) {
+                _ if !jumps => 100.0,
+                0.0..0.2 => 0.0,
+                _ => random.between(1.0, 100.0),
+            };
+            rows.push(queue.step(CYCLE, percent));
+            assert!(rows.len() < 100_000);
+        }
+        assert_within_limits(&robot, &rows, "a jumping override");
+        assert_same_path(&robot, &rows, &reference);
+    }
+}
+
+#[test]
 fn a_lower_override_is_reached_soon() {
     let robot = robot("kr10-r1420");
     let mut queue = two_motions(&robot, &Settings::default());

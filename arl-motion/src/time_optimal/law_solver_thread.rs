@@ -330,3 +330,27 @@ fn find_shorter_stop(
     let found = find_stop(&sampler, start, (SHORTER_STOP_SHARE_OF_WAY * way, harder), wanted)?;
     (found.law.duration() < SHORTER_STOP_SHARE_OF_TIME * time).then_some(found)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::command::{Command, Settings, Target};
+    use crate::follow::segment::Segment;
+    use crate::plan::planner::plan;
+    use arl_robot::robot::Robot;
+
+    #[test]
+    fn a_way_that_was_gone_before_is_not_timed_again() {
+        let robot = Arc::new(Robot::builtin("kr10-r1420").unwrap());
+        let start = crate::tests::axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+        let goal = crate::tests::axes([30.0, -80.0, 70.0, 10.0, 60.0, 0.0]);
+        let command: Command = crate::tests::command(Target::Joints(goal));
+        let motion = plan(&robot, &start, &command, &Settings::default()).unwrap();
+        let segments = [Arc::new(Segment::part(&motion, motion.limits.unwrap(), 1, 0.0, 1.0))];
+        let sampler =
+            || ConstraintSampler::new(&robot, (segments.iter(), 0.0), (0.0, &start), 8.0, (usize::MAX, f64::INFINITY));
+        let mut memory = LawMemory::default();
+        let mut law = || find(&sampler(), (Edge::REST, None), &mut memory, || true).unwrap().law;
+        assert!(Arc::ptr_eq(&law(), &law()));
+    }
+}

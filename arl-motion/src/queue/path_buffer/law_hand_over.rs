@@ -1,7 +1,8 @@
 //! How the follower leads the robot along the path, and how motions join the path meanwhile.
 //!
 //! Looking for a law takes some cycles. What changes the path where such a law may lead waits until it is there; what changes it
-//! under the law in hand is an offer: it is made when a law has been found for it, else the robot keeps to what it has.
+//! under the law in hand is an offer: it joins the path when a law has been found for it. Where none is, the robot keeps to what it has
+//! and the offer is made again, until it would come too late.
 
 use std::sync::Arc;
 
