@@ -120,13 +120,14 @@ fn what_comes_in_time_is_blended_whatever_the_robot_does() {
 
 #[test]
 fn motions_that_come_one_by_one_join_the_path() {
-    let mut random = Random::new(233);
     let mut late = 0;
-    for name in ["kr10-r1420", "kr6-r700"] {
-        let robot = robot(name);
+    let mut randoms = [Random::new(233), Random::new(239)];
+    // With the other seed an offer that changes the way behind a stop is taken while a law for that way is at hand.
+    for (name, which) in [("kr10-r1420", 0), ("kr6-r700", 0), ("kr10-r1420", 1), ("kr6-r700", 1)] {
+        let (robot, random) = (robot(name), &mut randoms[which]);
         // So many motions every so many cycles: while the robot rests, and while laws lead it.
         for (every, together) in [(1, 1), (1, 2), (2, 1), (30, 1), (60, 1), (90, 1), (120, 1)] {
-            let (start, commands) = chain(&robot, &mut random, 40.0, 40);
+            let (start, commands) = chain(&robot, random, 40.0, 40);
             let mut queue = Queue::new(Arc::clone(&robot), start);
             let mut commands = commands.iter();
             let mut rows = vec![Step { joints: start, tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
@@ -144,8 +145,8 @@ fn motions_that_come_one_by_one_join_the_path() {
                 late += u32::from(queue.take_late().is_some());
                 assert!(rows.len() < 100_000);
             }
-            assert_within_limits(&robot, &rows, &format!("{name} {every} {together}"));
+            assert_within_limits(&robot, &rows, &format!("{name} {which} {every} {together}"));
         }
     }
-    assert!(late <= 1, "{late} came too late");
+    assert!(late <= 3, "{late} came too late");
 }

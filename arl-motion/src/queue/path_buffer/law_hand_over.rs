@@ -208,6 +208,7 @@ impl PathBuffer {
             self.answer = Some(Answer::Refused);
             return;
         };
+        self.drop_next_beyond(draft.same_to);
         self.take_back(self.segments.len().saturating_sub(kept as usize));
         for segment in draft.segments {
             self.push_shared(segment, true);
@@ -234,17 +235,21 @@ impl PathBuffer {
             Appending::BehindStop => return false,
             Appending::Blended => {}
         }
-        // A law from the next stop on may not hold any more.
+        self.drop_next_beyond(same_to);
+        self.leader.follower().is_none_or(|follower| follower.end() <= same_to)
+    }
+
+    /// Drops the law from the next stop on where it leads beyond `same_to`: it may not hold any more.
+    fn drop_next_beyond(&mut self, same_to: f64) {
         let pending = self.pending.as_ref().filter(|pending| !self.leads_on(pending)).map(|pending| pending.reach);
-        if let Some(reach) = pending.or(self.next.as_ref().map(|next| next.reach))
-            && reach + if self.leader.follower().is_some() { self.next_stop() } else { 0.0 } > same_to
-        {
+        let Some(reach) = pending.or(self.next.as_ref().map(|next| next.reach)) else { return };
+        let stop = if self.leader.follower().is_some() { self.next_stop() } else { 0.0 };
+        if stop + reach > same_to {
             self.next = None;
             if pending.is_some() {
                 self.cancel();
             }
         }
-        self.leader.follower().is_none_or(|follower| follower.end() <= same_to)
     }
 
     /// Where the robot has to stop next, in s of nominal time since the path began.
@@ -284,6 +289,7 @@ impl PathBuffer {
         purpose: Purpose,
     ) {
         let reach = sampler.end;
+        self.cancel();
         self.pending = Some(PendingLaw { search: self.law_solver.search(sampler, request, cycles), purpose, reach });
     }
 
