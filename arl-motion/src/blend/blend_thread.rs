@@ -2,9 +2,10 @@
 //!
 //! When a motion is laid is decided by the cycle alone, whatever the thread has done until then. A junction that it has found by
 //! then is there; one that it is finding is waited for; else the cycle finds it. All three give the same, so a run does not
-//! depend on the thread.
+//! depend on the thread. In real time the motion waits instead until the thread is ready.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, OnceLock};
 use std::thread;
@@ -18,7 +19,14 @@ const MOST_JUNCTIONS: usize = 1024;
 
 /// A junction that is being found.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Prepared(Arc<OnceLock<Junction>>);
+pub(crate) struct Prepared(Arc<Preparation>);
+
+#[derive(Debug, Default)]
+struct Preparation {
+    junction: OnceLock<Junction>,
+    /// Whether the thread has given it up, or never had it.
+    is_left: AtomicBool,
+}
 
 /// How a motion will be joined by the one before it when it is left.
 #[derive(Debug)]
@@ -66,10 +74,13 @@ impl BlendThread {
         if self.channels.is_none() {
             self.channels = begin();
         }
-        if let Some(channels) = &self.channels {
+        let is_sent = self.channels.as_ref().is_some_and(|channels| {
             channels.done.try_iter().for_each(drop);
-            // What the thread does not take is found when it is needed.
-            let _ = channels.tasks.try_send(task);
+            channels.tasks.try_send(task).is_ok()
+        });
+        if !is_sent {
+            // It is found when it is needed.
+            result.leave();
         }
         result
     }
@@ -90,12 +101,21 @@ impl Prepared {
     /// Waits until the thread has found it.
     #[cfg(test)]
     pub(crate) fn wait(&self) {
-        self.0.wait();
+        self.0.junction.wait();
+    }
+
+    /// Whether nobody has to wait for the thread.
+    pub(crate) fn is_ready(&self) -> bool {
+        self.0.junction.get().is_some() || self.0.is_left.load(Ordering::Acquire)
+    }
+
+    fn leave(&self) {
+        self.0.is_left.store(true, Ordering::Release);
     }
 
     /// What has been found, or is found now from what is known to be.
     pub(crate) fn take(&self, robot: &Robot, meeting: impl FnOnce() -> Meeting) -> &Junction {
-        self.0.get_or_init(|| Junction::find(robot, meeting()))
+        self.0.junction.get_or_init(|| Junction::find(robot, meeting()))
     }
 }
 
@@ -118,11 +138,13 @@ impl Task {
         let meeting = || {
             let before = match &self.joining {
                 Joining::Known(before) => before.clone(),
-                Joining::Behind(first) => first.0.get().and_then(Junction::leaves),
+                Joining::Behind(first) => first.0.junction.get().and_then(Junction::leaves),
             };
             Meeting { before, from: Arc::clone(&self.from), to: Arc::clone(&self.to) }
         };
         // What goes wrong here goes wrong in the cycle again, where somebody hears of it.
-        let _ = catch_unwind(AssertUnwindSafe(|| self.result.take(&self.robot, meeting)));
+        if catch_unwind(AssertUnwindSafe(|| self.result.take(&self.robot, meeting))).is_err() {
+            self.result.leave();
+        }
     }
 }

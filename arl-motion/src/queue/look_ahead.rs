@@ -165,11 +165,11 @@ impl Queue {
             };
             self.blend_thread.prepare(&self.robot, joining, [last, motion])
         });
-        if hurries {
+        if hurries && !waits {
             self.layer.waiting.lay_at_once();
             return (0, prepared);
         }
-        let time = if is_blended { time } else { 0.0 };
+        let time = if is_blended { time.max(LEAST_WAIT_S) } else { 0.0 };
         (self.cycles + (time / self.cycle) as u64, prepared)
     }
 
@@ -203,20 +203,27 @@ impl Queue {
         self.spare = None;
     }
 
+    /// Whether a motion can be laid without waiting for the blend that leads to it, where that counts. The robot does not go on without it
+    /// while there is way ahead, and at its end needs none.
+    fn is_prepared(&self, ready: &Ready) -> bool {
+        !self.in_real_time || self.layer.path.is_empty() || ready.prepared.as_ref().is_none_or(Prepared::is_ready)
+    }
+
     /// Lays the motions that are due on the path, as soon as that can take them; some a cycle, but for those in a hurry.
     pub(crate) fn lay_waiting(&mut self) {
         let mut laid = Done::default();
         while let Some(first) = self.layer.waiting.first() {
             let hurries = first.due == 0 || self.layer.path.is_empty();
             let is_due = first.due <= self.cycles && !laid.suffices(self.cycle);
-            if self.layer.path.is_asking() || !(hurries || is_due) {
+            if self.layer.path.is_asking() || !(hurries || is_due) || !self.is_prepared(first) {
                 return;
             }
             laid.add(&first.motion);
             self.spare = None;
             self.forecast = None;
             if self.layer.path.is_laid_down() {
-                let due = self.layer.waiting.due(self.cycles);
+                let prepared = self.layer.waiting.due(self.cycles).take_while(|ready| self.is_prepared(ready)).count();
+                let due = self.layer.waiting.due(self.cycles).take(prepared);
                 let motions = due.map(|ready| ((&ready.motion, ready.number), ready.prepared.as_ref()));
                 self.layer.path.offer((&self.robot, &self.joints), motions, self.cycle);
                 self.take_answer();
@@ -234,6 +241,17 @@ impl Queue {
     /// Has the thread never find anything.
     pub(crate) fn prepare_nothing(&mut self) {
         self.blend_thread = crate::blend::blend_thread::BlendThread::stuck();
+    }
+
+    /// Has no thread ever find anything.
+    pub(crate) fn find_nothing(&mut self) {
+        self.prepare_nothing();
+        self.layer.path.find_no_laws();
+    }
+
+    /// Waits until the law is found that is being looked for.
+    pub(crate) fn await_law(&self) {
+        self.layer.path.await_law();
     }
 
     /// Waits until the thread has found everything.

@@ -92,8 +92,9 @@ pub struct Queue {
     forecast: Option<(u64, f64, u32)>,
     /// How far motions had come that were left behind in the last cycle.
     left: Vec<Progress>,
-    /// The length of a cycle, in s.
+    /// The length of a cycle, in s, and whether cycles take the time that they stand for.
     cycle: f64,
+    in_real_time: bool,
     /// The last target that was not rounded off because a motion came too late, and the last beside which there is no way.
     late: Option<UnblendedTarget>,
     unblended: Option<UnblendedTarget>,
@@ -139,6 +140,7 @@ impl Queue {
             forecast: None,
             left: Vec::with_capacity(LOOK_AHEAD),
             cycle: 0.001,
+            in_real_time: false,
             late: None,
             unblended: None,
             blend_thread: BlendThread::default(),
@@ -151,6 +153,19 @@ impl Queue {
             laid: None,
             slowed: (1.0, 0),
         }
+    }
+
+    /// Says whether cycles take the time that they stand for. Then none of them waits for what threads find beside it: the robot goes on
+    /// with what it has, and comes to rest on its path where nothing more comes. Else a cycle that needs a time law waits for it, so
+    /// that each run is the same.
+    pub fn follow_real_time(&mut self, in_real_time: bool) {
+        self.in_real_time = in_real_time;
+        self.layer.path.follow_real_time(in_real_time);
+    }
+
+    /// How many time laws came too late, in real time.
+    pub fn late_laws(&self) -> u64 {
+        self.layer.path.late_laws()
     }
 
     /// The robot that moves.

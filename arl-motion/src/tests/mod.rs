@@ -10,6 +10,7 @@ mod gates;
 mod optimal;
 mod plans;
 mod prepared;
+mod real_time;
 mod short_stops;
 mod stops;
 mod suspensions;

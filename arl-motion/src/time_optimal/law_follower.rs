@@ -22,6 +22,8 @@ use crate::time_optimal::speed_scaling::{SpeedScaling, followed};
 
 /// A law of which a smaller part is left is made longer when there is more path.
 const RENEWED_AT_SHARE_LEFT: f64 = 0.5;
+/// It is made longer when no more than so many searches fit in what is left of it.
+const SEARCHES_LEFT: f64 = 2.0;
 /// A new law must be about as quick as the one in hand over the next part of that.
 const COMPARED_SHARE: f64 = 0.3;
 const SLOWEST_RENEWAL_FACTOR: f64 = 1.1;
@@ -342,7 +344,8 @@ impl LawFollower {
     /// that.
     pub(crate) fn renewal(&self, cycles: u32, cycle: f64) -> Option<RenewalRequest> {
         let main = self.ahead.main.as_ref()?;
-        let short = main.left() < RENEWED_AT_SHARE_LEFT * main.found.law.duration();
+        let search = f64::from(cycles) * cycle;
+        let short = main.left() < (RENEWED_AT_SHARE_LEFT * main.found.law.duration()).max(SEARCHES_LEFT * search);
         if self.pause > 0.0 || main.found.stops || !short {
             return None;
         }

@@ -1,13 +1,15 @@
 //! Finds laws beside the cycle: on a thread of its own, from a copy of what there is to know.
 //!
 //! A law is asked for in one cycle and taken over a fixed number of cycles later, whenever it was really found: so a run is the
-//! same at every clock, and on every machine. If it is not found by then, that cycle waits for it.
+//! same at every clock, and on every machine. If it is not found by then, that cycle waits for it; but not in real time, where the
+//! robot does without it, and the next ones are asked for earlier.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, OnceLock};
 use std::thread;
+use std::time::Instant;
 
 use crate::time_optimal::constraint_sampler::{ConstraintSampler, Prospect};
 use crate::time_optimal::law_memory::{LawMemory, key};
@@ -18,6 +20,12 @@ use crate::time_optimal::stop_prediction::StopPrediction;
 
 /// How long finding a law may take, in s of controller time.
 const SOLVING_TIME_S: f64 = 0.02;
+/// In real time it may take as many times what the last ones took, and this factor more after one that came too late, up to so many s; with each
+/// one that came in time it is a little less again.
+const SOLVING_TIME_RESERVE: f64 = 1.5;
+const LATE_FACTOR: f64 = 2.0;
+const LONGEST_SOLVING_TIME_S: f64 = 0.3;
+const SOLVING_TIME_DECAY: f64 = 0.97;
 /// How many s of nominal time are looked ahead at first.
 pub(crate) const FIRST_LOOK_AHEAD_S: f64 = 2.0;
 /// A law takes so many s at least, if there is so much path.
@@ -68,14 +76,25 @@ pub(crate) struct Search {
 
 #[derive(Debug, Default)]
 struct Outcome {
-    found: OnceLock<Option<Found>>,
+    /// What was found, and how long that took, in s.
+    found: OnceLock<(Option<Found>, f64)>,
     forsaken: AtomicBool,
+}
+
+/// What has become of a search.
+pub(crate) enum Status {
+    /// It is not time yet.
+    Running,
+    Done(Option<Found>),
+    /// It is time, and the law is not there; only in real time.
+    Late,
 }
 
 struct Task {
     sampler: ConstraintSampler,
     request: LawRequest,
     result: Arc<Outcome>,
+    asked: Instant,
 }
 
 /// What is looked for.
@@ -94,25 +113,73 @@ pub(crate) enum LawRequest {
 #[derive(Debug, Default)]
 pub(crate) struct LawSolver {
     tasks: Option<Sender<Task>>,
+    /// Whether cycles take the time that they stand for.
+    in_real_time: bool,
+    /// How much longer, in s, finding a law may take than it mostly does.
+    more_time: f64,
+    late: u64,
 }
 
 impl Clone for LawSolver {
     /// Another one, with a thread of its own.
     fn clone(&self) -> Self {
-        Self::default()
+        Self { in_real_time: self.in_real_time, ..Self::default() }
     }
 }
 
 impl LawSolver {
+    /// Whether cycles take the time that they stand for: then none waits for a law.
+    pub(crate) fn follow_real_time(&mut self, in_real_time: bool) {
+        self.in_real_time = in_real_time;
+        if !in_real_time {
+            self.more_time = 0.0;
+        }
+    }
+
+    /// How many laws came too late.
+    pub(crate) fn late(&self) -> u64 {
+        self.late
+    }
+
     /// After how many cycles of `cycle` s a law can be taken over at the earliest.
-    pub(crate) fn cycles(cycle: f64) -> u32 {
-        (SOLVING_TIME_S / cycle - 1e-6).ceil().max(1.0) as u32
+    pub(crate) fn cycles(&self, cycle: f64) -> u32 {
+        ((SOLVING_TIME_S + self.more_time) / cycle - 1e-6).ceil().max(1.0) as u32
+    }
+
+    /// Counts a cycle of a search, and looks what has become of it.
+    pub(crate) fn look(&mut self, search: &mut Search) -> Status {
+        search.left = search.left.saturating_sub(1);
+        if search.left > 0 {
+            return Status::Running;
+        }
+        if !self.in_real_time {
+            return Status::Done(search.result.found.wait().0.clone());
+        }
+        match search.result.found.get() {
+            Some((found, took)) => {
+                let needed = SOLVING_TIME_RESERVE * took - SOLVING_TIME_S;
+                self.allow(needed.max(SOLVING_TIME_DECAY * self.more_time));
+                Status::Done(found.clone())
+            }
+            None => Status::Late,
+        }
+    }
+
+    /// Does without a law that comes too late.
+    pub(crate) fn give_up(&mut self, search: &Search) {
+        search.cancel();
+        self.late += 1;
+        self.allow(LATE_FACTOR * (SOLVING_TIME_S + self.more_time) - SOLVING_TIME_S);
+    }
+
+    fn allow(&mut self, more_time: f64) {
+        self.more_time = more_time.clamp(0.0, LONGEST_SOLVING_TIME_S - SOLVING_TIME_S);
     }
 
     /// Begins to look for a law; it will be taken over after so many cycles.
     pub(crate) fn search(&mut self, sampler: ConstraintSampler, request: LawRequest, cycles: u32) -> Search {
         let result = Arc::new(Outcome::default());
-        let task = Task { sampler, request, result: Arc::clone(&result) };
+        let task = Task { sampler, request, result: Arc::clone(&result), asked: Instant::now() };
         if self.tasks.is_none() {
             self.tasks = begin();
         }
@@ -130,12 +197,6 @@ impl LawSolver {
 }
 
 impl Search {
-    /// Counts a cycle; when it was the last one, what was found.
-    pub(crate) fn next(&mut self) -> Option<Option<Found>> {
-        self.left = self.left.saturating_sub(1);
-        (self.left == 0).then(|| self.result.found.wait().clone())
-    }
-
     /// Says that the law is not needed any more.
     pub(crate) fn cancel(&self) {
         self.result.forsaken.store(true, Ordering::Relaxed);
@@ -154,7 +215,7 @@ fn begin() -> Option<Sender<Task>> {
 
 impl Task {
     fn run(self, memory: &mut LawMemory) {
-        let Self { sampler, request, result } = self;
+        let Self { sampler, request, result, asked } = self;
         let wanted = || !result.forsaken.load(Ordering::Relaxed);
         let find = || match request {
             LawRequest::Fastest(start, law) => find(&sampler, (start, law.as_deref()), memory, wanted),
@@ -164,7 +225,25 @@ impl Task {
         // Whoever waits has to get an answer in any case.
         let found = catch_unwind(AssertUnwindSafe(find)).unwrap_or(None);
         // Nobody else sets it.
-        let _ = result.found.set(found);
+        let _ = result.found.set((found, asked.elapsed().as_secs_f64()));
+    }
+}
+
+#[cfg(test)]
+impl LawSolver {
+    /// Has the thread never find anything.
+    pub(crate) fn find_nothing(&mut self) {
+        let (tasks, asked) = channel();
+        std::mem::forget(asked);
+        self.tasks = Some(tasks);
+    }
+}
+
+#[cfg(test)]
+impl Search {
+    /// Waits until the thread is done.
+    pub(crate) fn wait(&self) {
+        self.result.found.wait();
     }
 }
 

@@ -244,10 +244,11 @@ impl Channel {
         matches!(self.phase, Phase::Running(_) | Phase::Concluding)
     }
 
-    /// One step of the robot and of its trace, at `time` seconds; `period` is the length of the cycle.
-    pub(super) fn step_robot(&mut self, time: f64, period: f64) {
+    /// One step of the robot and of its trace, at `time` seconds; `period` is the length of the cycle, which is that of the world where
+    /// it is `real`.
+    pub(super) fn step_robot(&mut self, time: f64, period: f64, real: bool) {
         let Some(mut unit) = self.channel_state.robot_mut() else { return };
-        unit.step(period);
+        unit.step(period, real);
         let rests = unit.rests() && (self.channel_state.paused.get() || !unit.moves());
         self.rested = if rests { self.rested.saturating_add(1) } else { 0 };
         self.channel_state.update_system(&unit);

@@ -150,7 +150,8 @@ impl Controller {
         self.channels.each(Channel::scan_events);
         self.channels.each(Channel::poll);
         self.channels.each(Channel::handle_pending_alarm);
-        self.channels.each(|channel| channel.step_robot(rate.time(cycle), rate.period()));
+        let real = self.clock.is_real();
+        self.channels.each(|channel| channel.step_robot(rate.time(cycle), rate.period(), real));
         self.write_external_outputs();
         self.islands.write(self.shared.io.borrow().outputs_all(cycle));
         self.io.write(self.shared.io.borrow().outputs_all(cycle));
@@ -371,6 +372,12 @@ impl Controller {
     /// How many cycles began late, on the real clock.
     pub fn overruns(&self) -> u64 {
         self.clock.overruns()
+    }
+
+    /// How many times a robot went on for a while as it was, or came to rest on its path, because what was to lead it farther was
+    /// found too late, on the real clock.
+    pub fn late_laws(&self) -> u64 {
+        self.channels.iter().filter_map(|channel| Some(channel.channel_state().robot()?.late_laws())).sum()
     }
 
     /// The file and line of the statement that runs now.

@@ -421,8 +421,14 @@ impl Unit {
         self.queue.rests() && self.is_settled()
     }
 
-    /// One interpolation step, and the exchange with the driver.
-    pub(crate) fn step(&mut self, period: f64) {
+    /// How many time laws came too late, on the real clock.
+    pub(crate) fn late_laws(&self) -> u64 {
+        self.queue.late_laws()
+    }
+
+    /// One interpolation step, and the exchange with the driver. `real`: cycles take the time that they stand for.
+    pub(crate) fn step(&mut self, period: f64, real: bool) {
+        self.queue.follow_real_time(real);
         let step = self.queue.step(period, self.override_percent);
         if let Some(recorder) = &mut self.recorder {
             recorder.step(&mut self.queue, &step, period);

@@ -16,7 +16,7 @@ use crate::queue::path_buffer::leader::{Appending, Leader};
 use crate::queue::path_buffer::{ACCELERATION_RISE_CYCLES, NEAR_STOP_S, PathBuffer, Tail, UnblendedTarget};
 use crate::time_optimal::constraint_sampler::ConstraintSampler;
 use crate::time_optimal::law_follower::{LawFollower, RenewalRequest, StopRequest};
-use crate::time_optimal::law_solver_thread::{FIRST_LOOK_AHEAD_S, Found, LawRequest, LawSolver, Search};
+use crate::time_optimal::law_solver_thread::{FIRST_LOOK_AHEAD_S, Found, LawRequest, Search, Status};
 use crate::time_optimal::solver::{Edge, Law};
 use arl_robot::robot::Robot;
 
@@ -42,6 +42,19 @@ pub(crate) struct PendingLaw {
     pub(crate) purpose: Purpose,
     /// Where the part of the path ends that it may lead over, in s of nominal time.
     reach: f64,
+}
+
+impl PendingLaw {
+    /// Whether the law will be of use however late it comes.
+    fn begins_at_rest(&self, follower: &LawFollower) -> bool {
+        match self.purpose {
+            Purpose::Next => true,
+            Purpose::Start => follower.rests(),
+            Purpose::Renew | Purpose::GoOn(_) | Purpose::StopRequest(_) | Purpose::ShorterStop | Purpose::Offer(_) => {
+                false
+            }
+        }
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -95,6 +108,16 @@ pub(crate) enum Answer {
 }
 
 impl PathBuffer {
+    /// As [`crate::queue::Queue::follow_real_time`].
+    pub(crate) fn follow_real_time(&mut self, in_real_time: bool) {
+        self.law_solver.follow_real_time(in_real_time);
+    }
+
+    /// How many laws came too late.
+    pub(crate) fn late_laws(&self) -> u64 {
+        self.law_solver.late()
+    }
+
     /// Whether the next motion has to wait: a law is being found that might lead over what it changes.
     pub(crate) fn is_asking(&self) -> bool {
         let offers = |pending: &PendingLaw| matches!(pending.purpose, Purpose::Offer(_));
@@ -191,12 +214,13 @@ impl PathBuffer {
             return;
         }
         // The cycle in which it is taken over has not begun either.
-        let renewal = follower.state_after(LawSolver::cycles(cycle) - 1, cycle);
+        let cycles = self.law_solver.cycles(cycle);
+        let renewal = follower.state_after(cycles - 1, cycle);
         match renewal.filter(|renewal| renewal.at < offered.same_to) {
             Some(renewal) => {
                 let purpose = Purpose::Offer(Box::new(offered));
                 let sampler = draft.sampler(robot, here, renewal.at);
-                self.search(sampler, (renewal.start, renewal.law), LawSolver::cycles(cycle), purpose);
+                self.search(sampler, (renewal.start, renewal.law), cycles, purpose);
             }
             None => self.answer = Some(Answer::Refused),
         }
@@ -359,7 +383,7 @@ impl PathBuffer {
             Pacing::Go(share) | Pacing::Settle(share) => {
                 self.drop_stop_search();
                 if !self.pending.as_ref().is_some_and(|pending| self.leads_on(pending)) {
-                    follower.go_at(share, searching(cycle));
+                    follower.go_at(share, self.searching(cycle));
                     self.request_law(&mut follower, (robot, here), cycle, share);
                 }
             }
@@ -401,7 +425,7 @@ impl PathBuffer {
         if follower.brake(harder) {
             self.settle_offer(follower);
         }
-        let cycles = LawSolver::cycles(cycle);
+        let cycles = self.law_solver.cycles(cycle);
         let Some(StopRequest { at, start, about, end }) = follower.request_stop(cycles, cycle, harder) else { return };
         // What is looked for would lead on, or can wait.
         self.settle_offer(follower);
@@ -431,7 +455,17 @@ impl PathBuffer {
 
     /// Takes over the law that was looked for, when it is time.
     fn take_found(&mut self, follower: &mut LawFollower, share: f64) {
-        let Some(found) = self.pending.as_mut().and_then(|pending| pending.search.next()) else { return };
+        let Some(pending) = &mut self.pending else { return };
+        let found = match self.law_solver.look(&mut pending.search) {
+            Status::Running => return,
+            Status::Done(found) => found,
+            // It begins at rest, whenever that is.
+            Status::Late if pending.begins_at_rest(follower) => return,
+            Status::Late => {
+                self.law_solver.give_up(&pending.search);
+                None
+            }
+        };
         let Some(PendingLaw { purpose, reach, .. }) = self.pending.take() else { return };
         match purpose {
             Purpose::Start if !follower.rests() => follower.join(found),
@@ -493,11 +527,11 @@ impl PathBuffer {
                 return;
             }
             let sampler = self.sampler(robot, here, self.passed + self.at);
-            follower.set_off(&sampler, share, searching(cycle));
-            self.search(sampler, (Edge::REST, None), LawSolver::cycles(cycle), Purpose::Start);
+            follower.set_off(&sampler, share, self.searching(cycle));
+            self.search(sampler, (Edge::REST, None), self.law_solver.cycles(cycle), Purpose::Start);
             return;
         }
-        let cycles = LawSolver::cycles(cycle);
+        let cycles = self.law_solver.cycles(cycle);
         let renewal = follower.renewal_after_stop(cycles, cycle, share).map(|renewal| (renewal, true));
         let renewal = renewal.or_else(|| Some((follower.renewal(cycles, cycle)?, false)));
         if let Some((RenewalRequest { at, start, law, share, cycles }, braking)) = renewal {
@@ -508,6 +542,11 @@ impl PathBuffer {
         } else if self.next.is_none() && self.pending.is_none() && follower.stops() {
             self.request_next_law(robot, cycle);
         }
+    }
+
+    /// How long a search takes, in s, and two cycles more, so that rounding does not count.
+    fn searching(&self, cycle: f64) -> f64 {
+        cycle * f64::from(self.law_solver.cycles(cycle) + 2)
     }
 
     /// Asks for the law that leads on from the next stop.
@@ -526,11 +565,17 @@ impl PathBuffer {
             FARTHEST_LOOK_S,
             (settled, LOOK_AHEAD_FACTOR * FIRST_LOOK_AHEAD_S),
         );
-        self.search(sampler, (Edge::REST, None), LawSolver::cycles(cycle), Purpose::Next);
+        self.search(sampler, (Edge::REST, None), self.law_solver.cycles(cycle), Purpose::Next);
     }
 }
 
-/// How long a search takes, in s, and two cycles more, so that rounding does not count.
-fn searching(cycle: f64) -> f64 {
-    cycle * f64::from(LawSolver::cycles(cycle) + 2)
+#[cfg(test)]
+impl PathBuffer {
+    pub(crate) fn find_no_laws(&mut self) {
+        self.law_solver.find_nothing();
+    }
+
+    pub(crate) fn await_law(&self) {
+        self.pending.iter().for_each(|pending| pending.search.wait());
+    }
 }

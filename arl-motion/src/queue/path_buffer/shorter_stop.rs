@@ -13,7 +13,7 @@ use crate::queue::path_buffer::leader::Leader;
 use crate::queue::path_buffer::{ACCELERATION_RISE_CYCLES, PathBuffer};
 use crate::time_optimal::constraint_sampler::ConstraintSampler;
 use crate::time_optimal::law_follower::LawFollower;
-use crate::time_optimal::law_solver_thread::{Found, LawRequest, LawSolver};
+use crate::time_optimal::law_solver_thread::{Found, LawRequest, Status};
 use crate::time_optimal::stop_prediction::StopPrediction;
 use arl_robot::robot::Robot;
 use std::sync::Arc;
@@ -69,7 +69,7 @@ impl PathBuffer {
         let segments = (self.segments.iter(), self.passed);
         let sampler = ConstraintSampler::new(robot, segments, (at, here), f64::INFINITY, (usize::MAX, f64::INFINITY));
         let prediction = StopPrediction::new(self.timing.clone(), self.state, self.backup, cycle, harder);
-        let cycles = 2 * LawSolver::cycles(cycle);
+        let cycles = 2 * self.law_solver.cycles(cycle);
         let request = LawRequest::ShorterStop(Box::new(prediction), cycles);
         self.search_for(request, sampler.for_stop(ACCELERATION_RISE_CYCLES * cycle), cycles, Purpose::ShorterStop);
     }
@@ -83,7 +83,15 @@ impl PathBuffer {
 
     /// The stop that was looked for, when it is time, if the robot is where it begins.
     fn take_stop_law(&mut self) -> Option<Found> {
-        let found = self.pending.as_mut().filter(|pending| is_for_stop(pending))?.search.next()?;
+        let pending = self.pending.as_mut().filter(|pending| is_for_stop(pending))?;
+        let found = match self.law_solver.look(&mut pending.search) {
+            Status::Running => return None,
+            Status::Done(found) => found,
+            Status::Late => {
+                self.law_solver.give_up(&pending.search);
+                None
+            }
+        };
         self.pending = None;
         let found = found?;
         let start = found.law.at(0.0);

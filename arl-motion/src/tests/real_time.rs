@@ -1,0 +1,80 @@
+//! Cycles that wait for nothing.
+
+use crate::tests::*;
+
+/// How cycles come in real time, beside the threads that look ahead.
+#[derive(Clone, Copy)]
+enum Threads {
+    /// What is looked for is there at once.
+    Quick,
+    /// The cycles come as fast as they can, so that next to nothing is found in time.
+    Slow,
+    /// Nothing is ever found.
+    Stuck,
+}
+
+fn lines(robot: &Robot) -> (Joints, Vec<Command>) {
+    let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+    let from = frame_components(&robot.kinematics.forward(&start.axes));
+    let command = |number: u32| {
+        let pose = [
+            from[0],
+            from[1] + 8.0 * f64::from(number),
+            from[2] - if number % 2 == 0 { 8.0 } else { 0.0 },
+            from[3],
+            from[4],
+            from[5],
+        ];
+        let zone = if number % 7 == 0 { Zone::NONE } else { Zone { percent: 100.0, ..Zone::NONE } };
+        Command { zone, speed: Speed { tcp: 100.0, ..fast() }, line: number, ..lin(pose) }
+    };
+    (start, (1..=60).map(command).collect())
+}
+
+/// Goes along lines, in real time or not, for `most` cycles; returns what each of them did, and how many laws were late.
+fn ran(robot: &Arc<Robot>, threads: Option<Threads>, most: usize) -> (Vec<Step>, u64) {
+    let (start, commands) = lines(robot);
+    let mut queue = Queue::new(Arc::clone(robot), start);
+    queue.follow_real_time(threads.is_some());
+    if matches!(threads, Some(Threads::Stuck)) {
+        queue.find_nothing();
+    }
+    let mut rows = vec![Step { joints: start, tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+    let mut commands = commands.iter().peekable();
+    while (commands.peek().is_some() || !queue.idle()) && rows.len() < most {
+        while let Some(command) = commands.next_if(|_| queue.has_room()) {
+            queue.add(command, &Settings::default()).unwrap();
+        }
+        if matches!(threads, Some(Threads::Quick)) {
+            queue.await_prepared();
+            queue.await_law();
+        }
+        rows.push(queue.step(CYCLE, 100.0));
+    }
+    (rows, queue.late_laws())
+}
+
+#[test]
+fn what_is_found_in_time_leads_as_it_does_where_cycles_wait() {
+    let robot = robot("kr10-r1420");
+    let (rows, late) = ran(&robot, Some(Threads::Quick), 100_000);
+    let (expected, _) = ran(&robot, None, 100_000);
+    assert!(rows == expected && late == 0, "{late} late");
+}
+
+#[test]
+fn what_comes_too_late_is_done_without() {
+    let robot = robot("kr10-r1420");
+    let (rows, late) = ran(&robot, Some(Threads::Slow), 3_000_000);
+    assert_within_limits(&robot, &rows, "slow threads");
+    assert!(late > 0, "everything was in time");
+    assert_eq!(rows.last().map(|row| row.finished), Some(60));
+}
+
+#[test]
+fn a_robot_rests_on_its_path_while_nothing_is_found() {
+    let robot = robot("kr10-r1420");
+    let (rows, late) = ran(&robot, Some(Threads::Stuck), 2000);
+    assert_within_limits(&robot, &rows, "stuck threads");
+    assert!(late > 0 && rows.last().is_some_and(|row| row.rests && row.finished < 60), "{late} late");
+}
