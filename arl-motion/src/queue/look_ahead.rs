@@ -17,9 +17,10 @@ const LONGEST_WAIT_S: f64 = 0.05;
 /// The part of the time after which the robot may have to brake without the motion; and the least time, in s, that is waited for.
 const WAITED_SHARE_OF_SPARE_TIME: f64 = 0.5;
 const LEAST_WAIT_S: f64 = 0.003;
-/// So many motions a cycle are always laid, and are taken from the program, as soon as enough way is ahead; and as many as the robot
-/// may go in so many cycles.
+/// So many motions a cycle are always laid, and are taken from the program, and so many while there is not enough way ahead: no cycle
+/// must take long. As many as the robot may go in so many cycles are always possible.
 const LEAST_MOTIONS_A_CYCLE: u32 = 2;
+const MOST_MOTIONS_A_CYCLE: u32 = 4;
 const CYCLES_WORTH_OF_MOTIONS: f64 = 2.0;
 /// A robot at rest does not set off along shorter motions, in s at full speed, before enough of them are ahead: one acceleration holds for all of
 /// them then, which could not get less any more while it speeds up.
@@ -27,8 +28,10 @@ const SHORT_MOTION_S: f64 = 0.02;
 /// Enough way ahead, in s at full speed; and where laws look along it.
 const ENOUGH_AHEAD_S: f64 = 0.5;
 const ENOUGH_AHEAD_FOR_LAWS_S: f64 = 5.0;
-/// How long, in s, a robot at rest waits for motions that come cycle by cycle.
-const LONGEST_GATHERING_S: f64 = 0.05;
+/// How long, in s, a robot at rest waits for motions that come cycle by cycle, and the way ahead, in s at full speed, that is enough; and
+/// the same where they are short: laws along very many of them leave some open, for which there has to be room.
+const GATHERING_S: (f64, f64) = (0.05, ENOUGH_AHEAD_FOR_LAWS_S);
+const GATHERING_OF_DENSE_CHAIN_S: (f64, f64) = (0.5, 0.9);
 
 /// A motion that waits.
 #[derive(Clone, Debug)]
@@ -61,9 +64,9 @@ impl Done {
         self.way += way(motion);
     }
 
-    /// Whether that is enough for a cycle of so many s.
-    fn suffices(&self, cycle: f64) -> bool {
-        self.count >= LEAST_MOTIONS_A_CYCLE && self.way >= CYCLES_WORTH_OF_MOTIONS * cycle
+    /// Whether these are `count` motions, and enough way for a cycle of so many s.
+    fn suffices(&self, cycle: f64, count: u32) -> bool {
+        self.count >= count && self.way >= CYCLES_WORTH_OF_MOTIONS * cycle
     }
 }
 
@@ -121,12 +124,13 @@ impl Queue {
         lays && self.way_ahead() < LOOK_AHEAD_S
     }
 
-    /// Whether so many motions were planned in this cycle that the next one can wait.
-    pub(crate) fn has_enough_ahead(&self) -> bool {
+    /// Whether so many motions were planned in this cycle that the next one can wait for the next cycle, which must come in time.
+    pub(crate) fn has_planned_enough(&self) -> bool {
         let enough = if self.layer.path.wants_laws() { ENOUGH_AHEAD_FOR_LAWS_S } else { ENOUGH_AHEAD_S };
         let can_wait =
             || self.spare.unwrap_or_else(|| self.layer.path.spare()) >= LEAST_WAIT_S / WAITED_SHARE_OF_SPARE_TIME;
-        self.taken.suffices(self.cycle) && self.way_ahead() >= enough && can_wait()
+        let hurries = self.way_ahead() < enough || !can_wait();
+        self.taken.suffices(self.cycle, if hurries { MOST_MOTIONS_A_CYCLE } else { LEAST_MOTIONS_A_CYCLE })
     }
 
     /// The way that is ahead, in s at full speed.
@@ -151,9 +155,13 @@ impl Queue {
         let Some(last) = before.map(|ready| &ready.motion).or(on_path) else { return (0, None) };
         // What is laid over a motion depends on how those before it have been laid.
         let overlaid = motion.laid.is_some() || last.laid.is_some();
-        let sets_off =
-            self.layer.path.rests() && way(motion) < SHORT_MOTION_S && self.layer.path.time_left() < ENOUGH_AHEAD_S;
-        let hurries = time < LEAST_WAIT_S || overlaid || sets_off;
+        let is_short = way(motion) < SHORT_MOTION_S;
+        let sets_off = if self.layer.path.wants_laws() {
+            self.layer.path.rests() && !is_short
+        } else {
+            time < LEAST_WAIT_S || (is_short && self.layer.path.rests() && self.layer.path.time_left() < ENOUGH_AHEAD_S)
+        };
+        let hurries = overlaid || sets_off;
         // It may have to wait for a law all the same.
         let waits = self.layer.path.is_asking() || self.layer.path.is_laid_down();
         let is_blended = !overlaid && motion.goes() && !motion.flows && asks(&self.robot, last);
@@ -182,16 +190,18 @@ impl Queue {
     /// would have to be found anew for each of them, and the last ones might come too late.
     pub(crate) fn gathers(&mut self, cycle: f64) -> bool {
         let path = &self.layer.path;
-        let comes_more = || {
-            let last = self.layer.waiting.last().or_else(|| path.last().map(|motion| &**motion));
-            self.layer.held.is_some() || last.is_some_and(|last| asks(&self.robot, last))
-        };
-        let gathers = self.taken.count > 0
-            && self.gathered < LONGEST_GATHERING_S
+        let last = self.layer.waiting.last().or_else(|| path.last().map(|motion| &**motion));
+        let comes_more = self.layer.held.is_some() || last.is_some_and(|last| asks(&self.robot, last));
+        let is_dense = last.is_some_and(|last| way(last) < SHORT_MOTION_S);
+        let (longest, enough) = if is_dense { GATHERING_OF_DENSE_CHAIN_S } else { GATHERING_S };
+        // They are laid as soon as their blends are found.
+        let comes = self.taken.count > 0 || (is_dense && !self.layer.waiting.is_empty());
+        let gathers = comes
+            && self.gathered < longest
             && path.rests()
             && path.wants_laws()
-            && self.way_ahead() < ENOUGH_AHEAD_FOR_LAWS_S
-            && comes_more();
+            && self.way_ahead() < enough
+            && comes_more;
         self.gathered = if gathers { self.gathered + cycle } else { 0.0 };
         gathers
     }
@@ -214,7 +224,7 @@ impl Queue {
         let mut laid = Done::default();
         while let Some(first) = self.layer.waiting.first() {
             let hurries = first.due == 0 || self.layer.path.is_empty();
-            let is_due = first.due <= self.cycles && !laid.suffices(self.cycle);
+            let is_due = first.due <= self.cycles && !laid.suffices(self.cycle, LEAST_MOTIONS_A_CYCLE);
             if self.layer.path.is_asking() || !(hurries || is_due) || !self.is_prepared(first) {
                 return;
             }

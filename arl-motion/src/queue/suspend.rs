@@ -214,7 +214,7 @@ impl Queue {
 
     /// Whether a motion can be added now by those of a level of the program.
     pub fn takes(&self, level: u32) -> bool {
-        self.is_open_to(level) && self.has_room() && !self.has_enough_ahead()
+        self.is_open_to(level) && self.has_room() && !self.has_planned_enough()
     }
 
     /// Whether nothing is left that those of a level of the program have to wait for: all motion, but for what was set aside

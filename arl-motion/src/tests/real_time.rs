@@ -20,12 +20,12 @@ fn lines(robot: &Robot) -> (Joints, Vec<Command>) {
         let pose = [
             from[0],
             from[1] + 8.0 * f64::from(number),
-            from[2] - if number % 2 == 0 { 8.0 } else { 0.0 },
+            from[2] - if number.is_multiple_of(2) { 8.0 } else { 0.0 },
             from[3],
             from[4],
             from[5],
         ];
-        let zone = if number % 7 == 0 { Zone::NONE } else { Zone { percent: 100.0, ..Zone::NONE } };
+        let zone = if number.is_multiple_of(7) { Zone::NONE } else { Zone { percent: 100.0, ..Zone::NONE } };
         Command { zone, speed: Speed { tcp: 100.0, ..fast() }, line: number, ..lin(pose) }
     };
     (start, (1..=60).map(command).collect())

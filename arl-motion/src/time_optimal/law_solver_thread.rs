@@ -18,8 +18,9 @@ use crate::time_optimal::set_points::used_by_set_points;
 use crate::time_optimal::solver::{Edge, Law, Pace, Way, fastest, fastest_behind, fastest_near};
 use crate::time_optimal::stop_prediction::StopPrediction;
 
-/// How long finding a law may take, in s of controller time.
+/// How long finding a law may take, in s of controller time; and along very many motions.
 const SOLVING_TIME_S: f64 = 0.02;
+const SOLVING_TIME_ON_DENSE_CHAIN_S: f64 = 0.06;
 /// In real time it may take as many times what the last ones took, and this factor more after one that came too late, up to so many s; with each
 /// one that came in time it is a little less again.
 const SOLVING_TIME_RESERVE: f64 = 1.5;
@@ -141,9 +142,10 @@ impl LawSolver {
         self.late
     }
 
-    /// After how many cycles of `cycle` s a law can be taken over at the earliest.
-    pub(crate) fn cycles(&self, cycle: f64) -> u32 {
-        ((SOLVING_TIME_S + self.more_time) / cycle - 1e-6).ceil().max(1.0) as u32
+    /// After how many cycles of `cycle` s a law can be taken over at the earliest, along a dense chain or another one.
+    pub(crate) fn cycles(&self, cycle: f64, is_dense: bool) -> u32 {
+        let time = if is_dense { SOLVING_TIME_ON_DENSE_CHAIN_S } else { SOLVING_TIME_S };
+        ((time + self.more_time) / cycle - 1e-6).ceil().max(1.0) as u32
     }
 
     /// Counts a cycle of a search, and looks what has become of it.

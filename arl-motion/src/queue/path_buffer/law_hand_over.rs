@@ -214,7 +214,7 @@ impl PathBuffer {
             return;
         }
         // The cycle in which it is taken over has not begun either.
-        let cycles = self.law_solver.cycles(cycle);
+        let cycles = self.search_cycles(cycle);
         let renewal = follower.state_after(cycles - 1, cycle);
         match renewal.filter(|renewal| renewal.at < offered.same_to) {
             Some(renewal) => {
@@ -425,7 +425,7 @@ impl PathBuffer {
         if follower.brake(harder) {
             self.settle_offer(follower);
         }
-        let cycles = self.law_solver.cycles(cycle);
+        let cycles = self.search_cycles(cycle);
         let Some(StopRequest { at, start, about, end }) = follower.request_stop(cycles, cycle, harder) else { return };
         // What is looked for would lead on, or can wait.
         self.settle_offer(follower);
@@ -528,10 +528,10 @@ impl PathBuffer {
             }
             let sampler = self.sampler(robot, here, self.passed + self.at);
             follower.set_off(&sampler, share, self.searching(cycle));
-            self.search(sampler, (Edge::REST, None), self.law_solver.cycles(cycle), Purpose::Start);
+            self.search(sampler, (Edge::REST, None), self.search_cycles(cycle), Purpose::Start);
             return;
         }
-        let cycles = self.law_solver.cycles(cycle);
+        let cycles = self.search_cycles(cycle);
         let renewal = follower.renewal_after_stop(cycles, cycle, share).map(|renewal| (renewal, true));
         let renewal = renewal.or_else(|| Some((follower.renewal(cycles, cycle)?, false)));
         if let Some((RenewalRequest { at, start, law, share, cycles }, braking)) = renewal {
@@ -544,9 +544,14 @@ impl PathBuffer {
         }
     }
 
+    /// After how many cycles a law that is asked for now can be taken over.
+    pub(crate) fn search_cycles(&self, cycle: f64) -> u32 {
+        self.law_solver.cycles(cycle, self.segments.len() > SEGMENTS_OF_DENSE_CHAIN)
+    }
+
     /// How long a search takes, in s, and two cycles more, so that rounding does not count.
     fn searching(&self, cycle: f64) -> f64 {
-        cycle * f64::from(self.law_solver.cycles(cycle) + 2)
+        cycle * f64::from(self.search_cycles(cycle) + 2)
     }
 
     /// Asks for the law that leads on from the next stop.
@@ -565,7 +570,7 @@ impl PathBuffer {
             FARTHEST_LOOK_S,
             (settled, LOOK_AHEAD_FACTOR * FIRST_LOOK_AHEAD_S),
         );
-        self.search(sampler, (Edge::REST, None), self.law_solver.cycles(cycle), Purpose::Next);
+        self.search(sampler, (Edge::REST, None), self.search_cycles(cycle), Purpose::Next);
     }
 }
 

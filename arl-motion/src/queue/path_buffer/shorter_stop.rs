@@ -69,7 +69,7 @@ impl PathBuffer {
         let segments = (self.segments.iter(), self.passed);
         let sampler = ConstraintSampler::new(robot, segments, (at, here), f64::INFINITY, (usize::MAX, f64::INFINITY));
         let prediction = StopPrediction::new(self.timing.clone(), self.state, self.backup, cycle, harder);
-        let cycles = 2 * self.law_solver.cycles(cycle);
+        let cycles = 2 * self.search_cycles(cycle);
         let request = LawRequest::ShorterStop(Box::new(prediction), cycles);
         self.search_for(request, sampler.for_stop(ACCELERATION_RISE_CYCLES * cycle), cycles, Purpose::ShorterStop);
     }
