@@ -3,4 +3,5 @@
 pub(crate) mod governor;
 pub(crate) mod remaining;
 pub(crate) mod segment;
+pub(crate) mod shared_deque;
 pub(crate) mod timing;

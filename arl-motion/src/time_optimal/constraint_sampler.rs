@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::command::joints::{ALL, Joints};
 use crate::follow::segment::{LedTool, Segment};
+use crate::follow::shared_deque::SharedDeque;
 use crate::limits::constant::Constraint;
 use crate::plan::constraints::{Constraints, Pace};
 use crate::time_optimal::solver::{Edge, Row, Way, places, thinned};
@@ -44,11 +45,30 @@ const CLOSEST_ENDS_SHARE: f64 = 0.1;
 /// How often the end is brought nearer because there are too many places before it.
 const MOST_SHORTENINGS: usize = 6;
 
+/// Segments that lie one behind the other.
+#[derive(Debug)]
+pub(crate) struct Part {
+    pub(crate) segments: SharedDeque<Segment>,
+    /// The index of the first one, and how many they are.
+    pub(crate) from: usize,
+    pub(crate) count: usize,
+}
+
+impl Part {
+    fn get(&self, index: usize) -> Option<&Segment> {
+        if index < self.count { self.segments.get(self.from + index).map(|segment| &**segment) } else { None }
+    }
+
+    fn iter(&self) -> impl Iterator<Item = &Segment> {
+        self.segments.range(self.from, self.count).map(|segment| &**segment)
+    }
+}
+
 /// The path from a place on. Parameters are s of nominal time since the path began.
 pub(crate) struct ConstraintSampler {
     /// The robot that goes.
     pub(crate) robot: Arc<Robot>,
-    segments: Vec<Arc<Segment>>,
+    segments: Part,
     /// Where the first segment begins.
     passed: f64,
     /// Where to look from, and joints near there.
@@ -72,42 +92,15 @@ pub(crate) struct Prospect {
 }
 
 impl ConstraintSampler {
-    /// Of segments, of which the first begins at `passed`, those from `at` to the next stop, or to `farthest`; without those from
-    /// the index `settled` on where that begins behind `room`.
-    pub(crate) fn new<'a>(
+    /// Looks from `at` on along segments of which the first begins at `passed`, and the last one ends at `end`, with joints `near` there.
+    pub(crate) fn new(
         robot: &Arc<Robot>,
-        (segments, passed): (impl Iterator<Item = &'a Arc<Segment>>, f64),
+        segments: Part,
+        passed: f64,
+        (end, stops): (f64, bool),
         (at, near): (f64, &Joints),
-        farthest: f64,
-        (settled, room): (usize, f64),
     ) -> Self {
-        let mut sampler = Self {
-            robot: Arc::clone(robot),
-            segments: Vec::new(),
-            passed,
-            at,
-            near: *near,
-            end: passed,
-            stops: false,
-            rise: None,
-        };
-        for (index, segment) in segments.enumerate() {
-            if index == settled && sampler.end >= room && !sampler.segments.is_empty() {
-                sampler.stops = false;
-                break;
-            }
-            sampler.end += segment.time;
-            if sampler.segments.is_empty() && sampler.end <= at && !segment.stops {
-                sampler.passed = sampler.end;
-                continue;
-            }
-            sampler.segments.push(Arc::clone(segment));
-            sampler.stops = segment.stops;
-            if segment.stops || sampler.end > farthest {
-                break;
-            }
-        }
-        sampler
+        Self { robot: Arc::clone(robot), segments, passed, at, near: *near, end, stops, rise: None }
     }
 
     /// The same that ends at `end`, if that is nearer.
@@ -251,7 +244,7 @@ impl ConstraintSampler {
     fn joints(&self, to: f64, closest: f64) -> (Vec<f64>, bool) {
         let mut joints = Vec::new();
         let (mut start, mut count) = (self.passed, 0);
-        for segment in &self.segments {
+        for segment in self.segments.iter() {
             if start >= to {
                 break;
             }
@@ -338,7 +331,7 @@ impl Stroll<'_> {
         let segments = &self.sampler.segments;
         while let Some(segment) = segments.get(self.index) {
             let end = self.before + segment.time;
-            if at < end || self.index + 1 == segments.len() {
+            if at < end || self.index + 1 == segments.count {
                 let here = (at - self.before).min(segment.time);
                 self.joints = segment.joints_on(&self.sampler.robot.kinematics, here, &self.joints);
                 pace = segment.pace.unwrap_or(pace);
@@ -361,7 +354,7 @@ impl<'a> Walk<'a> {
         while let Some(segment) = self.sampler.segments.get(self.index)
             && !segment.stops
             && self.before + segment.time < at
-            && self.index + 1 < self.sampler.segments.len()
+            && self.index + 1 < self.sampler.segments.count
         {
             (self.before, self.index) = (self.before + segment.time, self.index + 1);
         }
@@ -396,7 +389,7 @@ impl<'a> Walk<'a> {
                 }
             }
             let end = self.before + segment.time;
-            if at < end || segment.stops || self.index + 1 == self.sampler.segments.len() {
+            if at < end || segment.stops || self.index + 1 == self.sampler.segments.count {
                 break;
             }
             (self.before, self.index) = (end, self.index + 1);

@@ -417,7 +417,9 @@ mod tests {
     use super::*;
     use crate::command::{Command, Settings, Target};
     use crate::follow::segment::Segment;
+    use crate::follow::shared_deque::SharedDeque;
     use crate::plan::planner::plan;
+    use crate::time_optimal::constraint_sampler::Part;
     use arl_robot::robot::Robot;
 
     #[test]
@@ -427,9 +429,13 @@ mod tests {
         let goal = crate::tests::axes([30.0, -80.0, 70.0, 10.0, 60.0, 0.0]);
         let command: Command = crate::tests::command(Target::Joints(goal));
         let motion = plan(&robot, &start, &command, &Settings::default()).unwrap();
-        let segments = [Arc::new(Segment::part(&motion, motion.limits.unwrap(), 1, 0.0, 1.0))];
-        let sampler =
-            || ConstraintSampler::new(&robot, (segments.iter(), 0.0), (0.0, &start), 8.0, (usize::MAX, f64::INFINITY));
+        let mut segments = SharedDeque::default();
+        segments.push_back(Arc::new(Segment::part(&motion, motion.limits.unwrap(), 1, 0.0, 1.0)));
+        let end = segments.front().unwrap().time;
+        let sampler = || {
+            let part = Part { segments: segments.clone(), from: 0, count: 1 };
+            ConstraintSampler::new(&robot, part, 0.0, (end, true), (0.0, &start))
+        };
         let mut memory = LawMemory::default();
         let mut law = || find(&sampler(), (Edge::REST, None), &mut memory, || true).unwrap().law;
         assert!(Arc::ptr_eq(&law(), &law()));

@@ -14,7 +14,7 @@ use crate::limits::profile::{Change, LOOK_AHEAD_MARGIN, State};
 use crate::plan::motion::Motion;
 use crate::queue::path_buffer::leader::{Appending, Leader};
 use crate::queue::path_buffer::{ACCELERATION_RISE_CYCLES, NEAR_STOP_S, PathBuffer, Tail, UnblendedTarget};
-use crate::time_optimal::constraint_sampler::ConstraintSampler;
+use crate::time_optimal::constraint_sampler::{ConstraintSampler, Part};
 use crate::time_optimal::law_follower::{LawFollower, RenewalRequest, StopRequest};
 use crate::time_optimal::law_solver_thread::{FIRST_LOOK_AHEAD_S, Found, LawRequest, Search, Status};
 use crate::time_optimal::solver::{Edge, Law};
@@ -189,6 +189,8 @@ impl PathBuffer {
         let mut draft = Self {
             segments: self.segments.clone(),
             ends: self.ends.clone(),
+            stops: self.stops.clone(),
+            gone: self.gone,
             at: self.at,
             passed: self.passed,
             tail: self.tail.clone(),
@@ -200,10 +202,10 @@ impl PathBuffer {
             unblended.extend(draft.append(robot, motion, prepared, cycle));
             count += 1;
         }
-        let same = self.segments.iter().zip(&draft.segments).take_while(|(a, b)| Arc::ptr_eq(a, b)).count();
+        let same = self.segments.shared_with(&draft.segments);
         let offered = Draft {
             same: self.gone + same as u64,
-            segments: draft.segments.iter().skip(same).cloned().collect(),
+            segments: draft.segments.range(same, draft.segments.len() - same).cloned().collect(),
             tail: draft.tail.clone(),
             same_to: if let Appending::Draft(same_to) = draft.appending { same_to } else { f64::NEG_INFINITY },
             unblended,
@@ -278,8 +280,7 @@ impl PathBuffer {
 
     /// Where the robot has to stop next, in s of nominal time since the path began.
     fn next_stop(&self) -> f64 {
-        let stop = self.segments.iter().position(|segment| segment.stops);
-        stop.and_then(|stop| self.ends.get(stop).copied()).unwrap_or(self.end())
+        self.first_stop().and_then(|stop| self.ends.get(stop).copied()).unwrap_or(self.end())
     }
 
     /// What a law from `at` on has to know: the path up to the next stop, or as far as a law looks; but for its last segments
@@ -291,8 +292,33 @@ impl PathBuffer {
         } else {
             (segments.saturating_sub(self.open()), at + LOOK_AHEAD_FACTOR * FIRST_LOOK_AHEAD_S)
         };
-        let ahead = (self.segments.iter(), self.passed);
-        ConstraintSampler::new(robot, ahead, (at, near), at + FARTHEST_LOOK_S, settled)
+        self.sampler_up_to(robot, (at, near), at + FARTHEST_LOOK_S, settled)
+    }
+
+    /// The path from `at` to the next stop, or to `farthest`; without the segments from the index `settled` on where that begins behind
+    /// `room`.
+    pub(crate) fn sampler_up_to(
+        &self,
+        robot: &Arc<Robot>,
+        (at, near): (f64, &Joints),
+        farthest: f64,
+        (settled, room): (usize, f64),
+    ) -> ConstraintSampler {
+        let stop = self.first_stop().unwrap_or(usize::MAX);
+        let from = self.ends.partition_point(|end| *end <= at).min(stop);
+        let far = self.ends.partition_point(|end| *end <= farthest).max(from);
+        let to = far.min(stop).saturating_add(1).min(self.segments.len());
+        let leaves_out = (from + 1..to).contains(&settled) && self.start_of(settled) >= room;
+        let to = if leaves_out { settled } else { to };
+        let part = Part { segments: self.segments.clone(), from, count: to.saturating_sub(from) };
+        let stops =
+            !leaves_out && to.checked_sub(1).and_then(|last| self.segments.get(last)).is_some_and(|last| last.stops);
+        ConstraintSampler::new(robot, part, self.start_of(from), (self.start_of(to), stops), (at, near))
+    }
+
+    /// Where the segment of an index begins, in s of nominal time since the path began.
+    fn start_of(&self, index: usize) -> f64 {
+        index.checked_sub(1).and_then(|before| self.ends.get(before).copied()).unwrap_or(self.passed)
     }
 
     fn search(
@@ -430,13 +456,7 @@ impl PathBuffer {
         // What is looked for would lead on, or can wait.
         self.settle_offer(follower);
         self.cancel();
-        let sampler = ConstraintSampler::new(
-            robot,
-            (self.segments.iter(), self.passed),
-            (at, here),
-            end,
-            (usize::MAX, f64::INFINITY),
-        );
+        let sampler = self.sampler_up_to(robot, (at, here), end, (usize::MAX, f64::INFINITY));
         let request = LawRequest::Shortest { start, about, harder };
         self.search_for(
             request,
@@ -556,20 +576,25 @@ impl PathBuffer {
 
     /// Asks for the law that leads on from the next stop.
     fn request_next_law(&mut self, robot: &Arc<Robot>, cycle: f64) {
-        let Some(stop) = self.segments.iter().position(|segment| segment.stops) else { return };
+        let Some(stop) = self.first_stop() else { return };
         let Some(last) = self.segments.get(stop) else { return };
         if self.segments.get(stop + 1).is_none_or(|first| !first.is_free) || self.is_alone(robot, stop + 1) {
             return;
         }
-        let behind = self.segments.iter().skip(stop + 1);
-        let settled = self.segments.len().saturating_sub(stop + 1 + self.open());
-        let sampler = ConstraintSampler::new(
-            robot,
-            (behind, 0.0),
-            (0.0, last.target()),
-            FARTHEST_LOOK_S,
-            (settled, LOOK_AHEAD_FACTOR * FIRST_LOOK_AHEAD_S),
-        );
+        let from = stop + 1;
+        let settled = self.segments.len().saturating_sub(self.open());
+        let (mut count, mut end, mut stops) = (0, 0.0, false);
+        for segment in self.segments.range(from, self.segments.len() - from) {
+            if from + count == settled && count > 0 && end >= LOOK_AHEAD_FACTOR * FIRST_LOOK_AHEAD_S {
+                break;
+            }
+            (count, end, stops) = (count + 1, end + segment.time, segment.stops);
+            if stops || end > FARTHEST_LOOK_S {
+                break;
+            }
+        }
+        let part = Part { segments: self.segments.clone(), from, count };
+        let sampler = ConstraintSampler::new(robot, part, 0.0, (end, stops), (0.0, last.target()));
         self.search(sampler, (Edge::REST, None), self.search_cycles(cycle), Purpose::Next);
     }
 }

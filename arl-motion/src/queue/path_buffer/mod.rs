@@ -16,6 +16,7 @@ use crate::command::LARGEST_ZONE;
 use crate::command::joints::Joints;
 use crate::follow::governor::{Governor, Pacing};
 use crate::follow::segment::Segment;
+use crate::follow::shared_deque::SharedDeque;
 use crate::follow::timing::Timing;
 use crate::limits::profile::{Change, LOOK_AHEAD_MARGIN, Limits, State};
 use crate::plan::motion::Motion;
@@ -40,9 +41,11 @@ const ACCELERATION_RISE_CYCLES: f64 = 4.0;
 /// All segments from the one that the robot is on.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PathBuffer {
-    segments: VecDeque<Arc<Segment>>,
+    segments: SharedDeque<Segment>,
     /// Where each of them ends, in s of nominal time since the path began.
     ends: VecDeque<f64>,
+    /// Which of them the robot stops at, counted from the first segment that there ever was.
+    stops: VecDeque<u64>,
     /// Where the robot is on the first segment, in s of nominal time.
     at: f64,
     /// The length of a cycle in s.
@@ -360,6 +363,11 @@ impl PathBuffer {
         self.ends.back().copied().unwrap_or(self.passed)
     }
 
+    /// The index of the first segment at whose end the robot stops.
+    fn first_stop(&self) -> Option<usize> {
+        self.stops.front().map(|stop| stop.saturating_sub(self.gone) as usize)
+    }
+
     /// Goes on from the last motion without a stop; returns whether the robot is still able to.
     fn flow_on(&mut self, segment: Segment, cycle: f64) -> bool {
         let Some(last) = self.segments.back() else { return false };
@@ -426,6 +434,9 @@ impl PathBuffer {
             self.timing.push(cell, segment.stops, may || index > 0);
         }
         self.ends.push_back(self.end() + segment.time);
+        if segment.stops {
+            self.stops.push_back(self.gone + self.segments.len() as u64);
+        }
         self.segments.push_back(segment);
     }
 
@@ -440,6 +451,9 @@ impl PathBuffer {
         let mut taken = Vec::with_capacity(count);
         for segment in (0..count).map_while(|_| self.segments.pop_back()) {
             self.ends.pop_back();
+            if segment.stops {
+                self.stops.pop_back();
+            }
             let mut began = false;
             for _ in segment.cells() {
                 began = self.timing.pop();
@@ -499,6 +513,9 @@ impl PathBuffer {
             self.passed += first.time;
             if let Some(segment) = self.segments.pop_front() {
                 self.ends.pop_front();
+                if stops {
+                    self.stops.pop_front();
+                }
                 self.gone += 1;
                 passed(segment);
             }
@@ -514,7 +531,7 @@ impl PathBuffer {
     fn begin(&mut self) {
         self.passed = 0.0;
         let mut end = 0.0;
-        for (known, segment) in self.ends.iter_mut().zip(&self.segments) {
+        for (known, segment) in self.ends.iter_mut().zip(self.segments.iter()) {
             end += segment.time;
             *known = end;
         }
@@ -557,9 +574,10 @@ impl PathBuffer {
 
     /// Drops the motions behind the next place where the robot stops.
     pub(crate) fn keep_to_stop(&mut self) {
-        let kept = self.segments.iter().position(|segment| segment.stops).map_or(0, |last| last + 1);
+        let kept = self.first_stop().map_or(0, |last| last + 1);
         self.segments.truncate(kept);
         self.ends.truncate(kept);
+        self.stops.truncate(1);
         self.timing.keep_to_stop();
         self.tail = None;
         self.keep_laws_to_stop();

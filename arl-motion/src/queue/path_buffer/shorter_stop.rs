@@ -11,7 +11,6 @@ use crate::limits::profile::{Change, Limits, State};
 use crate::queue::path_buffer::law_hand_over::{PendingLaw, Purpose};
 use crate::queue::path_buffer::leader::Leader;
 use crate::queue::path_buffer::{ACCELERATION_RISE_CYCLES, PathBuffer};
-use crate::time_optimal::constraint_sampler::ConstraintSampler;
 use crate::time_optimal::law_follower::LawFollower;
 use crate::time_optimal::law_solver_thread::{Found, LawRequest, Status};
 use crate::time_optimal::stop_prediction::StopPrediction;
@@ -66,8 +65,7 @@ impl PathBuffer {
     fn request_stop_law(&mut self, robot: &Arc<Robot>, here: &Joints, cycle: f64, harder: f64) {
         self.cancel();
         let at = self.passed + self.at;
-        let segments = (self.segments.iter(), self.passed);
-        let sampler = ConstraintSampler::new(robot, segments, (at, here), f64::INFINITY, (usize::MAX, f64::INFINITY));
+        let sampler = self.sampler_up_to(robot, (at, here), f64::INFINITY, (usize::MAX, f64::INFINITY));
         let prediction = StopPrediction::new(self.timing.clone(), self.state, self.backup, cycle, harder);
         let cycles = 2 * self.search_cycles(cycle);
         let request = LawRequest::ShorterStop(Box::new(prediction), cycles);
