@@ -4,6 +4,7 @@
 
 use std::error::Error;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use arl_benches::chains::{CHAINS, Chain};
 use arl_benches::statistics::processor_time;
@@ -85,8 +86,10 @@ fn once(robot: &Arc<Robot>, chain: &Chain, count: usize) -> Result<Run, Box<dyn 
     let (mut cycles, mut speeds): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
     let mut before = queue.tcp().translation.vector;
     while next < count || !queue.idle() {
+        // The threads beside the cycle have the time that they have on a robot.
+        let end = Instant::now() + Duration::from_secs_f64(CYCLE);
         let begin = processor_time();
-        while next < count && queue.has_room() {
+        while next < count && queue.takes(0) {
             next += 1;
             let command = command(&origin, (chain.point)(next as f64), chain.axes, zone, chain.speed);
             queue.add(&command, &Settings::default())?;
@@ -98,6 +101,7 @@ fn once(robot: &Arc<Robot>, chain: &Chain, count: usize) -> Result<Run, Box<dyn 
         let at = step.tcp.translation.vector;
         speeds.push((at - before).norm() / CYCLE);
         before = at;
+        std::thread::sleep(end.saturating_duration_since(Instant::now()));
     }
     Ok(Run { planning, cycles, speeds })
 }

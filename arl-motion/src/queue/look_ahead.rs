@@ -17,10 +17,12 @@ const LONGEST_WAIT_S: f64 = 0.05;
 /// The part of the time after which the robot may have to brake without the motion; and the least time, in s, that is waited for.
 const WAITED_SHARE_OF_SPARE_TIME: f64 = 0.5;
 const LEAST_WAIT_S: f64 = 0.003;
-/// So many motions a cycle are always laid, and are taken from the program, and so many while there is not enough way ahead: no cycle
-/// must take long. As many as the robot may go in so many cycles are always possible.
+/// So many motions a cycle are always laid, and are taken from the program, so many while there is not enough way ahead, and so many short
+/// ones, whose blends a thread finds, while the robot rests: no cycle must take long. As many as the robot may go in so many cycles are
+/// always possible.
 const LEAST_MOTIONS_A_CYCLE: u32 = 2;
 const MOST_MOTIONS_A_CYCLE: u32 = 4;
+const SHORT_MOTIONS_A_CYCLE_AT_REST: u32 = 16;
 const CYCLES_WORTH_OF_MOTIONS: f64 = 2.0;
 /// A robot at rest does not set off along shorter motions, in s at full speed, before enough of them are ahead: one acceleration holds for all of
 /// them then, which could not get less any more while it speeds up.
@@ -130,7 +132,24 @@ impl Queue {
         let can_wait =
             || self.spare.unwrap_or_else(|| self.layer.path.spare()) >= LEAST_WAIT_S / WAITED_SHARE_OF_SPARE_TIME;
         let hurries = self.way_ahead() < enough || !can_wait();
-        self.taken.suffices(self.cycle, if hurries { MOST_MOTIONS_A_CYCLE } else { LEAST_MOTIONS_A_CYCLE })
+        self.taken
+            .suffices(self.cycle, self.most_a_cycle(if hurries { MOST_MOTIONS_A_CYCLE } else { LEAST_MOTIONS_A_CYCLE }))
+    }
+
+    /// How many motions a cycle takes: `moving`, or more while short ones come to a robot at rest that laws will lead.
+    fn most_a_cycle(&self, moving: u32) -> u32 {
+        let path = &self.layer.path;
+        if path.rests() && path.wants_laws() && self.is_dense() { SHORT_MOTIONS_A_CYCLE_AT_REST } else { moving }
+    }
+
+    /// Whether the motion that came last is short.
+    fn is_dense(&self) -> bool {
+        self.last_ahead().is_some_and(|last| way(last) < SHORT_MOTION_S)
+    }
+
+    /// The motion that came last, if it is still to be gone.
+    pub(crate) fn last_ahead(&self) -> Option<&Motion> {
+        self.layer.waiting.last().or_else(|| self.layer.path.last().map(|motion| &**motion))
     }
 
     /// The way that is ahead, in s at full speed.
@@ -190,9 +209,8 @@ impl Queue {
     /// would have to be found anew for each of them, and the last ones might come too late.
     pub(crate) fn gathers(&mut self, cycle: f64) -> bool {
         let path = &self.layer.path;
-        let last = self.layer.waiting.last().or_else(|| path.last().map(|motion| &**motion));
-        let comes_more = self.layer.held.is_some() || last.is_some_and(|last| asks(&self.robot, last));
-        let is_dense = last.is_some_and(|last| way(last) < SHORT_MOTION_S);
+        let comes_more = self.layer.held.is_some() || self.last_ahead().is_some_and(|last| asks(&self.robot, last));
+        let is_dense = self.is_dense();
         let (longest, enough) = if is_dense { GATHERING_OF_DENSE_CHAIN_S } else { GATHERING_S };
         // They are laid as soon as their blends are found.
         let comes = self.taken.count > 0 || (is_dense && !self.layer.waiting.is_empty());
@@ -224,7 +242,8 @@ impl Queue {
         let mut laid = Done::default();
         while let Some(first) = self.layer.waiting.first() {
             let hurries = first.due == 0 || self.layer.path.is_empty();
-            let is_due = first.due <= self.cycles && !laid.suffices(self.cycle, LEAST_MOTIONS_A_CYCLE);
+            let is_due =
+                first.due <= self.cycles && !laid.suffices(self.cycle, self.most_a_cycle(LEAST_MOTIONS_A_CYCLE));
             if self.layer.path.is_asking() || !(hurries || is_due) || !self.is_prepared(first) {
                 return;
             }

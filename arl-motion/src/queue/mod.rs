@@ -256,7 +256,7 @@ impl Queue {
         let goes_on = joined.is_some();
         let (plain, before) = held.plan(&self.robot, joined)?;
         let end = *plain.end();
-        let last = self.layer.waiting.last().or_else(|| self.layer.path.last().map(|motion| &**motion));
+        let last = self.last_ahead();
         let flows_from = last.filter(|_| plain.flows);
         let beginning = Beginning {
             start: flows_from.map_or(&self.layer.end, Motion::end),

@@ -10,7 +10,7 @@ use crate::blend::blend_thread::Prepared;
 use crate::command::joints::Joints;
 use crate::follow::governor::Pacing;
 use crate::follow::segment::Segment;
-use crate::limits::profile::{Change, LOOK_AHEAD_MARGIN, State};
+use crate::limits::profile::{Change, State};
 use crate::plan::motion::Motion;
 use crate::queue::path_buffer::leader::{Appending, Leader};
 use crate::queue::path_buffer::{ACCELERATION_RISE_CYCLES, NEAR_STOP_S, PathBuffer, Tail, UnblendedTarget};
@@ -241,7 +241,6 @@ impl PathBuffer {
         }
         self.tail = draft.tail;
         self.settle(self.open());
-        self.timing.find_entries(LOOK_AHEAD_MARGIN, self.cycle);
         self.answer = Some(Answer::Taken { unblended: draft.unblended, count: draft.count });
     }
 

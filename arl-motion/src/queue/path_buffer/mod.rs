@@ -215,7 +215,6 @@ impl PathBuffer {
         let tail = self.tail.take();
         if motion.flows && tail.is_some() && self.flow_on(Segment::part(motion, limits, number, 0.0, 1.0), cycle) {
             self.settle(1);
-            self.timing.find_entries(LOOK_AHEAD_MARGIN, cycle);
             self.tail = Some(Tail { motion: Arc::clone(motion), joined: None });
             return None;
         }
@@ -254,7 +253,6 @@ impl PathBuffer {
         }
         let joined = joined.zip(before).map(|((curvature, segments), before)| Joined { before, curvature, segments });
         self.settle(joined.as_ref().map_or(1, |joined| joined.segments));
-        self.timing.find_entries(LOOK_AHEAD_MARGIN, cycle);
         self.tail = Some(Tail { motion: end, joined });
         unblended
     }
@@ -390,12 +388,18 @@ impl PathBuffer {
 
     /// Appends segments if the robot is able to keep to them, and returns whether it is; which of them `may` join the stretch before?
     fn lay(&mut self, segments: &[Arc<Segment>], may: impl Fn(usize) -> bool, cycle: f64) -> bool {
+        // Nobody counts on the path yet.
+        if self.state.rests() {
+            self.push(segments, may);
+            return true;
+        }
+        self.find_entries();
         let before = self.timing.next_entry();
         self.push(segments, may);
-        self.timing.find_entries(LOOK_AHEAD_MARGIN, cycle);
+        self.find_entries();
         // The governor looks no farther than to the stretch behind the one where its backup ends.
         let unchanged = before.is_some() && self.timing.next_entry() >= before && self.backup_ends_here();
-        if unchanged || self.state.rests() {
+        if unchanged {
             return true;
         }
         match self.governor(cycle).holds(&self.state) {
@@ -470,6 +474,11 @@ impl PathBuffer {
         }
     }
 
+    /// Finds what the governor has to know of the path ahead; where a law leads, nobody asks for that.
+    fn find_entries(&mut self) {
+        self.timing.find_entries(LOOK_AHEAD_MARGIN, self.cycle);
+    }
+
     fn governor(&self, cycle: f64) -> Governor<'_> {
         Governor { stretches: &self.timing.stretches, cycle }
     }
@@ -485,8 +494,12 @@ impl PathBuffer {
     ) -> bool {
         self.offer_pause = (self.offer_pause - cycle).max(0.0);
         self.choose_leader(robot);
+        if self.leader.follower().is_none() {
+            self.find_entries();
+        }
         self.shorten_stop(robot, here, cycle, pacing);
         if !self.follow_law(robot, here, cycle, pacing) {
+            self.find_entries();
             let pacing = self.settling(cycle, pacing);
             let mut backup = self.backup;
             let next = self.governor(cycle).next(&self.state, &mut backup, pacing);

@@ -47,8 +47,14 @@ impl PathBuffer {
         }
         let legs = legs.get(..known).unwrap_or_default();
         let way: f64 = legs.iter().map(|leg| leg.length).sum();
-        let exit =
-            if stops { 0.0 } else { self.timing.highest_speed(self.state.at + way, LOOK_AHEAD_MARGIN, self.cycle) };
+        let exit = if stops {
+            0.0
+        } else if self.wants_laws() {
+            // Nobody knows yet; it goes on about as it does before.
+            legs.last().map_or(0.0, |last| last.limits.vel)
+        } else {
+            self.timing.highest_speed(self.state.at + way, LOOK_AHEAD_MARGIN, self.cycle)
+        };
         remaining::time_over(legs, exit, self.state.vel, self.state.acc)
     }
 }
