@@ -175,12 +175,11 @@ impl Queue {
         // What is laid over a motion depends on how those before it have been laid.
         let overlaid = motion.laid.is_some() || last.laid.is_some();
         let is_short = way(motion) < SHORT_MOTION_S;
-        let sets_off = if self.layer.path.wants_laws() {
+        let hurries = if self.layer.path.wants_laws() {
             self.layer.path.rests() && !is_short
         } else {
             time < LEAST_WAIT_S || (is_short && self.layer.path.rests() && self.layer.path.time_left() < ENOUGH_AHEAD_S)
         };
-        let hurries = overlaid || sets_off;
         // It may have to wait for a law all the same.
         let waits = self.layer.path.is_asking() || self.layer.path.is_laid_down();
         let is_blended = !overlaid && motion.goes() && !motion.flows && asks(&self.robot, last);
@@ -192,7 +191,7 @@ impl Queue {
             };
             self.blend_thread.prepare(&self.robot, joining, [last, motion])
         });
-        if hurries && !waits {
+        if overlaid || (hurries && !waits) {
             self.layer.waiting.lay_at_once();
             return (0, prepared);
         }
