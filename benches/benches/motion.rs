@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let names: Vec<&String> = words.iter().filter(|word| word.parse::<usize>().is_err()).collect();
     let robot = Arc::new(Robot::builtin("kr10-r1420")?);
     println!(
-        "{count} motions each (the line at most 6000), percent zones of 100 %; planning: us a motion; cycles: us of processor time, the least of {REPEATS} runs"
+        "{count} motions each (line, corners and axes fewer), percent zones of 100 %; planning: us a motion; cycles: us of processor time, the least of {REPEATS} runs"
     );
     println!("chain      programmed  in the middle  above 99 %   planning    p50    p99  p99.9    most");
     for chain in CHAINS {

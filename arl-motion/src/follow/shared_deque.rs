@@ -1,4 +1,4 @@
-//! A double-ended queue that is copied in no time: what the copies have in common is there once.
+//! A double-ended queue that is copied quickly: what copies have in common is there once.
 //!
 //! Invariant: all chunks but the last one are full, and none is empty; of the first one `gone` elements do not count any more, fewer
 //! than it has.
@@ -6,7 +6,7 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// How many elements a chunk has: a copy takes so much less time, and the first change after it copies as many elements.
+/// How many elements a chunk has: copying the queue copies one pointer for as many; the first change after that copies as many.
 const CHUNK: usize = 32;
 
 /// Shared elements, one behind the other.

@@ -53,6 +53,23 @@ pub(crate) struct Waiting {
     way: f64,
 }
 
+/// Motions that waited for their blends when they were due, in real time.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct LateBlends {
+    /// How many they were.
+    pub(crate) count: u64,
+    /// The number of the last one.
+    last: u64,
+}
+
+impl LateBlends {
+    fn note(&mut self, number: u64) {
+        if number > self.last {
+            *self = Self { count: self.count + 1, last: number };
+        }
+    }
+}
+
 /// What was done in a cycle: motions, and their way in s at full speed.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Done {
@@ -131,9 +148,9 @@ impl Queue {
         let enough = if self.layer.path.wants_laws() { ENOUGH_AHEAD_FOR_LAWS_S } else { ENOUGH_AHEAD_S };
         let can_wait =
             || self.spare.unwrap_or_else(|| self.layer.path.spare()) >= LEAST_WAIT_S / WAITED_SHARE_OF_SPARE_TIME;
-        let hurries = self.way_ahead() < enough || !can_wait();
-        self.taken
-            .suffices(self.cycle, self.most_a_cycle(if hurries { MOST_MOTIONS_A_CYCLE } else { LEAST_MOTIONS_A_CYCLE }))
+        let is_short_of_way = self.way_ahead() < enough || !can_wait();
+        let most = if is_short_of_way { MOST_MOTIONS_A_CYCLE } else { LEAST_MOTIONS_A_CYCLE };
+        self.taken.suffices(self.cycle, self.most_a_cycle(most))
     }
 
     /// How many motions a cycle takes: `moving`, or more while short ones come to a robot at rest that laws will lead.
@@ -180,8 +197,10 @@ impl Queue {
         } else {
             time < LEAST_WAIT_S || (is_short && self.layer.path.rests() && self.layer.path.time_left() < ENOUGH_AHEAD_S)
         };
-        // It may have to wait for a law all the same.
-        let waits = self.layer.path.is_asking() || self.layer.path.is_laid_down();
+        // It may have to wait for a law all the same, or behind a motion whose blend is late.
+        let is_late = |first: &Ready| first.due <= self.cycles && !self.is_prepared(first);
+        let is_blocked = self.layer.waiting.first().is_some_and(is_late);
+        let waits = is_blocked || self.layer.path.is_asking() || self.layer.path.is_laid_down();
         let is_blended = !overlaid && motion.goes() && !motion.flows && asks(&self.robot, last);
         let prepared = (is_blended && (waits || !hurries)).then(|| {
             let joining = match before {
@@ -208,7 +227,7 @@ impl Queue {
     /// would have to be found anew for each of them, and the last ones might come too late.
     pub(crate) fn gathers(&mut self, cycle: f64) -> bool {
         let path = &self.layer.path;
-        let comes_more = self.layer.held.is_some() || self.last_ahead().is_some_and(|last| asks(&self.robot, last));
+        let comes_more = || self.layer.held.is_some() || self.last_ahead().is_some_and(|last| asks(&self.robot, last));
         let is_dense = self.is_dense();
         let (longest, enough) = if is_dense { GATHERING_OF_DENSE_CHAIN_S } else { GATHERING_S };
         // They are laid as soon as their blends are found.
@@ -218,7 +237,7 @@ impl Queue {
             && path.rests()
             && path.wants_laws()
             && self.way_ahead() < enough
-            && comes_more;
+            && comes_more();
         self.gathered = if gathers { self.gathered + cycle } else { 0.0 };
         gathers
     }
@@ -243,7 +262,11 @@ impl Queue {
             let hurries = first.due == 0 || self.layer.path.is_empty();
             let is_due =
                 first.due <= self.cycles && !laid.suffices(self.cycle, self.most_a_cycle(LEAST_MOTIONS_A_CYCLE));
-            if self.layer.path.is_asking() || !(hurries || is_due) || !self.is_prepared(first) {
+            if self.layer.path.is_asking() || !(hurries || is_due) {
+                return;
+            }
+            if !self.is_prepared(first) {
+                self.late_blends.note(first.number);
                 return;
             }
             laid.add(&first.motion);
@@ -251,6 +274,9 @@ impl Queue {
             self.forecast = None;
             if self.layer.path.is_laid_down() {
                 let prepared = self.layer.waiting.due(self.cycles).take_while(|ready| self.is_prepared(ready)).count();
+                if let Some(late) = self.layer.waiting.due(self.cycles).nth(prepared) {
+                    self.late_blends.note(late.number);
+                }
                 let due = self.layer.waiting.due(self.cycles).take(prepared);
                 let motions = due.map(|ready| ((&ready.motion, ready.number), ready.prepared.as_ref()));
                 self.layer.path.offer((&self.robot, &self.joints), motions, self.cycle);

@@ -25,7 +25,7 @@ use arl_robot::frames::Rig;
 use arl_robot::kinematics::Frame;
 use arl_robot::robot::Robot;
 use layer::Layer;
-use look_ahead::{Done, Ready};
+use look_ahead::{Done, LateBlends, Ready};
 pub use motion_progress::Progress;
 use motion_progress::progress_at;
 use path_buffer::Answer;
@@ -100,6 +100,7 @@ pub struct Queue {
     unblended: Option<UnblendedTarget>,
     /// Who finds the blends of motions that wait.
     blend_thread: BlendThread,
+    late_blends: LateBlends,
     /// How many cycles there have been, and what was planned in this one.
     cycles: u64,
     taken: Done,
@@ -144,6 +145,7 @@ impl Queue {
             late: None,
             unblended: None,
             blend_thread: BlendThread::default(),
+            late_blends: LateBlends::default(),
             cycles: 1,
             taken: Done::default(),
             spare: None,
@@ -163,9 +165,9 @@ impl Queue {
         self.layer.path.follow_real_time(in_real_time);
     }
 
-    /// How many time laws came too late, in real time.
-    pub fn late_laws(&self) -> u64 {
-        self.layer.path.late_laws()
+    /// How many time laws and blends came too late, in real time; not those without which the robot went on as it would have with them.
+    pub fn found_late(&self) -> u64 {
+        self.layer.path.late_laws() + self.late_blends.count
     }
 
     /// The robot that moves.

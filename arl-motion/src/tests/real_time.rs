@@ -1,5 +1,6 @@
 //! Cycles that wait for nothing.
 
+use crate::blend::corner::FOUND_HERE;
 use crate::tests::*;
 
 /// How cycles come in real time, beside the threads that look ahead.
@@ -51,7 +52,7 @@ fn ran(robot: &Arc<Robot>, threads: Option<Threads>, most: usize) -> (Vec<Step>,
         }
         rows.push(queue.step(CYCLE, 100.0));
     }
-    (rows, queue.late_laws())
+    (rows, queue.found_late())
 }
 
 #[test]
@@ -77,4 +78,33 @@ fn a_robot_rests_on_its_path_while_nothing_is_found() {
     let (rows, late) = ran(&robot, Some(Threads::Stuck), 2000);
     assert_within_limits(&robot, &rows, "stuck threads");
     assert!(late > 0 && rows.last().is_some_and(|row| row.rests && row.finished < 60), "{late} late");
+}
+
+#[test]
+fn no_cycle_finds_a_blend() {
+    let robot = robot("kr10-r1420");
+    let (start, commands) = lines(&robot);
+    let found_in_cycles = |in_real_time: bool| {
+        let mut queue = Queue::new(Arc::clone(&robot), start);
+        queue.follow_real_time(in_real_time);
+        queue.prepare_nothing();
+        let mut commands = commands.iter().peekable();
+        let mut found = 0;
+        while commands.peek().is_some() || !queue.idle() {
+            // Most of them come while the robot goes.
+            if queue.unfinished() < 6 {
+                for command in commands.by_ref().take(3) {
+                    queue.add(command, &Settings::default()).unwrap();
+                }
+            }
+            queue.await_law();
+            let before = FOUND_HERE.with(std::cell::Cell::get);
+            queue.step(CYCLE, 100.0);
+            found += FOUND_HERE.with(std::cell::Cell::get) - before;
+        }
+        (found, queue.found_late())
+    };
+    let (found, late) = found_in_cycles(true);
+    assert!(found == 0 && late > 0, "{found} found, {late} late");
+    assert!(found_in_cycles(false).0 > 0);
 }

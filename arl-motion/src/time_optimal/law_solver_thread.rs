@@ -9,7 +9,6 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, OnceLock};
 use std::thread;
-use std::time::Instant;
 
 use crate::time_optimal::constraint_sampler::{ConstraintSampler, Prospect};
 use crate::time_optimal::law_memory::{LawMemory, key};
@@ -21,12 +20,11 @@ use crate::time_optimal::stop_prediction::StopPrediction;
 /// How long finding a law may take, in s of controller time; and along very many motions.
 const SOLVING_TIME_S: f64 = 0.02;
 const SOLVING_TIME_ON_DENSE_CHAIN_S: f64 = 0.06;
-/// In real time it may take as many times what the last ones took, and this factor more after one that came too late, up to so many s; with each
-/// one that came in time it is a little less again.
-const SOLVING_TIME_RESERVE: f64 = 1.5;
+/// After one that came too late it may take this factor more, up to so many s; what it may take more gets less again with each one that
+/// came in time.
 const LATE_FACTOR: f64 = 2.0;
 const LONGEST_SOLVING_TIME_S: f64 = 0.3;
-const SOLVING_TIME_DECAY: f64 = 0.97;
+const SLOWNESS_DECAY: f64 = 0.97;
 /// How many s of nominal time are looked ahead at first.
 pub(crate) const FIRST_LOOK_AHEAD_S: f64 = 2.0;
 /// A law takes so many s at least, if there is so much path.
@@ -73,12 +71,13 @@ pub(crate) struct Search {
     result: Arc<Outcome>,
     /// How many cycles are left.
     left: u32,
+    /// Whether it counts as one that came too late.
+    is_late: bool,
 }
 
 #[derive(Debug, Default)]
 struct Outcome {
-    /// What was found, and how long that took, in s.
-    found: OnceLock<(Option<Found>, f64)>,
+    found: OnceLock<Option<Found>>,
     forsaken: AtomicBool,
 }
 
@@ -95,7 +94,6 @@ struct Task {
     sampler: ConstraintSampler,
     request: LawRequest,
     result: Arc<Outcome>,
-    asked: Instant,
 }
 
 /// What is looked for.
@@ -116,8 +114,9 @@ pub(crate) struct LawSolver {
     tasks: Option<Sender<Task>>,
     /// Whether cycles take the time that they stand for.
     in_real_time: bool,
-    /// How much longer, in s, finding a law may take than it mostly does.
-    more_time: f64,
+    /// How many times longer finding a law may take, beyond once; 0 as long as none has come too late.
+    slowness: f64,
+    /// How many came too late.
     late: u64,
 }
 
@@ -133,7 +132,7 @@ impl LawSolver {
     pub(crate) fn follow_real_time(&mut self, in_real_time: bool) {
         self.in_real_time = in_real_time;
         if !in_real_time {
-            self.more_time = 0.0;
+            self.slowness = 0.0;
         }
     }
 
@@ -145,7 +144,8 @@ impl LawSolver {
     /// After how many cycles of `cycle` s a law can be taken over at the earliest, along a dense chain or another one.
     pub(crate) fn cycles(&self, cycle: f64, is_dense: bool) -> u32 {
         let time = if is_dense { SOLVING_TIME_ON_DENSE_CHAIN_S } else { SOLVING_TIME_S };
-        ((time + self.more_time) / cycle - 1e-6).ceil().max(1.0) as u32
+        let time = (time * (1.0 + self.slowness)).min(LONGEST_SOLVING_TIME_S);
+        (time / cycle - 1e-6).ceil().max(1.0) as u32
     }
 
     /// Counts a cycle of a search, and looks what has become of it.
@@ -155,33 +155,32 @@ impl LawSolver {
             return Status::Running;
         }
         if !self.in_real_time {
-            return Status::Done(search.result.found.wait().0.clone());
+            return Status::Done(search.result.found.wait().clone());
         }
         match search.result.found.get() {
-            Some((found, took)) => {
-                let needed = SOLVING_TIME_RESERVE * took - SOLVING_TIME_S;
-                self.allow(needed.max(SOLVING_TIME_DECAY * self.more_time));
+            Some(found) => {
+                if !search.is_late {
+                    self.slowness *= SLOWNESS_DECAY;
+                }
                 Status::Done(found.clone())
             }
             None => Status::Late,
         }
     }
 
-    /// Does without a law that comes too late.
-    pub(crate) fn give_up(&mut self, search: &Search) {
-        search.cancel();
-        self.late += 1;
-        self.allow(LATE_FACTOR * (SOLVING_TIME_S + self.more_time) - SOLVING_TIME_S);
-    }
-
-    fn allow(&mut self, more_time: f64) {
-        self.more_time = more_time.clamp(0.0, LONGEST_SOLVING_TIME_S - SOLVING_TIME_S);
+    /// Counts a law that the robot has to do without, or to wait for at rest, because it comes too late; once.
+    pub(crate) fn note_late(&mut self, search: &mut Search) {
+        if !std::mem::replace(&mut search.is_late, true) {
+            self.late += 1;
+            let most = LONGEST_SOLVING_TIME_S / SOLVING_TIME_S - 1.0;
+            self.slowness = (LATE_FACTOR * (1.0 + self.slowness) - 1.0).min(most);
+        }
     }
 
     /// Begins to look for a law; it will be taken over after so many cycles.
     pub(crate) fn search(&mut self, sampler: ConstraintSampler, request: LawRequest, cycles: u32) -> Search {
         let result = Arc::new(Outcome::default());
-        let task = Task { sampler, request, result: Arc::clone(&result), asked: Instant::now() };
+        let task = Task { sampler, request, result: Arc::clone(&result) };
         if self.tasks.is_none() {
             self.tasks = begin();
         }
@@ -194,7 +193,7 @@ impl LawSolver {
             self.tasks = None;
             task.run(&mut LawMemory::default());
         }
-        Search { result, left: cycles }
+        Search { result, left: cycles, is_late: false }
     }
 }
 
@@ -217,7 +216,7 @@ fn begin() -> Option<Sender<Task>> {
 
 impl Task {
     fn run(self, memory: &mut LawMemory) {
-        let Self { sampler, request, result, asked } = self;
+        let Self { sampler, request, result } = self;
         let wanted = || !result.forsaken.load(Ordering::Relaxed);
         let find = || match request {
             LawRequest::Fastest(start, law) => find(&sampler, (start, law.as_deref()), memory, wanted),
@@ -227,7 +226,7 @@ impl Task {
         // Whoever waits has to get an answer in any case.
         let found = catch_unwind(AssertUnwindSafe(find)).unwrap_or(None);
         // Nobody else sets it.
-        let _ = result.found.set((found, asked.elapsed().as_secs_f64()));
+        let _ = result.found.set(found);
     }
 }
 
@@ -421,6 +420,35 @@ mod tests {
     use crate::plan::planner::plan;
     use crate::time_optimal::constraint_sampler::Part;
     use arl_robot::robot::Robot;
+
+    #[test]
+    fn after_one_that_came_too_late_laws_have_more_time_for_a_while() {
+        let mut solver = LawSolver::default();
+        solver.follow_real_time(true);
+        let search = |found: bool| {
+            let result = Outcome::default();
+            if found {
+                result.found.set(None).unwrap();
+            }
+            Search { result: Arc::new(result), left: 1, is_late: false }
+        };
+        assert_eq!([false, true].map(|is_dense| solver.cycles(0.001, is_dense)), [20, 60]);
+        for expected in [40, 80, 160, 300, 300] {
+            let mut late = search(false);
+            assert!(matches!(solver.look(&mut late), Status::Late));
+            // It is told once, however long the robot waits for it.
+            solver.note_late(&mut late);
+            solver.note_late(&mut late);
+            assert_eq!(solver.cycles(0.001, false), expected);
+        }
+        assert_eq!((solver.late(), solver.cycles(0.001, true)), (5, 300));
+        for _ in 0..200 {
+            assert!(matches!(solver.look(&mut search(true)), Status::Done(None)));
+        }
+        assert!(solver.cycles(0.001, false) <= 21);
+        solver.follow_real_time(false);
+        assert_eq!(solver.cycles(0.001, false), 20);
+    }
 
     #[test]
     fn a_way_that_was_gone_before_is_not_timed_again() {

@@ -285,11 +285,11 @@ fn run(program: Box<dyn Program>, others: &[Other], options: Options, interrupte
     if real && controller.overruns() > 0 {
         warn(&format!("{} control cycles began late: the computer was too busy", controller.overruns()));
     }
-    if real && controller.late_laws() > 0 {
+    if real && controller.found_late() > 0 {
         let advice = if cfg!(debug_assertions) { "; `arl2rs build --release` makes a quicker program" } else { "" };
         warn(&format!(
             "the computer was too busy to find the motion ahead in time, {} times: robots may have gone more slowly, or stopped on their path{advice}",
-            controller.late_laws()
+            controller.found_late()
         ));
     }
     code

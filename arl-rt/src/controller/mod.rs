@@ -374,10 +374,10 @@ impl Controller {
         self.clock.overruns()
     }
 
-    /// How many times a robot went on for a while as it was, or came to rest on its path, because what was to lead it farther was
-    /// found too late, on the real clock.
-    pub fn late_laws(&self) -> u64 {
-        self.channels.iter().filter_map(|channel| Some(channel.channel_state().robot()?.late_laws())).sum()
+    /// How many parts of the motion ahead (time laws, blends) were found too late, on the real clock: the robot then goes on with what
+    /// it has, and comes to rest on its path at the end of that. 0 on the virtual clock, which waits for them.
+    pub fn found_late(&self) -> u64 {
+        self.channels.iter().filter_map(|channel| Some(channel.channel_state().robot()?.found_late())).sum()
     }
 
     /// The file and line of the statement that runs now.

@@ -421,9 +421,9 @@ impl Unit {
         self.queue.rests() && self.is_settled()
     }
 
-    /// How many time laws came too late, on the real clock.
-    pub(crate) fn late_laws(&self) -> u64 {
-        self.queue.late_laws()
+    /// How many time laws and blends came too late, on the real clock.
+    pub(crate) fn found_late(&self) -> u64 {
+        self.queue.found_late()
     }
 
     /// One interpolation step, and the exchange with the driver. `real`: cycles take the time that they stand for.

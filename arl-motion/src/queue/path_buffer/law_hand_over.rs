@@ -478,10 +478,15 @@ impl PathBuffer {
         let found = match self.law_solver.look(&mut pending.search) {
             Status::Running => return,
             Status::Done(found) => found,
-            // It begins at rest, whenever that is.
-            Status::Late if pending.begins_at_rest(follower) => return,
+            Status::Late if pending.begins_at_rest(follower) => {
+                if follower.rests() {
+                    self.law_solver.note_late(&mut pending.search);
+                }
+                return;
+            }
             Status::Late => {
-                self.law_solver.give_up(&pending.search);
+                self.law_solver.note_late(&mut pending.search);
+                pending.search.cancel();
                 None
             }
         };
@@ -580,6 +585,7 @@ impl PathBuffer {
         if self.segments.get(stop + 1).is_none_or(|first| !first.is_free) || self.is_alone(robot, stop + 1) {
             return;
         }
+        // Counted from the stop on, as it will be when the robot is there.
         let from = stop + 1;
         let settled = self.segments.len().saturating_sub(self.open());
         let (mut count, mut end, mut stops) = (0, 0.0, false);

@@ -474,7 +474,7 @@ impl PathBuffer {
         }
     }
 
-    /// Finds what the governor has to know of the path ahead; where a law leads, nobody asks for that.
+    /// Finds what the governor has to know of the path ahead, if it has changed; where a law leads, nobody asks for that.
     fn find_entries(&mut self) {
         self.timing.find_entries(LOOK_AHEAD_MARGIN, self.cycle);
     }
@@ -494,9 +494,6 @@ impl PathBuffer {
     ) -> bool {
         self.offer_pause = (self.offer_pause - cycle).max(0.0);
         self.choose_leader(robot);
-        if self.leader.follower().is_none() {
-            self.find_entries();
-        }
         self.shorten_stop(robot, here, cycle, pacing);
         if !self.follow_law(robot, here, cycle, pacing) {
             self.find_entries();

@@ -66,6 +66,7 @@ impl PathBuffer {
         self.cancel();
         let at = self.passed + self.at;
         let sampler = self.sampler_up_to(robot, (at, here), f64::INFINITY, (usize::MAX, f64::INFINITY));
+        self.find_entries();
         let prediction = StopPrediction::new(self.timing.clone(), self.state, self.backup, cycle, harder);
         let cycles = 2 * self.search_cycles(cycle);
         let request = LawRequest::ShorterStop(Box::new(prediction), cycles);
@@ -86,7 +87,8 @@ impl PathBuffer {
             Status::Running => return None,
             Status::Done(found) => found,
             Status::Late => {
-                self.law_solver.give_up(&pending.search);
+                self.law_solver.note_late(&mut pending.search);
+                pending.search.cancel();
                 None
             }
         };

@@ -23,7 +23,7 @@ impl PathBuffer {
 
     /// How long the motion that counts as being executed still takes, in s, when it has run for `elapsed` s at full speed:
     /// exact where it begins and ends at rest, else as its segments and those behind them allow.
-    pub(crate) fn time_to_end(&self, elapsed: f64) -> f64 {
+    pub(crate) fn time_to_end(&mut self, elapsed: f64) -> f64 {
         let (Some(first), Some((current, _))) = (self.segments.front(), self.current()) else { return 0.0 };
         if let Some(duration) = current.duration().filter(|_| self.leader.follower().is_none()) {
             return (duration - elapsed).max(0.0);
@@ -49,10 +49,11 @@ impl PathBuffer {
         let way: f64 = legs.iter().map(|leg| leg.length).sum();
         let exit = if stops {
             0.0
-        } else if self.wants_laws() {
+        } else if self.leader.follower().is_some() || (self.state.rests() && self.wants_laws()) {
             // Nobody knows yet; it goes on about as it does before.
             legs.last().map_or(0.0, |last| last.limits.vel)
         } else {
+            self.find_entries();
             self.timing.highest_speed(self.state.at + way, LOOK_AHEAD_MARGIN, self.cycle)
         };
         remaining::time_over(legs, exit, self.state.vel, self.state.acc)
