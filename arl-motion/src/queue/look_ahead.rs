@@ -149,14 +149,15 @@ impl Queue {
         let can_wait =
             || self.spare.unwrap_or_else(|| self.layer.path.spare()) >= LEAST_WAIT_S / WAITED_SHARE_OF_SPARE_TIME;
         let is_short_of_way = self.way_ahead() < enough || !can_wait();
-        let most = if is_short_of_way { MOST_MOTIONS_A_CYCLE } else { LEAST_MOTIONS_A_CYCLE };
-        self.taken.suffices(self.cycle, self.most_a_cycle(most))
-    }
-
-    /// How many motions a cycle takes: `moving`, or more while short ones come to a robot at rest that laws will lead.
-    fn most_a_cycle(&self, moving: u32) -> u32 {
         let path = &self.layer.path;
-        if path.rests() && path.wants_laws() && self.is_dense() { SHORT_MOTIONS_A_CYCLE_AT_REST } else { moving }
+        let count = if path.rests() && path.wants_laws() && self.is_dense() {
+            SHORT_MOTIONS_A_CYCLE_AT_REST
+        } else if is_short_of_way {
+            MOST_MOTIONS_A_CYCLE
+        } else {
+            LEAST_MOTIONS_A_CYCLE
+        };
+        self.taken.suffices(self.cycle, count)
     }
 
     /// Whether the motion that came last is short.
@@ -255,13 +256,14 @@ impl Queue {
         !self.in_real_time || self.layer.path.is_empty() || ready.prepared.as_ref().is_none_or(Prepared::is_ready)
     }
 
-    /// Lays the motions that are due on the path, as soon as that can take them; some a cycle, but for those in a hurry.
+    /// Lays the motions that are due on the path, as soon as that can take them; some a cycle, but for those in a hurry, and those for
+    /// which a robot stands.
     pub(crate) fn lay_waiting(&mut self) {
         let mut laid = Done::default();
+        let stands = self.layer.path.rests() && self.layer.path.wants_laws();
         while let Some(first) = self.layer.waiting.first() {
             let hurries = first.due == 0 || self.layer.path.is_empty();
-            let is_due =
-                first.due <= self.cycles && !laid.suffices(self.cycle, self.most_a_cycle(LEAST_MOTIONS_A_CYCLE));
+            let is_due = first.due <= self.cycles && (stands || !laid.suffices(self.cycle, LEAST_MOTIONS_A_CYCLE));
             if self.layer.path.is_asking() || !(hurries || is_due) {
                 return;
             }
