@@ -231,14 +231,11 @@ impl Queue {
         let comes_more = || self.layer.held.is_some() || self.last_ahead().is_some_and(|last| asks(&self.robot, last));
         let is_dense = self.is_dense();
         let (longest, enough) = if is_dense { GATHERING_OF_DENSE_CHAIN_S } else { GATHERING_S };
-        // They are laid as soon as their blends are found.
+        // Short ones are laid as soon as their blends are found, and no law leads along them before.
         let comes = self.taken.count > 0 || (is_dense && !self.layer.waiting.is_empty());
-        let gathers = comes
-            && self.gathered < longest
-            && path.rests()
-            && path.wants_laws()
-            && self.way_ahead() < enough
-            && comes_more();
+        let ahead = if is_dense { path.time_left() } else { self.way_ahead() };
+        let gathers =
+            comes && self.gathered < longest && path.rests() && path.wants_laws() && ahead < enough && comes_more();
         self.gathered = if gathers { self.gathered + cycle } else { 0.0 };
         gathers
     }
