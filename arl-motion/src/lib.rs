@@ -67,6 +67,7 @@ mod tests;
 pub mod time_optimal;
 
 pub use arl_robot::{frames, kinematics, robot};
+pub use blend::no_blend::NoBlend;
 pub use blend::zone::Rounding;
 pub use command::{
     Command, Compensation, Gate, Joints, Lift, MotionKind, PlanError, Reference, Settings, Speed, Target, UNSET, Weave,

@@ -289,6 +289,26 @@ fn a_motion_that_comes_too_late_to_be_blended_is_told_of() {
 }
 
 #[test]
+fn a_target_that_is_not_rounded_off_is_told_of_once_with_the_cause() {
+    let (mut controller, _) = controller(Controller::builder(), |cx| {
+        Box::pin(async move {
+            motion::movej(bent(0.0)).vp(100.0).sp(-1.0).run(cx).await.at(FILE, 1)?;
+            let (flange, world) = (cx.system().flange.get(), cx.system().world.get());
+            let here = pose::getpose(cx, bent(0.0), flange, &world).at(FILE, 1)?;
+            for _ in 0..4 {
+                let there = Pose { z: here.z - 50.0, ..here };
+                motion::lin(there).vl(500.0).sl(5.0).run(cx).await.at(FILE, 2)?;
+                motion::lin(here).vl(500.0).sl(-1.0).run(cx).await.at(FILE, 3)?;
+            }
+            Ok(())
+        })
+    });
+    assert_eq!(controller.run(), Outcome::Ended);
+    let warnings = controller.take_warnings();
+    assert!(warnings.len() == 1 && warnings[0].contains("goes back along the same way"), "{warnings:?}");
+}
+
+#[test]
 fn the_virtual_clock_gives_the_same_run_every_time() {
     let trace = || {
         #[derive(Clone, Default)]

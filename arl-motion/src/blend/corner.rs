@@ -8,6 +8,7 @@ use nalgebra::{SVector, Vector3};
 
 use crate::blend::blend_limits::{Approach, BlendLimits, find_blend_limits};
 use crate::blend::mid_curvature::MidCurvature;
+use crate::blend::no_blend::NoBlend;
 use crate::blend::smoothing::is_smooth;
 use crate::blend::zone::{asked_parts, parts};
 use crate::command::LARGEST_ZONE;
@@ -26,7 +27,7 @@ use crate::plan::curve::{Curve, ToolCurve};
 use crate::plan::motion::{CornerEnd, GivenCorner, Motion};
 use crate::plan::path_check::{check_gentle_path, check_path};
 use arl_robot::kinematics::Rates;
-use arl_robot::robot::{ROBOT_AXES, Robot};
+use arl_robot::robot::{Axis, ROBOT_AXES, Robot};
 
 /// Length of the tangents at the ends of a blend, in lengths of the zone. With 2 the blend of two straight lines that are
 /// left and joined at the same distance accelerates along the bisector alone.
@@ -36,6 +37,10 @@ const ZONE_HALVINGS: u32 = 4;
 /// Parts of a blend between which it is looked at; and of one that hardly bends.
 const PARTS_OF_BLEND: u32 = 48;
 const PARTS_OF_GENTLE_BLEND: u32 = 4;
+/// What is less than this comes from rounding.
+const NO_WAY_MM_OR_DEG: f64 = 1e-6;
+/// The cosine of the smallest angle between two directions that are taken for one.
+const STRAIGHT_BACK: f64 = 1.0 - 1e-9;
 /// Where nothing changes its speed or direction by a larger part than this, a blend hardly bends.
 const GENTLE_CHANGE: f64 = 0.1;
 
@@ -54,15 +59,47 @@ pub(crate) struct Blend {
     pub(crate) blend_limits: BlendLimits,
 }
 
-/// The blend that the first motion's zone asks for; `None` where it asks for none, or there is no way.
-pub(crate) fn blend(robot: &Robot, from: &Motion, to: &Motion) -> Option<Blend> {
-    let found = |(leaving, joining): (f64, f64)| {
-        Corner { robot, from, to, leaving, joining, curvatures: [MidCurvature::NONE; 2] }.blend()
-    };
-    let (leaving, joining) = asked_parts(robot, from, to)?;
+/// The blend that the first motion's zone asks for. Where there is no way, what is wrong with the smallest zone that was tried.
+pub(crate) fn blend(robot: &Robot, from: &Motion, to: &Motion) -> Result<Blend, NoBlend> {
+    let (leaving, joining) = asked_parts(robot, from, to).ok_or(NoBlend::NothingLeft)?;
     let smooth = is_smooth(from, to).then_some((LARGEST_ZONE, LARGEST_ZONE));
     let smaller = (0..=ZONE_HALVINGS).map(|halvings| f64::from(1 << halvings)).map(|by| (leaving / by, joining / by));
-    smooth.into_iter().chain(smaller).find_map(found)
+    let mut why = NoBlend::NothingLeft;
+    for (leaving, joining) in smooth.into_iter().chain(smaller) {
+        match (Corner { robot, from, to, leaving, joining, curvatures: [MidCurvature::NONE; 2] }.blend()) {
+            Ok(blend) => return Ok(blend),
+            Err(other) => why = other,
+        }
+    }
+    // Where the robot's axes stand still for a moment, that looks like many things.
+    Err(match () {
+        () if turns_back(from, to) => NoBlend::Reversal,
+        () if moves_external_axes_alone(from) != moves_external_axes_alone(to) => NoBlend::ExternalAlone,
+        () => why,
+    })
+}
+
+/// Whether a motion leaves the TCP and the tool where they are.
+fn moves_external_axes_alone(motion: &Motion) -> bool {
+    matches!(motion.curve, Curve::Tool(_)) && motion.length.max(motion.angle) < NO_WAY_MM_OR_DEG
+}
+
+/// Whether one motion leaves its start in the direction that the other one came from.
+fn turns_back(from: &Motion, to: &Motion) -> bool {
+    let [coming, going] = match (&from.curve, &to.curve) {
+        (Curve::Tool(from), Curve::Tool(to)) => [(from, 1.0), (to, 0.0)].map(|(curve, at)| {
+            let corner = curve.rotation(at);
+            let [[_, moving, _], [_, turning, _]] = curve.place(at, &corner);
+            let external = curve.external.derivative(1, at);
+            moving.iter().chain(&turning).chain(&external).copied().collect::<Vec<f64>>()
+        }),
+        (Curve::Axes(from), Curve::Axes(to)) => {
+            [(from, 1.0), (to, 0.0)].map(|(curve, at)| curve.derivative(1, at).to_vec())
+        }
+        _ => return false,
+    };
+    let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    product(&coming, &going) < -STRAIGHT_BACK * (product(&coming, &coming) * product(&going, &going)).sqrt()
 }
 
 /// The blend from one motion, which is bent in its middle, to another. A bend is only possible where a whole half is taken.
@@ -74,7 +111,7 @@ pub(crate) fn curved_blend(robot: &Robot, from: &Motion, to: &Motion, curvatures
     {
         return None;
     }
-    Corner { robot, from, to, leaving, joining, curvatures }.blend()
+    Corner { robot, from, to, leaving, joining, curvatures }.blend().ok()
 }
 
 #[cfg(test)]
@@ -112,7 +149,7 @@ impl Corner<'_> {
         }
     }
 
-    fn blend(&self) -> Option<Blend> {
+    fn blend(&self) -> Result<Blend, NoBlend> {
         #[cfg(test)]
         FOUND_HERE.with(|count| count.set(count.get() + 1));
         let Self { from, to, .. } = self;
@@ -148,8 +185,12 @@ impl Corner<'_> {
             _ => {
                 let [start, end] = &self.curvatures;
                 let [left, joined] = self.met();
-                let from = rising(axes_knot(self.robot, from, leave, slope_from, start)?, &left);
-                let to = rising(axes_knot(self.robot, to, join, slope_to, end)?, &joined);
+                let met = |motion, at, slope, bend, met| {
+                    let knot = axes_knot(self.robot, motion, at, slope, bend);
+                    knot.map(|knot| rising(knot, met)).ok_or(NoBlend::Singular { axis: None })
+                };
+                let from = met(from, leave, slope_from, start, &left)?;
+                let to = met(to, join, slope_to, end, &joined)?;
                 let curve = Quintic::between(&from, &to);
                 let gentle = self.from.corner.is_none() && turns_gently(&curve);
                 let (parametrization, time) = self.time_axes((&curve, gentle), [start_rate, end_rate]);
@@ -157,8 +198,8 @@ impl Corner<'_> {
                 (Curve::Axes(curve), parametrization, time)
             }
         };
-        let blend_limits = self.blend_limits(&constraints, time)?;
-        Some(Blend { leave, join, curve, parametrization, time, blend_limits })
+        let blend_limits = self.blend_limits(&constraints, time).ok_or(NoBlend::Reversal)?;
+        Ok(Blend { leave, join, curve, parametrization, time, blend_limits })
     }
 
     /// How fast it may be crossed: evenly where it hardly bends.
@@ -250,19 +291,19 @@ impl Corner<'_> {
         true
     }
 
-    /// Collects the limits of any path of the TCP; `None` where it cannot be gone.
+    /// Collects the limits of any path of the TCP, if it can be gone.
     fn walk_tool(
         &self,
         curve: &ToolCurve,
         parametrization: &Parametrization,
         constraints: &mut Constraints,
         pace: &Pace,
-    ) -> Option<()> {
+    ) -> Result<(), NoBlend> {
         let [(leave, _), _] = self.ends();
-        let start = joints_at(self.robot, self.from, leave)?;
-        let found = check_path(self.robot, curve, &start).ok()?;
+        let start = joints_at(self.robot, self.from, leave).ok_or(NoBlend::Unreachable)?;
+        let found = check_path(self.robot, curve, &start).map_err(NoBlend::of_way)?;
         if !self.arrives(&found.end) {
-            return None;
+            return Err(NoBlend::Configuration);
         }
         for (at, rates) in &found.rates {
             let share = inverse(parametrization, *at);
@@ -278,7 +319,7 @@ impl Corner<'_> {
             constraints.place(share);
             collect(&place, curve, self.swings(), constraints, pace);
         }
-        Some(())
+        Ok(())
     }
 
     /// Whether these are the axes where the second motion is joined.
@@ -317,14 +358,14 @@ impl Corner<'_> {
         })
     }
 
-    /// Collects the limits of a path of the axes; `None` where it leaves a range.
+    /// Collects the limits of a path of the axes, if it leaves no range.
     fn look_at_axes(
         &self,
         (curve, gentle): (&Quintic<ALL>, bool),
         parametrization: &Parametrization,
         constraints: &mut Constraints,
         pace: &Pace,
-    ) -> Option<()> {
+    ) -> Result<(), NoBlend> {
         let parts = if gentle { PARTS_OF_GENTLE_BLEND } else { PARTS_OF_BLEND };
         let (kinematics, carried) = (&self.robot.kinematics, &self.to.rig.carried);
         let tcp = |share: f64| {
@@ -338,8 +379,8 @@ impl Corner<'_> {
                 constraints.place(share);
             }
             let joints = Joints::of(&curve.at(place.at));
-            if !within_ranges(self.robot, &joints) {
-                return None;
+            if let Some(axis) = out_of_range(self.robot, &joints) {
+                return Err(NoBlend::AxisLimit { axis: axis.name.clone() });
             }
             let known = constraints.rows.len();
             let derivatives = place.rates([1, 2, 3].map(|order| curve.derivative(order, place.at)));
@@ -361,7 +402,7 @@ impl Corner<'_> {
                 constraints.join(known);
             }
         }
-        Some(())
+        Ok(())
     }
 }
 
@@ -489,10 +530,11 @@ fn joints_at(robot: &Robot, motion: &Motion, at: f64) -> Option<Joints> {
     Some(Joints { axes, external: tool.external.at(at) })
 }
 
-fn within_ranges(robot: &Robot, joints: &Joints) -> bool {
+/// The first axis that is not within its range.
+fn out_of_range<'a>(robot: &'a Robot, joints: &Joints) -> Option<&'a Axis> {
     let own = robot.own_axes().len();
     let values = joints.axes.iter().take(own).chain(&joints.external);
-    robot.axes.iter().zip(values).all(|(axis, value)| *value >= axis.min && *value <= axis.max)
+    robot.axes.iter().zip(values).find(|(axis, value)| !(axis.min..=axis.max).contains(value)).map(|(axis, _)| axis)
 }
 
 /// The share of the nominal time at which the curve's parameter is `at`: by Newton's steps, halving where they lead away.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::blend::corner::{Blend, blend, curved_blend};
 use crate::blend::mid_curvature::{MidCurvature, mid_curvature};
+use crate::blend::no_blend::NoBlend;
 use crate::plan::lay_overlay::joined;
 use crate::plan::motion::Motion;
 use arl_robot::robot::Robot;
@@ -26,7 +27,7 @@ pub(crate) struct Junction {
     meeting: Meeting,
     curved: Option<CurvedBlends>,
     /// Only looked for where nothing is bent.
-    blended: Option<Blended>,
+    blended: Option<Result<Blended, NoBlend>>,
 }
 
 /// A blend that meets the one before it in the middle of a motion, which is bent there.
@@ -52,7 +53,7 @@ impl Junction {
     pub(crate) fn find(robot: &Robot, meeting: Meeting) -> Self {
         let Meeting { before, from, to } = &meeting;
         let curved = before.as_ref().and_then(|(before, start)| find_curved(robot, before, *start, from, to));
-        let blended = if curved.is_none() { find_blended(robot, from, to) } else { None };
+        let blended = curved.is_none().then(|| find_blended(robot, from, to));
         Self { meeting, curved, blended }
     }
 
@@ -60,8 +61,8 @@ impl Junction {
     pub(crate) fn leaves(&self) -> Before {
         match (&self.curved, &self.blended) {
             (Some(curved), _) => Some((Arc::clone(&self.meeting.from), curved.curvature)),
-            (None, Some(blended)) => Some((Arc::clone(&blended.from), MidCurvature::NONE)),
-            (None, None) => None,
+            (None, Some(Ok(blended))) => Some((Arc::clone(&blended.from), MidCurvature::NONE)),
+            (None, _) => None,
         }
     }
 
@@ -95,11 +96,9 @@ pub(crate) fn blended(
     known: Option<&Junction>,
     from: &Arc<Motion>,
     to: &Arc<Motion>,
-) -> Option<Blended> {
-    match known.filter(|known| known.is_of(from, to) && known.curved.is_none()) {
-        Some(known) => known.blended.clone(),
-        None => find_blended(robot, from, to),
-    }
+) -> Result<Blended, NoBlend> {
+    let known = known.filter(|known| known.is_of(from, to)).and_then(|known| known.blended.clone());
+    known.unwrap_or_else(|| find_blended(robot, from, to))
 }
 
 fn find_curved(
@@ -116,14 +115,14 @@ fn find_curved(
 }
 
 /// A weave goes on through the blend.
-fn find_blended(robot: &Robot, from: &Arc<Motion>, to: &Arc<Motion>) -> Option<Blended> {
+fn find_blended(robot: &Robot, from: &Arc<Motion>, to: &Arc<Motion>) -> Result<Blended, NoBlend> {
     let fades_from = from.laid.as_ref().map_or(1.0, |laid| laid.fades_from());
     let going_on = joined(robot, from, to).filter(|(from, to)| from.goes() && to.goes());
     if let Some((from, to)) = going_on
-        && let Some(blend) = blend(robot, &from, &to)
+        && let Ok(blend) = blend(robot, &from, &to)
     {
-        return Some(Blended { from: Arc::new(from), to: Arc::new(to), blend, until: fades_from });
+        return Ok(Blended { from: Arc::new(from), to: Arc::new(to), blend, until: fades_from });
     }
     let blend = blend(robot, from, to)?;
-    Some(Blended { from: Arc::clone(from), to: Arc::clone(to), blend, until: 1.0 })
+    Ok(Blended { from: Arc::clone(from), to: Arc::clone(to), blend, until: 1.0 })
 }

@@ -5,5 +5,6 @@ pub(crate) mod blend_thread;
 pub(crate) mod corner;
 pub(crate) mod junction;
 pub(crate) mod mid_curvature;
+pub(crate) mod no_blend;
 pub(crate) mod smoothing;
 pub(crate) mod zone;

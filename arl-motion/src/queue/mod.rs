@@ -4,6 +4,7 @@ mod layer;
 mod look_ahead;
 mod motion_progress;
 mod path_buffer;
+mod path_speed;
 mod record;
 mod suspend;
 
@@ -95,9 +96,8 @@ pub struct Queue {
     /// The length of a cycle, in s, and whether cycles take the time that they stand for.
     cycle: f64,
     in_real_time: bool,
-    /// The last target that was not rounded off because a motion came too late, and the last beside which there is no way.
-    late: Option<UnblendedTarget>,
-    unblended: Option<UnblendedTarget>,
+    /// Targets that are not rounded off though they should be, since somebody asked last; each once.
+    unblended: Vec<UnblendedTarget>,
     /// Who finds the blends of motions that wait.
     blend_thread: BlendThread,
     late_blends: LateBlends,
@@ -142,8 +142,7 @@ impl Queue {
             left: Vec::with_capacity(LOOK_AHEAD),
             cycle: 0.001,
             in_real_time: false,
-            late: None,
-            unblended: None,
+            unblended: Vec::new(),
             blend_thread: BlendThread::default(),
             late_blends: LateBlends::default(),
             cycles: 1,
@@ -320,8 +319,9 @@ impl Queue {
 
     fn note_unblended(&mut self, unblended: impl IntoIterator<Item = UnblendedTarget>) {
         for unblended in unblended {
-            let of_its_kind = if unblended.corner.is_some() { &mut self.unblended } else { &mut self.late };
-            *of_its_kind = Some(unblended);
+            if !self.unblended.iter().any(|known| known.is_same(&unblended)) {
+                self.unblended.push(unblended);
+            }
         }
     }
 
@@ -343,16 +343,10 @@ impl Queue {
         }
     }
 
-    /// The motion that came too late, since this was asked last, to be blended with the one before it, so that the robot
-    /// stopped or will stop between the two.
-    pub fn take_late(&mut self) -> Option<UnblendedTarget> {
-        self.late.take()
-    }
-
-    /// A target, since this was asked last, that should be rounded off but is reached with a stop: beside it the robot would
-    /// leave its reach or an axis's range, or meet a singular point, however small the zone.
-    pub fn take_unblended(&mut self) -> Option<UnblendedTarget> {
-        self.unblended.take()
+    /// The targets, since this was asked last, that should be rounded off but are reached with a stop. Those of the same two program lines
+    /// for the same reason count as one.
+    pub fn take_unblended(&mut self) -> Vec<UnblendedTarget> {
+        std::mem::take(&mut self.unblended)
     }
 
     /// The least part of its programmed speed, 0 to 1, that a weave or a compensation has left to a motion since this was
@@ -469,6 +463,11 @@ impl Queue {
         let tcp = self.tcp();
         self.advance_suspension();
         Step { joints: self.joints, tcp, motion, line, finished: self.layer.finished, rests: self.rests() }
+    }
+
+    /// How much higher than those of the robot file the limits of acceleration and jerk were in the last cycle.
+    pub(super) fn hardness(&self) -> f64 {
+        if self.braking_hard { FAST_STOP_FACTOR } else { 1.0 }
     }
 
     /// How fast to go in this cycle, at an override of `speed`, 0 to 1. A fast stop is carried through to rest: from its acceleration

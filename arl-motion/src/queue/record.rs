@@ -4,16 +4,38 @@ use std::sync::Arc;
 
 use crate::blend::zone::{self, Rounding};
 use crate::command::joints::ALL;
-use crate::command::{Command, MotionKind, Settings};
+use crate::command::{Command, MotionKind, Settings, Speed};
 use crate::plan::constraints::MANUAL_SPEED_MM_S;
 use crate::plan::motion::Motion;
-use crate::queue::{Laid, Queue, Step};
+use crate::queue::path_speed::PathSpeed;
+use crate::queue::{FAST_STOP_FACTOR, Laid, Queue, Step};
 use arl_robot::frames::Carried;
 use arl_robot::kinematics::Frame;
 use arl_robot::robot::{ROBOT_AXES, Robot, VelocityProfile};
 
 /// TCP paths shorter than this, mm, have no speed: then the tool's turning is what was programmed.
 const NO_DISTANCE_MM: f64 = 1e-6;
+/// The same for its turning, deg: then external axes move alone.
+const NO_TURN_DEG: f64 = 1e-6;
+/// Speed, acceleration, jerk.
+const DERIVATIVES: usize = 3;
+
+/// What a programmed speed is one of.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Measure {
+    /// The robot's axes, in percent.
+    Axes,
+    /// The TCP, in mm/s.
+    Tcp,
+    /// The tool's turning, in deg/s.
+    Turning,
+    /// External axes that turn, in deg/s.
+    TurningAxes,
+    /// External axes that go straight, in mm/s.
+    LinearAxes,
+    /// Not a speed but how long it takes, in s.
+    Duration,
+}
 
 /// A figure with its unit.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -100,7 +122,7 @@ pub struct MotionRecord {
     /// Where it goes, and how.
     pub kind: MotionKind,
     /// The programmed speed, under the override: % of the axes' limits on axis motions, else mm/s, or deg/s
-    /// where only the tool turns; or the programmed duration in s.
+    /// where only the tool turns, and that of the external axes where they move alone; or the programmed duration in s.
     pub programmed: Figure,
     /// The highest speed in the same unit; for a duration, how long it took.
     pub reached: f64,
@@ -116,8 +138,9 @@ pub struct MotionRecord {
     tool: Nearest,
     carried: Carried,
     along_tool: bool,
-    /// The programmed speed of the tool's turning, deg/s.
-    turning: f64,
+    /// Whose speed was programmed, and the programmed speeds of what else a motion along a path may move.
+    measure: Measure,
+    speed: Speed,
     /// Whether a blend with an axis motion is a part of it, in which the TCP's limits do not hold.
     mixed: bool,
     jerks: bool,
@@ -135,6 +158,25 @@ impl MotionRecord {
         }
         found
     }
+
+    /// What of a motion along a path has the programmed speed: the TCP; where that stays, the tool's turning; where that stays, too,
+    /// external axes.
+    fn measured_by(&self, robot: &Robot, motion: &Motion) -> (Measure, Figure) {
+        let figure = |value: f64, unit: &'static str| Figure { value, unit };
+        let moves = |linear: bool| {
+            let ways = motion.end.external.iter().zip(&motion.start.external);
+            robot.external_axes().iter().zip(ways).any(|(axis, (end, start))| axis.linear == linear && end != start)
+        };
+        if motion.length() >= NO_DISTANCE_MM {
+            (Measure::Tcp, self.programmed)
+        } else if motion.angle >= NO_TURN_DEG || !(moves(false) || moves(true)) {
+            (Measure::Turning, figure(self.speed.ori, "deg/s"))
+        } else if moves(false) {
+            (Measure::TurningAxes, figure(self.speed.exj, "deg/s"))
+        } else {
+            (Measure::LinearAxes, figure(self.speed.exl, "mm/s"))
+        }
+    }
 }
 
 /// Watches planning and interpolation. Memory is taken when a motion is planned, never in a cycle.
@@ -151,9 +193,12 @@ pub struct Recorder {
     /// Speeds, accelerations of the axes.
     rates: [[f64; ALL]; 2],
     way: Frame,
-    /// Speed and acceleration of the TCP along its path, then of the tool's turning.
-    moving: [f64; 2],
-    turning: [f64; 2],
+    /// The TCP along its path, and the tool's turning in deg.
+    moving: PathSpeed,
+    turning: PathSpeed,
+    /// For how many cycles jerks have been limited, and limits have been those of the robot file.
+    smooth: usize,
+    plain: usize,
     /// How many of the TCP's derivatives are known: after a change of what is carried none is.
     known: usize,
 }
@@ -171,8 +216,10 @@ impl Recorder {
             joints: queue.joints().all(),
             rates: [[0.0; ALL]; 2],
             way: Frame::identity(),
-            moving: [0.0; 2],
-            turning: [0.0; 2],
+            moving: PathSpeed::default(),
+            turning: PathSpeed::default(),
+            smooth: DERIVATIVES,
+            plain: DERIVATIVES,
             known: 0,
         }
     }
@@ -186,11 +233,14 @@ impl Recorder {
     pub fn planned(&mut self, queue: &mut Queue, number: u64, command: &Command, settings: &Settings) {
         let kind = command.target.kind();
         let along_tool = kind.leads_tcp();
+        let (measure, programmed) = programmed(command, settings, along_tool);
+        let share = settings.speed_percent / 100.0;
+        let Speed { percent, tcp, ori, exj, exl } = command.speed;
         self.records.push(MotionRecord {
             number,
             line: command.line,
             kind,
-            programmed: programmed(command, settings, along_tool),
+            programmed,
             reached: 0.0,
             start: None,
             duration: 0.0,
@@ -200,7 +250,8 @@ impl Recorder {
             tool: Nearest::NONE,
             carried: command.rig.carried,
             along_tool,
-            turning: command.speed.ori * settings.speed_percent / 100.0,
+            measure,
+            speed: Speed { percent, tcp, ori: ori * share, exj: exj * share, exl: exl * share },
             mixed: false,
             jerks: settings.profile != VelocityProfile::T,
         });
@@ -214,8 +265,8 @@ impl Recorder {
             let Some(record) = at(&mut self.records, number) else { continue };
             record.blend = rounding;
             let along_tool = record.along_tool;
-            if record.programmed.unit == "mm/s" && motion.length() < NO_DISTANCE_MM {
-                record.programmed = Figure { value: record.turning, unit: "deg/s" };
+            if record.measure == Measure::Tcp {
+                (record.measure, record.programmed) = record.measured_by(&self.robot, &motion);
             }
             if let (Some((before, leave)), Some(last)) = (left, &self.last) {
                 let rounding = zone::rounding(&self.robot, last, leave);
@@ -260,51 +311,55 @@ impl Recorder {
             record.start.get_or_insert(began);
             record.duration += period;
         }
-        let derivatives = if record.jerks { 3 } else { 2 };
+        // Differences reach back two cycles: what was allowed there counts, too.
+        self.smooth = if record.jerks { self.smooth + 1 } else { 0 };
+        self.plain = if queue.hardness() > 1.0 { 0 } else { self.plain + 1 };
+        let derivatives = if self.smooth >= DERIVATIVES { DERIVATIVES } else { DERIVATIVES - 1 };
+        let harder = if self.plain >= DERIVATIVES { 1.0 } else { FAST_STOP_FACTOR };
         let mut percent = 0.0_f64;
+        let mut external = [0.0_f64; 2];
         let own = self.robot.own_axes().len();
         for (at, axis) in self.robot.axes.iter().enumerate() {
             let column = if at < own { at } else { at - own + ROBOT_AXES };
             let rates = [0, 1, 2]
                 .map(|order: usize| rates.get(order).and_then(|all| all.get(column)).copied().unwrap_or_default());
-            record.axes.raise(Limited::Axis(at), rates, [axis.vel, axis.acc, axis.jerk], derivatives);
+            record.axes.raise(Limited::Axis(at), rates, [axis.vel, axis.acc * harder, axis.jerk * harder], derivatives);
             if at < own {
                 percent = percent.max(100.0 * rates[0].abs() / axis.vel);
+            } else {
+                let [turning, linear] = &mut external;
+                let kind = if axis.linear { linear } else { turning };
+                *kind = kind.max(rates[0].abs());
             }
         }
 
         let way = record.carried.way_at(&self.robot.kinematics.forward(&step.joints.axes));
-        let far = (way.translation.vector - self.way.translation.vector).norm();
-        let angle = way.rotation.angle_to(&self.way.rotation).to_degrees();
+        let moved = way.translation.vector - self.way.translation.vector;
+        let turned = (way.rotation * self.way.rotation.inverse()).scaled_axis().map(f64::to_degrees);
         self.way = way;
         let mut speed = [0.0; 2];
         if self.known > 0 {
-            let moving = derivatives_of(far / period, &mut self.moving, period);
-            let turning = derivatives_of(angle / period, &mut self.turning, period);
-            speed = [moving[0], turning[0]];
-            record.way += far;
+            let moving = self.moving.derivatives(moved, period);
+            let turning = self.turning.derivatives(turned, period);
+            speed = [moving[0].abs(), turning[0].abs()];
+            record.way += moved.norm();
             if record.along_tool {
                 let (tcp, known) = (&self.robot.tcp, self.known.min(derivatives));
-                record.tool.raise(Limited::Tcp, moving, [tcp.vel, tcp.acc, tcp.jerk], known);
-                record.tool.raise(Limited::Turning, turning, [tcp.ori_vel, tcp.ori_acc, tcp.ori_jerk], known);
+                record.tool.raise(Limited::Tcp, moving, [tcp.vel, tcp.acc * harder, tcp.jerk * harder], known);
+                let limits = [tcp.ori_vel, tcp.ori_acc * harder, tcp.ori_jerk * harder];
+                record.tool.raise(Limited::Turning, turning, limits, known);
             }
         }
-        self.known = (self.known + 1).min(3);
-        record.reached = match record.programmed.unit {
-            "%" => record.reached.max(percent),
-            "mm/s" => record.reached.max(speed[0]),
-            "deg/s" => record.reached.max(speed[1]),
-            _ => record.duration,
+        self.known = (self.known + 1).min(DERIVATIVES);
+        record.reached = match record.measure {
+            Measure::Axes => record.reached.max(percent),
+            Measure::Tcp => record.reached.max(speed[0]),
+            Measure::Turning => record.reached.max(speed[1]),
+            Measure::TurningAxes => record.reached.max(external[0]),
+            Measure::LinearAxes => record.reached.max(external[1]),
+            Measure::Duration => record.duration,
         };
     }
-}
-
-/// The speed with its first two derivatives, from the speed and acceleration of the cycle before.
-fn derivatives_of(speed: f64, before: &mut [f64; 2], period: f64) -> [f64; 3] {
-    let acc = (speed - before[0]) / period;
-    let jerk = (acc - before[1]) / period;
-    *before = [speed, acc];
-    [speed, acc, jerk]
 }
 
 /// The record of the motion with this number; numbers are without gaps.
@@ -313,15 +368,16 @@ fn at(records: &mut [MotionRecord], number: u64) -> Option<&mut MotionRecord> {
     records.get_mut(usize::try_from(number.checked_sub(first)?).ok()?)
 }
 
-fn programmed(command: &Command, settings: &Settings, along_tool: bool) -> Figure {
+/// What the programmed speed is measured by, and how much it is, as long as nothing is known of the way.
+fn programmed(command: &Command, settings: &Settings, along_tool: bool) -> (Measure, Figure) {
     let (speed, share) = (&command.speed, settings.speed_percent / 100.0);
     if let Some(duration) = command.duration {
-        return Figure { value: duration, unit: "s" };
+        return (Measure::Duration, Figure { value: duration, unit: "s" });
     }
     if along_tool {
         let most = if settings.manual { settings.max_tcp.min(MANUAL_SPEED_MM_S) } else { settings.max_tcp };
-        Figure { value: (speed.tcp * share).min(most), unit: "mm/s" }
+        (Measure::Tcp, Figure { value: (speed.tcp * share).min(most), unit: "mm/s" })
     } else {
-        Figure { value: speed.percent.min(100.0) * share, unit: "%" }
+        (Measure::Axes, Figure { value: speed.percent.min(100.0) * share, unit: "%" })
     }
 }

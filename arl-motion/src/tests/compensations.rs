@@ -144,7 +144,7 @@ fn more_and_less_come_with_the_next_motion_and_lead_back_to_the_path() {
         let zone = Zone { tcp: 10.0, ..Zone::NONE };
         queue.add(&Command { zone, ..slow(to) }, &settings).unwrap();
     }
-    assert!(queue.take_late().is_none());
+    assert!(!was_late(&mut queue));
     let rows = run(&mut queue, 100.0);
     assert_within_limits(&robot, &rows, "blended");
     let last = rows.last().unwrap();

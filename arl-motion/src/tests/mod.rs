@@ -11,10 +11,12 @@ mod optimal;
 mod plans;
 mod prepared;
 mod real_time;
+mod records;
 mod short_stops;
 mod stops;
 mod suspensions;
 mod traces;
+mod unblended;
 mod ways;
 mod weaves;
 mod wrist;
@@ -31,6 +33,11 @@ const CYCLE: f64 = 0.001;
 
 fn robot(name: &str) -> Arc<Robot> {
     Arc::new(Robot::builtin(name).unwrap())
+}
+
+/// Whether a motion came too late, since this was asked last, to be blended with the one before it.
+fn was_late(queue: &mut Queue) -> bool {
+    queue.take_unblended().iter().any(|target| target.why == NoBlend::Late)
 }
 
 /// The robot with a turning and a linear external axis.

@@ -154,7 +154,7 @@ fn late(delay: usize, event: Event) -> (Vec<Step>, bool) {
         rows.push(queue.step(CYCLE, percent));
         assert!(rows.len() < 20_000, "it does not end");
     }
-    (rows, queue.take_late().is_some())
+    (rows, was_late(&mut queue))
 }
 
 #[test]

@@ -209,7 +209,7 @@ fn a_weave_goes_on_through_blends_and_ends_before_a_stop() {
             let command = Command { zone, ..line(&mut to, [0.0, step, 0.0], 50.0) };
             queue.add(&command, &woven(weave(WeaveShape::Simple))).unwrap();
         }
-        assert!(queue.take_late().is_none());
+        assert!(!was_late(&mut queue));
         let rows = run(&mut queue, 100.0);
         assert_within_limits(&robot, &rows, "chain");
         let off = offsets(&rows, &from, &to);

@@ -7,7 +7,7 @@ use crate::context::shared_state::SharedState;
 use crate::context::system::System;
 use crate::cycle::channel_id::ChannelId;
 use crate::fault::{Alarm, Fault, File};
-use crate::motion::{Progress, UnblendedTarget};
+use crate::motion::{NoBlend, Progress, UnblendedTarget};
 use crate::storage::pointers::StoredPointers;
 use crate::unit::{Collision, SENSITIVITY, Unit, joint};
 use crate::values::VelProfile;
@@ -264,13 +264,12 @@ impl ChannelState {
     /// Warns of targets that are not rounded off though they should be.
     pub(crate) fn warn_of_missing_blends(&self, shared: &SharedState) {
         let Some(mut unit) = self.robot_mut() else { return };
-        if let Some((file, UnblendedTarget { line, .. })) = unit.take_late() {
+        for (file, UnblendedTarget { line, corner, why, .. }) in unit.take_unblended() {
             let file = file.name();
-            shared.warn(format!("{file}:{line}: the motion came too late to be blended with the one before it: the robot stops between the two"));
-        }
-        if let Some((file, UnblendedTarget { line, corner: Some(corner), .. })) = unit.take_unblended() {
-            let file = file.name();
-            shared.warn(format!("{file}:{line}: the target of the motion of line {corner} is not rounded off but reached with a stop: beside it the robot would leave its reach or an axis's range, or meet a singular point"));
+            shared.warn(match (corner, why) {
+                (_, NoBlend::Late) | (None, _) => format!("{file}:{line}: the motion came too late to be blended with the one before it: the robot stops between the two"),
+                (Some(corner), why) => format!("{file}:{line}: the target of the motion of line {corner} is not rounded off but reached with a stop: {why}"),
+            });
         }
     }
 

@@ -8,13 +8,13 @@ mod refusal;
 pub mod robot_driver;
 mod servo;
 
-use std::collections::VecDeque;
+use std::collections::{HashSet, VecDeque};
 use std::sync::Arc;
 
 use crate::fault::{Alarm, File};
 use crate::motion::{
-    Command, Compensation, Joints, MotionRecord, Progress, Queue, Recorder, Settings, Start, Stop, UnblendedTarget,
-    circle_steps,
+    Command, Compensation, Joints, MotionRecord, NoBlend, Progress, Queue, Recorder, Settings, Start, Stop,
+    UnblendedTarget, circle_steps,
 };
 use crate::unit::dynamics::{Dynamics, Load};
 use crate::unit::robot_driver::{RobotDriver, settled};
@@ -59,6 +59,8 @@ pub(crate) struct Unit {
     /// The TCP in the world.
     tcp: Frame,
     recorder: Option<Box<Recorder>>,
+    /// The targets that were told not to be rounded off: file and line behind, line before, why.
+    unblended: HashSet<(File, u32, Option<u32>, NoBlend)>,
     /// The file of the motion planned last.
     file: File,
     /// Where the robot stands in the world.
@@ -103,6 +105,7 @@ impl Unit {
             settled: 0,
             tcp,
             recorder: None,
+            unblended: HashSet::new(),
             file: File::new(""),
             base: Frame::identity(),
             compensations: 0,
@@ -127,16 +130,17 @@ impl Unit {
         self.recorder.as_ref().map_or(&[], |recorder| recorder.records())
     }
 
-    /// A target that should be rounded off but cannot be, since this was asked last, and the file of the motion behind it.
-    pub(crate) fn take_unblended(&mut self) -> Option<(File, UnblendedTarget)> {
-        let sharp = self.queue.take_unblended()?;
-        Some((self.file_of(sharp.number), sharp))
-    }
-
-    /// The motion that came too late to be blended with the one before it, since this was asked last, and its file.
-    pub(crate) fn take_late(&mut self) -> Option<(File, UnblendedTarget)> {
-        let sharp = self.queue.take_late()?;
-        Some((self.file_of(sharp.number), sharp))
+    /// The targets that should be rounded off but are not, each with the file of the motion behind it; between the same lines for the same
+    /// reason only the first one of a run.
+    pub(crate) fn take_unblended(&mut self) -> Vec<(File, UnblendedTarget)> {
+        let mut new = Vec::new();
+        for target in self.queue.take_unblended() {
+            let file = self.file_of(target.number);
+            if self.unblended.insert((file, target.line, target.corner, target.why.clone())) {
+                new.push((file, target));
+            }
+        }
+        new
     }
 
     /// The file of a motion that has not ended.

@@ -11,6 +11,7 @@ use std::sync::Arc;
 use crate::blend::blend_thread::{Joining, Prepared};
 use crate::blend::junction::{self, Before, Blended, CurvedBlends, Meeting};
 use crate::blend::mid_curvature::MidCurvature;
+use crate::blend::no_blend::NoBlend;
 use crate::blend::zone::asks;
 use crate::command::LARGEST_ZONE;
 use crate::command::joints::Joints;
@@ -77,15 +78,23 @@ pub(crate) struct PathBuffer {
 }
 
 /// A target that should be rounded off, at which the robot stops.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub struct UnblendedTarget {
     /// The running number of the motion behind it.
     pub number: u64,
     /// Its program line.
     pub line: u32,
-    /// The program line of the motion before it, where the robot cannot go beside the target, however small the zone; `None`: the motion
-    /// behind it came too late.
+    /// The program line of the motion before it; `None` where the two are one motion of several parts.
     pub corner: Option<u32>,
+    /// Why it is not rounded off.
+    pub why: NoBlend,
+}
+
+impl UnblendedTarget {
+    /// Whether it is between the same program lines for the same reason.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        (self.line, self.corner, &self.why) == (other.line, other.corner, &other.why)
+    }
 }
 
 /// The end of the path.
@@ -225,22 +234,25 @@ impl PathBuffer {
             self.join_curved(tail, &curved, (motion, limits), number, cycle)
                 .map(|segments| (curved.curvature, segments))
         });
-        let late = UnblendedTarget { number, line: motion.line, corner: None };
-        let mut unblended = motion.flows.then_some(late);
+        let unblended_for = |corner, why| Some(UnblendedTarget { number, line: motion.line, corner, why });
+        let mut unblended = if motion.flows { unblended_for(None, NoBlend::Late) } else { None };
         let mut end = Arc::clone(motion);
         let mut before = None;
         if let Some(tail) = tail {
-            let blended = if joined.is_none() { junction::blended(robot, known, &tail.motion, motion) } else { None };
-            if joined.is_none() && blended.is_none() && asks(robot, &tail.motion) {
-                unblended = Some(UnblendedTarget { corner: Some(tail.motion.line), ..late });
-            }
+            let corner = Some(tail.motion.line);
+            let blended = joined.is_none().then(|| junction::blended(robot, known, &tail.motion, motion));
+            let asks = asks(robot, &tail.motion);
             before = Some(tail.motion);
-            if let Some(blended) = blended {
-                joined = self.round_off(&blended, number, cycle).map(|segments| (MidCurvature::NONE, segments));
-                unblended = joined.is_none().then_some(late);
-                if joined.is_some() {
-                    (before, end) = (Some(blended.from), blended.to);
+            match blended {
+                Some(Ok(blended)) => {
+                    joined = self.round_off(&blended, number, cycle).map(|segments| (MidCurvature::NONE, segments));
+                    unblended = if joined.is_none() { unblended_for(corner, NoBlend::Late) } else { None };
+                    if joined.is_some() {
+                        (before, end) = (Some(blended.from), blended.to);
+                    }
                 }
+                Some(Err(why)) if asks => unblended = unblended_for(corner, why),
+                Some(Err(_)) | None => {}
             }
         }
         let limits = end.limits?;

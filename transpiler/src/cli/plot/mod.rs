@@ -72,7 +72,7 @@ fn draw(outline: &Outline, robot: &Robot, ran: &Ran, rows: Rows) -> Result<Strin
 
 fn head(outline: &Outline, robot: &Robot, ran: &Ran, picture: &mut Picture) {
     picture.text([LEFT, 36.0], Anchor::Start, "title", &ran.title);
-    let count = outline.stretches.len();
+    let count = outline.motions();
     let motions = if count == 1 { "1 motion".to_owned() } else { format!("{count} motions") };
     let about = format!("{} \u{b7} {motions} \u{b7} {:.3} s", robot.name, outline.time[1] - outline.time[0]);
     picture.text([LEFT, 56.0], Anchor::Start, "", &about);
@@ -89,7 +89,7 @@ fn lines(outline: &Outline, ran: &Ran, top: f64, picture: &mut Picture) -> f64 {
         let x = LEFT + (at / rows) as f64 * width;
         let y = top + 22.0 + (at % rows) as f64 * APART;
         picture.rect(&Area { x, y: y - 9.0, width: 12.0, height: 10.0 }, "", Some(outline.colour(*line)));
-        let times = outline.stretches.iter().filter(|stretch| stretch.line == *line).count();
+        let times = outline.runs(*line);
         let times = if times > 1 { format!("  ({times}\u{d7})") } else { String::new() };
         let text = ran.source.as_deref().and_then(|source| source.lines().nth(*line as usize - 1)).map(str::trim);
         let text = shortened(&format!("{line:>4}  {}", text.unwrap_or_default()), 51 - times.chars().count()) + &times;

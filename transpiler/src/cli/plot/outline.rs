@@ -3,10 +3,10 @@
 use super::super::failure::Failure;
 use super::super::robot::AXES;
 use super::trace::{Movement, Row};
-use std::collections::HashMap;
 use std::collections::hash_map::Entry;
+use std::collections::{HashMap, HashSet};
 
-/// A motion: from when to when its line was executed.
+/// A motion, or a part of one between two standstills: from when to when its line was executed.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Stretch {
     pub(super) line: u32,
@@ -60,19 +60,23 @@ impl Outline {
                 *most = most.max(speed.abs());
             }
             if row.motion != 0 {
-                outline.motion(&row, before);
+                // Nothing is known of the first row.
+                outline.motion(&row, before, moved.stands() && row.t > outline.time[0]);
             }
             before = row.t;
         }
         Ok((!outline.stretches.is_empty()).then_some(outline))
     }
 
-    fn motion(&mut self, row: &Row, before: f64) {
+    fn motion(&mut self, row: &Row, before: f64, stands: bool) {
         for ([low, high], place) in self.space.iter_mut().zip(row.tcp) {
             (*low, *high) = (low.min(place), high.max(place));
         }
+        if stands {
+            return;
+        }
         match self.stretches.last_mut() {
-            Some(last) if last.motion == row.motion && last.line == row.line => last.to = row.t,
+            Some(last) if last.to == before && last.motion == row.motion && last.line == row.line => last.to = row.t,
             _ => {
                 let from = if row.t > self.time[0] { before } else { row.t };
                 self.stretches.push(Stretch { line: row.line, motion: row.motion, from, to: row.t });
@@ -82,6 +86,21 @@ impl Outline {
                 }
             }
         }
+    }
+
+    /// How often a line was executed.
+    pub(super) fn runs(&self, line: u32) -> usize {
+        self.stretches
+            .iter()
+            .filter(|stretch| stretch.line == line)
+            .map(|stretch| stretch.motion)
+            .collect::<HashSet<_>>()
+            .len()
+    }
+
+    /// How many motions there were.
+    pub(super) fn motions(&self) -> usize {
+        self.stretches.iter().map(|stretch| (stretch.line, stretch.motion)).collect::<HashSet<_>>().len()
     }
 
     /// Where a line is among the lines with motions.
@@ -124,6 +143,15 @@ mod tests {
         assert_eq!((outline.time, outline.space[0]), ([0.0, 0.006], [1.0, 6.0]));
         assert!((outline.speed - 2000.0).abs() < 1e-6);
         assert_ne!(outline.colour(7), outline.colour(9));
+    }
+
+    #[test]
+    fn a_motion_that_stands_is_not_executed() {
+        let rows = [(0.0, 0.0), (0.001, 1.0), (0.002, 2.0), (0.003, 2.0), (0.004, 2.0), (0.005, 3.0), (0.006, 4.0)];
+        let outline = Outline::of(rows.into_iter().map(|(t, x)| Ok(row(t, 7, 1, x)))).unwrap().unwrap();
+        let stretches: Vec<_> = outline.stretches.iter().map(|it| (it.line, it.from, it.to)).collect();
+        assert_eq!(stretches, [(7, 0.0, 0.002), (7, 0.004, 0.006)]);
+        assert_eq!((outline.runs(7), outline.motions()), (1, 1));
     }
 
     #[test]

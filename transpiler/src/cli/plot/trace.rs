@@ -94,6 +94,13 @@ pub(super) struct Moved {
     pub(super) speed: Option<f64>,
 }
 
+impl Moved {
+    /// Whether nothing moved.
+    pub(super) fn stands(&self) -> bool {
+        self.speed == Some(0.0) && self.axes.iter().all(|speed| speed.is_nan() || *speed == 0.0)
+    }
+}
+
 /// A TCP that gets faster than this, mm/s2, when a motion begins is that of another tool.
 const TOOL_CHANGE: f64 = 5e5;
 

@@ -1,0 +1,64 @@
+//! Why two motions that should be blended are not.
+
+use std::fmt;
+
+use crate::command::error::PlanError;
+
+/// Why the robot stops at a target that should be rounded off.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub enum NoBlend {
+    /// The next motion came too late.
+    Late,
+    /// The zone leaves nothing to round off: it is too small beside one of the motions, or another blend has taken all of that.
+    NothingLeft,
+    /// The next motion goes back along the way that the robot came, so that there is nothing to round off.
+    Reversal,
+    /// One of the two motions moves external axes alone, while the TCP stands.
+    ExternalAlone,
+    /// Beside the target an axis would leave its range, however small the zone.
+    AxisLimit {
+        /// Its name.
+        axis: String,
+    },
+    /// Beside the target the robot would leave its reach, however small the zone.
+    Unreachable,
+    /// Beside the target is a singular point, however small the zone.
+    Singular {
+        /// The axis that would have to turn at once, where one does.
+        axis: Option<String>,
+    },
+    /// Beside the target the robot would come to another configuration than the next motion has.
+    Configuration,
+}
+
+impl NoBlend {
+    /// What is wrong beside a target, from what is wrong with the way there.
+    pub(crate) fn of_way(error: PlanError) -> Self {
+        match error {
+            PlanError::AxisLimit { axis, .. } => NoBlend::AxisLimit { axis },
+            PlanError::Singular { axis, .. } | PlanError::Wrist { axis, .. } => NoBlend::Singular { axis: Some(axis) },
+            PlanError::TooDense { .. } => NoBlend::Singular { axis: None },
+            _ => NoBlend::Unreachable,
+        }
+    }
+}
+
+impl fmt::Display for NoBlend {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            NoBlend::Late => write!(f, "the motion behind it came too late"),
+            NoBlend::NothingLeft => {
+                write!(f, "the zone is too small beside one of the two motions, or another one has taken all of that")
+            }
+            NoBlend::Reversal => write!(f, "the next motion goes back along the same way"),
+            NoBlend::ExternalAlone => write!(f, "one of the two motions moves external axes alone"),
+            NoBlend::AxisLimit { axis } => write!(f, "beside it {axis} would leave its range"),
+            NoBlend::Unreachable => write!(f, "beside it the robot would leave its reach"),
+            NoBlend::Singular { axis: Some(axis) } => {
+                write!(f, "beside it is a singular point, where {axis} would have to turn at once")
+            }
+            NoBlend::Singular { axis: None } => write!(f, "beside it is a singular point"),
+            NoBlend::Configuration => write!(f, "beside it the robot would come to another configuration"),
+        }
+    }
+}

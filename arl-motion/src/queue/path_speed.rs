@@ -1,0 +1,63 @@
+//! The speed along a way that may turn back.
+
+use nalgebra::Vector3;
+
+/// The speed and the acceleration along a way. Where it turns back the speed goes on with the other sign, so that its derivatives are what
+/// the robot does there, not those of a size.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub(super) struct PathSpeed {
+    step: Vector3<f64>,
+    vel: f64,
+    acc: f64,
+}
+
+impl PathSpeed {
+    /// The speed with its first two derivatives after one more step, of `period` s.
+    pub(super) fn derivatives(&mut self, step: Vector3<f64>, period: f64) -> [f64; 3] {
+        let expected = self.vel + self.acc * period;
+        let on = (step.norm() / period).copysign(self.vel);
+        // In a sharp corner the way turns, too, but the speed does not.
+        let turns_back = step.dot(&self.step) < 0.0 && (-on - expected).abs() < (on - expected).abs();
+        let vel = if turns_back { -on } else { on };
+        let acc = (vel - self.vel) / period;
+        let jerk = (acc - self.acc) / period;
+        *self = Self { step, vel, acc };
+        [vel, acc, jerk]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The highest acceleration and jerk on a way, behind the first steps.
+    fn most(ways: impl Iterator<Item = Vector3<f64>>, period: f64) -> [f64; 2] {
+        let ways: Vec<Vector3<f64>> = ways.collect();
+        let mut speed = PathSpeed::default();
+        let rates = ways.windows(2).map(|pair| speed.derivatives(pair[1] - pair[0], period)).skip(3);
+        rates.fold([0.0; 2], |[acc, jerk], rates| [acc.max(rates[1].abs()), jerk.max(rates[2].abs())])
+    }
+
+    #[test]
+    fn a_way_back_has_the_derivatives_of_the_robot() {
+        let period = 0.001;
+        let swing = (0..2000).map(|cycle| Vector3::new(100.0 * (f64::from(cycle) * period * 5.0).sin(), 0.0, 0.0));
+        let [acc, jerk] = most(swing, period);
+        assert!((acc - 2500.0).abs() < 5.0 && (jerk - 12_500.0).abs() < 50.0, "{acc} {jerk}");
+    }
+
+    #[test]
+    fn a_sharp_corner_keeps_its_speed() {
+        let period = 0.001;
+        let corner = (0..200).map(|cycle| {
+            let along = f64::from(cycle) * 0.1;
+            if cycle < 100 {
+                Vector3::new(along, 0.0, 0.0)
+            } else {
+                Vector3::new(19.8 - along, 0.01 * along - 0.099, 0.0)
+            }
+        });
+        let [acc, _] = most(corner, period);
+        assert!(acc < 10.0, "{acc}");
+    }
+}

@@ -1,0 +1,93 @@
+//! What is recorded of motions.
+
+use arl_robot::robot::VelocityProfile;
+
+use crate::queue::{MotionRecord, Recorder};
+use crate::tests::*;
+
+/// Records lines from the start, each so far from the one before in mm and deg, with its profile; `stop` in a cycle, and on after rest.
+fn record(ways: &[([f64; 6], VelocityProfile)], zone: f64, stop: Option<(usize, Stop)>) -> Vec<MotionRecord> {
+    let robot = with_external_axes("kr10-r1420");
+    let start = Joints { axes: [0.0, -90.0, 90.0, 0.0, 45.0, 0.0], external: [0.0, 0.0, UNSET, UNSET, UNSET, UNSET] };
+    let mut queue = Queue::new(robot.clone(), start);
+    let mut recorder = Recorder::new(robot.clone(), &mut queue);
+    let mut pose = frame_components(&robot.kinematics.forward(&start.axes));
+    for (way, profile) in ways {
+        pose.iter_mut().zip(way).for_each(|(value, by)| *value += by);
+        let settings = Settings { profile: *profile, ..Settings::default() };
+        let command = Command { zone: Zone { tcp: zone, ..Zone::NONE }, ..lin(pose) };
+        let number = queue.add(&command, &settings).unwrap();
+        recorder.planned(&mut queue, number, &command, &settings);
+    }
+    let mut cycle = 0;
+    while !queue.idle() {
+        match stop {
+            Some((at, stop)) if cycle == at => queue.stop_on_path(stop),
+            Some((at, _)) if cycle == at + 1000 => queue.resume(),
+            _ => {}
+        }
+        let step = queue.step(CYCLE, 100.0);
+        recorder.step(&mut queue, &step, CYCLE);
+        cycle += 1;
+        assert!(cycle < 100_000, "it does not end");
+    }
+    recorder.records().to_vec()
+}
+
+/// The shares of the limits that each motion came nearest to.
+fn shares(records: &[MotionRecord]) -> Vec<[f64; 3]> {
+    records.iter().map(|record| record.closest().map(|closest| closest.map_or(0.0, |closest| closest.share))).collect()
+}
+
+fn assert_within(records: &[MotionRecord]) {
+    for (record, shares) in records.iter().zip(shares(records)) {
+        assert!(shares.iter().all(|share| *share < 1.02), "{record:?}");
+    }
+}
+
+#[test]
+fn a_tool_that_turns_back_has_no_kink() {
+    let turns = [8.0, -8.0, 8.0, -8.0].map(|turn| ([0.0, 60.0, 0.0, turn, 0.0, 0.0], VelocityProfile::S));
+    assert_within(&record(&turns, 20.0, None));
+}
+
+#[test]
+fn what_a_motion_without_limits_of_jerk_leaves_is_not_that_of_the_next_one() {
+    let ways =
+        [([0.0, 60.0, 0.0, 0.0, 0.0, 0.0], VelocityProfile::T), ([0.0, 0.0, -60.0, 0.0, 0.0, 0.0], VelocityProfile::S)];
+    assert_within(&record(&ways, -1.0, None));
+}
+
+#[test]
+fn a_fast_stop_is_measured_by_its_own_limits() {
+    let way = [([0.0, 300.0, 0.0, 0.0, 0.0, 0.0], VelocityProfile::S)];
+    let records = record(&way, -1.0, Some((300, Stop::Fast)));
+    assert_within(&records);
+    // It is no stop at all where nothing uses its limits.
+    assert!(shares(&records)[0][2] > 0.9, "{records:?}");
+}
+
+#[test]
+fn external_axes_that_move_alone_have_their_own_speed() {
+    let robot = with_external_axes("kr10-r1420");
+    let start = Joints { axes: [0.0, -90.0, 90.0, 0.0, 45.0, 0.0], external: [0.0, 0.0, UNSET, UNSET, UNSET, UNSET] };
+    let pose = frame_components(&robot.kinematics.forward(&start.axes));
+    for (turning, linear, unit, programmed) in
+        [(90.0, 0.0, "deg/s", 60.0), (0.0, 400.0, "mm/s", 250.0), (90.0, 300.0, "deg/s", 60.0)]
+    {
+        let mut queue = Queue::new(robot.clone(), start);
+        let mut recorder = Recorder::new(robot.clone(), &mut queue);
+        let external = [turning, linear, UNSET, UNSET, UNSET, UNSET];
+        let target = Target::Line { pose, wobj: Frame::identity(), external };
+        let command = Command { target, speed: Speed { exj: 60.0, exl: 250.0, ..fast() }, ..lin(pose) };
+        let number = queue.add(&command, &Settings::default()).unwrap();
+        recorder.planned(&mut queue, number, &command, &Settings::default());
+        while !queue.idle() {
+            let step = queue.step(CYCLE, 100.0);
+            recorder.step(&mut queue, &step, CYCLE);
+        }
+        let [record] = recorder.records() else { panic!("one motion") };
+        assert_eq!((record.programmed.value, record.programmed.unit), (programmed, unit));
+        assert!((record.reached / programmed - 1.0).abs() < 0.01, "{record:?}");
+    }
+}

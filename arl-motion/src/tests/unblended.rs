@@ -1,0 +1,72 @@
+//! Targets that are not rounded off, and what is said of them.
+
+use crate::tests::*;
+
+/// What is said of the targets of lines from the start, each so far from the one before in mm, deg and mm (deg) of external axes.
+fn said(ways: &[([f64; 6], [f64; 2])], zone: f64) -> Vec<(u32, NoBlend)> {
+    let robot = with_external_axes("kr10-r1420");
+    let start = Joints { axes: [0.0, -90.0, 90.0, 0.0, 45.0, 0.0], external: [0.0, 0.0, UNSET, UNSET, UNSET, UNSET] };
+    let mut queue = Queue::new(robot.clone(), start);
+    let mut pose = frame_components(&robot.kinematics.forward(&start.axes));
+    let mut external = start.external;
+    for (line, (way, moved)) in (1..).zip(ways) {
+        pose.iter_mut().zip(way).for_each(|(value, by)| *value += by);
+        external.iter_mut().zip(moved).for_each(|(value, by)| *value += by);
+        let target = Target::Line { pose, wobj: Frame::identity(), external };
+        let zone = Zone { tcp: zone, ..Zone::NONE };
+        queue.add(&Command { target, zone, line, ..lin(pose) }, &Settings::default()).unwrap();
+    }
+    run(&mut queue, 100.0);
+    queue.take_unblended().into_iter().map(|target| (target.corner.unwrap(), target.why)).collect()
+}
+
+const STAYS: [f64; 2] = [0.0; 2];
+
+#[test]
+fn ways_that_turn_are_rounded_off() {
+    let square =
+        [[0.0, 100.0, 0.0], [0.0, 0.0, -100.0], [0.0, -100.0, 0.0]].map(|[x, y, z]| ([x, y, z, 0.0, 0.0, 0.0], STAYS));
+    assert_eq!(said(&square, 10.0), []);
+}
+
+#[test]
+fn a_way_back_is_told_as_one() {
+    let there = [0.0, 0.0, -80.0, 0.0, 0.0, 0.0];
+    let back = there.map(|value| -value);
+    // Whatever is wrong with the axes where the way turns back.
+    assert_eq!(said(&[(there, STAYS), (back, STAYS)], 10.0), [(1, NoBlend::Reversal)]);
+    let slanted = [40.0, 30.0, -80.0, 0.0, 0.0, 0.0];
+    let ways = [(slanted, STAYS), (slanted.map(|value| -value / 2.0), STAYS)];
+    assert_eq!(said(&ways, 2.0), [(1, NoBlend::Reversal)]);
+}
+
+#[test]
+fn external_axes_alone_are_told_as_such() {
+    let along = [0.0, 80.0, 0.0, 0.0, 0.0, 0.0];
+    assert_eq!(said(&[(along, STAYS), ([0.0; 6], [20.0, 100.0])], 10.0), [(1, NoBlend::ExternalAlone)]);
+}
+
+#[test]
+fn a_zone_that_is_nothing_beside_the_next_motion_is_told_as_such() {
+    let (along, down) = ([0.0, 200.0, 0.0, 0.0, 0.0, 0.0], [0.0, 0.0, -200.0, 0.0, 0.0, 0.0]);
+    assert_eq!(said(&[(along, STAYS), (down, STAYS)], 1e-4), [(1, NoBlend::NothingLeft)]);
+}
+
+#[test]
+fn the_same_lines_are_told_once() {
+    let robot = robot("kr10-r1420");
+    let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+    let mut queue = Queue::new(robot.clone(), start);
+    let [here, mut there] = [frame_components(&robot.kinematics.forward(&start.axes)); 2];
+    there[2] -= 50.0;
+    for _ in 0..5 {
+        for (line, pose) in [(1, there), (2, here)] {
+            let zone = Zone { tcp: 5.0, ..Zone::NONE };
+            queue.add(&Command { zone, line, ..lin(pose) }, &Settings::default()).unwrap();
+        }
+    }
+    run(&mut queue, 100.0);
+    let corners: Vec<_> = queue.take_unblended().into_iter().map(|target| (target.corner, target.line)).collect();
+    assert_eq!(corners, [(Some(1), 2), (Some(2), 1)]);
+    assert_eq!(queue.take_unblended(), []);
+}
