@@ -15,10 +15,10 @@ fn motion_ends_where_it_should() {
             say(cx, &pose::cjoint(cx))?;
             let world = cx.system().world.get();
             let flange = cx.system().flange.get();
-            let start = pose::cpose(cx, flange, &world);
+            let start = pose::cpose(cx, flange, &world).at(FILE, 1)?;
             motion::lin(pose::offset(start, 0.0, 0.0, -50.0, 0.0, 0.0, 0.0)).vl(200.0).run(cx).await.at(FILE, 3)?;
             flow::waittime(0.0).run(cx).await.at(FILE, 4)?;
-            let end = pose::cpose(cx, flange, &world);
+            let end = pose::cpose(cx, flange, &world).at(FILE, 1)?;
             say(cx, &((end.z - start.z) * 1e6).round())?;
             motion::ptp(start).vp(20.0).run(cx).await.at(FILE, 5)?;
             flow::waittime(0.0).run(cx).await.at(FILE, 6)?;
@@ -108,7 +108,7 @@ fn labels_update_the_system_variables() {
             say(cx, &system.dfslip.get())?;
             say(cx, &system.dftool.get())?;
             flow::waittime(0.0).run(cx).await.at(FILE, 2)?;
-            let here = pose::cpose(cx, tool, &wobj);
+            let here = pose::cpose(cx, tool, &wobj).at(FILE, 1)?;
             motion::lin(here).vl(100.0).sl(-1.0).w(&wobj).run(cx).await.at(FILE, 3)?;
             say(cx, &system.dfspeed.get())?;
             say(cx, &system.dfslip.get())?;

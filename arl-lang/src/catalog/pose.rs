@@ -9,10 +9,10 @@ entries! { pub(super) POSE =
         { "5.8.1", pose::cjoint, acts, looks, foreground; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nwaittime 0\nprint cjoint()" }
     /// Pose of the TCP that the robot reports now, with the tool $DFTOOL in the workpiece frame $DFWOBJ.
     fn cpose() -> pose
-        { "5.8.2", pose::cpose_default, acts, looks, foreground; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nwaittime 0\nprint cpose()" }
-    /// Pose of the TCP that the robot reports now.
+        { "5.8.2", pose::cpose_default, acts, looks, fails, foreground; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nwaittime 0\nprint cpose()" }
+    /// Pose of the TCP that the robot reports now. What is no number in tool or frame: alarm.
     fn cpose(t: tool "the tool", w: wobj "the workpiece frame") -> pose
-        { "5.8.2", pose::cpose, acts, looks, foreground; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nwaittime 0\nprint cpose($FLANGE,$WORLD)" }
+        { "5.8.2", pose::cpose, acts, looks, fails, foreground; "joint j = {0,-90,90,0,45,0}\nmovej j,vp:20%\nwaittime 0\nprint cpose($FLANGE,$WORLD)" }
     /// Pose of the TCP for given axis positions. Unset axes: alarm.
     fn getpose(j: joint "the axis positions", t: tool "the tool", w: wobj "the workpiece frame") -> pose
         { "5.8.3", pose::getpose, acts, looks, fails, foreground; "joint j = {0,-90,90,0,45,0}\nprint getpose(j,$FLANGE,$WORLD)" }

@@ -19,14 +19,21 @@ pub fn cjoint(cx: &Cx) -> Joint {
 }
 
 /// The pose of the tool in the workpiece frame as the robot reports it now, in mm and deg, with the external axes.
-pub fn cpose(cx: &Cx, t: Tool, w: &Wobj) -> Pose {
-    let Some(unit) = cx.channel_state().robot() else { return cx.without_robot("cpose") };
+///
+/// # Errors
+/// The tool or the workpiece frame holds what is no number.
+pub fn cpose(cx: &Cx, t: Tool, w: &Wobj) -> Result<Pose, Fault> {
+    let unit = cx.channel_state().unit("cpose")?;
+    known("cpose", &t, w)?;
     let feedback = unit.feedback();
-    pose(cx, &unit, &feedback.axes, &joint(feedback), t, w)
+    Ok(pose(cx, &unit, &feedback.axes, &joint(feedback), t, w))
 }
 
 /// The pose of `$DFTOOL` in `$DFWOBJ` as the robot reports it now, in mm and deg, with the external axes.
-pub fn cpose_default(cx: &Cx) -> Pose {
+///
+/// # Errors
+/// As [`cpose`].
+pub fn cpose_default(cx: &Cx) -> Result<Pose, Fault> {
     cpose(cx, cx.system().dftool.get(), &cx.system().dfwobj.get())
 }
 
