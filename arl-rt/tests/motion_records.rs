@@ -5,7 +5,7 @@ mod common;
 use arl_rt::Controller;
 use arl_rt::emit::*;
 use arl_rt::motion::MotionKind;
-use arl_rt::motion::{Limited, MotionRecord};
+use arl_rt::motion::{Limited, MotionRecord, NoBlend};
 use common::*;
 
 fn way(cx: &Cx) -> BoxFuture<'_> {
@@ -124,6 +124,21 @@ fn motions_that_wait_for_the_next_one_are_recorded_when_they_go() {
     }
     assert!(records[1].blend.is_some_and(|blend| blend.used > 5.0), "{:?}", records[1].blend);
     assert!((records[2].way + records[3].way - 132.0).abs() < 25.0, "{records:?}");
+}
+
+#[test]
+fn a_target_without_its_blend_has_the_reason() {
+    let (mut controller, _) = controller(Controller::builder().record_motions(), |cx| {
+        Box::pin(async move {
+            motion::movej(bent(0.0)).vp(50.0).run(cx).await.at(FILE, 3)?;
+            motion::lin(aside(cx, 0.0, -80.0)?).vl(100.0).sl(20.0).run(cx).await.at(FILE, 4)?;
+            motion::lin(aside(cx, 0.0, 0.0)?).vl(100.0).sl(-1.0).run(cx).await.at(FILE, 5)
+        })
+    });
+    controller.run();
+    let why: Vec<_> = controller.motions().into_iter().map(|record| record.unblended).collect();
+    assert_eq!(why, [None, Some(NoBlend::Reversal), None]);
+    assert!(controller.motions()[1].blend.is_some_and(|blend| blend.used == 0.0));
 }
 
 #[test]

@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use crate::blend::corner::{Blend, blend, curved_blend};
+use crate::blend::gain::Stopping;
 use crate::blend::mid_curvature::{MidCurvature, mid_curvature};
 use crate::blend::no_blend::NoBlend;
 use crate::plan::lay_overlay::joined;
@@ -111,6 +112,10 @@ fn find_curved(
     let curvature = mid_curvature(robot, before, from, to).filter(|curvature| *curvature != MidCurvature::NONE)?;
     let first = curved_blend(robot, before, from, [start, curvature])?;
     let second = curved_blend(robot, from, to, [curvature, MidCurvature::NONE])?;
+    // Without the bend it may still save time.
+    if Stopping::new(robot, from, to).is_faster_than(&second) {
+        return None;
+    }
     Some(CurvedBlends { curvature, blends: [first, second] })
 }
 

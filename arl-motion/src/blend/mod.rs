@@ -3,6 +3,7 @@
 pub(crate) mod blend_limits;
 pub(crate) mod blend_thread;
 pub(crate) mod corner;
+mod gain;
 pub(crate) mod junction;
 pub(crate) mod mid_curvature;
 pub(crate) mod no_blend;

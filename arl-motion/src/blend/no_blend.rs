@@ -15,6 +15,8 @@ pub enum NoBlend {
     Reversal,
     /// One of the two motions moves external axes alone, while the TCP stands.
     ExternalAlone,
+    /// Any blend would take longer than the stop.
+    Slower,
     /// Beside the target an axis would leave its range, however small the zone.
     AxisLimit {
         /// Its name.
@@ -52,6 +54,7 @@ impl fmt::Display for NoBlend {
             }
             NoBlend::Reversal => write!(f, "the next motion goes back along the same way"),
             NoBlend::ExternalAlone => write!(f, "one of the two motions moves external axes alone"),
+            NoBlend::Slower => write!(f, "any blend would take longer"),
             NoBlend::AxisLimit { axis } => write!(f, "beside it {axis} would leave its range"),
             NoBlend::Unreachable => write!(f, "beside it the robot would leave its reach"),
             NoBlend::Singular { axis: Some(axis) } => {

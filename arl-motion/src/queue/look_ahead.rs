@@ -282,8 +282,7 @@ impl Queue {
                 self.take_answer();
             } else if let Some(Ready { motion, number, prepared, .. }) = self.layer.waiting.pop() {
                 let unblended = self.layer.path.append(&self.robot, (&motion, number), prepared.as_ref(), self.cycle);
-                self.note_unblended(unblended);
-                self.note_laid(&motion, number);
+                self.note_laid(&motion, number, unblended);
             }
         }
     }

@@ -11,6 +11,7 @@ mod suspend;
 use std::sync::Arc;
 
 use crate::blend::blend_thread::BlendThread;
+use crate::blend::no_blend::NoBlend;
 use crate::command::error::PlanError;
 use crate::command::joints::Joints;
 use crate::command::{Command, Settings, Target};
@@ -124,6 +125,8 @@ pub(crate) struct Laid {
     pub(crate) motion: Arc<Motion>,
     /// The motion that is blended with it, and the share at which that one is left.
     pub(crate) left: Option<(u64, f64)>,
+    /// Why it is not blended with the motion before it though that was asked for.
+    pub(crate) unblended: Option<NoBlend>,
 }
 
 impl Queue {
@@ -297,10 +300,10 @@ impl Queue {
     fn take_answer(&mut self) {
         match self.layer.path.take_answer() {
             Some(Answer::Taken { unblended, count }) => {
-                self.note_unblended(unblended);
                 for _ in 0..count {
                     if let Some(taken) = self.layer.waiting.pop() {
-                        self.note_laid(&taken.motion, taken.number);
+                        let of_it = unblended.iter().find(|target| target.number == taken.number);
+                        self.note_laid(&taken.motion, taken.number, of_it.cloned());
                     }
                 }
             }
@@ -309,26 +312,24 @@ impl Queue {
                     let motion = (&motion, number);
                     let unblended =
                         self.layer.path.append_behind_stop(&self.robot, motion, prepared.as_ref(), self.cycle);
-                    self.note_unblended(unblended);
-                    self.note_laid(motion.0, number);
+                    self.note_laid(motion.0, number, unblended);
                 }
             }
             None => {}
         }
     }
 
-    fn note_unblended(&mut self, unblended: impl IntoIterator<Item = UnblendedTarget>) {
-        for unblended in unblended {
-            if !self.unblended.iter().any(|known| known.is_same(&unblended)) {
-                self.unblended.push(unblended);
-            }
-        }
-    }
-
-    fn note_laid(&mut self, motion: &Arc<Motion>, number: u64) {
+    /// Notes a motion that was laid on the way, and the target before it where that should be rounded off but is not.
+    fn note_laid(&mut self, motion: &Arc<Motion>, number: u64, unblended: Option<UnblendedTarget>) {
         if let Some(laid) = &mut self.laid {
             let left = self.layer.path.left_before(number).filter(|_| motion.goes());
-            laid.push(Laid { number, motion: Arc::clone(motion), left });
+            let unblended = unblended.as_ref().map(|target| target.why.clone());
+            laid.push(Laid { number, motion: Arc::clone(motion), left, unblended });
+        }
+        if let Some(target) = unblended
+            && !self.unblended.iter().any(|known| known.is_same(&target))
+        {
+            self.unblended.push(target);
         }
     }
 

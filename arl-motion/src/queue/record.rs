@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::blend::no_blend::NoBlend;
 use crate::blend::zone::{self, Rounding};
 use crate::command::joints::ALL;
 use crate::command::{Command, MotionKind, Settings, Speed};
@@ -134,6 +135,8 @@ pub struct MotionRecord {
     pub way: f64,
     /// The zone at its end, where one was asked for.
     pub blend: Option<Rounding>,
+    /// Why the robot stops at its target though a zone was asked for.
+    pub unblended: Option<NoBlend>,
     axes: Nearest,
     tool: Nearest,
     carried: Carried,
@@ -184,8 +187,8 @@ impl MotionRecord {
 pub struct Recorder {
     robot: Arc<Robot>,
     records: Vec<MotionRecord>,
-    /// The last motion that goes somewhere.
-    last: Option<Arc<Motion>>,
+    /// The last motion that goes somewhere, and its number.
+    last: Option<(u64, Arc<Motion>)>,
     time: f64,
     /// The number of the motion executed last.
     executed: u64,
@@ -246,6 +249,7 @@ impl Recorder {
             duration: 0.0,
             way: 0.0,
             blend: None,
+            unblended: None,
             axes: Nearest::NONE,
             tool: Nearest::NONE,
             carried: command.rig.carried,
@@ -260,7 +264,7 @@ impl Recorder {
 
     /// Notes what the queue has laid on the way.
     fn laid(&mut self, queue: &mut Queue) {
-        for Laid { number, motion, left } in queue.take_laid() {
+        for Laid { number, motion, left, unblended } in queue.take_laid() {
             let rounding = zone::rounding(&self.robot, &motion, 1.0);
             let Some(record) = at(&mut self.records, number) else { continue };
             record.blend = rounding;
@@ -268,7 +272,7 @@ impl Recorder {
             if record.measure == Measure::Tcp {
                 (record.measure, record.programmed) = record.measured_by(&self.robot, &motion);
             }
-            if let (Some((before, leave)), Some(last)) = (left, &self.last) {
+            if let (Some((before, leave)), Some((_, last))) = (left, &self.last) {
                 let rounding = zone::rounding(&self.robot, last, leave);
                 let mixed = at(&mut self.records, before).is_some_and(|record| {
                     record.blend = rounding;
@@ -279,8 +283,13 @@ impl Recorder {
                     record.mixed |= mixed;
                 }
             }
+            if let (Some(why), Some((before, _))) = (unblended, &self.last)
+                && let Some(record) = at(&mut self.records, *before)
+            {
+                record.unblended = Some(why);
+            }
             if motion.goes() {
-                self.last = Some(motion);
+                self.last = Some((number, motion));
             }
         }
     }

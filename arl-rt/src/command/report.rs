@@ -60,6 +60,11 @@ fn table(records: &[MotionRecord], robot: &Robot, time: f64) -> String {
             text.push('\n');
         }
     }
+    for line in &lines {
+        if let Some(why) = &line.blend.unblended {
+            let _ = writeln!(text, "line {}: its target is reached with a stop: {why}", line.first.line);
+        }
+    }
     text + &summary(records, time)
 }
 
@@ -90,7 +95,9 @@ fn json(channel: usize, records: &[MotionRecord], robot: &Robot, time: f64) -> S
         );
         if let Some(blend) = record.blend {
             let (unit, asked, used) = (blend.unit, blend.asked, blend.used);
-            let _ = write!(text, ",\"blend\":{{\"unit\":\"{unit}\",\"asked\":{asked:.6},\"used\":{used:.6}}}");
+            let why = record.unblended.as_ref().map(|why| format!(",\"why\":{}", quoted(&why.to_string())));
+            let why = why.unwrap_or_default();
+            let _ = write!(text, ",\"blend\":{{\"unit\":\"{unit}\",\"asked\":{asked:.6},\"used\":{used:.6}{why}}}");
         }
         text.push_str(",\"closest\":{");
         for (at, closest) in record.closest().into_iter().flatten().enumerate() {

@@ -264,7 +264,9 @@ impl ChannelState {
     /// Warns of targets that are not rounded off though they should be.
     pub(crate) fn warn_of_missing_blends(&self, shared: &SharedState) {
         let Some(mut unit) = self.robot_mut() else { return };
-        for (file, UnblendedTarget { line, corner, why, .. }) in unit.take_unblended() {
+        // What gains time is for the report.
+        let unblended = unit.take_unblended().into_iter().filter(|(_, target)| target.why != NoBlend::Slower);
+        for (file, UnblendedTarget { line, corner, why, .. }) in unblended {
             let file = file.name();
             shared.warn(match (corner, why) {
                 (_, NoBlend::Late) | (None, _) => format!("{file}:{line}: the motion came too late to be blended with the one before it: the robot stops between the two"),

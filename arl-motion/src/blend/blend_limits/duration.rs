@@ -114,6 +114,12 @@ impl Approach {
         }
     }
 
+    /// How long it takes with a stop in the middle of the blend, of which `more` is on this side.
+    pub(crate) fn with_stop(&self, more: f64) -> f64 {
+        let whole = Self { length: self.length + more, ..*self };
+        whole.lost(0.0) + whole.length / whole.limits.vel
+    }
+
     /// The time that it loses by beginning or ending at `speed`.
     fn lost(&self, speed: f64) -> f64 {
         let Self { limits, length } = self;

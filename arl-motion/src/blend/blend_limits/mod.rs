@@ -39,19 +39,20 @@ impl BlendLimits {
 const ACC_SHARES: [f64; 5] = [0.06, 0.12, 0.25, 0.5, 0.9];
 const JERK_SHARES: [f64; 4] = [0.15, 0.35, 0.6, 0.9];
 
-/// The quickest limits to pass a blend with, no faster than `fastest`, under which no constraint is broken.
+/// The quickest limits to pass a blend with, no faster than `fastest`, under which no constraint is broken, and about how long it and the
+/// approaches take with them, in s.
 pub(crate) fn find_blend_limits(
     places: &[PlaceBounds],
     fastest: f64,
     approaches: &[Approach; 2],
-) -> Option<BlendLimits> {
+) -> Option<(BlendLimits, f64)> {
     let at_rest = limits_at_rest(places);
     let sites: Vec<Site> = places.iter().map(Site::new).collect();
     let mut quickest = Quickest { approaches, best: None };
     try_shares(&mut quickest, &sites, fastest, &at_rest);
     end_zones::try_end_zones(&mut quickest, &sites, fastest, &at_rest);
-    let (_, limits) = quickest.best?;
-    limits.speeds.iter().all(|speed| *speed > 0.0).then_some(limits)
+    let (time, limits) = quickest.best?;
+    limits.speeds.iter().all(|speed| *speed > 0.0).then_some((limits, time))
 }
 
 /// The acceleration and the jerk that the constraints of all places leave at rest.
@@ -204,7 +205,7 @@ mod tests {
             let places = random_places(&mut random);
             let constraints = bounds_of(&places);
             let approach = Approach { limits: Limits { vel: 1.0, acc: 4.0, jerk: 40.0 }, length: 1.0 };
-            let BlendLimits { speeds, acc, jerk, end_zones } =
+            let (BlendLimits { speeds, acc, jerk, end_zones }, _) =
                 find_blend_limits(&constraints, 1.0, &[approach; 2]).unwrap();
             assert!(acc > 0.0 && jerk > 0.0);
             for (share, rows) in &places {
@@ -231,8 +232,8 @@ mod tests {
                 length: random.between(0.0, 2.0),
             };
             let approaches = [approach(&mut random), approach(&mut random)];
-            let found = find_blend_limits(&constraints, 1.0, &approaches).unwrap();
-            let least = duration(&found, &approaches);
+            let (found, least) = find_blend_limits(&constraints, 1.0, &approaches).unwrap();
+            assert_eq!(least, duration(&found, &approaches));
             let most = |of: fn(&Constraint) -> f64| {
                 places.iter().flat_map(|(_, rows)| rows).filter(|row| row.first > 0.0).map(of).fold(1e12, f64::min)
             };
@@ -258,7 +259,7 @@ mod tests {
         let places: Vec<_> =
             shares.iter().map(|share| PlaceBounds { from: share - 0.1, to: share + 0.1, rows: row(*share) }).collect();
         let approach = Approach { limits: Limits { vel: 1.0, acc: 10.0, jerk: 100.0 }, length: 1.0 };
-        let blend_limits = find_blend_limits(&places, 1.0, &[approach; 2]).unwrap();
+        let (blend_limits, _) = find_blend_limits(&places, 1.0, &[approach; 2]).unwrap();
         assert_eq!(blend_limits.speeds[0], 1.0);
         assert!(blend_limits.speeds[PARTS / 2] < 0.25);
     }
@@ -276,7 +277,7 @@ mod tests {
         let places: Vec<PlaceBounds> = (0..=64).map(place).collect();
         let limits = Limits { vel: 1.0, acc: 10.0, jerk: 1000.0 };
         let approach = Approach { limits, length: 1.0 };
-        let blend_limits = find_blend_limits(&places, 1.0, &[approach; 2]).unwrap();
+        let (blend_limits, _) = find_blend_limits(&places, 1.0, &[approach; 2]).unwrap();
         assert!(
             blend_limits.end_zones.parts > 0 && blend_limits.end_zones.acc > 4.0 * blend_limits.acc,
             "{blend_limits:?}"

@@ -1,0 +1,99 @@
+//! Whether a blend saves time: beside the fastest motion with it, the fastest with a stop at the target.
+
+use std::cell::{OnceCell, RefCell};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use crate::blend::corner::Blend;
+use crate::command::joints::Joints;
+use crate::follow::segment::Segment;
+use crate::follow::shared_deque::SharedDeque;
+use crate::plan::motion::Motion;
+use crate::time_optimal::constraint_sampler::{ConstraintSampler, Part};
+use crate::time_optimal::law_memory::key;
+use crate::time_optimal::solver::{Edge, fastest};
+use arl_robot::robot::Robot;
+
+/// The part of the time with a stop that a blend must not exceed. The law that leads along a whole chain is found at places that are farther
+/// apart, and may take a little longer than two motions alone.
+const WORTH_SHARE: f64 = 0.998;
+
+/// So many durations are remembered in a thread, for programs that do the same again and again.
+const MOST_KNOWN: usize = 10_000;
+
+thread_local! {
+    /// What was found before, by the fingerprint of what it was found from.
+    static KNOWN: RefCell<HashMap<u128, Option<f64>>> = RefCell::default();
+}
+
+/// Two motions that may be blended, or stop in between.
+pub(crate) struct Stopping<'a> {
+    robot: &'a Robot,
+    from: &'a Motion,
+    to: &'a Motion,
+    /// How long they take with the stop, from rest to rest, in s; `None` where no laws lead.
+    time: OnceCell<Option<f64>>,
+}
+
+impl<'a> Stopping<'a> {
+    pub(crate) fn new(robot: &'a Robot, from: &'a Motion, to: &'a Motion) -> Self {
+        Self { robot, from, to, time: OnceCell::new() }
+    }
+
+    /// Whether the two motions take longer with the blend, however they are led. That is looked at only where the governor's constant
+    /// limits let it seem possible.
+    pub(crate) fn is_faster_than(&self, blend: &Blend) -> bool {
+        if !blend.may_lose_time {
+            return false;
+        }
+        let Some(with_stop) = *self.time.get_or_init(|| self.time()) else { return false };
+        self.time_with(blend).is_some_and(|with_blend| with_blend > WORTH_SHARE * with_stop)
+    }
+
+    fn time(&self) -> Option<f64> {
+        let alone = |motion: &Motion| {
+            let whole = Segment::part(motion, motion.limits?, 0, 0.0, 1.0);
+            if !whole.is_free {
+                return None;
+            }
+            let closed_form = whole.duration().filter(|_| whole.is_even());
+            closed_form.or_else(|| fastest_along(self.robot, [whole], &motion.start))
+        };
+        Some(alone(self.from)? + alone(self.to)?)
+    }
+
+    fn time_with(&self, blend: &Blend) -> Option<f64> {
+        let motions = (self.from, self.to);
+        let mut cut = Segment::part(self.from, self.from.limits?, 0, 0.0, blend.leave);
+        cut.stops = false;
+        let halves = [true, false].map(|first| Segment::half(blend, motions, 0, first));
+        let rest = Segment::part(self.to, self.to.limits?, 0, blend.join, 1.0);
+        fastest_along(self.robot, [cut].into_iter().chain(halves).chain([rest]), &self.from.start)
+    }
+}
+
+/// How long the fastest motion along segments takes, from rest to rest, in s; `None` where there is none that is known.
+fn fastest_along(robot: &Robot, segments: impl IntoIterator<Item = Segment>, start: &Joints) -> Option<f64> {
+    let mut way = SharedDeque::default();
+    let mut end = 0.0;
+    for segment in segments.into_iter().filter(|segment| segment.time > 0.0) {
+        end += segment.time;
+        way.push_back(Arc::new(segment));
+    }
+    let part = Part { from: 0, count: way.len(), segments: way };
+    let sampler = ConstraintSampler::new(&Arc::new(robot.clone()), part, 0.0, (end, true), (0.0, start));
+    let prospect = sampler.look(end, 1.0, Edge::REST, Edge::REST)?;
+    let sparse = prospect.thinned.as_ref().unwrap_or(&prospect.way);
+    let key = key(sparse, Edge::REST, None);
+    if let Some(known) = KNOWN.with_borrow(|known| known.get(&key).copied()) {
+        return known;
+    }
+    let found = fastest(sparse, Edge::REST, Edge::REST).ok().map(|law| law.duration());
+    KNOWN.with_borrow_mut(|known| {
+        if known.len() >= MOST_KNOWN {
+            known.clear();
+        }
+        known.insert(key, found);
+    });
+    found
+}
