@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// The folders of arl-motion, from the ground up.
 const MOTION: &[&str] =
-    &["command", "geometry", "limits", "overlay", "plan", "blend", "follow", "time_optimal", "queue"];
+    &["command", "geometry", "limits", "overlay", "plan", "blend", "follow", "time_optimal", "junction", "queue"];
 
 /// The folders of arl-rt, from the ground up.
 const RUNTIME: &[&str] = &[

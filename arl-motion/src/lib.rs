@@ -58,6 +58,7 @@ mod blend;
 mod command;
 mod follow;
 mod geometry;
+mod junction;
 mod limits;
 mod overlay;
 mod plan;

@@ -7,7 +7,6 @@
 use nalgebra::{SVector, Vector3};
 
 use crate::blend::blend_limits::{Approach, BlendLimits, find_blend_limits};
-use crate::blend::gain::Stopping;
 use crate::blend::mid_curvature::MidCurvature;
 use crate::blend::no_blend::NoBlend;
 use crate::blend::smoothing::is_smooth;
@@ -67,16 +66,20 @@ pub(crate) struct Blend {
     pub(crate) may_lose_time: bool,
 }
 
-/// The blend that the first motion's zone asks for. Where there is no way, what is wrong with the smallest zone that was tried.
-pub(crate) fn blend(robot: &Robot, from: &Motion, to: &Motion) -> Result<Blend, NoBlend> {
+/// The blend that the first motion's zone asks for, or of a smaller zone where it leads nowhere or `is_slower` than a stop. Where there is no way, what is wrong with the smallest zone that was tried.
+pub(crate) fn blend(
+    robot: &Robot,
+    from: &Motion,
+    to: &Motion,
+    is_slower: impl Fn(&Blend) -> bool,
+) -> Result<Blend, NoBlend> {
     let (leaving, joining) = asked_parts(robot, from, to).ok_or(NoBlend::NothingLeft)?;
     let smooth = is_smooth(from, to).then_some((LARGEST_ZONE, LARGEST_ZONE));
     let smaller = (0..=ZONE_HALVINGS).map(|halvings| f64::from(1 << halvings)).map(|by| (leaving / by, joining / by));
-    let stopping = Stopping::new(robot, from, to);
     let (mut why, mut slower) = (NoBlend::NothingLeft, 0);
     for (leaving, joining) in smooth.into_iter().chain(smaller) {
         match (Corner { robot, from, to, leaving, joining, curvatures: [MidCurvature::NONE; 2] }.blend()) {
-            Ok(blend) if stopping.is_faster_than(&blend) => {
+            Ok(blend) if is_slower(&blend) => {
                 (why, slower) = (NoBlend::Slower, slower + 1);
                 if slower > MOST_SLOWER_ZONES {
                     break;

@@ -1,10 +1,7 @@
 //! Blending: how much of two motions a blend takes, its curve, and the limits to pass it with.
 
 pub(crate) mod blend_limits;
-pub(crate) mod blend_thread;
 pub(crate) mod corner;
-mod gain;
-pub(crate) mod junction;
 pub(crate) mod mid_curvature;
 pub(crate) mod no_blend;
 pub(crate) mod smoothing;

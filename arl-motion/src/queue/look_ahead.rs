@@ -6,8 +6,8 @@
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use crate::blend::blend_thread::{Joining, Prepared};
 use crate::blend::zone::asks;
+use crate::junction::blend_thread::{Joining, Prepared};
 use crate::plan::motion::Motion;
 use crate::queue::path_buffer::limit_rise;
 use crate::queue::{LOOK_AHEAD_S, Queue};
@@ -292,7 +292,7 @@ impl Queue {
 impl Queue {
     /// Has the thread never find anything.
     pub(crate) fn prepare_nothing(&mut self) {
-        self.blend_thread = crate::blend::blend_thread::BlendThread::stuck();
+        self.blend_thread = crate::junction::blend_thread::BlendThread::stuck();
     }
 
     /// Has no thread ever find anything.

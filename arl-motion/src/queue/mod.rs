@@ -10,13 +10,13 @@ mod suspend;
 
 use std::sync::Arc;
 
-use crate::blend::blend_thread::BlendThread;
 use crate::blend::no_blend::NoBlend;
 use crate::command::error::PlanError;
 use crate::command::joints::Joints;
 use crate::command::{Command, Settings, Target};
 use crate::follow::governor::Pacing;
 use crate::follow::segment::Segment;
+use crate::junction::blend_thread::BlendThread;
 use crate::overlay::Led;
 use crate::plan::chain::Held;
 use crate::plan::gate;

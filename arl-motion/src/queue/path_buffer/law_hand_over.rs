@@ -6,10 +6,10 @@
 
 use std::sync::Arc;
 
-use crate::blend::blend_thread::Prepared;
 use crate::command::joints::Joints;
 use crate::follow::governor::Pacing;
 use crate::follow::segment::Segment;
+use crate::junction::blend_thread::Prepared;
 use crate::limits::profile::{Change, State};
 use crate::plan::motion::Motion;
 use crate::queue::path_buffer::leader::{Appending, Leader};

@@ -8,8 +8,6 @@ mod time_left;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use crate::blend::blend_thread::{Joining, Prepared};
-use crate::blend::junction::{self, Before, Blended, CurvedBlends, Meeting};
 use crate::blend::mid_curvature::MidCurvature;
 use crate::blend::no_blend::NoBlend;
 use crate::blend::zone::asks;
@@ -19,6 +17,8 @@ use crate::follow::governor::{Governor, Pacing};
 use crate::follow::segment::Segment;
 use crate::follow::shared_deque::SharedDeque;
 use crate::follow::timing::Timing;
+use crate::junction::blend_thread::{Joining, Prepared};
+use crate::junction::{self, Before, Blended, CurvedBlends, Meeting};
 use crate::limits::profile::{Change, LOOK_AHEAD_MARGIN, Limits, State};
 use crate::plan::motion::Motion;
 use crate::time_optimal::law_solver_thread::LawSolver;

@@ -1,12 +1,15 @@
 //! Where two motions meet: the blend between them, and the bend where it meets the blend before it. All of it is a function of the
 //! motions alone, so that it is the same whoever finds it, and when.
 
+pub(crate) mod blend_thread;
+mod gain;
+
 use std::sync::Arc;
 
 use crate::blend::corner::{Blend, blend, curved_blend};
-use crate::blend::gain::Stopping;
 use crate::blend::mid_curvature::{MidCurvature, mid_curvature};
 use crate::blend::no_blend::NoBlend;
+use crate::junction::gain::Stopping;
 use crate::plan::lay_overlay::joined;
 use crate::plan::motion::Motion;
 use arl_robot::robot::Robot;
@@ -124,10 +127,11 @@ fn find_blended(robot: &Robot, from: &Arc<Motion>, to: &Arc<Motion>) -> Result<B
     let fades_from = from.laid.as_ref().map_or(1.0, |laid| laid.fades_from());
     let going_on = joined(robot, from, to).filter(|(from, to)| from.goes() && to.goes());
     if let Some((from, to)) = going_on
-        && let Ok(blend) = blend(robot, &from, &to)
+        && let Ok(blend) = blend(robot, &from, &to, |_| false)
     {
         return Ok(Blended { from: Arc::new(from), to: Arc::new(to), blend, until: fades_from });
     }
-    let blend = blend(robot, from, to)?;
+    let stopping = Stopping::new(robot, from, to);
+    let blend = blend(robot, from, to, |blend| stopping.is_faster_than(blend))?;
     Ok(Blended { from: Arc::clone(from), to: Arc::clone(to), blend, until: 1.0 })
 }

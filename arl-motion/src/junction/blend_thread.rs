@@ -10,7 +10,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, OnceLock};
 use std::thread;
 
-use crate::blend::junction::{Before, Junction, Meeting};
+use crate::junction::{Before, Junction, Meeting};
 use crate::plan::motion::Motion;
 use arl_robot::robot::Robot;
 
