@@ -82,7 +82,8 @@ fn fastest_along(robot: &Robot, segments: impl IntoIterator<Item = Segment>, sta
     }
     let part = Part { from: 0, count: way.len(), segments: way };
     let sampler = ConstraintSampler::new(&Arc::new(robot.clone()), part, 0.0, (end, true), (0.0, start));
-    let prospect = sampler.look(end, 1.0, Edge::REST, Edge::REST)?;
+    // Where there is too much to be seen, it would end before.
+    let prospect = sampler.look(end, 1.0, Edge::REST, Edge::REST).filter(|prospect| prospect.end >= end)?;
     let sparse = prospect.thinned.as_ref().unwrap_or(&prospect.way);
     let key = key(sparse, Edge::REST, None);
     if let Some(known) = KNOWN.with_borrow(|known| known.get(&key).copied()) {
