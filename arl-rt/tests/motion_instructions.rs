@@ -274,7 +274,7 @@ fn the_controller_keeps_its_variables_current() {
 fn a_motion_that_comes_too_late_to_be_blended_is_told_of() {
     let (mut controller, _) = controller(Controller::builder(), |cx| {
         Box::pin(async move {
-            motion::movej(bent(30.0)).vp(100.0).sp(5.0).run(cx).await.at(FILE, 1)?;
+            motion::movej(bent(30.0)).vp(100.0).sp(50.0).run(cx).await.at(FILE, 1)?;
             // It brakes for its target by now.
             for _ in 0..620 {
                 cx.next_cycle().await;

@@ -14,9 +14,11 @@ use crate::time_optimal::law_memory::key;
 use crate::time_optimal::solver::{Edge, fastest};
 use arl_robot::robot::Robot;
 
-/// The part of the time with a stop that a blend must not exceed. The law that leads along a whole chain is found at places that are farther
-/// apart, and may take a little longer than two motions alone.
-const WORTH_SHARE: f64 = 0.998;
+/// What a blend has to save, in s. The law that leads along a whole chain is found at places that are farther apart, and may take a little
+/// longer than two motions alone.
+const LEAST_GAIN_S: f64 = 0.001;
+/// Where two motions take longer than this, in s, one blend more or less is nothing beside it, and less than laws of that length differ.
+const LONGEST_PAIR_S: f64 = 2.0;
 
 /// So many durations are remembered in a thread, for programs that do the same again and again.
 const MOST_KNOWN: usize = 10_000;
@@ -47,7 +49,8 @@ impl<'a> Stopping<'a> {
             return false;
         }
         let Some(with_stop) = *self.time.get_or_init(|| self.time()) else { return false };
-        self.time_with(blend).is_some_and(|with_blend| with_blend > WORTH_SHARE * with_stop)
+        with_stop < LONGEST_PAIR_S
+            && self.time_with(blend).is_some_and(|with_blend| with_blend > with_stop - LEAST_GAIN_S)
     }
 
     fn time(&self) -> Option<f64> {
