@@ -17,8 +17,9 @@ use arl_robot::robot::Robot;
 /// What a blend has to save, in s. The law that leads along a whole chain is found at places that are farther apart, and may take a little
 /// longer than two motions alone.
 const LEAST_GAIN_S: f64 = 0.001;
-/// Where two motions take longer than this, in s, one blend more or less is nothing beside it, and less than laws of that length differ.
-const LONGEST_PAIR_S: f64 = 2.0;
+/// Where two motions take longer than this with constant limits, in s, one blend more or less is nothing beside it, and less than laws of
+/// that length differ.
+const LONGEST_PAIR_S: f64 = 4.0;
 
 /// So many durations are remembered in a thread, for programs that do the same again and again.
 const MOST_KNOWN: usize = 10_000;
@@ -33,7 +34,7 @@ pub(crate) struct Stopping<'a> {
     robot: &'a Robot,
     from: &'a Motion,
     to: &'a Motion,
-    /// How long they take with the stop, from rest to rest, in s; `None` where no laws lead.
+    /// How long they take with the stop, from rest to rest, in s; `None` where that is too long, or no laws lead.
     time: OnceCell<Option<f64>>,
 }
 
@@ -49,20 +50,20 @@ impl<'a> Stopping<'a> {
             return false;
         }
         let Some(with_stop) = *self.time.get_or_init(|| self.time()) else { return false };
-        with_stop < LONGEST_PAIR_S
-            && self.time_with(blend).is_some_and(|with_blend| with_blend > with_stop - LEAST_GAIN_S)
+        self.time_with(blend).is_some_and(|with_blend| with_blend > with_stop - LEAST_GAIN_S)
     }
 
     fn time(&self) -> Option<f64> {
-        let alone = |motion: &Motion| {
-            let whole = Segment::part(motion, motion.limits?, 0, 0.0, 1.0);
-            if !whole.is_free {
-                return None;
-            }
+        let whole = |motion: &Motion| Some(Segment::part(motion, motion.limits?, 0, 0.0, 1.0)).filter(|it| it.is_free);
+        let (before, behind) = (whole(self.from)?, whole(self.to)?);
+        if before.duration()? + behind.duration()? > LONGEST_PAIR_S {
+            return None;
+        }
+        let alone = |whole: Segment, start: &Joints| {
             let closed_form = whole.duration().filter(|_| whole.is_even());
-            closed_form.or_else(|| fastest_along(self.robot, [whole], &motion.start))
+            closed_form.or_else(|| fastest_along(self.robot, [whole], start))
         };
-        Some(alone(self.from)? + alone(self.to)?)
+        Some(alone(before, &self.from.start)? + alone(behind, &self.to.start)?)
     }
 
     fn time_with(&self, blend: &Blend) -> Option<f64> {

@@ -127,11 +127,15 @@ fn find_blended(robot: &Robot, from: &Arc<Motion>, to: &Arc<Motion>) -> Result<B
     let fades_from = from.laid.as_ref().map_or(1.0, |laid| laid.fades_from());
     let going_on = joined(robot, from, to).filter(|(from, to)| from.goes() && to.goes());
     if let Some((from, to)) = going_on
-        && let Ok(blend) = blend(robot, &from, &to, |_| false)
+        && let Ok(blend) = find_blend(robot, &from, &to)
     {
         return Ok(Blended { from: Arc::new(from), to: Arc::new(to), blend, until: fades_from });
     }
-    let stopping = Stopping::new(robot, from, to);
-    let blend = blend(robot, from, to, |blend| stopping.is_faster_than(blend))?;
+    let blend = find_blend(robot, from, to)?;
     Ok(Blended { from: Arc::clone(from), to: Arc::clone(to), blend, until: 1.0 })
+}
+
+fn find_blend(robot: &Robot, from: &Motion, to: &Motion) -> Result<Blend, NoBlend> {
+    let stopping = Stopping::new(robot, from, to);
+    blend(robot, from, to, |blend| stopping.is_faster_than(blend))
 }

@@ -14,6 +14,9 @@ use crate::plan::curve::Curve;
 use arl_robot::frames::Rig;
 use arl_robot::robot::VelocityProfile;
 
+/// What is less than this comes from rounding.
+const NO_WAY_MM_OR_DEG: f64 = 1e-6;
+
 /// A motion that is ready to run, from the target before it to its own.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Motion {
@@ -87,6 +90,11 @@ impl Motion {
     pub(crate) fn of_instruction(&self, share: f64) -> f64 {
         let [from, to] = self.stretch;
         from + (to - from) * share
+    }
+
+    /// Whether the TCP goes or the tool turns.
+    pub(crate) fn moves_tool(&self) -> bool {
+        self.length.max(self.angle) >= NO_WAY_MM_OR_DEG
     }
 
     /// Whether anything moves.

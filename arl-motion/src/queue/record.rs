@@ -16,8 +16,6 @@ use arl_robot::robot::{ROBOT_AXES, Robot, VelocityProfile};
 
 /// TCP paths shorter than this, mm, have no speed: then the tool's turning is what was programmed.
 const NO_DISTANCE_MM: f64 = 1e-6;
-/// The same for its turning, deg: then external axes move alone.
-const NO_TURN_DEG: f64 = 1e-6;
 /// Speed, acceleration, jerk.
 const DERIVATIVES: usize = 3;
 
@@ -172,7 +170,7 @@ impl MotionRecord {
         };
         if motion.length() >= NO_DISTANCE_MM {
             (Measure::Tcp, self.programmed)
-        } else if motion.angle >= NO_TURN_DEG || !(moves(false) || moves(true)) {
+        } else if motion.moves_tool() || !(moves(false) || moves(true)) {
             (Measure::Turning, figure(self.speed.ori, "deg/s"))
         } else if moves(false) {
             (Measure::TurningAxes, figure(self.speed.exj, "deg/s"))
@@ -275,7 +273,7 @@ impl Recorder {
             if let (Some((before, leave)), Some((_, last))) = (left, &self.last) {
                 let rounding = zone::rounding(&self.robot, last, leave);
                 let mixed = at(&mut self.records, before).is_some_and(|record| {
-                    record.blend = rounding;
+                    (record.blend, record.unblended) = (rounding, None);
                     record.mixed |= record.along_tool != along_tool;
                     record.along_tool != along_tool
                 });

@@ -264,7 +264,7 @@ impl ChannelState {
     /// Warns of targets that are not rounded off though they should be.
     pub(crate) fn warn_of_missing_blends(&self, shared: &SharedState) {
         let Some(mut unit) = self.robot_mut() else { return };
-        // What gains time is for the report.
+        // Where the stop saves time there is nothing to mend: that is for the report.
         let unblended = unit.take_unblended().into_iter().filter(|(_, target)| target.why != NoBlend::Slower);
         for (file, UnblendedTarget { line, corner, why, .. }) in unblended {
             let file = file.name();
