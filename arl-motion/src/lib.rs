@@ -48,8 +48,8 @@
 //! Every motion, and every blend between two, is a stretch of one path with one parameter. Planning finds limits of that
 //! parameter's speed, acceleration and jerk, constant for each stretch, such that *whatever* moves along it within them
 //! keeps every axis and the TCP within theirs. Starting, stopping, resuming and changing the override are then problems of
-//! that one parameter and can never leave the path or break a limit. In the profiles S and O every place has limits of its own, and
-//! the whole of the way ahead is timed at once.
+//! that one parameter and can never leave the path or break a limit. Where neither a duration is given nor a
+//! weave laid over it, every place has limits of its own, and the whole of the way ahead is timed at once.
 //!
 //! The folders are the stages: `command`, `geometry`, `limits`, `overlay`, `plan`, `blend`, `follow`, `time_optimal`, `queue`. Each
 //! imports from those before it only.

@@ -25,10 +25,11 @@ macro_rules! enumeration {
 }
 
 enumeration! { VEL_PROFILE =
-    /// How the speed of a motion rises and falls. The system variable `$VEL_PROFILE` holds the one in use.
+    /// How the speed of a motion rises and falls: at each place as fast as the limits of all axes and of the TCP
+    /// allow. The system variable `$VEL_PROFILE` holds the one in use.
     VelProfile, "$VEL_PROFILE", "VelProfile", "2.6.1" {
-        T_TYPE => T "trapezoid: limited acceleration, short but with shocks",
-        S_TYPE => S "limited jerk, as fast as the axes' limits allow at each place",
+        T_TYPE => T "unlimited jerk: the shortest, but with shocks",
+        S_TYPE => S "limited jerk",
         O_TYPE => O "the same as `S_TYPE`",
     }
 }

@@ -16,7 +16,7 @@ use crate::plan::curve::Curve;
 use crate::plan::motion::Motion;
 use arl_robot::frames::{Carried, Rig};
 use arl_robot::kinematics::Kinematics;
-use arl_robot::robot::{Robot, VelocityProfile};
+use arl_robot::robot::Robot;
 
 /// Parts of half a blend.
 const PARTS_OF_HALF: usize = blend_limits::PARTS / 2;
@@ -64,7 +64,7 @@ pub(crate) struct Segment {
     pub(crate) length: f64,
     /// The programmed speeds, where it is known what limits each of its places.
     pub(crate) pace: Option<Pace>,
-    /// Whether each place has limits of its own even while the robot goes on: not in the profile T.
+    /// Whether each place has limits of its own even while the robot goes on.
     pub(crate) is_free: bool,
 }
 
@@ -383,10 +383,9 @@ fn is_known(motion: &Motion) -> bool {
     motion.laid.is_none()
 }
 
-/// Whether every place of a motion has limits of its own: in the profiles S and O, unless its duration is given or it weaves, which wants
-/// an even speed.
+/// Whether every place of a motion has limits of its own: unless its duration is given or it weaves, which wants an even speed.
 fn is_free(motion: &Motion) -> bool {
-    motion.profile != VelocityProfile::T && motion.timed.is_none() && is_known(motion)
+    motion.timed.is_none() && is_known(motion)
 }
 
 /// The next lower speed of a fine grid, on which the full speed lies: so that stretches of almost the same speed can be

@@ -1,7 +1,5 @@
 //! Dense chains of lines stand for a smooth path, whatever their zones.
 
-use arl_robot::robot::VelocityProfile;
-
 use crate::tests::*;
 
 /// The length of each line in mm, how many there are, and their speed in mm/s.

@@ -1,7 +1,6 @@
 //! Gates of SCARA robots.
 
 use crate::tests::*;
-use arl_robot::robot::VelocityProfile;
 
 fn plain(rise: f64, sink: f64) -> Gate {
     Gate { rise, sink, highest: None, rising: Lift::default(), falling: Lift::default(), smooth: false, stays: false }

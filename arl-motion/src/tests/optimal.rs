@@ -1,12 +1,15 @@
-//! Time laws, in the profile O.
+//! Time laws, most of them in the profile O.
 
 use crate::tests::blends::run_chains;
 use crate::tests::stops::{change_override, stop_and_resume};
 use crate::tests::*;
-use arl_robot::robot::VelocityProfile;
 
 fn optimal() -> Settings {
     Settings { profile: VelocityProfile::O, ..Settings::default() }
+}
+
+fn without_jerk_limits() -> Settings {
+    Settings { profile: VelocityProfile::T, ..Settings::default() }
 }
 
 fn start() -> Joints {
@@ -25,7 +28,7 @@ fn corner(zone: f64, settings: &Settings) -> Vec<Step> {
         queue.add(&Command { zone, speed, ..lin(pose) }, settings).unwrap();
     }
     let rows = run(&mut queue, 100.0);
-    assert_within_limits(&robot, &rows, "corner");
+    assert_within_limits_of(&robot, &rows, settings.profile, "corner");
     rows
 }
 
@@ -36,6 +39,15 @@ fn s_and_o_are_the_same_and_a_zone_gains_time() {
         let [s, o] = [Settings::default(), optimal()].map(|settings| corner(zone, &settings));
         assert!(s == o, "{zone} mm");
         assert!((o.len() as f64) < most * stop as f64, "{zone} mm: {} {stop}", o.len());
+    }
+}
+
+#[test]
+fn without_jerk_limits_a_corner_takes_as_long_as_the_shortest_motion_along_its_path() {
+    // The shortest motion within speeds and accelerations by another solver, in s (`anchors`).
+    for (zone, shortest) in [(5.0, 0.810), (20.0, 0.773), (100.0, 0.699)] {
+        let took = corner(zone, &without_jerk_limits()).len() as f64 * CYCLE;
+        assert!(took < 1.015 * shortest, "{zone} mm: {took}");
     }
 }
 
@@ -87,18 +99,20 @@ fn chains_of_all_kinds_keep_every_limit() {
 #[test]
 fn stops_stay_on_the_path_and_resume() {
     stop_and_resume(&optimal(), 93, 8);
+    stop_and_resume(&without_jerk_limits(), 97, 8);
 }
 
 #[test]
 fn the_override_changes_time_alone() {
     change_override(&optimal(), 94, 5, |_| 300);
+    change_override(&without_jerk_limits(), 98, 5, |_| 300);
 }
 
 #[test]
 fn splines_flow_within_every_limit() {
     let mut random = Random::new(95);
     let robot = robot("kr10-r1420");
-    for settings in [optimal(), Settings::default()] {
+    for settings in [optimal(), Settings::default(), without_jerk_limits()] {
         let mut queue = Queue::new(robot.clone(), start());
         let origin = frame_components(&robot.kinematics.forward(&start().axes));
         for index in 0..12 {
@@ -111,7 +125,7 @@ fn splines_flow_within_every_limit() {
             queue.add(&Command { speed, ..command(target) }, &settings).unwrap();
         }
         let rows = run(&mut queue, 100.0);
-        assert_within_limits(&robot, &rows, "spline");
+        assert_within_limits_of(&robot, &rows, settings.profile, "spline");
         assert_eq!(rows.last().unwrap().finished, 12);
     }
 }

@@ -1,7 +1,6 @@
 //! What planning accepts, what it refuses, and what it makes of a command.
 
 use crate::tests::*;
-use arl_robot::robot::VelocityProfile;
 
 fn start() -> Joints {
     axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0])

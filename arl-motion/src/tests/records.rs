@@ -1,7 +1,5 @@
 //! What is recorded of motions.
 
-use arl_robot::robot::VelocityProfile;
-
 use crate::queue::{MotionRecord, Recorder};
 use crate::tests::*;
 

@@ -1,11 +1,10 @@
 //! How long stops take at most, in all profiles.
 
 use crate::tests::*;
-use arl_robot::robot::VelocityProfile;
 
-/// How many times as long a stop may take as one of the axes would alone. Where laws lead, places are passed faster.
+/// How many times as long a stop may take as one of the axes would alone, with limited jerk.
 fn longest(profile: VelocityProfile) -> f64 {
-    if profile == VelocityProfile::T { 3.0 } else { 4.2 }
+    if profile == VelocityProfile::T { 2.0 } else { 4.2 }
 }
 
 /// Chains of which most have a place where nothing but looking for the shortest way to rest finds a short one.

@@ -80,7 +80,7 @@ pub(crate) fn change_override(settings: &Settings, seed: u64, rounds: u32, hold:
         // A slider that moves all the time costs little.
         let takes = moves(&reference) * CYCLE;
         assert!(hold(round) > 1 || due < 1.3 * takes, "{round}: {due} s at full speed in place of {takes}");
-        assert_within_limits(&robot, &rows, "override");
+        assert_within_limits_of(&robot, &rows, settings.profile, "override");
         assert_same_path(&robot, &rows, &reference);
         assert_eq!(rows.last().unwrap().joints, reference.last().unwrap().joints);
     }
@@ -143,7 +143,7 @@ fn a_stop_stays_on_the_path_within_limits_and_resumes() {
 pub(crate) fn stop_and_resume(settings: &Settings, seed: u64, rounds: u32) {
     let robot = robot("kr10-r1420");
     let reference = run(&mut two_motions(&robot, settings), 100.0);
-    assert_within_limits(&robot, &reference, "undisturbed");
+    assert_within_limits_of(&robot, &reference, settings.profile, "undisturbed");
     let mut random = Random::new(seed);
     for _ in 0..rounds {
         let mut queue = two_motions(&robot, settings);
@@ -171,7 +171,7 @@ pub(crate) fn stop_and_resume(settings: &Settings, seed: u64, rounds: u32) {
         while !queue.idle() {
             rows.push(queue.step(CYCLE, 100.0));
         }
-        assert_within_limits(&robot, &rows, "stop");
+        assert_within_limits_of(&robot, &rows, settings.profile, "stop");
         assert_same_path(&robot, &rows, &reference);
         assert_eq!(rows.last().unwrap().joints, reference.last().unwrap().joints);
     }

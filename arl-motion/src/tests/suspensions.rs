@@ -1,7 +1,6 @@
 //! Motion that is suspended, and goes on.
 
 use crate::tests::*;
-use arl_robot::robot::VelocityProfile;
 
 const PLAIN: Start = Start { skip: 0, manual: false, line: 99 };
 

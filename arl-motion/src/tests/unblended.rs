@@ -72,7 +72,7 @@ fn the_same_lines_are_told_once() {
 }
 
 /// How many cycles lines to and fro take whose tool turns by so many deg each time, with a zone in mm, and why targets are not rounded off.
-fn to_and_fro(turn: f64, zone: f64) -> (usize, Vec<NoBlend>) {
+fn to_and_fro(profile: VelocityProfile, turn: f64, zone: f64) -> (usize, Vec<NoBlend>) {
     let robot = robot("kr6-r700");
     let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
     let mut queue = Queue::new(robot.clone(), start);
@@ -83,25 +83,27 @@ fn to_and_fro(turn: f64, zone: f64) -> (usize, Vec<NoBlend>) {
         pose.iter_mut().zip(way).for_each(|(value, by)| *value += by);
         let speed = Speed { tcp: 900.0, ..fast() };
         let command = Command { zone: Zone { tcp: zone, ..Zone::NONE }, speed, ..lin(pose) };
-        queue.add(&command, &Settings::default()).unwrap();
+        queue.add(&command, &Settings { profile, ..Settings::default() }).unwrap();
     }
     let rows = run(&mut queue, 100.0);
-    assert_within_limits(&robot, &rows, &format!("{turn} {zone}"));
+    assert_within_limits_of(&robot, &rows, profile, &format!("{profile:?} {turn} {zone}"));
     (rows.len(), queue.take_unblended().into_iter().map(|target| target.why).collect())
 }
 
 #[test]
 fn a_blend_that_would_take_longer_than_a_stop_is_none() {
-    let (mut dropped, mut kept) = (0, 0);
-    for turn in [0.0, 12.0] {
-        let (stops, _) = to_and_fro(turn, -1.0);
-        for zone in [0.01, 0.1, 1.0, 10.0] {
-            let (cycles, why) = to_and_fro(turn, zone);
-            let most = 1.003 * stops as f64 + 2.0;
-            assert!(cycles as f64 <= most, "{turn} deg, {zone} mm: {cycles} cycles, {stops} with stops");
-            assert!(why.iter().all(|why| *why == NoBlend::Slower), "{why:?}");
-            if why.is_empty() { kept += 1 } else { dropped += 1 }
+    for profile in [VelocityProfile::S, VelocityProfile::T] {
+        let (mut dropped, mut kept) = (0, 0);
+        for turn in [0.0, 12.0] {
+            let (stops, _) = to_and_fro(profile, turn, -1.0);
+            for zone in [0.01, 0.1, 1.0, 10.0] {
+                let (cycles, why) = to_and_fro(profile, turn, zone);
+                let most = 1.003 * stops as f64 + 2.0;
+                assert!(cycles as f64 <= most, "{profile:?}, {turn} deg, {zone} mm: {cycles}, {stops} with stops");
+                assert!(why.iter().all(|why| *why == NoBlend::Slower), "{why:?}");
+                if why.is_empty() { kept += 1 } else { dropped += 1 }
+            }
         }
+        assert!(dropped > 0 && kept > 0, "{profile:?}: {dropped} {kept}");
     }
-    assert!(dropped > 0 && kept > 0, "{dropped} {kept}");
 }

@@ -3,7 +3,6 @@
 use nalgebra::Vector3;
 
 use crate::tests::*;
-use arl_robot::robot::VelocityProfile;
 
 fn at_work() -> Joints {
     axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0])

@@ -10,7 +10,7 @@ pub(crate) enum Leader {
     Governor,
     /// The governor, up to the next stop, as no law from rest has been found.
     GovernorWithoutLaw,
-    /// Time laws, in the profiles S and O.
+    /// Time laws.
     Laws(Box<LawFollower>),
     /// A time law that leads to rest sooner than the governor would, which goes on from there.
     ShorterStop(Box<LawFollower>),

@@ -1,4 +1,4 @@
-//! Shorter stops in the profiles S and T.
+//! Shorter stops where the governor leads.
 //!
 //! The governor knows one acceleration and one jerk for each part of the path: those of its hardest place at full speed. Where the
 //! robot is slower, or elsewhere on that part, it could brake harder. So when it stops, the shortest way to rest is looked
