@@ -52,7 +52,8 @@ fn every_motion_has_its_figures() {
     ];
     assert_eq!(lines, expected);
     let moving: f64 = records.iter().map(|record| record.duration).sum();
-    assert!(moving < time - 0.49 && moving > time - 0.52, "{moving} {time}");
+    // Without the wait, and the cycles in which it stands until laws lead.
+    assert!(moving < time - 0.49 && moving > time - 0.53, "{moving} {time}");
     // It goes nowhere, so it never begins.
     assert_eq!((records[1].start, records[1].duration), (None, 0.0));
     for pair in records.windows(2) {

@@ -1,4 +1,4 @@
-//! A cycle in which no motion is planned allocates nothing, whatever else goes on.
+//! A cycle in which no motion is planned, and no time law asked for, allocates nothing, whatever else goes on.
 
 mod common;
 
@@ -34,14 +34,13 @@ fn cycles_without_statements_allocate_nothing() {
                 .run(cx)
                 .at(FILE, 1)?;
             motion::startdetect(1).run(cx).at(FILE, 1)?;
-            // A cycle that asks for a time law copies the way for the thread that finds it.
-            cx.system().vel_profile.set(VelProfile::T);
             motion::movej(bent(60.0)).vp(100.0).run(cx).await.at(FILE, 1)?;
             motion::toolload(ToolInertiaPara { m: 500.0, ..Default::default() }).run(cx).at(FILE, 2)?;
             motion::movej(bent(-60.0)).vp(100.0).run(cx).await.at(FILE, 2)?;
             let there = cx.system().flange.get();
             let pose = pose::getpose(cx, bent(-60.0), there, &cx.system().world.get()).at(FILE, 3)?;
-            motion::lin(pose::offset(pose, 0.0, 50.0, -50.0, 0.0, 0.0, 0.0)).vl(300.0).run(cx).await.at(FILE, 4)?;
+            // A cycle that asks for a time law copies the way for the thread that finds it; a duration needs none.
+            motion::lin(pose::offset(pose, 0.0, 50.0, -50.0, 0.0, 0.0, 0.0)).dura(0.8).run(cx).await.at(FILE, 4)?;
             io::setdoimv(1, true).run(cx).at(FILE, 5)?;
             io::pulsedo(cx, 2, true, 0.05).await.at(FILE, 6)?;
             let wait = flow::waituntil(cx).maxtime(0.5).start().await.at(FILE, 7)?;

@@ -97,6 +97,13 @@ impl BlendThread {
     }
 }
 
+impl From<Junction> for Prepared {
+    /// What has been found already.
+    fn from(junction: Junction) -> Self {
+        Self(Arc::new(Preparation { junction: junction.into(), is_left: false.into() }))
+    }
+}
+
 impl Prepared {
     /// Waits until the thread has found it.
     #[cfg(test)]

@@ -43,22 +43,29 @@ impl<'a> Stopping<'a> {
         Self { robot, from, to, time: OnceCell::new() }
     }
 
-    /// Whether the two motions take longer with the blend, however they are led. That is looked at only where the governor's constant
-    /// limits let it seem possible.
+    /// Whether laws have to tell whether a blend saves time: where the governor's constant limits let it seem possible that it does not.
+    pub(crate) fn doubts(&self, blend: &Blend) -> bool {
+        blend.may_lose_time && self.motions().is_some()
+    }
+
+    /// Whether the two motions take longer with the blend, however they are led.
     pub(crate) fn is_faster_than(&self, blend: &Blend) -> bool {
-        if !blend.may_lose_time {
+        if !self.doubts(blend) {
             return false;
         }
         let Some(with_stop) = *self.time.get_or_init(|| self.time()) else { return false };
         self.time_with(blend).is_some_and(|with_blend| with_blend > with_stop - LEAST_GAIN_S)
     }
 
-    fn time(&self) -> Option<f64> {
+    /// The whole motions, if laws lead along them, and not for too long.
+    fn motions(&self) -> Option<[Segment; 2]> {
         let whole = |motion: &Motion| Some(Segment::part(motion, motion.limits?, 0, 0.0, 1.0)).filter(|it| it.is_free);
         let (before, behind) = (whole(self.from)?, whole(self.to)?);
-        if before.duration()? + behind.duration()? > LONGEST_PAIR_S {
-            return None;
-        }
+        (before.duration()? + behind.duration()? <= LONGEST_PAIR_S).then_some([before, behind])
+    }
+
+    fn time(&self) -> Option<f64> {
+        let [before, behind] = self.motions()?;
         let alone = |whole: Segment, start: &Joints| {
             let closed_form = whole.duration().filter(|_| whole.is_even());
             closed_form.or_else(|| fastest_along(self.robot, [whole], start))
@@ -76,8 +83,16 @@ impl<'a> Stopping<'a> {
     }
 }
 
+#[cfg(test)]
+thread_local! {
+    /// How many laws this thread has asked for.
+    pub(crate) static ASKED_HERE: std::cell::Cell<u32> = const { std::cell::Cell::new(0) };
+}
+
 /// How long the fastest motion along segments takes, from rest to rest, in s; `None` where there is none that is known.
 fn fastest_along(robot: &Robot, segments: impl IntoIterator<Item = Segment>, start: &Joints) -> Option<f64> {
+    #[cfg(test)]
+    ASKED_HERE.with(|count| count.set(count.get() + 1));
     let mut way = SharedDeque::default();
     let mut end = 0.0;
     for segment in segments.into_iter().filter(|segment| segment.time > 0.0) {

@@ -2,8 +2,9 @@
 //! motions alone, so that it is the same whoever finds it, and when.
 
 pub(crate) mod blend_thread;
-mod gain;
+pub(crate) mod gain;
 
+use std::cell::Cell;
 use std::sync::Arc;
 
 use crate::blend::corner::{Blend, blend, curved_blend};
@@ -52,12 +53,34 @@ pub(crate) struct Blended {
     pub(crate) until: f64,
 }
 
+/// Whether two motions take longer with a blend than with a stop.
+type IsSlower<'a> = &'a dyn Fn(&Stopping, &Blend) -> bool;
+
+/// As the fastest laws tell.
+const BY_LAWS: IsSlower = &|stopping: &Stopping, blend: &Blend| stopping.is_faster_than(blend);
+
 impl Junction {
     /// Finds it.
     pub(crate) fn find(robot: &Robot, meeting: Meeting) -> Self {
+        Self::find_by(robot, meeting, BY_LAWS)
+    }
+
+    /// Finds it where that takes no time laws, which take long to find.
+    pub(crate) fn find_quickly(robot: &Robot, meeting: Meeting) -> Option<Self> {
+        let is_doubtful = Cell::new(false);
+        let doubts = |stopping: &Stopping, blend: &Blend| {
+            is_doubtful.set(is_doubtful.get() || stopping.doubts(blend));
+            false
+        };
+        let found = Self::find_by(robot, meeting, &doubts);
+        (!is_doubtful.get()).then_some(found)
+    }
+
+    fn find_by(robot: &Robot, meeting: Meeting, is_slower: IsSlower) -> Self {
         let Meeting { before, from, to } = &meeting;
-        let curved = before.as_ref().and_then(|(before, start)| find_curved(robot, before, *start, from, to));
-        let blended = curved.is_none().then(|| find_blended(robot, from, to));
+        let curved =
+            before.as_ref().and_then(|(before, start)| find_curved(robot, before, *start, [from, to], is_slower));
+        let blended = curved.is_none().then(|| find_blended(robot, [from, to], is_slower));
         Self { meeting, curved, blended }
     }
 
@@ -90,7 +113,7 @@ pub(crate) fn curved(
     });
     match known {
         Some(known) => known.curved.clone(),
-        None => find_curved(robot, before, start, from, to),
+        None => find_curved(robot, before, start, [from, to], BY_LAWS),
     }
 }
 
@@ -102,40 +125,40 @@ pub(crate) fn blended(
     to: &Arc<Motion>,
 ) -> Result<Blended, NoBlend> {
     let known = known.filter(|known| known.is_of(from, to)).and_then(|known| known.blended.clone());
-    known.unwrap_or_else(|| find_blended(robot, from, to))
+    known.unwrap_or_else(|| find_blended(robot, [from, to], BY_LAWS))
 }
 
 fn find_curved(
     robot: &Robot,
     before: &Motion,
     start: MidCurvature,
-    from: &Motion,
-    to: &Motion,
+    [from, to]: [&Motion; 2],
+    is_slower: IsSlower,
 ) -> Option<CurvedBlends> {
     let curvature = mid_curvature(robot, before, from, to).filter(|curvature| *curvature != MidCurvature::NONE)?;
     let first = curved_blend(robot, before, from, [start, curvature])?;
     let second = curved_blend(robot, from, to, [curvature, MidCurvature::NONE])?;
     // Without the bend it may still save time.
-    if Stopping::new(robot, from, to).is_faster_than(&second) {
+    if is_slower(&Stopping::new(robot, from, to), &second) {
         return None;
     }
     Some(CurvedBlends { curvature, blends: [first, second] })
 }
 
 /// A weave goes on through the blend.
-fn find_blended(robot: &Robot, from: &Arc<Motion>, to: &Arc<Motion>) -> Result<Blended, NoBlend> {
+fn find_blended(robot: &Robot, [from, to]: [&Arc<Motion>; 2], is_slower: IsSlower) -> Result<Blended, NoBlend> {
     let fades_from = from.laid.as_ref().map_or(1.0, |laid| laid.fades_from());
     let going_on = joined(robot, from, to).filter(|(from, to)| from.goes() && to.goes());
     if let Some((from, to)) = going_on
-        && let Ok(blend) = find_blend(robot, &from, &to)
+        && let Ok(blend) = find_blend(robot, [&from, &to], is_slower)
     {
         return Ok(Blended { from: Arc::new(from), to: Arc::new(to), blend, until: fades_from });
     }
-    let blend = find_blend(robot, from, to)?;
+    let blend = find_blend(robot, [from, to], is_slower)?;
     Ok(Blended { from: Arc::clone(from), to: Arc::clone(to), blend, until: 1.0 })
 }
 
-fn find_blend(robot: &Robot, from: &Motion, to: &Motion) -> Result<Blend, NoBlend> {
+fn find_blend(robot: &Robot, [from, to]: [&Motion; 2], is_slower: IsSlower) -> Result<Blend, NoBlend> {
     let stopping = Stopping::new(robot, from, to);
-    blend(robot, from, to, |blend| stopping.is_faster_than(blend))
+    blend(robot, from, to, |blend| is_slower(&stopping, blend))
 }

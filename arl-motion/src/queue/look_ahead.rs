@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use crate::blend::zone::asks;
 use crate::junction::blend_thread::{Joining, Prepared};
+use crate::junction::{Junction, Meeting};
 use crate::plan::motion::Motion;
 use crate::queue::path_buffer::limit_rise;
 use crate::queue::{LOOK_AHEAD_S, Queue};
@@ -17,6 +18,8 @@ const LONGEST_WAIT_S: f64 = 0.05;
 /// The part of the time after which the robot may have to brake without the motion; and the least time, in s, that is waited for.
 const WAITED_SHARE_OF_SPARE_TIME: f64 = 0.5;
 const LEAST_WAIT_S: f64 = 0.003;
+/// The same where the robot moves, and other laws may have to tell whether a blend saves time.
+const LEAST_WAIT_BESIDE_LAW_S: f64 = 0.02;
 /// So many motions a cycle are always laid, and are taken from the program, so many while there is not enough way ahead, and so many short
 /// ones, whose blends a thread finds, while the robot rests: no cycle must take long. As many as the robot may go in so many cycles are
 /// always possible.
@@ -30,10 +33,19 @@ const SHORT_MOTION_S: f64 = 0.02;
 /// Enough way ahead, in s at full speed; and where laws look along it.
 const ENOUGH_AHEAD_S: f64 = 0.5;
 const ENOUGH_AHEAD_FOR_LAWS_S: f64 = 5.0;
-/// How long, in s, a robot at rest waits for motions that come cycle by cycle, and the way ahead, in s at full speed, that is enough; and
-/// the same where they are short: laws along very many of them leave some open, for which there has to be room.
-const GATHERING_S: (f64, f64) = (0.05, ENOUGH_AHEAD_FOR_LAWS_S);
-const GATHERING_OF_DENSE_CHAIN_S: (f64, f64) = (0.5, 0.9);
+/// When a robot at rest sets off though motions come cycle by cycle, or blends are being found.
+struct Gathering {
+    /// After so many s.
+    longest: f64,
+    /// When so much way has come, in s at full speed.
+    ahead: f64,
+    /// When so much of it is laid.
+    laid: f64,
+}
+
+const GATHERING: Gathering = Gathering { longest: 0.05, ahead: ENOUGH_AHEAD_FOR_LAWS_S, laid: ENOUGH_AHEAD_FOR_LAWS_S };
+/// Laws along very many motions leave some open, for which there has to be room.
+const GATHERING_OF_DENSE_CHAIN: Gathering = Gathering { longest: 0.5, ahead: f64::INFINITY, laid: 0.9 };
 
 /// A motion that waits.
 #[derive(Clone, Debug)]
@@ -193,8 +205,11 @@ impl Queue {
         // What is laid over a motion depends on how those before it have been laid.
         let overlaid = motion.laid.is_some() || last.laid.is_some();
         let is_short = way(motion) < SHORT_MOTION_S;
-        let hurries = if self.layer.path.wants_laws() {
-            self.layer.path.rests() && !is_short
+        let is_led = self.layer.path.wants_laws();
+        let is_blended = !overlaid && motion.goes() && !motion.flows && asks(&self.robot, last);
+        let mut hurries = if is_led {
+            // Behind one that takes long it has as much time.
+            self.layer.path.rests() && !is_short && before.is_none()
         } else {
             time < LEAST_WAIT_S || (is_short && self.layer.path.rests() && self.layer.path.time_left() < ENOUGH_AHEAD_S)
         };
@@ -202,12 +217,18 @@ impl Queue {
         let is_late = |first: &Ready| first.due <= self.cycles && !self.is_prepared(first);
         let is_blocked = self.layer.waiting.first().is_some_and(is_late);
         let waits = is_blocked || self.layer.path.is_asking() || self.layer.path.is_laid_down();
-        let is_blended = !overlaid && motion.goes() && !motion.flows && asks(&self.robot, last);
+        if is_led && hurries && is_blended && !waits {
+            let meeting = Meeting { before: self.layer.path.before(), from: Arc::clone(last), to: Arc::clone(motion) };
+            match Junction::find_quickly(&self.robot, meeting) {
+                Some(junction) => return (0, Some(junction.into())),
+                None => hurries = false,
+            }
+        }
         let prepared = (is_blended && (waits || !hurries)).then(|| {
             let joining = match before {
                 Some(Ready { prepared: Some(prepared), .. }) => Joining::Behind(prepared.clone()),
                 Some(_) => Joining::Known(None),
-                None => self.layer.path.joining(),
+                None => Joining::Known(self.layer.path.before()),
             };
             self.blend_thread.prepare(&self.robot, joining, [last, motion])
         });
@@ -215,7 +236,13 @@ impl Queue {
             self.layer.waiting.lay_at_once();
             return (0, prepared);
         }
-        let time = if is_blended { time.max(LEAST_WAIT_S) } else { 0.0 };
+        let time = match (is_blended, is_led && !is_short) {
+            (false, _) => 0.0,
+            (true, false) => time.max(LEAST_WAIT_S),
+            // A robot that rests can wait longer, if need be.
+            (true, true) if self.layer.path.rests() => LEAST_WAIT_S,
+            (true, true) => time.max(LEAST_WAIT_BESIDE_LAW_S),
+        };
         (self.cycles + (time / self.cycle) as u64, prepared)
     }
 
@@ -229,13 +256,12 @@ impl Queue {
     pub(crate) fn gathers(&mut self, cycle: f64) -> bool {
         let path = &self.layer.path;
         let comes_more = || self.layer.held.is_some() || self.last_ahead().is_some_and(|last| asks(&self.robot, last));
-        let is_dense = self.is_dense();
-        let (longest, enough) = if is_dense { GATHERING_OF_DENSE_CHAIN_S } else { GATHERING_S };
-        // Short ones are laid as soon as their blends are found, and no law leads along them before.
-        let comes = self.taken.count > 0 || (is_dense && !self.layer.waiting.is_empty());
-        let ahead = if is_dense { path.time_left() } else { self.way_ahead() };
-        let gathers =
-            comes && self.gathered < longest && path.rests() && path.wants_laws() && ahead < enough && comes_more();
+        let gathering = if self.is_dense() { GATHERING_OF_DENSE_CHAIN } else { GATHERING };
+        let comes = || self.taken.count > 0 && self.way_ahead() < gathering.ahead && comes_more();
+        // No law leads along motions before their blends are found.
+        let waits = || !(self.layer.waiting.is_empty() || path.is_asking());
+        let may = self.gathered < gathering.longest && path.rests() && path.wants_laws();
+        let gathers = may && path.time_left() < gathering.laid && (comes() || waits());
         self.gathered = if gathers { self.gathered + cycle } else { 0.0 };
         gathers
     }

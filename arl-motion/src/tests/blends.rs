@@ -49,7 +49,7 @@ fn a_corner_stays_in_its_zone_and_is_passed_without_a_stop() {
         }
         assert!(closest > 0.01 * reach, "{zone} {angle}: the corner was cut, {closest}");
         // Between start and end it never stands still.
-        let inner = &rows[2..rows.len() - 1];
+        let inner = after_start(&rows);
         assert!(inner.iter().all(|row| !row.rests), "{zone} mm, {angle} deg");
         let last = rows.last().unwrap();
         assert!((last.tcp.translation.vector - end).norm() < 1e-6);

@@ -101,13 +101,13 @@ fn a_gate_is_one_motion_without_a_stop_where_there_is_room() {
     let robot = robot("hsr065");
     let (from, to) = (at([-40.0, 60.0, 0.0, 10.0]), at([50.0, 70.0, 20.0, -90.0]));
     let (rows, _) = run_gate(&robot, &from, &to, plain(25.0, 25.0), &Settings::default());
-    assert!(rows[2..rows.len() - 1].iter().all(|row| !row.rests));
+    assert!(after_start(&rows).iter().all(|row| !row.rests));
     // At its limit it is a right-angled gate.
     let limited =
         Gate { highest: Some(robot.kinematics.forward(&to.axes).translation.vector.z + 15.0), ..plain(80.0, 25.0) };
     let (rows, highest) = run_gate(&robot, &from, &to, limited, &Settings::default());
     assert!((highest - 35.0).abs() < 1e-6, "{highest}");
-    assert_eq!(rows[2..rows.len() - 1].iter().filter(|row| row.rests).count(), 2);
+    assert_eq!(after_start(&rows).iter().filter(|row| row.rests).count(), 2);
     // Slower lifts make a slower gate, and the profile T none that leaves the way.
     let slow = Gate { rising: Lift { vel: Some(5.0), acc: Some(30.0) }, ..plain(25.0, 25.0) };
     let quick = run_gate(&robot, &from, &to, plain(25.0, 25.0), &Settings::default()).0.len();
@@ -171,7 +171,7 @@ fn gates_go_on_smoothly_into_each_other() {
     }
     let rows = run(&mut queue, 100.0);
     assert_within_limits(&robot, &rows, "smooth gates");
-    assert!(rows[2..rows.len() - 1].iter().all(|row| !row.rests));
+    assert!(after_start(&rows).iter().all(|row| !row.rests));
     let numbers: Vec<u64> = rows.iter().skip(1).map(|row| row.motion).collect();
     assert!(numbers.windows(2).all(|pair| pair[1] == pair[0] || pair[1] == pair[0] + 1) && numbers.last() == Some(&3));
 }

@@ -112,6 +112,13 @@ fn usage(robot: &Robot, rows: &[Step]) -> [f64; 3] {
     used
 }
 
+/// The rows from where the robot sets off up to the last one.
+fn after_start(rows: &[Step]) -> &[Step] {
+    let start = rows.iter().position(|row| !row.rests).unwrap();
+    assert!(start < 8, "it sets off after {start} cycles");
+    &rows[start..rows.len() - 1]
+}
+
 fn assert_within_limits(robot: &Robot, rows: &[Step], what: &str) {
     assert_within_limits_of(robot, rows, VelocityProfile::S, what);
 }

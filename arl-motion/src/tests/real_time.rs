@@ -1,6 +1,7 @@
 //! Cycles that wait for nothing.
 
 use crate::blend::corner::FOUND_HERE;
+use crate::junction::gain::ASKED_HERE;
 use crate::tests::*;
 
 /// How cycles come in real time, beside the threads that look ahead.
@@ -107,4 +108,39 @@ fn no_cycle_finds_a_blend() {
     let (found, late) = found_in_cycles(true);
     assert!(found == 0 && late > 0, "{found} found, {late} late");
     assert!(found_in_cycles(false).0 > 0);
+}
+
+#[test]
+fn no_cycle_finds_out_whether_a_blend_saves_time() {
+    let robot = robot("kr6-r700");
+    let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+    let from = frame_components(&robot.kinematics.forward(&start.axes));
+    let asked = |in_real_time: bool| {
+        let mut queue = Queue::new(Arc::clone(&robot), start);
+        queue.follow_real_time(in_real_time);
+        queue.prepare_nothing();
+        let mut pose = from;
+        for line in 0..6 {
+            // The tool turns back and forth, so that small zones may lose time.
+            let sign = if line % 2 == 0 { 1.0 } else { -1.0 };
+            let way = [0.0, 30.0 * sign, 25.0, 12.0 * sign, 0.0, 12.0 * sign];
+            pose.iter_mut().zip(way).for_each(|(value, by)| *value += by);
+            let zone = Zone { tcp: 0.1, ..Zone::NONE };
+            queue.add(&Command { zone, line, ..lin(pose) }, &Settings::default()).unwrap();
+        }
+        let before = ASKED_HERE.with(std::cell::Cell::get);
+        let mut rows = vec![Step { joints: start, tcp: queue.tcp(), motion: 0, line: 0, finished: 0, rests: true }];
+        while !queue.idle() {
+            queue.await_law();
+            rows.push(queue.step(CYCLE, 100.0));
+            assert!(rows.len() < 20_000, "it does not end");
+        }
+        assert_within_limits(&robot, &rows, "in doubt");
+        let set_off = rows.iter().position(|row| !row.rests).unwrap();
+        (ASKED_HERE.with(std::cell::Cell::get) - before, queue.found_late(), set_off)
+    };
+    let (laws, late, set_off) = asked(true);
+    assert!(laws == 0 && late > 0 && set_off < 80, "{laws} laws, {late} late, {set_off} cycles at rest");
+    let (laws, late, set_off) = asked(false);
+    assert!(laws > 0 && late == 0 && set_off < 8, "{laws} laws, {late} late, {set_off} cycles at rest");
 }

@@ -17,7 +17,7 @@ use crate::follow::governor::{Governor, Pacing};
 use crate::follow::segment::Segment;
 use crate::follow::shared_deque::SharedDeque;
 use crate::follow::timing::Timing;
-use crate::junction::blend_thread::{Joining, Prepared};
+use crate::junction::blend_thread::Prepared;
 use crate::junction::{self, Before, Blended, CurvedBlends, Meeting};
 use crate::limits::profile::{Change, LOOK_AHEAD_MARGIN, Limits, State};
 use crate::plan::motion::Motion;
@@ -138,9 +138,10 @@ impl PathBuffer {
         self.segments.front().map(|segment| &**segment)
     }
 
-    /// The motion that is blended with the one that was appended last, `number`, and the share at which it is left.
+    /// The motion from which a blend leads to the motion `number`, and the share at which it is left.
     pub(crate) fn left_before(&self, number: u64) -> Option<(u64, f64)> {
-        let before = self.segments.iter().rev().find(|segment| segment.number != number)?;
+        let is_own = |segment: &&Arc<Segment>| segment.number == number;
+        let before = self.segments.iter().rev().skip_while(|it| !is_own(it)).find(|it| !is_own(it))?;
         let rounded = before.ends && !before.stops && before.parametrization.is_some();
         rounded.then(|| (before.number, before.leave))
     }
@@ -205,9 +206,9 @@ impl PathBuffer {
     }
 
     /// How the last motion is joined by the one before it.
-    pub(crate) fn joining(&self) -> Joining {
+    pub(crate) fn before(&self) -> Before {
         let joined = self.tail.as_ref().and_then(|tail| tail.joined.as_ref());
-        Joining::Known(joined.map(|joined| (Arc::clone(&joined.before), joined.curvature)))
+        joined.map(|joined| (Arc::clone(&joined.before), joined.curvature))
     }
 
     /// Appends a motion that [`limit_rise`] has made ready, with what has been prepared for it. Returns why the motion before it is not
