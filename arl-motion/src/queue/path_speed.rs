@@ -3,10 +3,11 @@
 use nalgebra::Vector3;
 
 /// The speed and the acceleration along a way. Where it turns back the speed goes on with the other sign, so that its derivatives are what
-/// the robot does there, not those of a size.
+/// the robot does there, not those of a size. Where it all but turns back, the part of the jerk along the way counts, as in limits.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub(super) struct PathSpeed {
-    step: Vector3<f64>,
+    /// The last two steps.
+    steps: [Vector3<f64>; 2],
     vel: f64,
     acc: f64,
 }
@@ -17,12 +18,14 @@ impl PathSpeed {
         let expected = self.vel + self.acc * period;
         let on = (step.norm() / period).copysign(self.vel);
         // In a sharp corner the way turns, too, but the speed does not.
-        let turns_back = step.dot(&self.step) < 0.0 && (-on - expected).abs() < (on - expected).abs();
+        let [first, second] = self.steps;
+        let turns_back = step.dot(&second) < 0.0 && (-on - expected).abs() < (on - expected).abs();
         let vel = if turns_back { -on } else { on };
         let acc = (vel - self.vel) / period;
         let jerk = (acc - self.acc) / period;
-        *self = Self { step, vel, acc };
-        [vel, acc, jerk]
+        let along = (step - 2.0 * second + first).dot(&second) / (second.norm() * period.powi(3));
+        *self = Self { steps: [second, step], vel, acc };
+        [vel, acc, if along.abs() < jerk.abs() { along } else { jerk }]
     }
 }
 
@@ -44,6 +47,17 @@ mod tests {
         let swing = (0..2000).map(|cycle| Vector3::new(100.0 * (f64::from(cycle) * period * 5.0).sin(), 0.0, 0.0));
         let [acc, jerk] = most(swing, period);
         assert!((acc - 2500.0).abs() < 5.0 && (jerk - 12_500.0).abs() < 50.0, "{acc} {jerk}");
+    }
+
+    #[test]
+    fn a_way_that_all_but_turns_back_has_no_jerk_to_speak_of() {
+        let period = 0.001;
+        let swing = (0..2000).map(|cycle| {
+            let angle = f64::from(cycle) * period * 5.0;
+            Vector3::new(100.0 * angle.sin(), 0.3 * angle.cos(), 0.0)
+        });
+        let [_, jerk] = most(swing, period);
+        assert!(jerk < 12_600.0, "{jerk}");
     }
 
     #[test]

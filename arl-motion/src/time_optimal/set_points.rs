@@ -16,9 +16,6 @@ const PHASES_OF_CYCLE: usize = 2;
 /// So many set-points at rest tell how a motion begins and ends.
 const SET_POINTS_AT_REST: i32 = 3;
 
-/// What changes its direction by so much within two cycles, in rad, all but turns back.
-const TURN_BACK_RAD: f64 = 0.1;
-
 /// Limits of speed, acceleration and jerk.
 type Limits = [f64; 3];
 
@@ -85,20 +82,34 @@ fn used_by_tool(sampler: &ConstraintSampler, points: [&Point; 4], harder: f64) -
     by_way.max(used_along(turns, highest(limits), harder))
 }
 
-/// The share of limits along a path that three steps in a row use. What turns back, or all but, slows down and speeds up again at
-/// once: its speed along its path has no jerk to speak of.
-fn used_along(ways: [Vector3<f64>; 3], [vel, acc, jerk]: Limits, harder: f64) -> f64 {
-    let [first, _, last] = &ways;
-    let jerk = if first.angle(last) > TURN_BACK_RAD { f64::INFINITY } else { jerk };
-    used(ways.map(|way| way.norm()), [vel, acc, jerk], harder)
+/// The share of limits along a path that three steps in a row use. Where a path all but turns back, its speed falls and rises at once, and
+/// has no jerk to speak of: the part of the jerk along the path counts where that is smaller, as in [`Constraints`].
+///
+/// [`Constraints`]: crate::plan::constraints::Constraints
+fn used_along(ways: [Vector3<f64>; 3], limits: Limits, harder: f64) -> f64 {
+    let [first, second, third] = &ways;
+    let along = (third - 2.0 * second + first).dot(second) / second.norm();
+    let steps = ways.map(|way| way.norm());
+    let of_speed = jerk_of(steps);
+    used_with(steps, if along.abs() < of_speed.abs() { along } else { of_speed }, limits, harder)
 }
 
 /// The share of limits that three steps in a row use.
-fn used([first, second, third]: [f64; 3], [vel, acc, jerk]: Limits, harder: f64) -> f64 {
-    let by_vel = third / SET_POINT_CYCLE_S / vel;
-    let by_acc = (third - second) / (SET_POINT_CYCLE_S * SET_POINT_CYCLE_S) / (harder * acc);
-    let by_jerk =
-        (third - 2.0 * second + first) / (SET_POINT_CYCLE_S * SET_POINT_CYCLE_S * SET_POINT_CYCLE_S) / (harder * jerk);
+fn used(steps: [f64; 3], limits: Limits, harder: f64) -> f64 {
+    used_with(steps, jerk_of(steps), limits, harder)
+}
+
+/// How much more the last of three steps in a row rises than the one before.
+fn jerk_of([first, second, third]: [f64; 3]) -> f64 {
+    third - 2.0 * second + first
+}
+
+/// The share of limits that three steps in a row with this jerk use.
+fn used_with([_, second, third]: [f64; 3], jerk: f64, [most_vel, most_acc, most_jerk]: Limits, harder: f64) -> f64 {
+    const S: f64 = SET_POINT_CYCLE_S;
+    let by_vel = third / S / most_vel;
+    let by_acc = (third - second) / (S * S) / (harder * most_acc);
+    let by_jerk = jerk / (S * S * S) / (harder * most_jerk);
     by_vel.abs().max(by_acc.abs()).max(by_jerk.abs())
 }
 
@@ -109,6 +120,13 @@ fn highest(limits: [Limits; 4]) -> Limits {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_circle_at_an_even_speed_has_no_jerk_along_its_way() {
+        let at = |angle: f64| Vector3::new(angle.cos(), angle.sin(), 0.0) * 10.0;
+        let ways = [0.0, 0.05, 0.1].map(|angle| at(angle + 0.05) - at(angle));
+        assert!(used_along(ways, [1e9; 3], 1.0) < 1e-3);
+    }
 
     #[test]
     fn what_turns_back_has_no_jerk_along_its_way() {
