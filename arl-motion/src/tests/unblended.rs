@@ -107,3 +107,34 @@ fn a_blend_that_would_take_longer_than_a_stop_is_none() {
         assert!(dropped > 0 && kept > 0, "{profile:?}: {dropped} {kept}");
     }
 }
+
+#[test]
+fn a_tool_that_turns_along_short_lines_and_splines_gains_time_by_zones() {
+    let robot = robot("irb2400-10");
+    let start = axes([0.0, 0.0, 0.0, 0.0, 45.0, 0.0]);
+    let targets = [
+        (false, [915.536, -2.558, 1403.207, 184.740, 48.464, 175.117]),
+        (false, [913.185, 8.301, 1395.372, 172.992, 53.604, 185.042]),
+        (false, [921.027, 1.284, 1397.319, 187.174, 37.774, 190.182]),
+        (false, [910.094, -6.046, 1391.453, 172.615, 42.510, 177.162]),
+        (true, [916.780, 2.355, 1403.488, 180.921, 34.185, 175.066]),
+        (true, [923.090, -4.861, 1393.906, 187.710, 34.372, 170.529]),
+        (false, [914.915, 6.511, 1391.557, 188.408, 53.146, 190.852]),
+        (false, [911.652, 5.385, 1393.832, 180.487, 42.228, 172.181]),
+    ];
+    let took = |percent: f64| {
+        let mut queue = Queue::new(robot.clone(), start);
+        for (spline, pose) in targets {
+            let (wobj, external) = (Frame::identity(), [UNSET; 6]);
+            let target =
+                if spline { Target::Spline { pose, wobj, external } } else { Target::Line { pose, wobj, external } };
+            let (zone, speed) = (Zone { percent, ..Zone::NONE }, Speed { tcp: 300.0, ..fast() });
+            queue.add(&Command { zone, speed, ..command(target) }, &Settings::default()).unwrap();
+        }
+        let rows = run(&mut queue, 100.0);
+        assert_within_limits(&robot, &rows, &format!("zones of {percent} %"));
+        rows.len() as f64
+    };
+    let (zones, stops) = (took(100.0), took(-1.0));
+    assert!(zones < 0.8 * stops, "{zones} cycles, {stops} with stops");
+}
