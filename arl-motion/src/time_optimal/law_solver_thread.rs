@@ -29,6 +29,8 @@ const SLOWNESS_DECAY: f64 = 0.97;
 pub(crate) const FIRST_LOOK_AHEAD_S: f64 = 2.0;
 /// A law takes so many s at least, if there is so much path.
 const LEAST_LAW_S: f64 = 1.5;
+/// Behind another law, so many times as far as that leads.
+const BEHIND_LAW_FACTOR: f64 = 1.2;
 /// Parts of the way, and how many times as many places on it, with which a law is looked for until one keeps the limits: where
 /// they change much between the places, closer ones are needed.
 const SHARES_AND_DENSITIES: [(f64, f64); 5] = [(1.0, 1.0), (1.0, 2.0), (0.4, 2.0), (0.15, 3.0), (0.15, 6.0)];
@@ -264,7 +266,9 @@ fn find(
     #[cfg(test)]
     FOUND_HERE.with(|count| count.set(count.get() + 1));
     let stop = sampler.end;
-    let mut window = FIRST_LOOK_AHEAD_S;
+    // No nearer than the law before leads: the robot may not be able to rest there.
+    let known = before.map_or(0.0, |law| law.end() - sampler.at);
+    let mut window = FIRST_LOOK_AHEAD_S.max(BEHIND_LAW_FACTOR * known);
     let mut found = None;
     while wanted() {
         let to = if sampler.at + 1.2 * window < stop { sampler.at + window } else { stop };

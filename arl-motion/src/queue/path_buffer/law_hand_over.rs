@@ -221,7 +221,7 @@ impl PathBuffer {
         match renewal.filter(|renewal| renewal.at < offered.same_to) {
             Some(renewal) => {
                 let purpose = Purpose::Offer(Box::new(offered));
-                let sampler = draft.sampler(robot, here, renewal.at);
+                let sampler = draft.sampler(robot, here, renewal.at, renewal.law.as_deref());
                 self.search(sampler, (renewal.start, renewal.law), cycles, purpose);
             }
             None => self.answer = Some(Answer::Refused),
@@ -284,14 +284,17 @@ impl PathBuffer {
 
     /// What a law from `at` on has to know: the path up to the next stop, or as far as a law looks; but for its last segments
     /// where it is long enough without, and for a part of a dense chain, so that motions join that behind the law.
-    fn sampler(&self, robot: &Arc<Robot>, near: &Joints, at: f64) -> ConstraintSampler {
+    ///
+    /// Where the law in hand goes faster than nominal time, because motions are slow at a few places only, it is looked as much farther.
+    fn sampler(&self, robot: &Arc<Robot>, near: &Joints, at: f64, before: Option<&Law>) -> ConstraintSampler {
         let segments = self.segments.len();
+        let faster = before.map_or(1.0, |law| law.mean_speed().max(1.0));
         let settled = if segments > SEGMENTS_OF_DENSE_CHAIN {
             ((segments as f64 * (1.0 - OPEN_SHARE_OF_DENSE_CHAIN)) as usize, at + LEAST_LAW_ON_DENSE_CHAIN_S)
         } else {
-            (segments.saturating_sub(self.open()), at + LOOK_AHEAD_FACTOR * FIRST_LOOK_AHEAD_S)
+            (segments.saturating_sub(self.open()), at + faster * LOOK_AHEAD_FACTOR * FIRST_LOOK_AHEAD_S)
         };
-        self.sampler_up_to(robot, (at, near), at + FARTHEST_LOOK_S, settled)
+        self.sampler_up_to(robot, (at, near), at + faster * FARTHEST_LOOK_S, settled)
     }
 
     /// The path from `at` to the next stop, or to `farthest`; without the segments from the index `settled` on where that begins behind
@@ -550,7 +553,7 @@ impl PathBuffer {
                 follower.start(found, share);
                 return;
             }
-            let sampler = self.sampler(robot, here, self.passed + self.at);
+            let sampler = self.sampler(robot, here, self.passed + self.at, None);
             follower.set_off(&sampler, share, self.searching(cycle));
             self.search(sampler, (Edge::REST, None), self.search_cycles(cycle), Purpose::Start);
             return;
@@ -561,7 +564,7 @@ impl PathBuffer {
         if let Some((RenewalRequest { at, start, law, share, cycles }, braking)) = renewal {
             // What is looked for from the next stop on can wait.
             self.cancel();
-            let sampler = self.sampler(robot, here, at);
+            let sampler = self.sampler(robot, here, at, law.as_deref());
             self.search(sampler, (start, law), cycles, if braking { Purpose::GoOn(share) } else { Purpose::Renew });
         } else if self.next.is_none() && self.pending.is_none() && follower.stops() {
             self.request_next_law(robot, cycle);

@@ -87,6 +87,17 @@ impl Law {
         }
     }
 
+    /// The path parameter where it ends.
+    pub(crate) fn end(&self) -> f64 {
+        self.end
+    }
+
+    /// How fast the path parameter goes, in the mean.
+    pub(crate) fn mean_speed(&self) -> f64 {
+        let start = self.warp.place(0, 0.0).at;
+        if self.duration > 0.0 { (self.end - start) / self.duration } else { 0.0 }
+    }
+
     /// How long the motion takes, in s.
     pub fn duration(&self) -> f64 {
         self.duration
