@@ -38,6 +38,8 @@ const BESIDE_SHARE: f64 = 1e-9;
 const SAME_PLACE_SHARE: f64 = 1e-9;
 /// A law is found without places that are closer together than about so many s: set-points tell the mean of a jerk over three cycles.
 const CLOSEST_S: f64 = 0.003;
+/// The same where an acceleration may change at once.
+const CLOSEST_WITHOUT_JERK_LIMITS_S: f64 = 0.0003;
 /// With more segments than this ahead, their ends are no places of their own; they are looked at where they are farther apart than this
 /// part of the spacing.
 const MOST_SEGMENTS_WITH_ENDS: usize = 150;
@@ -148,7 +150,8 @@ impl ConstraintSampler {
                         return None;
                     }
                     let is_thinned = fineness.0 >= 1.0 && !many;
-                    let thinned = if is_thinned { thinned(&way, [start, end], CLOSEST_S / fineness.0) } else { None };
+                    let closest = if way.limits_jerk() { CLOSEST_S } else { CLOSEST_WITHOUT_JERK_LIMITS_S };
+                    let thinned = if is_thinned { thinned(&way, [start, end], closest / fineness.0) } else { None };
                     return Some(Prospect { way, thinned, end: to });
                 }
                 Err(reached) => to = self.at + 0.8 * (reached - self.at),
