@@ -61,7 +61,7 @@ impl<'a> Stopping<'a> {
     fn motions(&self) -> Option<[Segment; 2]> {
         let whole = |motion: &Motion| Some(Segment::part(motion, motion.limits?, 0, 0.0, 1.0)).filter(|it| it.is_free);
         let (before, behind) = (whole(self.from)?, whole(self.to)?);
-        (before.duration()? + behind.duration()? <= LONGEST_PAIR_S).then_some([before, behind])
+        Some([before, behind])
     }
 
     fn time(&self) -> Option<f64> {
@@ -70,7 +70,8 @@ impl<'a> Stopping<'a> {
             let closed_form = whole.duration().filter(|_| whole.is_even());
             closed_form.or_else(|| fastest_along(self.robot, [whole], start))
         };
-        Some(alone(before, &self.from.start)? + alone(behind, &self.to.start)?)
+        let both = alone(before, &self.from.start)? + alone(behind, &self.to.start)?;
+        (both <= LONGEST_PAIR_S).then_some(both)
     }
 
     fn time_with(&self, blend: &Blend) -> Option<f64> {
