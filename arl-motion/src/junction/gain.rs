@@ -11,7 +11,8 @@ use crate::follow::shared_deque::SharedDeque;
 use crate::plan::motion::Motion;
 use crate::time_optimal::constraint_sampler::{ConstraintSampler, Part};
 use crate::time_optimal::law_memory::key;
-use crate::time_optimal::solver::{Edge, fastest};
+use crate::time_optimal::law_solver_thread::fastest_duration;
+use crate::time_optimal::solver::Edge;
 use arl_robot::robot::Robot;
 
 /// What a blend has to save, in s. The law that leads along a whole chain is found at places that are farther apart, and may take a little
@@ -19,7 +20,7 @@ use arl_robot::robot::Robot;
 const LEAST_GAIN_S: f64 = 0.001;
 /// Where two motions take longer than this with constant limits, in s, one blend more or less is nothing beside it, and less than laws of
 /// that length differ.
-const LONGEST_PAIR_S: f64 = 4.0;
+const LONGEST_PAIR_S: f64 = 10.0;
 
 /// So many durations are remembered in a thread, for programs that do the same again and again.
 const MOST_KNOWN: usize = 10_000;
@@ -102,14 +103,12 @@ fn fastest_along(robot: &Robot, segments: impl IntoIterator<Item = Segment>, sta
     }
     let part = Part { from: 0, count: way.len(), segments: way };
     let sampler = ConstraintSampler::new(&Arc::new(robot.clone()), part, 0.0, (end, true), (0.0, start));
-    // Where there is too much to be seen, it would end before.
-    let prospect = sampler.look(end, 1.0, Edge::REST, Edge::REST).filter(|prospect| prospect.end >= end)?;
-    let sparse = prospect.thinned.as_ref().unwrap_or(&prospect.way);
-    let key = key(sparse, Edge::REST, None);
+    let prospect = sampler.look(end, 1.0, Edge::REST, Edge::REST)?;
+    let key = key(&prospect.way, Edge::REST, None);
     if let Some(known) = KNOWN.with_borrow(|known| known.get(&key).copied()) {
         return known;
     }
-    let found = fastest(sparse, Edge::REST, Edge::REST).ok().map(|law| law.duration());
+    let found = fastest_duration(&sampler);
     KNOWN.with_borrow_mut(|known| {
         if known.len() >= MOST_KNOWN {
             known.clear();

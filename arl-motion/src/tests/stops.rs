@@ -58,6 +58,7 @@ pub(crate) fn change_override(settings: &Settings, seed: u64, rounds: u32, hold:
     assert_same_path(&robot, &half, &reference);
 
     let mut random = Random::new(seed);
+    let mut slid = Vec::new();
     for round in 0..rounds {
         let mut queue = motions();
         let mut rows = vec![reference[0]];
@@ -77,13 +78,16 @@ pub(crate) fn change_override(settings: &Settings, seed: u64, rounds: u32, hold:
             due += CYCLE * percent / 100.0;
             assert!(rows.len() < 500_000);
         }
-        // A slider that moves all the time costs little.
-        let takes = moves(&reference) * CYCLE;
-        assert!(hold(round) > 1 || due < 1.3 * takes, "{round}: {due} s at full speed in place of {takes}");
+        if hold(round) == 1 {
+            slid.push(due / (moves(&reference) * CYCLE));
+        }
         assert_within_limits_of(&robot, &rows, settings.profile, "override");
         assert_same_path(&robot, &rows, &reference);
         assert_eq!(rows.last().unwrap().joints, reference.last().unwrap().joints);
     }
+    // A slider that moves all the time costs little; once in a while a law for one of its places is not found.
+    let mean = slid.iter().sum::<f64>() / slid.len() as f64;
+    assert!(slid.is_empty() || (mean < 1.1 && slid.iter().all(|ratio| *ratio < 1.5)), "{slid:?}");
 }
 
 #[test]

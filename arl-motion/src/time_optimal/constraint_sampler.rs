@@ -7,14 +7,17 @@ use crate::follow::segment::{LedTool, Segment};
 use crate::follow::shared_deque::SharedDeque;
 use crate::limits::constant::Constraint;
 use crate::plan::constraints::{Constraints, Pace};
-use crate::time_optimal::solver::{Edge, Row, Way, places, thinned};
+use crate::time_optimal::solver::{Edge, Row, Way, guess_duration, places, thinned};
 use arl_robot::robot::Robot;
 
-/// The longest nominal time, in s, between two places, and how many places there are at least and at most.
+/// The longest time, in s, between two places, nominal or as far as that can be guessed, and how many places there are at least and at
+/// most.
 const LONGEST_SPACING_S: f64 = 0.008;
 const FEWEST_PLACES: f64 = 48.0;
 const MOST_EVEN_PLACES: f64 = 250.0;
 const MOST_PLACES: usize = 900;
+/// With so many times as many places, a way is looked at once more.
+const WORTH_WALKING_AGAIN: f64 = 1.2;
 /// The density of places for a short part, and how many there are at most.
 const COARSE_DENSITY: f64 = 0.2;
 const MOST_COARSE_PLACES: usize = 40;
@@ -140,10 +143,17 @@ impl ConstraintSampler {
     }
 
     fn look_at(&self, to: f64, fineness: (f64, usize), start: Edge, end: Edge) -> Option<Prospect> {
-        let mut to = to;
+        let (mut to, mut duration) = (to, None);
         for _ in 0..MOST_SHORTENINGS {
-            match self.walk(to, fineness, start, end) {
+            match self.walk(to, duration.unwrap_or_default(), fineness, [start, end]) {
                 Ok((way, many)) => {
+                    if duration.is_none() && fineness.0 >= 1.0 {
+                        let guessed = guess_duration(&way, [start, end])?;
+                        duration = Some(guessed);
+                        if even_places(guessed) > WORTH_WALKING_AGAIN * even_places(to - self.at) {
+                            continue;
+                        }
+                    }
                     // Where a singular point is all that is known of an end, no motion along the rest leads there.
                     let [first, last] = [*way.places().first()?, *way.places().last()?];
                     if (first - self.at).max(to - last) > SAME_PLACE_SHARE * (to - self.at) {
@@ -154,16 +164,26 @@ impl ConstraintSampler {
                     let thinned = if is_thinned { thinned(&way, [start, end], closest / fineness.0) } else { None };
                     return Some(Prospect { way, thinned, end: to });
                 }
-                Err(reached) => to = self.at + 0.8 * (reached - self.at),
+                Err(reached) => {
+                    let shorter = self.at + 0.8 * (reached - self.at);
+                    duration = duration.map(|duration| duration * (shorter - self.at) / (to - self.at));
+                    to = shorter;
+                }
             }
         }
         None
     }
 
-    /// The way with a density of places, and whether it has too many segments for places of their own; or how far it got with as many
-    /// places as there may be.
-    fn walk(&self, to: f64, (density, most): (f64, usize), start: Edge, end: Edge) -> Result<(Way, bool), f64> {
-        let count = (density * ((to - self.at) / LONGEST_SPACING_S).clamp(FEWEST_PLACES, MOST_EVEN_PLACES)) as usize;
+    /// The way, which takes so many s at least, with a density of places, and whether it has too many segments for places of their own; or
+    /// how far it got with as many places as there may be.
+    fn walk(
+        &self,
+        to: f64,
+        duration: f64,
+        (density, most): (f64, usize),
+        [start, end]: [Edge; 2],
+    ) -> Result<(Way, bool), f64> {
+        let count = (density * even_places(duration.max(to - self.at))) as usize;
         let spacing = (to - self.at) / count as f64;
         let mut stations: Vec<(f64, bool)> =
             places(self.at, to, count, start, end).into_iter().map(|at| (at, true)).collect();
@@ -267,6 +287,11 @@ impl ConstraintSampler {
         }
         (joints, many)
     }
+}
+
+/// How many places are needed for a way that takes so many s.
+fn even_places(time: f64) -> f64 {
+    (time / LONGEST_SPACING_S).clamp(FEWEST_PLACES, MOST_EVEN_PLACES)
 }
 
 /// How far apart places may be where they are `at`.

@@ -44,6 +44,16 @@ pub(crate) fn guess_speeds(way: &Way, warp: &Warp, places: &[f64], edges: [Edge;
     squares.iter().map(|square| square.sqrt()).collect()
 }
 
+/// About how long the fastest motion along the way takes, in s: rather less.
+pub(crate) fn guess_duration(way: &Way, edges: [Edge; 2]) -> Option<f64> {
+    let (from, to) = way.span().ok()?;
+    let warp = Warp::new(from, to, edges[0].rests(), edges[1].rests());
+    let places: Vec<f64> = way.places().iter().map(|at| warp.find(*at)).collect();
+    let speeds = guess_speeds(way, &warp, &places, edges);
+    let time = |(place, speed): (&[f64], &[f64])| (place[1] - place[0]) / f64::midpoint(speed[0], speed[1]);
+    Some(places.windows(2).zip(speeds.windows(2)).map(time).sum())
+}
+
 /// How often speeds are smoothed at once: a kink of theirs would be one of the problem that has none of its own.
 const SMOOTHINGS: usize = 24;
 
