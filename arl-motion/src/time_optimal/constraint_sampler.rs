@@ -83,7 +83,7 @@ pub(crate) struct ConstraintSampler {
     pub(crate) end: f64,
     pub(crate) stops: bool,
     /// How long an acceleration takes to rise at least, in s, where the path is looked at for a stop: then each place has limits of its
-    /// own, whatever the profile.
+    /// own, along motions with a duration, too.
     rise: Option<f64>,
 }
 
