@@ -51,8 +51,8 @@
 //! that one parameter and can never leave the path or break a limit. Where neither a duration is given nor a
 //! weave laid over it, every place has limits of its own, and the whole of the way ahead is timed at once.
 //!
-//! The folders are the stages: `command`, `geometry`, `limits`, `overlay`, `plan`, `blend`, `follow`, `time_optimal`, `queue`. Each
-//! imports from those before it only.
+//! The folders are the stages: `command`, `geometry`, `limits`, `overlay`, `plan`, `blend`, `follow`, `time_optimal`, `junction`,
+//! `queue`. Each imports from those before it only.
 
 mod blend;
 mod command;

@@ -384,7 +384,7 @@ fn is_known(motion: &Motion) -> bool {
 }
 
 /// Whether every place of a motion has limits of its own: unless its duration is given or it weaves, which wants an even speed.
-fn is_free(motion: &Motion) -> bool {
+pub(crate) fn is_free(motion: &Motion) -> bool {
     motion.timed.is_none() && is_known(motion)
 }
 

@@ -47,6 +47,11 @@ impl Place {
     }
 }
 
+/// The part of the third difference of a way in steps that lies along it; no number where the middle step is none.
+pub(crate) fn third_difference_along([first, second, third]: [&Vector3<f64>; 3]) -> f64 {
+    (third - 2.0 * second + first).dot(second) / second.norm()
+}
+
 /// Three derivatives of a point's place, in mm, by what `of` takes, from 0 to `end`: by differences.
 pub(crate) fn by_differences(of: impl Fn(f64) -> Vector3<f64>, at: f64, end: f64) -> [Vector3<f64>; 3] {
     let step = DIFFERENCE_STEP * end;

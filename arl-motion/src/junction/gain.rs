@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::blend::corner::Blend;
 use crate::command::joints::Joints;
-use crate::follow::segment::Segment;
+use crate::follow::segment::{Segment, is_free};
 use crate::follow::shared_deque::SharedDeque;
 use crate::plan::motion::Motion;
 use crate::time_optimal::constraint_sampler::{ConstraintSampler, Part};
@@ -18,8 +18,7 @@ use arl_robot::robot::Robot;
 /// What a blend has to save, in s. The law that leads along a whole chain is found at places that are farther apart, and may take a little
 /// longer than two motions alone.
 const LEAST_GAIN_S: f64 = 0.001;
-/// Where two motions take longer than this with constant limits, in s, one blend more or less is nothing beside it, and less than laws of
-/// that length differ.
+/// Where two motions take longer than this, in s, one blend more or less is nothing beside it, and less than laws of that length differ.
 const LONGEST_PAIR_S: f64 = 10.0;
 
 /// So many durations are remembered in a thread, for programs that do the same again and again.
@@ -46,7 +45,7 @@ impl<'a> Stopping<'a> {
 
     /// Whether laws have to tell whether a blend saves time: where the governor's constant limits let it seem possible that it does not.
     pub(crate) fn doubts(&self, blend: &Blend) -> bool {
-        blend.may_lose_time && self.motions().is_some()
+        blend.may_lose_time && is_free(self.from) && is_free(self.to)
     }
 
     /// Whether the two motions take longer with the blend, however they are led.
@@ -58,20 +57,13 @@ impl<'a> Stopping<'a> {
         self.time_with(blend).is_some_and(|with_blend| with_blend > with_stop - LEAST_GAIN_S)
     }
 
-    /// The whole motions, if laws lead along them, and not for too long.
-    fn motions(&self) -> Option<[Segment; 2]> {
-        let whole = |motion: &Motion| Some(Segment::part(motion, motion.limits?, 0, 0.0, 1.0)).filter(|it| it.is_free);
-        let (before, behind) = (whole(self.from)?, whole(self.to)?);
-        Some([before, behind])
-    }
-
     fn time(&self) -> Option<f64> {
-        let [before, behind] = self.motions()?;
-        let alone = |whole: Segment, start: &Joints| {
+        let alone = |motion: &Motion| {
+            let whole = Segment::part(motion, motion.limits?, 0, 0.0, 1.0);
             let closed_form = whole.duration().filter(|_| whole.is_even());
-            closed_form.or_else(|| fastest_along(self.robot, [whole], start))
+            closed_form.or_else(|| fastest_along(self.robot, [whole], &motion.start))
         };
-        let both = alone(before, &self.from.start)? + alone(behind, &self.to.start)?;
+        let both = alone(self.from)? + alone(self.to)?;
         (both <= LONGEST_PAIR_S).then_some(both)
     }
 
@@ -103,12 +95,13 @@ fn fastest_along(robot: &Robot, segments: impl IntoIterator<Item = Segment>, sta
     }
     let part = Part { from: 0, count: way.len(), segments: way };
     let sampler = ConstraintSampler::new(&Arc::new(robot.clone()), part, 0.0, (end, true), (0.0, start));
-    let prospect = sampler.look(end, 1.0, Edge::REST, Edge::REST)?;
+    // Where there is too much to be seen, it would end before.
+    let prospect = sampler.look(end, 1.0, Edge::REST, Edge::REST).filter(|prospect| prospect.end >= end)?;
     let key = key(&prospect.way, Edge::REST, None);
     if let Some(known) = KNOWN.with_borrow(|known| known.get(&key).copied()) {
         return known;
     }
-    let found = fastest_duration(&sampler);
+    let found = fastest_duration(&sampler, prospect);
     KNOWN.with_borrow_mut(|known| {
         if known.len() >= MOST_KNOWN {
             known.clear();

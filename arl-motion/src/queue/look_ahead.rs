@@ -33,19 +33,10 @@ const SHORT_MOTION_S: f64 = 0.02;
 /// Enough way ahead, in s at full speed; and where laws look along it.
 const ENOUGH_AHEAD_S: f64 = 0.5;
 const ENOUGH_AHEAD_FOR_LAWS_S: f64 = 5.0;
-/// When a robot at rest sets off though motions come cycle by cycle, or blends are being found.
-struct Gathering {
-    /// After so many s.
-    longest: f64,
-    /// When so much way has come, in s at full speed.
-    ahead: f64,
-    /// When so much of it is laid.
-    laid: f64,
-}
-
-const GATHERING: Gathering = Gathering { longest: 0.05, ahead: ENOUGH_AHEAD_FOR_LAWS_S, laid: ENOUGH_AHEAD_FOR_LAWS_S };
-/// Laws along very many motions leave some open, for which there has to be room.
-const GATHERING_OF_DENSE_CHAIN: Gathering = Gathering { longest: 0.5, ahead: f64::INFINITY, laid: 0.9 };
+/// How long, in s, a robot at rest waits for motions that come cycle by cycle, or for their blends, and the way, in s at full speed, that
+/// is laid then and enough; and the same where they are short: laws along very many of them leave some open, for which there has to be room.
+const GATHERING_S: (f64, f64) = (0.05, ENOUGH_AHEAD_FOR_LAWS_S);
+const GATHERING_OF_DENSE_CHAIN_S: (f64, f64) = (0.5, 0.9);
 
 /// A motion that waits.
 #[derive(Clone, Debug)]
@@ -208,7 +199,7 @@ impl Queue {
         let is_led = self.layer.path.wants_laws();
         let is_blended = !overlaid && motion.goes() && !motion.flows && asks(&self.robot, last);
         let mut hurries = if is_led {
-            // Behind one that takes long it has as much time.
+            // What comes behind a motion that waits for its blend waits, too.
             self.layer.path.rests() && !is_short && before.is_none()
         } else {
             time < LEAST_WAIT_S || (is_short && self.layer.path.rests() && self.layer.path.time_left() < ENOUGH_AHEAD_S)
@@ -251,17 +242,17 @@ impl Queue {
         *self.spare.get_or_insert_with(|| self.layer.path.spare())
     }
 
-    /// Whether a robot at rest waits one more cycle because motions come that laws can then lead along from the start: a law in hand
-    /// would have to be found anew for each of them, and the last ones might come too late.
+    /// Whether a robot at rest waits one more cycle because motions come, or blends are being found, that laws can then lead along from the
+    /// start: a law in hand would have to be found anew for each of them, and the last ones might come too late.
     pub(crate) fn gathers(&mut self, cycle: f64) -> bool {
         let path = &self.layer.path;
         let comes_more = || self.layer.held.is_some() || self.last_ahead().is_some_and(|last| asks(&self.robot, last));
-        let gathering = if self.is_dense() { GATHERING_OF_DENSE_CHAIN } else { GATHERING };
-        let comes = || self.taken.count > 0 && self.way_ahead() < gathering.ahead && comes_more();
+        let (longest, enough) = if self.is_dense() { GATHERING_OF_DENSE_CHAIN_S } else { GATHERING_S };
+        let comes = || self.taken.count > 0 && comes_more();
         // No law leads along motions before their blends are found.
         let waits = || !(self.layer.waiting.is_empty() || path.is_asking());
-        let may = self.gathered < gathering.longest && path.rests() && path.wants_laws();
-        let gathers = may && path.time_left() < gathering.laid && (comes() || waits());
+        let may = self.gathered < longest && path.rests() && path.wants_laws() && path.time_left() < enough;
+        let gathers = may && (comes() || waits());
         self.gathered = if gathers { self.gathered + cycle } else { 0.0 };
         gathers
     }

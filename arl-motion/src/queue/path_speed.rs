@@ -2,6 +2,8 @@
 
 use nalgebra::Vector3;
 
+use crate::geometry::derivatives::third_difference_along;
+
 /// The speed and the acceleration along a way. Where it turns back the speed goes on with the other sign, so that its derivatives are what
 /// the robot does there, not those of a size. Where it all but turns back, the part of the jerk along the way counts, as in limits.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -23,7 +25,7 @@ impl PathSpeed {
         let vel = if turns_back { -on } else { on };
         let acc = (vel - self.vel) / period;
         let jerk = (acc - self.acc) / period;
-        let along = (step - 2.0 * second + first).dot(&second) / (second.norm() * period.powi(3));
+        let along = third_difference_along([&first, &second, &step]) / period.powi(3);
         *self = Self { steps: [second, step], vel, acc };
         [vel, acc, if along.abs() < jerk.abs() { along } else { jerk }]
     }

@@ -84,14 +84,17 @@ fn cycles_find_no_blends_and_do_not_depend_on_the_thread() {
     let mut random = Random::new(231);
     for profile in [VelocityProfile::S, VelocityProfile::T, VelocityProfile::O] {
         let settings = Settings { profile, ..Settings::default() };
+        let mut without_thread = 0;
         for (length, count) in [(40.0, 30), (4.0, 120), (0.5, 300)] {
             let chain = chain(&robot, &mut random, length, count);
             let (rows, [in_cycles, _]) = ran(&robot, &chain, &settings, Thread::Quick);
             assert_within_limits_of(&robot, &rows, profile, &format!("{profile:?} {length}"));
             assert_eq!(in_cycles, 0, "{profile:?} {length}");
-            let (same, _) = ran(&robot, &chain, &settings, Thread::Stuck);
+            let (same, [alone, _]) = ran(&robot, &chain, &settings, Thread::Stuck);
             assert!(rows == same, "{profile:?} {length}");
+            without_thread += alone;
         }
+        assert!(without_thread > 100, "{profile:?}: {without_thread}");
     }
 }
 

@@ -7,7 +7,7 @@ use crate::follow::segment::{LedTool, Segment};
 use crate::follow::shared_deque::SharedDeque;
 use crate::limits::constant::Constraint;
 use crate::plan::constraints::{Constraints, Pace};
-use crate::time_optimal::solver::{Edge, Row, Way, guess_duration, places, thinned};
+use crate::time_optimal::solver::{Edge, Row, Way, guess_steps, places, thinned};
 use arl_robot::robot::Robot;
 
 /// The longest time, in s, between two places, nominal or as far as that can be guessed, and how many places there are at least and at
@@ -143,12 +143,14 @@ impl ConstraintSampler {
     }
 
     fn look_at(&self, to: f64, fineness: (f64, usize), start: Edge, end: Edge) -> Option<Prospect> {
+        let is_fine = fineness.0 >= 1.0;
         let (mut to, mut duration) = (to, None);
         for _ in 0..MOST_SHORTENINGS {
             match self.walk(to, duration.unwrap_or_default(), fineness, [start, end]) {
                 Ok((way, many)) => {
-                    if duration.is_none() && fineness.0 >= 1.0 {
-                        let guessed = guess_duration(&way, [start, end])?;
+                    let steps = if is_fine { guess_steps(&way, [start, end])? } else { Vec::new() };
+                    if is_fine && duration.is_none() {
+                        let guessed = steps.iter().sum();
                         duration = Some(guessed);
                         if even_places(guessed) > WORTH_WALKING_AGAIN * even_places(to - self.at) {
                             continue;
@@ -159,9 +161,8 @@ impl ConstraintSampler {
                     if (first - self.at).max(to - last) > SAME_PLACE_SHARE * (to - self.at) {
                         return None;
                     }
-                    let is_thinned = fineness.0 >= 1.0 && !many;
                     let closest = if way.limits_jerk() { CLOSEST_S } else { CLOSEST_WITHOUT_JERK_LIMITS_S };
-                    let thinned = if is_thinned { thinned(&way, [start, end], closest / fineness.0) } else { None };
+                    let thinned = if is_fine && !many { thinned(&way, &steps, closest / fineness.0) } else { None };
                     return Some(Prospect { way, thinned, end: to });
                 }
                 Err(reached) => {

@@ -262,6 +262,11 @@ impl LawFollower {
         self.ahead.ramp.is_some() || self.ahead.easing.as_ref().is_some_and(Easing::stops)
     }
 
+    /// The law in hand; `None` at rest, and before there is one.
+    pub(crate) fn law(&self) -> Option<&Law> {
+        self.ahead.main.as_ref().map(|main| &*main.found.law)
+    }
+
     /// How far the path is laid down by what is in hand.
     pub(crate) fn end(&self) -> f64 {
         match (&self.ahead.ramp, &self.ahead.main) {

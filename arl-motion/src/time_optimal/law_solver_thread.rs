@@ -33,8 +33,9 @@ const LEAST_LAW_S: f64 = 1.5;
 const BEHIND_LAW_FACTOR: f64 = 1.2;
 /// Parts of the way, and how many times as many places on it, with which a law is looked for until one keeps the limits: where
 /// they change much between the places, closer ones are needed.
-const DENSITIES: [f64; 4] = [1.0, 2.0, 3.0, 6.0];
 const SHARES_AND_DENSITIES: [(f64, f64); 5] = [(1.0, 1.0), (1.0, 2.0), (0.4, 2.0), (0.15, 3.0), (0.15, 6.0)];
+/// The same for all of the way, behind a first attempt.
+const DENSITIES: [f64; 3] = [2.0, 3.0, 6.0];
 /// How often the limits are lowered where a law uses too much of them.
 const MOST_TEMPERINGS: i32 = 6;
 /// So much of the limits a law may use; a stop may use a little more, so that there is one from any state of a law, and what uses more than
@@ -307,16 +308,15 @@ fn find(
     None
 }
 
-/// How long the fastest motion along all that the sampler sees takes, from rest to rest, in s; `None` where no law keeps the limits.
-pub(crate) fn fastest_duration(sampler: &ConstraintSampler) -> Option<f64> {
-    let durations = DENSITIES.iter().filter_map(|density| {
-        // Where there is too much to be seen, it would end before.
-        let prospect = sampler.look(sampler.end, *density, Edge::REST, Edge::REST)?;
+/// How long the fastest motion along all that the sampler sees takes, from rest to rest, in s, looked for at the places of `first`, then at
+/// closer ones; `None` where no law keeps the limits.
+pub(crate) fn fastest_duration(sampler: &ConstraintSampler, first: Prospect) -> Option<f64> {
+    let closer = DENSITIES.iter().filter_map(|density| sampler.look(sampler.end, *density, Edge::REST, Edge::REST));
+    [first].into_iter().chain(closer).filter(|prospect| prospect.end >= sampler.end).find_map(|prospect| {
         let sparse = prospect.thinned.as_ref().unwrap_or(&prospect.way);
         let (law, used) = temperate(sampler, sparse, (Edge::REST, None), &|| true)?;
-        (prospect.end >= sampler.end && used <= MOST_USED_SHARE).then(|| law.duration())
-    });
-    durations.into_iter().next()
+        (used <= MOST_USED_SHARE).then(|| law.duration())
+    })
 }
 
 /// The fastest law along a path that keeps the limits by its places, with the share of them that its set-points use. Where that

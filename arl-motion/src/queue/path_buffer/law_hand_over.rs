@@ -24,7 +24,7 @@ use arl_robot::robot::Robot;
 const FARTHEST_LOOK_S: f64 = 4.0 * FIRST_LOOK_AHEAD_S;
 /// With a part of this more than the first look ahead, the end of the path may be left out.
 const LOOK_AHEAD_FACTOR: f64 = 1.2;
-/// With so much path, in s of nominal time, laws leave its end out; a little more, as they begin where the robot will be.
+/// With so much path, in s of nominal time, laws that are no faster leave its end out; a little more, as they begin where the robot will be.
 pub(crate) const LOOKED_AHEAD_S: f64 = LOOK_AHEAD_FACTOR * FIRST_LOOK_AHEAD_S + 0.2;
 
 /// Of so many segments this part stays open behind a law that looks so many s ahead at least: each motion that joins what a law leads
@@ -34,6 +34,12 @@ const OPEN_SHARE_OF_DENSE_CHAIN: f64 = 0.4;
 const LEAST_LAW_ON_DENSE_CHAIN_S: f64 = 0.4;
 /// An offer for which no law was found is made again so many s later.
 const OFFERED_AGAIN_AFTER_S: f64 = 0.01;
+
+/// How many times as fast as nominal time a law goes, in the mean; once at least. Where motions are slow at a few places only, it is looked
+/// as much farther.
+pub(crate) fn faster(law: Option<&Law>) -> f64 {
+    law.map_or(1.0, |law| law.mean_speed().max(1.0))
+}
 
 /// A law that is being looked for, and what for.
 #[derive(Clone, Debug)]
@@ -284,11 +290,9 @@ impl PathBuffer {
 
     /// What a law from `at` on has to know: the path up to the next stop, or as far as a law looks; but for its last segments
     /// where it is long enough without, and for a part of a dense chain, so that motions join that behind the law.
-    ///
-    /// Where the law in hand goes faster than nominal time, because motions are slow at a few places only, it is looked as much farther.
     fn sampler(&self, robot: &Arc<Robot>, near: &Joints, at: f64, before: Option<&Law>) -> ConstraintSampler {
         let segments = self.segments.len();
-        let faster = before.map_or(1.0, |law| law.mean_speed().max(1.0));
+        let faster = faster(before);
         let settled = if segments > SEGMENTS_OF_DENSE_CHAIN {
             ((segments as f64 * (1.0 - OPEN_SHARE_OF_DENSE_CHAIN)) as usize, at + LEAST_LAW_ON_DENSE_CHAIN_S)
         } else {

@@ -21,10 +21,11 @@ use crate::junction::blend_thread::Prepared;
 use crate::junction::{self, Before, Blended, CurvedBlends, Meeting};
 use crate::limits::profile::{Change, LOOK_AHEAD_MARGIN, Limits, State};
 use crate::plan::motion::Motion;
+use crate::time_optimal::law_follower::LawFollower;
 use crate::time_optimal::law_solver_thread::LawSolver;
 use arl_robot::robot::Robot;
 pub(crate) use law_hand_over::Answer;
-use law_hand_over::{Next, PendingLaw};
+use law_hand_over::{LOOKED_AHEAD_S, Next, PendingLaw, faster};
 use leader::{Appending, Leader};
 
 /// A segment that takes no longer, in s, is none.
@@ -189,7 +190,8 @@ impl PathBuffer {
     pub(crate) fn spare(&self) -> f64 {
         let Some(last) = self.segments.back() else { return 0.0 };
         if self.wants_laws() {
-            return self.time_left() - self.open_time() - law_hand_over::LOOKED_AHEAD_S;
+            let law = self.leader.follower().and_then(LawFollower::law);
+            return self.time_left() - self.open_time() - faster(law) * LOOKED_AHEAD_S;
         }
         let open = match self.tail.as_ref() {
             None => 0.0,

@@ -44,16 +44,6 @@ pub(crate) fn guess_speeds(way: &Way, warp: &Warp, places: &[f64], edges: [Edge;
     squares.iter().map(|square| square.sqrt()).collect()
 }
 
-/// About how long the fastest motion along the way takes, in s: rather less.
-pub(crate) fn guess_duration(way: &Way, edges: [Edge; 2]) -> Option<f64> {
-    let (from, to) = way.span().ok()?;
-    let warp = Warp::new(from, to, edges[0].rests(), edges[1].rests());
-    let places: Vec<f64> = way.places().iter().map(|at| warp.find(*at)).collect();
-    let speeds = guess_speeds(way, &warp, &places, edges);
-    let time = |(place, speed): (&[f64], &[f64])| (place[1] - place[0]) / f64::midpoint(speed[0], speed[1]);
-    Some(places.windows(2).zip(speeds.windows(2)).map(time).sum())
-}
-
 /// How often speeds are smoothed at once: a kink of theirs would be one of the problem that has none of its own.
 const SMOOTHINGS: usize = 24;
 
@@ -73,16 +63,25 @@ pub(crate) fn smooth(speeds: Vec<f64>) -> Vec<f64> {
 /// With so few places none is left out: a law is found soon enough.
 const FEW_PLACES: usize = 160;
 
-/// The way without places that are closer together than about so many s, but for those where derivatives jump; `None` where it has few of
-/// them.
-pub(crate) fn thinned(way: &Way, edges: [Edge; 2], closest: f64) -> Option<Way> {
-    let (from, to) = way.span().ok().filter(|_| way.places().len() > FEW_PLACES)?;
+/// About how long the fastest motion takes from each place to the next, in s: rather less.
+pub(crate) fn guess_steps(way: &Way, edges: [Edge; 2]) -> Option<Vec<f64>> {
+    let (from, to) = way.span().ok()?;
     let warp = Warp::new(from, to, edges[0].rests(), edges[1].rests());
     let places: Vec<f64> = way.places().iter().map(|at| warp.find(*at)).collect();
     let speeds = guess_speeds(way, &warp, &places, edges);
+    let step = |(place, speed): (&[f64], &[f64])| (place[1] - place[0]) / f64::midpoint(speed[0], speed[1]);
+    Some(places.windows(2).zip(speeds.windows(2)).map(step).collect())
+}
+
+/// The way without places that are closer together than so many s by these steps, but for those where derivatives jump; `None` where it
+/// has few of them.
+pub(crate) fn thinned(way: &Way, steps: &[f64], closest: f64) -> Option<Way> {
+    if way.places().len() <= FEW_PLACES {
+        return None;
+    }
     let (mut since, mut keep) = (0.0, vec![true]);
-    for (index, (place, speed)) in (1..).zip(places.windows(2).zip(speeds.windows(2))) {
-        since += (place[1] - place[0]) / f64::midpoint(speed[0], speed[1]);
+    for (index, step) in (1..).zip(steps) {
+        since += step;
         let far = since >= closest || way.jumps(index);
         keep.push(far);
         since = if far { 0.0 } else { since };

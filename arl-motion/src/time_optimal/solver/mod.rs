@@ -28,7 +28,7 @@ mod warped_row;
 mod way;
 
 pub use error::Refusal;
-pub(crate) use guess::{guess_duration, thinned};
+pub(crate) use guess::{guess_steps, thinned};
 pub use law::{Law, Moment};
 pub(crate) use pace::Pace;
 pub use way::{Row, Way};

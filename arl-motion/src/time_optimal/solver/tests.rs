@@ -385,7 +385,8 @@ fn places_where_derivatives_jump_are_not_left_out() {
         let at = f64::from(index) * 1e-3;
         if index % 50 == 25 { way.push_jump(at, [row(0.0), row(50.0)], 1) } else { way.push(at, [row(0.0)]) }
     }
-    let thinned = thinned(&way, [Edge::REST; 2], 0.02).unwrap();
+    let steps = guess_steps(&way, [Edge::REST; 2]).unwrap();
+    let thinned = thinned(&way, &steps, 0.02).unwrap();
     let jumps = |way: &Way| (0..way.places().len()).filter(|index| way.jumps(*index)).count();
     assert_eq!((jumps(&way), jumps(&thinned)), (8, 8));
     assert!(thinned.places().len() < 200, "{}", thinned.places().len());
