@@ -1,0 +1,264 @@
+//! The io scenario: what the world around the robot does, and when.
+//!
+//! ```toml
+//! [[event]]
+//! at = 2.0            # seconds of controller time
+//! di.5 = true
+//!
+//! [[event]]
+//! when = "do.3"       # each time the output goes on; "!do.3": off; di.N too
+//! after = 0.5         # seconds later
+//! ai.2 = 4.2
+//! internal.1 = true   # what getintdi reads
+//! internal_do.1 = true   # what getintdo reads
+//! pendant = "start"
+//! override = 50       # %
+//! force = [0, 0, 80]  # N, what pushes the TCP, in the world; until another event says otherwise
+//! torque.j3 = -20     # Nm (N of a linear axis), what turns an axis
+//! jog.j1 = 5          # deg (mm): somebody jogs an axis (j1.., ej1..) by so much, while the program is paused
+//! hand.j1 = 5         # deg (mm): somebody moves an axis by hand, while the servo is off
+//! channel = 2         # whose robot is pushed, jogged or moved; without it that of channel 1
+//! ```
+
+mod playing;
+mod read;
+#[cfg(test)]
+mod tests;
+
+use std::fmt;
+use std::path::Path;
+
+use super::image::PWM_CHANNELS;
+use super::{Channels, Digital, Image};
+use arl_robot::regular_file;
+use arl_robot::robot::Robot;
+use arl_robot::settings::SettingsError;
+pub(crate) use playing::Playing;
+
+/// A word of the teach pendant.
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
+pub enum Pendant {
+    /// The start button: a paused program goes on, the robot back on its path first.
+    Start,
+    /// The pause button: the robot stops on its path at once, and the program with it.
+    Pause,
+    /// Goes on for one instruction that moves, waits or touches the outside; from then on step by step, until start.
+    Step,
+    /// Ends a program that is paused; one that has ended begins again.
+    Reset,
+    /// Acknowledges an alarm.
+    Clear,
+    /// Switches the motors on.
+    ServoOn,
+    /// Stops the robot on its path and switches the motors off.
+    ServoOff,
+    /// The speed override in %.
+    Override(f64),
+}
+
+/// What an event does besides setting inputs.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Effect {
+    /// Somebody uses the pendant.
+    Pendant(Pendant),
+    /// Somebody touches the robot of a foreground channel, counted from 1.
+    Robot(u8, RobotEffect),
+}
+
+/// What is done to a robot.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum RobotEffect {
+    /// A force pushes the TCP: in the world, N.
+    Force([f64; 3]),
+    /// A torque (Nm; N of a linear axis) turns an axis, counted from 0.
+    Torque(usize, f64),
+    /// Somebody jogs an axis by so many deg (mm).
+    Jog(AxisName, f64),
+    /// Somebody moves an axis by hand, by so many deg (mm).
+    Hand(AxisName, f64),
+}
+
+/// An axis by its name.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum AxisName {
+    /// One of the robot's own, counted from 0: `j1`.
+    Own(usize),
+    /// An external one, counted from 0: `ej1`.
+    External(usize),
+}
+
+impl AxisName {
+    /// Its place among all axes of a robot, counted from 0, where that has it.
+    pub(crate) fn place(self, robot: &Robot) -> Option<usize> {
+        let own = robot.own_axes().len();
+        match self {
+            AxisName::Own(axis) => Some(axis).filter(|axis| *axis < own),
+            AxisName::External(axis) => Some(own + axis).filter(|axis| *axis < robot.axes.len()),
+        }
+    }
+}
+
+impl fmt::Display for AxisName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            AxisName::Own(axis) => write!(f, "j{}", axis + 1),
+            AxisName::External(axis) => write!(f, "ej{}", axis + 1),
+        }
+    }
+}
+
+/// What an event does.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Action {
+    Digital(Digital, i32, bool),
+    Analog(i32, f64),
+    Effect(Effect),
+}
+
+impl Action {
+    /// Whether the channel or axis exists, and the masses that it needs.
+    fn check(&self, image: &Image, robots: &[&Robot]) -> Result<(), String> {
+        let found = match *self {
+            Action::Digital(what, channel, _) => image.digital(what, channel).map(drop),
+            Action::Analog(channel, value) => image.check_ai(channel, value),
+            Action::Effect(Effect::Pendant(_)) => return Ok(()),
+            Action::Effect(Effect::Robot(channel, robot_effect)) => return moves(robots, channel, robot_effect),
+        };
+        found.map_err(|fault| format!("sets an input to what it cannot have: {fault}"))
+    }
+
+    /// Does what was checked; hands everything but inputs to `do_it`.
+    fn play(&self, image: &mut Image, do_it: &mut impl FnMut(Effect)) {
+        let _ = match *self {
+            Action::Digital(what, channel, level) => image.set_digital(what, channel, level),
+            Action::Analog(channel, value) => image.set_ai(channel, value),
+            Action::Effect(effect) => {
+                do_it(effect);
+                Ok(())
+            }
+        };
+    }
+}
+
+/// What somebody outside does now: the part of an event that is not its cause.
+#[derive(Clone, PartialEq, Debug)]
+pub(crate) struct Order {
+    actions: Vec<Action>,
+}
+
+impl Order {
+    /// Reads lines like `di.5 = true` or `pendant = "pause"`.
+    pub(crate) fn parse(text: &str) -> Result<Self, SettingsError> {
+        Ok(Self { actions: read::order(text)? })
+    }
+
+    /// Sets inputs; hands everything else to `do_it`. Nothing of an order is done that cannot be done in full.
+    pub(crate) fn carry_out(
+        &self,
+        image: &mut Image,
+        robots: &[&Robot],
+        mut do_it: impl FnMut(Effect),
+    ) -> Result<(), String> {
+        for action in &self.actions {
+            action.check(image, robots).map_err(|problem| format!("the order {problem}"))?;
+        }
+        self.actions.iter().for_each(|action| action.play(image, &mut do_it));
+        Ok(())
+    }
+}
+
+/// What sets an event off.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Cause {
+    /// A point in time, in s.
+    At(f64),
+    /// An edge of a signal: input or output, channel from 0, level after the edge.
+    Edge { output: bool, channel: usize, level: bool },
+    /// Another frequency or duty cycle of a PWM output, from 0.
+    Pwm(usize),
+}
+
+#[derive(Clone, PartialEq, Debug)]
+struct Event {
+    cause: Cause,
+    /// Seconds from the cause to the event; an edge has its effect in the next cycle at the earliest.
+    after: f64,
+    actions: Vec<Action>,
+}
+
+/// What the world around the robot does, and when.
+#[derive(Clone, PartialEq, Default, Debug)]
+pub struct Scenario {
+    events: Vec<Event>,
+}
+
+impl Scenario {
+    /// Reads a scenario file.
+    ///
+    /// # Errors
+    /// The file cannot be read, or what it says is not a scenario.
+    pub fn load(path: &Path) -> Result<Scenario, SettingsError> {
+        let name = path.display().to_string();
+        let text = regular_file::read_text(path)
+            .map_err(|error| SettingsError::of_file(&name, format!("cannot read the io scenario: {error}")))?;
+        Scenario::parse(&name, &text)
+    }
+
+    /// The scenario that `text` describes; `file` names the text in errors.
+    ///
+    /// # Errors
+    /// The text is not TOML, or not a scenario: with line, column and what was expected.
+    pub fn parse(file: &str, text: &str) -> Result<Scenario, SettingsError> {
+        Ok(Scenario { events: read::scenario(file, text)? })
+    }
+
+    /// Whether all channels and axes that the scenario names exist, and the masses that it needs; `robots` are those of the
+    /// foreground channels.
+    pub(crate) fn check(&self, channels: &Channels, robots: &[&Robot]) -> Result<(), String> {
+        let image = Image::new(channels);
+        for event in &self.events {
+            if let Cause::Edge { output, channel, level: _ } = event.cause {
+                let (name, count) = if output { ("do", channels.dout) } else { ("di", channels.di) };
+                if channel >= count as usize {
+                    return Err(format!("the scenario waits for {name}.{}, but there are {count}", channel + 1));
+                }
+            }
+            if let Cause::Pwm(channel) = event.cause
+                && channel >= PWM_CHANNELS
+            {
+                return Err(format!("the scenario waits for pwm.{}, but there are {PWM_CHANNELS}", channel + 1));
+            }
+            for action in &event.actions {
+                action.check(&image, robots).map_err(|problem| format!("the scenario {problem}"))?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether something can be done to the robot of a channel.
+fn moves(robots: &[&Robot], channel: u8, robot_effect: RobotEffect) -> Result<(), String> {
+    let Some(robot) = robots.get(usize::from(channel).wrapping_sub(1)) else {
+        let count = robots.len();
+        return Err(format!("is about the robot of channel {channel}, but there are {count} channels with a robot"));
+    };
+    let own = robot.own_axes().len();
+    match robot_effect {
+        RobotEffect::Jog(axis, _) | RobotEffect::Hand(axis, _) if axis.place(robot).is_none() => {
+            let external = match robot.external_axes().len() {
+                0 => String::new(),
+                count => format!(" and ej1 to ej{count}"),
+            };
+            Err(format!("moves {axis}, but robot {} has j1 to j{own}{external}", robot.name))
+        }
+        RobotEffect::Jog(..) | RobotEffect::Hand(..) => Ok(()),
+        RobotEffect::Torque(axis, _) if axis >= own => {
+            Err(format!("turns j{}, but robot {} has j1 to j{own}", axis + 1, robot.name))
+        }
+        RobotEffect::Force(_) | RobotEffect::Torque(..) if robot.links.is_empty() => {
+            Err(format!("pushes the robot, but the file of robot {} has no [[link]]", robot.name))
+        }
+        RobotEffect::Force(_) | RobotEffect::Torque(..) => Ok(()),
+    }
+}

@@ -1,0 +1,144 @@
+//! What scenarios and orders say, do, and get wrong.
+
+use super::*;
+use arl_robot::cell::Rate;
+
+fn play(text: &str, cycles: u64, mut each: impl FnMut(u64, &mut Image)) -> Vec<Effect> {
+    let scenario = Scenario::parse("io.toml", text).unwrap();
+    scenario.check(&Channels::default(), &[&Robot::builtin("kr10-r1420").unwrap()]).unwrap();
+    let mut image = Image::new(&Channels::default());
+    let mut playing = Playing::new(scenario, &image, Rate::default());
+    let mut effects = Vec::new();
+    for cycle in 0..cycles {
+        playing.play(cycle, &mut image, |effect| effects.push(effect));
+        each(cycle, &mut image);
+    }
+    effects
+}
+
+#[test]
+fn events_come_at_their_time() {
+    let text = "[[event]]\nat = 0.005\ndi.5 = true\nai.2 = 4.5\n[[event]]\nat = 0.002\ndi.5 = false\ndi.6 = true\n";
+    let mut seen = Vec::new();
+    play(text, 8, |_, image| {
+        seen.push((image.digitals(Digital::Di, 5, 6).unwrap(), image.ai(2).unwrap()));
+    });
+    assert_eq!(seen, [(0, 0.0), (0, 0.0), (2, 0.0), (2, 0.0), (2, 0.0), (3, 4.5), (3, 4.5), (3, 4.5)]);
+}
+
+#[test]
+fn edges_set_off_events_every_time() {
+    let text = "[[event]]\nwhen = \"do.3\"\nafter = 0.002\ndi.1 = true\n[[event]]\nwhen = \"!do.3\"\ndi.1 = false\n";
+    let mut seen = Vec::new();
+    play(text, 12, |cycle, image| {
+        if cycle.is_multiple_of(4) {
+            image.set_digital(Digital::Do, 3, cycle % 8 == 0).unwrap();
+        }
+        seen.push(image.digital(Digital::Di, 1).unwrap());
+    });
+    let on = [2, 3, 4, 10, 11];
+    let expected: Vec<bool> = (0..12).map(|cycle| on.contains(&cycle)).collect();
+    assert_eq!(seen, expected);
+}
+
+#[test]
+fn the_pendant_speaks() {
+    let text = "[[event]]\nat = 0\npendant = \"start\"\noverride = 50\n";
+    assert_eq!(play(text, 1, |_, _| {}), [Pendant::Start, Pendant::Override(50.0)].map(Effect::Pendant));
+}
+
+#[test]
+fn mistakes_name_line_and_what_was_expected() {
+    for (text, line, words) in [
+        ("[[event]]\nat = 1\ndi.5 = 1", 3, "`di.5`: expected true or false, found the number 1"),
+        ("[[event]]\nat = 1\ndo.5 = true", 3, "did you mean `di`?"),
+        ("[[event]]\nat = 1\ndi.x = true", 3, "a channel number from 1"),
+        ("[[event]]\ndi.5 = true", 1, "neither `at` nor `when`"),
+        ("[[event]]\nat = 1\nwhen = \"do.1\"\ndi.5 = true", 1, "both `at` and `when`"),
+        ("[[event]]\nat = 1\nafter = 1\ndi.5 = true", 3, "counts from `when`"),
+        ("[[event]]\nat = 1", 1, "changes nothing"),
+        ("[[event]]\nwhen = \"do3\"\ndi.5 = true", 2, "expected \"do.3\""),
+        ("[[event]]\nwhen = \"!pwm.1\"\ndi.5 = true", 2, "\"pwm.1\" (is set to something else)"),
+        ("[[event]]\nat = -1\ndi.5 = true", 2, "expected seconds"),
+        ("[[event]]\nat = 1\npendant = \"strat\"", 3, "did you mean `start`?"),
+        ("[[event]]\nat = 1\npendant = \"servo\"", 3, "the pendant has no word"),
+        ("[[event]]\nat = 1\njog.j1 = true", 3, "`jog.j1`: expected deg"),
+        ("[[event]]\nat = 1\noverride = 101", 3, "expected percent from 0 to 100"),
+        ("[[event]]\nat = 1\nforce = [1, 2]", 3, "three components in N"),
+        ("[[event]]\nat = 1\nforce = 80", 3, "three components in N"),
+        ("[[event]]\nat = 1\ntorque.j7 = 80", 3, "did you mean `j1`?"),
+        ("[[event]]\nat = 1\ntorque.j3 = \"much\"", 3, "`torque.j3`: expected a torque in Nm"),
+        ("[[event]]\nat = 1\ntorque = 3", 3, "expected the table torque"),
+        ("[[events]]\nat = 1", 1, "did you mean `event`?"),
+        ("event = 3", 1, "[[event]]"),
+        ("[[event]\n", 1, "not TOML"),
+    ] {
+        let error = Scenario::parse("io.toml", text).unwrap_err();
+        assert_eq!(error.line, line, "{text}: {error}");
+        assert!(error.message.contains(words), "{text}: {error}");
+    }
+}
+
+#[test]
+fn forces_and_torques_are_told_in_order() {
+    let text = "[[event]]\nat = 0\ntorque.j3 = -20.5\nforce = [1, 2.5, -3]\ntorque.j1 = 7\n";
+    let effects = [RobotEffect::Torque(2, -20.5), RobotEffect::Torque(0, 7.0), RobotEffect::Force([1.0, 2.5, -3.0])];
+    assert_eq!(play(text, 1, |_, _| {}), effects.map(|robot_effect| Effect::Robot(1, robot_effect)));
+}
+
+#[test]
+fn events_name_the_channel_of_their_robot() {
+    let scenario = Scenario::parse("io.toml", "[[event]]\nat = 1\nchannel = 2\ntorque.j5 = 1").unwrap();
+    let (six, four) = (Robot::builtin("kr10-r1420").unwrap(), Robot::builtin("hsr065").unwrap());
+    let check = |robots: &[&Robot]| scenario.check(&Channels::default(), robots);
+    assert_eq!(check(&[&four, &six]), Ok(()));
+    assert!(check(&[&six, &four]).unwrap_err().contains("robot hsr065 has j1 to j4"));
+    assert!(check(&[&six]).unwrap_err().contains("channel 2, but there are 1 channels"));
+    for channel in [0, 7] {
+        let text = format!("[[event]]\nat = 1\nchannel = {channel}\ntorque.j5 = 1");
+        let error = Scenario::parse("io.toml", &text).unwrap_err();
+        assert!(error.line == 3 && error.message.contains("a channel with a robot from"), "{error}");
+    }
+}
+
+#[test]
+fn a_scenario_goes_on_until_nothing_is_on_its_way() {
+    let text = "[[event]]\nat = 0.002\ndi.1 = true\n[[event]]\nwhen = \"di.1\"\nafter = 0.003\npendant = \"reset\"\n";
+    let scenario = Scenario::parse("io.toml", text).unwrap();
+    let mut image = Image::new(&Channels::default());
+    let mut playing = Playing::new(scenario, &image, Rate::default());
+    assert!(playing.resets());
+    let on_its_way: Vec<bool> = (0..8)
+        .map(|cycle| {
+            playing.play(cycle, &mut image, |_| {});
+            playing.goes_on(&image)
+        })
+        .collect();
+    // In cycle 2 the input goes on, in 3 that is seen, and 3 ms behind cycle 2 the button is pressed.
+    assert_eq!(on_its_way, [true, true, true, true, true, false, false, false]);
+}
+
+#[test]
+fn axes_and_masses_must_exist() {
+    let scenario = Scenario::parse("io.toml", "[[event]]\nat = 1\ntorque.j5 = 1").unwrap();
+    let scara = Robot::builtin("hsr065").unwrap();
+    let error = scenario.check(&Channels::default(), &[&scara]).unwrap_err();
+    assert!(error.contains("turns j5, but robot hsr065 has j1 to j4"), "{error}");
+    let robot = Robot { links: Vec::new(), ..Robot::builtin("kr10-r1420").unwrap() };
+    let error = scenario.check(&Channels::default(), &[&robot]).unwrap_err();
+    assert!(error.contains("has no [[link]]"), "{error}");
+}
+
+#[test]
+fn channels_must_exist() {
+    for (text, words) in [
+        ("[[event]]\nat = 1\ndi.65 = true", "DI 65 does not exist"),
+        ("[[event]]\nat = 1\nai.9 = 1", "AI 9 does not exist"),
+        ("[[event]]\nwhen = \"do.65\"\ndi.1 = true", "do.65, but there are 64"),
+        ("[[event]]\nwhen = \"pwm.4\"\ndi.1 = true", "pwm.4, but there are 3"),
+    ] {
+        let scenario = Scenario::parse("io.toml", text).unwrap();
+        let error = scenario.check(&Channels::default(), &[&Robot::builtin("kr10-r1420").unwrap()]).unwrap_err();
+        assert!(error.contains(words), "{error}");
+    }
+}
