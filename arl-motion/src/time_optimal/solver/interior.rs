@@ -13,7 +13,7 @@ use crate::time_optimal::solver::banded::Banded;
 use crate::time_optimal::solver::lanes::{LANES, Lanes};
 use crate::time_optimal::solver::law::Law;
 use crate::time_optimal::solver::program::{Beginning, Known, Limits, Program, Site, dot};
-use crate::time_optimal::solver::{Edge, Refusal, Way};
+use crate::time_optimal::solver::{Edge, Pace, Refusal, Way};
 
 /// At most so many steps are taken; 10 to 30 are needed, up to 60 from a given state.
 const STEPS: usize = 80;
@@ -32,6 +32,9 @@ const LEAST_SLACK: f64 = 0.1;
 /// The same where the motion is about known; the sum as a share of its duration.
 const KNOWN_GAP: f64 = 0.05;
 const LEAST_KNOWN_SLACK: f64 = 0.003;
+/// The same where it is known up to somewhere, and guessed from there on.
+const EXPECTED_GAP: f64 = 1.0;
+const LEAST_EXPECTED_SLACK: f64 = 0.03;
 /// After so many steps of less than this share in a row there is no way on.
 const STUCK_STEPS: u32 = 4;
 const STUCK_SHARE: f64 = 0.01;
@@ -83,12 +86,24 @@ struct Prices {
 }
 
 /// The fastest motion within all limits of `way`, behind a law if there is one.
+///
+/// Between two places nothing but the acceleration's slope is free. With a parameter that goes as the time does that is enough; a guess is
+/// not that near. So a law is found over the pace of another one, until that is as good as its own.
 pub(crate) fn solve(way: &Way, edges: [Edge; 2], before: Option<&Law>) -> Result<Law, Refusal> {
-    let mut law = solve_near(way, edges, before.map_or(Known::Nothing, Known::Before))?;
-    // Between two places nothing but the acceleration's slope is free. With a parameter that goes as the time does that is enough; the
-    // guess is not that near.
+    match before.map(|law| solve_behind(way, edges, law)) {
+        // It may have to slow down for what the law before has not seen.
+        None | Some(Err(Refusal::Fast)) => solve_alone(way, edges),
+        Some(found) => found,
+    }
+}
+
+/// From a guess, with all limits each time.
+fn solve_alone(way: &Way, edges: [Edge; 2]) -> Result<Law, Refusal> {
+    let mut program = program(way, edges, Known::Nothing)?;
+    let gap = if program.warp.is_even() { GAP } else { ROUGH_GAP };
+    let mut law = find(&mut program, gap)?;
     for _ in 0..MOST_APPROACHES {
-        let nearer = law.pace().and_then(|pace| solve_near(way, edges, Known::Pace(&pace)).ok());
+        let nearer = law.pace().and_then(|pace| solve_near(way, edges, &pace).ok());
         let Some(nearer) = nearer.filter(|nearer| nearer.duration() < law.duration()) else { break };
         let gain = 1.0 - nearer.duration() / law.duration();
         law = nearer;
@@ -99,25 +114,58 @@ pub(crate) fn solve(way: &Way, edges: [Edge; 2], before: Option<&Law>) -> Result
     Ok(law)
 }
 
-/// The same, with what is known of it.
-pub(crate) fn solve_near(way: &Way, edges: [Edge; 2], known: Known) -> Result<Law, Refusal> {
-    if way.places().len() < 3 {
-        return Err(Refusal::Short);
+/// As the law before goes, as far as that is known: there a few limits are enough to find the pace.
+fn solve_behind(way: &Way, edges: [Edge; 2], before: &Law) -> Result<Law, Refusal> {
+    let mut law = find_roughly(program(way, edges, Known::Before(before))?)?;
+    for _ in 0..MOST_APPROACHES {
+        let pace = law.pace().ok_or(Refusal::Fast)?;
+        let nearer = find_roughly(program(way, edges, Known::Pace(&pace))?)?;
+        let gain = 1.0 - nearer.duration() / law.duration();
+        law = nearer;
+        if gain < LEAST_GAIN {
+            break;
+        }
     }
-    let mut program = Program::new(way, edges, known)?;
-    let is_last = matches!(known, Known::Pace(_)) || program.warp.is_even();
-    let gap = if is_last { GAP } else { ROUGH_GAP };
+    solve_near(way, edges, &law.pace().ok_or(Refusal::Fast)?)
+}
+
+/// The same where the pace is about known.
+pub(crate) fn solve_near(way: &Way, edges: [Edge; 2], pace: &Pace) -> Result<Law, Refusal> {
+    find(&mut program(way, edges, Known::Pace(pace))?, GAP)
+}
+
+fn program(way: &Way, edges: [Edge; 2], known: Known) -> Result<Program, Refusal> {
+    if way.places().len() < 3 { Err(Refusal::Short) } else { Program::new(way, edges, known) }
+}
+
+/// The fastest motion, from the first beginning that leads to one, of which the duration is so close to what it can be at best.
+fn find(program: &mut Program, gap: f64) -> Result<Law, Refusal> {
     for beginning in program.beginnings() {
         program.begin(beginning);
-        if let Ok(coefficients) = settle(&mut program, gap) {
+        if let Ok(coefficients) = settle(program, gap) {
             return Ok(law(program, &coefficients));
         }
     }
     Err(Refusal::Fast)
 }
 
+/// About the same, for its pace: without a look at what limits were left out.
+fn find_roughly(mut program: Program) -> Result<Law, Refusal> {
+    for beginning in program.beginnings() {
+        program.begin(beginning);
+        let mut climb = Climb::new(&program);
+        climb.run(ROUGH_GAP);
+        let Climb { coefficients, .. } = climb;
+        let is_sound = coefficients.iter().all(|value| value.is_finite()) && program.missed(&coefficients) < NO_MISS;
+        if is_sound && !program.stops(&coefficients) {
+            return Ok(law(&program, &coefficients));
+        }
+    }
+    Err(Refusal::Fast)
+}
+
 /// The motion with these coefficients.
-fn law(program: Program, coefficients: &[f64]) -> Law {
+fn law(program: &Program, coefficients: &[f64]) -> Law {
     let mut squares = Vec::with_capacity(program.places.len());
     let mut laws = Vec::with_capacity(program.stretches.len());
     for (stretch, three) in program.stretches.iter().zip(coefficients.windows(3)) {
@@ -129,8 +177,7 @@ fn law(program: Program, coefficients: &[f64]) -> Law {
         }
         squares.push(to.0 * program.unit);
     }
-    let Program { warp, places, .. } = program;
-    Law::new(warp, &places, &squares, laws.into_iter())
+    Law::new(program.warp.clone(), &program.places, &squares, laws.into_iter())
 }
 
 /// The way up to the optimum.
@@ -252,6 +299,7 @@ impl<'a> Climb<'a> {
     fn price(&mut self) {
         let (gap, least) = match self.program.beginning {
             Beginning::Known => (KNOWN_GAP * self.duration(), LEAST_KNOWN_SLACK),
+            Beginning::Expected => (EXPECTED_GAP * self.duration(), LEAST_EXPECTED_SLACK),
             Beginning::Even | Beginning::Smooth => (FIRST_GAP, LEAST_SLACK),
         };
         let Self { program, coefficients, prices, .. } = self;

@@ -33,7 +33,6 @@ pub use law::{Law, Moment};
 pub(crate) use pace::Pace;
 pub use way::{Row, Way};
 
-use program::Known;
 use warp::Warp;
 
 /// How the path parameter moves at an end of the path.
@@ -89,7 +88,7 @@ pub(crate) fn fastest_behind(way: &Way, start: Edge, end: Edge, before: Option<&
 /// The same where about the pace is known ([`Law::pace`]): that with other limits at the same places.
 pub(crate) fn fastest_near(way: &Way, start: Edge, end: Edge, pace: &Pace) -> Result<Law, Refusal> {
     check(way, [start, end])?;
-    interior::solve_near(way, [start, end], Known::Pace(pace))
+    interior::solve_near(way, [start, end], pace)
 }
 
 fn check(way: &Way, edges: [Edge; 2]) -> Result<(), Refusal> {

@@ -69,8 +69,8 @@ pub(crate) struct Program {
     pub(crate) first: Vec<f64>,
     /// What those were made from.
     pub(crate) beginning: Beginning,
-    /// Whether the paced parameter goes about as the time does along a motion that is known.
-    is_known: bool,
+    /// What to begin with where the paced parameter goes about as the time does along a motion that is known.
+    known: Option<Beginning>,
     /// The coefficients that states at the ends give, two for each.
     pub(crate) given: Vec<(usize, f64)>,
     edges: [Edge; 2],
@@ -100,6 +100,8 @@ pub(crate) enum Beginning {
     Smooth,
     /// About as is known.
     Known,
+    /// About as is known up to somewhere, and guessed from there on.
+    Expected,
 }
 
 /// What is known of a motion.
@@ -108,7 +110,7 @@ pub(crate) enum Known<'a> {
     Nothing,
     /// The pace of all of it.
     Pace(&'a Pace),
-    /// The law that leads to its start, and on along the same path.
+    /// The law that leads to its start, and on along the same path; if it tells a pace, else there is no such program.
     Before(&'a Law),
 }
 
@@ -155,13 +157,17 @@ impl Program {
         let most = reach::squares(way, start, end)?;
         let edges = [start, end];
         let guess = || guess_speeds(way, &warp, &places, edges);
-        let along = match known {
-            Known::Nothing => None,
-            Known::Pace(pace) => PacedWarp::along(warp, &places, pace),
-            Known::Before(law) => Pace::behind(law, (way.places(), &places), &warp, &guess())
-                .and_then(|pace| PacedWarp::along(warp, &places, &pace)),
+        let (along, beginning) = match known {
+            Known::Nothing => (None, None),
+            Known::Pace(pace) => (PacedWarp::along(warp, &places, pace), Some(Beginning::Known)),
+            Known::Before(law) => {
+                let pace = Pace::behind(law, (way.places(), &places), &warp, &guess());
+                let along = pace.and_then(|pace| PacedWarp::along(warp, &places, &pace));
+                (Some(along.ok_or(Refusal::Fast)?), Some(Beginning::Expected))
+            }
         };
-        let is_known = along.is_some() && matches!(known, Known::Pace(_));
+        let beginning = beginning.filter(|_| along.is_some());
+        let is_known = beginning == Some(Beginning::Known);
         let warp = along.unwrap_or_else(|| PacedWarp::guessed(warp, &places, guess()));
         let places: Vec<f64> = warp.places().collect();
         let mut rows = Vec::new();
@@ -211,7 +217,7 @@ impl Program {
             unit,
             first: vec![1.0; last + 2],
             beginning: Beginning::Even,
-            is_known,
+            known: beginning,
             given,
             edges,
             screen,
@@ -338,11 +344,10 @@ impl Program {
 
     /// What to begin with, one after the other until something leads to a motion.
     pub(crate) fn beginnings(&self) -> Vec<Beginning> {
-        let known = self.is_known.then_some(Beginning::Known);
         let is_high = self.given.iter().any(|(_, value)| *value > HIGHEST_FROM_EVEN);
         let even = (!is_high).then_some(Beginning::Even);
         let smooth = (!self.given.is_empty()).then_some(Beginning::Smooth);
-        [known, even, smooth].into_iter().flatten().collect()
+        [self.known, even, smooth].into_iter().flatten().collect()
     }
 
     /// Makes the coefficients to begin with.
@@ -351,7 +356,7 @@ impl Program {
         self.first = match beginning {
             Beginning::Even => vec![1.0; self.first.len()],
             Beginning::Smooth => self.smooth(),
-            Beginning::Known => self.known(),
+            Beginning::Known | Beginning::Expected => self.at_pace(),
         };
         if beginning != Beginning::Even {
             for (index, value) in &self.given {
@@ -394,7 +399,7 @@ impl Program {
     }
 
     /// The paced parameter goes as the time does.
-    fn known(&self) -> Vec<f64> {
+    fn at_pace(&self) -> Vec<f64> {
         let length = self.warp.length();
         let by_edge = |edge: &Edge, away: f64| {
             if edge.rests() { 1.0 } else { 1.0 - (-(away / GIVEN_STATE_S) * (away / GIVEN_STATE_S)).exp() }
