@@ -44,6 +44,9 @@ const NO_MISS: f64 = 1e-6;
 /// A law is found again over its own pace as long as its duration falls by at least this part, so many times at most.
 const LEAST_GAIN: f64 = 0.003;
 const MOST_APPROACHES: usize = 6;
+/// The same where it is found roughly.
+const LEAST_ROUGH_GAIN: f64 = 0.02;
+const MOST_ROUGH_APPROACHES: usize = 4;
 
 /// The coefficients of the fastest motion, with all limits kept, of which the duration is so close to what it can be at best.
 fn settle(program: &mut Program, gap: f64) -> Result<Vec<f64>, Refusal> {
@@ -97,36 +100,46 @@ pub(crate) fn solve(way: &Way, edges: [Edge; 2], before: Option<&Law>) -> Result
     }
 }
 
-/// From a guess, with all limits each time.
+/// From a guess.
 fn solve_alone(way: &Way, edges: [Edge; 2]) -> Result<Law, Refusal> {
     let mut program = program(way, edges, Known::Nothing)?;
     let gap = if program.warp.is_even() { GAP } else { ROUGH_GAP };
-    let mut law = find(&mut program, gap)?;
+    Ok(approach(way, edges, find(&mut program, gap)?))
+}
+
+/// As the law before goes, as far as that is known; roughly at first.
+fn solve_behind(way: &Way, edges: [Edge; 2], before: &Law) -> Result<Law, Refusal> {
+    let mut rough = find_roughly(program(way, edges, Known::Before(before))?)?;
+    for _ in 0..MOST_ROUGH_APPROACHES {
+        let pace = rough.pace().ok_or(Refusal::Fast)?;
+        let nearer = find_roughly(program(way, edges, Known::Pace(&pace))?)?;
+        let gain = gain(&rough, &nearer);
+        rough = nearer;
+        if gain < LEAST_ROUGH_GAIN {
+            break;
+        }
+    }
+    let law = solve_near(way, edges, &rough.pace().ok_or(Refusal::Fast)?)?;
+    if gain(&rough, &law) < LEAST_GAIN { Ok(law) } else { Ok(approach(way, edges, law)) }
+}
+
+/// Over a law's own pace, again and again.
+fn approach(way: &Way, edges: [Edge; 2], mut law: Law) -> Law {
     for _ in 0..MOST_APPROACHES {
         let nearer = law.pace().and_then(|pace| solve_near(way, edges, &pace).ok());
         let Some(nearer) = nearer.filter(|nearer| nearer.duration() < law.duration()) else { break };
-        let gain = 1.0 - nearer.duration() / law.duration();
+        let gain = gain(&law, &nearer);
         law = nearer;
         if gain < LEAST_GAIN {
             break;
         }
     }
-    Ok(law)
+    law
 }
 
-/// As the law before goes, as far as that is known: there a few limits are enough to find the pace.
-fn solve_behind(way: &Way, edges: [Edge; 2], before: &Law) -> Result<Law, Refusal> {
-    let mut law = find_roughly(program(way, edges, Known::Before(before))?)?;
-    for _ in 0..MOST_APPROACHES {
-        let pace = law.pace().ok_or(Refusal::Fast)?;
-        let nearer = find_roughly(program(way, edges, Known::Pace(&pace))?)?;
-        let gain = 1.0 - nearer.duration() / law.duration();
-        law = nearer;
-        if gain < LEAST_GAIN {
-            break;
-        }
-    }
-    solve_near(way, edges, &law.pace().ok_or(Refusal::Fast)?)
+/// Which part less time a law takes than another one.
+fn gain(law: &Law, nearer: &Law) -> f64 {
+    1.0 - nearer.duration() / law.duration()
 }
 
 /// The same where the pace is about known.

@@ -391,3 +391,47 @@ fn places_where_derivatives_jump_are_not_left_out() {
     assert_eq!((jumps(&way), jumps(&thinned)), (8, 8));
     assert!(thinned.places().len() < 200, "{}", thinned.places().len());
 }
+
+/// A way from one parameter to another that bends sharply at each half.
+fn sharp(from: f64, to: f64) -> Way {
+    let mut way = Way::new();
+    for at in places(from, to, 600, if from > 0.0 { Edge { vel: 1.0, acc: 0.0 } } else { Edge::REST }, Edge::REST) {
+        let off = ((at + 0.25).rem_euclid(0.5) - 0.25) / 0.01;
+        let (bump, slope) = ((-off * off).exp(), -2.0 * off / 0.01);
+        let row = |sign: f64, second: f64| Row {
+            first: 1.0,
+            second: sign * second * bump,
+            third: sign * second * bump * slope,
+            vel: 1.0,
+            acc: 8.0,
+            jerk: 80.0,
+        };
+        way.push(at, [row(1.0, 0.0), row(1.0, 3000.0), row(-1.0, 2000.0)]);
+    }
+    way
+}
+
+#[test]
+fn a_law_goes_on_behind_another_one_that_slows_down_for_its_end() {
+    let before = fastest(&sharp(0.0, 1.3), Edge::REST, Edge::REST).unwrap();
+    let mut found = 0;
+    for index in 1..40 {
+        let moment = before.at(before.duration() * f64::from(index) / 60.0);
+        let edge = Edge { vel: moment.vel, acc: moment.acc };
+        let way = sharp(moment.at, 2.3);
+        let alone = fastest(&way, edge, Edge::REST).map(|law| law.duration());
+        match fastest_behind(&way, edge, Edge::REST, Some(&before)) {
+            Ok(law) => {
+                assert!(
+                    law.duration() < 1.01 * alone.unwrap_or(f64::INFINITY),
+                    "{index}: {} {alone:?}",
+                    law.duration()
+                );
+                found += 1;
+            }
+            Err(refusal) => assert_eq!(alone, Err(refusal), "{index}"),
+        }
+    }
+    // From a few states nothing is found, which may be too fast for the places here.
+    assert!(found > 36, "{found}");
+}
