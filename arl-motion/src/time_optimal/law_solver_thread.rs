@@ -308,11 +308,14 @@ fn find(
     None
 }
 
-/// How long the fastest motion along all that the sampler sees takes, from rest to rest, in s, looked for at the places of `first`, then at
-/// closer ones; `None` where no law keeps the limits.
+/// How long the fastest motion along all that the sampler sees takes, from rest to rest, in s, looked for at the places of `first`, which
+/// go to the end, then at closer ones; `None` where no law keeps the limits.
 pub(crate) fn fastest_duration(sampler: &ConstraintSampler, first: Prospect) -> Option<f64> {
-    let closer = DENSITIES.iter().filter_map(|density| sampler.look(sampler.end, *density, Edge::REST, Edge::REST));
-    [first].into_iter().chain(closer).filter(|prospect| prospect.end >= sampler.end).find_map(|prospect| {
+    let closer = DENSITIES.iter().filter_map(|density| {
+        let prospect = sampler.look(sampler.end, *density, Edge::REST, Edge::REST)?;
+        (prospect.end >= sampler.end).then_some(prospect)
+    });
+    [first].into_iter().chain(closer).find_map(|prospect| {
         let sparse = prospect.thinned.as_ref().unwrap_or(&prospect.way);
         let (law, used) = temperate(sampler, sparse, (Edge::REST, None), &|| true)?;
         (used <= MOST_USED_SHARE).then(|| law.duration())

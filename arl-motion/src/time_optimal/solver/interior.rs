@@ -94,7 +94,7 @@ struct Prices {
 /// not that near. So a law is found over the pace of another one, until that is as good as its own.
 pub(crate) fn solve(way: &Way, edges: [Edge; 2], before: Option<&Law>) -> Result<Law, Refusal> {
     match before.map(|law| solve_behind(way, edges, law)) {
-        // It may have to slow down for what the law before has not seen.
+        // Where it has to slow down for what the law before has not seen, the pace of that may lead nowhere.
         None | Some(Err(Refusal::Fast)) => solve_alone(way, edges),
         Some(found) => found,
     }
@@ -162,7 +162,7 @@ fn find(program: &mut Program, gap: f64) -> Result<Law, Refusal> {
     Err(Refusal::Fast)
 }
 
-/// About the same, for its pace: without a look at what limits were left out.
+/// About the same, for its pace alone: limits that were left out are not looked at, so it may exceed them.
 fn find_roughly(mut program: Program) -> Result<Law, Refusal> {
     for beginning in program.beginnings() {
         program.begin(beginning);

@@ -392,10 +392,11 @@ fn places_where_derivatives_jump_are_not_left_out() {
     assert!(thinned.places().len() < 200, "{}", thinned.places().len());
 }
 
-/// A way from one parameter to another that bends sharply at each half.
+/// A way from one parameter to another, at rest at 0 and at the end, that bends sharply at each half.
 fn sharp(from: f64, to: f64) -> Way {
     let mut way = Way::new();
-    for at in places(from, to, 600, if from > 0.0 { Edge { vel: 1.0, acc: 0.0 } } else { Edge::REST }, Edge::REST) {
+    let start = if from > 0.0 { Edge { vel: 1.0, acc: 0.0 } } else { Edge::REST };
+    for at in places(from, to, 600, start, Edge::REST) {
         let off = ((at + 0.25).rem_euclid(0.5) - 0.25) / 0.01;
         let (bump, slope) = ((-off * off).exp(), -2.0 * off / 0.01);
         let row = |sign: f64, second: f64| Row {

@@ -117,6 +117,7 @@ fn events(source: Source<'_>) -> Result<Vec<Event>, SettingsError> {
     array.iter().map(|value| event(source, value)).collect()
 }
 
+/// The event that a table describes.
 fn event(source: Source<'_>, value: &Value<'_>) -> Result<Event, SettingsError> {
     let event = table(source, value, "[[event]]", EVENT)?;
     let after = event.number("after", "seconds", 0.0, 1e9)?;
@@ -139,6 +140,7 @@ fn event(source: Source<'_>, value: &Value<'_>) -> Result<Event, SettingsError> 
     Ok(Event { cause, after: after.unwrap_or(0.0), actions })
 }
 
+/// The axes that a torque can turn, and those that can be moved.
 const OWN_AXES: &[&str] = &["j1", "j2", "j3", "j4", "j5", "j6"];
 const ALL_AXES: &[&str] = &["j1", "j2", "j3", "j4", "j5", "j6", "ej1", "ej2", "ej3", "ej4", "ej5", "ej6"];
 /// By how much an axis is moved.
@@ -190,6 +192,7 @@ fn actions(source: Source<'_>, event: &Section<'_>) -> Result<Vec<Action>, Setti
     Ok(actions)
 }
 
+/// What `when` waits for.
 fn edge(event: &Section<'_>) -> Result<Cause, SettingsError> {
     const WHAT: &str = "\"do.3\" (goes on) or \"!do.3\" (goes off), or di, or \"pwm.1\" (is set to something else)";
     let word = event.text("when", WHAT)?.unwrap_or_default();
@@ -207,7 +210,7 @@ fn edge(event: &Section<'_>) -> Result<Cause, SettingsError> {
     }
 }
 
-/// The channels under `di` or `ai`, with their values.
+/// The channels under a key like `di` or `ai`, with their values.
 fn channels<'a>(
     source: Source<'a>,
     key: &str,
@@ -229,6 +232,7 @@ fn channels<'a>(
     channels.into_iter().map(read).collect()
 }
 
+/// The channels of a key that are on or off.
 fn signals(
     source: Source<'_>,
     (key, what): (&str, Digital),
@@ -245,6 +249,7 @@ fn signals(
     Ok(())
 }
 
+/// The levels of analog inputs.
 fn analogs(source: Source<'_>, value: &Value<'_>, actions: &mut Vec<Action>) -> Result<(), SettingsError> {
     for (channel, value) in channels(source, "ai", value)? {
         let level = number(value.get_ref()).ok_or_else(|| {
