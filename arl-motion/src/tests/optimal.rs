@@ -3,6 +3,7 @@
 use crate::tests::blends::run_chains;
 use crate::tests::stops::{change_override, stop_and_resume};
 use crate::tests::*;
+use crate::time_optimal::law_solver_thread::ANSWERS;
 
 fn optimal() -> Settings {
     Settings { profile: VelocityProfile::O, ..Settings::default() }
@@ -78,6 +79,38 @@ fn a_tool_that_turns_back_and_forth_hardly_slows_a_blend_down() {
         let (blended, stopped) = (to_and_fro(side, zone), to_and_fro(side, -1.0));
         assert!(blended <= most * stopped, "{side} mm, zone {zone}: {blended} cycles, {stopped} with stops");
     }
+}
+
+#[test]
+fn a_chain_that_never_stops_goes_on_from_law_to_law() {
+    let robot = robot("kr10-r1420");
+    let mut queue = Queue::new(robot.clone(), start());
+    let targets = [
+        [880.0, 0.0, 966.0, 180.0, 45.0, 180.0],
+        [880.0, 150.0, 866.0, 180.0, 45.0, 180.0],
+        [780.0, 200.0, 866.0, 192.0, 45.0, 180.0],
+        [780.0, 200.0, 966.0, 180.0, 45.0, 180.0],
+        [880.0, 50.0, 966.0, 192.0, 57.0, 180.0],
+        [880.0, 0.0, 900.0, 180.0, 45.0, 180.0],
+    ];
+    let (zone, speed) = (Zone { tcp: 50.0, ..Zone::NONE }, Speed { tcp: 900.0, ..fast() });
+    let mut lines = targets.iter().cycle().take(10 * targets.len()).map(|pose| Command { zone, speed, ..lin(*pose) });
+    let mut rows = run(&mut queue, 100.0);
+    loop {
+        while queue.has_room()
+            && let Some(line) = lines.next()
+        {
+            queue.add(&line, &optimal()).unwrap();
+        }
+        if queue.idle() {
+            break;
+        }
+        rows.push(queue.step(CYCLE, 100.0));
+        assert!(rows.len() < 100_000, "it does not end");
+    }
+    assert_within_limits(&robot, &rows, "rounds");
+    let [asked, not_found] = ANSWERS.get();
+    assert!(asked > 8 && not_found == 0, "{not_found} of {asked} laws were not found");
 }
 
 #[test]

@@ -159,7 +159,13 @@ impl LawSolver {
             return Status::Running;
         }
         if !self.in_real_time {
-            return Status::Done(search.result.found.wait().clone());
+            let found = search.result.found.wait().clone();
+            #[cfg(test)]
+            ANSWERS.with(|count| {
+                let [all, nothing] = count.get();
+                count.set([all + 1, nothing + u32::from(found.is_none())]);
+            });
+            return Status::Done(found);
         }
         match search.result.found.get() {
             Some(found) => {
@@ -256,6 +262,8 @@ impl Search {
 thread_local! {
     /// How many laws this thread has looked for.
     pub(crate) static FOUND_HERE: std::cell::Cell<u32> = const { std::cell::Cell::new(0) };
+    /// How many answers this thread has waited for, and how many of them were that there is no law.
+    pub(crate) static ANSWERS: std::cell::Cell<[u32; 2]> = const { std::cell::Cell::new([0, 0]) };
 }
 
 /// The fastest law from a state on.
