@@ -22,6 +22,8 @@ pub(crate) struct Layer {
     pub(crate) waiting: Waiting,
     /// The last motion, where its way depends on the next one.
     pub(crate) held: Option<Held>,
+    /// Whether no motion comes behind the last one before the robot rests.
+    pub(crate) concluded: bool,
     /// Where the last motion ends.
     pub(crate) end: Joints,
     /// What the robot carries in the last motion.
@@ -83,6 +85,7 @@ impl Layer {
             path: PathBuffer::default(),
             waiting: Waiting::default(),
             held: None,
+            concluded: false,
             end: start,
             last_rig: Rig::bare(),
             led: Led::default(),
@@ -103,6 +106,7 @@ impl Layer {
             path: std::mem::take(&mut self.path),
             waiting: Waiting::default(),
             held: None,
+            concluded: false,
             end: here,
             last_rig: self.execution.rig,
             led: Led::default(),

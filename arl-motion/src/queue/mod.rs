@@ -205,6 +205,7 @@ impl Queue {
 
     /// Plans a motion and appends it under a number.
     fn add_as(&mut self, command: &Command, settings: &Settings, number: u64) -> Result<(), PlanError> {
+        self.layer.concluded = false;
         let from = *self.end();
         let start = match &self.layer.held {
             Some(held) => *held.end(),
@@ -242,6 +243,7 @@ impl Queue {
     /// # Errors
     /// It cannot be moved without a next one ([`PlanError::Earlier`]). It was dropped.
     pub fn conclude(&mut self) -> Result<(), PlanError> {
+        self.layer.concluded = true;
         self.release(None)
     }
 
@@ -525,7 +527,8 @@ impl Queue {
     /// Has the path's leader go on for a cycle; returns the segment that was left behind last, and whether the robot has come to a
     /// stop at its end.
     fn follow_path(&mut self, dt: f64, pacing: Pacing) -> (Option<Arc<Segment>>, bool) {
-        let Layer { path, execution, finished, .. } = &mut self.layer;
+        let Layer { path, waiting, concluded, execution, finished, .. } = &mut self.layer;
+        path.note_end(*concluded && waiting.is_empty());
         let mut arrived = None;
         let stands = path.advance((&self.robot, &self.joints), dt, pacing, |passed| {
             *finished = if passed.ends { passed.number } else { *finished };

@@ -125,6 +125,19 @@ fn an_even_motion_alone_has_its_closed_form() {
 }
 
 #[test]
+fn a_zone_that_no_motion_comes_behind_costs_nothing() {
+    let robot = robot("kr10-r1420");
+    let took = |zone: Zone| {
+        let mut queue = Queue::new(robot.clone(), start());
+        let motion = Command { zone, ..movej([30.0, -80.0, 70.0, 10.0, 40.0, 20.0]) };
+        queue.add(&motion, &optimal()).unwrap();
+        queue.conclude().unwrap();
+        run(&mut queue, 100.0)
+    };
+    assert!(took(Zone { percent: 25.0, ..Zone::NONE }) == took(Zone::NONE));
+}
+
+#[test]
 fn chains_of_all_kinds_keep_every_limit() {
     run_chains(&optimal(), 92, 3);
 }

@@ -5,6 +5,7 @@ mod check;
 mod geometry;
 mod grow;
 mod plan;
+mod promise;
 mod robot;
 mod scenario;
 mod trace;
@@ -17,7 +18,7 @@ use arl2rs::CheckOptions;
 use arl2rs::emit::Sizes;
 use check::Tally;
 use grow::{ROOMS, Wishes};
-use plan::{Kind, Mode, Plan, Zone};
+use plan::{Mode, Motion, Plan, Zone};
 use robot::Robot;
 use scenario::{Disturbance, Scenario};
 use std::path::Path;
@@ -127,10 +128,7 @@ impl Case {
         faults: &mut Vec<String>,
         tally: &mut Tally,
     ) -> Option<(Vec<Row>, bool)> {
-        let write = |ending: &str, text: &str| std::fs::write(self.file(project, ending), text).unwrap();
-        write("robot.toml", &self.robot.text);
-        write("arl", &self.plan.text);
-        write("io.toml", &self.scenario.text);
+        self.write(project);
         let undisturbed = match self.run(project, command, at, false) {
             Ok(rows) => rows,
             Err(said) => {
@@ -242,6 +240,14 @@ impl Case {
         })
     }
 
+    /// Writes what its runs need, and what a person may want to see.
+    fn write(&self, project: &Project) {
+        let write = |ending: &str, text: &str| std::fs::write(self.file(project, ending), text).unwrap();
+        write("robot.toml", &self.robot.text);
+        write("arl", &self.plan.text);
+        write("io.toml", &self.scenario.text);
+    }
+
     fn file(&self, project: &Project, ending: &str) -> std::path::PathBuf {
         project.folder().join(format!("{}.{ending}", self.name))
     }
@@ -284,22 +290,23 @@ impl Case {
         let faults = check::compare(rows, &gone, &mut Tally::default());
         assert!(faults.iter().any(|fault| fault.contains("undisturbed")), "nobody objects to a row beside the path");
         let (mut bent, mut missed) = (rows.to_vec(), rows.to_vec());
-        for motion in &self.plan.motions {
-            let own: Vec<usize> = (0..rows.len()).filter(|at| rows[*at].line == motion.line).collect();
-            // Where the tool stands it is the axes that tell.
+        // Where the tool stands it is the axes that tell.
+        let shift = |row: &mut Row, motion: &Motion, by: f64| {
             let held = self.plan.settings[motion.setting].held;
-            let shift = |row: &mut Row, by: f64| {
-                row.tcp.translation.vector.x += if held { 0.0 } else { by };
-                row.axes[0] += if held { by } else { 0.0 };
-            };
-            if motion.kind == Kind::Lin {
-                shift(&mut bent[own[own.len() / 2]], 0.01);
-            }
-            if motion.line == self.plan.motions[self.plan.motions.len() - 1].line {
-                shift(&mut missed[own[own.len() - 1]], 1e-4);
-            }
+            row.tcp.translation.vector.x += if held { 0.0 } else { by };
+            row.axes[0] += if held { by } else { 0.0 };
+        };
+        let last = self.plan.motions.last().expect("a motion");
+        let end = rows.iter().rposition(|row| row.line == last.line).expect("rows of the last motion");
+        shift(&mut missed[end], last, 1e-4);
+        let on_lines = check::places_on_lines(&self.robot, &self.plan, rows);
+        for at in &on_lines {
+            let motion = self.plan.motions.iter().find(|motion| motion.line == rows[*at].line);
+            shift(&mut bent[*at], motion.expect("a motion of each row"), 0.01);
         }
-        finds(&self.plan, &bent, "off the path");
+        if !on_lines.is_empty() {
+            finds(&self.plan, &bent, "off the path");
+        }
         finds(&self.plan, &missed, "is missed");
         let mut narrow = self.plan.clone();
         for motion in &mut narrow.motions {

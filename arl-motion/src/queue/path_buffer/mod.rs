@@ -76,6 +76,8 @@ pub(crate) struct PathBuffer {
     passed: f64,
     /// The last motion, which the next one may still round off.
     tail: Option<Tail>,
+    /// Whether no motion comes behind it.
+    is_last: bool,
 }
 
 /// A target that should be rounded off, at which the robot stops.
@@ -498,6 +500,11 @@ impl PathBuffer {
         Governor { stretches: &self.timing.stretches, cycle }
     }
 
+    /// Says whether a motion may come behind the last one before the robot rests.
+    pub(crate) fn note_end(&mut self, is_last: bool) {
+        self.is_last = is_last;
+    }
+
     /// Goes on for a cycle; tells of each segment that is left behind. Returns whether the robot has arrived where it had
     /// to stop: at the end of the last segment that was told of.
     pub(crate) fn advance(
@@ -574,8 +581,8 @@ impl PathBuffer {
     /// Whether the segment of an index, at whose start the robot rests, is an even motion that will not be blended with the next one.
     fn is_alone(&self, robot: &Robot, index: usize) -> bool {
         let Some(segment) = self.segments.get(index) else { return false };
-        let stays =
-            || index + 1 < self.segments.len() || self.tail.as_ref().is_some_and(|tail| !asks(robot, &tail.motion));
+        let asks = || self.tail.as_ref().is_none_or(|tail| asks(robot, &tail.motion));
+        let stays = || index + 1 < self.segments.len() || self.is_last || !asks();
         segment.is_even() && segment.stops && segment.duration().is_some() && stays()
     }
 

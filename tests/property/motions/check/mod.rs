@@ -146,6 +146,13 @@ pub(crate) fn check(
     faults
 }
 
+/// The places of rows, of a trace that nothing disturbed, each of which is on its line whatever the corners are.
+pub(crate) fn places_on_lines(robot: &Robot, plan: &Plan, rows: &[Row]) -> Vec<usize> {
+    let legs = plan.motions.iter().map(|motion| Leg::of(robot, plan, motion)).collect::<Vec<_>>();
+    let section = Section { rows: rows.to_vec(), from: None, whole: true };
+    Account::of_section(robot, &legs, &section).map(|account| account.places_on_lines()).unwrap_or_default()
+}
+
 /// How long before the end of a trace the robot may brake fast for an alarm, in s.
 const ALARMED: f64 = 0.5;
 

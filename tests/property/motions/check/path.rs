@@ -19,6 +19,23 @@ impl Account<'_> {
         }
     }
 
+    /// For each line that is long enough, a row that is on it whatever its corners are: the middle one of these.
+    pub(super) fn places_on_lines(&self) -> Vec<usize> {
+        let lines = (1..self.legs.len()).filter(|at| self.legs[*at].motion.kind == Kind::Lin);
+        let place = |at: usize| {
+            let leg = &self.legs[at];
+            let entered = Corner::new(self, at - 1);
+            let left = (at + 1 < self.legs.len()).then(|| Corner::new(self, at));
+            let is_held = |row: &Row| {
+                entered.holds(row, leg) || left.as_ref().is_some_and(|corner| corner.holds(row, leg))
+            };
+            let own = leg.rows.clone().filter(|at| self.rows[*at].line == leg.motion.line && !is_held(&self.rows[*at]));
+            let own: Vec<usize> = own.collect();
+            own.get(own.len() / 2).copied()
+        };
+        lines.filter_map(place).collect()
+    }
+
     fn on_path(&self, at: usize, faults: &mut Vec<String>, tally: &mut Tally) {
         let leg = &self.legs[at];
         let line = leg.motion.line;
