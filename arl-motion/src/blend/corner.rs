@@ -63,6 +63,8 @@ pub(crate) struct Blend {
     pub(crate) blend_limits: BlendLimits,
     /// Whether it may take longer than a stop between the motions.
     pub(crate) may_lose_time: bool,
+    /// Whether it takes all that was asked for, or halves of both motions in a dense chain: not less, for want of a way or of time.
+    pub(crate) is_whole: bool,
 }
 
 /// The blend that the first motion's zone asks for, or of a smaller zone where there is no way or it `is_slower` than a stop. Else what is
@@ -77,7 +79,7 @@ pub(crate) fn blend(
     let smooth = is_smooth(from, to).then_some((LARGEST_ZONE, LARGEST_ZONE));
     let smaller = (0..=ZONE_HALVINGS).map(|halvings| f64::from(1 << halvings)).map(|by| (leaving / by, joining / by));
     let (mut why, mut slower) = (NoBlend::NothingLeft, 0);
-    for (leaving, joining) in smooth.into_iter().chain(smaller) {
+    for (tried, (leaving, joining)) in smooth.into_iter().chain(smaller).enumerate() {
         match (Corner { robot, from, to, leaving, joining, curvatures: [MidCurvature::NONE; 2] }.blend()) {
             Ok(blend) if is_slower(&blend) => {
                 (why, slower) = (NoBlend::Slower, slower + 1);
@@ -85,7 +87,7 @@ pub(crate) fn blend(
                     break;
                 }
             }
-            Ok(blend) => return Ok(blend),
+            Ok(blend) => return Ok(Blend { is_whole: tried == 0, ..blend }),
             Err(other) => why = other,
         }
     }
@@ -222,7 +224,7 @@ impl Corner<'_> {
         };
         // Where it stands still for a moment it has no speed.
         let (blend_limits, may_lose_time) = self.blend_limits(&constraints, time).ok_or(NoBlend::Reversal)?;
-        Ok(Blend { leave, join, curve, parametrization, time, blend_limits, may_lose_time })
+        Ok(Blend { leave, join, curve, parametrization, time, blend_limits, may_lose_time, is_whole: true })
     }
 
     /// How fast it may be crossed, evenly where it hardly bends, and whether it may take longer than a stop.

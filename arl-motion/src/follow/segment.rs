@@ -21,6 +21,9 @@ use arl_robot::robot::Robot;
 /// Parts of half a blend.
 const PARTS_OF_HALF: usize = blend_limits::PARTS / 2;
 
+/// mm or deg that may be between two segments that meet.
+const LARGEST_GAP: f64 = 1e-3;
+
 /// How far beside a singular point rates are looked for, as shares of the segment.
 const SHARES_BESIDE_SINGULAR: [f64; 6] = [1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.05];
 
@@ -246,6 +249,20 @@ impl Segment {
     fn moving_by_axes(&self, kinematics: &Kinematics, at: f64, near: &Joints) -> [Vector3<f64>; 3] {
         let tcp = |at: f64| self.tcp_by_axes(kinematics, &self.joints_on(kinematics, at, near));
         by_differences(tcp, at, self.time)
+    }
+
+    /// Whether the next segment begins where this one ends, as far as that is the same for both: the flange, or the axes.
+    pub(crate) fn meets(&self, next: &Self) -> bool {
+        let (end, start) = (self.place(self.time), next.place(0.0));
+        match (&self.curve, &next.curve) {
+            (Curve::Tool(a), Curve::Tool(b)) => {
+                (a.flange(end).translation.vector - b.flange(start).translation.vector).norm() < LARGEST_GAP
+            }
+            (Curve::Axes(a), Curve::Axes(b)) => {
+                a.at(end).iter().zip(&b.at(start)).all(|(end, start)| (end - start).abs() < LARGEST_GAP)
+            }
+            _ => true,
+        }
     }
 
     /// The parameter of the curve after `at` s of nominal time.

@@ -15,7 +15,7 @@ use crate::plan::lay_overlay::joined;
 use crate::plan::motion::Motion;
 use arl_robot::robot::Robot;
 
-/// The motion before, where a blend leads from there, and how it is bent where that blend begins.
+/// The motion before, where a blend leads from there that may be bent at its end, and how it is bent where that blend begins.
 pub(crate) type Before = Option<(Arc<Motion>, MidCurvature)>;
 
 /// What a junction depends on.
@@ -53,6 +53,13 @@ pub(crate) struct Blended {
     pub(crate) until: f64,
 }
 
+impl Blended {
+    /// What it leaves to the next one: a smaller blend than was asked for stays as it is. One that is bent would begin elsewhere.
+    pub(crate) fn leaves(&self) -> Before {
+        self.blend.is_whole.then(|| (Arc::clone(&self.from), MidCurvature::NONE))
+    }
+}
+
 /// Whether two motions take longer with a blend than with a stop.
 type IsSlower<'a> = &'a dyn Fn(&Stopping, &Blend) -> bool;
 
@@ -88,7 +95,7 @@ impl Junction {
     pub(crate) fn leaves(&self) -> Before {
         match (&self.curved, &self.blended) {
             (Some(curved), _) => Some((Arc::clone(&self.meeting.from), curved.curvature)),
-            (None, Some(Ok(blended))) => Some((Arc::clone(&blended.from), MidCurvature::NONE)),
+            (None, Some(Ok(blended))) => blended.leaves(),
             (None, _) => None,
         }
     }

@@ -233,3 +233,24 @@ fn a_zone_close_to_the_wrist_singularity_keeps_every_limit() {
     let rows = run(&mut queue, 100.0);
     assert_within_limits(&robot, &rows, "beside the wrist singularity");
 }
+
+/// The blend between the third line and the fourth takes half of its zone, as it would be slower than a stop with all of it: it ends before
+/// the middle of the fourth, where the next one begins.
+#[test]
+fn a_blend_that_is_smaller_than_its_zone_does_not_bend_into_the_next_one() {
+    let robot = robot("tx2-60");
+    let mut queue = Queue::new(robot.clone(), axes([0.0, 20.0, 90.0, 0.0, 45.0, 0.0]));
+    let speed = Speed { tcp: 300.0, ..fast() };
+    for pose in [
+        [429.074, 9.134, 537.051, 192.0, 25.0, 180.0],
+        [420.074, -10.960, 480.515, 180.0, 25.0, 180.0],
+        [429.074, 34.709, 519.430, 180.0, 37.0, 180.0],
+        [420.074, -24.298, 508.563, 180.0, 25.0, 180.0],
+        [429.074, 32.237, 488.470, 180.0, 25.0, 192.0],
+    ] {
+        let zone = Zone { percent: 100.0, ..Zone::NONE };
+        queue.add(&Command { speed, zone, ..lin(pose) }, &Settings::default()).unwrap();
+    }
+    let rows = run(&mut queue, 100.0);
+    assert_within_limits(&robot, &rows, "half a zone");
+}

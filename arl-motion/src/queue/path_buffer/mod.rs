@@ -8,7 +8,6 @@ mod time_left;
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-use crate::blend::mid_curvature::MidCurvature;
 use crate::blend::no_blend::NoBlend;
 use crate::blend::zone::asks;
 use crate::command::LARGEST_ZONE;
@@ -108,12 +107,10 @@ struct Tail {
     joined: Option<Joined>,
 }
 
-/// A blend whose end, in the middle of a motion, is straight as long as it is not known what comes behind that motion.
+/// A blend whose end is straight as long as it is not known what comes behind the motion that it leads into.
 #[derive(Clone, Debug)]
 struct Joined {
-    before: Arc<Motion>,
-    /// How the motion before is bent where the blend begins.
-    curvature: MidCurvature,
+    before: Before,
     /// How many segments there are from the blend's first half on.
     segments: usize,
 }
@@ -130,7 +127,7 @@ fn began(taken: &[(Arc<Segment>, bool)]) -> bool {
 
 impl Tail {
     fn meeting(&self, next: &Arc<Motion>) -> Meeting {
-        let before: Before = self.joined.as_ref().map(|joined| (Arc::clone(&joined.before), joined.curvature));
+        let before = self.joined.as_ref().and_then(|joined| joined.before.clone());
         Meeting { before, from: Arc::clone(&self.motion), to: Arc::clone(next) }
     }
 }
@@ -211,8 +208,7 @@ impl PathBuffer {
 
     /// How the last motion is joined by the one before it.
     pub(crate) fn before(&self) -> Before {
-        let joined = self.tail.as_ref().and_then(|tail| tail.joined.as_ref());
-        joined.map(|joined| (Arc::clone(&joined.before), joined.curvature))
+        self.tail.as_ref().and_then(|tail| tail.joined.as_ref()?.before.clone())
     }
 
     /// Appends a motion that [`limit_rise`] has made ready, with what has been prepared for it. Returns why the motion before it is not
@@ -236,24 +232,23 @@ impl PathBuffer {
         let known = prepared.zip(tail.as_ref()).map(|(prepared, tail)| prepared.take(robot, || tail.meeting(motion)));
         let curved = tail.as_ref().and_then(|tail| self.curved(robot, known, tail, motion));
         let mut joined = tail.as_ref().zip(curved).and_then(|(tail, curved)| {
-            self.join_curved(tail, &curved, (motion, limits), number, cycle)
-                .map(|segments| (curved.curvature, segments))
+            let segments = self.join_curved(tail, &curved, (motion, limits), number, cycle)?;
+            Some(Joined { before: Some((Arc::clone(&tail.motion), curved.curvature)), segments })
         });
         let unblended_for = |corner, why| Some(UnblendedTarget { number, line: motion.line, corner, why });
         let mut unblended = if motion.flows { unblended_for(None, NoBlend::Late) } else { None };
         let mut end = Arc::clone(motion);
-        let mut before = None;
         if let Some(tail) = tail {
             let corner = Some(tail.motion.line);
             let blended = joined.is_none().then(|| junction::blended(robot, known, &tail.motion, motion));
             let asks = asks(robot, &tail.motion);
-            before = Some(tail.motion);
             match blended {
                 Some(Ok(blended)) => {
-                    joined = self.round_off(&blended, number, cycle).map(|segments| (MidCurvature::NONE, segments));
+                    let before = blended.leaves();
+                    joined = self.round_off(&blended, number, cycle).map(|segments| Joined { before, segments });
                     unblended = if joined.is_none() { unblended_for(corner, NoBlend::Late) } else { None };
                     if joined.is_some() {
-                        (before, end) = (Some(blended.from), blended.to);
+                        end = blended.to;
                     }
                 }
                 Some(Err(why)) if asks => unblended = unblended_for(corner, why),
@@ -268,7 +263,6 @@ impl PathBuffer {
                 self.push(&whole, |_| false);
             }
         }
-        let joined = joined.zip(before).map(|((curvature, segments), before)| Joined { before, curvature, segments });
         self.settle(joined.as_ref().map_or(1, |joined| joined.segments));
         self.tail = Some(Tail { motion: end, joined });
         unblended
@@ -282,7 +276,8 @@ impl PathBuffer {
         tail: &Tail,
         motion: &Arc<Motion>,
     ) -> Option<CurvedBlends> {
-        let Joined { before, curvature, segments } = tail.joined.as_ref()?;
+        let Joined { before, segments } = tail.joined.as_ref()?;
+        let (before, curvature) = before.as_ref()?;
         if self.segments.len() <= *segments {
             return None;
         }
@@ -299,7 +294,8 @@ impl PathBuffer {
         number: u64,
         cycle: f64,
     ) -> Option<usize> {
-        let Joined { before, segments: count, .. } = tail.joined.as_ref()?;
+        let Joined { before, segments: count } = tail.joined.as_ref()?;
+        let (before, _) = before.as_ref()?;
         let [first, next] = &curved.blends;
         let (left, last) = (self.segments.get(self.segments.len() - *count)?.number, self.segments.back()?.number);
         let circle_steps = [
@@ -451,6 +447,7 @@ impl PathBuffer {
     }
 
     fn push_shared(&mut self, segment: Arc<Segment>, may: bool) {
+        debug_assert!(self.segments.back().is_none_or(|last| last.meets(&segment)), "a gap in line {}", segment.line);
         for (index, cell) in segment.cells().enumerate() {
             self.timing.push(cell, segment.stops, may || index > 0);
         }

@@ -26,9 +26,8 @@ impl Account<'_> {
             let leg = &self.legs[at];
             let entered = Corner::new(self, at - 1);
             let left = (at + 1 < self.legs.len()).then(|| Corner::new(self, at));
-            let is_held = |row: &Row| {
-                entered.holds(row, leg) || left.as_ref().is_some_and(|corner| corner.holds(row, leg))
-            };
+            let is_held =
+                |row: &Row| entered.holds(row, leg) || left.as_ref().is_some_and(|corner| corner.holds(row, leg));
             let own = leg.rows.clone().filter(|at| self.rows[*at].line == leg.motion.line && !is_held(&self.rows[*at]));
             let own: Vec<usize> = own.collect();
             own.get(own.len() / 2).copied()
