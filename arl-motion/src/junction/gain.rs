@@ -8,18 +8,26 @@ use crate::blend::corner::Blend;
 use crate::command::joints::Joints;
 use crate::follow::segment::{Segment, is_free};
 use crate::follow::shared_deque::SharedDeque;
+use crate::limits::constant::quickest;
+use crate::plan::constraints::Constraints;
+use crate::plan::curve::Curve;
 use crate::plan::motion::Motion;
 use crate::time_optimal::constraint_sampler::{ConstraintSampler, Part};
 use crate::time_optimal::law_memory::key;
 use crate::time_optimal::law_solver_thread::fastest_duration;
 use crate::time_optimal::solver::Edge;
-use arl_robot::robot::Robot;
+use arl_robot::robot::{ROBOT_AXES, Robot};
 
 /// What a blend has to save, in s. The law that leads along a whole chain is found at places that are farther apart, and may take a little
 /// longer than two motions alone.
 const LEAST_GAIN_S: f64 = 0.001;
 /// Where two motions take longer than this, in s, one blend more or less is nothing beside it, and less than laws of that length differ.
 const LONGEST_PAIR_S: f64 = 10.0;
+
+/// A motion that takes more than so many times as long as it would if all its places were as quick as its quickest is uneven; one that is
+/// shorter than so many mm is not looked at.
+const UNEVEN_FACTOR: f64 = 2.0;
+const SHORT_MOTION_MM: f64 = 1.0;
 
 /// So many durations are remembered in a thread, for programs that do the same again and again.
 const MOST_KNOWN: usize = 10_000;
@@ -43,9 +51,12 @@ impl<'a> Stopping<'a> {
         Self { robot, from, to, time: OnceCell::new() }
     }
 
-    /// Whether laws have to tell whether a blend saves time: where the governor's constant limits let it seem possible that it does not.
+    /// Whether laws have to tell whether a blend saves time: where the governor's constant limits let it seem possible that it does not, or
+    /// say too little about how long the motions take.
     pub(crate) fn doubts(&self, blend: &Blend) -> bool {
-        blend.may_lose_time && is_free(self.from) && is_free(self.to)
+        let motions = [self.from, self.to];
+        motions.iter().all(|motion| is_free(motion))
+            && (blend.may_lose_time || motions.iter().any(|motion| is_uneven(self.robot, motion)))
     }
 
     /// Whether the two motions take longer with the blend, however they are led.
@@ -75,6 +86,26 @@ impl<'a> Stopping<'a> {
         let rest = Segment::part(self.to, self.to.limits?, 0, blend.join, 1.0);
         fastest_along(self.robot, [cut].into_iter().chain(halves).chain([rest]), &self.from.start)
     }
+}
+
+/// Whether a motion has places at which it could go much faster than constant limits let it, which are those of its slowest place.
+fn is_uneven(robot: &Robot, motion: &Motion) -> bool {
+    let (Curve::Tool(curve), Some(limits)) = (&motion.curve, motion.limits) else { return false };
+    if motion.length < SHORT_MOTION_MM {
+        return false;
+    }
+    let quickest_at = |at: f64, near: &Joints| -> Option<f64> {
+        let axes = curve.axes(&robot.kinematics, at, &near.axes)?;
+        let rates = curve.rates(&robot.kinematics, at, &axes)?;
+        let mut constraints = Constraints::new(robot);
+        constraints.axes(&rates.first, &[0.0; ROBOT_AXES], &[0.0; ROBOT_AXES], &motion.pace);
+        constraints.tool(curve, &motion.pace);
+        constraints.external_along(curve, &motion.pace);
+        Some(quickest(&constraints.rows).duration(1.0))
+    };
+    let places = [(0.0, motion.start()), (0.5, motion.start()), (1.0, motion.end())];
+    let quickest = places.iter().filter_map(|(at, near)| quickest_at(*at, near)).fold(f64::INFINITY, f64::min);
+    limits.duration(1.0) > UNEVEN_FACTOR * quickest
 }
 
 #[cfg(test)]
