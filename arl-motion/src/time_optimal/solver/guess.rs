@@ -62,6 +62,9 @@ pub(crate) fn smooth(speeds: Vec<f64>) -> Vec<f64> {
 
 /// With so few places none is left out: a law is found soon enough.
 const FEW_PLACES: usize = 160;
+/// None is left out either from which on the motion is so many times as fast as before the last one that is kept, or as slow: beside a sharp
+/// blend, as beside a stop, the speed changes much within a short time.
+const CHANGE_OF_SPEED: f64 = 1.1;
 
 /// About how long the fastest motion takes from each place to the next, in s: rather less.
 pub(crate) fn guess_steps(way: &Way, edges: [Edge; 2]) -> Option<Vec<f64>> {
@@ -73,21 +76,24 @@ pub(crate) fn guess_steps(way: &Way, edges: [Edge; 2]) -> Option<Vec<f64>> {
     Some(places.windows(2).zip(speeds.windows(2)).map(step).collect())
 }
 
-/// The way without places that are closer together than so many s by these steps, but for those where derivatives jump; `None` where it
-/// has few of them.
+/// The way without places that are closer together than so many s by these steps, but for those where derivatives jump or the speed
+/// changes much; `None` where it has few of them.
 pub(crate) fn thinned(way: &Way, steps: &[f64], closest: f64) -> Option<Way> {
     if way.places().len() <= FEW_PLACES {
         return None;
     }
-    let (mut since, mut keep) = (0.0, vec![true]);
-    for (index, step) in (1..).zip(steps) {
+    let lengths = way.places().windows(2).map(|pair| pair[1] - pair[0]);
+    let speeds: Vec<f64> = lengths.zip(steps).map(|(length, step)| length / step).collect();
+    let changes = |from: f64, to: f64| from.max(to) > CHANGE_OF_SPEED * from.min(to);
+    let (mut since, mut before, mut keep) = (0.0, 0.0, vec![true]);
+    for (index, (step, behind)) in (1..).zip(steps.iter().zip(speeds.iter().skip(1))) {
         since += step;
-        let far = since >= closest || way.jumps(index);
-        keep.push(far);
-        since = if far { 0.0 } else { since };
+        let is_kept = since >= closest || way.jumps(index) || changes(before, *behind);
+        keep.push(is_kept);
+        if is_kept {
+            (since, before) = (0.0, *behind);
+        }
     }
-    if let Some(last) = keep.last_mut() {
-        *last = true;
-    }
+    keep.push(true);
     Some(way.only(&keep))
 }
