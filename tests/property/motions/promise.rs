@@ -1,6 +1,7 @@
 //! The promise of zones: rounding a chain off never takes longer than stopping at each of its targets.
 
 use super::Case;
+use super::check::Tally;
 use super::plan::{Kind, Motion, Plan};
 use super::trace::Row;
 use crate::{first_seed, report, times};
@@ -32,8 +33,8 @@ impl Pair {
         Pair { zones: case("zones", zones), stops: case("stops", stops) }
     }
 
-    /// What is slower with zones.
-    fn test(&self, project: &Project, command: &Path, [zones, stops]: [usize; 2]) -> Option<String> {
+    /// What is slower with zones; notes how much of the time with stops each part of the program takes.
+    fn test(&self, project: &Project, command: &Path, [zones, stops]: [usize; 2], tally: &mut Tally) -> Option<String> {
         let run = |case: &Case, at: usize| {
             case.write(project);
             case.run(project, command, at, false)
@@ -52,7 +53,7 @@ impl Pair {
             let ends = [&zones, &stops].map(|rows| end(rows, motion.line));
             let [zones_to, stops_to] = ends;
             let (with, without) = (zones_to - zones_from, stops_to - stops_from);
-            println!("{} {:.4} {with:.4} {without:.4}", self.zones.name, with / without);
+            tally.note("promise: of the time with stops", with / without);
             if with > FACTOR * without + ALLOWANCE {
                 let (share, line) = (with / without, motion.line);
                 faults.push(format!(
@@ -128,15 +129,20 @@ fn zones_are_never_slower_than_stops() {
     let programs: Vec<String> = cases.map(|case| case.compile(Sizes::default()).unwrap()).collect();
     let command = project.build_choosing(&programs).unwrap_or_else(|errors| panic!("{errors}"));
     let all: Vec<(usize, &Pair)> = pairs.iter().enumerate().collect();
-    let failures = std::thread::scope(|scope| {
+    let halves = std::thread::scope(|scope| {
         let halves = [0, 1].map(|half| {
             let (project, command, all) = (&project, &command, &all);
-            scope.spawn(move || -> Vec<String> {
+            scope.spawn(move || -> (Vec<String>, Tally) {
+                let mut tally = Tally::default();
                 let own = all.iter().skip(half).step_by(2);
-                own.filter_map(|(at, pair)| pair.test(project, command, [2 * at, 2 * at + 1])).collect()
+                let test = |(at, pair): &(usize, &Pair)| pair.test(project, command, [2 * at, 2 * at + 1], &mut tally);
+                (own.filter_map(test).collect(), tally)
             })
         });
-        halves.map(|half| half.join().expect("a thread")).concat()
+        halves.map(|half| half.join().expect("a thread"))
     });
-    report(&project, failures);
+    let mut tally = Tally::default();
+    halves.iter().for_each(|(_, own)| tally.add(own));
+    println!("{tally}");
+    report(&project, halves.into_iter().flat_map(|(failures, _)| failures).collect());
 }
