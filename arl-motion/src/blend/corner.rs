@@ -37,8 +37,8 @@ const ZONE_HALVINGS: u32 = 4;
 /// Parts of a blend between which it is looked at; and of one that hardly bends.
 const PARTS_OF_BLEND: u32 = 48;
 const PARTS_OF_GENTLE_BLEND: u32 = 4;
-/// A blend that takes less than this part of the time of a stop with constant limits saves time with a law, too: so did all 216 of the
-/// bench `promise`.
+/// A blend that takes less than this part of the time of a stop with constant limits saves time with a law, too, where these limits say
+/// enough about the motions.
 const SURELY_FASTER_SHARE: f64 = 0.95;
 /// So many smaller zones are looked at where one is slower than a stop. Few of them save time: what a zone wins falls faster with its size
 /// than what it loses.
@@ -61,7 +61,7 @@ pub(crate) struct Blend {
     /// The nominal time in s.
     pub(crate) time: f64,
     pub(crate) blend_limits: BlendLimits,
-    /// Whether it may take longer than a stop between the motions.
+    /// Whether it may take longer than a stop between the motions, as constant limits tell.
     pub(crate) may_lose_time: bool,
     /// Whether it takes all that was asked for, or halves of both motions in a dense chain: not less, for want of a way or of time.
     pub(crate) is_whole: bool,

@@ -251,7 +251,7 @@ impl Segment {
         by_differences(tcp, at, self.time)
     }
 
-    /// Whether the next segment begins where this one ends, as far as that is the same for both: the flange, or the axes.
+    /// Whether the next segment begins where this one ends: the flange's position where both lead the tool, all axes where both lead these.
     pub(crate) fn meets(&self, next: &Self) -> bool {
         let (end, start) = (self.place(self.time), next.place(0.0));
         match (&self.curve, &next.curve) {

@@ -5,18 +5,18 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use crate::blend::corner::Blend;
-use crate::command::joints::Joints;
+use crate::command::joints::{ALL, Joints};
 use crate::follow::segment::{Segment, is_free};
 use crate::follow::shared_deque::SharedDeque;
 use crate::limits::constant::quickest;
-use crate::plan::constraints::Constraints;
+use crate::plan::constraints::{Constraints, MANUAL_SPEED_MM_S};
 use crate::plan::curve::Curve;
 use crate::plan::motion::Motion;
 use crate::time_optimal::constraint_sampler::{ConstraintSampler, Part};
 use crate::time_optimal::law_memory::key;
 use crate::time_optimal::law_solver_thread::fastest_duration;
 use crate::time_optimal::solver::Edge;
-use arl_robot::robot::{ROBOT_AXES, Robot};
+use arl_robot::robot::Robot;
 
 /// What a blend has to save, in s. The law that leads along a whole chain is found at places that are farther apart, and may take a little
 /// longer than two motions alone.
@@ -24,8 +24,8 @@ const LEAST_GAIN_S: f64 = 0.001;
 /// Where two motions take longer than this, in s, one blend more or less is nothing beside it, and less than laws of that length differ.
 const LONGEST_PAIR_S: f64 = 10.0;
 
-/// A motion that takes more than so many times as long as it would if all its places were as quick as its quickest is uneven; one that is
-/// shorter than so many mm is not looked at.
+/// Constant limits say too little where a motion takes more than so many times as long with them as with those of one of its ends. Motions
+/// that are shorter than so many mm, of which there may be very many, hardly change from end to end.
 const UNEVEN_FACTOR: f64 = 2.0;
 const SHORT_MOTION_MM: f64 = 1.0;
 
@@ -42,21 +42,26 @@ pub(crate) struct Stopping<'a> {
     robot: &'a Robot,
     from: &'a Motion,
     to: &'a Motion,
+    /// Whether constant limits say too little about how long they take.
+    uneven: OnceCell<bool>,
     /// How long they take with the stop, from rest to rest, in s; `None` where that is too long, or no laws lead.
     time: OnceCell<Option<f64>>,
 }
 
 impl<'a> Stopping<'a> {
     pub(crate) fn new(robot: &'a Robot, from: &'a Motion, to: &'a Motion) -> Self {
-        Self { robot, from, to, time: OnceCell::new() }
+        Self { robot, from, to, uneven: OnceCell::new(), time: OnceCell::new() }
     }
 
     /// Whether laws have to tell whether a blend saves time: where the governor's constant limits let it seem possible that it does not, or
     /// say too little about how long the motions take.
     pub(crate) fn doubts(&self, blend: &Blend) -> bool {
         let motions = [self.from, self.to];
-        motions.iter().all(|motion| is_free(motion))
-            && (blend.may_lose_time || motions.iter().any(|motion| is_uneven(self.robot, motion)))
+        motions.iter().all(|motion| is_free(motion)) && (blend.may_lose_time || self.is_uneven())
+    }
+
+    fn is_uneven(&self) -> bool {
+        *self.uneven.get_or_init(|| [self.from, self.to].iter().any(|motion| is_uneven(self.robot, motion)))
     }
 
     /// Whether the two motions take longer with the blend, however they are led.
@@ -88,23 +93,25 @@ impl<'a> Stopping<'a> {
     }
 }
 
-/// Whether a motion has places at which it could go much faster than constant limits let it, which are those of its slowest place.
+/// Whether constant limits say too little about how long a motion takes: those of its slowest place make it much slower than those of one of
+/// its ends would. So it is beside a singular point.
 fn is_uneven(robot: &Robot, motion: &Motion) -> bool {
     let (Curve::Tool(curve), Some(limits)) = (&motion.curve, motion.limits) else { return false };
     if motion.length < SHORT_MOTION_MM {
         return false;
     }
-    let quickest_at = |at: f64, near: &Joints| -> Option<f64> {
-        let axes = curve.axes(&robot.kinematics, at, &near.axes)?;
-        let rates = curve.rates(&robot.kinematics, at, &axes)?;
+    let quickest_at = |(at, joints): (f64, &Joints)| -> Option<f64> {
+        let [first, ..] = motion.curve.rates(&robot.kinematics, at, joints)?;
         let mut constraints = Constraints::new(robot);
-        constraints.axes(&rates.first, &[0.0; ROBOT_AXES], &[0.0; ROBOT_AXES], &motion.pace);
+        constraints.all_axes(&[first, [0.0; ALL], [0.0; ALL]], &motion.pace);
         constraints.tool(curve, &motion.pace);
-        constraints.external_along(curve, &motion.pace);
+        if motion.pace.manual {
+            constraints.cap_tool(curve, MANUAL_SPEED_MM_S);
+        }
         Some(quickest(&constraints.rows).duration(1.0))
     };
-    let places = [(0.0, motion.start()), (0.5, motion.start()), (1.0, motion.end())];
-    let quickest = places.iter().filter_map(|(at, near)| quickest_at(*at, near)).fold(f64::INFINITY, f64::min);
+    let ends = [(0.0, motion.start()), (1.0, motion.end())];
+    let quickest = ends.into_iter().filter_map(quickest_at).fold(f64::INFINITY, f64::min);
     limits.duration(1.0) > UNEVEN_FACTOR * quickest
 }
 

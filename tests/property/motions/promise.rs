@@ -44,7 +44,8 @@ impl Pair {
             // Which way it goes through the wrist may differ.
             (Err(said), _) if self.zones.turned_out(&said).is_some() => return None,
             (_, Err(said)) if self.stops.turned_out(&said).is_some() => return None,
-            (Err(said), _) | (_, Err(said)) => return Some(self.zones.failure(project, &[said])),
+            (Err(said), _) => return Some(self.zones.failure(project, &[said])),
+            (_, Err(said)) => return Some(self.stops.failure(project, &[said])),
         };
         let mut faults = Vec::new();
         let (mut zones_from, mut stops_from) = (0.0, 0.0);
@@ -71,7 +72,7 @@ fn end(rows: &[Row], line: usize) -> f64 {
     rows.iter().rfind(|row| row.line == line).expect("rows of each motion").t
 }
 
-/// A program in one profile, at one acceleration, no motion of which has its time given.
+/// A program of which the promise is given: in one profile, at one acceleration, no motion of which has its time given.
 fn uniform(text: &str) -> String {
     let mut profiles = 0;
     let line = |line: &str| {

@@ -75,7 +75,7 @@ pub(crate) struct PathBuffer {
     passed: f64,
     /// The last motion, which the next one may still round off.
     tail: Option<Tail>,
-    /// Whether no motion comes behind it.
+    /// Whether that stays the last one until the robot rests.
     is_last: bool,
 }
 
@@ -497,7 +497,7 @@ impl PathBuffer {
         Governor { stretches: &self.timing.stretches, cycle }
     }
 
-    /// Says whether a motion may come behind the last one before the robot rests.
+    /// Says whether the last motion stays the last one until the robot rests.
     pub(crate) fn note_end(&mut self, is_last: bool) {
         self.is_last = is_last;
     }

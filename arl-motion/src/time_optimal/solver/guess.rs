@@ -62,7 +62,7 @@ pub(crate) fn smooth(speeds: Vec<f64>) -> Vec<f64> {
 
 /// With so few places none is left out: a law is found soon enough.
 const FEW_PLACES: usize = 160;
-/// None is left out either from which on the motion is so many times as fast as before the last one that is kept, or as slow: beside a sharp
+/// None is left out either behind which the motion is so many times as fast as behind the last one that is kept, or as slow: beside a sharp
 /// blend, as beside a stop, the speed changes much within a short time.
 const CHANGE_OF_SPEED: f64 = 1.1;
 

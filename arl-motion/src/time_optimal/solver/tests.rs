@@ -413,6 +413,23 @@ fn sharp(from: f64, to: f64) -> Way {
 }
 
 #[test]
+fn places_beside_a_sharp_bend_are_not_left_out() {
+    let way = sharp(0.0, 2.0);
+    let steps = guess_steps(&way, [Edge::REST; 2]).unwrap();
+    let thinned = thinned(&way, &steps, 0.05).unwrap();
+    let speeds: Vec<f64> = way.places().windows(2).zip(&steps).map(|(pair, step)| (pair[1] - pair[0]) / step).collect();
+    let kept: Vec<usize> = (0..speeds.len()).filter(|index| thinned.places().contains(&way.places()[*index])).collect();
+    assert!(kept.len() < 2 * way.places().len() / 3, "{} of {}", kept.len(), way.places().len());
+    // Between two places that are kept, the speed changes no more than over one step.
+    for pair in kept.windows(2) {
+        let most = |range: std::ops::Range<usize>| {
+            range.map(|index| (speeds[index] / speeds[pair[0]]).ln().abs()).fold(0.0, f64::max)
+        };
+        assert!(most(pair[0]..pair[1]) < 1.1_f64.ln() + 1e-9, "{pair:?}: {}", most(pair[0]..pair[1]));
+    }
+}
+
+#[test]
 fn a_law_goes_on_behind_another_one_that_slows_down_for_its_end() {
     let before = fastest(&sharp(0.0, 1.3), Edge::REST, Edge::REST).unwrap();
     let mut found = 0;

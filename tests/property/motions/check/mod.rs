@@ -150,7 +150,8 @@ pub(crate) fn check(
 pub(crate) fn places_on_lines(robot: &Robot, plan: &Plan, rows: &[Row]) -> Vec<usize> {
     let legs = plan.motions.iter().map(|motion| Leg::of(robot, plan, motion)).collect::<Vec<_>>();
     let section = Section { rows: rows.to_vec(), from: None, whole: true };
-    Account::of_section(robot, &legs, &section).map(|account| account.places_on_lines()).unwrap_or_default()
+    let account = Account::of_section(robot, &legs, &section).expect("a trace that has been checked");
+    account.places_on_lines()
 }
 
 /// How long before the end of a trace the robot may brake fast for an alarm, in s.
