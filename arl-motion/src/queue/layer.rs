@@ -22,7 +22,7 @@ pub(crate) struct Layer {
     pub(crate) waiting: Waiting,
     /// The last motion, where its way depends on the next one.
     pub(crate) held: Option<Held>,
-    /// Whether no motion comes behind the last one before the robot rests.
+    /// Whether none is expected behind the last motion until the robot rests.
     pub(crate) concluded: bool,
     /// Where the last motion ends.
     pub(crate) end: Joints,

@@ -246,8 +246,8 @@ impl Queue {
     /// start: a law in hand would have to be found anew for each of them, and the last ones might come too late.
     pub(crate) fn gathers(&mut self, cycle: f64) -> bool {
         let path = &self.layer.path;
-        let asks = || self.last_ahead().is_some_and(|last| asks(&self.robot, last));
-        let comes_more = || !self.layer.concluded && (self.layer.held.is_some() || asks());
+        let is_open = || self.layer.held.is_some() || self.last_ahead().is_some_and(|last| asks(&self.robot, last));
+        let comes_more = || !self.layer.concluded && is_open();
         let (longest, enough) = if self.is_dense() { GATHERING_OF_DENSE_CHAIN_S } else { GATHERING_S };
         let comes = || self.taken.count > 0 && comes_more();
         // No law leads along motions before their blends are found.

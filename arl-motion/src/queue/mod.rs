@@ -238,7 +238,8 @@ impl Queue {
         self.laid.as_mut().map_or_else(Vec::new, std::mem::take)
     }
 
-    /// Says that no motion will come soon: one that waited for the next goes without it.
+    /// Says that no motion will come before the robot rests: one that waited for the next goes without it, and one alone goes off as if it
+    /// had no zone. A motion that comes all the same is planned as any other.
     ///
     /// # Errors
     /// It cannot be moved without a next one ([`PlanError::Earlier`]). It was dropped.

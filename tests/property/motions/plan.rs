@@ -132,6 +132,13 @@ pub(crate) struct Motion {
     pub(crate) manual: bool,
 }
 
+impl Motion {
+    /// Whether its target is a place on a curve that goes on behind it, whatever its zone.
+    pub(crate) fn goes_on_into(&self, next: &Motion) -> bool {
+        self.kind == Kind::CcirVia || self.kind == Kind::Spl && next.kind == Kind::Spl && next.setting == self.setting
+    }
+}
+
 /// What the program does when an input goes on: it stops its motion, moves, and goes on.
 #[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Handler {
@@ -400,12 +407,15 @@ impl Reader<'_> {
             let motions = self.plan.handlers.iter_mut().flat_map(|handler| &mut handler.motions);
             motions.for_each(|motion| motion.profile = Profile::S);
         }
-        let next: Vec<Option<(Kind, usize)>> =
-            self.plan.motions.iter().skip(1).map(|motion| Some((motion.kind, motion.setting))).chain([None]).collect();
-        for (motion, next) in self.plan.motions.iter_mut().zip(next) {
-            let goes_on =
-                motion.kind == Kind::CcirVia || motion.kind == Kind::Spl && next == Some((Kind::Spl, motion.setting));
-            motion.rests |= next.is_none() || motion.zone == Zone::None && !goes_on;
+        let motions = &self.plan.motions;
+        let next = motions.iter().skip(1).map(Some).chain([None]);
+        let rests = motions
+            .iter()
+            .zip(next)
+            .map(|(motion, next)| next.is_none_or(|next| motion.zone == Zone::None && !motion.goes_on_into(next)));
+        let rests: Vec<bool> = rests.collect();
+        for (motion, rests) in self.plan.motions.iter_mut().zip(rests) {
+            motion.rests |= rests;
         }
         self.plan
     }

@@ -75,7 +75,7 @@ pub(crate) struct PathBuffer {
     passed: f64,
     /// The last motion, which the next one may still round off.
     tail: Option<Tail>,
-    /// Whether that stays the last one until the robot rests.
+    /// Whether it stays the last one until the robot rests.
     is_last: bool,
 }
 
@@ -578,8 +578,8 @@ impl PathBuffer {
     /// Whether the segment of an index, at whose start the robot rests, is an even motion that will not be blended with the next one.
     fn is_alone(&self, robot: &Robot, index: usize) -> bool {
         let Some(segment) = self.segments.get(index) else { return false };
-        let asks = || self.tail.as_ref().is_none_or(|tail| asks(robot, &tail.motion));
-        let stays = || index + 1 < self.segments.len() || self.is_last || !asks();
+        let ends_exactly = || self.tail.as_ref().is_some_and(|tail| !asks(robot, &tail.motion));
+        let stays = || index + 1 < self.segments.len() || self.is_last || ends_exactly();
         segment.is_even() && segment.stops && segment.duration().is_some() && stays()
     }
 

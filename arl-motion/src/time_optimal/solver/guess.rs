@@ -85,6 +85,7 @@ pub(crate) fn thinned(way: &Way, steps: &[f64], closest: f64) -> Option<Way> {
     let lengths = way.places().windows(2).map(|pair| pair[1] - pair[0]);
     let speeds: Vec<f64> = lengths.zip(steps).map(|(length, step)| length / step).collect();
     let changes = |from: f64, to: f64| from.max(to) > CHANGE_OF_SPEED * from.min(to);
+    // As if it stood before the start, so that the place behind that stays, too.
     let (mut since, mut before, mut keep) = (0.0, 0.0, vec![true]);
     for (index, (step, behind)) in (1..).zip(steps.iter().zip(speeds.iter().skip(1))) {
         since += step;

@@ -420,7 +420,7 @@ fn places_beside_a_sharp_bend_are_not_left_out() {
     let speeds: Vec<f64> = way.places().windows(2).zip(&steps).map(|(pair, step)| (pair[1] - pair[0]) / step).collect();
     let kept: Vec<usize> = (0..speeds.len()).filter(|index| thinned.places().contains(&way.places()[*index])).collect();
     assert!(kept.len() < 2 * way.places().len() / 3, "{} of {}", kept.len(), way.places().len());
-    // Between two places that are kept, the speed changes no more than over one step.
+    // Behind a place that is left out the motion is about as fast as behind the last one that is kept.
     for pair in kept.windows(2) {
         let most = |range: std::ops::Range<usize>| {
             range.map(|index| (speeds[index] / speeds[pair[0]]).ln().abs()).fold(0.0, f64::max)

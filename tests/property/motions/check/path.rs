@@ -12,6 +12,24 @@ const ALONG: f64 = 1e-4;
 /// How far a row is off a path.
 type Path<'a> = Box<dyn Fn(&Row) -> f64 + 'a>;
 
+/// The corners of a motion: where it is entered, and where it is left for the next one.
+struct Corners<'a> {
+    entered: Corner<'a>,
+    left: Option<Corner<'a>>,
+}
+
+impl<'a> Corners<'a> {
+    fn of(account: &'a Account<'_>, at: usize) -> Self {
+        let left = (at + 1 < account.legs.len()).then(|| Corner::new(account, at));
+        Self { entered: Corner::new(account, at - 1), left }
+    }
+
+    /// Whether a row of the motion may be off its path for one of them.
+    fn hold(&self, row: &Row, of: &Leg) -> bool {
+        self.entered.holds(row, of) || self.left.as_ref().is_some_and(|corner| corner.holds(row, of))
+    }
+}
+
 impl Account<'_> {
     pub(super) fn paths(&self, faults: &mut Vec<String>, tally: &mut Tally) {
         for at in 1..self.legs.len() {
@@ -24,12 +42,9 @@ impl Account<'_> {
         let lines = (1..self.legs.len()).filter(|at| self.legs[*at].motion.kind == Kind::Lin);
         let place = |at: usize| {
             let leg = &self.legs[at];
-            let entered = Corner::new(self, at - 1);
-            let left = (at + 1 < self.legs.len()).then(|| Corner::new(self, at));
-            let is_held =
-                |row: &Row| entered.holds(row, leg) || left.as_ref().is_some_and(|corner| corner.holds(row, leg));
-            let own = leg.rows.clone().filter(|at| self.rows[*at].line == leg.motion.line && !is_held(&self.rows[*at]));
-            let own: Vec<usize> = own.collect();
+            let corners = Corners::of(self, at);
+            let is_on = |row: &Row| row.line == leg.motion.line && !corners.hold(row, leg);
+            let own: Vec<usize> = leg.rows.clone().filter(|at| is_on(&self.rows[*at])).collect();
             own.get(own.len() / 2).copied()
         };
         lines.filter_map(place).collect()
@@ -43,8 +58,7 @@ impl Account<'_> {
         }
         let Some((note, off)) = self.path(at) else { return };
         let tolerance = if leg.leads_tool() { PATH } else { EXACT };
-        let entered = Corner::new(self, at - 1);
-        let left = (at + 1 < self.legs.len()).then(|| Corner::new(self, at));
+        let corners = Corners::of(self, at);
         let mut beside = None;
         let (mut on, mut worst): (usize, f64) = (0, 0.0);
         let mut fault: Option<(f64, &Row)> = None;
@@ -55,20 +69,19 @@ impl Account<'_> {
                 beside = None;
                 continue;
             }
-            let in_left = left.as_ref().is_some_and(|corner| corner.holds(row, leg));
-            if !entered.holds(row, leg) && !in_left && fault.is_none_or(|(most, _)| far > most) {
+            if !corners.hold(row, leg) && fault.is_none_or(|(most, _)| far > most) {
                 fault = Some((far, row));
             }
             beside = beside.or(Some(row));
         }
         tally.note_many(note, on, worst);
         if let Some((far, row)) = fault {
-            let corners = [Some(&entered), left.as_ref()].into_iter().flatten().map(|corner| corner.tell(row, leg));
-            let corners: Vec<String> = corners.collect();
+            let corners = [Some(&corners.entered), corners.left.as_ref()].into_iter().flatten();
+            let corners: Vec<String> = corners.map(|corner| corner.tell(row, leg)).collect();
             faults.push(format!("line {line}, {} s: {far} off the path; {}", row.t, corners.join("; ")));
         }
         // Where the path is left for good, all that the zone asks for must be met.
-        if let (Some(row), Some(corner)) = (beside.filter(|_| leg.reached), &left)
+        if let (Some(row), Some(corner)) = (beside.filter(|_| leg.reached), &corners.left)
             && let Some(fault) = corner.left_too_early(row, leg, tally)
         {
             faults.push(format!("line {line}, {} s: {fault}", row.t));
