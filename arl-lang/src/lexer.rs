@@ -1,6 +1,7 @@
 //! Text to lexemes. The lexer never fails: what it cannot read becomes an error in the place of a lexeme.
 
 use crate::number::{Number, NumberError, read_number};
+use crate::span::Span;
 use logos::FilterResult;
 
 pub use crate::lexeme::Lexeme;
@@ -33,6 +34,18 @@ pub enum LexicalError {
     BareSplice,
     /// A `#(` without its `)`.
     UnclosedSplice,
+}
+
+/// The lexemes of a text with their places. What lies between them is blanks, comments and continued line ends.
+///
+/// ```
+/// use arl_lang::lexer::{Lexeme, lexemes};
+/// let kinds: Vec<_> = lexemes("a /* b */ + // c").map(|(lexeme, _)| lexeme).collect();
+/// assert_eq!(kinds, [Ok(Lexeme::Word), Ok(Lexeme::Plus)]);
+/// ```
+pub fn lexemes(text: &str) -> impl Iterator<Item = (Result<Lexeme, LexicalError>, Span)> {
+    let placed = <Lexeme as logos::Logos>::lexer(text).spanned();
+    placed.map(|(lexeme, at)| (lexeme, Span::new(at.start as u32, at.end as u32)))
 }
 
 type Lexer<'source> = logos::Lexer<'source, Lexeme>;

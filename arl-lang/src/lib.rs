@@ -18,6 +18,7 @@ pub mod lexer;
 mod line;
 pub mod number;
 pub mod operators;
+pub mod outline;
 mod parse;
 mod recovery;
 pub mod span;
@@ -30,7 +31,8 @@ mod tree;
 mod words;
 
 pub use parse::{
-    ParseOptions, Parsed, ParsedExpression, ParsedStatements, Splice, parse, parse_expression, parse_statements,
+    ParseOptions, Parsed, ParsedExpression, ParsedStatements, Splice, outline, parse, parse_expression,
+    parse_statements,
 };
 pub use tree::EXPRESSION_LEVELS;
 pub use words::is_reserved;

@@ -10,8 +10,9 @@ use crate::followers::Followers;
 use crate::grammar::LineParser;
 use crate::habits::repair;
 use crate::lexer::{Lexeme, LexicalError};
-use crate::line::LineKind;
+use crate::line::{Line, LineKind};
 use crate::number::{Number, NumberError, NumberValue};
+use crate::outline::Outline;
 use crate::recovery::{Recovered, recover};
 use crate::span::Span;
 use crate::symbol::{Interner, Symbol};
@@ -106,6 +107,17 @@ pub fn parse_expression(source: &str, interner: &mut Interner, options: ParseOpt
     ParsedExpression { expr, errors, splices }
 }
 
+/// What each lexeme of a file is to the grammar, and what each line means for the blocks.
+pub fn outline(source: &str) -> Outline {
+    let mut interner = Interner::new();
+    let mut parser = Parser::new(source, &mut interner, ParseOptions::default(), false);
+    parser.outline = Some(Outline::default());
+    parser.run();
+    let mut outline = parser.outline.unwrap_or_default();
+    outline.note_mistakes(&parser.context.errors);
+    outline
+}
+
 fn in_order(mut errors: Vec<SyntaxError>) -> Vec<SyntaxError> {
     errors.sort_by_key(|error| error.span.start);
     errors
@@ -124,6 +136,8 @@ struct Parser<'a> {
     blocks: Blocks<'a>,
     splices: Vec<Splice>,
     void: Symbol,
+    /// Where the outline is wanted: as far as it was read.
+    outline: Option<Outline>,
 }
 
 impl<'a> Parser<'a> {
@@ -152,6 +166,7 @@ impl<'a> Parser<'a> {
             blocks: Blocks::new(source, only_statements),
             splices: Vec::new(),
             void,
+            outline: None,
         }
     }
 
@@ -165,6 +180,9 @@ impl<'a> Parser<'a> {
             let mut rest = lexemes.as_slice();
             while !rest.is_empty() {
                 let adapted = self.adapter.adapt(rest, &mut self.context.errors);
+                if let Some(outline) = &mut self.outline {
+                    outline.note_part(rest.get(..adapted.taken).unwrap_or(rest), &self.adapter.tokens);
+                }
                 self.line(broken || adapted.broken, quiet);
                 rest = rest.get(adapted.taken.max(1)..).unwrap_or_default();
             }
@@ -280,7 +298,7 @@ impl<'a> Parser<'a> {
             ..Doubts::default()
         };
         if let Some(line) = habits.whole {
-            return self.blocks.take(line, doubts, &mut self.context.errors);
+            return self.take(line, doubts);
         }
         let tokens = self.adapter.tokens.as_slice();
         if broken {
@@ -302,7 +320,7 @@ impl<'a> Parser<'a> {
                         self.context.errors.push(SyntaxError::new(SyntaxErrorKind::BlockBrace, expr.span));
                     }
                 }
-                self.blocks.take(line, doubts, &mut self.context.errors);
+                self.take(line, doubts);
             }
             Err(error) => {
                 self.context.errors.truncate(before);
@@ -320,6 +338,14 @@ impl<'a> Parser<'a> {
         }
     }
 
+    /// Hands a line on to the blocks.
+    fn take(&mut self, line: Line, doubts: Doubts) {
+        if let Some(outline) = &mut self.outline {
+            outline.note_line(&line, doubts);
+        }
+        self.blocks.take(line, doubts, &mut self.context.errors);
+    }
+
     /// Takes what can be made of a line that is wrong from its token `at` on.
     fn recover(&mut self, at: usize, mut doubts: Doubts) {
         let tokens = self.adapter.tokens.as_slice();
@@ -329,7 +355,7 @@ impl<'a> Parser<'a> {
         let Some(Recovered { line, may_open, drop }) = recover(tokens, read, self.void) else { return };
         doubts.may_open = may_open;
         doubts.drop = drop;
-        self.blocks.take(line, doubts, &mut self.context.errors);
+        self.take(line, doubts);
     }
 }
 

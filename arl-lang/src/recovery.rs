@@ -117,7 +117,7 @@ fn guard(read: Option<Line>) -> Option<Expr> {
 }
 
 /// The number of the token behind the parentheses of the condition that begins with the second one.
-fn condition_end(tokens: &[Placed]) -> Option<usize> {
+pub(crate) fn condition_end(tokens: &[Placed]) -> Option<usize> {
     let mut depth = 0_usize;
     for (at, (_, token, _)) in tokens.iter().enumerate().skip(1) {
         match token {

@@ -90,6 +90,28 @@ pub fn splice(bytes: &[u8], part: Range<usize>, with: &str) -> Option<Vec<u8>> {
     (right && with.is_ascii()).then_some(changed)
 }
 
+/// The bytes of `text` as a file in the encoding of another one, with its byte order mark where that has one. `None`
+/// where `file` is no text, or would not come out of it byte for byte itself: then other characters could change, too.
+///
+/// ```
+/// let file = b"//\xb5\xe3\nlin p1";
+/// let text = arl_lang::text::decode(file).unwrap();
+/// let changed = arl_lang::text::encode_like(file, &text.replace("p1", "p2"));
+/// assert_eq!(changed.unwrap(), b"//\xb5\xe3\nlin p2");
+/// ```
+pub fn encode_like(file: &[u8], text: &str) -> Option<Vec<u8>> {
+    let old = decode(file).ok()?;
+    let utf8 = matches!(old, Cow::Borrowed(_));
+    let mark = if file.starts_with(MARK) { MARK } else { b"" };
+    let encoded = |text: &str| {
+        let bytes = if utf8 { Cow::Owned(text.as_bytes().to_vec()) } else { GB18030.encode(text).0 };
+        [mark, &bytes].concat()
+    };
+    let new = encoded(text);
+    let same = encoded(&old) == file && decode(&new).is_ok_and(|read| read == text);
+    same.then_some(new)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -106,6 +128,18 @@ mod tests {
     fn gb18030() {
         let (bytes, _, _) = GB18030.encode("//移动到点𠀀\nlin p1");
         assert_eq!(decode(&bytes).unwrap(), "//移动到点𠀀\nlin p1");
+    }
+
+    #[test]
+    fn encoded_as_before() {
+        let (bytes, _, _) = GB18030.encode("//移动到点𠀀\r\nlin p1");
+        assert_eq!(encode_like(&bytes, "//移动到点𠀀\n").unwrap(), GB18030.encode("//移动到点𠀀\n").0.into_owned());
+        assert_eq!(encode_like("\u{feff}int a".as_bytes(), "int ä").unwrap(), "\u{feff}int ä".as_bytes());
+        assert_eq!(encode_like(b"int a", "int b").unwrap(), b"int b");
+        // A four-byte form of a character that has a two-byte form.
+        let odd = b"//\xb5\xe3 \x84\x31\xa4\x37";
+        assert!(decode(odd).is_err() || encode_like(odd, "//点").is_none_or(|new| new == b"//\xb5\xe3"));
+        assert_eq!(encode_like(b"\xff\xfeint", "int"), None);
     }
 
     #[test]

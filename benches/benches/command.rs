@@ -27,11 +27,7 @@ struct Bench {
 
 impl Bench {
     fn new() -> Result<Self, String> {
-        run(cargo().args(["build", "--quiet", "--release", "-p", "arl2rs"]))?;
-        // This program lies in target/release/deps.
-        let own = std::env::current_exe().map_err(|error| error.to_string())?;
-        let command = own.ancestors().nth(2).map(|folder| folder.join("arl2rs")).filter(|path| path.is_file());
-        let command = command.ok_or("cargo made no arl2rs next to this bench")?;
+        let command = arl_benches::command::build()?;
         let folder = std::env::temp_dir().join("arl-benches-command");
         std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
         Ok(Self { command, folder })

@@ -2,6 +2,7 @@
 
 pub mod cell;
 pub mod chains;
+pub mod command;
 pub mod cost;
 pub mod inputs;
 pub mod instructions;

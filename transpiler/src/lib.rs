@@ -11,7 +11,9 @@ pub mod compile;
 pub mod diagnostics;
 pub mod effects;
 pub mod emit;
+pub mod format;
 pub mod hir;
+pub mod index;
 mod near;
 pub mod render;
 pub mod sources;
@@ -55,6 +57,9 @@ pub struct CheckOptions {
     pub background: bool,
     /// A file without `main` is fine: it is checked as a module.
     pub library: bool,
+    /// Record what every name means, for editors. The program that comes out is not for the emitter: its effects are not
+    /// looked at.
+    pub index: bool,
     /// The robot, where it is known: targets that it can never reach are warned of.
     #[cfg(feature = "cli")]
     pub robot: Option<arl_robot::Robot>,
@@ -72,13 +77,29 @@ pub struct Checked {
     pub diagnostics: Vec<Diagnostic>,
     /// The files that were read.
     pub files: Files,
+    /// What every name means, where [`CheckOptions::index`] asks for it.
+    pub index: Option<index::Index>,
     /// The syntax trees, kept only to be freed with the rest: a command that ends anyway need not wait for it.
     _syntax: check::Syntax,
     /// The paths of the files that were read, in the order of `files`, and those that were looked for in vain.
     pub read: Vec<std::path::PathBuf>,
 }
 
+/// What only the emitter needs.
+#[cfg(feature = "cli")]
+#[derive(Debug)]
+pub(crate) struct Unneeded {
+    _program: Option<hir::Program>,
+    _syntax: check::Syntax,
+}
+
 impl Checked {
+    /// Takes out what only the emitter needs, to be freed when there is time.
+    #[cfg(feature = "cli")]
+    pub(crate) fn take_program(&mut self) -> Unneeded {
+        Unneeded { _program: self.program.take(), _syntax: std::mem::take(&mut self._syntax) }
+    }
+
     /// Whether the program is refused.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error)

@@ -108,7 +108,22 @@ pub fn signature(entry: &Entry) -> String {
     }
 }
 
-fn prototype(param: &Param) -> String {
+/// A parameter of an instruction or function: its type, how it is given, its meaning, its units and range.
+pub fn parameter(entry: &Entry, param: &Param) -> String {
+    let mut text =
+        format!("`{}` of `{}`: {}; {}\n\n{}", param.name, entry.name, param_type(param), presence(param), param.doc);
+    if !param.units.is_empty() {
+        let units: Vec<&str> = param.units.iter().map(|unit| unit.text()).collect();
+        let _ = write!(text, "\n\nUnits: {}.", code_list(&units));
+    }
+    if let Some(range) = param.range {
+        let _ = write!(text, "\n\nRange: {range}.");
+    }
+    text
+}
+
+/// A parameter of a function as its prototype has it: `double x`, in brackets where it may be missing.
+pub fn prototype(param: &Param) -> String {
     let mark = if param.mode == Mode::Out { "&" } else { "" };
     let plain = format!("{} {mark}{}", type_name(param), param.name);
     match param.presence {

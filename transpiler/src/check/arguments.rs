@@ -11,6 +11,7 @@ use crate::diagnostics::arguments::ArgumentProblem;
 use crate::diagnostics::listed;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Bound, Expr, ExprKind, FuncId, Passed, Type, Value};
+use crate::index::Wanted as Looked;
 use arl_lang::ast::{self, Arg, Unit};
 use arl_lang::catalog::{
     self, Access, Base, Entry, Kind, Mode, ParamType, Presence, Range, Restore, SystemVariable, UNSET,
@@ -91,7 +92,7 @@ impl<'a> Checker<'a> {
         let name = self.callee_name(callee);
         let params = self.parameters(callee);
         let by_type = matches!(callee, Callee::Builtin(entry) if entry.kind == Kind::Instruction);
-        let pairs = self.pair(body, callee, name, &params, args, by_type);
+        let pairs = self.pair(body, callee, span, &params, args, by_type);
         // An argument without a parameter was reported, here or where its variable is declared.
         let mut good = pairs.len() == args.len();
         let counts = counts(&params, &pairs);
@@ -200,16 +201,17 @@ impl<'a> Checker<'a> {
         &mut self,
         body: &mut Body,
         callee: &Callee,
-        name: &str,
+        span: Span,
         params: &[Parameter<'_>],
         args: &'e [Arg],
         by_type: bool,
     ) -> Vec<Pair<'e>> {
+        let name = self.callee_name(callee);
         let mut taken = vec![0usize; params.len()];
         let labels = Labels::of(params);
         let mut slots: Vec<Option<usize>> = Vec::with_capacity(args.len());
         for arg in args {
-            let param = arg.label.and_then(|label| self.labelled(body, name, params, &labels, label, &taken));
+            let param = arg.label.and_then(|label| self.labelled(body, callee, params, &labels, label, &taken));
             if let Some(count) = param.and_then(|param| taken.get_mut(param)) {
                 *count += 1;
             }
@@ -219,8 +221,15 @@ impl<'a> Checker<'a> {
         let mut position = 0;
         for (arg, slot) in args.iter().zip(slots) {
             if arg.label.is_some() {
-                pairs.extend(slot.map(|param| Pair { param, arg, typed: None }));
+                self.expect_argument(body, callee, span, arg, &taken, slot);
+                if let Some(param) = slot {
+                    self.mention_argument(body, callee, span, arg, param);
+                    pairs.push(Pair { param, arg, typed: None });
+                }
                 continue;
+            }
+            if by_type {
+                self.expect_argument(body, callee, span, arg, &taken, None);
             }
             let found = if by_type {
                 self.by_type(body, name, params, arg, &taken)
@@ -228,9 +237,13 @@ impl<'a> Checker<'a> {
                 self.by_position(body, callee, name, params, arg, &mut position, &taken)
             };
             if let Some((param, typed)) = found {
+                if !by_type {
+                    self.expect_argument(body, callee, span, arg, &taken, Some(param));
+                }
                 if let Some(count) = taken.get_mut(param) {
                     *count += 1;
                 }
+                self.mention_argument(body, callee, span, arg, param);
                 pairs.push(Pair { param, arg, typed });
             }
         }
@@ -240,7 +253,7 @@ impl<'a> Checker<'a> {
     fn labelled(
         &mut self,
         body: &Body,
-        callee: &str,
+        callee: &Callee,
         params: &[Parameter<'_>],
         places: &Labels,
         label: ast::Ident,
@@ -248,6 +261,8 @@ impl<'a> Checker<'a> {
     ) -> Option<usize> {
         let wanted = self.names.name(label.symbol);
         let Some(at) = places.find(params, wanted) else {
+            self.expect(body, label.symbol, label.span, Looked::ArgumentLabel);
+            let callee = self.callee_name(callee);
             let names = || params.iter().map(|param| param.name);
             let problem = ArgumentProblem::UnknownLabel {
                 callee: callee.into(),
@@ -259,6 +274,11 @@ impl<'a> Checker<'a> {
         };
         let param = params.get(at)?;
         self.strict_case(body, label.span, param.name);
+        if let Some(meaning) = self.parameter_meaning(callee, at) {
+            // The colon belongs to the label's token, not to the name.
+            let name = Span::new(label.span.start, label.span.start + wanted.len() as u32);
+            self.mention(body, name, meaning);
+        }
         if taken.get(at).is_some_and(|count| *count >= most(param)) {
             return self.report(body, label.span, ArgumentProblem::Twice { parameter: param.name.into() });
         }

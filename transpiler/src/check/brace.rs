@@ -47,6 +47,7 @@ impl Checker<'_> {
                 (None, None) => (item.name, &item.value),
             };
             if named.is_some_and(|named| named != name.is_some()) {
+                self.expect_component(body, id, value, values.iter().map(Option::is_some));
                 self.report::<()>(body, value.span, TypeProblem::MixedBraces);
                 good = false;
                 break;
@@ -74,6 +75,7 @@ impl Checker<'_> {
                 good = false;
                 continue;
             }
+            self.expect_in_braces(id, value, values.iter().map(Option::is_some));
             let what = format_args!("`{}`", component.name);
             match self.expr_as(body, value, Type::scalar(component.ty), what) {
                 Some(checked) => {

@@ -7,6 +7,7 @@ use crate::diagnostics::arguments::ArgumentProblem;
 use crate::diagnostics::names::NameProblem;
 use crate::diagnostics::support::SupportProblem;
 use crate::hir::{Bound, Builtin, Expr, ExprKind, FuncId, Passed, Type, Value};
+use crate::index::{Meaning, Wanted};
 use arl_lang::ast;
 use arl_lang::catalog::{self, Base, Entry, Family, Form, ParamType, Presence};
 use arl_lang::span::Span;
@@ -18,6 +19,7 @@ impl Checker<'_> {
         if let Some(scope) = call.module {
             let Some(module) = self.find_module(body, scope) else { return self.unknown_module(body, scope) };
             self.used_modules.insert((body.module, module));
+            self.mention(body, scope.span, Meaning::Module(module));
             let func = self.scopes.get(module.0 as usize)?.funcs.get(&call.name.symbol).copied();
             return match func {
                 Some(func) => self.call_user(body, func, call, span),
@@ -25,8 +27,9 @@ impl Checker<'_> {
             };
         }
         if let Some(func) = self.scopes.get(body.module.0 as usize)?.funcs.get(&call.name.symbol).copied() {
-            let slot = self.funcs.get(func.0 as usize)?;
-            if slot.item > body.item {
+            if self.funcs.get(func.0 as usize)?.item > body.item {
+                self.mention(body, call.name.span, Meaning::Function(func));
+                let slot = self.funcs.get(func.0 as usize)?;
                 let name = self.text(body.module, call.name.span).to_string();
                 let labels = [(body.module, slot.ast.name.span, "defined here")];
                 return self.report_in(body.module, call.name.span, NameProblem::FunctionBelow { name }, &labels);
@@ -50,6 +53,7 @@ impl Checker<'_> {
     }
 
     fn unknown_function<T>(&mut self, body: &mut Body, call: &ast::Call) -> Option<T> {
+        self.expect(body, call.name.symbol, call.name.span, Wanted::Function);
         for arg in &call.args {
             if !matches!(arg.value.kind, ast::ExprKind::Brace(_)) {
                 self.expr(body, &arg.value, None);
@@ -70,6 +74,7 @@ impl Checker<'_> {
 
     fn call_user(&mut self, body: &mut Body, func: FuncId, call: &ast::Call, span: Span) -> Option<Expr> {
         self.check_signature(func);
+        self.mention(body, call.name.span, Meaning::Function(func));
         let slot = self.funcs.get(func.0 as usize)?;
         let (module, name_span) = (slot.module, slot.ast.name.span);
         let declared = self.text(module, name_span);
@@ -97,6 +102,7 @@ impl Checker<'_> {
         };
         self.strict_case(body, call.name.span, first.name);
         if first.form == Form::TypeOf {
+            self.mention(body, call.name.span, Meaning::Builtin(first));
             return self.type_of(body, first, call, span);
         }
         let fitting: Vec<&'static Entry> =
@@ -106,8 +112,15 @@ impl Checker<'_> {
         }
         let entry = match overloads.as_slice() {
             [only] => *only,
-            _ => self.choose_overload(body, &overloads, call)?,
+            _ => {
+                let chosen = self.choose_overload(body, &overloads, call);
+                if chosen.is_none() {
+                    self.mention(body, call.name.span, Meaning::Builtin(first));
+                }
+                chosen?
+            }
         };
+        self.mention(body, call.name.span, Meaning::Builtin(entry));
         let args = self.bind(body, &Callee::Builtin(entry), &call.args, call.name.span)?;
         self.builtin(body, entry, args, call.name.span, span)
     }
@@ -158,6 +171,10 @@ impl Checker<'_> {
         let mut types = Vec::new();
         for (at, arg) in call.args.iter().enumerate() {
             let want = common_type(overloads, at);
+            if let Some(first) = overloads.first() {
+                let taken = vec![1; at];
+                self.expect_argument(body, &Callee::Builtin(first), call.name.span, arg, &taken, Some(at));
+            }
             let shown = self.diagnostics.len();
             let typed = self.expr(body, &arg.value, want);
             if typed.is_none() && self.diagnostics.len() > shown {

@@ -1,6 +1,7 @@
 //! What the checker knows while it goes through a program.
 
 use super::load::LoadedModule;
+use super::mention::Recorder;
 use crate::CheckOptions;
 use crate::diagnostics::constants::ConstantProblem;
 use crate::diagnostics::support::SupportProblem;
@@ -34,6 +35,8 @@ pub(crate) struct Checker<'a> {
     pub(crate) hints: crate::near::Hints,
     /// Whether any argument is a condition, so that conditions have to be looked at.
     pub(crate) has_conditions: bool,
+    /// What names mean, where that is asked for.
+    pub(crate) recorder: Option<Box<Recorder>>,
 }
 
 /// The names of one module.
@@ -152,6 +155,11 @@ impl Body {
     /// All names of locals that are known here.
     pub(crate) fn visible(&self) -> impl ExactSizeIterator<Item = Symbol> {
         self.scope.keys().copied()
+    }
+
+    /// All locals that are known here, under their names.
+    pub(crate) fn visible_locals(&self) -> impl Iterator<Item = (Symbol, LocalId)> {
+        self.scope.iter().map(|(symbol, local)| (*symbol, *local))
     }
 
     /// The variable of this name in the innermost scope.

@@ -8,6 +8,7 @@ use crate::diagnostics::modules::ModuleProblem;
 use crate::diagnostics::names::{NameProblem, is_instruction_of_others, is_type_of_others};
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{self, Expr, ExprKind, FuncId, GlobalId, LocalId, MAX_DIMS, ModuleId, Stmt, StmtKind, Type, Value};
+use crate::index::{LocalInfo, Meaning, Wanted};
 use arl_lang::ast;
 use arl_lang::catalog::{self, Base};
 use arl_lang::span::Span;
@@ -161,6 +162,7 @@ impl<'a> Checker<'a> {
     pub(crate) fn base_type(&mut self, body: &Body, name: &ast::TypeRef) -> Option<Base> {
         let folded = self.names.name(name.name);
         let Some(base) = catalog::base_type(folded).filter(|base| base.is_system() == name.system) else {
+            self.expect(body, name.name, name.span, Wanted::Type);
             if let Some(now) = catalog::renamed(folded) {
                 let name_text = self.text(body.module, name.span).to_string();
                 return self.report(body, name.span, NameProblem::Renamed { name: name_text, now: now.into() });
@@ -180,6 +182,7 @@ impl<'a> Checker<'a> {
         }
         let declared = self.base_name(base);
         self.strict_case(body, name.span, declared);
+        self.mention(body, name.span, Meaning::Type(base));
         Some(base)
     }
 
@@ -294,6 +297,8 @@ impl<'a> Checker<'a> {
             let problem = NameProblem::Duplicate { name: text, what: "variable" };
             self.report_in::<()>(body.module, name.span, problem, &labels);
         }
+        let info = LocalInfo { ty, constant, value: value.clone(), func: body.func };
+        self.mention_local(body, name, info);
         let local = hir::Local {
             name: self.names.name(name.symbol).to_string(),
             ty: ty.unwrap_or(Type::scalar(Base::Int)),

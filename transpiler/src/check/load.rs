@@ -344,7 +344,7 @@ fn is_name(stem: &str) -> bool {
 }
 
 /// The path without `.` and inner `..`, so that one file has one path.
-fn clean(path: &Path) -> PathBuf {
+pub(crate) fn clean(path: &Path) -> PathBuf {
     let mut out = PathBuf::new();
     for component in path.components() {
         match component {

@@ -18,6 +18,7 @@ mod first_motion;
 mod flow;
 mod fold;
 mod load;
+mod mention;
 mod name;
 mod operators;
 mod place;
@@ -33,6 +34,8 @@ use crate::{CheckOptions, Checked, Sources};
 use arl_lang::catalog::Base;
 use arl_lang::span::Span;
 use context::Checker;
+#[cfg(feature = "cli")]
+pub(crate) use load::clean;
 use load::{Loaded, LoadedModule, Start};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
@@ -104,12 +107,15 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
         errors,
         hints: crate::near::Hints::default(),
         has_conditions: false,
+        recorder: options.index.then(|| Box::new(mention::Recorder::new(&files))),
     };
     checker.collect(&first_values_order(&modules));
+    checker.mention_declarations();
     (0..checker.globals.len()).for_each(|at| checker.check_global(GlobalId(at as u32)));
     (0..checker.funcs.len()).for_each(|at| checker.check_func(FuncId(at as u32)));
     let main_func = checker.find_main();
     checker.unused_imports();
+    let index = checker.take_index();
     let refused = checker.diagnostics.iter().any(|diagnostic| diagnostic.severity == Severity::Error);
     let (mut program, mut diagnostics) = (None, Vec::new());
     if refused {
@@ -141,15 +147,17 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
         }
         diagnostics.extend(late);
     }
-    if let Some(program) = &mut program {
+    // Who asks what names mean does not translate the program.
+    if let Some(program) = program.as_mut().filter(|_| !options.index) {
         crate::effects::infer(program);
     }
     diagnostics.sort_by_key(|diagnostic| (diagnostic.primary.at, diagnostic.code));
     diagnostics.dedup();
-    (Checked { program, diagnostics, files, _syntax: Syntax { _modules: modules }, read }, spliced)
+    (Checked { program, diagnostics, files, index, _syntax: Syntax { _modules: modules }, read }, spliced)
 }
 
 /// The syntax trees of a program.
+#[derive(Default)]
 pub(crate) struct Syntax {
     _modules: Vec<LoadedModule>,
 }

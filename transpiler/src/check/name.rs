@@ -5,6 +5,7 @@ use super::convert::{Literal, Typed};
 use super::place::PlaceOrValue;
 use crate::diagnostics::names::NameProblem;
 use crate::hir::{Expr, ExprKind, GlobalId, ModuleId, Place, Root, Type, Value};
+use crate::index::{Meaning, Wanted};
 use crate::near::Hints;
 use arl_lang::ast;
 use arl_lang::catalog::{self, Base, ConstantValue, Enum, Struct};
@@ -31,6 +32,10 @@ impl Checker<'_> {
                 let declared = self.text(body.module, declared);
                 self.strict_case(body, span, declared);
             }
+            if let Some(declared) = found.map(|local| local.span) {
+                let meaning = self.local_meaning(body, declared);
+                self.mention_within(body, span, symbol, meaning);
+            }
             if let Some(value) = value {
                 if let Some(local) = body.local(local) {
                     local.read = true;
@@ -46,6 +51,7 @@ impl Checker<'_> {
         let name = self.names.name(symbol);
         if let Some(found) = catalog::constant(name) {
             self.strict_case(body, span, found.name);
+            self.mention_within(body, span, symbol, Meaning::Constant(found));
             let value = match found.value {
                 ConstantValue::Double(number) => Value::Double(number),
                 ConstantValue::String(text) => Value::String(text.into()),
@@ -55,17 +61,20 @@ impl Checker<'_> {
         if name == "world" && want == Some(Type::scalar(Base::Struct(Struct::Wobj))) {
             let world = self.names.find("world")?;
             let variable = catalog::system_variable(self.names.name(world))?;
+            self.mention_within(body, span, symbol, Meaning::System(variable));
             let ty = Type::scalar(variable.ty);
             return Some(PlaceOrValue::Place(Place { root: Root::System(variable), path: Vec::new(), ty, span }));
         }
         if let Some(found) = enum_constant(name, want) {
             let (id, index) = found;
+            self.mention_within(body, span, symbol, Meaning::EnumConstant(id, index));
             if let Some(constant) = id.def().constants.get(index as usize) {
                 self.strict_case(body, span, constant.name);
             }
             return Some(PlaceOrValue::Value(constant(Value::Enum(id, index), span)));
         }
         if let Some(number) = hexadecimal(name) {
+            self.mention_within(body, span, symbol, Meaning::Number(number));
             let kind = ExprKind::Const(Value::Int(number as i32));
             let expr = Expr { ty: Type::scalar(Base::Int), kind, span };
             return Some(PlaceOrValue::Value(Typed { expr, literal: Literal::Pattern }));
@@ -74,6 +83,7 @@ impl Checker<'_> {
     }
 
     fn unknown_variable<T>(&mut self, body: &Body, symbol: Symbol, span: Span, want: Option<Type>) -> Option<T> {
+        self.expect(body, symbol, span, Wanted::Value(want));
         let name = self.names.name(symbol);
         if let Some(now) = catalog::renamed(name) {
             let name = self.text(body.module, span).to_string();
@@ -128,6 +138,7 @@ impl Checker<'_> {
     /// A global of this module, which has to be declared above.
     fn own_global(&mut self, body: &Body, id: GlobalId, visible: bool, span: Span) -> Option<PlaceOrValue> {
         if !visible {
+            self.mention_global(body, id, span);
             let name = self.text(body.module, span).to_string();
             let declared = self.globals.get(id.0 as usize).map_or(span, |slot| slot.var.name.span);
             let labels = [(body.module, declared, "declared here")];
@@ -138,6 +149,7 @@ impl Checker<'_> {
 
     fn global(&mut self, body: &Body, id: GlobalId, span: Span) -> Option<PlaceOrValue> {
         self.check_global(id);
+        self.mention_global(body, id, span);
         let slot = self.globals.get(id.0 as usize)?;
         let declared = (slot.module, slot.var.name.span);
         let (ty, value) = (slot.ty, slot.value.clone());
@@ -156,6 +168,12 @@ impl Checker<'_> {
         Some(PlaceOrValue::Place(Place { root: Root::Global(id), path: Vec::new(), ty: ty?, span }))
     }
 
+    fn mention_global(&mut self, body: &Body, id: GlobalId, span: Span) {
+        if let Some(symbol) = self.globals.get(id.0 as usize).map(|slot| slot.var.name.symbol) {
+            self.mention_within(body, span, symbol, Meaning::Global(id));
+        }
+    }
+
     /// `scope::name`: a module's variable or an enumeration's constant.
     pub(crate) fn path(
         &mut self,
@@ -167,6 +185,7 @@ impl Checker<'_> {
     ) -> Option<PlaceOrValue> {
         if !system && let Some(module) = self.find_module(body, scope) {
             self.used_modules.insert((body.module, module));
+            self.mention(body, scope.span, Meaning::Module(module));
             if module == body.module
                 && let Some((id, visible)) = self.find_global(body, name.symbol)
             {
@@ -184,13 +203,16 @@ impl Checker<'_> {
         {
             let def = id.def();
             self.strict_case(body, scope.span, def.name);
+            self.mention(body, scope.span, Meaning::Type(base));
             let wanted = self.names.name(name.symbol);
             if let Some(index) = constant_of(id, wanted) {
+                self.mention(body, name.span, Meaning::EnumConstant(id, index));
                 if let Some(constant) = def.constants.get(index as usize) {
                     self.strict_case(body, name.span, constant.name);
                 }
                 return Some(PlaceOrValue::Value(constant(Value::Enum(id, index), span)));
             }
+            self.expect(body, name.symbol, name.span, Wanted::EnumConstant(id));
             return self.unknown_constant(body, id, name.span);
         }
         self.unknown_module(body, scope)
@@ -223,6 +245,7 @@ impl Checker<'_> {
         name: ast::Ident,
         what: &'static str,
     ) -> Option<T> {
+        self.expect(body, name.symbol, name.span, Wanted::Member(module));
         let scope = self.scopes.get(module.0 as usize)?;
         let mut known: Vec<&str> = match what {
             "function" => scope.funcs.keys().map(|symbol| self.names.name(*symbol)).collect(),

@@ -6,6 +6,7 @@ use crate::diagnostics::constants::ConstantProblem;
 use crate::diagnostics::names::NameProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Expr, ExprKind, ModuleId, Place, Projection, Root, Type, Value};
+use crate::index::{Meaning, Wanted};
 use arl_lang::ast;
 use arl_lang::catalog::{Access, Base, Struct};
 use arl_lang::span::Span;
@@ -46,6 +47,7 @@ impl Checker<'_> {
     fn system(&mut self, body: &Body, symbol: arl_lang::symbol::Symbol, span: Span) -> Option<PlaceOrValue> {
         let name = self.names.name(symbol);
         let Some(variable) = arl_lang::catalog::system_variable(name) else {
+            self.expect(body, symbol, span, Wanted::System);
             if let Some(now) = arl_lang::catalog::renamed(&format!("${name}")) {
                 let name = self.text(body.module, span).to_string();
                 return self.report(body, span, NameProblem::Renamed { name, now: now.into() });
@@ -56,6 +58,7 @@ impl Checker<'_> {
             return self.report(body, span, NameProblem::UnknownSystem { name, near });
         };
         self.strict_case(body, Span::new(span.start + 1, span.end), variable.name);
+        self.mention(body, span, Meaning::System(variable));
         let ty = Type::array(variable.ty, variable.dims)?;
         Some(PlaceOrValue::Place(Place { root: Root::System(variable), path: Vec::new(), ty, span }))
     }
@@ -96,11 +99,13 @@ impl Checker<'_> {
     pub(crate) fn component(&mut self, body: &Body, id: Struct, name: ast::Ident) -> Option<usize> {
         let def = id.def(self.family());
         if let Some(index) = self.find_component(id, name.symbol) {
+            self.mention(body, name.span, Meaning::Component(id, index));
             if let Some(component) = def.components.get(index) {
                 self.strict_case(body, name.span, component.name);
             }
             return Some(index);
         }
+        self.expect(body, name.symbol, name.span, Wanted::Component(id));
         let names = || def.components.iter().map(|component| component.name);
         let problem = NameProblem::UnknownComponent {
             name: self.text(body.module, name.span).into(),
@@ -189,6 +194,7 @@ impl Checker<'_> {
                 return self.report(body, expr.span, TypeProblem::NotAssignable { text });
             }
         };
+        self.mention_written(body, expr.span.start);
         match place.root {
             Root::Local(id) => {
                 if let Some(local) = body.local(id) {

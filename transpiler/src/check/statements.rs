@@ -10,6 +10,7 @@ use crate::diagnostics::types::TypeProblem;
 use crate::hir::{
     self, Arm, Block, Bound, Expr, ExprKind, For, FuncId, LabelId, LoopInfo, Passed, Stmt, StmtKind, Type, Value,
 };
+use crate::index::{Meaning, Role, Wanted};
 use arl_lang::ast;
 use arl_lang::catalog::{self, Base, Effect, Kind, Mode, Presence};
 use arl_lang::span::Span;
@@ -84,6 +85,8 @@ impl Checker<'_> {
             self.report_in::<()>(body.module, name.span, problem, &labels);
             return;
         }
+        let at = self.location(body.module, name.span);
+        self.mention_in(body.module, name.span, Meaning::Label(at), Role::Declares);
         let id = LabelId(body.labels.len() as u32);
         let text = self.names.name(name.symbol).to_string();
         body.labels.push(hir::Label { name: text, span: name.span, used: false });
@@ -173,6 +176,7 @@ impl Checker<'_> {
             (None, None) => return self.unknown_instruction(body, instr),
         };
         self.strict_case(body, instr.name.span, entry.name);
+        self.mention(body, instr.name.span, Meaning::Builtin(entry));
         let args = self.bind(body, &Callee::Builtin(entry), &instr.args, instr.name.span);
         let triggers: Vec<Option<Expr>> =
             instr.events.iter().map(|(event, action)| self.trigger(body, event, action)).collect();
@@ -217,6 +221,7 @@ impl Checker<'_> {
 
     /// Checks what is to be done at an event; `typed` where its type is known already.
     pub(crate) fn action(&mut self, body: &mut Body, expr: &ast::Expr, typed: Option<Typed>) -> Option<Expr> {
+        self.expect_action(body, expr);
         let typed = match typed {
             Some(typed) => typed,
             None => self.expr(body, expr, None)?,
@@ -237,6 +242,7 @@ impl Checker<'_> {
     }
 
     pub(crate) fn report_unknown_instruction<T>(&mut self, body: &Body, symbol: Symbol, span: Span) -> Option<T> {
+        self.expect(body, symbol, span, Wanted::Instruction);
         let is_function = self.names_function(body, symbol);
         let near = self.hints.nearest(self.names.name(symbol), instructions().count(), instructions).map(Into::into);
         let name = self.text(body.module, span).to_string();
@@ -369,8 +375,12 @@ impl Checker<'_> {
                 label.span
             });
             self.strict_case(body, name.span, self.text(body.module, declared.unwrap_or(name.span)));
+            let at = self.location(body.module, declared.unwrap_or(name.span));
+            self.mention(body, name.span, Meaning::Label(at));
             return Some(StmtKind::Goto(id));
         }
+        let there = body.labels.iter().map(|label| self.text(body.module, label.span).to_string()).collect();
+        self.expect(body, name.symbol, name.span, Wanted::Label(there));
         let wanted = self.names.name(name.symbol);
         let labels = || body.labels.iter().map(|label| label.name.as_str());
         let near = self.hints.nearest(wanted, body.labels.len(), labels).map(Into::into);

@@ -99,6 +99,17 @@ pub(super) enum Command {
         /// Its name.
         name: String,
     },
+    /// Lay programs out: one way to indent, to space and to spell. Lines with mistakes stay as they are.
+    Fmt {
+        /// Programs, and folders with programs; `-` reads standard input and writes standard output.
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+        /// Write nothing; print the names of the files that would change, and fail where there are any.
+        #[arg(long)]
+        check: bool,
+    },
+    /// Serve an editor: the language server protocol on standard input and output.
+    Lsp,
     /// List the robots that are built in, print the file of one, or make a file of a URDF.
     Robots {
         /// The robot to print.

@@ -42,6 +42,15 @@ impl Failure {
     }
 }
 
+impl std::fmt::Display for Failure {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Failure::Shown => f.write_str("the program has errors"),
+            Failure::Usage(text) | Failure::Other(text) => f.write_str(text),
+        }
+    }
+}
+
 impl From<Bug> for Failure {
     fn from(bug: Bug) -> Self {
         Failure::Other(bug.to_string())

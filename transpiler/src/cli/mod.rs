@@ -10,6 +10,8 @@ mod clean;
 mod emit;
 mod explain;
 mod failure;
+mod fmt;
+mod lsp;
 mod pendant;
 mod plot;
 mod program;
@@ -58,6 +60,8 @@ fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Clean { older } => done(clean::clean(older)),
         Command::Explain { code } => print(explain::explain(&code)),
         Command::Doc { name } => print(explain::doc(&name)),
+        Command::Fmt { files, check } => fmt::fmt(&files, check),
+        Command::Lsp => lsp::lsp(),
         Command::Robots { import: Some(file), .. } => print(urdf::import(&file)),
         Command::Robots { name, .. } => print(robots::robots(name.as_deref())),
     }

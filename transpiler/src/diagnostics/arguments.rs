@@ -155,4 +155,11 @@ impl Problem for ArgumentProblem {
             _ => None,
         }
     }
+
+    fn fix(&self) -> Option<String> {
+        match self {
+            ArgumentProblem::UnknownLabel { near: Some(near), .. } => Some(near.clone()),
+            _ => None,
+        }
+    }
 }

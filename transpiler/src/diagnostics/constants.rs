@@ -75,4 +75,11 @@ impl Problem for ConstantProblem {
             _ => None,
         }
     }
+
+    fn fix(&self) -> Option<String> {
+        match self {
+            ConstantProblem::OtherCase { declared } => Some(declared.clone()),
+            _ => None,
+        }
+    }
 }

@@ -159,6 +159,11 @@ pub(crate) trait Problem: Coded {
     /// What would be right.
     fn help(&self) -> Option<String>;
 
+    /// What to write in place of the marked text, where that surely mends it.
+    fn fix(&self) -> Option<String> {
+        None
+    }
+
     /// The diagnostic at a place.
     fn at(&self, at: Location) -> Diagnostic {
         let code = self.code();
@@ -169,7 +174,7 @@ pub(crate) trait Problem: Coded {
             primary: Label { at, text: self.label() },
             labels: Vec::new(),
             help: self.help(),
-            fix: None,
+            fix: self.fix().map(|text| Fix { at, text }),
         }
     }
 }

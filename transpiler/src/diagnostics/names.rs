@@ -144,6 +144,33 @@ impl Problem for NameProblem {
             NameProblem::Renamed { now, .. } => Some(format!("did you mean `{now}`?")),
         }
     }
+
+    fn fix(&self) -> Option<String> {
+        match self {
+            NameProblem::UnknownVariable { is_function: true, .. }
+            | NameProblem::UnknownVariable { quoted: Some(_), .. }
+            | NameProblem::UnknownFunction { is_instruction: true, .. }
+            | NameProblem::UnknownInstruction { is_function: true, .. } => None,
+            NameProblem::UnknownType { near, name } => {
+                near.clone().or_else(|| of_others(TYPES_OF_OTHERS, name).map(Into::into))
+            }
+            NameProblem::UnknownFunction { name, .. } if of_others(FUNCTIONS_OF_OTHERS, name).is_some() => None,
+            NameProblem::UnknownFunction { name, .. } | NameProblem::UnknownInstruction { name, .. }
+                if of_others(INSTRUCTIONS_OF_OTHERS, name).is_some() =>
+            {
+                None
+            }
+            NameProblem::UnknownVariable { near, .. }
+            | NameProblem::UnknownFunction { near, .. }
+            | NameProblem::UnknownComponent { near, .. }
+            | NameProblem::UnknownInstruction { near, .. }
+            | NameProblem::UnknownLabel { near, .. }
+            | NameProblem::NotInModule { near, .. } => near.clone(),
+            NameProblem::UnknownSystem { near, .. } => near.as_ref().map(|near| format!("${near}")),
+            NameProblem::Renamed { now, .. } => Some(now.clone()),
+            _ => None,
+        }
+    }
 }
 
 /// Types of other languages and what ARL has in their place.

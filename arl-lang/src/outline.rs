@@ -1,0 +1,280 @@
+//! What each lexeme of a text is to the grammar, and what each line means for the blocks: for tools that work on the
+//! text itself and decide as the parser does.
+
+use crate::adapt::PlacedLexeme;
+use crate::blocks::Doubts;
+use crate::lexer::Lexeme;
+use crate::line::{Line, LineKind};
+use crate::recovery::condition_end;
+use crate::syntax_error::{BlockKind, SyntaxError, SyntaxErrorKind};
+use crate::token::{Placed, Token};
+
+/// What a lexeme is to the grammar.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub enum Role {
+    /// A name of the program's or a built-in one; also a reserved word where only a name can stand.
+    Name,
+    /// `true`, `false` or `endl`.
+    Constant,
+    /// A word of a control structure.
+    Reserved,
+    /// The reserved name of a type.
+    Type,
+    /// The name of an instruction at the start of a statement.
+    Instruction,
+    /// The label of an argument, without its colon.
+    Label,
+    /// The colon of an argument's label, or of a label on a line of its own.
+    LabelColon,
+    /// The name of a component in braces, in front of its value.
+    Component,
+    /// The name of a label on a line of its own.
+    Target,
+    /// A unit, or a part of it, that is no part of its number's lexeme.
+    Unit,
+    /// Everything else: what it is, its lexeme says.
+    #[default]
+    Other,
+}
+
+/// The role of a lexeme.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct PlacedRole {
+    /// The offset of the lexeme's first byte.
+    pub start: u32,
+    /// What it is.
+    pub role: Role,
+    /// Whether a statement begins with it: at the start of the line, behind the condition of an `if` on one line, behind
+    /// the colon of a case.
+    pub begins: bool,
+}
+
+/// What a line means for the blocks.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Turn {
+    /// Nothing.
+    None,
+    /// It opens a block.
+    Open(BlockKind),
+    /// It could not be read: it opens a block, or it does not.
+    MayOpen(BlockKind),
+    /// It begins another branch or case of such a block.
+    Branch(BlockKind),
+    /// It closes such a block.
+    Close(BlockKind),
+    /// It closes the innermost block in another language's words; a function if so.
+    CloseOther(bool),
+    /// A `{` alone.
+    OpenBrace,
+    /// A `}` alone.
+    CloseBrace,
+}
+
+/// What a line, or its part behind the colon of a case, means for the blocks.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct PlacedTurn {
+    /// An offset in the line.
+    pub start: u32,
+    /// What it means.
+    pub turn: Turn,
+    /// Whether a `{` stands at its end, as in other languages.
+    pub braced: bool,
+}
+
+/// The outline of a text.
+#[derive(Clone, Default, Debug)]
+pub struct Outline {
+    /// The roles of the lexemes, in the order of the text; those of lines with mistakes may be missing.
+    pub roles: Vec<PlacedRole>,
+    /// What the lines mean for the blocks, in the order of the text.
+    pub turns: Vec<PlacedTurn>,
+    /// The offsets of mistakes in the form of a line, in no order. Those that only say how lines fit each other as blocks
+    /// are not among them.
+    pub mistakes: Vec<u32>,
+}
+
+impl Outline {
+    /// Notes the lexemes of a part of a line; `tokens` is what the adapter made of them.
+    pub(crate) fn note_part(&mut self, lexemes: &[PlacedLexeme], tokens: &[Placed]) {
+        let statement = match tokens.first() {
+            Some((_, Token::If, _)) => condition_end(tokens).and_then(|at| tokens.get(at)),
+            _ => None,
+        };
+        let mut left = tokens.iter().peekable();
+        let mut end = 0;
+        for (at, (start, lexeme, to)) in lexemes.iter().enumerate() {
+            let role = match left.next_if(|token| token.0 == *start) {
+                Some(token) => {
+                    end = token.2;
+                    // A number and its unit are one lexeme and two tokens.
+                    left.next_if(|token| token.0 < *to);
+                    role_of(token.1)
+                }
+                None if *start < end => Role::Unit,
+                None if *lexeme == Lexeme::Colon => Role::LabelColon,
+                None => Role::Other,
+            };
+            let begins = at == 0 || statement.is_some_and(|statement| statement.0 == *start);
+            self.roles.push(PlacedRole { start: *start, role, begins });
+        }
+    }
+
+    /// Notes a line as it goes to the blocks.
+    pub(crate) fn note_line(&mut self, line: &Line, doubts: Doubts) {
+        let turn = match turn_of(&line.kind) {
+            Turn::Open(kind) if doubts.may_open => Turn::MayOpen(kind),
+            turn => turn,
+        };
+        self.turns.push(PlacedTurn { start: line.span.start, turn, braced: doubts.braced });
+    }
+
+    /// Notes the mistakes in the form of lines.
+    pub(crate) fn note_mistakes(&mut self, errors: &[SyntaxError]) {
+        let of_lines = errors.iter().filter(|error| !is_about_blocks(&error.kind));
+        self.mistakes.extend(of_lines.map(|error| error.span.start));
+    }
+}
+
+fn role_of(token: Token) -> Role {
+    match token {
+        Token::Name(_) => Role::Name,
+        Token::Type(_) => Role::Type,
+        Token::Instruction(_) => Role::Instruction,
+        Token::Label(_) => Role::Label,
+        Token::Component(_) => Role::Component,
+        Token::Target(_) => Role::Target,
+        Token::True | Token::False | Token::Endl => Role::Constant,
+        Token::Unit(_) => Role::Unit,
+        Token::System(_)
+        | Token::Int(..)
+        | Token::Double(_)
+        | Token::Text
+        | Token::Faulty
+        | Token::Splice(_)
+        | Token::Operator(_)
+        | Token::Minus
+        | Token::Not
+        | Token::Complement
+        | Token::PlusPlus
+        | Token::MinusMinus
+        | Token::Assign(_)
+        | Token::ParenOpen
+        | Token::ParenClose
+        | Token::BracketOpen
+        | Token::BracketClose
+        | Token::BraceOpen
+        | Token::BraceClose
+        | Token::Comma
+        | Token::Semicolon
+        | Token::Colon
+        | Token::Scope
+        | Token::Dot => Role::Other,
+        _ => Role::Reserved,
+    }
+}
+
+fn turn_of(kind: &LineKind) -> Turn {
+    match kind {
+        LineKind::Statement(_) | LineKind::Import(_) => Turn::None,
+        LineKind::Func(_) => Turn::Open(BlockKind::Func),
+        LineKind::If(_) => Turn::Open(BlockKind::If),
+        LineKind::While(_) => Turn::Open(BlockKind::While),
+        LineKind::Repeat => Turn::Open(BlockKind::Repeat),
+        LineKind::Loop => Turn::Open(BlockKind::Loop),
+        LineKind::For(_) => Turn::Open(BlockKind::For),
+        LineKind::Switch(_) => Turn::Open(BlockKind::Switch),
+        LineKind::ElseIf(_) | LineKind::Else => Turn::Branch(BlockKind::If),
+        LineKind::Case(_) | LineKind::Default => Turn::Branch(BlockKind::Switch),
+        LineKind::EndFunc => Turn::Close(BlockKind::Func),
+        LineKind::EndIf => Turn::Close(BlockKind::If),
+        LineKind::EndWhile => Turn::Close(BlockKind::While),
+        LineKind::Until(_) => Turn::Close(BlockKind::Repeat),
+        LineKind::EndLoop => Turn::Close(BlockKind::Loop),
+        LineKind::EndFor => Turn::Close(BlockKind::For),
+        LineKind::EndSwitch => Turn::Close(BlockKind::Switch),
+        LineKind::BraceOpen => Turn::OpenBrace,
+        LineKind::BraceClose => Turn::CloseBrace,
+        LineKind::OtherEnd(_, function) => Turn::CloseOther(*function),
+    }
+}
+
+/// Whether a mistake is none of the line where it is reported, but says how lines fit each other.
+fn is_about_blocks(kind: &SyntaxErrorKind) -> bool {
+    use SyntaxErrorKind as K;
+    matches!(
+        kind,
+        K::UnclosedBlock(..)
+            | K::StrayEnd(_)
+            | K::WrongEnd(..)
+            | K::OutsideFunction
+            | K::FuncAmongStatements
+            | K::ImportInside
+            | K::BeforeFirstCase
+            | K::CaseOutsideSwitch
+            | K::BranchOutsideIf(_)
+            | K::BranchAfterElse(_)
+            | K::SecondDefault
+            | K::TooManyBlocks
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::outline;
+
+    /// The roles with the words they belong to.
+    fn roles(source: &str) -> Vec<(&str, Role)> {
+        let word = |start: u32| {
+            let rest = source.get(start as usize..).unwrap_or_default();
+            rest.split(|c: char| !c.is_ascii_alphanumeric()).next().unwrap_or_default()
+        };
+        let outline = outline(source);
+        let words = outline.roles.iter().filter(|role| role.role != Role::Other);
+        words.map(|role| (word(role.start), role.role)).collect()
+    }
+
+    #[test]
+    fn roles_are_what_the_grammar_sees() {
+        use Role as R;
+        assert_eq!(
+            roles("lin p:p1,vl:100 mm/s,vp:50%"),
+            [
+                ("lin", R::Instruction),
+                ("p", R::Label),
+                ("", R::LabelColon),
+                ("p1", R::Name),
+                ("vl", R::Label),
+                ("", R::LabelColon),
+                ("mm", R::Unit),
+                ("", R::Unit),
+                ("s", R::Unit),
+                ("vp", R::Label),
+                ("", R::LabelColon),
+                ("", R::Unit),
+            ]
+        );
+        assert_eq!(roles("pose p={x a%2}"), [("pose", R::Type), ("p", R::Name), ("x", R::Component), ("a", R::Name)]);
+    }
+
+    #[test]
+    fn statements_begin_behind_conditions_and_cases() {
+        let begins = |source: &str| -> Vec<u32> {
+            outline(source).roles.iter().filter(|role| role.begins).map(|role| role.start).collect()
+        };
+        assert_eq!(begins("if(a)++i"), [0, 5]);
+        assert_eq!(begins("if((a)+(b))\ncase 1:x=2"), [0, 12, 19]);
+    }
+
+    #[test]
+    fn lines_turn_as_in_the_parser() {
+        let turns = |source: &str| -> Vec<Turn> { outline(source).turns.iter().map(|turn| turn.turn).collect() };
+        assert_eq!(turns("if(a) b=1\nif(a)\nend if"), [Turn::None, Turn::Open(BlockKind::If), Turn::CloseOther(false)]);
+        assert_eq!(turns("if(a b=1\n}"), [Turn::MayOpen(BlockKind::If), Turn::CloseBrace]);
+    }
+
+    #[test]
+    fn mistakes_are_those_of_lines() {
+        assert_eq!(outline("func void f()\nx = = 2\nif(a)\nendfunc\nendif").mistakes, [18]);
+    }
+}

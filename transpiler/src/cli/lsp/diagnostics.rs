@@ -1,0 +1,61 @@
+//! What is wrong with a file, as the protocol writes it.
+
+use super::programs::Program;
+use super::server::Server;
+use crate::diagnostics::{Diagnostic as Found, Severity};
+use gen_lsp_types::*;
+use std::path::Path;
+
+/// How many diagnostics of a file are told: nobody reads more, and thousands make editors slow.
+pub(super) const MOST_TOLD: usize = 1000;
+
+/// Those of the warnings that tell of something that is not needed: editors show it pale.
+const NOT_NEEDED: std::ops::RangeInclusive<u16> = 901..=906;
+
+/// The diagnostics of a file, errors first where there are too many.
+pub(super) fn of(server: &Server, path: &Path) -> Vec<Diagnostic> {
+    let Some(file) = server.file(path) else { return Vec::new() };
+    let here = |found: &&Found| found.primary.at.file == file.id;
+    let mut found: Vec<&Found> = file.program.checked.diagnostics.iter().filter(here).collect();
+    if found.len() > MOST_TOLD {
+        found.sort_by_key(|one| std::cmp::Reverse(one.severity));
+        found.truncate(MOST_TOLD);
+    }
+    found.into_iter().filter_map(|one| diagnostic(server, &file.program, one)).collect()
+}
+
+/// One diagnostic: its message, the words at the place, and what would be right.
+fn diagnostic(server: &Server, program: &Program, found: &Found) -> Option<Diagnostic> {
+    let at = server.location(program, found.primary.at)?;
+    let related = found.labels.iter().filter_map(|label| {
+        let location = server.location(program, label.at)?;
+        Some(DiagnosticRelatedInformation { location, message: label.text.clone() })
+    });
+    let related: Vec<_> = related.collect();
+    let severity = match found.severity {
+        Severity::Error => DiagnosticSeverity::Error,
+        Severity::Warning => DiagnosticSeverity::Warning,
+    };
+    let tags = NOT_NEEDED.contains(&found.code.0).then(|| vec![DiagnosticTag::Unnecessary]);
+    Some(Diagnostic {
+        range: at.range,
+        severity: Some(severity),
+        code: Some(Code::String(found.code.to_string())),
+        source: Some("arl2rs".into()),
+        message: Message::String(message(found)),
+        tags,
+        related_information: (!related.is_empty()).then_some(related),
+        ..Diagnostic::default()
+    })
+}
+
+fn message(found: &Found) -> String {
+    let mut text = found.message.clone();
+    if !found.primary.text.is_empty() {
+        text.push_str(&format!("\n{}", found.primary.text));
+    }
+    if let Some(help) = &found.help {
+        text.push_str(&format!("\nhelp: {help}"));
+    }
+    text
+}

@@ -1,0 +1,165 @@
+//! The programs that open files belong to, checked as they are now.
+//!
+//! A file is checked as a program of its own, as `arl2rs check` does; a data file with the program beside it. What was
+//! found out stays until a file that was read for it, or looked for in vain, changes.
+
+use super::documents::Documents;
+use super::text::{Encoding, Text};
+use crate::check::clean;
+use crate::compile::check_program;
+use crate::diagnostics::{Code, FileId, Location};
+use crate::index::Index;
+use crate::{CheckOptions, Checked, Sources, Unneeded};
+use arl_lang::lexer::lexemes;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::rc::Rc;
+
+/// The error of a file without `main`: to an editor such a file is a module.
+const NO_MAIN: Code = Code(501);
+
+/// A checked program.
+#[derive(Debug)]
+pub(super) struct Program {
+    pub(super) checked: Checked,
+    /// The paths of the files in `checked.files`.
+    paths: Vec<PathBuf>,
+    /// The files that were read or looked for.
+    read: Vec<PathBuf>,
+    empty: Index,
+    /// Freeing the trees takes a good part of the time of a check, for which nobody has to wait.
+    unneeded: RefCell<Option<Unneeded>>,
+}
+
+impl Program {
+    /// Checks the program whose main file is `root`. `None` where the compiler itself failed.
+    pub(super) fn check(root: &Path, sources: &dyn Sources, options: &CheckOptions) -> Option<Self> {
+        let library = !sources.read(root).is_ok_and(|bytes| has_main(&bytes));
+        let options = CheckOptions { index: true, library, ..options.clone() };
+        let mut compiled = check_program(root, sources, &options).ok()?;
+        if compiled.checked.diagnostics.iter().any(|one| one.code == NO_MAIN) {
+            let options = CheckOptions { library: true, ..options };
+            compiled = check_program(root, sources, &options).ok()?;
+        }
+        let shown = compiled.checked.files.iter().map(|(_, file)| clean(&compiled.folder.join(&file.name)));
+        let paths = shown.collect();
+        let read = compiled.read().map(|path| clean(&path)).collect();
+        let mut checked = compiled.checked;
+        let unneeded = RefCell::new(Some(checked.take_program()));
+        Some(Self { checked, paths, read, empty: Index::default(), unneeded })
+    }
+
+    pub(super) fn index(&self) -> &Index {
+        self.checked.index.as_ref().unwrap_or(&self.empty)
+    }
+
+    /// The number of a file.
+    pub(super) fn file(&self, path: &Path) -> Option<FileId> {
+        self.paths.iter().position(|known| known == path).map(|at| FileId(at as u32))
+    }
+
+    /// The path of a file.
+    pub(super) fn path(&self, file: FileId) -> Option<&Path> {
+        self.paths.get(file.0 as usize).map(PathBuf::as_path)
+    }
+
+    /// The text of a file, as it was checked.
+    pub(super) fn text(&self, file: FileId, encoding: Encoding) -> Option<Text<'_>> {
+        let file = self.checked.files.get(file)?;
+        Some(Text { text: &file.text, lines: &file.lines, encoding })
+    }
+
+    /// The text at a place.
+    pub(super) fn at(&self, at: Location) -> &str {
+        self.checked.files.get(at.file).map_or("", |file| at.span.text(&file.text))
+    }
+
+    /// Whether it depends on a file, or would if there were such a file.
+    pub(super) fn reads(&self, path: &Path) -> bool {
+        self.read.iter().any(|read| read == path)
+    }
+
+    pub(super) fn read(&self) -> &[PathBuf] {
+        &self.read
+    }
+}
+
+/// Whether a file seems to define `main`, so that it need not be checked twice. Only lines that hold the word are looked
+/// at closely.
+fn has_main(bytes: &[u8]) -> bool {
+    let Ok(text) = arl_lang::text::decode(bytes) else { return false };
+    let holds = |line: &&str| line.as_bytes().windows(4).any(|word| word.eq_ignore_ascii_case(b"main"));
+    text.lines().filter(holds).any(|line| {
+        let mut words = lexemes(line).map(|(_, span)| span.text(line));
+        let is = |word: Option<&str>, name: &str| word.is_some_and(|word| word.eq_ignore_ascii_case(name));
+        is(words.next(), "func") && words.next().is_some() && is(words.next(), "main")
+    })
+}
+
+/// All programs that were checked, by their main files.
+#[derive(Debug, Default)]
+pub(super) struct Programs {
+    known: RefCell<BTreeMap<PathBuf, Option<Rc<Program>>>>,
+}
+
+impl Programs {
+    /// The main file of the program that tells about a file: a data file is seen by the program beside it.
+    pub(super) fn root(&self, path: &Path, documents: &Documents) -> PathBuf {
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        let end = stem.len().saturating_sub("_data".len());
+        let owner = match (stem.get(..end), stem.get(end..)) {
+            (Some(owner), Some(data)) if data.eq_ignore_ascii_case("_data") && !owner.is_empty() => owner,
+            _ => return path.to_path_buf(),
+        };
+        let owner = path.with_file_name(format!("{owner}.arl"));
+        if documents.exists(&owner) { owner } else { path.to_path_buf() }
+    }
+
+    /// The program that tells about a file, checked now if it was not since the last change.
+    pub(super) fn of(&self, path: &Path, documents: &Documents, options: &CheckOptions) -> Option<Rc<Program>> {
+        let root = self.root(path, documents);
+        if let Some(known) = self.known.borrow().get(&root) {
+            return known.clone();
+        }
+        let program = Program::check(&root, documents, options).map(Rc::new);
+        self.known.borrow_mut().insert(root, program.clone());
+        program
+    }
+
+    /// The program with this main file, if it was checked since the last change.
+    pub(super) fn known(&self, root: &Path) -> Option<Rc<Program>> {
+        self.known.borrow().get(root).cloned().flatten()
+    }
+
+    /// Forgets what depends on a file; gives the main files of those programs.
+    pub(super) fn forget(&self, path: &Path) -> Vec<PathBuf> {
+        let mut gone = Vec::new();
+        self.known.borrow_mut().retain(|root, program| {
+            let stays = root != path && program.as_ref().is_some_and(|program| !program.reads(path));
+            if !stays {
+                gone.push(root.clone());
+            }
+            stays
+        });
+        gone
+    }
+
+    /// Frees what no request needs.
+    pub(super) fn free(&self) {
+        for program in self.known.borrow().values().flatten() {
+            program.unneeded.take();
+        }
+    }
+
+    /// Forgets everything, as after a change of options.
+    pub(super) fn forget_all(&self) {
+        self.known.borrow_mut().clear();
+    }
+
+    /// Keeps what open files need only.
+    pub(super) fn keep(&self, documents: &Documents) {
+        let roots: Vec<PathBuf> = documents.paths().map(|path| self.root(path, documents)).collect();
+        self.known.borrow_mut().retain(|root, _| roots.contains(root));
+    }
+}

@@ -1,0 +1,169 @@
+//! A text as logical lines: lexemes with their roles, and what lies between them.
+
+use super::trivia::{self, Trivia};
+use arl_lang::lexer::{Lexeme, lexemes};
+use arl_lang::outline;
+use arl_lang::outline::{Outline, PlacedRole, PlacedTurn, Role};
+
+/// A lexeme of a line.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece<'a> {
+    /// As it is written.
+    pub(super) text: &'a str,
+    /// What the lexer takes it for.
+    pub(super) lexeme: Lexeme,
+    /// What the grammar takes it for.
+    pub(super) role: Role,
+    /// Whether a statement begins with it.
+    pub(super) begins: bool,
+}
+
+impl Piece<'_> {
+    /// Whether it is this word, in any case.
+    pub(super) fn is_word(&self, word: &str) -> bool {
+        self.lexeme == Lexeme::Word && self.text.eq_ignore_ascii_case(word)
+    }
+}
+
+/// What a line is made of.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Item<'a> {
+    /// A lexeme.
+    Piece(Piece<'a>),
+    /// `/* */`
+    Comment(&'a str),
+    /// `//`, without blanks at its end.
+    LineComment(&'a str),
+    /// `\` and the line end that it takes away.
+    Continuation,
+}
+
+/// A logical line: up to a line end that counts.
+#[derive(Debug)]
+pub(super) struct Line<'a> {
+    /// All of it, without its line end.
+    pub(super) raw: &'a str,
+    /// The offset of its end.
+    end: usize,
+    /// What it is made of.
+    pub(super) items: Vec<Item<'a>>,
+    /// What it means for the blocks, part by part.
+    pub(super) turns: Vec<PlacedTurn>,
+    /// Whether something is wrong with it: then it stays as it is.
+    pub(super) frozen: bool,
+    /// Whether the text ends with it.
+    pub(super) is_last: bool,
+}
+
+impl<'a> Line<'a> {
+    /// Whether nothing stands on it.
+    pub(super) fn is_blank(&self) -> bool {
+        self.items.is_empty() && !self.frozen
+    }
+
+    /// Whether comments stand on it alone.
+    pub(super) fn is_comment(&self) -> bool {
+        !self.frozen && self.pieces().next().is_none()
+    }
+
+    /// Its lexemes.
+    pub(super) fn pieces(&self) -> impl Iterator<Item = &Piece<'a>> {
+        self.items.iter().filter_map(|item| match item {
+            Item::Piece(piece) => Some(piece),
+            _ => None,
+        })
+    }
+}
+
+/// The logical lines of a text whose line ends are all `\n`.
+pub(super) fn read(text: &str) -> Vec<Line<'_>> {
+    let Outline { roles, turns, mut mistakes } = outline(text);
+    mistakes.sort_unstable();
+    let mut reader =
+        Reader { text, roles: roles.into_iter().peekable(), lines: Vec::new(), items: Vec::new(), start: 0 };
+    let mut broken = Vec::new();
+    let mut end = 0;
+    for (lexeme, span) in lexemes(text) {
+        let (from, to) = (span.start as usize, span.end as usize);
+        reader.between(end, from);
+        end = to;
+        match lexeme {
+            Ok(Lexeme::Newline) => reader.end_line(from, to),
+            Ok(lexeme) => reader.piece(from, to, lexeme),
+            Err(_) => broken.push(from),
+        }
+    }
+    reader.between(end, text.len());
+    reader.end_line(text.len(), text.len());
+    let mut lines = reader.lines;
+    if let Some(last) = lines.last_mut() {
+        last.is_last = true;
+    }
+    give_turns(&mut lines, &turns);
+    let mistakes = mistakes.into_iter().map(|at| at as usize);
+    freeze(&mut lines, mistakes.collect());
+    freeze(&mut lines, broken);
+    // Whether this `}` closes something depends on the lines around it.
+    for line in &mut lines {
+        let begins_with_brace = line.pieces().next().is_some_and(|piece| piece.lexeme == Lexeme::BraceClose);
+        line.frozen |= begins_with_brace;
+    }
+    lines
+}
+
+/// Gathers lines.
+struct Reader<'a> {
+    text: &'a str,
+    roles: std::iter::Peekable<std::vec::IntoIter<PlacedRole>>,
+    lines: Vec<Line<'a>>,
+    /// The items of the line so far, and where it begins.
+    items: Vec<Item<'a>>,
+    start: usize,
+}
+
+impl<'a> Reader<'a> {
+    /// Takes what stands between two lexemes.
+    fn between(&mut self, from: usize, to: usize) {
+        let text = self.text.get(from..to).unwrap_or_default();
+        self.items.extend(trivia::split(text).map(|trivia| match trivia {
+            Trivia::Block(text) => Item::Comment(text),
+            Trivia::Line(text) => Item::LineComment(text),
+            Trivia::Continuation => Item::Continuation,
+        }));
+    }
+
+    fn piece(&mut self, from: usize, to: usize, lexeme: Lexeme) {
+        while self.roles.next_if(|role| (role.start as usize) < from).is_some() {}
+        let known = self.roles.next_if(|role| role.start as usize == from);
+        let (role, begins) = known.map_or((Role::Other, false), |known| (known.role, known.begins));
+        let text = self.text.get(from..to).unwrap_or_default();
+        self.items.push(Item::Piece(Piece { text, lexeme, role, begins }));
+    }
+
+    /// Ends the line at `end`; the next one begins at `next`.
+    fn end_line(&mut self, end: usize, next: usize) {
+        let raw = self.text.get(self.start..end).unwrap_or_default();
+        let items = std::mem::take(&mut self.items);
+        self.lines.push(Line { raw, end, items, turns: Vec::new(), frozen: false, is_last: false });
+        self.start = next;
+    }
+}
+
+fn give_turns(lines: &mut [Line<'_>], turns: &[PlacedTurn]) {
+    let mut left = turns.iter().peekable();
+    for line in lines {
+        while let Some(turn) = left.next_if(|turn| (turn.start as usize) <= line.end) {
+            line.turns.push(*turn);
+        }
+    }
+}
+
+/// Marks the lines with mistakes at these offsets, which are in order.
+fn freeze(lines: &mut [Line<'_>], mistakes: Vec<usize>) {
+    let mut left = mistakes.into_iter().peekable();
+    for line in lines {
+        while left.next_if(|at| *at <= line.end).is_some() {
+            line.frozen = true;
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! Words of the language and built-in names in the spelling of the manual; names of the program's own stay.
+
+use super::lines::{Item, Line, Piece};
+use arl_lang::catalog::{self, Base, Entry};
+use arl_lang::lexer::Lexeme;
+use arl_lang::outline::Role;
+use std::collections::{HashMap, HashSet};
+use std::sync::LazyLock;
+
+/// The functions of the file, folded: these names are never those of built-in ones.
+pub(super) fn functions(lines: &[Line<'_>]) -> HashSet<String> {
+    let mut names = HashSet::new();
+    for line in lines {
+        let mut pieces = line.pieces();
+        if pieces.next().is_some_and(|first| first.is_word("func")) {
+            // The first one is the type of the result, unless that is missing.
+            names.extend(pieces.take(2).map(|piece| piece.text.to_ascii_lowercase()));
+        }
+    }
+    names
+}
+
+/// Spells the words of a line.
+pub(super) fn spell(items: &mut [Item<'_>], functions: &HashSet<String>) {
+    let mut pieces: Vec<&mut Piece<'_>> = items
+        .iter_mut()
+        .filter_map(|item| match item {
+            Item::Piece(piece) => Some(piece),
+            _ => None,
+        })
+        .collect();
+    let mut speller = Speller { functions, instruction: &[], open: Vec::new() };
+    for at in 0..pieces.len() {
+        let around = Around {
+            before: at.checked_sub(1).and_then(|at| pieces.get(at)).map(|piece| **piece),
+            scope: at.checked_sub(2).and_then(|at| pieces.get(at)).map(|piece| **piece),
+            next: pieces.get(at + 1).map(|piece| **piece),
+        };
+        if let Some(piece) = pieces.get_mut(at)
+            && let Some(spelled) = speller.spelled(piece, around)
+        {
+            piece.text = spelled;
+        }
+    }
+}
+
+/// The pieces around one.
+#[derive(Clone, Copy)]
+struct Around<'a> {
+    before: Option<Piece<'a>>,
+    /// The one before `before`.
+    scope: Option<Piece<'a>>,
+    next: Option<Piece<'a>>,
+}
+
+impl<'a> Around<'a> {
+    fn is_before(&self, lexeme: Lexeme) -> bool {
+        self.before.is_some_and(|before| before.lexeme == lexeme)
+    }
+
+    fn is_next(&self, lexeme: Lexeme) -> bool {
+        self.next.is_some_and(|next| next.lexeme == lexeme)
+    }
+
+    /// What stands in front of the `::` in front of the piece.
+    fn scope(&self) -> Option<Piece<'a>> {
+        self.scope.filter(|_| self.is_before(Lexeme::Scope))
+    }
+}
+
+/// Goes along a line.
+struct Speller<'a> {
+    functions: &'a HashSet<String>,
+    /// The instruction of the statement.
+    instruction: &'static [Entry],
+    /// For each open bracket: the function whose arguments stand in it.
+    open: Vec<&'static [Entry]>,
+}
+
+impl Speller<'_> {
+    /// The right spelling of a piece, where it is the language's.
+    fn spelled(&mut self, piece: &Piece<'_>, around: Around<'_>) -> Option<&'static str> {
+        if piece.begins {
+            self.instruction = &[];
+        }
+        match piece.lexeme {
+            Lexeme::ParenOpen => {
+                let called = around.before.filter(|before| before.role == Role::Name);
+                let own =
+                    |called: &Piece<'_>| around.scope.is_some_and(|before| is_member(&before)) || self.is_own(called);
+                let entries = called.filter(|called| !own(called)).map(|called| catalog::functions(called.text));
+                self.open.push(entries.unwrap_or(&[]));
+                None
+            }
+            Lexeme::BracketOpen | Lexeme::BraceOpen => {
+                self.open.push(&[]);
+                None
+            }
+            Lexeme::ParenClose | Lexeme::BracketClose | Lexeme::BraceClose => {
+                self.open.pop();
+                None
+            }
+            Lexeme::System => system(piece.text),
+            Lexeme::Word => self.word(piece, around),
+            _ => None,
+        }
+    }
+
+    fn word(&mut self, piece: &Piece<'_>, around: Around<'_>) -> Option<&'static str> {
+        match piece.role {
+            Role::Reserved | Role::Constant => WORDS.iter().find(|word| word.eq_ignore_ascii_case(piece.text)).copied(),
+            Role::Type => type_name(piece.text),
+            Role::Instruction => {
+                self.instruction = catalog::instructions(piece.text);
+                entry_name(self.instruction, piece.text)
+            }
+            Role::Label => label(self.open.last().copied().unwrap_or(self.instruction), piece.text),
+            Role::Name => self.name(piece, around),
+            _ => None,
+        }
+    }
+
+    fn name(&self, piece: &Piece<'_>, around: Around<'_>) -> Option<&'static str> {
+        if let Some(scope) = around.scope() {
+            return constant(&scope, piece.text);
+        }
+        if around.before.is_some_and(|before| is_member(&before)) {
+            return None;
+        }
+        // A type in a declaration, or in front of a constant.
+        if around.next.is_some_and(|next| next.role == Role::Name) || around.is_next(Lexeme::Scope) {
+            return type_name(piece.text);
+        }
+        if around.is_next(Lexeme::ParenOpen) && !self.is_own(piece) {
+            return entry_name(catalog::functions(piece.text), piece.text);
+        }
+        None
+    }
+
+    fn is_own(&self, piece: &Piece<'_>) -> bool {
+        self.functions.contains(&piece.text.to_ascii_lowercase())
+    }
+}
+
+/// Whether what follows is a component, or something of a module or a type.
+fn is_member(before: &Piece<'_>) -> bool {
+    matches!(before.lexeme, Lexeme::Dot | Lexeme::Scope)
+}
+
+/// The words of control structures and constants, as they are written.
+const WORDS: [&str; 27] = [
+    "break",
+    "case",
+    "const",
+    "continue",
+    "default",
+    "else",
+    "elseif",
+    "endfor",
+    "endfunc",
+    "endif",
+    "endl",
+    "endloop",
+    "endswitch",
+    "endwhile",
+    "false",
+    "for",
+    "func",
+    "goto",
+    "if",
+    "import",
+    "loop",
+    "repeat",
+    "return",
+    "switch",
+    "true",
+    "until",
+    "while",
+];
+
+/// How one of these names is spelled, where `written` is one of them.
+fn one_of(mut names: impl Iterator<Item = &'static str>, written: &str) -> Option<&'static str> {
+    names.find(|name| name.eq_ignore_ascii_case(written))
+}
+
+fn type_name(written: &str) -> Option<&'static str> {
+    let plain = catalog::type_names().filter(|(_, base)| !base.is_system());
+    one_of(plain.map(|(name, _)| name), written)
+}
+
+/// All names with a `$`, under their folded spelling.
+static SYSTEM: LazyLock<HashMap<String, String>> = LazyLock::new(|| {
+    let variables = catalog::system_variables()
+        .flat_map(|variable| [variable.name].into_iter().chain(variable.aliases.iter().copied()));
+    let types = catalog::type_names().filter(|(_, base)| base.is_system()).map(|(name, _)| name);
+    let mut names = HashMap::new();
+    for name in variables.chain(types) {
+        names.entry(name.to_ascii_lowercase()).or_insert_with(|| format!("${name}"));
+    }
+    names
+});
+
+/// `$NAME`: a variable or a type.
+fn system(written: &str) -> Option<&'static str> {
+    SYSTEM.get(&written.strip_prefix('$')?.to_ascii_lowercase()).map(String::as_str)
+}
+
+fn entry_name(entries: &'static [Entry], written: &str) -> Option<&'static str> {
+    let names = |entry: &'static Entry| std::iter::once(entry.name).chain(entry.aliases.iter().copied());
+    one_of(entries.iter().flat_map(names), written)
+}
+
+fn label(entries: &'static [Entry], written: &str) -> Option<&'static str> {
+    let params = entries.iter().flat_map(|entry| entry.params);
+    one_of(params.flat_map(|param| std::iter::once(param.name).chain(param.aliases.iter().copied())), written)
+}
+
+/// A constant of the enumeration `scope`.
+fn constant(scope: &Piece<'_>, written: &str) -> Option<&'static str> {
+    let Some(Base::Enum(id)) = catalog::base_type(scope.text.trim_start_matches('$')) else { return None };
+    let constants = id.def().constants.iter();
+    one_of(constants.flat_map(|found| std::iter::once(found.name).chain(found.aliases.iter().copied())), written)
+}

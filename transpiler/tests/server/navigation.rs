@@ -1,0 +1,172 @@
+//! Where things are declared and used, what they are, how they are renamed.
+
+use super::{Client, Folder, cursor};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+const RACK: &str = "// Where parts lie.\nint count\nfunc bool full(int number)\n    return number > count\nendfunc\n";
+const MAIN: &str = "import \"rack.arl\"
+joint home = {0, -90, 90, 0, 90, 0}
+// Grips a part.
+func bool grip(int channel)
+    setdo(channel, true)
+    return getdi(channel)
+endfunc
+func void main()
+    const int ROWS = 3
+    int count = ROWS
+    again:
+    movej home, vp:50%
+    if(grip(1) && !rack::full(count))
+        rack::count++
+        goto again
+    endif
+endfunc
+";
+
+fn open(name: &str) -> (Client, Folder, String) {
+    let folder = Folder::new(name).with("rack.arl", RACK).with("main.arl", MAIN);
+    let mut client = Client::new(&folder);
+    let uri = folder.uri("main.arl");
+    client.set(&uri, MAIN);
+    (client, folder, uri)
+}
+
+/// The place of the first `needle` behind `after`.
+fn place(uri: &str, after: &str, needle: &str) -> Value {
+    let from = MAIN.find(after).unwrap() + after.len();
+    let at = from + MAIN[from..].find(needle).unwrap();
+    let (_, position) = cursor(&format!("{}|{}", &MAIN[..at], &MAIN[at..]));
+    json!({"textDocument": {"uri": uri}, "position": position})
+}
+
+#[test]
+fn hover_tells_what_a_name_is() {
+    let (mut client, _folder, uri) = open("hover");
+    let expected = [
+        ("movej ", "home", "joint home = {0, -90, 90, 0, 90, 0}"),
+        ("int count = ", "ROWS", "const int ROWS = 3"),
+        ("if(", "grip", "Grips a part."),
+        ("rack::", "full", "func bool full(int number)"),
+        ("again:\n", "movej", "movej j:"),
+        ("movej home, ", "vp", "Units: `%`"),
+        ("return ", "getdi", "bool getdi"),
+        ("&& !", "rack", "Where parts lie."),
+        ("func ", "bool", "`true` or `false`"),
+        ("goto ", "again", "again:"),
+    ];
+    for (after, needle, text) in expected {
+        let hover = client.ask("textDocument/hover", place(&uri, after, needle));
+        let value = hover["contents"]["value"].as_str().unwrap_or_default();
+        assert!(value.contains(text), "{needle}: {value}");
+    }
+    assert_eq!(client.ask("textDocument/hover", place(&uri, "", "import")), Value::Null);
+}
+
+#[test]
+fn definitions_and_uses_go_across_files() {
+    let (mut client, folder, uri) = open("uses");
+    let found = client.ask("textDocument/definition", place(&uri, "rack::", "full"));
+    assert_eq!((found["uri"].as_str(), &found["range"]["start"]["line"]), (Some(&*folder.uri("rack.arl")), &json!(2)));
+    let mut params = place(&uri, "rack::full(count))\n        rack::", "count");
+    params["context"] = json!({"includeDeclaration": true});
+    let found = client.ask("textDocument/references", params.clone());
+    let lines = |found: &Value| {
+        let line =
+            |one: &Value| (one["uri"].as_str().unwrap().ends_with("main.arl"), one["range"]["start"]["line"].as_i64());
+        found.as_array().unwrap().iter().map(line).collect::<Vec<_>>()
+    };
+    assert_eq!(lines(&found), [(true, Some(13)), (false, Some(1)), (false, Some(3))]);
+    params["context"] = json!({"includeDeclaration": false});
+    let found = client.ask("textDocument/references", params);
+    assert_eq!(lines(&found), [(true, Some(13)), (false, Some(3))]);
+    let marked = client.ask("textDocument/documentHighlight", place(&uri, "int ", "count"));
+    let kinds: Vec<_> = marked.as_array().unwrap().iter().map(|one| one["kind"].as_i64()).collect();
+    assert_eq!(kinds, [Some(3), Some(2)]);
+}
+
+#[test]
+fn renaming_changes_all_uses_in_all_files() {
+    let (mut client, folder, uri) = open("rename");
+    let mut params = place(&uri, "rack::full(count))\n        rack::", "count");
+    params["newName"] = json!("total");
+    let edit = client.ask("textDocument/rename", params);
+    let changes: BTreeMap<String, Value> = serde_json::from_value(edit["changes"].clone()).unwrap();
+    let count = |name: &str| changes[&folder.uri(name)].as_array().unwrap().len();
+    assert_eq!((changes.len(), count("main.arl"), count("rack.arl")), (2, 1, 2));
+}
+
+#[test]
+fn names_that_would_mean_something_else_are_refused() {
+    let (mut client, _folder, uri) = open("clashes");
+    let mut refused = |after: &str, needle: &str, name: &str| {
+        let mut params = place(&uri, after, needle);
+        params["newName"] = json!(name);
+        client.refused("textDocument/rename", params)
+    };
+    for (name, said) in [("while", "word of the language"), ("2nd", "is no name"), ("a b", "is no name")] {
+        assert!(refused("int ", "count", name).contains(said), "{name}");
+    }
+    // A local would hide a global; one of the same name is there already.
+    assert!(refused("int ", "count", "home").contains("meaning already"));
+    assert!(refused("int ", "count", "rows").contains("twice"));
+    assert!(refused("again:\n", "movej", "go").contains("part of the language"));
+    assert!(refused("&& !", "rack", "shelf").contains("rename the file"));
+    assert!(refused("func void ", "main", "start").contains("begins with `main`"));
+}
+
+#[test]
+fn symbols_calls_and_colours() {
+    let (mut client, _folder, uri) = open("symbols");
+    let document = json!({"textDocument": {"uri": uri}});
+    let symbols = client.ask("textDocument/documentSymbol", document.clone());
+    let names: Vec<_> = symbols.as_array().unwrap().iter().map(|one| one["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["home", "grip", "main"]);
+    let found = client.ask("workspace/symbol", json!({"query": "ful"}));
+    assert_eq!(found[0]["name"], "full");
+    let items = client.ask("textDocument/prepareCallHierarchy", place(&uri, "func bool ", "grip"));
+    let callers = client.ask("callHierarchy/incomingCalls", json!({"item": items[0]}));
+    assert_eq!((&callers[0]["from"]["name"], callers.as_array().unwrap().len()), (&json!("main"), 1));
+    let items = client.ask("textDocument/prepareCallHierarchy", place(&uri, "func void ", "main"));
+    let called = client.ask("callHierarchy/outgoingCalls", json!({"item": items[0]}));
+    let called: Vec<_> = called.as_array().unwrap().iter().map(|one| one["to"]["name"].as_str().unwrap()).collect();
+    assert_eq!(called.len(), 2);
+    assert!(called.contains(&"grip") && called.contains(&"full"));
+    let tokens = client.ask("textDocument/semanticTokens/full", document.clone());
+    assert_eq!(tokens["data"].as_array().unwrap().len() % 5, 0);
+    let folds = client.ask("textDocument/foldingRange", document.clone());
+    assert!(folds.as_array().unwrap().iter().any(|one| one["startLine"] == 12 && one["endLine"] == 14));
+    let lenses = client.ask("textDocument/codeLens", document);
+    assert_eq!(lenses[0]["command"]["command"], "arl2rs.run");
+}
+
+#[test]
+fn hints_tell_parameters_and_units() {
+    let folder = Folder::new("hints");
+    let (mut client, uri) = (Client::new(&folder), folder.uri("main.arl"));
+    client.set(
+        &uri,
+        "func void step(int count, double way)\nendfunc\nfunc void main()\n    step(3, 2.5)\n    waittime 2\nendfunc\n",
+    );
+    let range = json!({"start": {"line": 0, "character": 0}, "end": {"line": 9, "character": 0}});
+    let hints = client.ask("textDocument/inlayHint", json!({"textDocument": {"uri": uri}, "range": range}));
+    let all: Vec<_> = hints.as_array().unwrap().iter().map(|one| one["label"].as_str().unwrap()).collect();
+    assert_eq!(all, ["count:", "way:", "s"]);
+}
+
+#[test]
+fn quick_fixes_write_what_the_help_says() {
+    let folder = Folder::new("fixes");
+    let (mut client, uri) = (Client::new(&folder), folder.uri("main.arl"));
+    client.set(&uri, "int counter\nfunc void main()\n    conter = 1\n    movej {0}, vpp:5%\nendfunc\n");
+    let range = json!({"start": {"line": 2, "character": 5}, "end": {"line": 2, "character": 5}});
+    let params = |range: Value| json!({"textDocument": {"uri": uri}, "range": range, "context": {"diagnostics": []}});
+    let actions = client.ask("textDocument/codeAction", params(range));
+    let edit = &actions[0]["edit"]["changes"][&uri][0];
+    assert_eq!(edit["newText"], "counter");
+    assert_eq!(edit["range"], json!({"start": {"line": 2, "character": 4}, "end": {"line": 2, "character": 10}}));
+    let range = json!({"start": {"line": 3, "character": 16}, "end": {"line": 3, "character": 16}});
+    let actions = client.ask("textDocument/codeAction", params(range));
+    let edit = &actions[0]["edit"]["changes"][&uri][0];
+    assert_eq!((&edit["newText"], &edit["range"]["end"]["character"]), (&json!("vp"), &json!(18)));
+}

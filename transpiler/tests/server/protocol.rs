@@ -1,0 +1,185 @@
+//! What a server must stand: odd messages, unsaved texts, encodings, settings.
+
+use super::{Client, Folder, cursor};
+use serde_json::{Value, json};
+
+const WRONG: &str = "func void main()\n    int a = true + \"x\"\nendfunc\n";
+
+#[test]
+fn diagnostics_carry_the_version_that_they_are_about() {
+    let folder = Folder::new("versions");
+    let (mut client, uri) = (Client::new(&folder), folder.uri("main.arl"));
+    client.set(&uri, "func void main()\n    moevj {j1 0}\nendfunc\n");
+    let told = client.diagnostics(&uri);
+    assert_eq!(told[0]["code"], "ARL0211");
+    assert_eq!(told[0]["range"], json!({"start": {"line": 1, "character": 4}, "end": {"line": 1, "character": 9}}));
+    client.set(&uri, "func void main()\nendfunc\n");
+    assert!(client.diagnostics(&uri).is_empty());
+    assert!(client.leave());
+}
+
+#[test]
+fn malformed_messages_end_nothing() {
+    let folder = Folder::new("malformed");
+    let (mut client, uri) = (Client::new(&folder), folder.uri("main.arl"));
+    client.send_text("{ this is no JSON");
+    assert_eq!(client.message().unwrap()["error"]["code"], -32700);
+    client.send_text("[1, 2]");
+    assert_eq!(client.message().unwrap()["error"]["code"], -32600);
+    let id = client.request("textDocument/hover", json!({"position": 5}));
+    assert_eq!(client.answer(id)["error"]["code"], -32602);
+    let id = client.request("textDocument/unheardOf", json!({}));
+    assert_eq!(client.answer(id)["error"]["code"], -32601);
+    client.tell("textDocument/didChange", json!({"wrong": true}));
+    client.tell("$/unheardOf", json!({}));
+    let place = json!({"textDocument": {"uri": "file:///nowhere/x.arl"}, "position": {"line": 9, "character": 9}});
+    assert_eq!(client.ask("textDocument/hover", place), Value::Null);
+    client.set(&uri, WRONG);
+    assert!(!client.diagnostics(&uri).is_empty());
+    assert!(client.shown.iter().any(|text| text.contains("didChange")), "{:?}", client.shown);
+    assert!(client.leave());
+}
+
+#[test]
+fn hello_comes_first_and_goodbye_last() {
+    let mut client = Client::silent();
+    let id = client.request("textDocument/hover", json!({}));
+    assert_eq!(client.answer(id)["error"]["code"], -32002);
+    assert!(client.vanish());
+}
+
+#[test]
+fn cancelled_requests_are_answered_as_such() {
+    let folder = Folder::new("cancelled");
+    let (mut client, uri) = (Client::new(&folder), folder.uri("main.arl"));
+    client.set(&uri, WRONG);
+    // One write, so that the server finds all of it at once.
+    let params = json!({"textDocument": {"uri": uri}});
+    let body = |id: i64, method: &str, params: &Value| {
+        let body = json!({"jsonrpc": "2.0", "id": id, "method": method, "params": params}).to_string();
+        format!("Content-Length: {}\r\n\r\n{body}", body.len())
+    };
+    let cancel = json!({"jsonrpc": "2.0", "method": "$/cancelRequest", "params": {"id": 902}}).to_string();
+    let rest = body(902, "textDocument/documentSymbol", &params)
+        + &format!("Content-Length: {}\r\n\r\n{cancel}", cancel.len());
+    client.send_text(
+        &json!({"jsonrpc": "2.0", "id": 901, "method": "workspace/symbol", "params": {"query": ""}}).to_string(),
+    );
+    client.send_raw(&rest);
+    // The one that is cancelled may be answered first.
+    let mut answers = Vec::new();
+    while answers.len() < 2 {
+        answers.extend(client.message().filter(|message| message["method"].is_null() && !message["id"].is_null()));
+    }
+    answers.sort_by_key(|answer| answer["id"].as_i64());
+    let (first, second) = (&answers[0], &answers[1]);
+    assert!(first["error"].is_null(), "{first}");
+    // Whether it is cancelled in time depends on who is faster; it is answered once in any case.
+    assert!(second["error"]["code"] == -32800 || second["result"].is_array(), "{second}");
+    assert!(client.leave());
+}
+
+#[test]
+fn positions_count_utf16_or_bytes() {
+    let folder = Folder::new("encodings");
+    let text = "func void main()\n    string s = \"\u{1f916}\u{e4}\" + undeclared\nendfunc\n";
+    for (offered, name, start) in [(json!(["utf-16"]), "utf-16", 23), (json!(["utf-8", "utf-16"]), "utf-8", 26)] {
+        let mut client = Client::with(&folder, json!(null), json!({"general": {"positionEncodings": offered}}));
+        assert_eq!(client.offered["capabilities"]["positionEncoding"], name);
+        let uri = folder.uri("main.arl");
+        client.set(&uri, text);
+        let told = client.diagnostics(&uri);
+        assert_eq!(told[0]["range"]["start"]["character"], start, "{name}");
+        let change = json!([{"range": {"start": {"line": 1, "character": start}, "end": {"line": 1, "character": start + 10}}, "text": "\"x\""}]);
+        client.edit(&uri, change);
+        let told = client.diagnostics(&uri);
+        assert!(told.iter().all(|one| one["severity"] == 2), "{told:?}");
+    }
+}
+
+#[test]
+fn files_of_other_encodings_are_read_from_the_disk() {
+    let (bytes, _, _) = encoding_rs::GB18030.encode("// \u{70b9}\npose part = {x 1, y 2, z 3, a 0, b 180, c 0}\n");
+    let folder = Folder::new("gb18030").with("rack.arl", bytes);
+    let (mut client, uri) = (Client::new(&folder), folder.uri("main.arl"));
+    let (text, position) = cursor("import \"rack.arl\"\nfunc void main()\n    lin rack::pa|rt\nendfunc\n");
+    client.set(&uri, &text);
+    let told = client.diagnostics(&uri);
+    assert!(told.iter().all(|one| one["severity"] == 2), "{told:?}");
+    let place = json!({"textDocument": {"uri": uri}, "position": position});
+    let hover = client.ask("textDocument/hover", place);
+    assert!(hover["contents"]["value"].as_str().unwrap().contains('\u{70b9}'), "{hover}");
+}
+
+#[test]
+fn unsaved_modules_go_before_those_of_the_disk() {
+    let folder = Folder::new("unsaved").with("rack.arl", "int count\n");
+    let (mut client, uri, module) = (Client::new(&folder), folder.uri("main.arl"), folder.uri("rack.arl"));
+    client.set(&uri, "import \"rack.arl\"\nfunc void main()\n    rack::total = 1\nendfunc\n");
+    assert_eq!(client.diagnostics(&uri)[0]["code"], "ARL0213");
+    client.set(&module, "int total\n");
+    client.diagnostics(&module);
+    loop {
+        // The program is told of again, at the same version.
+        let message = client.message().unwrap();
+        if message["params"]["uri"] == uri.as_str() {
+            assert_eq!(message["params"]["diagnostics"], json!([]));
+            break;
+        }
+    }
+    client.close(&module);
+    loop {
+        let message = client.message().unwrap();
+        if message["params"]["uri"] == uri.as_str() {
+            assert_eq!(message["params"]["diagnostics"][0]["code"], "ARL0213");
+            break;
+        }
+    }
+}
+
+#[test]
+fn programs_that_are_not_open_are_told_of_where_a_change_breaks_them() {
+    let main = "import \"rack.arl\"\nfunc void main()\n    rack::count = 1\nendfunc\n";
+    let folder = Folder::new("importers").with("rack.arl", "int count\n").with("main.arl", main);
+    let (mut client, module, uri) = (Client::new(&folder), folder.uri("rack.arl"), folder.uri("main.arl"));
+    client.set(&module, "int count\n");
+    client.diagnostics(&module);
+    // Looks at the whole workspace.
+    client.ask("workspace/symbol", json!({"query": ""}));
+    client.set(&module, "int total\n");
+    loop {
+        let message = client.message().unwrap();
+        if message["params"]["uri"] == uri.as_str() {
+            assert_eq!(message["params"]["diagnostics"][0]["code"], "ARL0213");
+            break;
+        }
+    }
+}
+
+#[test]
+fn modules_need_no_main_and_data_files_belong_to_their_program() {
+    let main = "func void main()\n    movej home\nendfunc\n";
+    let data = "joint home = {0, 0, 0, 0, 0, 0}\n";
+    let folder = Folder::new("parts").with("cell.arl", main).with("cell_data.arl", data);
+    let (mut client, uri) = (Client::new(&folder), folder.uri("cell_data.arl"));
+    client.set(&uri, data);
+    assert!(client.diagnostics(&uri).is_empty());
+    let rack = folder.uri("rack.arl");
+    client.set(&rack, "int count\n");
+    assert!(client.diagnostics(&rack).is_empty());
+}
+
+#[test]
+fn settings_name_the_robot_and_are_told_where_they_are_wrong() {
+    let folder = Folder::new("settings");
+    let mut client = Client::with(&folder, json!({"robot": "hsr065"}), json!({}));
+    let uri = folder.uri("main.arl");
+    client.set(&uri, "joint home = {j1 0, j5 0}\n");
+    assert_eq!(client.diagnostics(&uri)[0]["code"], "ARL0208");
+    client.tell("workspace/didChangeConfiguration", json!({"settings": {"arl2rs": {"robot": "no-such-robot"}}}));
+    client.ask("textDocument/documentSymbol", json!({"textDocument": {"uri": uri}}));
+    assert!(client.shown.iter().any(|text| text.contains("no-such-robot")), "{:?}", client.shown);
+    client.tell("workspace/didChangeConfiguration", json!({"settings": {"arl2rs": {}}}));
+    client.set(&uri, "joint home = {j1 0, j5 0} \n");
+    assert!(client.diagnostics(&uri).is_empty());
+}
