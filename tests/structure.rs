@@ -33,9 +33,11 @@ const RUNTIME: &[&str] = &[
 /// The files and folders of the compiler, from the ground up.
 const TRANSPILER: &[&str] = &[
     "near",
+    "format",
     "sources",
     "diagnostics",
     "hir",
+    "index",
     "visit",
     "effects",
     "check",

@@ -4,110 +4,131 @@ use super::answer;
 use super::failure::{COMPILE_ERRORS, Failure};
 use crate::format::format;
 use arl_lang::text::{decode, encode_like};
-use std::io::{Read, Write};
+use std::fs;
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-/// Lays programs out: in place, or from standard input to standard output for `-`. With `check` nothing is written;
-/// the names of files that would change are printed. A folder stands for all programs below it.
-pub(super) fn fmt(paths: &[PathBuf], check: bool) -> Result<ExitCode, Failure> {
-    let (mut differs, mut failed) = (false, false);
-    for path in paths {
-        if path.as_os_str() == "-" {
-            differs |= standard_input(check)?;
+/// Lays out the files, those below folders, and standard input for `-`; with `check` only names those that would change.
+pub(super) fn fmt(files: &[PathBuf], check: bool) -> Result<ExitCode, Failure> {
+    let mut good = true;
+    for file in files {
+        if file.as_os_str() == "-" {
+            good &= succeeds(standard_input(check))?;
             continue;
         }
-        for file in files(path) {
-            match file.and_then(|file| one(&file, check)) {
-                Ok(changed) => differs |= changed,
-                // The other files are done all the same.
-                Err(failure) => {
-                    failure.report();
-                    failed = true;
+        match programs(file) {
+            Ok(programs) => {
+                for program in programs {
+                    good &= succeeds(in_place(&program, check))?;
                 }
+            }
+            Err(failure) => good &= succeeds(Err(failure))?,
+        }
+    }
+    Ok(if good { ExitCode::SUCCESS } else { ExitCode::from(COMPILE_ERRORS) })
+}
+
+/// Whether all went well with a file, and nothing had to be named. What went wrong is said, and others still have their
+/// turn.
+fn succeeds(outcome: Result<Option<PathBuf>, Failure>) -> Result<bool, Failure> {
+    match outcome {
+        Ok(None) => Ok(true),
+        Ok(Some(changes)) => answer::write(&format!("{}\n", changes.display())).map(|()| false),
+        Err(failure) => {
+            failure.report();
+            Ok(false)
+        }
+    }
+}
+
+/// The file itself, or the programs below a folder, in the order of their names. Links to folders are not followed.
+fn programs(path: &Path) -> Result<Vec<PathBuf>, Failure> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_path_buf()]);
+    }
+    let mut programs = Vec::new();
+    let mut folders = vec![path.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        let unreadable = |error: io::Error| Failure::io("read", &folder, &error);
+        for entry in fs::read_dir(&folder).map_err(unreadable)? {
+            let entry = entry.map_err(unreadable)?;
+            let path = entry.path();
+            if entry.file_type().map_err(unreadable)?.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("arl")) && path.is_file() {
+                programs.push(path);
             }
         }
     }
-    let is_wrong = failed || check && differs;
-    Ok(if is_wrong { ExitCode::from(COMPILE_ERRORS) } else { ExitCode::SUCCESS })
+    programs.sort();
+    Ok(programs)
 }
 
-/// Whether the text that comes in changes.
-fn standard_input(check: bool) -> Result<bool, Failure> {
+/// The bytes of a program, laid out.
+fn laid_out(name: &Path, bytes: &[u8]) -> Result<Vec<u8>, Failure> {
+    let text = decode(bytes).map_err(|error| Failure::Other(format!("cannot read {}: {error}", name.display())))?;
+    let new = format(&text);
+    if new == text {
+        return Ok(bytes.to_vec());
+    }
+    let words = "it has characters that could not be written back as they are; save it as UTF-8";
+    encode_like(bytes, &new).ok_or_else(|| Failure::Other(format!("cannot lay out {}: {words}", name.display())))
+}
+
+/// Lays a file out; gives its name where it would change and is only to be named.
+fn in_place(file: &Path, check: bool) -> Result<Option<PathBuf>, Failure> {
+    let unreadable = |error: io::Error| Failure::io("read", file, &error);
+    if !fs::metadata(file).map_err(unreadable)?.is_file() {
+        return Err(Failure::Other(format!("cannot read {}: this is no regular file", file.display())));
+    }
+    let bytes = fs::read(file).map_err(unreadable)?;
+    let new = laid_out(file, &bytes)?;
+    if new == bytes {
+        return Ok(None);
+    }
+    if check {
+        return Ok(Some(file.to_path_buf()));
+    }
+    replace(file, &new).map_err(|error| Failure::io("write", file, &error))?;
+    Ok(None)
+}
+
+fn standard_input(check: bool) -> Result<Option<PathBuf>, Failure> {
+    let name = Path::new("standard input");
     let mut bytes = Vec::new();
-    let failed = |error: std::io::Error| Failure::Other(format!("cannot read standard input: {error}"));
-    std::io::stdin().lock().read_to_end(&mut bytes).map_err(failed)?;
-    let name = Path::new("<standard input>");
+    io::stdin().lock().read_to_end(&mut bytes).map_err(|error| Failure::io("read", name, &error))?;
     let new = laid_out(name, &bytes)?;
-    let differs = new != bytes;
     if check {
-        if differs {
-            answer::write(&format!("{}\n", name.display()))?;
-        }
-    } else {
-        let mut out = std::io::stdout().lock();
-        answer::written(out.write_all(&new).and_then(|()| out.flush()))?;
+        return Ok((new != bytes).then(|| PathBuf::from("-")));
     }
-    Ok(differs)
+    let mut out = io::stdout().lock();
+    answer::written(out.write_all(&new).and_then(|()| out.flush())).map(|()| None)
 }
 
-/// Lays one file out; whether it changes.
-fn one(path: &Path, check: bool) -> Result<bool, Failure> {
-    let old = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
-    let new = laid_out(path, &old)?;
-    if new == old {
-        return Ok(false);
-    }
-    if check {
-        answer::write(&format!("{}\n", path.display()))?;
-    } else {
-        replace(path, &new).map_err(|error| Failure::io("write", path, &error))?;
-    }
-    Ok(true)
-}
-
-/// The bytes of a file in its layout, in the encoding that it has.
-fn laid_out(path: &Path, bytes: &[u8]) -> Result<Vec<u8>, Failure> {
-    let shown = path.display();
-    let text = decode(bytes).map_err(|error| {
-        Failure::Other(format!("{shown} is neither UTF-8 nor GB18030 from byte {} on", error.offset))
-    })?;
-    let lost = || Failure::Other(format!("{shown} would not keep all its characters: save it in UTF-8 first"));
-    encode_like(bytes, &format(&text)).ok_or_else(lost)
-}
-
-/// Puts new content in the place of a file, all of it or nothing; the file keeps its permissions. A link stays one.
-fn replace(path: &Path, content: &[u8]) -> std::io::Result<()> {
-    let path = path.canonicalize()?;
-    let permissions = std::fs::metadata(&path)?.permissions();
+/// Puts new content in the place of a file: it is whole at any moment, the old one or the new one. A link stays one, and
+/// what was forbidden to write stays as it is.
+fn replace(file: &Path, content: &[u8]) -> io::Result<()> {
+    let file = file.canonicalize()?;
+    let permissions = fs::metadata(&file)?.permissions();
     if permissions.readonly() {
-        return Err(std::io::ErrorKind::PermissionDenied.into());
+        return Err(io::ErrorKind::PermissionDenied.into());
     }
-    let mut name = path.file_name().unwrap_or_default().to_os_string();
+    let mut name = std::ffi::OsString::from(".");
+    name.push(file.file_name().unwrap_or_default());
     name.push(format!(".{}.new", std::process::id()));
-    let new = path.with_file_name(name);
-    let written = std::fs::write(&new, content)
-        .and_then(|()| std::fs::set_permissions(&new, permissions))
-        .and_then(|()| std::fs::rename(&new, &path));
+    let beside = file.with_file_name(name);
+    let written = write_new(&beside, content, permissions).and_then(|()| fs::rename(&beside, &file));
     if written.is_err() {
-        let _ = std::fs::remove_file(&new);
+        // It may not be there at all.
+        let _ = fs::remove_file(&beside);
     }
     written
 }
 
-/// The file itself, or all programs below a folder, in the order of their names.
-fn files(path: &Path) -> Vec<Result<PathBuf, Failure>> {
-    if !path.is_dir() {
-        return vec![Ok(path.to_path_buf())];
-    }
-    let entries = match std::fs::read_dir(path) {
-        Ok(entries) => entries,
-        Err(error) => return vec![Err(Failure::io("read", path, &error))],
-    };
-    let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-    paths.sort();
-    let wanted =
-        |path: &PathBuf| path.is_dir() || path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("arl"));
-    let is_link_to_folder = |path: &PathBuf| path.is_dir() && path.is_symlink();
-    paths.into_iter().filter(wanted).filter(|path| !is_link_to_folder(path)).flat_map(|path| files(&path)).collect()
+fn write_new(path: &Path, content: &[u8], permissions: fs::Permissions) -> io::Result<()> {
+    let mut file = fs::OpenOptions::new().write(true).create_new(true).open(path)?;
+    file.write_all(content)?;
+    file.set_permissions(permissions)?;
+    file.sync_all()
 }

@@ -122,14 +122,16 @@ fn innermost(stack: &[Frame], kind: BlockKind) -> Option<usize> {
     stack.iter().rposition(|frame| frame.kind == kind)
 }
 
-/// Which of the lines that may open an `if` do: as many of a function's as it has more `endif` than `if`, the first ones.
+/// Which of the lines that may open an `if` do: those with a `{`, and as many of a function's as it has more `endif` than
+/// `if`, the first ones.
 fn doubtful_openers(lines: &[Line<'_>]) -> Vec<bool> {
     let mut openers: Vec<bool> = Vec::new();
     let mut first = 0;
     let mut surplus = 0_isize;
     let settle = |openers: &mut Vec<bool>, first: usize, surplus: isize| {
         let count = usize::try_from(surplus).unwrap_or(0);
-        openers.iter_mut().skip(first).take(count).for_each(|opens| *opens = true);
+        let undecided = openers.iter_mut().skip(first).filter(|opens| !**opens);
+        undecided.take(count).for_each(|opens| *opens = true);
     };
     for turn in lines.iter().flat_map(|line| &line.turns) {
         match turn.turn {
@@ -139,7 +141,7 @@ fn doubtful_openers(lines: &[Line<'_>]) -> Vec<bool> {
             }
             Turn::Open(BlockKind::If) => surplus -= 1,
             Turn::Close(BlockKind::If) => surplus += 1,
-            Turn::MayOpen(_) => openers.push(false),
+            Turn::MayOpen(_) => openers.push(turn.braced),
             _ => {}
         }
     }

@@ -51,8 +51,6 @@ pub(super) struct Line<'a> {
     pub(super) turns: Vec<PlacedTurn>,
     /// Whether something is wrong with it: then it stays as it is.
     pub(super) frozen: bool,
-    /// Whether the text ends with it.
-    pub(super) is_last: bool,
 }
 
 impl<'a> Line<'a> {
@@ -84,29 +82,26 @@ pub(super) fn read(text: &str) -> Vec<Line<'_>> {
     let mut broken = Vec::new();
     let mut end = 0;
     for (lexeme, span) in lexemes(text) {
-        let (from, to) = (span.start as usize, span.end as usize);
-        reader.between(end, from);
-        end = to;
+        let span = span.start as usize..span.end as usize;
+        reader.between(end, span.start);
+        end = span.end;
         match lexeme {
-            Ok(Lexeme::Newline) => reader.end_line(from, to),
-            Ok(lexeme) => reader.piece(from, to, lexeme),
-            Err(_) => broken.push(from),
+            Ok(Lexeme::Newline) => reader.end_line(span.start, span.end),
+            Ok(lexeme) => reader.piece(span.start, span.end, lexeme),
+            Err(_) => broken.push(span.start),
         }
     }
     reader.between(end, text.len());
     reader.end_line(text.len(), text.len());
     let mut lines = reader.lines;
-    if let Some(last) = lines.last_mut() {
-        last.is_last = true;
-    }
     give_turns(&mut lines, &turns);
     let mistakes = mistakes.into_iter().map(|at| at as usize);
     freeze(&mut lines, mistakes.collect());
     freeze(&mut lines, broken);
     // Whether this `}` closes something depends on the lines around it.
     for line in &mut lines {
-        let begins_with_brace = line.pieces().next().is_some_and(|piece| piece.lexeme == Lexeme::BraceClose);
-        line.frozen |= begins_with_brace;
+        let closes = line.pieces().next().is_some_and(|piece| piece.lexeme == Lexeme::BraceClose);
+        line.frozen |= closes;
     }
     lines
 }
@@ -144,7 +139,7 @@ impl<'a> Reader<'a> {
     fn end_line(&mut self, end: usize, next: usize) {
         let raw = self.text.get(self.start..end).unwrap_or_default();
         let items = std::mem::take(&mut self.items);
-        self.lines.push(Line { raw, end, items, turns: Vec::new(), frozen: false, is_last: false });
+        self.lines.push(Line { raw, end, items, turns: Vec::new(), frozen: false });
         self.start = next;
     }
 }

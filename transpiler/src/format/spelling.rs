@@ -2,6 +2,7 @@
 
 use super::lines::{Item, Line, Piece};
 use arl_lang::catalog::{self, Base, Entry};
+use arl_lang::control_word;
 use arl_lang::lexer::Lexeme;
 use arl_lang::outline::Role;
 use std::collections::{HashMap, HashSet};
@@ -108,7 +109,7 @@ impl Speller<'_> {
 
     fn word(&mut self, piece: &Piece<'_>, around: Around<'_>) -> Option<&'static str> {
         match piece.role {
-            Role::Reserved | Role::Constant => WORDS.iter().find(|word| word.eq_ignore_ascii_case(piece.text)).copied(),
+            Role::Reserved | Role::Constant => control_word(piece.text),
             Role::Type => type_name(piece.text),
             Role::Instruction => {
                 self.instruction = catalog::instructions(piece.text);
@@ -147,36 +148,10 @@ fn is_member(before: &Piece<'_>) -> bool {
     matches!(before.lexeme, Lexeme::Dot | Lexeme::Scope)
 }
 
-/// The words of control structures and constants, as they are written.
-const WORDS: [&str; 27] = [
-    "break",
-    "case",
-    "const",
-    "continue",
-    "default",
-    "else",
-    "elseif",
-    "endfor",
-    "endfunc",
-    "endif",
-    "endl",
-    "endloop",
-    "endswitch",
-    "endwhile",
-    "false",
-    "for",
-    "func",
-    "goto",
-    "if",
-    "import",
-    "loop",
-    "repeat",
-    "return",
-    "switch",
-    "true",
-    "until",
-    "while",
-];
+/// A name and its other spellings.
+fn names(name: &'static str, aliases: &'static [&'static str]) -> impl Iterator<Item = &'static str> {
+    std::iter::once(name).chain(aliases.iter().copied())
+}
 
 /// How one of these names is spelled, where `written` is one of them.
 fn one_of(mut names: impl Iterator<Item = &'static str>, written: &str) -> Option<&'static str> {
@@ -188,36 +163,29 @@ fn type_name(written: &str) -> Option<&'static str> {
     one_of(plain.map(|(name, _)| name), written)
 }
 
-/// All names with a `$`, under their folded spelling.
+/// `$NAME`, a variable or a type, by its folded name.
 static SYSTEM: LazyLock<HashMap<String, String>> = LazyLock::new(|| {
-    let variables = catalog::system_variables()
-        .flat_map(|variable| [variable.name].into_iter().chain(variable.aliases.iter().copied()));
     let types = catalog::type_names().filter(|(_, base)| base.is_system()).map(|(name, _)| name);
-    let mut names = HashMap::new();
-    for name in variables.chain(types) {
-        names.entry(name.to_ascii_lowercase()).or_insert_with(|| format!("${name}"));
-    }
-    names
+    let variables = catalog::system_variables().flat_map(|found| names(found.name, found.aliases));
+    types.chain(variables).map(|name| (name.to_ascii_lowercase(), format!("${name}"))).collect()
 });
 
-/// `$NAME`: a variable or a type.
 fn system(written: &str) -> Option<&'static str> {
     SYSTEM.get(&written.strip_prefix('$')?.to_ascii_lowercase()).map(String::as_str)
 }
 
 fn entry_name(entries: &'static [Entry], written: &str) -> Option<&'static str> {
-    let names = |entry: &'static Entry| std::iter::once(entry.name).chain(entry.aliases.iter().copied());
-    one_of(entries.iter().flat_map(names), written)
+    one_of(entries.iter().flat_map(|entry| names(entry.name, entry.aliases)), written)
 }
 
 fn label(entries: &'static [Entry], written: &str) -> Option<&'static str> {
     let params = entries.iter().flat_map(|entry| entry.params);
-    one_of(params.flat_map(|param| std::iter::once(param.name).chain(param.aliases.iter().copied())), written)
+    one_of(params.flat_map(|param| names(param.name, param.aliases)), written)
 }
 
 /// A constant of the enumeration `scope`.
 fn constant(scope: &Piece<'_>, written: &str) -> Option<&'static str> {
     let Some(Base::Enum(id)) = catalog::base_type(scope.text.trim_start_matches('$')) else { return None };
     let constants = id.def().constants.iter();
-    one_of(constants.flat_map(|found| std::iter::once(found.name).chain(found.aliases.iter().copied())), written)
+    one_of(constants.flat_map(|found| names(found.name, found.aliases)), written)
 }

@@ -68,7 +68,6 @@ say("line", vim.api.nvim_buf_get_lines(buffer, 3, 4, false)[1])
 
 local format = { textDocument = at(0, 0).textDocument, options = { tabSize = 4, insertSpaces = true } }
 vim.lsp.util.apply_text_edits(ask("textDocument/formatting", format), buffer, "utf-16")
--- A blank line came in front of the function.
-say("line", vim.api.nvim_buf_get_lines(buffer, 4, 5, false)[1])
+say("line", vim.api.nvim_buf_get_lines(buffer, 3, 4, false)[1])
 vim.lsp.stop_client(client)
 vim.cmd("qall!")
