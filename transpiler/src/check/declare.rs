@@ -297,7 +297,7 @@ impl<'a> Checker<'a> {
             let problem = NameProblem::Duplicate { name: text, what: "variable" };
             self.report_in::<()>(body.module, name.span, problem, &labels);
         }
-        let info = LocalInfo { ty, constant, value: value.clone(), func: body.func };
+        let info = LocalInfo { ty, constant, value: value.clone(), func: body.func, parameter: false };
         self.mention_local(body, name, info);
         let local = hir::Local {
             name: self.names.name(name.symbol).to_string(),

@@ -247,6 +247,11 @@ impl Checker<'_> {
             })
             .collect();
         index.functions = (0..self.funcs.len()).filter_map(|at| self.function_info(FuncId(at as u32))).collect();
+        for (_, _, declared) in index.functions.iter().flat_map(|function| &function.params) {
+            if let Some(info) = index.locals.get_mut(declared) {
+                info.parameter = true;
+            }
+        }
         index.modules = (self.modules.iter())
             .map(|module| {
                 let imports = module.imports.iter();

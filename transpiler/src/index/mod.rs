@@ -111,6 +111,8 @@ pub struct LocalInfo {
     pub value: Option<Value>,
     /// The function that it belongs to.
     pub func: Option<FuncId>,
+    /// Whether it is a parameter.
+    pub parameter: bool,
 }
 
 /// A global variable.

@@ -25,5 +25,6 @@ fn cursor(text: &str) -> (String, Value) {
 /// The names of items, in order.
 fn labels(items: &Value) -> Vec<String> {
     let label = |item: &Value| item["label"].as_str().expect("a label").to_string();
+    let items = items.get("items").unwrap_or(items);
     items.as_array().map(|items| items.iter().map(label).collect()).unwrap_or_default()
 }

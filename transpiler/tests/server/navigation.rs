@@ -170,3 +170,31 @@ fn quick_fixes_write_what_the_help_says() {
     let edit = &actions[0]["edit"]["changes"][&uri][0];
     assert_eq!((&edit["newText"], &edit["range"]["end"]["character"]), (&json!("vp"), &json!(18)));
 }
+
+#[test]
+fn names_behind_mistakes_are_not_left_behind() {
+    let folder = Folder::new("mistakes");
+    let (mut client, uri) = (Client::new(&folder), folder.uri("main.arl"));
+    for line in ["b = below(a)", "movej nope, vl:a, foo:a", "print abs(nope, a)", "b = m::f(a)"] {
+        client.set(&uri, &format!("func void main()\n    int a\n    int b\n    {line}\nendfunc\nfunc int below(int n)\n    return n\nendfunc\n"));
+        let params = json!({"textDocument": {"uri": uri}, "position": {"line": 1, "character": 8}, "newName": "zz"});
+        let id = client.request("textDocument/rename", params);
+        let answer = client.answer(id);
+        let edited = answer["result"]["changes"][&uri].as_array().map_or(0, Vec::len);
+        let said = answer["error"]["message"].as_str().unwrap_or_default();
+        // All of them, or none and the line.
+        let uses = line.matches("a").count();
+        assert!(said.contains("line 4") || edited >= 2, "{line} ({uses}): {answer}");
+    }
+}
+
+#[test]
+fn a_text_with_slashes_is_no_comment() {
+    let folder = Folder::new("slashes");
+    let (mut client, uri) = (Client::new(&folder), folder.uri("main.arl"));
+    client.set(&uri, "string place = \"http://x\" // where\n");
+    let place = json!({"textDocument": {"uri": uri}, "position": {"line": 0, "character": 9}});
+    let hover = client.ask("textDocument/hover", place);
+    let value = hover["contents"]["value"].as_str().unwrap_or_default();
+    assert!(value.contains("\"http://x\"") && value.ends_with("where"), "{value}");
+}

@@ -179,7 +179,34 @@ fn settings_name_the_robot_and_are_told_where_they_are_wrong() {
     client.tell("workspace/didChangeConfiguration", json!({"settings": {"arl2rs": {"robot": "no-such-robot"}}}));
     client.ask("textDocument/documentSymbol", json!({"textDocument": {"uri": uri}}));
     assert!(client.shown.iter().any(|text| text.contains("no-such-robot")), "{:?}", client.shown);
+    // Settings of others change nothing.
+    client.tell("workspace/didChangeConfiguration", json!({"settings": {"python": {}}}));
+    client.set(&uri, "joint home = {j1 0, j5 1}\n");
+    assert_eq!(client.diagnostics(&uri)[0]["code"], "ARL0208");
     client.tell("workspace/didChangeConfiguration", json!({"settings": {"arl2rs": {}}}));
     client.set(&uri, "joint home = {j1 0, j5 0} \n");
     assert!(client.diagnostics(&uri).is_empty());
+}
+
+#[test]
+fn a_robot_file_that_changes_is_read_again() {
+    let robot = |name: &str| {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_arl2rs")).args(["robots", name]).output().unwrap();
+        output.stdout
+    };
+    let folder = Folder::new("robot_file").with("robot.toml", robot("kr10-r1420"));
+    let mut client = Client::with(&folder, json!({"robot": "robot.toml"}), json!({}));
+    let uri = folder.uri("main.arl");
+    client.set(&uri, "joint home = {j1 0, j5 0}\n");
+    assert!(client.diagnostics(&uri).is_empty());
+    let folder = folder.with("robot.toml", robot("hsr065"));
+    let changes = json!([{"uri": folder.uri("robot.toml"), "type": 2}]);
+    client.tell("workspace/didChangeWatchedFiles", json!({"changes": changes}));
+    loop {
+        let message = client.message().unwrap();
+        if message["params"]["uri"] == uri.as_str() {
+            assert_eq!(message["params"]["diagnostics"][0]["code"], "ARL0208");
+            break;
+        }
+    }
 }

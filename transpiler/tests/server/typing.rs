@@ -14,6 +14,8 @@ fn signatures_show_the_parameter_at_the_cursor() {
         ("grip(1, tr|", "bool grip(int channel, bool on)", json!(1)),
         ("lin feeder, vl:|", "lin p:", json!(2)),
         ("offset(feeder, |1)", "pose offset(pose p", json!(1)),
+        ("grip(1|2, true)", "bool grip(int channel, bool on)", json!(0)),
+        ("print offset(feeder, 1, 2|.5)", "pose offset(pose p", json!(2)),
         ("grip(abs(|), true)", "abs(", json!(0)),
     ];
     for (line, label, parameter) in cases {

@@ -5,6 +5,7 @@ use crate::diagnostics::Location;
 use crate::hir::{Type, Value};
 use crate::index::Meaning;
 use arl_lang::catalog::{Base, Family, reference};
+use arl_lang::lexer::{Lexeme, lexemes};
 use arl_lang::span::Span;
 
 /// The page of a meaning.
@@ -74,8 +75,7 @@ fn plain_type(base: Base) -> &'static str {
 }
 
 fn is_parameter(program: &Program, at: Location) -> bool {
-    let functions = &program.index().functions;
-    functions.iter().any(|function| function.params.iter().any(|(_, _, declared)| *declared == at))
+    program.index().local(at).is_some_and(|info| info.parameter)
 }
 
 /// `const int ROWS`
@@ -132,21 +132,26 @@ pub(super) fn value_text(value: &Value) -> String {
     }
 }
 
-/// What stands behind the `=` of a declaration, where it is on one line.
-fn initialiser(program: &Program, at: Location) -> Option<String> {
+/// What stands behind the name of a declaration on its line: code, and a comment.
+fn behind(program: &Program, at: Location) -> Option<(&str, &str)> {
     let file = program.checked.files.get(at.file)?;
     let line = file.lines.line_span(&file.text, file.lines.line(at.span.start))?;
-    let behind = Span::new(at.span.end, line.end).text(&file.text);
-    let behind = behind.split("//").next().unwrap_or(behind).trim_start().strip_prefix('=')?.trim();
-    (!behind.is_empty() && behind.len() <= 200 && !behind.ends_with('\\')).then(|| behind.to_string())
+    let text = Span::new(at.span.end, line.end).text(&file.text).trim_end();
+    let code = lexemes(text).filter(|(lexeme, _)| *lexeme != Ok(Lexeme::Newline)).last();
+    text.split_at_checked(code.map_or(0, |(_, span)| span.end as usize))
+}
+
+/// What stands behind the `=` of a declaration, where it is on one line.
+fn initialiser(program: &Program, at: Location) -> Option<String> {
+    let (code, _) = behind(program, at)?;
+    let value = code.trim_start().strip_prefix('=')?.trim();
+    (!value.is_empty() && value.len() <= 200).then(|| value.to_string())
 }
 
 /// The comment behind a declaration on its line.
 fn comment_behind(program: &Program, at: Location) -> Option<String> {
-    let file = program.checked.files.get(at.file)?;
-    let line = file.lines.line_span(&file.text, file.lines.line(at.span.start))?;
-    let text = Span::new(at.span.end, line.end).text(&file.text);
-    let comment = text.get(text.find("//")? + 2..)?.trim();
+    let (_, comment) = behind(program, at)?;
+    let comment = comment.trim_start().strip_prefix("//")?.trim();
     (!comment.is_empty()).then(|| comment.to_string())
 }
 

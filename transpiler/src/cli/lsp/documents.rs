@@ -18,7 +18,11 @@ pub(super) struct Document {
 }
 
 impl Document {
-    pub(super) fn new(text: String, version: i32) -> Self {
+    pub(super) fn new(mut text: String, version: i32) -> Self {
+        // A byte order mark is no part of the program.
+        if text.starts_with('\u{feff}') {
+            text.remove(0);
+        }
         let lines = LineIndex::new(&text);
         Self { text, lines, version }
     }

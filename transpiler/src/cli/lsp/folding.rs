@@ -1,4 +1,4 @@
-//! What can be folded: functions and blocks, comments over several lines, regions.
+//! What can be folded: functions and blocks, `//` comments over several lines, regions.
 
 use super::server::{Refusal, Server};
 use super::text::Text;

@@ -2,6 +2,7 @@
 
 use super::server::{Refusal, Server};
 use super::text::Text;
+use super::typing::is_quiet;
 use super::uri::path_of;
 use arl_lang::span::Span;
 use arl_lang::symbol::Interner;
@@ -72,7 +73,7 @@ pub(super) fn typed(server: &Server, params: DocumentOnTypeFormattingParams) -> 
 fn below_opener(text: Text<'_>, position: Position) -> Option<Vec<TextEdit>> {
     let (start, line) = text.line_at(text.offset(position));
     let (_, opener) = text.line_at(start.checked_sub(1)?);
-    if !line.trim().is_empty() {
+    if !line.trim().is_empty() || is_quiet(text.text, start) {
         return None;
     }
     let indent = opener.get(..opener.len() - opener.trim_start().len())?;
@@ -87,7 +88,8 @@ fn below_opener(text: Text<'_>, position: Position) -> Option<Vec<TextEdit>> {
         changed.replace_range(blank.start as usize..blank.end as usize, new);
         mistakes(&changed)
     };
-    let (as_it_is, if_closed) = (mistakes(text.text), with(&closed));
+    // A condition is missing behind `until` in any case, and no reason to leave it out.
+    let (as_it_is, if_closed) = (mistakes(text.text), with(&closed.replace("until()", "until(a)")));
     let range = text.range(blank);
     if if_closed < as_it_is {
         // Two edits, so that the cursor stays in the line that is typed.
@@ -143,6 +145,8 @@ mod tests {
         let text = "func void main()\n    if(a)\n    |\nendfunc\n";
         assert_eq!(after_enter(text), "func void main()\n    if(a)\n        \n    endif\nendfunc\n");
         assert_eq!(after_enter("func void f()\n|"), "func void f()\n    \nendfunc");
+        let text = "func void f()\nrepeat\n|\nendfunc\n";
+        assert_eq!(after_enter(text), "func void f()\nrepeat\n    \nuntil()\nendfunc\n");
     }
 
     #[test]
@@ -153,7 +157,7 @@ mod tests {
 
     #[test]
     fn other_lines_stay() {
-        for text in ["func void main()\nif(a) b = 1\n|\nendfunc\n", "int x\n|", "// if\n|\n"] {
+        for text in ["func void main()\nif(a) b = 1\n|\nendfunc\n", "int x\n|", "// if\n|\n", "/*\nloop\n|\n*/\n"] {
             assert_eq!(after_enter(text), text.replace('|', ""));
         }
     }

@@ -109,7 +109,7 @@ impl Programs {
         let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
         let end = stem.len().saturating_sub("_data".len());
         let owner = match (stem.get(..end), stem.get(end..)) {
-            (Some(owner), Some(data)) if data.eq_ignore_ascii_case("_data") && !owner.is_empty() => owner,
+            (Some(owner), Some("_data")) if !owner.is_empty() => owner,
             _ => return path.to_path_buf(),
         };
         let owner = path.with_file_name(format!("{owner}.arl"));

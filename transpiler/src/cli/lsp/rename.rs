@@ -3,12 +3,13 @@
 //! The new text is checked before anything is changed: every name of every program has to mean what it meant.
 
 use super::navigation::uses_of;
-use super::places::Declared;
+use super::places::{Declared, Place};
 use super::programs::Program;
 use super::server::{Refusal, Server};
 use crate::diagnostics::Location;
 use crate::index::{Meaning, Mention};
 use crate::{SourceError, Sources};
+use arl_lang::lexer::{Lexeme, lexemes};
 use arl_lang::span::Span;
 use gen_lsp_types::*;
 use std::collections::{BTreeMap, HashMap};
@@ -52,11 +53,47 @@ pub(super) fn rename(server: &Server, params: RenameParams) -> Result<Option<Wor
     let name = params.new_name.trim();
     may_be_a_name(name)?;
     let uses = uses_of(server, &at.text_document.uri, at.position);
+    for program in programs(&uses) {
+        is_known_everywhere(&place, &program)?;
+    }
     let edited = Edited::new(server, &uses, name);
     for program in programs(&uses) {
         edited.means_the_same(server, &program, name)?;
     }
     Ok(Some(edits(server, &uses, name)))
+}
+
+/// Refuses where the old name stands somewhere that the checker did not get to, behind a mistake: nobody knows whether it
+/// means the same there.
+fn is_known_everywhere(place: &Place, program: &Program) -> Result<(), Refusal> {
+    let Some(mention) = place.mention() else { return Ok(()) };
+    let (old, own) = (place.file.program.at(mention.at), place.file.index());
+    if !program.checked.has_errors() {
+        return Ok(());
+    }
+    // What is local is known in its function only.
+    let local = match mention.meaning {
+        Meaning::Local(at) | Meaning::Label(at) => {
+            own.function_at(at.file, at.span.start).and_then(|id| own.function(id))
+        }
+        _ => None,
+    };
+    let home = local.and_then(|function| place.file.program.path(function.at.file).map(|path| (path, function.span())));
+    for ((id, file), path) in program.checked.files.iter().filter_map(|one| Some((one, program.path(one.0)?))) {
+        let inside =
+            |at: Span| home.is_none_or(|(home, span)| home == path && span.start <= at.start && at.end <= span.end);
+        let named = lexemes(&file.text).filter(|(lexeme, at)| {
+            *lexeme == Ok(Lexeme::Word) && at.text(&file.text).eq_ignore_ascii_case(old) && inside(*at)
+        });
+        for (_, at) in named {
+            if program.index().at(id, at.start).is_none_or(|mention| mention.at.span != at) {
+                let line = file.lines.line(at.start);
+                let text = format!("{}, line {line} has a mistake: what `{old}` means there is not known", file.name);
+                return Err(Refusal::new(text));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Whether the language takes a word as a name.

@@ -8,15 +8,22 @@ use gen_lsp_types::json_rpc::Id;
 use gen_lsp_types::*;
 use serde_json::Value;
 
+/// The requests that ask for all uses of something, and so need to know all programs.
+const OF_ALL_PROGRAMS: [&str; 4] =
+    ["textDocument/references", "textDocument/rename", "callHierarchy/incomingCalls", "workspace/symbol"];
+
 /// Answers a request.
 pub(super) fn answer(server: &mut Server, id: &Id, method: &str, params: Value) -> Value {
-    // What asks for all uses of something needs to know all programs.
-    if matches!(method, "textDocument/references" | "textDocument/rename" | "callHierarchy/incomingCalls") {
-        server.look_at_all();
+    if !OF_ALL_PROGRAMS.contains(&method) {
+        return answer_one(server, id, method, params);
     }
-    if method == "workspace/symbol" {
-        server.look_at_all();
-    }
+    server.look_at_all();
+    let answer = answer_one(server, id, method, params);
+    server.forget_unopened();
+    answer
+}
+
+fn answer_one(server: &Server, id: &Id, method: &str, params: Value) -> Value {
     let call = Call { server, id, params };
     match method {
         "textDocument/hover" => call.by::<HoverRequest>(hover::hover),

@@ -198,15 +198,25 @@ impl Server {
 
     /// Takes over settings; what is wrong with them is told, and the old ones stay.
     fn set(&mut self, value: Value) {
+        match Settings::read(&value) {
+            Ok(settings) => self.apply(settings.unwrap_or_else(|| self.settings.clone())),
+            Err(text) => self.complain(&text),
+        }
+    }
+
+    /// Reads the files that the settings name, and checks everything anew.
+    fn apply(&mut self, settings: Settings) {
         let folder = self.folders.first().cloned();
-        let options = Settings::read(&value)
-            .and_then(|settings| settings.options(folder.as_deref()).map(|options| (settings, options)));
-        match options {
-            Ok((settings, options)) => {
+        match settings.options(folder.as_deref()) {
+            Ok(options) => {
                 self.settings = settings;
                 self.options = options;
                 self.programs.forget_all();
-                self.stale = self.documents.paths().cloned().collect();
+                self.workspace.look_again();
+                let all: Vec<PathBuf> = self.documents.paths().chain(&self.told).cloned().collect();
+                self.stale.extend(all);
+                let mut seen = BTreeSet::new();
+                self.stale.retain(|path| seen.insert(path.clone()));
             }
             Err(text) => self.complain(&text),
         }
@@ -251,8 +261,12 @@ impl Server {
             }
             "workspace/didChangeWatchedFiles" => {
                 self.with(method, params, |server, params: DidChangeWatchedFilesParams| {
-                    for change in params.changes {
-                        let path = path_of(&change.uri);
+                    let paths: Vec<PathBuf> = params.changes.iter().map(|change| path_of(&change.uri)).collect();
+                    // It may be the robot or the cell that the settings name.
+                    if paths.iter().any(|path| path.extension().is_some_and(|ending| ending == "toml")) {
+                        server.apply(server.settings.clone());
+                    }
+                    for path in paths {
                         // What is open is as the editor has it.
                         if server.documents.get(&path).is_none() {
                             server.changed(&path);
@@ -355,6 +369,11 @@ impl Server {
     /// The program that tells about a file, as it is now.
     pub(super) fn program(&self, path: &Path) -> Option<Rc<Program>> {
         self.programs.of(path, &self.documents, &self.options)
+    }
+
+    /// Forgets the programs that were needed for one request only.
+    pub(super) fn forget_unopened(&self) {
+        self.programs.keep(&self.documents);
     }
 
     /// Looks at all files of the workspace that were not looked at yet.

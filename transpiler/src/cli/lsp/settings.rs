@@ -21,14 +21,20 @@ pub(super) struct Settings {
     strict: bool,
 }
 
+/// What they are called.
+const NAMES: [&str; 4] = ["robot", "cell", "scriptDir", "strict"];
+
 impl Settings {
-    /// The settings in what a client sends: theirs alone, or under `arl2rs`.
-    pub(super) fn read(value: &serde_json::Value) -> Result<Self, String> {
-        let own = value.get("arl2rs").unwrap_or(value);
-        if own.is_null() {
-            return Ok(Self::default());
-        }
-        serde_json::from_value(own.clone()).map_err(|error| format!("the settings of arl2rs: {error}"))
+    /// The settings in what a client sends: theirs alone, or under `arl2rs`. `None` where there are none: clients send
+    /// the settings of others, too, or nothing at all.
+    pub(super) fn read(value: &serde_json::Value) -> Result<Option<Self>, String> {
+        let own = match value.get("arl2rs") {
+            Some(own) => own,
+            None if NAMES.iter().any(|name| value.get(name).is_some()) => value,
+            None => return Ok(None),
+        };
+        let read = serde_json::from_value(own.clone());
+        read.map(Some).map_err(|error| format!("the settings of arl2rs: {error}"))
     }
 
     /// How to check with them. Relative paths count from the workspace's folder.

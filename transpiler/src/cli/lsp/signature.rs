@@ -4,7 +4,7 @@ use super::describe::{full_type, type_name};
 use super::programs::Program;
 use super::server::{Refusal, Server};
 use super::typing::{Surroundings, Typing};
-use crate::index::{ArgumentList, Callee};
+use crate::index::{Argument, ArgumentList, Callee};
 use arl_lang::catalog::{self, Entry, Family, Kind, Presence, reference};
 use gen_lsp_types::*;
 
@@ -19,17 +19,40 @@ pub(super) fn offered() -> SignatureHelpOptions {
 pub(super) fn signature(server: &Server, params: SignatureHelpParams) -> Result<Option<SignatureHelp>, Refusal> {
     let find = || {
         let typing = Typing::at(server, &params.text_document_position_params)?;
-        if typing.surroundings != Surroundings::Code {
-            return None;
+        let family = server.options.family;
+        if typing.surroundings == Surroundings::Code
+            && let Some((expected, program)) = typing.expectation(server)
+            && let Some(list) = expected.arguments
+        {
+            return shown(&program, &list, family);
         }
-        let (expected, program) = typing.expectation(server)?;
-        let list = expected.arguments?;
-        Some(match list.callee {
-            Callee::Function(id) => own(&program, id, &list, server.options.family)?,
-            Callee::Builtin(entry) => built_in(entry, &list, server.options.family),
-        })
+        // In a number or a text nothing is looked for, but the argument is known.
+        let file = server.file(&typing.path)?;
+        let holds = |one: &&Argument| (one.at.span.start..=one.at.span.end).contains(&typing.offset);
+        let argument =
+            file.index().arguments(file.id).filter(holds).min_by_key(|one| one.at.span.end - one.at.span.start)?;
+        let beside = file.index().arguments(file.id).filter(|one| one.of == argument.of);
+        let mut taken = vec![0; argument.parameter + 1];
+        for one in beside.filter(|one| one.at != argument.at) {
+            if taken.len() <= one.parameter {
+                taken.resize(one.parameter + 1, 0);
+            }
+            if let Some(count) = taken.get_mut(one.parameter) {
+                *count += 1;
+            }
+        }
+        let parameter = Some(argument.parameter);
+        let list = ArgumentList { callee: argument.callee, of: argument.of, taken, parameter, may_be_label: false };
+        shown(&file.program, &list, family)
     };
     Ok(find())
+}
+
+fn shown(program: &Program, list: &ArgumentList, family: Family) -> Option<SignatureHelp> {
+    match list.callee {
+        Callee::Function(id) => own(program, id, list, family),
+        Callee::Builtin(entry) => Some(built_in(entry, list, family)),
+    }
 }
 
 /// A signature whose parameters are parts of its text.
@@ -37,11 +60,19 @@ fn information(label: String, params: Vec<(String, String)>, doc: String) -> Sig
     let text = |value: String| {
         (!value.is_empty()).then_some(Documentation::MarkupContent(MarkupContent { kind: MarkupKind::Markdown, value }))
     };
-    let params = params.into_iter().map(|(label, doc)| ParameterInformation {
-        label: ParameterInformationLabel::String(label),
-        documentation: text(doc),
+    let mut end = 0;
+    let params = params.into_iter().map(|(part, doc)| {
+        // By its place: `int a` is also the beginning of `int ab`.
+        let rest = label.get(end..).unwrap_or_default();
+        let start = end + rest.find(&part).unwrap_or(0);
+        end = start + part.len();
+        ParameterInformation {
+            label: ParameterInformationLabel::Tuple((start as u32, end as u32)),
+            documentation: text(doc),
+        }
     });
-    SignatureInformation { label, documentation: text(doc), parameters: Some(params.collect()), active_parameter: None }
+    let params = params.collect();
+    SignatureInformation { label, documentation: text(doc), parameters: Some(params), active_parameter: None }
 }
 
 fn help(signatures: Vec<SignatureInformation>, chosen: usize, parameter: Option<usize>) -> SignatureHelp {

@@ -72,9 +72,9 @@ fn kind(file: &File, mention: &Mention) -> Option<(u32, u32)> {
     let readonly = |constant: bool| if constant { READONLY } else { 0 };
     let (kind, mut modifiers) = match mention.meaning {
         Meaning::Local(at) => {
-            let is_parameter = index.functions.iter().any(|function| function.params.iter().any(|one| one.2 == at));
-            let constant = index.local(at).is_some_and(|info| info.constant);
-            (if is_parameter { "parameter" } else { "variable" }, readonly(constant))
+            let info = index.local(at);
+            let constant = info.is_some_and(|info| info.constant);
+            (if info.is_some_and(|info| info.parameter) { "parameter" } else { "variable" }, readonly(constant))
         }
         Meaning::Global(id) => ("variable", readonly(index.global(id).is_some_and(|global| global.constant))),
         Meaning::Function(_) => ("function", 0),

@@ -119,6 +119,11 @@ fn closers(before: &str) -> String {
     open.into_iter().rev().collect()
 }
 
+/// Whether a place is in a comment or a text.
+pub(super) fn is_quiet(text: &str, offset: u32) -> bool {
+    matches!(surroundings(text, offset, word_start(text, offset)), Surroundings::Quiet | Surroundings::Import(_))
+}
+
 fn surroundings(text: &str, offset: u32, word: u32) -> Surroundings {
     let mut line: Vec<(Lexeme, Span)> = Vec::new();
     let mut last_end = 0;
@@ -131,7 +136,8 @@ fn surroundings(text: &str, offset: u32, word: u32) -> Surroundings {
         let quoted = span.text(text).starts_with(['"', '\'', '“']) || span.text(text).starts_with("/*");
         if inside && quoted {
             let is_import = line.first().is_some_and(|(_, first)| first.text(text).eq_ignore_ascii_case("import"));
-            return if is_import { Surroundings::Import(span.start + 1) } else { Surroundings::Quiet };
+            let quote = span.text(text).chars().next().map_or(1, char::len_utf8) as u32;
+            return if is_import { Surroundings::Import(span.start + quote) } else { Surroundings::Quiet };
         }
         if lexeme == Ok(Lexeme::Newline) {
             line.clear();

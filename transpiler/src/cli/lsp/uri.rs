@@ -1,5 +1,6 @@
 //! Addresses of files as the protocol writes them.
 
+use crate::check::clean;
 use gen_lsp_types::Uri;
 use std::path::{Path, PathBuf};
 
@@ -12,7 +13,7 @@ pub(super) fn path_of(uri: &Uri) -> PathBuf {
     let path = rest.find('/').and_then(|at| rest.get(at..)).unwrap_or(rest);
     let path = decoded(path);
     let drive = path.strip_prefix('/').filter(|rest| rest.as_bytes().get(1) == Some(&b':'));
-    PathBuf::from(drive.unwrap_or(&path))
+    clean(Path::new(drive.unwrap_or(&path)))
 }
 
 /// The address of a file.

@@ -9,6 +9,8 @@ use std::path::{Path, PathBuf};
 const MOST_FILES: usize = 5_000;
 /// How many folders deep they are looked for.
 const MOST_DEPTH: usize = 12;
+/// How many folders are searched.
+const MOST_FOLDERS: usize = 5_000;
 /// Folders that hold no programs.
 const PASSED_OVER: [&str; 2] = ["target", "node_modules"];
 
@@ -25,13 +27,18 @@ impl Workspace {
     /// Finds the programs below the folders.
     pub(super) fn search(folders: &[PathBuf]) -> Self {
         let mut workspace = Self::default();
+        let mut searched = 0;
         for folder in folders {
-            workspace.search_in(folder, 0);
+            workspace.search_in(folder, 0, &mut searched);
         }
         workspace
     }
 
-    fn search_in(&mut self, folder: &Path, depth: usize) {
+    fn search_in(&mut self, folder: &Path, depth: usize, searched: &mut usize) {
+        *searched += 1;
+        if *searched > MOST_FOLDERS {
+            return;
+        }
         let Ok(entries) = std::fs::read_dir(folder) else { return };
         for entry in entries.flatten() {
             let (path, name) = (entry.path(), entry.file_name());
@@ -39,11 +46,16 @@ impl Workspace {
             let Ok(kind) = entry.file_type() else { continue };
             let passed_over = name.starts_with('.') || PASSED_OVER.contains(&&*name);
             if kind.is_dir() && !passed_over && depth < MOST_DEPTH {
-                self.search_in(&path, depth + 1);
-            } else if is_program(&path) && self.open.len() < MOST_FILES {
+                self.search_in(&path, depth + 1, searched);
+            } else if is_program(&path) && !is_data(&path) && self.open.len() < MOST_FILES {
                 self.open.insert(path);
             }
         }
+    }
+
+    /// All files are to be looked at again: what an import means has changed.
+    pub(super) fn look_again(&mut self) {
+        self.open.extend(self.reads.keys().cloned());
     }
 
     /// Whether there are files that were not looked at.
@@ -67,7 +79,7 @@ impl Workspace {
 
     /// Notes that a file changed, appeared or is gone.
     pub(super) fn changed(&mut self, path: &Path, is_there: bool) {
-        if !is_program(path) {
+        if !is_program(path) || is_data(path) {
             return;
         }
         if is_there {
@@ -93,6 +105,11 @@ impl Workspace {
     pub(super) fn programs(&self) -> impl Iterator<Item = &PathBuf> {
         self.reads.keys()
     }
+}
+
+/// Whether a file is the data of the program beside it, which reads it.
+pub(super) fn is_data(path: &Path) -> bool {
+    path.file_stem().is_some_and(|stem| stem.to_string_lossy().ends_with("_data"))
 }
 
 /// Whether a path has the ending of a program.

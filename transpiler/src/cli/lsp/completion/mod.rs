@@ -29,7 +29,10 @@ pub(super) fn completion(server: &Server, params: CompletionParams) -> Result<Op
         Surroundings::Type => builtin::types(server.options.family, &mut items),
         Surroundings::Statement | Surroundings::Code => at_name(server, &typing, &mut items),
     }
-    Ok(Some(CompletionResponse::CompletionItemList(items.finish())))
+    // With the first letter of a name there is more that fits.
+    let is_incomplete = !items.is_begun();
+    let list = CompletionList { is_incomplete, items: items.finish(), ..CompletionList::default() };
+    Ok(Some(CompletionResponse::CompletionList(list)))
 }
 
 /// What may stand where a name may begin.
@@ -202,7 +205,13 @@ impl Fits {
             }
             _ => false,
         };
-        self.takes(ty) || ty.is_array() && self.takes(ty.element()) || by_component
+        self.takes(ty) || ty.is_array() && self.takes(ty.element()) || by_component || self.may_compare(ty)
+    }
+
+    /// Whether a condition may begin with a value of this type: it is compared with something.
+    fn may_compare(&self, ty: Type) -> bool {
+        let is_condition = matches!(self, Self::OneOf(types) if types.contains(&ParamType::One(Base::Bool)));
+        is_condition && !ty.is_array() && (is_number(ty.base) || matches!(ty.base, Base::String | Base::Enum(_)))
     }
 }
 
