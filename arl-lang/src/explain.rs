@@ -457,7 +457,7 @@ pub(crate) fn is_infix(token: Token) -> bool {
 }
 
 /// Whether the token is a word.
-fn is_word(token: Token) -> bool {
+pub(crate) fn is_word(token: Token) -> bool {
     !matches!(
         token,
         Token::System(_)

@@ -3,6 +3,7 @@
 
 use crate::adapt::PlacedLexeme;
 use crate::blocks::Doubts;
+use crate::explain::is_word;
 use crate::lexer::Lexeme;
 use crate::line::{Line, LineKind};
 use crate::recovery::condition_end;
@@ -145,31 +146,8 @@ fn role_of(token: Token) -> Role {
         Token::Target(_) => Role::Target,
         Token::True | Token::False | Token::Endl => Role::Constant,
         Token::Unit(_) => Role::Unit,
-        Token::System(_)
-        | Token::Int(..)
-        | Token::Double(_)
-        | Token::Text
-        | Token::Faulty
-        | Token::Splice(_)
-        | Token::Operator(_)
-        | Token::Minus
-        | Token::Not
-        | Token::Complement
-        | Token::PlusPlus
-        | Token::MinusMinus
-        | Token::Assign(_)
-        | Token::ParenOpen
-        | Token::ParenClose
-        | Token::BracketOpen
-        | Token::BracketClose
-        | Token::BraceOpen
-        | Token::BraceClose
-        | Token::Comma
-        | Token::Semicolon
-        | Token::Colon
-        | Token::Scope
-        | Token::Dot => Role::Other,
-        _ => Role::Reserved,
+        token if is_word(token) => Role::Reserved,
+        _ => Role::Other,
     }
 }
 

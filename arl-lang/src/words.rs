@@ -75,9 +75,14 @@ pub fn is_reserved(name: &str) -> bool {
     all_words().any(|(word, kind)| kind != Word::OpenInstruction && word.eq_ignore_ascii_case(name))
 }
 
+/// The words of control structures and constants, sorted.
+pub fn control_words() -> impl Iterator<Item = &'static str> {
+    FIXED.iter().map(|(word, _)| *word)
+}
+
 /// The spelling of a word of a control structure or a constant, where `name` is one in any case.
 pub fn control_word(name: &str) -> Option<&'static str> {
-    FIXED.iter().map(|(word, _)| *word).find(|word| word.eq_ignore_ascii_case(name))
+    control_words().find(|word| word.eq_ignore_ascii_case(name))
 }
 
 /// What each interned name is, by its symbol.

@@ -11,7 +11,7 @@ use crate::diagnostics::arguments::ArgumentProblem;
 use crate::diagnostics::listed;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Bound, Expr, ExprKind, FuncId, Passed, Type, Value};
-use crate::index::Wanted as Looked;
+use crate::index;
 use arl_lang::ast::{self, Arg, Unit};
 use arl_lang::catalog::{
     self, Access, Base, Entry, Kind, Mode, ParamType, Presence, Range, Restore, SystemVariable, UNSET,
@@ -261,7 +261,7 @@ impl<'a> Checker<'a> {
     ) -> Option<usize> {
         let wanted = self.names.name(label.symbol);
         let Some(at) = places.find(params, wanted) else {
-            self.expect(body, label.symbol, label.span, Looked::ArgumentLabel);
+            self.expect(body, label.symbol, label.span, index::Wanted::ArgumentLabel);
             let callee = self.callee_name(callee);
             let names = || params.iter().map(|param| param.name);
             let problem = ArgumentProblem::UnknownLabel {
@@ -275,9 +275,7 @@ impl<'a> Checker<'a> {
         let param = params.get(at)?;
         self.strict_case(body, label.span, param.name);
         if let Some(meaning) = self.parameter_meaning(callee, at) {
-            // The colon belongs to the label's token, not to the name.
-            let name = Span::new(label.span.start, label.span.start + wanted.len() as u32);
-            self.mention(body, name, meaning);
+            self.mention(body, label.span, meaning);
         }
         if taken.get(at).is_some_and(|count| *count >= most(param)) {
             return self.report(body, label.span, ArgumentProblem::Twice { parameter: param.name.into() });

@@ -171,10 +171,7 @@ impl Checker<'_> {
         let mut types = Vec::new();
         for (at, arg) in call.args.iter().enumerate() {
             let want = common_type(overloads, at);
-            if let Some(first) = overloads.first() {
-                let taken = vec![1; at];
-                self.expect_argument(body, &Callee::Builtin(first), call.name.span, arg, &taken, Some(at));
-            }
+            self.expect_of_overloads(body, overloads, call, at);
             let shown = self.diagnostics.len();
             let typed = self.expr(body, &arg.value, want);
             if typed.is_none() && self.diagnostics.len() > shown {

@@ -283,17 +283,19 @@ impl<'a> Checker<'a> {
 
     /// The name of a type, as the manual spells it: `int`, `int[3]`, `Centroid_Pos`.
     pub(crate) fn type_name(&self, ty: Type) -> String {
-        let mut name = self.base_name(ty.base).to_string();
-        for size in ty.dims() {
-            name.push_str(&format!("[{size}]"));
-        }
-        name
+        type_name(ty, self.family())
     }
 
     /// The name of a base type.
     pub(crate) fn base_name(&self, base: Base) -> &'static str {
         base_name(base, self.family())
     }
+}
+
+/// The name of a type in the manual's spelling, with the sizes of an array.
+pub(crate) fn type_name(ty: Type, family: Family) -> String {
+    let sizes: String = ty.dims().iter().map(|size| format!("[{size}]")).collect();
+    format!("{}{sizes}", base_name(ty.base, family))
 }
 
 /// The name of a base type in the manual's spelling.

@@ -155,7 +155,7 @@ impl Loaded {
             file,
             path: path.to_path_buf(),
             ast,
-            data: stem.to_ascii_lowercase().ends_with("_data"),
+            data: is_data(path),
             imports: HashMap::new(),
             missing: HashSet::new(),
             import_lines: Vec::new(),
@@ -334,6 +334,11 @@ impl Follow<'_> {
             }
         }
     }
+}
+
+/// Whether a file holds the data of the program beside it.
+pub(crate) fn is_data(path: &Path) -> bool {
+    path.file_stem().is_some_and(|stem| stem.to_string_lossy().to_ascii_lowercase().ends_with("_data"))
 }
 
 /// Whether a file name can stand in front of `::`.

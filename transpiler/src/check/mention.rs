@@ -3,14 +3,14 @@
 
 use super::arguments::Callee;
 use super::context::{Body, Checker};
-use crate::diagnostics::{Files, Location};
+use crate::diagnostics::Files;
 use crate::hir::{FuncId, ModuleId, Type};
 use crate::index::{
     self, Argument, ArgumentList, Expectation, FunctionInfo, GlobalInfo, HERE, Index, LocalInfo, MARKER, Meaning,
     Mention, ModuleInfo, Role, Wanted,
 };
 use arl_lang::ast;
-use arl_lang::catalog::Struct;
+use arl_lang::catalog::{Entry, Struct};
 use arl_lang::lexer::Lexeme;
 use arl_lang::span::Span;
 use arl_lang::symbol::Symbol;
@@ -49,10 +49,11 @@ impl Checker<'_> {
 
     /// Records what the name at `span` of a module's file means.
     pub(crate) fn mention_in(&mut self, module: ModuleId, span: Span, meaning: Meaning, role: Role) {
+        if self.recorder.is_none() || span.start == span.end {
+            return;
+        }
         let at = self.location(module, span);
-        if let Some(recorder) = &mut self.recorder
-            && span.start < span.end
-        {
+        if let Some(recorder) = &mut self.recorder {
             recorder.index.mentions.push(Mention { at, meaning, role });
         }
     }
@@ -204,6 +205,19 @@ impl Checker<'_> {
         }
     }
 
+    /// The same for an argument of a function whose overload is not chosen yet: the first one stands for all.
+    pub(crate) fn expect_of_overloads(
+        &mut self,
+        body: &Body,
+        overloads: &[&'static Entry],
+        call: &ast::Call,
+        at: usize,
+    ) {
+        if let (true, Some(first), Some(arg)) = (self.is_marked(), overloads.first(), call.args.get(at)) {
+            self.expect_argument(body, &Callee::Builtin(first), call.name.span, arg, &vec![1; at], Some(at));
+        }
+    }
+
     /// Notes that the name of a component is looked for, where an unnamed value among named ones is the word.
     pub(crate) fn expect_component(
         &mut self,
@@ -329,12 +343,6 @@ impl Checker<'_> {
                 Some(Meaning::Local(self.location(slot.module, declared)))
             }
         }
-    }
-
-    /// The meaning of a local variable.
-    pub(crate) fn local_meaning(&self, body: &Body, declared: Span) -> Meaning {
-        let at: Location = self.location(body.module, declared);
-        Meaning::Local(at)
     }
 }
 

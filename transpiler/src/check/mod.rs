@@ -35,8 +35,10 @@ use arl_lang::catalog::Base;
 use arl_lang::span::Span;
 use context::Checker;
 #[cfg(feature = "cli")]
-pub(crate) use load::clean;
+pub(crate) use context::{base_name, type_name};
 use load::{Loaded, LoadedModule, Start};
+#[cfg(feature = "cli")]
+pub(crate) use load::{clean, is_data};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
@@ -168,13 +170,16 @@ impl std::fmt::Debug for Syntax {
     }
 }
 
+/// The warnings of what is unused, or is never reached.
+pub(crate) const NOT_NEEDED: std::ops::RangeInclusive<u16> = 901..=906;
+
 /// Takes warnings about unused and unreachable things out of files with errors: what could not be read or understood
 /// may well be what uses them.
 fn drop_guesses(diagnostics: &mut Vec<Diagnostic>) {
     let errors = diagnostics.iter().filter(|diagnostic| diagnostic.severity == Severity::Error);
     let wrong: HashSet<FileId> = errors.map(|diagnostic| diagnostic.primary.at.file).collect();
     diagnostics.retain(|diagnostic| {
-        let guess = (901..=906).contains(&diagnostic.code.0);
+        let guess = NOT_NEEDED.contains(&diagnostic.code.0);
         !guess || !wrong.contains(&diagnostic.primary.at.file)
     });
 }

@@ -26,15 +26,10 @@ impl Checker<'_> {
         if let Some(local) = body.find(symbol) {
             let found = body.locals.get(local.0 as usize);
             let value = found.and_then(|local| local.value.clone());
-            if self.options.strict
-                && let Some(declared) = found.map(|local| local.span)
-            {
-                let declared = self.text(body.module, declared);
-                self.strict_case(body, span, declared);
-            }
             if let Some(declared) = found.map(|local| local.span) {
-                let meaning = self.local_meaning(body, declared);
-                self.mention_within(body, span, symbol, meaning);
+                self.strict_case(body, span, self.text(body.module, declared));
+                let declared = self.location(body.module, declared);
+                self.mention_within(body, span, symbol, Meaning::Local(declared));
             }
             if let Some(value) = value {
                 if let Some(local) = body.local(local) {

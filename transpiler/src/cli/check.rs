@@ -8,6 +8,7 @@ use super::robot;
 use super::several;
 use super::show::{self, Limit};
 use crate::CheckOptions;
+use crate::check::is_data;
 use crate::compile::{Compiled, check_program};
 use crate::render::json;
 use crate::sources::FileSystem;
@@ -86,10 +87,6 @@ fn cell_fits(checking: &Checking) -> Result<(), Failure> {
 
 fn as_module(file: &Path, options: &CheckOptions) -> Result<Compiled, Failure> {
     Ok(check_program(file, &FileSystem, &CheckOptions { library: true, ..options.clone() })?)
-}
-
-fn is_data(file: &Path) -> bool {
-    file.file_stem().is_some_and(|stem| stem.to_string_lossy().to_ascii_lowercase().ends_with("_data"))
 }
 
 /// Shows what was found, a module's mistakes only once.

@@ -20,7 +20,11 @@ mod trivia;
 use comments::Commented;
 use levels::Place;
 use lines::{Line, read};
-use spacing::{LEVEL, Text};
+#[cfg(feature = "cli")]
+pub(crate) use spacing::LEVEL;
+#[cfg(not(feature = "cli"))]
+use spacing::LEVEL;
+use spacing::Text;
 use table::Row;
 
 /// The mark that may stand at the beginning of a text.

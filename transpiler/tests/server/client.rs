@@ -198,6 +198,16 @@ impl Client {
         self.tell("textDocument/didChange", json!({"textDocument": document, "contentChanges": changes}));
     }
 
+    /// The diagnostics of a file that are told next.
+    pub(crate) fn told_again(&mut self, uri: &str) -> Value {
+        loop {
+            let message = self.message().expect("the server tells it");
+            if message["params"]["uri"] == uri {
+                return message["params"]["diagnostics"].clone();
+            }
+        }
+    }
+
     pub(crate) fn close(&mut self, uri: &str) {
         self.versions.remove(uri);
         self.told.remove(uri);
@@ -236,14 +246,5 @@ impl Drop for Client {
     fn drop(&mut self) {
         let _ = self.child.kill();
         let _ = self.child.wait();
-    }
-}
-
-impl Client {
-    /// Sends bytes as they are.
-    pub(crate) fn send_raw(&mut self, text: &str) {
-        let input = self.input.as_mut().expect("the input is open");
-        input.write_all(text.as_bytes()).expect("the server reads");
-        input.flush().expect("the server reads");
     }
 }

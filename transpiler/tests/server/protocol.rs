@@ -49,37 +49,6 @@ fn hello_comes_first_and_goodbye_last() {
 }
 
 #[test]
-fn cancelled_requests_are_answered_as_such() {
-    let folder = Folder::new("cancelled");
-    let (mut client, uri) = (Client::new(&folder), folder.uri("main.arl"));
-    client.set(&uri, WRONG);
-    // One write, so that the server finds all of it at once.
-    let params = json!({"textDocument": {"uri": uri}});
-    let body = |id: i64, method: &str, params: &Value| {
-        let body = json!({"jsonrpc": "2.0", "id": id, "method": method, "params": params}).to_string();
-        format!("Content-Length: {}\r\n\r\n{body}", body.len())
-    };
-    let cancel = json!({"jsonrpc": "2.0", "method": "$/cancelRequest", "params": {"id": 902}}).to_string();
-    let rest = body(902, "textDocument/documentSymbol", &params)
-        + &format!("Content-Length: {}\r\n\r\n{cancel}", cancel.len());
-    client.send_text(
-        &json!({"jsonrpc": "2.0", "id": 901, "method": "workspace/symbol", "params": {"query": ""}}).to_string(),
-    );
-    client.send_raw(&rest);
-    // The one that is cancelled may be answered first.
-    let mut answers = Vec::new();
-    while answers.len() < 2 {
-        answers.extend(client.message().filter(|message| message["method"].is_null() && !message["id"].is_null()));
-    }
-    answers.sort_by_key(|answer| answer["id"].as_i64());
-    let (first, second) = (&answers[0], &answers[1]);
-    assert!(first["error"].is_null(), "{first}");
-    // Whether it is cancelled in time depends on who is faster; it is answered once in any case.
-    assert!(second["error"]["code"] == -32800 || second["result"].is_array(), "{second}");
-    assert!(client.leave());
-}
-
-#[test]
 fn positions_count_utf16_or_bytes() {
     let folder = Folder::new("encodings");
     let text = "func void main()\n    string s = \"\u{1f916}\u{e4}\" + undeclared\nendfunc\n";
@@ -119,22 +88,9 @@ fn unsaved_modules_go_before_those_of_the_disk() {
     assert_eq!(client.diagnostics(&uri)[0]["code"], "ARL0213");
     client.set(&module, "int total\n");
     client.diagnostics(&module);
-    loop {
-        // The program is told of again, at the same version.
-        let message = client.message().unwrap();
-        if message["params"]["uri"] == uri.as_str() {
-            assert_eq!(message["params"]["diagnostics"], json!([]));
-            break;
-        }
-    }
+    assert_eq!(client.told_again(&uri), json!([]));
     client.close(&module);
-    loop {
-        let message = client.message().unwrap();
-        if message["params"]["uri"] == uri.as_str() {
-            assert_eq!(message["params"]["diagnostics"][0]["code"], "ARL0213");
-            break;
-        }
-    }
+    assert_eq!(client.told_again(&uri)[0]["code"], "ARL0213");
 }
 
 #[test]
@@ -147,13 +103,7 @@ fn programs_that_are_not_open_are_told_of_where_a_change_breaks_them() {
     // Looks at the whole workspace.
     client.ask("workspace/symbol", json!({"query": ""}));
     client.set(&module, "int total\n");
-    loop {
-        let message = client.message().unwrap();
-        if message["params"]["uri"] == uri.as_str() {
-            assert_eq!(message["params"]["diagnostics"][0]["code"], "ARL0213");
-            break;
-        }
-    }
+    assert_eq!(client.told_again(&uri)[0]["code"], "ARL0213");
 }
 
 #[test]
@@ -202,11 +152,5 @@ fn a_robot_file_that_changes_is_read_again() {
     let folder = folder.with("robot.toml", robot("hsr065"));
     let changes = json!([{"uri": folder.uri("robot.toml"), "type": 2}]);
     client.tell("workspace/didChangeWatchedFiles", json!({"changes": changes}));
-    loop {
-        let message = client.message().unwrap();
-        if message["params"]["uri"] == uri.as_str() {
-            assert_eq!(message["params"]["diagnostics"][0]["code"], "ARL0208");
-            break;
-        }
-    }
+    assert_eq!(client.told_again(&uri)[0]["code"], "ARL0208");
 }

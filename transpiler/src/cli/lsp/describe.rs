@@ -1,6 +1,7 @@
 //! What a meaning is, in Markdown: the declaration, the comment above it, the reference of what is built in.
 
 use super::programs::Program;
+use crate::check::base_name;
 use crate::diagnostics::Location;
 use crate::hir::{Type, Value};
 use crate::index::Meaning;
@@ -40,7 +41,7 @@ pub(super) fn describe(program: &Program, meaning: Meaning, family: Family) -> O
             let path = program.path(module.file).map(|path| path.display().to_string()).unwrap_or_default();
             Some(joined([format!("module `{}`: {path}", module.name), comment_at_start(program, start)]))
         }
-        Meaning::Label(at) => Some(code(&format!("{}:", program.at(at).trim_end_matches(':')))),
+        Meaning::Label(at) => Some(code(&format!("{}:", program.at(at)))),
         Meaning::Builtin(entry) => Some(reference::entry(entry)),
         Meaning::Parameter(entry, at) => Some(reference::parameter(entry, entry.params.get(at)?)),
         Meaning::System(variable) => Some(reference::system_variable(variable)),
@@ -84,24 +85,10 @@ fn head(constant: bool, ty: Option<Type>, name: &str, family: Family) -> String 
     match ty {
         Some(ty) => {
             let sizes: String = ty.dims().iter().map(|size| format!("[{size}]")).collect();
-            format!("{constant}{} {name}{sizes}", type_name(ty.base, family))
+            format!("{constant}{} {name}{sizes}", base_name(ty.base, family))
         }
         None => format!("{constant}{name}"),
     }
-}
-
-/// The name of a type, as the robot's family has it.
-pub(super) fn type_name(base: Base, family: Family) -> &'static str {
-    match base {
-        Base::Struct(id) => id.def(family).name,
-        other => other.name(),
-    }
-}
-
-/// The type with its sizes.
-pub(super) fn full_type(ty: Type, family: Family) -> String {
-    let sizes: String = ty.dims().iter().map(|size| format!("[{size}]")).collect();
-    format!("{}{sizes}", type_name(ty.base, family))
 }
 
 fn variable(program: &Program, at: Location, head: &str, value: Option<&Value>, kind: &str) -> String {

@@ -2,6 +2,8 @@
 
 use super::programs::Program;
 use super::server::Server;
+use crate::check::NOT_NEEDED;
+use crate::compile::Bug;
 use crate::diagnostics::{Diagnostic as Found, Severity};
 use gen_lsp_types::*;
 use std::path::Path;
@@ -9,11 +11,11 @@ use std::path::Path;
 /// How many diagnostics of a file are told: nobody reads more, and thousands make editors slow.
 pub(super) const MOST_TOLD: usize = 1000;
 
-/// Those of the warnings that tell of something that is not needed: editors show it pale.
-const NOT_NEEDED: std::ops::RangeInclusive<u16> = 901..=906;
-
 /// The diagnostics of a file, errors first where there are too many.
 pub(super) fn of(server: &Server, path: &Path) -> Vec<Diagnostic> {
+    if let Err(bug) = server.check(path) {
+        return vec![of_bug(&bug)];
+    }
     let Some(file) = server.file(path) else { return Vec::new() };
     let here = |found: &&Found| found.primary.at.file == file.id;
     let mut found: Vec<&Found> = file.program.checked.diagnostics.iter().filter(here).collect();
@@ -22,6 +24,16 @@ pub(super) fn of(server: &Server, path: &Path) -> Vec<Diagnostic> {
         found.truncate(MOST_TOLD);
     }
     found.into_iter().filter_map(|one| diagnostic(server, &file.program, one)).collect()
+}
+
+/// What is told where the compiler itself failed: nothing else is known then.
+pub(super) fn of_bug(bug: &Bug) -> Diagnostic {
+    Diagnostic {
+        severity: Some(DiagnosticSeverity::Error),
+        source: Some("arl2rs".into()),
+        message: Message::String(bug.to_string()),
+        ..Diagnostic::default()
+    }
 }
 
 /// One diagnostic: its message, the words at the place, and what would be right.
@@ -36,6 +48,7 @@ fn diagnostic(server: &Server, program: &Program, found: &Found) -> Option<Diagn
         Severity::Error => DiagnosticSeverity::Error,
         Severity::Warning => DiagnosticSeverity::Warning,
     };
+    // Editors show it pale.
     let tags = NOT_NEEDED.contains(&found.code.0).then(|| vec![DiagnosticTag::Unnecessary]);
     Some(Diagnostic {
         range: at.range,

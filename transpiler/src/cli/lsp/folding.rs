@@ -2,19 +2,10 @@
 
 use super::server::{Refusal, Server};
 use super::text::Text;
-use arl_lang::lexer::{Lexeme, lexemes};
+use arl_lang::outline;
+use arl_lang::outline::Turn;
+use arl_lang::syntax_error::BlockKind;
 use gen_lsp_types::*;
-
-/// The words that open a block, and what closes it.
-const BLOCKS: [(&str, &str); 7] = [
-    ("func", "endfunc"),
-    ("if", "endif"),
-    ("while", "endwhile"),
-    ("for", "endfor"),
-    ("loop", "endloop"),
-    ("repeat", "until"),
-    ("switch", "endswitch"),
-];
 
 pub(super) fn folding(server: &Server, params: FoldingRangeParams) -> Result<Option<Vec<FoldingRange>>, Refusal> {
     let fold = || {
@@ -32,26 +23,23 @@ fn range(start_line: u32, end_line: u32, kind: Option<FoldingRangeKind>) -> Fold
     FoldingRange { start_line, start_character: None, end_line, end_character: None, kind, collapsed_text: None }
 }
 
-/// Blocks, from the line that opens one to the line before the one that closes it. A word that closes what is not open
-/// closes nothing; what is not closed ends with what is around it.
+/// Blocks, from the line that opens one to the line before the one that closes it, as the parser sees them. What closes
+/// nothing folds nothing; what is not closed ends with what is around it.
 fn blocks(text: Text<'_>) -> Vec<FoldingRange> {
-    let mut open: Vec<(&str, u32)> = Vec::new();
+    let mut open: Vec<(BlockKind, u32)> = Vec::new();
     let mut found = Vec::new();
-    let mut first_of_line = true;
-    for (lexeme, span) in lexemes(text.text) {
-        if lexeme == Ok(Lexeme::Newline) {
-            first_of_line = true;
-            continue;
-        }
-        if !std::mem::replace(&mut first_of_line, false) || lexeme != Ok(Lexeme::Word) {
-            continue;
-        }
-        let (word, line) = (span.text(text.text), text.position(span.start).line);
-        if let Some((_, closer)) = BLOCKS.iter().find(|(opener, _)| opener.eq_ignore_ascii_case(word)) {
-            open.push((closer, line));
-        }
-        let Some(at) = open.iter().rposition(|(closer, _)| closer.eq_ignore_ascii_case(word)) else { continue };
-        if let Some((_, start)) = open.drain(at..).next()
+    for placed in outline(text.text).turns {
+        let line = text.position(placed.start).line;
+        let closed = match placed.turn {
+            Turn::Open(kind) => {
+                open.push((kind, line));
+                continue;
+            }
+            Turn::Close(kind) => open.iter().rposition(|(opened, _)| *opened == kind),
+            Turn::CloseOther(_) => open.len().checked_sub(1),
+            _ => None,
+        };
+        if let Some((_, start)) = closed.and_then(|at| open.drain(at..).next())
             && start + 1 < line
         {
             found.push(range(start, line - 1, None));
@@ -102,7 +90,7 @@ mod tests {
     #[test]
     fn blocks_end_before_their_last_line() {
         assert_eq!(folded("func void main()\nif(a)\nb = 1\nendif\nendfunc\n"), [(1, 2), (0, 3)]);
-        assert_eq!(folded("if(a) b = 1\nloop\nx()\nendloop\n"), [(1, 2)]);
+        assert_eq!(folded("func void f()\nif(a) b = 1\nloop\nx()\nendloop\nendfunc\n"), [(2, 3), (0, 4)]);
     }
 
     #[test]

@@ -2,28 +2,16 @@
 
 use super::server::{Refusal, Server};
 use super::text::Text;
-use super::typing::is_quiet;
 use super::uri::path_of;
+use crate::format::LEVEL;
+use arl_lang::outline::Turn;
 use arl_lang::span::Span;
 use arl_lang::symbol::Interner;
-use arl_lang::{ParseOptions, parse};
+use arl_lang::syntax_error::BlockKind;
+use arl_lang::{ParseOptions, outline, parse};
 use gen_lsp_types::*;
 
-/// The words that open a block, and the line that closes it.
-const CLOSERS: [(&str, &str); 7] = [
-    ("func", "endfunc"),
-    ("if", "endif"),
-    ("while", "endwhile"),
-    ("for", "endfor"),
-    ("loop", "endloop"),
-    ("repeat", "until()"),
-    ("switch", "endswitch"),
-];
-
-/// One level of a block.
-const LEVEL: &str = "    ";
-
-/// The formatted text, line by line: lines that stay are not touched, so that the cursor and breakpoints stay.
+/// The formatted text, as one change from the first line that differs to the last one.
 pub(super) fn all(server: &Server, params: DocumentFormattingParams) -> Result<Option<Vec<TextEdit>>, Refusal> {
     let find = || {
         let document = server.documents.get(&path_of(&params.text_document.uri))?;
@@ -59,8 +47,8 @@ fn lines(text: &str) -> Vec<&str> {
     text.split_inclusive('\n').collect()
 }
 
-/// After Enter behind a line that opens a block: the new line goes one level in, and where nothing closes the block,
-/// what closes it is put below.
+/// After Enter behind a line that opens a block or a branch: the new line goes one level in, and where nothing closes the
+/// block, what closes it is put below.
 pub(super) fn typed(server: &Server, params: DocumentOnTypeFormattingParams) -> Result<Option<Vec<TextEdit>>, Refusal> {
     let find = || {
         let document = server.documents.get(&path_of(&params.text_document.uri))?;
@@ -72,47 +60,36 @@ pub(super) fn typed(server: &Server, params: DocumentOnTypeFormattingParams) -> 
 
 fn below_opener(text: Text<'_>, position: Position) -> Option<Vec<TextEdit>> {
     let (start, line) = text.line_at(text.offset(position));
-    let (_, opener) = text.line_at(start.checked_sub(1)?);
-    if !line.trim().is_empty() || is_quiet(text.text, start) {
+    let (above, opener) = text.line_at(start.checked_sub(1)?);
+    if !line.trim().is_empty() {
         return None;
     }
+    let turns = outline(text.text).turns;
+    let turn = turns.iter().rfind(|turn| (above..start).contains(&turn.start)).map(|turn| turn.turn)?;
     let indent = opener.get(..opener.len() - opener.trim_start().len())?;
-    let word: String = opener.trim_start().chars().take_while(char::is_ascii_alphabetic).collect();
-    let (_, closer) = CLOSERS.iter().find(|(word_, _)| word_.eq_ignore_ascii_case(&word))?;
-    let ending = if text.text.contains("\r\n") { "\r\n" } else { "\n" };
+    let inside = format!("{indent}{:LEVEL$}", "");
     let blank = Span::new(start, start + line.len() as u32);
-    let inside = format!("{indent}{LEVEL}");
-    let closed = format!("{inside}{ending}{indent}{closer}");
-    let with = |new: &str| {
-        let mut changed = text.text.to_string();
-        changed.replace_range(blank.start as usize..blank.end as usize, new);
-        mistakes(&changed)
-    };
-    // A condition is missing behind `until` in any case, and no reason to leave it out.
-    let (as_it_is, if_closed) = (mistakes(text.text), with(&closed.replace("until()", "until(a)")));
     let range = text.range(blank);
-    if if_closed < as_it_is {
-        // Two edits, so that the cursor stays in the line that is typed.
-        let end = range.end;
-        let behind = TextEdit { range: Range { start: end, end }, new_text: format!("{ending}{indent}{closer}") };
-        return Some(vec![TextEdit { range, new_text: inside }, behind]);
+    let deeper = TextEdit { range, new_text: inside.clone() };
+    match turn {
+        Turn::Open(kind) if is_unclosed(text.text, blank, kind) => {
+            let ending = if text.text.contains("\r\n") { "\r\n" } else { "\n" };
+            let closer = if kind == BlockKind::Repeat { "until()" } else { kind.closer() };
+            // Two edits, so that the cursor stays in the line that is typed.
+            let end = Range { start: range.end, end: range.end };
+            Some(vec![deeper, TextEdit { range: end, new_text: format!("{ending}{indent}{closer}") }])
+        }
+        Turn::Open(_) | Turn::Branch(_) if line != inside => Some(vec![deeper]),
+        _ => None,
     }
-    (is_opener(opener) && line != inside).then(|| vec![TextEdit { range, new_text: inside }])
 }
 
-/// Whether a line opens a block: with what closes it, it is right.
-fn is_opener(line: &str) -> bool {
-    let mut words = line.trim_start().split(|one: char| !one.is_ascii_alphabetic());
-    let word = words.next().unwrap_or_default();
-    let Some((_, closer)) = CLOSERS.iter().find(|(opener, _)| opener.eq_ignore_ascii_case(word)) else {
-        return false;
-    };
-    let closer = if *closer == "until()" { "until(a)" } else { closer };
-    let around = |inner: &str| match word.eq_ignore_ascii_case("func") {
-        true => format!("{inner}\n"),
-        false => format!("func void f()\n{inner}\nendfunc\n"),
-    };
-    mistakes(&around(&format!("{line}\n{closer}"))) == 0
+/// Whether the text has fewer mistakes with a line that closes such a block in the place of a blank one.
+fn is_unclosed(text: &str, blank: Span, kind: BlockKind) -> bool {
+    let closer = if kind == BlockKind::Repeat { "until(a)" } else { kind.closer() };
+    let mut closed = text.to_string();
+    closed.replace_range(blank.start as usize..blank.end as usize, closer);
+    mistakes(&closed) < mistakes(text)
 }
 
 fn mistakes(text: &str) -> usize {
@@ -145,6 +122,8 @@ mod tests {
         let text = "func void main()\n    if(a)\n    |\nendfunc\n";
         assert_eq!(after_enter(text), "func void main()\n    if(a)\n        \n    endif\nendfunc\n");
         assert_eq!(after_enter("func void f()\n|"), "func void f()\n    \nendfunc");
+        let text = "func void main()\nif(a)\n    b()\nelse\n|\nendif\nendfunc\n";
+        assert_eq!(after_enter(text), "func void main()\nif(a)\n    b()\nelse\n    \nendif\nendfunc\n");
         let text = "func void f()\nrepeat\n|\nendfunc\n";
         assert_eq!(after_enter(text), "func void f()\nrepeat\n    \nuntil()\nendfunc\n");
     }

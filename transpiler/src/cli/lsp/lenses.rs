@@ -2,11 +2,9 @@
 
 use super::server::{Refusal, Server};
 use super::uri::path_of;
+use crate::cli::test::EXPECTATIONS;
 use gen_lsp_types::*;
 use std::path::Path;
-
-/// The endings of what makes a program a test case.
-const SIDECARS: [&str; 3] = ["out", "err", "alarm"];
 
 pub(super) fn lenses(server: &Server, params: CodeLensParams) -> Result<Option<Vec<CodeLens>>, Refusal> {
     let path = path_of(&params.text_document.uri);
@@ -37,5 +35,5 @@ pub(super) fn lenses(server: &Server, params: CodeLensParams) -> Result<Option<V
 }
 
 fn is_case(path: &Path) -> bool {
-    SIDECARS.iter().any(|ending| path.with_extension(ending).is_file())
+    EXPECTATIONS.iter().any(|ending| path.with_extension(ending.trim_start_matches('.')).is_file())
 }

@@ -6,52 +6,48 @@
 use super::documents::Documents;
 use super::text::{Encoding, Text};
 use crate::check::clean;
-use crate::compile::check_program;
-use crate::diagnostics::{Code, FileId, Location};
+use crate::compile::{Bug, check_program};
+use crate::diagnostics::{FileId, Location};
 use crate::index::Index;
 use crate::{CheckOptions, Checked, Sources, Unneeded};
-use arl_lang::lexer::lexemes;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
-/// The error of a file without `main`: to an editor such a file is a module.
-const NO_MAIN: Code = Code(501);
-
 /// A checked program.
 #[derive(Debug)]
 pub(super) struct Program {
+    /// Files and diagnostics.
     pub(super) checked: Checked,
+    index: Index,
     /// The paths of the files in `checked.files`.
     paths: Vec<PathBuf>,
     /// The files that were read or looked for.
     read: Vec<PathBuf>,
-    empty: Index,
     /// Freeing the trees takes a good part of the time of a check, for which nobody has to wait.
     unneeded: RefCell<Option<Unneeded>>,
 }
 
 impl Program {
-    /// Checks the program whose main file is `root`. `None` where the compiler itself failed.
-    pub(super) fn check(root: &Path, sources: &dyn Sources, options: &CheckOptions) -> Option<Self> {
-        let library = !sources.read(root).is_ok_and(|bytes| has_main(&bytes));
-        let options = CheckOptions { index: true, library, ..options.clone() };
-        let mut compiled = check_program(root, sources, &options).ok()?;
-        if compiled.checked.diagnostics.iter().any(|one| one.code == NO_MAIN) {
-            let options = CheckOptions { library: true, ..options };
-            compiled = check_program(root, sources, &options).ok()?;
-        }
+    /// Checks the program whose main file is `root`; without `main` it is a module.
+    ///
+    /// # Errors
+    /// The compiler itself failed.
+    pub(super) fn check(root: &Path, sources: &dyn Sources, options: &CheckOptions) -> Result<Self, Bug> {
+        let options = CheckOptions { index: true, library: true, ..options.clone() };
+        let compiled = check_program(root, sources, &options)?;
         let shown = compiled.checked.files.iter().map(|(_, file)| clean(&compiled.folder.join(&file.name)));
         let paths = shown.collect();
         let read = compiled.read().map(|path| clean(&path)).collect();
         let mut checked = compiled.checked;
+        let index = checked.index.take().unwrap_or_default();
         let unneeded = RefCell::new(Some(checked.take_program()));
-        Some(Self { checked, paths, read, empty: Index::default(), unneeded })
+        Ok(Self { checked, index, paths, read, unneeded })
     }
 
     pub(super) fn index(&self) -> &Index {
-        self.checked.index.as_ref().unwrap_or(&self.empty)
+        &self.index
     }
 
     /// The number of a file.
@@ -85,22 +81,10 @@ impl Program {
     }
 }
 
-/// Whether a file seems to define `main`, so that it need not be checked twice. Only lines that hold the word are looked
-/// at closely.
-fn has_main(bytes: &[u8]) -> bool {
-    let Ok(text) = arl_lang::text::decode(bytes) else { return false };
-    let holds = |line: &&str| line.as_bytes().windows(4).any(|word| word.eq_ignore_ascii_case(b"main"));
-    text.lines().filter(holds).any(|line| {
-        let mut words = lexemes(line).map(|(_, span)| span.text(line));
-        let is = |word: Option<&str>, name: &str| word.is_some_and(|word| word.eq_ignore_ascii_case(name));
-        is(words.next(), "func") && words.next().is_some() && is(words.next(), "main")
-    })
-}
-
 /// All programs that were checked, by their main files.
 #[derive(Debug, Default)]
 pub(super) struct Programs {
-    known: RefCell<BTreeMap<PathBuf, Option<Rc<Program>>>>,
+    known: RefCell<BTreeMap<PathBuf, Result<Rc<Program>, Bug>>>,
 }
 
 impl Programs {
@@ -117,7 +101,10 @@ impl Programs {
     }
 
     /// The program that tells about a file, checked now if it was not since the last change.
-    pub(super) fn of(&self, path: &Path, documents: &Documents, options: &CheckOptions) -> Option<Rc<Program>> {
+    ///
+    /// # Errors
+    /// The compiler itself failed at it.
+    pub(super) fn of(&self, path: &Path, documents: &Documents, options: &CheckOptions) -> Result<Rc<Program>, Bug> {
         let root = self.root(path, documents);
         if let Some(known) = self.known.borrow().get(&root) {
             return known.clone();
@@ -129,14 +116,14 @@ impl Programs {
 
     /// The program with this main file, if it was checked since the last change.
     pub(super) fn known(&self, root: &Path) -> Option<Rc<Program>> {
-        self.known.borrow().get(root).cloned().flatten()
+        self.known.borrow().get(root)?.clone().ok()
     }
 
     /// Forgets what depends on a file; gives the main files of those programs.
     pub(super) fn forget(&self, path: &Path) -> Vec<PathBuf> {
         let mut gone = Vec::new();
         self.known.borrow_mut().retain(|root, program| {
-            let stays = root != path && program.as_ref().is_some_and(|program| !program.reads(path));
+            let stays = root != path && program.as_ref().is_ok_and(|program| !program.reads(path));
             if !stays {
                 gone.push(root.clone());
             }

@@ -157,7 +157,9 @@ impl<'a> Edited<'a> {
     /// Refuses the name where any name of a program would mean something else than now, or an error would come.
     fn means_the_same(&self, server: &Server, program: &Program, name: &str) -> Result<(), Refusal> {
         let Some(root) = program.path(crate::diagnostics::FileId(0)) else { return Ok(()) };
-        let Some(after) = Program::check(root, self, &server.options) else { return Ok(()) };
+        let Ok(after) = Program::check(root, self, &server.options) else {
+            return Err(Refusal::new("the program with the new name could not be checked"));
+        };
         let clash = |path: &Path, line: u32| {
             let place = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
             let text = format!("`{name}` has a meaning already: {place}, line {line} would not mean what it means now");

@@ -13,7 +13,7 @@ use super::uri::{path_of, uri_of};
 use super::workspace::Workspace;
 use super::{capabilities, diagnostics, requests};
 use crate::CheckOptions;
-use crate::compile::guard;
+use crate::compile::{Bug, guard};
 use gen_lsp_types::json_rpc::Id;
 use gen_lsp_types::*;
 use serde::de::DeserializeOwned;
@@ -346,7 +346,7 @@ impl Server {
         let version = self.documents.get(&path).map(|document| document.version);
         // A file that is neither open nor used by what is open has nothing to be told.
         let found = match self.is_shown(&path) {
-            true => guard(|| diagnostics::of(self, &path)).unwrap_or_default(),
+            true => guard(|| diagnostics::of(self, &path)).unwrap_or_else(|bug| vec![diagnostics::of_bug(&bug)]),
             false => Vec::new(),
         };
         let root = self.root(&path);
@@ -368,6 +368,11 @@ impl Server {
 
     /// The program that tells about a file, as it is now.
     pub(super) fn program(&self, path: &Path) -> Option<Rc<Program>> {
+        self.check(path).ok()
+    }
+
+    /// The same, or why the compiler failed at it.
+    pub(super) fn check(&self, path: &Path) -> Result<Rc<Program>, Bug> {
         self.programs.of(path, &self.documents, &self.options)
     }
 
@@ -381,5 +386,34 @@ impl Server {
         while self.workspace.is_open() {
             self.workspace.look(&self.documents, &self.options);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::mpsc::channel;
+
+    #[test]
+    fn a_request_that_waits_is_cancelled() {
+        let (sender, incoming) = channel();
+        let (outgoing, answers) = channel();
+        let request = |id: i64, method: &str| Incoming::Request(Id::Number(id), method.into(), json!({}));
+        let notice = |method: &str, params| Incoming::Notification(method.into(), params);
+        // All of it is there before the server looks.
+        for message in [
+            Incoming::Request(Id::Number(1), "initialize".into(), json!({"capabilities": {}})),
+            request(2, "workspace/symbol"),
+            request(3, "shutdown"),
+            notice("$/cancelRequest", json!({"id": 2})),
+            notice("$/cancelRequest", json!({"id": 77})),
+            notice("exit", Value::Null),
+        ] {
+            sender.send(message).unwrap();
+        }
+        assert!(Server::new(outgoing).serve(&incoming));
+        let answers: Vec<_> =
+            answers.iter().map(|answer| (answer["id"].as_i64(), answer["error"]["code"].as_i64())).collect();
+        assert_eq!(answers, [(Some(2), Some(i64::from(CANCELLED))), (Some(1), None), (Some(3), None)]);
     }
 }

@@ -1,9 +1,9 @@
 //! The parameters of the call or instruction around the cursor.
 
-use super::describe::{full_type, type_name};
 use super::programs::Program;
 use super::server::{Refusal, Server};
 use super::typing::{Surroundings, Typing};
+use crate::check::{base_name, type_name};
 use crate::index::{Argument, ArgumentList, Callee};
 use arl_lang::catalog::{self, Entry, Family, Kind, Presence, reference};
 use gen_lsp_types::*;
@@ -86,10 +86,10 @@ fn help(signatures: Vec<SignatureInformation>, chosen: usize, parameter: Option<
 fn own(program: &Program, id: crate::hir::FuncId, list: &ArgumentList, family: Family) -> Option<SignatureHelp> {
     let function = program.index().function(id)?;
     let param = |(name, ty, _): &(String, Option<crate::hir::Type>, _)| {
-        format!("{} {name}", ty.map_or_else(|| "?".into(), |ty| full_type(ty, family)))
+        format!("{} {name}", ty.map_or_else(|| "?".into(), |ty| type_name(ty, family)))
     };
     let params: Vec<String> = function.params.iter().map(param).collect();
-    let result = function.result.map_or("?", |base| type_name(base, family));
+    let result = function.result.map_or("?", |base| base_name(base, family));
     let label = format!("{result} {}({})", function.name, params.join(", "));
     let doc = super::describe::comment_above(program, function.at);
     let params = params.into_iter().map(|param| (param, String::new())).collect();

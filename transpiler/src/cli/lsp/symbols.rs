@@ -1,8 +1,8 @@
 //! What a file declares, and what the workspace does.
 
-use super::describe::full_type;
 use super::places::File;
 use super::server::{Refusal, Server};
+use crate::check::{base_name, type_name};
 use crate::diagnostics::Location as Place;
 use crate::index::{FunctionInfo, GlobalInfo};
 use gen_lsp_types::*;
@@ -39,7 +39,7 @@ fn declared(server: &Server, file: &File) -> Vec<DocumentSymbol> {
         symbol(&function.name, detail, SymbolKind::Function, function.span(), function.at)
     });
     let globals = index.globals.iter().filter(|global| global.at.file == file.id).map(|global| {
-        let detail = global.ty.map(|ty| full_type(ty, family)).unwrap_or_default();
+        let detail = global.ty.map(|ty| type_name(ty, family)).unwrap_or_default();
         symbol(&global.name, detail, kind(global), global.declaration.to(global.at.span), global.at)
     });
     functions.chain(globals).collect()
@@ -52,9 +52,9 @@ fn kind(global: &GlobalInfo) -> SymbolKind {
 /// `pose (pose, double)`: a function's type in short.
 fn signature(server: &Server, function: &FunctionInfo) -> String {
     let family = server.options.family;
-    let params = function.params.iter().map(|(_, ty, _)| ty.map_or_else(|| "?".into(), |ty| full_type(ty, family)));
+    let params = function.params.iter().map(|(_, ty, _)| ty.map_or_else(|| "?".into(), |ty| type_name(ty, family)));
     let params = params.collect::<Vec<_>>().join(", ");
-    let result = function.result.map_or("?", |base| super::describe::type_name(base, family));
+    let result = function.result.map_or("?", |base| base_name(base, family));
     format!("{result} ({params})")
 }
 

@@ -7,7 +7,7 @@ use super::text::Text;
 use super::uri::path_of;
 use crate::index::{Expectation, HERE};
 use crate::{SourceError, Sources};
-use arl_lang::lexer::{Lexeme, lexemes};
+use arl_lang::lexer::{Lexeme, lexemes, look_alike};
 use arl_lang::span::Span;
 use gen_lsp_types::TextDocumentPositionParams;
 use std::path::{Path, PathBuf};
@@ -51,7 +51,7 @@ impl<'a> Typing<'a> {
         let text = document.as_text(server.encoding);
         let offset = text.offset(at.position);
         let word = Span::new(word_start(text.text, offset), offset);
-        Some(Self { path, text, offset, word, surroundings: surroundings(text.text, offset, word.start) })
+        Some(Self { path, text, offset, word, surroundings: surroundings(text.text, word.start) })
     }
 
     /// What the checker expects at the cursor, and the index of the program with the word [`HERE`] in it.
@@ -60,7 +60,7 @@ impl<'a> Typing<'a> {
         for rest in RESTS {
             let Some(text) = self.marked(rest) else { break };
             let marked = Marked { server, path: &self.path, text };
-            let program = Program::check(&root, &marked, &server.options)?;
+            let program = Program::check(&root, &marked, &server.options).ok()?;
             if let Some(expectation) = program.index().expectation.clone() {
                 return Some((expectation, program));
             }
@@ -73,7 +73,8 @@ impl<'a> Typing<'a> {
         let mut text = self.text.text.to_string();
         text.replace_range(self.word.start as usize..self.word.end as usize, "");
         let program =
-            Program::check(&server.root(&self.path), &Marked { server, path: &self.path, text }, &server.options)?;
+            Program::check(&server.root(&self.path), &Marked { server, path: &self.path, text }, &server.options)
+                .ok()?;
         let id = program.file(&self.path)?;
         Some(File { program: Rc::new(program), id })
     }
@@ -119,75 +120,39 @@ fn closers(before: &str) -> String {
     open.into_iter().rev().collect()
 }
 
-/// Whether a place is in a comment or a text.
-pub(super) fn is_quiet(text: &str, offset: u32) -> bool {
-    matches!(surroundings(text, offset, word_start(text, offset)), Surroundings::Quiet | Surroundings::Import(_))
-}
-
-fn surroundings(text: &str, offset: u32, word: u32) -> Surroundings {
+/// What is around a place in front of which `word` begins: what becomes of another word there tells it.
+fn surroundings(text: &str, word: u32) -> Surroundings {
+    let before = text.get(..word as usize).unwrap_or_default();
+    let probed = format!("{before} x");
     let mut line: Vec<(Lexeme, Span)> = Vec::new();
-    let mut last_end = 0;
-    for (lexeme, span) in lexemes(text) {
-        if span.start >= word {
-            break;
+    for (lexeme, span) in lexemes(&probed) {
+        match lexeme {
+            Ok(Lexeme::Newline) => line.clear(),
+            lexeme => line.push((lexeme.unwrap_or(Lexeme::Faulty), span)),
         }
-        // An unclosed text or comment reaches to its end; a closed one ends at its quote.
-        let inside = span.start < offset && (offset < span.end || (offset == span.end && lexeme.is_err()));
-        let quoted = span.text(text).starts_with(['"', '\'', '“']) || span.text(text).starts_with("/*");
-        if inside && quoted {
-            let is_import = line.first().is_some_and(|(_, first)| first.text(text).eq_ignore_ascii_case("import"));
-            let quote = span.text(text).chars().next().map_or(1, char::len_utf8) as u32;
-            return if is_import { Surroundings::Import(span.start + quote) } else { Surroundings::Quiet };
-        }
-        if lexeme == Ok(Lexeme::Newline) {
-            line.clear();
-        } else {
-            line.push((lexeme.unwrap_or(Lexeme::Faulty), span));
-        }
-        last_end = span.end;
     }
-    if in_comment(text, last_end, offset) {
-        return Surroundings::Quiet;
+    let is_read = |(_, span): &(Lexeme, Span)| span.start == word + 1;
+    if line.pop_if(|last| is_read(last)).is_none() {
+        return unread(&probed, &line);
     }
     match line.last() {
         None => Surroundings::Statement,
-        // With a part of a unit behind it a number is none.
-        Some((Lexeme::Number(_) | Lexeme::Faulty, span)) if span.end >= word && begins_number(span.text(text)) => {
-            Surroundings::Number(span.start)
-        }
-        Some((last, span)) if wants_type(text, &line, *last, *span) => Surroundings::Type,
-        Some((Lexeme::ParenClose, _)) if closes_condition(text, &line) => Surroundings::Statement,
+        Some((Lexeme::Number(_), span)) if span.end == word => Surroundings::Number(span.start),
+        Some((last, span)) if wants_type(before, &line, *last, *span) => Surroundings::Type,
+        Some((Lexeme::ParenClose, _)) if closes_condition(before, &line) => Surroundings::Statement,
         _ => Surroundings::Code,
     }
 }
 
-fn begins_number(text: &str) -> bool {
-    text.trim_start_matches('.').starts_with(|first: char| first.is_ascii_digit())
-}
-
-/// Whether a comment begins in what lies between a lexeme and the cursor, and does not end there.
-fn in_comment(text: &str, from: u32, offset: u32) -> bool {
-    let mut gap = Span::new(from, offset).text(text);
-    loop {
-        let (line, block) = (gap.find("//"), gap.find("/*"));
-        match (line, block) {
-            (Some(line), block) if block.is_none_or(|block| line < block) => {
-                let behind = gap.get(line..).unwrap_or_default();
-                match behind.find('\n') {
-                    Some(end) => gap = behind.get(end..).unwrap_or_default(),
-                    None => return true,
-                }
-            }
-            (_, Some(block)) => {
-                let behind = gap.get(block + 2..).unwrap_or_default();
-                match behind.find("*/") {
-                    Some(end) => gap = behind.get(end + 2..).unwrap_or_default(),
-                    None => return true,
-                }
-            }
-            _ => return false,
-        }
+/// Where a word is no word: in a text, where that is the path of an import, or in a comment.
+fn unread(text: &str, line: &[(Lexeme, Span)]) -> Surroundings {
+    if let [(_, first), .., (Lexeme::Faulty, last)] = line
+        && first.text(text).eq_ignore_ascii_case("import")
+        && let Some(quote) = last.text(text).chars().next().filter(|first| look_alike(*first).unwrap_or(*first) == '"')
+    {
+        return Surroundings::Import(last.start + quote.len_utf8() as u32);
     }
+    Surroundings::Quiet
 }
 
 /// Whether a type is to be written: behind `const`, behind `func`, and in front of each of a function's parameters.
@@ -233,7 +198,7 @@ mod tests {
     fn around(text: &str) -> Surroundings {
         let offset = text.find('|').unwrap() as u32;
         let text = text.replacen('|', "", 1);
-        surroundings(&text, offset, word_start(&text, offset))
+        surroundings(&text, word_start(&text, offset))
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The files of the workspace: which of them use which, so that a change is told to all that depend on it.
 
 use super::programs::Program;
+use crate::check::is_data;
 use crate::{CheckOptions, Sources};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -66,7 +67,7 @@ impl Workspace {
     /// Looks at one file more.
     pub(super) fn look(&mut self, sources: &dyn Sources, options: &CheckOptions) {
         let Some(path) = self.open.pop_first() else { return };
-        if let Some(program) = Program::check(&path, sources, options) {
+        if let Ok(program) = Program::check(&path, sources, options) {
             self.learn(&path, &program);
         }
     }
@@ -105,11 +106,6 @@ impl Workspace {
     pub(super) fn programs(&self) -> impl Iterator<Item = &PathBuf> {
         self.reads.keys()
     }
-}
-
-/// Whether a file is the data of the program beside it, which reads it.
-pub(super) fn is_data(path: &Path) -> bool {
-    path.file_stem().is_some_and(|stem| stem.to_string_lossy().ends_with("_data"))
 }
 
 /// Whether a path has the ending of a program.

@@ -66,7 +66,7 @@ struct Group {
 }
 
 /// Endings of sidecars; those that say what is expected first.
-const EXPECTATIONS: [&str; 3] = [".out", ".err", ".alarm"];
+pub(in crate::cli) const EXPECTATIONS: [&str; 3] = [".out", ".err", ".alarm"];
 const SETTINGS: [&str; 2] = [".io.toml", ".toml"];
 
 /// Finds all cases below a folder, in the order of their paths.

@@ -6,6 +6,8 @@ mod diff;
 mod execute;
 mod expect;
 
+pub(super) use case::EXPECTATIONS;
+
 use super::answer;
 use super::args::Checking;
 use super::cache::Cache;

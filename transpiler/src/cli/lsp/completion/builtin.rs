@@ -2,45 +2,34 @@
 
 use super::Fits;
 use super::item::{Items, Rank};
-use crate::cli::lsp::describe::type_name;
+use crate::check::base_name;
 use crate::cli::lsp::server::Server;
 use crate::cli::lsp::typing::Typing;
 use crate::hir::Type;
 use crate::index::Callee;
 use arl_lang::catalog::{self, Base, ConstantValue, Entry, Enum, Family, Kind, ParamType, Struct, reference};
+use arl_lang::control_words;
 use arl_lang::span::Span;
 use gen_lsp_types::CompletionItemKind;
 
 /// The words that begin something outside of functions.
-pub(super) const OUTSIDE: &[&str] = &["const", "func", "import"];
+const OUTSIDE: [&str; 3] = ["const", "func", "import"];
+
+/// The control words that begin no statement.
+const NO_STATEMENT: [&str; 5] = ["endl", "false", "func", "import", "true"];
+
+/// The words that begin something outside of functions.
+pub(super) fn words_outside(items: &mut Items) {
+    keywords(&OUTSIDE, items);
+}
 
 /// The words that begin, divide or end something inside of functions.
-pub(super) const INSIDE: &[&str] = &[
-    "break",
-    "case",
-    "const",
-    "continue",
-    "default",
-    "else",
-    "elseif",
-    "endfor",
-    "endfunc",
-    "endif",
-    "endloop",
-    "endswitch",
-    "endwhile",
-    "for",
-    "goto",
-    "if",
-    "loop",
-    "repeat",
-    "return",
-    "switch",
-    "until",
-    "while",
-];
+pub(super) fn words_inside(items: &mut Items) {
+    let words: Vec<&str> = control_words().filter(|word| !NO_STATEMENT.contains(word)).collect();
+    keywords(&words, items);
+}
 
-pub(super) fn keywords(words: &[&str], items: &mut Items) {
+fn keywords(words: &[&str], items: &mut Items) {
     words.iter().for_each(|word| items.add(word, CompletionItemKind::Keyword, Rank::Keyword, String::new()));
 }
 
@@ -57,7 +46,7 @@ pub(super) fn types(family: Family, items: &mut Items) {
                 Base::Enum(_) => CompletionItemKind::Enum,
                 _ => CompletionItemKind::Keyword,
             };
-            items.add(type_name(base, family), kind, Rank::BuiltIn, "type".into());
+            items.add(base_name(base, family), kind, Rank::BuiltIn, "type".into());
         }
     }
 }

@@ -42,7 +42,7 @@ fn at_name(server: &Server, typing: &Typing<'_>, items: &mut Items) {
     let Some((expected, program)) = typing.expectation(server) else {
         // What cannot be read tells nothing; outside of functions the checker is not asked.
         if is_statement && is_outside(server, typing) {
-            builtin::keywords(builtin::OUTSIDE, items);
+            builtin::words_outside(items);
             builtin::types(family, items);
         }
         return;
@@ -62,7 +62,7 @@ fn at_name(server: &Server, typing: &Typing<'_>, items: &mut Items) {
         Wanted::Type => builtin::types(family, items),
         Wanted::ArgumentLabel => argument_labels(&expected, index, items),
         Wanted::Instruction | Wanted::Function | Wanted::Value(_) if is_statement => {
-            builtin::keywords(builtin::INSIDE, items);
+            builtin::words_inside(items);
             builtin::instructions(family, items);
             builtin::types(family, items);
             own::names(&program, &expected, &Fits::Statement, family, items);

@@ -2,7 +2,8 @@
 
 use super::Fits;
 use super::item::{Items, Rank};
-use crate::cli::lsp::describe::{describe, full_type, type_name};
+use crate::check::{base_name, is_data, type_name};
+use crate::cli::lsp::describe::describe;
 use crate::cli::lsp::programs::Program;
 use crate::cli::lsp::typing::Typing;
 use crate::hir::{FuncId, GlobalId, ModuleId, Type};
@@ -81,7 +82,7 @@ fn variable(
     let kind = if constant { CompletionItemKind::Constant } else { CompletionItemKind::Variable };
     let rank = if is_whole { rank } else { Rank::Part };
     let doc = describe(program, meaning, family).unwrap_or_default();
-    items.documented(name, kind, rank, full_type(ty, family), &doc);
+    items.documented(name, kind, rank, type_name(ty, family), &doc);
 }
 
 fn function(program: &Program, id: FuncId, fits: &Fits, family: Family, items: &mut Items) {
@@ -90,8 +91,8 @@ fn function(program: &Program, id: FuncId, fits: &Fits, family: Family, items: &
     if is_main || function.name.contains(HERE) || !returns(function.result, fits) {
         return;
     }
-    let result = function.result.map_or("?", |base| type_name(base, family));
-    let takes = function.params.iter().map(|(_, ty, _)| ty.map_or_else(|| "?".into(), |ty| full_type(ty, family)));
+    let result = function.result.map_or("?", |base| base_name(base, family));
+    let takes = function.params.iter().map(|(_, ty, _)| ty.map_or_else(|| "?".into(), |ty| type_name(ty, family)));
     let detail = format!("{result} ({})", takes.collect::<Vec<_>>().join(", "));
     let doc = describe(program, Meaning::Function(id), family);
     items.function(&function.name, !function.params.is_empty(), Rank::Function, detail, doc);
@@ -111,8 +112,7 @@ pub(super) fn members(program: &Program, module: ModuleId, fits: &Fits, family: 
 /// The labels of `goto`.
 pub(super) fn labels(labels: &[String], items: &mut Items) {
     for label in labels {
-        let name = label.trim_end_matches(':');
-        items.add(name, CompletionItemKind::Reference, Rank::Local, "label".into());
+        items.add(label, CompletionItemKind::Reference, Rank::Local, "label".into());
     }
 }
 
@@ -139,6 +139,5 @@ pub(super) fn files(typing: &Typing<'_>, start: u32, items: &mut Items) {
 
 /// Whether a file is one that programs import: a data file is read without.
 fn is_module(path: &Path) -> bool {
-    let stem = path.file_stem().map(|stem| stem.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-    crate::cli::lsp::workspace::is_program(path) && !stem.ends_with("_data")
+    crate::cli::lsp::workspace::is_program(path) && !is_data(path)
 }
