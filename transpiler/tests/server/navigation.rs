@@ -183,6 +183,25 @@ fn names_behind_mistakes_are_not_left_behind() {
 }
 
 #[test]
+fn a_parameter_that_labels_an_argument_behind_a_mistake_stays() {
+    let folder = Folder::new("labels");
+    let (mut client, uri) = (Client::new(&folder), folder.uri("main.arl"));
+    let head = "func int twice(int way)\n    return 2 * way\nendfunc\nfunc void main()\n    int a\n";
+    for (line, refused) in [("a = twice(way:1)", false), ("a = abs(nope, twice(way:1))", true)] {
+        client.set(&uri, &format!("{head}    {line}\nendfunc\n"));
+        let params = json!({"textDocument": {"uri": uri}, "position": {"line": 0, "character": 20}, "newName": "far"});
+        let id = client.request("textDocument/rename", params);
+        let answer = client.answer(id);
+        match refused {
+            true => {
+                assert!(answer["error"]["message"].as_str().is_some_and(|said| said.contains("line 6")), "{answer}")
+            }
+            false => assert_eq!(answer["result"]["changes"][&uri].as_array().map(Vec::len), Some(3), "{answer}"),
+        }
+    }
+}
+
+#[test]
 fn a_text_with_slashes_is_no_comment() {
     let folder = Folder::new("slashes");
     let (mut client, uri) = (Client::new(&folder), folder.uri("main.arl"));

@@ -71,9 +71,10 @@ fn is_known_everywhere(place: &Place, program: &Program) -> Result<(), Refusal> 
     if !program.checked.has_errors() {
         return Ok(());
     }
-    // What is local is known in its function only.
+    // What is local is known in its function only; a parameter is a label of calls, too.
+    let is_parameter = |at| own.local(at).is_some_and(|info| info.parameter);
     let local = match mention.meaning {
-        Meaning::Local(at) | Meaning::Label(at) => {
+        Meaning::Local(at) | Meaning::Label(at) if !is_parameter(at) => {
             own.function_at(at.file, at.span.start).and_then(|id| own.function(id))
         }
         _ => None,
