@@ -3,6 +3,7 @@
 use std::cell::RefCell;
 use std::fmt;
 use std::marker::PhantomData;
+use std::rc::Rc;
 
 use crate::cycle::channel_id::ChannelId;
 
@@ -302,9 +303,25 @@ thread_local! {
     static REASON: RefCell<Reason> = const { RefCell::new(Reason::Exit) };
 }
 
+/// Who hears of an alarm where it comes up.
+type Listener = Rc<dyn Fn(&Alarm)>;
+
+thread_local! {
+    static LISTENER: RefCell<Option<Listener>> = const { RefCell::new(None) };
+}
+
+/// Lets a debugger hear of the alarms of this thread where they come up: all functions that led there still run.
+pub(crate) fn listen(listener: Listener) {
+    LISTENER.set(Some(listener));
+}
+
 impl Stop {
     /// Ends the program with an alarm.
     pub fn alarm(alarm: Alarm) -> Self {
+        let listener = LISTENER.with_borrow(Option::clone);
+        if let Some(listener) = listener {
+            listener(&alarm);
+        }
         Self::new(Reason::Alarm(alarm))
     }
 

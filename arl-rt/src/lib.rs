@@ -47,6 +47,7 @@ pub use arl_robot::{Family, Robot, islands, kinematics, robot};
 pub use builtins::{frames, ops, text};
 pub use command::program_main;
 pub use context::cx::Cx;
+pub use context::frames::{Frame as FunctionFrame, Halt};
 pub use context::output::{Captured, Message, Output, Stream};
 pub use context::program::{BoxFuture, Elsewhere, Program};
 pub use context::standstill::{Standstill, WaitsFor};

@@ -9,6 +9,7 @@ pub(crate) mod loops;
 pub(crate) mod parts;
 pub(crate) mod ranges;
 mod walks;
+pub(crate) mod watched;
 
 use crate::hir::{Effects, FuncId, Program};
 use facts::Facts;

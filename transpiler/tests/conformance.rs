@@ -67,6 +67,20 @@ fn all_cases_in_the_forms_of_large_programs() {
     assert!(failures.is_empty(), "{} of the cases failed\n{}", failures.len(), failures.join("\n"));
 }
 
+/// The folders whose cases are run as for a debugger, too: those in which functions, loops and events meet.
+const FOR_A_DEBUGGER: [&str; 7] = ["arrays", "control", "enums", "functions", "interrupts", "scopes", "triggers"];
+
+#[test]
+fn programs_for_a_debugger_do_the_same() {
+    LazyLock::force(&RUN);
+    let folders = FOR_A_DEBUGGER.map(|folder| format!("{CORPUS}/{folder}"));
+    let cases: usize = folders.iter().map(|folder| count_cases(&workspace().join(folder))).sum();
+    let said = run_folders(&folders.each_ref().map(String::as_str), &["--debug"]);
+    assert_eq!(said.looked_at, Some(cases), "{}", said.said);
+    let failures: Vec<String> = said.failures.iter().map(|(path, why)| format!("{path}\n{why}\n")).collect();
+    assert!(failures.is_empty(), "{} of the cases failed\n{}", failures.len(), failures.join("\n"));
+}
+
 /// What the command said of all cases.
 struct Run {
     /// How many cases it tells of; nothing where it came to no end.
@@ -81,8 +95,14 @@ static RUN: LazyLock<Run> = LazyLock::new(|| run(&[]));
 
 /// Runs all cases, with these options.
 fn run(options: &[&str]) -> Run {
+    run_folders(&[CORPUS, EXAMPLE], options)
+}
+
+/// Runs the cases of these folders.
+fn run_folders(folders: &[&str], options: &[&str]) -> Run {
     let output = Command::new(env!("CARGO_BIN_EXE_arl2rs"))
-        .args(["test", CORPUS, EXAMPLE])
+        .arg("test")
+        .args(folders)
         .args(options)
         .current_dir(workspace())
         .env("ARL2RS_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))

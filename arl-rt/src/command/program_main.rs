@@ -11,6 +11,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::builtins::time;
+use crate::command::debug::{self, End};
 use crate::command::live::{self, Cut, LineWriter};
 use crate::command::report;
 use crate::context::program::Program;
@@ -56,6 +57,8 @@ Options:
                         or one JSON object a line into a file
   --live                be driven by lines on the standard input (di.5 = true), and
                         say what happens as JSON lines on the standard output
+  --debug ADDRESS       connect to a debugger there, which says when to run: for programs
+                        that were made for one
   --loop                the loop running mode: a program that ends is reset and begins
                         again, until the time is over or it calls exit
   --max-time S          end after so many controller seconds, with exit code 4
@@ -76,6 +79,7 @@ struct Options {
     cell: Option<PathBuf>,
     clock: Option<Pace>,
     live: bool,
+    debug: Option<String>,
     repeats: bool,
     script_dir: PathBuf,
     state_dir: Option<PathBuf>,
@@ -173,6 +177,7 @@ fn parse(
         cell: None,
         clock: None,
         live: false,
+        debug: None,
         repeats: false,
         script_dir: PathBuf::from(script_dir),
         state_dir: None,
@@ -191,6 +196,7 @@ fn parse(
             Long("robot") => options.robot = Some(parser.value()?.string()?),
             Long("cell") => options.cell = Some(parser.value()?.into()),
             Long("live") => (options.live, options.clock) = (true, Some(Pace::Real)),
+            Long("debug") => options.debug = Some(parser.value()?.string()?),
             Long("clock") => {
                 let paces = [("virtual", Pace::Virtual), ("real", Pace::Real)];
                 options.clock = Some(word(&mut parser, "--clock", &paces)?);
@@ -257,6 +263,7 @@ fn run(program: Box<dyn Program>, others: &[Other], options: Options, interrupte
         }
     };
     let repeats = options.repeats;
+    let address = options.debug.clone();
     let voice = options.live.then(LineWriter::standard);
     let controller = set_up(options, others).and_then(|builder| {
         let builder = match &voice {
@@ -273,9 +280,16 @@ fn run(program: Box<dyn Program>, others: &[Other], options: Options, interrupte
         }
     };
     controller.set_loop(repeats);
-    let code = match voice {
-        Some(voice) => code(live::drive(&mut controller, &voice, max_time, interrupted)),
-        None => watch(&mut controller, max_time, interrupted),
+    let code = match (voice, address) {
+        (_, Some(address)) => match debug::connect(&address) {
+            Ok(link) => code_of_end(&debug::drive(&mut controller, link, max_time, interrupted, say)),
+            Err(error) => {
+                tell(format_args!("error: there is no debugger at {address}: {error}"));
+                return EXIT_USAGE;
+            }
+        },
+        (Some(voice), None) => code(live::drive(&mut controller, &voice, max_time, interrupted)),
+        (None, None) => watch(&mut controller, max_time, interrupted),
     };
     if let Some(mut report) = report
         && let Err(error) = report(&controller)
@@ -315,6 +329,16 @@ fn code(driven: Result<Option<Outcome>, Cut>) -> u8 {
         Ok(_) => EXIT_ENDED,
         Err(Cut::MaxTime) => EXIT_MAX_TIME,
         Err(Cut::Interrupted) => EXIT_INTERRUPTED,
+    }
+}
+
+/// The exit code of a run that a debugger looked into.
+fn code_of_end(end: &End) -> u8 {
+    match end {
+        End::Over(Outcome::Alarm(_)) => EXIT_ALARM,
+        End::Over(_) => EXIT_ENDED,
+        End::MaxTime => EXIT_MAX_TIME,
+        End::Interrupted => EXIT_INTERRUPTED,
     }
 }
 

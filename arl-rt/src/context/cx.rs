@@ -13,6 +13,7 @@ use std::task::{Context, Poll};
 use crate::communication::Connections;
 use crate::context::channel_state::ChannelState;
 use crate::context::events::Table;
+use crate::context::frames::Frames;
 use crate::context::output::Targets;
 use crate::context::program::Program;
 use crate::context::programs::Programs;
@@ -69,6 +70,8 @@ pub struct Cx {
     /// The motion that triggers are asked about, where that is not the one being executed.
     looked_at: Cell<Option<Progress>>,
     waiting: Waiting,
+    /// The functions that run, in programs that were emitted for a debugger.
+    frames: Frames,
 }
 
 /// What of the program runs: which motion it waits for.
@@ -123,7 +126,13 @@ impl Cx {
             connections: Connections::default(),
             looked_at: Cell::new(None),
             waiting: Waiting::default(),
+            frames: Frames::default(),
         }
+    }
+
+    /// The functions that run, in programs that were emitted for a debugger.
+    pub(crate) fn frames(&self) -> &Frames {
+        &self.frames
     }
 
     /// Sets the program pointer: the line whose statement runs now.

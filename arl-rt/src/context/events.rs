@@ -345,6 +345,13 @@ impl Table {
         }
     }
 
+    /// What the event is that was declared at this place.
+    pub(crate) fn describe(&self, place: (File, u32)) -> Option<String> {
+        let waiting = self.waiting.iter().map(|(_, event)| event);
+        let mut all = self.interrupts.iter().chain(&self.triggers).chain(waiting);
+        all.find(|event| event.place == place).map(Event::describe)
+    }
+
     /// Whether an interrupt or a timer is declared.
     pub(crate) fn watches(&self) -> bool {
         !self.interrupts.is_empty()

@@ -7,6 +7,7 @@
 pub(crate) mod channel_state;
 pub(crate) mod cx;
 pub(crate) mod events;
+pub(crate) mod frames;
 pub(crate) mod output;
 pub mod program;
 pub(crate) mod programs;
@@ -16,4 +17,5 @@ pub(crate) mod shared_state;
 pub(crate) mod standard_error;
 pub(crate) mod standstill;
 pub mod system;
+pub(crate) mod watcher;
 pub(crate) mod wiring;

@@ -53,6 +53,11 @@ pub trait Program: AsAny {
         Vec::new()
     }
 
+    /// All global variables, file by file, for a debugger: emitted where the program is for one.
+    fn variables(&self) -> Vec<DataFile<'_>> {
+        Vec::new()
+    }
+
     /// The folder of these files, counted from the script directory; without more that directory itself.
     fn folder(&self) -> &Path {
         Path::new("")
@@ -87,6 +92,10 @@ impl Program for Box<dyn Program> {
 
     fn data(&self) -> Vec<DataFile<'_>> {
         (**self).data()
+    }
+
+    fn variables(&self) -> Vec<DataFile<'_>> {
+        (**self).variables()
     }
 
     fn folder(&self) -> &Path {
@@ -129,6 +138,10 @@ impl<P: Program + 'static> Program for Elsewhere<P> {
 
     fn data(&self) -> Vec<DataFile<'_>> {
         self.program.data()
+    }
+
+    fn variables(&self) -> Vec<DataFile<'_>> {
+        self.program.variables()
     }
 
     fn folder(&self) -> &Path {

@@ -2,10 +2,12 @@
 
 use std::cell::{Cell, RefCell};
 use std::fmt;
+use std::rc::Rc;
 
 use crate::communication::{NetworkDriver, NetworkSettings, Opener};
 use crate::context::output::{Message, Output};
 use crate::context::random::Random;
+use crate::context::watcher::Watcher;
 use crate::cycle::channel_id::ChannelId;
 use crate::fault::Alarm;
 use crate::fieldbus::Buses;
@@ -50,6 +52,8 @@ pub(crate) struct SharedState {
     pub(crate) buses: Buses,
     /// What opens the connections of programs.
     pub(crate) opener: Opener,
+    /// Who may halt programs at their statements.
+    watcher: RefCell<Option<Rc<dyn Watcher>>>,
 }
 
 /// Somebody who wants to hear of something.
@@ -83,6 +87,7 @@ impl SharedState {
         Self {
             buses: parts.buses,
             opener: Opener::default(),
+            watcher: RefCell::default(),
             network: parts.network,
             wiring: parts.wiring,
             network_driver: RefCell::new(parts.network_driver),
@@ -136,6 +141,16 @@ impl SharedState {
         let mut alarms = self.alarms.borrow_mut();
         let place = if ends { 0 } else { alarms.len() };
         alarms.insert(place, alarm);
+    }
+
+    /// Lets somebody halt programs at their statements.
+    pub(crate) fn watch(&self, watcher: Rc<dyn Watcher>) {
+        *self.watcher.borrow_mut() = Some(watcher);
+    }
+
+    /// Who may halt programs at their statements.
+    pub(crate) fn watcher(&self) -> Option<Rc<dyn Watcher>> {
+        self.watcher.borrow().clone()
     }
 
     /// The alarms since the last call.

@@ -9,8 +9,8 @@ use crate::storage::disk::Disk;
 use crate::storage::state::{Saved, State, StateError};
 use crate::storage::state_format::StateFormat;
 use crate::values::{
-    Array, AsScara, Controlmode, Joint, Pose, Shared, Slip, SmallArray, Speed, Str, Tool, ToolInertiaPara, VelProfile,
-    Watched, Wobj,
+    Array, AsScara, Controlmode, Joint, Pose, Shared, Slip, SmallArray, Speed, Str, Teach, Tool, ToolInertiaPara,
+    VelProfile, Watched, Wobj,
 };
 
 /// Declares variables: field, type, default, name, and when the default comes back.
@@ -45,6 +45,11 @@ macro_rules! system {
                 let all: Vec<Option<RetainedVariable<'_>>> =
                     vec![$( system!(@keep $restore self.$field, $name, $ty, $default), )*];
                 all.into_iter().flatten().collect()
+            }
+
+            /// Name and value of every variable, for a debugger.
+            fn shown_own(&self) -> Vec<(&'static str, &dyn Teach)> {
+                vec![$(($name, &self.$field as &dyn Teach),)*]
             }
 
             #[inline]
@@ -259,6 +264,11 @@ impl System {
         }
     }
 
+    /// All variables with their names without `$`, for a debugger.
+    pub(crate) fn shown(&self) -> Vec<(&'static str, &dyn Teach)> {
+        self.common.shown_own().into_iter().chain(self.shown_own()).collect()
+    }
+
     /// Whether a variable may have changed of which every change is kept.
     #[inline]
     pub(crate) fn has_changed(&self) -> bool {
@@ -462,7 +472,6 @@ pub(crate) fn store_changed(system: &System, state: &mut State, disk: &Disk) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::values::Teach;
     use crate::values::text::{Print, Style};
     use arl_lang::catalog::{Access, Base, Family, Restore, SystemVariable};
     use arl_lang::symbol::Interner;

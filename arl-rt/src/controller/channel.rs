@@ -393,6 +393,9 @@ impl Channel {
         if !matches!(self.phase, Phase::Ended(_)) {
             let alarm = Alarm { channel: self.channel_state.id, ..alarm };
             self.channel_state.alarmed.set(true);
+            if let Some(watcher) = self.channel_state.shared.watcher() {
+                watcher.alarm(&alarm);
+            }
             self.channel_state.shared.alarm(alarm.clone(), true);
             self.end(Outcome::Alarm(alarm));
         }

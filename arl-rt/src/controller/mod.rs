@@ -16,6 +16,7 @@ mod pointer_store;
 mod standstill;
 mod status;
 mod trace;
+mod watching;
 
 use std::cell::RefCell;
 use std::net::SocketAddr;

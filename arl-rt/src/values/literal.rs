@@ -6,6 +6,7 @@ use arl_lang::ast::{BraceItem, Expr, ExprKind, Radix, UnaryOp};
 use arl_lang::catalog::{Base, base_type, enum_constant};
 use arl_lang::span::Span;
 use arl_lang::symbol::Interner;
+use std::fmt::Write;
 
 /// A value that a literal can be read into.
 pub trait Literal: Print {
@@ -22,6 +23,9 @@ pub trait Literal: Print {
     fn put_nested(&mut self, value: &Expr, _sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
         self.put(value, names)
     }
+
+    /// Appends the value as a literal that can be read back.
+    fn write(&self, out: &mut String);
 }
 
 /// A literal, read.
@@ -125,8 +129,13 @@ impl<'a> Read<'a> {
 }
 
 macro_rules! scalars {
-    ($($ty:ty { $($pattern:pat => $how:expr),* $(,)? })*) => { $(
+    ($($ty:ty { $($pattern:pat => $how:expr),* $(,)? } written $write:expr;)*) => { $(
         impl Literal for $ty {
+            fn write(&self, out: &mut String) {
+                let write: fn(&$ty, &mut String) = $write;
+                write(self, out);
+            }
+
             fn put(&mut self, value: &Expr, names: &Interner) -> Result<(), TeachError> {
                 let read = Read::new(value, names);
                 let taken: Option<$ty> = match read {
@@ -145,19 +154,45 @@ scalars! {
     i32 {
         Read::Int(number) => number.int(),
         Read::Name(Some(number)) => Some(number),
-    }
-    u32 { Read::Int(number) => u32::try_from(number.value).ok() }
-    u8 { Read::Int(number) => u8::try_from(number.value).ok() }
+    } written push;
+    u32 { Read::Int(number) => u32::try_from(number.value).ok() } written push;
+    u8 { Read::Int(number) => u8::try_from(number.value).ok() } written push;
     f64 {
         Read::Int(number) => number.int().map(f64::from),
         Read::Double(number) => Some(number),
-    }
+    } written push_double;
     bool {
         Read::Bool(truth) => Some(truth),
         Read::Int(number) => Some(number.value != 0),
         Read::Double(number) => Some(number != 0.0),
+    } written push;
+    Str { Read::Text(text) => Some(Str::from(text)) } written push_text;
+}
+
+fn push<T: std::fmt::Display>(value: &T, out: &mut String) {
+    // Writing to a string does not fail.
+    let _ = write!(out, "{value}");
+}
+
+/// The shortest decimal that is this number.
+fn push_double(value: &f64, out: &mut String) {
+    let plain = *value == 0.0 || (1e-5..1e15).contains(&value.abs());
+    let _ = if plain { write!(out, "{value}") } else { write!(out, "{value:e}") };
+}
+
+/// A string in quotes. Bytes that are no text are question marks.
+fn push_text(value: &Str, out: &mut String) {
+    out.push('"');
+    for c in String::from_utf8_lossy(value.as_bytes()).chars() {
+        match c {
+            '"' | '\\' => out.extend(['\\', c]),
+            '\n' => out.push_str("\\n"),
+            '\t' => out.push_str("\\t"),
+            '\r' => out.push_str("\\r"),
+            c => out.push(c),
+        }
     }
-    Str { Read::Text(text) => Some(Str::from(text)) }
+    out.push('"');
 }
 
 /// Reads the name or the number of an enumeration's constant.
@@ -253,9 +288,35 @@ impl Shape {
     }
 }
 
+fn write_constant<E: Enumeration>(constant: &E, out: &mut String) {
+    let name = usize::try_from(constant.index()).ok().and_then(|at| E::CONSTANTS.get(at));
+    out.push_str(name.copied().unwrap_or_default());
+}
+
+/// The components by their names, but for those that are not set.
+fn write_structure<S: Structure>(structure: &S, out: &mut String) {
+    out.push('{');
+    for (at, name) in S::COMPONENTS.iter().enumerate() {
+        let mut value = String::new();
+        structure.component(at).into_iter().for_each(|component| component.write(&mut value));
+        if value != UNSET_TEXT {
+            let comma = if out.ends_with('{') { "" } else { "," };
+            let _ = write!(out, "{comma}{name} {value}");
+        }
+    }
+    out.push('}');
+}
+
+/// How the number is written that says that a component is not set.
+const UNSET_TEXT: &str = "9000000000";
+
 macro_rules! literals {
-    ($how:ident: $($ty:ident)*) => { $(
+    ($how:ident $write:ident: $($ty:ident)*) => { $(
         impl Literal for super::$ty {
+            fn write(&self, out: &mut String) {
+                $write(self, out)
+            }
+
             fn put(&mut self, value: &Expr, names: &Interner) -> Result<(), TeachError> {
                 $how(self, value, names)
             }
@@ -263,16 +324,27 @@ macro_rules! literals {
     )* };
 }
 
-literals! { put_constant:
+literals! { put_constant write_constant:
     VelProfile Printto NumBase Stoptype Controlmode Stopbits Parity Weaveshape Weaverotaxis CompenType
 }
 
-literals! { put_structure:
+literals! { put_structure write_structure:
     Pos Frame Pose Joint JointScara Tool Wobj Weavedata Speed Slip SlipScara Jvel JvelScara CentroidPos InertiaTensor
     ToolInertiaPara Control Compendata Jttq Jtci Tcpforce
 }
 
 impl<T: Literal + Typed + Clone, const N: usize, S: Store<T, N>> Literal for Array<T, N, S> {
+    fn write(&self, out: &mut String) {
+        out.push('{');
+        for (at, element) in self.iter().enumerate() {
+            if at > 0 {
+                out.push(',');
+            }
+            element.write(out);
+        }
+        out.push('}');
+    }
+
     fn put(&mut self, value: &Expr, names: &Interner) -> Result<(), TeachError> {
         let Err(error) = put_elements(self, &[N], value, names) else {
             return Ok(());

@@ -3,7 +3,7 @@
 //! The rules are those of a declaration: the same conversions, braces by name or by position, start values for what
 //! is left out.
 
-use super::{Array, Cells, Literal, Shared, Store, Str, TeachError, TeachProblem};
+use super::{Array, Cells, Literal, Shared, Store, Str, TeachError, TeachProblem, Watched};
 use crate::values::text::{Print, Style};
 use arl_lang::ast::{Expr, ExprKind, TypeRef, Var};
 use arl_lang::catalog::base_type;
@@ -35,6 +35,15 @@ pub trait Teach {
 
     /// The name of the variable's type: `pose`, `int[6]`.
     fn type_name(&self) -> String;
+
+    /// The value as a literal that [`teach`](Teach::teach) takes; components that are not set are left out.
+    fn written(&self) -> String;
+}
+
+fn written(value: &impl Literal) -> String {
+    let mut text = String::new();
+    value.write(&mut text);
+    text
 }
 
 /// Takes the value of a declaration, which has to be of the type that the variable was compiled with; `sizes` are those
@@ -89,6 +98,10 @@ impl<T: Literal + Default + Copy> Teach for Cell<T> {
     fn type_name(&self) -> String {
         T::default().type_name()
     }
+
+    fn written(&self) -> String {
+        written(&self.get())
+    }
 }
 
 impl<T: Literal + Default> Teach for Shared<T> {
@@ -106,6 +119,10 @@ impl<T: Literal + Default> Teach for Shared<T> {
 
     fn type_name(&self) -> String {
         self.with(Print::type_name)
+    }
+
+    fn written(&self) -> String {
+        self.with(written)
     }
 }
 
@@ -128,11 +145,37 @@ where
     fn type_name(&self) -> String {
         self.get().type_name()
     }
+
+    fn written(&self) -> String {
+        written(&self.get())
+    }
 }
 
 /// A constant, whose value is part of the compiled program: it takes that value only.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Fixed<T>(pub T);
+
+impl<T: Literal + Default> Teach for Watched<T> {
+    fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
+        let mut fresh = T::default();
+        fresh.put_nested(value, sizes, names)?;
+        self.set(fresh);
+        Ok(())
+    }
+
+    fn restart(&self) -> Result<(), TeachError> {
+        self.set(T::default());
+        Ok(())
+    }
+
+    fn type_name(&self) -> String {
+        self.with(Print::type_name)
+    }
+
+    fn written(&self) -> String {
+        self.with(written)
+    }
+}
 
 impl<T: Literal + Default + PartialEq> Teach for Fixed<T> {
     fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
@@ -148,6 +191,10 @@ impl<T: Literal + Default + PartialEq> Teach for Fixed<T> {
     fn type_name(&self) -> String {
         self.0.type_name()
     }
+
+    fn written(&self) -> String {
+        written(&self.0)
+    }
 }
 
 impl Teach for Fixed<&'static str> {
@@ -161,6 +208,10 @@ impl Teach for Fixed<&'static str> {
 
     fn type_name(&self) -> String {
         self.0.type_name()
+    }
+
+    fn written(&self) -> String {
+        written(&Str::literal(self.0))
     }
 }
 

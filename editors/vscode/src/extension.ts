@@ -1,6 +1,7 @@
 // The extension begins here.
 
 import * as vscode from "vscode";
+import { registerDebugging } from "./debug";
 import { registerPrograms } from "./programs";
 import { Server } from "./server";
 import { TASK_TYPE, TaskProvider } from "./tasks";
@@ -25,6 +26,7 @@ export function activate(context: vscode.ExtensionContext): void {
     new TestView(),
   );
   registerPrograms(context);
+  registerDebugging(context);
   void own.restart();
 }
 

@@ -78,6 +78,9 @@ pub(super) enum Command {
         /// Emit the forms for large programs wherever they are possible, also in small ones.
         #[arg(long, hide = true)]
         all_forms: bool,
+        /// Emit programs as for a debugger.
+        #[arg(long, hide = true)]
+        debug: bool,
     },
     /// Remove compiled programs and runtimes; they are compiled again when they are needed.
     ///
@@ -110,6 +113,8 @@ pub(super) enum Command {
     },
     /// Serve an editor: the language server protocol on standard input and output.
     Lsp,
+    /// Debug a program for an editor: the debug adapter protocol on standard input and output.
+    Dap,
     /// List the robots that are built in, print the file of one, or make a file of a URDF.
     Robots {
         /// The robot to print.

@@ -7,10 +7,12 @@ mod cache;
 mod cargo;
 mod check;
 mod clean;
+mod dap;
 mod emit;
 mod explain;
 mod failure;
 mod fmt;
+mod framing;
 mod lsp;
 mod pendant;
 mod plot;
@@ -56,12 +58,13 @@ fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Build { file, out, release, checking } => done(emit::build(&file, out.as_deref(), release, &checking)),
         Command::Run { file, options } => run::run(&file, &options),
         Command::Plot { trace, plot, robot } => done(run::plot(&trace, &plot, robot.as_deref())),
-        Command::Test { dirs, all_forms } => test::test(&dirs, all_forms),
+        Command::Test { dirs, all_forms, debug } => test::test(&dirs, all_forms, debug),
         Command::Clean { older } => done(clean::clean(older)),
         Command::Explain { code } => print(explain::explain(&code)),
         Command::Doc { name } => print(explain::doc(&name)),
         Command::Fmt { files, check } => fmt::fmt(&files, check),
         Command::Lsp => lsp::lsp(),
+        Command::Dap => dap::dap(),
         Command::Robots { import: Some(file), .. } => print(urdf::import(&file)),
         Command::Robots { name, .. } => print(robots::robots(name.as_deref())),
     }

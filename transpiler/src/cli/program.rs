@@ -53,6 +53,8 @@ pub(super) struct Job<'a> {
     cell: Option<&'a Path>,
     options: CheckOptions,
     others: Vec<(Other, CheckOptions)>,
+    /// Whether it is made for a debugger.
+    watched: bool,
 }
 
 /// A job that was done: what was found out about the programs, the first one in front, and the Rust that they became.
@@ -73,7 +75,13 @@ impl<'a> Job<'a> {
             cell: cell.filter(|_| !others.is_empty()),
             options: check_options(checking)?,
             others: others.into_iter().map(with_options).collect::<Result<_, _>>()?,
+            watched: false,
         })
+    }
+
+    /// The same for a debugger.
+    pub(super) fn watched(self) -> Self {
+        Self { watched: true, ..self }
     }
 
     /// The main file as an absolute path.
@@ -83,10 +91,11 @@ impl<'a> Job<'a> {
 
     /// Where the program is kept.
     pub(super) fn place(&self, cache: &Cache) -> Result<Place, Failure> {
-        Ok(match self.cell {
+        let place = match self.cell {
             Some(cell) => cache.programs(&self.main()?, &absolute(cell)?),
             None => cache.program(&self.main()?),
-        })
+        };
+        Ok(if self.watched { place.beside("debug") } else { place })
     }
 
     /// Checks and emits all programs, and shows what there is to say of any of them.
@@ -94,7 +103,8 @@ impl<'a> Job<'a> {
     /// # Errors
     /// [`Failure::Shown`] where one has errors.
     pub(super) fn compile(&self, sources: &dyn Sources) -> Result<Done, Failure> {
-        let emit = |file: &Path, options| compile_program(file, sources, options, &EmitOptions::default());
+        let emitting = EmitOptions { watched: self.watched, ..EmitOptions::default() };
+        let emit = |file: &Path, options| compile_program(file, sources, options, &emitting);
         let mut programs = vec![emit(self.file, &self.options)?];
         for (other, options) in &self.others {
             programs.push(emit(&other.path, options)?);
@@ -129,7 +139,15 @@ impl<'a> Job<'a> {
 
 /// Compiles a program, with those that its cell names, unless that was done before.
 pub(super) fn prepare(file: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Ready, Failure> {
-    let job = Job::new(file, cell, checking)?;
+    prepare_job(&Job::new(file, cell, checking)?, checking)
+}
+
+/// The same for a debugger.
+pub(super) fn prepare_watched(file: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Ready, Failure> {
+    prepare_job(&Job::new(file, cell, checking)?.watched(), checking)
+}
+
+fn prepare_job(job: &Job<'_>, checking: &Checking) -> Result<Ready, Failure> {
     let cache = Cache::find()?;
     let place = job.place(&cache)?;
     let runtime = Runtime::find();

@@ -260,7 +260,13 @@ pub(crate) struct Head<'a> {
 }
 
 impl<'a> Head<'a> {
+    /// Where no event sees the variable.
     pub(crate) fn of(each: &'a For) -> Option<Self> {
+        if each.shared { None } else { Self::of_any(each) }
+    }
+
+    /// Also where somebody else sees the variable, who changes nothing.
+    pub(crate) fn of_any(each: &'a For) -> Option<Self> {
         let [Stmt { kind: StmtKind::Let(local, Some(from)), .. }] = each.init.as_slice() else { return None };
         let ExprKind::Binary(op, sides) = &each.condition.as_ref()?.kind else { return None };
         let is_variable =
@@ -277,7 +283,7 @@ impl<'a> Head<'a> {
         };
         let whole = matches!(from.ty.base, Base::Int | Base::Uint | Base::Byte);
         let elsewhere = each.body.iter().any(|stmt| flow::has_label(stmt) || stmt_writes(stmt, *local));
-        (whole && reads_variable(&sides.0) && !each.shared && !elsewhere).then_some(Self {
+        (whole && reads_variable(&sides.0) && !elsewhere).then_some(Self {
             local: *local,
             from,
             op: *op,

@@ -35,6 +35,8 @@ pub(super) struct Unit<'p> {
     /// The functions that are compiled by themselves.
     pub(super) apart: Vec<bool>,
     pub(super) sizes: Sizes,
+    /// Whether a debugger may halt the program.
+    pub(super) watched: bool,
     /// The variables that are in arrays.
     pub(super) slots: Slots,
     /// The calls that are made of functions of their own.
@@ -147,6 +149,8 @@ pub(super) struct Body<'p, 'u> {
     pub(super) columns: Columns,
     /// Whether the function of a template is emitted.
     pub(super) in_template: bool,
+    /// What a debugger sees of the function, where it sees something.
+    pub(super) frame: Option<Ident>,
 }
 
 impl<'p, 'u> Body<'p, 'u> {
@@ -192,6 +196,7 @@ impl<'p, 'u> Body<'p, 'u> {
             weights: Weights::default(),
             columns: Columns::default(),
             in_template: false,
+            frame: None,
         }
     }
 

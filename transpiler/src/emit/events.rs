@@ -64,7 +64,8 @@ impl<'p> Body<'p, '_> {
                 }
             }
         });
-        self.closure(expr, code, result.unwrap_or_else(|| quote!(Ok(()))))
+        let frame = self.action_opened();
+        self.closure(expr, quote!(#frame #code), result.unwrap_or_else(|| quote!(Ok(()))))
     }
 
     /// Emits what runs at another time than what stands around it.

@@ -40,6 +40,7 @@ pub(super) fn function(unit: &Unit<'_>, id: FuncId, func: &Func) -> TokenStream 
         (false, None) => TokenStream::new(),
     };
     body.stand_at(func.span);
+    let frame = body.frame_opened(func);
     let guard = effects.recursive.then(|| body.entered(func));
     let statements = if func.has_goto {
         let machine = body.machine(func);
@@ -65,6 +66,7 @@ pub(super) fn function(unit: &Unit<'_>, id: FuncId, func: &Func) -> TokenStream 
         #inlined
         pub #waits fn #name(#cx #g #(#params),*) #result {
             #shared
+            #frame
             #statements
         }
     }
@@ -91,7 +93,8 @@ impl<'p> Body<'p, '_> {
             let size = Literal::usize_unsuffixed(bytes(ty.base, self.family()).saturating_mul(ty.len()));
             return Some(quote!(#size));
         }
-        (ty.base == Base::String && !self.is_shared(id) && self.usage.is_read(id)).then(|| quote!(#name.len()))
+        let text = ty.base == Base::String && self.usage.is_read(id);
+        text.then(|| if self.is_shared(id) { quote!(#name.with(|text| text.len())) } else { quote!(#name.len()) })
     }
 
     /// The statements up to the end of the function.

@@ -277,9 +277,9 @@ impl<'p> Body<'p, '_> {
                     self.append(comment);
                 }
                 StmtKind::Goto(label) => {
-                    let comment = self.comment(stmt.span);
+                    let (comment, halt) = (self.comment(stmt.span), self.halt());
                     let (before, state) = self.departure(*label, stmt.span);
-                    self.append(quote!(#comment #before));
+                    self.append(quote!(#comment #halt #before));
                     self.close(state);
                 }
                 StmtKind::Break | StmtKind::Continue => self.state_exit(stmt),
@@ -289,8 +289,8 @@ impl<'p> Body<'p, '_> {
                         let aside = self.state_here("Aside");
                         self.open(aside);
                     }
-                    let comment = self.comment(stmt.span);
-                    self.append(comment);
+                    let (comment, halt) = (self.comment(stmt.span), self.halt_before(stmt));
+                    self.append(quote!(#comment #halt));
                     self.decompose(stmt);
                 }
                 _ => {}
@@ -312,8 +312,8 @@ impl<'p> Body<'p, '_> {
 
     /// `break` or `continue` of a decomposed loop.
     fn state_exit(&mut self, stmt: &Stmt) {
-        let comment = self.comment(stmt.span);
-        self.append(comment);
+        let (comment, halt) = (self.comment(stmt.span), self.halt());
+        self.append(quote!(#comment #halt));
         let breaks = matches!(stmt.kind, StmtKind::Break);
         let exit = self.loops.last().map(|outer| if breaks { &outer.on_break } else { &outer.on_continue });
         if let Some(Exit::State(state)) = exit {
@@ -375,6 +375,9 @@ impl<'p> Body<'p, '_> {
                 let before = std::mem::take(&mut value.before);
                 self.append(quote!(#pointer #before));
             }
+            if at > 0 {
+                value = value.after(self.halt());
+            }
             let value = value.inline().tokens;
             let code = self.branch(block, after, &mut later);
             self.append(quote!(if #value { #code } else));
@@ -422,7 +425,8 @@ impl<'p> Body<'p, '_> {
         let (head, after) = (self.state_here("Loop"), self.state_here("After"));
         self.close(head);
         self.open(head);
-        self.append(self.spend(info));
+        let (spend, halt) = (self.spend(info), self.halt());
+        self.append(quote!(#spend #halt));
         if let Some(condition) = condition.filter(|condition| !flow::always(condition)) {
             self.unless(condition, after);
         }
@@ -439,12 +443,12 @@ impl<'p> Body<'p, '_> {
         self.close(test);
         self.open(test);
         self.stand_at(until.span);
-        let comment = self.comment(until.span);
+        let (comment, halt) = (self.comment(until.span), self.halt());
         let value = self.value_alone(until);
         let pointer = self.pointer();
         let (before, met) = (&value.before, &value.tokens);
         let (done, again, spend) = (self.set_state(after), self.set_state(head), self.spend(info));
-        self.append(quote!(#comment #pointer #before if #met { #done } else { #spend #again }));
+        self.append(quote!(#comment #halt #pointer #before if #met { #done } else { #spend #again }));
         self.open(after);
     }
 
@@ -465,9 +469,9 @@ impl<'p> Body<'p, '_> {
         self.close(next);
         self.open(next);
         self.line = line;
-        let spend = self.spend(each.info);
+        let (spend, halt) = (self.spend(each.info), self.halt());
         let step = each.step.as_ref().map(|step| self.with_own_temporaries(|body| body.effect(step, Tail::Inner)));
-        self.append(quote!(#spend #step));
+        self.append(quote!(#halt #spend #step));
         self.close(head);
         self.open(after);
         self.visible.truncate(visible);

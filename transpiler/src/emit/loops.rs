@@ -50,12 +50,13 @@ impl<'p> Body<'p, '_> {
             return self.endless_loop(body, info);
         }
         let turns = self.turns(info, true, Parts { blocks: &[body], exprs: &[condition] }, |emitter| {
-            let (head, condition) = emitter.head(condition, info);
+            let halt = emitter.halt();
+            let (head, condition) = emitter.head(condition, info, halt);
             let rounds = emitter.rounds(body, info);
             Turns { label: TokenStream::new(), condition, round: quote!(#head #rounds) }
         });
         let Counting::Walking(Walk { local, step }) = info.counting else { return turns };
-        let name = self.local(local);
+        let name = self.counted(local);
         let first = self.fresh("first");
         let way = if step > 0 { quote!(#name - #first) } else { quote!(#first - #name) };
         let step = Some(step.unsigned_abs()).filter(|step| *step != 1).map(Literal::u32_unsuffixed);
@@ -64,7 +65,8 @@ impl<'p> Body<'p, '_> {
     }
 
     /// A condition at the start of each round: for a `while`, or statements that break out where it does not fit into one.
-    fn head(&mut self, condition: &'p Expr, info: LoopInfo) -> (TokenStream, Option<TokenStream>) {
+    /// What halts there goes in front of it.
+    fn head(&mut self, condition: &'p Expr, info: LoopInfo, halt: TokenStream) -> (TokenStream, Option<TokenStream>) {
         let value = self.on_trial(|body| body.value_alone(condition));
         let pointer = self.pointer();
         // A loop that counts alone looks at its condition once more when it has given the cycle back.
@@ -74,17 +76,18 @@ impl<'p> Body<'p, '_> {
         };
         if pointer.is_empty() && value.before.is_empty() && !once {
             let tokens = if info.counts_alone() { value.at(Precedence::And) } else { value.tokens };
+            let tokens = if halt.is_empty() { tokens } else { quote!({ #halt #tokens }) };
             return (TokenStream::new(), Some(tokens));
         }
         let Fragment { before, tokens: unmet, .. } = self.negated(condition);
-        (quote!(#pointer #before if #unmet { break; }), None)
+        (quote!(#halt #pointer #before if #unmet { break; }), None)
     }
 
     /// `loop`
     pub(super) fn endless_loop(&mut self, body: &'p [Stmt], info: LoopInfo) -> TokenStream {
         self.turns(info, flow::breaks(body), Parts { blocks: &[body], exprs: &[] }, |emitter| {
-            let round = emitter.rounds(body, info);
-            Turns { label: TokenStream::new(), condition: None, round }
+            let (halt, round) = (emitter.halt(), emitter.rounds(body, info));
+            Turns { label: TokenStream::new(), condition: None, round: quote!(#halt #round) }
         })
     }
 
@@ -119,12 +122,12 @@ impl<'p> Body<'p, '_> {
             return Turns { label, condition: None, round: statements };
         }
         self.stand_at(until.span);
-        let comment = self.comment(until.span);
+        let (comment, halt) = (self.comment(until.span), self.halt());
         let condition = self.value_alone(until);
         let pointer = self.pointer();
         let (before, met) = (&condition.before, &condition.tokens);
         let spend = self.spend(info);
-        let round = quote!(#statements #comment #pointer #before if #met { break; } #spend);
+        let round = quote!(#statements #comment #halt #pointer #before if #met { break; } #spend);
         Turns { label, condition: None, round }
     }
 
@@ -230,7 +233,7 @@ impl<'p> Body<'p, '_> {
     fn turns_of_for(&mut self, each: &'p For) -> Turns {
         let line = self.line;
         let (head, condition) = match &each.condition {
-            Some(condition) if !flow::always(condition) => self.head(condition, each.info),
+            Some(condition) if !flow::always(condition) => self.head(condition, each.info, TokenStream::new()),
             _ => (TokenStream::new(), None),
         };
         let condition = condition.map(|condition| self.climbs_from_zero(each).unwrap_or(condition));
@@ -240,7 +243,8 @@ impl<'p> Body<'p, '_> {
             let step = each.step.as_ref().map(|step| self.with_own_temporaries(|body| body.effect(step, Tail::Inner)));
             let spend = self.spend(each.info);
             // At the very end, so that waiting ends where the next round begins: rustc makes a better loop of it.
-            quote!(#step #spend)
+            let halt = self.halt();
+            quote!(#halt #step #spend)
         } else {
             TokenStream::new()
         };
@@ -272,14 +276,20 @@ impl<'p> Body<'p, '_> {
         if each.info.counting != Counting::Behind {
             return None;
         }
-        let head = loops::Head::of(each)?;
-        let name = self.local(head.local);
+        let head = loops::Head::of_any(each)?;
+        let name = self.counted(head.local);
         let first = self.fresh("first");
         let way = quote!(#name - #first);
         let step = head.step.filter(|step| loops::whole_number(step) != Some(1));
         let step = step.map(|step| self.value_alone(step).tokens);
         let charged = self.charged(way, step, each.info);
         Some((quote!(let #first = #name;), charged))
+    }
+
+    /// The value of a variable that a loop counts.
+    fn counted(&self, id: LocalId) -> TokenStream {
+        let name = self.local(id);
+        if self.is_shared(id) { quote!(#name.get()) } else { quote!(#name) }
     }
 
     /// The statement that counts the rounds of a loop behind it, whose variable has gone a way in such steps, or in those of 1.

@@ -12,6 +12,7 @@ mod expressions;
 mod fragment;
 mod functions;
 mod goto;
+mod hooks;
 mod loops;
 mod machine;
 mod marks;
@@ -54,6 +55,8 @@ pub struct EmitOptions {
     pub no_header: bool,
     /// From which sizes on code takes the forms that are compiled sooner.
     pub sizes: Sizes,
+    /// For a debugger: the program halts where it is told to, and shows its variables.
+    pub watched: bool,
 }
 
 /// From which sizes on code takes the forms that are compiled sooner. They change nothing of what a program does.
@@ -112,7 +115,7 @@ impl Sizes {
 /// The Rust for a checked program whose effects are known (see [`crate::effects::infer`]). The same program gives the
 /// same text.
 pub fn emit(program: &Program, options: &EmitOptions) -> String {
-    let unit = Unit::new(program, options.sizes);
+    let unit = Unit::new(program, options);
     let tokens = program::items(&unit);
     let printed = match syn::parse2::<syn::File>(tokens.clone()) {
         Ok(file) => prettyplease::unparse(&file),
@@ -128,7 +131,7 @@ pub fn emit(program: &Program, options: &EmitOptions) -> String {
 
 /// The same as tokens, without comments: what the macro expands to.
 pub fn emit_tokens(program: &Program) -> TokenStream {
-    let unit = Unit::new(program, Sizes::default());
+    let unit = Unit::new(program, &EmitOptions::default());
     unit.marks.without_comments(program::items(&unit))
 }
 
@@ -138,7 +141,7 @@ fn header(program: &Program) -> String {
 }
 
 impl<'p> Unit<'p> {
-    fn new(program: &'p Program, sizes: Sizes) -> Self {
+    fn new(program: &'p Program, &EmitOptions { sizes, watched, .. }: &EmitOptions) -> Self {
         let lines = program.modules.iter().map(|module| arl_lang::span::LineIndex::new(&module.source)).collect();
         let (movers, reached) = (effects::pointer_movers(program), effects::reached(program));
         let mut names = Names::new(program);
@@ -148,6 +151,18 @@ impl<'p> Unit<'p> {
             true => Templates::new(program, &mut names, &slots, sizes),
             false => Templates::default(),
         };
-        Self { program, names, slots, templates, marks: Marks::default(), lines, movers, reached, apart, sizes }
+        Self {
+            program,
+            names,
+            slots,
+            templates,
+            marks: Marks::default(),
+            lines,
+            movers,
+            reached,
+            apart,
+            sizes,
+            watched,
+        }
     }
 }

@@ -61,6 +61,10 @@ fn one_module(unit: &Unit<'_>, id: ModuleId, module: &Module) -> (TokenStream, P
         content.extend(blank(unit));
         content.extend(variables::data(unit, id));
     }
+    if unit.watched && (!own.is_empty() || data) {
+        content.extend(blank(unit));
+        content.extend(variables::all(unit, id));
+    }
     for (at, func) in unit.program.funcs.iter().enumerate().filter(|(_, func)| func.module == id) {
         content.extend(blank(unit));
         content.extend(functions::function(unit, FuncId(at as u32), func));
@@ -167,6 +171,16 @@ fn program(unit: &Unit<'_>, parts: &[Parts], inits: &TokenStream) -> TokenStream
             }
         }
     });
+    let watched: Vec<_> = parts.iter().filter(|part| unit.watched && part.variables).map(|part| part.id).collect();
+    let watched = (!watched.is_empty()).then(|| {
+        let (blank, modules) = (self::blank(unit), watched.iter().map(|id| unit.names.module(*id)));
+        quote! {
+            #blank
+            fn variables(&self) -> Vec<arl_rt::emit::DataFile<'_>> {
+                vec![#(self.#modules.all()),*]
+            }
+        }
+    });
     let beside = beside(unit);
     let (init_cx, init_body) = init;
     let (main_cx, main_body) = main;
@@ -190,6 +204,7 @@ fn program(unit: &Unit<'_>, parts: &[Parts], inits: &TokenStream) -> TokenStream
                 #main_body
             }
             #data
+            #watched
             #beside
         }
     }

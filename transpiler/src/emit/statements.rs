@@ -45,8 +45,9 @@ impl<'p> Body<'p, '_> {
             body.stand_at(stmt.span);
             body.acts = false;
             let comment = body.comment(stmt.span);
+            let halt = body.halt_before(stmt);
             let code = body.bare_statement(stmt, tail);
-            quote!(#comment #code)
+            quote!(#comment #halt #code)
         })
     }
 
@@ -109,11 +110,12 @@ impl<'p> Body<'p, '_> {
         self.visible.push(id);
         self.note_declaration(id);
         let pointer = self.pointer();
+        let shown = self.shown(id);
         if self.is_hoisted(id) {
-            return quote!(#pointer #before #name = #cell;);
+            return quote!(#pointer #before #name = #cell; #shown);
         }
         let of = needs_annotation(ty, value).then(|| shared_type(ty, family)).map(|ty| quote!(: #ty));
-        quote!(#pointer #before let #name #of = #cell;)
+        quote!(#pointer #before let #name #of = #cell; #shown)
     }
 
     /// Puts parameters that events see where these can see them.
@@ -185,7 +187,8 @@ impl<'p> Body<'p, '_> {
                 out = quote!(#pointer #before);
                 Fragment { before: TokenStream::new(), ..value }
             } else {
-                value.inline()
+                let halt = self.halt();
+                value.after(halt).inline()
             };
             let condition = &value.tokens;
             let comment = if at > 0 { self.comment(condition_span) } else { TokenStream::new() };

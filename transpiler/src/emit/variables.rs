@@ -6,7 +6,7 @@ use super::consts::typed_constant;
 use super::fragment::Fragment;
 use super::places::{Calm, Written};
 use super::points;
-use super::slots::is_constant;
+use super::slots::{SlotArray, is_constant};
 use super::slots_init;
 use super::tokens::mentions;
 use super::types::{is_handle, rust_type, start_value, variable_type};
@@ -226,10 +226,42 @@ fn first_value(unit: &Unit<'_>, module: ModuleId, id: GlobalId, global: &Global)
 
 /// `fn data(&self) -> DataFile<'_>`: the variables of a data file that are read again at load.
 pub(super) fn data(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
+    let values = listed(unit, module, &|global| global.teachable, &|array| array.teachable);
+    quote! {
+        impl Variables {
+            /// The variables whose values are read again at load.
+            pub fn data(&self) -> DataFile<'_> {
+                #values
+            }
+        }
+    }
+}
+
+/// `fn all(&self) -> DataFile<'_>`: all variables, for a debugger.
+pub(super) fn all(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
+    let shows = |global: &Global| !is_handle(global.ty);
+    let values = listed(unit, module, &shows, &|_| true);
+    quote! {
+        impl Variables {
+            /// All variables.
+            pub fn all(&self) -> DataFile<'_> {
+                #values
+            }
+        }
+    }
+}
+
+/// A list of those variables of a module that are wanted.
+fn listed(
+    unit: &Unit<'_>,
+    module: ModuleId,
+    wanted: &dyn Fn(&Global) -> bool,
+    wanted_array: &dyn Fn(&SlotArray) -> bool,
+) -> TokenStream {
     let file = unit.program.modules.get(module.0 as usize).map_or("", |module| module.file.as_str());
     let globals = unit.program.globals.iter().enumerate();
     let alone = globals.filter(|(at, global)| {
-        global.module == module && global.teachable && unit.slots.of(GlobalId(*at as u32)).is_none()
+        global.module == module && wanted(global) && unit.slots.of(GlobalId(*at as u32)).is_none()
     });
     let vars = alone.map(|(at, global)| {
         let name = &global.name;
@@ -250,7 +282,7 @@ pub(super) fn data(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
     let arrays: Vec<TokenStream> = unit
         .slots
         .of_module(module)
-        .filter(|array| array.teachable)
+        .filter(|array| wanted_array(array))
         .map(|array| {
             let name =
                 |id: &GlobalId| unit.program.globals.get(id.0 as usize).map_or("", |global| global.name.as_str());
@@ -265,18 +297,10 @@ pub(super) fn data(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
             }
         })
         .collect();
-    let body = if arrays.is_empty() {
+    if arrays.is_empty() {
         quote!(DataFile { file: #file, vars: #vars })
     } else {
         quote!(let mut vars = #vars; #(#arrays)* DataFile { file: #file, vars })
-    };
-    quote! {
-        impl Variables {
-            /// The variables whose values are read again at load.
-            pub fn data(&self) -> DataFile<'_> {
-                #body
-            }
-        }
     }
 }
 

@@ -212,3 +212,33 @@ fn constants_keep_their_value() {
     assert!(redeclare(slot, &[], "const string s = \"other\"").is_err());
     assert_eq!(slot.type_name(), "string");
 }
+
+/// What a value is written as, which is read back as the same value.
+fn rewritten<T: Literal + Default + Clone + PartialEq>(value: T) -> String {
+    let slot = Shared::new(value.clone());
+    let text = slot.written();
+    let again = Shared::new(T::default());
+    teach(&again, &text).unwrap();
+    assert!(again.get() == value, "{text}");
+    text
+}
+
+#[test]
+fn what_is_written_is_read_back() {
+    assert_eq!(rewritten(i32::MIN), "-2147483648");
+    assert_eq!(rewritten(u32::MAX), "4294967295");
+    assert_eq!(rewritten(200_u8), "200");
+    assert_eq!(rewritten(0.1), "0.1");
+    assert_eq!(rewritten(-1.0 / 3.0), "-0.3333333333333333");
+    assert_eq!(rewritten(1e-9), "1e-9");
+    assert_eq!(rewritten(2.5e300), "2.5e300");
+    assert_eq!(rewritten(UNSET), "9000000000");
+    assert!(rewritten(true) == "true");
+    assert_eq!(rewritten(Str::from("a \"b\" \\ c\n\t")), r#""a \"b\" \\ c\n\t""#);
+    assert_eq!(rewritten(Controlmode::Manual), "MANUAL");
+    assert_eq!(rewritten(Pose { x: 1.5, z: -2.0, ..Pose::default() }), "{x 1.5,z -2,cfg 0,turn -1}");
+    assert_eq!(rewritten(Joint::default()), "{}");
+    let tool = Tool { stationary: true, ..Tool::default() };
+    assert_eq!(rewritten(tool), "{t_frame {x 0,y 0,z 0,a 0,b 0,c 0},stationary true}");
+    assert_eq!(rewritten(Array::<i32, 3>::from_values(&[1, 2, 3])), "{1,2,3}");
+}

@@ -94,6 +94,12 @@ pub(super) struct Place {
 }
 
 impl Place {
+    /// A place for the same program, compiled for something else.
+    pub(super) fn beside(&self, what: &str) -> Self {
+        let name = format!("{}-{what}", self.name);
+        Self { folder: self.folder.with_file_name(&name), name }
+    }
+
     pub(super) fn stamp(&self) -> PathBuf {
         self.folder.join("stamp")
     }

@@ -3,15 +3,13 @@
 //! A message that is no JSON, or not what the protocol allows, is answered and passed over: its header tells its length.
 //! What stands between messages and is no header is passed over, too.
 
+use crate::cli::framing;
 use gen_lsp_types::ErrorCodes;
 use gen_lsp_types::json_rpc::Id;
 use serde::Serialize;
 use serde_json::{Value, json};
-use std::io::{BufRead, Read, Write};
+use std::io::BufRead;
 use std::sync::mpsc::{Receiver, Sender, channel};
-
-/// The longest message that is read, in bytes: more is no robot program.
-const MOST_BYTES: usize = 256 << 20;
 
 /// What came in.
 #[derive(PartialEq, Debug)]
@@ -63,7 +61,7 @@ pub(super) fn writer() -> (Sender<Value>, std::thread::JoinHandle<()>) {
     let thread = std::thread::spawn(move || {
         let mut output = std::io::stdout().lock();
         for message in receiver {
-            if write(&mut output, &message).is_err() {
+            if framing::write(&mut output, &message).is_err() {
                 break;
             }
         }
@@ -71,20 +69,9 @@ pub(super) fn writer() -> (Sender<Value>, std::thread::JoinHandle<()>) {
     (sender, thread)
 }
 
-fn write(output: &mut impl Write, message: &Value) -> std::io::Result<()> {
-    let text = message.to_string();
-    write!(output, "Content-Length: {}\r\n\r\n{text}", text.len())?;
-    output.flush()
-}
-
 /// The next message; `None` at the end of the input.
 fn read(input: &mut impl BufRead) -> Option<Incoming> {
-    let length = header(input)?;
-    let mut body = Vec::new();
-    let taken = input.take(length as u64).read_to_end(&mut body).ok()?;
-    if taken < length {
-        return None;
-    }
+    let body = framing::read(input)?;
     Some(match serde_json::from_slice::<Value>(&body) {
         Ok(value) => message(value),
         Err(error) => Incoming::Malformed(refusal(&Id::Null, ErrorCodes::ParseError, &error.to_string())),
@@ -105,28 +92,6 @@ fn message(mut value: Value) -> Incoming {
             let id = id.flatten().unwrap_or(Id::Null);
             let text = "this is no request, notification or response";
             Incoming::Malformed(refusal(&id, ErrorCodes::InvalidRequest, text))
-        }
-    }
-}
-
-/// The length of the body, from the header in front of it. What is no header is passed over.
-fn header(input: &mut impl BufRead) -> Option<usize> {
-    let mut length = None;
-    let mut line = Vec::new();
-    loop {
-        line.clear();
-        if input.read_until(b'\n', &mut line).ok()? == 0 {
-            return None;
-        }
-        let text = String::from_utf8_lossy(&line);
-        let text = text.trim();
-        if let Some((name, value)) = text.split_once(':')
-            && name.trim().eq_ignore_ascii_case("content-length")
-        {
-            length = value.trim().parse().ok().filter(|length| *length <= MOST_BYTES);
-        }
-        if let (true, Some(length)) = (text.is_empty(), length) {
-            return Some(length);
         }
     }
 }

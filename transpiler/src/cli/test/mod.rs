@@ -35,10 +35,16 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 type Verdict = Result<(), String>;
 
 /// Runs all cases; the last line on standard output is `N passed, N failed`. With `all_forms` the forms of large programs
-/// are emitted wherever they are possible.
-pub(super) fn test(dirs: &[PathBuf], all_forms: bool) -> Result<ExitCode, Failure> {
+/// are emitted wherever they are possible, with `debug` programs as for a debugger.
+pub(super) fn test(dirs: &[PathBuf], all_forms: bool, debug: bool) -> Result<ExitCode, Failure> {
     let sizes = if all_forms { Sizes::LEAST } else { Sizes::default() };
-    let emitting = EmitOptions { sizes, ..EmitOptions::default() };
+    let emitting = EmitOptions { sizes, watched: debug, ..EmitOptions::default() };
+    let kept_as = match (all_forms, debug) {
+        (false, false) => "tests",
+        (true, false) => "tests-all-forms",
+        (false, true) => "tests-debug",
+        (true, true) => "tests-debug-all-forms",
+    };
     let found = find(dirs)?;
     let progress = Progress::start("checking");
     let mut verdicts: Vec<Option<Verdict>> = Vec::new();
@@ -58,7 +64,7 @@ pub(super) fn test(dirs: &[PathBuf], all_forms: bool) -> Result<ExitCode, Failur
             Ok(case) => Some(check(case)),
         });
     }
-    for ((at, _), verdict) in runs.iter().zip(run_all(&name_of_run(dirs, all_forms), &runs, &emitted, &progress)?) {
+    for ((at, _), verdict) in runs.iter().zip(run_all(&name_of_run(dirs, kept_as), &runs, &emitted, &progress)?) {
         if let Some(slot) = verdicts.get_mut(*at) {
             *slot = Some(verdict);
         }
@@ -147,9 +153,9 @@ fn found_errors(compiled: &Compiled, files: &Files) -> Vec<FoundError> {
 }
 
 /// What the programs of a run are kept by: another run of the same folders finds them again.
-fn name_of_run(dirs: &[PathBuf], all_forms: bool) -> PathBuf {
+fn name_of_run(dirs: &[PathBuf], kept_as: &str) -> PathBuf {
     let folders: PathBuf = dirs.iter().filter_map(|dir| std::path::absolute(dir).ok()).collect();
-    folders.join(if all_forms { "tests-all-forms" } else { "tests" })
+    folders.join(kept_as)
 }
 
 /// Compiles the cases that run, and runs them, several at once. The programs are kept by this name.

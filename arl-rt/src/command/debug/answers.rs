@@ -1,0 +1,181 @@
+//! What a debugger asks for: functions that run, variables, signals, robots.
+
+use std::rc::Rc;
+
+use super::link::Request;
+use crate::command::json::{array, number, quoted};
+use crate::context::cx::Cx;
+use crate::fault::{Fault, File};
+use crate::io::Digital;
+use crate::values::Teach;
+use arl_lang::symbol::Interner;
+
+/// The fields of the answer to a request.
+///
+/// # Errors
+/// What cannot be, and why.
+pub(super) fn answer(request: &Request, contexts: &[Rc<Cx>]) -> Result<String, String> {
+    let first = || contexts.first().ok_or("there is no channel");
+    let cx = || {
+        let at = request.whole(0) as usize;
+        contexts.get(at).ok_or_else(|| format!("there is no channel {at}"))
+    };
+    match request.word.as_str() {
+        "stack" => Ok(stack(cx()?)),
+        "variables" => variables(cx()?, request.whole(1)),
+        "globals" => Ok(globals(cx()?)),
+        "system" => Ok(system(cx()?)),
+        "signals" => Ok(signals(first()?)),
+        "robot" => Ok(robot(cx()?)),
+        "set" => set(cx()?, request.whole(1), request.value(2), request.value(3), request.value(4)),
+        "set-global" => set_global(cx()?, request.value(1), request.value(2), request.value(3)),
+        "set-system" => set_system(cx()?, request.value(1), request.value(2), request.value(3)),
+        "set-signal" => set_signal(first()?, request.value(0), request.value(1), request.value(2)),
+        other => Err(format!("there is no request `{other}`")),
+    }
+}
+
+/// The channels, each with its name and its program.
+pub(super) fn channels(contexts: &[Rc<Cx>]) -> String {
+    array(contexts, |cx| {
+        let (name, program) = (cx.channel_state().id.to_string(), cx.program());
+        format!("{{\"name\":{},\"program\":{}}}", quoted(&name), quoted(program.name()))
+    })
+}
+
+/// The running number of the motion that is executed; 0 for none.
+pub(super) fn motion(cx: &Cx) -> u64 {
+    cx.channel_state().robot().map_or(0, |unit| unit.executing().1)
+}
+
+/// The motion that is executed, and the fields that say so.
+pub(super) fn motion_pointer(cx: &Cx) -> (u64, String) {
+    let place = cx.channel_state().robot().and_then(|unit| unit.motion_pointer());
+    let number = motion(cx);
+    let (file, line) = place.filter(|_| number > 0).unwrap_or((File::new(""), 0));
+    (number, format!("\"motion\":{number},\"file\":{},\"line\":{line}", quoted(file.name())))
+}
+
+/// The functions that run, the one that was entered last in front.
+fn stack(cx: &Cx) -> String {
+    let frames = cx.frames().all();
+    let shown = array(frames.iter().rev(), |frame| {
+        format!(
+            "{{\"id\":{},\"name\":{},\"file\":{},\"line\":{},\"event\":{}}}",
+            frame.id,
+            quoted(&frame.name),
+            quoted(frame.file.name()),
+            frame.line,
+            frame.is_action,
+        )
+    });
+    format!("\"frames\":{shown}")
+}
+
+fn shown(name: &str, variable: &dyn Teach) -> String {
+    let (ty, value) = (variable.type_name(), variable.written());
+    format!("{{\"name\":{},\"type\":{},\"value\":{}}}", quoted(name), quoted(&ty), quoted(&value))
+}
+
+fn variables(cx: &Cx, frame: u64) -> Result<String, String> {
+    let frames = cx.frames().all();
+    let found = frames.iter().find(|record| record.id == frame).ok_or("the function has ended")?;
+    let all = found.variables();
+    Ok(format!("\"variables\":{}", array(&all, |(name, variable)| shown(name, &**variable))))
+}
+
+fn globals(cx: &Cx) -> String {
+    let files = array(cx.program_itself().variables(), |file| {
+        let all = array(&file.vars, |variable| shown(variable.name, variable.slot));
+        format!("{{\"file\":{},\"variables\":{all}}}", quoted(file.file))
+    });
+    format!("\"files\":{files}")
+}
+
+fn system(cx: &Cx) -> String {
+    let all = array(cx.system().shown(), |(name, variable)| shown(&format!("${name}"), variable));
+    format!("\"variables\":{all}")
+}
+
+fn signals(cx: &Cx) -> String {
+    let io = cx.shared().io.borrow();
+    let levels = |levels: &[bool]| levels.iter().map(|on| if *on { '1' } else { '0' }).collect::<String>();
+    format!(
+        "\"di\":\"{}\",\"do\":\"{}\",\"ai\":{},\"ao\":{}",
+        levels(io.inputs().levels()),
+        levels(io.outputs().levels()),
+        array(io.analogs(false), |value| number(*value)),
+        array(io.analogs(true), |value| number(*value)),
+    )
+}
+
+/// Axes in deg (mm), the TCP in mm and deg, the motion that is executed; nothing for a background channel.
+fn robot(cx: &Cx) -> String {
+    let (_, pointer) = motion_pointer(cx);
+    let Some(unit) = cx.channel_state().robot() else { return format!("\"axes\":[],\"tcp\":[],{pointer}") };
+    let (robot, at) = (unit.robot(), unit.setpoint());
+    let own = robot.own_axes().iter().zip(&at.axes);
+    let axes: Vec<_> = own.chain(robot.external_axes().iter().zip(&at.external)).collect();
+    let axes = array(axes, |(axis, value)| {
+        let unit = if axis.linear { "mm" } else { "deg" };
+        format!("{{\"name\":{},\"unit\":\"{unit}\",\"value\":{}}}", quoted(&axis.name), number(*value))
+    });
+    format!("\"axes\":{axes},\"tcp\":{},{pointer}", array(unit.commanded_tcp(), number))
+}
+
+/// Gives a variable a value; the sizes are those of an array of several dimensions, with blanks in between.
+fn teach(variable: &dyn Teach, literal: &str, sizes: &str) -> Result<String, String> {
+    let mut names = Interner::default();
+    let parsed = arl_lang::parse_expression(literal, &mut names, arl_lang::ParseOptions::default());
+    if let Some(error) = parsed.errors.first() {
+        return Err(error.kind.message());
+    }
+    let sizes: Vec<usize> = sizes.split_whitespace().filter_map(|size| size.parse().ok()).collect();
+    variable.teach_nested(&parsed.expr, &sizes, &names).map_err(|error| error.to_string())?;
+    Ok(format!("\"value\":{}", quoted(&variable.written())))
+}
+
+fn set(cx: &Cx, frame: u64, name: &str, literal: &str, sizes: &str) -> Result<String, String> {
+    let frames = cx.frames().all();
+    let found = frames.iter().find(|record| record.id == frame).ok_or("the function has ended")?;
+    let all = found.variables();
+    let (_, variable) = all.iter().find(|(known, _)| *known == name).ok_or("there is no such variable")?;
+    teach(&**variable, literal, sizes)
+}
+
+fn set_global(cx: &Cx, file: &str, name: &str, rest: &str) -> Result<String, String> {
+    let files = cx.program_itself().variables();
+    let found = files.iter().filter(|known| known.file == file).flat_map(|file| &file.vars);
+    let variable = found.into_iter().find(|known| known.name.eq_ignore_ascii_case(name));
+    let variable = variable.ok_or("there is no such variable")?;
+    let sizes: Vec<String> = variable.sizes.iter().map(ToString::to_string).collect();
+    teach(variable.slot, rest, &sizes.join(" "))
+}
+
+fn set_system(cx: &Cx, name: &str, literal: &str, sizes: &str) -> Result<String, String> {
+    let all = cx.system().shown();
+    let wanted = name.trim_start_matches('$');
+    let found = all.into_iter().find(|(known, _)| known.eq_ignore_ascii_case(wanted));
+    let (_, variable) = found.ok_or("there is no such variable")?;
+    teach(variable, literal, sizes)
+}
+
+fn set_signal(cx: &Cx, kind: &str, channel: &str, value: &str) -> Result<String, String> {
+    let channel: i32 = channel.parse().map_err(|_| format!("`{channel}` is no number of a signal"))?;
+    let level = || match value {
+        "true" | "1" => Ok(true),
+        "false" | "0" => Ok(false),
+        _ => Err(format!("`{value}` is no level: expected true or false")),
+    };
+    let amount = || value.parse::<f64>().map_err(|_| format!("`{value}` is no number"));
+    let mut io = cx.shared().io.borrow_mut();
+    let set: Result<(), Fault> = match kind {
+        "di" => io.set_digital(Digital::Di, channel, level()?),
+        "do" => io.set_digital(Digital::Do, channel, level()?),
+        "ai" => io.set_ai(channel, amount()?),
+        "ao" => io.set_ao(channel, amount()?),
+        _ => return Err(format!("there are no signals `{kind}`: expected di, do, ai or ao")),
+    };
+    set.map_err(|fault| fault.to_string())?;
+    Ok(format!("\"value\":{}", quoted(value)))
+}

@@ -1,0 +1,293 @@
+//! What stands between a debugger and the programs: it halts them, and answers while they stand.
+
+use std::cell::{Cell, RefCell};
+use std::rc::{Rc, Weak};
+use std::time::{Duration, Instant};
+
+use super::answers;
+use super::link::{Link, Request};
+use super::plan::{Plan, Statement, Way, Why};
+use crate::command::json::{number, quoted};
+use crate::context::cx::{Cx, Level};
+use crate::context::watcher::{Go, Watcher};
+use crate::fault::{Alarm, File};
+
+/// Motion pointers go out no more often than this while programs run.
+const POINTER_INTERVAL: Duration = Duration::from_millis(20);
+
+/// Halts programs, and answers a debugger.
+pub(super) struct Debugger {
+    link: Link,
+    /// Whether time is the world's: then cycles go on while programs are halted.
+    real: bool,
+    contexts: RefCell<Vec<Weak<Cx>>>,
+    plan: RefCell<Plan>,
+    /// How far programs were to go when they were halted.
+    before: Cell<Way>,
+    /// How many statements were about to run so far.
+    statements: Cell<u64>,
+    /// Whether programs are halted while cycles go on.
+    halted: Cell<bool>,
+    /// The alarm that came up last, and its cycle: it is heard of again when the program ends.
+    alarm: RefCell<Option<(Alarm, u64)>>,
+    /// The motion of each channel that the debugger knows of, and when it was told.
+    motions: RefCell<Vec<u64>>,
+    told: Cell<Option<Instant>>,
+}
+
+/// What the debugger is told of a halt.
+struct Halt {
+    why: Why,
+    /// Another reason, should the debugger let the program pass a breakpoint.
+    also: Option<Why>,
+    channel: usize,
+    /// Whether no statement is about to run: between two cycles.
+    between: bool,
+    text: String,
+}
+
+impl Halt {
+    fn new(channel: usize) -> Self {
+        Self { why: "step", also: None, channel, between: false, text: String::new() }
+    }
+}
+
+/// Whether a request lets programs go on.
+enum Reply {
+    Stand,
+    Go,
+}
+
+impl Debugger {
+    pub(super) fn new(link: Link, real: bool) -> Self {
+        Self {
+            link,
+            real,
+            contexts: RefCell::default(),
+            plan: RefCell::default(),
+            before: Cell::new(Way::On),
+            statements: Cell::new(0),
+            halted: Cell::new(false),
+            alarm: RefCell::default(),
+            motions: RefCell::default(),
+            told: Cell::new(None),
+        }
+    }
+
+    /// Waits for the debugger to say where to halt, and to let programs run.
+    pub(super) fn begin(&self, contexts: Vec<Rc<Cx>>) {
+        self.know(&contexts);
+        let channels = answers::channels(&contexts);
+        self.link.say(&format!("\"event\":\"ready\",\"channels\":{channels}"));
+        self.stand();
+    }
+
+    /// Says that programs have ended.
+    pub(super) fn end(&self, contexts: Vec<Rc<Cx>>) {
+        self.know(&contexts);
+        self.tell_pointers();
+        self.link.say("\"event\":\"ended\"");
+    }
+
+    /// Does what is to be done between two cycles.
+    pub(super) fn cycle_begins(&self, contexts: Vec<Rc<Cx>>) {
+        self.know(&contexts);
+        self.obey();
+        if !self.real || !self.halted.get() {
+            let motion = |at: usize| self.context(at).map_or(0, |cx| answers::motion(&cx));
+            let why = self.plan.borrow().halts_between(motion);
+            if let Some(why) = why {
+                let at = match self.plan.borrow().way() {
+                    Way::Motion(channel, _) => channel,
+                    _ => 0,
+                };
+                self.halt(&Halt { why, between: true, ..Halt::new(at) });
+            }
+        }
+        if self.told.get().is_none_or(|told| told.elapsed() >= POINTER_INTERVAL) {
+            self.tell_pointers();
+        }
+    }
+
+    /// Whether programs are halted while cycles go on.
+    pub(super) fn is_halted(&self) -> bool {
+        self.halted.get()
+    }
+
+    /// Whether the debugger is gone.
+    pub(super) fn is_gone(&self) -> bool {
+        self.link.is_gone()
+    }
+
+    /// An alarm has come up.
+    pub(super) fn alarm_came_up(&self, alarm: &Alarm) {
+        let Some(first) = self.context(0) else { return };
+        let now = first.cycle();
+        let known = self.alarm.borrow().as_ref().is_some_and(|(known, cycle)| {
+            known.fault == alarm.fault && (known.file, known.line) == (alarm.file, alarm.line) && *cycle == now
+        });
+        if known {
+            return;
+        }
+        *self.alarm.borrow_mut() = Some((alarm.clone(), now));
+        // Where cycles go on nothing can wait here: the alarm ends the program, and the robot stops on its path.
+        let passes = matches!(self.plan.borrow().way(), Way::Until(_));
+        if self.plan.borrow().alarms && !self.real && !passes {
+            let place = |cx: &Rc<Cx>| cx.frames().all().last().map(|frame| (frame.file, frame.line));
+            let at = self.all().iter().position(|cx| place(cx) == Some((alarm.file, alarm.line)));
+            self.halt(&Halt { why: "alarm", text: alarm.to_string(), ..Halt::new(at.unwrap_or(0)) });
+        }
+    }
+
+    fn know(&self, contexts: &[Rc<Cx>]) {
+        *self.contexts.borrow_mut() = contexts.iter().map(Rc::downgrade).collect();
+    }
+
+    fn all(&self) -> Vec<Rc<Cx>> {
+        self.contexts.borrow().iter().filter_map(Weak::upgrade).collect()
+    }
+
+    fn context(&self, at: usize) -> Option<Rc<Cx>> {
+        self.contexts.borrow().get(at)?.upgrade()
+    }
+
+    /// Halts the programs: until the debugger lets them go on, or from the next cycle on.
+    fn halt(&self, halt: &Halt) {
+        self.before.set(self.plan.borrow().way());
+        self.plan.borrow_mut().go(Way::On);
+        self.tell_pointers();
+        let time = self.context(0).map_or(0.0, |cx| cx.time());
+        let Halt { why, also, channel, between, text } = halt;
+        self.link.say(&format!(
+            "\"event\":\"stopped\",\"why\":\"{why}\",\"also\":\"{}\",\"channel\":{channel},\"between\":{between},\
+             \"statement\":{},\"time\":{},\"text\":{}",
+            also.unwrap_or_default(),
+            self.statements.get(),
+            number(time),
+            quoted(text),
+        ));
+        if self.real {
+            self.halted.set(true);
+        } else {
+            self.stand();
+        }
+    }
+
+    /// Answers until programs go on.
+    fn stand(&self) {
+        while let Some(request) = self.link.wait() {
+            if let Reply::Go = self.answer(&request) {
+                return;
+            }
+        }
+    }
+
+    /// Answers what has come.
+    fn obey(&self) {
+        while let Some(request) = self.link.take() {
+            if let Reply::Go = self.answer(&request) {
+                self.halted.set(false);
+            }
+        }
+    }
+
+    fn answer(&self, request: &Request) -> Reply {
+        let channel = request.whole(0) as usize;
+        let way = match request.word.as_str() {
+            "breakpoints" => {
+                self.plan.borrow_mut().set_lines(request);
+                None
+            }
+            "kinds" => {
+                self.plan.borrow_mut().set_kinds(request);
+                None
+            }
+            "go" => Some(Way::On),
+            "again" => Some(self.before.get()),
+            "pause" => {
+                self.plan.borrow_mut().go(Way::Pause);
+                None
+            }
+            "into" => Some(Way::Into(channel)),
+            "over" => Some(Way::Over(channel, self.depth(channel))),
+            "out" => Some(Way::Over(channel, self.depth(channel).saturating_sub(1))),
+            "motion" => Some(Way::Motion(channel, self.context(channel).map_or(0, |cx| answers::motion(&cx)))),
+            "until" => Some(Way::Until(request.whole(0))),
+            _ => {
+                let fields = match answers::answer(request, &self.all()) {
+                    Ok(fields) => fields,
+                    Err(why) => format!("\"error\":{}", quoted(&why)),
+                };
+                self.link.say(&format!("\"answer\":{},{fields}", request.number));
+                return Reply::Stand;
+            }
+        };
+        self.link.say(&format!("\"answer\":{},\"done\":true", request.number));
+        match way {
+            Some(way) => {
+                self.plan.borrow_mut().go(way);
+                Reply::Go
+            }
+            None => Reply::Stand,
+        }
+    }
+
+    /// How deep a channel is in functions, not counting what looks at conditions.
+    fn depth(&self, channel: usize) -> usize {
+        self.context(channel).map_or(0, |cx| cx.frames().all().len())
+    }
+
+    /// Says which motions are executed, where that has changed.
+    fn tell_pointers(&self) {
+        let mut known = self.motions.borrow_mut();
+        for (at, cx) in self.all().iter().enumerate() {
+            if known.len() <= at {
+                known.resize(at + 1, 0);
+            }
+            let (motion, fields) = answers::motion_pointer(cx);
+            if let Some(known) = known.get_mut(at).filter(|known| **known != motion) {
+                *known = motion;
+                self.told.set(Some(Instant::now()));
+                self.link.say(&format!("\"event\":\"motion\",\"channel\":{at},{fields}"));
+            }
+        }
+    }
+}
+
+impl Watcher for Debugger {
+    fn statement(&self, cx: &Cx, frame: u64) -> Go {
+        let number = self.statements.get() + 1;
+        self.statements.set(number);
+        self.obey();
+        if self.halted.get() {
+            return Go::NotYet;
+        }
+        let (id, frames) = (cx.channel_state().id, cx.frames());
+        let Some((file, line, is_action)) = frames.place(frame) else { return Go::On };
+        let contexts = self.contexts.borrow();
+        let channel = contexts.iter().filter_map(Weak::upgrade).position(|cx| cx.channel_state().id == id).unwrap_or(0);
+        drop(contexts);
+        let statement = Statement {
+            number,
+            channel,
+            depth: frames.depth(frame),
+            file: File::name(file),
+            line,
+            begins_action: is_action,
+            is_condition: cx.level().number == Level::LOOKING.number,
+        };
+        let why = self.plan.borrow().halts_at(&statement);
+        if let Some((why, also)) = why {
+            self.halt(&Halt { why, also, ..Halt::new(channel) });
+        }
+        self.goes_on()
+    }
+
+    fn goes_on(&self) -> Go {
+        if self.halted.get() { Go::NotYet } else { Go::On }
+    }
+
+    fn alarm(&self, alarm: &Alarm) {
+        self.alarm_came_up(alarm);
+    }
+}

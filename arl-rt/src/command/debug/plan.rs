@@ -1,0 +1,167 @@
+//! Where a program shall halt next.
+
+use std::collections::{HashMap, HashSet};
+
+use super::link::Request;
+
+/// How far it shall go.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Way {
+    /// To what always halts it.
+    On,
+    /// To the next statement or cycle.
+    Pause,
+    /// To the channel's next statement, in whichever function.
+    Into(usize),
+    /// To the channel's next statement that is at most so deep in functions.
+    Over(usize, usize),
+    /// To the next motion of the channel's robot: another one than that with this number.
+    Motion(usize, u64),
+    /// To the statement with this number, whatever comes before.
+    Until(u64),
+}
+
+/// A statement that is about to run.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Statement<'a> {
+    /// How many were about to run so far, this one included.
+    pub(super) number: u64,
+    /// The place of its channel.
+    pub(super) channel: usize,
+    /// How deep it is in functions.
+    pub(super) depth: usize,
+    pub(super) file: &'a str,
+    pub(super) line: u32,
+    /// Whether it is the action of an event that begins.
+    pub(super) begins_action: bool,
+    /// Whether the condition of an event is looked at.
+    pub(super) is_condition: bool,
+}
+
+/// Why a program halts.
+pub(super) type Why = &'static str;
+
+/// Where a program halts.
+#[derive(Default, Debug)]
+pub(super) struct Plan {
+    lines: HashMap<String, HashSet<u32>>,
+    events: bool,
+    /// Whether it halts at alarms.
+    pub(super) alarms: bool,
+    /// How far it goes; nothing: on.
+    way: Option<Way>,
+}
+
+impl Plan {
+    /// Halts at these lines of a file, and no others of it.
+    pub(super) fn set_lines(&mut self, request: &Request) {
+        let lines = request.values.iter().skip(1).filter_map(|line| line.parse().ok()).collect();
+        self.lines.insert(request.value(0).to_owned(), lines);
+    }
+
+    /// What of `alarms` and `events` it halts at.
+    pub(super) fn set_kinds(&mut self, request: &Request) {
+        let has = |word: &str| request.values.iter().any(|value| value == word);
+        (self.alarms, self.events) = (has("alarms"), has("events"));
+    }
+
+    pub(super) fn go(&mut self, way: Way) {
+        self.way = Some(way).filter(|way| *way != Way::On);
+    }
+
+    /// How far it goes.
+    pub(super) fn way(&self) -> Way {
+        self.way.unwrap_or(Way::On)
+    }
+
+    /// Whether it halts before a statement, and why. A debugger may let it pass a breakpoint: then the second reason counts.
+    pub(super) fn halts_at(&self, statement: &Statement<'_>) -> Option<(Why, Option<Why>)> {
+        let Statement { number, channel, depth, .. } = *statement;
+        let arrived = match self.way() {
+            Way::Until(end) => return (number >= end).then_some(("step", None)),
+            Way::On | Way::Motion(..) => None,
+            Way::Pause => Some("pause"),
+            Way::Into(stepped) => (channel == stepped && !statement.is_condition).then_some("step"),
+            Way::Over(stepped, deepest) => (channel == stepped && depth <= deepest).then_some("step"),
+        };
+        let breaks = || self.lines.get(statement.file).is_some_and(|lines| lines.contains(&statement.line));
+        let begins = || (self.events && statement.begins_action).then_some("event");
+        let other = begins().or(arrived);
+        if breaks() { Some(("breakpoint", other)) } else { other.map(|why| (why, None)) }
+    }
+
+    /// Whether it halts between two cycles, where the robot of the channel executes this motion.
+    pub(super) fn halts_between(&self, motion_of: impl Fn(usize) -> u64) -> Option<Why> {
+        match self.way() {
+            Way::Pause => Some("pause"),
+            Way::Motion(channel, from) if motion_of(channel) != from => Some("step"),
+            _ => None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HERE: Statement<'_> = Statement {
+        number: 5,
+        channel: 0,
+        depth: 2,
+        file: "a.arl",
+        line: 7,
+        begins_action: false,
+        is_condition: false,
+    };
+
+    fn going(way: Way) -> Plan {
+        let mut plan = Plan::default();
+        plan.go(way);
+        plan
+    }
+
+    fn request(values: &[&str]) -> Request {
+        Request { number: 1, word: String::new(), values: values.iter().map(ToString::to_string).collect() }
+    }
+
+    #[test]
+    fn lines_halt_in_their_file_until_they_are_set_anew() {
+        let mut plan = Plan::default();
+        plan.set_lines(&request(&["a.arl", "7", "9"]));
+        assert_eq!(plan.halts_at(&HERE), Some(("breakpoint", None)));
+        assert_eq!(plan.halts_at(&Statement { file: "b.arl", ..HERE }), None);
+        plan.go(Way::Into(0));
+        assert_eq!(plan.halts_at(&HERE), Some(("breakpoint", Some("step"))));
+        plan.go(Way::On);
+        plan.set_lines(&request(&["a.arl"]));
+        assert_eq!(plan.halts_at(&HERE), None);
+    }
+
+    #[test]
+    fn steps_end_where_they_should() {
+        assert_eq!(going(Way::Into(0)).halts_at(&Statement { depth: 9, ..HERE }), Some(("step", None)));
+        assert_eq!(going(Way::Into(1)).halts_at(&HERE), None);
+        assert_eq!(going(Way::Into(0)).halts_at(&Statement { is_condition: true, ..HERE }), None);
+        assert_eq!(going(Way::Over(0, 1)).halts_at(&HERE), None);
+        assert_eq!(going(Way::Over(0, 2)).halts_at(&HERE), Some(("step", None)));
+        assert_eq!(going(Way::Until(6)).halts_at(&HERE), None);
+        assert_eq!(going(Way::Until(5)).halts_at(&HERE), Some(("step", None)));
+        assert_eq!(going(Way::Motion(0, 3)).halts_between(|_| 3), None);
+        assert_eq!(going(Way::Motion(0, 3)).halts_between(|_| 4), Some("step"));
+    }
+
+    #[test]
+    fn a_way_back_passes_breakpoints() {
+        let mut plan = going(Way::Until(6));
+        plan.set_lines(&request(&["a.arl", "7"]));
+        assert_eq!(plan.halts_at(&HERE), None);
+    }
+
+    #[test]
+    fn actions_halt_where_they_begin() {
+        let mut plan = Plan::default();
+        plan.set_kinds(&request(&["events"]));
+        assert_eq!(plan.halts_at(&HERE), None);
+        assert_eq!(plan.halts_at(&Statement { begins_action: true, ..HERE }), Some(("event", None)));
+    }
+}

@@ -1,0 +1,33 @@
+// What a launch configuration leaves out comes from the settings.
+
+import type { Options } from "./options";
+
+/** A launch configuration, as far as it is known. */
+export interface Configuration {
+  type: string;
+  request: string;
+  name: string;
+  [key: string]: unknown;
+}
+
+/** The whole configuration; nothing where there is no program to debug. */
+export function launchConfiguration<T extends Configuration>(
+  given: T,
+  program: string | undefined,
+  folder: string | undefined,
+  options: Options,
+): T | undefined {
+  const { robot, cell, io, scriptDir } = options;
+  const defaults = Object.entries({ program, cwd: folder, robot, cell, io, scriptDir });
+  const filled: Configuration = { ...given };
+  if (!given.type) {
+    // Nothing is configured: the active program is debugged.
+    Object.assign(filled, { type: "arl2rs", request: "launch", name: "Debug ARL Program" });
+  }
+  for (const [key, value] of defaults) {
+    if (filled[key] === undefined && value !== undefined && value !== "") {
+      filled[key] = value;
+    }
+  }
+  return typeof filled["program"] === "string" ? (filled as T) : undefined;
+}

@@ -1,0 +1,219 @@
+//! Breakpoints: the lines that the program halts at, and what the adapter asks then.
+
+use super::program::Programs;
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+/// A breakpoint as the editor wants it.
+#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+#[serde(rename_all = "camelCase", default)]
+struct Wanted {
+    line: u32,
+    name: String,
+    condition: Option<String>,
+    hit_condition: Option<String>,
+    log_message: Option<String>,
+}
+
+/// A breakpoint.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Breakpoint {
+    pub(super) id: i64,
+    file: String,
+    line: u32,
+    pub(super) condition: Option<String>,
+    hit_condition: Option<HitCondition>,
+    pub(super) message: Option<String>,
+    hits: u64,
+}
+
+/// Which hits count.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum HitCondition {
+    From(u64),
+    Beyond(u64),
+    Exactly(u64),
+    Every(u64),
+}
+
+/// A rule by its number.
+type Rule = fn(u64) -> HitCondition;
+
+/// How a hit count is written: the sign in front of the number. The first that fits counts.
+const HIT_CONDITIONS: [(&str, Rule); 5] = [
+    (">=", HitCondition::From),
+    ("==", HitCondition::Exactly),
+    (">", HitCondition::Beyond),
+    ("%", HitCondition::Every),
+    ("", HitCondition::From),
+];
+
+impl HitCondition {
+    fn parse(text: &str) -> Option<Self> {
+        let text = text.trim();
+        let (sign, rule) = HIT_CONDITIONS.iter().find(|(sign, _)| text.starts_with(sign))?;
+        let number = text.strip_prefix(*sign)?.trim().parse().ok().filter(|number| *number > 0)?;
+        Some(rule(number))
+    }
+
+    fn holds(self, hits: u64) -> bool {
+        match self {
+            Self::From(number) => hits >= number,
+            Self::Beyond(number) => hits > number,
+            Self::Exactly(number) => hits == number,
+            Self::Every(number) => hits.is_multiple_of(number),
+        }
+    }
+}
+
+/// All breakpoints.
+#[derive(Default, Debug)]
+pub(super) struct Breakpoints {
+    /// What the editor wants for each file; it may come before the program is known.
+    wanted: BTreeMap<String, Vec<Value>>,
+    wanted_functions: Vec<Value>,
+    of_lines: Vec<(String, Breakpoint)>,
+    of_functions: Vec<Breakpoint>,
+    made: i64,
+}
+
+impl Breakpoints {
+    /// Those of a file are these, and no others. What the editor is told of each.
+    pub(super) fn set_lines(&mut self, path: &str, wanted: &[Value], programs: Option<&Programs>) -> Vec<Value> {
+        self.wanted.insert(path.to_owned(), wanted.to_vec());
+        self.of_lines.retain(|(known, _)| known != path);
+        let Some(programs) = programs else {
+            return wanted.iter().map(|_| unknown("the program is not known yet")).collect();
+        };
+        let (names, functions) = (programs.names(Path::new(path)), programs.functions(Path::new(path)));
+        let mut told = Vec::new();
+        for value in wanted {
+            let wanted: Wanted = serde_json::from_value(value.clone()).unwrap_or_default();
+            let line = functions.iter().filter_map(|lines| lines.range(wanted.line..).next()).min().copied();
+            told.push(match (line, self.made(&wanted)) {
+                _ if names.is_empty() => unknown("this file does not belong to the program"),
+                (None, _) => unknown("no statement stands here or below"),
+                (_, Err(why)) => unknown(&why),
+                (Some(line), Ok(made)) => {
+                    let id = made.id;
+                    let here = names.iter().map(|file| Breakpoint { file: file.clone(), line, ..made.clone() });
+                    self.of_lines.extend(here.map(|breakpoint| (path.to_owned(), breakpoint)));
+                    json!({"id": id, "verified": true, "line": line})
+                }
+            });
+        }
+        told
+    }
+
+    /// Those of functions are these, and no others.
+    pub(super) fn set_functions(&mut self, wanted: &[Value], programs: Option<&Programs>) -> Vec<Value> {
+        self.wanted_functions = wanted.to_vec();
+        self.of_functions.clear();
+        let mut told = Vec::new();
+        for value in wanted {
+            let wanted: Wanted = serde_json::from_value(value.clone()).unwrap_or_default();
+            let entries = programs.map(|programs| programs.entries(&wanted.name));
+            told.push(match (entries, self.made(&wanted)) {
+                (None, _) => unknown("the program is not known yet"),
+                (Some(entries), _) if entries.is_empty() => unknown("there is no such function with a statement"),
+                (_, Err(why)) => unknown(&why),
+                (Some(entries), Ok(made)) => {
+                    let id = made.id;
+                    let here = entries.into_iter().map(|(file, line)| Breakpoint { file, line, ..made.clone() });
+                    self.of_functions.extend(here);
+                    json!({"id": id, "verified": true})
+                }
+            });
+        }
+        told
+    }
+
+    fn made(&mut self, wanted: &Wanted) -> Result<Breakpoint, String> {
+        self.made += 1;
+        let filled = |text: &Option<String>| text.clone().filter(|text| !text.trim().is_empty());
+        let hit_condition = match filled(&wanted.hit_condition) {
+            None => None,
+            Some(text) => Some(HitCondition::parse(&text).ok_or_else(|| {
+                format!("`{text}` is no hit count: expected a number, or one behind `>`, `>=`, `==` or `%`")
+            })?),
+        };
+        Ok(Breakpoint {
+            id: self.made,
+            file: String::new(),
+            line: 0,
+            condition: filled(&wanted.condition),
+            hit_condition,
+            message: filled(&wanted.log_message),
+            hits: 0,
+        })
+    }
+
+    /// Finds their places, now that the program is known; what the editor is told of each.
+    pub(super) fn find_places(&mut self, programs: &Programs) -> Vec<Value> {
+        let wanted: Vec<(String, Vec<Value>)> = self.wanted.clone().into_iter().collect();
+        let mut told = Vec::new();
+        for (path, wanted) in wanted {
+            told.extend(self.set_lines(&path, &wanted, Some(programs)));
+        }
+        told.extend(self.set_functions(&self.wanted_functions.clone(), Some(programs)));
+        told
+    }
+
+    /// The lines of each file, also of those that have none any more.
+    pub(super) fn lines(&self, programs: &Programs) -> BTreeMap<String, BTreeSet<u32>> {
+        let mut lines: BTreeMap<String, BTreeSet<u32>> = BTreeMap::new();
+        for path in self.wanted.keys() {
+            lines.extend(programs.names(Path::new(path)).into_iter().map(|name| (name, BTreeSet::new())));
+        }
+        for breakpoint in self.of_lines.iter().map(|(_, breakpoint)| breakpoint).chain(&self.of_functions) {
+            lines.entry(breakpoint.file.clone()).or_default().insert(breakpoint.line);
+        }
+        lines
+    }
+
+    /// Those of a line.
+    pub(super) fn at(&mut self, file: &str, line: u32) -> Vec<&mut Breakpoint> {
+        let all = self.of_lines.iter_mut().map(|(_, breakpoint)| breakpoint).chain(&mut self.of_functions);
+        all.filter(|breakpoint| breakpoint.file == file && breakpoint.line == line).collect()
+    }
+
+    /// Forgets how often they were hit: another run begins.
+    pub(super) fn begin(&mut self) {
+        let all = self.of_lines.iter_mut().map(|(_, breakpoint)| breakpoint).chain(&mut self.of_functions);
+        all.for_each(|breakpoint| breakpoint.hits = 0);
+    }
+}
+
+impl Breakpoint {
+    /// Counts a hit; whether this one counts.
+    pub(super) fn hit(&mut self) -> bool {
+        self.hits += 1;
+        self.hit_condition.is_none_or(|condition| condition.holds(self.hits))
+    }
+}
+
+fn unknown(why: &str) -> Value {
+    json!({"verified": false, "message": why})
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hit_counts_are_read() {
+        let holding = |text: &str| {
+            let condition = HitCondition::parse(text).unwrap();
+            (1..=6).filter(|hits| condition.holds(*hits)).collect::<Vec<_>>()
+        };
+        assert_eq!(holding("5"), [5, 6]);
+        assert_eq!(holding(" > 4 "), [5, 6]);
+        assert_eq!(holding(">=6"), [6]);
+        assert_eq!(holding("== 3"), [3]);
+        assert_eq!(holding("%2"), [2, 4, 6]);
+        assert_eq!(HitCondition::parse("often"), None);
+        assert_eq!(HitCondition::parse("0"), None);
+    }
+}

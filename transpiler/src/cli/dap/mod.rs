@@ -1,0 +1,54 @@
+//! `arl2rs dap`: a debug adapter on standard input and output.
+//!
+//! The program is compiled with hooks (`emit/hooks.rs`) and runs as a process of its own; it connects to the adapter and
+//! halts where that says (`arl-rt/src/command/debug/`). The adapter knows the editor's side: breakpoints with conditions,
+//! frames, variables and expressions. A step backward is a run from the start to one statement earlier: on the virtual clock
+//! a run repeats itself.
+
+mod breakpoints;
+mod evaluate;
+mod executable;
+mod launch;
+mod literal;
+mod process;
+mod program;
+mod protocol;
+mod session;
+mod state;
+mod variables;
+
+use super::failure::Failure;
+use super::framing;
+use session::Session;
+use std::process::ExitCode;
+use std::sync::mpsc::channel;
+
+/// What the adapter hears of.
+enum Event {
+    /// A request of the editor.
+    Request(protocol::Request),
+    /// The editor is gone.
+    Gone,
+    /// Something of the program with this number: each run is one.
+    Process(u64, process::News),
+}
+
+/// Serves one editor until it is gone or has said `disconnect`.
+pub(super) fn dap() -> Result<ExitCode, Failure> {
+    let (sender, events) = channel();
+    let requests = sender.clone();
+    std::thread::spawn(move || {
+        let mut input = std::io::stdin().lock();
+        while let Some(body) = framing::read(&mut input) {
+            // What is no request has nobody who waits for an answer.
+            if let Ok(request) = serde_json::from_slice::<protocol::Request>(&body)
+                && requests.send(Event::Request(request)).is_err()
+            {
+                return;
+            }
+        }
+        let _ = requests.send(Event::Gone);
+    });
+    Session::new(sender, events).serve();
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,499 @@
+//! Frames, scopes, variables and expressions of a program that stands.
+
+use super::{Answer, Session};
+use crate::cli::dap::evaluate::{Input, Place, Root, Source, Value as Found, Variable, evaluate, part_type, place};
+use crate::cli::dap::literal::{Literal, Part};
+use crate::cli::dap::process::Process;
+use crate::cli::dap::program::constants;
+use crate::cli::dap::variables::{Container, Frame, Target};
+use crate::hir::Program;
+use arl_lang::catalog::Family;
+use serde_json::{Value, json};
+
+/// A variable as the program tells it.
+struct Told {
+    name: String,
+    ty: String,
+    value: String,
+}
+
+/// What expressions are evaluated with.
+pub(super) struct Seen<'a> {
+    process: &'a mut Process,
+    program: &'a Program,
+    frame: Frame,
+    locals: Vec<(String, Variable)>,
+    module: String,
+}
+
+impl Session {
+    pub(super) fn top_frame(&mut self, channel: usize) -> Result<Option<Frame>, String> {
+        Ok(self.frames(channel)?.into_iter().next())
+    }
+
+    /// The frames of a channel, the one that was entered last in front.
+    fn frames(&mut self, channel: usize) -> Result<Vec<Frame>, String> {
+        let answer = self.ask("stack", &[&channel.to_string()])?;
+        let frames = answer.get("frames").and_then(Value::as_array).cloned().unwrap_or_default();
+        let text = |value: &Value, key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
+        let number = |value: &Value, key: &str| value.get(key).and_then(Value::as_u64).unwrap_or_default();
+        let frame = |value: &Value| Frame {
+            channel,
+            id: number(value, "id"),
+            name: text(value, "name"),
+            file: text(value, "file"),
+            line: number(value, "line") as u32,
+        };
+        Ok(frames.iter().map(frame).collect())
+    }
+
+    pub(super) fn stack_trace(&mut self, arguments: &Value) -> Answer {
+        let thread = arguments.get("threadId").and_then(Value::as_u64).unwrap_or(1);
+        let channel = thread.saturating_sub(1) as usize;
+        let frames = self.frames(channel)?;
+        let (first, all) = (arguments.get("startFrame").and_then(Value::as_u64).unwrap_or(0) as usize, frames.len());
+        let levels = arguments.get("levels").and_then(Value::as_u64).filter(|levels| *levels > 0);
+        let program = self.channels.get(channel).map(|(_, program)| program.clone()).unwrap_or_default();
+        let mut shown = Vec::new();
+        for frame in frames.into_iter().skip(first).take(levels.map_or(usize::MAX, |levels| levels as usize)) {
+            let path = self.launched.as_ref().map(|launched| launched.programs.path(&program, &frame.file));
+            let (name, file, line) = (frame.name.clone(), frame.file.clone(), frame.line);
+            let id = self.shown.frame(frame);
+            shown.push(json!({
+                "id": id, "name": name, "line": line, "column": 1, "source": {"name": file, "path": path},
+            }));
+        }
+        Ok(json!({"stackFrames": shown, "totalFrames": all}))
+    }
+
+    pub(super) fn scopes(&mut self, arguments: &Value) -> Answer {
+        let frame = arguments.get("frameId").and_then(Value::as_u64).unwrap_or_default() as usize;
+        self.shown.frame_of(frame).ok_or("there is no such frame")?;
+        let scopes = [
+            ("Locals", Container::Locals(frame), false),
+            ("Globals", Container::Globals(frame), false),
+            ("System variables", Container::System(frame), true),
+            ("Signals", Container::Signals, true),
+            ("Robot", Container::Robot(frame), true),
+        ];
+        let mut shown = Vec::new();
+        for (name, container, expensive) in scopes {
+            let mut scope = json!({
+                "name": name, "variablesReference": self.shown.container(container), "expensive": expensive,
+            });
+            if name == "Locals" {
+                scope["presentationHint"] = json!("locals");
+            }
+            shown.push(scope);
+        }
+        Ok(json!({"scopes": shown}))
+    }
+
+    pub(super) fn variables(&mut self, arguments: &Value) -> Answer {
+        let number = arguments.get("variablesReference").and_then(Value::as_u64).unwrap_or_default() as usize;
+        let container = self.shown.container_of(number).cloned().ok_or("what was asked for is gone")?;
+        let shown = match &container {
+            Container::Locals(frame) => {
+                let locals = self.source(*frame)?.locals;
+                let mut shown = Vec::new();
+                for (name, variable) in locals {
+                    shown.push(self.shown.value(&name, *frame, Target::Local(name.clone()), &variable, Vec::new()));
+                }
+                shown
+            }
+            Container::Globals(frame) => self.global_variables(*frame)?,
+            Container::File(frame, file) => {
+                let mut shown = Vec::new();
+                for (name, variable) in self.source(*frame)?.of_file(file)? {
+                    let target = Target::Global(file.clone(), name.clone());
+                    shown.push(self.shown.value(&name, *frame, target, &variable, Vec::new()));
+                }
+                shown
+            }
+            Container::System(frame) => {
+                let mut shown = Vec::new();
+                for told in self.source(*frame)?.all_system()? {
+                    let target = Target::System(told.name.trim_start_matches('$').to_owned());
+                    let variable = Variable { ty: told.ty, value: Literal::parse(&told.value) };
+                    shown.push(self.shown.value(&told.name, *frame, target, &variable, Vec::new()));
+                }
+                shown
+            }
+            Container::Signals => {
+                [("di", "Inputs"), ("do", "Outputs"), ("ai", "Analog inputs"), ("ao", "Analog outputs")]
+                    .map(|(kind, name)| {
+                        let reference = self.shown.container(Container::Kind(kind));
+                        json!({"name": kind, "value": name, "variablesReference": reference})
+                    })
+                    .to_vec()
+            }
+            Container::Kind(kind) => self.signals_of(kind)?,
+            Container::Robot(frame) => self.robot(*frame)?,
+            Container::Value { .. } => {
+                let family = self.family();
+                self.shown.parts(&container, family)
+            }
+        };
+        let (start, count) =
+            (arguments.get("start").and_then(Value::as_u64), arguments.get("count").and_then(Value::as_u64));
+        let count = count.filter(|count| *count > 0).map_or(usize::MAX, |count| count as usize);
+        let shown: Vec<Value> = shown.into_iter().skip(start.unwrap_or(0) as usize).take(count).collect();
+        Ok(json!({"variables": shown}))
+    }
+
+    fn family(&self) -> Family {
+        let channel = self.halt.as_ref().map_or(0, |halt| halt.channel);
+        let program = self.channels.get(channel).map_or("", |(_, program)| program);
+        let launched = self.launched.as_ref();
+        launched
+            .and_then(|launched| launched.programs.program(program))
+            .map_or(Family::SixAxis, |program| program.family)
+    }
+
+    /// The files of a program that have global variables; of one alone its variables.
+    fn global_variables(&mut self, frame: usize) -> Result<Vec<Value>, String> {
+        let files = self.source(frame)?.files()?;
+        let mut shown = Vec::new();
+        for file in files {
+            let reference = self.shown.container(Container::File(frame, file.clone()));
+            shown.push(json!({"name": file, "value": "", "variablesReference": reference}));
+        }
+        Ok(shown)
+    }
+
+    fn signals_of(&mut self, kind: &str) -> Result<Vec<Value>, String> {
+        let answer = self.ask("signals", &[])?;
+        let one = |at: usize, value: String, ty: &str| {
+            let function = format!("get{kind}({})", at + 1);
+            json!({"name": (at + 1).to_string(), "value": value, "type": ty, "variablesReference": 0, "evaluateName": function})
+        };
+        Ok(match answer.get(kind) {
+            Some(Value::String(levels)) => {
+                levels.chars().enumerate().map(|(at, level)| one(at, (level == '1').to_string(), "bool")).collect()
+            }
+            Some(Value::Array(values)) => {
+                values.iter().enumerate().map(|(at, value)| one(at, value.to_string(), "double")).collect()
+            }
+            _ => Vec::new(),
+        })
+    }
+
+    fn robot(&mut self, frame: usize) -> Result<Vec<Value>, String> {
+        let channel = self.shown.frame_of(frame).map_or(0, |frame| frame.channel);
+        let answer = self.ask("robot", &[&channel.to_string()])?;
+        let plain = |name: &str, value: String| json!({"name": name, "value": value, "variablesReference": 0});
+        let axes = answer.get("axes").and_then(Value::as_array).cloned().unwrap_or_default();
+        let mut shown: Vec<Value> = axes
+            .iter()
+            .map(|axis| {
+                let text = |key: &str| axis.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
+                let value = axis.get("value").and_then(Value::as_f64).unwrap_or_default();
+                plain(&text("name"), format!("{value:.3} {}", text("unit")))
+            })
+            .collect();
+        let tcp = answer.get("tcp").and_then(Value::as_array).cloned().unwrap_or_default();
+        let units = [("x", "mm"), ("y", "mm"), ("z", "mm"), ("a", "deg"), ("b", "deg"), ("c", "deg")];
+        for ((name, unit), value) in units.iter().zip(&tcp) {
+            shown.push(plain(name, format!("{:.3} {unit}", value.as_f64().unwrap_or_default())));
+        }
+        let text = |key: &str| answer.get(key).map(|value| value.to_string().replace('"', "")).unwrap_or_default();
+        if text("motion") != "0" {
+            shown.push(plain("motion", format!("number {} ({}:{})", text("motion"), text("file"), text("line"))));
+        }
+        Ok(shown)
+    }
+
+    /// What expressions see from a frame.
+    pub(super) fn source(&mut self, frame: usize) -> Result<Seen<'_>, String> {
+        let frame = match self.shown.frame_of(frame) {
+            Some(frame) => frame.clone(),
+            None => {
+                let channel = self.halt.as_ref().map_or(0, |halt| halt.channel);
+                self.top_frame(channel)?.ok_or("no function runs")?
+            }
+        };
+        let launched = self.launched.as_ref().ok_or("nothing was launched")?;
+        let process = self.process.as_mut().ok_or("no program runs")?;
+        let name = self.channels.get(frame.channel).map(|(_, program)| program.clone()).unwrap_or_default();
+        let program = launched.programs.program(&name).ok_or("the program is not known")?;
+        let answer = process.ask("variables", &[&frame.channel.to_string(), &frame.id.to_string()])?;
+        let mut locals = Vec::new();
+        let func = launched.programs.function(&name, &frame.file, &frame.name);
+        for told in told(&answer) {
+            let of_name = func.and_then(|func| func.locals.iter().find(|local| local.name == told.name));
+            let dims: Vec<usize> = of_name.map(|local| sizes(local.ty.dims())).unwrap_or_default();
+            locals.push((told.name.clone(), variable(told, &dims)));
+        }
+        for (name, ty, value) in func.map(constants).unwrap_or_default() {
+            locals.push((name, Variable { ty, value: Literal::parse(&value) }));
+        }
+        let module = frame.file.clone();
+        Ok(Seen { process, program, frame, locals, module })
+    }
+
+    pub(super) fn evaluate(&mut self, arguments: &Value) -> Answer {
+        let text = arguments.get("expression").and_then(Value::as_str).unwrap_or_default().to_owned();
+        let frame = arguments.get("frameId").and_then(Value::as_u64).unwrap_or_default() as usize;
+        let input = evaluate(&text, &mut self.source(frame)?)?;
+        let (value, target) = match input {
+            Input::Assignment(place, value) => {
+                let value = self.assign(frame, &place, value.literal())?;
+                (value, None)
+            }
+            Input::Value(value) => (value, place(&text, &mut self.source(frame)?).ok()),
+        };
+        let target =
+            target.filter(|place| place.path.is_empty()).and_then(|place| self.target(frame, &place.root).ok());
+        let variable = Variable { ty: value.ty().to_owned(), value: value.literal() };
+        let shown = self.shown.value("", frame, target.unwrap_or(Target::Nothing), &variable, Vec::new());
+        Ok(json!({
+            "result": shown.get("value"), "type": shown.get("type"),
+            "variablesReference": shown.get("variablesReference"), "indexedVariables": shown.get("indexedVariables"),
+        }))
+    }
+
+    pub(super) fn set_variable(&mut self, arguments: &Value) -> Answer {
+        let text = |key: &str| arguments.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
+        let number = arguments.get("variablesReference").and_then(Value::as_u64).unwrap_or_default() as usize;
+        let container = self.shown.container_of(number).cloned().ok_or("what was asked for is gone")?;
+        let (name, value) = (text("name"), text("value"));
+        let (frame, expression) = match &container {
+            Container::Locals(frame) => (*frame, name),
+            Container::System(frame) => (*frame, name),
+            Container::File(frame, file) => {
+                let target = Target::Global(file.clone(), name);
+                return self.set_target(*frame, &target, &[], &value);
+            }
+            Container::Kind(kind) => {
+                let answer = self.edit("set-signal", &[kind, &name, value.trim()])?;
+                return Ok(json!({"value": answer.get("value")}));
+            }
+            Container::Value { frame, target, path, .. } => {
+                let part = match name.strip_prefix('[').and_then(|name| name.strip_suffix(']')) {
+                    Some(at) => Part::At(at.parse().map_err(|_| "this is no index")?),
+                    None => Part::Named(name),
+                };
+                let path = [path.as_slice(), &[part]].concat();
+                return self.set_target(*frame, target, &path, &value);
+            }
+            Container::Globals(_) | Container::Signals | Container::Robot(_) => {
+                return Err(format!("{name} cannot be set"));
+            }
+        };
+        self.set_expression(&json!({"frameId": frame, "expression": expression, "value": value}))
+    }
+
+    pub(super) fn set_expression(&mut self, arguments: &Value) -> Answer {
+        let text = |key: &str| arguments.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
+        let frame = arguments.get("frameId").and_then(Value::as_u64).unwrap_or_default() as usize;
+        let place = place(&text("expression"), &mut self.source(frame)?)?;
+        let target = self.target(frame, &place.root)?;
+        self.set_target(frame, &target, &place.path, &text("value"))
+    }
+
+    fn set_target(&mut self, frame: usize, target: &Target, path: &[Part], value: &str) -> Answer {
+        let value = match evaluate(value, &mut self.source(frame)?)? {
+            Input::Value(value) => value.literal(),
+            Input::Assignment(..) => return Err("this assigns".into()),
+        };
+        let value = self.put(frame, target, path, value)?;
+        let shown = self.shown.value("", frame, target.clone(), &value, path.to_vec());
+        Ok(json!({
+            "value": shown.get("value"), "type": shown.get("type"), "variablesReference": shown.get("variablesReference"),
+        }))
+    }
+
+    /// What an expression names.
+    fn target(&mut self, frame: usize, root: &Root) -> Result<Target, String> {
+        let seen = self.source(frame)?;
+        let locals: Vec<String> = seen.locals.iter().map(|(name, _)| name.clone()).collect();
+        let file_of = |module: Option<&str>, name: &str| seen.file_of(module, name);
+        Target::of(root, &locals, file_of).ok_or_else(|| "there is no such variable".to_owned())
+    }
+
+    fn assign(&mut self, frame: usize, place: &Place, value: Literal) -> Result<Found, String> {
+        let target = self.target(frame, &place.root)?;
+        let value = self.put(frame, &target, &place.path, value)?;
+        Ok(Found::of(&value.ty, &value.value))
+    }
+
+    /// Sets a part of a variable; the part as it is then.
+    fn put(&mut self, frame: usize, target: &Target, path: &[Part], value: Literal) -> Result<Variable, String> {
+        let mut seen = self.source(frame)?;
+        let (channel, id) = (seen.frame.channel.to_string(), seen.frame.id.to_string());
+        let whole = seen.whole(target)?;
+        let dims = seen.dims(target);
+        let family = seen.family();
+        let text = whole.value.with(path, value).ok_or("there is no such part")?.text();
+        let dims: Vec<String> = dims.iter().map(ToString::to_string).collect();
+        let dims = dims.join(" ");
+        match target {
+            Target::Local(name) => self.edit("set", &[&channel, &id, name, &text, &dims])?,
+            Target::Global(file, name) => self.edit("set-global", &[&channel, file, name, &text])?,
+            Target::System(name) => self.edit("set-system", &[&channel, name, &text, &dims])?,
+            Target::Nothing => return Err("this cannot be set".into()),
+        };
+        let whole = self.source(frame)?.whole(target)?;
+        let mut ty = whole.ty;
+        for part in path {
+            ty = part_type(&ty, part, family)?;
+        }
+        let value = whole.value.part(path).cloned().unwrap_or(Literal::Plain("9e9".into()));
+        Ok(Variable { ty, value })
+    }
+
+    /// Changes something of the program that stands, and remembers it for a way back.
+    fn edit(&mut self, word: &str, values: &[&str]) -> Answer {
+        let answer = self.ask(word, values)?;
+        let statement = self.halt.as_ref().map_or(0, |halt| halt.statement);
+        self.replay.edited(statement, word, values);
+        Ok(answer)
+    }
+}
+
+fn told(answer: &Value) -> Vec<Told> {
+    let text = |value: &Value, key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
+    let all = answer.get("variables").and_then(Value::as_array).cloned().unwrap_or_default();
+    all.iter()
+        .map(|value| Told { name: text(value, "name"), ty: text(value, "type"), value: text(value, "value") })
+        .collect()
+}
+
+fn sizes(dims: &[u16]) -> Vec<usize> {
+    dims.iter().map(|size| usize::from(*size)).collect()
+}
+
+/// A variable with its array in rows where it has several dimensions.
+fn variable(told: Told, dims: &[usize]) -> Variable {
+    let value = Literal::parse(&told.value);
+    if dims.len() < 2 {
+        return Variable { ty: told.ty, value };
+    }
+    let base = told.ty.split('[').next().unwrap_or_default();
+    let ty = format!("{base}{}", dims.iter().map(|size| format!("[{size}]")).collect::<String>());
+    Variable { ty, value: value.in_rows(dims) }
+}
+
+impl Seen<'_> {
+    fn all_files(&mut self) -> Result<Vec<(String, Vec<Told>)>, String> {
+        let answer = self.process.ask("globals", &[&self.frame.channel.to_string()])?;
+        let files = answer.get("files").and_then(Value::as_array).cloned().unwrap_or_default();
+        let name = |file: &Value| file.get("file").and_then(Value::as_str).unwrap_or_default().to_owned();
+        Ok(files.iter().map(|file| (name(file), told(file))).collect())
+    }
+
+    /// The files that have global variables.
+    fn files(&mut self) -> Result<Vec<String>, String> {
+        Ok(self.all_files()?.into_iter().filter(|(_, all)| !all.is_empty()).map(|(file, _)| file).collect())
+    }
+
+    fn of_file(&mut self, file: &str) -> Result<Vec<(String, Variable)>, String> {
+        let files = self.all_files()?;
+        let all = files.into_iter().find(|(known, _)| known == file).map(|(_, all)| all).unwrap_or_default();
+        Ok(all
+            .into_iter()
+            .map(|told| {
+                let dims = self.global_dims(file, &told.name);
+                (told.name.clone(), variable(told, &dims))
+            })
+            .collect())
+    }
+
+    fn all_system(&mut self) -> Result<Vec<Told>, String> {
+        let answer = self.process.ask("system", &[&self.frame.channel.to_string()])?;
+        Ok(told(&answer))
+    }
+
+    fn global_dims(&self, file: &str, name: &str) -> Vec<usize> {
+        let module = self.program.modules.iter().position(|module| module.file == file);
+        let global = self
+            .program
+            .globals
+            .iter()
+            .find(|global| Some(global.module.0 as usize) == module && global.name.eq_ignore_ascii_case(name));
+        global.map(|global| sizes(global.ty.dims())).unwrap_or_default()
+    }
+
+    /// The file that declares what a name means here: in the module that is named, else in this file, else in its data file.
+    fn file_of(&self, module: Option<&str>, name: &str) -> Option<String> {
+        let declares = |file: &str| {
+            let at = self.program.modules.iter().position(|module| module.file == file);
+            let mut all = self.program.globals.iter();
+            all.any(|global| Some(global.module.0 as usize) == at && global.name.eq_ignore_ascii_case(name))
+        };
+        let mut files = self.program.modules.iter().filter(|known| match module {
+            Some(module) => known.name.eq_ignore_ascii_case(module),
+            None => known.file == self.module || known.data,
+        });
+        files.find(|known| declares(&known.file)).map(|known| known.file.clone())
+    }
+
+    fn dims(&self, target: &Target) -> Vec<usize> {
+        match target {
+            Target::Local(name) => {
+                let local = self.locals.iter().find(|(known, _)| known == name);
+                let ty = local.map_or("", |(_, variable)| variable.ty.as_str());
+                ty.split('[').skip(1).filter_map(|size| size.trim_end_matches(']').parse().ok()).collect()
+            }
+            Target::Global(file, name) => self.global_dims(file, name),
+            Target::System(_) | Target::Nothing => Vec::new(),
+        }
+    }
+
+    fn whole(&mut self, target: &Target) -> Result<Variable, String> {
+        match target {
+            Target::Local(name) => {
+                let found = self.locals.iter().find(|(known, _)| known == name);
+                found.map(|(_, variable)| variable.clone()).ok_or_else(|| format!("there is no variable {name}"))
+            }
+            Target::Global(file, name) => {
+                let all = self.of_file(file)?;
+                let found = all.into_iter().find(|(known, _)| known.eq_ignore_ascii_case(name));
+                found.map(|(_, variable)| variable).ok_or_else(|| format!("there is no variable {name}"))
+            }
+            Target::System(name) => self.system(name),
+            Target::Nothing => Err("this is no variable".into()),
+        }
+    }
+}
+
+impl Source for Seen<'_> {
+    fn variable(&mut self, module: Option<&str>, name: &str) -> Result<Variable, String> {
+        if module.is_none()
+            && let Some((_, variable)) = self.locals.iter().rev().find(|(known, _)| known.eq_ignore_ascii_case(name))
+        {
+            return Ok(variable.clone());
+        }
+        let file = self.file_of(module, name).ok_or_else(|| format!("there is no variable {name} here"))?;
+        self.whole(&Target::Global(file, name.to_owned()))
+    }
+
+    fn system(&mut self, name: &str) -> Result<Variable, String> {
+        let wanted = format!("${name}");
+        let all = self.all_system()?;
+        let found = all.into_iter().find(|told| told.name.eq_ignore_ascii_case(&wanted));
+        let told = found.ok_or_else(|| format!("there is no system variable {wanted}"))?;
+        Ok(Variable { ty: told.ty, value: Literal::parse(&told.value) })
+    }
+
+    fn signal(&mut self, kind: &str, number: i32) -> Result<Found, String> {
+        let answer = self.process.ask("signals", &[])?;
+        let at = usize::try_from(number).ok().and_then(|number| number.checked_sub(1));
+        let missing = || format!("there is no {kind} {number}");
+        match answer.get(kind) {
+            Some(Value::String(levels)) => {
+                let level = at.and_then(|at| levels.chars().nth(at)).ok_or_else(missing)?;
+                Ok(Found::Bool(level == '1'))
+            }
+            Some(Value::Array(values)) => {
+                let value = at.and_then(|at| values.get(at)).and_then(Value::as_f64).ok_or_else(missing)?;
+                Ok(Found::Double(value))
+            }
+            _ => Err(missing()),
+        }
+    }
+
+    fn family(&self) -> Family {
+        self.program.family
+    }
+}

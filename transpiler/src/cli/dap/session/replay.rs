@@ -1,0 +1,107 @@
+//! Backwards: another run from the start, to an earlier statement. On the virtual clock a run repeats itself; what was set
+//! by hand on the way is set again at the same statements.
+
+use super::{Answer, Session};
+use crate::cli::args::Clock;
+use serde_json::Value;
+
+/// What a run needs to repeat another one.
+#[derive(Default, Debug)]
+pub(super) struct Record {
+    /// What was set by hand: before which statement, and how.
+    edits: Vec<(u64, String, Vec<String>)>,
+    /// How many lines were shown of each output, and how many of the run that goes on have come.
+    shown: [usize; 2],
+    come: [usize; 2],
+}
+
+impl Record {
+    /// Another run begins.
+    pub(super) fn begin(&mut self) {
+        self.come = [0; 2];
+    }
+
+    /// Forgets everything: nothing of an earlier run counts.
+    pub(super) fn forget(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Whether a line was not shown before, when the run had not gone back yet.
+    pub(super) fn is_new(&mut self, category: &str) -> bool {
+        let at = usize::from(category == "stderr");
+        let (Some(shown), Some(come)) = (self.shown.get_mut(at), self.come.get_mut(at)) else { return true };
+        *come += 1;
+        let new = *come > *shown;
+        *shown = (*shown).max(*come);
+        new
+    }
+
+    /// Notes what was set by hand. What is printed from here on may differ from what was shown.
+    pub(super) fn edited(&mut self, statement: u64, word: &str, values: &[&str]) {
+        self.edits.retain(|(at, ..)| *at <= statement);
+        self.edits.push((statement, word.to_owned(), values.iter().map(ToString::to_string).collect()));
+        self.shown = self.come;
+    }
+}
+
+impl Session {
+    /// Goes back by one statement.
+    pub(super) fn step_back(&mut self) -> Answer {
+        let halt = self.halt.clone().ok_or("the program runs")?;
+        let target = if halt.between { halt.statement } else { halt.statement.saturating_sub(1) };
+        if target == 0 {
+            return Err("this is the first statement".into());
+        }
+        self.go_to(target)
+    }
+
+    /// Goes back to the breakpoint that was met last, or to the beginning.
+    pub(super) fn reverse_continue(&mut self) -> Answer {
+        let end = self.halt.clone().ok_or("the program runs")?.statement;
+        self.check_repeats()?;
+        self.begin()?;
+        let (mut last, mut passed) = (1, 0);
+        while passed + 1 < end {
+            // The statement behind, in case that nothing halts before.
+            self.go("go", &[])?;
+            let Ok(stopped) = self.wait_for("stopped") else { break };
+            if !self.arrive(&stopped) {
+                continue;
+            }
+            passed = self.halt.as_ref().map_or(end, |halt| halt.statement);
+            if passed < end {
+                last = passed;
+            }
+        }
+        self.go_to(last)
+    }
+
+    /// Runs again up to a statement.
+    fn go_to(&mut self, statement: u64) -> Answer {
+        self.check_repeats()?;
+        self.begin()?;
+        let edits: Vec<_> = self.replay.edits.iter().filter(|(at, ..)| *at <= statement).cloned().collect();
+        for (at, word, values) in edits {
+            self.run_to(at)?;
+            let values: Vec<&str> = values.iter().map(String::as_str).collect();
+            self.ask(&word, &values)?;
+        }
+        self.run_to(statement)?;
+        Ok(Value::Null)
+    }
+
+    fn run_to(&mut self, statement: u64) -> Result<(), String> {
+        if self.halt.as_ref().is_some_and(|halt| halt.statement == statement) {
+            return Ok(());
+        }
+        self.go("until", &[&statement.to_string()])?;
+        let stopped = self.wait_for("stopped")?;
+        self.arrive(&stopped);
+        Ok(())
+    }
+
+    fn check_repeats(&self) -> Result<(), String> {
+        let real = self.launched.as_ref().is_some_and(|it| matches!(it.options.clock, Some(Clock::Real)));
+        if real { Err("in real time a run does not repeat itself: there is no way back".into()) } else { Ok(()) }
+    }
+}

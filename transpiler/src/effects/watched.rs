@@ -1,0 +1,31 @@
+//! Programs for a debugger: each function may be halted at each of its statements, and its variables can be looked at and
+//! set from outside there.
+//!
+//! Invariants:
+//! - what the program does, and in which cycles, is the same as without: rounds of loops are counted as they were judged;
+//! - a variable may be set at any statement, so nothing is concluded from who writes it.
+
+use super::loops;
+use crate::hir::{Block, Program, StmtKind};
+use arl_lang::catalog::Base;
+
+/// Makes all functions of a program whose effects are known ones for a debugger.
+pub(crate) fn mark(program: &mut Program) {
+    for func in &mut program.funcs {
+        let effects = &mut func.effects;
+        (effects.waits, effects.fails, effects.context) = (true, true, true);
+        for local in func.locals.iter_mut().filter(|local| !(local.constant && local.value.is_some())) {
+            local.shared |= !matches!(local.ty.base, Base::Handle(_));
+        }
+        share_loops(&mut func.body);
+    }
+}
+
+fn share_loops(block: &mut Block) {
+    for stmt in block {
+        if let StmtKind::For(each) = &mut stmt.kind {
+            each.shared = true;
+        }
+        loops::inner_blocks(stmt).into_iter().for_each(share_loops);
+    }
+}

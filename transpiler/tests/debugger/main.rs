@@ -1,0 +1,284 @@
+//! `arl2rs dap`, as an editor uses it.
+
+#![allow(
+    clippy::disallowed_methods,
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "tests start processes, and may fail"
+)]
+
+mod client;
+
+use client::{Client, Folder};
+use serde_json::json;
+use std::process::Command;
+
+const COUNTS: &str = "\
+int total = 0
+pose feeder = {x 900, y -500, z 400, a 0, b 180, c 0}
+const int ROUNDS = 3
+func int add(int a, int b)
+    int sum = a + b
+    return sum
+endfunc
+func void main()
+    int table[2][2] = {{1, 2}, {3, 4}}
+    string name = \"part\"
+    int i
+    for(i = 0; i < ROUNDS; i++)
+        total = add(total, i)
+        print name, \" \", total
+    endfor
+    print \"done\"
+endfunc
+";
+
+fn counts(name: &str) -> Folder {
+    Folder::new(name).with("main.arl", COUNTS)
+}
+
+fn reason_and_top((reason, stack): (String, Vec<String>)) -> String {
+    format!("{reason}: {}", stack.first().expect("a function"))
+}
+
+#[test]
+fn it_halts_steps_and_goes_on() {
+    let mut client = Client::running(&counts("steps"), json!({}), &[13]);
+    assert_eq!(client.halt(), ("breakpoint".into(), vec!["main 13".into()]));
+    assert_eq!(client.go("stepIn"), ("step".into(), vec!["add 5".into(), "main 13".into()]));
+    assert_eq!(reason_and_top(client.go("next")), "step: add 6");
+    assert_eq!(reason_and_top(client.go("next")), "step: main 14");
+    assert_eq!(reason_and_top(client.go("stepIn")), "step: main 12");
+    assert_eq!(reason_and_top(client.go("continue")), "breakpoint: main 13");
+    assert_eq!(reason_and_top(client.go("stepIn")), "step: add 5");
+    assert_eq!(reason_and_top(client.go("stepOut")), "step: main 14");
+    client.ask("setBreakpoints", json!({"source": {"path": counts("steps").path("main.arl")}, "breakpoints": []}));
+    client.ask("continue", json!({"threadId": 1}));
+    assert_eq!(client.ended(), ("part 0\npart 1\npart 3\ndone\n".into(), json!(0)));
+}
+
+#[test]
+fn variables_are_shown_and_set() {
+    let mut client = Client::running(&counts("variables"), json!({}), &[5, 14]);
+    assert_eq!(reason_and_top(client.halt()), "breakpoint: add 5");
+    assert_eq!(client.scope("Locals").1, ["a = 0", "b = 0"]);
+    assert_eq!(reason_and_top(client.go("continue")), "breakpoint: main 14");
+    let (locals, shown) = client.scope("Locals");
+    assert_eq!(shown, ["table = {{1,2},{3,4}}", "name = \"part\"", "i = 0"]);
+    for (expression, value) in [
+        ("table[1][0] + total", "3"),
+        ("name + \"!\"", "\"part!\""),
+        ("feeder.x / 2", "450"),
+        ("ROUNDS", "3"),
+        ("getdi(1)", "false"),
+        ("$DFSPEED.tcp", "50"),
+        ("nothing", "there is no variable nothing here"),
+    ] {
+        assert_eq!(client.value(expression), value, "{expression}");
+    }
+    client.ask("setVariable", json!({"variablesReference": locals, "name": "i", "value": "i + 1"}));
+    client.ask("setVariable", json!({"variablesReference": locals, "name": "name", "value": "\"piece\""}));
+    let frame = client.frame();
+    client.ask("setExpression", json!({"frameId": frame, "expression": "table[1][1]", "value": "9"}));
+    client.ask("setExpression", json!({"frameId": frame, "expression": "feeder.z", "value": "1.5"}));
+    assert_eq!(client.value("total = 40"), "40");
+    assert_eq!(client.value("feeder"), "{x 900,y -500,z 1.5,a 0,b 180,c 0,cfg 0,turn -1}");
+    assert_eq!(client.scope("Locals").1, ["table = {{1,2},{3,9}}", "name = \"piece\"", "i = 1"]);
+    let wrong = client.refused("setVariable", json!({"variablesReference": locals, "name": "i", "value": "\"x\""}));
+    assert!(wrong.contains("expected a value of type int"), "{wrong}");
+    let (globals, files) = client.scope("Globals");
+    assert_eq!(files, ["main.arl = "]);
+    let reference = client.ask("variables", json!({"variablesReference": globals}))["variables"][0].clone();
+    let shown = client.parts(&reference["variablesReference"]);
+    assert_eq!(shown.first().map(String::as_str), Some("total = 40"));
+    assert_eq!(reason_and_top(client.go("continue")), "breakpoint: add 5");
+    client.set_breakpoints(&Folder(counts("variables").0), "main.arl", json!([]));
+    client.ask("continue", json!({"threadId": 1}));
+    assert_eq!(client.ended().0, "piece 40\npiece 42\ndone\n");
+}
+
+#[test]
+fn breakpoints_have_conditions_counts_and_messages() {
+    let folder = counts("breakpoints");
+    let mut client = Client::running(&folder, json!({}), &[]);
+    client.ended();
+    let mut client = Client::new();
+    client.ask("launch", json!({"program": folder.path("main.arl"), "stopOnEntry": true}));
+    let told = client.set_breakpoints(
+        &folder,
+        "main.arl",
+        json!([
+            {"line": 13, "condition": "i == 1"},
+            {"line": 14, "hitCondition": "3"},
+            {"line": 7},
+            {"line": 6, "logMessage": "sum is {sum}"},
+            {"line": 99},
+            {"line": 16, "hitCondition": "often"},
+        ]),
+    );
+    let lines: Vec<_> =
+        told.as_array().unwrap().iter().map(|one| (one["verified"] == true, one["line"].as_u64())).collect();
+    assert_eq!(
+        lines,
+        [(true, Some(13)), (true, Some(14)), (true, Some(9)), (true, Some(6)), (false, None), (false, None)]
+    );
+    client.ask("setFunctionBreakpoints", json!({"breakpoints": [{"name": "ADD", "condition": "b == 2"}]}));
+    client.ask("configurationDone", json!({}));
+    assert_eq!(reason_and_top(client.halt()), "breakpoint: main 9");
+    assert_eq!(reason_and_top(client.go("continue")), "breakpoint: main 13");
+    assert_eq!(client.value("i"), "1");
+    assert_eq!(reason_and_top(client.go("continue")), "breakpoint: add 5");
+    assert_eq!(client.value("a * 10 + b"), "12");
+    assert_eq!(reason_and_top(client.go("continue")), "breakpoint: main 14");
+    client.ask("continue", json!({"threadId": 1}));
+    client.ended();
+    for message in ["sum is 0\n", "sum is 1\n", "sum is 3\n"] {
+        assert!(client.said.contains(message), "{}", client.said);
+    }
+}
+
+#[test]
+fn it_goes_back_and_repeats_itself() {
+    let mut client = Client::running(&counts("back"), json!({}), &[14]);
+    assert_eq!(reason_and_top(client.halt()), "breakpoint: main 14");
+    assert_eq!(reason_and_top(client.go("stepBack")), "step: add 6");
+    assert_eq!(client.value("sum"), "0");
+    client.value("sum = 10");
+    assert_eq!(reason_and_top(client.go("continue")), "breakpoint: main 14");
+    assert_eq!(client.value("total"), "10");
+    assert_eq!(reason_and_top(client.go("continue")), "breakpoint: main 14");
+    assert_eq!(client.value("total"), "11");
+    assert_eq!(reason_and_top(client.go("stepBack")), "step: add 6");
+    assert_eq!(client.value("sum"), "11", "what was set by hand is set again");
+    assert_eq!(client.go("reverseContinue").1, ["main 14"]);
+    assert_eq!(client.value("total"), "10");
+    client.set_breakpoints(&Folder(counts("back").0), "main.arl", json!([]));
+    client.ask("continue", json!({"threadId": 1}));
+    assert_eq!(client.ended().0, "part 10\npart 11\npart 13\ndone\n");
+}
+
+const CELL: &str = "\
+joint home = {0, -90, 90, 0, 90, 0}
+int seen = 0
+func void opened(int gate)
+    seen = seen + gate
+    setdo(3, true)
+endfunc
+func void main()
+    interrupt \"gate\", when:getdi(5), do:opened(7)
+    movej home, vp:50%
+    movej j:{20, -90, 90, 0, 90, 0}, vp:50%, sl:5mm
+    movej home, vp:50%
+    waittime 0
+    print seen, \" \", getdo(3)
+    int none = 0
+    print 1 / none
+endfunc
+";
+
+const SCENARIO: &str = "[[event]]\nat = 0.6\ndi.5 = true\n";
+
+fn cell(name: &str) -> Folder {
+    Folder::new(name).with("main.arl", CELL).with("io.toml", SCENARIO)
+}
+
+#[test]
+fn it_halts_in_the_action_of_an_interrupt_while_the_robot_moves() {
+    let folder = cell("interrupt");
+    let mut client = Client::running(&folder, json!({"io": "io.toml", "trace": "watched.csv"}), &[4]);
+    let (reason, stack) = client.halt();
+    assert_eq!(reason, "breakpoint");
+    assert_eq!(stack[..2], ["opened 4", "the interrupt \"gate\" 8"]);
+    assert!(stack[2].starts_with("main "), "{stack:?}");
+    assert_eq!(client.value("gate"), "7");
+    let pointer = client.event("arl/motionPointer");
+    assert_eq!((&pointer["channel"], &pointer["motion"]), (&json!(1), &json!(1)), "{pointer}");
+    assert!(pointer["file"].as_str().unwrap().ends_with("main.arl"));
+    let (_, robot) = client.scope("Robot");
+    assert!(robot[0].starts_with("axis") || robot[0].starts_with("j1") || robot[0].contains(" = "), "{robot:?}");
+    assert!(robot.last().unwrap().starts_with("motion = number"), "{robot:?}");
+    let (_, before) = client.scope("Robot");
+    assert_eq!(robot, before, "time stands still");
+    let (reason, stack) = client.go("continue");
+    assert_eq!((reason.as_str(), stack.first().map(String::as_str)), ("exception", Some("main 15")));
+    assert!(client.ask("exceptionInfo", json!({"threadId": 1}))["description"].as_str().unwrap().contains("division"));
+    assert_eq!(client.value("none"), "0");
+    client.ask("continue", json!({"threadId": 1}));
+    assert_eq!(client.ended(), ("7 true\n".into(), json!(3)));
+    assert!(client.said.contains("alarm 20001"), "{}", client.said);
+    // The same run without a debugger, to the last bit.
+    let ran = Command::new(env!("CARGO_BIN_EXE_arl2rs"))
+        .args(["run", "main.arl", "--io", "io.toml", "--trace", "alone.csv"])
+        .current_dir(&folder.0)
+        .output()
+        .expect("the command runs");
+    assert_eq!(String::from_utf8_lossy(&ran.stdout), "7 true\n");
+    let trace = |name: &str| std::fs::read_to_string(folder.path(name)).expect("a trace");
+    assert_eq!(trace("watched.csv").lines().count(), trace("alone.csv").lines().count());
+    assert!(trace("watched.csv") == trace("alone.csv"), "halting changes nothing");
+}
+
+#[test]
+fn it_steps_by_motion_halts_at_events_and_pauses() {
+    let folder = cell("motion");
+    let mut client = Client::new();
+    client.ask("launch", json!({"program": folder.path("main.arl"), "io": "io.toml", "stopOnEntry": true}));
+    client.ask("setExceptionBreakpoints", json!({"filters": ["events"]}));
+    client.ask("configurationDone", json!({}));
+    assert_eq!(reason_and_top(client.halt()), "entry: main 8");
+    client.go("arl/nextMotion");
+    let pointer = client.event("arl/motionPointer");
+    assert_eq!((&pointer["line"], &pointer["motion"]), (&json!(9), &json!(1)));
+    let (reason, stack) = client.go("continue");
+    assert_eq!((reason.as_str(), stack[0].as_str()), ("event", "the interrupt \"gate\" 8"));
+    client.ask("restart", json!({}));
+    assert_eq!(reason_and_top(client.halt()), "entry: main 8");
+    client.ask("terminate", json!({}));
+    client.event("terminated");
+}
+
+#[test]
+fn a_program_that_waits_can_be_paused() {
+    let folder = Folder::new("pause").with(
+        "main.arl",
+        "func void main()\n    int k\n    while(k >= 0)\n        k = (k + 1) % 1000\n    endwhile\nendfunc\n",
+    );
+    let mut client = Client::running(&folder, json!({}), &[]);
+    assert_eq!(reason_and_top(client.go("pause")).split(' ').next(), Some("pause:"));
+    client.value("k = -5");
+    client.ask("continue", json!({"threadId": 1}));
+    // One round may have been on its way: below 0 it ends, at -4 or so.
+    assert_eq!(client.ended().1, json!(0));
+}
+
+#[test]
+fn in_real_time_the_robot_stops_on_its_path() {
+    let folder = Folder::new("real").with(
+        "main.arl",
+        "func void main()\n    movej j:{0, -90, 90, 0, 90, 0}, vp:50%\n    movej j:{40, -90, 90, 0, 90, 0}, vp:20%\n    \
+         waittime 0.01\n    print \"there\"\nendfunc\n",
+    );
+    let mut client = Client::running(&folder, json!({"clock": "real"}), &[]);
+    loop {
+        if client.event("arl/motionPointer")["motion"].as_u64() > Some(0) {
+            break;
+        }
+    }
+    client.go("pause");
+    assert!(client.refused("stepBack", json!({"threadId": 1})).contains("real time"));
+    client.ask("continue", json!({"threadId": 1}));
+    assert_eq!(client.ended(), ("there\n".into(), json!(0)));
+}
+
+#[test]
+fn mistakes_are_told() {
+    let mut client = Client::new();
+    assert!(client.refused("launch", json!({})).contains("has no `program`"));
+    assert!(client.refused("launch", json!({"program": "a.arl", "clock": "fast"})).contains("virtual or real"));
+    assert!(client.refused("continue", json!({"threadId": 1})).contains("no program runs"));
+    assert!(client.refused("fly", json!({})).contains("no request `fly`"));
+    let folder = Folder::new("mistakes").with("main.arl", "func void main()\n    movej 5\nendfunc\n");
+    assert!(client.refused("launch", json!({"program": folder.path("main.arl")})).contains("error"));
+    assert!(client.said.contains("error[ARL"), "{}", client.said);
+    client.ask("disconnect", json!({}));
+}
