@@ -123,6 +123,27 @@ pub fn main_with<P: Program + 'static>(
     others: &[Other],
     script_dir: &str,
 ) -> ExitCode {
+    start(program, others, script_dir, None)
+}
+
+/// The same for programs that were made for a debugger, which `--debug` connects to. Nothing of it is in other programs.
+pub fn main_watched<P: Program + 'static>(
+    program: impl FnOnce() -> P + Send,
+    others: &[Other],
+    script_dir: &str,
+) -> ExitCode {
+    start(program, others, script_dir, Some(debug::drive))
+}
+
+/// What runs a program as a debugger says, that listens at an address.
+type Drive = fn(&mut Controller, &str, Option<f64>, &AtomicBool, fn(&mut Controller)) -> std::io::Result<End>;
+
+fn start<P: Program + 'static>(
+    program: impl FnOnce() -> P + Send,
+    others: &[Other],
+    script_dir: &str,
+    debugging: Option<Drive>,
+) -> ExitCode {
     let arguments = std::env::args_os().skip(1);
     let options = match parse(arguments, script_dir) {
         Ok(Some(options)) => options,
@@ -139,7 +160,7 @@ pub fn main_with<P: Program + 'static>(
     }
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(PROGRAM_STACK_BYTES + CONTROLLER_STACK_BYTES);
-        let run = || run(Box::new(program()), others, options, &interrupted);
+        let run = || run(Box::new(program()), others, options, debugging, &interrupted);
         match thread.spawn_scoped(scope, run).map(|thread| thread.join()) {
             Ok(Ok(code)) => ExitCode::from(code),
             // The panic has been reported where it happened.
@@ -252,7 +273,17 @@ fn number(parser: &mut lexopt::Parser, option: &str, what: &str, most: f64) -> R
 }
 
 /// Sets the controller up and runs the program; the exit code.
-fn run(program: Box<dyn Program>, others: &[Other], options: Options, interrupted: &AtomicBool) -> u8 {
+fn run(
+    program: Box<dyn Program>,
+    others: &[Other],
+    options: Options,
+    debugging: Option<Drive>,
+    interrupted: &AtomicBool,
+) -> u8 {
+    if options.debug.is_some() && debugging.is_none() {
+        tell(format_args!("error: this program was not made for a debugger: `arl2rs dap` makes such programs"));
+        return EXIT_USAGE;
+    }
     let max_time = options.max_time;
     let real = options.clock == Some(Pace::Real);
     let report = match options.report.clone().map(report_to).transpose() {
@@ -280,9 +311,9 @@ fn run(program: Box<dyn Program>, others: &[Other], options: Options, interrupte
         }
     };
     controller.set_loop(repeats);
-    let code = match (voice, address) {
-        (_, Some(address)) => match debug::connect(&address) {
-            Ok(link) => code_of_end(&debug::drive(&mut controller, link, max_time, interrupted, say)),
+    let code = match (voice, address.zip(debugging)) {
+        (_, Some((address, drive))) => match drive(&mut controller, &address, max_time, interrupted, say) {
+            Ok(end) => code_of_end(&end),
             Err(error) => {
                 tell(format_args!("error: there is no debugger at {address}: {error}"));
                 return EXIT_USAGE;

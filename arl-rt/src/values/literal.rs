@@ -174,9 +174,9 @@ fn push<T: std::fmt::Display>(value: &T, out: &mut String) {
     let _ = write!(out, "{value}");
 }
 
-/// The shortest decimal that is this number.
+/// The shortest decimal that is this number. A literal without point or exponent is an integer, which has 32 bits.
 fn push_double(value: &f64, out: &mut String) {
-    let plain = *value == 0.0 || (1e-5..1e15).contains(&value.abs());
+    let plain = *value == 0.0 || (1e-5..2e9).contains(&value.abs());
     let _ = if plain { write!(out, "{value}") } else { write!(out, "{value:e}") };
 }
 
@@ -308,7 +308,7 @@ fn write_structure<S: Structure>(structure: &S, out: &mut String) {
 }
 
 /// How the number is written that says that a component is not set.
-const UNSET_TEXT: &str = "9000000000";
+const UNSET_TEXT: &str = "9e9";
 
 macro_rules! literals {
     ($how:ident $write:ident: $($ty:ident)*) => { $(

@@ -120,7 +120,7 @@ impl<'a> Job<'a> {
             Ok(EmittedOther { file: other.file.clone(), folder: other.folder(&main)?, rust })
         };
         let others = self.others.iter().zip(rust).map(beside).collect::<Result<_, Failure>>()?;
-        Ok(Done { programs, rust: Emitted { first, others }, said })
+        Ok(Done { programs, rust: Emitted { first, others, watched: self.watched }, said })
     }
 
     /// A number that changes with everything but the sources: this command, the runtime, the options, the channels.

@@ -12,6 +12,8 @@ pub(super) struct Emitted {
     pub(super) first: String,
     /// The others.
     pub(super) others: Vec<EmittedOther>,
+    /// Whether they are for a debugger.
+    pub(super) watched: bool,
 }
 
 /// The emitted Rust of a program beside the first one.
@@ -37,10 +39,11 @@ pub(super) fn write(place: &Place, runtime: &Unpacked, rust: &Emitted, folder: &
         modules += &format!("mod {name};\n");
         others += &format!("        {}\n", other(beside, &name));
     }
+    let start = if rust.watched { "main_watched" } else { "main_with" };
     let main = format!(
         "// Written by arl2rs.\n\n{modules}\n\
          fn main() -> std::process::ExitCode {{\n    \
-         arl_rt::program_main::main_with(program::Globals::new, &[\n{others}    ], {:?})\n}}\n",
+         arl_rt::program_main::{start}(program::Globals::new, &[\n{others}    ], {:?})\n}}\n",
         folder.display().to_string()
     );
     write_if_changed(&source("main.rs"), main.as_bytes())?;

@@ -32,20 +32,18 @@ pub(crate) enum End {
     Interrupted,
 }
 
-/// Connects to a debugger.
-pub(crate) fn connect(address: &str) -> Result<Link> {
-    Link::connect(address)
-}
-
-/// Runs as the debugger says. `say` passes on what came up in a cycle.
+/// Runs as the debugger says that listens at an address. `say` passes on what came up in a cycle.
+///
+/// # Errors
+/// No debugger listens there.
 pub(crate) fn drive(
     controller: &mut Controller,
-    link: Link,
+    address: &str,
     max_time: Option<f64>,
     interrupted: &AtomicBool,
-    mut say: impl FnMut(&mut Controller),
-) -> End {
-    let debugger = Rc::new(Debugger::new(link, controller.is_real()));
+    say: fn(&mut Controller),
+) -> Result<End> {
+    let debugger = Rc::new(Debugger::new(Link::connect(address)?, controller.is_real()));
     let of_alarms = Rc::clone(&debugger);
     fault::listen(Rc::new(move |alarm| of_alarms.alarm_came_up(alarm)));
     controller.watch(Rc::<Debugger>::clone(&debugger));
@@ -80,5 +78,5 @@ pub(crate) fn drive(
     controller.settle_state();
     say(controller);
     debugger.end(controller.contexts());
-    end.unwrap_or_else(|| End::Over(controller.outcome().cloned().unwrap_or(Outcome::Stopped)))
+    Ok(end.unwrap_or_else(|| End::Over(controller.outcome().cloned().unwrap_or(Outcome::Stopped))))
 }

@@ -141,7 +141,7 @@ impl Value {
             Self::Int(value) => value.to_string(),
             Self::Uint(value) => value.to_string(),
             Self::Byte(value) => value.to_string(),
-            Self::Double(value) => value.to_string(),
+            Self::Double(value) => decimal_text(*value),
             Self::Bool(value) => value.to_string(),
             Self::Text(text) => quoted(text),
             Self::Other(_, literal) => return literal.clone(),
@@ -167,6 +167,12 @@ impl Value {
             }
         }
     }
+}
+
+/// A literal without point or exponent is an integer, which has 32 bits.
+fn decimal_text(value: f64) -> String {
+    let plain = value == 0.0 || (1e-5..2e9).contains(&value.abs());
+    if plain { value.to_string() } else { format!("{value:e}") }
 }
 
 fn quoted(text: &str) -> String {

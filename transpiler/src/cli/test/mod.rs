@@ -116,7 +116,7 @@ fn emit(case: &Case, emitting: &EmitOptions) -> Result<Emitted, String> {
         let folder = other.folder(&case.source).map_err(said)?;
         others.push(EmittedOther { file: other.file, folder, rust });
     }
-    Ok(Emitted { first, others })
+    Ok(Emitted { first, others, watched: emitting.watched })
 }
 
 fn rust(file: &Path, checking: &Checking, emitting: &EmitOptions) -> Result<String, String> {
