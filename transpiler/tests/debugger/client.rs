@@ -34,7 +34,7 @@ impl Folder {
 /// A client that knows one adapter.
 pub(crate) struct Client {
     child: Child,
-    input: ChildStdin,
+    input: Option<ChildStdin>,
     output: Receiver<Value>,
     sent: i64,
     /// Events that nobody has asked for yet.
@@ -54,7 +54,7 @@ impl Client {
             .stderr(Stdio::null())
             .spawn()
             .expect("the command starts");
-        let input = child.stdin.take().expect("its input");
+        let input = child.stdin.take();
         let mut out = BufReader::new(child.stdout.take().expect("its output"));
         let (sender, output) = channel();
         std::thread::spawn(move || {
@@ -109,7 +109,8 @@ impl Client {
         self.sent += 1;
         let message = json!({"seq": self.sent, "type": "request", "command": command, "arguments": arguments});
         let text = message.to_string();
-        write!(self.input, "Content-Length: {}\r\n\r\n{text}", text.len()).expect("the adapter reads");
+        let input = self.input.as_mut().expect("it is open");
+        write!(input, "Content-Length: {}\r\n\r\n{text}", text.len()).expect("the adapter reads");
         self.sent
     }
 
@@ -220,6 +221,14 @@ impl Client {
 
 impl Drop for Client {
     fn drop(&mut self) {
+        // An adapter whose editor is gone ends by itself, and takes along what it has made.
+        self.input = None;
+        for _ in 0..100 {
+            if let Ok(Some(_)) = self.child.try_wait() {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(50));
+        }
         let _ = self.child.kill();
         let _ = self.child.wait();
     }

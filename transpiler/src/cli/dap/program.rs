@@ -127,6 +127,14 @@ pub(super) fn constants(func: &Func) -> Vec<(String, String, String)> {
     func.locals.iter().filter_map(known).collect()
 }
 
+/// The constants of a file that are known when it is compiled.
+pub(super) fn global_constants(program: &Program, file: &str) -> Vec<(String, String, String)> {
+    let module = program.modules.iter().position(|module| module.file == file);
+    let own = program.globals.iter().filter(|global| Some(global.module.0 as usize) == module);
+    own.filter_map(|global| Some((global.name.clone(), global.ty.base.name().to_owned(), text(global.value.as_ref()?))))
+        .collect()
+}
+
 /// A constant as a literal.
 fn text(value: &Value) -> String {
     match value {

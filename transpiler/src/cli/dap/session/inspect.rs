@@ -4,7 +4,7 @@ use super::{Answer, Session};
 use crate::cli::dap::evaluate::{Input, Place, Root, Source, Value as Found, Variable, evaluate, part_type, place};
 use crate::cli::dap::literal::{Literal, Part};
 use crate::cli::dap::process::Process;
-use crate::cli::dap::program::constants;
+use crate::cli::dap::program::{constants, global_constants};
 use crate::cli::dap::variables::{Container, Frame, Target};
 use crate::hir::Program;
 use arl_lang::catalog::Family;
@@ -382,21 +382,29 @@ impl Seen<'_> {
         Ok(files.iter().map(|file| (name(file), told(file))).collect())
     }
 
-    /// The files that have global variables.
+    /// The files that have global variables or constants.
     fn files(&mut self) -> Result<Vec<String>, String> {
-        Ok(self.all_files()?.into_iter().filter(|(_, all)| !all.is_empty()).map(|(file, _)| file).collect())
+        let with_variables: Vec<String> = self.all_files()?.into_iter().map(|(file, _)| file).collect();
+        let modules = self.program.modules.iter().map(|module| module.file.clone());
+        Ok(modules
+            .filter(|file| with_variables.contains(file) || !global_constants(self.program, file).is_empty())
+            .collect())
     }
 
     fn of_file(&mut self, file: &str) -> Result<Vec<(String, Variable)>, String> {
         let files = self.all_files()?;
         let all = files.into_iter().find(|(known, _)| known == file).map(|(_, all)| all).unwrap_or_default();
-        Ok(all
-            .into_iter()
-            .map(|told| {
-                let dims = self.global_dims(file, &told.name);
-                (told.name.clone(), variable(told, &dims))
-            })
-            .collect())
+        let mut found = Vec::new();
+        for told in all {
+            let dims = self.global_dims(file, &told.name);
+            found.push((told.name.clone(), variable(told, &dims)));
+        }
+        for (name, ty, value) in global_constants(self.program, file) {
+            if !found.iter().any(|(known, _): &(String, Variable)| known.eq_ignore_ascii_case(&name)) {
+                found.push((name, Variable { ty, value: Literal::parse(&value) }));
+            }
+        }
+        Ok(found)
     }
 
     fn all_system(&mut self) -> Result<Vec<Told>, String> {
