@@ -313,7 +313,14 @@ fn run(
     controller.set_loop(repeats);
     let code = match (voice, address.zip(debugging)) {
         (_, Some((address, drive))) => match drive(&mut controller, &address, max_time, interrupted, say) {
-            Ok(end) => code_of_end(&end),
+            Ok(end) => {
+                match &end {
+                    End::Standstill(time, waiting) => say_standstill(*time, waiting),
+                    End::MaxTime => tell(format_args!("the time is over: {} s", max_time.unwrap_or_default())),
+                    End::Over(_) | End::Interrupted => {}
+                }
+                code_of_end(&end)
+            }
             Err(error) => {
                 tell(format_args!("error: there is no debugger at {address}: {error}"));
                 return EXIT_USAGE;
@@ -368,7 +375,7 @@ fn code_of_end(end: &End) -> u8 {
     match end {
         End::Over(Outcome::Alarm(_)) => EXIT_ALARM,
         End::Over(_) => EXIT_ENDED,
-        End::MaxTime => EXIT_MAX_TIME,
+        End::MaxTime | End::Standstill(..) => EXIT_MAX_TIME,
         End::Interrupted => EXIT_INTERRUPTED,
     }
 }

@@ -282,3 +282,31 @@ fn mistakes_are_told() {
     assert!(client.said.contains("error[ARL"), "{}", client.said);
     client.ask("disconnect", json!({}));
 }
+
+#[test]
+fn a_run_that_cannot_go_on_says_who_waits() {
+    let folder = Folder::new("standstill").with("main.arl", "func void main()\n    waituntil getdi(9)\nendfunc\n");
+    let mut client = Client::running(&folder, json!({}), &[]);
+    assert_eq!(client.ended().1, json!(4));
+    assert!(client.said.contains("nothing can change any more"), "{}", client.said);
+}
+
+#[test]
+fn without_debugging_nothing_halts() {
+    let mut client = Client::running(&counts("no_debug"), json!({"noDebug": true}), &[13]);
+    assert_eq!(client.ended().0, "part 0\npart 1\npart 3\ndone\n");
+}
+
+#[test]
+fn in_real_time_conditions_go_on_while_the_program_is_halted() {
+    let folder = Folder::new("conditions").with(
+        "main.arl",
+        "func bool open()\n    bool level = getdi(5)\n    return level\nendfunc\nfunc void act()\n    print \"never\"\nendfunc\n\
+         func void main()\n    interrupt \"gate\", when:open(), do:act()\n    waittime 0.05\n    print \"done\"\nendfunc\n",
+    );
+    let mut client = Client::running(&folder, json!({"clock": "real"}), &[2, 10]);
+    assert_eq!(client.halt(), ("breakpoint".into(), vec!["main 10".into()]));
+    std::thread::sleep(std::time::Duration::from_millis(50));
+    client.ask("continue", json!({"threadId": 1}));
+    assert_eq!(client.ended(), ("done\n".into(), json!(0)));
+}

@@ -258,6 +258,11 @@ impl Watcher for Debugger {
     fn statement(&self, cx: &Cx, frame: u64) -> Go {
         let number = self.statements.get() + 1;
         self.statements.set(number);
+        let is_condition = cx.level().number == Level::LOOKING.number;
+        // Conditions are looked at while programs are halted, too, and cannot wait. Nobody is shown how they are.
+        if self.real && is_condition {
+            return Go::On;
+        }
         self.obey();
         if self.halted.get() {
             return Go::NotYet;
@@ -274,7 +279,7 @@ impl Watcher for Debugger {
             file: File::name(file),
             line,
             begins_action: is_action,
-            is_condition: cx.level().number == Level::LOOKING.number,
+            is_condition,
         };
         let why = self.plan.borrow().halts_at(&statement);
         if let Some((why, also)) = why {

@@ -15,6 +15,7 @@ use std::io::Result;
 use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::context::standstill::Standstill;
 use crate::controller::{Controller, Outcome};
 use crate::fault;
 use crate::io::Pendant;
@@ -26,8 +27,10 @@ use link::Link;
 pub(crate) enum End {
     /// All programs have ended.
     Over(Outcome),
-    /// The time is over, or nothing can change any more.
+    /// The time is over.
     MaxTime,
+    /// Nothing can change any more, from this time in s on: who waits for what.
+    Standstill(f64, Vec<Standstill>),
     /// The debugger is gone, or somebody pressed Ctrl-C.
     Interrupted,
 }
@@ -70,8 +73,11 @@ pub(crate) fn drive(
         }
         controller.step();
         say(controller);
-        if end.is_none() && !pauses && controller.standstill().is_some() {
-            end = Some(End::MaxTime);
+        if end.is_none()
+            && !pauses
+            && let Some(waiting) = controller.standstill()
+        {
+            end = Some(End::Standstill(controller.time(), waiting));
             controller.stop();
         }
     }

@@ -214,6 +214,9 @@ impl Session {
         let text = |value: &Value, key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
         let channels = ready.get("channels").and_then(Value::as_array).cloned().unwrap_or_default();
         self.channels = channels.iter().map(|channel| (text(channel, "name"), text(channel, "program"))).collect();
+        if launched_without_debugging(self.launched.as_ref()) {
+            return Ok(());
+        }
         self.send_breakpoints()?;
         self.send_kinds()
     }
@@ -471,4 +474,9 @@ impl Session {
             json!({"channel": channel + 1, "file": path, "line": value.get("line"), "motion": value.get("motion")}),
         );
     }
+}
+
+/// Whether the editor runs the program without debugging it: nothing halts it then.
+fn launched_without_debugging(launched: Option<&Launched>) -> bool {
+    launched.is_some_and(|launched| launched.launch.no_debug)
 }
