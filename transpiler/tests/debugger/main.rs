@@ -310,3 +310,21 @@ fn in_real_time_conditions_go_on_while_the_program_is_halted() {
     client.ask("continue", json!({"threadId": 1}));
     assert_eq!(client.ended(), ("done\n".into(), json!(0)));
 }
+
+#[test]
+fn the_way_back_of_an_endless_program_ends() {
+    let folder = Folder::new("endless").with(
+        "main.arl",
+        "func void main()\n    int k = 1\n    while(k > 0)\n        k = k + 1\n        waittime 0.1\n    endwhile\nendfunc\n",
+    );
+    let mut client = Client::running(&folder, json!({}), &[4]);
+    assert_eq!(reason_and_top(client.halt()), "breakpoint: main 4");
+    assert_eq!(reason_and_top(client.go("continue")), "breakpoint: main 4");
+    assert_eq!(reason_and_top(client.go("next")), "step: main 5");
+    assert_eq!(client.value("k"), "3");
+    assert_eq!(client.go("reverseContinue").1, ["main 4"]);
+    assert_eq!(client.value("k"), "2");
+    client.set_breakpoints(&folder, "main.arl", json!([]));
+    assert_eq!(client.go("reverseContinue").1, ["main 2"]);
+    client.ask("disconnect", json!({}));
+}

@@ -205,6 +205,8 @@ impl Debugger {
             "go" => Some(Way::On),
             "again" => Some(self.before.get()),
             "pause" => {
+                // Also where a breakpoint is just being judged, and passed then.
+                self.before.set(Way::Pause);
                 self.plan.borrow_mut().go(Way::Pause);
                 None
             }
@@ -213,6 +215,7 @@ impl Debugger {
             "out" => Some(Way::Over(channel, self.depth(channel).saturating_sub(1))),
             "motion" => Some(Way::Motion(channel, self.context(channel).map_or(0, |cx| answers::motion(&cx)))),
             "until" => Some(Way::Until(request.whole(0))),
+            "search" => Some(Way::Search(request.whole(0))),
             _ => {
                 let fields = match answers::answer(request, &self.all()) {
                     Ok(fields) => fields,

@@ -19,6 +19,8 @@ pub(super) enum Way {
     Motion(usize, u64),
     /// To the statement with this number, whatever comes before.
     Until(u64),
+    /// To the statement with this number, or to what always halts it before.
+    Search(u64),
 }
 
 /// A statement that is about to run.
@@ -81,6 +83,7 @@ impl Plan {
             Way::Until(end) => return (number >= end).then_some(("step", None)),
             Way::On | Way::Motion(..) => None,
             Way::Pause => Some("pause"),
+            Way::Search(end) => (number >= end).then_some("step"),
             Way::Into(stepped) => (channel == stepped && !statement.is_condition).then_some("step"),
             Way::Over(stepped, deepest) => (channel == stepped && depth <= deepest).then_some("step"),
         };

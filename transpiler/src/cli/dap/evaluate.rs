@@ -383,6 +383,7 @@ fn unary(op: UnaryOp, value: Value) -> Result<Value> {
     match (op, value) {
         (UnaryOp::Not, value) => Ok(Value::Bool(!value.truth()?)),
         (UnaryOp::Negate, Value::Int(value)) => Ok(Value::Int(value.wrapping_neg())),
+        (UnaryOp::Negate, Value::Uint(0x8000_0000)) => Ok(Value::Int(i32::MIN)),
         (UnaryOp::Negate, Value::Double(value)) => Ok(Value::Double(-value)),
         (UnaryOp::Negate, Value::Byte(value)) => Ok(Value::Int(-i32::from(value))),
         (UnaryOp::Complement, Value::Int(value)) => Ok(Value::Int(!value)),

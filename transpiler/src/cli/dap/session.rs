@@ -34,8 +34,9 @@ pub(super) struct Session {
     breakpoints: Breakpoints,
     /// What else the program halts at: `alarms`, `events`.
     kinds: Vec<String>,
-    launched: Option<Launched>,
+    /// Ends before what it runs from goes.
     process: Option<Process>,
+    launched: Option<Launched>,
     /// The number of the run, from 1.
     run: u64,
     /// The names of the channels, and of their programs.
@@ -207,6 +208,7 @@ impl Session {
             command.current_dir(folder);
         }
         self.run += 1;
+        (self.halt, self.shown) = (None, Shown::default());
         self.replay.begin();
         self.breakpoints.begin();
         self.process = Some(Process::start(command, self.run, &self.sender)?);
@@ -236,6 +238,11 @@ impl Session {
                     return Err("the program has ended".into());
                 }
                 Event::Process(run, _) if run != self.run => {}
+                other if ends_session(&other) => {
+                    self.waiting.push_back(other);
+                    self.process = None;
+                    return Err("the session ends".into());
+                }
                 other => self.waiting.push_back(other),
             }
         }
@@ -473,6 +480,15 @@ impl Session {
             "arl/motionPointer",
             json!({"channel": channel + 1, "file": path, "line": value.get("line"), "motion": value.get("motion")}),
         );
+    }
+}
+
+/// Whether nobody wants the program to run any more.
+fn ends_session(event: &Event) -> bool {
+    match event {
+        Event::Gone => true,
+        Event::Request(request) => matches!(request.command.as_str(), "disconnect" | "terminate"),
+        Event::Process(..) => false,
     }
 }
 

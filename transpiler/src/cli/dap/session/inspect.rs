@@ -225,7 +225,10 @@ impl Session {
             locals.push((told.name.clone(), variable(told, &dims)));
         }
         for (name, ty, value) in func.map(constants).unwrap_or_default() {
-            locals.push((name, Variable { ty, value: Literal::parse(&value) }));
+            // A constant of another block does not hide a variable.
+            if !locals.iter().any(|(known, _)| *known == name) {
+                locals.push((name, Variable { ty, value: Literal::parse(&value) }));
+            }
         }
         let module = frame.file.clone();
         Ok(Seen { process, program, frame, locals, module })

@@ -4,6 +4,7 @@
 use super::{Answer, Session};
 use crate::cli::args::Clock;
 use serde_json::Value;
+use std::collections::VecDeque;
 
 /// What a run needs to repeat another one.
 #[derive(Default, Debug)]
@@ -57,20 +58,34 @@ impl Session {
 
     /// Goes back to the breakpoint that was met last, or to the beginning.
     pub(super) fn reverse_continue(&mut self) -> Answer {
-        let end = self.halt.clone().ok_or("the program runs")?.statement;
+        let halt = self.halt.clone().ok_or("the program runs")?;
+        // Between two cycles the statement has begun: a breakpoint on it was met.
+        let end = halt.statement + u64::from(halt.between);
         self.check_repeats()?;
         self.begin()?;
+        let mut edits: VecDeque<_> = self.replay.edits.iter().cloned().collect();
         let (mut last, mut passed) = (1, 0);
-        while passed + 1 < end {
-            // The statement behind, in case that nothing halts before.
-            self.go("go", &[])?;
-            let Ok(stopped) = self.wait_for("stopped") else { break };
-            if !self.arrive(&stopped) {
-                continue;
+        while passed < end {
+            let bound = edits.front().map_or(end, |(at, ..)| end.min(*at));
+            if bound > passed {
+                self.go("search", &[&bound.to_string()])?;
+                loop {
+                    // A program that has ended is behind all breakpoints.
+                    let Ok(stopped) = self.wait_for("stopped") else { return self.go_to(last) };
+                    if self.arrive(&stopped) {
+                        break;
+                    }
+                }
             }
-            passed = self.halt.as_ref().map_or(end, |halt| halt.statement);
-            if passed < end {
+            let Some(halt) = self.halt.clone() else { break };
+            passed = passed.max(halt.statement);
+            if halt.why == "breakpoint" && passed < end {
                 last = passed;
+            }
+            while let Some((_, word, values)) = edits.front().filter(|(at, ..)| *at <= passed).cloned() {
+                edits.pop_front();
+                let values: Vec<&str> = values.iter().map(String::as_str).collect();
+                self.ask(&word, &values)?;
             }
         }
         self.go_to(last)
@@ -80,7 +95,9 @@ impl Session {
     fn go_to(&mut self, statement: u64) -> Answer {
         self.check_repeats()?;
         self.begin()?;
-        let edits: Vec<_> = self.replay.edits.iter().filter(|(at, ..)| *at <= statement).cloned().collect();
+        // What was set behind it is undone.
+        self.replay.edits.retain(|(at, ..)| *at <= statement);
+        let edits = self.replay.edits.clone();
         for (at, word, values) in edits {
             self.run_to(at)?;
             let values: Vec<&str> = values.iter().map(String::as_str).collect();
