@@ -29,6 +29,7 @@ pub mod text;
 mod token;
 mod tree;
 mod words;
+pub mod written;
 
 pub use parse::{
     ParseOptions, Parsed, ParsedExpression, ParsedStatements, Splice, outline, parse, parse_expression,

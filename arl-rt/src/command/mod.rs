@@ -2,6 +2,7 @@
 //!
 //! It imports everything, and nothing imports it but `lib.rs`.
 
+mod between;
 mod debug;
 mod json;
 mod live;

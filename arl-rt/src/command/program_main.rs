@@ -11,7 +11,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::builtins::time;
-use crate::command::debug::{self, End};
+use crate::command::between::{Beat, Between};
+use crate::command::debug;
 use crate::command::live::{self, Cut, LineWriter};
 use crate::command::report;
 use crate::context::program::Program;
@@ -132,17 +133,17 @@ pub fn main_watched<P: Program + 'static>(
     others: &[Other],
     script_dir: &str,
 ) -> ExitCode {
-    start(program, others, script_dir, Some(debug::drive))
+    start(program, others, script_dir, Some(debug::connect))
 }
 
-/// What runs a program as a debugger says, that listens at an address.
-type Drive = fn(&mut Controller, &str, Option<f64>, &AtomicBool, fn(&mut Controller)) -> std::io::Result<End>;
+/// Connects a run to the debugger that listens at an address.
+type Connect = fn(&Controller, &str) -> std::io::Result<Box<dyn Between>>;
 
 fn start<P: Program + 'static>(
     program: impl FnOnce() -> P + Send,
     others: &[Other],
     script_dir: &str,
-    debugging: Option<Drive>,
+    debugging: Option<Connect>,
 ) -> ExitCode {
     let arguments = std::env::args_os().skip(1);
     let options = match parse(arguments, script_dir) {
@@ -277,7 +278,7 @@ fn run(
     program: Box<dyn Program>,
     others: &[Other],
     options: Options,
-    debugging: Option<Drive>,
+    debugging: Option<Connect>,
     interrupted: &AtomicBool,
 ) -> u8 {
     if options.debug.is_some() && debugging.is_none() {
@@ -311,23 +312,17 @@ fn run(
         }
     };
     controller.set_loop(repeats);
-    let code = match (voice, address.zip(debugging)) {
-        (_, Some((address, drive))) => match drive(&mut controller, &address, max_time, interrupted, say) {
-            Ok(end) => {
-                match &end {
-                    End::Standstill(time, waiting) => say_standstill(*time, waiting),
-                    End::MaxTime => tell(format_args!("the time is over: {} s", max_time.unwrap_or_default())),
-                    End::Over(_) | End::Interrupted => {}
-                }
-                code_of_end(&end)
-            }
-            Err(error) => {
-                tell(format_args!("error: there is no debugger at {address}: {error}"));
-                return EXIT_USAGE;
-            }
-        },
-        (Some(voice), None) => code(live::drive(&mut controller, &voice, max_time, interrupted)),
-        (None, None) => watch(&mut controller, max_time, interrupted),
+    let between = match address.zip(debugging).map(|(address, connect)| (connect(&controller, &address), address)) {
+        Some((Err(error), address)) => {
+            tell(format_args!("error: there is no debugger at {address}: {error}"));
+            return EXIT_USAGE;
+        }
+        Some((Ok(between), _)) => Some(between),
+        None => None,
+    };
+    let code = match voice {
+        Some(voice) => code(live::drive(&mut controller, &voice, max_time, interrupted)),
+        None => watch(&mut controller, max_time, interrupted, between),
     };
     if let Some(mut report) = report
         && let Err(error) = report(&controller)
@@ -370,16 +365,6 @@ fn code(driven: Result<Option<Outcome>, Cut>) -> u8 {
     }
 }
 
-/// The exit code of a run that a debugger looked into.
-fn code_of_end(end: &End) -> u8 {
-    match end {
-        End::Over(Outcome::Alarm(_)) => EXIT_ALARM,
-        End::Over(_) => EXIT_ENDED,
-        End::MaxTime | End::Standstill(..) => EXIT_MAX_TIME,
-        End::Interrupted => EXIT_INTERRUPTED,
-    }
-}
-
 /// Writes the report at the end of a run.
 type WriteReport = Box<dyn FnMut(&Controller) -> std::io::Result<()>>;
 
@@ -401,7 +386,12 @@ fn report_to(report: Report) -> Result<WriteReport, String> {
 }
 
 /// Steps until the run is over, its time is, or somebody pressed Ctrl-C.
-fn watch(controller: &mut Controller, max_time: Option<f64>, interrupted: &AtomicBool) -> u8 {
+fn watch(
+    controller: &mut Controller,
+    max_time: Option<f64>,
+    interrupted: &AtomicBool,
+    mut between: Option<Box<dyn Between>>,
+) -> u8 {
     let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
     let mut code = None;
     // Who was told to stop does not begin again.
@@ -410,7 +400,8 @@ fn watch(controller: &mut Controller, max_time: Option<f64>, interrupted: &Atomi
         false => controller.is_over(),
     };
     while !is_over(controller, code.is_some()) {
-        if code.is_none() && interrupted.load(Ordering::Relaxed) {
+        let beat = between.as_mut().map_or(Beat::Runs, |between| between.cycle_begins(controller));
+        if code.is_none() && (interrupted.load(Ordering::Relaxed) || beat == Beat::Ends) {
             code = Some(EXIT_INTERRUPTED);
             controller.stop();
             tell(format_args!("interrupted: the robot stops on its path"));
@@ -424,6 +415,7 @@ fn watch(controller: &mut Controller, max_time: Option<f64>, interrupted: &Atomi
         controller.step();
         say(controller);
         if code.is_none()
+            && beat != Beat::Stands
             && let Some(waiting) = controller.standstill()
         {
             code = Some(EXIT_MAX_TIME);
@@ -433,6 +425,7 @@ fn watch(controller: &mut Controller, max_time: Option<f64>, interrupted: &Atomi
     }
     controller.settle_state();
     say(controller);
+    between.into_iter().for_each(|mut between| between.run_ended(controller));
     match (code, controller.outcome()) {
         (Some(code), _) => code,
         (None, Some(Outcome::Alarm(_))) => EXIT_ALARM,

@@ -25,17 +25,26 @@ pub(crate) struct Record {
     /// Whether it is the action of an event.
     pub(crate) is_action: bool,
     /// Its variables, in the order of declaration, with those that are gone already.
-    variables: Vec<(&'static str, Weak<dyn Teach>)>,
+    variables: Vec<Variable<Weak<dyn Teach>>>,
+}
+
+/// A variable of a function.
+#[derive(Clone)]
+pub(crate) struct Variable<T> {
+    pub(crate) name: &'static str,
+    /// The sizes of an array of several dimensions, outermost first; else empty.
+    pub(crate) sizes: &'static [usize],
+    pub(crate) slot: T,
 }
 
 impl Record {
     /// The variables that there are, in the order of declaration. Of two of one name only the inner one.
-    pub(crate) fn variables(&self) -> Vec<(&'static str, Rc<dyn Teach>)> {
-        let mut seen: Vec<(&'static str, Rc<dyn Teach>)> = Vec::new();
-        for (name, variable) in &self.variables {
-            if let Some(variable) = variable.upgrade() {
-                seen.retain(|(known, _)| known != name);
-                seen.push((name, variable));
+    pub(crate) fn variables(&self) -> Vec<Variable<Rc<dyn Teach>>> {
+        let mut seen: Vec<Variable<Rc<dyn Teach>>> = Vec::new();
+        for Variable { name, sizes, slot } in &self.variables {
+            if let Some(slot) = slot.upgrade() {
+                seen.retain(|known| known.name != *name);
+                seen.push(Variable { name, sizes, slot });
             }
         }
         seen
@@ -109,11 +118,16 @@ impl Cx {
 impl<'a> Frame<'a> {
     /// Shows a variable of the function.
     pub fn variable<T: Teach + 'static>(&self, name: &'static str, variable: &Rc<T>) {
+        self.table(name, &[], variable);
+    }
+
+    /// Shows an array of several dimensions with its sizes, outermost first.
+    pub fn table<T: Teach + 'static>(&self, name: &'static str, sizes: &'static [usize], variable: &Rc<T>) {
         let variable: Rc<dyn Teach> = Rc::<T>::clone(variable);
         self.cx.frames().with(self.id, |record| {
             // A loop declares the same ones again and again.
-            record.variables.retain(|(_, known)| known.strong_count() > 0);
-            record.variables.push((name, Rc::downgrade(&variable)));
+            record.variables.retain(|known| known.slot.strong_count() > 0);
+            record.variables.push(Variable { name, sizes, slot: Rc::downgrade(&variable) });
         });
     }
 

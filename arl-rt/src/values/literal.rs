@@ -24,7 +24,7 @@ pub trait Literal: Print {
         self.put(value, names)
     }
 
-    /// Appends the value as a literal that can be read back.
+    /// Appends the value as a literal that can be read back. Bytes of a string that are no text are replaced.
     fn write(&self, out: &mut String);
 }
 
@@ -160,39 +160,18 @@ scalars! {
     f64 {
         Read::Int(number) => number.int().map(f64::from),
         Read::Double(number) => Some(number),
-    } written push_double;
+    } written |value, out| arl_lang::written::double(*value, out);
     bool {
         Read::Bool(truth) => Some(truth),
         Read::Int(number) => Some(number.value != 0),
         Read::Double(number) => Some(number != 0.0),
     } written push;
-    Str { Read::Text(text) => Some(Str::from(text)) } written push_text;
+    Str { Read::Text(text) => Some(Str::from(text)) } written |value, out| arl_lang::written::string(&String::from_utf8_lossy(value.as_bytes()), out);
 }
 
 fn push<T: std::fmt::Display>(value: &T, out: &mut String) {
     // Writing to a string does not fail.
     let _ = write!(out, "{value}");
-}
-
-/// The shortest decimal that is this number. A literal without point or exponent is an integer, which has 32 bits.
-fn push_double(value: &f64, out: &mut String) {
-    let plain = *value == 0.0 || (1e-5..2e9).contains(&value.abs());
-    let _ = if plain { write!(out, "{value}") } else { write!(out, "{value:e}") };
-}
-
-/// A string in quotes. Bytes that are no text are question marks.
-fn push_text(value: &Str, out: &mut String) {
-    out.push('"');
-    for c in String::from_utf8_lossy(value.as_bytes()).chars() {
-        match c {
-            '"' | '\\' => out.extend(['\\', c]),
-            '\n' => out.push_str("\\n"),
-            '\t' => out.push_str("\\t"),
-            '\r' => out.push_str("\\r"),
-            c => out.push(c),
-        }
-    }
-    out.push('"');
 }
 
 /// Reads the name or the number of an enumeration's constant.

@@ -104,27 +104,33 @@ impl<T: Literal + Default + Copy> Teach for Cell<T> {
     }
 }
 
-impl<T: Literal + Default> Teach for Shared<T> {
-    fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
-        let mut fresh = T::default();
-        fresh.put_nested(value, sizes, names)?;
-        self.set(fresh);
-        Ok(())
-    }
+macro_rules! teaches_shared {
+    ($($Variable:ident)*) => { $(
+        impl<T: Literal + Default> Teach for $Variable<T> {
+            fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
+                let mut fresh = T::default();
+                fresh.put_nested(value, sizes, names)?;
+                self.set(fresh);
+                Ok(())
+            }
 
-    fn restart(&self) -> Result<(), TeachError> {
-        self.set(T::default());
-        Ok(())
-    }
+            fn restart(&self) -> Result<(), TeachError> {
+                self.set(T::default());
+                Ok(())
+            }
 
-    fn type_name(&self) -> String {
-        self.with(Print::type_name)
-    }
+            fn type_name(&self) -> String {
+                self.with(Print::type_name)
+            }
 
-    fn written(&self) -> String {
-        self.with(written)
-    }
+            fn written(&self) -> String {
+                self.with(written)
+            }
+        }
+    )* };
 }
+
+teaches_shared! { Shared Watched }
 
 impl<T: Copy + Default, const N: usize, S: Store<T, N>> Teach for Cells<T, N, S>
 where
@@ -154,28 +160,6 @@ where
 /// A constant, whose value is part of the compiled program: it takes that value only.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Fixed<T>(pub T);
-
-impl<T: Literal + Default> Teach for Watched<T> {
-    fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {
-        let mut fresh = T::default();
-        fresh.put_nested(value, sizes, names)?;
-        self.set(fresh);
-        Ok(())
-    }
-
-    fn restart(&self) -> Result<(), TeachError> {
-        self.set(T::default());
-        Ok(())
-    }
-
-    fn type_name(&self) -> String {
-        self.with(Print::type_name)
-    }
-
-    fn written(&self) -> String {
-        self.with(written)
-    }
-}
 
 impl<T: Literal + Default + PartialEq> Teach for Fixed<T> {
     fn teach_nested(&self, value: &Expr, sizes: &[usize], names: &Interner) -> Result<(), TeachError> {

@@ -29,7 +29,13 @@ impl Body<'_, '_> {
             return TokenStream::new();
         };
         let (name, variable) = (&local.name, self.local(id));
-        quote!(#frame.variable(#name, &#variable);)
+        match local.ty.dims() {
+            sizes if sizes.len() > 1 => {
+                let sizes = sizes.iter().map(|size| Literal::u16_unsuffixed(*size));
+                quote!(#frame.table(#name, &[#(#sizes),*], &#variable);)
+            }
+            _ => quote!(#frame.variable(#name, &#variable);),
+        }
     }
 
     /// What halts before a statement, where the statement does not halt by itself.

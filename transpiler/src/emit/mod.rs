@@ -56,6 +56,7 @@ pub struct EmitOptions {
     /// From which sizes on code takes the forms that are compiled sooner.
     pub sizes: Sizes,
     /// For a debugger: the program halts where it is told to, and shows its variables.
+    /// [`compile_program`](crate::compile::compile_program) makes the checked program ready for it.
     pub watched: bool,
 }
 

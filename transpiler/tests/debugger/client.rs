@@ -1,10 +1,10 @@
 //! A client of the debug adapter, and a folder with programs for it.
 
+use crate::messages::{messages, send};
 use serde_json::{Value, json};
-use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStdin, Command, Stdio};
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::Receiver;
 use std::time::Duration;
 
 /// How long a message may take: a program may have to be compiled, with the runtime.
@@ -55,30 +55,7 @@ impl Client {
             .spawn()
             .expect("the command starts");
         let input = child.stdin.take();
-        let mut out = BufReader::new(child.stdout.take().expect("its output"));
-        let (sender, output) = channel();
-        std::thread::spawn(move || {
-            loop {
-                let mut length = 0;
-                loop {
-                    let mut line = String::new();
-                    if out.read_line(&mut line).expect("the output is text") == 0 {
-                        return;
-                    }
-                    if line.trim().is_empty() {
-                        break;
-                    }
-                    if let Some(value) = line.strip_prefix("Content-Length: ") {
-                        length = value.trim().parse().expect("a length");
-                    }
-                }
-                let mut body = vec![0; length];
-                out.read_exact(&mut body).expect("the whole message");
-                if sender.send(serde_json::from_slice(&body).expect("a message is JSON")).is_err() {
-                    return;
-                }
-            }
-        });
+        let output = messages(child.stdout.take().expect("its output"));
         let mut client =
             Self { child, input, output, sent: 0, events: Vec::new(), printed: String::new(), said: String::new() };
         client.ask("initialize", json!({"adapterID": "arl"}));
@@ -108,9 +85,7 @@ impl Client {
     fn send(&mut self, command: &str, arguments: Value) -> i64 {
         self.sent += 1;
         let message = json!({"seq": self.sent, "type": "request", "command": command, "arguments": arguments});
-        let text = message.to_string();
-        let input = self.input.as_mut().expect("it is open");
-        write!(input, "Content-Length: {}\r\n\r\n{text}", text.len()).expect("the adapter reads");
+        send(self.input.as_mut().expect("it is open"), &message.to_string());
         self.sent
     }
 

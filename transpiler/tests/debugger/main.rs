@@ -8,6 +8,8 @@
 )]
 
 mod client;
+#[path = "../support/messages.rs"]
+mod messages;
 
 use client::{Client, Folder};
 use serde_json::json;
@@ -100,10 +102,8 @@ fn variables_are_shown_and_set() {
 #[test]
 fn breakpoints_have_conditions_counts_and_messages() {
     let folder = counts("breakpoints");
-    let mut client = Client::running(&folder, json!({}), &[]);
-    client.ended();
     let mut client = Client::new();
-    client.ask("launch", json!({"program": folder.path("main.arl"), "stopOnEntry": true}));
+    client.ask("launch", json!({"program": folder.path("main.arl")}));
     let told = client.set_breakpoints(
         &folder,
         "main.arl",
@@ -195,7 +195,9 @@ fn it_halts_in_the_action_of_an_interrupt_while_the_robot_moves() {
     assert_eq!((&pointer["channel"], &pointer["motion"]), (&json!(1), &json!(1)), "{pointer}");
     assert!(pointer["file"].as_str().unwrap().ends_with("main.arl"));
     let (_, robot) = client.scope("Robot");
-    assert!(robot[0].starts_with("axis") || robot[0].starts_with("j1") || robot[0].contains(" = "), "{robot:?}");
+    let value = |line: &str| line.split(' ').nth(2).expect("a value").parse::<f64>().expect("a number");
+    assert!(robot[0].starts_with("j1 = ") && robot[0].ends_with(" deg"), "{robot:?}");
+    assert!(robot[6].starts_with("x = ") && value(&robot[6]).abs() > 1.0, "{robot:?}");
     assert!(robot.last().unwrap().starts_with("motion = number"), "{robot:?}");
     let (_, before) = client.scope("Robot");
     assert_eq!(robot, before, "time stands still");
@@ -265,6 +267,11 @@ fn in_real_time_the_robot_stops_on_its_path() {
         }
     }
     client.go("pause");
+    std::thread::sleep(std::time::Duration::from_millis(500));
+    let (_, stopped) = client.scope("Robot");
+    std::thread::sleep(std::time::Duration::from_millis(100));
+    assert_eq!(client.scope("Robot").1, stopped, "it has come to rest, and stays");
+    assert_ne!(stopped[0], "j1 = 40.000 deg", "on its way");
     assert!(client.refused("stepBack", json!({"threadId": 1})).contains("real time"));
     client.ask("continue", json!({"threadId": 1}));
     assert_eq!(client.ended(), ("there\n".into(), json!(0)));
@@ -327,4 +334,53 @@ fn the_way_back_of_an_endless_program_ends() {
     client.set_breakpoints(&folder, "main.arl", json!([]));
     assert_eq!(client.go("reverseContinue").1, ["main 2"]);
     client.ask("disconnect", json!({}));
+}
+
+#[test]
+fn hits_are_counted_as_far_as_the_run_has_gone() {
+    let folder = counts("hits");
+    let mut client = Client::new();
+    client.ask("launch", json!({"program": folder.path("main.arl")}));
+    client.set_breakpoints(&folder, "main.arl", json!([{"line": 14, "hitCondition": "== 2"}]));
+    client.ask("configurationDone", json!({}));
+    assert_eq!(reason_and_top(client.halt()), "breakpoint: main 14");
+    assert_eq!(client.value("i"), "1");
+    assert_eq!(reason_and_top(client.go("stepBack")), "step: add 6");
+    assert_eq!(reason_and_top(client.go("continue")), "breakpoint: main 14");
+    assert_eq!(client.value("i"), "1", "the first hit was before");
+}
+
+#[test]
+fn what_was_printed_is_there_when_the_program_halts() {
+    let mut client = Client::running(&counts("printed"), json!({}), &[14]);
+    client.halt();
+    client.go("next");
+    // The text comes over another pipe than the halt.
+    while client.printed.is_empty() {
+        client.ask("threads", json!({}));
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    assert_eq!(client.printed, "part 0\n");
+}
+
+#[test]
+fn programs_of_a_cell_may_have_files_of_the_same_name() {
+    let program =
+        |name: &str| format!("string name = \"{name}\"\nfunc void main()\n    waittime 0.1\n    print name\nendfunc\n");
+    let folder = Folder::new("cell").with("main.arl", &program("one"));
+    std::fs::create_dir_all(folder.0.join("two")).unwrap();
+    let folder =
+        folder.with("two/main.arl", &program("two")).with("cell.toml", "[[channel]]\nprogram = \"two/main.arl\"\n");
+    let mut client = Client::new();
+    client.ask("launch", json!({"program": folder.path("main.arl"), "cell": "cell.toml"}));
+    client.set_breakpoints(&folder, "two/main.arl", json!([{"line": 4}]));
+    client.ask("configurationDone", json!({}));
+    let stopped = client.event("stopped");
+    assert_eq!(stopped["threadId"], 2, "{stopped}");
+    let frame = client.ask("stackTrace", json!({"threadId": 2}))["stackFrames"][0].clone();
+    assert_eq!(frame["source"]["path"], folder.path("two/main.arl"));
+    let value = client.ask("evaluate", json!({"expression": "name", "frameId": frame["id"]}));
+    assert_eq!(value["result"], "\"two\"");
+    client.ask("continue", json!({"threadId": 2}));
+    assert_eq!(client.ended().1, json!(0));
 }

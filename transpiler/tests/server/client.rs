@@ -1,11 +1,11 @@
 //! A client of the server, and a folder with programs for it.
 
+use crate::messages::{messages, send};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
-use std::io::{BufRead, BufReader, Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
-use std::sync::mpsc::{Receiver, channel};
+use std::process::{Child, ChildStdin, Command, Stdio};
+use std::sync::mpsc::Receiver;
 use std::time::Duration;
 
 /// A folder for one test.
@@ -29,35 +29,6 @@ impl Folder {
     pub(crate) fn uri(&self, name: &str) -> String {
         format!("file://{}", self.path.join(name).display())
     }
-}
-
-/// The messages that come out of a server.
-fn messages(output: ChildStdout) -> Receiver<Value> {
-    let (sender, receiver) = channel();
-    std::thread::spawn(move || {
-        let mut output = BufReader::new(output);
-        loop {
-            let mut length = 0;
-            loop {
-                let mut line = String::new();
-                if output.read_line(&mut line).expect("the output is text") == 0 {
-                    return;
-                }
-                if line.trim().is_empty() {
-                    break;
-                }
-                if let Some(value) = line.strip_prefix("Content-Length: ") {
-                    length = value.trim().parse().expect("a length");
-                }
-            }
-            let mut body = vec![0; length];
-            output.read_exact(&mut body).expect("the whole message");
-            if sender.send(serde_json::from_slice(&body).expect("a message is JSON")).is_err() {
-                return;
-            }
-        }
-    });
-    receiver
 }
 
 /// A client that knows one server.
@@ -115,9 +86,7 @@ impl Client {
     }
 
     pub(crate) fn send_text(&mut self, body: &str) {
-        let input = self.input.as_mut().expect("the input is open");
-        write!(input, "Content-Length: {}\r\n\r\n{body}", body.len()).expect("the server reads");
-        input.flush().expect("the server reads");
+        send(self.input.as_mut().expect("the input is open"), body);
     }
 
     pub(crate) fn tell(&mut self, method: &str, params: Value) {

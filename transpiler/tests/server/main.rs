@@ -4,6 +4,8 @@
 
 mod client;
 mod completion;
+#[path = "../support/messages.rs"]
+mod messages;
 mod navigation;
 mod neovim;
 mod protocol;

@@ -5,6 +5,7 @@ use std::rc::Rc;
 use super::link::Request;
 use crate::command::json::{array, number, quoted};
 use crate::context::cx::Cx;
+use crate::context::frames::{Record, Variable};
 use crate::fault::{Fault, File};
 use crate::io::Digital;
 use crate::values::Teach;
@@ -27,9 +28,9 @@ pub(super) fn answer(request: &Request, contexts: &[Rc<Cx>]) -> Result<String, S
         "system" => Ok(system(cx()?)),
         "signals" => Ok(signals(first()?)),
         "robot" => Ok(robot(cx()?)),
-        "set" => set(cx()?, request.whole(1), request.value(2), request.value(3), request.value(4)),
+        "set" => set(cx()?, request.whole(1), request.value(2), request.value(3)),
         "set-global" => set_global(cx()?, request.value(1), request.value(2), request.value(3)),
-        "set-system" => set_system(cx()?, request.value(1), request.value(2), request.value(3)),
+        "set-system" => set_system(cx()?, request.value(1), request.value(2)),
         "set-signal" => set_signal(first()?, request.value(0), request.value(1), request.value(2)),
         other => Err(format!("there is no request `{other}`")),
     }
@@ -38,8 +39,8 @@ pub(super) fn answer(request: &Request, contexts: &[Rc<Cx>]) -> Result<String, S
 /// The channels, each with its name and its program.
 pub(super) fn channels(contexts: &[Rc<Cx>]) -> String {
     array(contexts, |cx| {
-        let (name, program) = (cx.channel_state().id.to_string(), cx.program());
-        format!("{{\"name\":{},\"program\":{}}}", quoted(&name), quoted(program.name()))
+        let name = cx.channel_state().id.to_string();
+        format!("{{\"name\":{},{}}}", quoted(&name), program(cx))
     })
 }
 
@@ -53,7 +54,7 @@ pub(super) fn motion_pointer(cx: &Cx) -> (u64, String) {
     let place = cx.channel_state().robot().and_then(|unit| unit.motion_pointer());
     let number = motion(cx);
     let (file, line) = place.filter(|_| number > 0).unwrap_or((File::new(""), 0));
-    (number, format!("\"motion\":{number},\"file\":{},\"line\":{line}", quoted(file.name())))
+    (number, format!("\"motion\":{number},{},\"file\":{},\"line\":{line}", program(cx), quoted(file.name())))
 }
 
 /// The functions that run, the one that was entered last in front.
@@ -69,31 +70,55 @@ fn stack(cx: &Cx) -> String {
             frame.is_action,
         )
     });
-    format!("\"frames\":{shown}")
+    let program = program(cx);
+    format!("{program},\"frames\":{shown}")
 }
 
-fn shown(name: &str, variable: &dyn Teach) -> String {
-    let (ty, value) = (variable.type_name(), variable.written());
+/// The fields that say which program a channel runs: its main file, and the folder of its files, counted from the script
+/// directory.
+fn program(cx: &Cx) -> String {
+    let folder = cx.program_itself().folder().display().to_string();
+    format!("\"program\":{},\"folder\":{}", quoted(cx.program().name()), quoted(&folder))
+}
+
+fn shown(name: &str, sizes: &[usize], variable: &dyn Teach) -> String {
+    let (ty, value) = (type_name(sizes, variable), variable.written());
     format!("{{\"name\":{},\"type\":{},\"value\":{}}}", quoted(name), quoted(&ty), quoted(&value))
 }
 
-fn variables(cx: &Cx, frame: u64) -> Result<String, String> {
+/// `int[2][3]`: a variable knows its elements in a row only.
+fn type_name(sizes: &[usize], variable: &dyn Teach) -> String {
+    let flat = variable.type_name();
+    match flat.split_once('[') {
+        Some((base, _)) if !sizes.is_empty() => {
+            base.to_owned() + &sizes.iter().map(|size| format!("[{size}]")).collect::<String>()
+        }
+        _ => flat,
+    }
+}
+
+/// The variables of a frame.
+fn of_frame(cx: &Cx, frame: u64) -> Result<Vec<Variable<Rc<dyn Teach>>>, String> {
     let frames = cx.frames().all();
-    let found = frames.iter().find(|record| record.id == frame).ok_or("the function has ended")?;
-    let all = found.variables();
-    Ok(format!("\"variables\":{}", array(&all, |(name, variable)| shown(name, &**variable))))
+    let found = frames.iter().find(|record| record.id == frame);
+    found.map(Record::variables).ok_or_else(|| "the function has ended".into())
+}
+
+fn variables(cx: &Cx, frame: u64) -> Result<String, String> {
+    let all = of_frame(cx, frame)?;
+    Ok(format!("\"variables\":{}", array(&all, |it| shown(it.name, it.sizes, &*it.slot))))
 }
 
 fn globals(cx: &Cx) -> String {
     let files = array(cx.program_itself().variables(), |file| {
-        let all = array(&file.vars, |variable| shown(variable.name, variable.slot));
+        let all = array(&file.vars, |variable| shown(variable.name, variable.sizes, variable.slot));
         format!("{{\"file\":{},\"variables\":{all}}}", quoted(file.file))
     });
     format!("\"files\":{files}")
 }
 
 fn system(cx: &Cx) -> String {
-    let all = array(cx.system().shown(), |(name, variable)| shown(&format!("${name}"), variable));
+    let all = array(cx.system().shown(), |(name, variable)| shown(&format!("${name}"), &[], variable));
     format!("\"variables\":{all}")
 }
 
@@ -123,51 +148,53 @@ fn robot(cx: &Cx) -> String {
     format!("\"axes\":{axes},\"tcp\":{},{pointer}", array(unit.commanded_tcp(), number))
 }
 
-/// Gives a variable a value; the sizes are those of an array of several dimensions, with blanks in between.
-fn teach(variable: &dyn Teach, literal: &str, sizes: &str) -> Result<String, String> {
+/// Gives a variable a value.
+fn teach(variable: &dyn Teach, sizes: &[usize], literal: &str) -> Result<String, String> {
     let mut names = Interner::default();
     let parsed = arl_lang::parse_expression(literal, &mut names, arl_lang::ParseOptions::default());
     if let Some(error) = parsed.errors.first() {
         return Err(error.kind.message());
     }
-    let sizes: Vec<usize> = sizes.split_whitespace().filter_map(|size| size.parse().ok()).collect();
-    variable.teach_nested(&parsed.expr, &sizes, &names).map_err(|error| error.to_string())?;
+    variable.teach_nested(&parsed.expr, sizes, &names).map_err(|error| error.to_string())?;
     Ok(format!("\"value\":{}", quoted(&variable.written())))
 }
 
-fn set(cx: &Cx, frame: u64, name: &str, literal: &str, sizes: &str) -> Result<String, String> {
-    let frames = cx.frames().all();
-    let found = frames.iter().find(|record| record.id == frame).ok_or("the function has ended")?;
-    let all = found.variables();
-    let (_, variable) = all.iter().find(|(known, _)| *known == name).ok_or("there is no such variable")?;
-    teach(&**variable, literal, sizes)
+fn set(cx: &Cx, frame: u64, name: &str, literal: &str) -> Result<String, String> {
+    let all = of_frame(cx, frame)?;
+    let variable = all.iter().find(|known| known.name == name).ok_or_else(|| missing(name))?;
+    teach(&*variable.slot, variable.sizes, literal)
 }
 
-fn set_global(cx: &Cx, file: &str, name: &str, rest: &str) -> Result<String, String> {
+fn set_global(cx: &Cx, file: &str, name: &str, literal: &str) -> Result<String, String> {
     let files = cx.program_itself().variables();
     let found = files.iter().filter(|known| known.file == file).flat_map(|file| &file.vars);
     let variable = found.into_iter().find(|known| known.name.eq_ignore_ascii_case(name));
-    let variable = variable.ok_or("there is no such variable")?;
-    let sizes: Vec<String> = variable.sizes.iter().map(ToString::to_string).collect();
-    teach(variable.slot, rest, &sizes.join(" "))
+    let variable = variable.ok_or_else(|| missing(name))?;
+    teach(variable.slot, variable.sizes, literal)
 }
 
-fn set_system(cx: &Cx, name: &str, literal: &str, sizes: &str) -> Result<String, String> {
+fn set_system(cx: &Cx, name: &str, literal: &str) -> Result<String, String> {
     let all = cx.system().shown();
-    let wanted = name.trim_start_matches('$');
-    let found = all.into_iter().find(|(known, _)| known.eq_ignore_ascii_case(wanted));
-    let (_, variable) = found.ok_or("there is no such variable")?;
-    teach(variable, literal, sizes)
+    let found = all.into_iter().find(|(known, _)| known.eq_ignore_ascii_case(name.trim_start_matches('$')));
+    let (_, variable) = found.ok_or_else(|| missing(name))?;
+    teach(variable, &[], literal)
+}
+
+fn missing(name: &str) -> String {
+    format!("there is no variable `{name}` that can be set")
 }
 
 fn set_signal(cx: &Cx, kind: &str, channel: &str, value: &str) -> Result<String, String> {
-    let channel: i32 = channel.parse().map_err(|_| format!("`{channel}` is no number of a signal"))?;
+    let channel: i32 =
+        channel.parse().map_err(|_| format!("`{channel}` is no number of a signal: they count from 1"))?;
     let level = || match value {
         "true" | "1" => Ok(true),
         "false" | "0" => Ok(false),
         _ => Err(format!("`{value}` is no level: expected true or false")),
     };
-    let amount = || value.parse::<f64>().map_err(|_| format!("`{value}` is no number"));
+    let amount = || {
+        value.parse::<f64>().map_err(|_| format!("`{value}` is no value of a signal: expected a number, in V or mA"))
+    };
     let mut io = cx.shared().io.borrow_mut();
     let set: Result<(), Fault> = match kind {
         "di" => io.set_digital(Digital::Di, channel, level()?),

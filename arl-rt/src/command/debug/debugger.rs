@@ -10,7 +10,7 @@ use super::plan::{Plan, Statement, Way, Why};
 use crate::command::json::{number, quoted};
 use crate::context::cx::{Cx, Level};
 use crate::context::watcher::{Go, Watcher};
-use crate::fault::{Alarm, File};
+use crate::fault::Alarm;
 
 /// Motion pointers go out no more often than this while programs run.
 const POINTER_INTERVAL: Duration = Duration::from_millis(20);
@@ -82,11 +82,10 @@ impl Debugger {
         self.stand();
     }
 
-    /// Says that programs have ended.
+    /// Says that no robot executes a motion any more.
     pub(super) fn end(&self, contexts: Vec<Rc<Cx>>) {
         self.know(&contexts);
         self.tell_pointers();
-        self.link.say("\"event\":\"ended\"");
     }
 
     /// Does what is to be done between two cycles.
@@ -134,7 +133,10 @@ impl Debugger {
         let passes = matches!(self.plan.borrow().way(), Way::Until(_));
         if self.plan.borrow().alarms && !self.real && !passes {
             let place = |cx: &Rc<Cx>| cx.frames().all().last().map(|frame| (frame.file, frame.line));
-            let at = self.all().iter().position(|cx| place(cx) == Some((alarm.file, alarm.line)));
+            let all = self.all();
+            // Where statements raise an alarm, it does not know its channel yet.
+            let at = all.iter().position(|cx| place(cx) == Some((alarm.file, alarm.line)));
+            let at = at.or_else(|| all.iter().position(|cx| cx.channel_state().id == alarm.channel));
             self.halt(&Halt { why: "alarm", text: alarm.to_string(), ..Halt::new(at.unwrap_or(0)) });
         }
     }
@@ -156,6 +158,8 @@ impl Debugger {
         self.before.set(self.plan.borrow().way());
         self.plan.borrow_mut().go(Way::On);
         self.tell_pointers();
+        // What was printed so far comes before the halt.
+        self.context(0).into_iter().for_each(|cx| cx.shared().flush());
         let time = self.context(0).map_or(0.0, |cx| cx.time());
         let Halt { why, also, channel, between, text } = halt;
         self.link.say(&format!(
@@ -275,11 +279,14 @@ impl Watcher for Debugger {
         let contexts = self.contexts.borrow();
         let channel = contexts.iter().filter_map(Weak::upgrade).position(|cx| cx.channel_state().id == id).unwrap_or(0);
         drop(contexts);
+        let program = cx.program();
         let statement = Statement {
             number,
             channel,
             depth: frames.depth(frame),
-            file: File::name(file),
+            folder: cx.program_itself().folder(),
+            program: program.name(),
+            file: file.name(),
             line,
             begins_action: is_action,
             is_condition,

@@ -1,6 +1,7 @@
 //! Where a program shall halt next.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
+use std::path::Path;
 
 use super::link::Request;
 
@@ -32,6 +33,9 @@ pub(super) struct Statement<'a> {
     pub(super) channel: usize,
     /// How deep it is in functions.
     pub(super) depth: usize,
+    /// The folder and the main file of its program: others may have files of the same names.
+    pub(super) folder: &'a Path,
+    pub(super) program: &'a str,
     pub(super) file: &'a str,
     pub(super) line: u32,
     /// Whether it is the action of an event that begins.
@@ -43,10 +47,28 @@ pub(super) struct Statement<'a> {
 /// Why a program halts.
 pub(super) type Why = &'static str;
 
+/// The lines of a program's file that it halts at.
+#[derive(Debug)]
+struct Lines {
+    folder: String,
+    program: String,
+    file: String,
+    lines: HashSet<u32>,
+}
+
+impl Lines {
+    fn has(&self, statement: &Statement<'_>) -> bool {
+        self.lines.contains(&statement.line)
+            && self.file == statement.file
+            && self.program == statement.program
+            && Path::new(&self.folder) == statement.folder
+    }
+}
+
 /// Where a program halts.
 #[derive(Default, Debug)]
 pub(super) struct Plan {
-    lines: HashMap<String, HashSet<u32>>,
+    lines: Vec<Lines>,
     events: bool,
     /// Whether it halts at alarms.
     pub(super) alarms: bool,
@@ -55,10 +77,12 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    /// Halts at these lines of a file, and no others of it.
+    /// Halts at these lines of a file, and no others of it: the folder and the main file of its program, its name, lines.
     pub(super) fn set_lines(&mut self, request: &Request) {
-        let lines = request.values.iter().skip(1).filter_map(|line| line.parse().ok()).collect();
-        self.lines.insert(request.value(0).to_owned(), lines);
+        let lines = request.values.iter().skip(3).filter_map(|line| line.parse().ok()).collect();
+        let [folder, program, file] = [0, 1, 2].map(|at| request.value(at).to_owned());
+        self.lines.retain(|known| (&known.folder, &known.program, &known.file) != (&folder, &program, &file));
+        self.lines.push(Lines { folder, program, file, lines });
     }
 
     /// What of `alarms` and `events` it halts at.
@@ -87,7 +111,7 @@ impl Plan {
             Way::Into(stepped) => (channel == stepped && !statement.is_condition).then_some("step"),
             Way::Over(stepped, deepest) => (channel == stepped && depth <= deepest).then_some("step"),
         };
-        let breaks = || self.lines.get(statement.file).is_some_and(|lines| lines.contains(&statement.line));
+        let breaks = || self.lines.iter().any(|known| known.has(statement));
         let begins = || (self.events && statement.begins_action).then_some("event");
         let other = begins().or(arrived);
         if breaks() { Some(("breakpoint", other)) } else { other.map(|why| (why, None)) }
@@ -107,15 +131,19 @@ impl Plan {
 mod tests {
     use super::*;
 
-    const HERE: Statement<'_> = Statement {
-        number: 5,
-        channel: 0,
-        depth: 2,
-        file: "a.arl",
-        line: 7,
-        begins_action: false,
-        is_condition: false,
-    };
+    fn here() -> Statement<'static> {
+        Statement {
+            number: 5,
+            channel: 0,
+            depth: 2,
+            folder: Path::new("one"),
+            program: "main.arl",
+            file: "a.arl",
+            line: 7,
+            begins_action: false,
+            is_condition: false,
+        }
+    }
 
     fn going(way: Way) -> Plan {
         let mut plan = Plan::default();
@@ -130,25 +158,26 @@ mod tests {
     #[test]
     fn lines_halt_in_their_file_until_they_are_set_anew() {
         let mut plan = Plan::default();
-        plan.set_lines(&request(&["a.arl", "7", "9"]));
-        assert_eq!(plan.halts_at(&HERE), Some(("breakpoint", None)));
-        assert_eq!(plan.halts_at(&Statement { file: "b.arl", ..HERE }), None);
+        plan.set_lines(&request(&["one", "main.arl", "a.arl", "7", "9"]));
+        assert_eq!(plan.halts_at(&here()), Some(("breakpoint", None)));
+        assert_eq!(plan.halts_at(&Statement { file: "b.arl", ..here() }), None);
+        assert_eq!(plan.halts_at(&Statement { folder: Path::new("two"), ..here() }), None);
         plan.go(Way::Into(0));
-        assert_eq!(plan.halts_at(&HERE), Some(("breakpoint", Some("step"))));
+        assert_eq!(plan.halts_at(&here()), Some(("breakpoint", Some("step"))));
         plan.go(Way::On);
-        plan.set_lines(&request(&["a.arl"]));
-        assert_eq!(plan.halts_at(&HERE), None);
+        plan.set_lines(&request(&["one", "main.arl", "a.arl"]));
+        assert_eq!(plan.halts_at(&here()), None);
     }
 
     #[test]
     fn steps_end_where_they_should() {
-        assert_eq!(going(Way::Into(0)).halts_at(&Statement { depth: 9, ..HERE }), Some(("step", None)));
-        assert_eq!(going(Way::Into(1)).halts_at(&HERE), None);
-        assert_eq!(going(Way::Into(0)).halts_at(&Statement { is_condition: true, ..HERE }), None);
-        assert_eq!(going(Way::Over(0, 1)).halts_at(&HERE), None);
-        assert_eq!(going(Way::Over(0, 2)).halts_at(&HERE), Some(("step", None)));
-        assert_eq!(going(Way::Until(6)).halts_at(&HERE), None);
-        assert_eq!(going(Way::Until(5)).halts_at(&HERE), Some(("step", None)));
+        assert_eq!(going(Way::Into(0)).halts_at(&Statement { depth: 9, ..here() }), Some(("step", None)));
+        assert_eq!(going(Way::Into(1)).halts_at(&here()), None);
+        assert_eq!(going(Way::Into(0)).halts_at(&Statement { is_condition: true, ..here() }), None);
+        assert_eq!(going(Way::Over(0, 1)).halts_at(&here()), None);
+        assert_eq!(going(Way::Over(0, 2)).halts_at(&here()), Some(("step", None)));
+        assert_eq!(going(Way::Until(6)).halts_at(&here()), None);
+        assert_eq!(going(Way::Until(5)).halts_at(&here()), Some(("step", None)));
         assert_eq!(going(Way::Motion(0, 3)).halts_between(|_| 3), None);
         assert_eq!(going(Way::Motion(0, 3)).halts_between(|_| 4), Some("step"));
     }
@@ -156,15 +185,15 @@ mod tests {
     #[test]
     fn a_way_back_passes_breakpoints() {
         let mut plan = going(Way::Until(6));
-        plan.set_lines(&request(&["a.arl", "7"]));
-        assert_eq!(plan.halts_at(&HERE), None);
+        plan.set_lines(&request(&["one", "main.arl", "a.arl", "7"]));
+        assert_eq!(plan.halts_at(&here()), None);
     }
 
     #[test]
     fn actions_halt_where_they_begin() {
         let mut plan = Plan::default();
         plan.set_kinds(&request(&["events"]));
-        assert_eq!(plan.halts_at(&HERE), None);
-        assert_eq!(plan.halts_at(&Statement { begins_action: true, ..HERE }), Some(("event", None)));
+        assert_eq!(plan.halts_at(&here()), None);
+        assert_eq!(plan.halts_at(&Statement { begins_action: true, ..here() }), Some(("event", None)));
     }
 }

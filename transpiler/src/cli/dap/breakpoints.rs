@@ -1,6 +1,6 @@
 //! Breakpoints: the lines that the program halts at, and what the adapter asks then.
 
-use super::program::Programs;
+use super::program::{FileKey, Programs};
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
@@ -21,12 +21,14 @@ struct Wanted {
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Breakpoint {
     pub(super) id: i64,
-    file: String,
+    /// None before its place is known.
+    file: Option<FileKey>,
     line: u32,
     pub(super) condition: Option<String>,
     hit_condition: Option<HitCondition>,
     pub(super) message: Option<String>,
-    hits: u64,
+    /// The statements at which it was hit, by their numbers.
+    hits: Vec<u64>,
 }
 
 /// Which hits count.
@@ -87,18 +89,18 @@ impl Breakpoints {
         let Some(programs) = programs else {
             return wanted.iter().map(|_| unknown("the program is not known yet")).collect();
         };
-        let (names, functions) = (programs.names(Path::new(path)), programs.functions(Path::new(path)));
+        let (files, functions) = (programs.files(Path::new(path)), programs.functions(Path::new(path)));
         let mut told = Vec::new();
         for value in wanted {
             let wanted: Wanted = serde_json::from_value(value.clone()).unwrap_or_default();
             let line = functions.iter().filter_map(|lines| lines.range(wanted.line..).next()).min().copied();
             told.push(match (line, self.made(&wanted)) {
-                _ if names.is_empty() => unknown("this file does not belong to the program"),
+                _ if files.is_empty() => unknown("this file does not belong to the program"),
                 (None, _) => unknown("no statement stands here or below"),
                 (_, Err(why)) => unknown(&why),
                 (Some(line), Ok(made)) => {
                     let id = made.id;
-                    let here = names.iter().map(|file| Breakpoint { file: file.clone(), line, ..made.clone() });
+                    let here = files.iter().map(|file| Breakpoint { file: Some(file.clone()), line, ..made.clone() });
                     self.of_lines.extend(here.map(|breakpoint| (path.to_owned(), breakpoint)));
                     json!({"id": id, "verified": true, "line": line})
                 }
@@ -121,7 +123,8 @@ impl Breakpoints {
                 (_, Err(why)) => unknown(&why),
                 (Some(entries), Ok(made)) => {
                     let id = made.id;
-                    let here = entries.into_iter().map(|(file, line)| Breakpoint { file, line, ..made.clone() });
+                    let here =
+                        entries.into_iter().map(|(file, line)| Breakpoint { file: Some(file), line, ..made.clone() });
                     self.of_functions.extend(here);
                     json!({"id": id, "verified": true})
                 }
@@ -141,12 +144,12 @@ impl Breakpoints {
         };
         Ok(Breakpoint {
             id: self.made,
-            file: String::new(),
+            file: None,
             line: 0,
             condition: filled(&wanted.condition),
             hit_condition,
             message: filled(&wanted.log_message),
-            hits: 0,
+            hits: Vec::new(),
         })
     }
 
@@ -162,35 +165,37 @@ impl Breakpoints {
     }
 
     /// The lines of each file, also of those that have none any more.
-    pub(super) fn lines(&self, programs: &Programs) -> BTreeMap<String, BTreeSet<u32>> {
-        let mut lines: BTreeMap<String, BTreeSet<u32>> = BTreeMap::new();
-        for path in self.wanted.keys() {
-            lines.extend(programs.names(Path::new(path)).into_iter().map(|name| (name, BTreeSet::new())));
-        }
+    pub(super) fn lines(&self, programs: &Programs) -> BTreeMap<FileKey, BTreeSet<u32>> {
+        let files = self.wanted.keys().flat_map(|path| programs.files(Path::new(path)));
+        let mut lines: BTreeMap<FileKey, BTreeSet<u32>> = files.map(|file| (file, BTreeSet::new())).collect();
         for breakpoint in self.of_lines.iter().map(|(_, breakpoint)| breakpoint).chain(&self.of_functions) {
-            lines.entry(breakpoint.file.clone()).or_default().insert(breakpoint.line);
+            if let Some(file) = &breakpoint.file {
+                lines.entry(file.clone()).or_default().insert(breakpoint.line);
+            }
         }
         lines
     }
 
-    /// Those of a line.
-    pub(super) fn at(&mut self, file: &str, line: u32) -> Vec<&mut Breakpoint> {
-        let all = self.of_lines.iter_mut().map(|(_, breakpoint)| breakpoint).chain(&mut self.of_functions);
-        all.filter(|breakpoint| breakpoint.file == file && breakpoint.line == line).collect()
+    fn all_mut(&mut self) -> impl Iterator<Item = &mut Breakpoint> {
+        self.of_lines.iter_mut().map(|(_, breakpoint)| breakpoint).chain(&mut self.of_functions)
     }
 
-    /// Forgets how often they were hit: another run begins.
-    pub(super) fn begin(&mut self) {
-        let all = self.of_lines.iter_mut().map(|(_, breakpoint)| breakpoint).chain(&mut self.of_functions);
-        all.for_each(|breakpoint| breakpoint.hits = 0);
+    /// Those of a line.
+    pub(super) fn at(&mut self, file: &FileKey, line: u32) -> Vec<&mut Breakpoint> {
+        self.all_mut().filter(|breakpoint| breakpoint.file.as_ref() == Some(file) && breakpoint.line == line).collect()
+    }
+
+    /// Forgets the hits behind a statement: the run has gone back to it. 0: another run begins.
+    pub(super) fn go_back_to(&mut self, statement: u64) {
+        self.all_mut().for_each(|breakpoint| breakpoint.hits.retain(|hit| *hit <= statement));
     }
 }
 
 impl Breakpoint {
-    /// Counts a hit; whether this one counts.
-    pub(super) fn hit(&mut self) -> bool {
-        self.hits += 1;
-        self.hit_condition.is_none_or(|condition| condition.holds(self.hits))
+    /// Notes a hit at the statement with this number; whether this one counts.
+    pub(super) fn hit(&mut self, statement: u64) -> bool {
+        self.hits.push(statement);
+        self.hit_condition.is_none_or(|condition| condition.holds(self.hits.len() as u64))
     }
 }
 

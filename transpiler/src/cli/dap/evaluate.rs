@@ -6,6 +6,7 @@ use super::literal::{Literal, Part};
 use arl_lang::ast::{BinaryOp, Expr, ExprKind, UnaryOp};
 use arl_lang::catalog::{Base, Family, base_type, enum_constant};
 use arl_lang::symbol::Interner;
+use arl_lang::written;
 
 /// A value with its type.
 #[derive(Clone, PartialEq, Debug)]
@@ -116,7 +117,7 @@ impl Value {
             "byte" => text.parse().ok().map(Self::Byte),
             "double" => text.parse().ok().map(Self::Double),
             "bool" => text.parse().ok().map(Self::Bool),
-            "string" => Some(Self::Text(unquoted(text))),
+            "string" => unquoted(text).map(Self::Text),
             _ => None,
         };
         read.unwrap_or_else(|| Self::Other(ty.to_owned(), literal.clone()))
@@ -137,15 +138,17 @@ impl Value {
 
     /// As a literal that can be assigned.
     pub(super) fn literal(&self) -> Literal {
-        Literal::Plain(match self {
-            Self::Int(value) => value.to_string(),
-            Self::Uint(value) => value.to_string(),
-            Self::Byte(value) => value.to_string(),
-            Self::Double(value) => decimal_text(*value),
-            Self::Bool(value) => value.to_string(),
-            Self::Text(text) => quoted(text),
+        let mut written = String::new();
+        match self {
+            Self::Int(value) => written = value.to_string(),
+            Self::Uint(value) => written = value.to_string(),
+            Self::Byte(value) => written = value.to_string(),
+            Self::Double(value) => written::double(*value, &mut written),
+            Self::Bool(value) => written = value.to_string(),
+            Self::Text(text) => written::string(text, &mut written),
             Self::Other(_, literal) => return literal.clone(),
-        })
+        }
+        Literal::Plain(written)
     }
 
     fn number(&self) -> Option<f64> {
@@ -169,39 +172,13 @@ impl Value {
     }
 }
 
-/// A literal without point or exponent is an integer, which has 32 bits.
-fn decimal_text(value: f64) -> String {
-    let plain = value == 0.0 || (1e-5..2e9).contains(&value.abs());
-    if plain { value.to_string() } else { format!("{value:e}") }
-}
-
-fn quoted(text: &str) -> String {
-    let mut out = String::from("\"");
-    for c in text.chars() {
-        match c {
-            '"' | '\\' => out.extend(['\\', c]),
-            '\n' => out.push_str("\\n"),
-            '\t' => out.push_str("\\t"),
-            '\r' => out.push_str("\\r"),
-            c => out.push(c),
-        }
+/// The text of a string literal.
+fn unquoted(literal: &str) -> Option<String> {
+    let parsed = arl_lang::parse_expression(literal, &mut Interner::default(), arl_lang::ParseOptions::default());
+    match parsed.expr.kind {
+        ExprKind::String(text) if parsed.errors.is_empty() => Some(text.into()),
+        _ => None,
     }
-    out + "\""
-}
-
-fn unquoted(text: &str) -> String {
-    let inner = text.strip_prefix('"').and_then(|text| text.strip_suffix('"')).unwrap_or(text);
-    let (mut out, mut chars) = (String::new(), inner.chars());
-    while let Some(c) = chars.next() {
-        match (c, if c == '\\' { chars.next() } else { None }) {
-            (_, Some('n')) => out.push('\n'),
-            (_, Some('t')) => out.push('\t'),
-            (_, Some('r')) => out.push('\r'),
-            (_, Some(other)) => out.push(other),
-            (c, None) => out.push(c),
-        }
-    }
-    out
 }
 
 struct Evaluator<'a> {

@@ -6,14 +6,64 @@ use crate::cli::program::check_options;
 use crate::cli::several;
 use crate::compile::{Compiled, check_program};
 use crate::effects::flow;
-use crate::hir::{Func, Program, Stmt, StmtKind, Value};
+use crate::hir::{Func, Module, Program, Stmt, StmtKind, Value};
 use crate::sources::FileSystem;
 use arl_lang::span::LineIndex;
+use arl_lang::written;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// All programs of a run, that of the command line first.
-pub(super) struct Programs(Vec<Compiled>);
+pub(super) struct Programs(Vec<One>);
+
+/// What a running program is told by: the folder of its files, counted from the script directory, and its main file.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Default, Debug)]
+pub(super) struct Key {
+    pub(super) folder: String,
+    pub(super) main: String,
+}
+
+/// A file of a program, as the program names it.
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) struct FileKey {
+    pub(super) program: Key,
+    pub(super) file: String,
+}
+
+impl Key {
+    /// What is told of a channel, a stack or a motion.
+    pub(super) fn of(told: &serde_json::Value) -> Self {
+        let text = |key: &str| told.get(key).and_then(serde_json::Value::as_str).unwrap_or_default().to_owned();
+        Self { folder: text("folder"), main: text("program") }
+    }
+}
+
+/// A program, as it is checked.
+struct One {
+    key: Key,
+    compiled: Compiled,
+}
+
+impl One {
+    fn program(&self) -> Option<&Program> {
+        self.compiled.checked.program.as_ref()
+    }
+
+    fn path(&self, file: &str) -> PathBuf {
+        let path = self.compiled.folder.join(file);
+        std::path::absolute(&path).unwrap_or(path)
+    }
+
+    fn key_of(&self, file: &str) -> FileKey {
+        FileKey { program: self.key.clone(), file: file.to_owned() }
+    }
+
+    /// The modules that are this file.
+    fn modules(&self, path: &Path) -> impl Iterator<Item = (usize, &Module)> {
+        let modules = self.program().into_iter().flat_map(|program| program.modules.iter().enumerate());
+        modules.filter(move |(_, module)| same_file(&self.compiled.folder.join(&module.file), path))
+    }
+}
 
 impl Programs {
     /// Checks them; `report` is shown what there is to say.
@@ -26,12 +76,12 @@ impl Programs {
             Failure::Shown => String::new(),
         };
         let checking = options.checking();
-        let mut all = vec![(main.to_path_buf(), checking.clone())];
+        let mut all = vec![(main.to_path_buf(), checking.clone(), String::new())];
         for other in several::named(options.cell.as_deref(), checking.robot.as_deref()).map_err(said)? {
-            all.push((other.path.clone(), other.checking(&checking)));
+            all.push((other.path.clone(), other.checking(&checking), other.folder(main).map_err(said)?));
         }
         let mut programs = Vec::new();
-        for (path, checking) in all {
+        for (path, checking, folder) in all {
             let options = check_options(&checking).map_err(said)?;
             let compiled = check_program(&path, &FileSystem, &options).map_err(|bug| bug.to_string())?;
             let files = compiled.shown_files();
@@ -43,76 +93,64 @@ impl Programs {
                 let many = if errors == 1 { "one error" } else { "errors" };
                 return Err(format!("{} has {many}: see the debug console", path.display()));
             }
-            programs.push(compiled);
+            let first = compiled.checked.program.as_ref().and_then(|program| program.modules.first());
+            let main = first.map(|module| module.file.clone()).unwrap_or_default();
+            programs.push(One { key: Key { folder, main }, compiled });
         }
         Ok(Self(programs))
     }
 
-    /// The program whose main file has this name, as the running program says it.
-    fn of(&self, name: &str) -> Option<&Compiled> {
-        let main = |compiled: &&Compiled| {
-            let first = compiled.checked.program.as_ref().and_then(|program| program.modules.first());
-            first.is_some_and(|module| module.file == name)
-        };
-        self.0.iter().find(main)
+    fn of(&self, key: &Key) -> Option<&One> {
+        self.0.iter().find(|one| one.key == *key)
     }
 
-    /// The checked program of a channel.
-    pub(super) fn program(&self, name: &str) -> Option<&Program> {
-        self.of(name)?.checked.program.as_ref()
+    /// A checked program.
+    pub(super) fn program(&self, key: &Key) -> Option<&Program> {
+        self.of(key)?.program()
     }
 
-    /// Where a file of a channel's program lies.
-    pub(super) fn path(&self, program: &str, file: &str) -> PathBuf {
-        let folder = self.of(program).map(|compiled| compiled.folder.clone()).unwrap_or_default();
-        std::path::absolute(folder.join(file)).unwrap_or_else(|_| folder.join(file))
+    /// Where a file of a program lies; nothing where the program is not known.
+    pub(super) fn path(&self, key: &Key, file: &str) -> Option<PathBuf> {
+        self.of(key).map(|one| one.path(file))
     }
 
-    /// The names that running programs have for the file of an editor.
-    pub(super) fn names(&self, path: &Path) -> Vec<String> {
-        let mut names = Vec::new();
-        for compiled in &self.0 {
-            let modules = compiled.checked.program.iter().flat_map(|program| &program.modules);
-            for module in modules {
-                if same_file(&compiled.folder.join(&module.file), path) && !names.contains(&module.file) {
-                    names.push(module.file.clone());
-                }
-            }
-        }
-        names
+    /// What running programs call the file of an editor.
+    pub(super) fn files(&self, path: &Path) -> Vec<FileKey> {
+        let of_one = |one: &One| one.modules(path).map(|(_, module)| one.key_of(&module.file)).collect::<Vec<_>>();
+        self.0.iter().flat_map(of_one).collect()
     }
 
     /// The lines of a file that programs can be halted at, function by function.
     pub(super) fn functions(&self, path: &Path) -> Vec<BTreeSet<u32>> {
         let mut found = Vec::new();
-        for compiled in &self.0 {
-            let Some(program) = &compiled.checked.program else { continue };
-            for func in &program.funcs {
-                let Some(module) = program.modules.get(func.module.0 as usize) else { continue };
-                if same_file(&compiled.folder.join(&module.file), path) {
-                    found.push(lines(&func.body, &LineIndex::new(&module.source)));
-                }
+        for one in &self.0 {
+            for (at, module) in one.modules(path) {
+                let index = LineIndex::new(&module.source);
+                let funcs = one.program().into_iter().flat_map(|program| &program.funcs);
+                let own = funcs.filter(|func| func.module.0 as usize == at);
+                found.extend(own.map(|func| lines(&func.body, &index)));
             }
         }
         found
     }
 
-    /// Where the function of this name begins: files and lines.
-    pub(super) fn entries(&self, name: &str) -> Vec<(String, u32)> {
+    /// Where the functions of this name begin.
+    pub(super) fn entries(&self, name: &str) -> Vec<(FileKey, u32)> {
         let mut found = Vec::new();
-        for program in self.0.iter().filter_map(|compiled| compiled.checked.program.as_ref()) {
+        for one in &self.0 {
+            let Some(program) = one.program() else { continue };
             for func in program.funcs.iter().filter(|func| func.name.eq_ignore_ascii_case(name)) {
                 let Some(module) = program.modules.get(func.module.0 as usize) else { continue };
                 let lines = lines(&func.body, &LineIndex::new(&module.source));
-                found.extend(lines.first().map(|line| (module.file.clone(), *line)));
+                found.extend(lines.first().map(|line| (one.key_of(&module.file), *line)));
             }
         }
         found
     }
 
     /// The function of a frame.
-    pub(super) fn function(&self, program: &str, file: &str, name: &str) -> Option<&Func> {
-        let program = self.program(program)?;
+    pub(super) fn function(&self, key: &Key, file: &str, name: &str) -> Option<&Func> {
+        let program = self.program(key)?;
         let module = program.modules.iter().position(|module| module.file == file)?;
         program.funcs.iter().find(|func| func.name == name && func.module.0 as usize == module)
     }
@@ -137,17 +175,19 @@ pub(super) fn global_constants(program: &Program, file: &str) -> Vec<(String, St
 
 /// A constant as a literal.
 fn text(value: &Value) -> String {
+    let mut text = String::new();
     match value {
-        Value::Int(value) => value.to_string(),
-        Value::Uint(value) => value.to_string(),
-        Value::Byte(value) => value.to_string(),
-        Value::Double(value) => value.to_string(),
-        Value::Bool(value) => value.to_string(),
-        Value::String(value) => format!("{value:?}"),
+        Value::Int(value) => text = value.to_string(),
+        Value::Uint(value) => text = value.to_string(),
+        Value::Byte(value) => text = value.to_string(),
+        Value::Double(value) => written::double(*value, &mut text),
+        Value::Bool(value) => text = value.to_string(),
+        Value::String(value) => written::string(value, &mut text),
         Value::Enum(id, at) => {
-            id.def().constants.get(usize::from(*at)).map_or_else(String::new, |it| it.name.to_owned())
+            text = id.def().constants.get(usize::from(*at)).map_or_else(String::new, |it| it.name.to_owned());
         }
     }
+    text
 }
 
 /// The lines of statements, with those inside.

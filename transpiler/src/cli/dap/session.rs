@@ -9,7 +9,7 @@ use super::evaluate::{Input, evaluate};
 use super::executable::Executable;
 use super::launch::Launch;
 use super::process::{News, Process};
-use super::program::Programs;
+use super::program::{FileKey, Key, Programs};
 use super::protocol::{Outgoing, Request, capabilities};
 use super::state::State;
 use super::variables::Shown;
@@ -39,11 +39,13 @@ pub(super) struct Session {
     launched: Option<Launched>,
     /// The number of the run, from 1.
     run: u64,
-    /// The names of the channels, and of their programs.
-    channels: Vec<(String, String)>,
+    /// The names of the channels, and the programs that they begin with.
+    channels: Vec<(String, Key)>,
     halt: Option<Halt>,
     shown: Shown,
     replay: replay::Record,
+    /// Whether a way back is looked for: breakpoints are counted, but say nothing.
+    searches: bool,
     /// Whether the next halt is the one at the beginning.
     enters: bool,
     over: bool,
@@ -86,6 +88,7 @@ impl Session {
             halt: None,
             shown: Shown::default(),
             replay: replay::Record::default(),
+            searches: false,
             enters: false,
             over: false,
         }
@@ -189,6 +192,7 @@ impl Session {
 
     /// Runs the program from its beginning.
     fn start_run(&mut self) -> Answer {
+        self.breakpoints.go_back_to(0);
         self.begin()?;
         let launched = self.launched.as_ref().ok_or("nothing was launched")?;
         self.enters = launched.launch.stop_on_entry;
@@ -210,12 +214,11 @@ impl Session {
         self.run += 1;
         (self.halt, self.shown) = (None, Shown::default());
         self.replay.begin();
-        self.breakpoints.begin();
         self.process = Some(Process::start(command, self.run, &self.sender)?);
         let ready = self.wait_for("ready")?;
-        let text = |value: &Value, key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
+        let name = |channel: &Value| channel.get("name").and_then(Value::as_str).unwrap_or_default().to_owned();
         let channels = ready.get("channels").and_then(Value::as_array).cloned().unwrap_or_default();
-        self.channels = channels.iter().map(|channel| (text(channel, "name"), text(channel, "program"))).collect();
+        self.channels = channels.iter().map(|channel| (name(channel), Key::of(channel))).collect();
         if launched_without_debugging(self.launched.as_ref()) {
             return Ok(());
         }
@@ -298,9 +301,10 @@ impl Session {
 
     fn send_breakpoints(&mut self) -> Result<(), String> {
         let (Some(launched), true) = (&self.launched, self.process.is_some()) else { return Ok(()) };
-        for (file, lines) in self.breakpoints.lines(&launched.programs) {
+        for (FileKey { program, file }, lines) in self.breakpoints.lines(&launched.programs) {
             let lines: Vec<String> = lines.iter().map(ToString::to_string).collect();
-            let values: Vec<&str> = std::iter::once(file.as_str()).chain(lines.iter().map(String::as_str)).collect();
+            let place = [program.folder.as_str(), &program.main, &file];
+            let values: Vec<&str> = place.into_iter().chain(lines.iter().map(String::as_str)).collect();
             self.ask("breakpoints", &values)?;
         }
         Ok(())
@@ -318,7 +322,7 @@ impl Session {
     }
 
     fn threads(&self) -> Value {
-        let thread = |(at, (name, program)): (usize, &(String, String))| json!({"id": at + 1, "name": format!("{name}: {program}")});
+        let thread = |(at, (name, program)): (usize, &(String, Key))| json!({"id": at + 1, "name": format!("{name}: {}", program.main)});
         let all: Vec<Value> = self.channels.iter().enumerate().map(thread).collect();
         let none = || vec![json!({"id": 1, "name": "channel 1"})];
         json!({"threads": if all.is_empty() { none() } else { all }})
@@ -390,9 +394,11 @@ impl Session {
     /// Whether one of the breakpoints where a channel stands is to halt it; messages are shown.
     fn is_wanted(&mut self, channel: usize) -> bool {
         let Ok(Some(frame)) = self.top_frame(channel) else { return true };
+        let place = FileKey { program: frame.program.clone(), file: frame.file.clone() };
+        let statement = self.halt.as_ref().map_or(0, |halt| halt.statement);
         let found: Vec<(i64, Option<String>)> = self
             .breakpoints
-            .at(&frame.file, frame.line)
+            .at(&place, frame.line)
             .iter()
             .map(|breakpoint| (breakpoint.id, breakpoint.condition.clone()))
             .collect();
@@ -409,12 +415,13 @@ impl Session {
                     }
                 }
             }
-            let mut here = self.breakpoints.at(&frame.file, frame.line).into_iter();
+            let mut here = self.breakpoints.at(&place, frame.line).into_iter();
             let Some(breakpoint) = here.find(|breakpoint| breakpoint.id == id) else { continue };
-            if !breakpoint.hit() {
+            if !breakpoint.hit(statement) {
                 continue;
             }
             match breakpoint.message.clone() {
+                Some(_) if self.searches => {}
                 Some(message) => {
                     let text = self.filled(&message, number);
                     self.out.output("console", &(text + "\n"));
@@ -474,8 +481,8 @@ impl Session {
     fn tell_motion(&self, value: &Value) {
         let channel = value.get("channel").and_then(Value::as_u64).unwrap_or_default() as usize;
         let file = value.get("file").and_then(Value::as_str).unwrap_or_default();
-        let program = self.channels.get(channel).map_or("", |(_, program)| program);
-        let path = self.launched.as_ref().filter(|_| !file.is_empty()).map(|it| it.programs.path(program, file));
+        let launched = self.launched.as_ref().filter(|_| !file.is_empty());
+        let path = launched.and_then(|launched| launched.programs.path(&Key::of(value), file));
         self.out.event(
             "arl/motionPointer",
             json!({"channel": channel + 1, "file": path, "line": value.get("line"), "motion": value.get("motion")}),

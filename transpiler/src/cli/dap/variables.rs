@@ -2,6 +2,7 @@
 
 use super::evaluate::{Root, Variable, part_type};
 use super::literal::{Literal, Part};
+use super::program::Key;
 use arl_lang::catalog::Family;
 use serde_json::{Value, json};
 
@@ -43,6 +44,7 @@ pub(super) enum Target {
 #[derive(Clone, PartialEq, Debug)]
 pub(super) struct Frame {
     pub(super) channel: usize,
+    pub(super) program: Key,
     /// Its number in the program; 0 where none runs.
     pub(super) id: u64,
     pub(super) name: String,

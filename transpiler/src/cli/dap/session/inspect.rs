@@ -4,7 +4,7 @@ use super::{Answer, Session};
 use crate::cli::dap::evaluate::{Input, Place, Root, Source, Value as Found, Variable, evaluate, part_type, place};
 use crate::cli::dap::literal::{Literal, Part};
 use crate::cli::dap::process::Process;
-use crate::cli::dap::program::{constants, global_constants};
+use crate::cli::dap::program::{Key, constants, global_constants};
 use crate::cli::dap::variables::{Container, Frame, Target};
 use crate::hir::Program;
 use arl_lang::catalog::Family;
@@ -37,8 +37,10 @@ impl Session {
         let frames = answer.get("frames").and_then(Value::as_array).cloned().unwrap_or_default();
         let text = |value: &Value, key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
         let number = |value: &Value, key: &str| value.get(key).and_then(Value::as_u64).unwrap_or_default();
+        let program = Key::of(&answer);
         let frame = |value: &Value| Frame {
             channel,
+            program: program.clone(),
             id: number(value, "id"),
             name: text(value, "name"),
             file: text(value, "file"),
@@ -53,10 +55,10 @@ impl Session {
         let frames = self.frames(channel)?;
         let (first, all) = (arguments.get("startFrame").and_then(Value::as_u64).unwrap_or(0) as usize, frames.len());
         let levels = arguments.get("levels").and_then(Value::as_u64).filter(|levels| *levels > 0);
-        let program = self.channels.get(channel).map(|(_, program)| program.clone()).unwrap_or_default();
         let mut shown = Vec::new();
         for frame in frames.into_iter().skip(first).take(levels.map_or(usize::MAX, |levels| levels as usize)) {
-            let path = self.launched.as_ref().map(|launched| launched.programs.path(&program, &frame.file));
+            let launched = self.launched.as_ref();
+            let path = launched.and_then(|launched| launched.programs.path(&frame.program, &frame.file));
             let (name, file, line) = (frame.name.clone(), frame.file.clone(), frame.line);
             let id = self.shown.frame(frame);
             shown.push(json!({
@@ -112,10 +114,9 @@ impl Session {
             }
             Container::System(frame) => {
                 let mut shown = Vec::new();
-                for told in self.source(*frame)?.all_system()? {
-                    let target = Target::System(told.name.trim_start_matches('$').to_owned());
-                    let variable = Variable { ty: told.ty, value: Literal::parse(&told.value) };
-                    shown.push(self.shown.value(&told.name, *frame, target, &variable, Vec::new()));
+                for (name, variable) in self.source(*frame)?.all_system()? {
+                    let target = Target::System(name.trim_start_matches('$').to_owned());
+                    shown.push(self.shown.value(&name, *frame, target, &variable, Vec::new()));
                 }
                 shown
             }
@@ -129,8 +130,8 @@ impl Session {
             }
             Container::Kind(kind) => self.signals_of(kind)?,
             Container::Robot(frame) => self.robot(*frame)?,
-            Container::Value { .. } => {
-                let family = self.family();
+            Container::Value { frame, .. } => {
+                let family = self.source(*frame)?.family();
                 self.shown.parts(&container, family)
             }
         };
@@ -139,15 +140,6 @@ impl Session {
         let count = count.filter(|count| *count > 0).map_or(usize::MAX, |count| count as usize);
         let shown: Vec<Value> = shown.into_iter().skip(start.unwrap_or(0) as usize).take(count).collect();
         Ok(json!({"variables": shown}))
-    }
-
-    fn family(&self) -> Family {
-        let channel = self.halt.as_ref().map_or(0, |halt| halt.channel);
-        let program = self.channels.get(channel).map_or("", |(_, program)| program);
-        let launched = self.launched.as_ref();
-        launched
-            .and_then(|launched| launched.programs.program(program))
-            .map_or(Family::SixAxis, |program| program.family)
     }
 
     /// The files of a program that have global variables; of one alone its variables.
@@ -214,16 +206,10 @@ impl Session {
         };
         let launched = self.launched.as_ref().ok_or("nothing was launched")?;
         let process = self.process.as_mut().ok_or("no program runs")?;
-        let name = self.channels.get(frame.channel).map(|(_, program)| program.clone()).unwrap_or_default();
-        let program = launched.programs.program(&name).ok_or("the program is not known")?;
+        let program = launched.programs.program(&frame.program).ok_or("the program is not known")?;
         let answer = process.ask("variables", &[&frame.channel.to_string(), &frame.id.to_string()])?;
-        let mut locals = Vec::new();
-        let func = launched.programs.function(&name, &frame.file, &frame.name);
-        for told in told(&answer) {
-            let of_name = func.and_then(|func| func.locals.iter().find(|local| local.name == told.name));
-            let dims: Vec<usize> = of_name.map(|local| sizes(local.ty.dims())).unwrap_or_default();
-            locals.push((told.name.clone(), variable(told, &dims)));
-        }
+        let mut locals: Vec<(String, Variable)> = told(&answer).into_iter().map(variable).collect();
+        let func = launched.programs.function(&frame.program, &frame.file, &frame.name);
         for (name, ty, value) in func.map(constants).unwrap_or_default() {
             // A constant of another block does not hide a variable.
             if !locals.iter().any(|(known, _)| *known == name) {
@@ -325,15 +311,12 @@ impl Session {
         let mut seen = self.source(frame)?;
         let (channel, id) = (seen.frame.channel.to_string(), seen.frame.id.to_string());
         let whole = seen.whole(target)?;
-        let dims = seen.dims(target);
         let family = seen.family();
         let text = whole.value.with(path, value).ok_or("there is no such part")?.text();
-        let dims: Vec<String> = dims.iter().map(ToString::to_string).collect();
-        let dims = dims.join(" ");
         match target {
-            Target::Local(name) => self.edit("set", &[&channel, &id, name, &text, &dims])?,
+            Target::Local(name) => self.edit("set", &[&channel, &id, name, &text])?,
             Target::Global(file, name) => self.edit("set-global", &[&channel, file, name, &text])?,
-            Target::System(name) => self.edit("set-system", &[&channel, name, &text, &dims])?,
+            Target::System(name) => self.edit("set-system", &[&channel, name, &text])?,
             Target::Nothing => return Err("this cannot be set".into()),
         };
         let whole = self.source(frame)?.whole(target)?;
@@ -362,19 +345,11 @@ fn told(answer: &Value) -> Vec<Told> {
         .collect()
 }
 
-fn sizes(dims: &[u16]) -> Vec<usize> {
-    dims.iter().map(|size| usize::from(*size)).collect()
-}
-
-/// A variable with its array in rows where it has several dimensions.
-fn variable(told: Told, dims: &[usize]) -> Variable {
-    let value = Literal::parse(&told.value);
-    if dims.len() < 2 {
-        return Variable { ty: told.ty, value };
-    }
-    let base = told.ty.split('[').next().unwrap_or_default();
-    let ty = format!("{base}{}", dims.iter().map(|size| format!("[{size}]")).collect::<String>());
-    Variable { ty, value: value.in_rows(dims) }
+/// A variable with its name. An array of several dimensions, which is told flat, is in rows.
+fn variable(told: Told) -> (String, Variable) {
+    let sizes = told.ty.split('[').skip(1).filter_map(|size| size.trim_end_matches(']').parse().ok());
+    let value = Literal::parse(&told.value).in_rows(&sizes.collect::<Vec<usize>>());
+    (told.name, Variable { ty: told.ty, value })
 }
 
 impl Seen<'_> {
@@ -397,32 +372,18 @@ impl Seen<'_> {
     fn of_file(&mut self, file: &str) -> Result<Vec<(String, Variable)>, String> {
         let files = self.all_files()?;
         let all = files.into_iter().find(|(known, _)| known == file).map(|(_, all)| all).unwrap_or_default();
-        let mut found = Vec::new();
-        for told in all {
-            let dims = self.global_dims(file, &told.name);
-            found.push((told.name.clone(), variable(told, &dims)));
-        }
+        let mut found: Vec<(String, Variable)> = all.into_iter().map(variable).collect();
         for (name, ty, value) in global_constants(self.program, file) {
-            if !found.iter().any(|(known, _): &(String, Variable)| known.eq_ignore_ascii_case(&name)) {
+            if !found.iter().any(|(known, _)| known.eq_ignore_ascii_case(&name)) {
                 found.push((name, Variable { ty, value: Literal::parse(&value) }));
             }
         }
         Ok(found)
     }
 
-    fn all_system(&mut self) -> Result<Vec<Told>, String> {
+    fn all_system(&mut self) -> Result<Vec<(String, Variable)>, String> {
         let answer = self.process.ask("system", &[&self.frame.channel.to_string()])?;
-        Ok(told(&answer))
-    }
-
-    fn global_dims(&self, file: &str, name: &str) -> Vec<usize> {
-        let module = self.program.modules.iter().position(|module| module.file == file);
-        let global = self
-            .program
-            .globals
-            .iter()
-            .find(|global| Some(global.module.0 as usize) == module && global.name.eq_ignore_ascii_case(name));
-        global.map(|global| sizes(global.ty.dims())).unwrap_or_default()
+        Ok(told(&answer).into_iter().map(variable).collect())
     }
 
     /// The file that declares what a name means here: in the module that is named, else in this file, else in its data file.
@@ -437,18 +398,6 @@ impl Seen<'_> {
             None => known.file == self.module || known.data,
         });
         files.find(|known| declares(&known.file)).map(|known| known.file.clone())
-    }
-
-    fn dims(&self, target: &Target) -> Vec<usize> {
-        match target {
-            Target::Local(name) => {
-                let local = self.locals.iter().find(|(known, _)| known == name);
-                let ty = local.map_or("", |(_, variable)| variable.ty.as_str());
-                ty.split('[').skip(1).filter_map(|size| size.trim_end_matches(']').parse().ok()).collect()
-            }
-            Target::Global(file, name) => self.global_dims(file, name),
-            Target::System(_) | Target::Nothing => Vec::new(),
-        }
     }
 
     fn whole(&mut self, target: &Target) -> Result<Variable, String> {
@@ -482,9 +431,8 @@ impl Source for Seen<'_> {
     fn system(&mut self, name: &str) -> Result<Variable, String> {
         let wanted = format!("${name}");
         let all = self.all_system()?;
-        let found = all.into_iter().find(|told| told.name.eq_ignore_ascii_case(&wanted));
-        let told = found.ok_or_else(|| format!("there is no system variable {wanted}"))?;
-        Ok(Variable { ty: told.ty, value: Literal::parse(&told.value) })
+        let found = all.into_iter().find(|(name, _)| name.eq_ignore_ascii_case(&wanted));
+        found.map(|(_, variable)| variable).ok_or_else(|| format!("there is no system variable {wanted}"))
     }
 
     fn signal(&mut self, kind: &str, number: i32) -> Result<Found, String> {

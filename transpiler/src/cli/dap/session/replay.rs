@@ -62,6 +62,15 @@ impl Session {
         // Between two cycles the statement has begun: a breakpoint on it was met.
         let end = halt.statement + u64::from(halt.between);
         self.check_repeats()?;
+        self.searches = true;
+        let last = self.last_breakpoint_before(end);
+        self.searches = false;
+        self.go_to(last?)
+    }
+
+    /// The last breakpoint that another run meets before a statement, or the first statement.
+    fn last_breakpoint_before(&mut self, end: u64) -> Result<u64, String> {
+        self.breakpoints.go_back_to(0);
         self.begin()?;
         let mut edits: VecDeque<_> = self.replay.edits.iter().cloned().collect();
         let (mut last, mut passed) = (1, 0);
@@ -71,7 +80,7 @@ impl Session {
                 self.go("search", &[&bound.to_string()])?;
                 loop {
                     // A program that has ended is behind all breakpoints.
-                    let Ok(stopped) = self.wait_for("stopped") else { return self.go_to(last) };
+                    let Ok(stopped) = self.wait_for("stopped") else { return Ok(last) };
                     if self.arrive(&stopped) {
                         break;
                     }
@@ -88,7 +97,7 @@ impl Session {
                 self.ask(&word, &values)?;
             }
         }
-        self.go_to(last)
+        Ok(last)
     }
 
     /// Runs again up to a statement.
@@ -97,6 +106,7 @@ impl Session {
         self.begin()?;
         // What was set behind it is undone.
         self.replay.edits.retain(|(at, ..)| *at <= statement);
+        self.breakpoints.go_back_to(statement);
         let edits = self.replay.edits.clone();
         for (at, word, values) in edits {
             self.run_to(at)?;

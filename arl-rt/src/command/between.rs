@@ -1,0 +1,23 @@
+//! What may look after a run between its cycles.
+
+use crate::controller::Controller;
+
+/// What the run is to do in the next cycle.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Beat {
+    /// It goes on.
+    Runs,
+    /// It waits for somebody outside, who may let it go on: it is at no standstill.
+    Stands,
+    /// Nobody wants it any more: the robot stops on its path.
+    Ends,
+}
+
+/// Who looks after a run between its cycles.
+pub(crate) trait Between {
+    /// A cycle is about to begin.
+    fn cycle_begins(&mut self, controller: &mut Controller) -> Beat;
+
+    /// The run has ended.
+    fn run_ended(&mut self, controller: &mut Controller);
+}
