@@ -150,7 +150,12 @@ impl<'a> Adapter<'a> {
             Word::Instruction => (Token::Instruction(symbol), 0),
             Word::OpenInstruction if self.is_instruction(rest, true) => (Token::Instruction(symbol), 0),
             Word::OpenInstruction | Word::Name => match rest.first() {
-                Some((_, Lexeme::Colon, _)) if self.tokens.is_empty() => (Token::Target(symbol), 1),
+                Some((_, Lexeme::Colon, colon))
+                    if self.tokens.is_empty()
+                        && !matches!(rest.get(1), Some((start, Lexeme::Assign, _)) if start == colon) =>
+                {
+                    (Token::Target(symbol), 1)
+                }
                 _ if self.is_instruction(rest, false) => (Token::Instruction(symbol), 0),
                 _ => (Token::Name(symbol), 0),
             },

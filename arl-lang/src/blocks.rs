@@ -3,9 +3,10 @@
 
 use std::collections::VecDeque;
 
-use crate::ast::{Arm, Block, Expr, File, For, Func, If, Item, Stmt, StmtKind, Switch};
+use crate::ast::{Arm, Block, Expr, ExprKind, File, For, Func, If, Item, Stmt, StmtKind, Switch};
 use crate::block_look_ahead::{self, Event, Stack};
 use crate::line::{FuncHead, Line, LineKind};
+use crate::other_words::opening_slip;
 use crate::span::{LineIndex, Span};
 use crate::syntax_error::{BLOCK_LEVELS, BlockKind, Bracket, Hint, SyntaxError, SyntaxErrorKind};
 
@@ -424,6 +425,10 @@ impl<'source> Blocks<'source> {
             return;
         }
         let Some(position) = self.owner(BlockKind::Switch, false, span) else {
+            if let Some(error) = self.misspelt_switch() {
+                errors.push(error);
+                return self.case(value, span, errors);
+            }
             errors.push(SyntaxError::new(SyntaxErrorKind::CaseOutsideSwitch, span));
             return;
         };
@@ -447,7 +452,7 @@ impl<'source> Blocks<'source> {
             return;
         }
         let Some(position) = self.owner(kind, true, span) else {
-            self.close_nothing(kind, span, errors);
+            self.close_nothing(kind, span, condition, errors);
             return;
         };
         self.close_inside(position, span, errors);
@@ -455,7 +460,7 @@ impl<'source> Blocks<'source> {
     }
 
     /// A closing line that belongs to no block.
-    fn close_nothing(&mut self, kind: BlockKind, span: Span, errors: &mut Vec<SyntaxError>) {
+    fn close_nothing(&mut self, kind: BlockKind, span: Span, condition: Option<Expr>, errors: &mut Vec<SyntaxError>) {
         if kind == BlockKind::If && self.forgiven > 0 {
             self.forgiven -= 1;
             return;
@@ -474,7 +479,61 @@ impl<'source> Blocks<'source> {
                     frame.doubts.may_be_closed = true;
                 }
             }
-            _ => errors.push(SyntaxError::new(SyntaxErrorKind::StrayEnd(kind), span)),
+            _ => errors.push(
+                self.misspelt_opener(kind, condition)
+                    .unwrap_or_else(|| SyntaxError::new(SyntaxErrorKind::StrayEnd(kind), span)),
+            ),
+        }
+    }
+
+    /// Looks for the statement before this closing line that was meant to open its block, and makes it do so.
+    fn misspelt_opener(&mut self, kind: BlockKind, condition: Option<Expr>) -> Option<SyntaxError> {
+        if !matches!(kind, BlockKind::Loop | BlockKind::Repeat | BlockKind::While | BlockKind::If) {
+            return None;
+        }
+        let (error, span, inner) = self.take_misspelt(kind)?;
+        let kind = match kind {
+            BlockKind::Loop => StmtKind::Loop(inner),
+            BlockKind::Repeat => StmtKind::Repeat(inner, condition.map(Box::new)),
+            BlockKind::While => StmtKind::While(Box::new(error_at(span)), inner),
+            _ => StmtKind::If(Box::new(If { arms: vec![(error_at(span), inner)], otherwise: None })),
+        };
+        self.body().push(Stmt { kind, span });
+        Some(error)
+    }
+
+    /// Looks for the statement directly before a case that was meant to open its `switch`, and opens that.
+    fn misspelt_switch(&mut self) -> Option<SyntaxError> {
+        let (error, span, inner) = self.take_misspelt(BlockKind::Switch)?;
+        if !inner.is_empty() {
+            self.body().extend(inner);
+            return None;
+        }
+        let kind = Open::Switch(error_at(span), Vec::new(), None, false);
+        self.frames.push(Frame { kind, span, body: Vec::new(), doubts: Doubts::default() });
+        Some(error)
+    }
+
+    /// Takes the last statement of the innermost block that looks like the opener of such a block: the error at it,
+    /// where it stands, and the statements behind it.
+    fn take_misspelt(&mut self, kind: BlockKind) -> Option<(SyntaxError, Span, Block)> {
+        let source = self.source;
+        let word = |stmt: &Stmt| {
+            let span = named(stmt)?;
+            opening_slip(span.text(source), kind.opener()).then_some(span)
+        };
+        let body = self.body();
+        let (at, name) = body.iter().enumerate().rev().find_map(|(at, stmt)| Some((at, word(stmt)?)))?;
+        let inner = body.split_off(at + 1);
+        let span = body.pop()?.span;
+        Some((SyntaxError::new(SyntaxErrorKind::Misspelt(name.text(source).into(), kind.opener()), name), span, inner))
+    }
+
+    /// The statements of the innermost block.
+    fn body(&mut self) -> &mut Block {
+        match self.frames.last_mut() {
+            Some(frame) => &mut frame.body,
+            None => &mut self.statements,
         }
     }
 
@@ -550,7 +609,17 @@ fn end_case(arms: &mut Vec<Arm>, current: &mut Option<(Option<Expr>, Span)>, bod
     }
 }
 
+/// The name that a statement is, or calls.
+fn named(stmt: &Stmt) -> Option<Span> {
+    let StmtKind::Expr(expr) = &stmt.kind else { return None };
+    match &expr.kind {
+        ExprKind::Name(_) => Some(expr.span),
+        ExprKind::Call(call) => call.module.is_none().then_some(call.name.span),
+        _ => None,
+    }
+}
+
 /// An expression that stands for something that could not be read.
 pub(crate) fn error_at(span: Span) -> Expr {
-    Expr { kind: crate::ast::ExprKind::Error, span }
+    Expr { kind: ExprKind::Error, span }
 }

@@ -311,6 +311,7 @@ impl Refused<'_> {
             (Some(Token::Else), ..) if complete => Hint::ElseAlone,
             (Some(Token::Func), Some(Token::Name(_)), Token::ParenOpen) if self.at == 2 => Hint::ResultType,
             (Some(Token::Func), _, token) if self.is_reference(token) => Hint::References,
+            (_, _, Token::Comma) if self.is_in(Bracket::Square) && self.is_pose_literal() => Hint::PoseLiteral,
             (_, _, Token::Comma) if self.is_in(Bracket::Square) => Hint::OneIndex,
             (Some(Token::Instruction(_)), _, Token::Comma)
                 if self.open.len() == 1 && matches!(self.tokens.get(1), Some((_, Token::ParenOpen, _))) =>
@@ -322,6 +323,13 @@ impl Refused<'_> {
             (Some(Token::Instruction(_)), ..) if self.has_semicolon() => Hint::Events,
             _ => Hint::None,
         }
+    }
+
+    /// Whether the bracket that is open stands behind a `p`.
+    fn is_pose_literal(&self) -> bool {
+        let opened = self.open.last().map(|(_, span)| span.start);
+        let before = self.tokens.iter().rfind(|token| opened.is_some_and(|start| token.2 <= start));
+        before.is_some_and(|token| self.text(*token).eq_ignore_ascii_case("p"))
     }
 
     fn is_in(&self, bracket: Bracket) -> bool {
@@ -406,7 +414,7 @@ fn closed(token: Token) -> Option<Bracket> {
 }
 
 /// Whether a value can end with the token.
-fn ends_value(token: Token) -> bool {
+pub(crate) fn ends_value(token: Token) -> bool {
     matches!(
         token,
         Token::Name(_)

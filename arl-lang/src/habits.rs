@@ -2,6 +2,7 @@
 //! is read as it was meant.
 
 use crate::line::{Line, LineKind};
+use crate::other_words::closing_slip;
 use crate::span::Span;
 use crate::syntax_error::{SyntaxError, SyntaxErrorKind};
 use crate::token::{Placed, Token, open_brackets};
@@ -23,18 +24,26 @@ pub(crate) struct Habits {
 const THEN: [&str; 3] = ["then", "do", "begin"];
 
 /// What other languages write at the end of a block.
-const ENDS: [&str; 18] = [
+const ENDS: [&str; 26] = [
     "done",
     "end",
     "endcase",
+    "enddef",
     "enddo",
+    "endfct",
+    "endproc",
+    "endtest",
+    "endtrap",
+    "end_case",
+    "end_function",
+    "end_loop",
+    "end_switch",
     "endfunction",
     "endmain",
     "endprocedure",
     "endrepeat",
     "endselect",
     "endsub",
-    "endwhil",
     "end_for",
     "end_func",
     "end_if",
@@ -45,7 +54,18 @@ const ENDS: [&str; 18] = [
 ];
 
 /// The words of `ENDS` that end functions.
-const FUNCTION_ENDS: [&str; 5] = ["endfunction", "endmain", "endprocedure", "endsub", "end_func"];
+const FUNCTION_ENDS: [&str; 10] = [
+    "enddef",
+    "endfct",
+    "endfunction",
+    "endmain",
+    "endproc",
+    "endprocedure",
+    "endsub",
+    "endtrap",
+    "end_func",
+    "end_function",
+];
 
 /// Whether `name` is what other languages write behind a condition.
 pub(crate) fn is_then(name: &str) -> bool {
@@ -132,7 +152,10 @@ fn other_end(tokens: &[Placed], source: &str) -> Option<Line> {
     let word = span(*first).text(source);
     let is = |list: &[&str]| list.iter().any(|end| end.eq_ignore_ascii_case(word));
     let (ends, function) = match tokens {
-        [_] => (is(&ENDS), is(&FUNCTION_ENDS)),
+        [_] => match closing_slip(word) {
+            Some(function) => (true, function),
+            None => (is(&ENDS), is(&FUNCTION_ENDS)),
+        },
         [_, (_, second, _)] => (word.eq_ignore_ascii_case("end") && is_header(*second), *second == Token::Func),
         _ => (false, false),
     };

@@ -5,6 +5,7 @@ pub mod ast;
 mod block_look_ahead;
 mod blocks;
 pub mod catalog;
+pub mod elsewhere;
 mod explain;
 mod followers;
 #[rustfmt::skip]
@@ -16,8 +17,10 @@ mod habits;
 mod lexeme;
 pub mod lexer;
 mod line;
+pub mod near;
 pub mod number;
 pub mod operators;
+mod other_words;
 pub mod outline;
 mod parse;
 mod recovery;

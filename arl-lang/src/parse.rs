@@ -12,13 +12,17 @@ use crate::habits::repair;
 use crate::lexer::{Lexeme, LexicalError};
 use crate::line::{Line, LineKind};
 use crate::number::{Number, NumberError, NumberValue};
+use crate::other_words::{Meant, argument, first_word, function_of_others, replace_operators};
 use crate::outline::Outline;
-use crate::recovery::{Recovered, recover};
+use crate::recovery::{Recovered, other_function, recover};
 use crate::span::Span;
 use crate::symbol::{Interner, Symbol};
 use crate::syntax_error::{SyntaxError, SyntaxErrorKind};
 use crate::token::Placed;
 use crate::tree::Context;
+
+/// What ends the units of speeds.
+const PER_SECOND: &str = "/s";
 
 /// What is read besides plain ARL.
 #[derive(Clone, Copy, Default, Debug)]
@@ -232,7 +236,11 @@ impl<'a> Parser<'a> {
     }
 
     /// Reports what the lexer could not read, and says what is read instead.
-    fn lexical_error(&mut self, error: LexicalError, span: Span) -> Instead {
+    fn lexical_error(&mut self, error: LexicalError, mut span: Span) -> Instead {
+        if matches!(error, LexicalError::Number(NumberError::Letters)) && self.is_per_second() {
+            self.lexer.bump(PER_SECOND.len());
+            span.end += PER_SECOND.len() as u32;
+        }
         let text = span.text(self.source);
         let first = text.chars().next().unwrap_or('\u{fffd}');
         let (kind, place, instead) = match error {
@@ -285,11 +293,20 @@ impl<'a> Parser<'a> {
         instead
     }
 
+    /// Whether `/s` follows and nothing else of a word: it belongs to a number that could not be read (`0.25m/s`).
+    fn is_per_second(&self) -> bool {
+        let rest = self.lexer.remainder();
+        let begins = rest.get(..PER_SECOND.len()).is_some_and(|start| start.eq_ignore_ascii_case(PER_SECOND));
+        begins
+            && !rest.get(PER_SECOND.len()..).unwrap_or_default().starts_with(|c: char| c.is_alphanumeric() || c == '_')
+    }
+
     /// Reads the line whose tokens the adapter holds.
     fn line(&mut self, broken: bool, quiet: bool) {
         if self.adapter.tokens.is_empty() {
             return;
         }
+        replace_operators(&mut self.adapter.tokens, self.source, &mut self.context.errors);
         let habits = repair(&mut self.adapter.tokens, self.source, &mut self.context.errors);
         let mut doubts = Doubts {
             braced: habits.opens_brace,
@@ -299,6 +316,10 @@ impl<'a> Parser<'a> {
         };
         if let Some(line) = habits.whole {
             return self.take(line, doubts);
+        }
+        if !quiet && let Some(error) = function_of_others(&self.adapter.tokens, self.source) {
+            self.context.errors.push(error);
+            return self.recover_meant(Meant::Function, doubts);
         }
         let tokens = self.adapter.tokens.as_slice();
         if broken {
@@ -324,13 +345,18 @@ impl<'a> Parser<'a> {
             }
             Err(error) => {
                 self.context.errors.truncate(before);
+                if !quiet && let Some((error, meant)) = first_word(tokens, self.source) {
+                    self.context.errors.push(error);
+                    return self.recover_meant(meant, doubts);
+                }
                 if !quiet {
                     let (source, endl) = (self.source, self.context.endl);
                     let grammar = &self.grammar;
                     let followers = &self.followers;
                     let goes_on = |prefix: &[Placed], next| followers.can_follow(grammar, source, endl, prefix, next);
                     let (error, at) = explain(&error, source, tokens, endl, &goes_on);
-                    self.context.errors.push(error);
+                    let argument = tokens.get(at).and_then(|found| argument(*found, source));
+                    self.context.errors.push(argument.unwrap_or(error));
                     return self.recover(at, doubts);
                 }
                 self.recover(tokens.len(), doubts);
@@ -344,6 +370,33 @@ impl<'a> Parser<'a> {
             outline.note_line(&line, doubts);
         }
         self.blocks.take(line, doubts, &mut self.context.errors);
+    }
+
+    /// Takes what can be made of a line whose first word belongs to another language, or has a slip in it.
+    fn recover_meant(&mut self, meant: Meant, mut doubts: Doubts) {
+        match meant {
+            Meant::Nothing => {}
+            Meant::Declaration => {
+                self.adapter.tokens.remove(0);
+                self.recover(self.adapter.tokens.len(), doubts);
+            }
+            Meant::Word(token) => {
+                if let Some(first) = self.adapter.tokens.first_mut() {
+                    first.1 = token;
+                }
+                let tokens = self.adapter.tokens.as_slice();
+                let mut context = Context { source: self.source, errors: Vec::new(), endl: self.context.endl };
+                match self.grammar.parse(&mut context, tokens.iter().copied()) {
+                    Ok(line) => self.take(line, doubts),
+                    Err(_) => self.recover(tokens.len(), doubts),
+                }
+            }
+            Meant::Function => {
+                let Some(line) = other_function(&self.adapter.tokens, self.void) else { return };
+                doubts.drop = true;
+                self.take(line, doubts);
+            }
+        }
     }
 
     /// Takes what can be made of a line that is wrong from its token `at` on.

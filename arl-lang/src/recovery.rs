@@ -178,9 +178,23 @@ fn declaration(tokens: &[Placed]) -> Option<Decl> {
 
 /// The variable that a `for` declares.
 fn loop_variable(tokens: &[Placed]) -> Option<Stmt> {
-    let mut decl = declaration(tokens.get(2..)?)?;
+    // `for i in range(3)`, `FOR i FROM 1 TO 3`: no declaration.
+    let opens = matches!(tokens.get(1), Some((_, Token::ParenOpen, _)));
+    let mut decl = declaration(tokens.get(2..).filter(|_| opens)?)?;
     decl.vars.truncate(1);
     Some(Stmt { span: decl.span, kind: StmtKind::Decl(Box::new(decl)) })
+}
+
+/// The line that begins a function in another language's words.
+pub(crate) fn other_function(tokens: &[Placed], void: Symbol) -> Option<Line> {
+    let (first, last) = (tokens.first()?, tokens.last()?);
+    let span = Span::new(first.0, last.2);
+    let is_name = |token: &&Placed| matches!(token.1, Token::Name(_));
+    let named = tokens.windows(2).find(|pair| matches!(pair, [(_, Token::Name(_), _), (_, Token::ParenOpen, _)]));
+    let name = name(named.and_then(|pair| pair.first()).or_else(|| tokens.iter().skip(1).find(is_name)))
+        .unwrap_or(Ident { symbol: void, span });
+    let result = TypeRef { name: void, system: false, span: Span::new(first.0, first.2) };
+    Some(Line { kind: LineKind::Func(Box::new(FuncHead { result, name, params: Vec::new() })), span })
 }
 
 /// The name of a function and such parameters as can be made out.

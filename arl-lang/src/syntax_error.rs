@@ -148,6 +148,10 @@ pub enum Hint {
     Label,
     /// An instruction in the place of a value.
     InstructionValue,
+    /// `setdo 1, true`: a function's arguments stand in parentheses.
+    FunctionParens,
+    /// `p[0.1, 0.2, ...]`: a pose as URScript writes it.
+    PoseLiteral,
 }
 
 /// Declares the kinds: number, title, what each is.
@@ -162,7 +166,8 @@ macro_rules! syntax_errors {
         }
 
         impl SyntaxErrorKind {
-            /// Its number: 101.. for characters and numbers, 120.. for lines, 140.. for blocks. Numbers never change.
+            /// Its number: 101.. for characters and numbers, 120.. for lines, 140.. for blocks, 154.. for words of
+        /// other languages. Numbers never change.
             pub const fn number(&self) -> u16 {
                 match self {
                     $(Self::$variant { .. } => $number,)+
@@ -355,6 +360,15 @@ syntax_errors! { $
     153 "More or less than one expression" =>
         /// More than one statement where a single expression was asked for.
         NotOneExpression,
+    154 "A word of another language" =>
+        /// A word that another language has for something: the word, and what ARL has.
+        OtherWord(Box<str>, &'static str),
+    155 "An operator of another language" =>
+        /// An operator as another language writes it: what was found, what ARL writes.
+        OtherOperator(Box<str>, &'static str),
+    156 "A word of a control structure with a slip in it" =>
+        /// `whlie`: what was written, what was meant.
+        Misspelt(Box<str>, &'static str),
 }
 
 /// How many brackets may be open at one place.

@@ -34,6 +34,8 @@ impl Hint {
             }
             Hint::ArraySize => "An array's size is written between its brackets: `int a[3]`.",
             Hint::Label => "`name:` labels an argument; elsewhere the value stands alone.",
+            Hint::FunctionParens => "A function's arguments stand in parentheses: `setdo(1, true)`.",
+            Hint::PoseLiteral => "Poses stand in braces, in mm and deg: `{x 100, y 200, z 300, a 0, b 180, c 0}`.",
             Hint::InstructionValue => "An instruction stands at the beginning of its line and has no value.",
         })
     }
@@ -108,6 +110,9 @@ impl SyntaxErrorKind {
             TooManyBlocks => "too many blocks are open here".into(),
             OtherEnd(found, kind, line) => format!("`{found}` does not close the `{}` of line {line}", kind.opener()),
             NotOneExpression => "exactly one expression belongs here".into(),
+            OtherWord(word, _) => format!("`{word}` is no word of ARL"),
+            OtherOperator(found, ours) => format!("ARL writes `{ours}`, not `{found}`"),
+            Misspelt(word, _) => format!("`{word}` is no word of ARL"),
         }
     }
 
@@ -161,6 +166,8 @@ impl SyntaxErrorKind {
             SecondDefault => "second `default`".into(),
             TooManyBlocks => "one block too many".into(),
             NotOneExpression => "this is something else".into(),
+            OtherWord(..) => "not known".into(),
+            OtherOperator(_, ours) | Misspelt(_, ours) => format!("write `{ours}`"),
         }
     }
 
@@ -184,6 +191,9 @@ impl SyntaxErrorKind {
             BinaryDigits(_) => "A `b` behind digits makes a binary number, an `h` a hexadecimal one: `1100b`, `12bh`.",
             NoExponent(_) => "Write the exponent's digits (`12e3`), or an `h` for a hexadecimal number (`12eh`).",
             OtherHexadecimal(value) => return Some(format!("Write `{}`.", arl_hexadecimal(*value))),
+            BadNumber(text) if other_unit(text).is_some() => {
+                return other_unit(text).map(|number| format!("ARL has mm, deg and s: `{number}`."));
+            }
             BadNumber(_) => {
                 "Names begin with a letter or `_`. Behind a number may stand `b`, `h` or a unit: %, mm, mm/s, deg, deg/s, s."
             }
@@ -223,11 +233,46 @@ impl SyntaxErrorKind {
             ImportInside => "Imports hold for the whole file.",
             BeforeFirstCase => "Between `switch` and its first `case` stands nothing.",
             SecondDefault => "A `switch` has at most one.",
+            OtherWord(_, ours) => return Some(format!("ARL has {ours}.")),
+            Misspelt(_, meant) => return Some(format!("Did you mean `{meant}`?")),
+            UnknownCharacter('#') => "Comments begin with `//`.",
             BranchAfterElse(_) => "The order is `if`, any number of `elseif`, at most one `else`, `endif`.",
             _ => return None,
         };
         Some(text.into())
     }
+}
+
+impl SyntaxErrorKind {
+    /// What to write in place of the marked text, where that surely mends it.
+    pub fn fix(&self) -> Option<&'static str> {
+        match self {
+            Self::OtherOperator(_, ours) | Self::Misspelt(_, ours) => Some(ours),
+            Self::ElseIf => Some("elseif"),
+            _ => None,
+        }
+    }
+}
+
+/// Units that ARL does not have: the number that makes ARL's unit of each, and that unit.
+const OTHER_UNITS: [(&str, f64, &str); 8] = [
+    ("m/s", 1000.0, "mm/s"),
+    ("cm/s", 10.0, "mm/s"),
+    ("rad/s", 180.0 / std::f64::consts::PI, "deg/s"),
+    ("m", 1000.0, "mm"),
+    ("cm", 10.0, "mm"),
+    ("rad", 180.0 / std::f64::consts::PI, "deg"),
+    ("ms", 0.001, "s"),
+    ("min", 60.0, "s"),
+];
+
+/// A number with a unit that ARL does not have, in the one that it has.
+fn other_unit(text: &str) -> Option<String> {
+    let at = text.find(|c: char| c.is_ascii_alphabetic())?;
+    let (number, unit) = text.split_at_checked(at)?;
+    let (_, factor, ours) = OTHER_UNITS.iter().find(|(other, ..)| unit.eq_ignore_ascii_case(other))?;
+    let value = number.parse::<f64>().ok()? * factor;
+    Some(format!("{}{ours}", (value * 1000.0).round() / 1000.0))
 }
 
 /// A character as a reader can recognise it.

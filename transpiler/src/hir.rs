@@ -139,6 +139,8 @@ pub struct Global {
     pub ty: Type,
     /// Whether it is `const`.
     pub constant: bool,
+    /// Whether some statement writes it.
+    pub mutated: bool,
     /// The value of a `const` scalar whose initialiser is constant.
     pub value: Option<Value>,
     /// The initialiser.

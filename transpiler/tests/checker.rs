@@ -307,6 +307,16 @@ fn warnings() {
 }
 
 #[test]
+fn words_of_other_languages() {
+    run(include_str!("checker/elsewhere.txt"));
+}
+
+#[test]
+fn doubts() {
+    run(include_str!("checker/doubts.txt"));
+}
+
+#[test]
 fn strict() {
     run(include_str!("checker/strict.txt"));
 }

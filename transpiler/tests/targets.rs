@@ -7,19 +7,26 @@ use arl_robot::Robot;
 use arl2rs::{CheckOptions, SourceError, Sources, check_text};
 use std::path::Path;
 
-struct Nothing;
+/// The text of `main_data.arl`, if there is one.
+struct Data(Option<&'static str>);
 
-impl Sources for Nothing {
-    fn read(&self, _: &Path) -> Result<Vec<u8>, SourceError> {
-        Err(SourceError::Missing)
+impl Sources for Data {
+    fn read(&self, path: &Path) -> Result<Vec<u8>, SourceError> {
+        let data = self.0.filter(|_| path.ends_with("main_data.arl")).ok_or(SourceError::Missing)?;
+        Ok(data.into())
     }
 }
 
 /// Checks a program for a robot.
 fn check(robot: &str, program: &str) {
+    check_with(robot, program, None);
+}
+
+/// Checks a program with a data file.
+fn check_with(robot: &str, program: &str, data: Option<&'static str>) {
     let robot = Robot::builtin(robot).expect("a built-in robot");
     let options = CheckOptions { family: robot.family, robot: Some(robot), ..CheckOptions::default() };
-    let checked = check_text(Path::new("main.arl"), program, &Nothing, &options);
+    let checked = check_text(Path::new("main.arl"), program, &Data(data), &options);
     let mut found: Vec<String> = Vec::new();
     for diagnostic in &checked.diagnostics {
         let line = checked.files.line(diagnostic.primary.at) as usize;
@@ -59,6 +66,28 @@ fn targets_moved_from_constant_ones_are_looked_at() {
         far = far + 1
         lin offset(near,far,0,0,0,0,0)",
     );
+}
+
+#[test]
+fn global_and_taught_points_that_nothing_changes_are_looked_at() {
+    let points = "pose feeder = {9000,0,450,0,90,0}
+        pose moved = {9000,0,450,0,90,0}
+        tool long = {{0,0,300,0,0,0},false}";
+    let body = "movej j:{0,-90,90,0,45,0}
+        lin feeder // 908
+        lin moved
+        lin p:{1700,0,450,0,90,0},t:long
+        lin p:{2000,0,450,0,90,0} // 908
+        lin taught // 908
+        movej far // 907
+        endfunc";
+    let teach = "func void teach()\nmoved.x = 1000\nendfunc";
+    let data = Some("pose taught = {9000,0,450,0,90,0}\njoint far = {0,-90,90,0,45,700}\n");
+    check_with("kr10-r1420", &format!("{points}\n{teach}\nfunc void main()\n{body}\n"), data);
+    // What the program teaches itself is not known.
+    let learns = "print saveposenow(1,\"main.arl\",\"taught\",feeder)";
+    let body = "movej j:{0,-90,90,0,45,0}\nlin feeder // 908\nlin taught\nmovej far\nendfunc";
+    check_with("kr10-r1420", &format!("{points}\nfunc void main()\n{learns}\n{body}\n"), data);
 }
 
 #[test]
@@ -164,7 +193,7 @@ fn functions_may_be_called_from_anywhere() {
         ..CheckOptions::default()
     };
     let module = "func void go()\nlin p:{1700,0,450,0,90,0}\nendfunc\n";
-    assert!(check_text(Path::new("go.arl"), module, &Nothing, &options).diagnostics.is_empty());
+    assert!(check_text(Path::new("go.arl"), module, &Data(None), &options).diagnostics.is_empty());
 }
 
 #[test]

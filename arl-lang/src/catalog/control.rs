@@ -11,7 +11,7 @@ entries! { pub(super) CONTROL =
     /// Waits until the robot stands, then until a condition holds or a time is over.
     instr waituntil(
         cond: bool [condition] "what is waited for, looked at in every cycle",
-        maxtime: double [optional, units(&[Unit::Second]), at_least(0.0)] "longest wait, s; for ever without it",
+        maxtime: double [optional, units(&[Unit::Second]), at_least(0.0), limits()] "longest wait, s; for ever without it",
         timeoutflag: bool [optional, out] "gets true when the time was over first, false when the condition held",
     )
         { "3.4.2", flow::waituntil, waits, fails, form(Form::WaitUntil); "bool late\nwaituntil getdi(6),maxtime:0.5,timeoutflag:late\nprint late" }

@@ -196,6 +196,7 @@ impl Param {
             relation: None,
             accepts: None,
             delays: false,
+            limits: false,
             doc,
         }
     }
@@ -257,6 +258,8 @@ setters! { Param:
     accepts(numbers: Accepted) { accepts = Some(numbers) }
     /// A time for which the call waits.
     delays() { delays = true }
+    /// The longest time for which the call waits.
+    limits() { limits = true }
     /// Other labels.
     alias(names: &'static [&'static str]) { aliases = names }
     /// The builder's method, where the folded name is a word of Rust.
@@ -283,6 +286,7 @@ impl Entry {
             changes: None,
             connects: false,
             uses_disk: false,
+            teaches: false,
             looks: false,
             path: "",
             doc: trimmed(doc),
@@ -321,6 +325,8 @@ setters! { Entry:
     connects() { connects = true }
     /// Waits for the disk.
     uses_disk() { uses_disk = true }
+    /// Writes points of a program while that runs.
+    teaches() { teaches = true }
     /// Only looks at what is there.
     looks() { looks = true }
     /// An alarm is possible.

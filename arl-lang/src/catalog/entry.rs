@@ -116,6 +116,8 @@ pub struct Param {
     pub accepts: Option<Accepted>,
     /// Whether it is a time for which the call waits.
     pub delays: bool,
+    /// Whether it is the longest time for which the call waits.
+    pub limits: bool,
     /// What it means, with its unit and what happens without it.
     pub doc: &'static str,
 }
@@ -155,6 +157,8 @@ pub struct Entry {
     pub connects: bool,
     /// Whether it waits for the disk.
     pub uses_disk: bool,
+    /// Whether it writes points of a program while that runs.
+    pub teaches: bool,
     /// Whether it changes nothing although it takes the context: it only looks at what is there.
     pub looks: bool,
     /// The runtime's function, below `arl_rt`: `math::sqrt`.

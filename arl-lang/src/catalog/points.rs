@@ -33,7 +33,7 @@ entries! { pub(super) POINTS =
         pose_name: string "name of the pose in it",
         p: pose "the value",
     ) -> bool
-        { "5.11.4", points::saveposenow, lasts, fails;
+        { "5.11.4", points::saveposenow, lasts, fails, teaches;
           "pose a = {x 0,y 10,z 15,a 0,b 90,c 0}\nprint saveposenow(1,\"prog1.arl\",\"p1\",a)" }
     /// Writes a joint to a point of the program of a foreground channel; it counts at once.
     fn savejointnow(
@@ -42,7 +42,7 @@ entries! { pub(super) POINTS =
         joint_name: string [alias(&["pose_name"])] "name of the joint in it",
         j: joint "the value",
     ) -> bool
-        { "5.11.5", points::savejointnow, lasts, fails;
+        { "5.11.5", points::savejointnow, lasts, fails, teaches;
           "joint a = {0,10,20,30,40,50}\nprint savejointnow(1,\"prog1.arl\",\"j1\",a)" }
     /// Stops and unloads the program of a foreground channel and runs another one there; from background channels only.
     fn switcharl(

@@ -10,12 +10,13 @@ use super::name::constant;
 use crate::diagnostics::arguments::ArgumentProblem;
 use crate::diagnostics::listed;
 use crate::diagnostics::types::TypeProblem;
-use crate::hir::{Bound, Expr, ExprKind, FuncId, Passed, Type, Value};
+use crate::hir::{Bound, Expr, ExprKind, FuncId, ModuleId, Passed, Type, Value};
 use crate::index;
 use arl_lang::ast::{self, Arg, Unit};
 use arl_lang::catalog::{
     self, Access, Base, Entry, Kind, Mode, ParamType, Presence, Range, Restore, SystemVariable, UNSET,
 };
+use arl_lang::elsewhere;
 use arl_lang::span::Span;
 use std::collections::HashMap;
 use std::fmt;
@@ -103,9 +104,7 @@ impl<'a> Checker<'a> {
                 Presence::Optional | Presence::Default(_) => 0,
             };
             if *count < least && good {
-                let signature = self.callee_signature(callee);
-                let problem = ArgumentProblem::Missing { callee: name.into(), parameter: param.name.into(), signature };
-                self.report::<()>(body, span, problem);
+                self.report_missing(body, callee, param, &params, &pairs, span);
                 good = false;
             }
         }
@@ -132,6 +131,58 @@ impl<'a> Checker<'a> {
             good &= self.check_length(body, entry, &bound).is_some();
         }
         good.then_some(bound)
+    }
+
+    /// A mandatory argument that is missing, most often because what stands there is of another type than it seems.
+    fn report_missing(
+        &mut self,
+        body: &Body,
+        callee: &Callee,
+        missing: &Parameter<'_>,
+        params: &[Parameter<'_>],
+        pairs: &[Pair<'_>],
+        span: Span,
+    ) {
+        let wanted = match missing.ty {
+            Some(Wanted::Builtin(ParamType::One(base @ Base::Struct(_)))) => Some(base),
+            _ => None,
+        };
+        let strayed = pairs.iter().find_map(|pair| {
+            let (typed, param) = (pair.typed.as_ref()?, params.get(pair.param)?);
+            let symbol = match pair.arg.value.kind {
+                ast::ExprKind::Name(symbol) => Some(symbol),
+                _ => None,
+            };
+            Some((pair.arg.value.span, typed.expr.ty, param.name, symbol))
+        });
+        let mut labels = Vec::new();
+        let mut instead = None;
+        if let (Some(wanted), Some((at, ty, taker, symbol))) = (wanted, strayed) {
+            let ty = self.type_name(ty);
+            labels.push((body.module, at, format!("this has the type {ty} and was taken for `{taker}`")));
+            let hidden = symbol.filter(|symbol| body.find(*symbol).is_some()).and_then(|symbol| {
+                let (id, _) = self.find_global(body, symbol)?;
+                let slot = self.globals.get(id.0 as usize)?;
+                (slot.ty? == Type::scalar(wanted)).then_some((slot.module, slot.var.name.span))
+            });
+            let written = self.text(body.module, at).to_string();
+            if let Some((module, declared)) = hidden {
+                labels.push((module, declared, format!("the `{}` of this name", wanted.name())));
+                instead =
+                    Some(format!("a local variable hides the `{}` `{written}`: rename one of them", wanted.name()));
+            } else {
+                instead = Some(format!("`{}` is a `{}`", missing.name, wanted.name()));
+            }
+        }
+        let problem = ArgumentProblem::Missing {
+            callee: self.callee_name(callee).into(),
+            parameter: missing.name.into(),
+            signature: self.callee_signature(callee),
+            instead,
+        };
+        let labels: Vec<(ModuleId, Span, &str)> =
+            labels.iter().map(|(module, span, text)| (*module, *span, text.as_str())).collect();
+        self.report_in::<()>(body.module, span, problem, &labels);
     }
 
     fn callee_name(&self, callee: &Callee) -> &'a str {
@@ -264,8 +315,11 @@ impl<'a> Checker<'a> {
             self.expect(body, label.symbol, label.span, index::Wanted::ArgumentLabel);
             let callee = self.callee_name(callee);
             let names = || params.iter().map(|param| param.name);
+            let meant = elsewhere::labels(wanted).iter().filter(|ours| names().any(|name| name == **ours));
+            let meant: Vec<String> = meant.map(|ours| format!("`{ours}`")).collect();
             let problem = ArgumentProblem::UnknownLabel {
                 callee: callee.into(),
+                meant: meant.join(" or "),
                 label: self.text(body.module, label.span).into(),
                 near: self.hints.nearest(wanted, params.len(), names).map(Into::into),
                 labels: listed(names()),
@@ -337,7 +391,7 @@ impl<'a> Checker<'a> {
                 return Some((*at, None));
             }
         }
-        let typed = self.expr(body, &arg.value, None)?;
+        let typed = self.expr(body, &arg.value, self.hint_of_name(params, taken, &arg.value))?;
         let is_void = typed.expr.ty.base == Base::Void;
         let takes = |param: &Parameter<'_>| match &param.ty {
             _ if param.mode == Mode::Action => does_something(&arg.value),
@@ -363,6 +417,19 @@ impl<'a> Checker<'a> {
             params.iter().enumerate().filter(|(at, param)| free(*at, param)).map(|(_, param)| param.name).collect();
         let problem = ArgumentProblem::NoParameter { callee: callee.into(), ty, labels: listed(labels.into_iter()) };
         self.report(body, arg.value.span, problem)
+    }
+
+    /// For a name: the structure that is wanted first, in case that the name is not known.
+    fn hint_of_name(&self, params: &[Parameter<'_>], taken: &[usize], value: &ast::Expr) -> Option<Type> {
+        if !matches!(value.kind, ast::ExprKind::Name(_)) {
+            return None;
+        }
+        let first =
+            params.iter().zip(taken).find(|(param, count)| param.presence == Presence::Required && **count == 0);
+        match first?.0.ty {
+            Some(Wanted::Builtin(ParamType::One(base @ Base::Struct(_)))) => Some(Type::scalar(base)),
+            _ => None,
+        }
     }
 
     fn exclusions(&mut self, body: &Body, entry: &'static Entry, pairs: &[Pair<'_>], args: &[Arg]) -> bool {
@@ -392,7 +459,10 @@ impl<'a> Checker<'a> {
     ) -> Option<Passed> {
         let unit = self.check_unit(body, param, arg);
         let what = format_args!("`{}` of `{callee}`", param.name);
-        self.has_conditions |= param.mode == Mode::Condition;
+        if param.mode == Mode::Condition {
+            self.has_conditions = true;
+            self.doubt_condition(body, &arg.value);
+        }
         if param.mode == Mode::Out {
             return self.pass_out(body, callee, param, arg);
         }

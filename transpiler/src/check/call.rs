@@ -67,7 +67,8 @@ impl Checker<'_> {
             let functions = builtin.iter().filter(|entry| entry.kind == catalog::Kind::Function);
             scope.funcs.keys().map(|symbol| self.names.name(*symbol)).chain(functions.map(|entry| entry.name))
         };
-        let near = self.hints.nearest(name, scope.funcs.len() + builtin.len(), known).map(Into::into);
+        let near = self.member_named(body, call.name.symbol, true);
+        let near = near.or_else(|| self.hints.nearest(name, scope.funcs.len() + builtin.len(), known).map(Into::into));
         let name = self.text(body.module, call.name.span).to_string();
         self.report(body, call.name.span, NameProblem::UnknownFunction { name, near, is_instruction })
     }

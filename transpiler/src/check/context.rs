@@ -68,6 +68,8 @@ pub(crate) struct GlobalSlot<'a> {
     pub(crate) ty: Option<Type>,
     pub(crate) value: Option<Value>,
     pub(crate) init: Option<hir::Expr>,
+    /// Whether some statement writes it.
+    pub(crate) mutated: bool,
 }
 
 /// A function, its declaration and its signature.

@@ -5,12 +5,13 @@ use super::context::{Body, Checker, FuncSlot, GlobalSlot, ModuleScope, State};
 use super::statements::near_instruction;
 use crate::diagnostics::flow::FlowProblem;
 use crate::diagnostics::modules::ModuleProblem;
-use crate::diagnostics::names::{NameProblem, is_instruction_of_others, is_type_of_others};
+use crate::diagnostics::names::NameProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{self, Expr, ExprKind, FuncId, GlobalId, LocalId, MAX_DIMS, ModuleId, Stmt, StmtKind, Type, Value};
 use crate::index::{LocalInfo, Meaning, Wanted};
 use arl_lang::ast;
 use arl_lang::catalog::{self, Base};
+use arl_lang::elsewhere;
 use arl_lang::span::Span;
 use arl_lang::symbol::Symbol;
 
@@ -52,6 +53,7 @@ impl<'a> Checker<'a> {
             ty: None,
             value: None,
             init: None,
+            mutated: false,
         });
     }
 
@@ -275,7 +277,7 @@ impl<'a> Checker<'a> {
         let known =
             |var: &ast::Var| body.find(var.name.symbol).is_some() || self.find_global(body, var.name.symbol).is_some();
         near_instruction(name).is_some()
-            || is_instruction_of_others(name)
+            || elsewhere::word(name).is_some()
             || self.names_function(body, decl.ty.name)
             || decl.vars.first().is_some_and(known)
     }
@@ -334,7 +336,7 @@ impl<'a> Checker<'a> {
 
 /// Whether a name that is no type is near to one.
 fn looks_like_type(name: &str) -> bool {
-    is_type_of_others(name) || catalog::renamed(name).is_some() || near_type(name).is_some()
+    elsewhere::type_of(name).is_some() || catalog::renamed(name).is_some() || near_type(name).is_some()
 }
 
 /// The type whose name is nearest.

@@ -106,6 +106,7 @@ impl Checker<'_> {
 
     /// Checks a condition.
     pub(crate) fn condition(&mut self, body: &mut Body, expr: &ast::Expr) -> Option<Expr> {
+        self.doubt_condition(body, expr);
         self.expr_as(body, expr, Type::scalar(Base::Bool), "a condition")
     }
 

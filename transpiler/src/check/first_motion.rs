@@ -45,7 +45,7 @@ fn may_move(stmt: &Stmt) -> bool {
 fn missing(program: &Program, main: &Func, motion: &Builtin) -> Option<String> {
     let target = motion.args.iter().find(|bound| bound.param == 0)?;
     let Passed::Value(target) = &target.value else { return None };
-    let (id, values) = known_structure(program, main, target)?;
+    let (id, values) = known_structure(program, main, Globals::Constant, target)?;
     let needed: &[&str] = match id {
         Struct::Joint => &["j1", "j2", "j3", "j4", "j5", "j6"],
         Struct::Pose => &["x", "y", "z", "a", "b", "c"],
@@ -59,20 +59,37 @@ fn missing(program: &Program, main: &Func, motion: &Builtin) -> Option<String> {
     (!open.is_empty()).then(|| open.join(", "))
 }
 
+/// Which global variables count as known.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Globals {
+    /// Constants whose value no data file gives.
+    Constant,
+    /// All that no statement writes, but not those of data files: the program teaches them while it runs.
+    Unwritten,
+    /// All that no statement writes, with the values that data files have now.
+    AsTaught,
+}
+
 /// The braces that the target is made of: written here, or given to a variable that nothing changes.
 pub(super) fn known_structure<'a>(
     program: &'a Program,
     func: &'a Func,
+    globals: Globals,
     target: &'a Expr,
 ) -> Option<(Struct, &'a [Option<Expr>])> {
-    match &known_value(program, func, target)?.kind {
+    match &known_value(program, func, globals, target)?.kind {
         ExprKind::Struct(id, values) => Some((*id, values)),
         _ => None,
     }
 }
 
 /// What is written here, or was given to a variable that nothing changes.
-pub(super) fn known_value<'a>(program: &'a Program, func: &'a Func, value: &'a Expr) -> Option<&'a Expr> {
+pub(super) fn known_value<'a>(
+    program: &'a Program,
+    func: &'a Func,
+    globals: Globals,
+    value: &'a Expr,
+) -> Option<&'a Expr> {
     let ExprKind::Place(place) = &value.kind else { return Some(value) };
     if !place.path.is_empty() {
         return None;
@@ -88,7 +105,12 @@ pub(super) fn known_value<'a>(program: &'a Program, func: &'a Func, value: &'a E
             let global = program.globals.get(id.0 as usize)?;
             // A data file may set it at load.
             let data = program.modules.get(global.module.0 as usize)?.data;
-            if global.constant && !data { global.init.as_ref() } else { None }
+            let known = match globals {
+                Globals::Constant => global.constant && !data,
+                Globals::Unwritten => !global.mutated && !data,
+                Globals::AsTaught => !global.mutated,
+            };
+            global.init.as_ref().filter(|_| known)
         }
         _ => None,
     }

@@ -1,7 +1,7 @@
 //! Reads the files of a program: the main file, what it imports, what it names with `::`, and data files.
 
 use crate::diagnostics::modules::ModuleProblem;
-use crate::diagnostics::{Code, Diagnostic, FileId, Files, Label, Location, Problem, Severity};
+use crate::diagnostics::{Code, Diagnostic, FileId, Files, Fix, Label, Location, Problem, Severity};
 use crate::hir::ModuleId;
 use crate::{CheckOptions, SourceError, Sources};
 use arl_lang::ast;
@@ -176,7 +176,7 @@ pub(crate) fn syntax_diagnostic(error: &arl_lang::syntax_error::SyntaxError, fil
         primary: Label { at: place(error.span), text: error.kind.label() },
         labels: error.related.iter().map(|(span, text)| Label { at: place(*span), text: text.clone() }).collect(),
         help: error.kind.help(),
-        fix: None,
+        fix: error.kind.fix().map(|text| Fix { at: place(error.span), text: text.into() }),
     }
 }
 

@@ -13,6 +13,7 @@ mod conditions;
 mod context;
 mod convert;
 mod declare;
+mod doubts;
 mod expr;
 mod first_motion;
 mod flow;
@@ -132,6 +133,7 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
         };
         let mut late = if has_conditions { conditions::check(&built, &locate) } else { Vec::new() };
         late.extend(first_motion::check(&built, &locate));
+        diagnostics.extend(doubts::check(&built, &locate));
         #[cfg(feature = "cli")]
         if let Some(cell) = &options.cell {
             let (errors, warnings): (Vec<_>, Vec<_>) = cell::check(&built, cell, &locate)
@@ -256,6 +258,7 @@ impl Checker<'_> {
                 ty: slot.ty.unwrap_or(hir::Type::scalar(Base::Int)),
                 constant: slot.decl.constant.is_some(),
                 teachable: self.is_teachable(&slot),
+                mutated: slot.mutated,
                 value: slot.value,
                 init: slot.init,
                 span: slot.var.name.span,

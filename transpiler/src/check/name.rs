@@ -87,7 +87,10 @@ impl Checker<'_> {
         let is_function =
             self.scopes.get(body.module.0 as usize).is_some_and(|scope| scope.funcs.contains_key(&symbol))
                 || !catalog::functions(name).is_empty();
-        let mut near = body.nearest_local(&mut self.hints, self.names, name);
+        let mut near = self.member_named(body, symbol, false);
+        if near.is_none() {
+            near = body.nearest_local(&mut self.hints, self.names, name);
+        }
         if near.is_none() && name.len() > 2 {
             near = catalog::system_variable(name).map(|variable| format!("${}", variable.name));
         }
@@ -99,10 +102,22 @@ impl Checker<'_> {
         if let (None, Some(Base::Enum(id))) = (&near, want.map(|want| want.base)) {
             return self.unknown_constant(body, id, span);
         }
-        let name = self.text(body.module, span).to_string();
+        let name = self.text(body.module, span).trim_matches(['(', ')', ' ']).to_string();
         let quoted = self.unquoted(body, span, want).filter(|_| near.is_none());
         let ty = want.filter(|want| !want.is_array()).map_or("int".into(), |want| self.type_name(want));
         self.report(body, span, NameProblem::UnknownVariable { name, near, is_function, quoted, ty })
+    }
+
+    /// `module::name` where an imported module has a variable or function of this name.
+    pub(crate) fn member_named(&self, body: &Body, symbol: Symbol, function: bool) -> Option<String> {
+        let imports = &self.module(body.module)?.imports;
+        let has = |module: &ModuleId| {
+            let scope = self.scopes.get(module.0 as usize)?;
+            if function { scope.funcs.get(&symbol).map(|_| ()) } else { scope.globals.get(&symbol).map(|_| ()) }
+        };
+        let found = imports.iter().filter(|(_, module)| has(module).is_some());
+        let module = found.map(|(name, _)| self.names.name(*name)).min()?;
+        Some(format!("{module}::{}", self.names.name(symbol)))
     }
 
     /// The text that is probably meant by a name that is not known: a file's, or any where a string is wanted.

@@ -205,7 +205,12 @@ impl Checker<'_> {
             Root::System(variable) if variable.access == Access::ReadOnly => {
                 return self.report(body, place.span, TypeProblem::ReadOnly { name: variable.name.into() });
             }
-            Root::Global(_) | Root::System(_) => {}
+            Root::Global(id) => {
+                if let Some(slot) = self.globals.get_mut(id.0 as usize) {
+                    slot.mutated = true;
+                }
+            }
+            Root::System(_) => {}
         }
         Some(place)
     }

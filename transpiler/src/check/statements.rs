@@ -3,7 +3,9 @@
 use super::arguments::{Callee, does_something};
 use super::context::{Body, Checker, State};
 use super::convert::{Typed, integer};
+use super::doubts::is_comparison;
 use crate::diagnostics::arguments::ArgumentProblem;
+use crate::diagnostics::doubts::Doubt;
 use crate::diagnostics::flow::FlowProblem;
 use crate::diagnostics::names::NameProblem;
 use crate::diagnostics::types::TypeProblem;
@@ -13,6 +15,7 @@ use crate::hir::{
 use crate::index::{Meaning, Role, Wanted};
 use arl_lang::ast;
 use arl_lang::catalog::{self, Base, Effect, Kind, Mode, Presence};
+use arl_lang::elsewhere;
 use arl_lang::span::Span;
 use arl_lang::symbol::Symbol;
 use std::collections::HashMap;
@@ -151,11 +154,35 @@ impl Checker<'_> {
     }
 
     fn expression_statement(&mut self, body: &mut Body, expr: &ast::Expr) -> Option<StmtKind> {
+        if let ast::ExprKind::Name(symbol) = expr.kind
+            && let Some(problem) = self.lone_word(body, symbol, expr.span)
+        {
+            return self.report(body, expr.span, problem);
+        }
         let typed = self.expr(body, expr, None)?;
-        if !does_something(expr) {
+        if is_comparison(expr) {
+            self.report::<()>(body, expr.span, Doubt::ComparedStatement);
+        } else if !does_something(expr) {
             self.report::<()>(body, expr.span, FlowProblem::NoEffect);
         }
         Some(StmtKind::Eval(typed.expr))
+    }
+
+    /// What is wrong with a name that stands alone on its line and means nothing: a word of another language, or one of
+    /// ARL with a slip in it.
+    fn lone_word(&mut self, body: &Body, symbol: Symbol, span: Span) -> Option<NameProblem> {
+        let name = self.names.name(symbol);
+        if body.find(symbol).is_some() || self.find_global(body, symbol).is_some() || catalog::constant(name).is_some()
+        {
+            return None;
+        }
+        let words = || arl_lang::control_words().chain(instructions());
+        let near = self.hints.nearest(name, words().count(), words).map(String::from);
+        if near.is_none() && elsewhere::word(name).is_none() {
+            return None;
+        }
+        let name = self.text(body.module, span).to_string();
+        Some(NameProblem::UnknownInstruction { name, near, is_function: false })
     }
 
     /// An instruction; the events of a motion go before it, as triggers.

@@ -13,11 +13,13 @@ problems! {
         }
         error 402 "A mandatory argument is missing" => {
             /// A parameter that must be there.
-            Missing { callee: String, parameter: String, signature: String },
+            /// `instead`: what was written in its place, where it is known.
+            Missing { callee: String, parameter: String, signature: String, instead: Option<String> },
         }
         error 403 "A label that is not known" => {
             /// A label that the callee does not have.
-            UnknownLabel { callee: String, label: String, labels: String, near: Option<String> },
+            /// `meant`: those that are for the same as this label of another language.
+            UnknownLabel { callee: String, label: String, labels: String, near: Option<String>, meant: String },
         }
         error 404 "An argument given twice" => {
             /// A parameter that got two values.
@@ -134,6 +136,8 @@ impl Problem for ArgumentProblem {
 
     fn help(&self) -> Option<String> {
         match self {
+            ArgumentProblem::Missing { instead: Some(instead), .. } => Some(instead.clone()),
+            ArgumentProblem::UnknownLabel { meant, .. } if !meant.is_empty() => Some(format!("did you mean {meant}?")),
             ArgumentProblem::Missing { signature, .. } => Some(format!("it is written `{signature}`")),
             ArgumentProblem::UnknownLabel { near: Some(near), .. } => Some(format!("did you mean `{near}`?")),
             ArgumentProblem::UnknownLabel { labels, .. } if labels.is_empty() => Some("it takes no arguments".into()),

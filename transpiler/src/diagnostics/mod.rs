@@ -8,6 +8,7 @@ pub(crate) mod components;
 pub(crate) mod connections;
 pub(crate) mod constants;
 mod declare;
+pub(crate) mod doubts;
 pub(crate) mod flow;
 pub(crate) mod modules;
 pub(crate) mod names;

@@ -2,6 +2,7 @@
 
 use super::Problem;
 use super::declare::problems;
+use arl_lang::elsewhere;
 
 problems! {
     /// What is wrong with a name.
@@ -98,6 +99,7 @@ impl Problem for NameProblem {
 
     fn help(&self) -> Option<String> {
         let meant = |near: &Option<String>| near.as_ref().map(|near| format!("did you mean `{near}`?"));
+        let has = |ours: &str| format!("ARL has {ours}");
         match self {
             NameProblem::UnknownVariable { name, is_function: true, .. } => {
                 Some(format!("`{name}` is a function: call it with parentheses, `{name}(...)`"))
@@ -106,20 +108,25 @@ impl Problem for NameProblem {
                 Some(format!("a text, such as the name of a file or of a point, stands in quotes: `\"{text}\"`"))
             }
             NameProblem::UnknownVariable { near, name, ty, .. } => {
-                meant(near).or_else(|| Some(format!("declare it first, for example `{ty} {name}`")))
+                let other = elsewhere::argument(name).map(has);
+                other.or_else(|| meant(near)).or_else(|| Some(format!("declare it first, for example `{ty} {name}`")))
             }
             NameProblem::UnknownFunction { name, is_instruction: true, .. } => {
                 Some(format!("`{name}` is an instruction: write its arguments without parentheses around them"))
             }
             NameProblem::UnknownType { near, name } => meant(near).or_else(|| {
-                Some(format!("`{name}` of other languages is called `{}` here", of_others(TYPES_OF_OTHERS, name)?))
+                let of_others = |ours| format!("`{name}` of other languages is called `{ours}` here");
+                elsewhere::type_of(name).map(of_others).or_else(|| elsewhere::word(name).map(has))
             }),
             NameProblem::UnknownFunction { near, name, .. } => {
-                let other = of_others(FUNCTIONS_OF_OTHERS, name).or_else(|| of_others(INSTRUCTIONS_OF_OTHERS, name));
-                other.map(|ours| format!("ARL has `{ours}` for this")).or_else(|| meant(near))
+                let operator = elsewhere::operator(name).map(|ours| format!("ARL writes `{ours}` for this"));
+                operator.or_else(|| elsewhere::word(name).map(has)).or_else(|| meant(near))
             }
             NameProblem::UnknownLabel { near, .. } | NameProblem::NotInModule { near, .. } => meant(near),
-            NameProblem::UnknownSystem { near, .. } => near.as_ref().map(|near| format!("did you mean `${near}`?")),
+            NameProblem::UnknownSystem { name, near } => {
+                let near = near.as_ref().map(|near| format!("did you mean `${near}`?"));
+                elsewhere::system(name).map(has).or(near)
+            }
             NameProblem::UnknownModule { looked, .. } => {
                 Some(format!("looked for {looked}; a module in another folder needs an `import` line"))
             }
@@ -138,8 +145,7 @@ impl Problem for NameProblem {
                 Some(format!("`{name}` is a function: put its arguments in parentheses, `{name}(...)`"))
             }
             NameProblem::UnknownInstruction { near, name, .. } => {
-                let other = of_others(INSTRUCTIONS_OF_OTHERS, name);
-                other.map(|ours| format!("ARL has `{ours}` for this")).or_else(|| meant(near))
+                elsewhere::word(name).map(has).or_else(|| meant(near))
             }
             NameProblem::Renamed { now, .. } => Some(format!("did you mean `{now}`?")),
         }
@@ -152,11 +158,10 @@ impl Problem for NameProblem {
             | NameProblem::UnknownFunction { is_instruction: true, .. }
             | NameProblem::UnknownInstruction { is_function: true, .. } => None,
             NameProblem::UnknownType { near, name } => {
-                near.clone().or_else(|| of_others(TYPES_OF_OTHERS, name).map(Into::into))
+                near.clone().or_else(|| elsewhere::type_of(name).map(Into::into))
             }
-            NameProblem::UnknownFunction { name, .. } if of_others(FUNCTIONS_OF_OTHERS, name).is_some() => None,
             NameProblem::UnknownFunction { name, .. } | NameProblem::UnknownInstruction { name, .. }
-                if of_others(INSTRUCTIONS_OF_OTHERS, name).is_some() =>
+                if elsewhere::word(name).is_some() || elsewhere::operator(name).is_some() =>
             {
                 None
             }
@@ -166,82 +171,10 @@ impl Problem for NameProblem {
             | NameProblem::UnknownInstruction { near, .. }
             | NameProblem::UnknownLabel { near, .. }
             | NameProblem::NotInModule { near, .. } => near.clone(),
+            NameProblem::UnknownSystem { name, .. } if elsewhere::system(name).is_some() => None,
             NameProblem::UnknownSystem { near, .. } => near.as_ref().map(|near| format!("${near}")),
             NameProblem::Renamed { now, .. } => Some(now.clone()),
             _ => None,
         }
     }
-}
-
-/// Types of other languages and what ARL has in their place.
-const TYPES_OF_OTHERS: &[(&str, &str)] = &[
-    ("float", "double"),
-    ("real", "double"),
-    ("lreal", "double"),
-    ("num", "double"),
-    ("boolean", "bool"),
-    ("logical", "bool"),
-    ("integer", "int"),
-    ("long", "int"),
-    ("short", "int"),
-    ("dint", "int"),
-    ("unsigned", "uint"),
-    ("dword", "uint"),
-    ("char", "string"),
-    ("text", "string"),
-    ("str", "string"),
-    ("robtarget", "pose"),
-    ("jointtarget", "joint"),
-    ("e6pos", "pose"),
-    ("e6axis", "joint"),
-    ("tooldata", "tool"),
-    ("wobjdata", "wobj"),
-    ("speeddata", "speed"),
-    ("zonedata", "slip"),
-];
-
-/// Instructions of other languages and what ARL has in their place.
-const INSTRUCTIONS_OF_OTHERS: &[(&str, &str)] = &[
-    ("movl", "lin"),
-    ("movel", "lin"),
-    ("linear", "lin"),
-    ("movc", "cir"),
-    ("movec", "cir"),
-    ("movp", "ptp"),
-    ("wait", "waittime"),
-    ("delay", "waittime"),
-    ("sleep", "waittime"),
-    ("waitfor", "waituntil"),
-    ("printf", "print"),
-    ("println", "print"),
-    ("echo", "print"),
-    ("halt", "pause"),
-    ("stop", "exit"),
-];
-
-/// Functions of other languages and what ARL has in their place.
-const FUNCTIONS_OF_OTHERS: &[(&str, &str)] = &[
-    ("len", "strlen"),
-    ("length", "strlen"),
-    ("random", "rand"),
-    ("round", "trunc"),
-    ("str", "tostr"),
-    ("tostring", "tostr"),
-    ("chr", "tostr"),
-    ("time", "ctime"),
-    ("date", "cdate"),
-];
-
-/// Whether other languages have an instruction of this name.
-pub(crate) fn is_instruction_of_others(name: &str) -> bool {
-    of_others(INSTRUCTIONS_OF_OTHERS, name).is_some()
-}
-
-/// Whether other languages have a type of this name.
-pub(crate) fn is_type_of_others(name: &str) -> bool {
-    of_others(TYPES_OF_OTHERS, name).is_some()
-}
-
-fn of_others(table: &[(&str, &'static str)], name: &str) -> Option<&'static str> {
-    table.iter().find(|(other, _)| other.eq_ignore_ascii_case(name)).map(|(_, ours)| *ours)
 }

@@ -38,6 +38,7 @@ const AREAS: &[&[CodeInfo]] = &[
     super::types::CODES,
     super::arguments::CODES,
     super::flow::CODES,
+    super::doubts::CODES,
     super::modules::CODES,
     super::support::CODES,
     super::constants::CODES,

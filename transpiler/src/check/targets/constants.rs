@@ -1,7 +1,7 @@
 //! What an expression is before the program runs: targets, frames, tools and workpieces made of constants.
 
 use super::super::convert::number;
-use super::super::first_motion::{known_structure, known_value};
+use super::super::first_motion::{Globals, known_structure, known_value};
 use super::state::State;
 use crate::hir::{Builtin, Expr, ExprKind, Func, Passed, Program, Root, Value};
 use arl_lang::catalog::{PoseShift, Role, Struct, UNSET};
@@ -13,6 +13,8 @@ use arl_robot::kinematics::{Frame, frame};
 pub(super) struct Scope<'a> {
     pub(super) program: &'a Program,
     pub(super) func: &'a Func,
+    /// Which global variables count as known.
+    pub(super) globals: Globals,
 }
 
 /// A target pose all of whose six components are set.
@@ -34,7 +36,7 @@ impl<'a> Scope<'a> {
 
     /// A target pose: made of constants, or moved from such a one.
     pub(super) fn pose(self, target: &'a Expr) -> Option<Pose> {
-        let target = known_value(self.program, self.func, target)?;
+        let target = known_value(self.program, self.func, self.globals, target)?;
         if let ExprKind::Builtin(function) = &target.kind {
             return self.moved(function);
         }
@@ -94,7 +96,7 @@ impl<'a> Scope<'a> {
     }
 
     fn braces(self, value: &'a Expr) -> Option<(Struct, &'a [Option<Expr>])> {
-        known_structure(self.program, self.func, value)
+        known_structure(self.program, self.func, self.globals, value)
     }
 
     /// x, y, z, a, b, c; what is left out is `start`.

@@ -1,5 +1,6 @@
 //! What holds for a program as a whole: which system variables it writes, and what its functions may change.
 
+use super::super::first_motion::Globals;
 use super::constants::{Scope, argument};
 use super::state::{Change, Changes, State};
 use crate::hir::{Builtin, Expr, ExprKind, FuncId, Passed, Place, Program, Root, Stmt};
@@ -20,6 +21,8 @@ pub(super) struct Facts {
     pub(super) main_is_called: bool,
     /// Whether lines end exactly at their targets.
     pub(super) lines_are_exact: bool,
+    /// Whether the program writes points of data files while it runs.
+    pub(super) teaches: bool,
     /// What each function may change, with all that it calls.
     pub(super) functions: Vec<Changes>,
     /// What all functions together may change.
@@ -37,6 +40,7 @@ impl Facts {
             arcs_turn_to_targets: true,
             main_is_called: false,
             lines_are_exact: true,
+            teaches: false,
             functions: Vec::with_capacity(program.funcs.len()),
             everywhere: Changes::default(),
             anytime: Changes::default(),
@@ -44,7 +48,7 @@ impl Facts {
         let mut callers: Vec<Vec<usize>> = vec![Vec::new(); program.funcs.len()];
         let mut in_arguments: Vec<FuncId> = Vec::new();
         for (at, func) in program.funcs.iter().enumerate() {
-            let scope = Scope { program, func };
+            let scope = Scope { program, func, globals: Globals::Constant };
             let mut changes = Changes::default();
             each_expr(&func.body, &mut |expr| {
                 facts.see(expr);
@@ -144,6 +148,7 @@ impl Facts {
             ExprKind::Step(_, place) => written(place),
             ExprKind::Builtin(builtin) => {
                 outs(builtin).for_each(written);
+                self.teaches |= builtin.entry.teaches;
                 builtin.entry.changes.into_iter().for_each(|role| self.changed(role));
             }
             _ => {}

@@ -1,5 +1,6 @@
 //! Goes along the statements of each function and looks at its motions, knowing what holds there.
 
+use super::super::first_motion::Globals;
 use super::constants::{Scope, argument};
 use super::facts::Facts;
 use super::judge::{self, Line, Verdict};
@@ -40,7 +41,8 @@ pub(super) fn each_function(program: &Program, robot: &Robot, facts: &Facts, tel
             // Other programs may call it.
             None => State::UNKNOWN,
         };
-        let mut walk = Walk { scope: Scope { program, func }, robot, facts, state, tell: &mut *tell };
+        let globals = if facts.teaches { Globals::Unwritten } else { Globals::AsTaught };
+        let mut walk = Walk { scope: Scope { program, func, globals }, robot, facts, state, tell: &mut *tell };
         walk.block(&func.body);
     }
 }

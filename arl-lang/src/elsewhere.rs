@@ -1,0 +1,275 @@
+//! Words of other robot languages, of Python and of C, and what ARL has in their place.
+
+/// Types that other languages have under another name, and the name here.
+const TYPES: &[(&str, &str)] = &[
+    ("boolean", "bool"),
+    ("char", "string"),
+    ("dint", "int"),
+    ("dword", "uint"),
+    ("e6axis", "joint"),
+    ("e6pos", "pose"),
+    ("float", "double"),
+    ("integer", "int"),
+    ("jointtarget", "joint"),
+    ("logical", "bool"),
+    ("long", "int"),
+    ("lreal", "double"),
+    ("num", "double"),
+    ("real", "double"),
+    ("robtarget", "pose"),
+    ("short", "int"),
+    ("speeddata", "speed"),
+    ("str", "string"),
+    ("text", "string"),
+    ("tooldata", "tool"),
+    ("unsigned", "uint"),
+    ("wobjdata", "wobj"),
+    ("zonedata", "slip"),
+];
+
+/// Instructions, functions and words of control structures of other languages, and what is written here.
+const WORDS: &[(&str, &str)] = &[
+    ("begin", "no word for the beginning of a block: the line that opens it is enough"),
+    ("calcjointt", "`getjoint(p1, $FLANGE, $WORLD)`"),
+    ("calcrobt", "`getpose(j1, $FLANGE, $WORLD)`"),
+    ("chr", "`tostr`"),
+    ("circ", "`cir m:p1,p:p2`"),
+    ("cjointt", "`cjoint()`"),
+    ("connect", "`interrupt` to call a function when a condition comes true"),
+    ("crobt", "`cpose()`"),
+    ("date", "`cdate()`"),
+    ("decl", "declarations without such a word: `int n = 3`"),
+    ("def", "`func void name()` ... `endfunc`"),
+    ("deffct", "`func int name()` ... `endfunc`"),
+    ("delay", "`waittime 0.5` (in s)"),
+    ("dim", "declarations without such a word: `int n = 3`"),
+    ("echo", "`print`"),
+    ("elif", "`elseif(condition)`"),
+    ("elsif", "`elseif(condition)`"),
+    ("fold", "comments (`// text`) for this"),
+    ("from", "`import \"file\"`, and then `file::name`"),
+    ("function", "`func int name()` ... `endfunc`"),
+    ("get_actual_joint_positions", "`cjoint()`"),
+    ("get_actual_tcp_pose", "`cpose()`"),
+    ("get_analog_in", "`getai(1)`"),
+    ("get_configurable_digital_in", "`getdi(1)`"),
+    ("get_digital_in", "`getdi(1)`"),
+    ("get_forward_kin", "`getpose(j1, $FLANGE, $WORLD)`"),
+    ("get_inverse_kin", "`getjoint(p1, $FLANGE, $WORLD)`"),
+    ("get_standard_analog_in", "`getai(1)`"),
+    ("get_standard_digital_in", "`getdi(1)`"),
+    ("global", "global variables outside of all functions: no word is needed to use them"),
+    ("halt", "`pause`, and `exit` to end the program"),
+    ("idelete", "`delint`"),
+    ("idisable", "`disableint`"),
+    ("ienable", "`enableint`"),
+    ("incr", "`n++`"),
+    ("input", "`getdi(1)`"),
+    ("len", "`strlen` for texts; arrays have the size that they were declared with"),
+    ("length", "`strlen`"),
+    ("let", "declarations with a type: `int n = 3`"),
+    ("linear", "`lin`"),
+    ("lin_rel", "`lin reltool(cpose(), dx:10, dy:0, dz:0, rz:0, ry:0, rx:0)`"),
+    ("local", "declarations without such a word: `int n = 3`"),
+    ("module", "a file for each module; `import` reads it"),
+    ("moveabsj", "`movej`"),
+    ("movec", "`cir m:p1,p:p2`"),
+    ("movecirc", "`cir m:p1,p:p2`"),
+    ("movel", "`lin`"),
+    ("movelin", "`lin`"),
+    ("movep", "`lin` with a blending zone: `lin p1,vl:100mm/s,sl:10mm`"),
+    ("moveptp", "`ptp`"),
+    ("movl", "`lin`"),
+    ("movs", "`spl`"),
+    ("movc", "`cir m:p1,p:p2`"),
+    ("movp", "`ptp`"),
+    ("offs", "`offset(p1, dx:10, dy:0, dz:0, rz:0, ry:0, rx:0)`"),
+    ("output", "`setdo(1, true)`"),
+    ("pass", "blocks that may be empty: leave it out"),
+    ("pers", "declarations without such a word: `int n = 3`"),
+    ("popup", "`print`, and `pause` to wait for the operator"),
+    ("pose_inv", "`poseinv`"),
+    ("pose_trans", "`reltool`, which moves a pose along its own axes"),
+    ("printf", "`print`"),
+    ("println", "`print`"),
+    ("proc", "`func void name()` ... `endfunc`"),
+    ("procedure", "`func void name()` ... `endfunc`"),
+    ("ptp_rel", "`movej` to a joint that was calculated from `cjoint()`"),
+    ("pulse", "`pulsedo(1, true, 0.5)`"),
+    ("raise", "`assert(condition)` to end the program with an alarm"),
+    ("random", "`rand`"),
+    ("reset", "`setdo(1, false)`"),
+    ("resume", "`startmove`"),
+    ("round", "`floor(x + 0.5)`"),
+    ("scirc", "`cir m:p1,p:p2`"),
+    ("select", "`switch(n)` ... `endswitch`"),
+    ("set", "`setdo(1, true)`"),
+    ("set_analog_out", "`setao(1, 5)`"),
+    ("set_configurable_digital_out", "`setdo(1, true)`"),
+    ("set_digital_out", "`setdo(1, true)`"),
+    ("set_standard_analog_out", "`setao(1, 5)`"),
+    ("set_standard_digital_out", "`setdo(1, true)`"),
+    ("set_tcp", "the tool with the motion: `lin p1,t:gripper`"),
+    ("signal", "names for signals in the cell file; programs give the number: `getdi(1)`"),
+    ("sleep", "`waittime 0.5` (in s)"),
+    ("slin", "`lin`"),
+    ("spline", "`spl`"),
+    ("sptp", "`ptp`"),
+    ("stop", "`pause`, and `exit` to end the program"),
+    ("sub", "`func void name()` ... `endfunc`"),
+    ("sync", "no word for this: instructions wait as far as they need to"),
+    ("test", "`switch(n)` ... `endswitch`"),
+    ("testdi", "`getdi(1)`"),
+    ("textmsg", "`print`"),
+    ("thread", "`interrupt`, or a channel of its own in the cell file"),
+    ("time", "`ctime()`"),
+    ("tostring", "`tostr`"),
+    ("tpreadnum", "`scan`"),
+    ("tpwrite", "`print`"),
+    ("trap", "`func void name()`, which an `interrupt` calls"),
+    ("try", "no exceptions: a mistake ends the program with an alarm; look at the value before"),
+    ("var", "declarations with a type and no other word: `int n = 3`"),
+    ("wait", "`waittime 0.5` for a time in s, `waituntil getdi(1)` for a condition"),
+    ("waitdi", "`waituntil getdi(1)`"),
+    ("waitdo", "`waituntil getdo(1)`"),
+    ("waitfor", "`waituntil getdi(1)`"),
+    ("setai", "`setao(1, 5)`"),
+    ("setgo", "`setdo(1, 8, value)`, which writes the outputs 1 to 8"),
+    ("tperase", "no screen to be cleared: `print` writes below what is there"),
+];
+
+/// System variables of other languages.
+const SYSTEM: &[(&str, &str)] = &[
+    ("anin", "`getai(1)`"),
+    ("anout", "`setao(1, 5)`"),
+    ("apo", "`sl:10mm` or `sp:20%` with the motion, or `$DFSLIP`"),
+    ("apo.cdis", "`sl:10mm` with the motion"),
+    ("in", "`getdi(1)`"),
+    ("out", "`setdo(1, true)` to write, `getdo(1)` to read"),
+    ("ov_pro", "`velset`"),
+    ("pos_act", "`cpose()`"),
+    ("axis_act", "`cjoint()`"),
+    ("tool", "`t:` with the motion, or `$DFTOOL`"),
+    ("timer", "`clkstart`, `clkread` with a `clock`"),
+    ("vel", "`vl:250mm/s` with the motion, or `$DFSPEED`"),
+    ("vel_axis", "`vp:50%` with the motion, or `$DFSPEED`"),
+];
+
+/// What other languages give a motion besides its target.
+const ARGUMENTS: &[(&str, &str)] = &[
+    ("c_dis", "a blending zone as an argument: `lin p1,sl:10mm`"),
+    ("c_ori", "a blending zone as an argument: `lin p1,sl:10mm`"),
+    ("c_ptp", "a blending zone as an argument: `movej j1,sp:20%`"),
+    ("c_spl", "a blending zone as an argument: `lin p1,sl:10mm`"),
+    ("c_vel", "a blending zone as an argument: `lin p1,sl:10mm`"),
+    ("fine", "`sl:-1` for a motion that stops at its target"),
+    ("none", "no such value: leave it out"),
+    ("null", "no such value: leave it out"),
+    ("nil", "no such value: leave it out"),
+    ("tool0", "`$FLANGE`"),
+    ("vmax", "`vp:100%`"),
+    ("wobj0", "`$WORLD`"),
+];
+
+/// Labels of other languages' motions, and those that ARL has for the same.
+const LABELS: &[(&str, &[&str])] = &[
+    ("base", &["w"]),
+    ("blend", &["sl", "sp"]),
+    ("frame", &["w"]),
+    ("joint", &["j"]),
+    ("pose", &["p"]),
+    ("pos", &["p"]),
+    ("r", &["sl"]),
+    ("radius", &["sl"]),
+    ("speed", &["vl", "vp"]),
+    ("target", &["p", "j"]),
+    ("time", &["dura"]),
+    ("tool", &["t"]),
+    ("uframe", &["w"]),
+    ("vel", &["vl", "vp"]),
+    ("velocity", &["vl", "vp"]),
+    ("via", &["m"]),
+    ("wobj", &["w"]),
+    ("zone", &["sl", "sp"]),
+];
+
+/// Operators that other languages write in letters.
+const OPERATORS: &[(&str, &str)] = &[
+    ("and", "&&"),
+    ("b_and", "&"),
+    ("b_exor", "^"),
+    ("b_not", "~"),
+    ("b_or", "|"),
+    ("div", "/"),
+    ("exor", "^"),
+    ("mod", "%"),
+    ("not", "!"),
+    ("or", "||"),
+    ("xor", "^"),
+];
+
+fn find(table: &[(&'static str, &'static str)], word: &str) -> Option<&'static str> {
+    table.iter().find(|(other, _)| other.eq_ignore_ascii_case(word)).map(|(_, ours)| *ours)
+}
+
+/// The type that another language calls `word`.
+///
+/// ```
+/// assert_eq!(arl_lang::elsewhere::type_of("robtarget"), Some("pose"));
+/// ```
+pub fn type_of(word: &str) -> Option<&'static str> {
+    find(TYPES, word)
+}
+
+/// What ARL has in place of an instruction, function or control word of another language: what follows on "ARL has".
+///
+/// ```
+/// assert_eq!(arl_lang::elsewhere::word("MoveL"), Some("`lin`"));
+/// assert_eq!(arl_lang::elsewhere::word("movej"), None);
+/// ```
+pub fn word(word: &str) -> Option<&'static str> {
+    find(WORDS, word)
+}
+
+/// What ARL has in place of another language's system variable, named without its `$`.
+pub fn system(name: &str) -> Option<&'static str> {
+    find(SYSTEM, name)
+}
+
+/// What ARL has in place of a value that other languages have: `fine`, `tool0`, `v100` and `z10` behind a motion.
+pub fn argument(name: &str) -> Option<&'static str> {
+    let numbered = |first: char| {
+        let digits = name.strip_prefix([first, first.to_ascii_uppercase()]);
+        digits.is_some_and(|digits| !digits.is_empty() && digits.bytes().all(|digit| digit.is_ascii_digit()))
+    };
+    find(ARGUMENTS, name)
+        .or_else(|| numbered('v').then_some("a speed as an argument with its unit: `vl:100mm/s`, `vp:20%`"))
+        .or_else(|| numbered('z').then_some("a blending zone as an argument: `sl:10mm`"))
+}
+
+/// The labels of ARL's motions for what another language labels so; not every motion has all of them.
+pub fn labels(label: &str) -> &'static [&'static str] {
+    LABELS.iter().find(|(other, _)| other.eq_ignore_ascii_case(label)).map_or(&[], |(_, ours)| ours)
+}
+
+/// How ARL writes an operator that other languages write in letters.
+pub fn operator(word: &str) -> Option<&'static str> {
+    find(OPERATORS, word)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_word_of_arl_is_called_one_of_others() {
+        for (word, _) in WORDS.iter().chain(ARGUMENTS).chain(OPERATORS).filter(|(word, _)| *word != "connect") {
+            assert!(!crate::is_reserved(word), "{word}");
+            assert!(crate::catalog::functions(word).is_empty(), "{word}");
+            assert!(crate::catalog::instructions(word).is_empty(), "{word}");
+        }
+        for (name, _) in SYSTEM {
+            assert!(crate::catalog::system_variable(name).is_none(), "${name}");
+        }
+    }
+}

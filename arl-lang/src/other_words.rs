@@ -1,0 +1,211 @@
+//! Operators and words of other languages in a line, and words of ARL with a slip in them: the error is reported, and
+//! the line is read as it was meant.
+
+use crate::ast::BinaryOp;
+use crate::elsewhere;
+use crate::explain::{begins_value, ends_value};
+use crate::near::within;
+use crate::span::Span;
+use crate::syntax_error::{Hint, SyntaxError, SyntaxErrorKind};
+use crate::token::{Placed, Token};
+
+/// Two signs that touch, what they are in ARL, and how that is written.
+const PAIRS: [(Token, Token, Token, &str); 7] = [
+    (Token::Colon, Token::Assign(None), Token::Assign(None), "="),
+    (Token::Operator(BinaryOp::Less), Token::Operator(BinaryOp::Greater), Token::Operator(BinaryOp::NotEqual), "!="),
+    (Token::Complement, Token::Assign(None), Token::Operator(BinaryOp::NotEqual), "!="),
+    (Token::Assign(None), Token::Operator(BinaryOp::Less), Token::Operator(BinaryOp::LessEqual), "<="),
+    (Token::Assign(None), Token::Operator(BinaryOp::Greater), Token::Operator(BinaryOp::GreaterEqual), ">="),
+    (Token::Operator(BinaryOp::Equal), Token::Assign(None), Token::Operator(BinaryOp::Equal), "=="),
+    (Token::Operator(BinaryOp::NotEqual), Token::Assign(None), Token::Operator(BinaryOp::NotEqual), "!="),
+];
+
+/// Reports the operators of other languages in a line, and puts those of ARL in their place.
+pub(crate) fn replace_operators(tokens: &mut Vec<Placed>, source: &str, errors: &mut Vec<SyntaxError>) {
+    let mut report = |span: Span, ours: &'static str| {
+        errors.push(SyntaxError::new(SyntaxErrorKind::OtherOperator(span.text(source).into(), ours), span));
+    };
+    let (mut depth, mut assigned) = (0_usize, false);
+    let mut at = 0;
+    while let Some((start, token, end)) = tokens.get(at).copied() {
+        let next = tokens.get(at + 1).copied();
+        let pair = next.filter(|next| next.0 == end).and_then(|(_, second, end)| {
+            let pair = PAIRS.iter().find(|(a, b, ..)| *a == token && *b == second)?;
+            Some((pair.2, pair.3, end))
+        });
+        if let Some((meant, ours, end)) = pair {
+            report(Span::new(start, end), ours);
+            tokens.remove(at + 1);
+            if let Some(place) = tokens.get_mut(at) {
+                *place = (start, meant, end);
+            }
+        } else if let Token::Name(_) = token {
+            let before = at.checked_sub(1).and_then(|before| tokens.get(before)).map(|before| before.1);
+            let inside = depth > 0 || assigned;
+            let word = Span::new(start, end).text(source);
+            if let Some((meant, ours)) = operator_in_letters(word, before, next.map(|next| next.1), inside) {
+                report(Span::new(start, end), ours);
+                if let Some(place) = tokens.get_mut(at) {
+                    *place = (start, meant, end);
+                }
+            }
+        }
+        match tokens.get(at).map(|token| token.1) {
+            Some(Token::ParenOpen | Token::BracketOpen | Token::BraceOpen) => depth += 1,
+            Some(Token::ParenClose | Token::BracketClose | Token::BraceClose) => depth = depth.saturating_sub(1),
+            Some(Token::Assign(_)) => assigned = true,
+            _ => {}
+        }
+        at += 1;
+    }
+}
+
+/// The operator that a name is where no name can stand: `and` between two values, `not` in front of one.
+fn operator_in_letters(
+    word: &str,
+    before: Option<Token>,
+    next: Option<Token>,
+    inside: bool,
+) -> Option<(Token, &'static str)> {
+    let ours = elsewhere::operator(word)?;
+    let next = next?;
+    let token = match ours {
+        "!" | "~" => {
+            let opens = before.is_some_and(|before| !ends_value(before)) && begins_value(next);
+            return opens.then_some((if ours == "!" { Token::Not } else { Token::Complement }, ours));
+        }
+        "&&" => BinaryOp::And,
+        "||" => BinaryOp::Or,
+        "&" => BinaryOp::BitAnd,
+        "|" => BinaryOp::BitOr,
+        "^" => BinaryOp::BitXor,
+        "/" => BinaryOp::Divide,
+        _ => BinaryOp::Remainder,
+    };
+    let goes_on = begins_value(next) || matches!(next, Token::ParenOpen | Token::Minus);
+    let between = inside && before.is_some_and(ends_value) && goes_on;
+    between.then_some((Token::Operator(token), ours))
+}
+
+/// Words that other languages put in front of a declaration.
+const PREFIXES: [&str; 7] = ["var", "pers", "decl", "local", "global", "dim", "let"];
+
+/// Words with which other languages begin a function.
+const FUNCTIONS: [&str; 8] = ["def", "deffct", "function", "proc", "procedure", "sub", "thread", "trap"];
+
+/// A refused line that begins with such a word, as it was meant.
+pub(crate) enum Meant {
+    /// Nothing of it is kept.
+    Nothing,
+    /// It declares what stands behind its first word.
+    Declaration,
+    /// Its first word is this one.
+    Word(Token),
+    /// It begins a function.
+    Function,
+}
+
+/// The error for a refused line that begins with a word of another language, or with a word of ARL that has a slip in
+/// it; and what to keep of the line.
+pub(crate) fn first_word(tokens: &[Placed], source: &str) -> Option<(SyntaxError, Meant)> {
+    let (start, token @ (Token::Name(_) | Token::Instruction(_)), end) = *tokens.first()? else { return None };
+    let span = Span::new(start, end);
+    let word = span.text(source);
+    let next = tokens.get(1).map(|next| next.1);
+    let is = |list: &[&str]| list.iter().any(|other| other.eq_ignore_ascii_case(word));
+    if let Some((meant, opener)) = slip(word, token, next) {
+        let error = SyntaxError::new(SyntaxErrorKind::Misspelt(word.into(), opener), span);
+        return Some((error, Meant::Word(meant)));
+    }
+    if let Some(second) = tokens.get(1).filter(|second| begins_value(second.1))
+        && !crate::catalog::functions(word).is_empty()
+    {
+        let found = format!("`{}`", Span::new(second.0, second.2).text(source)).into();
+        let kind = SyntaxErrorKind::Unexpected { found, expected: "`(`".into(), hint: Hint::FunctionParens };
+        return Some((SyntaxError::new(kind, Span::new(second.0, second.2)), Meant::Nothing));
+    }
+    let ours = elsewhere::word(word)?;
+    // What a program could do with a thing of its own that has this name.
+    let own = matches!(
+        next,
+        None | Some(
+            Token::ParenOpen
+                | Token::BracketOpen
+                | Token::Assign(_)
+                | Token::Dot
+                | Token::Scope
+                | Token::PlusPlus
+                | Token::MinusMinus
+        )
+    );
+    let meant = match word {
+        _ if is(&FUNCTIONS) => Meant::Function,
+        _ if is(&["elif", "elsif"]) => Meant::Word(Token::ElseIf),
+        _ if is(&["select", "test"]) => Meant::Word(Token::Switch),
+        _ if own => return None,
+        _ if is(&PREFIXES) => Meant::Declaration,
+        _ => Meant::Nothing,
+    };
+    Some((SyntaxError::new(SyntaxErrorKind::OtherWord(word.into(), ours), span), meant))
+}
+
+/// The error for a line that begins a function in another language's words, though the grammar takes it for an
+/// instruction: `DEF main()`.
+pub(crate) fn function_of_others(tokens: &[Placed], source: &str) -> Option<SyntaxError> {
+    let [(start, Token::Instruction(_), end), (_, Token::Name(_), _), (_, Token::ParenOpen, _), ..] = *tokens else {
+        return None;
+    };
+    let span = Span::new(start, end);
+    let word = span.text(source);
+    let begins = FUNCTIONS.iter().any(|other| other.eq_ignore_ascii_case(word));
+    let ours = elsewhere::word(word).filter(|_| begins)?;
+    Some(SyntaxError::new(SyntaxErrorKind::OtherWord(word.into(), ours), span))
+}
+
+/// The error for a refused word behind the first that other languages give a motion.
+pub(crate) fn argument(found: Placed, source: &str) -> Option<SyntaxError> {
+    let (start, Token::Name(_), end) = found else { return None };
+    let span = Span::new(start, end);
+    let word = span.text(source);
+    Some(SyntaxError::new(SyntaxErrorKind::OtherWord(word.into(), elsewhere::argument(word)?), span))
+}
+
+/// The words that open a line with parentheses behind them, or a function.
+const OPENERS: [(&str, Token); 7] = [
+    ("if", Token::If),
+    ("elseif", Token::ElseIf),
+    ("while", Token::While),
+    ("for", Token::For),
+    ("switch", Token::Switch),
+    ("until", Token::Until),
+    ("func", Token::Func),
+];
+
+/// The opener that the first word of a refused line was meant to be.
+fn slip(word: &str, token: Token, next: Option<Token>) -> Option<(Token, &'static str)> {
+    if word.len() < 3 || !matches!(token, Token::Name(_)) {
+        return None;
+    }
+    let limit = if word.len() < 6 { 1 } else { 2 };
+    let meant = within(word, limit, OPENERS.iter().map(|(opener, _)| *opener))?;
+    let found = OPENERS.iter().find(|(opener, _)| *opener == meant)?;
+    let fits = match found.1 {
+        Token::Func => matches!(next, Some(Token::Type(_) | Token::Name(_))),
+        _ => next == Some(Token::ParenOpen),
+    };
+    fits.then_some((found.1, found.0))
+}
+
+/// Whether `word` alone on a line was meant to be the word that closes a block; whether it is the one of functions.
+pub(crate) fn closing_slip(word: &str) -> Option<bool> {
+    const CLOSERS: [&str; 6] = ["endfor", "endfunc", "endif", "endloop", "endswitch", "endwhile"];
+    let begins = word.get(..3).is_some_and(|first| first.eq_ignore_ascii_case("end"));
+    let limit = if word.len() < 8 { 1 } else { 2 };
+    let meant = within(word, limit, CLOSERS.into_iter()).filter(|_| begins)?;
+    Some(meant == "endfunc")
+}
+
+/// Whether `word` was meant to be the `opener` of a block.
+pub(crate) fn opening_slip(word: &str, opener: &str) -> bool {
+    within(word, if opener.len() < 3 { 1 } else { 2 }, std::iter::once(opener)).is_some_and(|_| word.len() > 2)
+}

@@ -1,0 +1,235 @@
+//! Warnings of what a program may say, and most often does not mean.
+
+use super::context::{Body, Checker};
+use super::convert::number;
+use crate::diagnostics::doubts::Doubt;
+use crate::diagnostics::{Diagnostic, Label, Location, Problem};
+use crate::hir::{Block, Builtin, Expr, ExprKind, Func, FuncId, ModuleId, Passed, Program, Stmt, StmtKind};
+use crate::visit;
+use arl_lang::ast::{self, BinaryOp, UnaryOp};
+use arl_lang::catalog::{Effect, Family, Form, Mode, Struct};
+use arl_lang::span::Span;
+
+impl Checker<'_> {
+    /// Warns of an assignment where a condition stands.
+    pub(crate) fn doubt_condition(&mut self, body: &Body, condition: &ast::Expr) {
+        match &condition.kind {
+            ast::ExprKind::Assign(None, _) => {
+                self.report::<()>(body, condition.span, Doubt::AssignedCondition);
+            }
+            ast::ExprKind::Unary(UnaryOp::Not, inner) => self.doubt_condition(body, inner),
+            ast::ExprKind::Binary(BinaryOp::And | BinaryOp::Or, both) => {
+                self.doubt_condition(body, &both.0);
+                self.doubt_condition(body, &both.1);
+            }
+            _ => {}
+        }
+    }
+
+    /// Warns of a target whose numbers are those of another unit.
+    pub(crate) fn doubt_units(&mut self, body: &Body, id: Struct, values: &[Option<Expr>], span: Span) {
+        if let Some(doubt) = other_unit(self.family(), id, values) {
+            self.report::<()>(body, span, doubt);
+        }
+    }
+}
+
+/// Whether an expression compares.
+pub(crate) fn is_comparison(expr: &ast::Expr) -> bool {
+    use BinaryOp::{Equal, Greater, GreaterEqual, Less, LessEqual, NotEqual};
+    let ast::ExprKind::Binary(op, _) = &expr.kind else { return false };
+    matches!(op, Equal | NotEqual | Less | LessEqual | Greater | GreaterEqual)
+}
+
+/// The unit that a target of constants is probably in, where it is not ARL's.
+fn other_unit(family: Family, id: Struct, values: &[Option<Expr>]) -> Option<Doubt> {
+    let components = id.def(family).components.iter();
+    let given = |names: &[&str]| -> Option<Vec<f64>> {
+        let given = components.clone().zip(values).filter(|(component, _)| names.contains(&component.name));
+        given.filter_map(|(_, value)| value.as_ref()).map(number).collect()
+    };
+    let structure = id.def(family).name;
+    match id {
+        // The third axis of a SCARA is linear.
+        Struct::Joint if family == Family::SixAxis => {
+            let axes = given(&["j1", "j2", "j3", "j4", "j5", "j6"])?;
+            let (found, wanted) = ("radians", "degrees");
+            let most = fractions_below(&axes, std::f64::consts::TAU, 1.0, 3)?;
+            let example = format!("{most} rad are {:.1} deg", most.to_degrees());
+            Some(Doubt::OtherUnit { structure, found, wanted, example })
+        }
+        Struct::Pose => {
+            let place = given(&["x", "y", "z"])?;
+            let (found, wanted) = ("metres", "mm");
+            let most = fractions_below(&place, 3.0, 0.05, 2)?;
+            let example = format!("{most} m are {} mm", (most * 1e6).round() / 1e3);
+            Some(Doubt::OtherUnit { structure, found, wanted, example })
+        }
+        _ => None,
+    }
+}
+
+/// The largest of the numbers, where all are fractions up to `most` (or 0), at least `count` of them, and one of them
+/// is above `least`.
+fn fractions_below(numbers: &[f64], most: f64, least: f64, count: usize) -> Option<f64> {
+    let fractions = numbers.iter().filter(|number| number.fract() != 0.0).count();
+    let others = numbers.iter().any(|number| number.abs() > most || (number.fract() == 0.0 && *number != 0.0));
+    let largest = numbers.iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+    (fractions >= count && !others && largest.abs() >= least).then_some(largest)
+}
+
+/// Reports zones that never act, and handlers that may wait for ever.
+pub(crate) fn check(program: &Program, locate: &dyn Fn(ModuleId, Span) -> Location) -> Vec<Diagnostic> {
+    let mut out = Vec::new();
+    for (at, func) in program.funcs.iter().enumerate() {
+        let is_main = program.main == Some(FuncId(at as u32));
+        idle_zones(&func.body, is_main, &mut |zone, culprit, waits| {
+            let mut found = Doubt::IdleZone { culprit }.at(locate(func.module, zone));
+            found.labels.push(Label { at: locate(func.module, waits), text: "it waits here".into() });
+            out.push(found);
+        });
+    }
+    endless_handlers(program, &mut |func, span, handler| {
+        out.push(Doubt::EndlessHandler { handler }.at(locate(func.module, span)));
+    });
+    out
+}
+
+/// What a statement is to a zone before it.
+enum Step {
+    /// A motion, and its own zone if it has one.
+    Motion(Option<Zone>),
+    /// The robot stops for it.
+    Waits(&'static str),
+    /// The robot moves on.
+    Passes,
+    /// That depends.
+    Unknown,
+}
+
+/// The zone that a motion has itself.
+struct Zone {
+    span: Span,
+    /// Whether it is a constant above 0.
+    acts: bool,
+}
+
+/// Goes along the statements of a block, and of the blocks in them.
+fn idle_zones(block: &Block, is_main: bool, tell: &mut dyn FnMut(Span, &'static str, Span)) {
+    for (at, stmt) in block.iter().enumerate() {
+        if let Step::Motion(Some(zone @ Zone { acts: true, .. })) = step(stmt)
+            && let Some((culprit, waits)) = stop_behind(block.get(at + 1..).unwrap_or_default(), is_main)
+        {
+            tell(zone.span, culprit, waits);
+        }
+        inner_blocks(stmt).for_each(|inner| idle_zones(inner, false, tell));
+    }
+}
+
+/// What stops the robot behind a motion with a zone, where that zone counts for no later motion either.
+fn stop_behind(rest: &[Stmt], is_main: bool) -> Option<(&'static str, Span)> {
+    let mut stop = None;
+    for stmt in rest {
+        match (step(stmt), stop) {
+            (Step::Waits(name), None) => stop = Some((name, stmt.span)),
+            (Step::Motion(Some(_)), found) => return found,
+            (Step::Motion(None), _) | (Step::Unknown, _) => return None,
+            (Step::Waits(_), Some(_)) | (Step::Passes, _) => {}
+        }
+    }
+    stop.filter(|_| is_main)
+}
+
+fn step(stmt: &Stmt) -> Step {
+    if matches!(stmt.kind, StmtKind::Label(_)) || inner_blocks(stmt).next().is_some() {
+        return Step::Unknown;
+    }
+    if let StmtKind::Eval(Expr { kind: ExprKind::Builtin(builtin), .. }) = &stmt.kind
+        && builtin.entry.effect == Effect::Plans
+    {
+        return Step::Motion(zone(builtin));
+    }
+    let mut step = match stmt.kind {
+        StmtKind::Eval(_) | StmtKind::Let(..) => Step::Passes,
+        _ => return Step::Unknown,
+    };
+    visit::exprs_in_stmt(stmt, &mut |expr| match &expr.kind {
+        ExprKind::Call(..) => step = Step::Unknown,
+        ExprKind::Builtin(builtin) if !matches!(step, Step::Unknown) => match builtin.entry.effect {
+            Effect::Waits => step = Step::Waits(builtin.entry.name),
+            Effect::Plans | Effect::Ends => step = Step::Unknown,
+            Effect::Pure | Effect::Acts | Effect::Lasts => {}
+        },
+        _ => {}
+    });
+    step
+}
+
+/// The zone that a motion has itself.
+fn zone(motion: &Builtin) -> Option<Zone> {
+    motion.args.iter().find_map(|bound| {
+        let name = motion.entry.params.get(bound.param)?.name;
+        let Passed::Value(value) = &bound.value else { return None };
+        let acts = name != "s" && number(value).is_some_and(|zone| zone > 0.0);
+        matches!(name, "s" | "sl" | "sp").then_some(Zone { span: value.span, acts })
+    })
+}
+
+fn inner_blocks(stmt: &Stmt) -> impl Iterator<Item = &Block> {
+    let blocks: Vec<&Block> = match &stmt.kind {
+        StmtKind::If(arms, otherwise) => arms.iter().map(|(_, block)| block).chain(otherwise).collect(),
+        StmtKind::While(_, block, _) | StmtKind::Repeat(block, _, _) | StmtKind::Loop(block, _) => vec![block],
+        StmtKind::For(each) => vec![&each.body],
+        StmtKind::Switch(_, arms) => arms.iter().map(|arm| &arm.body).collect(),
+        _ => Vec::new(),
+    };
+    blocks.into_iter()
+}
+
+/// Tells each `waituntil` without a limit in a function that handles an event, or is called by one that does.
+fn endless_handlers(program: &Program, tell: &mut dyn FnMut(&Func, Span, String)) {
+    let mut handles: Vec<Option<FuncId>> = vec![None; program.funcs.len()];
+    let mut open = Vec::new();
+    let mut calls: Vec<Vec<FuncId>> = vec![Vec::new(); program.funcs.len()];
+    for (func, calls) in program.funcs.iter().zip(&mut calls) {
+        func.body.iter().for_each(|stmt| {
+            visit::exprs_in_stmt(stmt, &mut |expr| match &expr.kind {
+                ExprKind::Call(callee, _) => calls.push(*callee),
+                ExprKind::Builtin(builtin) => open.extend(actions(builtin).map(|action| (action, action))),
+                _ => {}
+            });
+        });
+    }
+    while let Some((func, handler)) = open.pop() {
+        let Some(slot @ None) = handles.get_mut(func.0 as usize) else { continue };
+        *slot = Some(handler);
+        open.extend(calls.get(func.0 as usize).into_iter().flatten().map(|callee| (*callee, handler)));
+    }
+    for (func, handler) in program.funcs.iter().zip(handles) {
+        let Some(handler) = handler.and_then(|handler| program.funcs.get(handler.0 as usize)) else { continue };
+        func.body.iter().for_each(|stmt| {
+            visit::exprs_in_stmt(stmt, &mut |expr| {
+                if let ExprKind::Builtin(builtin) = &expr.kind
+                    && builtin.entry.form == Form::WaitUntil
+                    && !has_limit(builtin)
+                {
+                    tell(func, expr.span, handler.name.clone());
+                }
+            });
+        });
+    }
+}
+
+/// The functions that a built-in calls when an event comes.
+fn actions(builtin: &Builtin) -> impl Iterator<Item = FuncId> {
+    let is_action = |at: usize| builtin.entry.params.get(at).is_some_and(|param| param.mode == Mode::Action);
+    builtin.args.iter().filter(move |bound| is_action(bound.param)).filter_map(|bound| match &bound.value {
+        Passed::Value(Expr { kind: ExprKind::Call(func, _), .. }) => Some(*func),
+        _ => None,
+    })
+}
+
+fn has_limit(wait: &Builtin) -> bool {
+    let is_limit = |at: usize| wait.entry.params.get(at).is_some_and(|param| param.limits);
+    wait.args.iter().any(|bound| is_limit(bound.param))
+}

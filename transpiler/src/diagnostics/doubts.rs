@@ -1,0 +1,67 @@
+//! What a program may say, and most often does not mean.
+
+use super::Problem;
+use super::declare::problems;
+
+problems! {
+    /// What is probably not meant.
+    pub(crate) enum Doubt {
+        warning 913 "An assignment as a condition" => {
+            /// `if(n = 2)`.
+            AssignedCondition,
+        }
+        warning 914 "A comparison as a statement" => {
+            /// `n == 5` on a line of its own.
+            ComparedStatement,
+        }
+        warning 915 "A target that looks like radians or metres" => {
+            /// `found`: the unit that the numbers look like; `wanted`: ARL's; `example`: a value in both.
+            OtherUnit { structure: &'static str, found: &'static str, wanted: &'static str, example: String },
+        }
+        warning 916 "A zone that never acts" => {
+            /// The robot stops at the target anyway, for the statement `culprit`.
+            IdleZone { culprit: &'static str },
+        }
+        warning 917 "A handler that may wait for ever" => {
+            /// A `waituntil` without a time limit in a function that handles an event.
+            EndlessHandler { handler: String },
+        }
+    }
+}
+
+impl Problem for Doubt {
+    fn message(&self) -> String {
+        match self {
+            Doubt::AssignedCondition => "this condition assigns: `=` writes the variable".into(),
+            Doubt::ComparedStatement => "this compares, and nothing looks at the result".into(),
+            Doubt::OtherUnit { structure, found, wanted, .. } => {
+                format!("this `{structure}` looks like {found}: ARL takes {wanted}")
+            }
+            Doubt::IdleZone { culprit } => {
+                format!("this zone never acts: the robot stops at the target, since `{culprit}` waits for it")
+            }
+            Doubt::EndlessHandler { handler } => {
+                format!("`{handler}` handles an event, and this may hold up the program for ever")
+            }
+        }
+    }
+
+    fn label(&self) -> String {
+        match self {
+            Doubt::AssignedCondition => "did you mean `==`?".into(),
+            _ => String::new(),
+        }
+    }
+
+    fn help(&self) -> Option<String> {
+        Some(match self {
+            Doubt::AssignedCondition => "`==` compares; to assign first, do it on a line of its own".into(),
+            Doubt::ComparedStatement => "`=` assigns".into(),
+            Doubt::OtherUnit { example, .. } => example.clone(),
+            Doubt::IdleZone { .. } => {
+                "leave it out, or act on the way with an event: `lin p1,sl:10;T(0.2),setdo(2,true)`".into()
+            }
+            Doubt::EndlessHandler { .. } => "give it a `maxtime`, and look at its `timeoutflag`".into(),
+        })
+    }
+}
