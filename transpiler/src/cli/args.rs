@@ -92,15 +92,18 @@ pub(super) enum Command {
         #[arg(long, value_name = "DAYS")]
         older: Option<u32>,
     },
-    /// Explain a diagnostic: `arl2rs explain ARL0203`.
+    /// Explain a diagnostic or an alarm: `arl2rs explain ARL0203`, `arl2rs explain 20003`.
     Explain {
-        /// The code.
+        /// The code of the diagnostic, or the number of the alarm.
         code: String,
     },
-    /// Show the reference of a built-in instruction, function, type, constant or system variable.
+    /// Show the reference of a statement, type, operator, rule, or of anything built in. Without a name: what there is.
     Doc {
-        /// Its name.
-        name: String,
+        /// Its name: `while`, `string`, `<<`, `blending`, `movej`, `$PI`.
+        name: Option<String>,
+        /// List the pages in which all of these words stand.
+        #[arg(long, value_name = "WORDS", num_args = 1.., conflicts_with = "name")]
+        search: Vec<String>,
     },
     /// Lay programs out: one way to indent, to space and to spell. Lines with mistakes stay as they are.
     Fmt {

@@ -1,37 +1,58 @@
 //! `arl2rs explain` and `arl2rs doc`
 
 use super::failure::Failure;
+use super::{alarms, reference};
 use crate::diagnostics::{Code, info, registry};
 use crate::near::nearest;
-use arl_lang::catalog;
 
-/// The page of a code: `ARL0203`, `arl203` or `203`.
+/// The numbers of alarms begin here.
+const FIRST_ALARM: u32 = 10_000;
+
+/// The page of a diagnostic (`ARL0203`, `arl203` or `203`) or of an alarm (`20003`).
 pub(super) fn explain(code: &str) -> Result<String, Failure> {
     let digits = code.trim().to_ascii_uppercase();
-    let number = digits.strip_prefix("ARL").unwrap_or(&digits).parse().ok().map(Code);
-    let Some(code) = number else {
-        return Err(Failure::Usage(format!("`{code}` is no code of a diagnostic; codes look like ARL0203")));
-    };
-    match info(code) {
-        Some(info) => Ok(info.page.to_string()),
-        None => {
-            let name = code.to_string();
-            let names: Vec<String> = registry().iter().map(|info| info.code.to_string()).collect();
-            let near = nearest(&name, names.iter().map(String::as_str));
-            let hint = near.map(|near| format!("; did you mean {near}?")).unwrap_or_default();
-            Err(Failure::Usage(format!("there is no diagnostic {name}{hint}")))
-        }
+    match digits.strip_prefix("ARL").unwrap_or(&digits).parse::<u32>() {
+        Ok(number) if number >= FIRST_ALARM => alarm(&number.to_string()),
+        Ok(number) => diagnostic(number),
+        Err(_) => Err(Failure::Usage(format!(
+            "`{code}` is no code: diagnostics have codes like ARL0203, alarms numbers like 20003"
+        ))),
     }
 }
 
-/// The reference of something built in.
-pub(super) fn doc(name: &str) -> Result<String, Failure> {
-    catalog::reference::page(name).ok_or_else(|| {
-        let entries = catalog::all_entries().iter().map(|entry| entry.name);
-        let variables = catalog::system_variables().map(|variable| variable.name);
-        let types = catalog::type_names().map(|(name, _)| name);
-        let near = nearest(name, entries.chain(variables).chain(types));
-        let hint = near.map(|near| format!("; did you mean `{near}`?")).unwrap_or_default();
-        Failure::Usage(format!("nothing that is built in is called `{name}`{hint}"))
+fn diagnostic(number: u32) -> Result<String, Failure> {
+    let code = Code(u16::try_from(number).unwrap_or(u16::MAX));
+    if let Some(info) = info(code) {
+        return Ok(info.page.to_string());
+    }
+    let names: Vec<String> = registry().iter().map(|info| info.code.to_string()).collect();
+    Err(unknown("diagnostic", &code.to_string(), names.iter().map(String::as_str)))
+}
+
+fn alarm(number: &str) -> Result<String, Failure> {
+    match alarms::all().find(|alarm| alarm.number == number) {
+        Some(alarm) => Ok(alarm.page()),
+        None => Err(unknown("alarm", number, alarms::all().map(|alarm| alarm.number))),
+    }
+}
+
+fn unknown<'a>(what: &str, name: &str, known: impl Iterator<Item = &'a str>) -> Failure {
+    let hint = nearest(name, known).map(|near| format!("; did you mean {near}?")).unwrap_or_default();
+    Failure::Usage(format!("there is no {what} {name}{hint}"))
+}
+
+/// The pages of a name; without one, what there is; with words, the pages in which they stand.
+pub(super) fn doc(name: Option<&str>, search: &[String]) -> Result<String, Failure> {
+    if !search.is_empty() {
+        let nothing = || Failure::Usage(format!("no page has all of these words: {}", search.join(" ")));
+        return reference::search(search).ok_or_else(nothing);
+    }
+    let Some(name) = name else { return Ok(reference::list()) };
+    reference::page(name).ok_or_else(|| {
+        let hint = match reference::suggestion(name) {
+            Some(near) => format!("; did you mean `{near}`?"),
+            None => format!("; `arl2rs doc` lists what there is, `arl2rs doc --search {name}` looks in all pages"),
+        };
+        Failure::Usage(format!("no page is called `{name}`{hint}"))
     })
 }

@@ -1,6 +1,7 @@
 //! The `arl2rs` command.
 #![expect(clippy::disallowed_methods, reason = "the command reads and writes files and starts processes")]
 
+mod alarms;
 mod answer;
 mod args;
 mod cache;
@@ -19,6 +20,7 @@ mod plot;
 mod program;
 mod progress;
 mod project;
+mod reference;
 mod robot;
 mod robots;
 mod run;
@@ -61,7 +63,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Test { dirs, all_forms, debug } => test::test(&dirs, all_forms, debug),
         Command::Clean { older } => done(clean::clean(older)),
         Command::Explain { code } => print(explain::explain(&code)),
-        Command::Doc { name } => print(explain::doc(&name)),
+        Command::Doc { name, search } => print(explain::doc(name.as_deref(), &search)),
         Command::Fmt { files, check } => fmt::fmt(&files, check),
         Command::Lsp => lsp::lsp(),
         Command::Dap => dap::dap(),

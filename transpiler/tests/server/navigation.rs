@@ -54,13 +54,15 @@ fn hover_tells_what_a_name_is() {
         ("&& !", "rack", "Where parts lie."),
         ("func ", "bool", "`true` or `false`"),
         ("goto ", "again", "again:"),
+        ("", "import", "# import"),
+        ("endf", "unc", "# func"),
     ];
     for (after, needle, text) in expected {
         let hover = client.ask("textDocument/hover", place(&uri, after, needle));
         let value = hover["contents"]["value"].as_str().unwrap_or_default();
         assert!(value.contains(text), "{needle}: {value}");
     }
-    assert_eq!(client.ask("textDocument/hover", place(&uri, "", "import")), Value::Null);
+    assert_eq!(client.ask("textDocument/hover", place(&uri, "int count ", "=")), Value::Null);
 }
 
 #[test]

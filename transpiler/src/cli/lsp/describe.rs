@@ -1,11 +1,12 @@
 //! What a meaning is, in Markdown: the declaration, the comment above it, the reference of what is built in.
 
+use super::super::reference::page;
 use super::programs::Program;
 use crate::check::base_name;
 use crate::diagnostics::Location;
 use crate::hir::{Type, Value};
 use crate::index::Meaning;
-use arl_lang::catalog::{Base, Family, reference};
+use arl_lang::catalog::{Family, reference};
 use arl_lang::lexer::{Lexeme, lexemes};
 use arl_lang::span::Span;
 
@@ -57,21 +58,8 @@ pub(super) fn describe(program: &Program, meaning: Meaning, family: Family) -> O
             let head = code(&format!("{} {}.{}", component.ty.name(), def.name, component.name));
             Some(joined([head, component.doc.to_string()]))
         }
-        Meaning::Type(base) => reference::page(base.name()).or_else(|| Some(plain_type(base).to_string())),
+        Meaning::Type(base) => page(base.name()),
         Meaning::Number(number) => Some(code(&format!("{} = {number:x}h", number as i32))),
-    }
-}
-
-/// What the types without a page are.
-fn plain_type(base: Base) -> &'static str {
-    match base {
-        Base::Int => "`int`: whole numbers of 32 bits, -2147483648 to 2147483647",
-        Base::Uint => "`uint`: whole numbers of 32 bits, 0 to 4294967295",
-        Base::Byte => "`byte`: whole numbers of 8 bits, 0 to 255",
-        Base::Double => "`double`: floating point numbers of 64 bits",
-        Base::Bool => "`bool`: `true` or `false`",
-        Base::String => "`string`: a text",
-        _ => "`void`: no value",
     }
 }
 

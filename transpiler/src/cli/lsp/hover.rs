@@ -1,7 +1,10 @@
 //! What the name under the cursor is.
 
+use super::super::reference::Topic;
 use super::describe::describe;
 use super::server::{Refusal, Server};
+use arl_lang::lexer::{Lexeme, lexemes};
+use arl_lang::span::Span;
 use gen_lsp_types::*;
 
 pub(super) fn hover(server: &Server, params: HoverParams) -> Result<Option<Hover>, Refusal> {
@@ -10,9 +13,20 @@ pub(super) fn hover(server: &Server, params: HoverParams) -> Result<Option<Hover
 
 fn find(server: &Server, at: &TextDocumentPositionParams) -> Option<Hover> {
     let place = server.place(at)?;
-    let mention = place.mention()?;
-    let value = describe(&place.file.program, mention.meaning, server.options.family)?;
-    let range = place.file.text(server)?.range(mention.at.span);
+    let text = place.file.text(server)?;
+    let (value, span) = match place.mention() {
+        Some(mention) => (describe(&place.file.program, mention.meaning, server.options.family)?, mention.at.span),
+        None => keyword(text.text, place.offset)?,
+    };
+    let range = text.range(span);
     let contents = Contents::MarkupContent(MarkupContent { kind: MarkupKind::Markdown, value });
     Some(Hover { contents, range: Some(range) })
+}
+
+/// The page of the word of a control structure at an offset, and where the word stands.
+fn keyword(text: &str, offset: u32) -> Option<(String, Span)> {
+    let (lexeme, span) = lexemes(text).find(|(_, span)| span.end >= offset)?;
+    let word = span.text(text);
+    let topic = Topic::of_keyword(&word.to_ascii_lowercase()).filter(|_| lexeme == Ok(Lexeme::Word))?;
+    Some((topic.shown(), span))
 }

@@ -1,0 +1,16 @@
+//! The reference: pages about the language, written by hand in `docs/reference/`, and pages of everything built in,
+//! written from the catalog.
+//!
+//! A page of the language is `docs/reference/AREA/NAME.md`: its title, a paragraph whose first sentence stands in lists,
+//! rules, examples, and at its end the lines `Words:` (the names by which it is found), `See:` and `Manual:`.
+//! `cargo test -p arl2rs --test reference` runs the examples.
+
+mod find;
+mod list;
+mod search;
+mod topics;
+
+pub(super) use find::{page, suggestion};
+pub(super) use list::list;
+pub(super) use search::search;
+pub(super) use topics::Topic;
