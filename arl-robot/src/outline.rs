@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::cell::Cell;
+use crate::cell::{Cell, Names};
 use crate::channels::Channels;
 use crate::islands::Island;
 use crate::settings::{Section, SettingsError};
@@ -16,6 +16,8 @@ pub struct Outline {
     pub islands: Vec<Island>,
     /// The names of serial lines in programs, and the devices that they stand for.
     pub lines: BTreeMap<String, String>,
+    /// What signals are called.
+    pub names: Names,
     /// How many bytes the DeviceNet bus exchanges.
     pub devicenet: u32,
     /// Whether the controller serves registers and coils over Modbus TCP.
@@ -37,6 +39,7 @@ impl Outline {
             channels: cell.channels.clone(),
             islands: cell.islands.clone(),
             lines: cell.network.devices.clone(),
+            names: cell.names.clone(),
             devicenet: cell.buses.devicenet as u32,
             modbus_tcp: cell.buses.modbus_tcp.is_some(),
             foreground: 1 + cell.programs.channels.iter().filter(|channel| !channel.background).count() as u32,

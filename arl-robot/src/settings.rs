@@ -131,6 +131,18 @@ impl<'a> Section<'a> {
         self.find(key).map(|value| table(self.source, value, name, known)).transpose()
     }
 
+    /// The table under `key`, if it is there, whatever keys it has.
+    ///
+    /// # Errors
+    /// The value is no table.
+    pub fn free_table(&self, key: &str, name: &'a str) -> Result<Option<Section<'a>>, SettingsError> {
+        let Some(value) = self.find(key) else { return Ok(None) };
+        match value.get_ref() {
+            DeValue::Table(table) => Ok(Some(Self { source: self.source, name, table })),
+            other => Err(self.source.error(value.span(), format!("expected the table {name}, found {}", kind(other)))),
+        }
+    }
+
     /// A number within a range, if it is there.
     ///
     /// # Errors

@@ -11,6 +11,9 @@
 //! ao = ["V", "V", "mA"]
 //! internal = 32
 //!
+//! [names]                      # what signals are called: in scenarios, on the pendant, in editors
+//! "di.1" = "part_present"
+//!
 //! [network]
 //! listen = "program"           # where accept listens: without it on this computer only ("loopback"); or an address
 //!
@@ -51,7 +54,7 @@
 //! background = true            # it has no robot
 //! ```
 
-use super::{BusSettings, Homes, NetworkSettings, Programs, Rate, Sensitivity, Wiring, collisions};
+use super::{BusSettings, Homes, Names, NetworkSettings, Programs, Rate, Sensitivity, Wiring, collisions};
 use crate::channels::Channels;
 use crate::islands::Island;
 use crate::regular_file;
@@ -61,6 +64,7 @@ use std::path::Path;
 const TOP: &[&str] = &[
     "controller",
     "io",
+    "names",
     "network",
     "serial",
     "home",
@@ -81,6 +85,8 @@ pub struct Cell {
     pub rate: Rate,
     /// The channels of io.
     pub channels: Channels,
+    /// What signals are called.
+    pub names: Names,
     /// Where programs listen.
     pub network: NetworkSettings,
     /// The home points of the first channel's robot.
@@ -125,6 +131,7 @@ impl Cell {
             }
         }
         cell.channels = Channels::read(&top)?;
+        cell.names = Names::read(&top, &cell.channels)?;
         cell.network = NetworkSettings::read(&top)?;
         cell.buses = BusSettings::read(&top)?;
         cell.islands = Island::read_all(source, top.find("island"), &cell.channels)?;
@@ -206,7 +213,11 @@ mod tests {
             ("[modbus_tcp]\nconnections = 0", 2, "a whole number from 1 to 64"),
             ("[[island]]\naddress = \"10.0.0.7\"\ndo = [{ channel = 65, coil = 0 }]", 3, "the cell has DO 1 to 64"),
             ("[io]\ndi = 64\ndoo = 3", 3, "did you mean `do`?"),
-            ("\n[inout]\n", 2, "known are: controller, io, network, serial, home, external, collision, modbus_tcp"),
+            (
+                "\n[inout]\n",
+                2,
+                "known are: controller, io, names, network, serial, home, external, collision, modbus_tcp",
+            ),
             ("[io]\ndi = -1", 2, "expected a number of channels from 0 to 10000, found the number -1"),
             ("[io]\ndi = \"many\"", 2, "found the text \"many\""),
             ("[io]\nai = [\"V\",\n \"A\"]", 3, "expected \"V\" or \"mA\""),

@@ -4,6 +4,7 @@ mod buses;
 mod external;
 mod file;
 mod fit;
+mod names;
 mod network;
 mod rate;
 
@@ -11,6 +12,7 @@ pub use buses::{BusSettings, ModbusTcpSettings};
 pub use external::Wiring;
 pub use file::Cell;
 pub use fit::fit;
+pub use names::{Names, Signal, SignalKind};
 pub use network::{Listen, NetworkSettings};
 pub use rate::Rate;
 

@@ -24,7 +24,7 @@ use crate::cycle::clock_source::{RealClock, VirtualClock};
 use crate::io::Scenario;
 use crate::storage::state::Directory;
 use crate::values::Controlmode;
-use arl_robot::cell::Cell;
+use arl_robot::cell::{Cell, Names};
 use arl_robot::robot::Robot;
 
 /// What the program's functions may fill of the stack, and what the thread has on top of that for everything else. Each
@@ -468,13 +468,15 @@ fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
     if let Some(robot) = &options.robot {
         builder = builder.robot(Robot::load(robot).map_err(SetupFailure::usage)?);
     }
+    let mut names = Names::default();
     if let Some(cell) = &options.cell {
         let cell = Cell::load(cell).map_err(SetupFailure::usage)?;
+        names = cell.names.clone();
         builder = builder.cell_with(cell, others)?;
         builder = several::trace(builder, options.trace.as_deref())?;
     }
     if let Some(io) = &options.io {
-        builder = builder.scenario(Scenario::load(io).map_err(SetupFailure::usage)?);
+        builder = builder.scenario(Scenario::load_with(io, &names).map_err(SetupFailure::usage)?);
     }
     if let Some(trace) = &options.trace {
         let file = File::create(trace);

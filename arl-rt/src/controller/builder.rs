@@ -390,6 +390,7 @@ impl Builder {
             islands,
             io,
             scenario,
+            names: cell.names,
             effects,
             external,
             has_outside,

@@ -37,6 +37,7 @@ use crate::io::{AxisName, Digital, Effect, IoDriver, Pendant, Playing, Pwm, Robo
 use crate::motion::{Joints, MotionRecord};
 use crate::storage::state::StateError;
 use crate::unit::Unit;
+use arl_robot::cell::Names;
 use arl_robot::robot::Robot;
 use channel::Channel;
 use channels::Channels;
@@ -109,6 +110,8 @@ pub struct Controller {
     islands: Islands,
     io: Box<dyn IoDriver>,
     scenario: Playing,
+    /// What the cell calls signals.
+    names: Names,
     /// What a scenario does in this cycle, inputs aside; empty between cycles, with room for all that can come at once.
     effects: Vec<Effect>,
     external: External,

@@ -124,6 +124,14 @@ fn enum_constant(id: Enum, number: i64) -> Option<Value> {
     id.def().constants.get(index as usize).map(|_| Value::Enum(id, index))
 }
 
+/// What to write in place of a text that stands where a number is wanted.
+fn unquoted(expr: &Expr, to: Base) -> Option<String> {
+    let ExprKind::Const(Value::String(text)) = &expr.kind else { return None };
+    let is_number = matches!(to, Base::Int | Base::Uint | Base::Byte | Base::Double);
+    let number = text.trim().parse::<f64>().is_ok().then(|| text.trim());
+    is_number.then(|| format!("a number stands without quotes: `{}`", number.unwrap_or("250")))
+}
+
 /// The function or way that does what no implicit conversion does.
 pub(crate) fn instead(from: Base, to: Base) -> Option<String> {
     let words = match (from, to) {
@@ -203,7 +211,7 @@ impl Checker<'_> {
                     found: self.type_name(from),
                     wanted: self.type_name(to),
                     what: what.to_string(),
-                    use_instead: instead(from.base, to.base),
+                    use_instead: unquoted(&expr, to.base).or_else(|| instead(from.base, to.base)),
                 };
                 self.report(body, expr.span, problem)
             }

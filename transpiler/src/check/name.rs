@@ -11,7 +11,6 @@ use arl_lang::ast;
 use arl_lang::catalog::{self, Base, ConstantValue, Enum, Struct};
 use arl_lang::span::Span;
 use arl_lang::symbol::{Interner, Symbol};
-use std::collections::HashMap;
 
 impl Checker<'_> {
     /// A name without `::`: a local, a global of this module or its data file, a constant, an enumeration's constant,
@@ -95,9 +94,12 @@ impl Checker<'_> {
             near = catalog::system_variable(name).map(|variable| format!("${}", variable.name));
         }
         if near.is_none() {
-            let globals = self.scopes.get(body.module.0 as usize).map(|scope| &scope.globals);
-            let known = || globals.into_iter().flatten().map(|(symbol, _)| self.names.name(*symbol));
-            near = self.hints.nearest(name, globals.map_or(0, HashMap::len), known).map(Into::into);
+            let data = self.module(body.module).and_then(|module| module.data_module);
+            let modules = std::iter::once(body.module).chain(data);
+            let scopes: Vec<_> = modules.filter_map(|module| self.scopes.get(module.0 as usize)).collect();
+            let count = scopes.iter().map(|scope| scope.globals.len()).sum();
+            let known = || scopes.iter().flat_map(|scope| scope.globals.keys()).map(|symbol| self.names.name(*symbol));
+            near = self.hints.nearest(name, count, known).map(Into::into);
         }
         if let (None, Some(Base::Enum(id))) = (&near, want.map(|want| want.base)) {
             return self.unknown_constant(body, id, span);

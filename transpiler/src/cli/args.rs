@@ -14,6 +14,12 @@ pub(super) struct Cli {
 
 #[derive(Subcommand, Debug)]
 pub(super) enum Command {
+    /// Make a folder with a program that runs, its points, a cell, a scenario and a test.
+    New {
+        /// The folder; its name is that of the program.
+        #[arg(value_name = "NAME")]
+        folder: PathBuf,
+    },
     /// Find the mistakes in programs without running them.
     Check {
         /// Programs, and modules and data files that belong to them.
@@ -137,7 +143,7 @@ pub(super) enum Format {
 }
 
 /// Options of the compiler.
-#[derive(Args, Clone, Default, Debug)]
+#[derive(Args, Clone, Default, PartialEq, Debug)]
 pub(super) struct Checking {
     /// Warn also where more is accepted than the controller would take.
     #[arg(long)]
@@ -154,6 +160,9 @@ pub(super) struct Checking {
     /// The folder that `/home/ae/script/` in an import means; the program's folder if absent.
     #[arg(long, value_name = "DIR")]
     pub(super) script_dir: Option<PathBuf>,
+    /// Tell what came from the command line and what from an `arl.toml` beside the program or above it.
+    #[arg(long)]
+    pub(super) verbose: bool,
 }
 
 /// Options of a running program. They are handed on to it, but for the plot, which is made from its trace.
@@ -209,6 +218,9 @@ pub(super) struct RunOptions {
     /// The date at the start on the virtual clock: `now`, or a time like 2000-01-01T00:00:00.
     #[arg(long, value_name = "T")]
     pub(super) start_time: Option<String>,
+    /// Tell what came from the command line and what from an `arl.toml` beside the program or above it.
+    #[arg(long)]
+    pub(super) verbose: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Debug)]
@@ -273,6 +285,7 @@ impl RunOptions {
             robot: self.robot.clone(),
             cell: None,
             script_dir: self.script_dir.clone(),
+            verbose: false,
         }
     }
 }

@@ -20,7 +20,30 @@ use std::process::ExitCode;
 
 /// Checks each file as a program, and those that the cell names. A data file, and a file that an earlier one uses, is a
 /// module and needs no `main`.
-pub(super) fn check(files: &[PathBuf], format: Format, limit: Limit, checking: &Checking) -> Result<ExitCode, Failure> {
+pub(super) fn check(
+    files: &[PathBuf],
+    format: Format,
+    mut limit: Limit,
+    checking: &Checking,
+) -> Result<ExitCode, Failure> {
+    // Files of several projects are for robots and cells of their own.
+    let mut groups: Vec<(Checking, Vec<PathBuf>)> = Vec::new();
+    for file in files {
+        let checking = checking.of_program(file)?;
+        match groups.iter_mut().find(|(known, _)| *known == checking) {
+            Some((_, files)) => files.push(file.clone()),
+            None => groups.push((checking, vec![file.clone()])),
+        }
+    }
+    let mut refused = false;
+    for (checking, files) in &groups {
+        refused |= check_group(files, format, &mut limit, checking)?;
+    }
+    Ok(if refused { ExitCode::from(COMPILE_ERRORS) } else { ExitCode::SUCCESS })
+}
+
+/// Checks files that are for the same robot and cell. Whether there were errors.
+fn check_group(files: &[PathBuf], format: Format, limit: &mut Limit, checking: &Checking) -> Result<bool, Failure> {
     let options = options(checking)?;
     cell_fits(checking)?;
     let others = several::named(checking.cell.as_deref(), checking.robot.as_deref())?;
@@ -57,7 +80,7 @@ pub(super) fn check(files: &[PathBuf], format: Format, limit: Limit, checking: &
     for file in modules {
         refused |= reporter.report(as_module(file, &options)?)?;
     }
-    Ok(if refused { ExitCode::from(COMPILE_ERRORS) } else { ExitCode::SUCCESS })
+    Ok(refused)
 }
 
 /// The options of a check that is all there is to come. A program that runs meets its robot itself, and one that is
@@ -90,14 +113,14 @@ fn as_module(file: &Path, options: &CheckOptions) -> Result<Compiled, Failure> {
 }
 
 /// Shows what was found, a module's mistakes only once.
-struct Reporter {
+struct Reporter<'a> {
     format: Format,
-    limit: Limit,
+    limit: &'a mut Limit,
     /// What was shown, as JSON; none where nothing can come twice.
     said: Option<HashSet<String>>,
 }
 
-impl Reporter {
+impl Reporter<'_> {
     /// Says whether there were errors.
     fn report(&mut self, mut compiled: Compiled) -> Result<bool, Failure> {
         let refused = compiled.checked.has_errors();
@@ -106,7 +129,7 @@ impl Reporter {
             compiled.checked.diagnostics.retain(|diagnostic| said.insert(json(diagnostic, &files)));
         }
         match self.format {
-            Format::Human => show::diagnostics(&compiled, &mut self.limit),
+            Format::Human => show::diagnostics(&compiled, self.limit),
             Format::Json => {
                 let mut out = std::io::BufWriter::new(std::io::stdout().lock());
                 let mut lines = compiled.checked.diagnostics.iter().map(|diagnostic| json(diagnostic, &files));

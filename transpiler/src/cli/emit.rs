@@ -14,7 +14,8 @@ use std::path::{Path, PathBuf};
 
 /// Writes the Rust of a program to standard output, or to NAME.rs in a folder.
 pub(super) fn emit(file: &Path, out: Option<&Path>, checking: &Checking) -> Result<(), Failure> {
-    let mut compiled = compile_program(file, &FileSystem, &check_options(checking)?, &EmitOptions::default())?;
+    let checking = checking.of_program(file)?;
+    let mut compiled = compile_program(file, &FileSystem, &check_options(&checking)?, &EmitOptions::default())?;
     show::diagnostics(&compiled, &mut show::Limit::default());
     let rust = compiled.rust.take().ok_or(Failure::Shown)?;
     let Some(folder) = out else {
@@ -27,7 +28,8 @@ pub(super) fn emit(file: &Path, out: Option<&Path>, checking: &Checking) -> Resu
 
 /// Makes a native program, with the programs that the cell names.
 pub(super) fn build(file: &Path, out: Option<&Path>, release: bool, checking: &Checking) -> Result<(), Failure> {
-    let job = Job::new(file, checking.cell.as_deref(), checking)?;
+    let checking = checking.of_program(file)?;
+    let job = Job::new(file, checking.cell.as_deref(), &checking)?;
     let done = job.compile(&FileSystem)?;
     let cache = Cache::find()?;
     let place = job.place(&cache)?;

@@ -4,6 +4,7 @@
 mod alarms;
 mod answer;
 mod args;
+mod arl_toml;
 mod cache;
 mod cargo;
 mod check;
@@ -15,6 +16,7 @@ mod failure;
 mod fmt;
 mod framing;
 mod lsp;
+mod new;
 mod pendant;
 mod plot;
 mod program;
@@ -64,6 +66,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Clean { older } => done(clean::clean(older)),
         Command::Explain { code } => print(explain::explain(&code)),
         Command::Doc { name, search } => print(explain::doc(name.as_deref(), &search)),
+        Command::New { folder } => done(new::new(&folder)),
         Command::Fmt { files, check } => fmt::fmt(&files, check),
         Command::Lsp => lsp::lsp(),
         Command::Dap => dap::dap(),

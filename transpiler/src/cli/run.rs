@@ -1,6 +1,7 @@
 //! `arl2rs run` and `arl2rs plot`
 
 use super::args::RunOptions;
+use super::arl_toml;
 use super::failure::Failure;
 use super::pendant;
 use super::plot::{self, Ran};
@@ -12,6 +13,7 @@ use std::process::{Command, ExitCode};
 
 /// Compiles where needed, then lets the program take over.
 pub(super) fn run(file: &Path, options: &RunOptions) -> Result<ExitCode, Failure> {
+    let options = &options.of_program(file)?;
     let ready = prepare(file, options.cell.as_deref(), &options.checking())?;
     let mut command = Command::new(&ready.program);
     command.args(options.arguments());
@@ -24,6 +26,8 @@ pub(super) fn run(file: &Path, options: &RunOptions) -> Result<ExitCode, Failure
 
 /// Draws a trace that is there.
 pub(super) fn plot(trace: &Path, picture: &Path, robot: Option<&str>) -> Result<(), Failure> {
+    let beside = arl_toml::of_program(trace)?.and_then(|file| file.robot);
+    let robot = robot.or(beside.as_deref());
     let title = trace.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     draw(trace, picture, robot, &Ran { title, source: None })
 }

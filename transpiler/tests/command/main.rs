@@ -7,6 +7,7 @@ mod formatting;
 mod killing;
 mod odd_files;
 mod pointers;
+mod projects;
 mod repeating;
 mod running;
 mod several;

@@ -213,3 +213,28 @@ fn a_text_with_slashes_is_no_comment() {
     let value = hover["contents"]["value"].as_str().unwrap_or_default();
     assert!(value.contains("\"http://x\"") && value.ends_with("where"), "{value}");
 }
+
+#[test]
+fn signals_have_the_names_of_the_cell_that_arl_toml_names() {
+    let program = "func void main()\n    waituntil getdi(1)\n    setdo(2, true)\nendfunc\n";
+    let folder = Folder::new("signals")
+        .with("arl.toml", "cell = \"cell.toml\"\n")
+        .with("cell.toml", "[io]\ndi = 4\n[names]\n\"di.1\" = \"part_present\"\n\"do.2\" = \"gripper\"\n")
+        .with("main.arl", program);
+    let (mut client, uri) = (Client::new(&folder), folder.uri("main.arl"));
+    client.set(&uri, program);
+    let at = json!({"textDocument": {"uri": uri}, "position": {"line": 1, "character": 20}});
+    let hover = client.ask("textDocument/hover", at);
+    assert_eq!(hover["contents"]["value"], "`di.1` is `part_present`");
+    let range = json!({"start": {"line": 0, "character": 0}, "end": {"line": 4, "character": 0}});
+    let hints = client.ask("textDocument/inlayHint", json!({"textDocument": {"uri": uri}, "range": range}));
+    let all: Vec<_> = hints.as_array().unwrap().iter().map(|one| one["label"].as_str().unwrap()).collect();
+    assert_eq!(all, ["part_present", "chan:", "gripper", "value:"]);
+    // Another cell file: what it does not have is told.
+    std::fs::write(folder.path.join("cell.toml"), "[io]\ndi = 0\n").unwrap();
+    let changed = json!({"changes": [{"uri": folder.uri("cell.toml"), "type": 2}]});
+    client.tell("workspace/didChangeWatchedFiles", changed);
+    client.set(&uri, &format!("{program}\n"));
+    let told = client.diagnostics(&uri);
+    assert_eq!(told[0]["code"], "ARL0805", "{told:?}");
+}

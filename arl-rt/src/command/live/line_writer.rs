@@ -44,7 +44,10 @@ impl LineWriter {
     /// What runs on which robots.
     pub(super) fn hello(&self, controller: &Controller) {
         let channels = array(&controller.status().channels, runs);
-        self.say(format!("{{\"hello\":{{\"channels\":{channels}}}}}\n"));
+        let name = |(signal, name): (_, &str)| format!("\"{signal}\":{}", quoted(name));
+        let names: Vec<String> = controller.names().iter().map(name).collect();
+        let names = names.join(",");
+        self.say(format!("{{\"hello\":{{\"channels\":{channels},\"names\":{{{names}}}}}}}\n"));
     }
 
     /// How everything stands. It is left out where nobody reads as fast.

@@ -18,7 +18,14 @@
 //! jog.j1 = 5          # deg (mm): somebody jogs an axis (j1.., ej1..) by so much, while the program is paused
 //! hand.j1 = 5         # deg (mm): somebody moves an axis by hand, while the servo is off
 //! channel = 2         # whose robot is pushed, jogged or moved; without it that of channel 1
+//!
+//! [[follow]]
+//! signal = "di.2"     # an input that has the level of another signal, from the start on
+//! of = "do.2"         # "!do.2": the opposite
+//! after = 0.4         # seconds later
 //! ```
+//!
+//! In place of `di.5`, in keys and texts, may stand what the cell file calls the signal: `part_present = true`.
 
 mod playing;
 mod read;
@@ -30,6 +37,7 @@ use std::path::Path;
 
 use super::image::PWM_CHANNELS;
 use super::{Channels, Digital, Image};
+use arl_robot::cell::Names;
 use arl_robot::regular_file;
 use arl_robot::robot::Robot;
 use arl_robot::settings::SettingsError;
@@ -149,8 +157,8 @@ pub(crate) struct Order {
 
 impl Order {
     /// Reads lines like `di.5 = true` or `pendant = "pause"`.
-    pub(crate) fn parse(text: &str) -> Result<Self, SettingsError> {
-        Ok(Self { actions: read::order(text)? })
+    pub(crate) fn parse(text: &str, names: &Names) -> Result<Self, SettingsError> {
+        Ok(Self { actions: read::order(text, names)? })
     }
 
     /// Sets inputs; hands everything else to `do_it`. Nothing of an order is done that cannot be done in full.
@@ -185,11 +193,15 @@ struct Event {
     /// Seconds from the cause to the event; an edge has its effect in the next cycle at the earliest.
     after: f64,
     actions: Vec<Action>,
+    /// The line of its table.
+    line: u32,
 }
 
 /// What the world around the robot does, and when.
 #[derive(Clone, PartialEq, Default, Debug)]
 pub struct Scenario {
+    /// What it is called in messages.
+    file: String,
     events: Vec<Event>,
 }
 
@@ -199,10 +211,18 @@ impl Scenario {
     /// # Errors
     /// The file cannot be read, or what it says is not a scenario.
     pub fn load(path: &Path) -> Result<Scenario, SettingsError> {
+        Scenario::load_with(path, &Names::default())
+    }
+
+    /// Reads a scenario file that may call signals by the names that the cell has for them.
+    ///
+    /// # Errors
+    /// The file cannot be read, or what it says is not a scenario.
+    pub fn load_with(path: &Path, names: &Names) -> Result<Scenario, SettingsError> {
         let name = path.display().to_string();
         let text = regular_file::read_text(path)
             .map_err(|error| SettingsError::of_file(&name, format!("cannot read the io scenario: {error}")))?;
-        Scenario::parse(&name, &text)
+        Scenario::parse_with(&name, &text, names)
     }
 
     /// The scenario that `text` describes; `file` names the text in errors.
@@ -210,7 +230,25 @@ impl Scenario {
     /// # Errors
     /// The text is not TOML, or not a scenario: with line, column and what was expected.
     pub fn parse(file: &str, text: &str) -> Result<Scenario, SettingsError> {
-        Ok(Scenario { events: read::scenario(file, text)? })
+        Scenario::parse_with(file, text, &Names::default())
+    }
+
+    /// The same, where the cell has names for signals.
+    ///
+    /// ```
+    /// use arl_rt::cell::Cell;
+    /// use arl_rt::io::Scenario;
+    /// let cell = Cell::parse("cell.toml", "[names]\n\"di.1\" = \"part_present\"\n")?;
+    /// let text = "[[event]]\nat = 1\npart_present = true\n";
+    /// assert!(Scenario::parse_with("s.toml", text, &cell.names).is_ok());
+    /// assert!(Scenario::parse("s.toml", text).is_err());
+    /// # Ok::<(), arl_rt::settings::SettingsError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// The text is not TOML, or not a scenario: with line, column and what was expected.
+    pub fn parse_with(file: &str, text: &str, names: &Names) -> Result<Scenario, SettingsError> {
+        Ok(Scenario { file: file.to_owned(), events: read::scenario(file, text, names)? })
     }
 
     /// Whether all channels and axes that the scenario names exist, and the masses that it needs; `robots` are those of the
@@ -218,19 +256,20 @@ impl Scenario {
     pub(crate) fn check(&self, channels: &Channels, robots: &[&Robot]) -> Result<(), String> {
         let image = Image::new(channels);
         for event in &self.events {
+            let place = format!("{}:{}: the scenario", self.file, event.line);
             if let Cause::Edge { output, channel, level: _ } = event.cause {
                 let (name, count) = if output { ("do", channels.dout) } else { ("di", channels.di) };
                 if channel >= count as usize {
-                    return Err(format!("the scenario waits for {name}.{}, but there are {count}", channel + 1));
+                    return Err(format!("{place} waits for {name}.{}, but there are {count}", channel + 1));
                 }
             }
             if let Cause::Pwm(channel) = event.cause
                 && channel >= PWM_CHANNELS
             {
-                return Err(format!("the scenario waits for pwm.{}, but there are {PWM_CHANNELS}", channel + 1));
+                return Err(format!("{place} waits for pwm.{}, but there are {PWM_CHANNELS}", channel + 1));
             }
             for action in &event.actions {
-                action.check(&image, robots).map_err(|problem| format!("the scenario {problem}"))?;
+                action.check(&image, robots).map_err(|problem| format!("{place} {problem}"))?;
             }
         }
         Ok(())

@@ -6,6 +6,7 @@ use toml::de::{DeTable, DeValue};
 use super::{Action, AxisName, Cause, Effect, Event, Pendant, RobotEffect};
 use crate::cycle::channel_id::MOST_FOREGROUND;
 use crate::io::Digital;
+use arl_robot::cell::{Names, Signal, SignalKind};
 use arl_robot::settings::{Section, SettingsError, Source, Value, hint, kind, number, table};
 
 /// The keys of an event; an order has those behind the first three.
@@ -45,11 +46,38 @@ const WORDS: [(&str, Pendant); 7] = [
     ("servo_off", Pendant::ServoOff),
 ];
 
+/// The keys of a follower.
+const FOLLOW: &[&str] = &["signal", "of", "after"];
+
+/// What the cell calls its signals, and the keys of an event with these names.
+struct Words<'a> {
+    names: &'a Names,
+    event: Vec<&'a str>,
+}
+
+impl<'a> Words<'a> {
+    fn new(names: &'a Names) -> Self {
+        Self { names, event: EVENT.iter().copied().chain(names.iter().map(|(_, name)| name)).collect() }
+    }
+
+    /// The signal that is written so, by its name or as `di.5`.
+    fn signal(&self, text: &str) -> Option<Signal> {
+        self.names.signal(text).or_else(|| Signal::parse(text))
+    }
+}
+
 /// The actions of an order.
-pub(super) fn order(text: &str) -> Result<Vec<Action>, SettingsError> {
+pub(super) fn order(text: &str, names: &Names) -> Result<Vec<Action>, SettingsError> {
     let source = Source { file: "order", text };
-    let root = source.parse()?;
-    let actions = actions(source, &Section::new(source, "an order", root.get_ref(), &EVENT[3..])?)?;
+    let root = source.parse().map_err(|error| {
+        // Who types an order need not know how files are written.
+        let text =
+            format!("this is no order, such as `di.5 = true`, `ai.2 = 4.2` or `override = 50`: {}", error.message);
+        SettingsError { message: text.replace(": this is not TOML", ""), ..error }
+    })?;
+    let words = Words::new(names);
+    let known = words.event.get(3..).unwrap_or_default();
+    let actions = actions(source, &Section::new(source, "an order", root.get_ref(), known)?, &words)?;
     if actions.is_empty() {
         return Err(SettingsError::of_file("order", format!("an order changes nothing: expected {CHANGES}")));
     }
@@ -57,17 +85,18 @@ pub(super) fn order(text: &str) -> Result<Vec<Action>, SettingsError> {
 }
 
 /// The events of a scenario.
-pub(super) fn scenario(file: &str, text: &str) -> Result<Vec<Event>, SettingsError> {
+pub(super) fn scenario(file: &str, text: &str, names: &Names) -> Result<Vec<Event>, SettingsError> {
+    let words = Words::new(names);
     // As a whole, a long text takes many times its size, so it is read table by table. Only the whole tells where mistakes
     // are, and whether the parts would mean something else together.
-    match by_tables(file, text) {
+    match by_tables(file, text, &words) {
         Some(events) => Ok(events),
-        None => events(Source { file, text }),
+        None => events(Source { file, text }, 1, &words),
     }
 }
 
 /// The events, where nothing stands in front of the first table, no text has several lines, and there is no mistake.
-fn by_tables(file: &str, text: &str) -> Option<Vec<Event>> {
+fn by_tables(file: &str, text: &str, words: &Words<'_>) -> Option<Vec<Event>> {
     if text.contains("\"\"\"") || text.contains("'''") {
         return None;
     }
@@ -76,14 +105,20 @@ fn by_tables(file: &str, text: &str) -> Option<Vec<Event>> {
     if !before.parse().ok()?.get_ref().is_empty() {
         return None;
     }
+    let mut line = 1 + count_lines(before.text);
     let mut found = Vec::new();
     for text in tables {
-        found.extend(events(Source { file, text }).ok()?);
+        found.extend(events(Source { file, text }, line, words).ok()?);
+        line += count_lines(text);
     }
     Some(found)
 }
 
-/// A text in parts: what is in front of the first line that begins a table of `event`, then table by table.
+fn count_lines(text: &str) -> u32 {
+    text.bytes().filter(|byte| *byte == b'\n').count() as u32
+}
+
+/// A text in parts: what is in front of the first line that begins a table, then table by table.
 fn tables_of(text: &str) -> impl Iterator<Item = &str> {
     let mut rest = Some(text);
     let mut is_first = true;
@@ -91,7 +126,7 @@ fn tables_of(text: &str) -> impl Iterator<Item = &str> {
         let text = rest?;
         // The line that begins a table is its own, not the next one's.
         let own = if std::mem::take(&mut is_first) { 0 } else { text.find('\n').map_or(text.len(), |end| end + 1) };
-        let begins = |line: &str| line.trim_start().starts_with("[[event]]");
+        let begins = |line: &str| TABLES.iter().any(|table| line.trim_start().starts_with(table));
         let mut at = own;
         let lines = text.get(own..).unwrap_or_default().split_inclusive('\n');
         for line in lines {
@@ -107,23 +142,86 @@ fn tables_of(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
-/// The events of a text.
-fn events(source: Source<'_>) -> Result<Vec<Event>, SettingsError> {
+/// How tables begin.
+const TABLES: [&str; 2] = ["[[event]]", "[[follow]]"];
+
+/// The events of a text that begins in this line of its file; followers are events, too.
+fn events(source: Source<'_>, first_line: u32, words: &Words<'_>) -> Result<Vec<Event>, SettingsError> {
     let root = source.parse()?;
-    let top = Section::new(source, "the io scenario", root.get_ref(), &["event"])?;
-    let Some(events) = top.find("event") else { return Ok(Vec::new()) };
-    let array =
-        events.get_ref().as_array().ok_or_else(|| top.wrong("event", events, "tables that begin with [[event]]"))?;
-    array.iter().map(|value| event(source, value)).collect()
+    let top = Section::new(source, "the io scenario", root.get_ref(), &["event", "follow"])?;
+    let line = |value: &Value<'_>| first_line + source.line(value.span().start) - 1;
+    let mut all = Vec::new();
+    for value in array(&top, "event", "tables that begin with [[event]]")? {
+        all.push(event(source, value, line(value), words)?);
+    }
+    for value in array(&top, "follow", "tables that begin with [[follow]]")? {
+        all.extend(follow(source, value, line(value), words)?);
+    }
+    Ok(all)
+}
+
+/// The items of a list of tables; none where it is not there.
+fn array<'a>(top: &Section<'a>, key: &str, what: &str) -> Result<&'a [Value<'a>], SettingsError> {
+    let Some(found) = top.find(key) else { return Ok(&[]) };
+    found.get_ref().as_array().map(|array| &array[..]).ok_or_else(|| top.wrong(key, found, what))
+}
+
+/// The events that let an input have the level of another signal, some time later.
+fn follow(source: Source<'_>, value: &Value<'_>, line: u32, words: &Words<'_>) -> Result<[Event; 3], SettingsError> {
+    const SIGNAL: &str = "an input, like \"di.2\"";
+    const OF: &str = "a digital signal, like \"do.2\", or \"!do.2\" for its opposite";
+    let section = table(source, value, "[[follow]]", FOLLOW)?;
+    let after = section.number("after", "seconds", 0.0, 1e9)?.unwrap_or(0.0);
+    let asked = |key, what: &str| match section.text(key, what)? {
+        Some(text) => Ok(text),
+        None => Err(source.error(value.span(), format!("[[follow]] lacks `{key}`: {what}"))),
+    };
+    let wrong = |key: &str, what: &str| match section.find(key) {
+        Some(value) => section.wrong(key, value, what),
+        None => source.error(value.span(), format!("[[follow]] lacks `{key}`")),
+    };
+    let input = words.signal(asked("signal", SIGNAL)?).and_then(|signal| digital_input(signal.kind, signal.channel));
+    let (what, channel) = input.ok_or_else(|| wrong("signal", SIGNAL))?;
+    let of = asked("of", OF)?;
+    let (name, same) = of.strip_prefix('!').map_or((of, true), |name| (name, false));
+    let (output, followed) = words.signal(name).and_then(digital_edge).ok_or_else(|| wrong("of", OF))?;
+    let event = |cause, after, level| {
+        let actions = vec![Action::Digital(what, channel, level)];
+        Event { cause, after, actions, line }
+    };
+    let edge = |level| Cause::Edge { output, channel: followed, level };
+    // Before the program all outputs are off.
+    Ok([event(Cause::At(0.0), 0.0, !same), event(edge(true), after, same), event(edge(false), after, !same)])
+}
+
+/// The input that a scenario sets.
+fn digital_input(kind: SignalKind, channel: u32) -> Option<(Digital, i32)> {
+    let what = match kind {
+        SignalKind::DigitalInput => Digital::Di,
+        SignalKind::InternalInput => Digital::InternalIn,
+        SignalKind::InternalOutput => Digital::InternalOut,
+        SignalKind::DigitalOutput | SignalKind::AnalogInput | SignalKind::AnalogOutput => return None,
+    };
+    Some((what, i32::try_from(channel).ok()?))
+}
+
+/// What an edge is told of: whether it is an output, and its channel from 0.
+fn digital_edge(signal: Signal) -> Option<(bool, usize)> {
+    let output = match signal.kind {
+        SignalKind::DigitalOutput => true,
+        SignalKind::DigitalInput => false,
+        _ => return None,
+    };
+    Some((output, signal.channel as usize - 1))
 }
 
 /// The event that a table describes.
-fn event(source: Source<'_>, value: &Value<'_>) -> Result<Event, SettingsError> {
-    let event = table(source, value, "[[event]]", EVENT)?;
+fn event(source: Source<'_>, value: &Value<'_>, line: u32, words: &Words<'_>) -> Result<Event, SettingsError> {
+    let event = table(source, value, "[[event]]", &words.event)?;
     let after = event.number("after", "seconds", 0.0, 1e9)?;
     let cause = match (event.number("at", "seconds", 0.0, 1e9)?, event.text("when", "\"do.3\" or \"!do.3\"")?) {
         (Some(at), None) => Cause::At(at),
-        (None, Some(_)) => edge(&event)?,
+        (None, Some(_)) => edge(&event, words)?,
         (at, _) => {
             let found = if at.is_some() { "both `at` and `when`" } else { "neither `at` nor `when`" };
             let message = format!("[[event]] has {found}: one of them says when it happens");
@@ -133,11 +231,11 @@ fn event(source: Source<'_>, value: &Value<'_>) -> Result<Event, SettingsError> 
     if let (Cause::At(_), Some((_, span, _))) = (cause, event.entries().into_iter().find(|(key, ..)| *key == "after")) {
         return Err(source.error(span, "`after` counts from `when`; with `at`, add the seconds there"));
     }
-    let actions = actions(source, &event)?;
+    let actions = actions(source, &event, words)?;
     if actions.is_empty() {
         return Err(source.error(value.span(), format!("[[event]] changes nothing: expected {CHANGES}")));
     }
-    Ok(Event { cause, after: after.unwrap_or(0.0), actions })
+    Ok(Event { cause, after: after.unwrap_or(0.0), actions, line })
 }
 
 /// The axes that a torque can turn, and those that can be moved.
@@ -147,7 +245,7 @@ const ALL_AXES: &[&str] = &["j1", "j2", "j3", "j4", "j5", "j6", "ej1", "ej2", "e
 const LENGTH: &str = "deg, or mm of a linear axis";
 
 /// What an event changes.
-fn actions(source: Source<'_>, event: &Section<'_>) -> Result<Vec<Action>, SettingsError> {
+fn actions(source: Source<'_>, event: &Section<'_>, words: &Words<'_>) -> Result<Vec<Action>, SettingsError> {
     let mut actions = Vec::new();
     let most = MOST_FOREGROUND as u32;
     let channel = match event.count("channel", "a channel with a robot", most)? {
@@ -185,6 +283,8 @@ fn actions(source: Source<'_>, event: &Section<'_>) -> Result<Vec<Action>, Setti
             _ => {
                 if let Some((_, what)) = SIGNALS.iter().find(|(name, _)| *name == key) {
                     signals(source, (key, *what), value, &mut actions)?;
+                } else if let Some(signal) = words.names.signal(key) {
+                    actions.push(named(source, key, signal, value)?);
                 }
             }
         }
@@ -192,17 +292,36 @@ fn actions(source: Source<'_>, event: &Section<'_>) -> Result<Vec<Action>, Setti
     Ok(actions)
 }
 
+/// What is done to a signal that the cell has a name for.
+fn named(source: Source<'_>, name: &str, signal: Signal, value: &Value<'_>) -> Result<Action, SettingsError> {
+    let found = || kind(value.get_ref());
+    let wrong = |text: String| source.error(value.span(), text);
+    if signal.kind == SignalKind::AnalogInput {
+        let level = number(value.get_ref());
+        let channel = i32::try_from(signal.channel).unwrap_or(i32::MAX);
+        let level =
+            level.ok_or_else(|| wrong(format!("`{name}` is {signal}: expected a number, found {}", found())))?;
+        return Ok(Action::Analog(channel, level));
+    }
+    let Some((what, channel)) = digital_input(signal.kind, signal.channel) else {
+        return Err(wrong(format!("`{name}` is {signal}, an output: a scenario sets inputs")));
+    };
+    let level = value.get_ref().as_bool();
+    let level =
+        level.ok_or_else(|| wrong(format!("`{name}` is {signal}: expected true or false, found {}", found())))?;
+    Ok(Action::Digital(what, channel, level))
+}
+
 /// What `when` waits for.
-fn edge(event: &Section<'_>) -> Result<Cause, SettingsError> {
+fn edge(event: &Section<'_>, words: &Words<'_>) -> Result<Cause, SettingsError> {
     const WHAT: &str = "\"do.3\" (goes on) or \"!do.3\" (goes off), or di, or \"pwm.1\" (is set to something else)";
     let word = event.text("when", WHAT)?.unwrap_or_default();
     let (name, level) = word.strip_prefix('!').map_or((word, true), |name| (name, false));
-    let parts = name.split_once('.').and_then(|(kind, channel)| Some((kind, channel.parse::<usize>().ok()?)));
-    match parts {
-        Some((kind @ ("do" | "di"), channel @ 1..)) => {
-            Ok(Cause::Edge { output: kind == "do", channel: channel - 1, level })
-        }
-        Some(("pwm", channel @ 1..)) if level => Ok(Cause::Pwm(channel - 1)),
+    if let Some((output, channel)) = words.signal(name).and_then(digital_edge) {
+        return Ok(Cause::Edge { output, channel, level });
+    }
+    match name.strip_prefix("pwm.").and_then(|channel| channel.parse::<usize>().ok()) {
+        Some(channel @ 1..) if level => Ok(Cause::Pwm(channel - 1)),
         _ => match event.find("when") {
             Some(value) => Err(event.wrong("when", value, WHAT)),
             None => Ok(Cause::At(0.0)),

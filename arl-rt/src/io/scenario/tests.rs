@@ -142,3 +142,69 @@ fn channels_must_exist() {
         assert!(error.contains(words), "{error}");
     }
 }
+
+fn names() -> arl_robot::cell::Names {
+    let text = "[names]\n\"di.1\" = \"part\"\n\"do.2\" = \"gripper\"\n\"ai.1\" = \"height\"\n";
+    arl_robot::cell::Cell::parse("cell.toml", text).unwrap().names
+}
+
+#[test]
+fn signals_may_be_called_by_their_names() {
+    let text = "[[event]]\nat = 0.001\npart = true\nheight = 2.5\n[[event]]\nwhen = \"!gripper\"\npart = false\n";
+    let named = Scenario::parse_with("io.toml", text, &names()).unwrap();
+    let plain = text.replace("part", "di.1").replace("height", "ai.1").replace("gripper", "do.2");
+    assert_eq!(named, Scenario::parse("io.toml", &plain).unwrap());
+    let order = Order::parse("part = true", &names()).unwrap();
+    assert_eq!(order, Order::parse("di.1 = true", &Names::default()).unwrap());
+    for (text, line, words) in [
+        ("[[event]]\nat = 1\nparts = true", 3, "did you mean `part`?"),
+        ("[[event]]\nat = 1\ngripper = true", 3, "`gripper` is do.2, an output: a scenario sets inputs"),
+        ("[[event]]\nat = 1\npart = 3", 3, "`part` is di.1: expected true or false, found the number 3"),
+        ("[[event]]\nat = 1\nheight = true", 3, "`height` is ai.1: expected a number, found true"),
+        ("[[event]]\nwhen = \"height\"\npart = true", 2, "expected \"do.3\""),
+    ] {
+        let error = Scenario::parse_with("io.toml", text, &names()).unwrap_err();
+        assert!(error.line == line && error.message.contains(words), "{error}");
+    }
+}
+
+#[test]
+fn a_follower_has_the_level_of_what_it_follows_some_time_later() {
+    let text = "[[follow]]\nsignal = \"part\"\nof = \"gripper\"\nafter = 0.002\n\
+                [[follow]]\nsignal = \"di.3\"\nof = \"!gripper\"\n";
+    let scenario = Scenario::parse_with("io.toml", text, &names()).unwrap();
+    let mut image = Image::new(&Channels::default());
+    let mut playing = Playing::new(scenario, &image, Rate::default());
+    let mut seen = Vec::new();
+    for cycle in 0..10 {
+        playing.play(cycle, &mut image, |_| {});
+        seen.push((image.digital(Digital::Di, 1).unwrap(), image.digital(Digital::Di, 3).unwrap()));
+        if cycle == 2 || cycle == 6 {
+            image.set_digital(Digital::Do, 2, cycle == 2).unwrap();
+        }
+    }
+    let part: Vec<usize> = (0..10).filter(|cycle| seen[*cycle].0).collect();
+    let opposite: Vec<usize> = (0..10).filter(|cycle| seen[*cycle].1).collect();
+    assert_eq!((part, opposite), (vec![4, 5, 6, 7], vec![0, 1, 2, 7, 8, 9]));
+    for (text, line, words) in [
+        ("[[follow]]\nof = \"do.1\"", 1, "lacks `signal`: an input"),
+        ("[[follow]]\nsignal = \"di.1\"", 1, "lacks `of`: a digital signal"),
+        ("[[follow]]\nsignal = \"do.1\"\nof = \"do.1\"", 2, "expected an input"),
+        ("[[follow]]\nsignal = \"di.1\"\nof = \"ai.1\"", 3, "expected a digital signal"),
+        ("[[follow]]\nsignal = \"di.1\"\nof = \"do.1\"\nafter = -1", 4, "seconds from 0"),
+        ("[[event]]\nat = 1\ndi.1 = true\n[[follow]]\nsignl = \"di.1\"", 5, "did you mean `signal`?"),
+    ] {
+        let error = Scenario::parse("io.toml", text).unwrap_err();
+        assert!(error.line == line && error.message.contains(words), "{error}");
+    }
+}
+
+#[test]
+fn what_a_cell_does_not_have_is_told_with_its_line() {
+    let robot = Robot::builtin("kr10-r1420").unwrap();
+    let check = |text: &str| Scenario::parse("s.toml", text).unwrap().check(&Channels::default(), &[&robot]);
+    let text = "# a comment\n\n[[event]]\nat = 1\ndi.1 = true\n[[event]]\nat = 1\ndi.99 = true\n";
+    assert!(check(text).unwrap_err().starts_with("s.toml:6: the scenario sets an input"), "{:?}", check(text));
+    let text = "[[follow]]\nsignal = \"di.1\"\nof = \"do.99\"\n";
+    assert_eq!(check(text).unwrap_err(), "s.toml:1: the scenario waits for do.99, but there are 64");
+}

@@ -172,7 +172,8 @@ impl Session {
         if launch.program.as_os_str().is_empty() {
             return Err("the launch configuration has no `program`".into());
         }
-        let (main, options) = (launch.main(), launch.options()?);
+        let main = launch.main();
+        let options = launch.options()?.of_program(&main).map_err(|failure| failure.to_string())?;
         let programs = Programs::check(&main, &options, &|text| self.out.output("stderr", text))?;
         self.out.output("console", "Compiling for the debugger ..\n");
         let ready =

@@ -1,7 +1,9 @@
-//! What a reader would have to look up: the parameter that a bare value goes to, the unit of a number without one.
+//! What a reader would have to look up: the parameter that a bare value goes to, the unit of a number without one,
+//! the name of a signal.
 
 use super::places::File;
 use super::server::{Refusal, Server};
+use super::signals;
 use crate::index::{Argument, Callee};
 use arl_lang::catalog::Presence;
 use arl_lang::lexer::{Lexeme, lexemes};
@@ -28,6 +30,10 @@ pub(super) fn hints(server: &Server, params: InlayHintParams) -> Result<Option<V
             };
             let span = argument.at.span;
             found.extend(label(&file, argument).map(|label| hint(span.start, format!("{label}:"), true)));
+            if let Some((_, name)) = signals::named(&file, argument) {
+                let padded = InlayHint { padding_left: Some(true), ..hint(span.end, name.to_owned(), false) };
+                found.push(padded);
+            }
             found.extend(unit(&file, argument).map(|unit| hint(span.end, unit.to_string(), false)));
         }
         Some(found)

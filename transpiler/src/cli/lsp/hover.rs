@@ -2,7 +2,9 @@
 
 use super::super::reference::Topic;
 use super::describe::describe;
+use super::places::Place;
 use super::server::{Refusal, Server};
+use super::signals;
 use arl_lang::lexer::{Lexeme, lexemes};
 use arl_lang::span::Span;
 use gen_lsp_types::*;
@@ -15,8 +17,8 @@ fn find(server: &Server, at: &TextDocumentPositionParams) -> Option<Hover> {
     let place = server.place(at)?;
     let text = place.file.text(server)?;
     let (value, span) = match place.mention() {
-        Some(mention) => (describe(&place.file.program, mention.meaning, server.options.family)?, mention.at.span),
-        None => keyword(text.text, place.offset)?,
+        Some(mention) => (describe(&place.file.program, mention.meaning, place.file.program.family)?, mention.at.span),
+        None => keyword(text.text, place.offset).or_else(|| signal(&place))?,
     };
     let range = text.range(span);
     let contents = Contents::MarkupContent(MarkupContent { kind: MarkupKind::Markdown, value });
@@ -29,4 +31,11 @@ fn keyword(text: &str, offset: u32) -> Option<(String, Span)> {
     let word = span.text(text);
     let topic = Topic::of_keyword(&word.to_ascii_lowercase()).filter(|_| lexeme == Ok(Lexeme::Word))?;
     Some((topic.shown(), span))
+}
+
+/// The name of the signal whose number stands at a place.
+fn signal(place: &Place) -> Option<(String, Span)> {
+    let argument = signals::argument_at(&place.file, place.offset)?;
+    let (signal, name) = signals::named(&place.file, argument)?;
+    Some((format!("`{signal}` is `{name}`"), argument.at.span))
 }

@@ -10,6 +10,8 @@ use crate::compile::{Bug, check_program};
 use crate::diagnostics::{FileId, Location};
 use crate::index::Index;
 use crate::{CheckOptions, Checked, Sources, Unneeded};
+use arl_lang::catalog::Family;
+use arl_robot::cell::Names;
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -25,6 +27,10 @@ pub(super) struct Program {
     paths: Vec<PathBuf>,
     /// The files that were read or looked for.
     read: Vec<PathBuf>,
+    /// The kind of robot that it is for.
+    pub(super) family: Family,
+    /// What its cell calls signals.
+    pub(super) names: Names,
     /// Freeing the trees takes a good part of the time of a check, for which nobody has to wait.
     unneeded: RefCell<Option<Unneeded>>,
 }
@@ -42,8 +48,9 @@ impl Program {
         let read = compiled.read().map(|path| clean(&path)).collect();
         let mut checked = compiled.checked;
         let index = checked.index.take().unwrap_or_default();
+        let names = options.cell.map(|cell| cell.names).unwrap_or_default();
         let unneeded = RefCell::new(Some(checked.take_program()));
-        Ok(Self { checked, index, paths, read, unneeded })
+        Ok(Self { checked, index, paths, read, family: options.family, names, unneeded })
     }
 
     pub(super) fn index(&self) -> &Index {

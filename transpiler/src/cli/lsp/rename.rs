@@ -158,7 +158,7 @@ impl<'a> Edited<'a> {
     /// Refuses the name where any name of a program would mean something else than now, or an error would come.
     fn means_the_same(&self, server: &Server, program: &Program, name: &str) -> Result<(), Refusal> {
         let Some(root) = program.path(crate::diagnostics::FileId(0)) else { return Ok(()) };
-        let Ok(after) = Program::check(root, self, &server.options) else {
+        let Ok(after) = Program::check(root, self, &server.options_of(root)) else {
             return Err(Refusal::new("the program with the new name could not be checked"));
         };
         let clash = |path: &Path, line: u32| {

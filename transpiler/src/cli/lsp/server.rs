@@ -6,6 +6,7 @@
 
 use super::documents::{Document, Documents};
 use super::programs::{Program, Programs};
+use super::projects::Projects;
 use super::settings::Settings;
 use super::text::Encoding;
 use super::transport::{Incoming, answer, notification, refusal};
@@ -14,6 +15,7 @@ use super::workspace::Workspace;
 use super::{capabilities, diagnostics, requests};
 use crate::CheckOptions;
 use crate::compile::{Bug, guard};
+use arl_lang::catalog::Family;
 use gen_lsp_types::json_rpc::Id;
 use gen_lsp_types::*;
 use serde::de::DeserializeOwned;
@@ -61,7 +63,9 @@ pub(super) struct Server {
     watches: bool,
     folders: Vec<PathBuf>,
     settings: Settings,
-    pub(super) options: CheckOptions,
+    /// How files are checked for which no `arl.toml` says more.
+    options: Rc<CheckOptions>,
+    projects: Projects,
     pub(super) documents: Documents,
     programs: Programs,
     pub(super) workspace: Workspace,
@@ -81,7 +85,8 @@ impl Server {
             watches: false,
             folders: Vec::new(),
             settings: Settings::default(),
-            options: CheckOptions::default(),
+            options: Rc::default(),
+            projects: Projects::default(),
             documents: Documents::default(),
             programs: Programs::default(),
             workspace: Workspace::default(),
@@ -207,10 +212,11 @@ impl Server {
     /// Reads the files that the settings name, and checks everything anew.
     fn apply(&mut self, settings: Settings) {
         let folder = self.folders.first().cloned();
-        match settings.options(folder.as_deref()) {
+        match settings.options(folder.as_deref(), None) {
             Ok(options) => {
                 self.settings = settings;
-                self.options = options;
+                self.options = Rc::new(options);
+                self.projects.forget();
                 self.programs.forget_all();
                 self.workspace.look_again();
                 let all: Vec<PathBuf> = self.documents.paths().chain(&self.told).cloned().collect();
@@ -337,8 +343,7 @@ impl Server {
     /// Does a piece of what nobody waits for: tells one file's diagnostics, or looks at one file of the workspace.
     fn work(&mut self) {
         let Some(path) = self.stale.pop_front() else {
-            let (workspace, documents, options) = (&mut self.workspace, &self.documents, &self.options);
-            if let Err(bug) = guard(|| workspace.look(documents, options)) {
+            if let Err(bug) = guard(|| self.look()) {
                 self.complain(&bug.to_string());
             }
             return;
@@ -373,7 +378,31 @@ impl Server {
 
     /// The same, or why the compiler failed at it.
     pub(super) fn check(&self, path: &Path) -> Result<Rc<Program>, Bug> {
-        self.programs.of(path, &self.documents, &self.options)
+        self.programs.of(path, &self.documents, &self.options_of(path))
+    }
+
+    /// How a file is checked: as the settings say, then the `arl.toml` beside it or above it.
+    pub(super) fn options_of(&self, path: &Path) -> Rc<CheckOptions> {
+        let Some(project) = self.projects.find(path) else { return self.options.clone() };
+        let folder = self.folders.first().map(PathBuf::as_path);
+        self.projects.options(&project, |file| self.settings.options(folder, Some(file))).unwrap_or_else(|text| {
+            if !text.is_empty() {
+                self.complain(&text);
+            }
+            self.options.clone()
+        })
+    }
+
+    /// The kind of robot that a file is for.
+    pub(super) fn family(&self, path: &Path) -> Family {
+        self.options_of(path).family
+    }
+
+    /// Looks at one file more of the workspace.
+    fn look(&mut self) {
+        let Some(path) = self.workspace.next() else { return };
+        let options = self.options_of(&path);
+        self.workspace.look(&path, &self.documents, &options);
     }
 
     /// Forgets the programs that were needed for one request only.
@@ -384,7 +413,7 @@ impl Server {
     /// Looks at all files of the workspace that were not looked at yet.
     pub(super) fn look_at_all(&mut self) {
         while self.workspace.is_open() {
-            self.workspace.look(&self.documents, &self.options);
+            self.look();
         }
     }
 }

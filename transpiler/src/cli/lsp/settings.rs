@@ -1,6 +1,7 @@
 //! What the client says of the robot and the cell that programs are for.
 
 use super::super::args::Checking;
+use super::super::arl_toml::ArlToml;
 use super::super::program::check_options;
 use super::super::robot;
 use crate::CheckOptions;
@@ -37,8 +38,8 @@ impl Settings {
         read.map(Some).map_err(|error| format!("the settings of arl2rs: {error}"))
     }
 
-    /// How to check with them. Relative paths count from the workspace's folder.
-    pub(super) fn options(&self, folder: Option<&Path>) -> Result<CheckOptions, String> {
+    /// How to check with them. Relative paths count from the workspace's folder. `beside` says what they do not.
+    pub(super) fn options(&self, folder: Option<&Path>, beside: Option<&ArlToml>) -> Result<CheckOptions, String> {
         let below = |path: &PathBuf| folder.map_or_else(|| path.clone(), |folder| folder.join(path));
         let given = |text: &&String| !text.trim().is_empty();
         let robot = self.robot.as_ref().filter(given).map(|robot| {
@@ -48,10 +49,11 @@ impl Settings {
         let path = |path: &Option<PathBuf>| path.as_ref().filter(|path| !path.as_os_str().is_empty()).map(below);
         let checking = Checking {
             strict: self.strict,
-            robot,
+            robot: robot.or_else(|| beside?.robot.clone()),
             background: false,
-            cell: path(&self.cell),
-            script_dir: path(&self.script_dir),
+            cell: path(&self.cell).or_else(|| beside?.cell.clone()),
+            script_dir: path(&self.script_dir).or_else(|| beside?.script_dir.clone()),
+            verbose: false,
         };
         let mut options = check_options(&checking).map_err(|failure| failure.to_string())?;
         if let Some(name) = &checking.robot {

@@ -2,9 +2,10 @@
 
 use super::programs::Program;
 use super::server::{Refusal, Server};
+use super::signals;
 use super::typing::{Surroundings, Typing};
 use crate::check::{base_name, type_name};
-use crate::index::{Argument, ArgumentList, Callee};
+use crate::index::{ArgumentList, Callee};
 use arl_lang::catalog::{self, Entry, Family, Kind, Presence, reference};
 use gen_lsp_types::*;
 
@@ -19,7 +20,7 @@ pub(super) fn offered() -> SignatureHelpOptions {
 pub(super) fn signature(server: &Server, params: SignatureHelpParams) -> Result<Option<SignatureHelp>, Refusal> {
     let find = || {
         let typing = Typing::at(server, &params.text_document_position_params)?;
-        let family = server.options.family;
+        let family = server.family(&typing.path);
         if typing.surroundings == Surroundings::Code
             && let Some((expected, program)) = typing.expectation(server)
             && let Some(list) = expected.arguments
@@ -28,9 +29,7 @@ pub(super) fn signature(server: &Server, params: SignatureHelpParams) -> Result<
         }
         // In a number or a text nothing is looked for, but the argument is known.
         let file = server.file(&typing.path)?;
-        let holds = |one: &&Argument| (one.at.span.start..=one.at.span.end).contains(&typing.offset);
-        let argument =
-            file.index().arguments(file.id).filter(holds).min_by_key(|one| one.at.span.end - one.at.span.start)?;
+        let argument = signals::argument_at(&file, typing.offset)?;
         let beside = file.index().arguments(file.id).filter(|one| one.of == argument.of);
         let mut taken = vec![0; argument.parameter + 1];
         for one in beside.filter(|one| one.at != argument.at) {

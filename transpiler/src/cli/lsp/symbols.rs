@@ -5,6 +5,7 @@ use super::server::{Refusal, Server};
 use crate::check::{base_name, type_name};
 use crate::diagnostics::Location as Place;
 use crate::index::{FunctionInfo, GlobalInfo};
+use arl_lang::catalog::Family;
 use gen_lsp_types::*;
 
 pub(super) fn of_document(
@@ -23,7 +24,7 @@ pub(super) fn of_document(
 fn declared(server: &Server, file: &File) -> Vec<DocumentSymbol> {
     let index = file.index();
     let Some(text) = file.text(server) else { return Vec::new() };
-    let family = server.options.family;
+    let family = file.program.family;
     let symbol = |name: &str, detail: String, kind: SymbolKind, span, at: Place| DocumentSymbol {
         name: name.to_string(),
         detail: Some(detail),
@@ -35,7 +36,7 @@ fn declared(server: &Server, file: &File) -> Vec<DocumentSymbol> {
         children: None,
     };
     let functions = index.functions.iter().filter(|function| function.at.file == file.id).map(|function| {
-        let detail = signature(server, function);
+        let detail = signature(family, function);
         symbol(&function.name, detail, SymbolKind::Function, function.span(), function.at)
     });
     let globals = index.globals.iter().filter(|global| global.at.file == file.id).map(|global| {
@@ -50,8 +51,7 @@ fn kind(global: &GlobalInfo) -> SymbolKind {
 }
 
 /// `pose (pose, double)`: a function's type in short.
-fn signature(server: &Server, function: &FunctionInfo) -> String {
-    let family = server.options.family;
+fn signature(family: Family, function: &FunctionInfo) -> String {
     let params = function.params.iter().map(|(_, ty, _)| ty.map_or_else(|| "?".into(), |ty| type_name(ty, family)));
     let params = params.collect::<Vec<_>>().join(", ");
     let result = function.result.map_or("?", |base| base_name(base, family));

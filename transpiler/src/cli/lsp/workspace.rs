@@ -64,11 +64,15 @@ impl Workspace {
         !self.open.is_empty()
     }
 
-    /// Looks at one file more.
-    pub(super) fn look(&mut self, sources: &dyn Sources, options: &CheckOptions) {
-        let Some(path) = self.open.pop_first() else { return };
-        if let Ok(program) = Program::check(&path, sources, options) {
-            self.learn(&path, &program);
+    /// The next file to be looked at.
+    pub(super) fn next(&mut self) -> Option<PathBuf> {
+        self.open.pop_first()
+    }
+
+    /// Looks at a file.
+    pub(super) fn look(&mut self, path: &Path, sources: &dyn Sources, options: &CheckOptions) {
+        if let Ok(program) = Program::check(path, sources, options) {
+            self.learn(path, &program);
         }
     }
 

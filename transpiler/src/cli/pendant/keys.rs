@@ -56,13 +56,15 @@ fn edit(key: KeyCode, mut typed: String, model: &mut Model) -> Option<Wish> {
 }
 
 fn command(key: KeyCode, model: &mut Model) -> Option<Wish> {
-    let now = model.state.speed_override;
+    let now = model.speed_override();
     match key {
         KeyCode::Char('q') => Some(Wish::Leave),
         KeyCode::Char('+' | '=') => {
-            Some(change_override((now / OVERRIDE_STEP).floor() * OVERRIDE_STEP + OVERRIDE_STEP))
+            Some(change_override((now / OVERRIDE_STEP).floor() * OVERRIDE_STEP + OVERRIDE_STEP, model))
         }
-        KeyCode::Char('-') => Some(change_override((now / OVERRIDE_STEP).ceil() * OVERRIDE_STEP - OVERRIDE_STEP)),
+        KeyCode::Char('-') => {
+            Some(change_override((now / OVERRIDE_STEP).ceil() * OVERRIDE_STEP - OVERRIDE_STEP, model))
+        }
         KeyCode::Char('i') => {
             model.typed = Some("di.".into());
             None
@@ -83,8 +85,10 @@ fn command(key: KeyCode, model: &mut Model) -> Option<Wish> {
     }
 }
 
-fn change_override(percent: f64) -> Wish {
-    Wish::Order(format!("override = {}", percent.clamp(0.0, 100.0)))
+fn change_override(percent: f64, model: &mut Model) -> Wish {
+    let percent = percent.clamp(0.0, 100.0);
+    model.ask_for_override(percent);
+    Wish::Order(format!("override = {percent}"))
 }
 
 #[cfg(test)]
@@ -116,8 +120,17 @@ mod tests {
             [(100.0, "-", 90.0), (95.0, "-", 90.0), (95.0, "+", 100.0), (100.0, "+", 100.0), (5.0, "-", 0.0)]
         {
             model.state.speed_override = now;
+            model.asked_override = None;
             assert_eq!(type_in(&mut model, key), Some(Wish::Order(format!("override = {then}"))), "{now} {key}");
         }
+    }
+
+    #[test]
+    fn no_press_is_lost_between_two_states() {
+        let mut model = Model::default();
+        model.state.speed_override = 100.0;
+        assert_eq!(type_in(&mut model, "---"), Some(Wish::Order("override = 70".into())));
+        assert_eq!(type_in(&mut model, "+"), Some(Wish::Order("override = 80".into())));
     }
 
     #[test]

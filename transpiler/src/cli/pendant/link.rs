@@ -1,5 +1,6 @@
 //! The program behind the screen: what it says, line by line, and what it is told.
 
+use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -29,8 +30,11 @@ pub(super) enum Line {
 
 /// What runs on which robots.
 #[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+#[serde(default)]
 pub(super) struct Hello {
     pub(super) channels: Vec<Runs>,
+    /// What signals are called, by how files write them: `di.1`.
+    pub(super) names: BTreeMap<String, String>,
 }
 
 /// What one channel runs.

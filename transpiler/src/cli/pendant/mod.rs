@@ -56,19 +56,21 @@ fn show(terminal: &mut ratatui::DefaultTerminal, link: &mut Link, model: &mut Mo
             return Ok(code);
         }
         terminal.draw(|frame| screen::draw(frame, model))?;
-        if !event::poll(WAIT)? {
-            continue;
-        }
-        let Event::Key(key) = event::read()? else { continue };
-        match keys::press(key, model) {
-            Some(Wish::Order(order)) => link.order(&order),
-            // Asked twice, it does not wait for the robot to stop.
-            Some(Wish::Leave) if model.leaving => return Ok(INTERRUPTED),
-            Some(Wish::Leave) => {
-                model.leaving = true;
-                link.leave();
+        let mut wait = WAIT;
+        while event::poll(wait)? {
+            // All keys that have come are taken before the screen is drawn again.
+            wait = Duration::ZERO;
+            let Event::Key(key) = event::read()? else { continue };
+            match keys::press(key, model) {
+                Some(Wish::Order(order)) => link.order(&order),
+                // Asked twice, it does not wait for the robot to stop.
+                Some(Wish::Leave) if model.leaving => return Ok(INTERRUPTED),
+                Some(Wish::Leave) => {
+                    model.leaving = true;
+                    link.leave();
+                }
+                None => {}
             }
-            None => {}
         }
     }
 }

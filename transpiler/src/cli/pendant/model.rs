@@ -8,6 +8,9 @@ use super::sources::Sources;
 /// How many lines of the log are kept.
 const LOG: usize = 500;
 
+/// After so many states an order has been carried out or refused.
+const STATES_FOR_AN_ORDER: u32 = 5;
+
 /// How much a line of the log matters.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Weight {
@@ -28,6 +31,10 @@ pub(super) struct Model {
     pub(super) shown: usize,
     /// What is being typed, where something is.
     pub(super) typed: Option<String>,
+    /// The override that was asked for last, until a state tells of it: keys come faster than states.
+    pub(super) asked_override: Option<f64>,
+    /// How many states came since.
+    states_since: u32,
     /// Whether the program was told to leave.
     pub(super) leaving: bool,
 }
@@ -42,7 +49,14 @@ impl Model {
     pub(super) fn hear(&mut self, line: Line) {
         match line {
             Line::Hello(hello) => self.hello = hello,
-            Line::State(state) => self.state = state,
+            Line::State(state) => {
+                self.states_since += 1;
+                let arrived = self.asked_override == Some(state.speed_override);
+                if arrived || self.states_since > STATES_FOR_AN_ORDER {
+                    self.asked_override = None;
+                }
+                self.state = state;
+            }
             Line::Message(message) => {
                 for text in message.text.trim_end_matches('\n').split('\n') {
                     self.note(Weight::Message, format!("{:9.3}  {text}", message.time));
@@ -53,6 +67,17 @@ impl Model {
             Line::Refused(refused) => self.note(Weight::Warning, format!("{}: {}", refused.order, refused.why)),
             Line::Other(text) => self.note(Weight::Warning, text),
         }
+    }
+
+    /// The override as it is, or will be by what was asked for.
+    pub(super) fn speed_override(&self) -> f64 {
+        self.asked_override.unwrap_or(self.state.speed_override)
+    }
+
+    /// Notes an override that was asked for.
+    pub(super) fn ask_for_override(&mut self, percent: f64) {
+        self.asked_override = Some(percent);
+        self.states_since = 0;
     }
 
     fn note(&mut self, weight: Weight, text: String) {

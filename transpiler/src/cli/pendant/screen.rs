@@ -13,27 +13,43 @@ use super::model::{Model, Weight};
 const QUIET: Style = Style::new().fg(Color::DarkGray);
 const STRONG: Style = Style::new().add_modifier(Modifier::BOLD);
 
-/// How wide the column of axes, TCP and io is.
-const SIDE: u16 = 50;
-/// How many characters show where an axis stands in its range.
-const BAR: usize = 15;
-/// How many signals stand in a row.
-const SIGNALS: usize = 32;
+/// How the screen is divided.
+#[derive(Clone, Copy)]
+struct Form {
+    /// How wide the column of axes, TCP and io is.
+    side: u16,
+    /// How many characters show where an axis stands in its range.
+    bar: usize,
+    /// How many signals stand in a row.
+    signals: usize,
+    /// Columns and decimals of a number.
+    number: (usize, usize),
+}
+
+/// A screen with room.
+const WIDE: Form = Form { side: 50, bar: 15, signals: 32, number: (10, 3) };
+/// One of 80 columns: the text of the program has most of it.
+const NARROW: Form = Form { side: 31, bar: 0, signals: 16, number: (8, 2) };
+/// From so many columns on there is room.
+const ROOM: u16 = 110;
 
 /// Draws everything anew.
 pub(super) fn draw(frame: &mut Frame<'_>, model: &Model) {
-    let rows = [Constraint::Length(1), Constraint::Min(8), Constraint::Percentage(25), Constraint::Length(1)];
+    let form = if frame.area().width >= ROOM { WIDE } else { NARROW };
+    let feet = foot_lines(model, frame.area().width);
+    let foot = Constraint::Length(feet.len() as u16);
+    let rows = [Constraint::Length(1), Constraint::Min(8), Constraint::Percentage(25), foot];
     let [title, middle, log, foot] = Layout::vertical(rows).areas(frame.area());
-    let [source, side] = Layout::horizontal([Constraint::Min(20), Constraint::Length(SIDE)]).areas(middle);
+    let [source, side] = Layout::horizontal([Constraint::Min(20), Constraint::Length(form.side)]).areas(middle);
     let (channel, runs) = shown(model);
     frame.render_widget(title_line(model, &channel), title);
     draw_source(frame, source, model, &channel);
     let height = runs.axes.len() as u16 + 4;
     let [axes, io] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(side);
-    frame.render_widget(Paragraph::new(axis_lines(&runs, &channel)).block(titled(&robot_title(&runs))), axes);
-    frame.render_widget(Paragraph::new(io_lines(&model.state)).block(titled("io")), io);
+    frame.render_widget(Paragraph::new(axis_lines(&runs, &channel, form)).block(titled(&robot_title(&runs))), axes);
+    frame.render_widget(Paragraph::new(io_lines(model, form)).block(titled("io")), io);
     draw_log(frame, log, model);
-    frame.render_widget(foot_line(model), foot);
+    frame.render_widget(Paragraph::new(feet), foot);
 }
 
 /// The channel that is shown.
@@ -97,37 +113,43 @@ fn robot_title(runs: &Runs) -> String {
     runs.robot.clone().unwrap_or_else(|| "no robot".into())
 }
 
-fn axis_lines(runs: &Runs, channel: &Channel) -> Vec<Line<'static>> {
+fn axis_lines(runs: &Runs, channel: &Channel, form: Form) -> Vec<Line<'static>> {
     let axis = |(axis, at): (&Axis, &f64)| {
-        let place = ((at - axis.min) / (axis.max - axis.min)).clamp(0.0, 1.0);
-        let place = (place * (BAR - 1) as f64).round() as usize;
-        let bar: String = (0..BAR).map(|cell| if cell == place { '█' } else { '─' }).collect();
-        Line::from(vec![
-            Span::raw(format!("{:<4}{} {:<4}", axis.name, decimals(*at), axis.unit)),
-            Span::styled(format!("{:>7.0} ", axis.min), QUIET),
-            Span::raw(bar),
-            Span::styled(format!(" {:<.0}", axis.max), QUIET),
-        ])
+        let mut spans = vec![Span::raw(format!("{:<4}{} {:<4}", axis.name, decimals(*at, form), axis.unit))];
+        if form.bar > 0 {
+            let place = ((at - axis.min) / (axis.max - axis.min)).clamp(0.0, 1.0);
+            let place = (place * (form.bar - 1) as f64).round() as usize;
+            let bar: String = (0..form.bar).map(|cell| if cell == place { '█' } else { '─' }).collect();
+            spans.push(Span::styled(format!("{:>7.0} ", axis.min), QUIET));
+            spans.push(Span::raw(bar));
+            spans.push(Span::styled(format!(" {:<.0}", axis.max), QUIET));
+        }
+        Line::from(spans)
     };
     let mut lines: Vec<Line<'static>> = runs.axes.iter().zip(&channel.axes).map(axis).collect();
     if let [x, y, z, a, b, c] = channel.tcp[..] {
-        let [x, y, z, a, b, c] = [x, y, z, a, b, c].map(decimals);
-        lines.push(Line::raw(format!("TCP {x} {y} {z} mm")));
-        lines.push(Line::raw(format!("    {a} {b} {c} deg")));
+        let [x, y, z, a, b, c] = [x, y, z, a, b, c].map(|value| decimals(value, form));
+        lines.push(Line::raw(format!("TCP{x}{y}{z}{}", if form.bar > 0 { " mm" } else { "" })));
+        lines.push(Line::raw(format!("   {a}{b}{c}{}", if form.bar > 0 { " deg" } else { "" })));
     }
     lines
 }
 
-/// Three decimals in ten columns, without a minus before zero.
-fn decimals(value: f64) -> String {
-    let value = if value.abs() < 5e-4 { 0.0 } else { value };
-    format!("{value:10.3}")
+/// A number in its columns, without a minus before zero.
+fn decimals(value: f64, form: Form) -> String {
+    let (width, decimals) = form.number;
+    let value = if value.abs() < 0.5 * 10_f64.powi(-(decimals as i32)) { 0.0 } else { value };
+    format!("{value:width$.decimals$}")
 }
 
-fn io_lines(state: &State) -> Vec<Line<'static>> {
-    let mut lines = Vec::new();
+/// The signals that have names, then all in rows.
+fn io_lines(model: &Model, form: Form) -> Vec<Line<'static>> {
+    let state = &model.state;
+    let mut lines: Vec<Line<'static>> =
+        model.hello.names.iter().map(|(signal, name)| named_signal(signal, name, state)).collect();
     for (name, levels) in [("DI", &state.di), ("DO", &state.dout)] {
-        lines.extend(levels.as_bytes().chunks(SIGNALS).enumerate().map(|(row, levels)| signals(name, row, levels)));
+        let rows = levels.as_bytes().chunks(form.signals).enumerate();
+        lines.extend(rows.map(|(row, levels)| signals(name, row * form.signals + 1, levels)));
     }
     for (name, values) in [("AI", &state.ai), ("AO", &state.ao)] {
         if !values.is_empty() {
@@ -138,17 +160,38 @@ fn io_lines(state: &State) -> Vec<Line<'static>> {
     lines
 }
 
-/// A row of signals in groups of eight, those that are on in full.
-fn signals(name: &str, row: usize, levels: &[u8]) -> Line<'static> {
-    let mut spans = vec![Span::raw(format!("{name} {:>3} ", row * SIGNALS + 1))];
+/// A signal that has a name: how it is, its name, and where it is.
+fn named_signal(signal: &str, name: &str, state: &State) -> Line<'static> {
+    let (kind, channel) = signal.split_once('.').unwrap_or((signal, "1"));
+    let at = channel.parse::<usize>().unwrap_or(1).saturating_sub(1);
+    let digital = |levels: &str| levels.as_bytes().get(at).map(|level| level_mark(*level));
+    let analog = |values: &[f64]| values.get(at).map(|value| Span::raw(format!("{value:.2}")));
+    let level = match kind {
+        "di" => digital(&state.di),
+        "do" => digital(&state.dout),
+        "ai" => analog(&state.ai),
+        "ao" => analog(&state.ao),
+        _ => None,
+    };
+    let level = level.unwrap_or_else(|| Span::styled("?", QUIET));
+    Line::from(vec![level, Span::raw(format!(" {name}")), Span::styled(format!("  {signal}"), QUIET)])
+}
+
+fn level_mark(level: u8) -> Span<'static> {
+    match level {
+        b'1' => Span::styled("■", Style::new().fg(Color::Green)),
+        _ => Span::styled("·", QUIET),
+    }
+}
+
+/// A row of signals from a channel on, in groups of eight, those that are on in full.
+fn signals(name: &str, first: usize, levels: &[u8]) -> Line<'static> {
+    let mut spans = vec![Span::raw(format!("{name} {first:>3} "))];
     for (at, level) in levels.iter().enumerate() {
         if at > 0 && at % 8 == 0 {
             spans.push(Span::raw(" "));
         }
-        spans.push(match level {
-            b'1' => Span::styled("■", Style::new().fg(Color::Green)),
-            _ => Span::styled("·", QUIET),
-        });
+        spans.push(level_mark(*level));
     }
     Line::from(spans)
 }
@@ -170,20 +213,32 @@ fn weight_style(weight: Weight) -> Style {
     }
 }
 
-/// The keys, or what is being typed.
-fn foot_line(model: &Model) -> Line<'static> {
+/// The keys, or what is being typed, in as many lines as they need.
+fn foot_lines(model: &Model, width: u16) -> Vec<Line<'static>> {
     if let Some(typed) = &model.typed {
-        return Line::from(vec![
+        let example = model.hello.names.iter().find(|(signal, _)| signal.starts_with("di."));
+        let example = example.map_or("di.5", |(_, name)| name);
+        return vec![Line::from(vec![
             Span::styled("set ", STRONG),
             Span::raw(format!("{typed}▏")),
-            Span::styled("  like di.5 = true, ai.2 = 4.2, override = 50; Enter does it, Esc does not", QUIET),
-        ]);
+            Span::styled(format!("  like {example} = true, override = 50; Enter does it, Esc does not"), QUIET),
+        ])];
     }
     let orders = keys::ORDERS.iter().map(|(key, name, _)| (key.to_string(), *name));
     let others = [("+-", "override"), ("i", "input"), (":", "order"), ("Tab", "channel"), ("q", "quit")];
     let all = orders.chain(others.into_iter().map(|(key, name)| (key.to_owned(), name)));
-    let spans = all.flat_map(|(key, name)| [Span::styled(key, STRONG), Span::styled(format!(" {name}  "), QUIET)]);
-    Line::from(spans.collect::<Vec<_>>())
+    let mut lines = vec![Line::default()];
+    for (key, name) in all {
+        let spans = [Span::styled(key, STRONG), Span::styled(format!(" {name}  "), QUIET)];
+        let room = lines.last().map_or(0, Line::width) + spans.iter().map(Span::width).sum::<usize>();
+        if room > usize::from(width) + 2 {
+            lines.push(Line::default());
+        }
+        if let Some(line) = lines.last_mut() {
+            line.spans.extend(spans);
+        }
+    }
+    lines
 }
 
 #[cfg(test)]
@@ -202,12 +257,16 @@ mod tests {
         "di":"010000000","do":"1","ai":[4.25],"ao":[]}}"#;
 
     fn screen(lines: &[&str], change: impl FnOnce(&mut Model)) -> String {
+        screen_of(120, lines, change)
+    }
+
+    fn screen_of(width: u16, lines: &[&str], change: impl FnOnce(&mut Model)) -> String {
         let mut model = Model::new(Sources::of("pick.arl", "func void main()\nmovej p1\nlin p2\nendfunc"));
         for line in lines {
             model.hear(serde_json::from_str::<Line>(line).unwrap());
         }
         change(&mut model);
-        let mut terminal = Terminal::new(TestBackend::new(120, 24)).unwrap();
+        let mut terminal = Terminal::new(TestBackend::new(width, 24)).unwrap();
         terminal.draw(|frame| draw(frame, &model)).unwrap();
         terminal.backend().to_string()
     }
@@ -225,13 +284,34 @@ mod tests {
             "kr10-r1420",
             "j1       0.000 deg    -170 ───────█─────── 170",
             "j2    -190.000 deg    -190 █────────────── 45",
-            "TCP      1.000      2.500      3.000 mm",
+            "TCP     1.000     2.500     3.000 mm",
             "DI   1 ·■······ ·",
             "DO   1 ■",
             "AI  4.25",
             "    1.500  part 1",
             "alarm 20003: out of reach (pick.arl:3)",
             "s start  p pause  n step",
+        ] {
+            assert!(screen.contains(words), "{words}\n{screen}");
+        }
+    }
+
+    #[test]
+    fn eighty_columns_are_enough() {
+        let hello = HELLO.replace("]}]}}", r#"]}],"names":{"di.2":"part_present","ai.1":"height"}}}"#);
+        let screen = screen_of(80, &[&hello, STATE], |model| {
+            model.sources =
+                Sources::of("pick.arl", "func void main()\nmovej p1\nlin a_long_target_name,vl:250\nendfunc");
+        });
+        for words in [
+            "lin a_long_target_name,vl:250",
+            "j2   -190.00 deg",
+            "TCP    1.00    2.50    3.00",
+            "■ part_present  di.2",
+            "4.25 height  ai.1",
+            "DO   1 ■",
+            "s start  p pause  n step",
+            "q quit",
         ] {
             assert!(screen.contains(words), "{words}\n{screen}");
         }

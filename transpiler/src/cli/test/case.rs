@@ -1,6 +1,7 @@
 //! The cases in a folder and what is expected of them.
 
 use super::expect::{ExpectedAlarm, ExpectedError, parse_alarm, parse_errors};
+use crate::cli::arl_toml;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -18,6 +19,10 @@ pub(super) struct Case {
     pub(super) alarm: Option<ExpectedAlarm>,
     /// What the outside does.
     pub(super) scenario: Option<PathBuf>,
+    /// The robot that it is for: its own, or that of its project.
+    pub(super) robot: Option<String>,
+    /// The cell, likewise.
+    pub(super) cell: Option<PathBuf>,
     /// How it is run.
     pub(super) options: CaseOptions,
 }
@@ -131,11 +136,18 @@ fn read(source: &Path, stem: &str, expects: bool) -> Result<Case, String> {
         None => CaseOptions::default(),
     };
     let scenario = path(".io.toml");
+    let project = arl_toml::of_program(source).map_err(|failure| failure.to_string())?.unwrap_or_default();
+    let robot = options.robot.as_ref().map(|robot| {
+        let file = source.with_file_name(robot);
+        if file.is_file() { file.to_string_lossy().into_owned() } else { robot.clone() }
+    });
     let case = Case {
         out: bytes(".out")?,
         errors: text(".err")?.map(|text| parse_errors(&text)).transpose().map_err(told(".err"))?,
         alarm: text(".alarm")?.map(|text| parse_alarm(&text)).transpose().map_err(told(".alarm"))?,
         scenario: scenario.is_file().then_some(scenario),
+        robot: robot.or(project.robot),
+        cell: options.cell.as_ref().map(|cell| source.with_file_name(cell)).or(project.cell),
         options,
         source: source.to_path_buf(),
     };

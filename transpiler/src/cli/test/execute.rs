@@ -56,14 +56,13 @@ pub(super) fn execute(case: &Case, compiled: &Compiled, scratch: &Path) -> std::
 /// The options of a run, from the case's sidecars.
 fn arguments(case: &Case) -> Vec<OsString> {
     let options = &case.options;
-    let beside = |name: &Path| case.source.with_file_name(name);
     let mut arguments: Vec<OsString> = Vec::new();
     let mut add = |name: &str, value: OsString| arguments.extend([name.into(), value]);
-    if let Some(robot) = robot(case) {
+    if let Some(robot) = &case.robot {
         add("--robot", robot.into());
     }
-    if let Some(cell) = &options.cell {
-        add("--cell", beside(cell).into());
+    if let Some(cell) = &case.cell {
+        add("--cell", cell.into());
     }
     if let Some(scenario) = &case.scenario {
         add("--io", scenario.into());
@@ -80,13 +79,6 @@ fn arguments(case: &Case) -> Vec<OsString> {
     let mut add = |name: &str, value: OsString| arguments.extend([name.into(), value]);
     add("--max-time", options.max_time.unwrap_or(CONTROLLER_SECONDS).to_string().into());
     arguments
-}
-
-/// The case's robot: a file beside it, or a name.
-pub(super) fn robot(case: &Case) -> Option<String> {
-    let robot = case.options.robot.as_ref()?;
-    let file = case.source.with_file_name(robot);
-    Some(if file.is_file() { file.to_string_lossy().into_owned() } else { robot.clone() })
 }
 
 /// Copies what programs may read: data files, and all files but programs and sidecars.

@@ -90,7 +90,7 @@ fn find(dirs: &[PathBuf]) -> Result<Vec<Found>, Failure> {
 
 /// How a case's program is checked.
 fn checking(case: &Case) -> Checking {
-    Checking { robot: execute::robot(case), background: case.options.background, ..Checking::default() }
+    Checking { robot: case.robot.clone(), background: case.options.background, ..Checking::default() }
 }
 
 fn options(checking: &Checking) -> Result<CheckOptions, String> {
@@ -107,10 +107,10 @@ fn said(failure: Failure) -> String {
 /// The Rust of a case that is to run, with the programs that its cell names.
 fn emit(case: &Case, emitting: &EmitOptions) -> Result<Emitted, String> {
     let checking = checking(case);
-    let cell = case.options.cell.as_ref().map(|cell| case.source.with_file_name(cell));
+    let cell = case.cell.as_deref();
     let first = rust(&case.source, &checking, emitting)?;
     let mut others = Vec::new();
-    for other in several::named(cell.as_deref(), checking.robot.as_deref()).map_err(said)? {
+    for other in several::named(cell, checking.robot.as_deref()).map_err(said)? {
         let rust = rust(&other.path, &other.checking(&checking), emitting)
             .map_err(|problem| format!("{}: {problem}", other.file))?;
         let folder = other.folder(&case.source).map_err(said)?;
@@ -289,6 +289,8 @@ mod tests {
             errors: None,
             alarm: None,
             scenario: None,
+            robot: None,
+            cell: None,
             options: case::CaseOptions::default(),
         }
     }

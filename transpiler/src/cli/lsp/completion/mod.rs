@@ -26,7 +26,7 @@ pub(super) fn completion(server: &Server, params: CompletionParams) -> Result<Op
         Surroundings::Quiet => {}
         Surroundings::Number(start) => builtin::units(server, &typing, start, &mut items),
         Surroundings::Import(start) => own::files(&typing, start, &mut items),
-        Surroundings::Type => builtin::types(server.options.family, &mut items),
+        Surroundings::Type => builtin::types(server.family(&typing.path), &mut items),
         Surroundings::Statement | Surroundings::Code => at_name(server, &typing, &mut items),
     }
     // With the first letter of a name there is more that fits.
@@ -37,7 +37,7 @@ pub(super) fn completion(server: &Server, params: CompletionParams) -> Result<Op
 
 /// What may stand where a name may begin.
 fn at_name(server: &Server, typing: &Typing<'_>, items: &mut Items) {
-    let family = server.options.family;
+    let family = server.family(&typing.path);
     let is_statement = typing.surroundings == Surroundings::Statement;
     let Some((expected, program)) = typing.expectation(server) else {
         // What cannot be read tells nothing; outside of functions the checker is not asked.

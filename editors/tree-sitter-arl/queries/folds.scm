@@ -1,0 +1,15 @@
+[
+  (function_definition)
+  (if_statement)
+  (elseif_clause)
+  (else_clause)
+  (while_statement)
+  (repeat_statement)
+  (loop_statement)
+  (for_statement)
+  (switch_statement)
+  (case_clause)
+  (default_clause)
+  (braces)
+  (block_comment)
+] @fold

@@ -1,0 +1,40 @@
+[
+  (function_definition)
+  (if_statement)
+  (while_statement)
+  (repeat_statement)
+  (loop_statement)
+  (for_statement)
+  (case_clause)
+  (default_clause)
+] @indent.begin
+
+; A line that goes on behind a `\`.
+[
+  (declaration)
+  (expression_statement)
+  (instruction)
+  (return_statement)
+  (compact_if_statement)
+] @indent.begin
+
+[
+  "elseif"
+  "else"
+  "endif"
+  "endwhile"
+  "until"
+  "endloop"
+  "endfor"
+  "endfunc"
+] @indent.branch
+
+[
+  "endif"
+  "endwhile"
+  "endloop"
+  "endfor"
+  "endfunc"
+] @indent.end
+
+(block_comment) @indent.ignore

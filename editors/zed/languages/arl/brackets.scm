@@ -1,0 +1,20 @@
+("(" @open
+  ")" @close)
+("[" @open
+  "]" @close)
+("{" @open
+  "}" @close)
+("func" @open
+  "endfunc" @close)
+("if" @open
+  "endif" @close)
+("while" @open
+  "endwhile" @close)
+("repeat" @open
+  "until" @close)
+("loop" @open
+  "endloop" @close)
+("for" @open
+  "endfor" @close)
+("switch" @open
+  "endswitch" @close)

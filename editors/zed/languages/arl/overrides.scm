@@ -1,0 +1,6 @@
+[
+  (line_comment)
+  (block_comment)
+] @comment
+
+(string) @string
