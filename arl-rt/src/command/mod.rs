@@ -3,6 +3,7 @@
 //! It imports everything, and nothing imports it but `lib.rs`.
 
 mod between;
+mod coverage;
 mod debug;
 mod json;
 mod live;

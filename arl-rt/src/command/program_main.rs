@@ -12,6 +12,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::builtins::time;
 use crate::command::between::{Beat, Between};
+use crate::command::coverage;
 use crate::command::debug;
 use crate::command::live::{self, Cut, LineWriter};
 use crate::command::report;
@@ -60,8 +61,11 @@ Options:
                         say what happens as JSON lines on the standard output
   --debug ADDRESS       connect to a debugger there, which says when to run: for programs
                         that were made for one
+  --coverage FILE       write how often each statement ran: for programs that were made
+                        for a debugger
   --loop                the loop running mode: a program that ends is reset and begins
                         again, until the time is over or it calls exit
+  --cycle-time FILE     write how many controller seconds the run took
   --max-time S          end after so many controller seconds, with exit code 4
   --mode MODE           auto (default), manual or manufast
   --override PCT        the speed override in percent, 0 to 100
@@ -81,12 +85,14 @@ struct Options {
     clock: Option<Pace>,
     live: bool,
     debug: Option<String>,
+    coverage: Option<PathBuf>,
     repeats: bool,
     script_dir: PathBuf,
     state_dir: Option<PathBuf>,
     io: Option<PathBuf>,
     trace: Option<PathBuf>,
     report: Option<Report>,
+    cycle_time: Option<PathBuf>,
     max_time: Option<f64>,
     mode: Controlmode,
     override_percent: f64,
@@ -133,17 +139,44 @@ pub fn main_watched<P: Program + 'static>(
     others: &[Other],
     script_dir: &str,
 ) -> ExitCode {
-    start(program, others, script_dir, Some(debug::connect))
+    start(program, others, script_dir, Some(Watching { connect: debug::connect, count: coverage::count }))
 }
 
-/// Connects a run to the debugger that listens at an address.
-type Connect = fn(&Controller, &str) -> std::io::Result<Box<dyn Between>>;
+/// What programs can do that were made for a debugger.
+#[derive(Clone, Copy)]
+struct Watching {
+    /// Connects a run to the debugger that listens at an address.
+    connect: fn(&Controller, &str) -> std::io::Result<Box<dyn Between>>,
+    /// Counts the statements of a run, for a file.
+    count: fn(&Controller, &Path) -> std::io::Result<Box<dyn Between>>,
+}
+
+impl Watching {
+    /// Who looks after the run between its cycles, if the command line asks for somebody.
+    fn begin(self, controller: &Controller, asked: &Asked) -> Result<Option<Box<dyn Between>>, String> {
+        let begun = match asked {
+            Asked { debug: Some(address), .. } => (self.connect)(controller, address)
+                .map_err(|error| format!("there is no debugger at {address}: {error}")),
+            Asked { coverage: Some(file), .. } => {
+                (self.count)(controller, file).map_err(|error| format!("cannot write {}: {error}", file.display()))
+            }
+            _ => return Ok(None),
+        };
+        begun.map(Some)
+    }
+}
+
+/// What the command line asks of programs that were made for a debugger.
+struct Asked {
+    debug: Option<String>,
+    coverage: Option<PathBuf>,
+}
 
 fn start<P: Program + 'static>(
     program: impl FnOnce() -> P + Send,
     others: &[Other],
     script_dir: &str,
-    debugging: Option<Connect>,
+    watching: Option<Watching>,
 ) -> ExitCode {
     let arguments = std::env::args_os().skip(1);
     let options = match parse(arguments, script_dir) {
@@ -161,7 +194,7 @@ fn start<P: Program + 'static>(
     }
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(PROGRAM_STACK_BYTES + CONTROLLER_STACK_BYTES);
-        let run = || run(Box::new(program()), others, options, debugging, &interrupted);
+        let run = || run(Box::new(program()), others, options, watching, &interrupted);
         match thread.spawn_scoped(scope, run).map(|thread| thread.join()) {
             Ok(Ok(code)) => ExitCode::from(code),
             // The panic has been reported where it happened.
@@ -200,12 +233,14 @@ fn parse(
         clock: None,
         live: false,
         debug: None,
+        coverage: None,
         repeats: false,
         script_dir: PathBuf::from(script_dir),
         state_dir: None,
         io: None,
         trace: None,
         report: None,
+        cycle_time: None,
         max_time: None,
         mode: Controlmode::Auto,
         override_percent: 100.0,
@@ -219,6 +254,7 @@ fn parse(
             Long("cell") => options.cell = Some(parser.value()?.into()),
             Long("live") => (options.live, options.clock) = (true, Some(Pace::Real)),
             Long("debug") => options.debug = Some(parser.value()?.string()?),
+            Long("coverage") => options.coverage = Some(parser.value()?.into()),
             Long("clock") => {
                 let paces = [("virtual", Pace::Virtual), ("real", Pace::Real)];
                 options.clock = Some(word(&mut parser, "--clock", &paces)?);
@@ -231,6 +267,7 @@ fn parse(
             Long("report") => {
                 options.report = Some(parser.optional_value().map_or(Report::Table, |file| Report::File(file.into())));
             }
+            Long("cycle-time") => options.cycle_time = Some(parser.value()?.into()),
             Long("max-time") => options.max_time = Some(number(&mut parser, "--max-time", "seconds", f64::MAX)?),
             Long("mode") => {
                 let modes =
@@ -278,14 +315,16 @@ fn run(
     program: Box<dyn Program>,
     others: &[Other],
     options: Options,
-    debugging: Option<Connect>,
+    watching: Option<Watching>,
     interrupted: &AtomicBool,
 ) -> u8 {
-    if options.debug.is_some() && debugging.is_none() {
+    let asked = Asked { debug: options.debug.clone(), coverage: options.coverage.clone() };
+    if (asked.debug.is_some() || asked.coverage.is_some()) && watching.is_none() {
         tell(format_args!("error: this program was not made for a debugger: `arl2rs dap` makes such programs"));
         return EXIT_USAGE;
     }
     let max_time = options.max_time;
+    let cycle_time = options.cycle_time.clone();
     let real = options.clock == Some(Pace::Real);
     let report = match options.report.clone().map(report_to).transpose() {
         Ok(report) => report,
@@ -295,7 +334,6 @@ fn run(
         }
     };
     let repeats = options.repeats;
-    let address = options.debug.clone();
     let voice = options.live.then(LineWriter::standard);
     let controller = set_up(options, others).and_then(|builder| {
         let builder = match &voice {
@@ -312,13 +350,12 @@ fn run(
         }
     };
     controller.set_loop(repeats);
-    let between = match address.zip(debugging).map(|(address, connect)| (connect(&controller, &address), address)) {
-        Some((Err(error), address)) => {
-            tell(format_args!("error: there is no debugger at {address}: {error}"));
+    let between = match watching.map_or(Ok(None), |watching| watching.begin(&controller, &asked)) {
+        Ok(between) => between,
+        Err(problem) => {
+            tell(format_args!("error: {problem}"));
             return EXIT_USAGE;
         }
-        Some((Ok(between), _)) => Some(between),
-        None => None,
     };
     let code = match voice {
         Some(voice) => code(live::drive(&mut controller, &voice, max_time, interrupted)),
@@ -328,6 +365,11 @@ fn run(
         && let Err(error) = report(&controller)
     {
         warn(&format!("the report cannot be written: {error}"));
+    }
+    if let Some(file) = cycle_time
+        && let Err(error) = std::fs::write(&file, format!("{}\n", controller.time()))
+    {
+        warn(&format!("cannot write {}: {error}", file.display()));
     }
     if real && controller.overruns() > 0 {
         warn(&format!("{} control cycles began late: the computer was too busy", controller.overruns()));

@@ -76,6 +76,11 @@ impl Frames {
         self.with(id, |record| (record.file, record.line, record.is_action))
     }
 
+    /// What a frame is called.
+    pub(crate) fn name(&self, id: u64) -> Option<Rc<str>> {
+        self.with(id, |record| Rc::clone(&record.name))
+    }
+
     /// How many there are up to this one.
     pub(crate) fn depth(&self, id: u64) -> usize {
         self.records.borrow().iter().position(|record| record.id == id).map_or(0, |at| at + 1)

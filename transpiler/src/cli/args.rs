@@ -76,17 +76,13 @@ pub(super) enum Command {
         #[arg(long, value_name = "NAME|FILE")]
         robot: Option<String>,
     },
-    /// Run the cases in folders: every NAME.arl with a sidecar (.out, .err, .alarm, .io.toml, .toml).
+    /// Run the cases in folders: every NAME.arl with a sidecar that says what is expected (.out, .err, .alarm).
     Test {
         /// Folders with cases, searched with their subfolders.
         #[arg(required = true, value_name = "DIR")]
         dirs: Vec<PathBuf>,
-        /// Emit the forms for large programs wherever they are possible, also in small ones.
-        #[arg(long, hide = true)]
-        all_forms: bool,
-        /// Emit programs as for a debugger.
-        #[arg(long, hide = true)]
-        debug: bool,
+        #[command(flatten)]
+        options: TestOptions,
     },
     /// Remove compiled programs and runtimes; they are compiled again when they are needed.
     ///
@@ -132,6 +128,61 @@ pub(super) enum Command {
         #[arg(long, value_name = "FILE.urdf", conflicts_with = "name")]
         import: Option<PathBuf>,
     },
+}
+
+/// Options of a test run.
+#[derive(Args, Clone, Default, Debug)]
+pub(super) struct TestOptions {
+    /// Run the I-th of N parts of the cases only.
+    #[arg(long, value_name = "I/N")]
+    pub(super) shard: Option<Shard>,
+    /// How to tell what came out.
+    #[arg(long, value_enum, default_value_t)]
+    pub(super) format: TestFormat,
+    /// Write what came into the files that say what is expected, where it is something else.
+    #[arg(long)]
+    pub(super) bless: bool,
+    /// Write which lines of the programs ran, and how often, as lcov.
+    #[arg(long, value_name = "FILE")]
+    pub(super) coverage: Option<PathBuf>,
+    /// Emit the forms for large programs wherever they are possible, also in small ones.
+    #[arg(long, hide = true)]
+    pub(super) all_forms: bool,
+    /// Emit programs as for a debugger.
+    #[arg(long, hide = true)]
+    pub(super) debug: bool,
+}
+
+/// How tests are told of.
+#[derive(Clone, Copy, PartialEq, Eq, Default, ValueEnum, Debug)]
+pub(super) enum TestFormat {
+    /// What failed, with its difference, and how many there were.
+    #[default]
+    Human,
+    /// A JSON object a case.
+    Jsonl,
+    /// The XML of JUnit.
+    Junit,
+}
+
+/// A part of the cases: parts are disjoint, and together all.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Shard {
+    /// From 0.
+    pub(super) index: usize,
+    pub(super) count: usize,
+}
+
+impl std::str::FromStr for Shard {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers = text.split_once('/').and_then(|(index, count)| Some((index.parse().ok()?, count.parse().ok()?)));
+        match numbers {
+            Some((index @ 1.., count)) if index <= count => Ok(Self { index: index - 1, count }),
+            _ => Err("expected the number of a part and how many there are, like 2/4".into()),
+        }
+    }
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Debug)]

@@ -62,7 +62,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Build { file, out, release, checking } => done(emit::build(&file, out.as_deref(), release, &checking)),
         Command::Run { file, options } => run::run(&file, &options),
         Command::Plot { trace, plot, robot } => done(run::plot(&trace, &plot, robot.as_deref())),
-        Command::Test { dirs, all_forms, debug } => test::test(&dirs, all_forms, debug),
+        Command::Test { dirs, options } => test::test(&dirs, &options),
         Command::Clean { older } => done(clean::clean(older)),
         Command::Explain { code } => print(explain::explain(&code)),
         Command::Doc { name, search } => print(explain::doc(name.as_deref(), &search)),

@@ -54,3 +54,78 @@ fn cases_pass_or_show_what_differs() {
     folder.arl2rs(&["test", "good", "empty"]).is(2, "").says("empty has no case");
     folder.arl2rs(&["test", "nowhere"]).is(2, "").says("nowhere");
 }
+
+const COUNTS: &str = "func int half(int n)\n  if(n < 0)\n    return -1\n  endif\n  return n / 2\nendfunc\n\
+                      func void main()\n  for(int i=0;i<3;i++)\n    print half(i)\n  endfor\nendfunc\n";
+
+#[test]
+fn results_are_told_in_the_form_that_is_asked_for() {
+    let folder = Folder::new("test_formats")
+        .with("good.arl", "func void main()\n  waittime 0.5\n  print 1\nendfunc\n")
+        .with("good.out", "1\n")
+        .with("bad.arl", "func void main()\n  print 2\nendfunc\n")
+        .with("bad.out", "<3>\n");
+    let told = folder.arl2rs(&["test", ".", "--format", "jsonl"]);
+    assert_eq!(told.code, Some(1));
+    let lines: Vec<serde_json::Value> =
+        told.out.lines().map(|line| serde_json::from_str(line).expect("JSON")).collect();
+    let [bad, good] = lines.as_slice() else { panic!("two cases: {}", told.out) };
+    assert_eq!((&bad["name"], &bad["outcome"]), (&"bad.arl".into(), &"failed".into()));
+    assert!(bad["detail"].as_str().is_some_and(|detail| detail.contains("-<3>\n+2")), "{bad}");
+    assert_eq!((&good["outcome"], &good["detail"]), (&"passed".into(), &serde_json::Value::Null));
+    assert!(good["seconds"].as_f64() > Some(0.0) && good["cycle_time"].as_f64() >= Some(0.5), "{good}");
+    let told = folder.arl2rs(&["test", ".", "--format", "junit"]);
+    assert!(told.code == Some(1) && told.out.contains("tests=\"2\" failures=\"1\"") && told.out.contains("&lt;3&gt;"));
+    // Parts are disjoint, and together all.
+    folder.arl2rs(&["test", ".", "--shard", "2/2"]).is(0, "1 passed, 0 failed\n");
+    let first = folder.arl2rs(&["test", ".", "--shard", "1/2"]);
+    assert!(first.code == Some(1) && first.out.ends_with("0 passed, 1 failed\n"), "{first:?}");
+    folder.arl2rs(&["test", ".", "--shard", "3/2"]).is(2, "").says("like 2/4");
+}
+
+#[test]
+fn what_came_becomes_what_is_expected() {
+    let folder = Folder::new("test_bless")
+        .with("new.arl", "func void main()\n  print getdi(1)\nendfunc\n")
+        .with("new.io.toml", "[[event]]\nat = 0\ndi.1 = true\n")
+        .with("alarms.arl", "func void main()\n  int a = 0\n  print 1\n  print 2 / a\nendfunc\n")
+        .with("alarms.out", "2\n")
+        .with("wrong.arl", "func void main()\n  int a = \"x\"\n  print a\nendfunc\n")
+        .with("wrong.err", "7 nothing\n")
+        .with("endless.arl", "func void main()\n  loop\n    waittime 1\n  endloop\nendfunc\n")
+        .with("endless.out", "\n");
+    let blessed = folder.arl2rs(&["test", ".", "--bless"]);
+    assert!(blessed.code == Some(1) && blessed.out.ends_with("3 passed, 1 failed\n"), "{blessed:?}");
+    assert!(blessed.out.contains("endless.arl") && blessed.out.contains("nothing was blessed"), "{blessed:?}");
+    assert_eq!(folder.read("new.out"), "true\n");
+    assert_eq!((folder.read("alarms.out"), folder.read("alarms.alarm")), ("1\n".into(), "20001 4\n".into()));
+    assert!(folder.read("wrong.err").starts_with("2 `a` must be of type int"), "{}", folder.read("wrong.err"));
+    assert_eq!(folder.read("endless.out"), "\n");
+    folder.write("endless.toml", "max_time = 2\n");
+    folder.arl2rs(&["test", ".", "--bless"]).is(0, "4 passed, 0 failed\n");
+    folder.arl2rs(&["test", "."]).is(0, "4 passed, 0 failed\n");
+    // An alarm that is gone is expected no more.
+    folder.write("alarms.arl", "func void main()\n  print 1\nendfunc\n");
+    folder.arl2rs(&["test", ".", "--bless"]).is(0, "4 passed, 0 failed\n");
+    assert!(!folder.has("alarms.alarm"));
+}
+
+#[test]
+fn coverage_counts_lines_and_functions() {
+    let folder = Folder::new("test_coverage")
+        .with("counts.arl", COUNTS)
+        .with("counts.out", "0\n0\n1\n")
+        .with("uses.arl", "import \"lib/other.arl\"\nfunc void main()\n  other::go()\nendfunc\n")
+        .with("uses.out", "went\n")
+        .with("lib/other.arl", "func void go()\n  print \"went\"\nendfunc\nfunc void never()\n  print 1\nendfunc\n");
+    folder.arl2rs(&["test", ".", "--coverage", "lcov.info"]).is(0, "2 passed, 0 failed\n");
+    let told = folder.read("lcov.info");
+    let records: Vec<&str> = told.split("end_of_record\n").map(str::trim).filter(|one| !one.is_empty()).collect();
+    assert_eq!(records.len(), 3, "{told}");
+    assert!(records[0].contains("SF:counts.arl\n"), "{told}");
+    for line in ["FNDA:3,half", "FNDA:1,main", "DA:2,3", "DA:3,0", "DA:5,3", "DA:9,3", "FNH:2"] {
+        assert!(records[0].lines().any(|found| found == line), "{line}\n{told}");
+    }
+    let other = records.iter().find(|one| one.contains("SF:lib/other.arl\n")).expect("the module");
+    assert!(other.contains("FNDA:0,never") && other.contains("DA:2,1") && other.contains("DA:5,0"), "{other}");
+}

@@ -17,6 +17,8 @@ mod session;
 mod state;
 mod variables;
 
+pub(super) use program::{FileKey, Key, Programs};
+
 use super::failure::Failure;
 use super::framing;
 use session::Session;

@@ -14,20 +14,31 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// All programs of a run, that of the command line first.
-pub(super) struct Programs(Vec<One>);
+pub(in crate::cli) struct Programs(Vec<One>);
+
+/// A function of a program, and the lines of its statements.
+pub(in crate::cli) struct Lines {
+    pub(in crate::cli) file: FileKey,
+    /// Where the file lies.
+    pub(in crate::cli) path: PathBuf,
+    pub(in crate::cli) function: String,
+    /// The line that the function begins at.
+    pub(in crate::cli) begin: u32,
+    pub(in crate::cli) lines: BTreeSet<u32>,
+}
 
 /// What a running program is told by: the folder of its files, counted from the script directory, and its main file.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Default, Debug)]
-pub(super) struct Key {
-    pub(super) folder: String,
-    pub(super) main: String,
+pub(in crate::cli) struct Key {
+    pub(in crate::cli) folder: String,
+    pub(in crate::cli) main: String,
 }
 
 /// A file of a program, as the program names it.
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) struct FileKey {
-    pub(super) program: Key,
-    pub(super) file: String,
+pub(in crate::cli) struct FileKey {
+    pub(in crate::cli) program: Key,
+    pub(in crate::cli) file: String,
 }
 
 impl Key {
@@ -70,7 +81,7 @@ impl Programs {
     ///
     /// # Errors
     /// A program has errors, or cannot be checked.
-    pub(super) fn check(main: &Path, options: &RunOptions, report: &dyn Fn(&str)) -> Result<Self, String> {
+    pub(in crate::cli) fn check(main: &Path, options: &RunOptions, report: &dyn Fn(&str)) -> Result<Self, String> {
         let said = |failure: Failure| match failure {
             Failure::Usage(text) | Failure::Other(text) => text,
             Failure::Shown => String::new(),
@@ -129,6 +140,27 @@ impl Programs {
                 let funcs = one.program().into_iter().flat_map(|program| &program.funcs);
                 let own = funcs.filter(|func| func.module.0 as usize == at);
                 found.extend(own.map(|func| lines(&func.body, &index)));
+            }
+        }
+        found
+    }
+
+    /// All functions of all files, with the lines of their statements.
+    pub(in crate::cli) fn all_lines(&self) -> Vec<Lines> {
+        let mut found = Vec::new();
+        for one in &self.0 {
+            for func in one.program().into_iter().flat_map(|program| &program.funcs) {
+                let Some(module) = one.program().and_then(|program| program.modules.get(func.module.0 as usize)) else {
+                    continue;
+                };
+                let index = LineIndex::new(&module.source);
+                found.push(Lines {
+                    file: one.key_of(&module.file),
+                    path: one.path(&module.file),
+                    function: func.name.clone(),
+                    begin: index.line(func.span.start),
+                    lines: lines(&func.body, &index),
+                });
             }
         }
         found

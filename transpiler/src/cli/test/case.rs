@@ -19,6 +19,8 @@ pub(super) struct Case {
     pub(super) alarm: Option<ExpectedAlarm>,
     /// What the outside does.
     pub(super) scenario: Option<PathBuf>,
+    /// Whether nothing is expected of it yet.
+    pub(super) is_new: bool,
     /// The robot that it is for: its own, or that of its project.
     pub(super) robot: Option<String>,
     /// The cell, likewise.
@@ -74,8 +76,8 @@ struct Group {
 pub(in crate::cli) const EXPECTATIONS: [&str; 3] = [".out", ".err", ".alarm"];
 const SETTINGS: [&str; 2] = [".io.toml", ".toml"];
 
-/// Finds all cases below a folder, in the order of their paths.
-pub(super) fn find(folder: &Path) -> std::io::Result<Vec<Found>> {
+/// Finds all cases below a folder, in the order of their paths; with `new` those, too, of which nothing is expected yet.
+pub(super) fn find(folder: &Path, new: bool) -> std::io::Result<Vec<Found>> {
     let mut found = Vec::new();
     let mut groups: BTreeMap<String, Group> = BTreeMap::new();
     let mut folders = Vec::new();
@@ -99,7 +101,7 @@ pub(super) fn find(folder: &Path) -> std::io::Result<Vec<Found>> {
         let source = folder.join(format!("{stem}.arl"));
         let expects = group.sidecars.iter().find(|ending| EXPECTATIONS.contains(ending));
         if group.program && !group.sidecars.is_empty() {
-            found.push(Found { case: read(&source, &stem, expects.is_some()), source });
+            found.push(Found { case: read(&source, &stem, expects.is_some(), new), source });
         } else if let (false, Some(ending)) = (group.program, expects) {
             let problem = format!("there is a {stem}{ending}, but no {stem}.arl");
             found.push(Found { case: Err(problem), source });
@@ -107,14 +109,15 @@ pub(super) fn find(folder: &Path) -> std::io::Result<Vec<Found>> {
     }
     folders.sort();
     for folder in folders {
-        found.extend(find(&folder)?);
+        found.extend(find(&folder, new)?);
     }
     Ok(found)
 }
 
-fn read(source: &Path, stem: &str, expects: bool) -> Result<Case, String> {
-    if !expects {
-        return Err(format!("nothing is expected of it: add {stem}.out, {stem}.err or {stem}.alarm"));
+fn read(source: &Path, stem: &str, expects: bool, new: bool) -> Result<Case, String> {
+    if !expects && !new {
+        let files = format!("{stem}.out, {stem}.err or {stem}.alarm");
+        return Err(format!("nothing is expected of it: add {files}, or let --bless write what comes"));
     }
     let path = |ending: &str| source.with_file_name(format!("{stem}{ending}"));
     let bytes = |ending: &str| match std::fs::read(path(ending)) {
@@ -146,6 +149,7 @@ fn read(source: &Path, stem: &str, expects: bool) -> Result<Case, String> {
         errors: text(".err")?.map(|text| parse_errors(&text)).transpose().map_err(told(".err"))?,
         alarm: text(".alarm")?.map(|text| parse_alarm(&text)).transpose().map_err(told(".alarm"))?,
         scenario: scenario.is_file().then_some(scenario),
+        is_new: !expects,
         robot: robot.or(project.robot),
         cell: options.cell.as_ref().map(|cell| source.with_file_name(cell)).or(project.cell),
         options,
@@ -187,7 +191,7 @@ mod tests {
 
         fn found(&self) -> Vec<(String, Result<Case, String>)> {
             let name = |path: &Path| path.strip_prefix(&self.0).expect("below").to_string_lossy().into_owned();
-            find(&self.0).expect("a folder").into_iter().map(|found| (name(&found.source), found.case)).collect()
+            find(&self.0, false).expect("a folder").into_iter().map(|found| (name(&found.source), found.case)).collect()
         }
     }
 

@@ -16,7 +16,7 @@ const CONTROLLER_SECONDS: f64 = 3600.0;
 const MOST_OUTPUT: u64 = 32 << 20;
 
 /// How a case went.
-#[derive(Debug)]
+#[derive(Default, Debug)]
 pub(super) struct Outcome {
     pub(super) out: Vec<u8>,
     /// Standard error.
@@ -25,13 +25,19 @@ pub(super) struct Outcome {
     pub(super) code: Option<i32>,
     /// It had to be ended.
     pub(super) late: bool,
+    /// How long it took, s.
+    pub(super) seconds: f64,
+    /// Controller seconds, where it came to an end.
+    pub(super) cycle_time: Option<f64>,
+    /// How often its statements ran, where they were counted.
+    pub(super) counted: String,
 }
 
 /// The folder below the script directory that stands for the USB store.
 const USB: &str = "USB";
 
 /// Runs a case in a folder of its own, so that files that it writes do not meet those of others.
-pub(super) fn execute(case: &Case, compiled: &Compiled, scratch: &Path) -> std::io::Result<Outcome> {
+pub(super) fn execute(case: &Case, compiled: &Compiled, scratch: &Path, counts: bool) -> std::io::Result<Outcome> {
     let folder = scratch.join(&compiled.name);
     let script = folder.join("script");
     std::fs::create_dir_all(&script)?;
@@ -47,7 +53,17 @@ pub(super) fn execute(case: &Case, compiled: &Compiled, scratch: &Path) -> std::
     command.env(CASE, &compiled.name).args(arguments(case));
     command.arg("--script-dir").arg(&script).arg("--state-dir").arg(folder.join("state"));
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
-    let outcome = watch(command.spawn()?);
+    let (time, counted) = (folder.join("cycle_time"), folder.join("coverage"));
+    command.arg("--cycle-time").arg(&time);
+    if counts {
+        command.arg("--coverage").arg(&counted);
+    }
+    let read = |path: &Path| std::fs::read_to_string(path).unwrap_or_default();
+    let outcome = watch(command.spawn()?).map(|outcome| Outcome {
+        cycle_time: read(&time).trim().parse().ok(),
+        counted: read(&counted),
+        ..outcome
+    });
     // What stays in a scratch folder does no harm.
     let _ = std::fs::remove_dir_all(&folder);
     outcome
@@ -115,7 +131,9 @@ fn watch(mut child: Child) -> std::io::Result<Outcome> {
         pause = (pause * 2).min(Duration::from_millis(20));
     };
     let bytes = |reader: std::thread::JoinHandle<Vec<u8>>| reader.join().unwrap_or_default();
-    Ok(Outcome { out: bytes(out), said: String::from_utf8_lossy(&bytes(said)).into_owned(), code, late })
+    let seconds = start.elapsed().as_secs_f64();
+    let said = String::from_utf8_lossy(&bytes(said)).into_owned();
+    Ok(Outcome { out: bytes(out), said, code, late, seconds, ..Outcome::default() })
 }
 
 fn collect<R: Read + Send + 'static>(stream: Option<R>) -> std::thread::JoinHandle<Vec<u8>> {

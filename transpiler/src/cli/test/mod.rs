@@ -1,17 +1,19 @@
 //! `arl2rs test`: every program with a sidecar, compiled together, each run as a process of its own.
 
 mod batch;
+mod bless;
 mod case;
+mod coverage;
 mod diff;
 mod execute;
 mod expect;
+mod report;
 
 pub(super) use case::EXPECTATIONS;
 
-use super::answer;
-use super::args::Checking;
+use super::args::{Checking, Shard, TestOptions};
 use super::cache::Cache;
-use super::failure::{COMPILE_ERRORS, Failure};
+use super::failure::Failure;
 use super::program::check_options;
 use super::progress::Progress;
 use super::project::{Emitted, EmittedOther};
@@ -30,54 +32,76 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
 
 /// What a case came to: nothing to say, or how it failed.
 type Verdict = Result<(), String>;
 
-/// Runs all cases; the last line on standard output is `N passed, N failed`. With `all_forms` the forms of large programs
-/// are emitted wherever they are possible, with `debug` programs as for a debugger.
-pub(super) fn test(dirs: &[PathBuf], all_forms: bool, debug: bool) -> Result<ExitCode, Failure> {
-    let sizes = if all_forms { Sizes::LEAST } else { Sizes::default() };
-    let emitting = EmitOptions { sizes, watched: debug, ..EmitOptions::default() };
-    let kept_as = match (all_forms, debug) {
+/// A case that was looked at.
+struct Done {
+    verdict: Verdict,
+    /// How long it took, s.
+    seconds: f64,
+    /// Controller seconds, where it ran.
+    cycle_time: Option<f64>,
+}
+
+impl Done {
+    fn failed(problem: impl Into<String>) -> Self {
+        Self { verdict: Err(problem.into()), seconds: 0.0, cycle_time: None }
+    }
+}
+
+/// Runs all cases; for people the last line on standard output is `N passed, N failed`.
+pub(super) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<ExitCode, Failure> {
+    let sizes = if options.all_forms { Sizes::LEAST } else { Sizes::default() };
+    let watched = options.debug || options.coverage.is_some();
+    let emitting = EmitOptions { sizes, watched, ..EmitOptions::default() };
+    let kept_as = match (options.all_forms, watched) {
         (false, false) => "tests",
         (true, false) => "tests-all-forms",
         (false, true) => "tests-debug",
         (true, true) => "tests-debug-all-forms",
     };
-    let found = find(dirs)?;
+    let mut found = find(dirs, options.bless)?;
+    if let Some(Shard { index, count }) = options.shard {
+        let mut number = 0..;
+        found.retain(|_| number.next().is_some_and(|number: usize| number % count == index));
+    }
     let progress = Progress::start("checking");
-    let mut verdicts: Vec<Option<Verdict>> = Vec::new();
+    let mut done: Vec<Option<Done>> = Vec::new();
     let mut runs: Vec<(usize, &Case)> = Vec::new();
     let mut emitted = Vec::new();
     for (at, found) in found.iter().enumerate() {
-        verdicts.push(match &found.case {
-            Err(problem) => Some(Err(problem.clone())),
+        done.push(match &found.case {
+            Err(problem) => Some(Done::failed(problem.clone())),
             Ok(case) if case.runs() => match emit(case, &emitting) {
                 Ok(rust) => {
                     runs.push((at, case));
                     emitted.push(batch::Case { source: found.source.clone(), rust });
                     None
                 }
-                Err(failure) => Some(Err(failure)),
+                Err(failure) => Some(Done::failed(failure)),
             },
-            Ok(case) => Some(check(case)),
+            Ok(case) => Some(check(case, options.bless)),
         });
     }
-    for ((at, _), verdict) in runs.iter().zip(run_all(&name_of_run(dirs, kept_as), &runs, &emitted, &progress)?) {
-        if let Some(slot) = verdicts.get_mut(*at) {
-            *slot = Some(verdict);
+    let name = name_of_run(dirs, kept_as);
+    for ((at, _), ran) in runs.iter().zip(run_all(&name, &runs, &emitted, options, &progress)?) {
+        if let Some(slot) = done.get_mut(*at) {
+            *slot = Some(ran);
         }
     }
     drop(progress);
-    report(&found, verdicts)
+    let done: Vec<Done> = done.into_iter().map(|done| done.unwrap_or_else(|| Done::failed("it was not run"))).collect();
+    report::report(&found, &done, options.format)
 }
 
-fn find(dirs: &[PathBuf]) -> Result<Vec<Found>, Failure> {
+fn find(dirs: &[PathBuf], new: bool) -> Result<Vec<Found>, Failure> {
     let mut all = Vec::new();
     for dir in dirs {
         let folder = std::path::absolute(dir).map_err(|error| Failure::io("use", dir, &error))?;
-        let found = case::find(&folder)
+        let found = case::find(&folder, new)
             .map_err(|error| Failure::Usage(format!("cannot read the folder {}: {error}", dir.display())))?;
         if found.is_empty() {
             let sidecars = "a NAME.arl with NAME.out, NAME.err or NAME.alarm beside it";
@@ -132,12 +156,22 @@ fn shown_errors(compiled: &Compiled) -> String {
 }
 
 /// Checks a case that is to have errors.
-fn check(case: &Case) -> Verdict {
-    let compiled =
-        check_program(&case.source, &FileSystem, &options(&checking(case))?).map_err(|bug| bug.to_string())?;
-    let expected = case.errors.as_deref().unwrap_or_default();
-    let difference = expect::compare_errors(expected, &found_errors(&compiled, &compiled.checked.files));
-    difference.map_or(Ok(()), |lines| Err(format!("other errors than expected (- expected, + came):\n{lines}")))
+fn check(case: &Case, bless: bool) -> Done {
+    let start = Instant::now();
+    let look = || {
+        let compiled =
+            check_program(&case.source, &FileSystem, &options(&checking(case))?).map_err(|bug| bug.to_string())?;
+        let expected = case.errors.as_deref().unwrap_or_default();
+        let found = found_errors(&compiled, &compiled.checked.files);
+        let Some(lines) = expect::compare_errors(expected, &found) else { return Ok(()) };
+        let problem = format!("other errors than expected (- expected, + came):\n{lines}");
+        match bless {
+            true => bless::errors(case, &found).map_err(|why| format!("{problem}\n{why}")),
+            false => Err(problem),
+        }
+    };
+    let verdict = look();
+    Done { verdict, seconds: start.elapsed().as_secs_f64(), cycle_time: None }
 }
 
 fn found_errors(compiled: &Compiled, files: &Files) -> Vec<FoundError> {
@@ -163,8 +197,9 @@ fn run_all(
     name: &Path,
     runs: &[(usize, &Case)],
     emitted: &[batch::Case],
+    options: &TestOptions,
     progress: &Progress,
-) -> Result<Vec<Verdict>, Failure> {
+) -> Result<Vec<Done>, Failure> {
     if runs.is_empty() {
         return Ok(Vec::new());
     }
@@ -175,24 +210,42 @@ fn run_all(
     let runtime = Runtime::find().unpack(&cache)?;
     let compiled = batch::compile(&place, &runtime, emitted, progress)?;
     let scratch = std::env::temp_dir().join(format!("arl2rs-test-{}", std::process::id()));
+    let mut coverage = coverage::Coverage::default();
+    let mut places = Vec::new();
+    if options.coverage.is_some() {
+        for (_, case) in runs {
+            // What cannot be checked was told of before.
+            places.push(coverage.add(case).ok());
+        }
+    }
+    let coverage = Mutex::new(coverage);
     let next = AtomicUsize::new(0);
-    let verdicts: Mutex<Vec<Verdict>> = Mutex::new(runs.iter().map(|_| Err("it was not run".into())).collect());
+    let done: Mutex<Vec<Done>> = Mutex::new(runs.iter().map(|_| Done::failed("it was not run")).collect());
     let work = || {
         loop {
             let at = next.fetch_add(1, Ordering::Relaxed);
             let (Some((_, case)), Some(compiled)) = (runs.get(at), compiled.get(at)) else { return };
             progress.say(&format!("running {} of {}", at + 1, runs.len()));
-            let verdict = match compiled {
-                Ok(compiled) => match execute::execute(case, compiled, &scratch) {
-                    Ok(outcome) => judge(case, &outcome),
-                    Err(error) => Err(format!("cannot run it: {error}")),
+            let ran = match compiled {
+                Ok(compiled) => match execute::execute(case, compiled, &scratch, options.coverage.is_some()) {
+                    Ok(outcome) => {
+                        if let Some(Some(places)) = places.get(at)
+                            && let Ok(mut coverage) = coverage.lock()
+                        {
+                            coverage.count(places, &outcome.counted);
+                        }
+                        judged(case, &outcome, options.bless)
+                    }
+                    Err(error) => Done::failed(format!("cannot run it: {error}")),
                 },
-                Err(errors) => Err(format!("bug in arl2rs: the Rust that it became does not compile\n{errors}")),
+                Err(errors) => {
+                    Done::failed(format!("bug in arl2rs: the Rust that it became does not compile\n{errors}"))
+                }
             };
-            if let Ok(mut verdicts) = verdicts.lock()
-                && let Some(slot) = verdicts.get_mut(at)
+            if let Ok(mut done) = done.lock()
+                && let Some(slot) = done.get_mut(at)
             {
-                *slot = verdict;
+                *slot = ran;
             }
         }
     };
@@ -205,12 +258,27 @@ fn run_all(
     // What stays in the system's folder for such files does no harm.
     let _ = std::fs::remove_dir_all(&scratch);
     cache.keep_limit(&place, &runtime.give_back());
-    Ok(verdicts.into_inner().unwrap_or_default())
+    if let Some(file) = &options.coverage {
+        coverage.into_inner().unwrap_or_default().write(file)?;
+    }
+    Ok(done.into_inner().unwrap_or_default())
+}
+
+/// Judges a case that ran; what came becomes what is expected where that is asked for.
+fn judged(case: &Case, outcome: &Outcome, bless: bool) -> Done {
+    let verdict = match judge(case, outcome) {
+        Err(problem) if bless => bless::run(case, outcome).map_err(|why| format!("{problem}\n{why}")),
+        verdict => verdict,
+    };
+    Done { verdict, seconds: outcome.seconds, cycle_time: outcome.cycle_time }
 }
 
 /// Compares what came with what was expected.
 fn judge(case: &Case, outcome: &Outcome) -> Verdict {
     let mut problems = Vec::new();
+    if case.is_new {
+        problems.push("nothing is expected of it yet".to_string());
+    }
     if outcome.late {
         problems.push("it ran too long and was ended".to_string());
     }
@@ -255,28 +323,6 @@ fn ending(outcome: &Outcome) -> String {
     }
 }
 
-/// Tells what failed, then how many.
-fn report(found: &[Found], verdicts: Vec<Option<Verdict>>) -> Result<ExitCode, Failure> {
-    let here = std::env::current_dir().unwrap_or_default();
-    let (mut passed, mut failed) = (0, 0);
-    for (found, verdict) in found.iter().zip(verdicts) {
-        match verdict.unwrap_or_else(|| Err("it was not run".into())) {
-            Ok(()) => passed += 1,
-            Err(problem) => {
-                failed += 1;
-                let source = found.source.strip_prefix(&here).unwrap_or(&found.source);
-                answer::write_coloured(&format!("FAILED {}\n{}\n\n", source.display(), indented(&problem)))?;
-            }
-        }
-    }
-    answer::write_coloured(&format!("{passed} passed, {failed} failed\n"))?;
-    Ok(if failed == 0 { ExitCode::SUCCESS } else { ExitCode::from(COMPILE_ERRORS) })
-}
-
-fn indented(text: &str) -> String {
-    text.lines().map(|line| format!("  {line}")).collect::<Vec<_>>().join("\n")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -289,6 +335,7 @@ mod tests {
             errors: None,
             alarm: None,
             scenario: None,
+            is_new: false,
             robot: None,
             cell: None,
             options: case::CaseOptions::default(),
@@ -296,7 +343,7 @@ mod tests {
     }
 
     fn outcome(code: i32) -> Outcome {
-        Outcome { out: b"1\n".to_vec(), said: String::new(), code: Some(code), late: false }
+        Outcome { out: b"1\n".to_vec(), code: Some(code), ..Outcome::default() }
     }
 
     #[test]
