@@ -3,7 +3,7 @@
 #![cfg(feature = "cli")]
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, clippy::disallowed_methods, reason = "a test")]
 
-use arl_lang::catalog::{self, Base, reference};
+use arl_lang::catalog::{self, Base, Family, reference};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -207,6 +207,62 @@ fn write_case(folder: &Path, example: &Example) {
         write("main.out", prints);
     }
 }
+
+#[test]
+fn examples_of_what_is_built_in_run() {
+    let root = Path::new(env!("CARGO_TARGET_TMPDIR")).join("reference_built_in");
+    let _ = std::fs::remove_dir_all(&root);
+    let mut count = 0;
+    let mut add = |name: &str, example: &str, family: Option<Family>| {
+        let folder = root.join(format!("{count:03}-{}", name.trim_start_matches('$')));
+        std::fs::create_dir_all(&folder).unwrap();
+        let robot = if family == Some(Family::Scara) { "robot = \"hsr065\"\n" } else { "" };
+        std::fs::write(folder.join("main.arl"), format!("func void main()\n{example}\nendfunc\n")).unwrap();
+        std::fs::write(folder.join("main.toml"), format!("max_time = 5\n{robot}")).unwrap();
+        count += 1;
+    };
+    for entry in catalog::all_entries() {
+        add(entry.name, entry.example, entry.family);
+    }
+    for variable in catalog::system_variables() {
+        add(variable.name, variable.example, None);
+    }
+    // What comes is taken as it is: an end, an alarm, or the end of the time. Nothing else passes.
+    let output = Command::new(env!("CARGO_BIN_EXE_arl2rs"))
+        .args(["test", "--bless"])
+        .arg(&root)
+        .env("ARL2RS_CACHE", Path::new(env!("CARGO_TARGET_TMPDIR")).join("cache"))
+        .env("NO_COLOR", "1")
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && said.contains(&format!("{count} passed, 0 failed")), "{said}");
+    let mut alarms = Vec::new();
+    for folder in std::fs::read_dir(&root).unwrap() {
+        let folder = folder.unwrap().path();
+        if let Ok(alarm) = std::fs::read_to_string(folder.join("main.alarm")) {
+            let name = folder.file_name().unwrap().to_string_lossy().into_owned();
+            alarms.push(format!("{} {}", name.split_once('-').unwrap().1, alarm.split(' ').next().unwrap()));
+        }
+    }
+    alarms.sort();
+    assert_eq!(alarms, ENDING_WITH_ALARMS);
+}
+
+/// The examples that end with an alarm here: nothing is connected, and they run in the foreground.
+const ENDING_WITH_ALARMS: &[&str] = &[
+    "read 20050",
+    "read 20050",
+    "read 20050",
+    "read 20050",
+    "read 20050",
+    "setcycle 20050",
+    "switcharl 20004",
+    "write 20050",
+    "write 20050",
+    "write 20050",
+    "write 20050",
+];
 
 /// The pages of what is built in: file name and text.
 fn built_in() -> Vec<(String, String)> {

@@ -116,7 +116,7 @@ entries! { pub(super) MOTION =
         sig: bool [condition, otherwise("false")] "looked at before sinking: where it holds, the robot stops above the target",
     )
         { "3.3.6", motion::jump, plans(Motion::Jump), fails, form(Form::Jump), exclusive(&[&["v", "vp"]]), only(Family::Scara);
-          "pose p = {x 400,y 100,z 50,a 0,b 0,c 0}\njump p,vp:50%,a:30,b:30" }
+          "movej j:{0,30,100,0},vp:50%\npose p = {x 400,y 100,z 350,a 0,b 0,c 0}\njump p,vp:50%,a:30,b:30" }
     /// Lays a weave over the lines, circles and splines that follow, up to endweave. It begins and ends on the path; what is
     /// too fast for the robot slows the path down.
     instr startweave(weave: weavedata "the pattern")
@@ -125,7 +125,8 @@ entries! { pub(super) MOTION =
           "weavedata zigzag = {weaveshape simple,frequency 2,amplitude 5}\nstartweave zigzag\nendweave" }
     /// Ends the weave.
     instr endweave()
-        { "3.2.7.2", motion::endweave, acts, fails, foreground, only(Family::SixAxis); "endweave" }
+        { "3.2.7.2", motion::endweave, acts, fails, foreground, only(Family::SixAxis);
+          "weavedata zigzag = {weaveshape simple,frequency 2,amplitude 5}\nstartweave zigzag\nendweave" }
     /// Begins to compensate the lines, circles and splines that follow, up to endcompen. All limits must be above 0.
     instr startcompen(data: compendata "how fast the compensation may grow")
         { "3.2.11.1", motion::startcompen, acts, fails, foreground, changes(Role::Compensation), only(Family::SixAxis);
@@ -145,5 +146,6 @@ entries! { pub(super) MOTION =
           "compendata limits = {200,600,1000,200,50,1000}\nstartcompen data:limits\ncompen x:100,y:0,z:0,a:0,b:0,c:0,type:\"WOBJ\"\nendcompen" }
     /// Ends the compensation; the next motion starts from the compensated point.
     instr endcompen()
-        { "3.2.11.3", motion::endcompen, acts, fails, foreground, only(Family::SixAxis); "endcompen" }
+        { "3.2.11.3", motion::endcompen, acts, fails, foreground, only(Family::SixAxis);
+          "compendata limits = {200,600,1000,200,50,1000}\nstartcompen data:limits\nendcompen" }
 }

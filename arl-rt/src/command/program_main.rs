@@ -16,6 +16,7 @@ use crate::command::coverage;
 use crate::command::debug;
 use crate::command::live::{self, Cut, LineWriter};
 use crate::command::report;
+use crate::command::source_line::source_line;
 use crate::context::program::Program;
 pub use crate::context::program::{Make, Other};
 use crate::context::standard_error::tell;
@@ -194,7 +195,7 @@ fn start<P: Program + 'static>(
     }
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().stack_size(PROGRAM_STACK_BYTES + CONTROLLER_STACK_BYTES);
-        let run = || run(Box::new(program()), others, options, watching, &interrupted);
+        let run = || run(Box::new(program()), others, options, Path::new(script_dir), watching, &interrupted);
         match thread.spawn_scoped(scope, run).map(|thread| thread.join()) {
             Ok(Ok(code)) => ExitCode::from(code),
             // The panic has been reported where it happened.
@@ -315,6 +316,7 @@ fn run(
     program: Box<dyn Program>,
     others: &[Other],
     options: Options,
+    sources: &Path,
     watching: Option<Watching>,
     interrupted: &AtomicBool,
 ) -> u8 {
@@ -359,7 +361,7 @@ fn run(
     };
     let code = match voice {
         Some(voice) => code(live::drive(&mut controller, &voice, max_time, interrupted)),
-        None => watch(&mut controller, max_time, interrupted, between),
+        None => watch(&mut controller, max_time, interrupted, between, sources),
     };
     if let Some(mut report) = report
         && let Err(error) = report(&controller)
@@ -433,6 +435,7 @@ fn watch(
     max_time: Option<f64>,
     interrupted: &AtomicBool,
     mut between: Option<Box<dyn Between>>,
+    sources: &Path,
 ) -> u8 {
     let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
     let mut code = None;
@@ -455,7 +458,7 @@ fn watch(
             controller.stop();
         }
         controller.step();
-        say(controller);
+        say(controller, sources);
         if code.is_none()
             && beat != Beat::Stands
             && let Some(waiting) = controller.standstill()
@@ -466,7 +469,7 @@ fn watch(
         }
     }
     controller.settle_state();
-    say(controller);
+    say(controller, sources);
     between.into_iter().for_each(|mut between| between.run_ended(controller));
     match (code, controller.outcome()) {
         (Some(code), _) => code,
@@ -475,13 +478,19 @@ fn watch(
     }
 }
 
-/// Says on the standard error what came up.
-fn say(controller: &mut Controller) {
+/// Says on the standard error what came up; `sources` is the folder that programs were compiled from.
+fn say(controller: &mut Controller, sources: &Path) {
     for text in controller.take_warnings() {
         warn(&text);
     }
     for alarm in controller.take_alarms() {
         tell(format_args!("{alarm}"));
+        let contexts = controller.contexts();
+        let of_alarm = contexts.iter().find(|cx| cx.channel_state().id == alarm.channel);
+        let folder = of_alarm.map(|cx| sources.join(cx.program_itself().folder())).unwrap_or_default();
+        if let Some(line) = source_line(&folder.join(alarm.file.name()), alarm.line) {
+            tell(format_args!("{line}"));
+        }
     }
 }
 

@@ -363,7 +363,7 @@ impl Unit {
     /// that, or a motion before it, cannot be.
     pub(crate) fn plan(&mut self, command: &Command, settings: &Settings, file: File) -> Result<(), Alarm> {
         let planned = self.queue.add(command, settings);
-        self.planned = planned.map_err(|error| alarm(error, self.file, (file, command.line)))?;
+        self.planned = planned.map_err(|error| alarm(error, self.file, (file, command.line), Some(&command.target)))?;
         self.file = file;
         self.note_planned(self.planned, command, settings, file);
         Ok(())
@@ -376,15 +376,15 @@ impl Unit {
 
     /// Says that the program waits: motions that waited for the next one go without it. The alarm where that cannot be.
     pub(crate) fn conclude(&mut self) -> Result<(), Alarm> {
-        self.queue.conclude().map_err(|error| alarm(error, self.file, (self.file, 0)))
+        self.queue.conclude().map_err(|error| alarm(error, self.file, (self.file, 0), None))
     }
 
     /// The alarm of a motion that waited in vain for the next one.
     pub(crate) fn take_broken(&mut self) -> Option<Alarm> {
         if let Some(error) = self.queue.take_broken_start() {
-            return Some(alarm(error, self.start_file, (self.start_file, 0)));
+            return Some(alarm(error, self.start_file, (self.start_file, 0), None));
         }
-        Some(alarm(self.queue.take_broken()?, self.file, (self.file, 0)))
+        Some(alarm(self.queue.take_broken()?, self.file, (self.file, 0), None))
     }
 
     /// Lets something hold from the motion on that is planned next: at once where there is none before it.

@@ -1,20 +1,61 @@
 //! The alarms of motions that cannot be planned, in the words of ARL.
 
 use crate::fault::{Alarm, Fault, File};
-use crate::motion::PlanError;
+use crate::motion::{Joints, PlanError, Target, UNSET};
+use std::fmt::Write;
 
-/// The alarm of a motion, here or in an earlier line of another file.
-pub(super) fn alarm(error: PlanError, earlier: File, (file, line): (File, u32)) -> Alarm {
+/// The alarm of a motion, here or in an earlier line of another file. Where it is about `target`, it tells that.
+pub(super) fn alarm(error: PlanError, earlier: File, (file, line): (File, u32), target: Option<&Target>) -> Alarm {
     if let PlanError::Earlier { line, error } = error {
-        return alarm(*error, earlier, (earlier, line));
+        return alarm(*error, earlier, (earlier, line), None);
     }
-    let words = words(&error).into();
+    let mut words = words(&error);
+    if let Some(target) = target.filter(|_| is_about_target(&error)) {
+        let there = if words.ends_with("at the target") { "" } else { "; the target is" };
+        let _ = write!(words, "{there} {}", written(target));
+    }
+    let words = words.into();
     let fault = match error {
         PlanError::NoCircle | PlanError::LoneCircle => Fault::ArcPlane(words),
         PlanError::AboveLimit { .. } => Fault::GateHeight(words),
         _ => Fault::Motion(words),
     };
     Alarm::new(fault, file, line)
+}
+
+/// Whether the way to the target is what cannot be done.
+fn is_about_target(error: &PlanError) -> bool {
+    matches!(
+        error,
+        PlanError::AxisLimit { .. }
+            | PlanError::Unreachable { .. }
+            | PlanError::Tilted { .. }
+            | PlanError::Singular { .. }
+            | PlanError::Wrist { .. }
+            | PlanError::TooDense { .. }
+            | PlanError::NoCircle
+            | PlanError::NoSuchCfg { .. }
+    )
+}
+
+/// A target as programs write it, with the components that are set: `{x 800, y 0}`.
+fn written(target: &Target) -> String {
+    const POSE: [&str; 6] = ["x", "y", "z", "a", "b", "c"];
+    const AXES: [&str; 6] = ["j1", "j2", "j3", "j4", "j5", "j6"];
+    const EXTERNAL: [&str; 6] = ["ej1", "ej2", "ej3", "ej4", "ej5", "ej6"];
+    let (names, values, external) = match target {
+        Target::Joints(Joints { axes, external }) => (AXES, axes, external),
+        Target::Pose { pose, external, .. }
+        | Target::Line { pose, external, .. }
+        | Target::Arc { pose, external, .. }
+        | Target::Gate { pose, external, .. }
+        | Target::Circle { pose, external, .. }
+        | Target::Spline { pose, external, .. } => (POSE, pose, external),
+    };
+    let all = names.into_iter().zip(values).chain(EXTERNAL.into_iter().zip(external));
+    let set = all.filter(|(_, value)| value.abs() < UNSET);
+    let parts: Vec<String> = set.map(|(name, value)| format!("{name} {}", (value * 1e3).round() / 1e3)).collect();
+    format!("{{{}}}", parts.join(", "))
 }
 
 /// What is wrong. Where the planner speaks of what programs set with instructions, these are named.

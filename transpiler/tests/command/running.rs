@@ -49,7 +49,12 @@ fn exit_codes_tell_how_it_ended() {
         .with("alarm.arl", "func void main()\n    int a = 0\n    print 1\n    print 2 / a\nendfunc\n")
         .with("endless.arl", "func void main()\n    print 1\n    loop\n        waittime 1\n    endloop\nendfunc\n")
         .with("wrong.arl", "func void main()\n    prnt 1\nendfunc\n");
-    folder.arl2rs(&["run", "alarm.arl"]).is(3, "1\n").says("alarm 20001: ").says("(alarm.arl:4)");
+    folder
+        .arl2rs(&["run", "alarm.arl"])
+        .is(3, "1\n")
+        .says("alarm 20001: ")
+        .says("(alarm.arl:4)")
+        .says("  4 | print 2 / a\n");
     folder.arl2rs(&["run", "endless.arl", "--max-time", "2.5"]).is(4, "1\n");
     folder.arl2rs(&["run", "wrong.arl"]).is(1, "").says("ARL0211");
     folder.arl2rs(&["run", "endless.arl", "--robot", "none"]).is(2, "").says("no robot `none`");
