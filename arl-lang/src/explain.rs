@@ -231,6 +231,11 @@ impl Refused<'_> {
                 let place = Span::new(found.0, found.2);
                 return Some(SyntaxError::new(self.unexpected(found, Hint::Conversion, complete), place));
             }
+            (Some((_, Token::Type(_), _)), Token::BracketOpen | Token::System(_)) => {
+                let hint = if found.1 == Token::BracketOpen { Hint::SizeBehindName } else { Hint::PlainName };
+                let place = Span::new(found.0, found.2);
+                return Some(SyntaxError::new(self.unexpected(found, hint, complete), place));
+            }
             (Some(word @ (_, Token::Type(_), _)), token) if !is_word(token) && !self.is_reference(token) => {
                 return reserved(word);
             }

@@ -148,6 +148,10 @@ pub enum Hint {
     Label,
     /// An instruction in the place of a value.
     InstructionValue,
+    /// `int[3] a`: the sizes stand behind the name.
+    SizeBehindName,
+    /// `int $a`: only system variables have a `$`.
+    PlainName,
     /// `setdo 1, true`: a function's arguments stand in parentheses.
     FunctionParens,
     /// `p[0.1, 0.2, ...]`: a pose as URScript writes it.

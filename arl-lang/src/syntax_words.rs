@@ -17,7 +17,7 @@ impl Hint {
                 "An instruction's arguments stand behind its name without parentheses: `print \"a\", 1`."
             }
             Hint::WholeCondition => "The parentheses go around the whole condition: `if((a) && (b))`.",
-            Hint::ConditionParens => "The condition stands in parentheses: `if(a == 1)`.",
+            Hint::ConditionParens => "It stands in parentheses: `if(a == 1)`, `switch(n)`.",
             Hint::Conversion => {
                 "A type's name does not convert values. Use `toint`, `todouble`, `tostr` or `trunc`, or assign to a variable of the type."
             }
@@ -34,6 +34,10 @@ impl Hint {
             }
             Hint::ArraySize => "An array's size is written between its brackets: `int a[3]`.",
             Hint::Label => "`name:` labels an argument; elsewhere the value stands alone.",
+            Hint::SizeBehindName => {
+                "The sizes of an array stand behind its name: `int a[3]`. Functions cannot return arrays."
+            }
+            Hint::PlainName => "Names of a program have no `$`: only system variables begin with it.",
             Hint::FunctionParens => "A function's arguments stand in parentheses: `setdo(1, true)`.",
             Hint::PoseLiteral => "Poses stand in braces, in mm and deg: `{x 100, y 200, z 300, a 0, b 180, c 0}`.",
             Hint::InstructionValue => "An instruction stands at the beginning of its line and has no value.",

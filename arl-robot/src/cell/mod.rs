@@ -31,6 +31,9 @@ const HOMES: [&str; 4] = ["home2", "home3", "home4", "home5"];
 const POSITIONS: &str = "axis positions in deg, like [0, -90, 90, 0, 0, 0]";
 const TORQUES: &str = "a torque above 0 in Nm for each axis, like [60, 60, 40, 15, 15, 10]";
 
+/// How many programs with a robot run beside each other at most.
+pub const MOST_FOREGROUND: usize = 6;
+
 /// The programs beside the one of the command line.
 #[derive(Clone, PartialEq, Default, Debug)]
 pub struct Programs {
@@ -84,7 +87,17 @@ impl Programs {
     /// What stands there are no channels.
     pub fn read(top: &Section<'_>, folder: &Path) -> Result<Self, SettingsError> {
         let tables = tables(top, "channel", "tables that begin with [[channel]]")?;
-        let channels = tables.iter().map(|value| channel(top.source, value, folder)).collect::<Result<_, _>>()?;
+        let mut channels = Vec::new();
+        for value in tables {
+            let channel = channel(top.source, value, folder)?;
+            let others = channels.iter().filter(|other: &&CellChannel| !other.background).count();
+            if !channel.background && others + 2 > MOST_FOREGROUND {
+                let text =
+                    format!("one foreground channel too many: with the first one there are at most {MOST_FOREGROUND}");
+                return Err(top.source.error(value.span(), text));
+            }
+            channels.push(channel);
+        }
         Ok(Self { channels, load: load(top)? })
     }
 }
@@ -237,6 +250,7 @@ mod tests {
             ("[[channel]]\nprogram = \"a\"\nbackground = true\nrobot = \"hsr065\"", 4, "both `background` and `robot`"),
             ("[[channel]]\nprogram = \"a\"\nbackground = true\nhome2 = []", 4, "both `background` and `home2`"),
             ("[[channel]]\nprogramm = \"a\"", 2, "did you mean `program`?"),
+            (&"[[channel]]\nprogram = \"a\"\n".repeat(6), 11, "with the first one there are at most 6"),
             ("channel = 3", 1, "tables that begin with [[channel]]"),
             ("load = \"a.arl\"", 1, "a list of programs"),
             ("[[channel]]\nprogram = \"a\"\n[[channel.collision]]\ncid = 17\npercent = 20", 4, "from 0 to 16"),

@@ -2,8 +2,7 @@
 
 use std::fmt;
 
-/// How many foreground channels a controller can have.
-pub(crate) const MOST_FOREGROUND: usize = 6;
+pub(crate) use arl_robot::cell::MOST_FOREGROUND;
 
 /// Which channel of a controller is meant. Both kinds count from 1.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]

@@ -1,9 +1,12 @@
 // The view of tests: cases of the workspace, run by `arl2rs test`.
 
+import { readFile, rm } from "node:fs/promises";
+import * as os from "node:os";
 import * as path from "node:path";
 import * as vscode from "vscode";
 import { casesAmong, folderOf, foldersOf } from "./cases";
 import { requireCommand } from "./command";
+import { type FileCoverage, readLcov } from "./lcov";
 import { collect, type Ended } from "./process";
 import { type Failure, readReport, type Report } from "./report";
 import { firstFolder } from "./settings";
@@ -23,6 +26,10 @@ export class TestView implements vscode.Disposable {
     this.controller.refreshHandler = () => this.look();
     const run = (request: vscode.TestRunRequest, token: vscode.CancellationToken) => this.run(request, token);
     this.controller.createRunProfile("Run", vscode.TestRunProfileKind.Run, run, true);
+    const cover = (request: vscode.TestRunRequest, token: vscode.CancellationToken) => this.run(request, token, true);
+    const covering = this.controller.createRunProfile("Coverage", vscode.TestRunProfileKind.Coverage, cover, true);
+    covering.loadDetailedCoverage = (_, file) =>
+      Promise.resolve(file instanceof CoveredFile ? detailsOf(file.told) : []);
     this.watcher.onDidCreate(() => this.lookSoon());
     this.watcher.onDidDelete(() => this.lookSoon());
     this.lookSoon();
@@ -70,7 +77,11 @@ export class TestView implements vscode.Disposable {
     return this.controller.createTestItem(uri.toString(), label, uri);
   }
 
-  private async run(request: vscode.TestRunRequest, token: vscode.CancellationToken): Promise<void> {
+  private async run(
+    request: vscode.TestRunRequest,
+    token: vscode.CancellationToken,
+    covers = false,
+  ): Promise<void> {
     if (!vscode.workspace.isTrusted) {
       void vscode.window.showInformationMessage("Cases are run in trusted folders only.");
       return;
@@ -82,16 +93,22 @@ export class TestView implements vscode.Disposable {
     await vscode.workspace.saveAll(false);
     const cases = this.wanted(request);
     const run = this.controller.createTestRun(request);
+    const lcov = path.join(os.tmpdir(), `arl2rs-${process.pid}-${Date.now()}.info`);
     try {
       cases.forEach((item) => run.started(item));
       const folders = foldersOf(cases.map((item) => slashed(item)));
       if (folders.length > 0) {
-        conclude(run, cases, await collect(command, ["test", ...folders], firstFolder(), token));
+        const options = covers ? ["--coverage", lcov] : [];
+        conclude(run, cases, await collect(command, ["test", ...folders, ...options], firstFolder(), token));
+        if (covers) {
+          addCoverage(run, await readFile(lcov, "utf8"));
+        }
       }
     } catch (error) {
       cases.forEach((item) => run.errored(item, new vscode.TestMessage(String(error))));
     } finally {
       run.end();
+      await rm(lcov, { force: true });
     }
   }
 
@@ -116,6 +133,32 @@ export class TestView implements vscode.Disposable {
     }
     return cases;
   }
+}
+
+/** A file of which the editor is told what ran of it. */
+class CoveredFile extends vscode.FileCoverage {
+  constructor(
+    uri: vscode.Uri,
+    readonly told: FileCoverage,
+  ) {
+    const ran = (counts: readonly number[]) =>
+      new vscode.TestCoverageCount(counts.filter((count) => count > 0).length, counts.length);
+    const functions = told.functions.map((one) => one.count);
+    super(uri, ran([...told.lines.values()]), undefined, functions.length > 0 ? ran(functions) : undefined);
+  }
+}
+
+function addCoverage(run: vscode.TestRun, lcov: string): void {
+  for (const told of readLcov(lcov)) {
+    run.addCoverage(new CoveredFile(vscode.Uri.file(path.resolve(firstFolder() ?? "", told.file)), told));
+  }
+}
+
+function detailsOf(told: FileCoverage): vscode.FileCoverageDetail[] {
+  const start = (line: number): vscode.Position => new vscode.Position(line - 1, 0);
+  const lines = [...told.lines].map(([line, count]) => new vscode.StatementCoverage(count, start(line)));
+  const functions = told.functions.map((one) => new vscode.DeclarationCoverage(one.name, one.count, start(one.line)));
+  return [...lines, ...functions];
 }
 
 /** Tells the view how the cases ended. The command runs whole folders, so that it may speak of others, too. */

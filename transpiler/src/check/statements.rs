@@ -160,12 +160,17 @@ impl Checker<'_> {
             return self.report(body, expr.span, problem);
         }
         let typed = self.expr(body, expr, None)?;
+        self.doubt_effect(body, expr);
+        Some(StmtKind::Eval(typed.expr))
+    }
+
+    /// Warns of an expression whose value goes nowhere, where it does nothing else.
+    fn doubt_effect(&mut self, body: &Body, expr: &ast::Expr) {
         if is_comparison(expr) {
             self.report::<()>(body, expr.span, Doubt::ComparedStatement);
         } else if !does_something(expr) {
             self.report::<()>(body, expr.span, FlowProblem::NoEffect);
         }
-        Some(StmtKind::Eval(typed.expr))
     }
 
     /// What is wrong with a name that stands alone on its line and means nothing: a word of another language, or one of
@@ -314,7 +319,11 @@ impl Checker<'_> {
             self.statement(body, first, &mut init);
         }
         let condition = each.condition.as_ref().map(|condition| self.condition(body, condition));
-        let step = each.step.as_ref().map(|step| self.expr(body, step, None));
+        let step = each.step.as_ref().map(|step| {
+            let typed = self.expr(body, step, None)?;
+            self.doubt_effect(body, step);
+            Some(typed)
+        });
         let block = self.looped(body, &each.body);
         body.leave(scope);
         let condition = match condition {

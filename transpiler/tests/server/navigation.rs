@@ -238,3 +238,19 @@ fn signals_have_the_names_of_the_cell_that_arl_toml_names() {
     let told = client.diagnostics(&uri);
     assert_eq!(told[0]["code"], "ARL0805", "{told:?}");
 }
+
+#[test]
+fn the_unsaved_text_of_a_module_beside_the_folder_goes_first() {
+    let folder = Folder::new("beside");
+    std::fs::create_dir_all(folder.path.join("line")).unwrap();
+    std::fs::create_dir_all(folder.path.join("shared")).unwrap();
+    let folder = folder.with("shared/rack.arl", "int total\n");
+    let (mut client, main, rack) = (Client::new(&folder), folder.uri("line/main.arl"), folder.uri("shared/rack.arl"));
+    let program = "import \"../shared/rack.arl\"\nfunc void main()\n    rack::count = 1\nendfunc\n";
+    client.set(&rack, "int count\n");
+    client.set(&main, program);
+    assert_eq!(client.diagnostics(&main), Vec::<Value>::new());
+    let at = json!({"textDocument": {"uri": main}, "position": {"line": 2, "character": 12}, "newName": "parts"});
+    let edit = client.ask("textDocument/rename", at);
+    assert!(edit["changes"][&rack].is_array() && edit["changes"][&main].is_array(), "{edit}");
+}

@@ -1,6 +1,7 @@
 //! The files that are open in the editor, whose text goes before that of the disk.
 
 use super::text::{Encoding, Text};
+use crate::check::clean;
 use crate::sources::FileSystem;
 use crate::{SourceError, Sources};
 use arl_lang::span::LineIndex;
@@ -82,7 +83,8 @@ impl Documents {
 
 impl Sources for Documents {
     fn read(&self, path: &Path) -> Result<Vec<u8>, SourceError> {
-        match self.open.get(path) {
+        // An import may say `../rack.arl`; what is open is known by its plain path.
+        match self.open.get(&clean(path)) {
             Some(document) => Ok(document.text.clone().into_bytes()),
             None => FileSystem.read(path),
         }

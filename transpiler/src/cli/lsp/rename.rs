@@ -6,6 +6,7 @@ use super::navigation::uses_of;
 use super::places::{Declared, Place};
 use super::programs::Program;
 use super::server::{Refusal, Server};
+use crate::check::clean;
 use crate::diagnostics::Location;
 use crate::index::{Meaning, Mention};
 use crate::{SourceError, Sources};
@@ -193,7 +194,7 @@ impl<'a> Edited<'a> {
 
 impl Sources for Edited<'_> {
     fn read(&self, path: &Path) -> Result<Vec<u8>, SourceError> {
-        match self.texts.get(path) {
+        match self.texts.get(&clean(path)) {
             Some(text) => Ok(text.clone().into_bytes()),
             None => self.server.documents.read(path),
         }

@@ -75,10 +75,13 @@ fn information(label: String, params: Vec<(String, String)>, doc: String) -> Sig
 }
 
 fn help(signatures: Vec<SignatureInformation>, chosen: usize, parameter: Option<usize>) -> SignatureHelp {
+    // Without a number editors mark the first parameter: one behind the last marks none.
+    let behind = || signatures.iter().filter_map(|one| one.parameters.as_ref()).map(Vec::len).max().unwrap_or(0);
+    let parameter = parameter.unwrap_or_else(behind);
     SignatureHelp {
         signatures,
         active_signature: Some(chosen as u32),
-        active_parameter: parameter.map(|at| ActiveParameter::Int(at as u32)),
+        active_parameter: Some(ActiveParameter::Int(parameter as u32)),
     }
 }
 

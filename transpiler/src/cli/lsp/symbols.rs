@@ -7,6 +7,7 @@ use crate::diagnostics::Location as Place;
 use crate::index::{FunctionInfo, GlobalInfo};
 use arl_lang::catalog::Family;
 use gen_lsp_types::*;
+use std::path::{Path, PathBuf};
 
 pub(super) fn of_document(
     server: &Server,
@@ -63,6 +64,9 @@ pub(super) fn of_workspace(
     params: WorkspaceSymbolParams,
 ) -> Result<Option<WorkspaceSymbolResponse>, Refusal> {
     let mut paths: Vec<_> = server.workspace.programs().chain(server.documents.paths()).cloned().collect();
+    // Data files are no programs of their own.
+    let data: Vec<_> = paths.iter().filter_map(|path| data_beside(path)).collect();
+    paths.extend(data);
     paths.sort();
     paths.dedup();
     let mut found = Vec::new();
@@ -84,6 +88,12 @@ pub(super) fn of_workspace(
         }
     }
     Ok(Some(WorkspaceSymbolResponse::WorkspaceSymbolList(found)))
+}
+
+/// The data file of a program, where there is one.
+fn data_beside(program: &Path) -> Option<PathBuf> {
+    let stem = program.file_stem()?.to_string_lossy();
+    Some(program.with_file_name(format!("{stem}_data.arl"))).filter(|path| path.is_file())
 }
 
 /// Whether a name has all characters of the query, in their order.

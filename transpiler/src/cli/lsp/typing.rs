@@ -5,6 +5,7 @@ use super::programs::Program;
 use super::server::Server;
 use super::text::Text;
 use super::uri::path_of;
+use crate::check::clean;
 use crate::index::{Expectation, HERE};
 use crate::{SourceError, Sources};
 use arl_lang::lexer::{Lexeme, lexemes, look_alike};
@@ -189,7 +190,7 @@ struct Marked<'a> {
 
 impl Sources for Marked<'_> {
     fn read(&self, path: &Path) -> Result<Vec<u8>, SourceError> {
-        if path == self.path { Ok(self.text.clone().into_bytes()) } else { self.server.documents.read(path) }
+        if clean(path) == self.path { Ok(self.text.clone().into_bytes()) } else { self.server.documents.read(path) }
     }
 }
 

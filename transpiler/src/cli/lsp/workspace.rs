@@ -84,14 +84,11 @@ impl Workspace {
 
     /// Notes that a file changed, appeared or is gone.
     pub(super) fn changed(&mut self, path: &Path, is_there: bool) {
-        if !is_program(path) || is_data(path) {
-            return;
-        }
-        if is_there {
-            self.open.insert(path.to_path_buf());
-        } else {
+        if !is_there {
             self.open.remove(path);
             self.reads.remove(path);
+        } else if is_program(path) && !is_data(path) {
+            self.open.insert(path.to_path_buf());
         }
     }
 
