@@ -71,6 +71,9 @@ impl Open {
     }
 }
 
+/// In a text with more stray closing lines it is no longer a slip here and there.
+const MOST_SEARCHES: usize = 50;
+
 /// Takes lines in order and makes a file, or a block of statements, of them.
 pub(crate) struct Blocks<'source> {
     source: &'source str,
@@ -94,6 +97,8 @@ pub(crate) struct Blocks<'source> {
     beyond: usize,
     /// Whether the block that is one too many was reported in this function.
     too_deep: bool,
+    /// How often an opener with a slip may still be looked for: each time costs a walk, and may nest what was read.
+    searches: usize,
     last: Span,
 }
 
@@ -113,6 +118,7 @@ impl<'source> Blocks<'source> {
             cut_short: false,
             beyond: 0,
             too_deep: false,
+            searches: MOST_SEARCHES,
             last: Span::default(),
         }
     }
@@ -504,11 +510,18 @@ impl<'source> Blocks<'source> {
 
     /// Looks for the statement directly before a case that was meant to open its `switch`, and opens that.
     fn misspelt_switch(&mut self) -> Option<SyntaxError> {
-        let (error, span, inner) = self.take_misspelt(BlockKind::Switch)?;
-        if !inner.is_empty() {
-            self.body().extend(inner);
+        // Nothing stands between `switch` and its first case.
+        let last = self.body().len().checked_sub(1)?;
+        let before = self.body().split_off(last);
+        let is_switch = before
+            .first()
+            .and_then(named)
+            .is_some_and(|span| opening_slip(span.text(self.source), BlockKind::Switch.opener()));
+        self.body().extend(before);
+        if !is_switch || self.frames.len() >= BLOCK_LEVELS {
             return None;
         }
+        let (error, span, _) = self.take_misspelt(BlockKind::Switch)?;
         let kind = Open::Switch(error_at(span), Vec::new(), None, false);
         self.frames.push(Frame { kind, span, body: Vec::new(), doubts: Doubts::default() });
         Some(error)
@@ -517,10 +530,19 @@ impl<'source> Blocks<'source> {
     /// Takes the last statement of the innermost block that looks like the opener of such a block: the error at it,
     /// where it stands, and the statements behind it.
     fn take_misspelt(&mut self, kind: BlockKind) -> Option<(SyntaxError, Span, Block)> {
+        self.searches = self.searches.checked_sub(1)?;
         let source = self.source;
+        // What the program defines itself has no slip in it.
+        let functions = self.items.iter().filter_map(|item| match item {
+            Item::Func(func) => Some(func.name.span.text(source)),
+            _ => None,
+        });
+        let own: Vec<&str> = functions.collect();
         let word = |stmt: &Stmt| {
             let span = named(stmt)?;
-            opening_slip(span.text(source), kind.opener()).then_some(span)
+            let text = span.text(source);
+            let slipped = opening_slip(text, kind.opener()) && !own.iter().any(|name| name.eq_ignore_ascii_case(text));
+            slipped.then_some(span)
         };
         let body = self.body();
         let (at, name) = body.iter().enumerate().rev().find_map(|(at, stmt)| Some((at, word(stmt)?)))?;

@@ -69,7 +69,7 @@ const WORDS: &[(&str, &str)] = &[
     ("length", "`strlen`"),
     ("let", "declarations with a type: `int n = 3`"),
     ("linear", "`lin`"),
-    ("lin_rel", "`lin reltool(cpose(), dx:10, dy:0, dz:0, rz:0, ry:0, rx:0)`"),
+    ("lin_rel", "`lin offset(p1, 10, 0, 0, 0, 0, 0)`, where `p1` is the target before, and `reltool` along the tool"),
     ("local", "declarations without such a word: `int n = 3`"),
     ("module", "a file for each module; `import` reads it"),
     ("moveabsj", "`movej`"),
@@ -94,12 +94,16 @@ const WORDS: &[(&str, &str)] = &[
     ("println", "`print`"),
     ("proc", "`func void name()` ... `endfunc`"),
     ("procedure", "`func void name()` ... `endfunc`"),
-    ("ptp_rel", "`movej` to a joint that was calculated from `cjoint()`"),
+    ("ptp_rel", "`movej` to a joint that is calculated from the target before"),
     ("pulse", "`pulsedo(1, true, 0.5)`"),
     ("raise", "`assert(condition)` to end the program with an alarm"),
+    ("persistent", "`$I`, `$D` and `$P` with `savesv` for what is kept between runs"),
     ("random", "`rand`"),
     ("reset", "`setdo(1, false)`"),
+    ("readnum", "`toint(gettextstr(\"file.txt\", 1), dec)`"),
+    ("readstr", "`gettextstr(\"file.txt\", 1)`"),
     ("resume", "`startmove`"),
+    ("retain", "`$I`, `$D` and `$P` with `savesv` for what is kept between runs"),
     ("round", "`floor(x + 0.5)`"),
     ("scirc", "`cir m:p1,p:p2`"),
     ("select", "`switch(n)` ... `endswitch`"),
@@ -115,6 +119,14 @@ const WORDS: &[(&str, &str)] = &[
     ("slin", "`lin`"),
     ("spline", "`spl`"),
     ("sptp", "`ptp`"),
+    ("static", "global variables, which keep their values while the program runs; `$I` with `savesv` between runs"),
+    ("atoi", "`toint(text, dec)`"),
+    ("numtostr", "`tostr(n)`"),
+    ("strtoint", "`toint(text, dec)`"),
+    ("strtoval", "`toint(text, dec)`, and `scan` for several numbers"),
+    ("valtostr", "`tostr(n)`"),
+    ("struct", "no structures of a program's own: variables side by side, or arrays"),
+    ("enum", "no enumerations of a program's own: constants, `const int RED = 0`"),
     ("stop", "`pause`, and `exit` to end the program"),
     ("sub", "`func void name()` ... `endfunc`"),
     ("sync", "no word for this: instructions wait as far as they need to"),
@@ -236,15 +248,34 @@ pub fn system(name: &str) -> Option<&'static str> {
     find(SYSTEM, name)
 }
 
-/// What ARL has in place of a value that other languages have: `fine`, `tool0`, `v100` and `z10` behind a motion.
+/// What ARL has in place of a value that other languages have: `fine`, `C_DIS`, `tool0` behind a motion.
+pub fn argument_word(name: &str) -> Option<&'static str> {
+    find(ARGUMENTS, name)
+}
+
+/// The same, with names that a program may well have itself: `v100`, `z10`, `di1`.
 pub fn argument(name: &str) -> Option<&'static str> {
     let numbered = |first: char| {
         let digits = name.strip_prefix([first, first.to_ascii_uppercase()]);
         digits.is_some_and(|digits| !digits.is_empty() && digits.bytes().all(|digit| digit.is_ascii_digit()))
     };
-    find(ARGUMENTS, name)
+    argument_word(name)
         .or_else(|| numbered('v').then_some("a speed as an argument with its unit: `vl:100mm/s`, `vp:20%`"))
         .or_else(|| numbered('z').then_some("a blending zone as an argument: `sl:10mm`"))
+        .or_else(|| signal(name))
+}
+
+/// `di1` and `do2` of other languages, where signals have such names.
+fn signal(name: &str) -> Option<&'static str> {
+    const SIGNALS: [(&str, &str); 4] = [
+        ("di", "`getdi(1)` for an input"),
+        ("do", "`setdo(1, true)` to write an output, `getdo(1)` to read it"),
+        ("ai", "`getai(1)` for an analog input"),
+        ("ao", "`setao(1, 5)` to write an analog output"),
+    ];
+    let (kind, digits) = name.split_at_checked(2)?;
+    let (_, ours) = SIGNALS.iter().find(|(other, _)| other.eq_ignore_ascii_case(kind))?;
+    digits.bytes().all(|digit| digit.is_ascii_digit()).then_some(ours)
 }
 
 /// The labels of ARL's motions for what another language labels so; not every motion has all of them.

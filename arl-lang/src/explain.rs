@@ -278,7 +278,13 @@ impl Refused<'_> {
     /// The error where two values follow each other.
     fn between_values(&self, found: Placed, complete: bool) -> SyntaxError {
         let place = Span::new(found.0, found.2);
-        let kind = if self.expects(Token::Comma) && found.1 != Token::Semicolon {
+        // `lin p1 ; go down`: no event, and no comma of one is missing.
+        let before = self.tokens.get(..self.at).unwrap_or_default();
+        let events = matches!(self.first(), Some(Token::Instruction(_)))
+            && before.iter().any(|token| token.1 == Token::Semicolon);
+        let kind = if events {
+            self.unexpected(found, Hint::Events, complete)
+        } else if self.expects(Token::Comma) && found.1 != Token::Semicolon {
             SyntaxErrorKind::MissingComma(self.show(found).into())
         } else if let Some((bracket, opened)) = self.open.last()
             && self.expects_close(*bracket)

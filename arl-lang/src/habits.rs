@@ -141,6 +141,12 @@ pub(crate) fn repair(tokens: &mut Vec<Placed>, source: &str, errors: &mut Vec<Sy
         }
     } else if tokens.len() <= 2 && matches!(first, Token::Name(_)) {
         habits.whole = other_end(tokens, source);
+        if let ([only], None) = (tokens.as_slice(), &habits.whole)
+            && let Some((closer, kind)) = closing_slip(span(*only).text(source))
+        {
+            report(SyntaxErrorKind::Misspelt(span(*only).text(source).into(), closer), span(*only));
+            habits.whole = whole(kind, span(*only));
+        }
     }
     habits
 }
@@ -152,10 +158,7 @@ fn other_end(tokens: &[Placed], source: &str) -> Option<Line> {
     let word = span(*first).text(source);
     let is = |list: &[&str]| list.iter().any(|end| end.eq_ignore_ascii_case(word));
     let (ends, function) = match tokens {
-        [_] => match closing_slip(word) {
-            Some(function) => (true, function),
-            None => (is(&ENDS), is(&FUNCTION_ENDS)),
-        },
+        [_] => (is(&ENDS), is(&FUNCTION_ENDS)),
         [_, (_, second, _)] => (word.eq_ignore_ascii_case("end") && is_header(*second), *second == Token::Func),
         _ => (false, false),
     };

@@ -4,6 +4,7 @@
 use crate::ast::BinaryOp;
 use crate::elsewhere;
 use crate::explain::{begins_value, ends_value};
+use crate::line::LineKind;
 use crate::near::within;
 use crate::span::Span;
 use crate::syntax_error::{Hint, SyntaxError, SyntaxErrorKind};
@@ -52,7 +53,11 @@ pub(crate) fn replace_operators(tokens: &mut Vec<Placed>, source: &str, errors: 
         }
         match tokens.get(at).map(|token| token.1) {
             Some(Token::ParenOpen | Token::BracketOpen | Token::BraceOpen) => depth += 1,
-            Some(Token::ParenClose | Token::BracketClose | Token::BraceClose) => depth = depth.saturating_sub(1),
+            Some(Token::ParenClose | Token::BracketClose | Token::BraceClose) => {
+                depth = depth.saturating_sub(1);
+                // Behind the condition of an `if` on one line a statement begins.
+                assigned &= depth > 0 || !matches!(tokens.first(), Some((_, Token::If, _)));
+            }
             Some(Token::Assign(_)) => assigned = true,
             _ => {}
         }
@@ -88,10 +93,14 @@ fn operator_in_letters(
 }
 
 /// Words that other languages put in front of a declaration.
-const PREFIXES: [&str; 7] = ["var", "pers", "decl", "local", "global", "dim", "let"];
+const PREFIXES: [&str; 10] = ["var", "pers", "decl", "local", "global", "dim", "let", "static", "retain", "persistent"];
 
 /// Words with which other languages begin a function.
 const FUNCTIONS: [&str; 8] = ["def", "deffct", "function", "proc", "procedure", "sub", "thread", "trap"];
+
+fn is_word(token: Option<Token>) -> bool {
+    token.is_some_and(crate::explain::is_word)
+}
 
 /// A refused line that begins with such a word, as it was meant.
 pub(crate) enum Meant {
@@ -139,10 +148,10 @@ pub(crate) fn first_word(tokens: &[Placed], source: &str) -> Option<(SyntaxError
         )
     );
     let meant = match word {
-        _ if is(&FUNCTIONS) => Meant::Function,
         _ if is(&["elif", "elsif"]) => Meant::Word(Token::ElseIf),
-        _ if is(&["select", "test"]) => Meant::Word(Token::Switch),
         _ if own => return None,
+        _ if is(&FUNCTIONS) && is_word(next) => Meant::Function,
+        _ if is(&["select", "test"]) => Meant::Word(Token::Switch),
         _ if is(&PREFIXES) => Meant::Declaration,
         _ => Meant::Nothing,
     };
@@ -162,12 +171,21 @@ pub(crate) fn function_of_others(tokens: &[Placed], source: &str) -> Option<Synt
     Some(SyntaxError::new(SyntaxErrorKind::OtherWord(word.into(), ours), span))
 }
 
+/// The error for a line that begins with the sign of another language's comments.
+pub(crate) fn comment(tokens: &[Placed], source: &str) -> Option<SyntaxError> {
+    let (start, Token::Semicolon | Token::Not, end) = *tokens.first()? else { return None };
+    let span = Span::new(start, end);
+    let found = format!("`{}`", span.text(source)).into();
+    let expected = "a statement, a declaration or the beginning or end of a block".into();
+    Some(SyntaxError::new(SyntaxErrorKind::Unexpected { found, expected, hint: Hint::Comment }, span))
+}
+
 /// The error for a refused word behind the first that other languages give a motion.
 pub(crate) fn argument(found: Placed, source: &str) -> Option<SyntaxError> {
     let (start, Token::Name(_), end) = found else { return None };
     let span = Span::new(start, end);
     let word = span.text(source);
-    Some(SyntaxError::new(SyntaxErrorKind::OtherWord(word.into(), elsewhere::argument(word)?), span))
+    Some(SyntaxError::new(SyntaxErrorKind::OtherWord(word.into(), elsewhere::argument_word(word)?), span))
 }
 
 /// The words that open a line with parentheses behind them, or a function.
@@ -196,13 +214,21 @@ fn slip(word: &str, token: Token, next: Option<Token>) -> Option<(Token, &'stati
     fits.then_some((found.1, found.0))
 }
 
-/// Whether `word` alone on a line was meant to be the word that closes a block; whether it is the one of functions.
-pub(crate) fn closing_slip(word: &str) -> Option<bool> {
+/// The word that closes a block, and its line, where `word` alone on a line is one with a slip in it.
+pub(crate) fn closing_slip(word: &str) -> Option<(&'static str, LineKind)> {
     const CLOSERS: [&str; 6] = ["endfor", "endfunc", "endif", "endloop", "endswitch", "endwhile"];
     let begins = word.get(..3).is_some_and(|first| first.eq_ignore_ascii_case("end"));
     let limit = if word.len() < 8 { 1 } else { 2 };
     let meant = within(word, limit, CLOSERS.into_iter()).filter(|_| begins)?;
-    Some(meant == "endfunc")
+    let line = match meant {
+        "endfor" => LineKind::EndFor,
+        "endfunc" => LineKind::EndFunc,
+        "endif" => LineKind::EndIf,
+        "endloop" => LineKind::EndLoop,
+        "endswitch" => LineKind::EndSwitch,
+        _ => LineKind::EndWhile,
+    };
+    Some((meant, line))
 }
 
 /// Whether `word` was meant to be the `opener` of a block.

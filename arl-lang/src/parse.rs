@@ -12,7 +12,7 @@ use crate::habits::repair;
 use crate::lexer::{Lexeme, LexicalError};
 use crate::line::{Line, LineKind};
 use crate::number::{Number, NumberError, NumberValue};
-use crate::other_words::{Meant, argument, first_word, function_of_others, replace_operators};
+use crate::other_words::{Meant, argument, comment, first_word, function_of_others, replace_operators};
 use crate::outline::Outline;
 use crate::recovery::{Recovered, other_function, recover};
 use crate::span::Span;
@@ -345,6 +345,10 @@ impl<'a> Parser<'a> {
             }
             Err(error) => {
                 self.context.errors.truncate(before);
+                if !quiet && let Some(error) = comment(tokens, self.source) {
+                    self.context.errors.push(error);
+                    return;
+                }
                 if !quiet && let Some((error, meant)) = first_word(tokens, self.source) {
                     self.context.errors.push(error);
                     return self.recover_meant(meant, doubts);

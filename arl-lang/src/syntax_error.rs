@@ -148,6 +148,8 @@ pub enum Hint {
     Label,
     /// An instruction in the place of a value.
     InstructionValue,
+    /// `; text` and `! text` of other languages.
+    Comment,
     /// `int[3] a`: the sizes stand behind the name.
     SizeBehindName,
     /// `int $a`: only system variables have a `$`.

@@ -30,7 +30,7 @@ impl Hint {
             Hint::ElseAlone => "`else` stands on a line of its own, its statements on the lines below.",
             Hint::For => "`for` has three parts with `;` between them: `for(int i=0;i<5;i++)`.",
             Hint::Events => {
-                "Behind the `;` of a motion stand an event, a comma and an action: `lin p1;T(1),setdo(2,true)`."
+                "Behind the `;` of a motion stand an event, a comma and an action: `lin p1;T(1),setdo(2,true)`. Comments begin with `//`."
             }
             Hint::ArraySize => "An array's size is written between its brackets: `int a[3]`.",
             Hint::Label => "`name:` labels an argument; elsewhere the value stands alone.",
@@ -38,6 +38,7 @@ impl Hint {
                 "The sizes of an array stand behind its name: `int a[3]`. Functions cannot return arrays."
             }
             Hint::PlainName => "Names of a program have no `$`: only system variables begin with it.",
+            Hint::Comment => "Comments begin with `//`.",
             Hint::FunctionParens => "A function's arguments stand in parentheses: `setdo(1, true)`.",
             Hint::PoseLiteral => "Poses stand in braces, in mm and deg: `{x 100, y 200, z 300, a 0, b 180, c 0}`.",
             Hint::InstructionValue => "An instruction stands at the beginning of its line and has no value.",
@@ -210,7 +211,9 @@ impl SyntaxErrorKind {
             Semicolon => {
                 "The end of the line ends the statement. A `;` adds events to a motion: `lin p1;T(1),setdo(2,true)`."
             }
-            SeveralStatements => "The end of the line ends a statement; `;` does not separate statements.",
+            SeveralStatements => {
+                "The end of the line ends a statement; `;` does not separate statements. Comments begin with `//`."
+            }
             LabelNotAlone(_) => "Write the statement on the next line.",
             ElseIf => "With `elseif` the whole chain has one `endif`.",
             Then(_) => "The statements follow on the next lines, up to the closing word.",

@@ -22,6 +22,8 @@ pub struct Outline {
     pub devicenet: u32,
     /// Whether the controller serves registers and coils over Modbus TCP.
     pub modbus_tcp: bool,
+    /// Whether other programs run beside the first one.
+    pub others: bool,
     /// How many programs with a robot run beside each other: foreground channels, from 1.
     pub foreground: u32,
 }
@@ -42,6 +44,7 @@ impl Outline {
             names: cell.names.clone(),
             devicenet: cell.buses.devicenet as u32,
             modbus_tcp: cell.buses.modbus_tcp.is_some(),
+            others: !cell.programs.channels.is_empty(),
             foreground: 1 + cell.programs.channels.iter().filter(|channel| !channel.background).count() as u32,
         }
     }

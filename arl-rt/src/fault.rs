@@ -261,12 +261,36 @@ pub struct Alarm {
     pub line: u32,
     /// The channel whose program it is.
     pub channel: ChannelId,
+    /// The calls that led there, the innermost first.
+    pub calls: Calls,
 }
 
 impl Alarm {
     /// An alarm at its place; the controller that runs the program knows the channel.
     pub fn new(fault: Fault, file: File, line: u32) -> Self {
-        Self { fault, file, line, channel: ChannelId::FIRST }
+        Self { fault, file, line, channel: ChannelId::FIRST, calls: Calls::default() }
+    }
+}
+
+/// Calls of a program's functions that led somewhere.
+#[derive(Clone, PartialEq, Eq, Default, Debug)]
+pub struct Calls {
+    /// Where the calls stand, the innermost first; of many only the first.
+    pub places: Vec<(File, u32)>,
+    /// How many there were besides.
+    pub more: usize,
+}
+
+/// Of how many calls the places are kept: functions may call themselves many thousand times.
+const MOST_CALLS: usize = 20;
+
+impl Calls {
+    fn add(&mut self, file: File, line: u32) {
+        if self.places.len() < MOST_CALLS {
+            self.places.push((file, line));
+        } else {
+            self.more += 1;
+        }
     }
 }
 
@@ -374,6 +398,30 @@ impl<T> At<T> for Result<T, Fault> {
             Err(fault) => Err(raise(fault, file, line)),
         }
     }
+}
+
+/// Gives an alarm the calls that led there.
+pub trait Called {
+    /// The same result of a function of the program that was called at `line` of `file`.
+    #[must_use]
+    fn called(self, file: File, line: u32) -> Self;
+}
+
+impl<T> Called for Done<T> {
+    #[inline]
+    fn called(self, file: File, line: u32) -> Self {
+        self.inspect_err(|_| note_call(file, line))
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn note_call(file: File, line: u32) {
+    REASON.with_borrow_mut(|reason| {
+        if let Reason::Alarm(alarm) = reason {
+            alarm.calls.add(file, line);
+        }
+    });
 }
 
 #[cold]

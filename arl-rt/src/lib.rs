@@ -57,7 +57,7 @@ pub use controller::{
 };
 pub use cycle::channel_id::ChannelId;
 pub use cycle::clock_source;
-pub use fault::{Alarm, Fault, Reason, Stop};
+pub use fault::{Alarm, Calls, Fault, Reason, Stop};
 pub use storage::data::{DataFile, DataVar};
 pub use storage::{data, state};
 pub use unit::{dynamics, robot_driver};

@@ -10,12 +10,12 @@ pub mod drain {
     // 4: func void main()
     pub async fn main(cx: &Cx, g: &Globals) -> Done<()> {
         // 5: valves::open(valves::OUTLET)
-        super::valves::open(cx, g, 2).await?;
+        super::valves::open(cx, g, 2).await.called(FILE, 5)?;
         // 6: waittime 2
         cx.line(FILE, 6);
         flow::waittime(2.0).run(cx).await.at(FILE, 6)?;
         // 7: valves::close(valves::OUTLET)
-        super::valves::close(cx, g, 2).await?;
+        super::valves::close(cx, g, 2).await.called(FILE, 7)?;
         // 8: print "empty"
         cx.line(FILE, 8);
         text::print().argtoprint(&"empty").run(cx).at(FILE, 8)?;

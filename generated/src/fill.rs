@@ -27,7 +27,7 @@ pub mod fill {
         // 8: clock watch
         let watch = Clock::default();
         // 9: valves::open(valves::INLET)
-        super::valves::open(cx, g, 1).await?;
+        super::valves::open(cx, g, 1).await.called(FILE, 9)?;
         // 10: clkstart(watch)
         cx.line(FILE, 10);
         clock::clkstart(cx, &watch);
@@ -47,7 +47,7 @@ pub mod fill {
         cx.line(FILE, 12);
         clock::clkstop(cx, &watch);
         // 13: valves::close(valves::INLET)
-        super::valves::close(cx, g, 1).await?;
+        super::valves::close(cx, g, 1).await.called(FILE, 13)?;
         // 14: if(late)
         if late {
             // 15: print "the tank did not fill"

@@ -67,7 +67,7 @@ pub mod light_curtain {
                     let name = name.clone();
                     async move |cx: &Cx| {
                         let g: &Globals = cx.globals().at(FILE, 25)?;
-                        reached_in(cx, g, name.clone()).await
+                        reached_in(cx, g, name.clone()).await.called(FILE, 25)
                     }
                 },
             )

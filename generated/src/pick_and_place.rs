@@ -89,7 +89,7 @@ pub mod pick_and_place {
                 .await
                 .at(FILE, 39)?;
             // 40: if(grip())
-            if grip(cx).await? {
+            if grip(cx).await.called(FILE, 40)? {
                 // 41: lin above(feeder, clearance), vl:400mm/s
                 cx.line(FILE, 41);
                 motion::lin(

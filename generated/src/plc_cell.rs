@@ -97,7 +97,7 @@ pub mod plc_cell {
         // 28: loop
         loop {
             // 29: int number = ask()
-            let number = ask(cx).await?;
+            let number = ask(cx).await.called(FILE, 29)?;
             // 30: print "program ", number
             cx.line(FILE, 30);
             text::print()
@@ -111,13 +111,15 @@ pub mod plc_cell {
                 1 => {
                     // 33: carry(rack, machine, LOADED)
                     carry(cx, g.plc_cell.rack.get(), g.plc_cell.machine.get(), 30)
-                        .await?;
+                        .await
+                        .called(FILE, 33)?;
                 }
                 // 34: case 2:
                 2 => {
                     // 35: carry(machine, rack, UNLOADED)
                     carry(cx, g.plc_cell.machine.get(), g.plc_cell.rack.get(), 31)
-                        .await?;
+                        .await
+                        .called(FILE, 35)?;
                 }
                 // 36: case 3:
                 3 => {

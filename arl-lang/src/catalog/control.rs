@@ -26,7 +26,7 @@ entries! { pub(super) CONTROL =
         { "3.4.5", flow::restart, ends, form(Form::Restart); "$I[0]++\nif($I[0] < 3) restart\nprint $I[0]" }
     /// Stops the motion on its path; as a rule in an interrupt's function, with startmove.
     instr stopmove(type: stoptype [otherwise("general"), rust("stop")] "how it brakes; general without it")
-        { "3.4.6", event::stopmove, acts, fails, foreground; "stopmove fast\nstartmove" }
+        { "3.4.6", event::stopmove, acts, fails, foreground, halts; "stopmove fast\nstartmove" }
     /// Goes on with the motion that stopmove stopped: back to the place of the stop and on, or to a later target.
     instr startmove(skip: {int, bool} [optional] "how many motions are dropped, from the stopped one on; 0 without it")
         { "3.4.7", event::startmove, acts, fails, foreground; "stopmove\nstartmove 1" }

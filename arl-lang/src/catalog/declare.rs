@@ -287,6 +287,7 @@ impl Entry {
             connects: false,
             uses_disk: false,
             teaches: false,
+            halts: false,
             looks: false,
             path: "",
             doc: trimmed(doc),
@@ -327,6 +328,8 @@ setters! { Entry:
     uses_disk() { uses_disk = true }
     /// Writes points of a program while that runs.
     teaches() { teaches = true }
+    /// Stops the robot until the program lets it go on.
+    halts() { halts = true }
     /// Only looks at what is there.
     looks() { looks = true }
     /// An alarm is possible.

@@ -159,6 +159,8 @@ pub struct Entry {
     pub uses_disk: bool,
     /// Whether it writes points of a program while that runs.
     pub teaches: bool,
+    /// Whether it stops the robot until the program lets it go on.
+    pub halts: bool,
     /// Whether it changes nothing although it takes the context: it only looks at what is there.
     pub looks: bool,
     /// The runtime's function, below `arl_rt`: `math::sqrt`.

@@ -71,8 +71,9 @@ impl Signal {
     pub fn parse(text: &str) -> Option<Self> {
         let (kind, channel) = text.split_once('.')?;
         let (_, kind) = KINDS.iter().find(|(known, _)| *known == kind)?;
-        let channel = channel.parse().ok().filter(|channel| *channel > 0)?;
-        Some(Self { kind: *kind, channel })
+        let number: u32 = channel.parse().ok().filter(|number| *number > 0)?;
+        // `di.02` would be a second name for `di.2`.
+        (number.to_string() == channel).then_some(Self { kind: *kind, channel: number })
     }
 }
 
@@ -111,7 +112,7 @@ pub(super) const TAKEN: [&str; 20] = [
 ];
 
 /// What a name of a signal may be.
-const FORM: &str = "a name of letters, digits and `_`, which begins with a letter, like \"part_present\"";
+const FORM: &str = "a name of letters, digits and `_`, the first no digit, like \"part_present\"";
 
 impl Names {
     /// `[names]` of a cell file.

@@ -33,7 +33,7 @@ struct Counter(RefCell<Vec<Program>>);
 
 impl Watcher for Counter {
     fn statement(&self, cx: &Cx, frame: u64) -> Go {
-        let Some((file, line, is_action)) = cx.frames().place(frame) else { return Go::On };
+        let Some((file, line, false)) = cx.frames().place(frame) else { return Go::On };
         let (folder, main) = (cx.program_itself().folder(), cx.program().name());
         let mut programs = self.0.borrow_mut();
         let known = programs.iter().position(|program| program.main == main && program.folder == folder);
@@ -46,7 +46,7 @@ impl Watcher for Counter {
             *program.counts.entry((file.name(), line)).or_default() += 1;
             if frame > program.last_frame {
                 program.last_frame = frame;
-                if let Some(name) = cx.frames().name(frame).filter(|_| !is_action) {
+                if let Some(name) = cx.frames().name(frame) {
                     *program.entered.entry((file.name(), name)).or_default() += 1;
                 }
             }

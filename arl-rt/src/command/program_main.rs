@@ -485,11 +485,25 @@ fn say(controller: &mut Controller, sources: &Path) {
     }
     for alarm in controller.take_alarms() {
         tell(format_args!("{alarm}"));
+        // In real time other robots may still move: then no cycle waits for a file.
+        if controller.is_real() {
+            alarm.calls.places.iter().for_each(|(file, line)| tell(format_args!("called in {}:{line}", file.name())));
+            continue;
+        }
         let contexts = controller.contexts();
         let of_alarm = contexts.iter().find(|cx| cx.channel_state().id == alarm.channel);
         let folder = of_alarm.map(|cx| sources.join(cx.program_itself().folder())).unwrap_or_default();
         if let Some(line) = source_line(&folder.join(alarm.file.name()), alarm.line) {
             tell(format_args!("{line}"));
+        }
+        for (file, line) in &alarm.calls.places {
+            tell(format_args!("called in {}:{line}", file.name()));
+            if let Some(line) = source_line(&folder.join(file.name()), *line) {
+                tell(format_args!("{line}"));
+            }
+        }
+        if alarm.calls.more > 0 {
+            tell(format_args!("and so on, {} calls more", alarm.calls.more));
         }
     }
 }

@@ -14,7 +14,8 @@ use crate::hir::{Bound, Expr, ExprKind, FuncId, ModuleId, Passed, Type, Value};
 use crate::index;
 use arl_lang::ast::{self, Arg, Unit};
 use arl_lang::catalog::{
-    self, Access, Base, Entry, Kind, Mode, ParamType, Presence, Range, Restore, SystemVariable, UNSET,
+    self, Access, Base, Effect, Entry, Kind, Mode, Motion, ParamType, Presence, Range, Restore, Struct, SystemVariable,
+    UNSET,
 };
 use arl_lang::elsewhere;
 use arl_lang::span::Span;
@@ -57,6 +58,28 @@ struct Pair<'e> {
     arg: &'e Arg,
     /// Checked already, to find its parameter by type.
     typed: Option<Typed>,
+}
+
+/// What to write for a target of the other kind: axes where a pose is wanted, or the other way round.
+fn other_motion(params: &[Parameter<'_>], given: Base) -> Option<String> {
+    let wants = |id| {
+        let wanted = ParamType::One(Base::Struct(id));
+        params.iter().any(|param| matches!(param.ty, Some(Wanted::Builtin(ty)) if ty == wanted))
+    };
+    let of_kind = |axes: bool| {
+        let motion = catalog::all_entries().iter().filter(|entry| entry.effect == Effect::Plans);
+        let kind = if axes { Motion::Joint } else { Motion::PointToPoint };
+        motion.filter(move |entry| entry.motion == Some(kind)).map(|entry| entry.name).next()
+    };
+    match given {
+        Base::Struct(Struct::Pose) if wants(Struct::Joint) => {
+            Some(format!("the target is a joint here, the positions of the axes; to a pose goes `{}`", of_kind(false)?))
+        }
+        Base::Struct(Struct::Joint) if wants(Struct::Pose) => {
+            Some(format!("the target is a pose here; to a joint, the positions of the axes, goes `{}`", of_kind(true)?))
+        }
+        _ => None,
+    }
 }
 
 /// From so many parameters on, labels are looked up in a table.
@@ -415,7 +438,9 @@ impl<'a> Checker<'a> {
         }
         let labels: Vec<&str> =
             params.iter().enumerate().filter(|(at, param)| free(*at, param)).map(|(_, param)| param.name).collect();
-        let problem = ArgumentProblem::NoParameter { callee: callee.into(), ty, labels: listed(labels.into_iter()) };
+        let other = other_motion(params, typed.expr.ty.base);
+        let labels = listed(labels.into_iter());
+        let problem = ArgumentProblem::NoParameter { callee: callee.into(), ty, labels, other };
         self.report(body, arg.value.span, problem)
     }
 

@@ -87,9 +87,6 @@ impl Checker<'_> {
                 None => good = false,
             }
         }
-        if good {
-            self.doubt_units(body, id, &values, span);
-        }
         good.then(|| Expr { ty: Type::scalar(Base::Struct(id)), kind: ExprKind::Struct(id, values), span })
     }
 

@@ -2,6 +2,7 @@
 
 use super::context::{Body, Checker};
 use super::convert::number;
+use super::first_motion::{Globals, known_structure};
 use crate::diagnostics::doubts::Doubt;
 use crate::diagnostics::{Diagnostic, Label, Location, Problem};
 use crate::hir::{Block, Builtin, Expr, ExprKind, Func, FuncId, ModuleId, Passed, Program, Stmt, StmtKind};
@@ -9,6 +10,7 @@ use crate::visit;
 use arl_lang::ast::{self, BinaryOp, UnaryOp};
 use arl_lang::catalog::{Effect, Family, Form, Mode, Struct};
 use arl_lang::span::Span;
+use std::collections::HashSet;
 
 impl Checker<'_> {
     /// Warns of an assignment where a condition stands.
@@ -23,13 +25,6 @@ impl Checker<'_> {
                 self.doubt_condition(body, &both.1);
             }
             _ => {}
-        }
-    }
-
-    /// Warns of a target whose numbers are those of another unit.
-    pub(crate) fn doubt_units(&mut self, body: &Body, id: Struct, values: &[Option<Expr>], span: Span) {
-        if let Some(doubt) = other_unit(self.family(), id, values) {
-            self.report::<()>(body, span, doubt);
         }
     }
 }
@@ -69,6 +64,29 @@ fn other_unit(family: Family, id: Struct, values: &[Option<Expr>]) -> Option<Dou
     }
 }
 
+/// Tells each target of a motion whose numbers are those of another unit, where it is first used.
+fn other_units(program: &Program, tell: &mut dyn FnMut(&Func, Span, Doubt)) {
+    let mut seen = HashSet::new();
+    for func in &program.funcs {
+        let mut look = |expr: &Expr| {
+            let ExprKind::Builtin(motion) = &expr.kind else { return };
+            if motion.entry.effect != Effect::Plans {
+                return;
+            }
+            for bound in &motion.args {
+                let Passed::Value(target) = &bound.value else { continue };
+                if let Some((id, values)) = known_structure(program, func, Globals::AsTaught, target)
+                    && seen.insert(values.as_ptr())
+                    && let Some(doubt) = other_unit(program.family, id, values)
+                {
+                    tell(func, target.span, doubt);
+                }
+            }
+        };
+        func.body.iter().for_each(|stmt| visit::exprs_in_stmt(stmt, &mut look));
+    }
+}
+
 /// The largest of the numbers, where all are fractions up to `most` (or 0), at least `count` of them, and one of them
 /// is above `least`.
 fn fractions_below(numbers: &[f64], most: f64, least: f64, count: usize) -> Option<f64> {
@@ -89,6 +107,10 @@ pub(crate) fn check(program: &Program, locate: &dyn Fn(ModuleId, Span) -> Locati
             out.push(found);
         });
     }
+    for func in &program.funcs {
+        breaks_of_cases(&func.body, &mut |span| out.push(Doubt::BreakOfCase.at(locate(func.module, span))));
+    }
+    other_units(program, &mut |func, span, doubt| out.push(doubt.at(locate(func.module, span))));
     endless_handlers(program, &mut |func, span, handler| {
         out.push(Doubt::EndlessHandler { handler }.at(locate(func.module, span)));
     });
@@ -175,6 +197,24 @@ fn zone(motion: &Builtin) -> Option<Zone> {
     })
 }
 
+/// Tells the first `break` of each `switch` all of whose cases end with one, as they do in C.
+fn breaks_of_cases(block: &Block, tell: &mut dyn FnMut(Span)) {
+    for stmt in block {
+        if let StmtKind::Switch(_, arms) = &stmt.kind {
+            let cases: Vec<_> = arms.iter().filter(|arm| arm.value.is_some()).collect();
+            let last = cases.iter().filter_map(|arm| arm.body.last());
+            let breaks: Vec<_> = last.filter(|stmt| matches!(stmt.kind, StmtKind::Break)).collect();
+            if cases.len() > 1
+                && breaks.len() == cases.len()
+                && let Some(first) = breaks.first()
+            {
+                tell(first.span);
+            }
+        }
+        inner_blocks(stmt).for_each(|inner| breaks_of_cases(inner, tell));
+    }
+}
+
 fn inner_blocks(stmt: &Stmt) -> impl Iterator<Item = &Block> {
     let blocks: Vec<&Block> = match &stmt.kind {
         StmtKind::If(arms, otherwise) => arms.iter().map(|(_, block)| block).chain(otherwise).collect(),
@@ -207,6 +247,10 @@ fn endless_handlers(program: &Program, tell: &mut dyn FnMut(&Func, Span, String)
     }
     for (func, handler) in program.funcs.iter().zip(handles) {
         let Some(handler) = handler.and_then(|handler| program.funcs.get(handler.0 as usize)) else { continue };
+        // A handler that stops the robot itself waits until it may go on: for ever, if need be.
+        if stops_the_robot(func) {
+            continue;
+        }
         func.body.iter().for_each(|stmt| {
             visit::exprs_in_stmt(stmt, &mut |expr| {
                 if let ExprKind::Builtin(builtin) = &expr.kind
@@ -218,6 +262,16 @@ fn endless_handlers(program: &Program, tell: &mut dyn FnMut(&Func, Span, String)
             });
         });
     }
+}
+
+fn stops_the_robot(func: &Func) -> bool {
+    let mut found = false;
+    func.body.iter().for_each(|stmt| {
+        visit::exprs_in_stmt(stmt, &mut |expr| {
+            found |= matches!(&expr.kind, ExprKind::Builtin(builtin) if builtin.entry.halts);
+        });
+    });
+    found
 }
 
 /// The functions that a built-in calls when an event comes.

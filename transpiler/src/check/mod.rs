@@ -144,7 +144,8 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
         }
         #[cfg(feature = "cli")]
         if let Some(robot) = &options.robot {
-            diagnostics.extend(targets::check(&built, robot, &locate));
+            let alone = options.cell.as_ref().is_none_or(|cell| !cell.others);
+            diagnostics.extend(targets::check(&built, robot, alone, &locate));
         }
         if late.is_empty() {
             program = Some(built);

@@ -105,9 +105,23 @@ impl Checker<'_> {
             return self.unknown_constant(body, id, span);
         }
         let name = self.text(body.module, span).trim_matches(['(', ')', ' ']).to_string();
+        if let Some(signal) = self.signal_named(&name) {
+            return self.report(body, span, NameProblem::SignalName { name, signal });
+        }
         let quoted = self.unquoted(body, span, want).filter(|_| near.is_none());
         let ty = want.filter(|want| !want.is_array()).map_or("int".into(), |want| self.type_name(want));
         self.report(body, span, NameProblem::UnknownVariable { name, near, is_function, quoted, ty })
+    }
+
+    /// The signal that the cell calls so.
+    #[cfg(feature = "cli")]
+    fn signal_named(&self, name: &str) -> Option<String> {
+        self.options.cell.as_ref()?.names.signal(name).map(|signal| signal.to_string())
+    }
+
+    #[cfg(not(feature = "cli"))]
+    fn signal_named(&self, _: &str) -> Option<String> {
+        None
     }
 
     /// `module::name` where an imported module has a variable or function of this name.

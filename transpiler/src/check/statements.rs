@@ -177,8 +177,8 @@ impl Checker<'_> {
     /// ARL with a slip in it.
     fn lone_word(&mut self, body: &Body, symbol: Symbol, span: Span) -> Option<NameProblem> {
         let name = self.names.name(symbol);
-        if body.find(symbol).is_some() || self.find_global(body, symbol).is_some() || catalog::constant(name).is_some()
-        {
+        let known = body.find(symbol).is_some() || self.find_global(body, symbol).is_some();
+        if known || self.names_function(body, symbol) || catalog::constant(name).is_some() {
             return None;
         }
         let words = || arl_lang::control_words().chain(instructions());

@@ -4,6 +4,7 @@
 use super::args::{Checking, RunOptions};
 use super::failure::Failure;
 use super::show;
+use crate::check::clean;
 use arl_robot::{Robot, regular_file};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -41,11 +42,12 @@ pub(super) fn of_program(program: &Path) -> Result<Option<ArlToml>, Failure> {
 
 /// Where the file is that holds for a program.
 pub(super) fn find(program: &Path) -> Option<PathBuf> {
-    let program = std::path::absolute(program).ok()?;
+    // `../other/p.arl` lies in the other folder, and not in this one, too.
+    let program = clean(&std::path::absolute(program).ok()?);
     program.ancestors().skip(1).map(|folder| folder.join(NAME)).find(|path| path.is_file())
 }
 
-/// Reads the file; paths in it then count from where the command runs.
+/// Reads the file, which is given in full; so are then the paths in it.
 pub(super) fn read(path: &Path) -> Result<ArlToml, Failure> {
     let text = regular_file::read_text(path).map_err(|error| Failure::io("read", path, &error))?;
     let mut file: ArlToml = toml::from_str(&text).map_err(|error| {
@@ -53,7 +55,8 @@ pub(super) fn read(path: &Path) -> Result<ArlToml, Failure> {
         let line = text.get(..start).unwrap_or("").matches('\n').count() + 1;
         Failure::Usage(format!("{}:{line}: {}", shown(path).display(), error.message().trim_end()))
     })?;
-    let folder = shown(path).parent().map(Path::to_path_buf).unwrap_or_default();
+    // In full: who runs the program may do it in another folder.
+    let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
     for place in [&mut file.cell, &mut file.io, &mut file.script_dir].into_iter().flatten() {
         *place = folder.join(&*place);
     }
@@ -96,7 +99,8 @@ impl<'a> Fill<'a> {
             own.clone_from(other);
         }
         if let Some(value) = own {
-            self.said += &format!("{name}: {} ({from})\n", text(value));
+            let value = text(value);
+            self.said += &format!("{name}: {} ({from})\n", shown(Path::new(&value)).display());
         }
     }
 }

@@ -31,7 +31,8 @@ problems! {
         }
         error 406 "An argument that no parameter takes" => {
             /// A bare value that no free parameter takes.
-            NoParameter { callee: String, ty: String, labels: String },
+            /// `other`: what takes a value of this type, where something is much like the callee.
+            NoParameter { callee: String, ty: String, labels: String, other: Option<String> },
         }
         error 407 "Braces without a label" => {
             /// Bare braces.
@@ -142,6 +143,7 @@ impl Problem for ArgumentProblem {
             ArgumentProblem::UnknownLabel { near: Some(near), .. } => Some(format!("did you mean `{near}`?")),
             ArgumentProblem::UnknownLabel { labels, .. } if labels.is_empty() => Some("it takes no arguments".into()),
             ArgumentProblem::UnknownLabel { labels, .. } => Some(format!("its parameters are {labels}")),
+            ArgumentProblem::NoParameter { other: Some(other), .. } => Some(other.clone()),
             ArgumentProblem::NoParameter { labels, .. } if labels.is_empty() => None,
             ArgumentProblem::NoParameter { labels, .. } => Some(format!("still free are {labels}")),
             ArgumentProblem::BareBrace { labels, .. } => Some(format!("write the label first: {labels}")),

@@ -22,6 +22,10 @@ problems! {
             /// The robot stops at the target anyway, for the statement `culprit`.
             IdleZone { culprit: &'static str },
         }
+        warning 918 "A break at the end of each case" => {
+            /// All cases of a `switch` in a loop end with `break`.
+            BreakOfCase,
+        }
         warning 917 "A handler that may wait for ever" => {
             /// A `waituntil` without a time limit in a function that handles an event.
             EndlessHandler { handler: String },
@@ -40,6 +44,7 @@ impl Problem for Doubt {
             Doubt::IdleZone { culprit } => {
                 format!("this zone never acts: the robot stops at the target, since `{culprit}` waits for it")
             }
+            Doubt::BreakOfCase => "this leaves the loop around the `switch`, and not only the case".into(),
             Doubt::EndlessHandler { handler } => {
                 format!("`{handler}` handles an event, and this may hold up the program for ever")
             }
@@ -61,6 +66,7 @@ impl Problem for Doubt {
             Doubt::IdleZone { .. } => {
                 "leave it out, or act on the way with an event: `lin p1,sl:10;T(0.2),setdo(2,true)`".into()
             }
+            Doubt::BreakOfCase => "a case ends by itself where the next one begins: remove the `break`".into(),
             Doubt::EndlessHandler { .. } => "give it a `maxtime`, and look at its `timeoutflag`".into(),
         })
     }

@@ -60,6 +60,10 @@ problems! {
             /// A module has no such variable or function.
             NotInModule { name: String, module: String, what: &'static str, near: Option<String> },
         }
+        error 215 "The name of a signal in a program" => {
+            /// What the cell calls a signal; programs say its number.
+            SignalName { name: String, signal: String },
+        }
         error 214 "An old or misprinted name" => {
             /// A spelling of other manuals that is not accepted.
             Renamed { name: String, now: String },
@@ -85,6 +89,7 @@ impl Problem for NameProblem {
             NameProblem::NotInModule { name, module, what, .. } => {
                 format!("the module `{module}` has no {what} `{name}`")
             }
+            NameProblem::SignalName { name, .. } => format!("there is no variable `{name}` here"),
             NameProblem::Renamed { name, .. } => format!("`{name}` is not a name that ARL knows"),
         }
     }
@@ -108,8 +113,10 @@ impl Problem for NameProblem {
                 Some(format!("a text, such as the name of a file or of a point, stands in quotes: `\"{text}\"`"))
             }
             NameProblem::UnknownVariable { near, name, ty, .. } => {
-                let other = elsewhere::argument(name).map(has);
-                other.or_else(|| meant(near)).or_else(|| Some(format!("declare it first, for example `{ty} {name}`")))
+                let word = elsewhere::argument_word(name).map(has);
+                let other = || elsewhere::argument(name).map(has);
+                let declare = || Some(format!("declare it first, for example `{ty} {name}`"));
+                word.or_else(|| meant(near)).or_else(other).or_else(declare)
             }
             NameProblem::UnknownFunction { name, is_instruction: true, .. } => {
                 Some(format!("`{name}` is an instruction: write its arguments without parentheses around them"))
@@ -119,8 +126,10 @@ impl Problem for NameProblem {
                 elsewhere::type_of(name).map(of_others).or_else(|| elsewhere::word(name).map(has))
             }),
             NameProblem::UnknownFunction { near, name, .. } => {
+                // What an imported module has was surely meant.
+                let member = meant(near).filter(|_| near.as_ref().is_some_and(|near| near.contains("::")));
                 let operator = elsewhere::operator(name).map(|ours| format!("ARL writes `{ours}` for this"));
-                operator.or_else(|| elsewhere::word(name).map(has)).or_else(|| meant(near))
+                member.or(operator).or_else(|| elsewhere::word(name).map(has)).or_else(|| meant(near))
             }
             NameProblem::UnknownLabel { near, .. } | NameProblem::NotInModule { near, .. } => meant(near),
             NameProblem::UnknownSystem { name, near } => {
@@ -147,6 +156,10 @@ impl Problem for NameProblem {
             NameProblem::UnknownInstruction { near, name, .. } => {
                 elsewhere::word(name).map(has).or_else(|| meant(near))
             }
+            NameProblem::SignalName { name, signal } => {
+                let number = signal.split('.').next_back().unwrap_or_default();
+                Some(format!("the cell calls {signal} so; a program says its number: `const int {name} = {number}`"))
+            }
             NameProblem::Renamed { now, .. } => Some(format!("did you mean `{now}`?")),
         }
     }
@@ -160,6 +173,7 @@ impl Problem for NameProblem {
             NameProblem::UnknownType { near, name } => {
                 near.clone().or_else(|| elsewhere::type_of(name).map(Into::into))
             }
+            NameProblem::UnknownFunction { near: Some(near), .. } if near.contains("::") => Some(near.clone()),
             NameProblem::UnknownFunction { name, .. } | NameProblem::UnknownInstruction { name, .. }
                 if elsewhere::word(name).is_some() || elsewhere::operator(name).is_some() =>
             {

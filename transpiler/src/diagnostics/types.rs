@@ -201,6 +201,7 @@ impl Problem for TypeProblem {
             TypeProblem::BraceWithoutType => {
                 Some("declare a variable of the type first, or write the label: `j:{...}`".into())
             }
+            TypeProblem::NotAssignable { .. } => Some("`==` compares; `=` writes a variable".into()),
             TypeProblem::MixedBraces => Some("write `{1, 2}` or `{x 1, y 2}`".into()),
             TypeProblem::Compare { .. } => Some("compare the components or elements one by one".into()),
             TypeProblem::HandleCopy { .. } => {

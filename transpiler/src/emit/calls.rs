@@ -50,7 +50,8 @@ impl<'p> Body<'p, '_> {
             };
         }
         if effects.fails {
-            call = quote!(#call?);
+            let line = self.line_number();
+            call = quote!(#call.called(FILE, #line)?);
         }
         Fragment::postfix(call).after(before)
     }

@@ -29,6 +29,7 @@ fn a_program_needs_a_name_and_a_place() {
         ("While", "a word of the language"),
         ("rack_data", "data files"),
         ("full", "not empty"),
+        ("cell", "about something else"),
     ] {
         folder.arl2rs(&["new", name]).is(2, "").says(words);
     }
@@ -70,6 +71,17 @@ fn arl_toml_says_what_the_command_does_not() {
         folder.write("arl.toml", text);
         folder.arl2rs(&["check", program]).is(2, "").says(words);
     }
+}
+
+#[test]
+fn a_file_in_a_folder_beside_is_of_no_project_here() {
+    let folder = Folder::new("beside_project")
+        .with("here/arl.toml", "robot = \"hsr065\"\n")
+        .with("there/p.arl", "func void main()\n  print 1\nendfunc\n");
+    let here = Folder { path: folder.path.join("here") };
+    let checked = here.arl2rs(&["check", "--verbose", "../there/p.arl"]);
+    assert_eq!((checked.code, checked.err.as_str()), (Some(0), ""));
+    std::mem::forget(here);
 }
 
 #[test]

@@ -182,3 +182,13 @@ fn a_report_says_what_each_line_did() {
         .says("0 motions, 0.000 m");
     folder.arl2rs(&["run", "still.arl", "--report=none/a"]).is(2, "").says("none/a");
 }
+
+#[test]
+fn an_alarm_tells_its_line_and_the_calls_that_led_there() {
+    let program = "int sizes[3]\nfunc int deep(int n)\n  return sizes[n]\nendfunc\nfunc int down(int n)\n  \
+                   if(n > 40) return deep(n)\n  return down(n + 1)\nendfunc\nfunc void main()\n  print down(3)\nendfunc\n";
+    let folder = Folder::new("calls").with("a.arl", program);
+    let ran = folder.arl2rs(&["run", "a.arl"]);
+    ran.is(3, "").says("(a.arl:3)\n  3 | return sizes[n]\ncalled in a.arl:6\n  6 | if(n > 40) return deep(n)\n");
+    ran.says("called in a.arl:7\n").says("and so on, 20 calls more\n");
+}

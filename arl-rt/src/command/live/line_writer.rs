@@ -75,7 +75,7 @@ impl LineWriter {
             self.say(format!("{{\"warning\":{}}}\n", quoted(&text)));
         }
         for alarm in controller.take_alarms() {
-            let Alarm { fault, file, line, channel: _ } = &alarm;
+            let Alarm { fault, file, line, .. } = &alarm;
             let (number, text, file) = (fault.number(), quoted(&alarm.to_string()), quoted(file.name()));
             self.say(format!(
                 "{{\"alarm\":{{\"number\":{number},\"text\":{text},\"file\":{file},\"line\":{line}}}}}\n"

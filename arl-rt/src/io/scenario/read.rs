@@ -157,6 +157,8 @@ fn events(source: Source<'_>, first_line: u32, words: &Words<'_>) -> Result<Vec<
     for value in array(&top, "follow", "tables that begin with [[follow]]")? {
         all.extend(follow(source, value, line(value), words)?);
     }
+    // Of two things at the same time the one that stands further down comes last.
+    all.sort_by_key(|event| event.line);
     Ok(all)
 }
 
@@ -185,6 +187,9 @@ fn follow(source: Source<'_>, value: &Value<'_>, line: u32, words: &Words<'_>) -
     let of = asked("of", OF)?;
     let (name, same) = of.strip_prefix('!').map_or((of, true), |name| (name, false));
     let (output, followed) = words.signal(name).and_then(digital_edge).ok_or_else(|| wrong("of", OF))?;
+    if what == Digital::Di && !output && channel as usize == followed + 1 {
+        return Err(wrong("of", "another signal than the one that follows"));
+    }
     let event = |cause, after, level| {
         let actions = vec![Action::Digital(what, channel, level)];
         Event { cause, after, actions, line }

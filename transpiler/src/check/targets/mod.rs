@@ -19,8 +19,15 @@ use arl_robot::Robot;
 /// axes' ranges or out of the configuration asked for, lines that pass a singular point. Of those only that are written
 /// where the motion stands, or given to something that nothing changes; of poses only where tool and workpiece are known,
 /// too. All others are left to run time.
-pub(crate) fn check(program: &Program, robot: &Robot, locate: &dyn Fn(ModuleId, Span) -> Location) -> Vec<Diagnostic> {
-    let facts = facts::Facts::of(program);
+/// Points of data files count with the values that they have now, where the program runs `alone`: others might teach them.
+pub(crate) fn check(
+    program: &Program,
+    robot: &Robot,
+    alone: bool,
+    locate: &dyn Fn(ModuleId, Span) -> Location,
+) -> Vec<Diagnostic> {
+    let mut facts = facts::Facts::of(program);
+    facts.teaches |= !alone;
     let mut found = Vec::new();
     walk::each_function(program, robot, &facts, &mut |module, span, problem| {
         found.push(problem.at(locate(module, span)));

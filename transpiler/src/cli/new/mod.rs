@@ -2,6 +2,7 @@
 
 use super::answer;
 use super::failure::Failure;
+use crate::check::clean;
 use std::path::Path;
 
 /// Stands for the program's name in the files and their names.
@@ -20,7 +21,8 @@ const FILES: [(&str, &str); 7] = [
 
 /// Makes the folder, and says what can be done in it.
 pub(super) fn new(folder: &Path) -> Result<(), Failure> {
-    let name = folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let full = std::path::absolute(folder).map_err(|error| Failure::io("use", folder, &error))?;
+    let name = clean(&full).file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     check_name(&name)?;
     let is_empty = std::fs::read_dir(folder).map(|mut entries| entries.next().is_none());
     if folder.exists() && !is_empty.unwrap_or(false) {
@@ -51,6 +53,9 @@ fn check_name(name: &str) -> Result<(), Failure> {
     }
     if arl_lang::is_reserved(name) {
         return wrong("it is a word of the language");
+    }
+    if ["arl", "cell"].contains(&name.to_ascii_lowercase().as_str()) {
+        return wrong("a file of this name beside it is about something else");
     }
     if name.to_ascii_lowercase().ends_with("_data") {
         return wrong("names with `_data` at the end are those of data files");

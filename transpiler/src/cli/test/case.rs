@@ -25,6 +25,8 @@ pub(super) struct Case {
     pub(super) robot: Option<String>,
     /// The cell, likewise.
     pub(super) cell: Option<PathBuf>,
+    /// The folder that `/home/ae/script/` in an import means, where its project says so.
+    pub(super) script_dir: Option<PathBuf>,
     /// How it is run.
     pub(super) options: CaseOptions,
 }
@@ -139,6 +141,7 @@ fn read(source: &Path, stem: &str, expects: bool, new: bool) -> Result<Case, Str
         None => CaseOptions::default(),
     };
     let scenario = path(".io.toml");
+    let damaged_alarm = text(".alarm")?.is_some_and(|text| parse_alarm(&text).is_err());
     let project = arl_toml::of_program(source).map_err(|failure| failure.to_string())?.unwrap_or_default();
     let robot = options.robot.as_ref().map(|robot| {
         let file = source.with_file_name(robot);
@@ -146,12 +149,20 @@ fn read(source: &Path, stem: &str, expects: bool, new: bool) -> Result<Case, Str
     });
     let case = Case {
         out: bytes(".out")?,
-        errors: text(".err")?.map(|text| parse_errors(&text)).transpose().map_err(told(".err"))?,
-        alarm: text(".alarm")?.map(|text| parse_alarm(&text)).transpose().map_err(told(".alarm"))?,
+        // What is to be written anew may be damaged, or empty yet.
+        errors: match text(".err")?.map(|text| parse_errors(&text)).transpose() {
+            Err(_) if new => Some(Vec::new()),
+            errors => errors.map_err(told(".err"))?,
+        },
+        alarm: match text(".alarm")?.map(|text| parse_alarm(&text)).transpose() {
+            Err(_) if new => None,
+            alarm => alarm.map_err(told(".alarm"))?,
+        },
         scenario: scenario.is_file().then_some(scenario),
-        is_new: !expects,
+        is_new: !expects || (new && damaged_alarm),
         robot: robot.or(project.robot),
         cell: options.cell.as_ref().map(|cell| source.with_file_name(cell)).or(project.cell),
+        script_dir: project.script_dir,
         options,
         source: source.to_path_buf(),
     };

@@ -29,7 +29,8 @@ pub(super) struct Places(BTreeMap<(String, String, String), PathBuf>);
 impl Coverage {
     /// Takes in the lines of a case's programs: none of them ran yet.
     pub(super) fn add(&mut self, case: &Case) -> Result<Places, String> {
-        let options = RunOptions { robot: case.robot.clone(), cell: case.cell.clone(), ..RunOptions::default() };
+        let (robot, cell, script_dir) = (case.robot.clone(), case.cell.clone(), case.script_dir.clone());
+        let options = RunOptions { robot, cell, script_dir, ..RunOptions::default() };
         let mut places = BTreeMap::new();
         for one in Programs::check(&case.source, &options, &|_| {})?.all_lines() {
             let file = self.files.entry(one.path.clone()).or_default();

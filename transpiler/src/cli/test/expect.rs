@@ -8,6 +8,13 @@ pub(super) struct ExpectedError {
     pub(super) fragment: String,
 }
 
+impl ExpectedError {
+    /// Whether an error is the expected one.
+    pub(super) fn fits(&self, error: &FoundError) -> bool {
+        error.line == self.line && error.text.to_lowercase().contains(&self.fragment.to_lowercase())
+    }
+}
+
 /// An error that came.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub(super) struct FoundError {
@@ -62,9 +69,7 @@ pub(super) fn compare_errors(expected: &[ExpectedError], found: &[FoundError]) -
     let mut order: Vec<&ExpectedError> = expected.iter().collect();
     order.sort_by_key(|error| std::cmp::Reverse(error.fragment.len()));
     for want in order {
-        let fragment = want.fragment.to_lowercase();
-        let fits = |error: &&FoundError| error.line == want.line && error.text.to_lowercase().contains(&fragment);
-        match left.iter().position(fits) {
+        match left.iter().position(|error| want.fits(error)) {
             Some(at) => {
                 left.remove(at);
             }

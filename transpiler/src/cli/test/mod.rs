@@ -93,6 +93,9 @@ pub(super) fn test(dirs: &[PathBuf], options: &TestOptions) -> Result<ExitCode, 
         }
     }
     drop(progress);
+    if let (Some(file), true) = (&options.coverage, runs.is_empty()) {
+        coverage::Coverage::default().write(file)?;
+    }
     let done: Vec<Done> = done.into_iter().map(|done| done.unwrap_or_else(|| Done::failed("it was not run"))).collect();
     report::report(&found, &done, options.format)
 }
@@ -109,12 +112,16 @@ fn find(dirs: &[PathBuf], new: bool) -> Result<Vec<Found>, Failure> {
         }
         all.extend(found);
     }
+    // Folders may lie in each other.
+    all.sort_by(|one, other| one.source.cmp(&other.source));
+    all.dedup_by(|one, other| one.source == other.source);
     Ok(all)
 }
 
 /// How a case's program is checked.
 fn checking(case: &Case) -> Checking {
-    Checking { robot: case.robot.clone(), background: case.options.background, ..Checking::default() }
+    let (robot, script_dir) = (case.robot.clone(), case.script_dir.clone());
+    Checking { robot, script_dir, background: case.options.background, ..Checking::default() }
 }
 
 fn options(checking: &Checking) -> Result<CheckOptions, String> {
@@ -338,6 +345,7 @@ mod tests {
             is_new: false,
             robot: None,
             cell: None,
+            script_dir: None,
             options: case::CaseOptions::default(),
         }
     }

@@ -67,7 +67,7 @@ fn object(case: &Told<'_>) -> serde_json::Value {
 
 /// The XML that JUnit writes, and what runs tests reads: a suite, a case for each program.
 fn junit(told: &[Told<'_>], failed: usize) -> String {
-    let time: f64 = told.iter().map(|case| case.seconds).sum();
+    let time = told.iter().map(|case| case.seconds).fold(0.0, |sum, seconds| sum + seconds);
     let mut text = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     let _ = writeln!(
         text,
