@@ -201,7 +201,7 @@ const OPENERS: [(&str, Token); 7] = [
 
 /// The opener that the first word of a refused line was meant to be.
 fn slip(word: &str, token: Token, next: Option<Token>) -> Option<(Token, &'static str)> {
-    if word.len() < 3 || !matches!(token, Token::Name(_)) {
+    if word.len() < 3 || !is_plain(word) || !matches!(token, Token::Name(_)) {
         return None;
     }
     let limit = if word.len() < 6 { 1 } else { 2 };
@@ -217,7 +217,8 @@ fn slip(word: &str, token: Token, next: Option<Token>) -> Option<(Token, &'stati
 /// The word that closes a block, and its line, where `word` alone on a line is one with a slip in it.
 pub(crate) fn closing_slip(word: &str) -> Option<(&'static str, LineKind)> {
     const CLOSERS: [&str; 6] = ["endfor", "endfunc", "endif", "endloop", "endswitch", "endwhile"];
-    let begins = word.get(..3).is_some_and(|first| first.eq_ignore_ascii_case("end"));
+    // With a digit it is a name: `endwhile2`.
+    let begins = is_plain(word) && word.get(..3).is_some_and(|first| first.eq_ignore_ascii_case("end"));
     let limit = if word.len() < 8 { 1 } else { 2 };
     let meant = within(word, limit, CLOSERS.into_iter()).filter(|_| begins)?;
     let line = match meant {
@@ -233,5 +234,11 @@ pub(crate) fn closing_slip(word: &str) -> Option<(&'static str, LineKind)> {
 
 /// Whether `word` was meant to be the `opener` of a block.
 pub(crate) fn opening_slip(word: &str, opener: &str) -> bool {
-    within(word, if opener.len() < 3 { 1 } else { 2 }, std::iter::once(opener)).is_some_and(|_| word.len() > 2)
+    let limit = if opener.len() < 3 { 1 } else { 2 };
+    is_plain(word) && word.len() > 2 && within(word, limit, std::iter::once(opener)).is_some()
+}
+
+/// Whether a word has letters only, as all words of control structures have.
+fn is_plain(word: &str) -> bool {
+    word.bytes().all(|letter| letter.is_ascii_alphabetic())
 }
