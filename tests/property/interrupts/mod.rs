@@ -43,7 +43,9 @@ impl Case {
         let end = match output.status.code() {
             Some(0) => "ended".to_string(),
             Some(3) => {
-                let (number, rest) = told.split_once(": ").unwrap_or((&told, ""));
+                // Below the alarm stand the calls that led there.
+                let alarm = told.lines().find(|line| line.starts_with("alarm ")).unwrap_or_default();
+                let (number, rest) = alarm.split_once(": ").unwrap_or((alarm, ""));
                 let place = rest.rsplit_once('(').map_or("", |(_, place)| place.trim_end().trim_end_matches(')'));
                 format!("{number} {place}")
             }

@@ -129,7 +129,8 @@ fn unquoted(expr: &Expr, to: Base) -> Option<String> {
     let ExprKind::Const(Value::String(text)) = &expr.kind else { return None };
     let is_number = matches!(to, Base::Int | Base::Uint | Base::Byte | Base::Double);
     let number = text.trim().parse::<f64>().is_ok().then(|| text.trim());
-    is_number.then(|| format!("a number stands without quotes: `{}`", number.unwrap_or("250")))
+    let reads = if to == Base::Int { "; `toint(text, dec)` reads one from a text" } else { "" };
+    is_number.then(|| format!("a number stands without quotes: `{}`{reads}", number.unwrap_or("250")))
 }
 
 /// The function or way that does what no implicit conversion does.

@@ -19,7 +19,7 @@ pub(in crate::cli) fn suggestion(name: &str) -> Option<String> {
     let types = catalog::type_names().map(|(name, _)| name);
     let topics = all().flat_map(|topic| topic.words());
     let bare = name.trim_start_matches('$');
-    let plain = nearest(name, entries.chain(types).chain(topics)).map(String::from);
+    let plain = nearest(name, entries.chain(types)).or_else(|| nearest(name, topics)).map(String::from);
     let variable = || nearest(bare, catalog::system_variables().map(|variable| variable.name));
     let system = if name.starts_with('$') || plain.is_none() { variable() } else { None };
     system.map(|name| format!("${name}")).or(plain)
