@@ -510,15 +510,7 @@ impl<'source> Blocks<'source> {
 
     /// Looks for the statement directly before a case that was meant to open its `switch`, and opens that.
     fn misspelt_switch(&mut self) -> Option<SyntaxError> {
-        // Nothing stands between `switch` and its first case.
-        let last = self.body().len().checked_sub(1)?;
-        let before = self.body().split_off(last);
-        let is_switch = before
-            .first()
-            .and_then(named)
-            .is_some_and(|span| opening_slip(span.text(self.source), BlockKind::Switch.opener()));
-        self.body().extend(before);
-        if !is_switch || self.frames.len() >= BLOCK_LEVELS {
+        if self.frames.len() >= BLOCK_LEVELS {
             return None;
         }
         let (error, span, _) = self.take_misspelt(BlockKind::Switch)?;
@@ -545,7 +537,10 @@ impl<'source> Blocks<'source> {
             slipped.then_some(span)
         };
         let body = self.body();
-        let (at, name) = body.iter().enumerate().rev().find_map(|(at, stmt)| Some((at, word(stmt)?)))?;
+        // Nothing stands between `switch` and its first case.
+        let looked_at = if kind == BlockKind::Switch { 1 } else { usize::MAX };
+        let mut last = body.iter().enumerate().rev().take(looked_at);
+        let (at, name) = last.find_map(|(at, stmt)| Some((at, word(stmt)?)))?;
         let inner = body.split_off(at + 1);
         let span = body.pop()?.span;
         Some((SyntaxError::new(SyntaxErrorKind::Misspelt(name.text(source).into(), kind.opener()), name), span, inner))

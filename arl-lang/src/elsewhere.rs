@@ -29,6 +29,7 @@ const TYPES: &[(&str, &str)] = &[
 
 /// Instructions, functions and words of control structures of other languages, and what is written here.
 const WORDS: &[(&str, &str)] = &[
+    ("atoi", "`toint(text, dec)`"),
     ("begin", "no word for the beginning of a block: the line that opens it is enough"),
     ("calcjointt", "`getjoint(p1, $FLANGE, $WORLD)`"),
     ("calcrobt", "`getpose(j1, $FLANGE, $WORLD)`"),
@@ -46,6 +47,7 @@ const WORDS: &[(&str, &str)] = &[
     ("echo", "`print`"),
     ("elif", "`elseif(condition)`"),
     ("elsif", "`elseif(condition)`"),
+    ("enum", "no enumerations of a program's own: constants, `const int RED = 0`"),
     ("fold", "comments (`// text`) for this"),
     ("from", "`import \"file\"`, and then `file::name`"),
     ("function", "`func int name()` ... `endfunc`"),
@@ -68,10 +70,11 @@ const WORDS: &[(&str, &str)] = &[
     ("len", "`strlen` for texts; arrays have the size that they were declared with"),
     ("length", "`strlen`"),
     ("let", "declarations with a type: `int n = 3`"),
-    ("linear", "`lin`"),
     ("lin_rel", "`lin offset(p1, 10, 0, 0, 0, 0, 0)`, where `p1` is the target before, and `reltool` along the tool"),
+    ("linear", "`lin`"),
     ("local", "declarations without such a word: `int n = 3`"),
     ("module", "a file for each module; `import` reads it"),
+    ("movc", "`cir m:p1,p:p2`"),
     ("moveabsj", "`movej`"),
     ("movec", "`cir m:p1,p:p2`"),
     ("movecirc", "`cir m:p1,p:p2`"),
@@ -80,13 +83,14 @@ const WORDS: &[(&str, &str)] = &[
     ("movep", "`lin` with a blending zone: `lin p1,vl:100mm/s,sl:10mm`"),
     ("moveptp", "`ptp`"),
     ("movl", "`lin`"),
-    ("movs", "`spl`"),
-    ("movc", "`cir m:p1,p:p2`"),
     ("movp", "`ptp`"),
+    ("movs", "`spl`"),
+    ("numtostr", "`tostr(n)`"),
     ("offs", "`offset(p1, dx:10, dy:0, dz:0, rz:0, ry:0, rx:0)`"),
     ("output", "`setdo(1, true)`"),
     ("pass", "blocks that may be empty: leave it out"),
     ("pers", "declarations without such a word: `int n = 3`"),
+    ("persistent", "`$I`, `$D` and `$P` with `savesv` for what is kept between runs"),
     ("popup", "`print`, and `pause` to wait for the operator"),
     ("pose_inv", "`poseinv`"),
     ("pose_trans", "`reltool`, which moves a pose along its own axes"),
@@ -97,11 +101,10 @@ const WORDS: &[(&str, &str)] = &[
     ("ptp_rel", "`movej` to a joint that is calculated from the target before"),
     ("pulse", "`pulsedo(1, true, 0.5)`"),
     ("raise", "`assert(condition)` to end the program with an alarm"),
-    ("persistent", "`$I`, `$D` and `$P` with `savesv` for what is kept between runs"),
     ("random", "`rand`"),
-    ("reset", "`setdo(1, false)`"),
     ("readnum", "`toint(gettextstr(\"file.txt\", 1), dec)`"),
     ("readstr", "`gettextstr(\"file.txt\", 1)`"),
+    ("reset", "`setdo(1, false)`"),
     ("resume", "`startmove`"),
     ("retain", "`$I`, `$D` and `$P` with `savesv` for what is kept between runs"),
     ("round", "`floor(x + 0.5)`"),
@@ -114,20 +117,18 @@ const WORDS: &[(&str, &str)] = &[
     ("set_standard_analog_out", "`setao(1, 5)`"),
     ("set_standard_digital_out", "`setdo(1, true)`"),
     ("set_tcp", "the tool with the motion: `lin p1,t:gripper`"),
+    ("setai", "`setao(1, 5)`"),
+    ("setgo", "`setdo(1, 8, value)`, which writes the outputs 1 to 8"),
     ("signal", "names for signals in the cell file; programs give the number: `getdi(1)`"),
     ("sleep", "`waittime 0.5` (in s)"),
     ("slin", "`lin`"),
     ("spline", "`spl`"),
     ("sptp", "`ptp`"),
     ("static", "global variables, which keep their values while the program runs; `$I` with `savesv` between runs"),
-    ("atoi", "`toint(text, dec)`"),
-    ("numtostr", "`tostr(n)`"),
+    ("stop", "`pause`, and `exit` to end the program"),
     ("strtoint", "`toint(text, dec)`"),
     ("strtoval", "`toint(text, dec)`, and `scan` for several numbers"),
-    ("valtostr", "`tostr(n)`"),
     ("struct", "no structures of a program's own: variables side by side, or arrays"),
-    ("enum", "no enumerations of a program's own: constants, `const int RED = 0`"),
-    ("stop", "`pause`, and `exit` to end the program"),
     ("sub", "`func void name()` ... `endfunc`"),
     ("sync", "no word for this: instructions wait as far as they need to"),
     ("test", "`switch(n)` ... `endswitch`"),
@@ -136,18 +137,17 @@ const WORDS: &[(&str, &str)] = &[
     ("thread", "`interrupt`, or a channel of its own in the cell file"),
     ("time", "`ctime()`"),
     ("tostring", "`tostr`"),
+    ("tperase", "no screen to be cleared: `print` writes below what is there"),
     ("tpreadnum", "`scan`"),
     ("tpwrite", "`print`"),
     ("trap", "`func void name()`, which an `interrupt` calls"),
     ("try", "no exceptions: a mistake ends the program with an alarm; look at the value before"),
+    ("valtostr", "`tostr(n)`"),
     ("var", "declarations with a type and no other word: `int n = 3`"),
     ("wait", "`waittime 0.5` for a time in s, `waituntil getdi(1)` for a condition"),
     ("waitdi", "`waituntil getdi(1)`"),
     ("waitdo", "`waituntil getdo(1)`"),
     ("waitfor", "`waituntil getdi(1)`"),
-    ("setai", "`setao(1, 5)`"),
-    ("setgo", "`setdo(1, 8, value)`, which writes the outputs 1 to 8"),
-    ("tperase", "no screen to be cleared: `print` writes below what is there"),
 ];
 
 /// System variables of other languages.
@@ -156,13 +156,13 @@ const SYSTEM: &[(&str, &str)] = &[
     ("anout", "`setao(1, 5)`"),
     ("apo", "`sl:10mm` or `sp:20%` with the motion, or `$DFSLIP`"),
     ("apo.cdis", "`sl:10mm` with the motion"),
+    ("axis_act", "`cjoint()`"),
     ("in", "`getdi(1)`"),
     ("out", "`setdo(1, true)` to write, `getdo(1)` to read"),
     ("ov_pro", "`velset`"),
     ("pos_act", "`cpose()`"),
-    ("axis_act", "`cjoint()`"),
-    ("tool", "`t:` with the motion, or `$DFTOOL`"),
     ("timer", "`clkstart`, `clkread` with a `clock`"),
+    ("tool", "`t:` with the motion, or `$DFTOOL`"),
     ("vel", "`vl:250mm/s` with the motion, or `$DFSPEED`"),
     ("vel_axis", "`vp:50%` with the motion, or `$DFSPEED`"),
 ];
@@ -175,9 +175,9 @@ const ARGUMENTS: &[(&str, &str)] = &[
     ("c_spl", "a blending zone as an argument: `lin p1,sl:10mm`"),
     ("c_vel", "a blending zone as an argument: `lin p1,sl:10mm`"),
     ("fine", "`sl:-1` for a motion that stops at its target"),
+    ("nil", "no such value: leave it out"),
     ("none", "no such value: leave it out"),
     ("null", "no such value: leave it out"),
-    ("nil", "no such value: leave it out"),
     ("tool0", "`$FLANGE`"),
     ("vmax", "`vp:100%`"),
     ("wobj0", "`$WORLD`"),
@@ -189,8 +189,8 @@ const LABELS: &[(&str, &[&str])] = &[
     ("blend", &["sl", "sp"]),
     ("frame", &["w"]),
     ("joint", &["j"]),
-    ("pose", &["p"]),
     ("pos", &["p"]),
+    ("pose", &["p"]),
     ("r", &["sl"]),
     ("radius", &["sl"]),
     ("speed", &["vl", "vp"]),
@@ -291,6 +291,14 @@ pub fn operator(word: &str) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn tables_are_in_order_without_doubles() {
+        for table in [TYPES, WORDS, SYSTEM, ARGUMENTS, OPERATORS] {
+            assert!(table.is_sorted_by(|one, other| one.0 < other.0), "{table:?}");
+        }
+        assert!(LABELS.is_sorted_by(|one, other| one.0 < other.0));
+    }
 
     #[test]
     fn no_word_of_arl_is_called_one_of_others() {

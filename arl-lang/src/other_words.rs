@@ -242,3 +242,15 @@ pub(crate) fn opening_slip(word: &str, opener: &str) -> bool {
 fn is_plain(word: &str) -> bool {
     word.bytes().all(|letter| letter.is_ascii_alphabetic())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_begins_lines_of_other_languages_is_known_with_what_arl_has() {
+        for word in PREFIXES.iter().chain(&FUNCTIONS) {
+            assert!(elsewhere::word(word).is_some(), "{word}");
+        }
+    }
+}

@@ -173,7 +173,7 @@ macro_rules! syntax_errors {
 
         impl SyntaxErrorKind {
             /// Its number: 101.. for characters and numbers, 120.. for lines, 140.. for blocks, 154.. for words of
-        /// other languages. Numbers never change.
+            /// other languages. Numbers never change.
             pub const fn number(&self) -> u16 {
                 match self {
                     $(Self::$variant { .. } => $number,)+

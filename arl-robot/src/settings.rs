@@ -136,11 +136,8 @@ impl<'a> Section<'a> {
     /// # Errors
     /// The value is no table.
     pub fn free_table(&self, key: &str, name: &'a str) -> Result<Option<Section<'a>>, SettingsError> {
-        let Some(value) = self.find(key) else { return Ok(None) };
-        match value.get_ref() {
-            DeValue::Table(table) => Ok(Some(Self { source: self.source, name, table })),
-            other => Err(self.source.error(value.span(), format!("expected the table {name}, found {}", kind(other)))),
-        }
+        let section = |table| Self { source: self.source, name, table };
+        self.find(key).map(|value| items(self.source, value, name).map(section)).transpose()
     }
 
     /// A number within a range, if it is there.
@@ -195,8 +192,13 @@ pub fn table<'a>(
     name: &'a str,
     known: &[&str],
 ) -> Result<Section<'a>, SettingsError> {
+    Section::new(source, name, items(source, value, name)?, known)
+}
+
+/// What stands in a table.
+fn items<'a>(source: Source<'_>, value: &'a Value<'a>, name: &str) -> Result<&'a DeTable<'a>, SettingsError> {
     match value.get_ref() {
-        DeValue::Table(table) => Section::new(source, name, table, known),
+        DeValue::Table(table) => Ok(table),
         other => Err(source.error(value.span(), format!("expected the table {name}, found {}", kind(other)))),
     }
 }

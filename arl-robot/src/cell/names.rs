@@ -1,6 +1,6 @@
 //! Names of signals: `[names]` of a cell file.
 
-use super::super::channels::Channels;
+use crate::channels::Channels;
 use crate::settings::{Section, SettingsError};
 use std::fmt;
 
@@ -88,7 +88,7 @@ impl fmt::Display for Signal {
 pub struct Names(Vec<(Signal, String)>);
 
 /// What no signal can be called: scenarios have these words for something else.
-pub(super) const TAKEN: [&str; 20] = [
+const TAKEN: [&str; 20] = [
     "after",
     "ai",
     "ao",
@@ -165,11 +165,6 @@ impl Names {
     /// All names, in the order of the file.
     pub fn iter(&self) -> impl Iterator<Item = (Signal, &str)> {
         self.0.iter().map(|(signal, name)| (*signal, name.as_str()))
-    }
-
-    /// Whether no signal has a name.
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
     }
 }
 

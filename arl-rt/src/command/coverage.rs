@@ -9,6 +9,7 @@ use std::rc::Rc;
 
 use super::between::{Beat, Between};
 use crate::context::cx::Cx;
+use crate::context::standard_error::tell;
 use crate::context::watcher::{Go, Watcher};
 use crate::controller::Controller;
 use crate::fault::Alarm;
@@ -23,8 +24,6 @@ struct Program {
     counts: Counts,
     /// How often functions began, by file and name.
     entered: BTreeMap<(&'static str, Rc<str>), u64>,
-    /// The frame that was entered last: those of later functions have higher numbers.
-    last_frame: u64,
 }
 
 /// Counts statements, and never halts.
@@ -39,16 +38,13 @@ impl Watcher for Counter {
         let known = programs.iter().position(|program| program.main == main && program.folder == folder);
         let at = known.unwrap_or_else(|| {
             let (counts, entered) = (Counts::new(), BTreeMap::new());
-            programs.push(Program { folder: folder.to_path_buf(), main, counts, entered, last_frame: 0 });
+            programs.push(Program { folder: folder.to_path_buf(), main, counts, entered });
             programs.len() - 1
         });
         if let Some(program) = programs.get_mut(at) {
             *program.counts.entry((file.name(), line)).or_default() += 1;
-            if frame > program.last_frame {
-                program.last_frame = frame;
-                if let Some(name) = cx.frames().name(frame) {
-                    *program.entered.entry((file.name(), name)).or_default() += 1;
-                }
+            if let Some(name) = cx.frames().begins(frame) {
+                *program.entered.entry((file.name(), name)).or_default() += 1;
             }
         }
         Go::On
@@ -65,6 +61,7 @@ impl Watcher for Counter {
 struct Coverage {
     counter: Rc<Counter>,
     file: File,
+    path: PathBuf,
 }
 
 impl Between for Coverage {
@@ -73,8 +70,9 @@ impl Between for Coverage {
     }
 
     fn run_ended(&mut self, _: &mut Controller) {
-        // Whoever wanted it finds less than there was, and says so.
-        let _ = self.write();
+        if let Err(error) = self.write() {
+            tell(format_args!("warning: cannot write {}: {error}", self.path.display()));
+        }
     }
 }
 
@@ -83,7 +81,7 @@ impl Coverage {
     /// functions, with the name in place of the line.
     fn write(&mut self) -> std::io::Result<()> {
         let mut out = BufWriter::new(&self.file);
-        for Program { folder, main, counts, entered, .. } in &*self.counter.0.borrow() {
+        for Program { folder, main, counts, entered } in &*self.counter.0.borrow() {
             for ((file, line), count) in counts {
                 writeln!(out, "{}\t{main}\t{file}\t{line}\t{count}", folder.display())?;
             }
@@ -99,5 +97,5 @@ impl Coverage {
 pub(crate) fn count(controller: &Controller, path: &Path) -> std::io::Result<Box<dyn Between>> {
     let (counter, file) = (Rc::new(Counter::default()), File::create(path)?);
     controller.watch(Rc::<Counter>::clone(&counter));
-    Ok(Box::new(Coverage { counter, file }))
+    Ok(Box::new(Coverage { counter, file, path: path.to_path_buf() }))
 }

@@ -9,4 +9,4 @@ mod json;
 mod live;
 pub mod program_main;
 mod report;
-mod source_line;
+mod say;

@@ -16,7 +16,7 @@ use crate::command::coverage;
 use crate::command::debug;
 use crate::command::live::{self, Cut, LineWriter};
 use crate::command::report;
-use crate::command::source_line::source_line;
+use crate::command::say::say;
 use crate::context::program::Program;
 pub use crate::context::program::{Make, Other};
 use crate::context::standard_error::tell;
@@ -85,8 +85,7 @@ struct Options {
     cell: Option<PathBuf>,
     clock: Option<Pace>,
     live: bool,
-    debug: Option<String>,
-    coverage: Option<PathBuf>,
+    asked: Asked,
     repeats: bool,
     script_dir: PathBuf,
     state_dir: Option<PathBuf>,
@@ -153,7 +152,7 @@ struct Watching {
 }
 
 impl Watching {
-    /// Who looks after the run between its cycles, if the command line asks for somebody.
+    /// Who looks after the run between its cycles, if somebody is asked for.
     fn begin(self, controller: &Controller, asked: &Asked) -> Result<Option<Box<dyn Between>>, String> {
         let begun = match asked {
             Asked { debug: Some(address), .. } => (self.connect)(controller, address)
@@ -167,10 +166,22 @@ impl Watching {
     }
 }
 
-/// What the command line asks of programs that were made for a debugger.
+/// What only programs can do that were made for a debugger.
+#[derive(Clone, PartialEq, Default, Debug)]
 struct Asked {
     debug: Option<String>,
     coverage: Option<PathBuf>,
+}
+
+impl Asked {
+    /// Which option asks for it, and which command makes programs that can.
+    fn needs(&self) -> Option<(&'static str, &'static str)> {
+        match self {
+            Self { debug: Some(_), .. } => Some(("--debug", "arl2rs dap")),
+            Self { coverage: Some(_), .. } => Some(("--coverage", "arl2rs test --coverage FILE")),
+            _ => None,
+        }
+    }
 }
 
 fn start<P: Program + 'static>(
@@ -233,8 +244,7 @@ fn parse(
         cell: None,
         clock: None,
         live: false,
-        debug: None,
-        coverage: None,
+        asked: Asked::default(),
         repeats: false,
         script_dir: PathBuf::from(script_dir),
         state_dir: None,
@@ -254,8 +264,8 @@ fn parse(
             Long("robot") => options.robot = Some(parser.value()?.string()?),
             Long("cell") => options.cell = Some(parser.value()?.into()),
             Long("live") => (options.live, options.clock) = (true, Some(Pace::Real)),
-            Long("debug") => options.debug = Some(parser.value()?.string()?),
-            Long("coverage") => options.coverage = Some(parser.value()?.into()),
+            Long("debug") => options.asked.debug = Some(parser.value()?.string()?),
+            Long("coverage") => options.asked.coverage = Some(parser.value()?.into()),
             Long("clock") => {
                 let paces = [("virtual", Pace::Virtual), ("real", Pace::Real)];
                 options.clock = Some(word(&mut parser, "--clock", &paces)?);
@@ -320,9 +330,9 @@ fn run(
     watching: Option<Watching>,
     interrupted: &AtomicBool,
 ) -> u8 {
-    let asked = Asked { debug: options.debug.clone(), coverage: options.coverage.clone() };
-    if (asked.debug.is_some() || asked.coverage.is_some()) && watching.is_none() {
-        tell(format_args!("error: this program was not made for a debugger: `arl2rs dap` makes such programs"));
+    let asked = options.asked.clone();
+    if let (Some((option, command)), None) = (asked.needs(), watching) {
+        tell(format_args!("error: this program was not made for {option}: `{command}` makes such programs"));
         return EXIT_USAGE;
     }
     let max_time = options.max_time;
@@ -475,36 +485,6 @@ fn watch(
         (Some(code), _) => code,
         (None, Some(Outcome::Alarm(_))) => EXIT_ALARM,
         (None, _) => EXIT_ENDED,
-    }
-}
-
-/// Says on the standard error what came up; `sources` is the folder that programs were compiled from.
-fn say(controller: &mut Controller, sources: &Path) {
-    for text in controller.take_warnings() {
-        warn(&text);
-    }
-    for alarm in controller.take_alarms() {
-        tell(format_args!("{alarm}"));
-        // In real time other robots may still move: then no cycle waits for a file.
-        if controller.is_real() {
-            alarm.calls.places.iter().for_each(|(file, line)| tell(format_args!("called in {}:{line}", file.name())));
-            continue;
-        }
-        let contexts = controller.contexts();
-        let of_alarm = contexts.iter().find(|cx| cx.channel_state().id == alarm.channel);
-        let folder = of_alarm.map(|cx| sources.join(cx.program_itself().folder())).unwrap_or_default();
-        if let Some(line) = source_line(&folder.join(alarm.file.name()), alarm.line) {
-            tell(format_args!("{line}"));
-        }
-        for (file, line) in &alarm.calls.places {
-            tell(format_args!("called in {}:{line}", file.name()));
-            if let Some(line) = source_line(&folder.join(file.name()), *line) {
-                tell(format_args!("{line}"));
-            }
-        }
-        if alarm.calls.more > 0 {
-            tell(format_args!("and so on, {} calls more", alarm.calls.more));
-        }
     }
 }
 

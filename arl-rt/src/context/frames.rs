@@ -24,6 +24,8 @@ pub(crate) struct Record {
     pub(crate) line: u32,
     /// Whether it is the action of an event.
     pub(crate) is_action: bool,
+    /// Whether one of its statements ran.
+    begun: bool,
     /// Its variables, in the order of declaration, with those that are gone already.
     variables: Vec<Variable<Weak<dyn Teach>>>,
 }
@@ -62,7 +64,7 @@ impl Frames {
     fn enter(&self, name: Rc<str>, file: File, line: u32, is_action: bool) -> u64 {
         let id = self.entered.get() + 1;
         self.entered.set(id);
-        self.records.borrow_mut().push(Record { id, name, file, line, is_action, variables: Vec::new() });
+        self.records.borrow_mut().push(Record { id, name, file, line, is_action, begun: false, variables: Vec::new() });
         id
     }
 
@@ -76,9 +78,9 @@ impl Frames {
         self.with(id, |record| (record.file, record.line, record.is_action))
     }
 
-    /// What a frame is called.
-    pub(crate) fn name(&self, id: u64) -> Option<Rc<str>> {
-        self.with(id, |record| Rc::clone(&record.name))
+    /// What a frame is called, where this is asked for the first time: at its first statement.
+    pub(crate) fn begins(&self, id: u64) -> Option<Rc<str>> {
+        self.with(id, |record| (!std::mem::replace(&mut record.begun, true)).then(|| Rc::clone(&record.name))).flatten()
     }
 
     /// How many there are up to this one.

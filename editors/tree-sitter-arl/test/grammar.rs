@@ -183,6 +183,13 @@ fn queries_fit_the_grammar() {
     }
 }
 
+/// Zed finds objects of text by the same names, in a folder of its own.
+#[test]
+fn text_objects_are_the_same_everywhere() {
+    let read = |path: &str| fs::read_to_string(here().join(path)).unwrap();
+    assert_eq!(read("queries/textobjects.scm"), read("../zed/languages/arl/textobjects.scm"));
+}
+
 /// The strings of a JSON list.
 fn strings(list: &serde_json::Value) -> Vec<String> {
     list.as_array().unwrap().iter().map(|word| word.as_str().unwrap().to_owned()).collect()

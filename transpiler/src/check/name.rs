@@ -105,22 +105,22 @@ impl Checker<'_> {
             return self.unknown_constant(body, id, span);
         }
         let name = self.text(body.module, span).trim_matches(['(', ')', ' ']).to_string();
-        if let Some(signal) = self.signal_named(&name) {
-            return self.report(body, span, NameProblem::SignalName { name, signal });
+        if let Some((signal, channel)) = self.signal_named(&name) {
+            return self.report(body, span, NameProblem::SignalName { name, signal, channel });
         }
         let quoted = self.unquoted(body, span, want).filter(|_| near.is_none());
         let ty = want.filter(|want| !want.is_array()).map_or("int".into(), |want| self.type_name(want));
         self.report(body, span, NameProblem::UnknownVariable { name, near, is_function, quoted, ty })
     }
 
-    /// The signal that the cell calls so.
+    /// The signal that the cell calls so, as files write it, and its channel.
     #[cfg(feature = "cli")]
-    fn signal_named(&self, name: &str) -> Option<String> {
-        self.options.cell.as_ref()?.names.signal(name).map(|signal| signal.to_string())
+    fn signal_named(&self, name: &str) -> Option<(String, u32)> {
+        self.options.cell.as_ref()?.names.signal(name).map(|signal| (signal.to_string(), signal.channel))
     }
 
     #[cfg(not(feature = "cli"))]
-    fn signal_named(&self, _: &str) -> Option<String> {
+    fn signal_named(&self, _: &str) -> Option<(String, u32)> {
         None
     }
 

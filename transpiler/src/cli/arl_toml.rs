@@ -5,6 +5,7 @@ use super::args::{Checking, RunOptions};
 use super::failure::Failure;
 use super::show;
 use crate::check::clean;
+use arl_robot::settings::Source;
 use arl_robot::{Robot, regular_file};
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -52,8 +53,8 @@ pub(super) fn read(path: &Path) -> Result<ArlToml, Failure> {
     let text = regular_file::read_text(path).map_err(|error| Failure::io("read", path, &error))?;
     let mut file: ArlToml = toml::from_str(&text).map_err(|error| {
         let start = error.span().map_or(0, |span| span.start);
-        let line = text.get(..start).unwrap_or("").matches('\n').count() + 1;
-        Failure::Usage(format!("{}:{line}: {}", shown(path).display(), error.message().trim_end()))
+        let line = Source { file: NAME, text: &text }.line(start);
+        Failure::Usage(format!("{}:{line}: {}", show::path(path).display(), error.message().trim_end()))
     })?;
     // In full: who runs the program may do it in another folder.
     let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
@@ -72,41 +73,37 @@ pub(super) fn read(path: &Path) -> Result<ArlToml, Failure> {
     Ok(file)
 }
 
-/// The path as short as it can be said from where the command runs.
-fn shown(path: &Path) -> PathBuf {
-    let here = std::env::current_dir().unwrap_or_default();
-    path.strip_prefix(&here).unwrap_or(path).to_path_buf()
+/// Where a command keeps one of the things that the file says: its name, and the place in the command and in the file.
+type Entry<'a> = (&'a str, Slot<'a>);
+
+enum Slot<'a> {
+    Text(&'a mut Option<String>, Option<String>),
+    Path(&'a mut Option<PathBuf>, Option<PathBuf>),
 }
 
-/// Takes from `file` what was not said, and tells which is from where.
-struct Fill<'a> {
-    file: &'a ArlToml,
-    said: String,
-}
-
-impl<'a> Fill<'a> {
-    fn new(file: &'a ArlToml) -> Self {
-        Self { file, said: String::new() }
-    }
-
-    fn take<T: Clone>(&mut self, name: &str, own: &mut Option<T>, other: &Option<T>, text: impl Fn(&T) -> String) {
-        let from = match (&own, other) {
-            (Some(_), _) => "the command line".to_owned(),
-            (None, Some(_)) => shown(&self.file.path).display().to_string(),
-            (None, None) => return,
+/// Takes from `file` what was not said; where that is wanted, it is told what came from where.
+fn fill<'a>(file: &Path, tells: bool, entries: impl IntoIterator<Item = Entry<'a>>) {
+    let mut said = String::new();
+    for (name, slot) in entries {
+        let (was_said, value) = match slot {
+            Slot::Text(own, other) => (own.is_some(), take(own, other).map(PathBuf::from)),
+            Slot::Path(own, other) => (own.is_some(), take(own, other)),
         };
-        if own.is_none() {
-            own.clone_from(other);
+        if let Some(value) = value {
+            let from = if was_said { "the command line".into() } else { show::path(file).display().to_string() };
+            said += &format!("{name}: {} ({from})\n", show::path(&value).display());
         }
-        if let Some(value) = own {
-            let value = text(value);
-            self.said += &format!("{name}: {} ({from})\n", shown(Path::new(&value)).display());
-        }
+    }
+    if tells {
+        show::say(&said);
     }
 }
 
-fn path_text(path: &Path) -> String {
-    path.display().to_string()
+fn take<T: Clone>(own: &mut Option<T>, other: Option<T>) -> Option<T> {
+    if own.is_none() {
+        *own = other;
+    }
+    own.clone()
 }
 
 impl Checking {
@@ -114,13 +111,12 @@ impl Checking {
     pub(super) fn of_program(&self, program: &Path) -> Result<Self, Failure> {
         let file = of_program(program)?.unwrap_or_default();
         let mut all = self.clone();
-        let mut fill = Fill::new(&file);
-        fill.take("robot", &mut all.robot, &file.robot, String::clone);
-        fill.take("cell", &mut all.cell, &file.cell, |path| path_text(path));
-        fill.take("script-dir", &mut all.script_dir, &file.script_dir, |path| path_text(path));
-        if self.verbose {
-            show::say(&fill.said);
-        }
+        let entries = [
+            ("robot", Slot::Text(&mut all.robot, file.robot)),
+            ("cell", Slot::Path(&mut all.cell, file.cell)),
+            ("script-dir", Slot::Path(&mut all.script_dir, file.script_dir)),
+        ];
+        fill(&file.path, self.verbose, entries);
         Ok(all)
     }
 }
@@ -130,14 +126,13 @@ impl RunOptions {
     pub(super) fn of_program(&self, program: &Path) -> Result<Self, Failure> {
         let file = of_program(program)?.unwrap_or_default();
         let mut all = self.clone();
-        let mut fill = Fill::new(&file);
-        fill.take("robot", &mut all.robot, &file.robot, String::clone);
-        fill.take("cell", &mut all.cell, &file.cell, |path| path_text(path));
-        fill.take("io", &mut all.io, &file.io, |path| path_text(path));
-        fill.take("script-dir", &mut all.script_dir, &file.script_dir, |path| path_text(path));
-        if self.verbose {
-            show::say(&fill.said);
-        }
+        let entries = [
+            ("robot", Slot::Text(&mut all.robot, file.robot)),
+            ("cell", Slot::Path(&mut all.cell, file.cell)),
+            ("io", Slot::Path(&mut all.io, file.io)),
+            ("script-dir", Slot::Path(&mut all.script_dir, file.script_dir)),
+        ];
+        fill(&file.path, self.verbose, entries);
         Ok(all)
     }
 }

@@ -5,6 +5,7 @@ use crate::diagnostics::{Diagnostic, Files, Severity};
 use crate::render::human;
 use anstream::ColorChoice;
 use std::io::Write;
+use std::path::Path;
 
 /// An error of the command itself.
 pub(super) fn error(text: &str) {
@@ -14,6 +15,12 @@ pub(super) fn error(text: &str) {
 /// A warning of the command itself.
 pub(super) fn warning(text: &str) {
     say(&format!("\u{1b}[1m\u{1b}[93mwarning\u{1b}[0m\u{1b}[1m: {text}\u{1b}[0m\n"));
+}
+
+/// A path as short as it can be said from where the command runs.
+pub(super) fn path(path: &Path) -> &Path {
+    let here = std::env::current_dir().unwrap_or_default();
+    path.strip_prefix(&here).unwrap_or(path)
 }
 
 /// How many diagnostics people are shown by default.

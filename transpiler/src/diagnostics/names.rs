@@ -60,13 +60,13 @@ problems! {
             /// A module has no such variable or function.
             NotInModule { name: String, module: String, what: &'static str, near: Option<String> },
         }
-        error 215 "The name of a signal in a program" => {
-            /// What the cell calls a signal; programs say its number.
-            SignalName { name: String, signal: String },
-        }
         error 214 "An old or misprinted name" => {
             /// A spelling of other manuals that is not accepted.
             Renamed { name: String, now: String },
+        }
+        error 215 "The name of a signal in a program" => {
+            /// What the cell calls a signal; programs say its number.
+            SignalName { name: String, signal: String, channel: u32 },
         }
     }
 }
@@ -74,7 +74,9 @@ problems! {
 impl Problem for NameProblem {
     fn message(&self) -> String {
         match self {
-            NameProblem::UnknownVariable { name, .. } => format!("there is no variable `{name}` here"),
+            NameProblem::UnknownVariable { name, .. } | NameProblem::SignalName { name, .. } => {
+                format!("there is no variable `{name}` here")
+            }
             NameProblem::UnknownFunction { name, .. } => format!("there is no function `{name}`"),
             NameProblem::UnknownModule { name, .. } => format!("there is no module or enumeration `{name}`"),
             NameProblem::UnknownType { name, .. } => format!("there is no type `{name}`"),
@@ -89,7 +91,6 @@ impl Problem for NameProblem {
             NameProblem::NotInModule { name, module, what, .. } => {
                 format!("the module `{module}` has no {what} `{name}`")
             }
-            NameProblem::SignalName { name, .. } => format!("there is no variable `{name}` here"),
             NameProblem::Renamed { name, .. } => format!("`{name}` is not a name that ARL knows"),
         }
     }
@@ -156,9 +157,8 @@ impl Problem for NameProblem {
             NameProblem::UnknownInstruction { near, name, .. } => {
                 elsewhere::word(name).map(has).or_else(|| meant(near))
             }
-            NameProblem::SignalName { name, signal } => {
-                let number = signal.split('.').next_back().unwrap_or_default();
-                Some(format!("the cell calls {signal} so; a program says its number: `const int {name} = {number}`"))
+            NameProblem::SignalName { name, signal, channel } => {
+                Some(format!("the cell calls {signal} so; a program says its number: `const int {name} = {channel}`"))
             }
             NameProblem::Renamed { now, .. } => Some(format!("did you mean `{now}`?")),
         }

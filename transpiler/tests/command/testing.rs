@@ -117,15 +117,40 @@ fn coverage_counts_lines_and_functions() {
         .with("counts.out", "0\n0\n1\n")
         .with("uses.arl", "import \"lib/other.arl\"\nfunc void main()\n  other::go()\nendfunc\n")
         .with("uses.out", "went\n")
-        .with("lib/other.arl", "func void go()\n  print \"went\"\nendfunc\nfunc void never()\n  print 1\nendfunc\n");
-    folder.arl2rs(&["test", ".", "--coverage", "lcov.info"]).is(0, "2 passed, 0 failed\n");
+        .with("lib/other.arl", "func void go()\n  print \"went\"\nendfunc\nfunc void never()\n  print 1\nendfunc\n")
+        .with("twice.arl", TWICE)
+        .with("twice.out", "1\n2\n");
+    folder.arl2rs(&["test", ".", "--coverage", "lcov.info"]).is(0, "3 passed, 0 failed\n");
     let told = folder.read("lcov.info");
     let records: Vec<&str> = told.split("end_of_record\n").map(str::trim).filter(|one| !one.is_empty()).collect();
-    assert_eq!(records.len(), 3, "{told}");
+    assert_eq!(records.len(), 4, "{told}");
     assert!(records[0].contains("SF:counts.arl\n"), "{told}");
     for line in ["FNDA:3,half", "FNDA:1,main", "DA:2,3", "DA:3,0", "DA:5,3", "DA:9,3", "FNH:2"] {
         assert!(records[0].lines().any(|found| found == line), "{line}\n{told}");
     }
     let other = records.iter().find(|one| one.contains("SF:lib/other.arl\n")).expect("the module");
     assert!(other.contains("FNDA:0,never") && other.contains("DA:2,1") && other.contains("DA:5,0"), "{other}");
+    let twice = records.iter().find(|one| one.contains("SF:twice.arl\n")).expect("what begins again");
+    assert!(twice.contains("FNDA:2,main") && twice.contains("FNDA:2,shown"), "{twice}");
+}
+
+/// A program that begins again.
+const TWICE: &str = "func void shown(int n)
+  print n
+endfunc
+func void main()
+  $I[0]++
+  shown($I[0])
+  if($I[0] < 2) restart
+endfunc
+";
+
+#[test]
+fn mistakes_are_those_that_the_cell_makes() {
+    let folder = Folder::new("test_cell")
+        .with("part.arl", "func void main()\n  print getdi(part)\nendfunc\n")
+        .with("part.err", "2 the cell calls di.1 so\n")
+        .with("part.toml", "cell = \"line.cell\"\n")
+        .with("line.cell", "[names]\n\"di.1\" = \"part\"\n");
+    folder.arl2rs(&["test", "."]).is(0, "1 passed, 0 failed\n");
 }

@@ -4,9 +4,9 @@
 //! io scenario does, in the same words: `di.5 = true`, `ai.2 = 4.2`, `pendant = "pause"`, `override = 50`. When the orders
 //! end, the robot stops on its path and the program with it.
 //!
-//! The first line that goes out is `{"hello":...}`: the channels with their programs, robots and axes, and the
-//! names of signals. Then come `state`
-//! (20 times a second), `message`, `warning`, `alarm`, and `refused` for an order that could not be carried out.
+//! The first line that goes out is `{"hello":...}`: the channels with their programs, robots and axes, and the names of
+//! signals. Then come `state` (20 times a second), `message`, `warning`, `alarm`, and `refused` for an order that could
+//! not be carried out.
 
 mod line_writer;
 mod orders;

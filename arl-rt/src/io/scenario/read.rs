@@ -431,3 +431,18 @@ fn pendant(event: &Section<'_>, source: Source<'_>, value: &Value<'_>) -> Result
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use arl_robot::cell::Cell;
+
+    #[test]
+    fn no_signal_is_called_as_a_word_of_scenarios() {
+        let tables = TABLES.map(|table| table.trim_matches(['[', ']']));
+        for word in EVENT.iter().copied().chain(FOLLOW.iter().copied()).chain(tables) {
+            let error = Cell::parse("cell.toml", &format!("[names]\n\"di.1\" = \"{word}\"\n")).unwrap_err();
+            assert!(error.message.contains("is a word of scenarios"), "{error}");
+        }
+    }
+}

@@ -73,12 +73,8 @@ impl<'a> Typing<'a> {
     pub(super) fn without_word(&self, server: &Server) -> Option<File> {
         let mut text = self.text.text.to_string();
         text.replace_range(self.word.start as usize..self.word.end as usize, "");
-        let program = Program::check(
-            &server.root(&self.path),
-            &Marked { server, path: &self.path, text },
-            &server.options_of(&self.path),
-        )
-        .ok()?;
+        let (root, marked) = (server.root(&self.path), Marked { server, path: &self.path, text });
+        let program = Program::check(&root, &marked, &server.options_of(&root)).ok()?;
         let id = program.file(&self.path)?;
         Some(File { program: Rc::new(program), id })
     }

@@ -4,6 +4,7 @@ use super::case::Case;
 use crate::cli::args::RunOptions;
 use crate::cli::dap::{FileKey, Key, Programs};
 use crate::cli::failure::Failure;
+use crate::cli::show;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -66,10 +67,9 @@ impl Coverage {
     }
 
     fn lcov(&self) -> String {
-        let here = std::env::current_dir().unwrap_or_default();
         let mut text = String::new();
         for (path, file) in &self.files {
-            let _ = writeln!(text, "TN:\nSF:{}", path.strip_prefix(&here).unwrap_or(path).display());
+            let _ = writeln!(text, "TN:\nSF:{}", show::path(path).display());
             for (begin, name) in file.functions.keys() {
                 let _ = writeln!(text, "FN:{begin},{name}");
             }

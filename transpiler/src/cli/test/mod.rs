@@ -7,6 +7,7 @@ mod coverage;
 mod diff;
 mod execute;
 mod expect;
+mod judge;
 mod report;
 
 pub(super) use case::EXPECTATIONS;
@@ -26,8 +27,8 @@ use crate::emit::{EmitOptions, Sizes};
 use crate::render::{Position, human};
 use crate::sources::FileSystem;
 use case::{Case, Found};
-use execute::Outcome;
 use expect::FoundError;
+use judge::judged;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
@@ -166,8 +167,8 @@ fn shown_errors(compiled: &Compiled) -> String {
 fn check(case: &Case, bless: bool) -> Done {
     let start = Instant::now();
     let look = || {
-        let compiled =
-            check_program(&case.source, &FileSystem, &options(&checking(case))?).map_err(|bug| bug.to_string())?;
+        let checking = Checking { cell: case.cell.clone(), ..checking(case) };
+        let compiled = check_program(&case.source, &FileSystem, &options(&checking)?).map_err(|bug| bug.to_string())?;
         let expected = case.errors.as_deref().unwrap_or_default();
         let found = found_errors(&compiled, &compiled.checked.files);
         let Some(lines) = expect::compare_errors(expected, &found) else { return Ok(()) };
@@ -269,117 +270,4 @@ fn run_all(
         coverage.into_inner().unwrap_or_default().write(file)?;
     }
     Ok(done.into_inner().unwrap_or_default())
-}
-
-/// Judges a case that ran; what came becomes what is expected where that is asked for.
-fn judged(case: &Case, outcome: &Outcome, bless: bool) -> Done {
-    let verdict = match judge(case, outcome) {
-        Err(problem) if bless => bless::run(case, outcome).map_err(|why| format!("{problem}\n{why}")),
-        verdict => verdict,
-    };
-    Done { verdict, seconds: outcome.seconds, cycle_time: outcome.cycle_time }
-}
-
-/// Compares what came with what was expected.
-fn judge(case: &Case, outcome: &Outcome) -> Verdict {
-    let mut problems = Vec::new();
-    if case.is_new {
-        problems.push("nothing is expected of it yet".to_string());
-    }
-    if outcome.late {
-        problems.push("it ran too long and was ended".to_string());
-    }
-    if let Some(expected) = &case.out
-        && *expected != outcome.out
-    {
-        let difference = diff::diff(expected, &outcome.out);
-        problems.push(format!("other output than expected (- expected, + came):\n{difference}"));
-    }
-    let said = || if outcome.said.trim().is_empty() { String::new() } else { format!("\n{}", outcome.said.trim_end()) };
-    match (&case.alarm, outcome.code) {
-        _ if outcome.late => {}
-        (Some(expected), Some(3)) => match expect::find_alarm(&outcome.said) {
-            Some((number, line)) => {
-                if expected.number.is_some_and(|expected| expected != number) || expected.line != line {
-                    let wanted = expected.number.map_or("*".to_string(), |number| number.to_string());
-                    problems.push(format!("alarm {wanted} {} expected, {number} {line} came{}", expected.line, said()));
-                }
-            }
-            None => problems.push(format!("an alarm was expected, and none was told{}", said())),
-        },
-        (Some(_), _) => problems.push(format!("an alarm was expected, but it {}{}", ending(outcome), said())),
-        (None, Some(0)) => {}
-        (None, Some(4)) if case.options.max_time.is_some() => {}
-        (None, _) => problems.push(format!("it {}{}", ending(outcome), said())),
-    }
-    if problems.is_empty() { Ok(()) } else { Err(problems.join("\n")) }
-}
-
-/// What a program says that waits in vain.
-const STANDSTILL: &str = "nothing can change any more";
-
-fn ending(outcome: &Outcome) -> String {
-    match outcome.code {
-        Some(0) => "ended".into(),
-        Some(3) => "ended with an alarm".into(),
-        Some(4) if outcome.said.contains(STANDSTILL) => "waits for what nobody brings about".into(),
-        Some(4) => "ran out of controller time".into(),
-        Some(101) => "ended by a bug in arl2rs".into(),
-        Some(code) => format!("ended with exit code {code}"),
-        None => "was ended by a signal".into(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use expect::ExpectedAlarm;
-
-    fn case() -> Case {
-        Case {
-            source: Path::new("/x/a.arl").into(),
-            out: Some(b"1\n".to_vec()),
-            errors: None,
-            alarm: None,
-            scenario: None,
-            is_new: false,
-            robot: None,
-            cell: None,
-            script_dir: None,
-            options: case::CaseOptions::default(),
-        }
-    }
-
-    fn outcome(code: i32) -> Outcome {
-        Outcome { out: b"1\n".to_vec(), code: Some(code), ..Outcome::default() }
-    }
-
-    #[test]
-    fn output_and_exit_code_decide() {
-        assert_eq!(judge(&case(), &outcome(0)), Ok(()));
-        assert!(judge(&case(), &outcome(3)).unwrap_err().contains("ended with an alarm"));
-        assert!(judge(&case(), &outcome(4)).unwrap_err().contains("out of controller time"));
-        let other = Outcome { out: b"2\n".to_vec(), ..outcome(0) };
-        assert!(judge(&case(), &other).unwrap_err().ends_with("-1\n+2\n"));
-        let late = Outcome { code: None, late: true, ..outcome(0) };
-        assert_eq!(judge(&case(), &late), Err("it ran too long and was ended".into()));
-    }
-
-    #[test]
-    fn a_case_with_a_limit_may_reach_it() {
-        let mut case = case();
-        case.options.max_time = Some(1.0);
-        assert_eq!(judge(&case, &outcome(4)), Ok(()));
-    }
-
-    #[test]
-    fn alarms_need_their_number_and_line() {
-        let alarm = |number| Case { alarm: Some(ExpectedAlarm { number, line: 5 }), ..case() };
-        let said = |text: &str| Outcome { said: text.into(), ..outcome(3) };
-        assert_eq!(judge(&alarm(Some(7)), &said("alarm 7: x (a.arl:5)\n")), Ok(()));
-        assert_eq!(judge(&alarm(None), &said("alarm 8: x (a.arl:5)\n")), Ok(()));
-        assert!(judge(&alarm(Some(7)), &said("alarm 8: x (a.arl:5)\n")).is_err());
-        assert!(judge(&alarm(None), &said("alarm 8: x (a.arl:6)\n")).is_err());
-        assert!(judge(&alarm(None), &outcome(0)).unwrap_err().contains("but it ended"));
-    }
 }

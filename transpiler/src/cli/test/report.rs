@@ -5,15 +5,16 @@ use super::{Done, Verdict};
 use crate::cli::answer;
 use crate::cli::args::TestFormat;
 use crate::cli::failure::{COMPILE_ERRORS, Failure};
+use crate::cli::show;
 use serde_json::json;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::ExitCode;
 
 /// A case that was looked at, or could not be.
 struct Told<'a> {
     /// Its path, as short as it can be said from here.
-    path: PathBuf,
+    path: &'a Path,
     verdict: &'a Verdict,
     seconds: f64,
     cycle_time: Option<f64>,
@@ -21,12 +22,11 @@ struct Told<'a> {
 
 /// Tells how the cases went; fails where one failed.
 pub(super) fn report(found: &[Found], done: &[Done], format: TestFormat) -> Result<ExitCode, Failure> {
-    let here = std::env::current_dir().unwrap_or_default();
     let told: Vec<Told<'_>> = found
         .iter()
         .zip(done)
         .map(|(found, done)| Told {
-            path: found.source.strip_prefix(&here).unwrap_or(&found.source).to_path_buf(),
+            path: show::path(&found.source),
             verdict: &done.verdict,
             seconds: done.seconds,
             cycle_time: done.cycle_time,
@@ -114,7 +114,7 @@ mod tests {
     #[test]
     fn xml_holds_what_came() {
         let wrong = Err("other <output>:\n-\"a\"\n+\u{1b}b & c".to_owned());
-        let told = |verdict| Told { path: "tests/a b.arl".into(), verdict, seconds: 0.5, cycle_time: None };
+        let told = |verdict| Told { path: Path::new("tests/a b.arl"), verdict, seconds: 0.5, cycle_time: None };
         let text = junit(&[told(&Ok(())), told(&wrong)], 1);
         assert!(text.contains("tests=\"2\" failures=\"1\" errors=\"0\" time=\"1.000\""), "{text}");
         assert!(text.contains("<testcase classname=\"tests\" name=\"a b\" time=\"0.500\"/>"), "{text}");

@@ -1,0 +1,53 @@
+//! Says on the standard error what came up in a run: warnings, and alarms with the lines of the program that they are about.
+
+use std::path::Path;
+
+use crate::context::standard_error::tell;
+use crate::controller::Controller;
+use crate::fault::File;
+
+/// Files that are longer are not looked into.
+const LARGEST_FILE: u64 = 16 << 20;
+
+/// Says on the standard error what came up; `sources` is the folder that programs were compiled from.
+pub(super) fn say(controller: &mut Controller, sources: &Path) {
+    for text in controller.take_warnings() {
+        tell(format_args!("warning: {text}"));
+    }
+    for alarm in controller.take_alarms() {
+        let contexts = controller.contexts();
+        let of_alarm = contexts.iter().find(|cx| cx.channel_state().id == alarm.channel);
+        let folder = of_alarm.map(|cx| sources.join(cx.program_itself().folder())).unwrap_or_default();
+        let tell_line = |file: File, line| {
+            // In real time other robots may still move: then no cycle waits for a file.
+            if !controller.is_real()
+                && let Some(line) = source_line(&folder.join(file.name()), line)
+            {
+                tell(format_args!("{line}"));
+            }
+        };
+        tell(format_args!("{alarm}"));
+        tell_line(alarm.file, alarm.line);
+        for &(file, line) in &alarm.calls.places {
+            tell(format_args!("called in {}:{line}", file.name()));
+            tell_line(file, line);
+        }
+        if alarm.calls.more > 0 {
+            tell(format_args!("and so on, {} calls more", alarm.calls.more));
+        }
+    }
+}
+
+/// The line of a file, as it is shown below an alarm: its number and its text. Nothing where the file is not there any
+/// more, or was changed after the program was compiled.
+fn source_line(file: &Path, line: u32) -> Option<String> {
+    let about = file.metadata().ok().filter(|about| about.is_file() && about.len() <= LARGEST_FILE)?;
+    let compiled = std::env::current_exe().ok()?.metadata().ok()?.modified().ok()?;
+    if about.modified().ok()? > compiled {
+        return None;
+    }
+    let bytes = std::fs::read(file).ok()?;
+    let text = arl_lang::text::decode(&bytes).ok()?;
+    let found = text.lines().nth((line as usize).checked_sub(1)?)?.trim();
+    (!found.is_empty()).then(|| format!("  {line} | {found}"))
+}
