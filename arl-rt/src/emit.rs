@@ -17,6 +17,7 @@ pub use crate::builtins::{
 };
 pub use crate::context::cx::Cx;
 pub use crate::context::program::{Beside, BoxFuture, Program};
+pub use crate::context::shown::ShownHandle;
 pub use crate::fault::{At, Called, Done, Fault, File, Stop};
 pub use crate::storage::data::{DataFile, DataVar};
 pub use crate::storage::slots::Slots;

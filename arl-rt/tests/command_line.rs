@@ -68,6 +68,23 @@ impl Program for Small {
                         text::print().argtoprint(&"round").run(cx).at(FILE, 7)?;
                     }
                 }
+                "watched" => {
+                    let frame = cx.frame("main", FILE, 3);
+                    let (round, table) = (Rc::new(Cell::new(0)), Rc::new(Shared::new(Array::<i32, 65>::start())));
+                    let watch = Rc::new(Clock::new());
+                    frame.variable(0, "round", &round);
+                    frame.variable(1, "table", &table);
+                    frame.handle(2, "watch", &watch);
+                    frame
+                        .run(async || {
+                            while frame.runs(4).await {
+                                round.set(round.get() + 1);
+                                cx.next_cycle().await;
+                            }
+                            Ok(())
+                        })
+                        .await
+                }
                 "swing" => loop {
                     for (line, j1) in [(5, 40.0), (6, -40.0)] {
                         cx.line(FILE, line);
@@ -109,6 +126,7 @@ fn deeper(cx: &Cx, level: i32) -> Done<i32> {
 fn main() -> ExitCode {
     match std::env::var(PROGRAM) {
         Ok(name) if name == "pick" => arl_rt::program_main::main(pick_program::Globals::new, "."),
+        Ok(name) if name == "watched" => arl_rt::program_main::main_watched(move || Small(name), &[], "."),
         Ok(name) => arl_rt::program_main::main(move || Small(name), "."),
         Err(_) => {
             for (name, test) in TESTS {
@@ -138,6 +156,7 @@ const TESTS: &[(&str, fn())] = &[
     ("wrong_files_name_their_line", wrong_files_name_their_line),
     ("orders_drive_a_run", orders_drive_a_run),
     ("after_its_end_a_live_run_waits", after_its_end_a_live_run_waits),
+    ("a_live_run_shows_what_is_inside", a_live_run_shows_what_is_inside),
 ];
 
 fn run(program: &str, arguments: &[&str]) -> Output {
@@ -493,4 +512,28 @@ fn after_its_end_a_live_run_waits() {
     live.line(&["state", "\"state\":\"ended\"", "\"di\":\"10"]);
     let (code, last) = live.leave();
     assert_eq!(code, Some(0), "{last}");
+}
+
+fn a_live_run_shows_what_is_inside() {
+    let mut live = Live::start("watched");
+    live.order("inside = 2");
+    live.line(&["refused", "there is no channel 2"]);
+    live.order("inside = one");
+    live.line(&["refused", "`one` is no channel"]);
+    live.order("inside = 1");
+    let inside = live.line(&["\"inside\":{\"channel\":1,"]);
+    for words in [
+        r#"{"id":1,"name":"main","file":"t.arl","line":4,"event":false}"#,
+        r#"{"name":"round","type":"int","value":""#,
+        r#"{"name":"table","type":"int[65]","value":".."}"#,
+        r#""handles":[{"name":"watch","type":"clock","value":"0.000 s, stands"}]"#,
+    ] {
+        assert!(inside.contains(words), "{words}\n{inside}");
+    }
+    live.line(&["inside"]);
+    assert_eq!(live.leave().0, Some(130));
+    let mut plain = Live::start("forever");
+    plain.order("inside = 1");
+    plain.line(&["refused", "this program was not made to be looked into"]);
+    plain.leave();
 }

@@ -3,6 +3,7 @@
 use std::cell::Cell;
 
 use crate::context::cx::Cx;
+use crate::context::shown::Shown;
 
 /// A clock. It stands still at 0 until it is started.
 #[derive(Clone, Default, Debug)]
@@ -21,6 +22,18 @@ impl Clock {
 
     fn cycles(&self, now: u64) -> u64 {
         self.counted.get() + self.since.get().map_or(0, |since| now.saturating_sub(since))
+    }
+}
+
+impl Shown for Clock {
+    fn type_name(&self) -> &'static str {
+        "clock"
+    }
+
+    fn shown(&self, cx: &Cx) -> String {
+        let seconds = cx.shared().rate.time(self.cycles(cx.cycle()));
+        let state = if self.since.get().is_some() { "runs" } else { "stands" };
+        format!("{seconds:.3} s, {state}")
     }
 }
 

@@ -139,7 +139,12 @@ pub fn main_watched<P: Program + 'static>(
     others: &[Other],
     script_dir: &str,
 ) -> ExitCode {
-    start(program, others, script_dir, Some(Watching { connect: debug::connect, count: coverage::count }))
+    start(
+        program,
+        others,
+        script_dir,
+        Some(Watching { connect: debug::connect, count: coverage::count, inside: debug::inside }),
+    )
 }
 
 /// What programs can do that were made for a debugger.
@@ -149,6 +154,8 @@ struct Watching {
     connect: fn(&Controller, &str) -> std::io::Result<Box<dyn Between>>,
     /// Counts the statements of a run, for a file.
     count: fn(&Controller, &Path) -> std::io::Result<Box<dyn Between>>,
+    /// Looks into the program of a channel.
+    inside: live::Inside,
 }
 
 impl Watching {
@@ -370,7 +377,10 @@ fn run(
         }
     };
     let code = match voice {
-        Some(voice) => code(live::drive(&mut controller, &voice, max_time, interrupted)),
+        Some(voice) => {
+            let inside = watching.map(|watching| watching.inside);
+            code(live::drive(&mut controller, &voice, inside, max_time, interrupted))
+        }
         None => watch(&mut controller, max_time, interrupted, between, sources),
     };
     if let Some(mut report) = report

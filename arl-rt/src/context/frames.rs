@@ -1,13 +1,16 @@
 //! The functions that run, with their variables, as a debugger sees them. Only programs that were emitted for a debugger have
 //! frames.
 
-use std::cell::RefCell;
+use std::any::Any;
+use std::cell::{Cell, RefCell};
 use std::fmt;
-use std::pin::Pin;
+use std::future::poll_fn;
+use std::pin::{Pin, pin};
 use std::rc::{Rc, Weak};
 use std::task::{Context, Poll};
 
 use crate::context::cx::Cx;
+use crate::context::shown::Shown;
 use crate::context::watcher::Go;
 use crate::fault::File;
 use crate::values::Teach;
@@ -26,13 +29,19 @@ pub(crate) struct Record {
     pub(crate) is_action: bool,
     /// Whether one of its statements ran.
     begun: bool,
+    /// Whether the program pointer was set to its line: it begins anew, and goes on there.
+    moved: bool,
     /// Its variables, in the order of declaration, with those that are gone already.
     variables: Vec<Variable<Weak<dyn Teach>>>,
+    /// Its clocks and connections, in the same way.
+    handles: Vec<Variable<Weak<dyn Shown>>>,
 }
 
 /// A variable of a function.
 #[derive(Clone)]
 pub(crate) struct Variable<T> {
+    /// The place of its declaration among those of the function.
+    number: usize,
     pub(crate) name: &'static str,
     /// The sizes of an array of several dimensions, outermost first; else empty.
     pub(crate) sizes: &'static [usize],
@@ -42,30 +51,73 @@ pub(crate) struct Variable<T> {
 impl Record {
     /// The variables that there are, in the order of declaration. Of two of one name only the inner one.
     pub(crate) fn variables(&self) -> Vec<Variable<Rc<dyn Teach>>> {
-        let mut seen: Vec<Variable<Rc<dyn Teach>>> = Vec::new();
-        for Variable { name, sizes, slot } in &self.variables {
-            if let Some(slot) = slot.upgrade() {
-                seen.retain(|known| known.name != *name);
-                seen.push(Variable { name, sizes, slot });
-            }
-        }
-        seen
+        there(&self.variables)
     }
+
+    /// The clocks and connections, likewise.
+    pub(crate) fn handles(&self) -> Vec<Variable<Rc<dyn Shown>>> {
+        there(&self.handles)
+    }
+}
+
+fn there<T: ?Sized>(variables: &[Variable<Weak<T>>]) -> Vec<Variable<Rc<T>>> {
+    let mut seen: Vec<Variable<Rc<T>>> = Vec::new();
+    for Variable { number, name, sizes, slot } in variables {
+        if let Some(slot) = slot.upgrade() {
+            seen.retain(|known| known.name != *name);
+            seen.push(Variable { number: *number, name, sizes, slot });
+        }
+    }
+    seen
+}
+
+/// Notes a variable. A loop declares the same ones again and again.
+fn note<T: ?Sized>(variables: &mut Vec<Variable<Weak<T>>>, new: Variable<Weak<T>>) {
+    variables.retain(|known| known.slot.strong_count() > 0 && known.number != new.number);
+    variables.push(new);
 }
 
 /// The functions of a program that run, those that were entered last at the end.
 #[derive(Default)]
 pub(crate) struct Frames {
     records: RefCell<Vec<Record>>,
-    entered: std::cell::Cell<u64>,
+    entered: Cell<u64>,
 }
 
 impl Frames {
     fn enter(&self, name: Rc<str>, file: File, line: u32, is_action: bool) -> u64 {
         let id = self.entered.get() + 1;
         self.entered.set(id);
-        self.records.borrow_mut().push(Record { id, name, file, line, is_action, begun: false, variables: Vec::new() });
+        let (begun, moved, variables, handles) = (false, false, Vec::new(), Vec::new());
+        self.records.borrow_mut().push(Record { id, name, file, line, is_action, begun, moved, variables, handles });
         id
+    }
+
+    /// Sets the program pointer to a line of a function. Those that it has called are left.
+    ///
+    /// # Errors
+    /// The function does not run, or the action of an event runs on top of it.
+    pub(crate) fn set_pointer(&self, id: u64, line: u32) -> Result<(), &'static str> {
+        let mut records = self.records.borrow_mut();
+        let at = records.iter().position(|record| record.id == id).ok_or("the function has ended")?;
+        if records.iter().skip(at).any(|record| record.is_action) {
+            return Err("the action of an event runs");
+        }
+        records.truncate(at + 1);
+        if let Some(record) = records.last_mut() {
+            (record.line, record.moved) = (line, true);
+        }
+        Ok(())
+    }
+
+    /// Whether the program pointer was set in a function, which begins anew then.
+    fn is_moved(&self, id: u64) -> bool {
+        self.with(id, |record| record.moved).unwrap_or(false)
+    }
+
+    /// Whether it was set in any.
+    fn any_moved(&self) -> bool {
+        self.records.borrow().iter().any(|record| record.moved)
     }
 
     /// All of them, those that were entered last at the end.
@@ -101,6 +153,11 @@ impl Frames {
 pub struct Frame<'a> {
     cx: &'a Cx,
     id: u64,
+    /// The line that the program pointer was set to, until that is reached: nothing runs before it. 0: none.
+    target: Cell<u32>,
+    /// The variables that the function has declared since it began, and those that stay when it begins anew.
+    declared: RefCell<Vec<(usize, Weak<dyn Any>)>>,
+    kept: RefCell<Vec<(usize, Rc<dyn Any>)>>,
 }
 
 impl fmt::Debug for Frame<'_> {
@@ -112,35 +169,143 @@ impl fmt::Debug for Frame<'_> {
 impl Cx {
     /// Enters a function, for a debugger.
     pub fn frame(&self, name: &'static str, file: File, line: u32) -> Frame<'_> {
-        Frame { cx: self, id: self.frames().enter(name.into(), file, line, false) }
+        self.framed(self.frames().enter(name.into(), file, line, false))
     }
 
     /// Enters the action of the event that was declared at this place.
     pub fn action(&self, file: File, line: u32) -> Frame<'_> {
         let name = self.events().borrow().describe((file, line)).unwrap_or_else(|| format!("the event of line {line}"));
-        Frame { cx: self, id: self.frames().enter(name.into(), file, line, true) }
+        self.framed(self.frames().enter(name.into(), file, line, true))
+    }
+
+    fn framed(&self, id: u64) -> Frame<'_> {
+        Frame { cx: self, id, target: Cell::new(0), declared: RefCell::default(), kept: RefCell::default() }
     }
 }
 
 impl<'a> Frame<'a> {
-    /// Shows a variable of the function.
-    pub fn variable<T: Teach + 'static>(&self, name: &'static str, variable: &Rc<T>) {
-        self.table(name, &[], variable);
+    /// Shows a variable of the function: the number of its declaration, and its name.
+    pub fn variable<T: Teach + 'static>(&self, number: usize, name: &'static str, variable: &Rc<T>) {
+        self.table(number, name, &[], variable);
     }
 
     /// Shows an array of several dimensions with its sizes, outermost first.
-    pub fn table<T: Teach + 'static>(&self, name: &'static str, sizes: &'static [usize], variable: &Rc<T>) {
+    pub fn table<T: Teach + 'static>(
+        &self,
+        number: usize,
+        name: &'static str,
+        sizes: &'static [usize],
+        variable: &Rc<T>,
+    ) {
+        self.declare(number, variable);
         let variable: Rc<dyn Teach> = Rc::<T>::clone(variable);
-        self.cx.frames().with(self.id, |record| {
-            // A loop declares the same ones again and again.
-            record.variables.retain(|known| known.slot.strong_count() > 0);
-            record.variables.push(Variable { name, sizes, slot: Rc::downgrade(&variable) });
-        });
+        let slot = Rc::downgrade(&variable);
+        self.cx.frames().with(self.id, |record| note(&mut record.variables, Variable { number, name, sizes, slot }));
     }
 
-    /// Halts before the statement of a line where a debugger wants that.
-    pub fn halt(&self, line: u32) -> Halt<'a> {
-        Halt { cx: self.cx, id: self.id, line, asked: false }
+    /// Shows a clock or a connection.
+    pub fn handle<T: Shown + 'static>(&self, number: usize, name: &'static str, handle: &Rc<T>) {
+        self.declare(number, handle);
+        let handle: Rc<dyn Shown> = Rc::<T>::clone(handle);
+        let slot = Rc::downgrade(&handle);
+        self.cx.frames().with(self.id, |record| note(&mut record.handles, Variable { number, name, sizes: &[], slot }));
+    }
+
+    /// Notes a variable: it stays where the function begins anew.
+    fn declare<T: 'static>(&self, number: usize, variable: &Rc<T>) {
+        let variable: Rc<dyn Any> = Rc::<T>::clone(variable);
+        let mut declared = self.declared.borrow_mut();
+        declared.retain(|(known, _)| *known != number);
+        declared.push((number, Rc::downgrade(&variable)));
+    }
+
+    /// Runs the statements of the function: once more, up to where the program pointer was set to, each time it is set.
+    pub async fn run<T>(&self, mut statements: impl AsyncFnMut() -> T) -> T {
+        loop {
+            let run = {
+                let mut run = pin!(statements());
+                poll_fn(|context| {
+                    let frames = self.cx.frames();
+                    if !frames.is_moved(self.id) {
+                        match run.as_mut().poll(context) {
+                            Poll::Pending if frames.is_moved(self.id) => {}
+                            other => return other.map(Some),
+                        }
+                    }
+                    self.keep();
+                    Poll::Ready(None)
+                })
+                .await
+            };
+            match run {
+                Some(value) => return value,
+                None => self.begin_anew(),
+            }
+        }
+    }
+
+    /// Holds the variables that there are.
+    fn keep(&self) {
+        let declared = self.declared.borrow();
+        let there = declared.iter().filter_map(|(number, variable)| Some((*number, variable.upgrade()?)));
+        // A line that was not reached yet keeps what another one has kept.
+        let mut kept = self.kept.borrow_mut();
+        for (number, variable) in there {
+            kept.retain(|(known, _)| *known != number);
+            kept.push((number, variable));
+        }
+    }
+
+    fn begin_anew(&self) {
+        let line = self.cx.frames().with(self.id, |record| {
+            record.moved = false;
+            record.line
+        });
+        self.target.set(line.unwrap_or_default());
+    }
+
+    /// Whether the statement of a line runs, and halts before it does where a debugger wants that. It does not run where the
+    /// program pointer was set to another line.
+    pub fn runs(&self, line: u32) -> Runs<'a> {
+        let state = match self.target.get() {
+            0 => Asking::NotYet,
+            target if target == line => {
+                self.target.set(0);
+                self.kept.borrow_mut().clear();
+                Asking::Asked
+            }
+            _ => Asking::Skipped,
+        };
+        Runs { cx: self.cx, id: self.id, line, state }
+    }
+
+    /// Whether the program pointer was set to one of these lines.
+    pub fn leads_to(&self, first: u32, last: u32) -> bool {
+        let target = self.target.get();
+        target != 0 && (first..=last).contains(&target)
+    }
+
+    /// Whether a statement of these lines, or one inside of it, runs.
+    pub fn enters(&self, first: u32, last: u32) -> bool {
+        self.target.get() == 0 || self.leads_to(first, last)
+    }
+
+    /// The arm of a `switch` that the program pointer was set into, by the lines of each.
+    pub fn way_to(&self, arms: &[(u32, u32)]) -> Option<usize> {
+        arms.iter().position(|(first, last)| self.leads_to(*first, *last))
+    }
+
+    /// The state that a function with `goto` begins in: that of the line that the program pointer was set to, or the first.
+    pub fn begins_in<S, const N: usize>(&self, first: S, states: [(u32, u32, S); N]) -> S {
+        let led = states.into_iter().find(|(first, last, _)| self.leads_to(*first, *last));
+        led.map_or(first, |(_, _, state)| state)
+    }
+
+    /// A variable whose declaration is jumped over: the one that there was, or one with its start value.
+    pub fn kept<T: 'static>(&self, number: usize, start: impl FnOnce() -> Rc<T>) -> Rc<T> {
+        let kept = self.kept.borrow();
+        let found = kept.iter().find(|(known, _)| self.target.get() != 0 && *known == number);
+        found.and_then(|(_, variable)| Rc::clone(variable).downcast().ok()).unwrap_or_else(start)
     }
 }
 
@@ -150,30 +315,44 @@ impl Drop for Frame<'_> {
     }
 }
 
-/// Waits as long as a debugger halts the program.
+/// Whether a statement runs; waits as long as a debugger halts the program.
 #[must_use = "nothing halts unless it is awaited"]
 #[derive(Debug)]
-pub struct Halt<'a> {
+pub struct Runs<'a> {
     cx: &'a Cx,
     id: u64,
     line: u32,
-    /// Whether the debugger was asked before.
-    asked: bool,
+    state: Asking,
 }
 
-impl Future for Halt<'_> {
-    type Output = ();
+/// Whether the debugger was asked.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Asking {
+    NotYet,
+    /// It was, or has set the program pointer here.
+    Asked,
+    /// The statement does not run.
+    Skipped,
+}
 
-    fn poll(mut self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<()> {
+impl Future for Runs<'_> {
+    type Output = bool;
+
+    fn poll(mut self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<bool> {
         let (id, line) = (self.id, self.line);
-        if !self.asked {
+        if self.state == Asking::Skipped {
+            return Poll::Ready(false);
+        }
+        let asked = std::mem::replace(&mut self.state, Asking::Asked) == Asking::Asked;
+        if !asked {
             self.cx.frames().with(id, |record| record.line = line);
         }
-        let Some(watcher) = self.cx.shared().watcher() else { return Poll::Ready(()) };
-        let go = if self.asked { watcher.goes_on() } else { watcher.statement(self.cx, id) };
-        self.asked = true;
+        let Some(watcher) = self.cx.shared().watcher() else { return Poll::Ready(true) };
+        let go = if asked { watcher.goes_on() } else { watcher.statement(self.cx, id) };
         match go {
-            Go::On => Poll::Ready(()),
+            // The function, or one that has called it, begins anew.
+            Go::On if self.cx.frames().any_moved() => Poll::Pending,
+            Go::On => Poll::Ready(true),
             Go::NotYet => Poll::Pending,
         }
     }

@@ -14,6 +14,7 @@ pub(crate) mod programs;
 pub(crate) mod random;
 pub(crate) mod rounds;
 pub(crate) mod shared_state;
+pub(crate) mod shown;
 pub(crate) mod standard_error;
 pub(crate) mod standstill;
 pub mod system;

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::pin::Pin;
 
 use crate::context::cx::Cx;
+use crate::context::shown::ShownHandle;
 use crate::fault::{Done, File};
 use crate::storage::data::DataFile;
 use arl_robot::robot::Family;
@@ -58,6 +59,11 @@ pub trait Program: AsAny {
         Vec::new()
     }
 
+    /// All global clocks and connections, for a debugger: emitted where the program is for one.
+    fn handles(&self) -> Vec<ShownHandle<'_>> {
+        Vec::new()
+    }
+
     /// The folder of these files, counted from the script directory; without more that directory itself.
     fn folder(&self) -> &Path {
         Path::new("")
@@ -96,6 +102,10 @@ impl Program for Box<dyn Program> {
 
     fn variables(&self) -> Vec<DataFile<'_>> {
         (**self).variables()
+    }
+
+    fn handles(&self) -> Vec<ShownHandle<'_>> {
+        (**self).handles()
     }
 
     fn folder(&self) -> &Path {

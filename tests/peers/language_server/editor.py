@@ -59,6 +59,19 @@ FEATURES = {
 }
 
 
+def with_markdown():
+    """What an editor says of itself that shows Markdown, and nothing else."""
+    shown = [types.MarkupKind.Markdown]
+    item = types.ClientCompletionItemOptions(documentation_format=shown)
+    signature = types.ClientSignatureInformationOptions(documentation_format=shown)
+    document = types.TextDocumentClientCapabilities(
+        hover=types.HoverClientCapabilities(content_format=shown),
+        completion=types.CompletionClientCapabilities(completion_item=item),
+        signature_help=types.SignatureHelpClientCapabilities(signature_information=signature),
+    )
+    return types.ClientCapabilities(text_document=document)
+
+
 class Editor:
     """One session with one server."""
 
@@ -79,7 +92,7 @@ class Editor:
             "initialization_options": settings,
             **params,
         }
-        params = types.InitializeParams(capabilities=capabilities or types.ClientCapabilities(), **values)
+        params = types.InitializeParams(capabilities=capabilities or with_markdown(), **values)
         result = await wait(self.client.initialize_session(params))
         self.offered = result.capabilities
         self.encoding = str(getattr(self.offered.position_encoding, "value", self.offered.position_encoding))

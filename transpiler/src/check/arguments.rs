@@ -310,6 +310,9 @@ impl<'a> Checker<'a> {
             } else {
                 self.by_position(body, callee, name, params, arg, &mut position, &taken)
             };
+            if found.is_none() && !by_type {
+                self.expect_nothing(body, callee, span, arg, &taken);
+            }
             if let Some((param, typed)) = found {
                 if !by_type {
                     self.expect_argument(body, callee, span, arg, &taken, Some(param));

@@ -148,6 +148,7 @@ impl Checker<'_> {
             self.bind(body, &Callee::Builtin(entry), &call.args, call.name.span);
             return None;
         };
+        self.expect_argument(body, &Callee::Builtin(entry), call.name.span, arg, &[0], Some(0));
         let typed = self.expr(body, &arg.value, None)?;
         if typed.expr.ty.base == Base::Void {
             return self.report_no_value(body, &typed.expr);

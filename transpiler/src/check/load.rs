@@ -13,7 +13,7 @@ use std::collections::{HashMap, HashSet};
 use std::path::{Component, Path, PathBuf};
 
 /// The folder on the controller that programs live in.
-const SCRIPT_DIR: &str = "/home/ae/script/";
+pub(crate) const SCRIPT_DIR: &str = "/home/ae/script/";
 
 /// One parsed file.
 pub(crate) struct LoadedModule {

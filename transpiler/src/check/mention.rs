@@ -205,6 +205,14 @@ impl Checker<'_> {
         }
     }
 
+    /// Notes the arguments around the word, where no parameter is left for it.
+    pub(crate) fn expect_nothing(&mut self, body: &Body, callee: &Callee, name: Span, arg: &ast::Arg, taken: &[usize]) {
+        self.expect_argument(body, callee, name, arg, taken, None);
+        if let ast::ExprKind::Name(symbol) = arg.value.kind {
+            self.expect(body, symbol, arg.value.span, Wanted::Nothing);
+        }
+    }
+
     /// The same for an argument of a function whose overload is not chosen yet: the first one stands for all.
     pub(crate) fn expect_of_overloads(
         &mut self,

@@ -39,7 +39,7 @@ use context::Checker;
 pub(crate) use context::{base_name, type_name};
 use load::{Loaded, LoadedModule, Start};
 #[cfg(feature = "cli")]
-pub(crate) use load::{clean, is_data};
+pub(crate) use load::{SCRIPT_DIR, clean, is_data};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 

@@ -5,7 +5,7 @@ use super::arl_toml;
 use super::failure::Failure;
 use super::pendant;
 use super::plot::{self, Ran};
-use super::program::{Ready, prepare};
+use super::program::{Ready, prepare, prepare_watched};
 use super::show;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -14,12 +14,15 @@ use std::process::{Command, ExitCode};
 /// Compiles where needed, then lets the program take over.
 pub(super) fn run(file: &Path, options: &RunOptions) -> Result<ExitCode, Failure> {
     let options = &options.of_program(file)?;
+    // The screen looks into programs.
+    let on_screen = options.pendant && options.plot.is_none() && std::io::stdout().is_terminal();
+    let prepare = if on_screen { prepare_watched } else { prepare };
     let ready = prepare(file, options.cell.as_deref(), &options.checking())?;
     let mut command = Command::new(&ready.program);
     command.args(options.arguments());
     match &options.plot {
         Some(picture) => run_and_plot(command, ready, file, options, picture),
-        None if options.pendant && std::io::stdout().is_terminal() => pendant::run(command, ready),
+        None if on_screen => pendant::run(command, ready),
         None => start(command, ready),
     }
 }

@@ -14,8 +14,11 @@ pub(crate) fn mark(program: &mut Program) {
     for func in &mut program.funcs {
         let effects = &mut func.effects;
         (effects.waits, effects.fails, effects.context) = (true, true, true);
-        for local in func.locals.iter_mut().filter(|local| !(local.constant && local.value.is_some())) {
-            local.shared |= !matches!(local.ty.base, Base::Handle(_));
+        let params = &func.params;
+        for (at, local) in func.locals.iter_mut().enumerate() {
+            let known = local.constant && local.value.is_some();
+            let handed_handle = matches!(local.ty.base, Base::Handle(_)) && params.iter().any(|id| id.0 as usize == at);
+            local.shared |= !known && !handed_handle;
         }
         share_loops(&mut func.body);
     }

@@ -53,6 +53,7 @@ pub(super) fn function(unit: &Unit<'_>, id: FuncId, func: &Func) -> TokenStream 
             shallow => body.deeper(func, shallow, &result),
         }
     };
+    let statements = body.run_in_frame(func, statements);
     let shared = body.shared_parameters(&func.params);
     let inlined = body.inlined.then(|| quote!(#[inline(always)]));
     let wastes = body.usage.wastes.then(|| quote!(#[allow(unused_assignments)]));
@@ -100,7 +101,7 @@ impl<'p> Body<'p, '_> {
     /// The statements up to the end of the function.
     fn until_end(&mut self, block: &'p [Stmt]) -> TokenStream {
         let statements = self.block(block, Tail::Function);
-        if flow::block_diverges(block) {
+        if flow::block_diverges(block) && self.frame.is_none() {
             statements
         } else {
             let end = self.end_result();

@@ -13,6 +13,7 @@
 //! - Each jump backwards gives the cycle back when the budget is used up, as each round of a loop does.
 
 use super::body::{Body, Exit, Loop, Tail};
+use super::hooks::Lines;
 use super::loops::give_back;
 use super::machine::{Machine, State};
 use super::names::{camel_case, ident};
@@ -23,7 +24,7 @@ use super::types::{rust_type, shared_type, shared_value, start_value};
 use crate::effects::flow;
 use crate::hir::{Arm, Expr, For, Func, LabelId, Local, LocalId, LoopInfo, Stmt, StmtKind};
 use arl_lang::span::Span;
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Literal, TokenStream};
 use quote::quote;
 use std::collections::{HashMap, HashSet};
 
@@ -55,6 +56,7 @@ impl<'p> Body<'p, '_> {
             of_label: HashMap::new(),
             visible_at,
             hoisted,
+            lines_of: Vec::new(),
             declared_in: HashMap::new(),
             trial,
             current: 0,
@@ -84,22 +86,34 @@ impl<'p> Body<'p, '_> {
             quote!(State::#name => { #code })
         });
         let (variable, label) = (&machine.variable, &machine.label);
-        let first = states.first().map(|state| &state.name);
+        let first = self.first_state(&machine);
         let labelled = states.iter().any(|state| jumps(&state.code)).then(|| quote!(#label:));
         quote! {
             enum State { #(#names),* }
             #(#variables)*
-            let mut #variable = State::#first;
+            let mut #variable = #first;
             #labelled loop {
                 match #variable { #(#arms)* }
             }
         }
     }
 
+    /// The state that the machine begins in: the first one, or where a debugger has set the program pointer to.
+    fn first_state(&self, machine: &Machine) -> TokenStream {
+        let start = machine.states.first().map(|state| &state.name);
+        let Some(frame) = &self.frame else { return quote!(State::#start) };
+        let cases = machine.lines_of.iter().map(|(at, (first, last))| {
+            let name = machine.states.get(*at).map(|state| &state.name);
+            let (first, last) = (Literal::u32_unsuffixed(*first), Literal::u32_unsuffixed(*last));
+            quote!((#first, #last, State::#name))
+        });
+        quote!(#frame.begins_in(State::#start, [#(#cases),*]))
+    }
+
     /// A variable that lives in front of where it is declared, with its start value.
     pub(super) fn hoisted_variable(&self, id: LocalId) -> Option<TokenStream> {
         let (local, family) = (self.func?.locals.get(id.0 as usize)?, self.family());
-        let (name, start) = (self.local(id), self.first_value(local));
+        let (name, start) = (self.local(id), self.kept(id, self.first_value(local)));
         let ty = match local.shared {
             true => Some(shared_type(local.ty, family)),
             false => (!local.ty.is_array()).then(|| rust_type(local.ty, family)),
@@ -279,6 +293,7 @@ impl<'p> Body<'p, '_> {
                 StmtKind::Goto(label) => {
                     let (comment, halt) = (self.comment(stmt.span), self.halt());
                     let (before, state) = self.departure(*label, stmt.span);
+                    self.note_lines(stmt);
                     self.append(quote!(#comment #halt #before));
                     self.close(state);
                 }
@@ -289,8 +304,8 @@ impl<'p> Body<'p, '_> {
                         let aside = self.state_here("Aside");
                         self.open(aside);
                     }
-                    let (comment, halt) = (self.comment(stmt.span), self.halt_before(stmt));
-                    self.append(quote!(#comment #halt));
+                    let comment = self.comment(stmt.span);
+                    self.append(quote!(#comment));
                     self.decompose(stmt);
                 }
                 _ => {}
@@ -300,8 +315,30 @@ impl<'p> Body<'p, '_> {
         self.visible.truncate(visible);
     }
 
+    /// Notes that the lines of a statement, and of those inside, stand in the current state.
+    fn note_lines(&mut self, stmt: &Stmt) {
+        self.note(Some(self.lines_with(stmt)));
+    }
+
+    /// Notes that something of the line that is emitted stands in the current state.
+    fn note_line(&mut self) {
+        self.note(Some((self.line, self.line)));
+    }
+
+    fn note(&mut self, lines: Option<Lines>) {
+        if let (Some(machine), Some(lines), true) = (&mut self.machine, lines, self.frame.is_some()) {
+            machine.note_lines(lines);
+        }
+    }
+
     /// Statements that stay whole inside a state.
     fn whole(&mut self, groups: Vec<Group<'p>>) {
+        for group in &groups {
+            match group {
+                Group::Alone(stmt) => self.note_lines(stmt),
+                Group::Table(rows) => rows.iter().for_each(|row| self.note_lines(row.stmt)),
+            }
+        }
         let diverges = groups.last().is_some_and(|group| matches!(group, Group::Alone(stmt) if flow::diverges(stmt)));
         let code = self.grouped(groups, Tail::Inner);
         self.append(code);
@@ -313,6 +350,7 @@ impl<'p> Body<'p, '_> {
     /// `break` or `continue` of a decomposed loop.
     fn state_exit(&mut self, stmt: &Stmt) {
         let (comment, halt) = (self.comment(stmt.span), self.halt());
+        self.note_lines(stmt);
         self.append(quote!(#comment #halt));
         let breaks = matches!(stmt.kind, StmtKind::Break);
         let exit = self.loops.last().map(|outer| if breaks { &outer.on_break } else { &outer.on_continue });
@@ -346,6 +384,7 @@ impl<'p> Body<'p, '_> {
             later.push((Some(state), block));
             return self.set_state(state);
         }
+        self.note(self.lines_of_block(block));
         let code = self.block(block, Tail::Inner);
         let set = if flow::block_diverges(block) { TokenStream::new() } else { self.set_state(after) };
         quote!(#code #set)
@@ -369,14 +408,15 @@ impl<'p> Body<'p, '_> {
         let mut later = Vec::new();
         for (at, (condition, block)) in arms.iter().enumerate() {
             self.stand_at(condition.span);
+            self.note_line();
             let mut value = self.value_alone(condition);
-            if at == 0 {
+            if self.frame.is_some() {
+                let pointer = if at == 0 { self.pointer() } else { TokenStream::new() };
+                value = self.or_led(block, value.after(pointer));
+            } else if at == 0 {
                 let pointer = self.pointer();
                 let before = std::mem::take(&mut value.before);
                 self.append(quote!(#pointer #before));
-            }
-            if at > 0 {
-                value = value.after(self.halt());
             }
             let value = value.inline().tokens;
             let code = self.branch(block, after, &mut later);
@@ -394,12 +434,18 @@ impl<'p> Body<'p, '_> {
         let after = self.state_here("After");
         let mut later = Vec::new();
         let mut codes = Vec::new();
+        self.note_line();
         for arm in arms {
             self.stand_at(arm.span);
             codes.push((arm.value.as_ref(), self.branch(&arm.body, after, &mut later)));
         }
         let otherwise = self.set_state(after);
-        let code = self.chosen(subject, codes, otherwise);
+        let code = if self.frame.is_some() {
+            let codes = codes.into_iter().map(|(_, code)| code).collect();
+            self.led_switch(subject, arms, codes, otherwise)
+        } else {
+            self.chosen(subject, codes, otherwise)
+        };
         self.append(code);
         self.fill(later, after);
     }
@@ -411,25 +457,26 @@ impl<'p> Body<'p, '_> {
         self.loops.pop();
     }
 
-    /// Leaves the current state for `after` unless the condition holds.
-    fn unless(&mut self, condition: &'p Expr, after: usize) {
+    /// What leaves the current state for `after` unless the condition holds.
+    fn unless(&mut self, condition: &'p Expr, after: usize) -> TokenStream {
         self.acts = false;
         let value = self.negated(condition);
         let pointer = self.pointer();
         let (before, unmet) = (&value.before, &value.tokens);
         let jump = self.jump(after);
-        self.append(quote!(#pointer #before if #unmet { #jump }));
+        quote!(#pointer #before if #unmet { #jump })
     }
 
     fn split_while(&mut self, condition: Option<&'p Expr>, body: &'p [Stmt], info: LoopInfo) {
         let (head, after) = (self.state_here("Loop"), self.state_here("After"));
         self.close(head);
         self.open(head);
+        self.note_line();
         let (spend, halt) = (self.spend(info), self.halt());
-        self.append(quote!(#spend #halt));
-        if let Some(condition) = condition.filter(|condition| !flow::always(condition)) {
-            self.unless(condition, after);
-        }
+        let condition = condition.filter(|condition| !flow::always(condition));
+        let unless = condition.map(|condition| self.unless(condition, after));
+        let round = self.unless_led(body, quote!(#spend #halt #unless));
+        self.append(round);
         self.split_body(body, head, after);
         self.close(head);
         self.open(after);
@@ -437,12 +484,16 @@ impl<'p> Body<'p, '_> {
 
     fn split_repeat(&mut self, body: &'p [Stmt], until: &'p Expr, info: LoopInfo) {
         let (head, test, after) = (self.state_here("Repeat"), self.state_here("Until"), self.state_here("After"));
+        self.note_line();
+        let halt = self.halt();
+        self.append(halt);
         self.close(head);
         self.open(head);
         self.split_body(body, test, after);
         self.close(test);
         self.open(test);
         self.stand_at(until.span);
+        self.note_line();
         let (comment, halt) = (self.comment(until.span), self.halt());
         let value = self.value_alone(until);
         let pointer = self.pointer();
@@ -454,16 +505,21 @@ impl<'p> Body<'p, '_> {
 
     fn split_for(&mut self, each: &'p For) {
         let visible = self.visible.len();
+        let line = self.line;
+        self.note_line();
+        let head = self.halt_at_head(&each.init);
+        self.append(head);
         for stmt in &each.init {
             let code = self.statement(stmt, Tail::Inner);
             self.append(code);
         }
-        let line = self.line;
         let (head, next, after) = (self.state_here("For"), self.state_here("Next"), self.state_here("After"));
         self.close(head);
         self.open(head);
         if let Some(condition) = each.condition.as_ref().filter(|condition| !flow::always(condition)) {
-            self.unless(condition, after);
+            let unless = self.unless(condition, after);
+            let unless = self.unless_led(&each.body, unless);
+            self.append(unless);
         }
         self.split_body(&each.body, next, after);
         self.close(next);

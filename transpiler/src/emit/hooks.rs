@@ -1,14 +1,29 @@
 //! Hooks for a debugger: a frame for each function, its variables, and a place to halt at before each statement.
 //!
-//! Nothing of it is in programs that are not emitted for a debugger.
+//! A debugger may also set the program pointer to another line of a function. Its statements are then gone through once more
+//! from the first one, and none of them runs before that line.
+//!
+//! Invariants:
+//! - Each statement asks its frame whether it runs. One with blocks asks whether the pointer was set to a line in it, and
+//!   takes the way there without looking at its conditions.
+//! - Declarations are always gone through: a variable that is there already stays the same one, any other one has its start
+//!   value.
+//! - Nothing of all that is in programs that are not emitted for a debugger.
 
 use super::body::Body;
-use super::types::is_handle;
-use crate::hir::{Func, LocalId, Stmt, StmtKind};
+use super::fragment::{Fragment, Precedence};
+use super::types::{base_type, is_handle};
+use crate::effects::flow;
+use crate::hir::{Arm, Expr, Func, LocalId, Stmt, StmtKind};
+use arl_lang::catalog::Base;
+use arl_lang::span::Span;
 use proc_macro2::{Literal, TokenStream};
 use quote::quote;
 
-impl Body<'_, '_> {
+/// The first and the last line that something may halt at.
+pub(super) type Lines = (u32, u32);
+
+impl<'p> Body<'p, '_> {
     /// `let frame = cx.frame("grip", FILE, 3);`, with the parameters of the function.
     pub(super) fn frame_opened(&mut self, func: &Func) -> TokenStream {
         if !self.unit.watched {
@@ -21,48 +36,201 @@ impl Body<'_, '_> {
         quote!(let #frame = cx.frame(#name, FILE, #line); #shown)
     }
 
-    /// `frame.variable("late", &late);`, behind its declaration.
+    /// `frame.run(async || -> Done<()> { .. }).await`: the statements of a function, which may begin anew.
+    pub(super) fn run_in_frame(&self, func: &Func, statements: TokenStream) -> TokenStream {
+        let Some(frame) = &self.frame else { return statements };
+        let value = base_type(func.result, self.family());
+        let result = if func.result == Base::Void { quote!(()) } else { value };
+        quote!(#frame.run(async || -> Done<#result> { #statements }).await)
+    }
+
+    /// `frame.variable(2, "late", &late);`, behind its declaration.
     pub(super) fn shown(&self, id: LocalId) -> TokenStream {
         let local = self.func.and_then(|func| func.locals.get(id.0 as usize));
-        let (Some(frame), Some(local)) = (&self.frame, local.filter(|local| local.shared && !is_handle(local.ty)))
-        else {
+        let (Some(frame), Some(local)) = (&self.frame, local.filter(|local| local.shared)) else {
             return TokenStream::new();
         };
-        let (name, variable) = (&local.name, self.local(id));
+        let (name, variable, number) = (&local.name, self.local(id), number(id));
+        if is_handle(local.ty) {
+            return quote!(#frame.handle(#number, #name, &#variable););
+        }
         match local.ty.dims() {
             sizes if sizes.len() > 1 => {
                 let sizes = sizes.iter().map(|size| Literal::u16_unsuffixed(*size));
-                quote!(#frame.table(#name, &[#(#sizes),*], &#variable);)
+                quote!(#frame.table(#number, #name, &[#(#sizes),*], &#variable);)
             }
-            _ => quote!(#frame.variable(#name, &#variable);),
+            _ => quote!(#frame.variable(#number, #name, &#variable);),
         }
     }
 
-    /// What halts before a statement, where the statement does not halt by itself.
-    pub(super) fn halt_before(&self, stmt: &Stmt) -> TokenStream {
-        if halts_itself(stmt) { TokenStream::new() } else { self.halt() }
+    /// What a variable is declared with where its declaration is jumped over: what it was, or its start value.
+    pub(super) fn kept(&self, id: LocalId, start: TokenStream) -> TokenStream {
+        let shared = self.func.and_then(|func| func.locals.get(id.0 as usize)).is_some_and(|local| local.shared);
+        match &self.frame {
+            Some(frame) if shared => {
+                let number = number(id);
+                quote!(#frame.kept(#number, || #start))
+            }
+            _ => start,
+        }
     }
 
-    /// `frame.halt(12).await;`
+    /// A declaration's value, which is computed where the declaration runs.
+    pub(super) fn declared(
+        &self,
+        id: LocalId,
+        before: &TokenStream,
+        value: TokenStream,
+        start: TokenStream,
+    ) -> TokenStream {
+        let Some(frame) = &self.frame else { return value };
+        let (line, kept) = (self.line_number(), self.kept(id, start));
+        quote!(if #frame.runs(#line).await { #before #value } else { #kept })
+    }
+
+    /// A statement's code, where the statement runs.
+    pub(super) fn where_it_runs(&self, stmt: &Stmt, code: TokenStream) -> TokenStream {
+        let Some(frame) = &self.frame else { return code };
+        let line = self.line_number();
+        match &stmt.kind {
+            StmtKind::Label(_) | StmtKind::Let(_, None) => code,
+            // Constants are declared in any case; of variables the declaration itself asks.
+            StmtKind::Let(id, _) if self.is_shared(*id) => code,
+            StmtKind::Let(..) => quote!(#frame.runs(#line).await; #code),
+            _ if has_blocks(stmt) => {
+                let (first, last) = self.lines_of(stmt);
+                quote!(if #frame.enters(#first, #last) { #code })
+            }
+            _ => quote!(if #frame.runs(#line).await { #code }),
+        }
+    }
+
+    /// `frame.runs(12).await;`, for what runs in any case where it is reached.
     pub(super) fn halt(&self) -> TokenStream {
         let line = self.line_number();
-        self.frame.as_ref().map(|frame| quote!(#frame.halt(#line).await;)).unwrap_or_default()
+        self.frame.as_ref().map(|frame| quote!(#frame.runs(#line).await;)).unwrap_or_default()
+    }
+
+    /// A condition that is halted at, unless the program pointer was set to a line of what it leads to.
+    pub(super) fn or_led(&self, block: &[Stmt], condition: Fragment) -> Fragment {
+        let Some(frame) = &self.frame else { return condition };
+        let line = self.line_number();
+        let condition = condition.inline().at(Precedence::And);
+        self.led(block, Fragment::new(quote!(#frame.runs(#line).await && #condition), Precedence::And))
+    }
+
+    /// `frame.leads_to(13, 15) || condition`, where the block that it leads to has lines.
+    pub(super) fn led(&self, block: &[Stmt], condition: Fragment) -> Fragment {
+        match (&self.frame, self.lines_of_block(block)) {
+            (Some(frame), Some((first, last))) => {
+                let (first, last) = (Literal::u32_unsuffixed(first), Literal::u32_unsuffixed(last));
+                let condition = condition.inline().at(Precedence::Or);
+                Fragment::new(quote!(#frame.leads_to(#first, #last) || #condition), Precedence::Or)
+            }
+            _ => condition,
+        }
+    }
+
+    /// What is done in a loop unless the program pointer was set to a line of its body.
+    pub(super) fn unless_led(&self, body: &[Stmt], code: TokenStream) -> TokenStream {
+        match (&self.frame, self.lines_of_block(body)) {
+            (Some(frame), Some((first, last))) => {
+                let (first, last) = (Literal::u32_unsuffixed(first), Literal::u32_unsuffixed(last));
+                quote!(if !#frame.leads_to(#first, #last) { #code })
+            }
+            _ => code,
+        }
+    }
+
+    /// `switch(subject)`: the arm is chosen first, by the pointer or by the subject. `codes` are the arms' own.
+    pub(super) fn led_switch(
+        &mut self,
+        subject: &'p Expr,
+        arms: &'p [Arm],
+        codes: Vec<TokenStream>,
+        otherwise: TokenStream,
+    ) -> TokenStream {
+        let Some(frame) = self.frame.clone() else { return TokenStream::new() };
+        self.stand_at(subject.span);
+        let arm = self.fresh("arm");
+        let number = |at: usize| Literal::usize_unsuffixed(at);
+        let numbered = arms.iter().enumerate().map(|(at, arm)| {
+            let at = number(at);
+            (arm.value.as_ref(), quote!(#at))
+        });
+        let none = number(arms.len());
+        let halt = self.halt();
+        let chosen = self.chosen(subject, numbered.collect(), quote!(#none));
+        let lines = arms.iter().map(|arm| {
+            let (first, last) = self.lines_of_block(&arm.body).unwrap_or((1, 0));
+            let (first, last) = (Literal::u32_unsuffixed(first), Literal::u32_unsuffixed(last));
+            quote!((#first, #last))
+        });
+        let cases = codes.into_iter().enumerate().map(|(at, code)| {
+            let at = number(at);
+            quote!(#at => { #code })
+        });
+        quote! {
+            let #arm = match #frame.way_to(&[#(#lines),*]) {
+                Some(#arm) => #arm,
+                None => { #halt #chosen }
+            };
+            match #arm { #(#cases)* _ => { #otherwise } }
+        }
+    }
+
+    /// What is done in front of a `for` that has nothing to halt at there.
+    pub(super) fn halt_at_head(&self, init: &[Stmt]) -> TokenStream {
+        let halts = init.iter().any(|stmt| !matches!(stmt.kind, StmtKind::Let(_, None)));
+        if halts { TokenStream::new() } else { self.halt() }
     }
 
     /// The frame of an event's action, which halts before it does anything.
     pub(super) fn action_opened(&self) -> TokenStream {
         let Some(frame) = &self.frame else { return TokenStream::new() };
         let line = Literal::u32_unsuffixed(self.line);
-        quote!(let #frame = cx.action(FILE, #line); #frame.halt(#line).await;)
+        quote!(let #frame = cx.action(FILE, #line); #frame.runs(#line).await;)
+    }
+
+    /// The lines of a statement.
+    fn lines_of(&self, stmt: &Stmt) -> (Literal, Literal) {
+        let (first, last) = self.lines_with(stmt);
+        (Literal::u32_unsuffixed(first), Literal::u32_unsuffixed(last))
+    }
+
+    /// The lines of a statement and of those inside.
+    pub(super) fn lines_with(&self, stmt: &Stmt) -> Lines {
+        let line = |span: Span| self.unit.line(self.module, span);
+        let first = line(stmt.span);
+        let inner = flow::blocks(stmt).filter_map(|block| self.lines_of_block(block)).map(|(_, last)| last);
+        let conditions: Vec<u32> = match &stmt.kind {
+            StmtKind::If(arms, _) => arms.iter().map(|(condition, _)| line(condition.span)).collect(),
+            StmtKind::Repeat(_, until, _) => vec![line(until.span)],
+            _ => Vec::new(),
+        };
+        (first, inner.chain(conditions).fold(first, u32::max))
+    }
+
+    /// The lines of the statements of a block; none for an empty one.
+    pub(super) fn lines_of_block(&self, block: &[Stmt]) -> Option<Lines> {
+        let (first, last) = (block.first()?, block.last()?);
+        Some((self.unit.line(self.module, first.span), self.lines_with(last).1))
     }
 }
 
-/// Loops halt in each round: in front of their condition, or of what begins the round. Nothing happens at a label, and at
-/// a declaration without value.
-fn halts_itself(stmt: &Stmt) -> bool {
-    match &stmt.kind {
-        StmtKind::Label(_) | StmtKind::Let(_, None) | StmtKind::While(..) | StmtKind::Loop(..) => true,
-        StmtKind::For(each) => each.init.iter().any(|stmt| !halts_itself(stmt)),
-        _ => false,
-    }
+fn number(id: LocalId) -> Literal {
+    Literal::usize_unsuffixed(id.0 as usize)
+}
+
+/// Whether statements stand inside a statement.
+fn has_blocks(stmt: &Stmt) -> bool {
+    matches!(
+        stmt.kind,
+        StmtKind::If(..)
+            | StmtKind::Switch(..)
+            | StmtKind::While(..)
+            | StmtKind::Loop(..)
+            | StmtKind::Repeat(..)
+            | StmtKind::For(..)
+    )
 }

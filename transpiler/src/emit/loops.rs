@@ -50,8 +50,7 @@ impl<'p> Body<'p, '_> {
             return self.endless_loop(body, info);
         }
         let turns = self.turns(info, true, Parts { blocks: &[body], exprs: &[condition] }, |emitter| {
-            let halt = emitter.halt();
-            let (head, condition) = emitter.head(condition, info, halt);
+            let (head, condition) = emitter.head(condition, info, body, true);
             let rounds = emitter.rounds(body, info);
             Turns { label: TokenStream::new(), condition, round: quote!(#head #rounds) }
         });
@@ -65,8 +64,14 @@ impl<'p> Body<'p, '_> {
     }
 
     /// A condition at the start of each round: for a `while`, or statements that break out where it does not fit into one.
-    /// What halts there goes in front of it.
-    fn head(&mut self, condition: &'p Expr, info: LoopInfo, halt: TokenStream) -> (TokenStream, Option<TokenStream>) {
+    /// A debugger may halt there, or only leads into the body.
+    fn head(
+        &mut self,
+        condition: &'p Expr,
+        info: LoopInfo,
+        body: &'p [Stmt],
+        halts: bool,
+    ) -> (TokenStream, Option<TokenStream>) {
         let value = self.on_trial(|body| body.value_alone(condition));
         let pointer = self.pointer();
         // A loop that counts alone looks at its condition once more when it has given the cycle back.
@@ -75,12 +80,13 @@ impl<'p> Body<'p, '_> {
             facts.changes || !facts.writes.is_empty()
         };
         if pointer.is_empty() && value.before.is_empty() && !once {
+            let value = if halts { self.or_led(body, value) } else { self.led(body, value) };
             let tokens = if info.counts_alone() { value.at(Precedence::And) } else { value.tokens };
-            let tokens = if halt.is_empty() { tokens } else { quote!({ #halt #tokens }) };
             return (TokenStream::new(), Some(tokens));
         }
         let Fragment { before, tokens: unmet, .. } = self.negated(condition);
-        (quote!(#halt #pointer #before if #unmet { break; }), None)
+        let halt = if halts { self.halt() } else { TokenStream::new() };
+        (self.unless_led(body, quote!(#halt #pointer #before if #unmet { break; })), None)
     }
 
     /// `loop`
@@ -112,8 +118,10 @@ impl<'p> Body<'p, '_> {
 
     /// `repeat` ... `until(c)`
     pub(super) fn repeat_loop(&mut self, body: &'p [Stmt], until: &'p Expr, info: LoopInfo) -> TokenStream {
+        let halt = self.halt();
         let parts = Parts { blocks: &[body], exprs: &[until] };
-        self.turns(info, true, parts, |emitter| emitter.repeat_until(body, until, info))
+        let turns = self.turns(info, true, parts, |emitter| emitter.repeat_until(body, until, info));
+        quote!(#halt #turns)
     }
 
     fn repeat_until(&mut self, body: &'p [Stmt], until: &'p Expr, info: LoopInfo) -> Turns {
@@ -212,7 +220,7 @@ impl<'p> Body<'p, '_> {
     /// variable has the same name.
     fn general_for(&mut self, each: &'p For) -> TokenStream {
         let outer: Vec<String> = self.visible.iter().map(|id| self.local(*id).to_string()).collect();
-        let mut init = TokenStream::new();
+        let mut init = self.halt_at_head(&each.init);
         let before = self.visible.len();
         for stmt in &each.init {
             init.extend(self.with_own_temporaries(|body| body.statement(stmt, Tail::Inner)));
@@ -233,10 +241,11 @@ impl<'p> Body<'p, '_> {
     fn turns_of_for(&mut self, each: &'p For) -> Turns {
         let line = self.line;
         let (head, condition) = match &each.condition {
-            Some(condition) if !flow::always(condition) => self.head(condition, each.info, TokenStream::new()),
+            Some(condition) if !flow::always(condition) => self.head(condition, each.info, &each.body, false),
             _ => (TokenStream::new(), None),
         };
-        let condition = condition.map(|condition| self.climbs_from_zero(each).unwrap_or(condition));
+        let climbing = if self.frame.is_none() { self.climbs_from_zero(each) } else { None };
+        let condition = condition.map(|condition| climbing.unwrap_or(condition));
         let (label, statements) = self.round_with_rest(&each.body, each.step.as_ref(), each.info);
         self.line = line;
         let rest = if flow::goes_round(&each.body) {

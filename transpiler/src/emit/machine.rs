@@ -1,5 +1,6 @@
 //! What is known of a function with `goto` while it becomes a machine: its states, and where its variables stand.
 
+use super::hooks::Lines;
 use super::tokens::{each_word, mentions};
 use crate::hir::{LabelId, LocalId};
 use proc_macro2::{Ident, TokenStream};
@@ -16,6 +17,8 @@ pub(super) struct Machine {
     /// The locals that are visible at each label.
     pub(super) visible_at: HashMap<LabelId, Vec<LocalId>>,
     pub(super) hoisted: HashSet<LocalId>,
+    /// The lines of the statements that each state has, for a debugger.
+    pub(super) lines_of: Vec<(usize, Lines)>,
     /// The states that the declarations of locals stand in.
     pub(super) declared_in: HashMap<LocalId, usize>,
     /// Whether this run only looks which states mention which variables.
@@ -40,12 +43,20 @@ impl Machine {
         self.states.iter().enumerate().any(|(at, state)| Some(&at) != home && mentions(&state.code, &name))
     }
 
-    /// The states that can be reached from the first one.
+    /// Notes that statements of these lines stand in the current state.
+    pub(super) fn note_lines(&mut self, lines: Lines) {
+        if self.open {
+            self.lines_of.push((self.current, lines));
+        }
+    }
+
+    /// The states that can be reached from the first one, or by a debugger.
     pub(super) fn reached(&self) -> Vec<bool> {
         let names: HashMap<String, usize> =
             self.states.iter().enumerate().map(|(at, state)| (state.name.to_string(), at)).collect();
         let mut reached = vec![false; self.states.len()];
         let mut open = vec![0];
+        open.extend(self.lines_of.iter().map(|(at, _)| *at));
         while let Some(at) = open.pop() {
             let (Some(seen), Some(state)) = (reached.get_mut(at), self.states.get(at)) else { continue };
             if !std::mem::replace(seen, true) {

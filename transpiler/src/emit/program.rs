@@ -37,7 +37,7 @@ pub(super) fn items(unit: &Unit<'_>) -> TokenStream {
     quote!(#modules #globals #program)
 }
 
-fn blank(unit: &Unit<'_>) -> TokenStream {
+pub(super) fn blank(unit: &Unit<'_>) -> TokenStream {
     unit.marks.comment(String::new())
 }
 
@@ -181,6 +181,17 @@ fn program(unit: &Unit<'_>, parts: &[Parts], inits: &TokenStream) -> TokenStream
             }
         }
     });
+    let with_handles = parts.iter().filter(|part| unit.watched && variables::has_handles(unit, part.id));
+    let handles: Vec<_> = with_handles.map(|part| unit.names.module(part.id)).collect();
+    let handles = (!handles.is_empty()).then(|| {
+        let blank = self::blank(unit);
+        quote! {
+            #blank
+            fn handles(&self) -> Vec<arl_rt::emit::ShownHandle<'_>> {
+                [#(self.#handles.handles()),*].into_iter().flatten().collect()
+            }
+        }
+    });
     let beside = beside(unit);
     let (init_cx, init_body) = init;
     let (main_cx, main_body) = main;
@@ -205,6 +216,7 @@ fn program(unit: &Unit<'_>, parts: &[Parts], inits: &TokenStream) -> TokenStream
             }
             #data
             #watched
+            #handles
             #beside
         }
     }

@@ -41,13 +41,17 @@ impl<'p> Body<'p, '_> {
 
     /// One statement with its comment.
     pub(super) fn statement(&mut self, stmt: &'p Stmt, tail: Tail) -> TokenStream {
+        // What may be jumped over gives no result.
+        let tail = if self.frame.is_some() { Tail::Inner } else { tail };
         self.with_own_temporaries(|body| {
             body.stand_at(stmt.span);
             body.acts = false;
             let comment = body.comment(stmt.span);
-            let halt = body.halt_before(stmt);
+            let line = body.line;
             let code = body.bare_statement(stmt, tail);
-            quote!(#comment #halt #code)
+            body.line = line;
+            let code = body.where_it_runs(stmt, code);
+            quote!(#comment #code)
         })
     }
 
@@ -106,16 +110,25 @@ impl<'p> Body<'p, '_> {
         let (name, family) = (self.local(id), self.family());
         let given = value.map(|value| self.expression(value, Mode::Placed));
         let before = given.as_ref().map(|value| value.before.clone());
-        let cell = shared_value(ty, given.map_or_else(|| start_value(ty, family), |value| value.tokens));
+        let start = shared_value(ty, start_value(ty, family));
+        let cell = given.map(|value| shared_value(ty, value.tokens));
         self.visible.push(id);
         self.note_declaration(id);
         let pointer = self.pointer();
         let shown = self.shown(id);
-        if self.is_hoisted(id) {
-            return quote!(#pointer #before #name = #cell; #shown);
-        }
         let of = needs_annotation(ty, value).then(|| shared_type(ty, family)).map(|ty| quote!(: #ty));
-        quote!(#pointer #before let #name #of = #cell; #shown)
+        let target = if self.is_hoisted(id) { quote!(#name) } else { quote!(let #name #of) };
+        match cell {
+            Some(cell) if self.frame.is_some() => {
+                let value = self.declared(id, &quote!(#pointer #before), cell, start);
+                quote!(#target = #value; #shown)
+            }
+            Some(cell) => quote!(#pointer #before #target = #cell; #shown),
+            None => {
+                let start = self.kept(id, start);
+                quote!(#pointer #before #target = #start; #shown)
+            }
+        }
     }
 
     /// Puts parameters that events see where these can see them.
@@ -181,14 +194,16 @@ impl<'p> Body<'p, '_> {
             let condition_span = condition.span;
             self.stand_at(condition_span);
             let value = self.value_alone(condition);
-            let value = if at == 0 {
+            let value = if self.frame.is_some() {
+                let pointer = if at == 0 { self.pointer() } else { TokenStream::new() };
+                self.or_led(block, value.after(pointer))
+            } else if at == 0 {
                 let pointer = self.pointer();
                 let before = &value.before;
                 out = quote!(#pointer #before);
                 Fragment { before: TokenStream::new(), ..value }
             } else {
-                let halt = self.halt();
-                value.after(halt).inline()
+                value.inline()
             };
             let condition = &value.tokens;
             let comment = if at > 0 { self.comment(condition_span) } else { TokenStream::new() };

@@ -41,6 +41,8 @@ pub enum Wanted {
     ArgumentLabel,
     /// A type.
     Type,
+    /// Nothing: the call has all its arguments.
+    Nothing,
 }
 
 /// The arguments around a place.

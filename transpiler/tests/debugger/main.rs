@@ -10,6 +10,7 @@
 mod client;
 #[path = "../support/messages.rs"]
 mod messages;
+mod pointer;
 
 use client::{Client, Folder};
 use serde_json::json;
@@ -74,6 +75,16 @@ fn variables_are_shown_and_set() {
         ("ROUNDS", "3"),
         ("getdi(1)", "false"),
         ("$DFSPEED.tcp", "50"),
+        ("sqrt(total + 9) + 1", "4"),
+        ("abs(-3)", "3"),
+        ("abs(-2.5)", "2.5"),
+        ("strlen(name) + strlen(substr(name, 1, 2))", "6"),
+        ("tostr(255, hex)", "\"ff\""),
+        ("offset(feeder, 10, 0, 0, 0, 0, 0).x", "910"),
+        ("getpose(cjoint(), $FLANGE, $WORLD).b", "90"),
+        ("log(0)", "log: 0 is not above 0"),
+        ("sqrt(name)", "sqrt does not take these arguments: see `arl2rs doc sqrt`"),
+        ("setdo(1, true)", "setdo is not called while the program stands: it waits, or changes something"),
         ("nothing", "there is no variable nothing here"),
     ] {
         assert_eq!(client.value(expression), value, "{expression}");
@@ -383,4 +394,23 @@ fn programs_of_a_cell_may_have_files_of_the_same_name() {
     assert_eq!(value["result"], "\"two\"");
     client.ask("continue", json!({"threadId": 2}));
     assert_eq!(client.ended().1, json!(0));
+}
+
+#[test]
+fn clocks_and_connections_are_shown() {
+    let folder = Folder::new("handles").with(
+        "main.arl",
+        "clock all\nsocket line\nfunc void main()\n    clock own\n    clkstart(all)\n    clkstart(own)\n    waittime 0.5\n    \
+         clkstop(own)\n    waittime 0.25\n    print clkread(own)\nendfunc\n",
+    );
+    let mut client = Client::running(&folder, json!({}), &[10]);
+    client.halt();
+    let (_, locals) = client.scope("Locals");
+    assert!(locals.contains(&"own = 0.500 s, stands".to_owned()), "{locals:?}");
+    assert_eq!(client.value("all"), "0.750 s, runs");
+    assert_eq!(client.value("line"), "closed");
+    let (globals, _) = client.scope("Globals");
+    let file = client.ask("variables", json!({"variablesReference": globals}))["variables"][0].clone();
+    assert_eq!(client.parts(&file["variablesReference"]), ["all = 0.750 s, runs", "line = closed"]);
+    assert_eq!(client.value("all = 3"), "there is no variable all");
 }

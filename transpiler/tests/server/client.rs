@@ -49,7 +49,12 @@ pub(crate) struct Client {
 impl Client {
     /// A client that has said hello, with a folder.
     pub(crate) fn new(folder: &Folder) -> Self {
-        Self::with(folder, json!(null), json!({}))
+        let markdown = json!({
+            "hover": {"contentFormat": ["markdown"]},
+            "completion": {"completionItem": {"documentationFormat": ["markdown"]}},
+            "signatureHelp": {"signatureInformation": {"documentationFormat": ["markdown"]}},
+        });
+        Self::with(folder, json!(null), json!({"textDocument": markdown}))
     }
 
     /// A client with settings and capabilities of its own.

@@ -56,6 +56,19 @@ impl<T> Found<T> {
 }
 
 impl Handle {
+    /// How the connection is, for a debugger.
+    pub(super) fn described(&self) -> String {
+        let held = self.held.borrow();
+        let Some(held) = held.as_ref().filter(|held| !held.link.is_closing()) else { return "closed".into() };
+        let state = match held.link.state() {
+            LinkState::Opening => "is being opened".into(),
+            LinkState::Open => "open".into(),
+            LinkState::Failed(why) => format!("could not be opened: {why}"),
+            LinkState::Lost(why) => format!("lost: {why}"),
+        };
+        format!("{state}, {}", held.opening)
+    }
+
     /// Tries to open the connection; true when it stands.
     pub(super) fn attempt(&self, cx: &Cx, function: &'static str, opening: Opening) -> Result<bool, Fault> {
         let mut held = self.held.borrow_mut();

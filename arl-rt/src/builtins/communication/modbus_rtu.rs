@@ -7,6 +7,7 @@ use super::serial;
 use crate::communication::opening::Opening;
 use crate::communication::slave::SlaveSettings;
 use crate::context::cx::{Cx, Level};
+use crate::context::shown::Shown;
 use crate::fault::Fault;
 use crate::fieldbus::modbus::{SIZE, SharedTables, Tables};
 use crate::values::{Parity, Stopbits, Str};
@@ -19,6 +20,16 @@ const SHORTEST_CYCLE: i32 = 500_000;
 pub struct ModbusDev {
     handle: Rc<Handle>,
     tables: SharedTables,
+}
+
+impl Shown for ModbusDev {
+    fn type_name(&self) -> &'static str {
+        "modbus_dev"
+    }
+
+    fn shown(&self, _: &Cx) -> String {
+        self.handle.described()
+    }
 }
 
 /// Opens a line, by a name of the cell file or by the path of the device; whether it worked.

@@ -7,6 +7,7 @@ use super::transfer;
 use crate::communication::line::LineSettings;
 use crate::communication::opening::Opening;
 use crate::context::cx::Cx;
+use crate::context::shown::Shown;
 use crate::fault::Fault;
 use crate::values::{Parity, Stopbits, Str};
 
@@ -16,6 +17,16 @@ const BAUD_RATES: [i32; 10] = [300, 600, 1200, 2400, 4800, 9600, 19200, 38400, 5
 /// A serial line. It is closed at first, and when the last that knows it is gone.
 #[derive(Clone, Default, Debug)]
 pub struct Iodev(Rc<Handle>);
+
+impl Shown for Iodev {
+    fn type_name(&self) -> &'static str {
+        "iodev"
+    }
+
+    fn shown(&self, _: &Cx) -> String {
+        self.0.described()
+    }
+}
 
 /// Opens a serial line, by a name of the cell file or by the path of the device; whether it worked.
 ///

@@ -6,6 +6,7 @@ use super::handle::{Found, Handle, fault};
 use super::transfer;
 use crate::communication::opening::Opening;
 use crate::context::cx::Cx;
+use crate::context::shown::Shown;
 use crate::fault::Fault;
 use crate::values::Str;
 
@@ -14,6 +15,16 @@ pub use super::network::{getip, setip};
 /// A TCP connection. It is closed at first, and when the last that knows it is gone.
 #[derive(Clone, Default, Debug)]
 pub struct Socket(Rc<Handle>);
+
+impl Shown for Socket {
+    fn type_name(&self) -> &'static str {
+        "socket"
+    }
+
+    fn shown(&self, _: &Cx) -> String {
+        self.0.described()
+    }
+}
 
 /// Connects to a server; true when the connection stands.
 ///

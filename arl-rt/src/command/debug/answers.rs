@@ -2,10 +2,12 @@
 
 use std::rc::Rc;
 
+use super::functions;
 use super::link::Request;
 use crate::command::json::{array, number, quoted};
-use crate::context::cx::Cx;
-use crate::context::frames::{Record, Variable};
+use crate::context::cx::{Cx, Level};
+use crate::context::frames::Record;
+use crate::context::shown::Shown;
 use crate::fault::{Fault, File};
 use crate::io::Digital;
 use crate::values::Teach;
@@ -23,11 +25,16 @@ pub(super) fn answer(request: &Request, contexts: &[Rc<Cx>]) -> Result<String, S
     };
     match request.word.as_str() {
         "stack" => Ok(stack(cx()?)),
-        "variables" => variables(cx()?, request.whole(1)),
-        "globals" => Ok(globals(cx()?)),
+        "variables" => variables(cx()?, request.whole(1), Detail::Whole),
+        "globals" => Ok(globals(cx()?, Detail::Whole)),
         "system" => Ok(system(cx()?)),
         "signals" => Ok(signals(first()?)),
         "robot" => Ok(robot(cx()?)),
+        "call" => {
+            let (ty, value) = functions::call(cx()?, request.value(1), request.values.get(2..).unwrap_or_default())?;
+            Ok(format!("\"type\":{},\"value\":{}", quoted(&ty), quoted(&value)))
+        }
+        "pointer" => set_pointer(cx()?, request.whole(1), request.whole(2)),
         "set" => set(cx()?, request.whole(1), request.value(2), request.value(3)),
         "set-global" => set_global(cx()?, request.value(1), request.value(2), request.value(3)),
         "set-system" => set_system(cx()?, request.value(1), request.value(2)),
@@ -74,6 +81,14 @@ fn stack(cx: &Cx) -> String {
     format!("{program},\"frames\":{shown}")
 }
 
+/// Functions, locals of the innermost one, and global variables of a channel, for somebody who only looks.
+pub(super) fn inside(cx: &Cx) -> String {
+    let top = cx.frames().all().iter().rev().find(|frame| !frame.is_action).map(|frame| frame.id);
+    let locals =
+        top.and_then(|frame| variables(cx, frame, Detail::Brief).ok()).unwrap_or_else(|| "\"variables\":[]".into());
+    format!("{},{locals},{}", stack(cx), globals(cx, Detail::Brief))
+}
+
 /// The fields that say which program a channel runs: its main file, and the folder of its files, counted from the script
 /// directory.
 fn program(cx: &Cx) -> String {
@@ -81,8 +96,23 @@ fn program(cx: &Cx) -> String {
     format!("\"program\":{},\"folder\":{}", quoted(cx.program().name()), quoted(&folder))
 }
 
-fn shown(name: &str, sizes: &[usize], variable: &dyn Teach) -> String {
-    let (ty, value) = (type_name(sizes, variable), variable.written());
+/// How much of a value is told.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Detail {
+    Whole,
+    /// Long arrays are left out: no cycle is to wait for them.
+    Brief,
+}
+
+/// The most elements of an array that is told in brief.
+const BRIEF_ELEMENTS: usize = 64;
+
+fn shown(name: &str, sizes: &[usize], variable: &dyn Teach, detail: Detail) -> String {
+    let ty = type_name(sizes, variable);
+    let elements: usize =
+        ty.split('[').skip(1).filter_map(|size| size.trim_end_matches(']').parse::<usize>().ok()).product();
+    let left_out = detail == Detail::Brief && elements > BRIEF_ELEMENTS;
+    let value = if left_out { "..".into() } else { variable.written() };
     format!("{{\"name\":{},\"type\":{},\"value\":{}}}", quoted(name), quoted(&ty), quoted(&value))
 }
 
@@ -97,28 +127,36 @@ fn type_name(sizes: &[usize], variable: &dyn Teach) -> String {
     }
 }
 
-/// The variables of a frame.
-fn of_frame(cx: &Cx, frame: u64) -> Result<Vec<Variable<Rc<dyn Teach>>>, String> {
-    let frames = cx.frames().all();
-    let found = frames.iter().find(|record| record.id == frame);
-    found.map(Record::variables).ok_or_else(|| "the function has ended".into())
+fn shown_handle(cx: &Cx, name: &str, handle: &dyn Shown) -> String {
+    let (ty, value) = (quoted(handle.type_name()), quoted(&handle.shown(cx)));
+    format!("{{\"name\":{},\"type\":{ty},\"value\":{value}}}", quoted(name))
 }
 
-fn variables(cx: &Cx, frame: u64) -> Result<String, String> {
-    let all = of_frame(cx, frame)?;
-    Ok(format!("\"variables\":{}", array(&all, |it| shown(it.name, it.sizes, &*it.slot))))
+/// A function that runs.
+fn record(cx: &Cx, frame: u64) -> Result<Record, String> {
+    cx.frames().all().into_iter().find(|record| record.id == frame).ok_or_else(|| "the function has ended".into())
 }
 
-fn globals(cx: &Cx) -> String {
-    let files = array(cx.program_itself().variables(), |file| {
-        let all = array(&file.vars, |variable| shown(variable.name, variable.sizes, variable.slot));
-        format!("{{\"file\":{},\"variables\":{all}}}", quoted(file.file))
+fn variables(cx: &Cx, frame: u64, detail: Detail) -> Result<String, String> {
+    let record = record(cx, frame)?;
+    let variables = array(&record.variables(), |it| shown(it.name, it.sizes, &*it.slot, detail));
+    let handles = array(&record.handles(), |it| shown_handle(cx, it.name, &*it.slot));
+    Ok(format!("\"variables\":{variables},\"handles\":{handles}"))
+}
+
+fn globals(cx: &Cx, detail: Detail) -> String {
+    let program = cx.program_itself();
+    let files = array(program.variables(), |file| {
+        let all = array(&file.vars, |variable| shown(variable.name, variable.sizes, variable.slot, detail));
+        let handles = program.handles().into_iter().filter(|handle| handle.file == file.file);
+        let handles = array(handles, |handle| shown_handle(cx, handle.name, handle.slot));
+        format!("{{\"file\":{},\"variables\":{all},\"handles\":{handles}}}", quoted(file.file))
     });
     format!("\"files\":{files}")
 }
 
 fn system(cx: &Cx) -> String {
-    let all = array(cx.system().shown(), |(name, variable)| shown(&format!("${name}"), &[], variable));
+    let all = array(cx.system().shown(), |(name, variable)| shown(&format!("${name}"), &[], variable, Detail::Whole));
     format!("\"variables\":{all}")
 }
 
@@ -159,8 +197,18 @@ fn teach(variable: &dyn Teach, sizes: &[usize], literal: &str) -> Result<String,
     Ok(format!("\"value\":{}", quoted(&variable.written())))
 }
 
+/// Sets the program pointer to a line of a function that runs: it goes on there.
+fn set_pointer(cx: &Cx, frame: u64, line: u64) -> Result<String, String> {
+    if cx.level().number == Level::LOOKING.number {
+        return Err("the condition of an event is looked at".into());
+    }
+    let line = u32::try_from(line).ok().filter(|line| *line > 0).ok_or("there is no such line")?;
+    cx.frames().set_pointer(frame, line)?;
+    Ok("\"done\":true".into())
+}
+
 fn set(cx: &Cx, frame: u64, name: &str, literal: &str) -> Result<String, String> {
-    let all = of_frame(cx, frame)?;
+    let all = record(cx, frame)?.variables();
     let variable = all.iter().find(|known| known.name == name).ok_or_else(|| missing(name))?;
     teach(&*variable.slot, variable.sizes, literal)
 }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use super::answers;
 use super::link::{Link, Request};
-use super::plan::{Plan, Statement, Way, Why};
+use super::plan::{Plan, Point, Statement, Way, Why};
 use crate::command::json::{number, quoted};
 use crate::context::cx::{Cx, Level};
 use crate::context::watcher::{Go, Watcher};
@@ -94,7 +94,8 @@ impl Debugger {
         self.obey();
         if !self.real || !self.halted.get() {
             let motion = |at: usize| self.context(at).map_or(0, |cx| answers::motion(&cx));
-            let why = self.plan.borrow().halts_between(motion);
+            let cycle = self.context(0).map_or(0, |cx| cx.cycle());
+            let why = self.plan.borrow().halts_between(cycle, motion);
             if let Some(why) = why {
                 let at = match self.plan.borrow().way() {
                     Way::Motion(channel, _) => channel,
@@ -162,8 +163,10 @@ impl Debugger {
         self.context(0).into_iter().for_each(|cx| cx.shared().flush());
         let time = self.context(0).map_or(0.0, |cx| cx.time());
         let Halt { why, also, channel, between, text } = halt;
+        let cycle = self.context(0).filter(|_| *between).map(|cx| format!("\"cycle\":{},", cx.cycle()));
+        let cycle = cycle.unwrap_or_default();
         self.link.say(&format!(
-            "\"event\":\"stopped\",\"why\":\"{why}\",\"also\":\"{}\",\"channel\":{channel},\"between\":{between},\
+            "\"event\":\"stopped\",\"why\":\"{why}\",\"also\":\"{}\",\"channel\":{channel},{cycle}\
              \"statement\":{},\"time\":{},\"text\":{}",
             also.unwrap_or_default(),
             self.statements.get(),
@@ -218,8 +221,8 @@ impl Debugger {
             "over" => Some(Way::Over(channel, self.depth(channel))),
             "out" => Some(Way::Over(channel, self.depth(channel).saturating_sub(1))),
             "motion" => Some(Way::Motion(channel, self.context(channel).map_or(0, |cx| answers::motion(&cx)))),
-            "until" => Some(Way::Until(request.whole(0))),
-            "search" => Some(Way::Search(request.whole(0))),
+            "until" => Some(Way::Until(Point { statement: request.whole(0), cycle: request.whole(1) })),
+            "search" => Some(Way::Search(Point { statement: request.whole(0), cycle: request.whole(1) })),
             _ => {
                 let fields = match answers::answer(request, &self.all()) {
                     Ok(fields) => fields,

@@ -8,6 +8,7 @@
 
 mod answers;
 mod debugger;
+mod functions;
 mod link;
 mod plan;
 
@@ -39,6 +40,12 @@ pub(crate) fn connect(controller: &Controller, address: &str) -> Result<Box<dyn 
     controller.watch(Rc::<Debugger>::clone(&debugger));
     debugger.begin(controller.contexts());
     Ok(Box::new(Session { debugger, pauses: false }))
+}
+
+/// What goes on inside the program of a channel: the fields of an object with its functions and variables. Nothing where
+/// there is no such channel.
+pub(crate) fn inside(controller: &Controller, channel: usize) -> Option<String> {
+    controller.contexts().get(channel).map(|cx| answers::inside(cx))
 }
 
 impl Between for Session {

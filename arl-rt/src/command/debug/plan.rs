@@ -18,10 +18,19 @@ pub(super) enum Way {
     Over(usize, usize),
     /// To the next motion of the channel's robot: another one than that with this number.
     Motion(usize, u64),
-    /// To the statement with this number, whatever comes before.
-    Until(u64),
-    /// To the statement with this number, or to what always halts it before.
-    Search(u64),
+    /// To a point, whatever comes before.
+    Until(Point),
+    /// To a point, or to what always halts it before.
+    Search(Point),
+}
+
+/// How far a run is to go: to a statement, or to a cycle, whichever comes first.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Point {
+    /// The number of the statement.
+    pub(super) statement: u64,
+    /// The number of the cycle that is about to begin.
+    pub(super) cycle: u64,
 }
 
 /// A statement that is about to run.
@@ -104,10 +113,10 @@ impl Plan {
     pub(super) fn halts_at(&self, statement: &Statement<'_>) -> Option<(Why, Option<Why>)> {
         let Statement { number, channel, depth, .. } = *statement;
         let arrived = match self.way() {
-            Way::Until(end) => return (number >= end).then_some(("step", None)),
+            Way::Until(end) => return (number >= end.statement).then_some(("step", None)),
             Way::On | Way::Motion(..) => None,
             Way::Pause => Some("pause"),
-            Way::Search(end) => (number >= end).then_some("step"),
+            Way::Search(end) => (number >= end.statement).then_some("step"),
             Way::Into(stepped) => (channel == stepped && !statement.is_condition).then_some("step"),
             Way::Over(stepped, deepest) => (channel == stepped && depth <= deepest).then_some("step"),
         };
@@ -117,10 +126,11 @@ impl Plan {
         if breaks() { Some(("breakpoint", other)) } else { other.map(|why| (why, None)) }
     }
 
-    /// Whether it halts between two cycles, where the robot of the channel executes this motion.
-    pub(super) fn halts_between(&self, motion_of: impl Fn(usize) -> u64) -> Option<Why> {
+    /// Whether it halts before a cycle, where the robot of the channel executes this motion.
+    pub(super) fn halts_between(&self, cycle: u64, motion_of: impl Fn(usize) -> u64) -> Option<Why> {
         match self.way() {
             Way::Pause => Some("pause"),
+            Way::Until(end) | Way::Search(end) if cycle >= end.cycle => Some("step"),
             Way::Motion(channel, from) if motion_of(channel) != from => Some("step"),
             _ => None,
         }
@@ -151,6 +161,10 @@ mod tests {
         plan
     }
 
+    fn to(statement: u64) -> Point {
+        Point { statement, cycle: u64::MAX }
+    }
+
     fn request(values: &[&str]) -> Request {
         Request { number: 1, word: String::new(), values: values.iter().map(ToString::to_string).collect() }
     }
@@ -176,15 +190,17 @@ mod tests {
         assert_eq!(going(Way::Into(0)).halts_at(&Statement { is_condition: true, ..here() }), None);
         assert_eq!(going(Way::Over(0, 1)).halts_at(&here()), None);
         assert_eq!(going(Way::Over(0, 2)).halts_at(&here()), Some(("step", None)));
-        assert_eq!(going(Way::Until(6)).halts_at(&here()), None);
-        assert_eq!(going(Way::Until(5)).halts_at(&here()), Some(("step", None)));
-        assert_eq!(going(Way::Motion(0, 3)).halts_between(|_| 3), None);
-        assert_eq!(going(Way::Motion(0, 3)).halts_between(|_| 4), Some("step"));
+        assert_eq!(going(Way::Until(to(6))).halts_at(&here()), None);
+        assert_eq!(going(Way::Until(to(5))).halts_at(&here()), Some(("step", None)));
+        assert_eq!(going(Way::Motion(0, 3)).halts_between(9, |_| 3), None);
+        assert_eq!(going(Way::Motion(0, 3)).halts_between(9, |_| 4), Some("step"));
+        assert_eq!(going(Way::Search(Point { cycle: 9, ..to(6) })).halts_between(8, |_| 3), None);
+        assert_eq!(going(Way::Search(Point { cycle: 9, ..to(6) })).halts_between(9, |_| 3), Some("step"));
     }
 
     #[test]
     fn a_way_back_passes_breakpoints() {
-        let mut plan = going(Way::Until(6));
+        let mut plan = going(Way::Until(to(6)));
         plan.set_lines(&request(&["one", "main.arl", "a.arl", "7"]));
         assert_eq!(plan.halts_at(&here()), None);
     }

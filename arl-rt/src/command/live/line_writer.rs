@@ -69,6 +69,11 @@ impl LineWriter {
         let _ = self.lines.try_send(Some(line));
     }
 
+    /// What is inside the program of a channel. It is left out where nobody reads as fast.
+    pub(super) fn inside(&self, channel: usize, fields: &str) {
+        let _ = self.lines.try_send(Some(format!("{{\"inside\":{{\"channel\":{channel},{fields}}}}}\n")));
+    }
+
     /// Warnings and alarms since the last call.
     pub(super) fn news(&self, controller: &mut Controller) {
         for text in controller.take_warnings() {

@@ -4,9 +4,12 @@
 //! io scenario does, in the same words: `di.5 = true`, `ai.2 = 4.2`, `pendant = "pause"`, `override = 50`. When the orders
 //! end, the robot stops on its path and the program with it.
 //!
+//! `inside = 1` lets lines with the functions and variables of channel 1 go out, where the program was made for a debugger;
+//! `inside = 0` ends that.
+//!
 //! The first line that goes out is `{"hello":...}`: the channels with their programs, robots and axes, and the names of
-//! signals. Then come `state` (20 times a second), `message`, `warning`, `alarm`, and `refused` for an order that could
-//! not be carried out.
+//! signals. Then come `state` (20 times a second), `inside` (4 times a second), `message`, `warning`, `alarm`, and `refused`
+//! for an order that could not be carried out.
 
 mod line_writer;
 mod orders;
@@ -20,6 +23,11 @@ pub(crate) use line_writer::LineWriter;
 
 /// How often a state goes out, in s.
 const STATE_INTERVAL_S: f64 = 0.05;
+/// How often it goes out what is inside a program, in s.
+const INSIDE_INTERVAL_S: f64 = 0.25;
+
+/// Looks into the program of a channel, counted from 0: the fields of an object.
+pub(crate) type Inside = fn(&Controller, usize) -> Option<String>;
 
 /// Why a run is over before its program is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -35,16 +43,19 @@ pub(crate) enum Cut {
 pub(crate) fn drive(
     controller: &mut Controller,
     voice: &LineWriter,
+    inside: Option<Inside>,
     max_time: Option<f64>,
     interrupted: &AtomicBool,
 ) -> Result<Option<Outcome>, Cut> {
     let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
     let every = controller.cycles(STATE_INTERVAL_S).max(1);
+    let every_inside = controller.cycles(INSIDE_INTERVAL_S).max(1);
     let orders = Orders::from_standard_input();
+    let mut look = Look { inside, channel: None };
     let mut cut = None;
     voice.hello(controller);
     loop {
-        let gone = cut.is_none() && !obey(controller, voice, &orders) || interrupted.load(Ordering::Relaxed);
+        let gone = cut.is_none() && !obey(controller, voice, &orders, &mut look) || interrupted.load(Ordering::Relaxed);
         let over = cut.is_some() || gone || controller.cycle() >= last;
         if over && controller.outcome().is_some() {
             break;
@@ -58,6 +69,9 @@ pub(crate) fn drive(
         if controller.cycle().is_multiple_of(every) {
             voice.state(controller);
         }
+        if controller.cycle().is_multiple_of(every_inside) {
+            look.say(controller, voice);
+        }
     }
     controller.settle_state();
     voice.news(controller);
@@ -65,12 +79,49 @@ pub(crate) fn drive(
     cut.map_or_else(|| Ok(controller.outcome().cloned()), Err)
 }
 
+/// Somebody who looks into a program.
+struct Look {
+    inside: Option<Inside>,
+    /// The channel that is looked into, from 0.
+    channel: Option<usize>,
+}
+
+impl Look {
+    /// The number of the channel that an order asks to look into, where it is such an order; 0: none.
+    fn asked(order: &str) -> Option<&str> {
+        let (word, value) = order.split_once('=')?;
+        (word.trim() == "inside").then_some(value.trim())
+    }
+
+    fn set(&mut self, controller: &Controller, value: &str) -> Result<(), String> {
+        let inside =
+            self.inside.ok_or("this program was not made to be looked into: `arl2rs run --pendant` makes such")?;
+        let number: usize = value.parse().map_err(|_| format!("`{value}` is no channel: expected its number, or 0"))?;
+        if number > 0 && inside(controller, number - 1).is_none() {
+            return Err(format!("there is no channel {number}"));
+        }
+        self.channel = number.checked_sub(1);
+        Ok(())
+    }
+
+    fn say(&self, controller: &Controller, voice: &LineWriter) {
+        let fields = self.inside.zip(self.channel).and_then(|(inside, channel)| inside(controller, channel));
+        if let (Some(fields), Some(channel)) = (fields, self.channel) {
+            voice.inside(channel + 1, &fields);
+        }
+    }
+}
+
 /// Carries out what has come; whether more may come.
-fn obey(controller: &mut Controller, voice: &LineWriter, orders: &Orders) -> bool {
+fn obey(controller: &mut Controller, voice: &LineWriter, orders: &Orders, look: &mut Look) -> bool {
     loop {
         match orders.next() {
             Next::Order(order) => {
-                if let Err(why) = controller.order(&order) {
+                let done = match Look::asked(&order) {
+                    Some(value) => look.set(controller, value).map(|()| look.say(controller, voice)),
+                    None => controller.order(&order),
+                };
+                if let Err(why) = done {
                     voice.refused(&order, &why);
                 }
             }

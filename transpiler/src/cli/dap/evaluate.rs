@@ -1,4 +1,4 @@
-//! Expressions of ARL while the program stands: variables and their parts, operators, and the functions that read signals.
+//! Expressions of ARL while the program stands: variables and their parts, operators, and functions that change nothing.
 //!
 //! Numbers are computed as the program does: whole numbers wrap, `int / int` is whole.
 
@@ -47,6 +47,12 @@ pub(super) trait Source {
     /// # Errors
     /// There is none.
     fn signal(&mut self, kind: &str, number: i32) -> Result<Value>;
+
+    /// What a function gives for these arguments.
+    ///
+    /// # Errors
+    /// It is not called while the program stands, or does not take them.
+    fn call(&mut self, function: &str, arguments: &[String]) -> Result<Variable>;
 
     fn family(&self) -> Family;
 }
@@ -230,6 +236,13 @@ impl Evaluator<'_> {
                     }
                 }
             }
+            ExprKind::Field(inner, name) if matches!(inner.kind, ExprKind::Call(_)) => {
+                let whole = self.value(inner)?;
+                let part = Part::Named(self.names.name(name.symbol).to_owned());
+                let ty = part_type(whole.ty(), &part, self.source.family())?;
+                let unset = || Literal::Plain("9e9".into());
+                Ok(Value::of(&ty, &whole.literal().part(&[part]).cloned().unwrap_or_else(unset)))
+            }
             ExprKind::System(_) | ExprKind::Index(_) | ExprKind::Field(..) => {
                 let place = self.place(expr)?;
                 let (ty, literal) = self.found(&place)?;
@@ -260,9 +273,12 @@ impl Evaluator<'_> {
             "getai" => "ai",
             "getao" => "ao",
             _ => {
-                return Err(format!(
-                    "{name} is not called while the program stands: only getdi, getdo, getai and getao are"
-                ));
+                let mut arguments = Vec::new();
+                for argument in &call.args {
+                    arguments.push(self.assigned(&argument.value)?.literal().text());
+                }
+                let given = self.source.call(&name, &arguments)?;
+                return Ok(Value::of(&given.ty, &given.value));
             }
         };
         let [argument] = call.args.as_slice() else { return Err(format!("{name} takes the number of one signal")) };
@@ -492,6 +508,15 @@ mod tests {
             Ok(Value::Bool(kind == "di" && number == 3))
         }
 
+        fn call(&mut self, function: &str, arguments: &[String]) -> Result<Variable> {
+            match function {
+                "twice" => {
+                    Ok(Variable { ty: "string".into(), value: Literal::parse(&format!("\"{0}{0}\"", arguments[0])) })
+                }
+                _ => Err(format!("{function} is not called")),
+            }
+        }
+
         fn family(&self) -> Family {
             Family::SixAxis
         }
@@ -522,6 +547,7 @@ mod tests {
             ("$I[1]", "int 9"),
             ("getdi(3) || getdi(4)", "bool true"),
             ("0ffh", "int 255"),
+            ("twice(count + 1) + \"!\"", "string \"88!\""),
             ("count += 1", "[] = 8"),
             ("home.x = 3", r#"[Named("x")] = 3"#),
             ("home = {x 1, y -2}", "[] = {x 1,y -2}"),
@@ -538,7 +564,7 @@ mod tests {
             ("table[5]", "outside the array"),
             ("home.q", "pose has no component q"),
             ("title - 1", "string - int is not possible"),
-            ("offset(home, 1)", "not called while the program stands"),
+            ("thrice(count)", "thrice is not called"),
         ] {
             assert!(shown(text).contains(words), "{text}: {}", shown(text));
         }

@@ -139,10 +139,17 @@ impl Programs {
                 let index = LineIndex::new(&module.source);
                 let funcs = one.program().into_iter().flat_map(|program| &program.funcs);
                 let own = funcs.filter(|func| func.module.0 as usize == at);
-                found.extend(own.map(|func| lines(&func.body, &index)));
+                found.extend(own.map(|func| reached_lines(&func.body, &index)));
             }
         }
         found
+    }
+
+    /// The lines that a function can be halted at.
+    pub(super) fn lines_of(&self, key: &Key, file: &str, name: &str) -> BTreeSet<u32> {
+        let module = |func: &Func| self.program(key)?.modules.get(func.module.0 as usize);
+        let found = self.function(key, file, name).and_then(|func| Some((func, module(func)?)));
+        found.map(|(func, module)| reached_lines(&func.body, &LineIndex::new(&module.source))).unwrap_or_default()
     }
 
     /// All functions of all files, with the lines of their statements.
@@ -173,7 +180,7 @@ impl Programs {
             let Some(program) = one.program() else { continue };
             for func in program.funcs.iter().filter(|func| func.name.eq_ignore_ascii_case(name)) {
                 let Some(module) = program.modules.get(func.module.0 as usize) else { continue };
-                let lines = lines(&func.body, &LineIndex::new(&module.source));
+                let lines = reached_lines(&func.body, &LineIndex::new(&module.source));
                 found.extend(lines.first().map(|line| (one.key_of(&module.file), *line)));
             }
         }
@@ -224,6 +231,19 @@ fn text(value: &Value) -> String {
 
 /// The lines of statements, with those inside.
 fn lines(block: &[Stmt], index: &LineIndex) -> BTreeSet<u32> {
+    lines_of(&block.iter().collect::<Vec<_>>(), index, &lines)
+}
+
+/// Those that can be reached.
+fn reached_lines(block: &[Stmt], index: &LineIndex) -> BTreeSet<u32> {
+    lines_of(&flow::reachable(block), index, &reached_lines)
+}
+
+fn lines_of(
+    block: &[&Stmt],
+    index: &LineIndex,
+    inside: &dyn Fn(&[Stmt], &LineIndex) -> BTreeSet<u32>,
+) -> BTreeSet<u32> {
     let mut found = BTreeSet::new();
     for stmt in block {
         if !matches!(stmt.kind, StmtKind::Label(_) | StmtKind::Let(_, None)) {
@@ -235,13 +255,13 @@ fn lines(block: &[Stmt], index: &LineIndex) -> BTreeSet<u32> {
             _ => {}
         }
         for inner in flow::blocks(stmt) {
-            found.extend(lines(inner, index));
+            found.extend(inside(inner, index));
         }
     }
     found
 }
 
-fn same_file(one: &Path, other: &Path) -> bool {
+pub(super) fn same_file(one: &Path, other: &Path) -> bool {
     match (std::fs::canonicalize(one), std::fs::canonicalize(other)) {
         (Ok(one), Ok(other)) => one == other,
         _ => one == other,

@@ -64,6 +64,7 @@ pub(super) fn capabilities() -> Value {
         "supportsSetVariable": true,
         "supportsSetExpression": true,
         "supportsStepBack": true,
+        "supportsGotoTargetsRequest": true,
         "supportsRestartRequest": true,
         "supportsTerminateRequest": true,
         "supportsBreakpointLocationsRequest": true,

@@ -1,7 +1,9 @@
 //! One debugging session: what the editor asks for, and what the program says.
 
 mod inspect;
+mod pointer;
 mod replay;
+mod seen;
 
 use super::Event;
 use super::breakpoints::Breakpoints;
@@ -16,6 +18,7 @@ use super::variables::Shown;
 use crate::cli::args::RunOptions;
 use crate::cli::failure::Failure;
 use crate::cli::program::prepare_watched;
+use replay::Point;
 use serde_json::{Value, json};
 use std::collections::VecDeque;
 use std::process::Command;
@@ -44,6 +47,8 @@ pub(super) struct Session {
     halt: Option<Halt>,
     shown: Shown,
     replay: replay::Record,
+    /// The lines that the editor may set the program pointer to, by their numbers.
+    targets: pointer::Targets,
     /// Whether a way back is looked for: breakpoints are counted, but say nothing.
     searches: bool,
     /// Whether the next halt is the one at the beginning.
@@ -65,10 +70,7 @@ struct Launched {
 struct Halt {
     why: String,
     channel: usize,
-    /// How many statements have begun or are about to.
-    statement: u64,
-    /// Whether none is about to.
-    between: bool,
+    point: Point,
     text: String,
 }
 
@@ -88,6 +90,7 @@ impl Session {
             halt: None,
             shown: Shown::default(),
             replay: replay::Record::default(),
+            targets: pointer::Targets::default(),
             searches: false,
             enters: false,
             over: false,
@@ -108,8 +111,9 @@ impl Session {
                 Event::Gone => return,
                 Event::Request(request) => {
                     let answer = self.answer(&request);
+                    let done = answer.is_ok();
                     self.out.answer(&request, answer);
-                    self.follow(&request);
+                    self.follow(&request, done);
                 }
                 // What an earlier run said does not count any more.
                 Event::Process(run, news) if run == self.run => self.hear(news),
@@ -141,6 +145,8 @@ impl Session {
             "stepIn" => self.step("into", arguments),
             "stepOut" => self.step("out", arguments),
             "arl/nextMotion" => self.step("motion", arguments),
+            "gotoTargets" => self.goto_targets(arguments),
+            "goto" => self.set_pointer(arguments),
             "pause" => self.ask("pause", &[]).map(|_| Value::Null),
             "stepBack" => self.step_back(),
             "reverseContinue" => self.reverse_continue(),
@@ -153,8 +159,8 @@ impl Session {
         }
     }
 
-    /// What comes behind the answer to a request.
-    fn follow(&mut self, request: &Request) {
+    /// What comes behind the answer to a request, which was done or refused.
+    fn follow(&mut self, request: &Request, done: bool) {
         match request.command.as_str() {
             "launch" if self.launched.is_some() => self.out.event("initialized", json!({})),
             "terminate" => {
@@ -162,7 +168,8 @@ impl Session {
                 self.out.event("terminated", json!({}));
             }
             "disconnect" => self.over = true,
-            "stepBack" | "reverseContinue" | "restart" => self.say_halt(),
+            "goto" if !done => {}
+            "stepBack" | "reverseContinue" | "restart" | "goto" => self.say_halt(),
             _ => {}
         }
     }
@@ -371,8 +378,7 @@ impl Session {
         let mut halt = Halt {
             why: text("why"),
             channel: number("channel") as usize,
-            statement: number("statement"),
-            between: value.get("between").and_then(Value::as_bool).unwrap_or_default(),
+            point: Point { statement: number("statement"), cycle: value.get("cycle").and_then(Value::as_u64) },
             text: text("text"),
         };
         if std::mem::take(&mut self.enters) && halt.why == "step" {
@@ -396,7 +402,7 @@ impl Session {
     fn is_wanted(&mut self, channel: usize) -> bool {
         let Ok(Some(frame)) = self.top_frame(channel) else { return true };
         let place = FileKey { program: frame.program.clone(), file: frame.file.clone() };
-        let statement = self.halt.as_ref().map_or(0, |halt| halt.statement);
+        let statement = self.halt.as_ref().map_or(0, |halt| halt.point.statement);
         let found: Vec<(i64, Option<String>)> = self
             .breakpoints
             .at(&place, frame.line)
@@ -465,6 +471,7 @@ impl Session {
             "alarm" => ("exception", "Paused at an alarm"),
             "event" => ("event", "Paused at the action of an event"),
             "pause" => ("pause", "Paused"),
+            "goto" => ("goto", "Paused: the program pointer was set"),
             "entry" => ("entry", "Paused at the beginning"),
             "breakpoint" => ("breakpoint", "Paused at a breakpoint"),
             _ => ("step", "Paused"),

@@ -50,6 +50,8 @@ pub(super) struct Frame {
     pub(super) name: String,
     pub(super) file: String,
     pub(super) line: u32,
+    /// Whether it is the action of an event.
+    pub(super) is_action: bool,
 }
 
 /// What was shown since the program was halted.

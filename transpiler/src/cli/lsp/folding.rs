@@ -2,8 +2,10 @@
 
 use super::server::{Refusal, Server};
 use super::text::Text;
+use arl_lang::lexer::{Lexeme, lexemes};
 use arl_lang::outline;
 use arl_lang::outline::Turn;
+use arl_lang::span::Span;
 use arl_lang::syntax_error::BlockKind;
 use gen_lsp_types::*;
 
@@ -13,6 +15,7 @@ pub(super) fn folding(server: &Server, params: FoldingRangeParams) -> Result<Opt
         let text = file.text(server)?;
         let mut ranges = blocks(text);
         ranges.extend(comments(text));
+        ranges.extend(long_comments(text));
         ranges.sort_by_key(|range| (range.start_line, range.end_line));
         Some(ranges)
     };
@@ -74,6 +77,44 @@ fn comments(text: Text<'_>) -> Vec<FoldingRange> {
     found
 }
 
+/// `/* .. */` over several lines, where nothing else stands on the last one.
+fn long_comments(text: Text<'_>) -> Vec<FoldingRange> {
+    let code: Vec<Span> =
+        lexemes(text.text).filter(|(lexeme, _)| *lexeme != Ok(Lexeme::Newline)).map(|it| it.1).collect();
+    let mut found = Vec::new();
+    let mut at = 0;
+    // Between two words there is nothing but spaces and comments.
+    for next in code.iter().map(|span| (span.start, span.end)).chain([(text.text.len() as u32, 0)]) {
+        let between = text.text.get(at as usize..next.0 as usize).unwrap_or_default();
+        let mut from = 0;
+        while let Some((start, end)) = long_comment(between, from) {
+            let lines = text.range(Span::new(at + start as u32, at + end as u32));
+            if lines.start.line < lines.end.line {
+                found.push(range(lines.start.line, lines.end.line, Some(FoldingRangeKind::Comment)));
+            }
+            from = end;
+        }
+        at = next.1;
+    }
+    found
+}
+
+/// The next `/* .. */` of a text that has no code in it, from a byte on.
+fn long_comment(text: &str, from: usize) -> Option<(usize, usize)> {
+    let mut from = from;
+    loop {
+        let rest = text.get(from..)?;
+        let start = from + rest.find("/*")?;
+        // One that stands in a `//` comment begins nothing.
+        if let Some(line) = rest.find("//").map(|line| from + line).filter(|line| *line < start) {
+            from = text.get(line..)?.find('\n').map(|end| line + end)?;
+            continue;
+        }
+        let end = start + text.get(start..)?.find("*/").map_or(text.len() - start, |end| end + 2);
+        return Some((start, end));
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -83,7 +124,7 @@ mod tests {
     fn folded(source: &str) -> Vec<(u32, u32)> {
         let lines = LineIndex::new(source);
         let text = Text { text: source, lines: &lines, encoding: Encoding::Utf16 };
-        let all = blocks(text).into_iter().chain(comments(text));
+        let all = blocks(text).into_iter().chain(comments(text)).chain(long_comments(text));
         all.map(|range| (range.start_line, range.end_line)).collect()
     }
 
@@ -96,6 +137,12 @@ mod tests {
     #[test]
     fn what_is_not_closed_costs_itself_only() {
         assert_eq!(folded("func void f()\nwhile(a)\nb()\nendfunc\nendif\n"), [(0, 2)]);
+    }
+
+    #[test]
+    fn long_comments_fold() {
+        assert_eq!(folded("/* a\nb\n*/\nint x /* y */ /* z\nw */\n"), [(0, 2), (3, 4)]);
+        assert_eq!(folded("// /* a\nint x\nstring s = \"/*\"\n// */\n"), []);
     }
 
     #[test]

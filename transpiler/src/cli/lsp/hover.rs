@@ -21,7 +21,7 @@ fn find(server: &Server, at: &TextDocumentPositionParams) -> Option<Hover> {
         None => keyword(text.text, place.offset).or_else(|| signal(&place))?,
     };
     let range = text.range(span);
-    let contents = Contents::MarkupContent(MarkupContent { kind: MarkupKind::Markdown, value });
+    let contents = Contents::MarkupContent(server.formats.hover.content(value));
     Some(Hover { contents, range: Some(range) })
 }
 

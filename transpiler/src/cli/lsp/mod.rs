@@ -17,6 +17,7 @@ mod highlights;
 mod hints;
 mod hover;
 mod lenses;
+mod markup;
 mod navigation;
 mod places;
 mod programs;

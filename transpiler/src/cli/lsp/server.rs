@@ -5,6 +5,7 @@
 //! answered with an error; the server goes on.
 
 use super::documents::{Document, Documents};
+use super::markup::Formats;
 use super::programs::{Program, Programs};
 use super::projects::Projects;
 use super::settings::Settings;
@@ -59,6 +60,8 @@ pub(super) struct Server {
     pub(super) encoding: Encoding,
     /// Whether the client fills in places that a completion leaves open.
     pub(super) snippets: bool,
+    /// What texts the client shows.
+    pub(super) formats: Formats,
     /// Whether the client lets us ask for news of files on the disk.
     watches: bool,
     folders: Vec<PathBuf>,
@@ -82,6 +85,7 @@ impl Server {
             phase: Phase::New,
             encoding: Encoding::default(),
             snippets: false,
+            formats: Formats::default(),
             watches: false,
             folders: Vec::new(),
             settings: Settings::default(),
@@ -185,6 +189,7 @@ impl Server {
         let offered = params.capabilities.general.and_then(|general| general.position_encodings);
         self.encoding = Encoding::of(&offered.unwrap_or_default());
         let text = params.capabilities.text_document;
+        self.formats = Formats::of(text.as_ref());
         let item = text.and_then(|text| text.completion).and_then(|completion| completion.completion_item);
         self.snippets = item.and_then(|item| item.snippet_support).unwrap_or(false);
         let watching = params.capabilities.workspace.and_then(|workspace| workspace.did_change_watched_files);

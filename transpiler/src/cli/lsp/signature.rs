@@ -1,5 +1,6 @@
 //! The parameters of the call or instruction around the cursor.
 
+use super::markup::Format;
 use super::programs::Program;
 use super::server::{Refusal, Server};
 use super::signals;
@@ -20,12 +21,12 @@ pub(super) fn offered() -> SignatureHelpOptions {
 pub(super) fn signature(server: &Server, params: SignatureHelpParams) -> Result<Option<SignatureHelp>, Refusal> {
     let find = || {
         let typing = Typing::at(server, &params.text_document_position_params)?;
-        let family = server.family(&typing.path);
+        let (family, format) = (server.family(&typing.path), server.formats.signature);
         if typing.surroundings == Surroundings::Code
             && let Some((expected, program)) = typing.expectation(server)
             && let Some(list) = expected.arguments
         {
-            return shown(&program, &list, family);
+            return shown(&program, &list, family, format);
         }
         // In a number or a text nothing is looked for, but the argument is known.
         let file = server.file(&typing.path)?;
@@ -42,23 +43,21 @@ pub(super) fn signature(server: &Server, params: SignatureHelpParams) -> Result<
         }
         let parameter = Some(argument.parameter);
         let list = ArgumentList { callee: argument.callee, of: argument.of, taken, parameter, may_be_label: false };
-        shown(&file.program, &list, family)
+        shown(&file.program, &list, family, format)
     };
     Ok(find())
 }
 
-fn shown(program: &Program, list: &ArgumentList, family: Family) -> Option<SignatureHelp> {
+fn shown(program: &Program, list: &ArgumentList, family: Family, format: Format) -> Option<SignatureHelp> {
     match list.callee {
-        Callee::Function(id) => own(program, id, list, family),
-        Callee::Builtin(entry) => Some(built_in(entry, list, family)),
+        Callee::Function(id) => own(program, id, list, family, format),
+        Callee::Builtin(entry) => Some(built_in(entry, list, family, format)),
     }
 }
 
 /// A signature whose parameters are parts of its text.
-fn information(label: String, params: Vec<(String, String)>, doc: String) -> SignatureInformation {
-    let text = |value: String| {
-        (!value.is_empty()).then_some(Documentation::MarkupContent(MarkupContent { kind: MarkupKind::Markdown, value }))
-    };
+fn information(format: Format, label: String, params: Vec<(String, String)>, doc: String) -> SignatureInformation {
+    let text = |text: String| (!text.is_empty()).then(|| format.documentation(text));
     let mut end = 0;
     let params = params.into_iter().map(|(part, doc)| {
         // By its place: `int a` is also the beginning of `int ab`.
@@ -85,7 +84,13 @@ fn help(signatures: Vec<SignatureInformation>, chosen: usize, parameter: Option<
     }
 }
 
-fn own(program: &Program, id: crate::hir::FuncId, list: &ArgumentList, family: Family) -> Option<SignatureHelp> {
+fn own(
+    program: &Program,
+    id: crate::hir::FuncId,
+    list: &ArgumentList,
+    family: Family,
+    format: Format,
+) -> Option<SignatureHelp> {
     let function = program.index().function(id)?;
     let param = |(name, ty, _): &(String, Option<crate::hir::Type>, _)| {
         format!("{} {name}", ty.map_or_else(|| "?".into(), |ty| type_name(ty, family)))
@@ -95,11 +100,11 @@ fn own(program: &Program, id: crate::hir::FuncId, list: &ArgumentList, family: F
     let label = format!("{result} {}({})", function.name, params.join(", "));
     let doc = super::describe::comment_above(program, function.at);
     let params = params.into_iter().map(|param| (param, String::new())).collect();
-    Some(help(vec![information(label, params, doc)], 0, list.parameter))
+    Some(help(vec![information(format, label, params, doc)], 0, list.parameter))
 }
 
 /// The overloads of a built-in that the robot's family has, those that take as many arguments first.
-fn built_in(entry: &'static Entry, list: &ArgumentList, family: Family) -> SignatureHelp {
+fn built_in(entry: &'static Entry, list: &ArgumentList, family: Family, format: Format) -> SignatureHelp {
     let all = match entry.kind {
         Kind::Function => catalog::functions(entry.name),
         Kind::Instruction => catalog::instructions(entry.name),
@@ -120,7 +125,7 @@ fn built_in(entry: &'static Entry, list: &ArgumentList, family: Family) -> Signa
             };
             (label, reference::parameter(one, param))
         });
-        information(reference::signature(one), params.collect(), one.doc.to_string())
+        information(format, reference::signature(one), params.collect(), one.doc.to_string())
     });
     help(signatures.collect(), chosen, list.parameter)
 }

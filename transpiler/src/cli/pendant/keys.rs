@@ -2,6 +2,7 @@
 
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
+use super::link::Inside;
 use super::model::Model;
 
 /// What a key asks for.
@@ -26,6 +27,9 @@ pub(super) const ORDERS: [(char, &str, &str); 7] = [
 
 /// By how much a key changes the override, in %.
 const OVERRIDE_STEP: f64 = 10.0;
+
+/// By how many lines variables are scrolled at once.
+const PAGE: usize = 8;
 
 /// Does what a key asks of the screen, and says what it asks of the program.
 pub(super) fn press(key: KeyEvent, model: &mut Model) -> Option<Wish> {
@@ -75,6 +79,17 @@ fn command(key: KeyCode, model: &mut Model) -> Option<Wish> {
         }
         KeyCode::Tab => {
             model.show_next();
+            model.inside.is_some().then(|| look_inside(model))
+        }
+        KeyCode::Char('v') if model.inside.is_some() => {
+            model.inside = None;
+            Some(Wish::Order("inside = 0".into()))
+        }
+        KeyCode::Char('v') => Some(look_inside(model)),
+        KeyCode::Down | KeyCode::Up | KeyCode::PageDown | KeyCode::PageUp => {
+            let by = if matches!(key, KeyCode::Down | KeyCode::Up) { 1 } else { PAGE };
+            let down = matches!(key, KeyCode::Down | KeyCode::PageDown);
+            model.scrolled = if down { model.scrolled + by } else { model.scrolled.saturating_sub(by) };
             None
         }
         KeyCode::Char(letter) => {
@@ -83,6 +98,12 @@ fn command(key: KeyCode, model: &mut Model) -> Option<Wish> {
         }
         _ => None,
     }
+}
+
+/// Asks what is inside the program of the channel that is shown.
+fn look_inside(model: &mut Model) -> Wish {
+    (model.inside, model.scrolled) = (Some(Inside::default()), 0);
+    Wish::Order(format!("inside = {}", model.shown + 1))
 }
 
 fn change_override(percent: f64, model: &mut Model) -> Wish {
@@ -131,6 +152,20 @@ mod tests {
         model.state.speed_override = 100.0;
         assert_eq!(type_in(&mut model, "---"), Some(Wish::Order("override = 70".into())));
         assert_eq!(type_in(&mut model, "+"), Some(Wish::Order("override = 80".into())));
+    }
+
+    #[test]
+    fn variables_come_and_go_with_a_key_and_follow_the_channel() {
+        let mut model = Model::default();
+        model.state.channels = vec![Default::default(), Default::default()];
+        assert_eq!(type_in(&mut model, "v"), Some(Wish::Order("inside = 1".into())));
+        press(KeyCode::PageDown.into(), &mut model);
+        press(KeyCode::Up.into(), &mut model);
+        assert_eq!(model.scrolled, 7);
+        assert_eq!(press(KeyCode::Tab.into(), &mut model), Some(Wish::Order("inside = 2".into())));
+        assert_eq!(model.scrolled, 0);
+        assert_eq!(type_in(&mut model, "v"), Some(Wish::Order("inside = 0".into())));
+        assert_eq!(press(KeyCode::Tab.into(), &mut model), None);
     }
 
     #[test]

@@ -15,6 +15,8 @@ pub(super) enum Line {
     Hello(Hello),
     /// How everything stands, 20 times a second.
     State(State),
+    /// What is inside the program of a channel, while that is asked for.
+    Inside(Inside),
     /// What the program printed.
     Message(Message),
     /// What is no alarm but worth a word.
@@ -86,6 +88,45 @@ pub(super) struct Channel {
     pub(super) axes: Vec<f64>,
     /// x, y, z in mm, a, b, c in deg, in the world.
     pub(super) tcp: Vec<f64>,
+}
+
+/// The functions and variables of a channel.
+#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+#[serde(default)]
+pub(super) struct Inside {
+    /// From 1.
+    pub(super) channel: usize,
+    /// The functions that run, the innermost first.
+    pub(super) frames: Vec<Function>,
+    /// Variables of the innermost function, clocks and connections.
+    pub(super) variables: Vec<Variable>,
+    pub(super) handles: Vec<Variable>,
+    /// Files with global variables.
+    pub(super) files: Vec<Globals>,
+}
+
+/// A function that runs, or the action of an event.
+#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+pub(super) struct Function {
+    pub(super) name: String,
+    pub(super) file: String,
+    pub(super) line: usize,
+}
+
+/// A variable and its value as a literal.
+#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+pub(super) struct Variable {
+    pub(super) name: String,
+    pub(super) value: String,
+}
+
+/// The global variables of a file.
+#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+#[serde(default)]
+pub(super) struct Globals {
+    pub(super) file: String,
+    pub(super) variables: Vec<Variable>,
+    pub(super) handles: Vec<Variable>,
 }
 
 /// What the program printed.

@@ -3,6 +3,7 @@
 //! The program is a process of its own, driven by lines ([`link`]): a screen that hangs does not hold up a robot, and when
 //! the screen goes, the robot stops on its path.
 
+mod inside;
 mod keys;
 mod link;
 mod model;

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::link::{Hello, Line, State};
+use super::link::{Hello, Inside, Line, State};
 use super::sources::Sources;
 
 /// How many lines of the log are kept.
@@ -35,6 +35,10 @@ pub(super) struct Model {
     pub(super) asked_override: Option<f64>,
     /// How many states came since.
     states_since: u32,
+    /// What is inside the program, where somebody looks; nothing is known of it at first.
+    pub(super) inside: Option<Inside>,
+    /// How many of its lines are scrolled out of sight.
+    pub(super) scrolled: usize,
     /// Whether the program was told to leave.
     pub(super) leaving: bool,
 }
@@ -57,6 +61,8 @@ impl Model {
                 }
                 self.state = state;
             }
+            // What comes behind the order to end is late.
+            Line::Inside(inside) => self.inside = self.inside.is_some().then_some(inside),
             Line::Message(message) => {
                 for text in message.text.trim_end_matches('\n').split('\n') {
                     self.note(Weight::Message, format!("{:9.3}  {text}", message.time));

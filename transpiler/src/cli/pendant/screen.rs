@@ -6,12 +6,13 @@ use ratatui::style::{Color, Modifier, Style};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
 
+use super::inside;
 use super::keys;
 use super::link::{Axis, Channel, Runs, State};
 use super::model::{Model, Weight};
 
-const QUIET: Style = Style::new().fg(Color::DarkGray);
-const STRONG: Style = Style::new().add_modifier(Modifier::BOLD);
+pub(super) const QUIET: Style = Style::new().fg(Color::DarkGray);
+pub(super) const STRONG: Style = Style::new().add_modifier(Modifier::BOLD);
 
 /// How the screen is divided.
 #[derive(Clone, Copy)]
@@ -44,12 +45,19 @@ pub(super) fn draw(frame: &mut Frame<'_>, model: &Model) {
     let (channel, runs) = shown(model);
     frame.render_widget(title_line(model, &channel), title);
     draw_source(frame, source, model, &channel);
-    let height = runs.axes.len() as u16 + 4;
-    let [axes, io] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(side);
-    frame.render_widget(Paragraph::new(axis_lines(&runs, &channel, form)).block(titled(&robot_title(&runs))), axes);
-    frame.render_widget(Paragraph::new(io_lines(model, form)).block(titled("io")), io);
+    match &model.inside {
+        Some(inside) => inside::draw(frame, side, inside, model.scrolled),
+        None => draw_robot_and_io(frame, side, model, &channel, &runs, form),
+    }
     draw_log(frame, log, model);
     frame.render_widget(Paragraph::new(feet), foot);
+}
+
+fn draw_robot_and_io(frame: &mut Frame<'_>, area: Rect, model: &Model, channel: &Channel, runs: &Runs, form: Form) {
+    let height = runs.axes.len() as u16 + 4;
+    let [axes, io] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(area);
+    frame.render_widget(Paragraph::new(axis_lines(runs, channel, form)).block(titled(&robot_title(runs))), axes);
+    frame.render_widget(Paragraph::new(io_lines(model, form)).block(titled("io")), io);
 }
 
 /// The channel that is shown.
@@ -59,7 +67,7 @@ fn shown(model: &Model) -> (Channel, Runs) {
     (channel, runs)
 }
 
-fn titled(title: &str) -> Block<'static> {
+pub(super) fn titled(title: &str) -> Block<'static> {
     Block::bordered().title(format!(" {title} ")).border_style(QUIET)
 }
 
@@ -225,7 +233,8 @@ fn foot_lines(model: &Model, width: u16) -> Vec<Line<'static>> {
         ])];
     }
     let orders = keys::ORDERS.iter().map(|(key, name, _)| (key.to_string(), *name));
-    let others = [("+-", "override"), ("i", "input"), (":", "order"), ("Tab", "channel"), ("q", "quit")];
+    let others =
+        [("+-", "override"), ("i", "input"), (":", "order"), ("v", "variables"), ("Tab", "channel"), ("q", "quit")];
     let all = orders.chain(others.into_iter().map(|(key, name)| (key.to_owned(), name)));
     let mut lines = vec![Line::default()];
     for (key, name) in all {
@@ -246,7 +255,7 @@ mod tests {
     use ratatui::Terminal;
     use ratatui::backend::TestBackend;
 
-    use super::super::link::Line;
+    use super::super::link::{Inside, Line};
     use super::super::sources::Sources;
     use super::*;
 
@@ -315,6 +324,24 @@ mod tests {
         ] {
             assert!(screen.contains(words), "{words}\n{screen}");
         }
+    }
+
+    #[test]
+    fn calls_and_variables_take_the_place_of_axes_and_io() {
+        let inside = r#"{"inside":{"channel":1,"frames":[{"name":"grip","file":"pick.arl","line":3},
+            {"name":"main","file":"pick.arl","line":2}],"variables":[{"name":"depth","value":"12.5"}],
+            "handles":[{"name":"watch","value":"0.250 s, runs"}],
+            "files":[{"file":"pick.arl","variables":[{"name":"placed","value":"4"}]}]}}"#;
+        let shown = screen_of(80, &[HELLO, STATE], |model| {
+            model.inside = Some(Inside::default());
+            model.hear(serde_json::from_str(inside).unwrap());
+        });
+        for words in ["grip  pick.arl:3", "main  pick.arl:2", "depth 12.5", "watch 0.250 s, runs", "placed 4"] {
+            assert!(shown.contains(words), "{words}\n{shown}");
+        }
+        assert!(!shown.contains("j1 "), "{shown}");
+        let late = screen(&[HELLO, STATE, inside], |_| {});
+        assert!(late.contains("j1 "), "what comes late does not open it again: {late}");
     }
 
     #[test]

@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 use super::handle::{Found, Handle, fault};
 use crate::communication::opening::Opening;
 use crate::context::cx::Cx;
+use crate::context::shown::Shown;
 use crate::fault::Fault;
 use crate::values::Str;
 use frame::{LAST_REGISTER, MOST_REGISTERS, Start};
@@ -23,6 +24,16 @@ const ANSWER_TIMEOUT: Duration = Duration::from_secs(5);
 pub struct MelsecDev {
     handle: Rc<Handle>,
     talk: Rc<RefCell<Talk>>,
+}
+
+impl Shown for MelsecDev {
+    fn type_name(&self) -> &'static str {
+        "melsec_dev"
+    }
+
+    fn shown(&self, _: &Cx) -> String {
+        self.handle.described()
+    }
 }
 
 /// What has been asked and told.

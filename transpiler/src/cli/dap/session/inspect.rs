@@ -1,30 +1,12 @@
 //! Frames, scopes, variables and expressions of a program that stands.
 
+use super::seen::{Seen, Told, told, variable};
 use super::{Answer, Session};
 use crate::cli::dap::evaluate::{Input, Place, Root, Source, Value as Found, Variable, evaluate, part_type, place};
 use crate::cli::dap::literal::{Literal, Part};
-use crate::cli::dap::process::Process;
-use crate::cli::dap::program::{Key, constants, global_constants};
+use crate::cli::dap::program::{Key, constants};
 use crate::cli::dap::variables::{Container, Frame, Target};
-use crate::hir::Program;
-use arl_lang::catalog::Family;
 use serde_json::{Value, json};
-
-/// A variable as the program tells it.
-struct Told {
-    name: String,
-    ty: String,
-    value: String,
-}
-
-/// What expressions are evaluated with.
-pub(super) struct Seen<'a> {
-    process: &'a mut Process,
-    program: &'a Program,
-    frame: Frame,
-    locals: Vec<(String, Variable)>,
-    module: String,
-}
 
 impl Session {
     pub(super) fn top_frame(&mut self, channel: usize) -> Result<Option<Frame>, String> {
@@ -32,7 +14,7 @@ impl Session {
     }
 
     /// The frames of a channel, the one that was entered last in front.
-    fn frames(&mut self, channel: usize) -> Result<Vec<Frame>, String> {
+    pub(super) fn frames(&mut self, channel: usize) -> Result<Vec<Frame>, String> {
         let answer = self.ask("stack", &[&channel.to_string()])?;
         let frames = answer.get("frames").and_then(Value::as_array).cloned().unwrap_or_default();
         let text = |value: &Value, key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
@@ -45,6 +27,7 @@ impl Session {
             name: text(value, "name"),
             file: text(value, "file"),
             line: number(value, "line") as u32,
+            is_action: value.get("event").and_then(Value::as_bool).unwrap_or_default(),
         };
         Ok(frames.iter().map(frame).collect())
     }
@@ -96,20 +79,24 @@ impl Session {
         let container = self.shown.container_of(number).cloned().ok_or("what was asked for is gone")?;
         let shown = match &container {
             Container::Locals(frame) => {
-                let locals = self.source(*frame)?.locals;
+                let Seen { locals, handles, .. } = self.source(*frame)?;
                 let mut shown = Vec::new();
                 for (name, variable) in locals {
                     shown.push(self.shown.value(&name, *frame, Target::Local(name.clone()), &variable, Vec::new()));
                 }
+                shown.extend(handles.iter().map(Told::shown));
                 shown
             }
             Container::Globals(frame) => self.global_variables(*frame)?,
             Container::File(frame, file) => {
                 let mut shown = Vec::new();
-                for (name, variable) in self.source(*frame)?.of_file(file)? {
+                let mut seen = self.source(*frame)?;
+                let (variables, handles) = (seen.of_file(file)?, seen.handles_of_file(file)?);
+                for (name, variable) in variables {
                     let target = Target::Global(file.clone(), name.clone());
                     shown.push(self.shown.value(&name, *frame, target, &variable, Vec::new()));
                 }
+                shown.extend(handles.iter().map(Told::shown));
                 shown
             }
             Container::System(frame) => {
@@ -208,7 +195,8 @@ impl Session {
         let process = self.process.as_mut().ok_or("no program runs")?;
         let program = launched.programs.program(&frame.program).ok_or("the program is not known")?;
         let answer = process.ask("variables", &[&frame.channel.to_string(), &frame.id.to_string()])?;
-        let mut locals: Vec<(String, Variable)> = told(&answer).into_iter().map(variable).collect();
+        let mut locals: Vec<(String, Variable)> = told(&answer, "variables").into_iter().map(variable).collect();
+        let handles = told(&answer, "handles");
         let func = launched.programs.function(&frame.program, &frame.file, &frame.name);
         for (name, ty, value) in func.map(constants).unwrap_or_default() {
             // A constant of another block does not hide a variable.
@@ -217,13 +205,17 @@ impl Session {
             }
         }
         let module = frame.file.clone();
-        Ok(Seen { process, program, frame, locals, module })
+        Ok(Seen { process, program, frame, locals, handles, module })
     }
 
     pub(super) fn evaluate(&mut self, arguments: &Value) -> Answer {
         let text = arguments.get("expression").and_then(Value::as_str).unwrap_or_default().to_owned();
         let frame = arguments.get("frameId").and_then(Value::as_u64).unwrap_or_default() as usize;
-        let input = evaluate(&text, &mut self.source(frame)?)?;
+        let mut seen = self.source(frame)?;
+        if let Some(Told { ty, value, .. }) = seen.handle(text.trim())? {
+            return Ok(json!({"result": value, "type": ty, "variablesReference": 0}));
+        }
+        let input = evaluate(&text, &mut seen)?;
         let (value, target) = match input {
             Input::Assignment(place, value) => {
                 let value = self.assign(frame, &place, value.literal())?;
@@ -329,130 +321,11 @@ impl Session {
     }
 
     /// Changes something of the program that stands, and remembers it for a way back.
-    fn edit(&mut self, word: &str, values: &[&str]) -> Answer {
+    pub(super) fn edit(&mut self, word: &str, values: &[&str]) -> Answer {
         let answer = self.ask(word, values)?;
-        let statement = self.halt.as_ref().map_or(0, |halt| halt.statement);
-        self.replay.edited(statement, word, values);
+        if let Some(halt) = &self.halt {
+            self.replay.edited(halt.point, word, values);
+        }
         Ok(answer)
-    }
-}
-
-fn told(answer: &Value) -> Vec<Told> {
-    let text = |value: &Value, key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
-    let all = answer.get("variables").and_then(Value::as_array).cloned().unwrap_or_default();
-    all.iter()
-        .map(|value| Told { name: text(value, "name"), ty: text(value, "type"), value: text(value, "value") })
-        .collect()
-}
-
-/// A variable with its name. An array of several dimensions, which is told flat, is in rows.
-fn variable(told: Told) -> (String, Variable) {
-    let sizes = told.ty.split('[').skip(1).filter_map(|size| size.trim_end_matches(']').parse().ok());
-    let value = Literal::parse(&told.value).in_rows(&sizes.collect::<Vec<usize>>());
-    (told.name, Variable { ty: told.ty, value })
-}
-
-impl Seen<'_> {
-    fn all_files(&mut self) -> Result<Vec<(String, Vec<Told>)>, String> {
-        let answer = self.process.ask("globals", &[&self.frame.channel.to_string()])?;
-        let files = answer.get("files").and_then(Value::as_array).cloned().unwrap_or_default();
-        let name = |file: &Value| file.get("file").and_then(Value::as_str).unwrap_or_default().to_owned();
-        Ok(files.iter().map(|file| (name(file), told(file))).collect())
-    }
-
-    /// The files that have global variables or constants.
-    fn files(&mut self) -> Result<Vec<String>, String> {
-        let with_variables: Vec<String> = self.all_files()?.into_iter().map(|(file, _)| file).collect();
-        let modules = self.program.modules.iter().map(|module| module.file.clone());
-        Ok(modules
-            .filter(|file| with_variables.contains(file) || !global_constants(self.program, file).is_empty())
-            .collect())
-    }
-
-    fn of_file(&mut self, file: &str) -> Result<Vec<(String, Variable)>, String> {
-        let files = self.all_files()?;
-        let all = files.into_iter().find(|(known, _)| known == file).map(|(_, all)| all).unwrap_or_default();
-        let mut found: Vec<(String, Variable)> = all.into_iter().map(variable).collect();
-        for (name, ty, value) in global_constants(self.program, file) {
-            if !found.iter().any(|(known, _)| known.eq_ignore_ascii_case(&name)) {
-                found.push((name, Variable { ty, value: Literal::parse(&value) }));
-            }
-        }
-        Ok(found)
-    }
-
-    fn all_system(&mut self) -> Result<Vec<(String, Variable)>, String> {
-        let answer = self.process.ask("system", &[&self.frame.channel.to_string()])?;
-        Ok(told(&answer).into_iter().map(variable).collect())
-    }
-
-    /// The file that declares what a name means here: in the module that is named, else in this file, else in its data file.
-    fn file_of(&self, module: Option<&str>, name: &str) -> Option<String> {
-        let declares = |file: &str| {
-            let at = self.program.modules.iter().position(|module| module.file == file);
-            let mut all = self.program.globals.iter();
-            all.any(|global| Some(global.module.0 as usize) == at && global.name.eq_ignore_ascii_case(name))
-        };
-        let mut files = self.program.modules.iter().filter(|known| match module {
-            Some(module) => known.name.eq_ignore_ascii_case(module),
-            None => known.file == self.module || known.data,
-        });
-        files.find(|known| declares(&known.file)).map(|known| known.file.clone())
-    }
-
-    fn whole(&mut self, target: &Target) -> Result<Variable, String> {
-        match target {
-            Target::Local(name) => {
-                let found = self.locals.iter().find(|(known, _)| known == name);
-                found.map(|(_, variable)| variable.clone()).ok_or_else(|| format!("there is no variable {name}"))
-            }
-            Target::Global(file, name) => {
-                let all = self.of_file(file)?;
-                let found = all.into_iter().find(|(known, _)| known.eq_ignore_ascii_case(name));
-                found.map(|(_, variable)| variable).ok_or_else(|| format!("there is no variable {name}"))
-            }
-            Target::System(name) => self.system(name),
-            Target::Nothing => Err("this is no variable".into()),
-        }
-    }
-}
-
-impl Source for Seen<'_> {
-    fn variable(&mut self, module: Option<&str>, name: &str) -> Result<Variable, String> {
-        if module.is_none()
-            && let Some((_, variable)) = self.locals.iter().rev().find(|(known, _)| known.eq_ignore_ascii_case(name))
-        {
-            return Ok(variable.clone());
-        }
-        let file = self.file_of(module, name).ok_or_else(|| format!("there is no variable {name} here"))?;
-        self.whole(&Target::Global(file, name.to_owned()))
-    }
-
-    fn system(&mut self, name: &str) -> Result<Variable, String> {
-        let wanted = format!("${name}");
-        let all = self.all_system()?;
-        let found = all.into_iter().find(|(name, _)| name.eq_ignore_ascii_case(&wanted));
-        found.map(|(_, variable)| variable).ok_or_else(|| format!("there is no system variable {wanted}"))
-    }
-
-    fn signal(&mut self, kind: &str, number: i32) -> Result<Found, String> {
-        let answer = self.process.ask("signals", &[])?;
-        let at = usize::try_from(number).ok().and_then(|number| number.checked_sub(1));
-        let missing = || format!("there is no {kind} {number}");
-        match answer.get(kind) {
-            Some(Value::String(levels)) => {
-                let level = at.and_then(|at| levels.chars().nth(at)).ok_or_else(missing)?;
-                Ok(Found::Bool(level == '1'))
-            }
-            Some(Value::Array(values)) => {
-                let value = at.and_then(|at| values.get(at)).and_then(Value::as_f64).ok_or_else(missing)?;
-                Ok(Found::Double(value))
-            }
-            _ => Err(missing()),
-        }
-    }
-
-    fn family(&self) -> Family {
-        self.program.family
     }
 }

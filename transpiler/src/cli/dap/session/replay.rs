@@ -6,11 +6,36 @@ use crate::cli::args::Clock;
 use serde_json::Value;
 use std::collections::VecDeque;
 
+/// How far a run has gone.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) struct Point {
+    /// How many statements have begun, or are about to.
+    pub(super) statement: u64,
+    /// The cycle that is about to begin, where no statement is.
+    pub(super) cycle: Option<u64>,
+}
+
+impl Point {
+    /// Before a statement.
+    fn before(statement: u64) -> Self {
+        Self { statement, cycle: None }
+    }
+
+    /// What a program that shall run up to here is told.
+    fn values(self) -> [String; 2] {
+        let statement = if self.cycle.is_some() { u64::MAX } else { self.statement };
+        [statement, self.cycle.unwrap_or(u64::MAX)].map(|number| number.to_string())
+    }
+}
+
+/// What was done by hand: where, the request, and its values.
+type Edit = (Point, String, Vec<String>);
+
 /// What a run needs to repeat another one.
 #[derive(Default, Debug)]
 pub(super) struct Record {
-    /// What was set by hand: before which statement, and how.
-    edits: Vec<(u64, String, Vec<String>)>,
+    /// What was set by hand.
+    edits: Vec<Edit>,
     /// How many lines were shown of each output, and how many of the run that goes on have come.
     shown: [usize; 2],
     come: [usize; 2],
@@ -38,9 +63,9 @@ impl Record {
     }
 
     /// Notes what was set by hand. What is printed from here on may differ from what was shown.
-    pub(super) fn edited(&mut self, statement: u64, word: &str, values: &[&str]) {
-        self.edits.retain(|(at, ..)| *at <= statement);
-        self.edits.push((statement, word.to_owned(), values.iter().map(ToString::to_string).collect()));
+    pub(super) fn edited(&mut self, point: Point, word: &str, values: &[&str]) {
+        self.edits.retain(|(at, ..)| *at <= point);
+        self.edits.push((point, word.to_owned(), values.iter().map(ToString::to_string).collect()));
         self.shown = self.come;
     }
 }
@@ -49,35 +74,43 @@ impl Session {
     /// Goes back by one statement.
     pub(super) fn step_back(&mut self) -> Answer {
         let halt = self.halt.clone().ok_or("the program runs")?;
-        let target = if halt.between { halt.statement } else { halt.statement.saturating_sub(1) };
+        if halt.why == "goto" {
+            // Back to before the program pointer was set.
+            self.check_repeats()?;
+            self.replay.edits.pop();
+            return self.go_to(halt.point);
+        }
+        let Point { statement, cycle } = halt.point;
+        let target = if cycle.is_some() { statement } else { statement.saturating_sub(1) };
         if target == 0 {
             return Err("this is the first statement".into());
         }
-        self.go_to(target)
+        self.go_to(Point::before(target))
     }
 
     /// Goes back to the breakpoint that was met last, or to the beginning.
     pub(super) fn reverse_continue(&mut self) -> Answer {
         let halt = self.halt.clone().ok_or("the program runs")?;
         // Between two cycles the statement has begun: a breakpoint on it was met.
-        let end = halt.statement + u64::from(halt.between);
+        let end = Point::before(halt.point.statement + u64::from(halt.point.cycle.is_some()));
         self.check_repeats()?;
         self.searches = true;
         let last = self.last_breakpoint_before(end);
         self.searches = false;
-        self.go_to(last?)
+        self.go_to(Point::before(last?))
     }
 
     /// The last breakpoint that another run meets before a statement, or the first statement.
-    fn last_breakpoint_before(&mut self, end: u64) -> Result<u64, String> {
+    fn last_breakpoint_before(&mut self, end: Point) -> Result<u64, String> {
         self.breakpoints.go_back_to(0);
         self.begin()?;
         let mut edits: VecDeque<_> = self.replay.edits.iter().cloned().collect();
-        let (mut last, mut passed) = (1, 0);
+        let (mut last, mut passed) = (1, Point::before(0));
         while passed < end {
             let bound = edits.front().map_or(end, |(at, ..)| end.min(*at));
             if bound > passed {
-                self.go("search", &[&bound.to_string()])?;
+                let [statement, cycle] = bound.values();
+                self.go("search", &[&statement, &cycle])?;
                 loop {
                     // A program that has ended is behind all breakpoints.
                     let Ok(stopped) = self.wait_for("stopped") else { return Ok(last) };
@@ -87,9 +120,9 @@ impl Session {
                 }
             }
             let Some(halt) = self.halt.clone() else { break };
-            passed = passed.max(halt.statement);
+            passed = passed.max(halt.point);
             if halt.why == "breakpoint" && passed < end {
-                last = passed;
+                last = passed.statement;
             }
             while let Some((_, word, values)) = edits.front().filter(|(at, ..)| *at <= passed).cloned() {
                 edits.pop_front();
@@ -100,28 +133,32 @@ impl Session {
         Ok(last)
     }
 
-    /// Runs again up to a statement.
-    fn go_to(&mut self, statement: u64) -> Answer {
+    /// Runs again up to a point.
+    fn go_to(&mut self, point: Point) -> Answer {
         self.check_repeats()?;
         self.begin()?;
         // What was set behind it is undone.
-        self.replay.edits.retain(|(at, ..)| *at <= statement);
-        self.breakpoints.go_back_to(statement);
+        self.replay.edits.retain(|(at, ..)| *at <= point);
+        self.breakpoints.go_back_to(point.statement);
         let edits = self.replay.edits.clone();
         for (at, word, values) in edits {
             self.run_to(at)?;
             let values: Vec<&str> = values.iter().map(String::as_str).collect();
             self.ask(&word, &values)?;
+            if let Some(halt) = self.halt.as_mut().filter(|_| word == super::pointer::REQUEST) {
+                halt.why = "goto".into();
+            }
         }
-        self.run_to(statement)?;
+        self.run_to(point)?;
         Ok(Value::Null)
     }
 
-    fn run_to(&mut self, statement: u64) -> Result<(), String> {
-        if self.halt.as_ref().is_some_and(|halt| halt.statement == statement) {
+    fn run_to(&mut self, point: Point) -> Result<(), String> {
+        if self.halt.as_ref().is_some_and(|halt| halt.point == point) {
             return Ok(());
         }
-        self.go("until", &[&statement.to_string()])?;
+        let [statement, cycle] = point.values();
+        self.go("until", &[&statement, &cycle])?;
         let stopped = self.wait_for("stopped")?;
         self.arrive(&stopped);
         Ok(())

@@ -1,5 +1,6 @@
 //! The items of a completion.
 
+use crate::cli::lsp::markup::Format;
 use crate::cli::lsp::server::Server;
 use crate::cli::lsp::typing::Typing;
 use arl_lang::catalog::{Entry, Param, reference};
@@ -24,6 +25,7 @@ pub(super) struct Items {
     /// What an item takes the place of.
     range: Range,
     snippets: bool,
+    format: Format,
     is_begun: bool,
     all: Vec<CompletionItem>,
 }
@@ -31,7 +33,8 @@ pub(super) struct Items {
 impl Items {
     pub(super) fn new(server: &Server, typing: &Typing<'_>) -> Self {
         let is_begun = typing.word.start < typing.word.end;
-        Self { range: typing.text.range(typing.word), snippets: server.snippets, is_begun, all: Vec::new() }
+        let (range, format) = (typing.text.range(typing.word), server.formats.completion);
+        Self { range, snippets: server.snippets, format, is_begun, all: Vec::new() }
     }
 
     /// Whether a part of the name is there already.
@@ -88,8 +91,7 @@ impl Items {
         doc: Option<String>,
         snippet: bool,
     ) {
-        let documentation =
-            doc.map(|value| Documentation::MarkupContent(MarkupContent { kind: MarkupKind::Markdown, value }));
+        let documentation = doc.map(|text| self.format.documentation(text));
         self.all.push(CompletionItem {
             label: label.to_string(),
             kind: Some(kind),

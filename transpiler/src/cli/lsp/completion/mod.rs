@@ -25,7 +25,7 @@ pub(super) fn completion(server: &Server, params: CompletionParams) -> Result<Op
     match typing.surroundings {
         Surroundings::Quiet => {}
         Surroundings::Number(start) => builtin::units(server, &typing, start, &mut items),
-        Surroundings::Import(start) => own::files(&typing, start, &mut items),
+        Surroundings::Import(start) => own::files(server, &typing, start, &mut items),
         Surroundings::Type => builtin::types(server.family(&typing.path), &mut items),
         Surroundings::Statement | Surroundings::Code => at_name(server, &typing, &mut items),
     }
@@ -60,6 +60,7 @@ fn at_name(server: &Server, typing: &Typing<'_>, items: &mut Items) {
         Wanted::Member(module) => own::members(&program, *module, &fits, family, items),
         Wanted::Label(labels) => own::labels(labels, items),
         Wanted::Type => builtin::types(family, items),
+        Wanted::Nothing => {}
         Wanted::ArgumentLabel => argument_labels(&expected, index, items),
         Wanted::Instruction | Wanted::Function | Wanted::Value(_) if is_statement => {
             builtin::words_inside(items);

@@ -2,9 +2,10 @@
 
 use super::Fits;
 use super::item::{Items, Rank};
-use crate::check::{base_name, is_data, type_name};
+use crate::check::{SCRIPT_DIR, base_name, is_data, type_name};
 use crate::cli::lsp::describe::describe;
 use crate::cli::lsp::programs::Program;
+use crate::cli::lsp::server::Server;
 use crate::cli::lsp::typing::Typing;
 use crate::hir::{FuncId, GlobalId, ModuleId, Type};
 use crate::index::{Expectation, HERE, Index, Meaning};
@@ -117,7 +118,7 @@ pub(super) fn labels(labels: &[String], items: &mut Items) {
 }
 
 /// The programs that an `import` can name, and folders on the way to them.
-pub(super) fn files(typing: &Typing<'_>, start: u32, items: &mut Items) {
+pub(super) fn files(server: &Server, typing: &Typing<'_>, start: u32, items: &mut Items) {
     let typed = Span::new(start, typing.offset).text(typing.text.text);
     let Some(folder) = typing.path.parent() else { return };
     let (before, name_start) = match typed.rfind('/') {
@@ -125,7 +126,15 @@ pub(super) fn files(typing: &Typing<'_>, start: u32, items: &mut Items) {
         None => ("", start),
     };
     items.replace(typing.text.range(Span::new(name_start, typing.offset)));
-    let Ok(entries) = std::fs::read_dir(folder.join(before)) else { return };
+    let looked_into = match before.strip_prefix(SCRIPT_DIR) {
+        Some(rest) => {
+            let root = server.root(&typing.path);
+            let scripts = server.options_of(&root).script_dir.clone();
+            scripts.or_else(|| root.parent().map(Path::to_path_buf)).unwrap_or_default().join(rest)
+        }
+        None => folder.join(before),
+    };
+    let Ok(entries) = std::fs::read_dir(looked_into) else { return };
     for entry in entries.flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
         let path = entry.path();
