@@ -3,11 +3,10 @@
 //! `cargo bench -p arl-benches --bench editor [-- CHANGES]`. Builds the command first, and speaks to `arl2rs lsp` over its
 //! standard input and output, as an editor does.
 
-use std::io::{BufRead, BufReader, Read, Write};
-use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::time::Instant;
 
 use arl_benches::programs::Kind;
+use arl_benches::protocol::Peer;
 use serde_json::{Value, json};
 
 /// The lengths of the programs, in lines.
@@ -36,71 +35,37 @@ const URI: &str = "file:///nowhere/program.arl";
 
 /// A running language server.
 struct Server {
-    child: Child,
-    input: ChildStdin,
-    output: BufReader<ChildStdout>,
+    peer: Peer,
     version: u32,
 }
 
 impl Server {
     fn start(command: &std::path::Path) -> Result<Self, String> {
-        let mut child = Command::new(command)
-            .arg("lsp")
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .spawn()
-            .map_err(|error| error.to_string())?;
-        let input = child.stdin.take().ok_or("no input")?;
-        let output = BufReader::new(child.stdout.take().ok_or("no output")?);
-        let mut server = Self { child, input, output, version: 0 };
+        let mut server = Self { peer: Peer::start(command, "lsp")?, version: 0 };
         server.ask("initialize", json!({"capabilities": {}}))?;
-        server.send(&json!({"jsonrpc": "2.0", "method": "initialized", "params": {}}))?;
+        server.peer.send(&json!({"jsonrpc": "2.0", "method": "initialized", "params": {}}))?;
         Ok(server)
-    }
-
-    fn send(&mut self, message: &Value) -> Result<(), String> {
-        let text = message.to_string();
-        write!(self.input, "Content-Length: {}\r\n\r\n{text}", text.len()).map_err(|error| error.to_string())?;
-        self.input.flush().map_err(|error| error.to_string())
-    }
-
-    fn receive(&mut self) -> Result<Value, String> {
-        let mut length = 0;
-        loop {
-            let mut line = String::new();
-            if self.output.read_line(&mut line).map_err(|error| error.to_string())? == 0 {
-                return Err("the server ended".into());
-            }
-            if line.trim().is_empty() {
-                break;
-            }
-            if let Some(value) = line.strip_prefix("Content-Length: ") {
-                length = value.trim().parse().map_err(|_| "no length")?;
-            }
-        }
-        let mut body = vec![0; length];
-        self.output.read_exact(&mut body).map_err(|error| error.to_string())?;
-        serde_json::from_slice(&body).map_err(|error| error.to_string())
     }
 
     /// Milliseconds until a request is answered.
     fn ask(&mut self, method: &str, params: Value) -> Result<f64, String> {
         let start = Instant::now();
-        self.send(&json!({"jsonrpc": "2.0", "id": 1, "method": method, "params": params}))?;
-        while self.receive()?["id"] != 1 {}
+        self.peer.send(&json!({"jsonrpc": "2.0", "id": 1, "method": method, "params": params}))?;
+        while self.peer.receive()?["id"] != 1 {}
         Ok(milliseconds(start))
     }
 
     /// Milliseconds until the diagnostics of the last version are there.
     fn told(&mut self, start: Instant) -> Result<f64, String> {
-        while self.receive()?["params"]["version"] != self.version {}
+        while self.peer.receive()?["params"]["version"] != self.version {}
         Ok(milliseconds(start))
     }
 
     fn open(&mut self, text: &str) -> Result<(), String> {
         self.version = 1;
         let item = json!({"uri": URI, "languageId": "arl", "version": 1, "text": text});
-        self.send(&json!({"jsonrpc": "2.0", "method": "textDocument/didOpen", "params": {"textDocument": item}}))?;
+        self.peer
+            .send(&json!({"jsonrpc": "2.0", "method": "textDocument/didOpen", "params": {"textDocument": item}}))?;
         self.told(Instant::now()).map(drop)
     }
 
@@ -118,7 +83,7 @@ impl Server {
                 "contentChanges": [{"range": range, "text": " "}],
             });
             let start = Instant::now();
-            self.send(&json!({"jsonrpc": "2.0", "method": "textDocument/didChange", "params": params}))?;
+            self.peer.send(&json!({"jsonrpc": "2.0", "method": "textDocument/didChange", "params": params}))?;
             times[0].push(self.told(start)?);
             let at = json!({"textDocument": document, "position": place});
             times[1].push(self.ask("textDocument/completion", at.clone())?);
@@ -129,22 +94,7 @@ impl Server {
             times.sort_by(f64::total_cmp);
             format!("{:>8.1} {:>7.1}", times[times.len() / 2], times[times.len() * 95 / 100])
         });
-        Ok(format!("{} {:>9.1}", cells.join(" "), self.peak()))
-    }
-
-    /// The most memory that the server had, in MB; 0 where the system does not tell.
-    fn peak(&self) -> f64 {
-        let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id())).unwrap_or_default();
-        let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-        let kilobytes = line.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok());
-        kilobytes.unwrap_or(0.0) / 1000.0
-    }
-}
-
-impl Drop for Server {
-    fn drop(&mut self) {
-        let _ = self.child.kill();
-        let _ = self.child.wait();
+        Ok(format!("{} {:>9.1}", cells.join(" "), self.peer.peak()))
     }
 }
 

@@ -9,6 +9,7 @@ pub mod instructions;
 pub mod kernels;
 pub mod lua;
 pub mod programs;
+pub mod protocol;
 pub mod random;
 pub mod rivals;
 pub mod run;

@@ -68,7 +68,8 @@ fn all_cases_in_the_forms_of_large_programs() {
 }
 
 /// The folders whose cases are run as for a debugger, too: those in which functions, loops and events meet.
-const FOR_A_DEBUGGER: [&str; 7] = ["arrays", "control", "enums", "functions", "interrupts", "scopes", "triggers"];
+const FOR_A_DEBUGGER: [&str; 8] =
+    ["arrays", "clocks", "control", "enums", "functions", "interrupts", "scopes", "triggers"];
 
 #[test]
 fn programs_for_a_debugger_do_the_same() {

@@ -26,8 +26,8 @@ impl Clock {
 }
 
 impl Shown for Clock {
-    fn type_name(&self) -> &'static str {
-        "clock"
+    fn type_name(&self) -> String {
+        "clock".into()
     }
 
     fn shown(&self, cx: &Cx) -> String {

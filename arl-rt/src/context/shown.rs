@@ -1,14 +1,26 @@
 //! What a debugger shows of clocks and connections, which have no value that could be written down.
 
 use crate::context::cx::Cx;
+use crate::values::{Array, Store};
 
 /// A clock or a connection that a debugger looks at.
 pub trait Shown {
     /// Its type, as ARL calls it.
-    fn type_name(&self) -> &'static str;
+    fn type_name(&self) -> String;
 
     /// How it is, in words. Nothing changes by looking.
     fn shown(&self, cx: &Cx) -> String;
+}
+
+impl<T: Shown, const N: usize, S: Store<T, N>> Shown for Array<T, N, S> {
+    fn type_name(&self) -> String {
+        format!("{}[{N}]", self.first().map(Shown::type_name).unwrap_or_default())
+    }
+
+    fn shown(&self, cx: &Cx) -> String {
+        let elements: Vec<String> = self.iter().map(|one| one.shown(cx)).collect();
+        format!("{{{}}}", elements.join("; "))
+    }
 }
 
 /// A global variable that is a clock or a connection.

@@ -400,10 +400,10 @@ fn programs_of_a_cell_may_have_files_of_the_same_name() {
 fn clocks_and_connections_are_shown() {
     let folder = Folder::new("handles").with(
         "main.arl",
-        "clock all\nsocket line\nfunc void main()\n    clock own\n    clkstart(all)\n    clkstart(own)\n    waittime 0.5\n    \
+        "clock all\nsocket line\nclock each[2]\nfunc void main()\n    clock own\n    clkstart(all)\n    clkstart(own)\n    waittime 0.5\n    \
          clkstop(own)\n    waittime 0.25\n    print clkread(own)\nendfunc\n",
     );
-    let mut client = Client::running(&folder, json!({}), &[10]);
+    let mut client = Client::running(&folder, json!({}), &[11]);
     client.halt();
     let (_, locals) = client.scope("Locals");
     assert!(locals.contains(&"own = 0.500 s, stands".to_owned()), "{locals:?}");
@@ -411,6 +411,9 @@ fn clocks_and_connections_are_shown() {
     assert_eq!(client.value("line"), "closed");
     let (globals, _) = client.scope("Globals");
     let file = client.ask("variables", json!({"variablesReference": globals}))["variables"][0].clone();
-    assert_eq!(client.parts(&file["variablesReference"]), ["all = 0.750 s, runs", "line = closed"]);
+    assert_eq!(
+        client.parts(&file["variablesReference"]),
+        ["all = 0.750 s, runs", "line = closed", "each = {0.000 s, stands; 0.000 s, stands}"]
+    );
     assert_eq!(client.value("all = 3"), "there is no variable all");
 }

@@ -23,8 +23,8 @@ pub struct ModbusDev {
 }
 
 impl Shown for ModbusDev {
-    fn type_name(&self) -> &'static str {
-        "modbus_dev"
+    fn type_name(&self) -> String {
+        "modbus_dev".into()
     }
 
     fn shown(&self, _: &Cx) -> String {

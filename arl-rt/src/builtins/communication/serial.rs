@@ -19,8 +19,8 @@ const BAUD_RATES: [i32; 10] = [300, 600, 1200, 2400, 4800, 9600, 19200, 38400, 5
 pub struct Iodev(Rc<Handle>);
 
 impl Shown for Iodev {
-    fn type_name(&self) -> &'static str {
-        "iodev"
+    fn type_name(&self) -> String {
+        "iodev".into()
     }
 
     fn shown(&self, _: &Cx) -> String {

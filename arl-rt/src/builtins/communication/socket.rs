@@ -17,8 +17,8 @@ pub use super::network::{getip, setip};
 pub struct Socket(Rc<Handle>);
 
 impl Shown for Socket {
-    fn type_name(&self) -> &'static str {
-        "socket"
+    fn type_name(&self) -> String {
+        "socket".into()
     }
 
     fn shown(&self, _: &Cx) -> String {

@@ -128,7 +128,7 @@ fn type_name(sizes: &[usize], variable: &dyn Teach) -> String {
 }
 
 fn shown_handle(cx: &Cx, name: &str, handle: &dyn Shown) -> String {
-    let (ty, value) = (quoted(handle.type_name()), quoted(&handle.shown(cx)));
+    let (ty, value) = (quoted(&handle.type_name()), quoted(&handle.shown(cx)));
     format!("{{\"name\":{},\"type\":{ty},\"value\":{value}}}", quoted(name))
 }
 

@@ -27,8 +27,8 @@ pub struct MelsecDev {
 }
 
 impl Shown for MelsecDev {
-    fn type_name(&self) -> &'static str {
-        "melsec_dev"
+    fn type_name(&self) -> String {
+        "melsec_dev".into()
     }
 
     fn shown(&self, _: &Cx) -> String {
