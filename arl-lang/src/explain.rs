@@ -330,10 +330,17 @@ impl Refused<'_> {
                 Hint::InstructionParens
             }
             (Some(Token::For), ..) if !self.open.is_empty() => Hint::For,
+            (Some(Token::Import), ..) if self.at == 1 => Hint::ImportQuotes,
+            (_, Some(Token::Name(_)), Token::ParenOpen) if self.is_component() => Hint::ModuleCall,
             (_, Some(Token::Name(_)), Token::Colon) => Hint::Label,
             (Some(Token::Instruction(_)), ..) if self.has_semicolon() => Hint::Events,
             _ => Hint::None,
         }
+    }
+
+    /// Whether what stands before is the name of a component.
+    fn is_component(&self) -> bool {
+        self.at >= 2 && matches!(self.tokens.get(self.at - 2), Some((_, Token::Dot, _)))
     }
 
     /// Whether the bracket that is open stands behind a `p`.

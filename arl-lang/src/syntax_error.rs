@@ -158,6 +158,10 @@ pub enum Hint {
     FunctionParens,
     /// `p[0.1, 0.2, ...]`: a pose as URScript writes it.
     PoseLiteral,
+    /// `lib.inc(3)`: what is called of a module.
+    ModuleCall,
+    /// `import lib`: the path of a module without its quotes.
+    ImportQuotes,
 }
 
 /// Declares the kinds: number, title, what each is.

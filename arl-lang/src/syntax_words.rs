@@ -41,6 +41,10 @@ impl Hint {
             Hint::Comment => "Comments begin with `//`.",
             Hint::FunctionParens => "A function's arguments stand in parentheses: `setdo(1, true)`.",
             Hint::PoseLiteral => "Poses stand in braces, in mm and deg: `{x 100, y 200, z 300, a 0, b 180, c 0}`.",
+            Hint::ModuleCall => {
+                "A component cannot be called. A function of a module stands behind two colons: `module::function(...)`."
+            }
+            Hint::ImportQuotes => "The path of a module stands in quotes: `import \"rack.arl\"`.",
             Hint::InstructionValue => "An instruction stands at the beginning of its line and has no value.",
         })
     }

@@ -217,7 +217,7 @@ impl Checker<'_> {
         let symbol = self.names.find("main");
         let found = symbol.and_then(|symbol| self.scopes.first()?.funcs.get(&symbol).copied());
         let Some(id) = found else {
-            if !self.options.library && !self.modules.is_empty() {
+            if !self.options.library && !self.modules.is_empty() && !self.has_unread_main() {
                 self.report_in::<()>(main, self.file_start(), FlowProblem::NoMain, &[]);
             }
             return None;
@@ -231,6 +231,18 @@ impl Checker<'_> {
             self.report_in::<()>(main, func.result.span, FlowProblem::MainSignature { what: "a result" }, &[]);
         }
         Some(id)
+    }
+
+    /// Whether the main file has a `main` that could not be read: its mistakes are reported already.
+    fn has_unread_main(&self) -> bool {
+        let Some(main) = self.modules.first().map(|module| module.file) else { return false };
+        let Some(file) = self.files.get(main) else { return false };
+        let names_main = || {
+            let mut words = arl_lang::lexer::lexemes(&file.text).map(|(_, span)| span.text(&file.text));
+            words.any(|word| word.eq_ignore_ascii_case("main"))
+        };
+        let unread = |one: &Diagnostic| one.code.is_of_syntax() && one.primary.at.file == main;
+        self.diagnostics.iter().any(unread) && names_main()
     }
 
     fn unused_imports(&mut self) {

@@ -86,6 +86,10 @@ impl Checker<'_> {
         let is_function =
             self.scopes.get(body.module.0 as usize).is_some_and(|scope| scope.funcs.contains_key(&symbol))
                 || !catalog::functions(name).is_empty();
+        if self.module(body.module).is_some_and(|module| module.imports.contains_key(&symbol)) {
+            let name = self.text(body.module, span).to_string();
+            return self.report(body, span, NameProblem::IsModule { name });
+        }
         let mut near = self.member_named(body, symbol, false);
         if near.is_none() {
             near = body.nearest_local(&mut self.hints, self.names, name);

@@ -14,6 +14,7 @@ mod emit;
 mod explain;
 mod failure;
 mod fmt;
+mod folder;
 mod framing;
 mod lsp;
 mod new;

@@ -102,6 +102,13 @@ pub enum Severity {
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct Code(pub u16);
 
+impl Code {
+    /// Whether it is a mistake in the form of a program: something could not be read.
+    pub(crate) fn is_of_syntax(self) -> bool {
+        (100..200).contains(&self.0)
+    }
+}
+
 impl std::fmt::Display for Code {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "ARL{:04}", self.0)

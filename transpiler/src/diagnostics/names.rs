@@ -11,6 +11,8 @@ problems! {
             /// No variable or constant of this name.
             /// `quoted`: the text that is probably meant; `ty`: a type that would do.
             UnknownVariable { name: String, near: Option<String>, is_function: bool, quoted: Option<String>, ty: String },
+            /// The name of a module in the place of a variable.
+            IsModule { name: String },
         }
         error 202 "A function that is not known" => {
             /// No function of this name.
@@ -74,6 +76,7 @@ problems! {
 impl Problem for NameProblem {
     fn message(&self) -> String {
         match self {
+            NameProblem::IsModule { name } => format!("`{name}` is a module, no variable"),
             NameProblem::UnknownVariable { name, .. } | NameProblem::SignalName { name, .. } => {
                 format!("there is no variable `{name}` here")
             }
@@ -99,6 +102,7 @@ impl Problem for NameProblem {
         match self {
             NameProblem::Duplicate { .. } => "declared again here".into(),
             NameProblem::VariableBelow { .. } | NameProblem::FunctionBelow { .. } => "not known yet here".into(),
+            NameProblem::IsModule { .. } => "a module".into(),
             _ => "not known".into(),
         }
     }
@@ -156,6 +160,9 @@ impl Problem for NameProblem {
             }
             NameProblem::UnknownInstruction { near, name, .. } => {
                 elsewhere::word(name).map(has).or_else(|| meant(near))
+            }
+            NameProblem::IsModule { name } => {
+                Some(format!("what a module has stands behind two colons, `{name}::...`"))
             }
             NameProblem::SignalName { name, signal, channel } => {
                 Some(format!("the cell calls {signal} so; a program says its number: `const int {name} = {channel}`"))

@@ -213,3 +213,14 @@ fn a_cell_that_a_run_refuses_is_refused_by_a_check_in_the_same_words() {
     folder.arl2rs(&["check", "a.arl", "--cell", "cell.toml", "--robot", "hsr065"]).is(0, "");
     folder.arl2rs(&["check", "a.arl", "--cell", "cell.toml", "--background"]).is(0, "");
 }
+
+#[test]
+fn a_folder_is_no_program() {
+    let folder = Folder::new("folder").with("cell/lib.arl", "int n\n").with("cell/pick.arl", GOOD);
+    for command in ["check", "run", "emit", "build"] {
+        folder
+            .arl2rs(&[command, "cell"])
+            .is(2, "")
+            .says("cell is a folder: name the file that has `main`, such as cell/pick.arl");
+    }
+}

@@ -91,7 +91,7 @@ pub(super) fn scenario(file: &str, text: &str, names: &Names) -> Result<Vec<Even
     // are, and whether the parts would mean something else together.
     match by_tables(file, text, &words) {
         Some(events) => Ok(events),
-        None => events(Source { file, text }, 1, &words),
+        None => events(Source { file, text }, 1, &words, &mut Followers::new()),
     }
 }
 
@@ -106,9 +106,9 @@ fn by_tables(file: &str, text: &str, words: &Words<'_>) -> Option<Vec<Event>> {
         return None;
     }
     let mut line = 1 + count_lines(before.text);
-    let mut found = Vec::new();
+    let (mut found, mut followers) = (Vec::new(), Followers::new());
     for text in tables {
-        found.extend(events(Source { file, text }, line, words).ok()?);
+        found.extend(events(Source { file, text }, line, words, &mut followers).ok()?);
         line += count_lines(text);
     }
     Some(found)
@@ -145,8 +145,16 @@ fn tables_of(text: &str) -> impl Iterator<Item = &str> {
 /// How tables begin.
 const TABLES: [&str; 2] = ["[[event]]", "[[follow]]"];
 
+/// The inputs that follow other signals, with the lines that say so.
+type Followers = Vec<((Digital, i32), u32)>;
+
 /// The events of a text that begins in this line of its file; followers are events, too.
-fn events(source: Source<'_>, first_line: u32, words: &Words<'_>) -> Result<Vec<Event>, SettingsError> {
+fn events(
+    source: Source<'_>,
+    first_line: u32,
+    words: &Words<'_>,
+    followers: &mut Followers,
+) -> Result<Vec<Event>, SettingsError> {
     let root = source.parse()?;
     let top = Section::new(source, "the io scenario", root.get_ref(), &["event", "follow"])?;
     let line = |value: &Value<'_>| first_line + source.line(value.span().start) - 1;
@@ -155,7 +163,7 @@ fn events(source: Source<'_>, first_line: u32, words: &Words<'_>) -> Result<Vec<
         all.push(event(source, value, line(value), words)?);
     }
     for value in array(&top, "follow", "tables that begin with [[follow]]")? {
-        all.extend(follow(source, value, line(value), words)?);
+        all.extend(follow(source, value, line(value), words, followers)?);
     }
     // Of two things at the same time the one that stands further down comes last.
     all.sort_by_key(|event| event.line);
@@ -169,7 +177,13 @@ fn array<'a>(top: &Section<'a>, key: &str, what: &str) -> Result<&'a [Value<'a>]
 }
 
 /// The events that let an input have the level of another signal, some time later.
-fn follow(source: Source<'_>, value: &Value<'_>, line: u32, words: &Words<'_>) -> Result<[Event; 3], SettingsError> {
+fn follow(
+    source: Source<'_>,
+    value: &Value<'_>,
+    line: u32,
+    words: &Words<'_>,
+    followers: &mut Followers,
+) -> Result<[Event; 3], SettingsError> {
     const SIGNAL: &str = "an input, like \"di.2\"";
     const OF: &str = "a digital signal, like \"do.2\", or \"!do.2\" for its opposite";
     let section = table(source, value, "[[follow]]", FOLLOW)?;
@@ -190,6 +204,13 @@ fn follow(source: Source<'_>, value: &Value<'_>, line: u32, words: &Words<'_>) -
     if what == Digital::Di && !output && channel as usize == followed + 1 {
         return Err(wrong("of", "another signal than the one that follows"));
     }
+    if let Some((_, before)) = followers.iter().find(|(known, _)| *known == (what, channel)) {
+        return Err(wrong(
+            "signal",
+            &format!("an input that follows nothing yet: line {before} lets it follow a signal"),
+        ));
+    }
+    followers.push(((what, channel), line));
     let event = |cause, after, level| {
         let actions = vec![Action::Digital(what, channel, level)];
         Event { cause, after, actions, line }

@@ -193,6 +193,11 @@ fn a_follower_has_the_level_of_what_it_follows_some_time_later() {
         ("[[follow]]\nsignal = \"di.1\"\nof = \"ai.1\"", 3, "expected a digital signal"),
         ("[[follow]]\nsignal = \"di.1\"\nof = \"do.1\"\nafter = -1", 4, "seconds from 0"),
         ("[[event]]\nat = 1\ndi.1 = true\n[[follow]]\nsignl = \"di.1\"", 5, "did you mean `signal`?"),
+        (
+            "[[follow]]\nsignal = \"di.1\"\nof = \"do.1\"\n[[follow]]\nsignal = \"di.1\"\nof = \"do.2\"",
+            5,
+            "line 1 lets it follow a signal",
+        ),
     ] {
         let error = Scenario::parse("io.toml", text).unwrap_err();
         assert!(error.line == line && error.message.contains(words), "{error}");
