@@ -41,6 +41,21 @@ fn place(uri: &str, after: &str, needle: &str) -> Value {
 }
 
 #[test]
+fn hover_tells_the_frames_of_a_pose() {
+    let folder = Folder::new("frames");
+    let mut client = Client::new(&folder);
+    let uri = folder.uri("main.arl");
+    let (text, position) = cursor(
+        "wobj table\npose fe|eder = {x 700, y 0, z 600, a 0, b 180, c 0}\npose other = feeder\nfunc void main()\n    \
+         lin feeder, vl:100mm/s, w:table\n    ptp feeder, vp:10%\n    lin feeder, vl:100mm/s, w:table\nendfunc\n",
+    );
+    client.set(&uri, &text);
+    let hover = client.ask("textDocument/hover", json!({"textDocument": {"uri": uri}, "position": position}));
+    let shown = hover["contents"]["value"].as_str().unwrap();
+    assert!(shown.contains("A target in the frame `table` (lines 5, 7), `$DFWOBJ` (line 6)."), "{shown}");
+}
+
+#[test]
 fn hover_tells_what_a_name_is() {
     let (mut client, _folder, uri) = open("hover");
     let expected = [

@@ -1,6 +1,7 @@
 //! What a meaning is, in Markdown: the declaration, the comment above it, the reference of what is built in.
 
 use super::super::reference::page;
+use super::frame::frames;
 use super::programs::Program;
 use crate::check::base_name;
 use crate::diagnostics::Location;
@@ -18,7 +19,8 @@ pub(super) fn describe(program: &Program, meaning: Meaning, family: Family) -> O
             let info = index.local(at)?;
             let name = program.at(at);
             let kind = if is_parameter(program, at) { "parameter" } else { "local variable" };
-            Some(variable(program, at, &head(info.constant, info.ty, name, family), info.value.as_ref(), kind))
+            let text = variable(program, at, &head(info.constant, info.ty, name, family), info.value.as_ref(), kind);
+            Some(joined([text, frames(program, meaning)]))
         }
         Meaning::Global(id) => {
             let global = index.global(id)?;
@@ -29,7 +31,8 @@ pub(super) fn describe(program: &Program, meaning: Meaning, family: Family) -> O
             };
             let module = index.module(global.module)?;
             let kind = format!("global variable of `{}`", module.name);
-            Some(variable(program, global.at, &text, global.value.as_ref(), &kind))
+            let text = variable(program, global.at, &text, global.value.as_ref(), &kind);
+            Some(joined([text, frames(program, meaning)]))
         }
         Meaning::Function(id) => {
             let function = index.function(id)?;

@@ -13,6 +13,7 @@ mod diagnostics;
 mod documents;
 mod folding;
 mod formatting;
+mod frame;
 mod highlights;
 mod hints;
 mod hover;

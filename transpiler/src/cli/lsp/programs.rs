@@ -78,6 +78,11 @@ impl Program {
         self.checked.files.get(at.file).map_or("", |file| at.span.text(&file.text))
     }
 
+    /// The line that a place begins in.
+    pub(super) fn line(&self, at: Location) -> u32 {
+        self.checked.files.get(at.file).map_or(0, |file| file.lines.line(at.span.start))
+    }
+
     /// Whether it depends on a file, or would if there were such a file.
     pub(super) fn reads(&self, path: &Path) -> bool {
         self.read.iter().any(|read| read == path)
