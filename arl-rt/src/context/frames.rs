@@ -29,8 +29,6 @@ pub(crate) struct Record {
     pub(crate) is_action: bool,
     /// Whether one of its statements ran.
     begun: bool,
-    /// Whether the program pointer was set to its line: it begins anew, and goes on there.
-    moved: bool,
     /// Its variables, in the order of declaration, with those that are gone already.
     variables: Vec<Variable<Weak<dyn Teach>>>,
     /// Its clocks and connections, in the same way.
@@ -82,14 +80,16 @@ fn note<T: ?Sized>(variables: &mut Vec<Variable<Weak<T>>>, new: Variable<Weak<T>
 pub(crate) struct Frames {
     records: RefCell<Vec<Record>>,
     entered: Cell<u64>,
+    /// The function whose program pointer was set to its line: it begins anew, and goes on there. 0: none.
+    moved: Cell<u64>,
 }
 
 impl Frames {
     fn enter(&self, name: Rc<str>, file: File, line: u32, is_action: bool) -> u64 {
         let id = self.entered.get() + 1;
         self.entered.set(id);
-        let (begun, moved, variables, handles) = (false, false, Vec::new(), Vec::new());
-        self.records.borrow_mut().push(Record { id, name, file, line, is_action, begun, moved, variables, handles });
+        let (begun, variables, handles) = (false, Vec::new(), Vec::new());
+        self.records.borrow_mut().push(Record { id, name, file, line, is_action, begun, variables, handles });
         id
     }
 
@@ -105,24 +105,33 @@ impl Frames {
         }
         records.truncate(at + 1);
         if let Some(record) = records.last_mut() {
-            (record.line, record.moved) = (line, true);
+            record.line = line;
         }
+        self.moved.set(id);
         Ok(())
     }
 
     /// Whether the program pointer was set in a function, which begins anew then.
     fn is_moved(&self, id: u64) -> bool {
-        self.with(id, |record| record.moved).unwrap_or(false)
+        self.moved.get() == id
     }
 
-    /// Whether it was set in any.
-    fn any_moved(&self) -> bool {
-        self.records.borrow().iter().any(|record| record.moved)
+    /// Whether a function does not go on any more, as it begins anew, or one that has called it. What runs on top meanwhile,
+    /// the action of an event or its condition, goes on.
+    fn is_left(&self, id: u64) -> bool {
+        let moved = self.moved.get();
+        moved != 0 && (moved == id || !self.records.borrow().iter().any(|record| record.id == id))
     }
 
     /// All of them, those that were entered last at the end.
     pub(crate) fn all(&self) -> Vec<Record> {
         self.records.borrow().clone()
+    }
+
+    /// The innermost ones, so many at most, those that were entered last at the end.
+    pub(crate) fn innermost(&self, most: usize) -> Vec<Record> {
+        let records = self.records.borrow();
+        records.iter().skip(records.len().saturating_sub(most)).cloned().collect()
     }
 
     /// Where a frame stands, and whether it is the action of an event.
@@ -205,10 +214,21 @@ impl<'a> Frame<'a> {
 
     /// Shows a clock or a connection.
     pub fn handle<T: Shown + 'static>(&self, number: usize, name: &'static str, handle: &Rc<T>) {
+        self.handles(number, name, &[], handle);
+    }
+
+    /// Shows an array of several dimensions of them with its sizes, outermost first.
+    pub fn handles<T: Shown + 'static>(
+        &self,
+        number: usize,
+        name: &'static str,
+        sizes: &'static [usize],
+        handle: &Rc<T>,
+    ) {
         self.declare(number, handle);
         let handle: Rc<dyn Shown> = Rc::<T>::clone(handle);
         let slot = Rc::downgrade(&handle);
-        self.cx.frames().with(self.id, |record| note(&mut record.handles, Variable { number, name, sizes: &[], slot }));
+        self.cx.frames().with(self.id, |record| note(&mut record.handles, Variable { number, name, sizes, slot }));
     }
 
     /// Notes a variable: it stays where the function begins anew.
@@ -257,10 +277,9 @@ impl<'a> Frame<'a> {
     }
 
     fn begin_anew(&self) {
-        let line = self.cx.frames().with(self.id, |record| {
-            record.moved = false;
-            record.line
-        });
+        let frames = self.cx.frames();
+        frames.moved.set(0);
+        let line = frames.with(self.id, |record| record.line);
         self.target.set(line.unwrap_or_default());
     }
 
@@ -311,7 +330,11 @@ impl<'a> Frame<'a> {
 
 impl Drop for Frame<'_> {
     fn drop(&mut self) {
-        self.cx.frames().records.borrow_mut().retain(|record| record.id != self.id);
+        let frames = self.cx.frames();
+        frames.records.borrow_mut().retain(|record| record.id != self.id);
+        if frames.is_moved(self.id) {
+            frames.moved.set(0);
+        }
     }
 }
 
@@ -351,7 +374,7 @@ impl Future for Runs<'_> {
         let go = if asked { watcher.goes_on() } else { watcher.statement(self.cx, id) };
         match go {
             // The function, or one that has called it, begins anew.
-            Go::On if self.cx.frames().any_moved() => Poll::Pending,
+            Go::On if self.cx.frames().is_left(id) => Poll::Pending,
             Go::On => Poll::Ready(true),
             Go::NotYet => Poll::Pending,
         }

@@ -29,6 +29,8 @@ pub struct ShownHandle<'a> {
     pub file: &'static str,
     /// Its name as it was declared.
     pub name: &'static str,
+    /// The sizes of an array of several dimensions, outermost first; else empty.
+    pub sizes: &'static [usize],
     /// The variable.
     pub slot: &'a dyn Shown,
 }

@@ -13,6 +13,7 @@
 //! - Each jump backwards gives the cycle back when the budget is used up, as each round of a loop does.
 
 use super::body::{Body, Exit, Loop, Tail};
+use super::consts::constant;
 use super::hooks::Lines;
 use super::loops::give_back;
 use super::machine::{Machine, State};
@@ -37,6 +38,8 @@ impl<'p> Body<'p, '_> {
         self.run(func, variable.clone(), declared(&func.body), true);
         let all = declared(&func.body);
         let hoisted = match &self.machine {
+            // A debugger may go from any state to any other one.
+            Some(_) if self.frame.is_some() => all,
             Some(machine) => all.into_iter().filter(|id| machine.is_shared(*id, &self.local(*id))).collect(),
             None => HashSet::new(),
         };
@@ -119,11 +122,17 @@ impl<'p> Body<'p, '_> {
             false => (!local.ty.is_array()).then(|| rust_type(local.ty, family)),
         };
         let ty = ty.map(|ty| quote!(: #ty));
-        Some(quote!(let mut #name #ty = #start;))
+        let shown = self.shown(id);
+        Some(quote!(let mut #name #ty = #start; #shown))
     }
 
     /// What a variable is before its declaration.
     fn first_value(&self, local: &Local) -> TokenStream {
+        // A debugger may jump over the declaration of a constant.
+        let known = local.value.as_ref().filter(|_| local.constant && self.frame.is_some());
+        if let Some(value) = known {
+            return constant(value).tokens;
+        }
         let start = start_value(local.ty, self.family());
         if local.shared { shared_value(local.ty, start) } else { start }
     }
@@ -157,8 +166,8 @@ impl<'p> Body<'p, '_> {
             .filter(|id| !machine.trial && machine.hoisted.contains(id) && !self.visible.contains(id))
             .filter_map(|id| {
                 let local = self.func?.locals.get(id.0 as usize)?;
-                let (name, start) = (self.local(*id), self.first_value(local));
-                Some(quote!(#name = #start;))
+                let (name, start, shown) = (self.local(*id), self.first_value(local), self.shown(*id));
+                Some(quote!(#name = #start; #shown))
             })
             .collect();
         let backwards = self

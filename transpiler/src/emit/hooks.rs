@@ -51,15 +51,13 @@ impl<'p> Body<'p, '_> {
             return TokenStream::new();
         };
         let (name, variable, number) = (&local.name, self.local(id), number(id));
-        if is_handle(local.ty) {
-            return quote!(#frame.handle(#number, #name, &#variable););
-        }
-        match local.ty.dims() {
-            sizes if sizes.len() > 1 => {
-                let sizes = sizes.iter().map(|size| Literal::u16_unsuffixed(*size));
-                quote!(#frame.table(#number, #name, &[#(#sizes),*], &#variable);)
-            }
-            _ => quote!(#frame.variable(#number, #name, &#variable);),
+        let sizes = local.ty.dims();
+        let shown = sizes.iter().map(|size| Literal::u16_unsuffixed(*size));
+        match (is_handle(local.ty), sizes.len() > 1) {
+            (true, false) => quote!(#frame.handle(#number, #name, &#variable);),
+            (true, true) => quote!(#frame.handles(#number, #name, &[#(#shown),*], &#variable);),
+            (false, false) => quote!(#frame.variable(#number, #name, &#variable);),
+            (false, true) => quote!(#frame.table(#number, #name, &[#(#shown),*], &#variable);),
         }
     }
 
@@ -119,9 +117,11 @@ impl<'p> Body<'p, '_> {
         self.led(block, Fragment::new(quote!(#frame.runs(#line).await && #condition), Precedence::And))
     }
 
-    /// `frame.leads_to(13, 15) || condition`, where the block that it leads to has lines.
+    /// `frame.leads_to(13, 15) || condition`, where the block that it leads to has lines of its own: those of a compact `if`
+    /// hang on the condition.
     pub(super) fn led(&self, block: &[Stmt], condition: Fragment) -> Fragment {
-        match (&self.frame, self.lines_of_block(block)) {
+        let lines = self.lines_of_block(block).map(|(first, last)| (first.max(self.line + 1), last));
+        match (&self.frame, lines.filter(|(first, last)| first <= last)) {
             (Some(frame), Some((first, last))) => {
                 let (first, last) = (Literal::u32_unsuffixed(first), Literal::u32_unsuffixed(last));
                 let condition = condition.inline().at(Precedence::Or);
@@ -160,6 +160,7 @@ impl<'p> Body<'p, '_> {
         });
         let none = number(arms.len());
         let halt = self.halt();
+        self.acts = false;
         let chosen = self.chosen(subject, numbered.collect(), quote!(#none));
         let lines = arms.iter().map(|arm| {
             let (first, last) = self.lines_of_block(&arm.body).unwrap_or((1, 0));
@@ -205,7 +206,7 @@ impl<'p> Body<'p, '_> {
         let inner = flow::blocks(stmt).filter_map(|block| self.lines_of_block(block)).map(|(_, last)| last);
         let conditions: Vec<u32> = match &stmt.kind {
             StmtKind::If(arms, _) => arms.iter().map(|(condition, _)| line(condition.span)).collect(),
-            StmtKind::Repeat(_, until, _) => vec![line(until.span)],
+            StmtKind::Repeat(body, until, _) if flow::goes_round(body) => vec![line(until.span)],
             _ => Vec::new(),
         };
         (first, inner.chain(conditions).fold(first, u32::max))

@@ -264,8 +264,8 @@ fn handles(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
     let globals = unit.program.globals.iter().enumerate();
     let own = globals.filter(|(_, global)| global.module == module && is_handle(global.ty));
     let all = own.map(|(at, global)| {
-        let (name, field) = (&global.name, unit.names.global(at as u32));
-        quote!(ShownHandle { file: #file, name: #name, slot: &self.#field })
+        let (name, field, sizes) = (&global.name, unit.names.global(at as u32), sizes_of_table(global));
+        quote!(ShownHandle { file: #file, name: #name, sizes: &[#(#sizes),*], slot: &self.#field })
     });
     let blank = super::program::blank(unit);
     quote! {
@@ -274,6 +274,14 @@ fn handles(unit: &Unit<'_>, module: ModuleId) -> TokenStream {
         pub fn handles(&self) -> Vec<ShownHandle<'_>> {
             vec![#(#all),*]
         }
+    }
+}
+
+/// The sizes of an array of several dimensions; of others none.
+fn sizes_of_table(global: &Global) -> Vec<Literal> {
+    match global.ty.dims() {
+        dims if dims.len() > 1 => dims.iter().map(|size| Literal::u16_unsuffixed(*size)).collect(),
+        _ => Vec::new(),
     }
 }
 
@@ -291,10 +299,7 @@ fn listed(
     });
     let vars = alone.map(|(at, global)| {
         let name = &global.name;
-        let sizes: Vec<Literal> = match global.ty.dims() {
-            dims if dims.len() > 1 => dims.iter().map(|size| Literal::u16_unsuffixed(*size)).collect(),
-            _ => Vec::new(),
-        };
+        let sizes = sizes_of_table(global);
         let slot = match &global.value {
             Some(value) => fixed(value),
             None => {

@@ -83,8 +83,12 @@ fn variables_are_shown_and_set() {
         ("offset(feeder, 10, 0, 0, 0, 0, 0).x", "910"),
         ("getpose(cjoint(), $FLANGE, $WORLD).b", "90"),
         ("log(0)", "log: 0 is not above 0"),
-        ("sqrt(name)", "sqrt does not take these arguments: see `arl2rs doc sqrt`"),
-        ("setdo(1, true)", "setdo is not called while the program stands: it waits, or changes something"),
+        ("abs(25.0) / 2", "12.5"),
+        ("bitcheck(5.0, 0)", "bitcheck does not take these arguments here: see `arl2rs doc bitcheck`"),
+        ("fmod(y:3, x:10)", "arguments stand in their order here, without labels and units"),
+        ("sqrt(name)", "sqrt does not take these arguments here: see `arl2rs doc sqrt`"),
+        ("setdo(1, true)", "setdo is not called while the program stands"),
+        ("add(1, 2)", "only built-in functions are called while the program stands, and add is none"),
         ("nothing", "there is no variable nothing here"),
     ] {
         assert_eq!(client.value(expression), value, "{expression}");
@@ -400,7 +404,7 @@ fn programs_of_a_cell_may_have_files_of_the_same_name() {
 fn clocks_and_connections_are_shown() {
     let folder = Folder::new("handles").with(
         "main.arl",
-        "clock all\nsocket line\nclock each[2]\nfunc void main()\n    clock own\n    clkstart(all)\n    clkstart(own)\n    waittime 0.5\n    \
+        "clock all\nsocket line\nclock each[2][1]\nfunc void main()\n    clock own\n    clkstart(all)\n    clkstart(own)\n    waittime 0.5\n    \
          clkstop(own)\n    waittime 0.25\n    print clkread(own)\nendfunc\n",
     );
     let mut client = Client::running(&folder, json!({}), &[11]);

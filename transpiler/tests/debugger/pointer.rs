@@ -298,3 +298,119 @@ fn it_goes_to_every_line() {
     client.ask("continue", json!({"threadId": 1}));
     assert_eq!(client.ended().1, json!(0));
 }
+
+/// A program whose pointer is set while events come: a timer in each cycle, and an interrupt whose condition calls.
+const EVENTS: &str = "\
+int ticks = 0
+func bool odd(int n)
+    int rest = n % 2
+    return rest == 1
+endfunc
+func void tick()
+    ticks = ticks + 1
+endfunc
+func void main()
+    timer \"t\", interval:0.001, rmode:true, do:tick()
+    interrupt 1, when:odd(ticks), do:tick()
+    waittime 5
+    print \"a\"
+    waittime 5
+    print \"b\"
+endfunc
+";
+
+#[test]
+fn events_go_on_while_it_is_set() {
+    for clock in ["virtual", "real"] {
+        let folder = Folder::new(&format!("pointer_events_{clock}")).with("main.arl", EVENTS);
+        let mut client = Client::running(&folder, json!({"clock": clock}), &[12]);
+        assert_eq!(reason_and_top(client.halt()), "breakpoint: main 12");
+        client.set_breakpoints(&folder, "main.arl", json!([]));
+        // Where an action or a condition runs just now, it may not be set.
+        loop {
+            client.ask("continue", json!({"threadId": 1}));
+            if client.go("pause").1 == ["main 12"] {
+                break;
+            }
+        }
+        assert_eq!(reason_and_top(client.go_to(&folder, 14)), "goto: main 14", "{clock}");
+        assert_eq!(reason_and_top(client.go_to(&folder, 15)), "goto: main 15", "{clock}");
+        client.ask("continue", json!({"threadId": 1}));
+        assert_eq!(client.ended(), ("b\n".into(), json!(0)), "{clock}: {}", client.said);
+    }
+}
+
+#[test]
+fn what_hangs_on_a_condition_of_its_line_still_does() {
+    let folder = Folder::new("pointer_compact").with(
+        "main.arl",
+        "func void main()\n    int n = 0\n    if(n > 5) n = 99\n    if(n > 5) goto over\n    print n\nover:\n    repeat\n        \
+         n = n + 1\n        break\n    until(n > 3)\n    print \"end\"\nendfunc\n",
+    );
+    let mut client = Client::running(&folder, json!({}), &[3]);
+    client.halt();
+    client.set_breakpoints(&folder, "main.arl", json!([]));
+    assert_eq!(reason_and_top(client.go_to(&folder, 3)), "goto: main 3");
+    assert_eq!(reason_and_top(client.go("next")), "step: main 4");
+    assert_eq!(client.value("n"), "0");
+    assert_eq!(reason_and_top(client.go_to(&folder, 4)), "goto: main 4");
+    assert_eq!(reason_and_top(client.go("next")), "step: main 5");
+    // An `until` that is never reached is none to go to: the next statement is.
+    assert_eq!(reason_and_top(client.go_to(&folder, 10)), "goto: main 11");
+    client.ask("continue", json!({"threadId": 1}));
+    assert_eq!(client.ended(), ("end\n".into(), json!(0)));
+}
+
+#[test]
+fn variables_stay_in_functions_with_goto() {
+    let folder = Folder::new("pointer_goto").with(
+        "main.arl",
+        "func void main()\n    int n = 0\n    double d = 25\n    const int most = 3\n    goto over\n    int x = 5\nover:\n    \
+         x = 7\n    n = n + 1\n    print x, \" \", d, \" \", most\n    if(n < 2)\n        goto over\n    endif\nendfunc\n",
+    );
+    let mut client = Client::running(&folder, json!({}), &[9]);
+    client.halt();
+    let (_, locals) = client.scope("Locals");
+    assert!(locals.contains(&"x = 7".to_owned()) && locals.contains(&"d = 25".to_owned()), "{locals:?}");
+    assert_eq!(reason_and_top(client.go_to(&folder, 10)), "goto: main 10");
+    assert_eq!(reason_and_top(client.go("next")), "step: main 11");
+    assert_eq!(reason_and_top(client.go_to(&folder, 5)), "goto: main 5");
+    assert_eq!(reason_and_top(client.go("continue")), "breakpoint: main 9");
+    assert_eq!((client.value("d"), client.value("x")), ("25".into(), "7".into()));
+    client.set_breakpoints(&folder, "main.arl", json!([]));
+    client.ask("continue", json!({"threadId": 1}));
+    assert_eq!(client.ended(), ("7 25 3\n7 25 3\n7 25 3\n".into(), json!(0)));
+}
+
+#[test]
+fn variables_stay_in_functions_of_parts() {
+    let mut text = "func void main()\n    int n = 1\n    while(n < 3)\n".to_owned();
+    for at in 0..100 {
+        let _ = writeln!(text, "        waittime 0.{:03}1", at);
+    }
+    text += "        n = n + 1\n        break\n    endwhile\n";
+    for at in 0..100 {
+        let _ = writeln!(text, "    waittime 0.{:03}1", at);
+    }
+    text += "    print n\nendfunc\n";
+    let folder = Folder::new("pointer_parts").with("main.arl", &text);
+    let mut client = Client::running(&folder, json!({}), &[150]);
+    assert_eq!(reason_and_top(client.halt()), "breakpoint: main 150");
+    assert_eq!(client.value("n"), "2");
+    assert_eq!(reason_and_top(client.go_to(&folder, 20)), "goto: main 20");
+    assert_eq!(client.value("n"), "2");
+    assert_eq!(reason_and_top(client.go("continue")), "breakpoint: main 150");
+    assert_eq!(client.value("n"), "3");
+}
+
+#[test]
+fn a_step_back_undoes_it_with_what_was_set_since() {
+    let folder = Folder::new("pointer_edits").with("main.arl", WAYS);
+    let mut client = Client::running(&folder, json!({}), &[11]);
+    client.halt();
+    client.value("seen = 8");
+    assert_eq!(reason_and_top(client.go_to(&folder, 14)), "goto: main 14");
+    client.value("seen = 50");
+    assert_eq!(reason_and_top(client.go("stepBack")), "step: main 11");
+    assert_eq!(client.value("seen"), "8");
+}

@@ -24,7 +24,7 @@ pub(super) fn answer(request: &Request, contexts: &[Rc<Cx>]) -> Result<String, S
         contexts.get(at).ok_or_else(|| format!("there is no channel {at}"))
     };
     match request.word.as_str() {
-        "stack" => Ok(stack(cx()?)),
+        "stack" => cx().map(|cx| stack(cx, &cx.frames().all())),
         "variables" => variables(cx()?, request.whole(1), Detail::Whole),
         "globals" => Ok(globals(cx()?, Detail::Whole)),
         "system" => Ok(system(cx()?)),
@@ -65,8 +65,7 @@ pub(super) fn motion_pointer(cx: &Cx) -> (u64, String) {
 }
 
 /// The functions that run, the one that was entered last in front.
-fn stack(cx: &Cx) -> String {
-    let frames = cx.frames().all();
+fn stack(cx: &Cx, frames: &[Record]) -> String {
     let shown = array(frames.iter().rev(), |frame| {
         format!(
             "{{\"id\":{},\"name\":{},\"file\":{},\"line\":{},\"event\":{}}}",
@@ -83,10 +82,10 @@ fn stack(cx: &Cx) -> String {
 
 /// Functions, locals of the innermost one, and global variables of a channel, for somebody who only looks.
 pub(super) fn inside(cx: &Cx) -> String {
-    let top = cx.frames().all().iter().rev().find(|frame| !frame.is_action).map(|frame| frame.id);
-    let locals =
-        top.and_then(|frame| variables(cx, frame, Detail::Brief).ok()).unwrap_or_else(|| "\"variables\":[]".into());
-    format!("{},{locals},{}", stack(cx), globals(cx, Detail::Brief))
+    let frames = cx.frames().innermost(BRIEF_LISTED);
+    let top = frames.iter().rev().find(|frame| !frame.is_action);
+    let locals = top.map_or_else(|| "\"variables\":[]".into(), |frame| of_record(cx, frame, Detail::Brief));
+    format!("{},{locals},{}", stack(cx, &frames), globals(cx, Detail::Brief))
 }
 
 /// The fields that say which program a channel runs: its main file, and the folder of its files, counted from the script
@@ -100,25 +99,40 @@ fn program(cx: &Cx) -> String {
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Detail {
     Whole,
-    /// Long arrays are left out: no cycle is to wait for them.
+    /// Long arrays and the ends of long lists are left out: no cycle is to wait for them.
     Brief,
 }
+
+impl Detail {
+    /// How many of a list are told.
+    fn most(self) -> usize {
+        match self {
+            Self::Whole => usize::MAX,
+            Self::Brief => BRIEF_LISTED,
+        }
+    }
+}
+
+/// The most functions, variables and files that are told in brief.
+const BRIEF_LISTED: usize = 100;
 
 /// The most elements of an array that is told in brief.
 const BRIEF_ELEMENTS: usize = 64;
 
 fn shown(name: &str, sizes: &[usize], variable: &dyn Teach, detail: Detail) -> String {
-    let ty = type_name(sizes, variable);
-    let elements: usize =
-        ty.split('[').skip(1).filter_map(|size| size.trim_end_matches(']').parse::<usize>().ok()).product();
-    let left_out = detail == Detail::Brief && elements > BRIEF_ELEMENTS;
-    let value = if left_out { "..".into() } else { variable.written() };
+    let ty = type_name(sizes, variable.type_name());
+    let value = if is_left_out(&ty, detail) { "..".into() } else { variable.written() };
     format!("{{\"name\":{},\"type\":{},\"value\":{}}}", quoted(name), quoted(&ty), quoted(&value))
 }
 
+/// Whether a value of this type is too much.
+fn is_left_out(ty: &str, detail: Detail) -> bool {
+    let sizes = ty.split('[').skip(1).filter_map(|size| size.trim_end_matches(']').parse::<usize>().ok());
+    detail == Detail::Brief && sizes.product::<usize>() > BRIEF_ELEMENTS
+}
+
 /// `int[2][3]`: a variable knows its elements in a row only.
-fn type_name(sizes: &[usize], variable: &dyn Teach) -> String {
-    let flat = variable.type_name();
+fn type_name(sizes: &[usize], flat: String) -> String {
     match flat.split_once('[') {
         Some((base, _)) if !sizes.is_empty() => {
             base.to_owned() + &sizes.iter().map(|size| format!("[{size}]")).collect::<String>()
@@ -127,8 +141,10 @@ fn type_name(sizes: &[usize], variable: &dyn Teach) -> String {
     }
 }
 
-fn shown_handle(cx: &Cx, name: &str, handle: &dyn Shown) -> String {
-    let (ty, value) = (quoted(&handle.type_name()), quoted(&handle.shown(cx)));
+fn shown_handle(cx: &Cx, name: &str, sizes: &[usize], handle: &dyn Shown, detail: Detail) -> String {
+    let ty = type_name(sizes, handle.type_name());
+    let value = if is_left_out(&ty, detail) { "..".into() } else { handle.shown(cx) };
+    let (ty, value) = (quoted(&ty), quoted(&value));
     format!("{{\"name\":{},\"type\":{ty},\"value\":{value}}}", quoted(name))
 }
 
@@ -138,18 +154,24 @@ fn record(cx: &Cx, frame: u64) -> Result<Record, String> {
 }
 
 fn variables(cx: &Cx, frame: u64, detail: Detail) -> Result<String, String> {
-    let record = record(cx, frame)?;
-    let variables = array(&record.variables(), |it| shown(it.name, it.sizes, &*it.slot, detail));
-    let handles = array(&record.handles(), |it| shown_handle(cx, it.name, &*it.slot));
-    Ok(format!("\"variables\":{variables},\"handles\":{handles}"))
+    record(cx, frame).map(|record| of_record(cx, &record, detail))
+}
+
+fn of_record(cx: &Cx, record: &Record, detail: Detail) -> String {
+    let (variables, handles) = (record.variables(), record.handles());
+    let variables = array(variables.iter().take(detail.most()), |it| shown(it.name, it.sizes, &*it.slot, detail));
+    let handles = handles.iter().take(detail.most());
+    let handles = array(handles, |it| shown_handle(cx, it.name, it.sizes, &*it.slot, detail));
+    format!("\"variables\":{variables},\"handles\":{handles}")
 }
 
 fn globals(cx: &Cx, detail: Detail) -> String {
     let program = cx.program_itself();
-    let files = array(program.variables(), |file| {
-        let all = array(&file.vars, |variable| shown(variable.name, variable.sizes, variable.slot, detail));
-        let handles = program.handles().into_iter().filter(|handle| handle.file == file.file);
-        let handles = array(handles, |handle| shown_handle(cx, handle.name, handle.slot));
+    let files = array(program.variables().into_iter().take(detail.most()), |file| {
+        let all = file.vars.iter().take(detail.most());
+        let all = array(all, |variable| shown(variable.name, variable.sizes, variable.slot, detail));
+        let handles = program.handles().into_iter().filter(|handle| handle.file == file.file).take(detail.most());
+        let handles = array(handles, |handle| shown_handle(cx, handle.name, handle.sizes, handle.slot, detail));
         format!("{{\"file\":{},\"variables\":{all},\"handles\":{handles}}}", quoted(file.file))
     });
     format!("\"files\":{files}")

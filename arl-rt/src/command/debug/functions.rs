@@ -5,6 +5,7 @@ use crate::context::cx::Cx;
 use crate::fault::Fault;
 use crate::values::text::Print;
 use crate::values::{Joint, Literal, NumBase, Pos, Pose, Str, Tool, Wobj};
+use arl_lang::catalog;
 use arl_lang::symbol::Interner;
 
 /// What a call gives: the type and the value, both as text. Nothing where the arguments are not of the parameters' types.
@@ -20,10 +21,13 @@ type Function = fn(&Cx, &[String]) -> Called;
 pub(super) fn call(cx: &Cx, name: &str, arguments: &[String]) -> Result<(String, String), String> {
     let named = || FUNCTIONS.iter().filter(|(known, _)| known.eq_ignore_ascii_case(name));
     if named().next().is_none() {
-        return Err(format!("{name} is not called while the program stands: it waits, or changes something"));
+        return Err(match catalog::functions(name) {
+            [] => format!("only built-in functions are called while the program stands, and {name} is none"),
+            _ => format!("{name} is not called while the program stands"),
+        });
     }
     let called = named().find_map(|(_, function)| function(cx, arguments));
-    let wrong = || format!("{name} does not take these arguments: see `arl2rs doc {name}`");
+    let wrong = || format!("{name} does not take these arguments here: see `arl2rs doc {name}`");
     called.ok_or_else(wrong)?.map_err(|fault| fault.to_string())
 }
 
@@ -52,8 +56,19 @@ macro_rules! outcomes {
 
 outcomes! { i32 u8 f64 bool Str Pose Joint }
 
-/// An argument; nothing where it is of another type.
-fn read<T: Literal + Default>(literal: &str) -> Option<T> {
+/// An argument, behind its type and a colon; nothing where it is of another type. Numbers become wider by themselves.
+fn read<T: Literal + Default>(argument: &str) -> Option<T> {
+    let (ty, literal) = argument.split_once(':')?;
+    let wanted = T::default().type_name();
+    let widens = match wanted.as_str() {
+        "double" => matches!(ty, "int" | "uint" | "byte"),
+        "int" => ty == "byte",
+        _ => false,
+    };
+    // Braces are of the type that is wanted.
+    if !(ty.is_empty() || ty == wanted || widens) {
+        return None;
+    }
     let mut names = Interner::default();
     let parsed = arl_lang::parse_expression(literal, &mut names, arl_lang::ParseOptions::default());
     let mut value = T::default();
@@ -62,13 +77,10 @@ fn read<T: Literal + Default>(literal: &str) -> Option<T> {
 
 macro_rules! functions {
     ($($name:literal($($parameter:ident: $ty:ty),*) $(in $cx:ident)? = $call:expr;)*) => {
-        &[$(($name, |cx, arguments| {
-            #[allow(unused_variables, reason = "some functions take no argument, or look at nothing")]
+        &[$(($name, |_cx, arguments| {
             let [$($parameter),*] = arguments else { return None };
             $(let $parameter: $ty = read($parameter)?;)*
-            $(let $cx = cx;)?
-            #[allow(unused_variables, reason = "most functions look at nothing")]
-            let _ = cx;
+            $(let $cx = _cx;)?
             Some($call.outcome())
         })),*]
     };
@@ -101,6 +113,7 @@ static FUNCTIONS: &[(&str, Function)] = functions! {
     "hypot"(x: f64, y: f64) = math::hypot(x, y);
     "norm"(p: Pos) = math::norm(p);
     "trunc"(x: f64, digits: i32, round: bool) = math::trunc(x, digits, round);
+    "bitcheck"(data: u8, at: i32) = bits::bitcheck_byte(data, at);
     "bitcheck"(data: i32, at: i32) = bits::bitcheck_int(data, at);
     "strlen"(s: Str) = strings::strlen(&s);
     "substr"(s: Str, from: i32) = strings::substr(&s, from, None);
@@ -113,7 +126,11 @@ static FUNCTIONS: &[(&str, Function)] = functions! {
     "tostr"(x: i32) = convert::tostr(&x);
     "tostr"(x: f64) = convert::tostr(&x);
     "tostr"(x: bool) = convert::tostr(&x);
+    "tostr"(x: u8) = convert::tostr(&x);
+    "tostr"(s: Str) = convert::tostr(&s);
+    "tostr"(j: Joint) = convert::tostr(&j);
     "tostr"(p: Pose) = convert::tostr(&p);
+    "tostr"(p: Pos) = convert::tostr(&p);
     "cjoint"() in cx = pose::cjoint(cx);
     "cpose"() in cx = pose::cpose_default(cx);
     "cpose"(t: Tool, w: Wobj) in cx = pose::cpose(cx, t, &w);
@@ -123,3 +140,18 @@ static FUNCTIONS: &[(&str, Function)] = functions! {
     "offset"(p: Pose, x: f64, y: f64, z: f64, rz: f64, ry: f64, rx: f64) = pose::offset(p, x, y, z, rz, ry, rx);
     "reltool"(p: Pose, x: f64, y: f64, z: f64, rz: f64, ry: f64, rx: f64) = pose::reltool(p, x, y, z, rz, ry, rx);
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use arl_lang::catalog::Effect;
+
+    #[test]
+    fn functions_are_those_of_the_catalog_and_change_nothing() {
+        for (name, _) in FUNCTIONS {
+            let all = catalog::functions(name);
+            assert!(!all.is_empty(), "{name}");
+            assert!(all.iter().all(|entry| entry.effect == Effect::Pure || entry.looks), "{name}");
+        }
+    }
+}

@@ -94,10 +94,9 @@ impl Look {
     }
 
     fn set(&mut self, controller: &Controller, value: &str) -> Result<(), String> {
-        let inside =
-            self.inside.ok_or("this program was not made to be looked into: `arl2rs run --pendant` makes such")?;
+        self.inside.ok_or("this program was not made to be looked into: `arl2rs run --pendant` makes such")?;
         let number: usize = value.parse().map_err(|_| format!("`{value}` is no channel: expected its number, or 0"))?;
-        if number > 0 && inside(controller, number - 1).is_none() {
+        if number > controller.status().channels.len() {
             return Err(format!("there is no channel {number}"));
         }
         self.channel = number.checked_sub(1);

@@ -275,7 +275,11 @@ impl Evaluator<'_> {
             _ => {
                 let mut arguments = Vec::new();
                 for argument in &call.args {
-                    arguments.push(self.assigned(&argument.value)?.literal().text());
+                    if argument.label.is_some() || argument.unit.is_some() {
+                        return Err("arguments stand in their order here, without labels and units".into());
+                    }
+                    let value = self.assigned(&argument.value)?;
+                    arguments.push(format!("{}:{}", value.ty(), value.literal().text()));
                 }
                 let given = self.source.call(&name, &arguments)?;
                 return Ok(Value::of(&given.ty, &given.value));
@@ -510,9 +514,10 @@ mod tests {
 
         fn call(&mut self, function: &str, arguments: &[String]) -> Result<Variable> {
             match function {
-                "twice" => {
-                    Ok(Variable { ty: "string".into(), value: Literal::parse(&format!("\"{0}{0}\"", arguments[0])) })
-                }
+                "twice" => Ok(Variable {
+                    ty: "string".into(),
+                    value: Literal::parse(&format!("\"{0}{0}\"", arguments[0].trim_start_matches("int:"))),
+                }),
                 _ => Err(format!("{function} is not called")),
             }
         }

@@ -251,7 +251,9 @@ fn lines_of(
         }
         match &stmt.kind {
             StmtKind::If(arms, _) => found.extend(arms.iter().map(|(condition, _)| index.line(condition.span.start))),
-            StmtKind::Repeat(_, until, _) => _ = found.insert(index.line(until.span.start)),
+            StmtKind::Repeat(body, until, _) if flow::goes_round(body) => {
+                found.insert(index.line(until.span.start));
+            }
             _ => {}
         }
         for inner in flow::blocks(stmt) {
@@ -265,5 +267,52 @@ pub(super) fn same_file(one: &Path, other: &Path) -> bool {
     match (std::fs::canonicalize(one), std::fs::canonicalize(other)) {
         (Ok(one), Ok(other)) => one == other,
         _ => one == other,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::CheckOptions;
+    use crate::compile::compile_program;
+    use crate::emit::EmitOptions;
+
+    /// The programs below a folder.
+    #[expect(clippy::disallowed_methods, reason = "a test looks for cases")]
+    fn programs_below(folder: &Path) -> Vec<PathBuf> {
+        let mut found = Vec::new();
+        for entry in std::fs::read_dir(folder).expect("the folder").flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                found.extend(programs_below(&path));
+            } else if path.extension().is_some_and(|ending| ending == "arl") {
+                found.push(path);
+            }
+        }
+        found.sort();
+        found
+    }
+
+    /// A line that is offered and never asked whether it runs could never be reached.
+    #[test]
+    fn each_line_that_is_offered_is_asked_whether_it_runs() {
+        let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/conformance");
+        let emitting = EmitOptions { watched: true, ..EmitOptions::default() };
+        let mut looked_at = 0;
+        for path in programs_below(&corpus) {
+            let compiled = compile_program(&path, &FileSystem, &CheckOptions::default(), &emitting).expect("no bug");
+            let (Some(text), Some(program)) = (&compiled.rust, &compiled.checked.program) else { continue };
+            for func in &program.funcs {
+                let Some(module) = program.modules.get(func.module.0 as usize) else { continue };
+                for line in reached_lines(&func.body, &LineIndex::new(&module.source)) {
+                    // In a table the line is the first column of a row, or the only one.
+                    let asked =
+                        [format!(".runs({line})"), format!("({line}, "), format!("({line},\n"), format!(" {line},\n")];
+                    assert!(asked.iter().any(|asked| text.contains(asked)), "{}:{line}\n{text}", path.display());
+                    looked_at += 1;
+                }
+            }
+        }
+        assert!(looked_at > 5_000, "{looked_at}");
     }
 }

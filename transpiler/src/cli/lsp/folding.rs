@@ -86,33 +86,35 @@ fn long_comments(text: Text<'_>) -> Vec<FoldingRange> {
     // Between two words there is nothing but spaces and comments.
     for next in code.iter().map(|span| (span.start, span.end)).chain([(text.text.len() as u32, 0)]) {
         let between = text.text.get(at as usize..next.0 as usize).unwrap_or_default();
-        let mut from = 0;
-        while let Some((start, end)) = long_comment(between, from) {
+        for (start, end) in long_comments_of(between) {
             let lines = text.range(Span::new(at + start as u32, at + end as u32));
             if lines.start.line < lines.end.line {
                 found.push(range(lines.start.line, lines.end.line, Some(FoldingRangeKind::Comment)));
             }
-            from = end;
         }
         at = next.1;
     }
     found
 }
 
-/// The next `/* .. */` of a text that has no code in it, from a byte on.
-fn long_comment(text: &str, from: usize) -> Option<(usize, usize)> {
-    let mut from = from;
-    loop {
-        let rest = text.get(from..)?;
-        let start = from + rest.find("/*")?;
-        // One that stands in a `//` comment begins nothing.
-        if let Some(line) = rest.find("//").map(|line| from + line).filter(|line| *line < start) {
-            from = text.get(line..)?.find('\n').map(|end| line + end)?;
-            continue;
-        }
-        let end = start + text.get(start..)?.find("*/").map_or(text.len() - start, |end| end + 2);
-        return Some((start, end));
+/// The `/* .. */` of a text that has no code in it: where each begins, and ends.
+fn long_comments_of(text: &str) -> Vec<(usize, usize)> {
+    let mut found = Vec::new();
+    let mut at = 0;
+    while let Some(start) = text.get(at..).and_then(|rest| rest.find('/')).map(|slash| at + slash) {
+        let rest = text.get(start..).unwrap_or_default();
+        at = if let Some(inside) = rest.strip_prefix("/*") {
+            let end = inside.find("*/").map_or(text.len(), |end| start + 2 + end + 2);
+            found.push((start, end));
+            end
+        } else if rest.starts_with("//") {
+            // What stands in the rest of the line begins nothing.
+            rest.find('\n').map_or(text.len(), |end| start + end)
+        } else {
+            start + 1
+        };
     }
+    found
 }
 
 #[cfg(test)]
@@ -143,6 +145,7 @@ mod tests {
     fn long_comments_fold() {
         assert_eq!(folded("/* a\nb\n*/\nint x /* y */ /* z\nw */\n"), [(0, 2), (3, 4)]);
         assert_eq!(folded("// /* a\nint x\nstring s = \"/*\"\n// */\n"), []);
+        assert_eq!(folded("/*/ a\nb */\n"), [(0, 1)]);
     }
 
     #[test]

@@ -8,13 +8,13 @@ use ratatui::widgets::Paragraph;
 use super::link::{Inside, Variable};
 use super::screen::{QUIET, STRONG, titled};
 
-/// The most rows of the functions that run, with their frame.
-const MOST_CALLS: u16 = 8;
+/// The most functions that are shown.
+const MOST_CALLS: usize = 6;
 
 /// Draws both, the variables without the first `scrolled` lines.
 pub(super) fn draw(frame: &mut Frame<'_>, area: Rect, inside: &Inside, scrolled: usize) {
     let calls = call_lines(inside);
-    let height = (calls.len() as u16 + 2).clamp(3, MOST_CALLS);
+    let height = calls.len() as u16 + 2;
     let [above, below] = Layout::vertical([Constraint::Length(height), Constraint::Min(0)]).areas(area);
     frame.render_widget(Paragraph::new(calls).block(titled("calls")), above);
     let variables = variable_lines(inside);
@@ -34,7 +34,11 @@ fn call_lines(inside: &Inside) -> Vec<Line<'_>> {
         let place = format!("  {}:{}", function.file, function.line);
         Line::from(vec![Span::raw(function.name.clone()), Span::styled(place, QUIET)])
     };
-    inside.frames.iter().map(line).collect()
+    let mut lines: Vec<Line<'_>> = inside.frames.iter().take(MOST_CALLS).map(line).collect();
+    if inside.frames.len() > MOST_CALLS {
+        lines.push(Line::styled(format!("and {} more", inside.frames.len() - MOST_CALLS), QUIET));
+    }
+    lines
 }
 
 /// Those of the innermost function, then those of the files.

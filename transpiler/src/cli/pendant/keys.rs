@@ -89,7 +89,8 @@ fn command(key: KeyCode, model: &mut Model) -> Option<Wish> {
         KeyCode::Down | KeyCode::Up | KeyCode::PageDown | KeyCode::PageUp => {
             let by = if matches!(key, KeyCode::Down | KeyCode::Up) { 1 } else { PAGE };
             let down = matches!(key, KeyCode::Down | KeyCode::PageDown);
-            model.scrolled = if down { model.scrolled + by } else { model.scrolled.saturating_sub(by) };
+            let last = model.inside.as_ref().map_or(0, |inside| inside.variable_lines().saturating_sub(1));
+            model.scrolled = if down { (model.scrolled + by).min(last) } else { model.scrolled.saturating_sub(by) };
             None
         }
         KeyCode::Char(letter) => {
@@ -160,8 +161,12 @@ mod tests {
         model.state.channels = vec![Default::default(), Default::default()];
         assert_eq!(type_in(&mut model, "v"), Some(Wish::Order("inside = 1".into())));
         press(KeyCode::PageDown.into(), &mut model);
+        assert_eq!(model.scrolled, 0, "there is nothing to scroll yet");
+        let variables = vec![super::super::link::Variable::default(); 10];
+        model.inside = Some(Inside { variables, ..Inside::default() });
+        (0..3).for_each(|_| _ = press(KeyCode::PageDown.into(), &mut model));
         press(KeyCode::Up.into(), &mut model);
-        assert_eq!(model.scrolled, 7);
+        assert_eq!(model.scrolled, 8);
         assert_eq!(press(KeyCode::Tab.into(), &mut model), Some(Wish::Order("inside = 2".into())));
         assert_eq!(model.scrolled, 0);
         assert_eq!(type_in(&mut model, "v"), Some(Wish::Order("inside = 0".into())));

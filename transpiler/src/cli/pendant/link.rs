@@ -105,6 +105,14 @@ pub(super) struct Inside {
     pub(super) files: Vec<Globals>,
 }
 
+impl Inside {
+    /// In how many lines its variables are shown: one for each, and one for each file.
+    pub(super) fn variable_lines(&self) -> usize {
+        let of_files = self.files.iter().map(|file| 1 + file.variables.len() + file.handles.len());
+        self.variables.len() + self.handles.len() + of_files.sum::<usize>()
+    }
+}
+
 /// A function that runs, or the action of an event.
 #[derive(Clone, PartialEq, Default, Deserialize, Debug)]
 pub(super) struct Function {

@@ -62,7 +62,13 @@ impl Model {
                 self.state = state;
             }
             // What comes behind the order to end is late.
-            Line::Inside(inside) => self.inside = self.inside.is_some().then_some(inside),
+            // So is what is of another channel.
+            Line::Inside(inside) => {
+                if self.inside.is_some() && inside.channel == self.shown + 1 {
+                    self.scrolled = self.scrolled.min(inside.variable_lines().saturating_sub(1));
+                    self.inside = Some(inside);
+                }
+            }
             Line::Message(message) => {
                 for text in message.text.trim_end_matches('\n').split('\n') {
                     self.note(Weight::Message, format!("{:9.3}  {text}", message.time));

@@ -21,7 +21,8 @@ impl<'p> Body<'p, '_> {
             out.extend(self.guard.take());
             // What lives in front of all states does so for the parts of one, too.
             let of_states = self.machine.as_ref().map(|machine| machine.hoisted.clone()).unwrap_or_default();
-            for id in outside_parts(&groups, &pieces).into_iter().filter(|id| !of_states.contains(id)) {
+            let watched = self.frame.is_some();
+            for id in outside_parts(&groups, &pieces, watched).into_iter().filter(|id| !of_states.contains(id)) {
                 out.extend(self.hoisted_variable(id));
                 self.hoisted.insert(id);
             }
@@ -88,8 +89,9 @@ impl<'p> Body<'p, '_> {
     }
 }
 
-/// The locals that are declared in a part and mentioned outside it, in the order of their declarations.
-fn outside_parts(groups: &[Group<'_>], pieces: &[Piece]) -> Vec<LocalId> {
+/// The locals that are declared in a part and mentioned outside it, in the order of their declarations; for a debugger, which
+/// may go from any part to any other one, all that are declared in parts.
+fn outside_parts(groups: &[Group<'_>], pieces: &[Piece], watched: bool) -> Vec<LocalId> {
     let mut part_of = vec![0; groups.len()];
     number_parts(pieces, 0, &mut 0, &mut part_of);
     let mut declared: Vec<LocalId> = Vec::new();
@@ -101,6 +103,9 @@ fn outside_parts(groups: &[Group<'_>], pieces: &[Piece]) -> Vec<LocalId> {
             declared.push(*id);
             home.insert(*id, *part);
         }
+    }
+    if watched {
+        return declared;
     }
     let mut outside = HashSet::new();
     for (group, part) in groups.iter().zip(&part_of) {

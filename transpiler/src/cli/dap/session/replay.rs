@@ -75,9 +75,9 @@ impl Session {
     pub(super) fn step_back(&mut self) -> Answer {
         let halt = self.halt.clone().ok_or("the program runs")?;
         if halt.why == "goto" {
-            // Back to before the program pointer was set.
+            // Back to before the program pointer was set, and without what was set by hand since.
             self.check_repeats()?;
-            self.replay.edits.pop();
+            while self.replay.edits.pop().is_some_and(|(_, word, _)| word != super::pointer::REQUEST) {}
             return self.go_to(halt.point);
         }
         let Point { statement, cycle } = halt.point;
