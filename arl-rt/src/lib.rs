@@ -47,7 +47,7 @@ pub use arl_robot::{Family, Robot, islands, kinematics, robot};
 pub use builtins::{frames, ops, text};
 pub use command::program_main;
 pub use context::cx::Cx;
-pub use context::frames::{Frame as FunctionFrame, Runs};
+pub use context::function_frame::{Frame as FunctionFrame, Runs};
 pub use context::output::{Captured, Message, Output, Stream};
 pub use context::program::{BoxFuture, Elsewhere, Program};
 pub use context::shown::{Shown, ShownHandle};

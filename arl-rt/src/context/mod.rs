@@ -8,6 +8,7 @@ pub(crate) mod channel_state;
 pub(crate) mod cx;
 pub(crate) mod events;
 pub(crate) mod frames;
+pub(crate) mod function_frame;
 pub(crate) mod output;
 pub mod program;
 pub(crate) mod programs;
