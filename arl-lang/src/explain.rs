@@ -227,6 +227,10 @@ impl Refused<'_> {
         };
         let before = self.before();
         match (before, found.1) {
+            (Some((_, Token::Type(_), _)), Token::Func) if self.at == 1 => {
+                let place = Span::new(found.0, found.2);
+                return Some(SyntaxError::new(self.unexpected(found, Hint::TypeBehindFunc, complete), place));
+            }
             (Some((_, Token::Type(_), _)), Token::ParenOpen) => {
                 let place = Span::new(found.0, found.2);
                 return Some(SyntaxError::new(self.unexpected(found, Hint::Conversion, complete), place));
@@ -331,6 +335,13 @@ impl Refused<'_> {
             }
             (Some(Token::For), ..) if !self.open.is_empty() => Hint::For,
             (Some(Token::Import), ..) if self.at == 1 => Hint::ImportQuotes,
+            (Some(Token::Case), _, Token::Comma) => Hint::OneCase,
+            (Some(Token::Type(_)), _, Token::Comma) if self.is_in(Bracket::Paren) && self.is_behind_equals() => {
+                Hint::Braces
+            }
+            (Some(Token::Type(_)), Some(Token::Comma), token) if self.open.is_empty() && is_number(token) => {
+                Hint::DecimalPoint
+            }
             (_, Some(Token::Name(_)), Token::ParenOpen) if self.is_component() => Hint::ModuleCall,
             (_, Some(Token::Name(_)), Token::Colon) => Hint::Label,
             (Some(Token::Instruction(_)), ..) if self.has_semicolon() => Hint::Events,
@@ -341,6 +352,13 @@ impl Refused<'_> {
     /// Whether what stands before is the name of a component.
     fn is_component(&self) -> bool {
         self.at >= 2 && matches!(self.tokens.get(self.at - 2), Some((_, Token::Dot, _)))
+    }
+
+    /// Whether the bracket that is open stands behind the `=` of a declaration.
+    fn is_behind_equals(&self) -> bool {
+        let opened = self.open.last().and_then(|(_, span)| self.tokens.iter().position(|token| token.0 == span.start));
+        let before = opened.and_then(|at| self.tokens.get(at.checked_sub(1)?));
+        matches!(before, Some((_, Token::Assign(None), _)))
     }
 
     /// Whether the bracket that is open stands behind a `p`.
@@ -419,6 +437,10 @@ impl Refused<'_> {
             [some @ .., last] => format!("{} or {last}", some.join(", ")),
         }
     }
+}
+
+fn is_number(token: Token) -> bool {
+    matches!(token, Token::Int(..) | Token::Double(_))
 }
 
 /// The bracket that a token closes.

@@ -160,6 +160,14 @@ pub enum Hint {
     PoseLiteral,
     /// `lib.inc(3)`: what is called of a module.
     ModuleCall,
+    /// `void func f()`: the type of the result in front of `func`.
+    TypeBehindFunc,
+    /// `case 1, 2:`: several values in a case.
+    OneCase,
+    /// `double d = 3,5`: a decimal comma.
+    DecimalPoint,
+    /// `pose p = (1, 2, 3)`: the values of a structure in parentheses.
+    Braces,
     /// `import lib`: the path of a module without its quotes.
     ImportQuotes,
 }

@@ -17,7 +17,7 @@ impl Hint {
                 "An instruction's arguments stand behind its name without parentheses: `print \"a\", 1`."
             }
             Hint::WholeCondition => "The parentheses go around the whole condition: `if((a) && (b))`.",
-            Hint::ConditionParens => "It stands in parentheses: `if(a == 1)`, `switch(n)`.",
+            Hint::ConditionParens => "It stands in parentheses: `if(a == 1)`, `until(a == 1)`, `switch(n)`.",
             Hint::Conversion => {
                 "A type's name does not convert values. Use `toint`, `todouble`, `tostr` or `trunc`, or assign to a variable of the type."
             }
@@ -44,6 +44,12 @@ impl Hint {
             Hint::ModuleCall => {
                 "A component cannot be called. A function of a module stands behind two colons: `module::function(...)`."
             }
+            Hint::TypeBehindFunc => "The type of the result stands behind `func`: `func void name()`.",
+            Hint::OneCase => {
+                "A `case` has one value; several cases share statements by `if`, or by a function that they call."
+            }
+            Hint::DecimalPoint => "A number has a decimal point: `3.5`.",
+            Hint::Braces => "The values of a structure stand in braces: `{700, 0, 600, 0, 180, 0}`.",
             Hint::ImportQuotes => "The path of a module stands in quotes: `import \"rack.arl\"`.",
             Hint::InstructionValue => "An instruction stands at the beginning of its line and has no value.",
         })

@@ -18,6 +18,13 @@ pub(crate) trait Between {
     /// A cycle is about to begin.
     fn cycle_begins(&mut self, controller: &mut Controller) -> Beat;
 
+    /// Nothing can change any more: the programs wait for what these words say. Whether somebody changed something, so that
+    /// the run goes on.
+    fn nothing_can_change(&mut self, controller: &mut Controller, waiting: &str) -> bool {
+        let _ = (controller, waiting);
+        false
+    }
+
     /// The run has ended.
     fn run_ended(&mut self, controller: &mut Controller);
 }

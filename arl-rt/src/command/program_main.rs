@@ -406,6 +406,12 @@ fn run(
     code
 }
 
+/// Who waits for what in vain.
+fn listed(waiting: &[Standstill]) -> String {
+    let lines: Vec<String> = waiting.iter().map(ToString::to_string).collect();
+    lines.join("; ")
+}
+
 /// Says who waits for what in vain.
 fn say_standstill(time: f64, waiting: &[Standstill]) {
     tell(format_args!(
@@ -472,9 +478,16 @@ fn watch(
             tell(format_args!("interrupted: the robot stops on its path"));
         } else if code.is_none() && controller.cycle() >= last {
             code = Some(EXIT_MAX_TIME);
-            let (file, line) = controller.place();
             let limit = max_time.unwrap_or_default();
-            tell(format_args!("the time is over: {limit} s; the program stands at {}:{line}", file.name()));
+            // A loop that only calculates says no line.
+            match controller.place() {
+                (file, 0) => {
+                    tell(format_args!("the time is over: {limit} s; the program calculates in {}", file.name()))
+                }
+                (file, line) => {
+                    tell(format_args!("the time is over: {limit} s; the program stands at {}:{line}", file.name()));
+                }
+            }
             controller.stop();
         }
         controller.step();
@@ -482,6 +495,7 @@ fn watch(
         if code.is_none()
             && beat != Beat::Stands
             && let Some(waiting) = controller.standstill()
+            && !between.as_mut().is_some_and(|between| between.nothing_can_change(controller, &listed(&waiting)))
         {
             code = Some(EXIT_MAX_TIME);
             say_standstill(controller.time(), &waiting);

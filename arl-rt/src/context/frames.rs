@@ -74,7 +74,7 @@ pub(crate) struct Frames {
     pub(super) records: RefCell<Vec<Record>>,
     entered: Cell<u64>,
     /// The function whose program pointer was set to its line: it begins anew, and goes on there. 0: none.
-    pub(super) moved: Cell<u64>,
+    pub(crate) moved: Cell<u64>,
 }
 
 impl Frames {

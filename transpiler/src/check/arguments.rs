@@ -417,6 +417,9 @@ impl<'a> Checker<'a> {
                 return Some((*at, None));
             }
         }
+        if let Some(label) = self.assigned_label(body, params, &arg.value) {
+            return self.report(body, arg.value.span, ArgumentProblem::EqualsBehindLabel { label });
+        }
         let typed = self.expr(body, &arg.value, self.hint_of_name(params, taken, &arg.value))?;
         let is_void = typed.expr.ty.base == Base::Void;
         let takes = |param: &Parameter<'_>| match &param.ty {
@@ -548,6 +551,17 @@ impl<'a> Checker<'a> {
         let found = self.type_name(typed.expr.ty);
         let problem = TypeProblem::Mismatch { found, wanted, what: what.to_string(), use_instead: None };
         self.report(body, typed.expr.span, problem)
+    }
+
+    /// The label that a value assigns to, as if it were a variable, where there is none of this name.
+    fn assigned_label(&self, body: &Body, params: &[Parameter<'_>], value: &ast::Expr) -> Option<String> {
+        let ast::ExprKind::Assign(None, sides) = &value.kind else { return None };
+        let ast::ExprKind::Name(symbol) = sides.0.kind else { return None };
+        let name = self.names.name(symbol);
+        let label = params.iter().find(|param| param.name.eq_ignore_ascii_case(name))?;
+        let is_variable = body.visible_locals().any(|(known, _)| known == symbol)
+            || self.scopes.get(body.module.0 as usize).is_some_and(|scope| scope.globals.contains_key(&symbol));
+        (!is_variable).then(|| label.name.to_owned())
     }
 
     /// A handle where any value may stand.

@@ -1,4 +1,4 @@
-//! A folder where a program was to be named.
+//! A folder, or nothing, where a program was to be named.
 
 use super::failure::Failure;
 use super::show;
@@ -6,13 +6,17 @@ use arl_lang::lexer::lexemes;
 use arl_lang::text::decode;
 use std::path::{Path, PathBuf};
 
-/// Refuses a folder, and names a program that lies in it.
+/// Refuses a folder, and names a program that lies in it; and a name without its ending.
 ///
 /// # Errors
-/// It is a folder.
+/// It is a folder, or what was meant lies beside it.
 pub(super) fn refuse(program: &Path) -> Result<(), Failure> {
     if !program.is_dir() {
-        return Ok(());
+        let meant = program.with_extension("arl");
+        let is_meant = program.extension().is_none() && !program.exists() && meant.is_file();
+        let (named, meant) = (show::path(program).display(), show::path(&meant).display());
+        let text = || format!("there is no file {named}; did you mean {meant}?");
+        return if is_meant { Err(Failure::Usage(text())) } else { Ok(()) };
     }
     let such_as = program_in(program).map(|file| format!(", such as {}", show::path(&file).display()));
     let such_as = such_as.unwrap_or_default();

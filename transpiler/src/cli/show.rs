@@ -20,7 +20,8 @@ pub(super) fn warning(text: &str) {
 /// A path as short as it can be said from where the command runs.
 pub(super) fn path(path: &Path) -> &Path {
     let here = std::env::current_dir().unwrap_or_default();
-    path.strip_prefix(&here).unwrap_or(path)
+    let shown = path.strip_prefix(&here).unwrap_or(path);
+    if shown.as_os_str().is_empty() { Path::new(".") } else { shown }
 }
 
 /// How many diagnostics people are shown by default.

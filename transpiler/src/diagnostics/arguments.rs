@@ -20,6 +20,8 @@ problems! {
             /// A label that the callee does not have.
             /// `meant`: those that are for the same as this label of another language.
             UnknownLabel { callee: String, label: String, labels: String, near: Option<String>, meant: String },
+            /// A label with `=` in the place of the colon.
+            EqualsBehindLabel { label: String },
         }
         error 404 "An argument given twice" => {
             /// A parameter that got two values.
@@ -88,6 +90,7 @@ impl Problem for ArgumentProblem {
                 )
             }
             ArgumentProblem::Missing { callee, parameter, .. } => format!("`{callee}` needs its `{parameter}`"),
+            ArgumentProblem::EqualsBehindLabel { label } => format!("`:` stands behind the label `{label}`, not `=`"),
             ArgumentProblem::UnknownLabel { callee, label, .. } => {
                 format!("`{callee}` has no parameter `{label}`")
             }
@@ -138,6 +141,7 @@ impl Problem for ArgumentProblem {
     fn help(&self) -> Option<String> {
         match self {
             ArgumentProblem::Missing { instead: Some(instead), .. } => Some(instead.clone()),
+            ArgumentProblem::EqualsBehindLabel { label } => Some(format!("write `{label}:` and the value")),
             ArgumentProblem::UnknownLabel { meant, .. } if !meant.is_empty() => Some(format!("did you mean {meant}?")),
             ArgumentProblem::Missing { signature, .. } => Some(format!("it is written `{signature}`")),
             ArgumentProblem::UnknownLabel { near: Some(near), .. } => Some(format!("did you mean `{near}`?")),

@@ -224,3 +224,10 @@ fn a_folder_is_no_program() {
             .says("cell is a folder: name the file that has `main`, such as cell/pick.arl");
     }
 }
+
+#[test]
+fn a_program_without_its_ending_is_meant() {
+    let folder = Folder::new("ending").with("pick.arl", GOOD);
+    folder.arl2rs(&["check", "pick"]).is(2, "").says("there is no file pick; did you mean pick.arl?");
+    folder.arl2rs(&["check", "."]).is(2, "").says(". is a folder: name the file that has `main`, such as ./pick.arl");
+}

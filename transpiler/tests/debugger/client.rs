@@ -157,10 +157,14 @@ impl Client {
         self.halt()
     }
 
-    /// An expression's value, seen from the innermost function.
+    /// An expression's value, seen from the innermost function, in the console.
     pub(crate) fn value(&mut self, expression: &str) -> String {
+        self.value_in("repl", expression)
+    }
+
+    pub(crate) fn value_in(&mut self, context: &str, expression: &str) -> String {
         let frame = self.frame();
-        let answer = self.answer("evaluate", json!({"expression": expression, "frameId": frame, "context": "watch"}));
+        let answer = self.answer("evaluate", json!({"expression": expression, "frameId": frame, "context": context}));
         let text = if answer["success"] == true { &answer["body"]["result"] } else { &answer["message"] };
         text.as_str().expect("a text").to_owned()
     }

@@ -98,7 +98,11 @@ fn variables_are_shown_and_set() {
     let frame = client.frame();
     client.ask("setExpression", json!({"frameId": frame, "expression": "table[1][1]", "value": "9"}));
     client.ask("setExpression", json!({"frameId": frame, "expression": "feeder.z", "value": "1.5"}));
-    assert_eq!(client.value("total = 40"), "40");
+    for context in ["watch", "hover"] {
+        assert!(client.value_in(context, "total = 7").contains("`==` compares"));
+    }
+    assert_eq!(client.value("total = 39"), "39");
+    assert_eq!(client.value("total++"), "40");
     assert_eq!(client.value("feeder"), "{x 900,y -500,z 1.5,a 0,b 180,c 0,cfg 0,turn -1}");
     assert_eq!(client.scope("Locals").1, ["table = {{1,2},{3,9}}", "name = \"piece\"", "i = 1"]);
     let wrong = client.refused("setVariable", json!({"variablesReference": locals, "name": "i", "value": "\"x\""}));
@@ -309,8 +313,27 @@ fn mistakes_are_told() {
 fn a_run_that_cannot_go_on_says_who_waits() {
     let folder = Folder::new("standstill").with("main.arl", "func void main()\n    waituntil getdi(9)\nendfunc\n");
     let mut client = Client::running(&folder, json!({}), &[]);
+    assert_eq!(client.halt(), ("pause".into(), vec!["main 2".into()]));
+    // Nothing was changed: the run ends. An input that is set lets it go on.
+    client.ask("continue", json!({"threadId": 1}));
     assert_eq!(client.ended().1, json!(4));
     assert!(client.said.contains("nothing can change any more"), "{}", client.said);
+    let mut client = Client::running(&folder, json!({}), &[]);
+    client.halt();
+    let (signals, _) = client.scope("Signals");
+    let kinds = client.ask("variables", json!({"variablesReference": signals}))["variables"].clone();
+    let inputs = &kinds[0]["variablesReference"];
+    client.ask("setVariable", json!({"variablesReference": inputs, "name": "9", "value": "true"}));
+    client.ask("continue", json!({"threadId": 1}));
+    assert_eq!(client.ended().1, json!(0));
+    // Without alarms there are no such halts, either.
+    let mut client = Client::new();
+    client.ask("launch", json!({"program": folder.path("main.arl")}));
+    client.ask("setExceptionBreakpoints", json!({"filters": []}));
+    client.ask("configurationDone", json!({}));
+    assert_eq!(client.ended().1, json!(4));
+    assert!(client.refused("goto", json!({"threadId": 1, "targetId": 0})).contains("no such target"));
+    assert!(client.refused("stepBack", json!({"threadId": 1})).contains("no program runs"));
 }
 
 #[test]

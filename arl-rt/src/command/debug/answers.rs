@@ -43,6 +43,11 @@ pub(super) fn answer(request: &Request, contexts: &[Rc<Cx>]) -> Result<String, S
     }
 }
 
+/// Whether a request changes something of the run.
+pub(super) fn changes(request: &Request) -> bool {
+    matches!(request.word.as_str(), "pointer" | "set" | "set-global" | "set-system" | "set-signal")
+}
+
 /// The channels, each with its name and its program.
 pub(super) fn channels(contexts: &[Rc<Cx>]) -> String {
     array(contexts, |cx| {

@@ -26,6 +26,12 @@ pub(super) struct Debugger {
     before: Cell<Way>,
     /// How many statements were about to run so far.
     statements: Cell<u64>,
+    /// The channel of which a statement is halted, on the virtual clock.
+    stands_in: Cell<Option<usize>>,
+    /// The channel whose program pointer was set, until its program has arrived there.
+    arriving: Cell<Option<usize>>,
+    /// How often something was set by hand.
+    changes: Cell<u64>,
     /// Whether programs are halted while cycles go on.
     halted: Cell<bool>,
     /// The alarm that came up last, and its cycle: it is heard of again when the program ends.
@@ -67,6 +73,9 @@ impl Debugger {
             plan: RefCell::default(),
             before: Cell::new(Way::On),
             statements: Cell::new(0),
+            stands_in: Cell::new(None),
+            arriving: Cell::new(None),
+            changes: Cell::new(0),
             halted: Cell::new(false),
             alarm: RefCell::default(),
             motions: RefCell::default(),
@@ -107,6 +116,21 @@ impl Debugger {
         if self.told.get().is_none_or(|told| told.elapsed() >= POINTER_INTERVAL) {
             self.tell_pointers();
         }
+    }
+
+    /// Halts the run, which could not go on. Whether something was changed by then.
+    pub(super) fn nothing_can_change(&self, contexts: Vec<Rc<Cx>>, waiting: &str) -> bool {
+        self.know(&contexts);
+        let changes = self.changes.get();
+        // A way back knows what was changed here: it comes by again, and on.
+        let way = self.plan.borrow().way();
+        if let Way::Until(point) | Way::Search(point) = way {
+            return point.cycle != u64::MAX;
+        }
+        if self.plan.borrow().alarms {
+            self.halt(&Halt { why: "standstill", between: true, text: waiting.to_owned(), ..Halt::new(0) });
+        }
+        self.changes.get() != changes
     }
 
     /// Whether programs are halted while cycles go on.
@@ -175,9 +199,11 @@ impl Debugger {
         ));
         if self.real {
             self.halted.set(true);
-        } else {
-            self.stand();
+            return;
         }
+        self.stands_in.set(Some(*channel).filter(|_| !between && *why != "alarm"));
+        self.stand();
+        self.stands_in.set(None);
     }
 
     /// Answers until programs go on.
@@ -225,11 +251,20 @@ impl Debugger {
             "search" => Some(Way::Search(Point { statement: request.whole(0), cycle: request.whole(1) })),
             _ => {
                 let fields = match answers::answer(request, &self.all()) {
-                    Ok(fields) => fields,
+                    Ok(fields) => {
+                        if answers::changes(request) {
+                            self.changes.set(self.changes.get() + 1);
+                        }
+                        fields
+                    }
                     Err(why) => format!("\"error\":{}", quoted(&why)),
                 };
-                self.link.say(&format!("\"answer\":{},{fields}", request.number));
-                return Reply::Stand;
+                // A program that is halted at a statement goes there at once: its variables are those of the place then.
+                let arrives =
+                    request.word == "pointer" && self.is_moved(channel) && self.stands_in.get() == Some(channel);
+                self.arriving.set(Some(channel).filter(|_| arrives));
+                self.link.say(&format!("\"answer\":{},\"arrives\":{arrives},{fields}", request.number));
+                return if arrives { Reply::Go } else { Reply::Stand };
             }
         };
         self.link.say(&format!("\"answer\":{},\"done\":true", request.number));
@@ -240,6 +275,11 @@ impl Debugger {
             }
             None => Reply::Stand,
         }
+    }
+
+    /// Whether the program pointer of a channel was set, and its program is not there yet.
+    fn is_moved(&self, channel: usize) -> bool {
+        self.context(channel).is_some_and(|cx| cx.frames().moved.get() != 0)
     }
 
     /// How deep a channel is in functions, not counting what looks at conditions.
@@ -298,10 +338,13 @@ impl Watcher for Debugger {
         if let Some((why, also)) = why {
             self.halt(&Halt { why, also, ..Halt::new(channel) });
         }
-        self.goes_on()
+        if self.halted.get() { Go::NotYet } else { Go::On }
     }
 
     fn goes_on(&self) -> Go {
+        if let Some(channel) = self.arriving.take() {
+            self.halt(&Halt { why: "goto", ..Halt::new(channel) });
+        }
         if self.halted.get() { Go::NotYet } else { Go::On }
     }
 

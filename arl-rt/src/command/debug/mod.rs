@@ -63,6 +63,10 @@ impl Between for Session {
         }
     }
 
+    fn nothing_can_change(&mut self, controller: &mut Controller, waiting: &str) -> bool {
+        self.debugger.nothing_can_change(controller.contexts(), waiting)
+    }
+
     fn run_ended(&mut self, controller: &mut Controller) {
         self.debugger.end(controller.contexts());
     }

@@ -131,7 +131,10 @@ impl Plan {
         match self.way() {
             Way::Pause => Some("pause"),
             Way::Until(end) | Way::Search(end) if cycle >= end.cycle => Some("step"),
-            Way::Motion(channel, from) if motion_of(channel) != from => Some("step"),
+            Way::Motion(channel, from) => {
+                let motion = motion_of(channel);
+                (motion != from && motion != 0).then_some("step")
+            }
             _ => None,
         }
     }
@@ -194,6 +197,7 @@ mod tests {
         assert_eq!(going(Way::Until(to(5))).halts_at(&here()), Some(("step", None)));
         assert_eq!(going(Way::Motion(0, 3)).halts_between(9, |_| 3), None);
         assert_eq!(going(Way::Motion(0, 3)).halts_between(9, |_| 4), Some("step"));
+        assert_eq!(going(Way::Motion(0, 3)).halts_between(9, |_| 0), None, "no motion begins");
         assert_eq!(going(Way::Search(Point { cycle: 9, ..to(6) })).halts_between(8, |_| 3), None);
         assert_eq!(going(Way::Search(Point { cycle: 9, ..to(6) })).halts_between(9, |_| 3), Some("step"));
     }

@@ -99,6 +99,12 @@ pub(super) fn evaluate(text: &str, source: &mut dyn Source) -> Result<Input> {
             };
             Ok(Input::Assignment(place, value))
         }
+        ExprKind::Step(step, inner) => {
+            let place = evaluator.place(inner)?;
+            let op = if step.up { BinaryOp::Add } else { BinaryOp::Subtract };
+            let value = binary(op, evaluator.value(inner)?, Value::Int(1))?;
+            Ok(Input::Assignment(place, value))
+        }
         _ => evaluator.value(&parsed.expr).map(Input::Value),
     }
 }
@@ -554,6 +560,7 @@ mod tests {
             ("0ffh", "int 255"),
             ("twice(count + 1) + \"!\"", "string \"88!\""),
             ("count += 1", "[] = 8"),
+            ("count--", "[] = 6"),
             ("home.x = 3", r#"[Named("x")] = 3"#),
             ("home = {x 1, y -2}", "[] = {x 1,y -2}"),
         ] {

@@ -1,5 +1,6 @@
 //! The session's own copy of the compiled program: others may compile it anew in the meantime, and the way back runs it again.
 
+use super::remains::PREFIX;
 use crate::cli::program::Ready;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -16,7 +17,7 @@ impl Executable {
     /// It cannot be copied.
     pub(super) fn of(ready: &Ready) -> Result<Self, String> {
         let number = COPIES.fetch_add(1, Ordering::Relaxed);
-        let name = format!("arl2rs-debug-{}-{number}{}", std::process::id(), std::env::consts::EXE_SUFFIX);
+        let name = format!("{PREFIX}{}-{number}{}", std::process::id(), std::env::consts::EXE_SUFFIX);
         let copy = std::env::temp_dir().join(name);
         let failed = |error: std::io::Error| format!("cannot write {}: {error}", copy.display());
         // What lies there is of a process of the same number that has ended.

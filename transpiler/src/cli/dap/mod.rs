@@ -13,6 +13,7 @@ mod literal;
 mod process;
 mod program;
 mod protocol;
+mod remains;
 mod session;
 mod state;
 mod variables;

@@ -13,6 +13,7 @@ use super::launch::Launch;
 use super::process::{News, Process};
 use super::program::{FileKey, Key, Programs};
 use super::protocol::{Outgoing, Request, capabilities};
+use super::remains;
 use super::state::State;
 use super::variables::Shown;
 use crate::cli::args::RunOptions;
@@ -127,7 +128,7 @@ impl Session {
         match request.command.as_str() {
             "initialize" => Ok(capabilities()),
             "launch" => self.launch(arguments),
-            "configurationDone" => self.start_run(),
+            "configurationDone" => self.first_run(),
             "setBreakpoints" => self.set_breakpoints(arguments),
             "setFunctionBreakpoints" => self.set_function_breakpoints(arguments),
             "setExceptionBreakpoints" => self.set_kinds(arguments),
@@ -191,11 +192,22 @@ impl Session {
         for breakpoint in self.breakpoints.find_places(&programs) {
             self.out.event("breakpoint", json!({"reason": "changed", "breakpoint": breakpoint}));
         }
+        remains::sweep();
         let executable = Executable::of(&ready)?;
         let folder = main.parent().unwrap_or_else(|| "".as_ref());
         let state = State::new(options.state_dir.as_deref(), options.script_dir.as_deref().unwrap_or(folder));
         self.launched = Some(Launched { launch, options, programs, executable, state });
         Ok(Value::Null)
+    }
+
+    /// Runs the program for the first time; a session whose program does not begin is over.
+    fn first_run(&mut self) -> Answer {
+        let begun = self.start_run();
+        if begun.is_err() {
+            self.process = None;
+            self.out.event("terminated", json!({}));
+        }
+        begun
     }
 
     /// Runs the program from its beginning.
@@ -471,6 +483,7 @@ impl Session {
             "alarm" => ("exception", "Paused at an alarm"),
             "event" => ("event", "Paused at the action of an event"),
             "pause" => ("pause", "Paused"),
+            "standstill" => ("pause", "Paused: nothing can change any more"),
             "goto" => ("goto", "Paused: the program pointer was set"),
             "entry" => ("entry", "Paused at the beginning"),
             "breakpoint" => ("breakpoint", "Paused at a breakpoint"),

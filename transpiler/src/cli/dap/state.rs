@@ -1,6 +1,7 @@
 //! The state that the controller keeps between runs: each run of a session begins with a copy of what is there, so that runs
 //! repeat each other. What they keep goes with the session.
 
+use super::remains::PREFIX;
 use std::path::{Path, PathBuf};
 
 /// Where it is where nobody says otherwise, below the program's folder.
@@ -16,7 +17,7 @@ impl State {
     /// For programs that keep their state in a folder, or else below that of their files.
     pub(super) fn new(folder: Option<&Path>, files: &Path) -> Self {
         let original = folder.map_or_else(|| files.join(STATE_DIR), Path::to_path_buf);
-        let copy = std::env::temp_dir().join(format!("arl2rs-debug-{}-state", std::process::id()));
+        let copy = std::env::temp_dir().join(format!("{PREFIX}{}-state", std::process::id()));
         Self { original, copy }
     }
 

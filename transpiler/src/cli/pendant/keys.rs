@@ -45,11 +45,19 @@ pub(super) fn press(key: KeyEvent, model: &mut Model) -> Option<Wish> {
     }
 }
 
+/// What was typed as an order. The key `i` begins with `di.`, where a name of the cell may follow, too.
+fn order_of(typed: String) -> String {
+    match typed.strip_prefix("di.") {
+        Some(name) if name.starts_with(|first: char| first.is_alphabetic() || first == '_') => name.to_owned(),
+        _ => typed,
+    }
+}
+
 /// A key while an order is being typed.
 fn edit(key: KeyCode, mut typed: String, model: &mut Model) -> Option<Wish> {
     match key {
         KeyCode::Enter if typed.trim().is_empty() => return None,
-        KeyCode::Enter => return Some(Wish::Order(typed)),
+        KeyCode::Enter => return Some(Wish::Order(order_of(typed))),
         KeyCode::Esc => return None,
         KeyCode::Backspace => drop(typed.pop()),
         KeyCode::Char(letter) => typed.push(letter),
@@ -179,6 +187,7 @@ mod tests {
         assert_eq!(type_in(&mut model, "i5 = tr\x08rue\n"), Some(Wish::Order("di.5 = true".into())));
         assert_eq!(model.typed, None);
         assert_eq!(type_in(&mut model, ":ai.2 = 4.2\n"), Some(Wish::Order("ai.2 = 4.2".into())));
+        assert_eq!(type_in(&mut model, "idoor = true\n"), Some(Wish::Order("door = true".into())));
         assert_eq!(type_in(&mut model, "i5\x1b"), None);
         assert_eq!(model.typed, None);
         // While something is typed, letters are letters.

@@ -226,6 +226,7 @@ fn foot_lines(model: &Model, width: u16) -> Vec<Line<'static>> {
     if let Some(typed) = &model.typed {
         let example = model.hello.names.iter().find(|(signal, _)| signal.starts_with("di."));
         let example = example.map_or("di.5", |(_, name)| name);
+        let example = if typed.starts_with("di.") { example.trim_start_matches("di.") } else { example };
         return vec![Line::from(vec![
             Span::styled("set ", STRONG),
             Span::raw(format!("{typed}▏")),

@@ -211,12 +211,17 @@ impl Session {
     pub(super) fn evaluate(&mut self, arguments: &Value) -> Answer {
         let text = arguments.get("expression").and_then(Value::as_str).unwrap_or_default().to_owned();
         let frame = arguments.get("frameId").and_then(Value::as_u64).unwrap_or_default() as usize;
+        let is_console = arguments.get("context").and_then(Value::as_str).is_none_or(|context| context == "repl");
         let mut seen = self.source(frame)?;
         if let Some(Told { ty, value, .. }) = seen.handle(text.trim())? {
             return Ok(json!({"result": value, "type": ty, "variablesReference": 0}));
         }
         let input = evaluate(&text, &mut seen)?;
         let (value, target) = match input {
+            // What an editor asks for again and again, or where somebody only points at, changes nothing.
+            Input::Assignment(..) if !is_console => {
+                return Err("this assigns; `==` compares. The console sets variables".into());
+            }
             Input::Assignment(place, value) => {
                 let value = self.assign(frame, &place, value.literal())?;
                 (value, None)
@@ -322,9 +327,20 @@ impl Session {
 
     /// Changes something of the program that stands, and remembers it for a way back.
     pub(super) fn edit(&mut self, word: &str, values: &[&str]) -> Answer {
+        let point = self.halt.as_ref().map(|halt| halt.point);
+        let answer = self.change(word, values)?;
+        if let Some(point) = point {
+            self.replay.edited(point, word, values);
+        }
+        Ok(answer)
+    }
+
+    /// Changes something of the program that stands. Where its pointer is set it goes there, and stands there.
+    pub(super) fn change(&mut self, word: &str, values: &[&str]) -> Answer {
         let answer = self.ask(word, values)?;
-        if let Some(halt) = &self.halt {
-            self.replay.edited(halt.point, word, values);
+        if answer.get("arrives").and_then(Value::as_bool) == Some(true) {
+            let stopped = self.wait_for("stopped")?;
+            self.arrive(&stopped);
         }
         Ok(answer)
     }

@@ -1,6 +1,6 @@
 //! The program pointer, set to another line by hand.
 
-use super::{Answer, Session};
+use super::{Answer, Halt, Session};
 use crate::cli::dap::program::same_file;
 use crate::cli::dap::variables::Frame;
 use serde_json::{Value, json};
@@ -46,7 +46,7 @@ impl Session {
         let number = arguments.get("targetId").and_then(Value::as_u64).unwrap_or(u64::MAX) as usize;
         let (path, line) = self.targets.of(number).ok_or("there is no such target")?;
         let channel = arguments.get("threadId").and_then(Value::as_u64).unwrap_or(1).saturating_sub(1) as usize;
-        let halt = self.halt.as_ref().ok_or("the program runs: pause it first")?;
+        let halt = self.standing()?;
         if halt.why == "alarm" {
             return Err("the program ends with this alarm: step back first".into());
         }
@@ -57,6 +57,12 @@ impl Session {
             (halt.why, halt.channel, halt.text) = ("goto".into(), channel, String::new());
         }
         Ok(Value::Null)
+    }
+
+    /// Where the programs stand.
+    pub(super) fn standing(&self) -> Result<&Halt, String> {
+        let why = if self.process.is_some() { "the program runs: pause it first" } else { "no program runs" };
+        self.halt.as_ref().ok_or_else(|| why.into())
     }
 
     /// The function that runs, has a line, and nothing but functions it has called on top.

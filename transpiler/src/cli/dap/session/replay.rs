@@ -73,7 +73,7 @@ impl Record {
 impl Session {
     /// Goes back by one statement.
     pub(super) fn step_back(&mut self) -> Answer {
-        let halt = self.halt.clone().ok_or("the program runs")?;
+        let halt = self.standing()?.clone();
         if halt.why == "goto" {
             // Back to before the program pointer was set, and without what was set by hand since.
             self.check_repeats()?;
@@ -90,12 +90,11 @@ impl Session {
 
     /// Goes back to the breakpoint that was met last, or to the beginning.
     pub(super) fn reverse_continue(&mut self) -> Answer {
-        let halt = self.halt.clone().ok_or("the program runs")?;
-        // Between two cycles the statement has begun: a breakpoint on it was met.
-        let end = Point::before(halt.point.statement + u64::from(halt.point.cycle.is_some()));
+        let halt = self.standing()?.clone();
         self.check_repeats()?;
         self.searches = true;
-        let last = self.last_breakpoint_before(end);
+        // Between two cycles the statement has begun: a breakpoint on it was met.
+        let last = self.last_breakpoint_before(halt.point);
         self.searches = false;
         self.go_to(Point::before(last?))
     }
@@ -127,7 +126,7 @@ impl Session {
             while let Some((_, word, values)) = edits.front().filter(|(at, ..)| *at <= passed).cloned() {
                 edits.pop_front();
                 let values: Vec<&str> = values.iter().map(String::as_str).collect();
-                self.ask(&word, &values)?;
+                self.change(&word, &values)?;
             }
         }
         Ok(last)
@@ -144,7 +143,7 @@ impl Session {
         for (at, word, values) in edits {
             self.run_to(at)?;
             let values: Vec<&str> = values.iter().map(String::as_str).collect();
-            self.ask(&word, &values)?;
+            self.change(&word, &values)?;
             if let Some(halt) = self.halt.as_mut().filter(|_| word == super::pointer::REQUEST) {
                 halt.why = "goto".into();
             }

@@ -1,0 +1,25 @@
+//! What adapters that were killed have left in the system's folder for files that go.
+
+use std::path::Path;
+
+/// How their names begin; the number of the process follows.
+pub(super) const PREFIX: &str = "arl2rs-debug-";
+
+/// Takes away what belongs to processes that are gone, where the system tells which are there.
+pub(super) fn sweep() {
+    let processes = Path::new("/proc");
+    if !processes.join(std::process::id().to_string()).is_dir() {
+        return;
+    }
+    let Ok(entries) = std::fs::read_dir(std::env::temp_dir()) else { return };
+    for entry in entries.flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let Some((process, _)) = name.strip_prefix(PREFIX).and_then(|rest| rest.split_once('-')) else { continue };
+        let is_number = !process.is_empty() && process.bytes().all(|digit| digit.is_ascii_digit());
+        if is_number && !processes.join(process).exists() {
+            // Another process may be at it, too, or they may be somebody else's.
+            let path = entry.path();
+            let _ = if path.is_dir() { std::fs::remove_dir_all(&path) } else { std::fs::remove_file(&path) };
+        }
+    }
+}
