@@ -133,13 +133,22 @@ fn breakpoints_have_conditions_counts_and_messages() {
             {"line": 6, "logMessage": "sum is {sum}"},
             {"line": 99},
             {"line": 16, "hitCondition": "often"},
+            {"line": 16, "condition": "i ="},
         ]),
     );
     let lines: Vec<_> =
         told.as_array().unwrap().iter().map(|one| (one["verified"] == true, one["line"].as_u64())).collect();
     assert_eq!(
         lines,
-        [(true, Some(13)), (true, Some(14)), (true, Some(9)), (true, Some(6)), (false, None), (false, None)]
+        [
+            (true, Some(13)),
+            (true, Some(14)),
+            (true, Some(9)),
+            (true, Some(6)),
+            (false, None),
+            (false, None),
+            (false, None)
+        ]
     );
     client.ask("setFunctionBreakpoints", json!({"breakpoints": [{"name": "ADD", "condition": "b == 2"}]}));
     client.ask("configurationDone", json!({}));

@@ -1,5 +1,6 @@
 //! Breakpoints: the lines that the program halts at, and what the adapter asks then.
 
+use super::evaluate::unreadable;
 use super::program::{FileKey, Programs};
 use serde::Deserialize;
 use serde_json::{Value, json};
@@ -142,11 +143,15 @@ impl Breakpoints {
                 format!("`{text}` is no hit count: expected a number, or one behind `>`, `>=`, `==` or `%`")
             })?),
         };
+        let condition = filled(&wanted.condition);
+        if let Some(why) = condition.as_deref().and_then(unreadable) {
+            return Err(format!("the condition cannot be read: {why}"));
+        }
         Ok(Breakpoint {
             id: self.made,
             file: None,
             line: 0,
-            condition: filled(&wanted.condition),
+            condition,
             hit_condition,
             message: filled(&wanted.log_message),
             hits: Vec::new(),

@@ -109,6 +109,12 @@ pub(super) fn evaluate(text: &str, source: &mut dyn Source) -> Result<Input> {
     }
 }
 
+/// Why a text is no expression.
+pub(super) fn unreadable(text: &str) -> Option<String> {
+    let parsed = arl_lang::parse_expression(text.trim(), &mut Interner::default(), arl_lang::ParseOptions::default());
+    parsed.errors.first().map(|error| error.kind.message())
+}
+
 /// What an expression names.
 pub(super) fn place(text: &str, source: &mut dyn Source) -> Result<Place> {
     let mut names = Interner::default();

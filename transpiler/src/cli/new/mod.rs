@@ -33,14 +33,17 @@ pub(super) fn new(folder: &Path) -> Result<(), Failure> {
         let path = folder.join(file.replace(NAME, &name));
         std::fs::write(&path, text.replace(NAME, &name)).map_err(|error| Failure::io("write", &path, &error))?;
     }
-    answer::write(&format!(
-        "{folder} has a program, its points, a cell and a scenario. In that folder:\n\
-         \n  arl2rs run {name}.arl             runs it on a simulated robot\
-         \n  arl2rs run {name}.arl --pendant   runs it in real time, with a pendant in the terminal\
-         \n  arl2rs check {name}.arl           finds mistakes\
-         \n  arl2rs test .                     compares what it prints with {name}.out\n",
-        folder = folder.display(),
-    ))
+    let commands = [
+        (format!("run {name}.arl"), "runs it on a simulated robot".to_owned()),
+        (format!("run {name}.arl --pendant"), "runs it in real time, with a pendant in the terminal".to_owned()),
+        (format!("check {name}.arl"), "finds mistakes".to_owned()),
+        ("test .".to_owned(), format!("compares what it prints with {name}.out")),
+    ];
+    let width = commands.iter().map(|(command, _)| command.len()).max().unwrap_or(0);
+    let lines = commands.iter().map(|(command, what)| format!("  arl2rs {command:width$}   {what}\n"));
+    let lines: String = lines.collect();
+    let folder = folder.display();
+    answer::write(&format!("{folder} has a program, its points, a cell and a scenario. In that folder:\n\n{lines}"))
 }
 
 /// Whether a program can be called so.
