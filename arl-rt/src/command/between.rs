@@ -20,8 +20,7 @@ pub(crate) trait Between {
 
     /// Nothing can change any more: the programs wait for what these words say. Whether somebody changed something, so that
     /// the run goes on.
-    fn nothing_can_change(&mut self, controller: &mut Controller, waiting: &str) -> bool {
-        let _ = (controller, waiting);
+    fn nothing_can_change(&mut self, _controller: &mut Controller, _waiting: &str) -> bool {
         false
     }
 

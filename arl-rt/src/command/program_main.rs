@@ -406,10 +406,11 @@ fn run(
     code
 }
 
-/// Who waits for what in vain.
-fn listed(waiting: &[Standstill]) -> String {
-    let lines: Vec<String> = waiting.iter().map(ToString::to_string).collect();
-    lines.join("; ")
+/// Who waits for what in vain, each with its channel where there are several.
+fn listed(waiting: &[Standstill]) -> Vec<String> {
+    let several = waiting.len() > 1;
+    let line = |one: &Standstill| if several { format!("{}: {one}", one.channel) } else { one.to_string() };
+    waiting.iter().map(line).collect()
 }
 
 /// Says who waits for what in vain.
@@ -417,12 +418,7 @@ fn say_standstill(time: f64, waiting: &[Standstill]) {
     tell(format_args!(
         "nothing can change any more after {time} s: no event of a scenario is left, nothing moves, and no timer runs"
     ));
-    for standstill in waiting {
-        match waiting.len() {
-            1 => tell(format_args!("  {standstill}")),
-            _ => tell(format_args!("  {}: {standstill}", standstill.channel)),
-        }
-    }
+    listed(waiting).iter().for_each(|line| tell(format_args!("  {line}")));
 }
 
 /// The exit code of a run that was driven from outside.
@@ -479,15 +475,12 @@ fn watch(
         } else if code.is_none() && controller.cycle() >= last {
             code = Some(EXIT_MAX_TIME);
             let limit = max_time.unwrap_or_default();
-            // A loop that only calculates says no line.
-            match controller.place() {
-                (file, 0) => {
-                    tell(format_args!("the time is over: {limit} s; the program calculates in {}", file.name()))
-                }
-                (file, line) => {
-                    tell(format_args!("the time is over: {limit} s; the program stands at {}:{line}", file.name()));
-                }
-            }
+            let place = match controller.place() {
+                // What only calculates says no line.
+                (file, 0) => format!("calculates in {}", file.name()),
+                (file, line) => format!("stands at {}:{line}", file.name()),
+            };
+            tell(format_args!("the time is over: {limit} s; the program {place}"));
             controller.stop();
         }
         controller.step();
@@ -495,7 +488,9 @@ fn watch(
         if code.is_none()
             && beat != Beat::Stands
             && let Some(waiting) = controller.standstill()
-            && !between.as_mut().is_some_and(|between| between.nothing_can_change(controller, &listed(&waiting)))
+            && !between
+                .as_mut()
+                .is_some_and(|between| between.nothing_can_change(controller, &listed(&waiting).join("; ")))
         {
             code = Some(EXIT_MAX_TIME);
             say_standstill(controller.time(), &waiting);

@@ -74,7 +74,7 @@ pub(crate) struct Frames {
     pub(super) records: RefCell<Vec<Record>>,
     entered: Cell<u64>,
     /// The function whose program pointer was set to its line: it begins anew, and goes on there. 0: none.
-    pub(crate) moved: Cell<u64>,
+    pub(super) moved: Cell<u64>,
 }
 
 impl Frames {
@@ -109,11 +109,16 @@ impl Frames {
         self.moved.get() == id
     }
 
+    /// Whether it was set in any, which is not there yet.
+    pub(crate) fn is_any_moved(&self) -> bool {
+        self.moved.get() != 0
+    }
+
     /// Whether a function does not go on any more, as it begins anew, or one that has called it. What runs on top meanwhile,
     /// the action of an event or its condition, goes on.
     pub(super) fn is_left(&self, id: u64) -> bool {
         let moved = self.moved.get();
-        moved != 0 && (moved == id || !self.records.borrow().iter().any(|record| record.id == id))
+        self.is_any_moved() && (moved == id || !self.records.borrow().iter().any(|record| record.id == id))
     }
 
     /// All of them, those that were entered last at the end.

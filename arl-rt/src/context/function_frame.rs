@@ -28,8 +28,9 @@ pub struct Frame<'a> {
     id: u64,
     /// The line that the program pointer was set to, until that is reached: nothing runs before it. 0: none.
     target: Cell<u32>,
-    /// The variables that the function has declared since it began, and those that stay when it begins anew.
+    /// The variables that the function has declared, by the numbers of their declarations.
     declared: RefCell<Vec<(usize, Weak<dyn Any>)>>,
+    /// Those that stay where it begins anew, until the line is reached.
     kept: RefCell<Vec<(usize, Rc<dyn Any>)>>,
 }
 

@@ -147,7 +147,7 @@ function drawn(lines, { diagnostics, hints }) {
   lines.forEach((pieces, number) => {
     const y = numbered(12 + LINE * number + 15);
     const here = hints.filter((hint) => hint.position.line === number);
-    const shown = here.map((hint) => ({ column: hint.position.character, text: hintText(hint), hint }));
+    const shown = here.map((hint) => ({ column: hint.position.character, text: hintText(hint) }));
     // Hints push the text behind them to the right.
     const x = (column, behind) => {
       const before = shown.filter((one) => one.column < column || (behind && one.column === column));
@@ -167,7 +167,7 @@ function drawn(lines, { diagnostics, hints }) {
     for (const { range, severity, message } of diagnostics.filter((one) => one.range.start.line === number)) {
       const [left, right] = [x(range.start.character, true), x(range.end.character, false)];
       const tint = severity === 1 ? "#f14c4c" : "#cca700";
-      const wave = Array.from({ length: Math.ceil((right - left) / 4) }, (_, step) => `q1 -2 2 0t2 0`).join("");
+      const wave = "q1 -2 2 0t2 0".repeat(Math.ceil((right - left) / 4));
       out.push(`<path d="M${left} ${y + 4}${wave}" fill="none" stroke="${tint}"/>`);
       const end = x(pieces.at(-1).start + pieces.at(-1).text.length, true) + 24;
       out.push(`<text x="${numbered(end)}" y="${y}" fill="${tint}" font-style="italic">${escaped(message.split("\n")[0])}</text>`);

@@ -310,19 +310,20 @@ impl<'a> Checker<'a> {
             } else {
                 self.by_position(body, callee, name, params, arg, &mut position, &taken)
             };
-            if found.is_none() && !by_type {
-                self.expect_nothing(body, callee, span, arg, &taken);
-            }
-            if let Some((param, typed)) = found {
+            let Some((param, typed)) = found else {
                 if !by_type {
-                    self.expect_argument(body, callee, span, arg, &taken, Some(param));
+                    self.expect_nothing(body, callee, span, arg, &taken);
                 }
-                if let Some(count) = taken.get_mut(param) {
-                    *count += 1;
-                }
-                self.mention_argument(body, callee, span, arg, param);
-                pairs.push(Pair { param, arg, typed });
+                continue;
+            };
+            if !by_type {
+                self.expect_argument(body, callee, span, arg, &taken, Some(param));
             }
+            if let Some(count) = taken.get_mut(param) {
+                *count += 1;
+            }
+            self.mention_argument(body, callee, span, arg, param);
+            pairs.push(Pair { param, arg, typed });
         }
         pairs
     }
@@ -417,8 +418,8 @@ impl<'a> Checker<'a> {
                 return Some((*at, None));
             }
         }
-        if let Some(label) = self.assigned_label(body, params, &arg.value) {
-            return self.report(body, arg.value.span, ArgumentProblem::EqualsBehindLabel { label });
+        if let Some(problem) = self.assigned_label(body, params, &arg.value) {
+            return self.report(body, arg.value.span, problem);
         }
         let typed = self.expr(body, &arg.value, self.hint_of_name(params, taken, &arg.value))?;
         let is_void = typed.expr.ty.base == Base::Void;
@@ -553,15 +554,15 @@ impl<'a> Checker<'a> {
         self.report(body, typed.expr.span, problem)
     }
 
-    /// The label that a value assigns to, as if it were a variable, where there is none of this name.
-    fn assigned_label(&self, body: &Body, params: &[Parameter<'_>], value: &ast::Expr) -> Option<String> {
+    /// What is wrong with a value that assigns to a label, as if that were a variable, where there is none of this name.
+    fn assigned_label(&self, body: &Body, params: &[Parameter<'_>], value: &ast::Expr) -> Option<ArgumentProblem> {
         let ast::ExprKind::Assign(None, sides) = &value.kind else { return None };
         let ast::ExprKind::Name(symbol) = sides.0.kind else { return None };
         let name = self.names.name(symbol);
         let label = params.iter().find(|param| param.name.eq_ignore_ascii_case(name))?;
-        let is_variable = body.visible_locals().any(|(known, _)| known == symbol)
-            || self.scopes.get(body.module.0 as usize).is_some_and(|scope| scope.globals.contains_key(&symbol));
-        (!is_variable).then(|| label.name.to_owned())
+        let is_variable = body.find(symbol).is_some() || self.find_global(body, symbol).is_some();
+        let (label, value) = (label.name.to_owned(), self.text(body.module, sides.1.span).to_owned());
+        (!is_variable).then_some(ArgumentProblem::EqualsBehindLabel { label, value })
     }
 
     /// A handle where any value may stand.

@@ -13,7 +13,7 @@ use std::collections::{HashMap, HashSet};
 use std::path::{Component, Path, PathBuf};
 
 /// The folder on the controller that programs live in.
-pub(crate) const SCRIPT_DIR: &str = "/home/ae/script/";
+const SCRIPT_DIR: &str = "/home/ae/script/";
 
 /// One parsed file.
 pub(crate) struct LoadedModule {
@@ -180,6 +180,15 @@ pub(crate) fn syntax_diagnostic(error: &arl_lang::syntax_error::SyntaxError, fil
     }
 }
 
+/// Where a path of an `import` leads: from the folder of the file that has it, or from the script folder, which is that of
+/// the main file where no other is named.
+pub(crate) fn imported(written: &str, folder: &Path, root: &Path, script_dir: Option<&Path>) -> PathBuf {
+    match written.strip_prefix(SCRIPT_DIR) {
+        Some(rest) => script_dir.unwrap_or(root).join(rest),
+        None => folder.join(written),
+    }
+}
+
 fn source_problem(path: String, error: SourceError) -> ModuleProblem {
     match error {
         SourceError::Missing => ModuleProblem::Missing { path },
@@ -294,10 +303,7 @@ impl Follow<'_> {
     }
 
     fn import_path(&self, folder: &Path, written: &str) -> PathBuf {
-        let mut path = match written.strip_prefix(SCRIPT_DIR) {
-            Some(rest) => self.options.script_dir.as_deref().unwrap_or(self.root).join(rest),
-            None => folder.join(written),
-        };
+        let mut path = imported(written, folder, self.root, self.options.script_dir.as_deref());
         if path.extension().is_none() {
             path.set_extension("arl");
         }

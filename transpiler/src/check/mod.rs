@@ -39,7 +39,7 @@ use context::Checker;
 pub(crate) use context::{base_name, type_name};
 use load::{Loaded, LoadedModule, Start};
 #[cfg(feature = "cli")]
-pub(crate) use load::{SCRIPT_DIR, clean, is_data};
+pub(crate) use load::{clean, imported, is_data};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
@@ -210,6 +210,11 @@ fn first_values_order(modules: &[LoadedModule]) -> Vec<ModuleId> {
     order
 }
 
+/// Whether the word `main` stands in a text, outside of its comments and strings.
+pub(crate) fn names_main(text: &str) -> bool {
+    arl_lang::lexer::lexemes(text).any(|(_, span)| span.text(text).eq_ignore_ascii_case("main"))
+}
+
 impl Checker<'_> {
     /// `main` of the main module.
     fn find_main(&mut self) -> Option<FuncId> {
@@ -236,13 +241,8 @@ impl Checker<'_> {
     /// Whether the main file has a `main` that could not be read: its mistakes are reported already.
     fn has_unread_main(&self) -> bool {
         let Some(main) = self.modules.first().map(|module| module.file) else { return false };
-        let Some(file) = self.files.get(main) else { return false };
-        let names_main = || {
-            let mut words = arl_lang::lexer::lexemes(&file.text).map(|(_, span)| span.text(&file.text));
-            words.any(|word| word.eq_ignore_ascii_case("main"))
-        };
         let unread = |one: &Diagnostic| one.code.is_of_syntax() && one.primary.at.file == main;
-        self.diagnostics.iter().any(unread) && names_main()
+        self.diagnostics.iter().any(unread) && self.files.get(main).is_some_and(|file| names_main(&file.text))
     }
 
     fn unused_imports(&mut self) {

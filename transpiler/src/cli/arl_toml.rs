@@ -3,6 +3,7 @@
 
 use super::args::{Checking, RunOptions};
 use super::failure::Failure;
+use super::program_path;
 use super::show;
 use crate::check::clean;
 use arl_robot::settings::Source;
@@ -109,7 +110,7 @@ fn take<T: Clone>(own: &mut Option<T>, other: Option<T>) -> Option<T> {
 impl Checking {
     /// The same, with what the `arl.toml` of a program says besides. With `--verbose` it is told what came from where.
     pub(super) fn of_program(&self, program: &Path) -> Result<Self, Failure> {
-        super::folder::refuse(program)?;
+        program_path::check(program)?;
         let file = of_program(program)?.unwrap_or_default();
         let mut all = self.clone();
         let entries = [
@@ -125,7 +126,7 @@ impl Checking {
 impl RunOptions {
     /// The same, with what the `arl.toml` of a program says besides. With `--verbose` it is told what came from where.
     pub(super) fn of_program(&self, program: &Path) -> Result<Self, Failure> {
-        super::folder::refuse(program)?;
+        program_path::check(program)?;
         let file = of_program(program)?.unwrap_or_default();
         let mut all = self.clone();
         let entries = [

@@ -196,7 +196,20 @@ fn state(place: &Place, identity: u64) -> (Freshness, Option<Stamp>) {
 /// Shows the warnings again and leaves the rest as it is.
 fn start_again(place: &Place, stamp: &Stamp, lock: Lock) -> Result<Ready, Failure> {
     show::say(&std::fs::read_to_string(place.folder.join("said")).unwrap_or_default());
-    Ok(Ready { program: place.folder.join(&stamp.program), lock, sources: sources(stamp) })
+    let (program, sources) = (place.folder.join(&stamp.program), sources(stamp));
+    renew(&program, &sources);
+    Ok(Ready { program, lock, sources })
+}
+
+/// Makes a program as new as its sources, which have the text that it was compiled from, even where they were written again:
+/// alarms show the lines of files that are no newer than the program.
+fn renew(program: &Path, sources: &[PathBuf]) {
+    let time = |path: &Path| path.metadata().and_then(|about| about.modified()).ok();
+    let newest = sources.iter().filter_map(|path| time(path)).max();
+    if newest > time(program) {
+        // Where that is not allowed, alarms show their lines without text.
+        let _ = newest.map(|newest| std::fs::File::open(program).and_then(|file| file.set_modified(newest)));
+    }
 }
 
 fn sources(stamp: &Stamp) -> Vec<PathBuf> {

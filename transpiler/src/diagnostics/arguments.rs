@@ -20,8 +20,6 @@ problems! {
             /// A label that the callee does not have.
             /// `meant`: those that are for the same as this label of another language.
             UnknownLabel { callee: String, label: String, labels: String, near: Option<String>, meant: String },
-            /// A label with `=` in the place of the colon.
-            EqualsBehindLabel { label: String },
         }
         error 404 "An argument given twice" => {
             /// A parameter that got two values.
@@ -74,6 +72,10 @@ problems! {
             /// A name that is none of a system variable that can be saved.
             NotKept { name: String, near: Option<String> },
         }
+        error 416 "A label with an equals sign" => {
+            /// `=` behind a label, in the place of the colon.
+            EqualsBehindLabel { label: String, value: String },
+        }
     }
 }
 
@@ -90,7 +92,9 @@ impl Problem for ArgumentProblem {
                 )
             }
             ArgumentProblem::Missing { callee, parameter, .. } => format!("`{callee}` needs its `{parameter}`"),
-            ArgumentProblem::EqualsBehindLabel { label } => format!("`:` stands behind the label `{label}`, not `=`"),
+            ArgumentProblem::EqualsBehindLabel { label, .. } => {
+                format!("`:` stands behind the label `{label}`, not `=`")
+            }
             ArgumentProblem::UnknownLabel { callee, label, .. } => {
                 format!("`{callee}` has no parameter `{label}`")
             }
@@ -141,7 +145,7 @@ impl Problem for ArgumentProblem {
     fn help(&self) -> Option<String> {
         match self {
             ArgumentProblem::Missing { instead: Some(instead), .. } => Some(instead.clone()),
-            ArgumentProblem::EqualsBehindLabel { label } => Some(format!("write `{label}:` and the value")),
+            ArgumentProblem::EqualsBehindLabel { label, value } => Some(format!("write `{label}:{value}`")),
             ArgumentProblem::UnknownLabel { meant, .. } if !meant.is_empty() => Some(format!("did you mean {meant}?")),
             ArgumentProblem::Missing { signature, .. } => Some(format!("it is written `{signature}`")),
             ArgumentProblem::UnknownLabel { near: Some(near), .. } => Some(format!("did you mean `{near}`?")),
@@ -169,6 +173,7 @@ impl Problem for ArgumentProblem {
     fn fix(&self) -> Option<String> {
         match self {
             ArgumentProblem::UnknownLabel { near: Some(near), .. } => Some(near.clone()),
+            ArgumentProblem::EqualsBehindLabel { label, value } => Some(format!("{label}:{value}")),
             _ => None,
         }
     }

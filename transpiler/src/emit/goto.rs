@@ -14,7 +14,7 @@
 
 use super::body::{Body, Exit, Loop, Tail};
 use super::consts::constant;
-use super::hooks::Lines;
+use super::hooks::{Lines, written};
 use super::loops::give_back;
 use super::machine::{Machine, State};
 use super::names::{camel_case, ident};
@@ -25,7 +25,7 @@ use super::types::{rust_type, shared_type, shared_value, start_value};
 use crate::effects::flow;
 use crate::hir::{Arm, Expr, For, Func, LabelId, Local, LocalId, LoopInfo, Stmt, StmtKind};
 use arl_lang::span::Span;
-use proc_macro2::{Ident, Literal, TokenStream};
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use std::collections::{HashMap, HashSet};
 
@@ -105,10 +105,9 @@ impl<'p> Body<'p, '_> {
     fn first_state(&self, machine: &Machine) -> TokenStream {
         let start = machine.states.first().map(|state| &state.name);
         let Some(frame) = &self.frame else { return quote!(State::#start) };
-        let cases = machine.lines_of.iter().map(|(at, (first, last))| {
-            let name = machine.states.get(*at).map(|state| &state.name);
-            let (first, last) = (Literal::u32_unsuffixed(*first), Literal::u32_unsuffixed(*last));
-            quote!((#first, #last, State::#name))
+        let cases = machine.lines_of.iter().map(|(at, lines)| {
+            let (name, lines) = (machine.states.get(*at).map(|state| &state.name), written(*lines));
+            quote!((#lines, State::#name))
         });
         quote!(#frame.begins_in(State::#start, [#(#cases),*]))
     }

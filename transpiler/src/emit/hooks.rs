@@ -96,8 +96,8 @@ impl<'p> Body<'p, '_> {
             StmtKind::Let(id, _) if self.is_shared(*id) => code,
             StmtKind::Let(..) => quote!(#frame.runs(#line).await; #code),
             _ if has_blocks(stmt) => {
-                let (first, last) = self.lines_of(stmt);
-                quote!(if #frame.enters(#first, #last) { #code })
+                let lines = written(self.lines_with(stmt));
+                quote!(if #frame.enters(#lines) { #code })
             }
             _ => quote!(if #frame.runs(#line).await { #code }),
         }
@@ -122,10 +122,9 @@ impl<'p> Body<'p, '_> {
     pub(super) fn led(&self, block: &[Stmt], condition: Fragment) -> Fragment {
         let lines = self.lines_of_block(block).map(|(first, last)| (first.max(self.line + 1), last));
         match (&self.frame, lines.filter(|(first, last)| first <= last)) {
-            (Some(frame), Some((first, last))) => {
-                let (first, last) = (Literal::u32_unsuffixed(first), Literal::u32_unsuffixed(last));
-                let condition = condition.inline().at(Precedence::Or);
-                Fragment::new(quote!(#frame.leads_to(#first, #last) || #condition), Precedence::Or)
+            (Some(frame), Some(lines)) => {
+                let (lines, condition) = (written(lines), condition.inline().at(Precedence::Or));
+                Fragment::new(quote!(#frame.leads_to(#lines) || #condition), Precedence::Or)
             }
             _ => condition,
         }
@@ -134,9 +133,9 @@ impl<'p> Body<'p, '_> {
     /// What is done in a loop unless the program pointer was set to a line of its body.
     pub(super) fn unless_led(&self, body: &[Stmt], code: TokenStream) -> TokenStream {
         match (&self.frame, self.lines_of_block(body)) {
-            (Some(frame), Some((first, last))) => {
-                let (first, last) = (Literal::u32_unsuffixed(first), Literal::u32_unsuffixed(last));
-                quote!(if !#frame.leads_to(#first, #last) { #code })
+            (Some(frame), Some(lines)) => {
+                let lines = written(lines);
+                quote!(if !#frame.leads_to(#lines) { #code })
             }
             _ => code,
         }
@@ -163,9 +162,9 @@ impl<'p> Body<'p, '_> {
         self.acts = false;
         let chosen = self.chosen(subject, numbered.collect(), quote!(#none));
         let lines = arms.iter().map(|arm| {
-            let (first, last) = self.lines_of_block(&arm.body).unwrap_or((1, 0));
-            let (first, last) = (Literal::u32_unsuffixed(first), Literal::u32_unsuffixed(last));
-            quote!((#first, #last))
+            // Nothing leads into an arm without statements.
+            let lines = written(self.lines_of_block(&arm.body).unwrap_or((1, 0)));
+            quote!((#lines))
         });
         let cases = codes.into_iter().enumerate().map(|(at, code)| {
             let at = number(at);
@@ -193,12 +192,6 @@ impl<'p> Body<'p, '_> {
         quote!(let #frame = cx.action(FILE, #line); #frame.runs(#line).await;)
     }
 
-    /// The lines of a statement.
-    fn lines_of(&self, stmt: &Stmt) -> (Literal, Literal) {
-        let (first, last) = self.lines_with(stmt);
-        (Literal::u32_unsuffixed(first), Literal::u32_unsuffixed(last))
-    }
-
     /// The lines of a statement and of those inside.
     pub(super) fn lines_with(&self, stmt: &Stmt) -> Lines {
         let line = |span: Span| self.unit.line(self.module, span);
@@ -217,6 +210,12 @@ impl<'p> Body<'p, '_> {
         let (first, last) = (block.first()?, block.last()?);
         Some((self.unit.line(self.module, first.span), self.lines_with(last).1))
     }
+}
+
+/// `12, 20`
+pub(super) fn written((first, last): Lines) -> TokenStream {
+    let (first, last) = (Literal::u32_unsuffixed(first), Literal::u32_unsuffixed(last));
+    quote!(#first, #last)
 }
 
 fn number(id: LocalId) -> Literal {

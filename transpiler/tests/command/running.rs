@@ -55,7 +55,18 @@ fn exit_codes_tell_how_it_ended() {
         .says("alarm 20001: ")
         .says("(alarm.arl:4)")
         .says("  4 | print 2 / a\n");
-    folder.arl2rs(&["run", "endless.arl", "--max-time", "2.5"]).is(4, "1\n");
+    // The same text, written again, is what the program was compiled from.
+    folder.write("alarm.arl", "func void main()\n    int a = 0\n    print 1\n    print 2 / a\nendfunc\n");
+    folder.arl2rs(&["run", "alarm.arl"]).is(3, "1\n").says("  4 | print 2 / a\n");
+    folder
+        .arl2rs(&["run", "endless.arl", "--max-time", "2.5"])
+        .is(4, "1\n")
+        .says("the program stands at endless.arl:4");
+    folder.write(
+        "endless.arl",
+        "func void main()\n    int k = 1\n    while(k > 0)\n        k = 1 + k % 9\n    endwhile\nendfunc\n",
+    );
+    folder.arl2rs(&["run", "endless.arl", "--max-time", "0.1"]).is(4, "").says("the program calculates in endless.arl");
     folder.arl2rs(&["run", "wrong.arl"]).is(1, "").says("ARL0211");
     folder.arl2rs(&["run", "endless.arl", "--robot", "none"]).is(2, "").says("no robot `none`");
     folder.arl2rs(&["run", "endless.arl", "--io", "none.toml"]).is(2, "").says("none.toml");

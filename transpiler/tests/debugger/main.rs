@@ -316,6 +316,27 @@ fn mistakes_are_told() {
     assert!(client.refused("launch", json!({"program": folder.path("main.arl")})).contains("error"));
     assert!(client.said.contains("error[ARL"), "{}", client.said);
     client.ask("disconnect", json!({}));
+    // A program that does not begin ends the session.
+    let folder = Folder::new("no_scenario").with("main.arl", "func void main()\nendfunc\n");
+    let mut client = Client::new();
+    client.ask("launch", json!({"program": folder.path("main.arl"), "io": "nowhere.toml"}));
+    client.refused("configurationDone", json!({}));
+    client.event("terminated");
+    assert!(client.said.contains("nowhere.toml"), "{}", client.said);
+}
+
+#[test]
+fn what_killed_adapters_left_is_taken_away() {
+    let folder = Folder::new("left").with("main.arl", "func void main()\nendfunc\n");
+    // No process of Linux has such a number; this one is there.
+    let left =
+        [4_194_305, std::process::id()].map(|process| std::env::temp_dir().join(format!("arl2rs-debug-{process}-9")));
+    left.iter().for_each(|path| std::fs::write(path, "").unwrap());
+    let mut client = Client::running(&folder, json!({}), &[]);
+    client.ended();
+    let there = left.each_ref().map(|path| path.exists());
+    left.iter().for_each(|path| drop(std::fs::remove_file(path)));
+    assert_eq!(there, [!std::path::Path::new("/proc/self").exists(), true]);
 }
 
 #[test]

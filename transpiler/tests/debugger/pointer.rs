@@ -110,8 +110,7 @@ fn the_pointer_goes_where_it_is_set_to() {
     assert_eq!(client.value("i"), "0");
     // Out of the loop, behind the wait.
     assert_eq!(reason_and_top(client.go_to(&folder, 42)), "goto: main 42");
-    client.ask("continue", json!({"threadId": 1}));
-    assert_eq!(client.ended(), ("done 20\n".into(), json!(0)));
+    assert_eq!(client.run_out(&folder), ("done 20\n".into(), json!(0)));
 }
 
 #[test]
@@ -133,8 +132,7 @@ fn a_program_that_waits_goes_on_elsewhere() {
     assert_eq!(reason_and_top(client.go("next")), "step: main 36");
     assert_eq!(reason_and_top(client.go("stepBack")), "step: main 35");
     assert_eq!(reason_and_top(client.go_to(&folder, 42)), "goto: main 42");
-    client.ask("continue", json!({"threadId": 1}));
-    assert_eq!(client.ended(), ("done 20\n".into(), json!(0)));
+    assert_eq!(client.run_out(&folder), ("done 20\n".into(), json!(0)));
 }
 
 #[test]
@@ -156,8 +154,7 @@ fn setting_it_is_undone_in_the_cycle_in_which_it_was_done() {
     assert_eq!(client.scope("Robot").1, at, "the same cycle");
     assert_eq!(reason_and_top(client.go_to(&folder, 5)), "goto: main 5");
     // The motions that were planned are executed.
-    client.ask("continue", json!({"threadId": 1}));
-    assert_eq!(client.ended(), ("set\n".into(), json!(0)));
+    assert_eq!(client.run_out(&folder), ("set\n".into(), json!(0)));
 }
 
 const CALLS: &str = "\
@@ -196,8 +193,7 @@ fn it_stays_in_the_functions_that_run() {
     assert!(client.may_not_go_to(&folder, 14).contains("the interrupt \"gate\" runs"));
     assert_eq!(reason_and_top(client.go("continue")), "exception: main 15");
     assert!(client.may_not_go_to(&folder, 16).contains("the program ends with this alarm"));
-    client.ask("continue", json!({"threadId": 1}));
-    assert_eq!(client.ended(), ("0 7\n".into(), json!(3)));
+    assert_eq!(client.run_out(&folder), ("0 7\n".into(), json!(3)));
 }
 
 /// A program with everything that statements are put into: parts, tables, and the states of functions with `goto`.
@@ -299,8 +295,7 @@ fn it_goes_to_every_line() {
         }
         assert_eq!(reason_and_top(client.go("next")).split(' ').next(), Some("step:"), "line {line}");
     }
-    client.ask("continue", json!({"threadId": 1}));
-    assert_eq!(client.ended().1, json!(0));
+    assert_eq!(client.run_out(&folder).1, json!(0));
 }
 
 /// A program whose pointer is set while events come: a timer in each cycle, and an interrupt whose condition calls.
@@ -335,8 +330,7 @@ fn events_go_on_while_it_is_set() {
         assert_eq!(client.go("arl/nextMotion"), ("step".into(), vec!["main 13".into()]), "{clock}");
         assert_eq!(reason_and_top(client.go_to(&folder, 15)), "goto: main 15", "{clock}");
         assert_eq!(reason_and_top(client.go_to(&folder, 16)), "goto: main 16", "{clock}");
-        client.ask("continue", json!({"threadId": 1}));
-        assert_eq!(client.ended(), ("b\n".into(), json!(0)), "{clock}: {}", client.said);
+        assert_eq!(client.run_out(&folder), ("b\n".into(), json!(0)), "{clock}: {}", client.said);
     }
 }
 
@@ -357,8 +351,7 @@ fn what_hangs_on_a_condition_of_its_line_still_does() {
     assert_eq!(reason_and_top(client.go("next")), "step: main 5");
     // An `until` that is never reached is none to go to: the next statement is.
     assert_eq!(reason_and_top(client.go_to(&folder, 10)), "goto: main 11");
-    client.ask("continue", json!({"threadId": 1}));
-    assert_eq!(client.ended(), ("end\n".into(), json!(0)));
+    assert_eq!(client.run_out(&folder), ("end\n".into(), json!(0)));
 }
 
 #[test]
@@ -377,9 +370,7 @@ fn variables_stay_in_functions_with_goto() {
     assert_eq!(reason_and_top(client.go_to(&folder, 5)), "goto: main 5");
     assert_eq!(reason_and_top(client.go("continue")), "breakpoint: main 9");
     assert_eq!((client.value("d"), client.value("x")), ("25".into(), "7".into()));
-    client.set_breakpoints(&folder, "main.arl", json!([]));
-    client.ask("continue", json!({"threadId": 1}));
-    assert_eq!(client.ended(), ("7 25 3\n7 25 3\n7 25 3\n".into(), json!(0)));
+    assert_eq!(client.run_out(&folder), ("7 25 3\n7 25 3\n7 25 3\n".into(), json!(0)));
 }
 
 #[test]

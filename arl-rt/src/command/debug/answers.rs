@@ -25,7 +25,7 @@ pub(super) fn answer(request: &Request, contexts: &[Rc<Cx>]) -> Result<String, S
     };
     match request.word.as_str() {
         "stack" => cx().map(|cx| stack(cx, &cx.frames().all())),
-        "variables" => variables(cx()?, request.whole(1), Detail::Whole),
+        "variables" => cx().and_then(|cx| Ok(of_record(cx, &record(cx, request.whole(1))?, Detail::Whole))),
         "globals" => Ok(globals(cx()?, Detail::Whole)),
         "system" => Ok(system(cx()?)),
         "signals" => Ok(signals(first()?)),
@@ -125,8 +125,16 @@ const BRIEF_LISTED: usize = 100;
 const BRIEF_ELEMENTS: usize = 64;
 
 fn shown(name: &str, sizes: &[usize], variable: &dyn Teach, detail: Detail) -> String {
-    let ty = type_name(sizes, variable.type_name());
-    let value = if is_left_out(&ty, detail) { "..".into() } else { variable.written() };
+    told(name, type_name(sizes, variable.type_name()), detail, || variable.written())
+}
+
+fn shown_handle(cx: &Cx, name: &str, sizes: &[usize], handle: &dyn Shown, detail: Detail) -> String {
+    told(name, type_name(sizes, handle.type_name()), detail, || handle.shown(cx))
+}
+
+/// A variable as an object.
+fn told(name: &str, ty: String, detail: Detail, value: impl FnOnce() -> String) -> String {
+    let value = if is_left_out(&ty, detail) { "..".into() } else { value() };
     format!("{{\"name\":{},\"type\":{},\"value\":{}}}", quoted(name), quoted(&ty), quoted(&value))
 }
 
@@ -146,22 +154,12 @@ fn type_name(sizes: &[usize], flat: String) -> String {
     }
 }
 
-fn shown_handle(cx: &Cx, name: &str, sizes: &[usize], handle: &dyn Shown, detail: Detail) -> String {
-    let ty = type_name(sizes, handle.type_name());
-    let value = if is_left_out(&ty, detail) { "..".into() } else { handle.shown(cx) };
-    let (ty, value) = (quoted(&ty), quoted(&value));
-    format!("{{\"name\":{},\"type\":{ty},\"value\":{value}}}", quoted(name))
-}
-
 /// A function that runs.
 fn record(cx: &Cx, frame: u64) -> Result<Record, String> {
     cx.frames().all().into_iter().find(|record| record.id == frame).ok_or_else(|| "the function has ended".into())
 }
 
-fn variables(cx: &Cx, frame: u64, detail: Detail) -> Result<String, String> {
-    record(cx, frame).map(|record| of_record(cx, &record, detail))
-}
-
+/// The variables of a function.
 fn of_record(cx: &Cx, record: &Record, detail: Detail) -> String {
     let (variables, handles) = (record.variables(), record.handles());
     let variables = array(variables.iter().take(detail.most()), |it| shown(it.name, it.sizes, &*it.slot, detail));
@@ -172,11 +170,12 @@ fn of_record(cx: &Cx, record: &Record, detail: Detail) -> String {
 
 fn globals(cx: &Cx, detail: Detail) -> String {
     let program = cx.program_itself();
+    let handles = program.handles();
     let files = array(program.variables().into_iter().take(detail.most()), |file| {
         let all = file.vars.iter().take(detail.most());
         let all = array(all, |variable| shown(variable.name, variable.sizes, variable.slot, detail));
-        let handles = program.handles().into_iter().filter(|handle| handle.file == file.file).take(detail.most());
-        let handles = array(handles, |handle| shown_handle(cx, handle.name, handle.sizes, handle.slot, detail));
+        let own = handles.iter().filter(|handle| handle.file == file.file).take(detail.most());
+        let handles = array(own, |handle| shown_handle(cx, handle.name, handle.sizes, handle.slot, detail));
         format!("{{\"file\":{},\"variables\":{all},\"handles\":{handles}}}", quoted(file.file))
     });
     format!("\"files\":{files}")
@@ -227,7 +226,7 @@ fn teach(variable: &dyn Teach, sizes: &[usize], literal: &str) -> Result<String,
 /// Sets the program pointer to a line of a function that runs: it goes on there.
 fn set_pointer(cx: &Cx, frame: u64, line: u64) -> Result<String, String> {
     if cx.level().number == Level::LOOKING.number {
-        return Err("the condition of an event is looked at".into());
+        return Err("the condition of an event is looked at: step out of it first".into());
     }
     let line = u32::try_from(line).ok().filter(|line| *line > 0).ok_or("there is no such line")?;
     cx.frames().set_pointer(frame, line)?;

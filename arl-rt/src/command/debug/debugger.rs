@@ -279,7 +279,7 @@ impl Debugger {
 
     /// Whether the program pointer of a channel was set, and its program is not there yet.
     fn is_moved(&self, channel: usize) -> bool {
-        self.context(channel).is_some_and(|cx| cx.frames().moved.get() != 0)
+        self.context(channel).is_some_and(|cx| cx.frames().is_any_moved())
     }
 
     /// How deep a channel is in functions, not counting what looks at conditions.

@@ -82,12 +82,9 @@ type Result<T> = std::result::Result<T, String>;
 /// Evaluates an expression.
 pub(super) fn evaluate(text: &str, source: &mut dyn Source) -> Result<Input> {
     let mut names = Interner::default();
-    let parsed = arl_lang::parse_expression(text.trim(), &mut names, arl_lang::ParseOptions::default());
-    if let Some(error) = parsed.errors.first() {
-        return Err(error.kind.message());
-    }
+    let expr = parsed(text, &mut names)?;
     let mut evaluator = Evaluator { names: &names, source };
-    match &parsed.expr.kind {
+    match &expr.kind {
         ExprKind::Assign(op, sides) => {
             let place = evaluator.place(&sides.0)?;
             let value = match op {
@@ -105,24 +102,28 @@ pub(super) fn evaluate(text: &str, source: &mut dyn Source) -> Result<Input> {
             let value = binary(op, evaluator.value(inner)?, Value::Int(1))?;
             Ok(Input::Assignment(place, value))
         }
-        _ => evaluator.value(&parsed.expr).map(Input::Value),
+        _ => evaluator.value(&expr).map(Input::Value),
     }
 }
 
 /// Why a text is no expression.
 pub(super) fn unreadable(text: &str) -> Option<String> {
-    let parsed = arl_lang::parse_expression(text.trim(), &mut Interner::default(), arl_lang::ParseOptions::default());
-    parsed.errors.first().map(|error| error.kind.message())
+    parsed(text, &mut Interner::default()).err()
+}
+
+fn parsed(text: &str, names: &mut Interner) -> Result<Expr> {
+    let parsed = arl_lang::parse_expression(text.trim(), names, arl_lang::ParseOptions::default());
+    match parsed.errors.first() {
+        Some(error) => Err(error.kind.message()),
+        None => Ok(parsed.expr),
+    }
 }
 
 /// What an expression names.
 pub(super) fn place(text: &str, source: &mut dyn Source) -> Result<Place> {
     let mut names = Interner::default();
-    let parsed = arl_lang::parse_expression(text.trim(), &mut names, arl_lang::ParseOptions::default());
-    match parsed.errors.first() {
-        Some(error) => Err(error.kind.message()),
-        None => Evaluator { names: &names, source }.place(&parsed.expr),
-    }
+    let expr = parsed(text, &mut names)?;
+    Evaluator { names: &names, source }.place(&expr)
 }
 
 impl Value {

@@ -17,7 +17,7 @@ pub(super) enum News {
     Said(Value),
     /// What it prints, on `stdout` or `stderr`.
     Output(&'static str, String),
-    /// It is gone, with this exit code.
+    /// It is gone; its exit code, where it ended before it could be asked for that.
     Ended(Option<i32>),
 }
 
@@ -33,7 +33,7 @@ impl Process {
     /// Starts a program; what is new of it comes under this number.
     ///
     /// # Errors
-    /// It cannot be started, or ends before it connects: what it says then is new of it, too.
+    /// It cannot be started, or ends before it connects: what it says then is new of it, too, and that it has ended.
     pub(super) fn start(mut command: Command, number: u64, events: &Sender<Event>) -> Result<Self, String> {
         let listener = TcpListener::bind(("127.0.0.1", 0)).map_err(|error| error.to_string())?;
         let address = listener.local_addr().map_err(|error| error.to_string())?;
@@ -51,8 +51,9 @@ impl Process {
             Ok(stream) => stream,
             Err(why) => {
                 let _ = child.kill();
-                let _ = child.wait();
+                let code = child.wait().ok().and_then(|status| status.code());
                 readers.into_iter().for_each(|reader| drop(reader.join()));
+                let _ = events.send(Event::Process(number, News::Ended(code)));
                 return Err(why);
             }
         };

@@ -128,7 +128,7 @@ impl Session {
         match request.command.as_str() {
             "initialize" => Ok(capabilities()),
             "launch" => self.launch(arguments),
-            "configurationDone" => self.first_run(),
+            "configurationDone" => self.start_run(),
             "setBreakpoints" => self.set_breakpoints(arguments),
             "setFunctionBreakpoints" => self.set_function_breakpoints(arguments),
             "setExceptionBreakpoints" => self.set_kinds(arguments),
@@ -198,16 +198,6 @@ impl Session {
         let state = State::new(options.state_dir.as_deref(), options.script_dir.as_deref().unwrap_or(folder));
         self.launched = Some(Launched { launch, options, programs, executable, state });
         Ok(Value::Null)
-    }
-
-    /// Runs the program for the first time; a session whose program does not begin is over.
-    fn first_run(&mut self) -> Answer {
-        let begun = self.start_run();
-        if begun.is_err() {
-            self.process = None;
-            self.out.event("terminated", json!({}));
-        }
-        begun
     }
 
     /// Runs the program from its beginning.
@@ -367,8 +357,8 @@ impl Session {
                     self.out.output(category, &text);
                 }
             }
-            News::Ended(_) => {
-                let code = self.process.as_mut().and_then(Process::exit_code);
+            News::Ended(code) => {
+                let code = code.or_else(|| self.process.as_mut().and_then(Process::exit_code));
                 self.process = None;
                 self.halt = None;
                 self.out.event("exited", json!({"exitCode": code.unwrap_or(-1)}));

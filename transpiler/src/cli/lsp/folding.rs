@@ -77,22 +77,24 @@ fn comments(text: Text<'_>) -> Vec<FoldingRange> {
     found
 }
 
-/// `/* .. */` over several lines, where nothing else stands on the last one.
+/// `/* .. */` over several lines; the last one stays where something else stands on it, too.
 fn long_comments(text: Text<'_>) -> Vec<FoldingRange> {
-    let code: Vec<Span> =
-        lexemes(text.text).filter(|(lexeme, _)| *lexeme != Ok(Lexeme::Newline)).map(|it| it.1).collect();
+    let code = lexemes(text.text).filter(|(lexeme, _)| *lexeme != Ok(Lexeme::Newline)).map(|(_, span)| span);
+    let end = text.text.len() as u32;
     let mut found = Vec::new();
     let mut at = 0;
     // Between two words there is nothing but spaces and comments.
-    for next in code.iter().map(|span| (span.start, span.end)).chain([(text.text.len() as u32, 0)]) {
-        let between = text.text.get(at as usize..next.0 as usize).unwrap_or_default();
+    for next in code.chain([Span::new(end, end)]) {
+        let between = text.text.get(at as usize..next.start as usize).unwrap_or_default();
         for (start, end) in long_comments_of(between) {
             let lines = text.range(Span::new(at + start as u32, at + end as u32));
-            if lines.start.line < lines.end.line {
-                found.push(range(lines.start.line, lines.end.line, Some(FoldingRangeKind::Comment)));
+            let behind = text.text.get(at as usize + end..).and_then(|rest| rest.lines().next()).unwrap_or_default();
+            let last = lines.end.line.saturating_sub(u32::from(!behind.trim().is_empty()));
+            if lines.start.line < last {
+                found.push(range(lines.start.line, last, Some(FoldingRangeKind::Comment)));
             }
         }
-        at = next.1;
+        at = next.end;
     }
     found
 }
@@ -146,6 +148,7 @@ mod tests {
         assert_eq!(folded("/* a\nb\n*/\nint x /* y */ /* z\nw */\n"), [(0, 2), (3, 4)]);
         assert_eq!(folded("// /* a\nint x\nstring s = \"/*\"\n// */\n"), []);
         assert_eq!(folded("/*/ a\nb */\n"), [(0, 1)]);
+        assert_eq!(folded("/* a\nb\n*/ int x\n/* c\n*/ int y\n"), [(0, 1)]);
     }
 
     #[test]

@@ -29,7 +29,7 @@ pub(super) const ORDERS: [(char, &str, &str); 7] = [
 const OVERRIDE_STEP: f64 = 10.0;
 
 /// By how many lines variables are scrolled at once.
-const PAGE: usize = 8;
+const PAGE: isize = 8;
 
 /// Does what a key asks of the screen, and says what it asks of the program.
 pub(super) fn press(key: KeyEvent, model: &mut Model) -> Option<Wish> {
@@ -94,13 +94,10 @@ fn command(key: KeyCode, model: &mut Model) -> Option<Wish> {
             Some(Wish::Order("inside = 0".into()))
         }
         KeyCode::Char('v') => Some(look_inside(model)),
-        KeyCode::Down | KeyCode::Up | KeyCode::PageDown | KeyCode::PageUp => {
-            let by = if matches!(key, KeyCode::Down | KeyCode::Up) { 1 } else { PAGE };
-            let down = matches!(key, KeyCode::Down | KeyCode::PageDown);
-            let last = model.inside.as_ref().map_or(0, |inside| inside.variable_lines().saturating_sub(1));
-            model.scrolled = if down { (model.scrolled + by).min(last) } else { model.scrolled.saturating_sub(by) };
-            None
-        }
+        KeyCode::Down => scroll(model, 1),
+        KeyCode::Up => scroll(model, -1),
+        KeyCode::PageDown => scroll(model, PAGE),
+        KeyCode::PageUp => scroll(model, -PAGE),
         KeyCode::Char(letter) => {
             let order = ORDERS.iter().find(|(key, ..)| *key == letter);
             order.map(|(.., order)| Wish::Order((*order).to_owned()))
@@ -113,6 +110,13 @@ fn command(key: KeyCode, model: &mut Model) -> Option<Wish> {
 fn look_inside(model: &mut Model) -> Wish {
     (model.inside, model.scrolled) = (Some(Inside::default()), 0);
     Wish::Order(format!("inside = {}", model.shown + 1))
+}
+
+/// Scrolls the variables, as far as there are any.
+fn scroll(model: &mut Model, by: isize) -> Option<Wish> {
+    let last = model.inside.as_ref().map_or(0, |inside| inside.variable_lines().saturating_sub(1));
+    model.scrolled = model.scrolled.saturating_add_signed(by).min(last);
+    None
 }
 
 fn change_override(percent: f64, model: &mut Model) -> Wish {

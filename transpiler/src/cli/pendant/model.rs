@@ -61,8 +61,7 @@ impl Model {
                 }
                 self.state = state;
             }
-            // What comes behind the order to end is late.
-            // So is what is of another channel.
+            // What is of another channel, or comes behind the order to end, is late.
             Line::Inside(inside) => {
                 if self.inside.is_some() && inside.channel == self.shown + 1 {
                     self.scrolled = self.scrolled.min(inside.variable_lines().saturating_sub(1));

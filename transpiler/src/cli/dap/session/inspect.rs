@@ -90,8 +90,7 @@ impl Session {
             Container::Globals(frame) => self.global_variables(*frame)?,
             Container::File(frame, file) => {
                 let mut shown = Vec::new();
-                let mut seen = self.source(*frame)?;
-                let (variables, handles) = (seen.of_file(file)?, seen.handles_of_file(file)?);
+                let (variables, handles) = self.source(*frame)?.of_file(file)?;
                 for (name, variable) in variables {
                     let target = Target::Global(file.clone(), name.clone());
                     shown.push(self.shown.value(&name, *frame, target, &variable, Vec::new()));
@@ -212,11 +211,7 @@ impl Session {
         let text = arguments.get("expression").and_then(Value::as_str).unwrap_or_default().to_owned();
         let frame = arguments.get("frameId").and_then(Value::as_u64).unwrap_or_default() as usize;
         let is_console = arguments.get("context").and_then(Value::as_str).is_none_or(|context| context == "repl");
-        let mut seen = self.source(frame)?;
-        if let Some(Told { ty, value, .. }) = seen.handle(text.trim())? {
-            return Ok(json!({"result": value, "type": ty, "variablesReference": 0}));
-        }
-        let input = evaluate(&text, &mut seen)?;
+        let input = evaluate(&text, &mut self.source(frame)?)?;
         let (value, target) = match input {
             // What an editor asks for again and again, or where somebody only points at, changes nothing.
             Input::Assignment(..) if !is_console => {

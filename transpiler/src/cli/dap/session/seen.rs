@@ -10,7 +10,6 @@ use arl_lang::catalog::Family;
 use serde_json::{Value, json};
 
 /// A variable as the program tells it.
-#[derive(Clone)]
 pub(super) struct Told {
     pub(super) name: String,
     pub(super) ty: String,
@@ -22,7 +21,7 @@ pub(super) struct Seen<'a> {
     pub(super) process: &'a mut Process,
     pub(super) program: &'a Program,
     pub(super) frame: Frame,
-    pub(super) locals: Vec<(String, Variable)>,
+    pub(super) locals: Named,
     /// Clocks and connections.
     pub(super) handles: Vec<Told>,
     pub(super) module: String,
@@ -33,6 +32,11 @@ impl Told {
     pub(super) fn shown(&self) -> Value {
         let Self { name, ty, value } = self;
         json!({"name": name, "value": value, "type": ty, "variablesReference": 0, "evaluateName": name})
+    }
+
+    /// As an expression sees it: words that are no literal.
+    fn as_variable(&self) -> Variable {
+        Variable { ty: self.ty.clone(), value: Literal::Plain(self.value.clone()) }
     }
 }
 
@@ -52,55 +56,43 @@ pub(super) fn variable(told: Told) -> (String, Variable) {
     (told.name, Variable { ty: told.ty, value })
 }
 
+/// The global variables of a file, as the program tells them: the file, variables, clocks and connections.
+type ToldFile = (String, Vec<Told>, Vec<Told>);
+
+/// Variables by their names.
+type Named = Vec<(String, Variable)>;
+
 impl Seen<'_> {
-    fn all_files(&mut self, list: &str) -> Result<Vec<(String, Vec<Told>)>, String> {
+    fn all_files(&mut self) -> Result<Vec<ToldFile>, String> {
         let answer = self.process.ask("globals", &[&self.frame.channel.to_string()])?;
         let files = answer.get("files").and_then(Value::as_array).cloned().unwrap_or_default();
         let name = |file: &Value| file.get("file").and_then(Value::as_str).unwrap_or_default().to_owned();
-        Ok(files.iter().map(|file| (name(file), told(file, list))).collect())
+        Ok(files.iter().map(|file| (name(file), told(file, "variables"), told(file, "handles"))).collect())
     }
 
     /// The files that have global variables or constants.
     pub(super) fn files(&mut self) -> Result<Vec<String>, String> {
-        let with_variables: Vec<String> = self.all_files("variables")?.into_iter().map(|(file, _)| file).collect();
+        let with_variables: Vec<String> = self.all_files()?.into_iter().map(|(file, ..)| file).collect();
         let modules = self.program.modules.iter().map(|module| module.file.clone());
         Ok(modules
             .filter(|file| with_variables.contains(file) || !global_constants(self.program, file).is_empty())
             .collect())
     }
 
-    pub(super) fn of_file(&mut self, file: &str) -> Result<Vec<(String, Variable)>, String> {
-        let files = self.all_files("variables")?;
-        let all = files.into_iter().find(|(known, _)| known == file).map(|(_, all)| all).unwrap_or_default();
-        let mut found: Vec<(String, Variable)> = all.into_iter().map(variable).collect();
+    /// The variables of a file with its constants, and its clocks and connections.
+    pub(super) fn of_file(&mut self, file: &str) -> Result<(Named, Vec<Told>), String> {
+        let told = self.all_files()?.into_iter().find(|(known, ..)| known == file);
+        let (_, all, handles) = told.unwrap_or_default();
+        let mut found: Named = all.into_iter().map(variable).collect();
         for (name, ty, value) in global_constants(self.program, file) {
             if !found.iter().any(|(known, _)| known.eq_ignore_ascii_case(&name)) {
                 found.push((name, Variable { ty, value: Literal::parse(&value) }));
             }
         }
-        Ok(found)
+        Ok((found, handles))
     }
 
-    /// The clocks and connections of a file.
-    pub(super) fn handles_of_file(&mut self, file: &str) -> Result<Vec<Told>, String> {
-        let files = self.all_files("handles")?;
-        Ok(files.into_iter().find(|(known, _)| known == file).map(|(_, all)| all).unwrap_or_default())
-    }
-
-    /// The clock or connection of this name, where no variable hides it.
-    pub(super) fn handle(&mut self, name: &str) -> Result<Option<Told>, String> {
-        let is = |known: &str| known.eq_ignore_ascii_case(name);
-        if let Some(handle) = self.handles.iter().find(|handle| is(&handle.name)) {
-            return Ok(Some(handle.clone()));
-        }
-        if self.locals.iter().any(|(known, _)| is(known)) {
-            return Ok(None);
-        }
-        let Some(file) = self.file_of(None, name) else { return Ok(None) };
-        Ok(self.handles_of_file(&file)?.into_iter().find(|handle| is(&handle.name)))
-    }
-
-    pub(super) fn all_system(&mut self) -> Result<Vec<(String, Variable)>, String> {
+    pub(super) fn all_system(&mut self) -> Result<Named, String> {
         let answer = self.process.ask("system", &[&self.frame.channel.to_string()])?;
         Ok(told(&answer, "variables").into_iter().map(variable).collect())
     }
@@ -126,8 +118,8 @@ impl Seen<'_> {
                 found.map(|(_, variable)| variable.clone()).ok_or_else(|| format!("there is no variable {name}"))
             }
             Target::Global(file, name) => {
-                let all = self.of_file(file)?;
-                let found = all.into_iter().find(|(known, _)| known.eq_ignore_ascii_case(name));
+                let (variables, _) = self.of_file(file)?;
+                let found = variables.into_iter().find(|(known, _)| known.eq_ignore_ascii_case(name));
                 found.map(|(_, variable)| variable).ok_or_else(|| format!("there is no variable {name}"))
             }
             Target::System(name) => self.system(name),
@@ -138,13 +130,21 @@ impl Seen<'_> {
 
 impl Source for Seen<'_> {
     fn variable(&mut self, module: Option<&str>, name: &str) -> Result<Variable, String> {
-        if module.is_none()
-            && let Some((_, variable)) = self.locals.iter().rev().find(|(known, _)| known.eq_ignore_ascii_case(name))
-        {
-            return Ok(variable.clone());
+        let is = |known: &str| known.eq_ignore_ascii_case(name);
+        if module.is_none() {
+            if let Some((_, variable)) = self.locals.iter().rev().find(|(known, _)| is(known)) {
+                return Ok(variable.clone());
+            }
+            if let Some(handle) = self.handles.iter().find(|handle| is(&handle.name)) {
+                return Ok(handle.as_variable());
+            }
         }
-        let file = self.file_of(module, name).ok_or_else(|| format!("there is no variable {name} here"))?;
-        self.whole(&Target::Global(file, name.to_owned()))
+        let missing = || format!("there is no variable {name} here");
+        let file = self.file_of(module, name).ok_or_else(missing)?;
+        let (variables, handles) = self.of_file(&file)?;
+        let variable = variables.into_iter().find(|(known, _)| is(known)).map(|(_, variable)| variable);
+        let handle = || handles.iter().find(|handle| is(&handle.name)).map(Told::as_variable);
+        variable.or_else(handle).ok_or_else(missing)
     }
 
     fn system(&mut self, name: &str) -> Result<Variable, String> {

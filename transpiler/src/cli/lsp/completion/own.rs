@@ -2,7 +2,7 @@
 
 use super::Fits;
 use super::item::{Items, Rank};
-use crate::check::{SCRIPT_DIR, base_name, is_data, type_name};
+use crate::check::{base_name, imported, is_data, type_name};
 use crate::cli::lsp::describe::describe;
 use crate::cli::lsp::programs::Program;
 use crate::cli::lsp::server::Server;
@@ -126,14 +126,9 @@ pub(super) fn files(server: &Server, typing: &Typing<'_>, start: u32, items: &mu
         None => ("", start),
     };
     items.replace(typing.text.range(Span::new(name_start, typing.offset)));
-    let looked_into = match before.strip_prefix(SCRIPT_DIR) {
-        Some(rest) => {
-            let root = server.root(&typing.path);
-            let scripts = server.options_of(&root).script_dir.clone();
-            scripts.or_else(|| root.parent().map(Path::to_path_buf)).unwrap_or_default().join(rest)
-        }
-        None => folder.join(before),
-    };
+    let main = server.root(&typing.path);
+    let root = main.parent().unwrap_or(folder);
+    let looked_into = imported(before, folder, root, server.options_of(&main).script_dir.as_deref());
     let Ok(entries) = std::fs::read_dir(looked_into) else { return };
     for entry in entries.flatten() {
         let name = entry.file_name().to_string_lossy().into_owned();
