@@ -10,6 +10,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, OnceLock};
 use std::thread;
 
+use crate::junction::junction_memory::JunctionMemory;
 use crate::junction::{Before, Junction, Meeting};
 use crate::plan::motion::Motion;
 use arl_robot::robot::Robot;
@@ -113,7 +114,12 @@ impl Prepared {
 
     /// Whether nobody has to wait for the thread.
     pub(crate) fn is_ready(&self) -> bool {
-        self.0.junction.get().is_some() || self.0.is_left.load(Ordering::Acquire)
+        self.junction().is_some() || self.0.is_left.load(Ordering::Acquire)
+    }
+
+    /// What has been found.
+    pub(crate) fn junction(&self) -> Option<&Junction> {
+        self.0.junction.get()
     }
 
     fn leave(&self) {
@@ -131,8 +137,9 @@ fn begin() -> Option<Channels> {
     let (tasks, asked) = sync_channel::<Task>(MOST_JUNCTIONS);
     let (does, done) = sync_channel(MOST_JUNCTIONS);
     let work = move || {
+        let mut memory = JunctionMemory::default();
         for task in asked {
-            task.run();
+            task.run(&mut memory);
             // Where it is full, the task just ends here.
             let _ = does.try_send(task);
         }
@@ -141,17 +148,19 @@ fn begin() -> Option<Channels> {
 }
 
 impl Task {
-    fn run(&self) {
+    fn run(&self, memory: &mut JunctionMemory) {
         let meeting = || {
             let before = match &self.joining {
                 Joining::Known(before) => before.clone(),
-                Joining::Behind(first) => first.0.junction.get().and_then(Junction::leaves),
+                Joining::Behind(first) => first.junction().and_then(Junction::leaves),
             };
             Meeting { before, from: Arc::clone(&self.from), to: Arc::clone(&self.to) }
         };
         // What goes wrong here goes wrong in the cycle again, where somebody hears of it.
-        if catch_unwind(AssertUnwindSafe(|| self.result.take(&self.robot, meeting))).is_err() {
-            self.result.leave();
+        let find = || self.result.0.junction.get_or_init(|| memory.recall(&self.robot, meeting()));
+        match catch_unwind(AssertUnwindSafe(find)) {
+            Ok(_) => memory.remember(&self.robot, &self.result),
+            Err(_) => self.result.leave(),
         }
     }
 }
