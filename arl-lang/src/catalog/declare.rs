@@ -187,6 +187,7 @@ impl Param {
             mode: Mode::In,
             presence: Presence::Required,
             bare: true,
+            family: None,
             units: &[],
             range: None,
             set: false,
@@ -232,6 +233,8 @@ setters! { Param:
     repeat(min: u8, max: u8) { presence = Presence::Repeat { min, max } }
     /// Must have its label.
     labelled() { bare = false }
+    /// For one robot family only.
+    of(family: Family) { family = Some(family) }
     /// The units that may follow a number.
     units(units: &'static [Unit]) { units = units }
     /// The least and greatest constant.

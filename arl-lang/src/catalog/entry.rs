@@ -98,6 +98,8 @@ pub struct Param {
     pub presence: Presence,
     /// Whether it may stand without its label.
     pub bare: bool,
+    /// The family whose robots have it, where the others do not.
+    pub family: Option<Family>,
     /// Units that may follow a number here; the value itself is in the first one.
     pub units: &'static [Unit],
     /// The constants that make sense; others are an error where known.
@@ -120,6 +122,13 @@ pub struct Param {
     pub limits: bool,
     /// What it means, with its unit and what happens without it.
     pub doc: &'static str,
+}
+
+impl Param {
+    /// Whether robots of this family have it.
+    pub fn is_of(&self, family: Family) -> bool {
+        self.family.is_none_or(|only| only == family)
+    }
 }
 
 /// A built-in instruction or function. Overloads of a name stand one after the other.

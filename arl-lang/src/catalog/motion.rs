@@ -19,7 +19,7 @@ entries! { pub(super) MOTION =
         s: slip [optional] "blending: perdis, jdis and ejdis count; its set components go to $DFSLIP, which stands in without it",
         sp: double [optional, units(&[Unit::Percent]), at_most(100.0), set()] "blending zone, % of the largest; 0 or less: none",
         sl: double [optional, units(&[Unit::Millimetre]), set()] "blending distance, mm; 0 or less: none",
-        t: tool [optional] "the tool, whose speed is limited in manual mode; it goes to $DFTOOL, which stands in without it",
+        t: tool [optional, of(Family::SixAxis)] "the tool, whose speed is limited in manual mode; it goes to $DFTOOL, which stands in without it",
         dura: double [optional, units(&[Unit::Second]), above(0.0), set()] "how long the motion takes, s; the speed is then ignored",
     )
         { "3.2.1", motion::movej, plans(Motion::Joint), fails, exclusive(AXIS);

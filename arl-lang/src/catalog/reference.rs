@@ -172,7 +172,11 @@ fn presence(param: &Param) -> String {
         Presence::Repeat { min: 0, max } => format!("up to {max}"),
         Presence::Repeat { min, max } => format!("{min} to {max}"),
     };
-    if param.bare { given } else { format!("{given}; with its label") }
+    let given = if param.bare { given } else { format!("{given}; with its label") };
+    match param.family {
+        Some(family) => format!("{given}; {} only", family_name(family)),
+        None => given,
+    }
 }
 
 fn effect(entry: &Entry) -> &'static str {

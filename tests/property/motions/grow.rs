@@ -104,7 +104,8 @@ impl Grower<'_> {
             self.teach(at);
         }
         for at in 0..4 {
-            self.line(&format!("  movej j{at},vp:40,sl:-1,t:$FLANGE"));
+            let [before, argument] = self.robot.tool_of_movej("$FLANGE");
+            self.line(&format!("{before}  movej j{at},vp:40,sl:-1{argument}"));
             self.waited = true;
             self.line("  waittime 0");
             if at == 0 && self.random.chance(35) {
@@ -349,11 +350,14 @@ impl Grower<'_> {
             parts.push(self.zone(kind.leads_tool()));
         }
         let (tool, wobj) = names(setting);
-        parts.push(format!("t:{tool}"));
-        if kind != Kind::Movej {
-            parts.push(format!("w:{wobj}"));
+        let mut head = format!("  {head} {}", parts.join(","));
+        if kind == Kind::Movej {
+            let [before, argument] = self.robot.tool_of_movej(&tool);
+            head = format!("{before}{head}{argument}");
+        } else {
+            head += &format!(",t:{tool},w:{wobj}");
         }
-        self.line(&format!("  {head} {}", parts.join(",")));
+        self.line(&head);
         self.count += 1;
         self.last = Some((kind, goal, setting));
         self.waited = false;

@@ -198,6 +198,8 @@ struct Reader<'a> {
     wrist: bool,
     /// How many ccir there are in a row.
     circles: usize,
+    /// The setting of the default tool.
+    default_tool: usize,
 }
 
 impl Plan {
@@ -224,6 +226,7 @@ impl Plan {
             profile: Profile::S,
             wrist: false,
             circles: 0,
+            default_tool: 0,
         };
         for (at, line) in text.lines().enumerate() {
             let line = line.split("//").next().unwrap_or_default().trim();
@@ -272,6 +275,7 @@ impl Reader<'_> {
                 };
             }
             "$WRIST" => self.wrist = rest == "= true",
+            "$DFTOOL" => self.default_tool = setting(rest.trim_start_matches(['=', ' '])),
             "$DFSPEED" => self.default_speeds(&numbers(rest)),
             "accset" => {
                 let parts = numbers(rest);
@@ -314,7 +318,7 @@ impl Reader<'_> {
             line,
             kind: Kind::Lin,
             goal: Goal::Taught(0),
-            setting: 0,
+            setting: self.default_tool,
             zone: Zone::None,
             speeds: self.speeds,
             dura: None,
@@ -341,7 +345,7 @@ impl Reader<'_> {
                         via = [x, y, z];
                     }
                 }
-                "t" => motion.setting = if value == "$FLANGE" { 0 } else { number_at_end(value) },
+                "t" => motion.setting = setting(value),
                 "w" => {}
                 "vp" if leads_tool(head) => {
                     self.speeds.tcp = self.tcp.vel * number() / 100.0;
@@ -439,6 +443,11 @@ fn skip(text: &str) -> usize {
 fn numbers(text: &str) -> Vec<f64> {
     let apart = |c: char| !(c.is_ascii_alphanumeric() || matches!(c, '.' | '-' | '$' | '_'));
     text.split(apart).filter_map(|word| word.parse().ok()).collect()
+}
+
+/// The setting whose tool this is.
+fn setting(tool: &str) -> usize {
+    if tool == "$FLANGE" { 0 } else { number_at_end(tool) }
 }
 
 fn number_at_end(name: &str) -> usize {

@@ -61,6 +61,15 @@ impl Robot {
         Robot::read(name, if seed == 0 { text } else { varied(&text, &mut Random::new(seed)) })
     }
 
+    /// How a `movej` gets its tool: a line before it, and an argument; on SCARA robots it has none.
+    pub(crate) fn tool_of_movej(&self, tool: &str) -> [String; 2] {
+        if self.scara {
+            [format!("  $DFTOOL = {tool}\n"), String::new()]
+        } else {
+            [String::new(), format!(",t:{tool}")]
+        }
+    }
+
     /// The flange in the world.
     pub(crate) fn flange(&self, axes: &[f64]) -> Frame {
         let own = std::array::from_fn(|i| if i < self.own { axes[i] } else { 0.0 });

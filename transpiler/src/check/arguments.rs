@@ -4,18 +4,20 @@
 //! to the first parameter of the format line that is free and takes their type. A Rust value whose type nobody said
 //! goes to the first free one and takes its type.
 
+use super::call::family_name;
 use super::context::{Body, Checker};
 use super::convert::{Typed, integer, number};
 use super::name::constant;
 use crate::diagnostics::arguments::ArgumentProblem;
 use crate::diagnostics::listed;
+use crate::diagnostics::support::SupportProblem;
 use crate::diagnostics::types::TypeProblem;
 use crate::hir::{Bound, Expr, ExprKind, FuncId, ModuleId, Passed, Type, Value};
 use crate::index;
 use arl_lang::ast::{self, Arg, Unit};
 use arl_lang::catalog::{
-    self, Access, Base, Effect, Entry, Kind, Mode, Motion, ParamType, Presence, Range, Restore, Struct, SystemVariable,
-    UNSET,
+    self, Access, Base, Effect, Entry, Family, Kind, Mode, Motion, ParamType, Presence, Range, Restore, Struct,
+    SystemVariable, UNSET,
 };
 use arl_lang::elsewhere;
 use arl_lang::span::Span;
@@ -44,6 +46,8 @@ struct Parameter<'a> {
     range: Option<Range>,
     set: bool,
     keeps: bool,
+    /// The only family whose robots have it, where the program is for another one: then it takes nothing.
+    foreign: Option<Family>,
 }
 
 #[derive(Clone, Copy)]
@@ -246,6 +250,7 @@ impl<'a> Checker<'a> {
                     range: param.range,
                     set: param.set,
                     keeps: param.keeps,
+                    foreign: param.family.filter(|_| !param.is_of(self.family())),
                 })
                 .collect(),
             Callee::User(func) => {
@@ -264,6 +269,7 @@ impl<'a> Checker<'a> {
                         range: None,
                         set: false,
                         keeps: false,
+                        foreign: None,
                     })
                     .collect()
             }
@@ -341,7 +347,7 @@ impl<'a> Checker<'a> {
         let Some(at) = places.find(params, wanted) else {
             self.expect(body, label.symbol, label.span, index::Wanted::ArgumentLabel);
             let callee = self.callee_name(callee);
-            let names = || params.iter().map(|param| param.name);
+            let names = || params.iter().filter(|param| param.foreign.is_none()).map(|param| param.name);
             let meant = elsewhere::labels(wanted).iter().filter(|ours| names().any(|name| name == **ours));
             let meant: Vec<String> = meant.map(|ours| format!("`{ours}`")).collect();
             let problem = ArgumentProblem::UnknownLabel {
@@ -349,11 +355,16 @@ impl<'a> Checker<'a> {
                 meant: meant.join(" or "),
                 label: self.text(body.module, label.span).into(),
                 near: self.hints.nearest(wanted, params.len(), names).map(Into::into),
-                labels: listed(names()),
+                labels: listed(names().collect::<Vec<_>>().into_iter()),
             };
             return self.report(body, label.span, problem);
         };
         let param = params.get(at)?;
+        if let Some(family) = param.foreign {
+            let name = format!("{} {}:", self.callee_name(callee), param.name);
+            let family = family_name(family);
+            return self.report(body, label.span, SupportProblem::OtherFamily { name, family });
+        }
         self.strict_case(body, label.span, param.name);
         if let Some(meaning) = self.parameter_meaning(callee, at) {
             self.mention(body, label.span, meaning);
@@ -398,7 +409,9 @@ impl<'a> Checker<'a> {
         arg: &Arg,
         taken: &[usize],
     ) -> Option<(usize, Option<Typed>)> {
-        let free = |at: usize, param: &Parameter<'_>| taken.get(at).is_some_and(|count| *count < most(param));
+        let free = |at: usize, param: &Parameter<'_>| {
+            param.foreign.is_none() && taken.get(at).is_some_and(|count| *count < most(param))
+        };
         if let ast::ExprKind::Brace(_) = arg.value.kind {
             let takes_braces = |(at, param): &(usize, &Parameter<'_>)| {
                 free(*at, param) && matches!(param.ty, Some(Wanted::Builtin(ParamType::One(Base::Struct(_)))))

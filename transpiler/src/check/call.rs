@@ -233,6 +233,7 @@ impl Checker<'_> {
         let params: Vec<String> = entry
             .params
             .iter()
+            .filter(|param| param.is_of(self.family()))
             .map(|param| {
                 let ty = self.param_type_name(&param.ty);
                 let text = match entry.kind {

@@ -34,7 +34,8 @@ impl Grower<'_> {
         }
         if axes {
             let percent = between(self.random, 15.0, 80.0).round();
-            writeln!(body, "  movej j{taught},vp:{percent},sl:-1,t:{tool}").unwrap();
+            let [before, argument] = self.robot.tool_of_movej(&tool);
+            writeln!(body, "{before}  movej j{taught},vp:{percent},sl:-1{argument}").unwrap();
         }
         if line {
             let speed = between(self.random, 80.0, if mode == Mode::Manual { 400.0 } else { 900.0 }).round();

@@ -61,7 +61,7 @@ fn at_name(server: &Server, typing: &Typing<'_>, items: &mut Items) {
         Wanted::Label(labels) => own::labels(labels, items),
         Wanted::Type => builtin::types(family, items),
         Wanted::Nothing => {}
-        Wanted::ArgumentLabel => argument_labels(&expected, index, items),
+        Wanted::ArgumentLabel => argument_labels(&expected, index, family, items),
         Wanted::Instruction | Wanted::Function | Wanted::Value(_) if is_statement => {
             builtin::words_inside(items);
             builtin::instructions(family, items);
@@ -84,7 +84,7 @@ fn is_outside(server: &Server, typing: &Typing<'_>) -> bool {
 
 fn values(program: &Program, expected: &Expectation, fits: &Fits, family: Family, items: &mut Items) {
     if expected.arguments.as_ref().is_some_and(|list| list.may_be_label) {
-        argument_labels(expected, program.index(), items);
+        argument_labels(expected, program.index(), family, items);
     }
     if let Some((id, taken)) = &expected.braces {
         builtin::components(*id, family, taken, items);
@@ -95,7 +95,7 @@ fn values(program: &Program, expected: &Expectation, fits: &Fits, family: Family
 }
 
 /// The labels of the parameters that are free.
-fn argument_labels(expected: &Expectation, index: &Index, items: &mut Items) {
+fn argument_labels(expected: &Expectation, index: &Index, family: Family, items: &mut Items) {
     let Some(list) = &expected.arguments else { return };
     match list.callee {
         Callee::Builtin(entry) => {
@@ -104,7 +104,7 @@ fn argument_labels(expected: &Expectation, index: &Index, items: &mut Items) {
             for (at, param) in entry.params.iter().enumerate() {
                 let rivals = entry.exclusive.iter().filter(|group| group.contains(&param.name));
                 let excluded = rivals.flat_map(|group| group.iter()).any(|rival| is_given(rival));
-                if is_free(list, entry, at) && !excluded {
+                if param.is_of(family) && is_free(list, entry, at) && !excluded {
                     items.argument_label(entry, param);
                 }
             }
