@@ -44,6 +44,8 @@ struct Task {
     from: Arc<Motion>,
     to: Arc<Motion>,
     result: Prepared,
+    /// What the thread has forgotten for it.
+    forgotten: Option<Prepared>,
 }
 
 /// The thread; it begins with the first junction.
@@ -71,7 +73,7 @@ impl BlendThread {
     pub(crate) fn prepare(&mut self, robot: &Arc<Robot>, joining: Joining, [from, to]: [&Arc<Motion>; 2]) -> Prepared {
         let result = Prepared::default();
         let (from, to) = (Arc::clone(from), Arc::clone(to));
-        let task = Task { robot: Arc::clone(robot), joining, from, to, result: result.clone() };
+        let task = Task { robot: Arc::clone(robot), joining, from, to, result: result.clone(), forgotten: None };
         if self.channels.is_none() {
             self.channels = begin();
         }
@@ -138,7 +140,7 @@ fn begin() -> Option<Channels> {
     let (does, done) = sync_channel(MOST_JUNCTIONS);
     let work = move || {
         let mut memory = JunctionMemory::default();
-        for task in asked {
+        for mut task in asked {
             task.run(&mut memory);
             // Where it is full, the task just ends here.
             let _ = does.try_send(task);
@@ -148,7 +150,7 @@ fn begin() -> Option<Channels> {
 }
 
 impl Task {
-    fn run(&self, memory: &mut JunctionMemory) {
+    fn run(&mut self, memory: &mut JunctionMemory) {
         let meeting = || {
             let before = match &self.joining {
                 Joining::Known(before) => before.clone(),
@@ -159,7 +161,7 @@ impl Task {
         // What goes wrong here goes wrong in the cycle again, where somebody hears of it.
         let find = || self.result.0.junction.get_or_init(|| memory.recall(&self.robot, meeting()));
         match catch_unwind(AssertUnwindSafe(find)) {
-            Ok(_) => memory.remember(&self.robot, &self.result),
+            Ok(_) => self.forgotten = memory.remember(&self.robot, &self.result),
             Err(_) => self.result.leave(),
         }
     }

@@ -40,19 +40,21 @@ impl JunctionMemory {
         }
     }
 
-    /// Remembers what was found.
-    pub(crate) fn remember(&mut self, robot: &Arc<Robot>, prepared: &Prepared) {
-        let Some(junction) = prepared.junction() else { return };
+    /// Remembers what was found; returns what is forgotten for that.
+    pub(crate) fn remember(&mut self, robot: &Arc<Robot>, prepared: &Prepared) -> Option<Prepared> {
+        let junction = prepared.junction()?;
         let fingerprint = fingerprint(&junction.meeting);
-        // The same one again moves to the end.
-        self.known.retain(|known| {
-            known.fingerprint != fingerprint
-                || known.prepared.junction().is_none_or(|known| known.meeting != junction.meeting)
-        });
-        if self.known.len() == MOST_JUNCTIONS {
-            self.known.pop_front();
-        }
+        let is_same = |known: &Remembered| {
+            known.fingerprint == fingerprint
+                && known.prepared.junction().is_some_and(|known| known.meeting == junction.meeting)
+        };
+        let forgotten = match self.known.iter().position(is_same) {
+            Some(same) => self.known.remove(same),
+            None if self.known.len() == MOST_JUNCTIONS => self.known.pop_front(),
+            None => None,
+        };
         self.known.push_back(Remembered { fingerprint, robot: Arc::clone(robot), prepared: prepared.clone() });
+        forgotten.map(|forgotten| forgotten.prepared)
     }
 }
 

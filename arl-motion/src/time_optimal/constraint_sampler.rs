@@ -108,6 +108,11 @@ impl ConstraintSampler {
         Self { robot: Arc::clone(robot), segments, passed, at, near: *near, end, stops, rise: None }
     }
 
+    /// How many segments it holds, those that it does not look at, too.
+    pub(crate) fn segments(&self) -> usize {
+        self.segments.segments.len()
+    }
+
     /// Whether another one sees the same from the same place.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
         let Self { robot, segments, passed, at, near, end, stops, rise } = self;

@@ -17,8 +17,10 @@ const MOST_STRETCHES: usize = 60_000;
 /// What was not found takes as much room as a law of so many stretches.
 const ROOM_OF_NOTHING: usize = 10;
 
-/// So many requests are remembered with what was found.
+/// So many requests are remembered with what was found, of no more segments than this each: a loop has some, a dense chain has thousands
+/// and is not gone twice.
 const MOST_REQUESTS: usize = 64;
+const MOST_SEGMENTS: usize = 128;
 
 /// A law, and how much its set-points use of the limits; `None` where there is none.
 pub(crate) type Answer = Option<(Arc<Law>, f64)>;
@@ -84,8 +86,11 @@ impl<F: Clone> RequestMemory<F> {
         known.map(|(.., found)| found.clone())
     }
 
-    /// Remembers what was found for a request that was not known.
+    /// Remembers what was found for a request that was not known, if that takes little memory.
     pub(crate) fn remember(&mut self, sampler: ConstraintSampler, start: Edge, before: Option<Arc<Law>>, found: F) {
+        if sampler.segments() > MOST_SEGMENTS {
+            return;
+        }
         if self.known.len() == MOST_REQUESTS {
             self.known.pop_front();
         }
