@@ -20,7 +20,7 @@ const ROOM_OF_NOTHING: usize = 10;
 /// So many requests are remembered with what was found, of no more segments than this each: a loop has some, a dense chain has thousands
 /// and is not gone twice.
 const MOST_REQUESTS: usize = 64;
-const MOST_SEGMENTS: usize = 128;
+const MOST_SEGMENTS: usize = 512;
 
 /// A law, and how much its set-points use of the limits; `None` where there is none.
 pub(crate) type Answer = Option<(Arc<Law>, f64)>;
