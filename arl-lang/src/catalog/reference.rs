@@ -58,7 +58,7 @@ pub fn entries(group: &[Entry]) -> Option<String> {
 
 /// One overload without a heading: signature, text, parameters, effect, example.
 pub fn entry(entry: &Entry) -> String {
-    let mut text = format!("```text\n{}\n```\n\n{}\n", signature(entry), entry.doc);
+    let mut text = format!("```text\n{}\n```\n\n{}\n", signature(entry, None), entry.doc);
     if !entry.params.is_empty() {
         text.push_str("\n| parameter | type | unit | given | meaning |\n|---|---|---|---|---|\n");
         for param in entry.params {
@@ -86,16 +86,18 @@ pub fn entry(entry: &Entry) -> String {
     text
 }
 
-/// The signature: a prototype for a function, the format line for an instruction.
-pub fn signature(entry: &Entry) -> String {
+/// The signature, with what robots of a family have, or with everything: a prototype for a function, the format line for an
+/// instruction.
+pub fn signature(entry: &Entry, family: Option<Family>) -> String {
+    let params = || entry.params.iter().filter(|param| family.is_none_or(|family| param.is_of(family)));
     match entry.kind {
         Kind::Function => {
-            let params: Vec<String> = entry.params.iter().map(prototype).collect();
+            let params: Vec<String> = params().map(prototype).collect();
             format!("{} {}({})", entry.result.name(), entry.name, params.join(", "))
         }
         Kind::Instruction => {
             let mut parts: Vec<String> = Vec::new();
-            for param in entry.params {
+            for param in params() {
                 let rivals = entry.exclusive.iter().find(|group| group.contains(&param.name));
                 match rivals {
                     Some(group) if group.first() != Some(&param.name) => {}

@@ -311,7 +311,22 @@ fn pages_show_what_the_tables_say() {
     for chapter in CHAPTERS {
         let text = reference::chapter(chapter);
         for entry in chapter.entries {
-            assert!(text.contains(&reference::signature(entry)) && text.contains(entry.example), "{}", entry.name);
+            assert!(
+                text.contains(&reference::signature(entry, None)) && text.contains(entry.example),
+                "{}",
+                entry.name
+            );
+        }
+    }
+}
+
+#[test]
+fn what_one_family_has_may_be_missing_for_the_other() {
+    for entry in all_entries() {
+        for param in entry.params.iter().filter(|param| param.family.is_some()) {
+            assert_ne!(param.presence, Presence::Required, "{}: {}", entry.name, param.name);
+            let [six, scara] = [Family::SixAxis, Family::Scara].map(|family| reference::signature(entry, Some(family)));
+            assert_ne!(six, scara, "{}", entry.name);
         }
     }
 }

@@ -350,14 +350,11 @@ impl Grower<'_> {
             parts.push(self.zone(kind.leads_tool()));
         }
         let (tool, wobj) = names(setting);
-        let mut head = format!("  {head} {}", parts.join(","));
-        if kind == Kind::Movej {
-            let [before, argument] = self.robot.tool_of_movej(&tool);
-            head = format!("{before}{head}{argument}");
-        } else {
-            head += &format!(",t:{tool},w:{wobj}");
-        }
-        self.line(&head);
+        let [before, last] = match kind {
+            Kind::Movej => self.robot.tool_of_movej(&tool),
+            _ => [String::new(), format!(",t:{tool},w:{wobj}")],
+        };
+        self.line(&format!("{before}  {head} {}{last}", parts.join(",")));
         self.count += 1;
         self.last = Some((kind, goal, setting));
         self.waited = false;

@@ -61,7 +61,7 @@ impl Robot {
         Robot::read(name, if seed == 0 { text } else { varied(&text, &mut Random::new(seed)) })
     }
 
-    /// How a `movej` gets its tool: a line before it, and an argument; on SCARA robots it has none.
+    /// How a `movej` gets its tool: by a line before it on SCARA robots, else by an argument.
     pub(crate) fn tool_of_movej(&self, tool: &str) -> [String; 2] {
         if self.scara {
             [format!("  $DFTOOL = {tool}\n"), String::new()]

@@ -361,9 +361,9 @@ impl<'a> Checker<'a> {
         };
         let param = params.get(at)?;
         if let Some(family) = param.foreign {
-            let name = format!("{} {}:", self.callee_name(callee), param.name);
-            let family = family_name(family);
-            return self.report(body, label.span, SupportProblem::OtherFamily { name, family });
+            let (callee, parameter) = (self.callee_name(callee).into(), param.name.into());
+            let problem = SupportProblem::ParameterOfOtherFamily { callee, parameter, family: family_name(family) };
+            return self.report(body, label.span, problem);
         }
         self.strict_case(body, label.span, param.name);
         if let Some(meaning) = self.parameter_meaning(callee, at) {

@@ -9,6 +9,8 @@ problems! {
         error 702 "Something for the other kind of robot" => {
             /// Exists for the other robot family only.
             OtherFamily { name: String, family: &'static str },
+            /// A parameter that exists for the other robot family only.
+            ParameterOfOtherFamily { callee: String, parameter: String, family: &'static str },
         }
         error 703 "Something that arl2rs cannot make sense of" => {
             /// Something that the checker gave up on without a reason: a mistake of the compiler.
@@ -29,6 +31,9 @@ impl Problem for SupportProblem {
                 format!("`{name}` needs a robot, which a background channel does not have")
             }
             SupportProblem::OtherFamily { name, family } => format!("`{name}` exists for {family} robots only"),
+            SupportProblem::ParameterOfOtherFamily { callee, parameter, family } => {
+                format!("`{callee}` has the parameter `{parameter}` for {family} robots only")
+            }
         }
     }
 
@@ -45,6 +50,9 @@ impl Problem for SupportProblem {
                 Some("let a foreground channel do it, and tell it by io, `$I` or `$B`".into())
             }
             SupportProblem::OtherFamily { .. } => Some("name the robot that the program is for with `--robot`".into()),
+            SupportProblem::ParameterOfOtherFamily { .. } => {
+                Some("leave it out, or name the robot that the program is for with `--robot`".into())
+            }
         }
     }
 }

@@ -1,7 +1,29 @@
 //! What happens while somebody types: signatures, closing words, layout.
 
-use super::{Client, Folder, cursor};
+use super::{Client, Folder, cursor, labels};
 use serde_json::{Value, json};
+
+#[test]
+fn a_parameter_that_the_robot_does_not_have_is_not_offered() {
+    let folder = Folder::new("other_family");
+    let uri = folder.uri("main.arl");
+    let head = "joint up\ntool grip\nspeed fast\nfunc void main()\n    ";
+    for (robot, has, dura) in [("hsr065", false, 6), ("kr10-r1420", true, 7)] {
+        let mut client = Client::with(&folder, json!({"robot": robot}), json!({}));
+        let (text, position) = cursor(&format!("{head}movej up, |\nendfunc\n"));
+        client.set(&uri, &text);
+        let offered =
+            labels(&client.ask("textDocument/completion", json!({"textDocument": {"uri": uri}, "position": position})));
+        let is_offered = |name: &str| offered.iter().any(|label| label.trim_end_matches(':') == name);
+        assert_eq!(["v", "fast", "t", "grip"].map(is_offered), [true, true, has, has], "{robot}: {offered:?}");
+        let (text, position) = cursor(&format!("{head}movej up, dura:|2\nendfunc\n"));
+        client.set(&uri, &text);
+        let help =
+            client.ask("textDocument/signatureHelp", json!({"textDocument": {"uri": uri}, "position": position}));
+        let shown = help["signatures"][0]["label"].as_str().unwrap_or_default();
+        assert_eq!((shown.contains("t:"), &help["activeParameter"]), (has, &json!(dura)), "{robot}: {shown}");
+    }
+}
 
 #[test]
 fn signatures_show_the_parameter_at_the_cursor() {

@@ -7,7 +7,7 @@ use super::signals;
 use super::typing::{Surroundings, Typing};
 use crate::check::{base_name, type_name};
 use crate::index::{ArgumentList, Callee};
-use arl_lang::catalog::{self, Entry, Family, Kind, Presence, reference};
+use arl_lang::catalog::{self, Entry, Family, Kind, Param, Presence, reference};
 use gen_lsp_types::*;
 
 pub(super) fn offered() -> SignatureHelpOptions {
@@ -117,15 +117,18 @@ fn built_in(entry: &'static Entry, list: &ArgumentList, family: Family, format: 
         repeats || one.params.len() > given
     };
     let chosen = overloads.iter().position(takes).unwrap_or(0);
+    let has = |param: &&Param| param.is_of(family);
     let signatures = overloads.iter().map(|one| {
-        let params = one.params.iter().map(|param| {
+        let params = one.params.iter().filter(has).map(|param| {
             let label = match one.kind {
                 Kind::Function => reference::prototype(param),
                 Kind::Instruction => format!("{}:", param.name),
             };
             (label, reference::parameter(one, param))
         });
-        information(format, reference::signature(one), params.collect(), one.doc.to_string())
+        information(format, reference::signature(one, Some(family)), params.collect(), one.doc.to_string())
     });
-    help(signatures.collect(), chosen, list.parameter)
+    // Its place among those that are shown.
+    let parameter = list.parameter.map(|at| entry.params.iter().take(at).filter(has).count());
+    help(signatures.collect(), chosen, parameter)
 }

@@ -59,7 +59,7 @@ fn is_of(entry: &Entry, family: Family) -> bool {
 pub(super) fn instructions(family: Family, items: &mut Items) {
     let all = catalog::all_entries().iter();
     for entry in all.filter(|entry| entry.kind == Kind::Instruction && is_of(entry, family)) {
-        let signature = reference::signature(entry);
+        let signature = reference::signature(entry, Some(family));
         items.documented(entry.name, CompletionItemKind::Method, Rank::BuiltIn, signature, &reference::entry(entry));
     }
 }
@@ -73,7 +73,7 @@ pub(super) fn functions(fits: &Fits, family: Family, items: &mut Items) {
     };
     let all = catalog::all_entries().iter();
     for entry in all.filter(|entry| entry.kind == Kind::Function && is_of(entry, family)).filter(fitting) {
-        let detail = reference::signature(entry);
+        let detail = reference::signature(entry, Some(family));
         let doc = reference::entry(entry);
         items.function(entry.name, !entry.params.is_empty(), Rank::BuiltIn, detail, Some(doc));
     }

@@ -48,7 +48,7 @@ fn at_name(server: &Server, typing: &Typing<'_>, items: &mut Items) {
         return;
     };
     let index = program.index();
-    let fits = Fits::of(&expected);
+    let fits = Fits::of(&expected, family);
     match &expected.wanted {
         Wanted::System => builtin::system_variables(&fits, items),
         Wanted::Component(id) => builtin::components(*id, family, &[], items),
@@ -104,7 +104,7 @@ fn argument_labels(expected: &Expectation, index: &Index, family: Family, items:
             for (at, param) in entry.params.iter().enumerate() {
                 let rivals = entry.exclusive.iter().filter(|group| group.contains(&param.name));
                 let excluded = rivals.flat_map(|group| group.iter()).any(|rival| is_given(rival));
-                if param.is_of(family) && is_free(list, entry, at) && !excluded {
+                if is_free(list, entry, at, family) && !excluded {
                     items.argument_label(entry, param);
                 }
             }
@@ -124,9 +124,10 @@ fn count(list: &ArgumentList, parameter: usize) -> usize {
     list.taken.get(parameter).copied().unwrap_or(0)
 }
 
-/// Whether a parameter takes an argument more.
-fn is_free(list: &ArgumentList, entry: &Entry, at: usize) -> bool {
-    let most = match entry.params.get(at).map(|param| param.presence) {
+/// Whether a parameter takes an argument more, for robots of a family.
+fn is_free(list: &ArgumentList, entry: &Entry, at: usize, family: Family) -> bool {
+    let param = entry.params.get(at).filter(|param| param.is_of(family));
+    let most = match param.map(|param| param.presence) {
         Some(Presence::Repeat { max: u8::MAX, .. }) => usize::MAX,
         Some(Presence::Repeat { max, .. }) => usize::from(max),
         Some(_) => 1,
@@ -152,13 +153,13 @@ enum Fits {
 
 impl Fits {
     /// What the checker expects: the wanted type, or those of the free parameters of an instruction.
-    fn of(expected: &Expectation) -> Self {
+    fn of(expected: &Expectation, family: Family) -> Self {
         let list = expected.arguments.as_ref();
         if let Some((entry, list)) = list.and_then(|list| match list.callee {
             Callee::Builtin(entry) => Some((entry, list)),
             Callee::Function(_) => None,
         }) {
-            return Self::of_built_in(expected, entry, list);
+            return Self::of_built_in(expected, entry, list, family);
         }
         match expected.wanted {
             Wanted::Action => Self::Call,
@@ -168,7 +169,7 @@ impl Fits {
         }
     }
 
-    fn of_built_in(expected: &Expectation, entry: &Entry, list: &ArgumentList) -> Self {
+    fn of_built_in(expected: &Expectation, entry: &Entry, list: &ArgumentList, family: Family) -> Self {
         if let Wanted::Value(Some(ty)) = expected.wanted {
             return if ty.is_array() { Self::Array(ty) } else { Self::OneOf(vec![ParamType::One(ty.base)]) };
         }
@@ -182,7 +183,7 @@ impl Fits {
         if !list.may_be_label || entry.kind == Kind::Function {
             return Self::Any;
         }
-        let bare = (0..).zip(entry.params).filter(|(at, param)| param.bare && is_free(list, entry, *at));
+        let bare = (0..).zip(entry.params).filter(|(at, param)| param.bare && is_free(list, entry, *at, family));
         Self::OneOf(bare.map(|(_, param)| param.ty).collect())
     }
 
