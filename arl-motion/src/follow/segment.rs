@@ -32,7 +32,7 @@ type Rates = [[f64; ALL]; 3];
 
 /// A stretch of the way with constant limits. Its own parameter is the time, in s, that it takes at its full speed: so
 /// that motions and blends meet with the same speed.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Segment {
     pub(crate) number: u64,
     pub(crate) line: u32,
@@ -72,7 +72,7 @@ pub(crate) struct Segment {
 }
 
 /// Parts with an acceleration and a jerk of their own.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 struct Arm {
     parts: Range<usize>,
     acc: f64,
@@ -118,6 +118,12 @@ impl Segment {
             pace: is_known(motion).then_some(motion.pace),
             is_free: is_free(motion),
         }
+    }
+
+    /// Whether another one goes the same way within the same limits.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        let number = self.number;
+        *self == Self { number, ..other.clone() }
     }
 
     /// One half of a blend: the first belongs to the motion that is left, the second to the one that is joined.
@@ -310,7 +316,9 @@ impl Segment {
     pub(crate) fn jumps_beside(&self, at: f64, near: f64) -> bool {
         let width = (self.to - self.from) / self.time;
         let share = self.from + at * width;
-        self.parts() > 1 || self.borders().any(|border| (border - share).abs() <= near * width)
+        let is_near = |border: f64| (border - share).abs() <= near * width;
+        let parts = Parametrization::PARTS as f64;
+        (self.parts() > 1 && is_near((share * parts).round() / parts)) || self.borders().any(is_near)
     }
 
     /// Where passages through a singularity begin and end. What is laid down by a parametrization of its own has none.

@@ -10,6 +10,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, OnceLock};
 use std::thread;
 
+use crate::junction::junction_memory::JunctionMemory;
 use crate::junction::{Before, Junction, Meeting};
 use crate::plan::motion::Motion;
 use arl_robot::robot::Robot;
@@ -43,6 +44,8 @@ struct Task {
     from: Arc<Motion>,
     to: Arc<Motion>,
     result: Prepared,
+    /// What the thread has forgotten for it.
+    forgotten: Option<Prepared>,
 }
 
 /// The thread; it begins with the first junction.
@@ -70,7 +73,7 @@ impl BlendThread {
     pub(crate) fn prepare(&mut self, robot: &Arc<Robot>, joining: Joining, [from, to]: [&Arc<Motion>; 2]) -> Prepared {
         let result = Prepared::default();
         let (from, to) = (Arc::clone(from), Arc::clone(to));
-        let task = Task { robot: Arc::clone(robot), joining, from, to, result: result.clone() };
+        let task = Task { robot: Arc::clone(robot), joining, from, to, result: result.clone(), forgotten: None };
         if self.channels.is_none() {
             self.channels = begin();
         }
@@ -113,7 +116,12 @@ impl Prepared {
 
     /// Whether nobody has to wait for the thread.
     pub(crate) fn is_ready(&self) -> bool {
-        self.0.junction.get().is_some() || self.0.is_left.load(Ordering::Acquire)
+        self.junction().is_some() || self.0.is_left.load(Ordering::Acquire)
+    }
+
+    /// What has been found.
+    pub(crate) fn junction(&self) -> Option<&Junction> {
+        self.0.junction.get()
     }
 
     fn leave(&self) {
@@ -131,8 +139,9 @@ fn begin() -> Option<Channels> {
     let (tasks, asked) = sync_channel::<Task>(MOST_JUNCTIONS);
     let (does, done) = sync_channel(MOST_JUNCTIONS);
     let work = move || {
-        for task in asked {
-            task.run();
+        let mut memory = JunctionMemory::default();
+        for mut task in asked {
+            task.run(&mut memory);
             // Where it is full, the task just ends here.
             let _ = does.try_send(task);
         }
@@ -141,17 +150,19 @@ fn begin() -> Option<Channels> {
 }
 
 impl Task {
-    fn run(&self) {
+    fn run(&mut self, memory: &mut JunctionMemory) {
         let meeting = || {
             let before = match &self.joining {
                 Joining::Known(before) => before.clone(),
-                Joining::Behind(first) => first.0.junction.get().and_then(Junction::leaves),
+                Joining::Behind(first) => first.junction().and_then(Junction::leaves),
             };
             Meeting { before, from: Arc::clone(&self.from), to: Arc::clone(&self.to) }
         };
         // What goes wrong here goes wrong in the cycle again, where somebody hears of it.
-        if catch_unwind(AssertUnwindSafe(|| self.result.take(&self.robot, meeting))).is_err() {
-            self.result.leave();
+        let find = || self.result.0.junction.get_or_init(|| memory.recall(&self.robot, meeting()));
+        match catch_unwind(AssertUnwindSafe(find)) {
+            Ok(_) => self.forgotten = memory.remember(&self.robot, &self.result),
+            Err(_) => self.result.leave(),
         }
     }
 }

@@ -3,6 +3,7 @@
 
 pub(crate) mod blend_thread;
 pub(crate) mod gain;
+mod junction_memory;
 
 use std::cell::Cell;
 use std::sync::Arc;
@@ -19,7 +20,7 @@ use arl_robot::robot::Robot;
 pub(crate) type Before = Option<(Arc<Motion>, MidCurvature)>;
 
 /// What a junction depends on.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Debug)]
 pub(crate) struct Meeting {
     pub(crate) before: Before,
     pub(crate) from: Arc<Motion>,
@@ -89,6 +90,19 @@ impl Junction {
             before.as_ref().and_then(|(before, start)| find_curved(robot, before, *start, [from, to], is_slower));
         let blended = curved.is_none().then(|| find_blended(robot, [from, to], is_slower));
         Self { meeting, curved, blended }
+    }
+
+    /// The same of a meeting that is the same.
+    fn of(&self, meeting: Meeting) -> Self {
+        let own = |motion: &Arc<Motion>| {
+            let pairs = [(&self.meeting.from, &meeting.from), (&self.meeting.to, &meeting.to)];
+            let same = pairs.into_iter().find(|(known, _)| Arc::ptr_eq(known, motion));
+            Arc::clone(same.map_or(motion, |(_, own)| own))
+        };
+        let with_own =
+            |blended: &Blended| Blended { from: own(&blended.from), to: own(&blended.to), ..blended.clone() };
+        let blended = self.blended.as_ref().map(|blended| blended.as_ref().map(with_own).map_err(NoBlend::clone));
+        Self { curved: self.curved.clone(), blended, meeting }
     }
 
     /// What it leaves to the next one, if it is laid as it was found.

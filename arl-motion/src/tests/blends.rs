@@ -1,6 +1,13 @@
 //! Blends keep to their zones, whatever they lie between.
 
+use crate::follow::segment::Segment;
+use crate::follow::shared_deque::SharedDeque;
+use crate::geometry::parametrization::Parametrization;
+use crate::junction::{Blended, blended};
+use crate::plan::planner::plan;
 use crate::tests::*;
+use crate::time_optimal::constraint_sampler::{ConstraintSampler, Part};
+use crate::time_optimal::solver::Edge;
 
 /// Corner points around a reachable place, and their lines with a zone.
 fn corner_run(robot: &Arc<Robot>, points: &[[f64; 3]], zone: Zone, tcp: f64) -> (Vec<Step>, Frame) {
@@ -253,4 +260,31 @@ fn a_blend_that_is_smaller_than_its_zone_does_not_bend_into_the_next_one() {
     }
     let rows = run(&mut queue, 100.0);
     assert_within_limits(&robot, &rows, "half a zone");
+}
+
+#[test]
+fn a_law_looks_at_both_sides_of_a_place_only_where_derivatives_jump() {
+    let robot = robot("kr10-r1420");
+    let start = axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+    let pose = frame_components(&robot.kinematics.forward(&start.axes));
+    let zone = Zone { tcp: 30.0, ..Zone::NONE };
+    let line = |from: &Joints, [y, z]: [f64; 2]| {
+        let to = [pose[0], pose[1] + y, pose[2] + z, pose[3], pose[4], pose[5]];
+        Arc::new(plan(&robot, from, &Command { zone, ..lin(to) }, &Settings::default()).unwrap())
+    };
+    let from = line(&start, [100.0, 0.0]);
+    let to = line(&from.end, [100.0, -100.0]);
+    let Blended { from, to, blend, .. } = blended(&robot, None, &from, &to).unwrap();
+    let mut segments = SharedDeque::default();
+    for first in [true, false] {
+        segments.push_back(Arc::new(Segment::half(&blend, (&from, &to), 1, first)));
+    }
+    let end = segments.iter().map(|segment| segment.time).sum();
+    let near = from.curve.joints(&robot.kinematics, blend.leave, &from.end);
+    let part = Part { segments, from: 0, count: 2 };
+    let sampler = ConstraintSampler::new(&robot, part, 0.0, (end, true), (0.0, &near));
+    let way = sampler.look(end, 1.0, Edge { vel: 0.5, acc: 0.0 }, Edge::REST).unwrap().way;
+    let jumps = (0..way.places().len()).filter(|index| way.jumps(*index)).count();
+    // Between the parts, and at the end.
+    assert_eq!((jumps, way.places().len() > 3 * (jumps - 1)), (Parametrization::PARTS, true), "{}", way.places().len());
 }

@@ -39,8 +39,8 @@ const SLOWEST_START: f64 = 1e-4;
 const BESIDE_SHARE: f64 = 1e-9;
 /// Places as near to each other, as part of the way, are the same.
 const SAME_PLACE_SHARE: f64 = 1e-9;
-/// A law is found without places that are closer together than about so many s: set-points tell the mean of a jerk over three cycles.
-const CLOSEST_S: f64 = 0.003;
+/// A law is found without places that are closer together than about so many s: set-points are a ms apart, but a sharp blend is passed in few.
+const CLOSEST_S: f64 = 0.0004;
 /// The same where an acceleration may change at once.
 const CLOSEST_WITHOUT_JERK_LIMITS_S: f64 = 0.0003;
 /// With more segments than this ahead, their ends are no places of their own; they are looked at where they are farther apart than this
@@ -108,6 +108,21 @@ impl ConstraintSampler {
         Self { robot: Arc::clone(robot), segments, passed, at, near: *near, end, stops, rise: None }
     }
 
+    /// How many segments it holds, those that it does not look at, too.
+    pub(crate) fn segments(&self) -> usize {
+        self.segments.segments.len()
+    }
+
+    /// Whether another one sees the same from the same place.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        let Self { robot, segments, passed, at, near, end, stops, rise } = self;
+        let place = (*passed, *at, *near, *end, *stops, *rise);
+        place == (other.passed, other.at, other.near, other.end, other.stops, other.rise)
+            && segments.count == other.segments.count
+            && *robot == other.robot
+            && segments.iter().zip(other.segments.iter()).all(|(segment, other)| segment.is_like(other))
+    }
+
     /// The same that ends at `end`, if that is nearer.
     pub(crate) fn up_to(mut self, end: f64) -> Self {
         if end < self.end {
@@ -128,13 +143,18 @@ impl ConstraintSampler {
 
     /// The way to `to`, with `density` times as many places as it takes mostly.
     pub(crate) fn look(&self, to: f64, density: f64, start: Edge, end: Edge) -> Option<Prospect> {
-        self.look_at(to, (density, MOST_PLACES), start, end)
+        self.look_at(to, (density, MOST_PLACES), [start, end], None)
+    }
+
+    /// The same where the parameter goes at about this speed, in the mean.
+    pub(crate) fn look_at_speed(&self, to: f64, density: f64, edges: [Edge; 2], speed: f64) -> Option<Prospect> {
+        self.look_at(to, (density, MOST_PLACES), edges, Some((to - self.at) / speed))
     }
 
     /// A short part of the path from rest on, up to `to` at most, at a few places.
     pub(crate) fn sample_short_part(&self, to: f64) -> Option<Prospect> {
         let end = if to < self.end { Edge { vel: 1.0, acc: 0.0 } } else { Edge::REST };
-        self.look_at(to.min(self.end), (COARSE_DENSITY, MOST_COARSE_PLACES), Edge::REST, end)
+        self.look_at(to.min(self.end), (COARSE_DENSITY, MOST_COARSE_PLACES), [Edge::REST, end], None)
     }
 
     /// Goes along the path by itself.
@@ -142,13 +162,19 @@ impl ConstraintSampler {
         Stroll { sampler: self, joints: self.near, index: 0, before: self.passed }
     }
 
-    fn look_at(&self, to: f64, fineness: (f64, usize), start: Edge, end: Edge) -> Option<Prospect> {
+    /// The way to `to`, which takes about `duration` s; that is guessed where it is not known.
+    fn look_at(
+        &self,
+        mut to: f64,
+        fineness: (f64, usize),
+        edges: [Edge; 2],
+        mut duration: Option<f64>,
+    ) -> Option<Prospect> {
         let is_fine = fineness.0 >= 1.0;
-        let (mut to, mut duration) = (to, None);
         for _ in 0..MOST_SHORTENINGS {
-            match self.walk(to, duration.unwrap_or_default(), fineness, [start, end]) {
+            match self.walk(to, duration.unwrap_or_default(), fineness, edges) {
                 Ok((way, many)) => {
-                    let steps = if is_fine { guess_steps(&way, [start, end])? } else { Vec::new() };
+                    let steps = if is_fine { guess_steps(&way, edges)? } else { Vec::new() };
                     if is_fine && duration.is_none() {
                         let guessed = steps.iter().sum();
                         duration = Some(guessed);

@@ -4,17 +4,23 @@
 //! known by a fingerprint of 128 bits: places, the derivatives and limits of all that moves there, the state at the start, and the
 //! law before. Two ways that are the same in all of these to the last bit, and yet another between the places, do not come up.
 
-use std::collections::HashMap;
 use std::collections::hash_map::DefaultHasher;
+use std::collections::{HashMap, VecDeque};
 use std::hash::Hasher;
 use std::sync::Arc;
 
+use crate::time_optimal::constraint_sampler::ConstraintSampler;
 use crate::time_optimal::solver::{Edge, Law, Way};
 
 /// So many stretches are remembered of all laws together, of 80 bytes each.
 const MOST_STRETCHES: usize = 60_000;
 /// What was not found takes as much room as a law of so many stretches.
 const ROOM_OF_NOTHING: usize = 10;
+
+/// So many requests are remembered with what was found, of no more segments than this each: a loop has some, a dense chain has thousands
+/// and is not gone twice.
+const MOST_REQUESTS: usize = 64;
+const MOST_SEGMENTS: usize = 512;
 
 /// A law, and how much its set-points use of the limits; `None` where there is none.
 pub(crate) type Answer = Option<(Arc<Law>, f64)>;
@@ -60,6 +66,35 @@ impl LawMemory {
         {
             self.stretches -= room(&gone.answer);
         }
+    }
+}
+
+/// The last requests for laws from a state on, where all that may be seen of the path is the same: then it is not looked at.
+#[derive(Default)]
+pub(crate) struct RequestMemory<F> {
+    known: VecDeque<(ConstraintSampler, Edge, Option<Arc<Law>>, F)>,
+}
+
+impl<F: Clone> RequestMemory<F> {
+    /// What was found for the same request.
+    pub(crate) fn recall(&self, sampler: &ConstraintSampler, start: Edge, before: Option<&Arc<Law>>) -> Option<F> {
+        let same = |law: Option<&Arc<Law>>| law.map(Arc::as_ptr) == before.map(Arc::as_ptr);
+        let known = self
+            .known
+            .iter()
+            .find(|(known, from, law, _)| *from == start && same(law.as_ref()) && known.is_like(sampler));
+        known.map(|(.., found)| found.clone())
+    }
+
+    /// Remembers what was found for a request that was not known, if that takes little memory.
+    pub(crate) fn remember(&mut self, sampler: ConstraintSampler, start: Edge, before: Option<Arc<Law>>, found: F) {
+        if sampler.segments() > MOST_SEGMENTS {
+            return;
+        }
+        if self.known.len() == MOST_REQUESTS {
+            self.known.pop_front();
+        }
+        self.known.push_back((sampler, start, before, found));
     }
 }
 

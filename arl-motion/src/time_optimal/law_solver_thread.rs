@@ -11,10 +11,10 @@ use std::sync::{Arc, OnceLock};
 use std::thread;
 
 use crate::time_optimal::constraint_sampler::{ConstraintSampler, Prospect};
-use crate::time_optimal::law_memory::{LawMemory, key};
+use crate::time_optimal::law_memory::{LawMemory, RequestMemory, key};
 use crate::time_optimal::limit_check::{LimitCheck, MOST_USED_SHARE, law_keeps, used_by_law};
 use crate::time_optimal::set_points::used_by_set_points;
-use crate::time_optimal::solver::{Edge, Law, Pace, Way, fastest, fastest_behind, fastest_near};
+use crate::time_optimal::solver::{CREEPING, Edge, Law, Pace, Way, fastest, fastest_behind, fastest_near};
 use crate::time_optimal::stop_prediction::StopPrediction;
 
 /// How long finding a law may take, in s of controller time; and along very many motions.
@@ -27,8 +27,9 @@ const LONGEST_SOLVING_TIME_S: f64 = 0.3;
 const SLOWNESS_DECAY: f64 = 0.97;
 /// How many s of nominal time are looked ahead at first.
 pub(crate) const FIRST_LOOK_AHEAD_S: f64 = 2.0;
-/// A law takes so many s at least, if there is so much path.
+/// A law takes so many s at least, if there is so much path; and about so many where it can be told by the law before.
 const LEAST_LAW_S: f64 = 1.5;
+const AIMED_LAW_S: f64 = 2.0;
 /// Behind another law, so many times as far as that leads.
 const BEHIND_LAW_FACTOR: f64 = 1.2;
 /// Parts of the way, and how many times as many places on it, with which a law is looked for until one keeps the limits: where
@@ -201,7 +202,7 @@ impl LawSolver {
         // Without a thread the law has to be found at once.
         if let Some(task) = refused {
             self.tasks = None;
-            task.run(&mut LawMemory::default());
+            task.run(&mut Memory::default());
         }
         Search { result, left: cycles, is_late: false }
     }
@@ -218,18 +219,25 @@ impl Search {
 fn begin() -> Option<Sender<Task>> {
     let (tasks, asked) = channel::<Task>();
     let work = move || {
-        let mut memory = LawMemory::default();
+        let mut memory = Memory::default();
         asked.iter().for_each(|task| task.run(&mut memory));
     };
     thread::Builder::new().name("laws".into()).spawn(work).ok().map(|_| tasks)
 }
 
+/// What the thread remembers.
+#[derive(Default)]
+struct Memory {
+    laws: LawMemory,
+    requests: RequestMemory<Option<Found>>,
+}
+
 impl Task {
-    fn run(self, memory: &mut LawMemory) {
+    fn run(self, memory: &mut Memory) {
         let Self { sampler, request, result } = self;
         let wanted = || !result.forsaken.load(Ordering::Relaxed);
         let find = || match request {
-            LawRequest::Fastest(start, law) => find(&sampler, (start, law.as_deref()), memory, wanted),
+            LawRequest::Fastest(start, law) => recall_or_find(sampler, (start, law), memory, wanted),
             LawRequest::Shortest { start, about, harder } => find_stop(&sampler, start, (about, harder), wanted),
             LawRequest::ShorterStop(prediction, cycles) => find_shorter_stop(sampler, *prediction, cycles, wanted),
         };
@@ -266,6 +274,23 @@ thread_local! {
     pub(crate) static ANSWERS: std::cell::Cell<[u32; 2]> = const { std::cell::Cell::new([0, 0]) };
 }
 
+/// The fastest law from a state on, which may be known.
+fn recall_or_find(
+    sampler: ConstraintSampler,
+    (start, before): (Edge, Option<Arc<Law>>),
+    memory: &mut Memory,
+    wanted: impl Fn() -> bool,
+) -> Option<Found> {
+    if let Some(known) = memory.requests.recall(&sampler, start, before.as_ref()) {
+        return known;
+    }
+    let found = find(&sampler, (start, before.as_deref()), &mut memory.laws, &wanted);
+    if wanted() {
+        memory.requests.remember(sampler, start, before, found.clone());
+    }
+    found
+}
+
 /// The fastest law from a state on.
 fn find(
     sampler: &ConstraintSampler,
@@ -276,15 +301,19 @@ fn find(
     #[cfg(test)]
     FOUND_HERE.with(|count| count.set(count.get() + 1));
     let stop = sampler.end;
+    let speed = before.map(Law::mean_speed).filter(|speed| *speed > 0.0);
     // No nearer than the law before leads: the robot may not be able to rest there.
     let known = before.map_or(0.0, |law| law.end() - sampler.at);
-    let mut window = FIRST_LOOK_AHEAD_S.max(BEHIND_LAW_FACTOR * known);
+    let mut window = speed.map_or(FIRST_LOOK_AHEAD_S, |speed| AIMED_LAW_S * speed).max(BEHIND_LAW_FACTOR * known);
     let mut found = None;
     while wanted() {
         let to = if sampler.at + 1.2 * window < stop { sampler.at + window } else { stop };
         let mut attempt = |(share, density): &(f64, f64)| {
-            let Prospect { way, thinned, end } =
-                sampler.look(sampler.at + share * (to - sampler.at), *density, start, Edge::REST)?;
+            let (to, edges) = (sampler.at + share * (to - sampler.at), [start, Edge::REST]);
+            let Prospect { way, thinned, end } = match speed {
+                Some(speed) => sampler.look_at_speed(to, *density, edges, speed),
+                None => sampler.look(to, *density, start, Edge::REST),
+            }?;
             let sparse = thinned.as_ref().unwrap_or(&way);
             let found = || {
                 let found = temperate(sampler, sparse, (start, before), &wanted);
@@ -341,19 +370,28 @@ fn temperate(
     let mut limits = way.clone();
     let mut best: Option<(Law, f64)> = None;
     let mut pace: Option<Pace> = None;
+    let mut longest: Option<f64> = None;
     for round in 0..=MOST_TEMPERINGS {
         let solved = match &pace {
             Some(pace) => fastest_near(&limits, start, Edge::REST, pace),
             None => fastest_behind(&limits, start, Edge::REST, before),
         };
         let Some(law) = solved.ok().filter(|_| wanted()) else { break };
+        // Lower limits cost little, but where the search has lost its way.
+        if law.duration() > CREEPING * *longest.get_or_insert(law.duration()) {
+            break;
+        }
         // Always that of the first law: what is lowered for one parameter is lowered for it.
         pace = pace.or_else(|| law.pace());
         let mut used = used_by_law(way, &law, TEMPERED_USE)?;
-        if used.beyond.is_empty() {
-            used = used_by_set_points(sampler, &law, 1.0, TEMPERED_USE);
-            if best.as_ref().is_none_or(|(_, least)| used.most < *least) {
-                best = Some((law, used.most));
+        if used.most <= MOST_USED_SHARE {
+            let by_set_points = used_by_set_points(sampler, &law, 1.0, TEMPERED_USE);
+            let most = used.most.max(by_set_points.most);
+            if best.as_ref().is_none_or(|(_, least)| most < *least) {
+                best = Some((law, most));
+            }
+            if used.beyond.is_empty() {
+                used = by_set_points;
             }
         }
         if used.beyond.is_empty() || used.most > MOST_TEMPERED_USE {
@@ -478,22 +516,49 @@ mod tests {
         assert_eq!(solver.cycles(0.001, false), 20);
     }
 
+    /// What a way of the axes, at a share of the speed, looks like from its start; its segment has this number.
+    fn sampler(robot: &Arc<Robot>, number: u64, percent: f64) -> ConstraintSampler {
+        let start = crate::tests::axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
+        let plain: Command =
+            crate::tests::command(Target::Joints(crate::tests::axes([30.0, -80.0, 70.0, 10.0, 60.0, 0.0])));
+        let command = Command { speed: crate::command::Speed { percent, ..plain.speed }, ..plain };
+        let motion = plan(robot, &start, &command, &Settings::default()).unwrap();
+        let mut segments = SharedDeque::default();
+        segments.push_back(Arc::new(Segment::part(&motion, motion.limits.unwrap(), number, 0.0, 1.0)));
+        let end = segments.front().unwrap().time;
+        let part = Part { segments, from: 0, count: 1 };
+        ConstraintSampler::new(robot, part, 0.0, (end, true), (0.0, &start))
+    }
+
+    #[test]
+    fn a_request_that_is_the_same_does_not_look_at_the_way() {
+        let robot = Arc::new(Robot::builtin("kr10-r1420").unwrap());
+        let mut memory = Memory::default();
+        let mut law = |number: u64, percent: f64, start: Edge, before: Option<Arc<Law>>| {
+            let asked = FOUND_HERE.get();
+            let found = recall_or_find(sampler(&robot, number, percent), (start, before), &mut memory, || true);
+            (FOUND_HERE.get() - asked, found.map(|found| found.law))
+        };
+        let (_, first) = law(1, 50.0, Edge::REST, None);
+        let first = first.unwrap();
+        let (asked, again) = law(7, 50.0, Edge::REST, None);
+        assert!(asked == 0 && Arc::ptr_eq(&again.unwrap(), &first));
+        assert_eq!(law(7, 40.0, Edge::REST, None).0, 1);
+        let state = first.at(0.2);
+        let state = Edge { vel: state.vel, acc: state.acc };
+        assert_eq!(law(7, 50.0, state, None).0, 1);
+        assert_eq!(law(7, 50.0, Edge::REST, Some(first)).0, 1);
+        // What nobody wanted any more is not remembered.
+        let mut memory = Memory::default();
+        recall_or_find(sampler(&robot, 1, 50.0), (Edge::REST, None), &mut memory, || false);
+        assert!(memory.requests.recall(&sampler(&robot, 1, 50.0), Edge::REST, None).is_none());
+    }
+
     #[test]
     fn a_way_that_was_gone_before_is_not_timed_again() {
         let robot = Arc::new(Robot::builtin("kr10-r1420").unwrap());
-        let start = crate::tests::axes([0.0, -90.0, 90.0, 0.0, 45.0, 0.0]);
-        let goal = crate::tests::axes([30.0, -80.0, 70.0, 10.0, 60.0, 0.0]);
-        let command: Command = crate::tests::command(Target::Joints(goal));
-        let motion = plan(&robot, &start, &command, &Settings::default()).unwrap();
-        let mut segments = SharedDeque::default();
-        segments.push_back(Arc::new(Segment::part(&motion, motion.limits.unwrap(), 1, 0.0, 1.0)));
-        let end = segments.front().unwrap().time;
-        let sampler = || {
-            let part = Part { segments: segments.clone(), from: 0, count: 1 };
-            ConstraintSampler::new(&robot, part, 0.0, (end, true), (0.0, &start))
-        };
         let mut memory = LawMemory::default();
-        let mut law = || find(&sampler(), (Edge::REST, None), &mut memory, || true).unwrap().law;
+        let mut law = || find(&sampler(&robot, 1, 50.0), (Edge::REST, None), &mut memory, || true).unwrap().law;
         assert!(Arc::ptr_eq(&law(), &law()));
     }
 }

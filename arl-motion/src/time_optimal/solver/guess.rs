@@ -1,5 +1,6 @@
 //! About how fast a motion can be at each place, without a search.
 
+use crate::time_optimal::solver::screen::highest_square;
 use crate::time_optimal::solver::warp::Warp;
 use crate::time_optimal::solver::warped_row::WarpedRow;
 use crate::time_optimal::solver::{Edge, Way};
@@ -20,15 +21,15 @@ pub(crate) fn guess_speeds(way: &Way, warp: &Warp, places: &[f64], edges: [Edge;
         let place = warp.place(*at);
         let edge = edges.iter().zip([0, last]).find(|(edge, at)| *at == index && !edge.rests());
         let given = edge.map_or(f64::INFINITY, |(edge, _)| edge.vel * edge.vel / (place.first * place.first));
-        let (mut square, mut acc, mut jerk) = (given, f64::INFINITY, f64::INFINITY);
+        let (mut square, mut even, mut acc, mut jerk) = (given, 0.0_f64, f64::INFINITY, f64::INFINITY);
         for row in way.rows(index).iter().filter(|row| row.moves()) {
             let row = WarpedRow::new(row, place);
-            square =
-                square.min(1.0 / row.vel).min(1.0 / row.acc[1].abs()).min(1.0 / (row.jerk[2] * row.jerk[2]).cbrt());
+            square = square.min(1.0 / row.vel).min(1.0 / row.acc[1].abs());
+            even = even.max(row.jerk[2].abs());
             acc = acc.min(1.0 / row.acc[0].abs());
             jerk = jerk.min(1.0 / row.jerk[0].abs());
         }
-        squares.push(square);
+        squares.push(square.min(highest_square(std::iter::once(even))));
         rises.push([2.0 * acc, GUESSED_SHARE_OF_RISE * RISE * jerk.sqrt()]);
     }
     let highest = squares.iter().copied().filter(|square| square.is_finite()).fold(0.0, f64::max);
@@ -62,9 +63,10 @@ pub(crate) fn smooth(speeds: Vec<f64>) -> Vec<f64> {
 
 /// With so few places none is left out: a law is found soon enough.
 const FEW_PLACES: usize = 160;
-/// None is left out either behind which the motion is so many times as fast as behind the last one that is kept, or as slow: beside a sharp
-/// blend, as beside a stop, the speed changes much within a short time.
+/// Beside a sharp blend, as beside a stop, the speed changes much within a short time.
 const CHANGE_OF_SPEED: f64 = 1.1;
+/// What tells about the pace. At a given start all places stay: the state there may leave hardly a way on.
+const COARSE: Thinning = Thinning { closest: 0.006, change: 1.5, begun: 0.1, keeps_jumps: false };
 
 /// About how long the fastest motion takes from each place to the next, in s: rather less.
 pub(crate) fn guess_steps(way: &Way, edges: [Edge; 2]) -> Option<Vec<f64>> {
@@ -76,20 +78,44 @@ pub(crate) fn guess_steps(way: &Way, edges: [Edge; 2]) -> Option<Vec<f64>> {
     Some(places.windows(2).zip(speeds.windows(2)).map(step).collect())
 }
 
+/// Which places of a way are left out.
+struct Thinning {
+    /// Places are so far apart in time, in s, ...
+    closest: f64,
+    /// ... but for those behind which the motion is so many times as fast as behind the last one that is kept, or as slow; ...
+    change: f64,
+    /// ... for those so soon behind the start, in s; ...
+    begun: f64,
+    /// ... and for those where derivatives jump, if these are to stay.
+    keeps_jumps: bool,
+}
+
 /// The way without places that are closer together than so many s by these steps, but for those where derivatives jump or the speed
 /// changes much; `None` where it has few of them.
 pub(crate) fn thinned(way: &Way, steps: &[f64], closest: f64) -> Option<Way> {
+    keep(way, steps, &Thinning { closest, change: CHANGE_OF_SPEED, begun: 0.0, keeps_jumps: true })
+}
+
+/// The way with a third of its places or so, from which the pace of a law can be told, but not the law; `None` where it has few of them.
+pub(crate) fn coarse(way: &Way, edges: [Edge; 2]) -> Option<Way> {
+    let steps = guess_steps(way, edges)?;
+    keep(way, &steps, &COARSE)
+}
+
+fn keep(way: &Way, steps: &[f64], thinning: &Thinning) -> Option<Way> {
+    let Thinning { closest, change, begun, keeps_jumps } = *thinning;
     if way.places().len() <= FEW_PLACES {
         return None;
     }
     let lengths = way.places().windows(2).map(|pair| pair[1] - pair[0]);
     let speeds: Vec<f64> = lengths.zip(steps).map(|(length, step)| length / step).collect();
-    let changes = |from: f64, to: f64| from.max(to) > CHANGE_OF_SPEED * from.min(to);
+    let changes = |from: f64, to: f64| from.max(to) > change * from.min(to);
     // As if it stood before the start, so that the place behind that stays, too.
-    let (mut since, mut before, mut keep) = (0.0, 0.0, vec![true]);
+    let (mut time, mut since, mut before, mut keep) = (0.0, 0.0, 0.0, vec![true]);
     for (index, (step, behind)) in (1..).zip(steps.iter().zip(speeds.iter().skip(1))) {
-        since += step;
-        let is_kept = since >= closest || way.jumps(index) || changes(before, *behind);
+        (time, since) = (time + step, since + step);
+        let stays = time < begun || (keeps_jumps && way.jumps(index));
+        let is_kept = stays || since >= closest || changes(before, *behind);
         keep.push(is_kept);
         if is_kept {
             (since, before) = (0.0, *behind);

@@ -10,6 +10,7 @@
 use std::ops::Range;
 
 use crate::time_optimal::solver::banded::Banded;
+use crate::time_optimal::solver::guess::coarse;
 use crate::time_optimal::solver::lanes::{LANES, Lanes};
 use crate::time_optimal::solver::law::Law;
 use crate::time_optimal::solver::program::{Beginning, Known, Limits, Program, Site, dot};
@@ -21,6 +22,9 @@ const STEPS: usize = 80;
 const ROUNDS: usize = 4;
 /// By so much a given speed and acceleration at an end may exceed the limits.
 const TOLERANCE: f64 = 1.003;
+/// The same where the motion is about known: whether it keeps them as its set-points go is looked at anyway, and else there is none that is
+/// nearly as fast.
+const TOLERANCE_OF_KNOWN: f64 = 1.006;
 /// The duration is so close to what it can be at best, as a share of it; the second where it is found again over its own pace then.
 const GAP: f64 = 5e-4;
 const ROUGH_GAP: f64 = 0.02;
@@ -47,10 +51,18 @@ const MOST_APPROACHES: usize = 6;
 /// The same where it is found roughly.
 const LEAST_ROUGH_GAIN: f64 = 0.02;
 const MOST_ROUGH_APPROACHES: usize = 4;
+/// Over the pace of a rough law a law takes by less than this part less time where its own pace is as good: the next one would take by a
+/// thirtieth of that less.
+const LEAST_GAIN_ON_ROUGH: f64 = 0.01;
+/// One that takes longer than this many times the rough law has found no good way.
+const MOST_ON_ROUGH: f64 = 1.05;
+/// One that takes longer than this many times as long as it could is none.
+pub(crate) const CREEPING: f64 = 1.2;
 
 /// The coefficients of the fastest motion, with all limits kept, of which the duration is so close to what it can be at best.
 fn settle(program: &mut Program, gap: f64) -> Result<Vec<f64>, Refusal> {
     let free = program.given.is_empty();
+    let tolerance = if program.beginning == Beginning::Known { TOLERANCE_OF_KNOWN } else { TOLERANCE };
     let mut coefficients = program.first.clone();
     let mut used = 0.0;
     for round in 0..=ROUNDS {
@@ -73,7 +85,7 @@ fn settle(program: &mut Program, gap: f64) -> Result<Vec<f64>, Refusal> {
         // Everything slows down with x in this share, the jerk even more.
         let share = 1.0 / f64::max(used, 1.0);
         coefficients.iter_mut().for_each(|value| *value *= share);
-    } else if used > TOLERANCE || program.missed(&coefficients) > NO_MISS || program.stops(&coefficients) {
+    } else if used > tolerance || program.missed(&coefficients) > NO_MISS || program.stops(&coefficients) {
         return Err(Refusal::Fast);
     }
     Ok(coefficients)
@@ -93,10 +105,36 @@ struct Prices {
 /// Between two places nothing but the acceleration's slope is free. With a parameter that goes as the time does that is enough; a guess is
 /// not that near. So a law is found over the pace of another one, until that is as good as its own.
 pub(crate) fn solve(way: &Way, edges: [Edge; 2], before: Option<&Law>) -> Result<Law, Refusal> {
-    match before.map(|law| solve_behind(way, edges, law)) {
-        // Where it has to slow down for what the law before has not seen, the pace of that may lead nowhere.
-        None | Some(Err(Refusal::Fast)) => solve_alone(way, edges),
-        Some(found) => found,
+    let Some(before) = before else { return solve_alone(way, edges) };
+    // Few places tell the pace sooner, but not always where the start leaves hardly a way on. And where it has to slow down for what the
+    // law before has not seen, the pace of that may lead nowhere.
+    let coarse = coarse(way, edges);
+    let mut best: Result<Law, Refusal> = Err(Refusal::Fast);
+    let mut quickest = f64::INFINITY;
+    for sparse in coarse.iter().chain([way]) {
+        match solve_behind(way, edges, (before, sparse)) {
+            Ok((law, rough)) => {
+                let is_as_good = law.duration() < MOST_ON_ROUGH * rough.duration();
+                (best, quickest) = (faster(best, Ok(law)), quickest.min(rough.duration()));
+                if is_as_good {
+                    return best;
+                }
+            }
+            Err(Refusal::Fast) => {}
+            Err(refusal) => return Err(refusal),
+        }
+    }
+    best = faster(best, solve_alone(way, edges));
+    // The law before leads to rest: to look again from a later state is better than to creep.
+    if best.as_ref().is_ok_and(|law| law.duration() > CREEPING * quickest) { Err(Refusal::Fast) } else { best }
+}
+
+/// The faster one of two laws, if there are any.
+fn faster(one: Result<Law, Refusal>, other: Result<Law, Refusal>) -> Result<Law, Refusal> {
+    match (one, other) {
+        (Ok(one), Ok(other)) if other.duration() < one.duration() => Ok(other),
+        (Ok(one), _) => Ok(one),
+        (Err(_), other) => other,
     }
 }
 
@@ -107,8 +145,17 @@ fn solve_alone(way: &Way, edges: [Edge; 2]) -> Result<Law, Refusal> {
     Ok(approach(way, edges, find(&mut program, gap)?))
 }
 
-/// As the law before goes, as far as that is known; roughly at first.
-fn solve_behind(way: &Way, edges: [Edge; 2], before: &Law) -> Result<Law, Refusal> {
+/// As the law before goes, as far as that is known; with the rough law, over a way with fewer places, that its pace is of.
+fn solve_behind(way: &Way, edges: [Edge; 2], (before, sparse): (&Law, &Way)) -> Result<(Law, Law), Refusal> {
+    let rough = solve_roughly(sparse, edges, before)?;
+    let pace = rough.pace_at(way.places()).ok_or(Refusal::Fast)?;
+    let law = solve_near(way, edges, &pace)?;
+    let law = if gain(&rough, &law).abs() < LEAST_GAIN_ON_ROUGH { law } else { approach(way, edges, law) };
+    Ok((law, rough))
+}
+
+/// The same for its pace alone.
+fn solve_roughly(way: &Way, edges: [Edge; 2], before: &Law) -> Result<Law, Refusal> {
     let mut rough = find_roughly(program(way, edges, Known::Before(before))?)?;
     for _ in 0..MOST_ROUGH_APPROACHES {
         let pace = rough.pace().ok_or(Refusal::Fast)?;
@@ -119,8 +166,7 @@ fn solve_behind(way: &Way, edges: [Edge; 2], before: &Law) -> Result<Law, Refusa
             break;
         }
     }
-    let law = solve_near(way, edges, &rough.pace().ok_or(Refusal::Fast)?)?;
-    if gain(&rough, &law) < LEAST_GAIN { Ok(law) } else { Ok(approach(way, edges, law)) }
+    Ok(rough)
 }
 
 /// Over a law's own pace, again and again.

@@ -69,6 +69,12 @@ impl Law {
         Some(Pace { times, ends: [*speeds.first()?, *speeds.last()?] })
     }
 
+    /// When it is at places of its path, those that it was found from or others; `None` as above.
+    pub(crate) fn pace_at(&self, places: &[f64]) -> Option<Pace> {
+        let Pace { ends, .. } = self.pace()?;
+        Some(Pace { times: places.iter().map(|at| self.time_at(*at)).collect(), ends })
+    }
+
     /// How many stretches it has.
     pub(crate) fn stretches(&self) -> usize {
         self.stretches.len()

@@ -29,6 +29,7 @@ mod way;
 
 pub use error::Refusal;
 pub(crate) use guess::{guess_steps, thinned};
+pub(crate) use interior::CREEPING;
 pub use law::{Law, Moment};
 pub(crate) use pace::Pace;
 pub use way::{Row, Way};

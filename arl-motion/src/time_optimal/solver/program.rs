@@ -12,7 +12,7 @@ use crate::time_optimal::solver::lanes::{LANES, Lanes};
 use crate::time_optimal::solver::law::Law;
 use crate::time_optimal::solver::pace::Pace;
 use crate::time_optimal::solver::paced_warp::PacedWarp;
-use crate::time_optimal::solver::screen::Screen;
+use crate::time_optimal::solver::screen::{Screen, highest_square};
 use crate::time_optimal::solver::warp::{Place, Warp};
 use crate::time_optimal::solver::warped_row::WarpedRow;
 use crate::time_optimal::solver::{Edge, Refusal, Row, Way, reach};
@@ -133,6 +133,8 @@ const START_RESERVE_OF_SPEED: f64 = 2e-4;
 /// No state that a law leads to uses more of them.
 const MOST_USED_AT_START: f64 = 1.01;
 const START_PLACES: usize = 50;
+/// By so many times the square of the speed at the start may be higher than it could be without limits of jerk.
+const MOST_EXCESS_AT_START: f64 = 1.02;
 /// How many stretches next to rest have all limits in the middle.
 const MIDDLES: usize = 4;
 /// A stretch has speed limits in its middle where the square of the speed may come as near to them as this part of it: what is as fast
@@ -153,9 +155,9 @@ impl Program {
             _ => warp.find(*at),
         };
         let places: Vec<f64> = way.places().iter().enumerate().map(place).collect();
-        // Without jerk limits it is faster everywhere.
-        let most = reach::squares(way, start, end)?;
+        // Without jerk limits it is faster everywhere, but for the start, where a law may have used more than there is.
         let edges = [start, end];
+        let most = reach::squares(way, edges, MOST_EXCESS_AT_START)?;
         let guess = || guess_speeds(way, &warp, &places, edges);
         let (along, beginning) = match known {
             Known::Nothing => (None, None),
@@ -188,10 +190,8 @@ impl Program {
                 Counting::Speed => push(&mut of_both.map(Row::of_speed), *place),
             }
         }
-        let unit = rows.iter().fold(f64::INFINITY, |unit, row| {
-            let jerk = row.jerk[2];
-            unit.min(1.0 / row.vel).min(1.0 / row.acc[1].abs()).min(1.0 / (jerk * jerk).cbrt())
-        });
+        let by_jerk = highest_square(rows.iter().map(|row| row.jerk[2]));
+        let unit = rows.iter().fold(by_jerk, |unit, row| unit.min(1.0 / row.vel).min(1.0 / row.acc[1].abs()));
         if !(unit.is_finite() && unit > 0.0) {
             return Err(Refusal::Still);
         }

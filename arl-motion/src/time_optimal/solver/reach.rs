@@ -20,7 +20,7 @@ pub(crate) fn solve(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
         // Nothing moves at either place.
         return Err(Refusal::Short);
     }
-    let squares = squares(way, start, end)?;
+    let squares = squares(way, [start, end], ROUNDING)?;
     let pairs = way.places().windows(2).zip(squares.windows(2));
     let slopes = pairs.map(|(at, square)| (0.5 * (square[1] - square[0]) / (at[1] - at[0]), 0.0));
     let warp = Warp::new(from, to, false, false);
@@ -28,8 +28,8 @@ pub(crate) fn solve(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
     Ok(Law::new(PacedWarp::even(warp, &places), &places, &squares, slopes))
 }
 
-/// The squares of its speed at the places.
-pub(crate) fn squares(way: &Way, start: Edge, end: Edge) -> Result<Vec<f64>, Refusal> {
+/// The squares of its speed at the places; that at the start may be so many times as high as it could be.
+pub(crate) fn squares(way: &Way, [start, end]: [Edge; 2], most_excess: f64) -> Result<Vec<f64>, Refusal> {
     let caps = caps(way);
     let mut circle_steps = Vec::new();
     // The lowest and highest square of the speed at each place from which the end can be reached.
@@ -46,13 +46,13 @@ pub(crate) fn squares(way: &Way, start: Edge, end: Edge) -> Result<Vec<f64>, Ref
                 0.0
             };
             high = most;
-        } else if high > cap * TOLERANCE {
+        } else if high > cap * ROUNDING {
             return Err(Refusal::Fast);
         }
         *slot = (low, high);
     }
     let mut square = start.vel * start.vel;
-    if square > high * TOLERANCE || square * TOLERANCE < low {
+    if square > high * most_excess || square * most_excess < low {
         return Err(Refusal::Fast);
     }
     square = square.clamp(low, high);
@@ -70,8 +70,8 @@ pub(crate) fn squares(way: &Way, start: Edge, end: Edge) -> Result<Vec<f64>, Ref
     Ok(squares)
 }
 
-/// What rounding may add to a speed's square.
-const TOLERANCE: f64 = 1.0 + 1e-6;
+/// What rounding may add to a speed's square, as a factor.
+const ROUNDING: f64 = 1.0 + 1e-6;
 
 /// The highest square of the speed at each place by the velocity limits; where none of them counts, the highest of all.
 fn caps(way: &Way) -> Vec<f64> {

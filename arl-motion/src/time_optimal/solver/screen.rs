@@ -26,9 +26,21 @@ pub(crate) struct Screen {
 /// Shares of the highest x at which the limits are compared.
 const SHARES: [f64; 4] = [0.03, 0.3, 0.65, 1.0];
 /// The same of what x is about.
-const SHARES_OF_KNOWN: [f64; 2] = [0.4, 1.0];
+const SHARES_OF_KNOWN: [f64; 2] = [0.7, 1.0];
+/// How far from an even speed limits are looked at.
+const ANY: Doubt = Doubt { slopes: 1.0, rest: 0.7 };
+const ABOUT_EVEN: Doubt = Doubt { slopes: 0.3, rest: 0.9 };
 /// A limit that is left out may be exceeded by so much before it is added.
 const EXCESS: f64 = 1.002;
+
+/// How little is known of the motion at a place.
+#[derive(Clone, Copy)]
+struct Doubt {
+    /// Which part of the accelerations that are possible it may have.
+    slopes: f64,
+    /// From which share of it on a limit on the jerk counts that is used without a bend.
+    rest: f64,
+}
 
 impl Screen {
     /// With the rows, where those of each place begin, and the highest x that each place can have; or what x is about everywhere,
@@ -43,14 +55,14 @@ impl Screen {
         for (range, most) in ends.windows(2).zip(most) {
             let (rows, kept) = (&rows[range[0]..range[1]], &mut kept[range[0]..range[1]]);
             if let Some(known) = known {
-                SHARES_OF_KNOWN.iter().for_each(|share| compare(rows, kept, share * known));
+                SHARES_OF_KNOWN.iter().for_each(|share| compare(rows, kept, share * known, ABOUT_EVEN));
                 continue;
             }
             // Close to rest nothing else may limit x.
-            let by_jerk = rows.iter().map(|row| 1.0 / (row.jerk[2] * row.jerk[2]).cbrt()).fold(f64::INFINITY, f64::min);
+            let by_jerk = highest_square(rows.iter().map(|row| row.jerk[2]));
             let most = if most.is_finite() { most } else { by_jerk.min(1e6) };
             for share in SHARES {
-                compare(rows, kept, share * most);
+                compare(rows, kept, share * most, ANY);
             }
         }
         let least = rows.iter().map(|row| row.vel).filter(|vel| *vel > 0.0).fold(f64::INFINITY, f64::min);
@@ -95,8 +107,14 @@ impl Screen {
     }
 }
 
+/// The highest x at which no jerk is more than 1 at an even speed, with these shares of x in it.
+pub(crate) fn highest_square(jerks: impl Iterator<Item = f64>) -> f64 {
+    let most = jerks.map(f64::abs).fold(0.0, f64::max);
+    1.0 / (most * most).cbrt()
+}
+
 /// Keeps those limits that hold back the acceleration at x, and those that hold back the bend at some accelerations.
-fn compare(rows: &[WarpedRow], kept: &mut [CountingLimits], square: f64) {
+fn compare(rows: &[WarpedRow], kept: &mut [CountingLimits], square: f64, doubt: Doubt) {
     let (mut low, mut high) = ((f64::NEG_INFINITY, 0, 0), (f64::INFINITY, 0, 0));
     for (index, row) in rows.iter().enumerate() {
         narrow(row.acc[0], row.acc[1] * square, 1.0, index, &mut low, &mut high);
@@ -107,7 +125,7 @@ fn compare(rows: &[WarpedRow], kept: &mut [CountingLimits], square: f64) {
         }
     }
     let most = 1.0 / square.sqrt();
-    for slope in [low.0, 0.0, high.0] {
+    for slope in [doubt.slopes * low.0, 0.0, doubt.slopes * high.0] {
         if !slope.is_finite() {
             continue;
         }
@@ -116,7 +134,7 @@ fn compare(rows: &[WarpedRow], kept: &mut [CountingLimits], square: f64) {
             let rest = row.jerk[1] * slope + row.jerk[2] * square;
             narrow(row.jerk[0], rest, most, index, &mut low, &mut high);
             // Where the bend hardly counts.
-            if rest.abs() > 0.7 * most {
+            if rest.abs() > doubt.rest * most {
                 kept[index].jerk[usize::from(rest < 0.0)] = true;
             }
         }
