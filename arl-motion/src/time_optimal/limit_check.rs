@@ -9,6 +9,11 @@ pub(crate) const MOST_USED_SHARE: f64 = 1.008;
 /// By the limits at its places a motion that is known to be within them may use so much: set-points smear out what is shorter than
 /// they are apart.
 const MOST_KNOWN_SHARE: f64 = 1.0095;
+/// Beside its ends, for so many s, a law is looked at closer by this factor, for what is far beyond the limits: where it rests, what changes
+/// most does so within less than a set-point, and nobody sees it before the next law goes off.
+const BESIDE_END_S: f64 = 0.004;
+const CLOSER_BESIDE_END: u32 = 10;
+const FAR_BEYOND: f64 = 1.1;
 /// A speed below zero, in s of nominal time per s, that is rounding.
 const BACKWARDS_ROUNDING: f64 = 1e-9;
 /// No limits.
@@ -145,6 +150,12 @@ pub(crate) fn used_by_law(way: &Way, law: &Law, allowed: f64) -> Option<Used> {
         }
         used.note([now.at; 2], looked.used_at(&now));
     }
+    for now in moments_beside_ends(law.duration()).map(|time| law.at(time)) {
+        let share = looked.used_at(&now);
+        if share > FAR_BEYOND {
+            used.note([now.at; 2], share);
+        }
+    }
     Some(used)
 }
 
@@ -170,6 +181,13 @@ fn keeps(looked: &Look, motion: &impl Timed) -> bool {
 fn moments(duration: f64) -> impl Iterator<Item = f64> {
     let count = (duration / SAMPLE_S).clamp(16.0, 4000.0) as u32;
     (0..=count).map(move |step| duration * f64::from(step) / f64::from(count))
+}
+
+/// When to look at a motion closer, close to its start and its end.
+fn moments_beside_ends(duration: f64) -> impl Iterator<Item = f64> {
+    let step = SAMPLE_S / f64::from(CLOSER_BESIDE_END);
+    let count = (BESIDE_END_S.min(0.5 * duration) / step) as u32;
+    (1..count).map(move |index| f64::from(index) * step).flat_map(move |time| [time, duration - time])
 }
 
 /// How the limits along a path are looked at.

@@ -83,13 +83,16 @@ pub fn fastest(way: &Way, start: Edge, end: Edge) -> Result<Law, Refusal> {
 /// The same where a law leads to the start, and on along the same path, as far as that goes.
 pub(crate) fn fastest_behind(way: &Way, start: Edge, end: Edge, before: Option<&Law>) -> Result<Law, Refusal> {
     check(way, [start, end])?;
-    if way.limits_jerk() { interior::solve(way, [start, end], before) } else { reach::solve(way, start, end) }
+    if !way.limits_jerk() {
+        return reach::solve(way, start, end);
+    }
+    interior::solve(&way.rising_beside_rest([start, end]), [start, end], before)
 }
 
 /// The same where about the pace is known ([`Law::pace`]): that with other limits at the same places.
 pub(crate) fn fastest_near(way: &Way, start: Edge, end: Edge, pace: &Pace) -> Result<Law, Refusal> {
     check(way, [start, end])?;
-    interior::solve_near(way, [start, end], pace)
+    interior::solve_near(&way.rising_beside_rest([start, end]), [start, end], pace)
 }
 
 fn check(way: &Way, edges: [Edge; 2]) -> Result<(), Refusal> {

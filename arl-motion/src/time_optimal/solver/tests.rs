@@ -453,3 +453,36 @@ fn a_law_goes_on_behind_another_one_that_slows_down_for_its_end() {
     // From a few states nothing is found, which may be too fast for the places here.
     assert!(found > 36, "{found}");
 }
+
+/// The most of its acceleration that a law along an even way uses, looked at closely.
+fn most_acceleration(law: &Law, acc: f64) -> f64 {
+    let moments = (0..=20_000).map(|step| law.at(law.duration() * f64::from(step) / 20_000.0));
+    moments.map(|now| now.acc.abs() / acc).fold(0.0, f64::max)
+}
+
+#[test]
+fn where_jerk_is_hardly_limited_beside_rest_accelerations_keep_their_limits_all_the_same() {
+    const RISE_S: f64 = 0.002;
+    for (count, acc) in [(50, 4.0), (50, 15.0), (150, 4.0), (150, 15.0), (150, 60.0), (250, 4.0), (250, 60.0)] {
+        let check = |way: &Way, about: &str| {
+            let law = fastest(way, Edge::REST, Edge::REST).unwrap();
+            let near = law.pace().map(|pace| fastest_near(way, Edge::REST, Edge::REST, &pace).unwrap());
+            let least = 1.0 + 1.0 / acc;
+            for law in near.into_iter().chain([law]) {
+                let (used, duration) = (most_acceleration(&law, acc), law.duration());
+                assert!(used < 1.03, "{count} {acc} {about}: {used}");
+                assert!(duration < 1.006 * least + RISE_S, "{count} {acc} {about}: {duration} of {least}");
+            }
+        };
+        for rise in [1e-3, 1e-4, 1e-6, 1e-9] {
+            check(&line(count, Limits { vel: 1.0, acc, jerk: acc / rise }), &format!("{rise} s"));
+        }
+        // Jerk is limited on the way alone.
+        let mut way = Way::new();
+        for at in places(0.0, 1.0, count, Edge::REST, Edge::REST) {
+            let jerk = if (at - 0.5).abs() < 0.2 { 100.0 * acc } else { f64::INFINITY };
+            way.push(at, [Row { first: 1.0, second: 0.0, third: 0.0, vel: 1.0, acc, jerk }]);
+        }
+        check(&way, "on the way");
+    }
+}

@@ -1,6 +1,12 @@
 //! What is to be timed: rows of limits at places along a path.
 
-use crate::time_optimal::solver::Refusal;
+use std::borrow::Cow;
+
+use crate::time_optimal::solver::{Edge, Refusal};
+
+/// Beside rest an acceleration takes so many s to rise at least where jerk counts at all, and this counts for so long.
+const RISE_BESIDE_REST_S: f64 = 0.002;
+const BESIDE_REST_S: f64 = 0.006;
 
 /// One quantity that moves with the path parameter, at one place: its derivatives by the parameter and its limits.
 ///
@@ -160,6 +166,32 @@ impl Way {
             }
             start = *end;
         }
+    }
+
+    /// The way as it is timed with limits on the jerk: none of its accelerations rises at once beside rest. The square of the warped
+    /// parameter's speed would have a pole there.
+    pub(crate) fn rising_beside_rest(&self, edges: [Edge; 2]) -> Cow<'_, Self> {
+        let mut way = Cow::Borrowed(self);
+        let last = self.at.len().saturating_sub(1);
+        for (index, edge) in [0, last].into_iter().zip(edges) {
+            let Some(rest) = self.at.get(index).filter(|_| edge.rests()) else { continue };
+            let least = |of: fn(&Row) -> f64| {
+                self.rows(index).iter().map(|row| of(row) / row.first.abs()).fold(f64::INFINITY, f64::min)
+            };
+            let (acc, jerk) = (least(|row| row.acc), least(|row| row.jerk));
+            if !acc.is_finite() || jerk * RISE_BESIDE_REST_S <= acc {
+                continue;
+            }
+            let near = 0.5 * acc * BESIDE_REST_S * BESIDE_REST_S;
+            let from = self.at.partition_point(|at| *at < rest - near);
+            let behind = self.at.partition_point(|at| *at <= rest + near);
+            let start = from.checked_sub(1).and_then(|before| self.ends.get(before)).copied().unwrap_or_default();
+            let end = behind.checked_sub(1).and_then(|last| self.ends.get(last)).copied().unwrap_or_default();
+            for row in way.to_mut().rows.get_mut(start..end).unwrap_or_default() {
+                row.jerk = row.jerk.min(row.acc / RISE_BESIDE_REST_S);
+            }
+        }
+        way
     }
 
     /// The way with those places only that are to be kept.
