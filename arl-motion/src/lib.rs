@@ -71,8 +71,8 @@ pub use arl_robot::{frames, kinematics, robot};
 pub use blend::no_blend::NoBlend;
 pub use blend::zone::Rounding;
 pub use command::{
-    Command, Compensation, Gate, Joints, Lift, MotionKind, PlanError, Reference, Settings, Speed, Target, UNSET, Weave,
-    WeaveShape, Zone, is_unset,
+    Command, Compensation, Gate, GatePart, Joints, Lift, MotionKind, PlanError, Reference, Settings, Speed, Target,
+    UNSET, Weave, WeaveShape, Zone, is_unset,
 };
 pub use plan::circle_steps::circle_steps;
 pub use plan::motion::Motion;

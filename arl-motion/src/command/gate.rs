@@ -15,8 +15,27 @@ pub struct Gate {
     pub falling: Lift,
     /// Whether it goes on to the next motion without reaching its target.
     pub smooth: bool,
+    /// How much of it is done.
+    pub part: GatePart,
+}
+
+impl Gate {
     /// Whether it stops straight above its target.
-    pub stays: bool,
+    pub(crate) fn stays(&self) -> bool {
+        self.part == GatePart::Above
+    }
+}
+
+/// How much of a gate is done: all of it, or the way to where its target is looked at from above, and the rest.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum GatePart {
+    /// From its start to its target.
+    #[default]
+    Whole,
+    /// From its start to straight above its target, where it stops.
+    Above,
+    /// From there to its target: the rest of the gate before, with which it is one motion in records.
+    Rest,
 }
 
 /// How fast a gate rises or sinks; what is `None` is as on the way over.

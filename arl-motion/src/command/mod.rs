@@ -8,7 +8,7 @@ mod weave;
 
 pub use compensation::{Compensation, Reference};
 pub use error::PlanError;
-pub use gate::{Gate, Lift};
+pub use gate::{Gate, GatePart, Lift};
 pub use joints::{Joints, UNSET, is_unset};
 pub use weave::{Weave, WeaveShape};
 

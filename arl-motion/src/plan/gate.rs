@@ -74,7 +74,7 @@ pub(crate) fn plan(
     };
     if stays {
         // Over the same place there is nothing to go over.
-        let (end, way) = if gate.stays { (at(&end, top), &gate.rising) } else { (end, &gate.falling) };
+        let (end, way) = if gate.stays() { (at(&end, top), &gate.rising) } else { (end, &gate.falling) };
         return Ok(vec![Motion { zone: zone(gate), ..part(start, end, &lifting(way))? }]);
     }
     let (up, over) = (at(start, top), at(&end, top));
@@ -100,7 +100,7 @@ pub(crate) fn plan(
         );
     }
     let going_over = part(&up, over, &way_over)?;
-    if top - to > NO_DISTANCE_MM && !gate.stays {
+    if top - to > NO_DISTANCE_MM && !gate.stays() {
         let sinking = lifting(&gate.falling);
         // Where it goes on smoothly, the corner leaves the next blend its part.
         let most = 1.0 - if gate.smooth { SMOOTH_ZONE_PERCENT / 100.0 * LARGEST_ZONE } else { STOPPING_SHARE };
@@ -148,5 +148,5 @@ fn share_out(parts: &mut [Motion]) {
 }
 
 fn zone(gate: &Gate) -> Zone {
-    if gate.smooth && !gate.stays { Zone { percent: SMOOTH_ZONE_PERCENT, ..Zone::NONE } } else { Zone::NONE }
+    if gate.smooth && !gate.stays() { Zone { percent: SMOOTH_ZONE_PERCENT, ..Zone::NONE } } else { Zone::NONE }
 }

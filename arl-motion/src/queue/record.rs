@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::blend::no_blend::NoBlend;
 use crate::blend::zone::{self, Rounding};
 use crate::command::joints::ALL;
-use crate::command::{Command, MotionKind, Settings, Speed};
+use crate::command::{Command, GatePart, MotionKind, Settings, Speed, Target};
 use crate::plan::constraints::MANUAL_SPEED_MM_S;
 use crate::plan::motion::Motion;
 use crate::queue::path_speed::PathSpeed;
@@ -114,7 +114,7 @@ impl Nearest {
 /// One executed motion. Until it has ended, the figures are those so far.
 #[derive(Clone, PartialEq, Debug)]
 pub struct MotionRecord {
-    /// Its running number, from 1.
+    /// Its running number, from 1; the rest of a gate that was looked at from above has the next one.
     pub number: u64,
     /// Its program line.
     pub line: u32,
@@ -185,6 +185,8 @@ impl MotionRecord {
 pub struct Recorder {
     robot: Arc<Robot>,
     records: Vec<MotionRecord>,
+    /// The place of the record of each motion, by its number, from the first one on.
+    places: Vec<usize>,
     /// The last motion that goes somewhere, and its number.
     last: Option<(u64, Arc<Motion>)>,
     time: f64,
@@ -211,6 +213,7 @@ impl Recorder {
         Self {
             robot,
             records: Vec::new(),
+            places: Vec::new(),
             last: None,
             time: 0.0,
             executed: 0,
@@ -230,8 +233,16 @@ impl Recorder {
         &self.records
     }
 
-    /// Notes a motion that the queue has taken. Its way may become known only with the next one.
+    /// Notes a motion that the queue has taken. Its way may become known only with the next one. The rest of a gate belongs to the record
+    /// of the gate.
     pub fn planned(&mut self, queue: &mut Queue, number: u64, command: &Command, settings: &Settings) {
+        let is_rest = matches!(&command.target, Target::Gate { gate, .. } if gate.part == GatePart::Rest);
+        let is_of_last = is_rest
+            && self.records.last().is_some_and(|last| (last.kind, last.line) == (MotionKind::Gate, command.line));
+        self.places.push(if is_of_last { self.records.len() - 1 } else { self.records.len() });
+        if is_of_last {
+            return self.laid(queue);
+        }
         let kind = command.target.kind();
         let along_tool = kind.leads_tcp();
         let (measure, programmed) = programmed(command, settings, along_tool);
@@ -264,7 +275,7 @@ impl Recorder {
     fn laid(&mut self, queue: &mut Queue) {
         for Laid { number, motion, left, unblended } in queue.take_laid() {
             let rounding = zone::rounding(&self.robot, &motion, 1.0);
-            let Some(record) = at(&mut self.records, number) else { continue };
+            let Some(record) = record_of(&mut self.records, &self.places, number) else { continue };
             record.blend = rounding;
             let along_tool = record.along_tool;
             if record.measure == Measure::Tcp {
@@ -272,17 +283,17 @@ impl Recorder {
             }
             if let (Some((before, leave)), Some((_, last))) = (left, &self.last) {
                 let rounding = zone::rounding(&self.robot, last, leave);
-                let mixed = at(&mut self.records, before).is_some_and(|record| {
+                let mixed = record_of(&mut self.records, &self.places, before).is_some_and(|record| {
                     (record.blend, record.unblended) = (rounding, None);
                     record.mixed |= record.along_tool != along_tool;
                     record.along_tool != along_tool
                 });
-                if let Some(record) = at(&mut self.records, number) {
+                if let Some(record) = record_of(&mut self.records, &self.places, number) {
                     record.mixed |= mixed;
                 }
             }
             if let (Some(why), Some((before, _))) = (unblended, &self.last)
-                && let Some(record) = at(&mut self.records, *before)
+                && let Some(record) = record_of(&mut self.records, &self.places, *before)
             {
                 record.unblended = Some(why);
             }
@@ -309,7 +320,7 @@ impl Recorder {
         self.joints = all;
         self.rates = [rates[0], rates[1]];
         let number = if step.motion == 0 { self.executed } else { step.motion };
-        let Some(record) = at(&mut self.records, number) else { return };
+        let Some(record) = record_of(&mut self.records, &self.places, number) else { return };
         if self.executed != number {
             self.executed = number;
             self.known = 0;
@@ -370,9 +381,10 @@ impl Recorder {
 }
 
 /// The record of the motion with this number; numbers are without gaps.
-fn at(records: &mut [MotionRecord], number: u64) -> Option<&mut MotionRecord> {
+fn record_of<'a>(records: &'a mut [MotionRecord], places: &[usize], number: u64) -> Option<&'a mut MotionRecord> {
     let first = records.first()?.number;
-    records.get_mut(usize::try_from(number.checked_sub(first)?).ok()?)
+    let place = places.get(usize::try_from(number.checked_sub(first)?).ok()?)?;
+    records.get_mut(*place)
 }
 
 /// What the programmed speed is measured by, and how much it is, as long as nothing is known of the way.

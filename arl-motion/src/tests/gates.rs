@@ -3,7 +3,15 @@
 use crate::tests::*;
 
 fn plain(rise: f64, sink: f64) -> Gate {
-    Gate { rise, sink, highest: None, rising: Lift::default(), falling: Lift::default(), smooth: false, stays: false }
+    Gate {
+        rise,
+        sink,
+        highest: None,
+        rising: Lift::default(),
+        falling: Lift::default(),
+        smooth: false,
+        part: GatePart::Whole,
+    }
 }
 
 fn at(axes: [f64; 4]) -> Joints {
@@ -150,7 +158,7 @@ fn a_gate_can_stop_above_its_target_and_sink_later() {
     let robot = robot("hsr065");
     let (from, to) = (at([-40.0, 60.0, 0.0, 10.0]), at([50.0, 70.0, 20.0, -90.0]));
     let mut queue = Queue::new(robot.clone(), from);
-    queue.add(&jump(&robot, &to, Gate { stays: true, ..plain(25.0, 25.0) }), &Settings::default()).unwrap();
+    queue.add(&jump(&robot, &to, Gate { part: GatePart::Above, ..plain(25.0, 25.0) }), &Settings::default()).unwrap();
     let rows = run(&mut queue, 100.0);
     let above = rows.last().unwrap().joints;
     assert!((above.axes[2] - 70.0).abs() < 1e-9 && (above.axes[0] - 50.0).abs() < 1e-6);

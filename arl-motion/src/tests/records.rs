@@ -89,3 +89,36 @@ fn external_axes_that_move_alone_have_their_own_speed() {
         assert!((record.reached / programmed - 1.0).abs() < 0.01, "{record:?}");
     }
 }
+
+#[test]
+fn a_gate_that_was_looked_at_from_above_has_one_record() {
+    let robot = robot("hsr065");
+    let at = |[j1, j2, j3, j4]: [f64; 4]| axes([j1, j2, j3, j4, 0.0, 0.0]);
+    let (from, to) = (at([-40.0, 60.0, 0.0, 10.0]), at([50.0, 70.0, 20.0, -90.0]));
+    let pose = frame_components(&robot.kinematics.forward(&to.axes));
+    let wanted = Wanted { cfg: Some(robot.kinematics.cfg(&to.axes)), turn: -1 };
+    let gate = |part: GatePart| {
+        let (rising, falling) = (Lift::default(), Lift::default());
+        let gate = Gate { rise: 25.0, sink: 25.0, highest: None, rising, falling, smooth: false, part };
+        command(Target::Gate { pose, wobj: Frame::identity(), wanted, external: to.external, gate })
+    };
+    let mut queue = Queue::new(robot.clone(), from);
+    let mut recorder = Recorder::new(robot.clone(), &mut queue);
+    let mut steps = 0;
+    let back = Command { line: 8, ..command(Target::Joints(from)) };
+    for command in [gate(GatePart::Above), gate(GatePart::Rest), gate(GatePart::Above), back] {
+        let number = queue.add(&command, &Settings::default()).unwrap();
+        recorder.planned(&mut queue, number, &command, &Settings::default());
+        while !queue.idle() {
+            let step = queue.step(CYCLE, 100.0);
+            recorder.step(&mut queue, &step, CYCLE);
+            steps += u32::from(step.motion != 0);
+        }
+    }
+    let records = recorder.records();
+    assert_eq!(records.iter().map(|record| (record.number, record.line)).collect::<Vec<_>>(), [(1, 7), (3, 7), (4, 8)]);
+    // Up and over and down again, as far as all of it.
+    assert!((records[0].way - records[1].way).abs() > 50.0, "{records:?}");
+    let whole: f64 = records.iter().map(|record| record.duration).sum();
+    assert!((whole - f64::from(steps) * CYCLE).abs() < 1e-9);
+}

@@ -4,7 +4,7 @@ use super::modal::{Kind, Modal, Pace, Resolved};
 use super::resolve;
 use crate::context::cx::Cx;
 use crate::fault::Fault;
-use crate::motion::{Gate, Lift, Target};
+use crate::motion::{Gate, GatePart, Lift, Target};
 use crate::values::{Control, Pose, Speed, Tool, Wobj, is_set};
 
 /// `jump`: up, over and down to a pose, with SCARA robots.
@@ -91,7 +91,11 @@ impl Jump {
     /// # Errors
     /// The motion cannot be planned: the message says why.
     pub async fn run(self, cx: &Cx) -> Result<(), Fault> {
-        let (modal, target) = self.resolve(cx, false)?;
+        self.run_part(cx, GatePart::Whole).await
+    }
+
+    async fn run_part(self, cx: &Cx, part: GatePart) -> Result<(), Fault> {
+        let (modal, target) = self.resolve(cx, part)?;
         resolve::plan(cx, &modal, target).await
     }
 
@@ -100,13 +104,12 @@ impl Jump {
     /// # Errors
     /// The motion cannot be planned: the message says why.
     pub async fn above(self, cx: &Cx) -> Result<Above, Fault> {
-        let (modal, target) = self.resolve(cx, true)?;
-        resolve::plan(cx, &modal, target).await?;
+        self.clone().run_part(cx, GatePart::Above).await?;
         cx.motion_end().await;
         Ok(Above { jump: self })
     }
 
-    fn resolve(&self, cx: &Cx, stays: bool) -> Result<(Resolved, Target), Fault> {
+    fn resolve(&self, cx: &Cx, part: GatePart) -> Result<(Resolved, Target), Fault> {
         let form = &self.form;
         for (name, way) in [("a", form.rise), ("b", form.sink)] {
             if !way.is_finite() || way < 0.0 || is_unset(way) {
@@ -126,7 +129,7 @@ impl Jump {
             rising: lift(control.rising_vel, control.rising_acc, control.rising_dec)?,
             falling: lift(control.falling_vel, control.falling_acc, control.falling_dec)?,
             smooth: form.smooth,
-            stays,
+            part,
         };
         let modal = self.modal.apply(cx)?;
         let (pose, wanted, external) = resolve::pose(cx, &self.p, &modal)?;
@@ -166,6 +169,6 @@ impl Above {
     /// # Errors
     /// The motion cannot be planned: the message says why.
     pub async fn sink(self, cx: &Cx) -> Result<(), Fault> {
-        self.jump.run(cx).await
+        self.jump.run_part(cx, GatePart::Rest).await
     }
 }
