@@ -5,6 +5,7 @@
 mod angles;
 mod choose;
 mod frame;
+mod links;
 mod opw;
 mod passing;
 #[doc(hidden)]
@@ -18,6 +19,7 @@ mod wrist;
 pub use angles::sin_cos;
 pub use choose::{CONFIGURATIONS, RANGE_SLACK, Refusal, Wanted};
 pub use frame::{Frame, frame, frame_components};
+pub use links::LinkJoint;
 pub use opw::{Opw, OpwParameters, Singularity, Solutions};
 pub use passing::{PASSAGE, Passage};
 pub use rates::{Rates, SINGULAR_SCALE, Twist};

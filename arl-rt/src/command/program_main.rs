@@ -14,7 +14,7 @@ use crate::builtins::time;
 use crate::command::between::{Beat, Between};
 use crate::command::coverage;
 use crate::command::debug;
-use crate::command::live::{self, Cut, LineWriter};
+use crate::command::live::{self, Cut, LineWriter, Recording};
 use crate::command::report;
 use crate::command::say::say;
 use crate::context::program::Program;
@@ -62,6 +62,8 @@ Options:
                         say what happens as JSON lines on the standard output
   --debug ADDRESS       connect to a debugger there, which says when to run: for programs
                         that were made for one
+  --record ADDRESS      connect to a recorder there (arl2rs run --record) and say what
+                        happens, as --live does
   --coverage FILE       write how often each statement ran: for programs that were made
                         for a debugger
   --loop                the loop running mode: a program that ends is reset and begins
@@ -91,6 +93,7 @@ struct Options {
     state_dir: Option<PathBuf>,
     io: Option<PathBuf>,
     trace: Option<PathBuf>,
+    record: Option<String>,
     report: Option<Report>,
     cycle_time: Option<PathBuf>,
     max_time: Option<f64>,
@@ -257,6 +260,7 @@ fn parse(
         state_dir: None,
         io: None,
         trace: None,
+        record: None,
         report: None,
         cycle_time: None,
         max_time: None,
@@ -282,6 +286,7 @@ fn parse(
             Long("state-dir") => options.state_dir = Some(parser.value()?.into()),
             Long("io") => options.io = Some(parser.value()?.into()),
             Long("trace") => options.trace = Some(parser.value()?.into()),
+            Long("record") => options.record = Some(parser.value()?.string()?),
             Long("report") => {
                 options.report = Some(parser.optional_value().map_or(Report::Table, |file| Report::File(file.into())));
             }
@@ -354,10 +359,19 @@ fn run(
     };
     let repeats = options.repeats;
     let voice = options.live.then(LineWriter::standard);
+    let connect = |address: String| Recording::connect(&address, real).map_err(|error| (address, error));
+    let recording = match options.record.clone().filter(|_| voice.is_none()).map(connect).transpose() {
+        Ok(recording) => recording,
+        Err((address, error)) => {
+            tell(format_args!("error: there is no recorder at {address}: {error}"));
+            return EXIT_USAGE;
+        }
+    };
     let controller = set_up(options, others).and_then(|builder| {
-        let builder = match &voice {
-            Some(voice) => builder.output(voice.messages()),
-            None => builder,
+        let builder = match (&voice, &recording) {
+            (Some(voice), _) => builder.output(voice.messages()),
+            (None, Some(recording)) => builder.output(recording.output()).record_motions(),
+            (None, None) => builder,
         };
         builder.build(program).map_err(SetupFailure::from)
     });
@@ -381,7 +395,7 @@ fn run(
             let inside = watching.map(|watching| watching.inside);
             code(live::drive(&mut controller, &voice, inside, max_time, interrupted))
         }
-        None => watch(&mut controller, max_time, interrupted, between, sources),
+        None => watch(&mut controller, max_time, interrupted, (between, recording), sources),
     };
     if let Some(mut report) = report
         && let Err(error) = report(&controller)
@@ -456,9 +470,11 @@ fn watch(
     controller: &mut Controller,
     max_time: Option<f64>,
     interrupted: &AtomicBool,
-    mut between: Option<Box<dyn Between>>,
+    (mut between, recording): (Option<Box<dyn Between>>, Option<Recording>),
     sources: &Path,
 ) -> u8 {
+    let recorder = recording.as_ref().map(Recording::voice);
+    recording.iter().for_each(|recording| recording.begin(controller));
     let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
     let mut code = None;
     // Who was told to stop does not begin again.
@@ -484,7 +500,8 @@ fn watch(
             controller.stop();
         }
         controller.step();
-        say(controller, sources);
+        recording.iter().for_each(|recording| recording.cycle_ended(controller));
+        say(controller, sources, recorder);
         if code.is_none()
             && beat != Beat::Stands
             && let Some(waiting) = controller.standstill()
@@ -498,7 +515,8 @@ fn watch(
         }
     }
     controller.settle_state();
-    say(controller, sources);
+    say(controller, sources, recorder);
+    recording.iter().for_each(|recording| recording.run_ended(controller));
     between.into_iter().for_each(|mut between| between.run_ended(controller));
     match (code, controller.outcome()) {
         (Some(code), _) => code,

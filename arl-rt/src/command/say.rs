@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::command::live::LineWriter;
 use crate::context::standard_error::tell;
 use crate::controller::Controller;
 use crate::fault::File;
@@ -9,12 +10,18 @@ use crate::fault::File;
 /// Files that are longer are not looked into.
 const LARGEST_FILE: u64 = 16 << 20;
 
-/// Says on the standard error what came up; `sources` is the folder that programs were compiled from.
-pub(super) fn say(controller: &mut Controller, sources: &Path) {
+/// Says on the standard error what came up, and to who records it; `sources` is the folder that programs were compiled from.
+pub(super) fn say(controller: &mut Controller, sources: &Path, recorder: Option<&LineWriter>) {
     for text in controller.take_warnings() {
         tell(format_args!("warning: {text}"));
+        if let Some(recorder) = recorder {
+            recorder.warning(&text);
+        }
     }
     for alarm in controller.take_alarms() {
+        if let Some(recorder) = recorder {
+            recorder.alarm(&alarm);
+        }
         let contexts = controller.contexts();
         let of_alarm = contexts.iter().find(|cx| cx.channel_state().id == alarm.channel);
         let folder = of_alarm.map(|cx| sources.join(cx.program_itself().folder())).unwrap_or_default();

@@ -58,10 +58,14 @@ pub struct RobotStatus {
     pub robot: Arc<Robot>,
     /// The file and line of the motion that is being executed, or was last.
     pub motion: Option<(File, u32)>,
+    /// The running number of the motion that was executed in the last cycle; 0 where there was none.
+    pub motion_number: u64,
     /// The axes as commanded, in deg (mm).
     pub joints: Joints,
     /// The TCP as commanded, in the world, with the tool of its motion: x, y, z in mm, a, b, c in deg.
     pub tcp: [f64; 6],
+    /// The robot's base in the world: x, y, z in mm, a, b, c in deg.
+    pub base: [f64; 6],
 }
 
 impl Controller {
@@ -92,8 +96,10 @@ fn of_channel(channel: &Channel) -> ChannelStatus {
         robot: channel_state.robot().map(|unit| RobotStatus {
             robot: unit.shared_robot(),
             motion: unit.motion_pointer(),
+            motion_number: unit.executing().1,
             joints: *unit.setpoint(),
             tcp: unit.commanded_tcp(),
+            base: unit.base_in_world(),
         }),
     }
 }

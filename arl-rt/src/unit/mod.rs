@@ -292,6 +292,11 @@ impl Unit {
         frame_components(&self.tcp)
     }
 
+    /// The robot's base in the world: x, y, z in mm, a, b, c in deg.
+    pub(crate) fn base_in_world(&self) -> [f64; 6] {
+        frame_components(&self.base)
+    }
+
     /// Whether the robot stands at these positions.
     pub(crate) fn is_at(&self, positions: &[f64], tolerance: f64) -> bool {
         let (own, external) = (self.robot.own_axes().len(), self.robot.external_axes().len());

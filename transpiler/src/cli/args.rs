@@ -240,6 +240,10 @@ pub(super) struct RunOptions {
     /// Write the motion, one row a cycle.
     #[arg(long, value_name = "FILE.csv")]
     pub(super) trace: Option<PathBuf>,
+    /// Record the run for viewers of robot data (Foxglove, Lichtblick, Rerun): frames, joints, io, program and motion pointer, messages,
+    /// alarms, what each motion did. A description of the robots is written beside it: cell.urdf.
+    #[arg(long, value_name = "FILE.mcap")]
+    pub(super) record: Option<PathBuf>,
     /// Say at the end what each line's motions did: speeds, times, blends, the closest limit. With =FILE: each motion as
     /// a JSON object in a line of the file.
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "-")]
@@ -249,7 +253,7 @@ pub(super) struct RunOptions {
     pub(super) plot: Option<PathBuf>,
     /// Show a live screen with the program, the robot and io, and keys for start, pause, step, reset, override and inputs.
     /// The program runs in real time. Where the standard output is no terminal, it runs as without this option.
-    #[arg(long, conflicts_with_all = ["plot", "clock"])]
+    #[arg(long, conflicts_with_all = ["plot", "clock", "record"])]
     pub(super) pendant: bool,
     /// The loop running mode: a program that ends is reset and begins again.
     #[arg(long = "loop")]

@@ -6,6 +6,7 @@ use super::failure::Failure;
 use super::pendant;
 use super::plot::{self, Ran};
 use super::program::{Ready, prepare, prepare_watched};
+use super::record::Recording;
 use super::show;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -20,10 +21,12 @@ pub(super) fn run(file: &Path, options: &RunOptions) -> Result<ExitCode, Failure
     let ready = prepare(file, options.cell.as_deref(), &options.checking())?;
     let mut command = Command::new(&ready.program);
     command.args(options.arguments());
-    match &options.plot {
-        Some(picture) => run_and_plot(command, ready, file, options, picture),
-        None if on_screen => pendant::run(command, ready),
-        None => start(command, ready),
+    let recording = options.record.as_deref().map(Recording::create).transpose()?;
+    match (&options.plot, recording) {
+        (Some(picture), recording) => run_and_plot((command, recording), ready, file, options, picture),
+        (None, Some(recording)) => wait(command, Some(recording), ready),
+        (None, None) if on_screen => pendant::run(command, ready),
+        (None, None) => start(command, ready),
     }
 }
 
@@ -46,7 +49,7 @@ fn draw(trace: &Path, picture: &Path, robot: Option<&str>, ran: &Ran) -> Result<
 
 /// The program runs, then its trace is drawn, however it ended.
 fn run_and_plot(
-    mut command: Command,
+    (mut command, recording): (Command, Option<Recording>),
     ready: Ready,
     file: &Path,
     options: &RunOptions,
@@ -63,7 +66,7 @@ fn run_and_plot(
     // What lies there from another run is not to be drawn.
     let _ = std::fs::remove_file(trace.path());
     let ran = ran(file, &ready.sources);
-    let code = wait(command, ready)?;
+    let code = wait(command, recording, ready)?;
     match trace.path().is_file() {
         true => draw(trace.path(), picture, options.robot.as_deref(), &ran)?,
         // The program did not even begin, and has said why.
@@ -117,15 +120,22 @@ fn start(mut command: Command, ready: Ready) -> Result<ExitCode, Failure> {
 
 #[cfg(not(unix))]
 fn start(command: Command, ready: Ready) -> Result<ExitCode, Failure> {
-    wait(command, ready)
+    wait(command, None, ready)
 }
 
-/// The program runs while this process waits. Ctrl-C reaches both; only the program acts on it.
-fn wait(mut command: Command, ready: Ready) -> Result<ExitCode, Failure> {
+/// The program runs while this process waits, or records it. Ctrl-C reaches both; only the program acts on it.
+fn wait(mut command: Command, recording: Option<Recording>, ready: Ready) -> Result<ExitCode, Failure> {
     super::cargo::leave_interrupts_to_the_program();
+    if let Some(recording) = &recording {
+        recording.ask(&mut command)?;
+    }
     let fail = |error: std::io::Error| Failure::io("start", &ready.program, &error);
     let mut child = command.spawn().map_err(fail)?;
     drop(ready.lock);
-    let status = child.wait().map_err(fail)?;
+    let ended = match recording {
+        Some(recording) => recording.record(&mut child),
+        None => child.wait(),
+    };
+    let status = ended.map_err(fail)?;
     Ok(ExitCode::from(u8::try_from(status.code().unwrap_or(1)).unwrap_or(1)))
 }

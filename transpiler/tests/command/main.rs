@@ -8,6 +8,7 @@ mod killing;
 mod odd_files;
 mod pointers;
 mod projects;
+mod recording;
 mod repeating;
 mod running;
 mod several;

@@ -1,6 +1,6 @@
-//! States, messages, warnings and alarms go out on the standard output, a JSON object a line.
+//! States, messages, warnings and alarms go out on a stream, a JSON object a line.
 
-use std::io::{Write, stdout};
+use std::io::{BufWriter, Write, stdout};
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
@@ -8,32 +8,80 @@ use crate::command::json::{array, number, quoted};
 use crate::context::output::{Message, Output};
 use crate::controller::{ChannelStatus, Controller, Outcome, RobotStatus, State};
 use crate::fault::Alarm;
+use arl_robot::kinematics::{Frame, Kinematics, LinkJoint};
 use arl_robot::robot::Axis;
 
 /// How many lines may wait to be written. Then states are left out, and everything else waits.
 const MAX_WAITING_LINES: usize = 1024;
 
-/// The standard output, written by a thread of its own, so that no cycle waits for it as long as somebody reads.
+/// A stream, written by a thread of its own, so that no cycle waits for it as long as somebody reads.
 pub(crate) struct LineWriter {
-    /// The last thing sent is nothing: the end.
-    lines: SyncSender<Option<String>>,
+    lines: Lines,
     writer: Option<JoinHandle<()>>,
+}
+
+/// What waits to be written.
+#[derive(Clone)]
+struct Lines {
+    /// The last thing sent is nothing: the end.
+    waiting: SyncSender<Option<String>>,
+    if_full: IfFull,
+}
+
+/// What becomes of a line where nobody reads as fast.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum IfFull {
+    /// A state is left out; everything else waits.
+    StatesAreLost,
+    /// It waits.
+    Waits,
+    /// It is left out, whatever it is.
+    IsLost,
+}
+
+impl Lines {
+    /// Something that is said once.
+    fn say(&self, line: String) {
+        let _ = match self.if_full {
+            IfFull::IsLost => self.waiting.try_send(Some(line)).ok(),
+            IfFull::Waits | IfFull::StatesAreLost => self.waiting.send(Some(line)).ok(),
+        };
+    }
+
+    /// How something stands, which is said again and again.
+    fn state(&self, line: String) {
+        let _ = match self.if_full {
+            IfFull::Waits => self.waiting.send(Some(line)).ok(),
+            IfFull::IsLost | IfFull::StatesAreLost => self.waiting.try_send(Some(line)).ok(),
+        };
+    }
 }
 
 impl LineWriter {
     /// The standard output.
     pub(crate) fn standard() -> Self {
+        Self::to(stdout(), IfFull::StatesAreLost)
+    }
+
+    /// A stream.
+    pub(crate) fn to(stream: impl Write + Send + 'static, if_full: IfFull) -> Self {
         let (lines, waiting) = sync_channel::<Option<String>>(MAX_WAITING_LINES);
         let writer = std::thread::spawn(move || {
-            let mut out = stdout().lock();
+            let mut out = BufWriter::new(stream);
             while let Ok(Some(line)) = waiting.recv() {
+                let mut next = Ok(Some(line));
+                let mut written = Ok(());
+                while let (Ok(Some(line)), Ok(())) = (&next, &written) {
+                    written = out.write_all(line.as_bytes());
+                    next = waiting.try_recv();
+                }
                 // Nobody may read the other end any more: then the orders end, too.
-                if out.write_all(line.as_bytes()).and_then(|()| out.flush()).is_err() {
+                if written.and_then(|()| out.flush()).is_err() || next == Ok(None) {
                     return;
                 }
             }
         });
-        Self { lines, writer: Some(writer) }
+        Self { lines: Lines { waiting: lines, if_full }, writer: Some(writer) }
     }
 
     /// Takes the messages of a program.
@@ -47,7 +95,7 @@ impl LineWriter {
         let name = |(signal, name): (_, &str)| format!("\"{signal}\":{}", quoted(name));
         let names: Vec<String> = controller.names().iter().map(name).collect();
         let names = names.join(",");
-        self.say(format!("{{\"hello\":{{\"channels\":{channels},\"names\":{{{names}}}}}}}\n"));
+        self.lines.say(format!("{{\"hello\":{{\"channels\":{channels},\"names\":{{{names}}}}}}}\n"));
     }
 
     /// How everything stands. It is left out where nobody reads as fast.
@@ -66,41 +114,51 @@ impl LineWriter {
             array(&status.ai, |value| number(*value)),
             array(&status.ao, |value| number(*value)),
         );
-        let _ = self.lines.try_send(Some(line));
+        self.lines.state(line);
     }
 
     /// What is inside the program of a channel. It is left out where nobody reads as fast.
     pub(super) fn inside(&self, channel: usize, fields: &str) {
-        let _ = self.lines.try_send(Some(format!("{{\"inside\":{{\"channel\":{channel},{fields}}}}}\n")));
+        self.lines.state(format!("{{\"inside\":{{\"channel\":{channel},{fields}}}}}\n"));
     }
 
     /// Warnings and alarms since the last call.
     pub(super) fn news(&self, controller: &mut Controller) {
         for text in controller.take_warnings() {
-            self.say(format!("{{\"warning\":{}}}\n", quoted(&text)));
+            self.warning(&text);
         }
         for alarm in controller.take_alarms() {
-            let Alarm { fault, file, line, .. } = &alarm;
-            let (number, text, file) = (fault.number(), quoted(&alarm.to_string()), quoted(file.name()));
-            self.say(format!(
-                "{{\"alarm\":{{\"number\":{number},\"text\":{text},\"file\":{file},\"line\":{line}}}}}\n"
-            ));
+            self.alarm(&alarm);
         }
+    }
+
+    /// A warning.
+    pub(crate) fn warning(&self, text: &str) {
+        self.lines.say(format!("{{\"warning\":{}}}\n", quoted(text)));
+    }
+
+    /// An alarm.
+    pub(crate) fn alarm(&self, alarm: &Alarm) {
+        let Alarm { fault, file, line, .. } = alarm;
+        let (number, text, file) = (fault.number(), quoted(&alarm.to_string()), quoted(file.name()));
+        self.lines
+            .say(format!("{{\"alarm\":{{\"number\":{number},\"text\":{text},\"file\":{file},\"line\":{line}}}}}\n"));
+    }
+
+    /// What a motion did, or a channel: an object of the report.
+    pub(super) fn report(&self, object: &str) {
+        self.lines.say(format!("{{\"report\":{object}}}\n"));
     }
 
     /// An order that could not be carried out.
     pub(super) fn refused(&self, order: &str, why: &str) {
-        self.say(format!("{{\"refused\":{{\"order\":{},\"why\":{}}}}}\n", quoted(order), quoted(why)));
-    }
-
-    fn say(&self, line: String) {
-        let _ = self.lines.send(Some(line));
+        self.lines.say(format!("{{\"refused\":{{\"order\":{},\"why\":{}}}}}\n", quoted(order), quoted(why)));
     }
 }
 
 impl Drop for LineWriter {
     fn drop(&mut self) {
-        let _ = self.lines.send(None);
+        let _ = self.lines.waiting.send(None);
         if let Some(writer) = self.writer.take() {
             let _ = writer.join();
         }
@@ -119,7 +177,23 @@ fn runs(status: &ChannelStatus) -> String {
     let robot = status.robot.as_ref().map(|status| &*status.robot);
     let name = quoted(robot.map_or("", |robot| &robot.name));
     let axes = array(robot.map_or(&[][..], |robot| &robot.axes), axis);
-    format!("{{\"program\":{program},\"robot\":{name},\"axes\":{axes}}}")
+    let links = robot.map_or_else(String::new, |robot| links(&robot.kinematics));
+    format!("{{\"program\":{program},\"robot\":{name},\"axes\":{axes}{links}}}")
+}
+
+/// The chain of the robot's links: where the frame of each is in that of the one before while its axis is at 0, and what it turns about or
+/// moves along; and the flange in the last one. A frame is x, y, z in mm and a quaternion x, y, z, w.
+fn links(kinematics: &Kinematics) -> String {
+    let (joints, flange) = kinematics.links();
+    let frame = |frame: &Frame| {
+        let (at, turned) = (frame.translation.vector, frame.rotation.coords);
+        array(at.iter().chain(&turned), |value| number(*value))
+    };
+    let joint = |joint: &LinkJoint| {
+        let (origin, axis) = (frame(&joint.origin), array(joint.axis.iter(), |value| number(*value)));
+        format!("{{\"origin\":{origin},\"axis\":{axis},\"linear\":{}}}", joint.linear)
+    };
+    format!(",\"links\":{},\"flange\":{}", array(&joints, joint), frame(&flange))
 }
 
 /// The axes that there are, in deg (mm).
@@ -132,14 +206,17 @@ fn axes(status: &RobotStatus) -> Vec<f64> {
 fn channel(status: &ChannelStatus) -> String {
     let (robot, (file, line)) = (status.robot.as_ref(), status.place);
     let (motion_file, motion_line) = robot.and_then(|robot| robot.motion).unwrap_or((file, 0));
-    let tcp = robot.map_or(&[][..], |robot| &robot.tcp);
+    let (tcp, base) = robot.map_or((&[][..], &[][..]), |robot| (&robot.tcp, &robot.base));
+    let motion = robot.map_or(0, |robot| robot.motion_number);
     format!(
-        "{{\"state\":\"{}\",\"file\":{},\"line\":{line},\"motion_file\":{},\"motion_line\":{motion_line},\"axes\":{},\"tcp\":{}}}",
+        "{{\"state\":\"{}\",\"file\":{},\"line\":{line},\"motion_file\":{},\"motion_line\":{motion_line},\"motion\":{motion},\"axes\":{},\
+         \"tcp\":{},\"base\":{}}}",
         word(status),
         quoted(file.name()),
         quoted(motion_file.name()),
         array(&robot.map(axes).unwrap_or_default(), |axis| number(*axis)),
         array(tcp, |component| number(*component)),
+        array(base, |component| number(*component)),
     )
 }
 
@@ -156,16 +233,16 @@ fn word(status: &ChannelStatus) -> &'static str {
 }
 
 /// Takes the messages of a program.
-pub(crate) struct Messages(SyncSender<Option<String>>);
+pub(crate) struct Messages(Lines);
 
 impl Output for Messages {
     fn message(&mut self, message: &Message<'_>) {
-        let Message { time, hmi, console, text, channel: _ } = *message;
+        let Message { time, hmi, console, text, channel } = *message;
         let text = quoted(&String::from_utf8_lossy(text));
         let line = format!(
-            "{{\"message\":{{\"time\":{},\"hmi\":{hmi},\"console\":{console},\"text\":{text}}}}}\n",
+            "{{\"message\":{{\"time\":{},\"channel\":\"{channel}\",\"hmi\":{hmi},\"console\":{console},\"text\":{text}}}}}\n",
             number(time)
         );
-        let _ = self.0.send(Some(line));
+        self.0.say(line);
     }
 }

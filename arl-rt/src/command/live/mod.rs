@@ -7,12 +7,13 @@
 //! `inside = 1` lets lines with the functions and variables of channel 1 go out, where the program was made for a debugger;
 //! `inside = 0` ends that.
 //!
-//! The first line that goes out is `{"hello":...}`: the channels with their programs, robots and axes, and the names of
+//! The first line that goes out is `{"hello":...}`: the channels with their programs, robots, axes and links, and the names of
 //! signals. Then come `state` (20 times a second), `inside` (4 times a second), `message`, `warning`, `alarm`, and `refused`
 //! for an order that could not be carried out.
 
 mod line_writer;
 mod orders;
+mod recording;
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -20,6 +21,7 @@ use crate::controller::{Controller, Outcome};
 use orders::{Next, Orders};
 
 pub(crate) use line_writer::LineWriter;
+pub(crate) use recording::Recording;
 
 /// How often a state goes out, in s.
 const STATE_INTERVAL_S: f64 = 0.05;

@@ -5,7 +5,7 @@ use ratatui::layout::{Constraint, Layout, Rect};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::Paragraph;
 
-use super::link::{Inside, Variable};
+use super::super::said::{Inside, Variable};
 use super::screen::{QUIET, STRONG, titled};
 
 /// The most functions that are shown.
@@ -30,7 +30,7 @@ fn call_lines(inside: &Inside) -> Vec<Line<'_>> {
     if inside.frames.is_empty() {
         return vec![Line::styled("no function runs", QUIET)];
     }
-    let line = |function: &super::link::Function| {
+    let line = |function: &super::super::said::Function| {
         let place = format!("  {}:{}", function.file, function.line);
         Line::from(vec![Span::raw(function.name.clone()), Span::styled(place, QUIET)])
     };

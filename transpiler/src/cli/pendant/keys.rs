@@ -2,7 +2,7 @@
 
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
-use super::link::Inside;
+use super::super::said::Inside;
 use super::model::Model;
 
 /// What a key asks for.
@@ -174,7 +174,7 @@ mod tests {
         assert_eq!(type_in(&mut model, "v"), Some(Wish::Order("inside = 1".into())));
         press(KeyCode::PageDown.into(), &mut model);
         assert_eq!(model.scrolled, 0, "there is nothing to scroll yet");
-        let variables = vec![super::super::link::Variable::default(); 10];
+        let variables = vec![super::super::super::said::Variable::default(); 10];
         model.inside = Some(Inside { variables, ..Inside::default() });
         (0..3).for_each(|_| _ = press(KeyCode::PageDown.into(), &mut model));
         press(KeyCode::Up.into(), &mut model);

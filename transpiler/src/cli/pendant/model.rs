@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::link::{Hello, Inside, Line, State};
+use super::super::said::{Hello, Inside, Line, State};
 use super::sources::Sources;
 
 /// How many lines of the log are kept.
@@ -76,6 +76,7 @@ impl Model {
             Line::Warning(text) => self.note(Weight::Warning, format!("warning: {text}")),
             Line::Alarm(alarm) => self.note(Weight::Alarm, alarm.text),
             Line::Refused(refused) => self.note(Weight::Warning, format!("{}: {}", refused.order, refused.why)),
+            Line::Report(_) => {}
             Line::Other(text) => self.note(Weight::Warning, text),
         }
     }

@@ -6,9 +6,9 @@ use ratatui::style::{Color, Modifier, Style};
 use ratatui::text::{Line, Span};
 use ratatui::widgets::{Block, Paragraph};
 
+use super::super::said::{Axis, Channel, Runs, State};
 use super::inside;
 use super::keys;
-use super::link::{Axis, Channel, Runs, State};
 use super::model::{Model, Weight};
 
 pub(super) const QUIET: Style = Style::new().fg(Color::DarkGray);
@@ -256,7 +256,7 @@ mod tests {
     use ratatui::Terminal;
     use ratatui::backend::TestBackend;
 
-    use super::super::link::{Inside, Line};
+    use super::super::super::said::{Inside, Line};
     use super::super::sources::Sources;
     use super::*;
 

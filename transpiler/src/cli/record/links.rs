@@ -1,0 +1,120 @@
+//! A robot's arm as viewers see it: frames from the world to the flange and the TCP, in m and rad.
+
+use arl_robot::kinematics::{Frame, frame};
+
+use super::super::said::{Channel, LinkJoint, Placed, Runs};
+use super::messages::{FrameTransform, Quaternion, Timestamp, Vector3};
+
+/// The frame that everything stands in.
+pub(super) const WORLD: &str = "world";
+
+/// The arm of a channel.
+pub(super) struct Arm {
+    /// Before the name of each of its frames and joints.
+    prefix: String,
+    pub(super) robot: String,
+    pub(super) links: Vec<LinkJoint>,
+    pub(super) flange: Placed,
+    pub(super) axes: Vec<Own>,
+}
+
+/// An axis: its name, its range in rad (m), and whether it is linear.
+pub(super) struct Own {
+    pub(super) name: String,
+    pub(super) range: [f64; 2],
+    pub(super) linear: bool,
+}
+
+impl Arm {
+    pub(super) fn new(prefix: String, runs: &Runs) -> Self {
+        let own = |axis: &super::super::said::Axis| {
+            let linear = axis.unit == "mm";
+            Own { name: axis.name.clone(), range: [axis.min, axis.max].map(|value| si(value, linear)), linear }
+        };
+        Self {
+            prefix,
+            robot: runs.robot.clone().unwrap_or_default(),
+            links: runs.links.clone(),
+            flange: runs.flange,
+            axes: runs.axes.iter().map(own).collect(),
+        }
+    }
+
+    /// The frame of its base, of the link `number`, from 1, ...
+    pub(super) fn base(&self) -> String {
+        format!("{}base_link", self.prefix)
+    }
+
+    pub(super) fn link(&self, number: usize) -> String {
+        format!("{}link_{number}", self.prefix)
+    }
+
+    /// ... and of its flange.
+    pub(super) fn flange_frame(&self) -> String {
+        format!("{}flange", self.prefix)
+    }
+
+    pub(super) fn joint(&self, name: &str) -> String {
+        format!("{}{name}", self.prefix)
+    }
+
+    /// The axes' values in rad (m), each with its name.
+    pub(super) fn joints(&self, axes: &[f64]) -> impl Iterator<Item = (String, f64)> {
+        self.axes.iter().zip(axes).map(|(own, value)| (self.joint(&own.name), si(*value, own.linear)))
+    }
+
+    /// All frames at a moment.
+    pub(super) fn transforms(&self, said: &Channel, now: Timestamp) -> Vec<FrameTransform> {
+        let mut all = Vec::with_capacity(self.links.len() + 3);
+        let mut add = |parent: String, child: String, frame: &Frame| all.push(transform(now, (parent, child), frame));
+        add(WORLD.into(), self.base(), &components(&said.base));
+        let mut before = self.base();
+        for (number, (link, value)) in (1..).zip(self.links.iter().zip(&said.axes)) {
+            let name = self.link(number);
+            add(before, name.clone(), &at(link, *value));
+            before = name;
+        }
+        add(before, self.flange_frame(), &placed(&self.flange));
+        add(WORLD.into(), format!("{}tcp", self.prefix), &components(&said.tcp));
+        all
+    }
+}
+
+/// deg to rad, mm to m.
+fn si(value: f64, linear: bool) -> f64 {
+    if linear { value / 1000.0 } else { value.to_radians() }
+}
+
+/// A frame from x, y, z in mm and a quaternion.
+pub(super) fn placed([x, y, z, i, j, k, w]: &Placed) -> Frame {
+    use nalgebra::{Quaternion, Translation3, UnitQuaternion};
+    Frame::from_parts(Translation3::new(*x, *y, *z), UnitQuaternion::from_quaternion(Quaternion::new(*w, *i, *j, *k)))
+}
+
+/// A frame from x, y, z, a, b, c; where there are none, that of the world.
+fn components(values: &[f64]) -> Frame {
+    <[f64; 6]>::try_from(values).map_or_else(|_| Frame::identity(), frame)
+}
+
+/// A link's frame in the one before at a value of its axis, in deg (mm).
+fn at(link: &LinkJoint, value: f64) -> Frame {
+    let axis = nalgebra::Vector3::from(link.axis);
+    let moved = if link.linear {
+        Frame::from_parts((axis * value).into(), nalgebra::UnitQuaternion::identity())
+    } else {
+        Frame::rotation(axis * value.to_radians())
+    };
+    placed(&link.origin) * moved
+}
+
+fn transform(now: Timestamp, (parent_frame_id, child_frame_id): (String, String), frame: &Frame) -> FrameTransform {
+    let at = frame.translation.vector / 1000.0;
+    let [x, y, z, w] = frame.rotation.coords.into();
+    FrameTransform {
+        timestamp: Some(now),
+        parent_frame_id,
+        child_frame_id,
+        translation: Some(Vector3 { x: at.x, y: at.y, z: at.z }),
+        rotation: Some(Quaternion { x, y, z, w }),
+    }
+}

@@ -1,0 +1,261 @@
+//! Writes what a program says into a recording.
+
+use std::collections::BTreeMap;
+use std::io::{Seek, Write};
+
+use mcap::records::MessageHeader;
+use mcap::{McapResult, WriteOptions, Writer};
+use serde_json::Value;
+
+use super::super::said::{self, Hello, Line, State};
+use super::links::Arm;
+use super::messages::{
+    Axis, Blend, Cell, Channel, Closest, Controller, FrameTransforms, Io, JointState, JointStates, Level, Log, Motion,
+    Name, Runs, Timestamp,
+};
+use super::schemas::{self, Schema};
+
+/// How often frames and joints are written for viewers, in s; our own messages have every state.
+const FRAMES_INTERVAL_S: f64 = 0.02;
+/// What a file gathers before it is written as one piece that readers can look up, in bytes: so much is lost where a run is cut off.
+const CHUNK_BYTES: u64 = 1 << 20;
+
+/// A recording that is being written.
+pub(super) struct Recorder<W: Write + Seek> {
+    writer: Writer<W>,
+    topics: BTreeMap<String, Topic>,
+    hello: Hello,
+    /// The arm of each channel, where it has one.
+    arms: Vec<Option<Arm>>,
+    /// What was written last of each topic: what stays the same is not written again.
+    last: Last,
+    /// The time of the last state, in s.
+    time: f64,
+    /// When frames are written next, in s.
+    frames_due: f64,
+}
+
+struct Topic {
+    id: u16,
+    sequence: u32,
+}
+
+/// What was written last.
+#[derive(Default)]
+struct Last {
+    channels: Vec<Channel>,
+    controller: Controller,
+    io: Option<Io>,
+    frames: Vec<(Vec<f64>, Vec<f64>)>,
+}
+
+impl<W: Write + Seek> Recorder<W> {
+    /// An empty recording.
+    pub(super) fn new(stream: W) -> McapResult<Self> {
+        let options = WriteOptions::new().compression(None).chunk_size(Some(CHUNK_BYTES)).library("arl2rs");
+        Ok(Self {
+            writer: options.create(stream)?,
+            topics: BTreeMap::new(),
+            hello: Hello::default(),
+            arms: Vec::new(),
+            last: Last::default(),
+            time: 0.0,
+            frames_due: 0.0,
+        })
+    }
+
+    /// Takes in what the program says.
+    pub(super) fn hear(&mut self, line: Line) -> McapResult<()> {
+        match line {
+            Line::Hello(hello) => self.begin(hello),
+            Line::State(state) => self.state(&state),
+            Line::Message(said::Message { time, channel, text }) => {
+                let texts = text.trim_end_matches('\n');
+                self.log(
+                    time,
+                    Log { level: Level::Info.into(), message: texts.into(), name: channel, ..Log::default() },
+                )
+            }
+            Line::Warning(message) => {
+                self.log(self.time, Log { level: Level::Warning.into(), message, ..Log::default() })
+            }
+            Line::Alarm(said::Alarm { text, file, line, .. }) => {
+                let level = Level::Error.into();
+                self.log(self.time, Log { level, message: text, file, line, ..Log::default() })
+            }
+            Line::Report(object) => self.motion(&object),
+            Line::Inside(_) | Line::Refused(_) | Line::Other(_) => Ok(()),
+        }
+    }
+
+    /// Writes the summary, by which readers find their way.
+    pub(super) fn finish(mut self) -> McapResult<()> {
+        self.writer.finish().map(drop)
+    }
+
+    /// The robots' arms, once the program has said them.
+    pub(super) fn arms(&self) -> impl Iterator<Item = &Arm> {
+        self.arms.iter().flatten()
+    }
+
+    fn begin(&mut self, hello: Hello) -> McapResult<()> {
+        let robots = hello.channels.iter().filter(|runs| !runs.links.is_empty()).count();
+        let arm = |(at, runs): (usize, &said::Runs)| {
+            let prefix = if robots > 1 { format!("channel_{}/", at + 1) } else { String::new() };
+            (!runs.links.is_empty()).then(|| Arm::new(prefix, runs))
+        };
+        self.arms = hello.channels.iter().enumerate().map(arm).collect();
+        let axis =
+            |axis: &said::Axis| Axis { name: axis.name.clone(), unit: axis.unit.clone(), min: axis.min, max: axis.max };
+        let runs = |runs: &said::Runs| Runs {
+            program: runs.program.clone(),
+            robot: runs.robot.clone().unwrap_or_default(),
+            axes: runs.axes.iter().map(axis).collect(),
+        };
+        let name = |(signal, name): (&String, &String)| Name { signal: signal.clone(), name: name.clone() };
+        let cell =
+            Cell { channels: hello.channels.iter().map(runs).collect(), names: hello.names.iter().map(name).collect() };
+        self.last.channels = vec![Channel::default(); hello.channels.len()];
+        self.last.frames = vec![Default::default(); hello.channels.len()];
+        self.hello = hello;
+        self.write("/arl/cell", &schemas::CELL, 0.0, &cell)
+    }
+
+    fn state(&mut self, state: &State) -> McapResult<()> {
+        let time = state.time;
+        self.time = time;
+        let controller = Controller { time, mode: state.mode.clone(), speed_override: state.speed_override };
+        if (Controller { time: self.last.controller.time, ..controller.clone() }) != self.last.controller {
+            self.write("/arl/controller", &schemas::CONTROLLER, time, &controller)?;
+            self.last.controller = controller;
+        }
+        let levels = |levels: &str| levels.bytes().map(|level| level == b'1').collect();
+        let (di, r#do) = (levels(&state.di), levels(&state.dout));
+        let io = Io { time, di, r#do, ai: state.ai.clone(), ao: state.ao.clone() };
+        if self.last.io.as_ref().is_none_or(|last| (Io { time: last.time, ..io.clone() }) != *last) {
+            self.write("/arl/io", &schemas::IO, time, &io)?;
+            self.last.io = Some(io);
+        }
+        for (at, said) in state.channels.iter().enumerate() {
+            self.channel(at, said, time)?;
+        }
+        if time >= self.frames_due {
+            self.frames_due = time + FRAMES_INTERVAL_S - 1e-6;
+            self.frames(state)?;
+        }
+        Ok(())
+    }
+
+    fn channel(&mut self, at: usize, said: &said::Channel, time: f64) -> McapResult<()> {
+        let line = |line: usize| u32::try_from(line).unwrap_or_default();
+        let channel = Channel {
+            time,
+            state: said.state.clone(),
+            file: said.file.clone(),
+            line: line(said.line),
+            motion_file: said.motion_file.clone(),
+            motion_line: line(said.motion_line),
+            motion: said.motion,
+            axes: said.axes.clone(),
+            tcp: said.tcp.clone(),
+        };
+        let Some(last) = self.last.channels.get_mut(at) else { return Ok(()) };
+        if (Channel { time: last.time, ..channel.clone() }) == *last {
+            return Ok(());
+        }
+        last.clone_from(&channel);
+        self.write(&format!("/arl/channel_{}", at + 1), &schemas::CHANNEL, time, &channel)
+    }
+
+    /// Frames and joints, of the robots that moved.
+    fn frames(&mut self, state: &State) -> McapResult<()> {
+        let time = state.time;
+        let mut transforms = Vec::new();
+        let mut joints = Vec::new();
+        for (at, (arm, said)) in self.arms.iter().zip(&state.channels).enumerate() {
+            let (Some(arm), Some(last)) = (arm, self.last.frames.get_mut(at)) else { continue };
+            let now = (said.axes.clone(), [&said.tcp[..], &said.base].concat());
+            if *last == now {
+                continue;
+            }
+            transforms.extend(arm.transforms(said, timestamp(time)));
+            joints.extend(arm.joints(&said.axes).map(|(name, position)| JointState { name, position: Some(position) }));
+            *last = now;
+        }
+        if transforms.is_empty() {
+            return Ok(());
+        }
+        self.write("/tf", &schemas::FRAME_TRANSFORMS, time, &FrameTransforms { transforms })?;
+        let joints = JointStates { timestamp: Some(timestamp(time)), joints };
+        self.write("/joint_states", &schemas::JOINT_STATES, time, &joints)
+    }
+
+    fn log(&mut self, time: f64, log: Log) -> McapResult<()> {
+        self.write("/log", &schemas::LOG, time, &Log { timestamp: Some(timestamp(time)), ..log })
+    }
+
+    /// A motion of the report; what the report says of whole channels follows from these.
+    fn motion(&mut self, object: &Value) -> McapResult<()> {
+        let number = |value: &Value, name: &str| value[name].as_f64().unwrap_or_default();
+        let text = |value: &Value, name: &str| value[name].as_str().unwrap_or_default().to_owned();
+        let whole = |name: &str| object[name].as_u64().unwrap_or_default();
+        if object["motion"].is_null() {
+            return Ok(());
+        }
+        let blend = |blend: &Value| Blend {
+            asked: number(blend, "asked"),
+            used: number(blend, "used"),
+            unit: text(blend, "unit"),
+            why: text(blend, "why"),
+        };
+        let closest = |rate: &str| {
+            let closest = &object["closest"][rate];
+            closest.is_object().then(|| Closest { of: text(closest, "of"), percent: number(closest, "percent") })
+        };
+        let motion = Motion {
+            channel: whole("channel") as u32,
+            motion: whole("motion"),
+            line: whole("line") as u32,
+            kind: text(object, "kind"),
+            start: number(object, "start"),
+            duration: number(object, "duration"),
+            way: number(object, "way"),
+            programmed: number(object, "programmed"),
+            reached: number(object, "reached"),
+            unit: text(object, "unit"),
+            blend: object["blend"].is_object().then(|| blend(&object["blend"])),
+            closest_vel: closest("vel"),
+            closest_acc: closest("acc"),
+            closest_jerk: closest("jerk"),
+        };
+        self.write("/arl/motions", &schemas::MOTION, motion.start, &motion)
+    }
+
+    fn write(
+        &mut self,
+        topic: &str,
+        schema: &'static Schema,
+        time: f64,
+        message: &impl prost::Message,
+    ) -> McapResult<()> {
+        if !self.topics.contains_key(topic) {
+            let of = self.writer.add_schema(&schema.full_name(), "protobuf", &schema.descriptors())?;
+            let id = self.writer.add_channel(of, topic, "protobuf", &BTreeMap::new())?;
+            self.topics.insert(topic.to_owned(), Topic { id, sequence: 0 });
+        }
+        let Some(known) = self.topics.get_mut(topic) else { return Ok(()) };
+        known.sequence = known.sequence.wrapping_add(1);
+        let log_time = nanoseconds(time);
+        let header = MessageHeader { channel_id: known.id, sequence: known.sequence, log_time, publish_time: log_time };
+        self.writer.write_to_known_channel(&header, &message.encode_to_vec())
+    }
+}
+
+fn nanoseconds(time: f64) -> u64 {
+    (time * 1e9).round() as u64
+}
+
+fn timestamp(time: f64) -> Timestamp {
+    let all = nanoseconds(time);
+    Timestamp { seconds: (all / 1_000_000_000) as i64, nanos: (all % 1_000_000_000) as i32 }
+}

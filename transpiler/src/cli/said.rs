@@ -1,0 +1,191 @@
+//! What a program says of its run, an object of JSON a line: to a screen that drives it, or to a recorder.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+/// A line of the program. `arl-rt` documents them in its module `live`.
+#[derive(Clone, PartialEq, Deserialize, Debug)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Line {
+    /// The first line: what runs on which robots.
+    Hello(Hello),
+    /// How everything stands, 20 times a second.
+    State(State),
+    /// What is inside the program of a channel, while that is asked for.
+    Inside(Inside),
+    /// What the program printed.
+    Message(Message),
+    /// What is no alarm but worth a word.
+    Warning(String),
+    /// What stopped a program.
+    Alarm(Alarm),
+    /// An order that could not be carried out, and why.
+    Refused(Refused),
+    /// What a motion did, or a channel: an object of the report.
+    Report(serde_json::Value),
+    /// What came on the standard error.
+    #[serde(skip)]
+    Other(String),
+}
+
+/// What runs on which robots.
+#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+#[serde(default)]
+pub(super) struct Hello {
+    pub(super) channels: Vec<Runs>,
+    /// What signals are called, by how files write them: `di.1`.
+    pub(super) names: BTreeMap<String, String>,
+}
+
+/// What one channel runs.
+#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+pub(super) struct Runs {
+    pub(super) program: String,
+    /// Absent in a background channel.
+    pub(super) robot: Option<String>,
+    pub(super) axes: Vec<Axis>,
+    /// The joints of its own axes, from the base on.
+    #[serde(default)]
+    pub(super) links: Vec<LinkJoint>,
+    /// The flange in the last link.
+    #[serde(default)]
+    pub(super) flange: Placed,
+}
+
+/// x, y, z in mm, and a quaternion x, y, z, w.
+pub(super) type Placed = [f64; 7];
+
+/// A joint that moves a link against the one before, or against the base.
+#[derive(Clone, PartialEq, Deserialize, Debug)]
+pub(super) struct LinkJoint {
+    /// The link's frame in the one before while the axis is at 0.
+    pub(super) origin: Placed,
+    /// What it turns about, or moves along, in the link's frame.
+    pub(super) axis: [f64; 3],
+    pub(super) linear: bool,
+}
+
+/// An axis and its range, in its unit.
+#[derive(Clone, PartialEq, Deserialize, Debug)]
+pub(super) struct Axis {
+    pub(super) name: String,
+    pub(super) unit: String,
+    pub(super) min: f64,
+    pub(super) max: f64,
+}
+
+/// How everything stands.
+#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+pub(super) struct State {
+    /// Controller time in s.
+    pub(super) time: f64,
+    pub(super) mode: String,
+    /// %
+    #[serde(rename = "override")]
+    pub(super) speed_override: f64,
+    pub(super) channels: Vec<Channel>,
+    /// Levels in a row, from channel 1.
+    pub(super) di: String,
+    #[serde(rename = "do")]
+    pub(super) dout: String,
+    pub(super) ai: Vec<f64>,
+    pub(super) ao: Vec<f64>,
+}
+
+/// How one channel stands.
+#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+pub(super) struct Channel {
+    pub(super) state: String,
+    pub(super) file: String,
+    pub(super) line: usize,
+    pub(super) motion_file: String,
+    /// 0: nothing has moved yet.
+    pub(super) motion_line: usize,
+    /// The running number of the motion executed in the last cycle; 0: none.
+    #[serde(default)]
+    pub(super) motion: u64,
+    /// deg, mm
+    pub(super) axes: Vec<f64>,
+    /// x, y, z in mm, a, b, c in deg, in the world.
+    pub(super) tcp: Vec<f64>,
+    /// The robot's base, as the TCP.
+    #[serde(default)]
+    pub(super) base: Vec<f64>,
+}
+
+/// The functions and variables of a channel.
+#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+#[serde(default)]
+pub(super) struct Inside {
+    /// From 1.
+    pub(super) channel: usize,
+    /// The functions that run, the innermost first.
+    pub(super) frames: Vec<Function>,
+    /// Variables of the innermost function, clocks and connections.
+    pub(super) variables: Vec<Variable>,
+    pub(super) handles: Vec<Variable>,
+    /// Files with global variables.
+    pub(super) files: Vec<Globals>,
+}
+
+impl Inside {
+    /// In how many lines its variables are shown: one for each, and one for each file.
+    pub(super) fn variable_lines(&self) -> usize {
+        let of_files = self.files.iter().map(|file| 1 + file.variables.len() + file.handles.len());
+        self.variables.len() + self.handles.len() + of_files.sum::<usize>()
+    }
+}
+
+/// A function that runs, or the action of an event.
+#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+pub(super) struct Function {
+    pub(super) name: String,
+    pub(super) file: String,
+    pub(super) line: usize,
+}
+
+/// A variable and its value as a literal.
+#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+pub(super) struct Variable {
+    pub(super) name: String,
+    pub(super) value: String,
+}
+
+/// The global variables of a file.
+#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+#[serde(default)]
+pub(super) struct Globals {
+    pub(super) file: String,
+    pub(super) variables: Vec<Variable>,
+    pub(super) handles: Vec<Variable>,
+}
+
+/// What the program printed.
+#[derive(Clone, PartialEq, Deserialize, Debug)]
+pub(super) struct Message {
+    pub(super) time: f64,
+    /// `channel 1`, as a sentence calls it.
+    #[serde(default)]
+    pub(super) channel: String,
+    pub(super) text: String,
+}
+
+/// What stopped a program.
+#[derive(Clone, PartialEq, Deserialize, Debug)]
+pub(super) struct Alarm {
+    #[serde(default)]
+    pub(super) number: u32,
+    #[serde(default)]
+    pub(super) file: String,
+    #[serde(default)]
+    pub(super) line: u32,
+    pub(super) text: String,
+}
+
+/// An order that could not be carried out, and why.
+#[derive(Clone, PartialEq, Deserialize, Debug)]
+pub(super) struct Refused {
+    pub(super) order: String,
+    pub(super) why: String,
+}
