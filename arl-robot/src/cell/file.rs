@@ -44,6 +44,18 @@
 //! address = "192.168.0.20"
 //! di = [{ channel = 1, count = 8, discrete_input = 0 }]
 //!
+//! [[body]]                     # what the robots can run into, or carry
+//! name = "table"
+//! box = [800, 600, 40]         # edges in mm; or cylinder = [radius, length], or mesh = "FILE.stl"
+//! at = [900, 0, -20]           # its middle in the world, mm, with a, b, c in deg behind if it is turned
+//!
+//! [[body]]
+//! name = "part"
+//! cylinder = [20, 50]
+//! at = [0, 0, 120]             # in the flange
+//! on = "flange"                # of channel = 1
+//! when = "do.1"                # only while this is on
+//!
 //! [[channel]]                  # what runs beside the program of the command line: channel 2, 3, ..
 //! program = "feeder.arl"       # files count from the folder of the cell file
 //! robot = "hsr065"             # a built-in name or a robot file
@@ -54,7 +66,7 @@
 //! background = true            # it has no robot
 //! ```
 
-use super::{BusSettings, Homes, Names, NetworkSettings, Programs, Rate, Sensitivity, Wiring, collisions};
+use super::{Body, BusSettings, Homes, Names, NetworkSettings, Programs, Rate, Sensitivity, Wiring, collisions};
 use crate::channels::Channels;
 use crate::islands::Island;
 use crate::regular_file;
@@ -73,6 +85,7 @@ const TOP: &[&str] = &[
     "modbus_tcp",
     "island",
     "devicenet",
+    "body",
     "channel",
     "load",
 ];
@@ -99,6 +112,8 @@ pub struct Cell {
     pub buses: BusSettings,
     /// The servers of Modbus TCP that have inputs and outputs of the cell.
     pub islands: Vec<Island>,
+    /// What stands in the cell, or is carried.
+    pub bodies: Vec<Body>,
     /// The channels beside the first one: what the command line of a program runs, too.
     pub programs: Programs,
 }
@@ -137,6 +152,7 @@ impl Cell {
         cell.islands = Island::read_all(source, top.find("island"), &cell.channels)?;
         let folder = Path::new(file).parent().unwrap_or(Path::new(""));
         cell.programs = Programs::read(&top, folder)?;
+        cell.bodies = Body::read_all(&top, (&cell.channels, &cell.names), folder)?;
         cell.external = Wiring::read(&top, &cell.channels)?;
         cell.homes = Homes::of_cell(&top)?;
         cell.collisions = collisions(&top)?;

@@ -1,5 +1,6 @@
 //! The cell file: the command compiles by it, and the runtime runs by it.
 
+mod bodies;
 mod buses;
 mod external;
 mod file;
@@ -8,6 +9,7 @@ mod names;
 mod network;
 mod rate;
 
+pub use bodies::{Body, Solid};
 pub use buses::{BusSettings, ModbusTcpSettings};
 pub use external::Wiring;
 pub use file::Cell;

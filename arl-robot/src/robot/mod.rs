@@ -2,6 +2,7 @@
 
 mod builtin;
 mod error;
+mod limbs;
 mod read;
 mod section;
 #[cfg(test)]
@@ -9,6 +10,7 @@ mod tests;
 
 pub use arl_lang::catalog::Family;
 pub use error::RobotError;
+pub use limbs::Limb;
 
 use crate::kinematics::Kinematics;
 use crate::regular_file;

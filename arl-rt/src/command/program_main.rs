@@ -64,6 +64,7 @@ Options:
                         that were made for one
   --record ADDRESS      connect to a recorder there (arl2rs run --record) and say what
                         happens, as --live does
+  --each-cycle          say to the recorder in each cycle where the robots are
   --coverage FILE       write how often each statement ran: for programs that were made
                         for a debugger
   --loop                the loop running mode: a program that ends is reset and begins
@@ -94,6 +95,7 @@ struct Options {
     io: Option<PathBuf>,
     trace: Option<PathBuf>,
     record: Option<String>,
+    each_cycle: bool,
     report: Option<Report>,
     cycle_time: Option<PathBuf>,
     max_time: Option<f64>,
@@ -261,6 +263,7 @@ fn parse(
         io: None,
         trace: None,
         record: None,
+        each_cycle: false,
         report: None,
         cycle_time: None,
         max_time: None,
@@ -286,6 +289,7 @@ fn parse(
             Long("state-dir") => options.state_dir = Some(parser.value()?.into()),
             Long("io") => options.io = Some(parser.value()?.into()),
             Long("trace") => options.trace = Some(parser.value()?.into()),
+            Long("each-cycle") => options.each_cycle = true,
             Long("record") => options.record = Some(parser.value()?.string()?),
             Long("report") => {
                 options.report = Some(parser.optional_value().map_or(Report::Table, |file| Report::File(file.into())));
@@ -359,7 +363,8 @@ fn run(
     };
     let repeats = options.repeats;
     let voice = options.live.then(LineWriter::standard);
-    let connect = |address: String| Recording::connect(&address, real).map_err(|error| (address, error));
+    let connect =
+        |address: String| Recording::connect(&address, options.each_cycle, real).map_err(|error| (address, error));
     let recording = match options.record.clone().filter(|_| voice.is_none()).map(connect).transpose() {
         Ok(recording) => recording,
         Err((address, error)) => {
@@ -473,7 +478,6 @@ fn watch(
     (mut between, recording): (Option<Box<dyn Between>>, Option<Recording>),
     sources: &Path,
 ) -> u8 {
-    let recorder = recording.as_ref().map(Recording::voice);
     recording.iter().for_each(|recording| recording.begin(controller));
     let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
     let mut code = None;
@@ -501,7 +505,7 @@ fn watch(
         }
         controller.step();
         recording.iter().for_each(|recording| recording.cycle_ended(controller));
-        say(controller, sources, recorder);
+        say(controller, sources, recording.as_ref());
         if code.is_none()
             && beat != Beat::Stands
             && let Some(waiting) = controller.standstill()
@@ -515,7 +519,7 @@ fn watch(
         }
     }
     controller.settle_state();
-    say(controller, sources, recorder);
+    say(controller, sources, recording.as_ref());
     recording.iter().for_each(|recording| recording.run_ended(controller));
     between.into_iter().for_each(|mut between| between.run_ended(controller));
     match (code, controller.outcome()) {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::command::live::LineWriter;
+use crate::command::live::Recording;
 use crate::context::standard_error::tell;
 use crate::controller::Controller;
 use crate::fault::File;
@@ -11,7 +11,7 @@ use crate::fault::File;
 const LARGEST_FILE: u64 = 16 << 20;
 
 /// Says on the standard error what came up, and to who records it; `sources` is the folder that programs were compiled from.
-pub(super) fn say(controller: &mut Controller, sources: &Path, recorder: Option<&LineWriter>) {
+pub(super) fn say(controller: &mut Controller, sources: &Path, recorder: Option<&Recording>) {
     for text in controller.take_warnings() {
         tell(format_args!("warning: {text}"));
         if let Some(recorder) = recorder {

@@ -76,12 +76,32 @@ impl Controller {
             time: self.time(),
             mode: self.system().ctl_mode.get(),
             speed_override: unit.speed_override(),
-            channels: self.channels.iter().map(of_channel).collect(),
+            channels: self.channel_status(),
             di: io.inputs().levels().to_vec(),
             dout: io.outputs().levels().to_vec(),
             ai: io.analogs(false).to_vec(),
             ao: io.analogs(true).to_vec(),
         }
+    }
+
+    /// Where the robots are: of each channel the line of its motion, 0 where nothing has moved, and the axes that there are; none of a
+    /// background channel.
+    pub(crate) fn each_robot(&self, mut each: impl FnMut(u32, &[f64], &[f64])) {
+        for channel in self.channels.iter() {
+            let Some(unit) = channel.channel_state().robot() else {
+                each(0, &[], &[]);
+                continue;
+            };
+            let (robot, joints) = (unit.robot(), unit.setpoint());
+            let own = joints.axes.get(..robot.own_axes().len()).unwrap_or_default();
+            let external = joints.external.get(..robot.external_axes().len()).unwrap_or_default();
+            each(unit.motion_pointer().map_or(0, |(_, line)| line), own, external);
+        }
+    }
+
+    /// How the channels stand.
+    pub(crate) fn channel_status(&self) -> Vec<ChannelStatus> {
+        self.channels.iter().map(of_channel).collect()
     }
 }
 

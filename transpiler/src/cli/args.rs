@@ -13,6 +13,7 @@ pub(super) struct Cli {
 }
 
 #[derive(Subcommand, Debug)]
+#[expect(clippy::large_enum_variant, reason = "there is one command line")]
 pub(super) enum Command {
     /// Make a folder with a program that runs, its points, a cell, a scenario and a test.
     New {
@@ -31,6 +32,12 @@ pub(super) enum Command {
         /// Show people at most so many errors and warnings, errors first; 0 for all. JSON always has all.
         #[arg(long, value_name = "N", default_value_t = MOST_SHOWN)]
         max_errors: usize,
+        /// Run programs without mistakes on the virtual clock, with the scenario of their arl.toml, and find what their robots run into.
+        #[arg(long)]
+        collisions: bool,
+        /// With --collisions: also what comes nearer to each other than so many mm.
+        #[arg(long, value_name = "MM", value_parser = clearance, requires = "collisions")]
+        clearance: Option<f64>,
         #[command(flatten)]
         checking: Checking,
     },
@@ -244,6 +251,10 @@ pub(super) struct RunOptions {
     /// alarms, what each motion did. A description of the robots is written beside it: cell.urdf.
     #[arg(long, value_name = "FILE.mcap")]
     pub(super) record: Option<PathBuf>,
+    /// Look for collisions, and warn also where robots, bodies of the cell and what is carried come nearer to each other than so many
+    /// mm. Without it they are looked for where the cell has bodies.
+    #[arg(long, value_name = "MM", value_parser = clearance)]
+    pub(super) clearance: Option<f64>,
     /// Say at the end what each line's motions did: speeds, times, blends, the closest limit. With =FILE: each motion as
     /// a JSON object in a line of the file.
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "-")]
@@ -253,7 +264,7 @@ pub(super) struct RunOptions {
     pub(super) plot: Option<PathBuf>,
     /// Show a live screen with the program, the robot and io, and keys for start, pause, step, reset, override and inputs.
     /// The program runs in real time. Where the standard output is no terminal, it runs as without this option.
-    #[arg(long, conflicts_with_all = ["plot", "clock", "record"])]
+    #[arg(long, conflicts_with_all = ["plot", "clock", "record", "clearance"])]
     pub(super) pendant: bool,
     /// The loop running mode: a program that ends is reset and begins again.
     #[arg(long = "loop")]
@@ -276,6 +287,12 @@ pub(super) struct RunOptions {
     /// Tell what came from the command line and what from an `arl.toml` beside the program or above it.
     #[arg(long)]
     pub(super) verbose: bool,
+}
+
+/// A distance in mm.
+fn clearance(text: &str) -> Result<f64, String> {
+    let distance = text.parse::<f64>().ok().filter(|distance| distance.is_finite() && *distance >= 0.0);
+    distance.ok_or_else(|| "expected a distance in mm, 0 or more".into())
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Debug)]

@@ -2,6 +2,7 @@
 
 use super::answer;
 use super::args::{Checking, Format};
+use super::collide;
 use super::failure::{COMPILE_ERRORS, Failure};
 use super::program::check_options;
 use super::robot;
@@ -19,11 +20,11 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Checks each file as a program, and those that the cell names. A data file, and a file that an earlier one uses, is a
-/// module and needs no `main`.
+/// module and needs no `main`. Programs without mistakes are run, where collisions are looked for.
 pub(super) fn check(
     files: &[PathBuf],
-    format: Format,
-    mut limit: Limit,
+    (format, mut limit): (Format, Limit),
+    look: Option<collide::Look>,
     checking: &Checking,
 ) -> Result<ExitCode, Failure> {
     // Files of several projects are for robots and cells of their own.
@@ -37,9 +38,22 @@ pub(super) fn check(
     }
     let mut refused = false;
     for (checking, files) in &groups {
-        refused |= check_group(files, format, &mut limit, checking)?;
+        let mistaken = check_group(files, format, &mut limit, checking)?;
+        refused |= mistaken;
+        if let Some(look) = look.filter(|_| !mistaken) {
+            for file in files.iter().filter(|file| has_main(file, checking)) {
+                refused |= collide::check(file, checking, look)?;
+            }
+        }
     }
     Ok(if refused { ExitCode::from(COMPILE_ERRORS) } else { ExitCode::SUCCESS })
+}
+
+/// Whether a file is a program, and no module of one.
+fn has_main(file: &Path, checking: &Checking) -> bool {
+    let Ok(options) = check_options(checking) else { return false };
+    !is_data(file)
+        && check_program(file, &FileSystem, &options).is_ok_and(|compiled| compiled.checked.program.is_some())
 }
 
 /// Checks files that are for the same robot and cell. Whether there were errors.

@@ -9,12 +9,14 @@ mod cache;
 mod cargo;
 mod check;
 mod clean;
+mod collide;
 mod dap;
 mod emit;
 mod explain;
 mod failure;
 mod fmt;
 mod framing;
+mod listen;
 mod lsp;
 mod new;
 mod pendant;
@@ -58,8 +60,9 @@ pub fn main() -> ExitCode {
 
 fn dispatch(command: Command) -> Result<ExitCode, Failure> {
     match command {
-        Command::Check { files, format, max_errors, checking } => {
-            check::check(&files, format, show::Limit::of(max_errors), &checking)
+        Command::Check { files, format, max_errors, collisions, clearance, checking } => {
+            let look = collisions.then(|| collide::Look { format, clearance: clearance.unwrap_or_default() });
+            check::check(&files, (format, show::Limit::of(max_errors)), look, &checking)
         }
         Command::Emit { file, out, checking } => done(emit::emit(&file, out.as_deref(), &checking)),
         Command::Build { file, out, release, checking } => done(emit::build(&file, out.as_deref(), release, &checking)),

@@ -2,12 +2,15 @@
 
 use super::args::RunOptions;
 use super::arl_toml;
+use super::collide::Collisions;
 use super::failure::Failure;
+use super::listen::{Hears, Listener};
 use super::pendant;
 use super::plot::{self, Ran};
 use super::program::{Ready, prepare, prepare_watched};
 use super::record::Recording;
 use super::show;
+use arl_robot::cell::Cell;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -21,13 +24,30 @@ pub(super) fn run(file: &Path, options: &RunOptions) -> Result<ExitCode, Failure
     let ready = prepare(file, options.cell.as_deref(), &options.checking())?;
     let mut command = Command::new(&ready.program);
     command.args(options.arguments());
-    let recording = options.record.as_deref().map(Recording::create).transpose()?;
-    match (&options.plot, recording) {
-        (Some(picture), recording) => run_and_plot((command, recording), ready, file, options, picture),
-        (None, Some(recording)) => wait(command, Some(recording), ready),
-        (None, None) if on_screen => pendant::run(command, ready),
-        (None, None) => start(command, ready),
+    if on_screen {
+        return pendant::run(command, ready);
     }
+    let listener = listener(options)?;
+    match &options.plot {
+        Some(picture) => run_and_plot((command, listener), ready, file, options, picture),
+        None if listener.is_some() => wait(command, listener, ready),
+        None => start(command, ready),
+    }
+}
+
+/// Who is to hear what the program does: collisions come first, so that they are recorded.
+fn listener(options: &RunOptions) -> Result<Option<Listener>, Failure> {
+    let mut hearers: Vec<Box<dyn Hears>> = Vec::new();
+    let cell = options.cell.as_deref().map(Cell::load).transpose();
+    let cell = cell.map_err(|error| Failure::Usage(error.to_string()))?.unwrap_or_default();
+    if options.clearance.is_some() || !cell.bodies.is_empty() {
+        let (collisions, _) = Collisions::new(&cell, options.clearance.unwrap_or_default(), true)?;
+        hearers.push(Box::new(collisions));
+    }
+    if let Some(path) = &options.record {
+        hearers.push(Box::new(Recording::create(path, &cell.bodies)?));
+    }
+    Listener::of(hearers)
 }
 
 /// Draws a trace that is there.
@@ -49,7 +69,7 @@ fn draw(trace: &Path, picture: &Path, robot: Option<&str>, ran: &Ran) -> Result<
 
 /// The program runs, then its trace is drawn, however it ended.
 fn run_and_plot(
-    (mut command, recording): (Command, Option<Recording>),
+    (mut command, listener): (Command, Option<Listener>),
     ready: Ready,
     file: &Path,
     options: &RunOptions,
@@ -66,7 +86,7 @@ fn run_and_plot(
     // What lies there from another run is not to be drawn.
     let _ = std::fs::remove_file(trace.path());
     let ran = ran(file, &ready.sources);
-    let code = wait(command, recording, ready)?;
+    let code = wait(command, listener, ready)?;
     match trace.path().is_file() {
         true => draw(trace.path(), picture, options.robot.as_deref(), &ran)?,
         // The program did not even begin, and has said why.
@@ -123,17 +143,15 @@ fn start(command: Command, ready: Ready) -> Result<ExitCode, Failure> {
     wait(command, None, ready)
 }
 
-/// The program runs while this process waits, or records it. Ctrl-C reaches both; only the program acts on it.
-fn wait(mut command: Command, recording: Option<Recording>, ready: Ready) -> Result<ExitCode, Failure> {
+/// The program runs while this process waits, or hears what it does. Ctrl-C reaches both; only the program acts on it.
+fn wait(mut command: Command, listener: Option<Listener>, ready: Ready) -> Result<ExitCode, Failure> {
     super::cargo::leave_interrupts_to_the_program();
-    if let Some(recording) = &recording {
-        recording.ask(&mut command)?;
-    }
     let fail = |error: std::io::Error| Failure::io("start", &ready.program, &error);
+    listener.iter().try_for_each(|listener| listener.ask(&mut command)).map_err(fail)?;
     let mut child = command.spawn().map_err(fail)?;
     drop(ready.lock);
-    let ended = match recording {
-        Some(recording) => recording.record(&mut child),
+    let ended = match listener {
+        Some(listener) => listener.hear(&mut child),
         None => child.wait(),
     };
     let status = ended.map_err(fail)?;

@@ -1,6 +1,7 @@
 //! What a program says of its run, an object of JSON a line: to a screen that drives it, or to a recorder.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use serde::Deserialize;
 
@@ -12,6 +13,8 @@ pub(super) enum Line {
     Hello(Hello),
     /// How everything stands, 20 times a second.
     State(State),
+    /// Where the robots are, in each cycle, where that is asked for.
+    Cycle(Cycle),
     /// What is inside the program of a channel, while that is asked for.
     Inside(Inside),
     /// What the program printed.
@@ -24,6 +27,9 @@ pub(super) enum Line {
     Refused(Refused),
     /// What a motion did, or a channel: an object of the report.
     Report(serde_json::Value),
+    /// What came too near to each other: not the program says it, but who watches where robots are.
+    #[serde(skip)]
+    Contact(Contact),
     /// What came on the standard error.
     #[serde(skip)]
     Other(String),
@@ -51,6 +57,35 @@ pub(super) struct Runs {
     /// The flange in the last link.
     #[serde(default)]
     pub(super) flange: Placed,
+    /// Its shape.
+    #[serde(default)]
+    pub(super) limbs: Vec<Limb>,
+}
+
+/// A capsule that belongs to a link, from 1, or to the base, 0: its ends in the frame of that, and its radius, in mm.
+#[derive(Clone, PartialEq, Deserialize, Debug)]
+pub(super) struct Limb {
+    pub(super) name: String,
+    pub(super) link: usize,
+    pub(super) ends: [[f64; 3]; 2],
+    pub(super) radius: f64,
+}
+
+/// Where the robots are.
+#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+pub(super) struct Cycle {
+    /// Controller time in s.
+    pub(super) time: f64,
+    pub(super) channels: Vec<Moves>,
+}
+
+/// Where the robot of a channel is.
+#[derive(Clone, PartialEq, Default, Deserialize, Debug)]
+pub(super) struct Moves {
+    /// The line of the motion that is executed, or was last; 0: none yet.
+    pub(super) line: u32,
+    /// deg, mm
+    pub(super) axes: Vec<f64>,
 }
 
 /// x, y, z in mm, and a quaternion x, y, z, w.
@@ -188,4 +223,30 @@ pub(super) struct Alarm {
 pub(super) struct Refused {
     pub(super) order: String,
     pub(super) why: String,
+}
+
+/// Two bodies that touch for the first time, or come nearer to each other than asked for.
+#[derive(Clone, PartialEq, Default, Debug)]
+pub(super) struct Contact {
+    /// Controller time in s.
+    pub(super) time: f64,
+    /// The place of the motion that is executed; line 0: the robot has not moved yet.
+    pub(super) file: String,
+    pub(super) line: u32,
+    pub(super) one: String,
+    pub(super) other: String,
+    /// mm; 0: they touch.
+    pub(super) distance: f64,
+}
+
+impl fmt::Display for Contact {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { time, file, line, one, other, distance } = self;
+        if *distance > 0.0 {
+            write!(f, "{one} comes within {distance:.1} mm of {other}")?;
+        } else {
+            write!(f, "{one} touches {other}")?;
+        }
+        if *line > 0 { write!(f, " after {time:.3} s ({file}:{line})") } else { f.write_str(" before anything moves") }
+    }
 }

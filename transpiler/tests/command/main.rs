@@ -3,6 +3,7 @@
 #![allow(clippy::disallowed_methods, clippy::expect_used, reason = "tests read and write files, and may fail")]
 
 mod checking;
+mod collisions;
 mod formatting;
 mod killing;
 mod odd_files;

@@ -1,15 +1,16 @@
 //! States, messages, warnings and alarms go out on a stream, a JSON object a line.
 
+use std::fmt::Write as _;
 use std::io::{BufWriter, Write, stdout};
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread::JoinHandle;
 
-use crate::command::json::{array, number, quoted};
+use crate::command::json::{array, number, push_array, push_number, quoted};
 use crate::context::output::{Message, Output};
 use crate::controller::{ChannelStatus, Controller, Outcome, RobotStatus, State};
 use crate::fault::Alarm;
 use arl_robot::kinematics::{Frame, Kinematics, LinkJoint};
-use arl_robot::robot::Axis;
+use arl_robot::robot::{Axis, Limb};
 
 /// How many lines may wait to be written. Then states are left out, and everything else waits.
 const MAX_WAITING_LINES: usize = 1024;
@@ -100,21 +101,14 @@ impl LineWriter {
 
     /// How everything stands. It is left out where nobody reads as fast.
     pub(super) fn state(&self, controller: &Controller) {
-        let status = controller.status();
-        let levels = |levels: &[bool]| levels.iter().map(|on| if *on { '1' } else { '0' }).collect::<String>();
-        let line = format!(
-            "{{\"state\":{{\"time\":{},\"mode\":\"{}\",\"override\":{},\"channels\":{},\"di\":\"{}\",\"do\":\"{}\",\"ai\":{},\
-             \"ao\":{}}}}}\n",
-            number(status.time),
-            status.mode.name(),
-            number(status.speed_override),
-            array(&status.channels, channel),
-            levels(&status.di),
-            levels(&status.dout),
-            array(&status.ai, |value| number(*value)),
-            array(&status.ao, |value| number(*value)),
-        );
+        let mut line = String::with_capacity(1024);
+        push_state(&mut line, controller);
         self.lines.state(line);
+    }
+
+    /// Lines that say how everything stands, and where the robots are.
+    pub(super) fn states(&self, lines: String) {
+        self.lines.state(lines);
     }
 
     /// What is inside the program of a channel. It is left out where nobody reads as fast.
@@ -178,7 +172,15 @@ fn runs(status: &ChannelStatus) -> String {
     let name = quoted(robot.map_or("", |robot| &robot.name));
     let axes = array(robot.map_or(&[][..], |robot| &robot.axes), axis);
     let links = robot.map_or_else(String::new, |robot| links(&robot.kinematics));
-    format!("{{\"program\":{program},\"robot\":{name},\"axes\":{axes}{links}}}")
+    let limbs = array(robot.map(|robot| robot.limbs()).unwrap_or_default(), |limb| shape(&limb));
+    format!("{{\"program\":{program},\"robot\":{name},\"axes\":{axes}{links},\"limbs\":{limbs}}}")
+}
+
+/// A capsule of the robot: the link that it belongs to, its ends in that link's frame and its radius, in mm.
+fn shape(limb: &Limb) -> String {
+    let ends = array(limb.ends, |end| array(end, number));
+    let name = quoted(limb.name);
+    format!("{{\"name\":{name},\"link\":{},\"ends\":{ends},\"radius\":{}}}", limb.link, number(limb.radius))
 }
 
 /// The chain of the robot's links: where the frame of each is in that of the one before while its axis is at 0, and what it turns about or
@@ -203,21 +205,62 @@ fn axes(status: &RobotStatus) -> Vec<f64> {
     own.chain(joints.external.iter().take(robot.external_axes().len())).copied().collect()
 }
 
-fn channel(status: &ChannelStatus) -> String {
+/// Adds a line that says how everything stands.
+pub(super) fn push_state(out: &mut String, controller: &Controller) {
+    let status = controller.status();
+    let levels = |out: &mut String, levels: &[bool]| {
+        out.extend(levels.iter().map(|on| if *on { '1' } else { '0' }));
+    };
+    out.push_str("{\"state\":{\"time\":");
+    push_number(out, status.time);
+    let _ = write!(out, ",\"mode\":\"{}\",\"override\":", status.mode.name());
+    push_number(out, status.speed_override);
+    out.push_str(",\"channels\":");
+    push_array(out, &status.channels, push_channel);
+    out.push_str(",\"di\":\"");
+    levels(out, &status.di);
+    out.push_str("\",\"do\":\"");
+    levels(out, &status.dout);
+    out.push_str("\",\"ai\":");
+    push_array(out, status.ai.iter().copied(), push_number);
+    out.push_str(",\"ao\":");
+    push_array(out, status.ao.iter().copied(), push_number);
+    out.push_str("}}\n");
+}
+
+/// Adds a line that says where the robots are: of each channel the line of its motion, and the axes.
+pub(super) fn push_cycle(out: &mut String, controller: &Controller) {
+    out.push_str("{\"cycle\":{\"time\":");
+    push_number(out, controller.time());
+    out.push_str(",\"channels\":[");
+    let mut first = true;
+    controller.each_robot(|line, own, external| {
+        let _ = write!(out, "{}{{\"line\":{line},\"axes\":", if first { "" } else { "," });
+        push_array(out, own.iter().chain(external).copied(), push_number);
+        out.push('}');
+        first = false;
+    });
+    out.push_str("]}}\n");
+}
+
+fn push_channel(out: &mut String, status: &ChannelStatus) {
     let (robot, (file, line)) = (status.robot.as_ref(), status.place);
     let (motion_file, motion_line) = robot.and_then(|robot| robot.motion).unwrap_or((file, 0));
     let (tcp, base) = robot.map_or((&[][..], &[][..]), |robot| (&robot.tcp, &robot.base));
     let motion = robot.map_or(0, |robot| robot.motion_number);
-    format!(
-        "{{\"state\":\"{}\",\"file\":{},\"line\":{line},\"motion_file\":{},\"motion_line\":{motion_line},\"motion\":{motion},\"axes\":{},\
-         \"tcp\":{},\"base\":{}}}",
+    let (file, motion_file) = (quoted(file.name()), quoted(motion_file.name()));
+    let _ = write!(
+        out,
+        "{{\"state\":\"{}\",\"file\":{file},\"line\":{line},\"motion_file\":{motion_file},\"motion_line\":{motion_line},\
+         \"motion\":{motion},\"axes\":",
         word(status),
-        quoted(file.name()),
-        quoted(motion_file.name()),
-        array(&robot.map(axes).unwrap_or_default(), |axis| number(*axis)),
-        array(tcp, |component| number(*component)),
-        array(base, |component| number(*component)),
-    )
+    );
+    push_array(out, robot.map(axes).unwrap_or_default(), push_number);
+    out.push_str(",\"tcp\":");
+    push_array(out, tcp.iter().copied(), push_number);
+    out.push_str(",\"base\":");
+    push_array(out, base.iter().copied(), push_number);
+    out.push('}');
 }
 
 /// One word for what a channel does.

@@ -2,7 +2,7 @@
 
 use arl_robot::kinematics::{Frame, frame};
 
-use super::super::said::{Channel, LinkJoint, Placed, Runs};
+use super::super::said::{Channel, Limb, LinkJoint, Placed, Runs};
 use super::messages::{FrameTransform, Quaternion, Timestamp, Vector3};
 
 /// The frame that everything stands in.
@@ -15,6 +15,8 @@ pub(super) struct Arm {
     pub(super) robot: String,
     pub(super) links: Vec<LinkJoint>,
     pub(super) flange: Placed,
+    /// Its shape.
+    pub(super) limbs: Vec<Limb>,
     pub(super) axes: Vec<Own>,
 }
 
@@ -36,6 +38,7 @@ impl Arm {
             robot: runs.robot.clone().unwrap_or_default(),
             links: runs.links.clone(),
             flange: runs.flange,
+            limbs: runs.limbs.clone(),
             axes: runs.axes.iter().map(own).collect(),
         }
     }

@@ -266,3 +266,23 @@ pub(super) struct Closest {
     #[prost(double, tag = "2")]
     pub(super) percent: f64,
 }
+
+/// `arl2rs.v1.Contact`: the first time that two bodies touch, or the nearest that they come to each other where that is
+/// nearer than asked for.
+#[derive(Clone, PartialEq, Message)]
+pub(super) struct Contact {
+    #[prost(double, tag = "1")]
+    pub(super) time: f64,
+    /// Where the motion stands in which they do.
+    #[prost(string, tag = "2")]
+    pub(super) file: String,
+    #[prost(uint32, tag = "3")]
+    pub(super) line: u32,
+    #[prost(string, tag = "4")]
+    pub(super) one: String,
+    #[prost(string, tag = "5")]
+    pub(super) other: String,
+    /// mm; 0: they touch.
+    #[prost(double, tag = "6")]
+    pub(super) distance: f64,
+}

@@ -10,8 +10,8 @@ use serde_json::Value;
 use super::super::said::{self, Hello, Line, State};
 use super::links::Arm;
 use super::messages::{
-    Axis, Blend, Cell, Channel, Closest, Controller, FrameTransforms, Io, JointState, JointStates, Level, Log, Motion,
-    Name, Runs, Timestamp,
+    Axis, Blend, Cell, Channel, Closest, Contact, Controller, FrameTransforms, Io, JointState, JointStates, Level, Log,
+    Motion, Name, Runs, Timestamp,
 };
 use super::schemas::{self, Schema};
 
@@ -65,26 +65,22 @@ impl<W: Write + Seek> Recorder<W> {
     }
 
     /// Takes in what the program says.
-    pub(super) fn hear(&mut self, line: Line) -> McapResult<()> {
+    pub(super) fn hear(&mut self, line: &Line) -> McapResult<()> {
+        let log = |level: Level, text: &str| Log { level: level.into(), message: text.into(), ..Log::default() };
         match line {
-            Line::Hello(hello) => self.begin(hello),
-            Line::State(state) => self.state(&state),
+            Line::Hello(hello) => self.begin(hello.clone()),
+            Line::State(state) => self.state(state),
             Line::Message(said::Message { time, channel, text }) => {
-                let texts = text.trim_end_matches('\n');
-                self.log(
-                    time,
-                    Log { level: Level::Info.into(), message: texts.into(), name: channel, ..Log::default() },
-                )
+                let said = log(Level::Info, text.trim_end_matches('\n'));
+                self.log(*time, Log { name: channel.clone(), ..said })
             }
-            Line::Warning(message) => {
-                self.log(self.time, Log { level: Level::Warning.into(), message, ..Log::default() })
-            }
+            Line::Warning(text) => self.log(self.time, log(Level::Warning, text)),
             Line::Alarm(said::Alarm { text, file, line, .. }) => {
-                let level = Level::Error.into();
-                self.log(self.time, Log { level, message: text, file, line, ..Log::default() })
+                self.log(self.time, Log { file: file.clone(), line: *line, ..log(Level::Error, text) })
             }
-            Line::Report(object) => self.motion(&object),
-            Line::Inside(_) | Line::Refused(_) | Line::Other(_) => Ok(()),
+            Line::Report(object) => self.motion(object),
+            Line::Contact(contact) => self.contact(contact),
+            Line::Cycle(_) | Line::Inside(_) | Line::Refused(_) | Line::Other(_) => Ok(()),
         }
     }
 
@@ -93,9 +89,9 @@ impl<W: Write + Seek> Recorder<W> {
         self.writer.finish().map(drop)
     }
 
-    /// The robots' arms, once the program has said them.
-    pub(super) fn arms(&self) -> impl Iterator<Item = &Arm> {
-        self.arms.iter().flatten()
+    /// The robots' arms by channels, once the program has said them.
+    pub(super) fn arms(&self) -> &[Option<Arm>] {
+        &self.arms
     }
 
     fn begin(&mut self, hello: Hello) -> McapResult<()> {
@@ -229,6 +225,15 @@ impl<W: Write + Seek> Recorder<W> {
             closest_jerk: closest("jerk"),
         };
         self.write("/arl/motions", &schemas::MOTION, motion.start, &motion)
+    }
+
+    /// What came nearer to each other than it should.
+    fn contact(&mut self, contact: &said::Contact) -> McapResult<()> {
+        let said::Contact { time, file, line, one, other, distance } = contact.clone();
+        let level = Level::Warning.into();
+        let log = Log { level, message: contact.to_string(), file: file.clone(), line, ..Log::default() };
+        self.log(time, log)?;
+        self.write("/arl/contacts", &schemas::CONTACT, time, &Contact { time, file, line, one, other, distance })
     }
 
     fn write(

@@ -156,6 +156,19 @@ pub(super) static MOTION: Schema = Schema {
     ],
 };
 
+pub(super) static CONTACT: Schema = Schema {
+    package: OURS,
+    name: "Contact",
+    fields: &[
+        ("time", Kind::Double),
+        ("file", Kind::Text),
+        ("line", Kind::Uint32),
+        ("one", Kind::Text),
+        ("other", Kind::Text),
+        ("distance", Kind::Double),
+    ],
+};
+
 /// `foxglove.Log.Level`, from 0 on.
 const LEVELS: [&str; 6] = ["UNKNOWN", "DEBUG", "INFO", "WARNING", "ERROR", "FATAL"];
 

@@ -16,7 +16,8 @@ const HELLO: &str = r#"{"hello":{"channels":[{"program":"pick.arl","robot":"two-
     {"name":"j1","unit":"deg","min":-180.0,"max":180.0},{"name":"j2","unit":"mm","min":0.0,"max":500.0}],
     "links":[{"origin":[0,0,400,0,0,0,1],"axis":[0,0,-1],"linear":false},
              {"origin":[300,0,0,0,0,0,1],"axis":[0,0,1],"linear":true}],
-    "flange":[0,0,100,0,0,0,1]}],"names":{"di.1":"part_present"}}}"#;
+    "flange":[0,0,100,0,0,0,1],
+    "limbs":[{"name":"arm 1","link":1,"ends":[[0,0,0],[300,0,0]],"radius":40}]}],"names":{"di.1":"part_present"}}}"#;
 
 fn state(time: f64, j1: f64, di: &str, line: u32) -> String {
     format!(
@@ -31,7 +32,7 @@ fn recorded(lines: &[String]) -> BTreeMap<String, Vec<(u64, Vec<u8>)>> {
     let mut bytes = Vec::new();
     let mut recorder = Recorder::new(Cursor::new(&mut bytes)).unwrap();
     for line in lines {
-        recorder.hear(serde_json::from_str(line).unwrap()).unwrap();
+        recorder.hear(&serde_json::from_str(line).unwrap()).unwrap();
     }
     recorder.finish().unwrap();
     let mut topics: BTreeMap<String, Vec<(u64, Vec<u8>)>> = BTreeMap::new();
@@ -107,11 +108,19 @@ fn an_empty_run_is_a_whole_file() {
 fn the_description_has_the_frames_and_joints_of_the_recording() {
     let mut bytes = Vec::new();
     let mut recorder = Recorder::new(Cursor::new(&mut bytes)).unwrap();
-    recorder.hear(serde_json::from_str(HELLO).unwrap()).unwrap();
-    let text = urdf(recorder.arms());
+    recorder.hear(&serde_json::from_str(HELLO).unwrap()).unwrap();
+    let bodies = "[[body]]\nname = \"table <1>\"\nbox = [800, 600, 40]\nat = [900, 0, -20]\n\
+                  [[body]]\nname = \"tool\"\ncylinder = [20, 100]\non = \"flange\"\n[[body]]\nname = \"jig\"\nmesh = \"jig.stl\"\n";
+    let bodies = arl_robot::cell::Cell::parse("cell.toml", bodies).unwrap().bodies;
+    let text = urdf(recorder.arms(), &bodies);
     let description = urdf_rs::read_from_string(&text).unwrap();
     let links: Vec<_> = description.links.iter().map(|link| link.name.as_str()).collect();
-    assert_eq!(links, ["world", "base_link", "link_1", "link_2", "flange"]);
+    assert_eq!(links, ["world", "base_link", "link_1", "link_2", "flange", "table <1>", "tool", "jig"]);
+    assert_eq!(description.links[2].visual.len(), 3, "a tube with round ends");
+    let table = description.joints.iter().find(|joint| joint.child.link == "table <1>").unwrap();
+    assert_eq!((table.parent.link.as_str(), table.origin.xyz.0), ("world", [0.9, 0.0, -0.02]));
+    let tool = description.joints.iter().find(|joint| joint.child.link == "tool").unwrap();
+    assert_eq!(tool.parent.link, "flange");
     let joint = &description.joints[1];
     assert_eq!((joint.name.as_str(), joint.axis.xyz.0, joint.origin.xyz.0), ("j1", [0.0, 0.0, -1.0], [0.0, 0.0, 0.4]));
     assert!((joint.limit.upper - std::f64::consts::PI).abs() < 1e-9);
@@ -171,6 +180,10 @@ fn filled() -> Vec<(&'static Schema, Vec<u8>)> {
         (&schemas::CONTROLLER, Controller { time: 1.0, mode: text(), speed_override: 1.0 }.encode_to_vec()),
         (&schemas::IO, io.encode_to_vec()),
         (&schemas::MOTION, motion.encode_to_vec()),
+        (
+            &schemas::CONTACT,
+            Contact { time: 1.0, file: text(), line: 1, one: text(), other: text(), distance: 1.0 }.encode_to_vec(),
+        ),
     ]
 }
 

@@ -1,40 +1,44 @@
-//! The description of the cell's robots that viewers draw: `cell.urdf`, with the names of the recording's frames and joints.
+//! The description of the cell that viewers draw: `cell.urdf`, with the names of the recording's frames and joints.
 //!
-//! Links are cylinders from joint to joint: no shape of a robot needs a licence.
+//! Robots have the shape that collisions are looked for with.
 
 use std::fmt::Write;
 
-use nalgebra::{UnitQuaternion, Vector3};
+use arl_robot::cell::{Body, Solid};
+use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
+use super::super::said::Limb;
 use super::links::{Arm, WORLD, placed};
 
-/// How thick a link is, as part of the arm's length.
-const THICKNESS: f64 = 0.045;
 /// What a joint may do at most where only its range is known; a reader wants numbers.
 const EFFORT: f64 = 1000.0;
 const VELOCITY: f64 = 10.0;
 
-/// The description of these arms, standing in the world.
-pub(super) fn urdf<'a>(arms: impl Iterator<Item = &'a Arm>) -> String {
+/// The description of these arms, by channels, and of the bodies around them.
+pub(super) fn urdf(arms: &[Option<Arm>], bodies: &[Body]) -> String {
     let mut out = String::from("<?xml version=\"1.0\"?>\n<robot name=\"cell\">\n");
     let _ = writeln!(out, "  <link name=\"{WORLD}\"/>");
-    arms.for_each(|arm| add(&mut out, arm));
+    arms.iter().flatten().for_each(|arm| add_arm(&mut out, arm));
+    for body in bodies {
+        let channel = body.carried_by.map(|channel| channel as usize - 1);
+        let arm = channel.and_then(|channel| arms.get(channel)).and_then(Option::as_ref);
+        let holder = arm.map_or_else(|| WORLD.to_owned(), Arm::flange_frame);
+        add_body(&mut out, body, &holder);
+    }
     out.push_str("</robot>\n");
     out
 }
 
-fn add(out: &mut String, arm: &Arm) {
-    let _ = writeln!(out, "  <!-- {} -->", arm.robot.replace("--", "- -"));
-    let frames: Vec<_> = arm.links.iter().map(|link| placed(&link.origin)).chain([placed(&arm.flange)]).collect();
-    let reach: f64 = frames.iter().map(|frame| frame.translation.vector.norm()).sum();
-    let radius = THICKNESS * reach / 1000.0;
-    // Each link leads from its own origin to where the next one begins.
-    let names = (0..=arm.links.len()).map(|number| if number == 0 { arm.base() } else { arm.link(number) });
-    for (name, next) in names.zip(&frames) {
-        link(out, &name, &(next.translation.vector / 1000.0), radius);
+fn add_arm(out: &mut String, arm: &Arm) {
+    let _ = writeln!(out, "  <!-- {} -->", escaped(&arm.robot).replace("--", "- -"));
+    for number in 0..=arm.links.len() {
+        let name = if number == 0 { arm.base() } else { arm.link(number) };
+        let limbs: String = arm.limbs.iter().filter(|limb| limb.link == number).map(tube).collect();
+        let _ = writeln!(out, "  <link name=\"{name}\">{limbs}</link>");
     }
-    link(out, &arm.flange_frame(), &Vector3::zeros(), 0.5 * radius);
-    joint(out, &format!("{}_to_{WORLD}", arm.base()), [WORLD, &arm.base()], &nalgebra::Isometry3::identity(), "");
+    let _ = writeln!(out, "  <link name=\"{}\"/>", arm.flange_frame());
+    let base = arm.base();
+    joint(out, ("fixed", &format!("{base}_to_{WORLD}")), [WORLD, &base], &Isometry3::identity(), "");
     for (at, (joined, own)) in arm.links.iter().zip(&arm.axes).enumerate() {
         let before = if at == 0 { arm.base() } else { arm.link(at) };
         let [low, high] = own.range;
@@ -43,41 +47,48 @@ fn add(out: &mut String, arm: &Arm) {
             "<axis xyz=\"{x} {y} {z}\"/><limit lower=\"{low}\" upper=\"{high}\" effort=\"{EFFORT}\" velocity=\"{VELOCITY}\"/>"
         );
         let kind = if own.linear { "prismatic" } else { "revolute" };
-        moving(out, kind, &arm.joint(&own.name), [&before, &arm.link(at + 1)], &placed(&joined.origin), &moves);
+        joint(out, (kind, &arm.joint(&own.name)), [&before, &arm.link(at + 1)], &placed(&joined.origin), &moves);
     }
-    let last = arm.link(arm.links.len());
-    let flange = arm.flange_frame();
-    joint(out, &format!("{flange}_to_{last}"), [&last, &flange], &placed(&arm.flange), "");
+    let (last, flange) = (arm.link(arm.links.len()), arm.flange_frame());
+    joint(out, ("fixed", &format!("{flange}_to_{last}")), [&last, &flange], &placed(&arm.flange), "");
 }
 
-/// A link from its origin to `end`, in m.
-fn link(out: &mut String, name: &str, end: &Vector3<f64>, radius: f64) {
-    let length = end.norm();
-    let _ = writeln!(out, "  <link name=\"{name}\">");
-    let ball = format!("<geometry><sphere radius=\"{:.5}\"/></geometry>", 1.1 * radius);
-    let _ = writeln!(out, "    <visual>{ball}</visual>");
-    if length > radius {
-        let turned = UnitQuaternion::rotation_between(&Vector3::z(), end)
-            .unwrap_or_else(|| UnitQuaternion::from_scaled_axis(Vector3::x() * std::f64::consts::PI));
-        let origin = origin(&(0.5 * end), &turned);
-        let tube = format!("<geometry><cylinder radius=\"{radius:.5}\" length=\"{length:.5}\"/></geometry>");
-        let _ = writeln!(out, "    <visual>{origin}{tube}</visual>");
-    }
-    out.push_str("  </link>\n");
+fn add_body(out: &mut String, body: &Body, holder: &str) {
+    let name = escaped(&body.name);
+    let form = match &body.solid {
+        Solid::Box([x, y, z]) => format!("<box size=\"{} {} {}\"/>", x / 1000.0, y / 1000.0, z / 1000.0),
+        Solid::Cylinder { radius, length } => cylinder(radius / 1000.0, length / 1000.0),
+        Solid::Mesh(file) => {
+            let file = std::path::absolute(file).unwrap_or_else(|_| file.clone());
+            format!("<mesh filename=\"file://{}\" scale=\"0.001 0.001 0.001\"/>", escaped(&file.display().to_string()))
+        }
+    };
+    let _ = writeln!(out, "  <link name=\"{name}\"><visual><geometry>{form}</geometry></visual></link>");
+    joint(out, ("fixed", &format!("{name}_to_{holder}")), [holder, &name], &body.at, "");
 }
 
-fn joint(out: &mut String, name: &str, links: [&str; 2], at: &nalgebra::Isometry3<f64>, moves: &str) {
-    moving(out, "fixed", name, links, at, moves);
+/// A capsule: a cylinder with a ball at either end.
+fn tube(limb: &Limb) -> String {
+    let [from, to] = limb.ends.map(|end| Vector3::from(end) / 1000.0);
+    let radius = limb.radius / 1000.0;
+    let ball = |at: &Vector3<f64>| {
+        let origin = origin(at, &UnitQuaternion::identity());
+        format!("<visual>{origin}<geometry><sphere radius=\"{radius:.5}\"/></geometry></visual>")
+    };
+    let along = to - from;
+    let turned = UnitQuaternion::rotation_between(&Vector3::z(), &along)
+        .unwrap_or_else(|| UnitQuaternion::from_scaled_axis(Vector3::x() * std::f64::consts::PI));
+    let middle = origin(&(0.5 * (from + to)), &turned);
+    let straight = format!("<visual>{middle}<geometry>{}</geometry></visual>", cylinder(radius, along.norm()));
+    let straight = if along.norm() > 0.0 { straight } else { String::new() };
+    format!("{}{}{straight}", ball(&from), ball(&to))
 }
 
-fn moving(
-    out: &mut String,
-    kind: &str,
-    name: &str,
-    [parent, child]: [&str; 2],
-    at: &nalgebra::Isometry3<f64>,
-    moves: &str,
-) {
+fn cylinder(radius: f64, length: f64) -> String {
+    format!("<cylinder radius=\"{radius:.5}\" length=\"{length:.5}\"/>")
+}
+
+fn joint(out: &mut String, (kind, name): (&str, &str), [parent, child]: [&str; 2], at: &Isometry3<f64>, moves: &str) {
     let origin = origin(&(at.translation.vector / 1000.0), &at.rotation);
     let _ = writeln!(
         out,
@@ -89,4 +100,9 @@ fn moving(
 fn origin(at: &Vector3<f64>, turned: &UnitQuaternion<f64>) -> String {
     let (roll, pitch, yaw) = turned.euler_angles();
     format!("<origin xyz=\"{:.6} {:.6} {:.6}\" rpy=\"{:.9} {:.9} {:.9}\"/>", at.x, at.y, at.z, roll, pitch, yaw)
+}
+
+/// What XML does not take as it is.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

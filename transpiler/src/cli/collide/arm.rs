@@ -1,0 +1,131 @@
+//! Where the links of a robot are.
+
+use parry3d_f64::math::{Pose, Rotation, Vector};
+
+use super::super::said::{LinkJoint, Placed, Runs};
+
+/// A robot's arm in its base, which stands in the world; lengths in mm.
+pub(super) struct Arm {
+    joints: Vec<Joint>,
+    flange: Pose,
+    base: Vec<f64>,
+    base_pose: Pose,
+    /// deg (mm)
+    axes: Vec<f64>,
+    /// From the base, 0, to the last link.
+    links: Vec<Pose>,
+}
+
+struct Joint {
+    origin: Pose,
+    axis: Vector,
+    linear: bool,
+    /// The farthest that the link's origin gets from that of the link before, in mm.
+    length: f64,
+}
+
+impl Arm {
+    pub(super) fn new(runs: &Runs) -> Self {
+        let joint = |(joint, axis): (&LinkJoint, &super::super::said::Axis)| {
+            let origin = pose(&joint.origin);
+            let travel = if joint.linear { axis.min.abs().max(axis.max.abs()) } else { 0.0 };
+            let [x, y, z] = joint.axis;
+            let length = origin.translation.length() + travel;
+            Joint { origin, axis: Vector::new(x, y, z), linear: joint.linear, length }
+        };
+        let mut arm = Self {
+            joints: runs.links.iter().zip(&runs.axes).map(joint).collect(),
+            flange: pose(&runs.flange),
+            base: Vec::new(),
+            base_pose: Pose::IDENTITY,
+            axes: vec![0.0; runs.links.len()],
+            links: Vec::new(),
+        };
+        arm.place_links();
+        arm
+    }
+
+    /// Says where its base stands: x, y, z in mm, a, b, c in deg. Whether it stood elsewhere before.
+    pub(super) fn stands_on(&mut self, base: &[f64]) -> bool {
+        if self.base == base {
+            return false;
+        }
+        base.clone_into(&mut self.base);
+        if let Ok(base) = <[f64; 6]>::try_from(base) {
+            self.base_pose = of_frame(&arl_robot::kinematics::frame(base));
+        }
+        self.place_links();
+        true
+    }
+
+    pub(super) fn go_to(&mut self, axes: &[f64]) {
+        let own = axes.get(..self.joints.len()).unwrap_or(axes);
+        if own != self.axes {
+            own.clone_into(&mut self.axes);
+            self.place_links();
+        }
+    }
+
+    fn place_links(&mut self) {
+        self.links.clear();
+        let mut place = self.base_pose;
+        self.links.push(place);
+        for (joint, value) in self.joints.iter().zip(&self.axes) {
+            let moved = if joint.linear {
+                Pose::from_parts(joint.axis * *value, Rotation::IDENTITY)
+            } else {
+                Pose::from_parts(Vector::ZERO, Rotation::from_axis_angle(joint.axis, value.to_radians()))
+            };
+            place = place * joint.origin * moved;
+            self.links.push(place);
+        }
+    }
+
+    /// The frame of a link, or of the base, 0.
+    pub(super) fn link(&self, link: usize) -> Option<Pose> {
+        self.links.get(link).copied()
+    }
+
+    pub(super) fn flange(&self) -> Pose {
+        self.links.last().copied().unwrap_or(self.base_pose) * self.flange
+    }
+
+    /// How many links it has.
+    pub(super) fn count(&self) -> usize {
+        self.joints.len()
+    }
+
+    /// How far the flange is from the last link's origin, in mm.
+    pub(super) fn flange_length(&self) -> f64 {
+        self.flange.translation.length()
+    }
+
+    pub(super) fn axes(&self) -> &[f64] {
+        &self.axes
+    }
+
+    /// The most that a place of a link moves against another link before it, in mm, while the axes go from `before` to where they are now. The
+    /// place is no farther from the link's origin than `away`.
+    pub(super) fn moved(&self, before: &[f64], links: std::ops::Range<usize>, away: f64) -> f64 {
+        // From the last joint on back, each one swings all that is behind it.
+        let mut reach = away;
+        let mut moved = 0.0;
+        let all = self.joints.iter().zip(self.axes.iter().zip(before));
+        for (joint, (now, before)) in all.take(links.end).skip(links.start).rev() {
+            let change = (now - before).abs();
+            moved += if joint.linear { change } else { change.to_radians() * reach };
+            reach += joint.length;
+        }
+        moved
+    }
+}
+
+fn pose([x, y, z, i, j, k, w]: &Placed) -> Pose {
+    Pose::from_parts(Vector::new(*x, *y, *z), Rotation::from_xyzw(*i, *j, *k, *w).normalize())
+}
+
+/// A frame of the robot's kinematics.
+pub(super) fn of_frame(frame: &arl_robot::kinematics::Frame) -> Pose {
+    let (at, turned) = (frame.translation.vector, frame.rotation.coords);
+    Pose::from_parts(Vector::new(at.x, at.y, at.z), Rotation::from_xyzw(turned.x, turned.y, turned.z, turned.w))
+}

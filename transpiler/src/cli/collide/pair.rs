@@ -1,0 +1,181 @@
+//! Two items that may touch, and when they have to be looked at again.
+//!
+//! A pair that is far apart cannot touch before its robots have moved as far: how far the places of a link move while the axes change is
+//! bounded by the lengths of the arm. So each pair is looked at in few cycles, and no contact is missed in any.
+
+use super::super::said::Contact;
+use super::arm::Arm;
+use super::item::{Holder, Item};
+
+/// The nearest that a pair comes to each other is found to so many mm.
+const RESOLUTION_MM: f64 = 0.05;
+/// Rounding of distances and positions, in mm.
+const ROUNDING_MM: f64 = 1e-4;
+
+/// Two items, by their places in the list.
+pub(super) struct Pair {
+    pub(super) items: [usize; 2],
+    /// What moves each of them.
+    ends: [End; 2],
+    /// Whether they are parts of one robot: what touches before anything moves is built so.
+    is_own: bool,
+    pub(super) state: State,
+    /// Where the robots were when it was last looked at, and how far the items may move from there.
+    known: Option<Known>,
+}
+
+/// An item, as far as its motion goes.
+#[derive(Clone, Copy)]
+struct End {
+    channel: Option<usize>,
+    /// The link that it is on.
+    link: usize,
+    /// How far its places are from the link's origin at most.
+    farthest: f64,
+}
+
+/// What has come of a pair.
+pub(super) enum State {
+    /// So far apart that there is nothing to tell.
+    Apart,
+    /// Nearer than the clearance: the nearest so far.
+    Near(Contact),
+    /// It touched: what there is to tell, until it is taken.
+    Touched(Option<Contact>),
+    /// There is nothing to look for any more.
+    Done,
+}
+
+struct Known {
+    axes: [Vec<f64>; 2],
+    room: f64,
+}
+
+/// All pairs that count: nothing that is built together, nothing that stands in the world with something else that does.
+pub(super) fn pairs(items: &[Item], arms: &[Option<Arm>]) -> Vec<Pair> {
+    let mut pairs = Vec::new();
+    for (at, one) in items.iter().enumerate() {
+        for (behind, other) in items.iter().enumerate().skip(at + 1) {
+            if counts(items, one, other) {
+                let ends = [one, other].map(|item| End::of(item, arms));
+                let is_own = one.holder.channel() == other.holder.channel();
+                pairs.push(Pair { items: [at, behind], ends, is_own, state: State::Apart, known: None });
+            }
+        }
+    }
+    pairs
+}
+
+fn counts(items: &[Item], one: &Item, other: &Item) -> bool {
+    let stands = |item: &Item| matches!(item.holder, Holder::World | Holder::Link { link: 0, .. });
+    if stands(one) && stands(other) {
+        return false;
+    }
+    if one.holder.channel() != other.holder.channel() {
+        return true;
+    }
+    let last = |item: &Item| {
+        let of_arm = |other: &&Item| other.limb.is_some() && other.holder.channel() == item.holder.channel();
+        items.iter().rfind(of_arm).and_then(|last| last.limb)
+    };
+    match (one.limb, other.limb) {
+        // What is between them is too short to keep them apart.
+        (Some([at, _, radius]), Some([behind, _, other_radius])) => {
+            let (first, second) = (at.min(behind), at.max(behind));
+            let between = items.iter().filter(|item| item.holder.channel() == one.holder.channel());
+            let between = between.filter_map(|item| item.limb).filter(|[at, ..]| *at > first && *at < second);
+            between.map(|[_, length, _]| length).sum::<f64>() > radius + other_radius
+        }
+        // What is on the flange is fixed to the last limb.
+        (Some(limb), None) => Some(limb) != last(one),
+        (None, Some(limb)) => Some(limb) != last(other),
+        (None, None) => false,
+    }
+}
+
+impl End {
+    fn of(item: &Item, arms: &[Option<Arm>]) -> Self {
+        let arm = |channel: usize| arms.get(channel).and_then(Option::as_ref);
+        let (link, beside) = match item.holder {
+            Holder::World => (0, 0.0),
+            Holder::Link { link, .. } => (link, 0.0),
+            Holder::Flange { channel } => {
+                (arm(channel).map_or(0, Arm::count), arm(channel).map_or(0.0, Arm::flange_length))
+            }
+        };
+        Self { channel: item.holder.channel(), link, farthest: item.farthest + beside }
+    }
+}
+
+impl Pair {
+    /// Forgets where it was: it is looked at in the next cycle.
+    pub(super) fn forget(&mut self) {
+        self.known = None;
+    }
+
+    /// Whether it may have come near enough to matter.
+    pub(super) fn is_due(&self, arms: &[Option<Arm>]) -> bool {
+        if matches!(self.state, State::Touched(_) | State::Done) {
+            return false;
+        }
+        let Some(known) = &self.known else { return true };
+        self.moved(&known.axes, arms) >= known.room
+    }
+
+    /// The most that the two have moved against each other since the axes were there, in mm.
+    fn moved(&self, before: &[Vec<f64>; 2], arms: &[Option<Arm>]) -> f64 {
+        let [one, other] = &self.ends;
+        let moved = |end: &End, before: &[f64], from: usize| {
+            let arm = end.channel.and_then(|channel| arms.get(channel)).and_then(Option::as_ref);
+            arm.map_or(0.0, |arm| arm.moved(before, from..end.link, end.farthest))
+        };
+        let [first, second] = before;
+        if one.channel.is_some() && one.channel == other.channel {
+            // Only what is between them moves them against each other.
+            let (near, far) = if one.link <= other.link { (one, other) } else { (other, one) };
+            return moved(far, first, near.link);
+        }
+        moved(one, first, 0) + moved(other, second, 0)
+    }
+
+    /// Notes how far apart the two are now.
+    pub(super) fn note(
+        &mut self,
+        distance: f64,
+        clearance: f64,
+        arms: &[Option<Arm>],
+        contact: impl Fn(f64) -> Contact,
+    ) {
+        if distance <= 0.0 {
+            let contact = contact(0.0);
+            self.state = if self.is_own && contact.line == 0 { State::Done } else { State::Touched(Some(contact)) };
+            return;
+        }
+        let room = if distance < clearance {
+            let nearest = if let State::Near(nearest) = &self.state { nearest.distance } else { f64::INFINITY };
+            if distance < nearest {
+                self.state = State::Near(contact(distance));
+            }
+            (distance - nearest).max(RESOLUTION_MM)
+        } else {
+            distance - clearance
+        };
+        let axes = self.ends.map(|end| {
+            let arm = end.channel.and_then(|channel| arms.get(channel)).and_then(Option::as_ref);
+            arm.map_or_else(Vec::new, |arm| arm.axes().to_vec())
+        });
+        self.known = Some(Known { axes, room: (room - ROUNDING_MM).max(0.0) });
+    }
+
+    /// The nearest that the two came to each other, if that is to be told; once.
+    pub(super) fn take_nearest(&mut self) -> Option<Contact> {
+        match std::mem::replace(&mut self.state, State::Done) {
+            State::Near(contact) => Some(contact),
+            State::Touched(contact) => {
+                self.state = State::Touched(contact);
+                None
+            }
+            State::Apart | State::Done => None,
+        }
+    }
+}

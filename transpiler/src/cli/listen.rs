@@ -1,0 +1,134 @@
+//! A run that is listened to: the program connects, and says a line at a time what happens, to all who want to know.
+//!
+//! The program connects to the listener, not the other way round: so its own streams stay its own.
+
+use std::error::Error;
+use std::io::{BufRead, BufReader};
+use std::net::{Ipv4Addr, TcpListener, TcpStream};
+use std::process::{Child, Command, ExitStatus};
+use std::time::Duration;
+
+use super::failure::Failure;
+use super::said::Line;
+use super::show;
+
+/// How often it is looked whether the program has connected, or has ended before it did.
+const LOOK_INTERVAL: Duration = Duration::from_millis(2);
+
+/// Who wants to know what happens in a run.
+pub(super) trait Hears {
+    /// Whether it wants to hear in each cycle where the robots are.
+    fn wants_each_cycle(&self) -> bool {
+        false
+    }
+
+    /// Takes in a line; gives what those behind it are to hear besides.
+    fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>>;
+
+    /// Nothing more will come.
+    fn end(self: Box<Self>) -> Result<(), Box<dyn Error>>;
+
+    /// The program did not even begin, and has said why.
+    fn nothing_began(self: Box<Self>) {}
+
+    /// What is told where it cannot go on: `the recording a.mcap is not whole`.
+    fn broken(&self) -> String;
+}
+
+/// What a program connects to.
+pub(super) struct Listener {
+    listener: TcpListener,
+    hearers: Vec<Box<dyn Hears>>,
+}
+
+impl Listener {
+    /// For those who want to hear, in this order; `None` where nobody does.
+    pub(super) fn of(hearers: Vec<Box<dyn Hears>>) -> Result<Option<Self>, Failure> {
+        if hearers.is_empty() {
+            return Ok(None);
+        }
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).and_then(|listener| {
+            listener.set_nonblocking(true)?;
+            Ok(listener)
+        });
+        let cannot = |error| Failure::Usage(format!("this computer has no connection to itself: {error}"));
+        Ok(Some(Self { listener: listener.map_err(cannot)?, hearers }))
+    }
+
+    /// Has the program say what happens.
+    pub(super) fn ask(&self, command: &mut Command) -> std::io::Result<()> {
+        command.arg("--record").arg(self.listener.local_addr()?.to_string());
+        if self.hearers.iter().any(|hearer| hearer.wants_each_cycle()) {
+            command.arg("--each-cycle");
+        }
+        Ok(())
+    }
+
+    /// Hears the program until it has ended, whatever comes between.
+    pub(super) fn hear(self, program: &mut Child) -> std::io::Result<ExitStatus> {
+        let Self { listener, hearers } = self;
+        match accept(&listener, program)? {
+            Err(ended) => {
+                hearers.into_iter().for_each(Hears::nothing_began);
+                Ok(ended)
+            }
+            Ok(stream) => {
+                hear(stream, hearers);
+                program.wait()
+            }
+        }
+    }
+}
+
+/// The program's connection, or how it ended before.
+fn accept(listener: &TcpListener, program: &mut Child) -> std::io::Result<Result<TcpStream, ExitStatus>> {
+    loop {
+        match listener.accept() {
+            Ok((stream, _)) => {
+                stream.set_nonblocking(false)?;
+                return Ok(Ok(stream));
+            }
+            Err(error) if error.kind() == std::io::ErrorKind::WouldBlock => {}
+            Err(error) => return Err(error),
+        }
+        if let Some(ended) = program.try_wait()? {
+            return Ok(Err(ended));
+        }
+        std::thread::sleep(LOOK_INTERVAL);
+    }
+}
+
+/// Passes on what comes until nothing comes any more. Who cannot go on is told of once; the program and the others go on.
+fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) {
+    let mut stream = BufReader::new(stream);
+    let mut bytes = Vec::new();
+    while matches!(stream.read_until(b'\n', &mut bytes), Ok(1..)) {
+        // A program of another version may say more.
+        if let Ok(line) = serde_json::from_slice(&bytes) {
+            pass_on(line, &mut hearers);
+        }
+        bytes.clear();
+    }
+    for hearer in hearers {
+        let broken = hearer.broken();
+        if let Err(error) = hearer.end() {
+            show::warning(&format!("{broken}: {error}"));
+        }
+    }
+}
+
+fn pass_on(line: Line, hearers: &mut Vec<Box<dyn Hears>>) {
+    let mut lines = vec![line];
+    hearers.retain_mut(|hearer| {
+        let mut more = Vec::new();
+        let heard = lines.iter().try_for_each(|line| {
+            more.extend(hearer.hear(line)?);
+            Ok::<(), Box<dyn Error>>(())
+        });
+        lines.extend(more);
+        if let Err(error) = &heard {
+            show::warning(&format!("{}: {error}", hearer.broken()));
+        }
+        heard.is_ok()
+    });
+}
