@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{MOST_FOREGROUND, Names, Signal, SignalKind};
+use super::{Names, Signal, SignalKind};
 use crate::channels::Channels;
 use crate::kinematics::{Frame, frame};
 use crate::settings::{Section, SettingsError, Value, hint, kind, number, table};
 
-const BODY: &[&str] = &["name", "box", "cylinder", "mesh", "at", "on", "channel", "when"];
+const BODY: &[&str] = &["name", "box", "cylinder", "mesh", "at", "on", "channel", "when", "may_touch"];
 /// What a body may be fixed to.
 const HOLDERS: &[&str] = &["world", "flange"];
 /// No cell is larger, in mm.
@@ -24,8 +24,10 @@ pub struct Body {
     pub at: Frame,
     /// The channel, from 1, whose robot carries it on its flange; `None`: it stands in the world.
     pub carried_by: Option<u32>,
-    /// It is there only while this digital input or output is on.
-    pub when: Option<Signal>,
+    /// It is there only while this digital input or output has this level.
+    pub when: Option<(Signal, bool)>,
+    /// The names of bodies, and of parts of robots, that it may touch.
+    pub may_touch: Vec<String>,
 }
 
 /// The form of a body, around its middle.
@@ -49,13 +51,13 @@ impl Body {
     pub(super) fn read_all(
         top: &Section<'_>,
         (channels, names): (&Channels, &Names),
-        folder: &Path,
+        (foreground, folder): (u32, &Path),
     ) -> Result<Vec<Self>, SettingsError> {
         let tables = super::tables(top, "body", "tables that begin with [[body]]")?;
         let mut bodies: Vec<Self> = Vec::new();
         for value in tables {
             let section = table(top.source, value, "[[body]]", BODY)?;
-            let body = Self::read(&section, value, (channels, names), folder)?;
+            let body = Self::read(&section, value, (channels, names), (foreground, folder))?;
             if bodies.iter().any(|other| other.name == body.name) {
                 return Err(top.source.error(value.span(), format!("there is another [[body]] named `{}`", body.name)));
             }
@@ -68,10 +70,14 @@ impl Body {
         section: &Section<'_>,
         value: &Value<'_>,
         (channels, names): (&Channels, &Names),
-        folder: &Path,
+        (foreground, folder): (u32, &Path),
     ) -> Result<Self, SettingsError> {
         let lacks = |what: &str| section.source.error(value.span(), format!("this [[body]] lacks {what}"));
-        let name = section.text("name", "what it is called, like \"table\"")?.ok_or_else(|| lacks("`name`"))?;
+        let what = "what it is called, like \"table\"";
+        let name = section.text("name", what)?.ok_or_else(|| lacks("`name`"))?;
+        if let (Some(found), true) = (section.find("name"), name.is_empty() || name.contains(char::is_control)) {
+            return Err(section.wrong("name", found, what));
+        }
         let holder = section.text("on", "\"world\" or \"flange\"")?.unwrap_or("world");
         if !HOLDERS.contains(&holder) {
             let text =
@@ -81,11 +87,11 @@ impl Body {
         let channel = match section.find("channel") {
             None => 1,
             Some(found) => match number(found.get_ref()) {
-                Some(channel) if channel.fract() == 0.0 && (1.0..=MOST_FOREGROUND as f64).contains(&channel) => {
+                Some(channel) if channel.fract() == 0.0 && (1.0..=f64::from(foreground)).contains(&channel) => {
                     channel as u32
                 }
                 _ => {
-                    let expected = format!("the channel of the robot that carries it, from 1 to {MOST_FOREGROUND}");
+                    let expected = format!("the channel of the robot that carries it, from 1 to {foreground}");
                     return Err(section.wrong("channel", found, &expected));
                 }
             },
@@ -100,6 +106,7 @@ impl Body {
             at: place(section)?,
             carried_by: (holder == "flange").then_some(channel),
             when: when(section, channels, names)?,
+            may_touch: may_touch(section)?,
         })
     }
 }
@@ -155,9 +162,18 @@ fn place(section: &Section<'_>) -> Result<Frame, SettingsError> {
     }
 }
 
-fn when(section: &Section<'_>, channels: &Channels, names: &Names) -> Result<Option<Signal>, SettingsError> {
-    let expected = "a digital input or output, like \"do.1\"";
+fn may_touch(section: &Section<'_>) -> Result<Vec<String>, SettingsError> {
+    let Some(value) = section.find("may_touch") else { return Ok(Vec::new()) };
+    let names = value.get_ref().as_array().and_then(|all| all.iter().map(|one| one.get_ref().as_str()).collect());
+    let names: Option<Vec<&str>> = names;
+    let expected = "the names of bodies and of parts of robots, like [\"table\", \"the hand\"]";
+    Ok(names.ok_or_else(|| section.wrong("may_touch", value, expected))?.into_iter().map(str::to_owned).collect())
+}
+
+fn when(section: &Section<'_>, channels: &Channels, names: &Names) -> Result<Option<(Signal, bool)>, SettingsError> {
+    let expected = "a digital input or output, like \"do.1\", or \"!do.1\" where it is to be off";
     let (Some(text), Some(value)) = (section.text("when", expected)?, section.find("when")) else { return Ok(None) };
+    let (text, level) = text.strip_prefix('!').map_or((text, true), |text| (text, false));
     let signal = names.signal(text).or_else(|| Signal::parse(text));
     let is_digital = |signal: &Signal| matches!(signal.kind, SignalKind::DigitalInput | SignalKind::DigitalOutput);
     let Some(signal) = signal.filter(is_digital) else {
@@ -169,7 +185,7 @@ fn when(section: &Section<'_>, channels: &Channels, names: &Names) -> Result<Opt
         let text = format!("the cell has {kind}.1 to {kind}.{most}, found {found}");
         return Err(section.source.error(value.span(), text));
     }
-    Ok(Some(signal))
+    Ok(Some((signal, level)))
 }
 
 #[cfg(test)]
@@ -182,14 +198,19 @@ mod tests {
         let text = "[names]\n\"do.3\" = \"gripper\"\n\
                     [[body]]\nname = \"table\"\nbox = [800, 600, 40]\nat = [900, 0, -20]\n\
                     [[body]]\nname = \"part\"\ncylinder = [20, 50.5]\nat = [0, 0, 100, 90, 0, 0]\non = \"flange\"\nwhen = \"gripper\"\n\
-                    [[body]]\nname = \"fixture\"\nmesh = \"fixture.stl\"\n\
-                    [[body]]\nname = \"tool\"\nbox = [1, 2, 3]\non = \"flange\"\nchannel = 2\n";
+                    [[body]]\nname = \"fixture\"\nmesh = \"fixture.stl\"\nwhen = \"!di.1\"\nmay_touch = [\"part\"]\n\
+                    [[body]]\nname = \"tool\"\nbox = [1, 2, 3]\non = \"flange\"\nchannel = 2\n\
+                    [[channel]]\nprogram = \"b.arl\"\n";
         let cell = Cell::parse("cells/a.toml", text).unwrap();
         let [table, part, fixture, tool] = &cell.bodies[..] else { panic!("four") };
         assert_eq!((&table.solid, table.carried_by, table.when), (&Solid::Box([800.0, 600.0, 40.0]), None, None));
         assert_eq!(table.at, frame([900.0, 0.0, -20.0, 0.0, 0.0, 0.0]));
         assert_eq!(part.solid, Solid::Cylinder { radius: 20.0, length: 50.5 });
-        assert_eq!((part.carried_by, part.when), (Some(1), Signal::parse("do.3")));
+        assert_eq!((part.carried_by, part.when), (Some(1), Signal::parse("do.3").map(|signal| (signal, true))));
+        assert_eq!(
+            (fixture.when, &fixture.may_touch[..]),
+            (Signal::parse("di.1").map(|signal| (signal, false)), &["part".into()][..])
+        );
         assert_eq!(fixture.solid, Solid::Mesh(PathBuf::from("cells/fixture.stl")));
         assert_eq!(tool.carried_by, Some(2));
     }
@@ -206,8 +227,10 @@ mod tests {
             ("[[body]]\nname = \"a\"\ncylinder = [-1, 2]", 3, "its radius and its length"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nat = [1, 2]", 4, "x, y, z in mm"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\non = \"flansh\"", 4, "did you mean `flange`?"),
-            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nchannel = 2", 4, "this one stands in the world"),
-            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\non = \"flange\"\nchannel = 7", 5, "from 1 to 6"),
+            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nchannel = 1", 4, "this one stands in the world"),
+            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\non = \"flange\"\nchannel = 2", 5, "from 1 to 1"),
+            ("[[body]]\nname = \"\"\nbox = [1, 2, 3]", 2, "what it is called"),
+            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nmay_touch = \"b\"", 4, "the names of bodies"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nwhen = \"ai.1\"", 4, "a digital input or output"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nwhen = \"do.65\"", 4, "the cell has do.1 to do.64"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\ncolour = 1", 4, "has no key `colour`"),

@@ -152,7 +152,10 @@ impl Cell {
         cell.islands = Island::read_all(source, top.find("island"), &cell.channels)?;
         let folder = Path::new(file).parent().unwrap_or(Path::new(""));
         cell.programs = Programs::read(&top, folder)?;
-        cell.bodies = Body::read_all(&top, (&cell.channels, &cell.names), folder)?;
+        cell.bodies = {
+            let others = cell.programs.channels.iter().filter(|channel| !channel.background).count();
+            Body::read_all(&top, (&cell.channels, &cell.names), (1 + others as u32, folder))?
+        };
         cell.external = Wiring::read(&top, &cell.channels)?;
         cell.homes = Homes::of_cell(&top)?;
         cell.collisions = collisions(&top)?;

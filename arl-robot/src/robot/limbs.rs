@@ -27,7 +27,7 @@ pub struct Limb {
 }
 
 impl Robot {
-    /// Its limbs, from the base to the flange. Neighbours overlap.
+    /// Its limbs, from the base to the flange, beyond which the last one does not reach. Neighbours overlap.
     pub fn limbs(&self) -> Vec<Limb> {
         let limb = |name, link: usize, from: [f64; 3], to: [f64; 3], radius: f64| Limb {
             name,
@@ -46,7 +46,7 @@ impl Robot {
                     limb("the upper arm", 2, [0.0; 3], [0.0, 0.0, p.c2], UPPER_ARM * reach),
                     limb("the elbow", 3, [0.0; 3], elbow, UPPER_ARM * reach),
                     limb("the forearm", 3, elbow, [p.a2, 0.0, p.c3], FOREARM * reach),
-                    limb("the hand", 6, [0.0; 3], [0.0, 0.0, p.c4], HAND * reach),
+                    limb("the hand", 6, [0.0; 3], [0.0, 0.0, (p.c4 - HAND * reach).max(0.0)], HAND * reach),
                 ]
             }
             Kinematics::Scara(scara) => {
@@ -59,7 +59,7 @@ impl Robot {
                     limb("the base", 0, [0.0; 3], [0.0, 0.0, arms], COLUMN * reach),
                     limb("arm 1", 1, [0.0, 0.0, arms], [scara.l1, 0.0, arms], COLUMN * reach),
                     limb("arm 2", 2, [0.0, 0.0, arms], [scara.l2, 0.0, arms], COLUMN * reach),
-                    limb("the spindle", 3, [0.0, 0.0, spindle], [0.0; 3], HAND * reach),
+                    limb("the spindle", 3, [0.0, 0.0, spindle], [0.0, 0.0, HAND * reach], HAND * reach),
                 ]
             }
         }

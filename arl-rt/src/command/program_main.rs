@@ -14,7 +14,7 @@ use crate::builtins::time;
 use crate::command::between::{Beat, Between};
 use crate::command::coverage;
 use crate::command::debug;
-use crate::command::live::{self, Cut, LineWriter, Recording};
+use crate::command::live::{self, Cut, LineWriter, Recording, Wishes};
 use crate::command::report;
 use crate::command::say::say;
 use crate::context::program::Program;
@@ -62,9 +62,10 @@ Options:
                         say what happens as JSON lines on the standard output
   --debug ADDRESS       connect to a debugger there, which says when to run: for programs
                         that were made for one
-  --record ADDRESS      connect to a recorder there (arl2rs run --record) and say what
+  --listener ADDRESS    connect to a listener there (arl2rs run --record) and say what
                         happens, as --live does
-  --each-cycle          say to the recorder in each cycle where the robots are
+  --each-cycle          say to the listener in each cycle where the robots are
+  --each-motion         say to the listener at the end what each motion did
   --coverage FILE       write how often each statement ran: for programs that were made
                         for a debugger
   --loop                the loop running mode: a program that ends is reset and begins
@@ -94,8 +95,8 @@ struct Options {
     state_dir: Option<PathBuf>,
     io: Option<PathBuf>,
     trace: Option<PathBuf>,
-    record: Option<String>,
-    each_cycle: bool,
+    listener: Option<String>,
+    wishes: Wishes,
     report: Option<Report>,
     cycle_time: Option<PathBuf>,
     max_time: Option<f64>,
@@ -262,8 +263,8 @@ fn parse(
         state_dir: None,
         io: None,
         trace: None,
-        record: None,
-        each_cycle: false,
+        listener: None,
+        wishes: Wishes::default(),
         report: None,
         cycle_time: None,
         max_time: None,
@@ -289,8 +290,9 @@ fn parse(
             Long("state-dir") => options.state_dir = Some(parser.value()?.into()),
             Long("io") => options.io = Some(parser.value()?.into()),
             Long("trace") => options.trace = Some(parser.value()?.into()),
-            Long("each-cycle") => options.each_cycle = true,
-            Long("record") => options.record = Some(parser.value()?.string()?),
+            Long("each-cycle") => options.wishes.each_cycle = true,
+            Long("each-motion") => options.wishes.each_motion = true,
+            Long("listener") => options.listener = Some(parser.value()?.string()?),
             Long("report") => {
                 options.report = Some(parser.optional_value().map_or(Report::Table, |file| Report::File(file.into())));
             }
@@ -363,19 +365,21 @@ fn run(
     };
     let repeats = options.repeats;
     let voice = options.live.then(LineWriter::standard);
-    let connect =
-        |address: String| Recording::connect(&address, options.each_cycle, real).map_err(|error| (address, error));
-    let recording = match options.record.clone().filter(|_| voice.is_none()).map(connect).transpose() {
+    let connect = |address: String| Recording::connect(&address, options.wishes).map_err(|error| (address, error));
+    let recording = match options.listener.clone().filter(|_| voice.is_none()).map(connect).transpose() {
         Ok(recording) => recording,
         Err((address, error)) => {
-            tell(format_args!("error: there is no recorder at {address}: {error}"));
+            tell(format_args!("error: there is no listener at {address}: {error}"));
             return EXIT_USAGE;
         }
     };
     let controller = set_up(options, others).and_then(|builder| {
         let builder = match (&voice, &recording) {
             (Some(voice), _) => builder.output(voice.messages()),
-            (None, Some(recording)) => builder.output(recording.output()).record_motions(),
+            (None, Some(recording)) => {
+                let builder = builder.output(recording.output());
+                if recording.wishes().each_motion { builder.record_motions() } else { builder }
+            }
             (None, None) => builder,
         };
         builder.build(program).map_err(SetupFailure::from)
@@ -488,7 +492,8 @@ fn watch(
     };
     while !is_over(controller, code.is_some()) {
         let beat = between.as_mut().map_or(Beat::Runs, |between| between.cycle_begins(controller));
-        if code.is_none() && (interrupted.load(Ordering::Relaxed) || beat == Beat::Ends) {
+        let is_alone = recording.as_ref().is_some_and(Recording::is_gone);
+        if code.is_none() && (interrupted.load(Ordering::Relaxed) || is_alone || beat == Beat::Ends) {
             code = Some(EXIT_INTERRUPTED);
             controller.stop();
             tell(format_args!("interrupted: the robot stops on its path"));
@@ -520,7 +525,10 @@ fn watch(
     }
     controller.settle_state();
     say(controller, sources, recording.as_ref());
-    recording.iter().for_each(|recording| recording.run_ended(controller));
+    let lost = recording.iter().map(|recording| recording.run_ended(controller)).sum::<u64>();
+    if lost > 0 {
+        warn(&format!("who listens was too slow for real time: {lost} lines of what happened are left out"));
+    }
     between.into_iter().for_each(|mut between| between.run_ended(controller));
     match (code, controller.outcome()) {
         (Some(code), _) => code,

@@ -84,19 +84,25 @@ impl Controller {
         }
     }
 
-    /// Where the robots are: of each channel the line of its motion, 0 where nothing has moved, and the axes that there are; none of a
-    /// background channel.
-    pub(crate) fn each_robot(&self, mut each: impl FnMut(u32, &[f64], &[f64])) {
+    /// Where the robots are: of each channel the place of its motion, where something has moved, the base (x, y, z in mm, a, b, c in deg) and
+    /// the axes that there are; none of a background channel.
+    pub(crate) fn each_robot(&self, mut each: impl FnMut(Option<(File, u32)>, &[f64], &[f64], &[f64])) {
         for channel in self.channels.iter() {
             let Some(unit) = channel.channel_state().robot() else {
-                each(0, &[], &[]);
+                each(None, &[], &[], &[]);
                 continue;
             };
             let (robot, joints) = (unit.robot(), unit.setpoint());
             let own = joints.axes.get(..robot.own_axes().len()).unwrap_or_default();
             let external = joints.external.get(..robot.external_axes().len()).unwrap_or_default();
-            each(unit.motion_pointer().map_or(0, |(_, line)| line), own, external);
+            each(unit.motion_pointer(), &unit.base_in_world(), own, external);
         }
+    }
+
+    /// The levels of the digital inputs and outputs, from channel 1.
+    pub(crate) fn with_levels(&self, see: impl FnOnce(&[bool], &[bool])) {
+        let io = self.shared.io.borrow();
+        see(io.inputs().levels(), io.outputs().levels());
     }
 
     /// How the channels stand.

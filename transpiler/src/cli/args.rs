@@ -33,7 +33,7 @@ pub(super) enum Command {
         #[arg(long, value_name = "N", default_value_t = MOST_SHOWN)]
         max_errors: usize,
         /// Run programs without mistakes on the virtual clock, with the scenario of their arl.toml, and find what their robots run into.
-        #[arg(long)]
+        #[arg(long, conflicts_with = "background")]
         collisions: bool,
         /// With --collisions: also what comes nearer to each other than so many mm.
         #[arg(long, value_name = "MM", value_parser = clearance, requires = "collisions")]

@@ -38,10 +38,10 @@ pub(super) fn check(
     }
     let mut refused = false;
     for (checking, files) in &groups {
-        let mistaken = check_group(files, format, &mut limit, checking)?;
+        let Checked { mistaken, programs } = check_group(files, format, &mut limit, checking)?;
         refused |= mistaken;
-        if let Some(look) = look.filter(|_| !mistaken) {
-            for file in files.iter().filter(|file| has_main(file, checking)) {
+        if let Some(look) = look {
+            for file in programs {
                 refused |= collide::check(file, checking, look)?;
             }
         }
@@ -49,15 +49,21 @@ pub(super) fn check(
     Ok(if refused { ExitCode::from(COMPILE_ERRORS) } else { ExitCode::SUCCESS })
 }
 
-/// Whether a file is a program, and no module of one.
-fn has_main(file: &Path, checking: &Checking) -> bool {
-    let Ok(options) = check_options(checking) else { return false };
-    !is_data(file)
-        && check_program(file, &FileSystem, &options).is_ok_and(|compiled| compiled.checked.program.is_some())
+/// What came of checking some files.
+struct Checked<'a> {
+    /// Whether there were errors.
+    mistaken: bool,
+    /// The programs without errors that run first, in channel 1.
+    programs: Vec<&'a Path>,
 }
 
-/// Checks files that are for the same robot and cell. Whether there were errors.
-fn check_group(files: &[PathBuf], format: Format, limit: &mut Limit, checking: &Checking) -> Result<bool, Failure> {
+/// Checks files that are for the same robot and cell.
+fn check_group<'a>(
+    files: &'a [PathBuf],
+    format: Format,
+    limit: &mut Limit,
+    checking: &Checking,
+) -> Result<Checked<'a>, Failure> {
     let options = options(checking)?;
     cell_fits(checking)?;
     let others = several::named(checking.cell.as_deref(), checking.robot.as_deref())?;
@@ -79,6 +85,7 @@ fn check_group(files: &[PathBuf], format: Format, limit: &mut Limit, checking: &
     let said = (all.len() + modules.len() > 1).then(HashSet::new);
     let mut reporter = Reporter { format, limit, said };
     let mut refused = false;
+    let mut found = Vec::new();
     let mut later = Vec::new();
     for (file, options) in all {
         let compiled = check_program(file, &FileSystem, &options)?;
@@ -89,12 +96,19 @@ fn check_group(files: &[PathBuf], format: Format, limit: &mut Limit, checking: &
         if compiled.checked.program.is_none() && file.canonicalize().is_ok_and(|path| used.contains(&path)) {
             compiled = as_module(file, &options)?;
         }
+        let runs = compiled.checked.program.is_some();
         refused |= reporter.report(compiled)?;
+        found.extend(runs.then_some(file));
     }
     for file in modules {
         refused |= reporter.report(as_module(file, &options)?)?;
     }
-    Ok(refused)
+    // Programs of the cell's other channels run with the first one.
+    let programs = files
+        .iter()
+        .map(PathBuf::as_path)
+        .filter(|file| found.contains(file) && !others.iter().any(|other| same(&other.path, file)));
+    Ok(Checked { mistaken: refused, programs: programs.collect() })
 }
 
 /// The options of a check that is all there is to come. A program that runs meets its robot itself, and one that is

@@ -22,6 +22,11 @@ pub(super) trait Hears {
         false
     }
 
+    /// Whether it wants to hear at the end what each motion did.
+    fn wants_each_motion(&self) -> bool {
+        false
+    }
+
     /// Takes in a line; gives what those behind it are to hear besides.
     fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>>;
 
@@ -57,9 +62,12 @@ impl Listener {
 
     /// Has the program say what happens.
     pub(super) fn ask(&self, command: &mut Command) -> std::io::Result<()> {
-        command.arg("--record").arg(self.listener.local_addr()?.to_string());
+        command.arg("--listener").arg(self.listener.local_addr()?.to_string());
         if self.hearers.iter().any(|hearer| hearer.wants_each_cycle()) {
             command.arg("--each-cycle");
+        }
+        if self.hearers.iter().any(|hearer| hearer.wants_each_motion()) {
+            command.arg("--each-motion");
         }
         Ok(())
     }
@@ -92,7 +100,14 @@ fn accept(listener: &TcpListener, program: &mut Child) -> std::io::Result<Result
             Err(error) => return Err(error),
         }
         if let Some(ended) = program.try_wait()? {
-            return Ok(Err(ended));
+            // It may have said all in the meantime.
+            return match listener.accept() {
+                Ok((stream, _)) => {
+                    stream.set_nonblocking(false)?;
+                    Ok(Ok(stream))
+                }
+                Err(_) => Ok(Err(ended)),
+            };
         }
         std::thread::sleep(LOOK_INTERVAL);
     }
@@ -102,12 +117,23 @@ fn accept(listener: &TcpListener, program: &mut Child) -> std::io::Result<Result
 fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) {
     let mut stream = BufReader::new(stream);
     let mut bytes = Vec::new();
+    let (mut begun, mut understood) = (false, true);
     while matches!(stream.read_until(b'\n', &mut bytes), Ok(1..)) {
-        // A program of another version may say more.
-        if let Ok(line) = serde_json::from_slice(&bytes) {
-            pass_on(line, &mut hearers);
+        match serde_json::from_slice(&bytes) {
+            Ok(line) => {
+                begun |= matches!(line, Line::Hello(_));
+                pass_on(line, &mut hearers);
+            }
+            Err(error) => {
+                if std::mem::replace(&mut understood, false) {
+                    show::warning(&format!("something that the program says is not understood: {error}"));
+                }
+            }
         }
         bytes.clear();
+    }
+    if !begun {
+        return hearers.into_iter().for_each(Hears::nothing_began);
     }
     for hearer in hearers {
         let broken = hearer.broken();

@@ -154,6 +154,14 @@ fn wait(mut command: Command, listener: Option<Listener>, ready: Ready) -> Resul
         Some(listener) => listener.hear(&mut child),
         None => child.wait(),
     };
-    let status = ended.map_err(fail)?;
-    Ok(ExitCode::from(u8::try_from(status.code().unwrap_or(1)).unwrap_or(1)))
+    Ok(ExitCode::from(code(ended.map_err(fail)?)))
+}
+
+/// The exit code of a program, as a shell has it.
+fn code(ended: std::process::ExitStatus) -> u8 {
+    #[cfg(unix)]
+    let by_signal = std::os::unix::process::ExitStatusExt::signal(&ended).map(|signal| 128 + signal);
+    #[cfg(not(unix))]
+    let by_signal = None;
+    ended.code().or(by_signal).and_then(|code| u8::try_from(code).ok()).unwrap_or(1)
 }

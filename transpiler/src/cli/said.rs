@@ -27,6 +27,8 @@ pub(super) enum Line {
     Refused(Refused),
     /// What a motion did, or a channel: an object of the report.
     Report(serde_json::Value),
+    /// Nothing more comes.
+    Ended(()),
     /// What came too near to each other: not the program says it, but who watches where robots are.
     #[serde(skip)]
     Contact(Contact),
@@ -77,13 +79,20 @@ pub(super) struct Cycle {
     /// Controller time in s.
     pub(super) time: f64,
     pub(super) channels: Vec<Moves>,
+    /// Levels in a row, from channel 1.
+    pub(super) di: String,
+    #[serde(rename = "do")]
+    pub(super) dout: String,
 }
 
 /// Where the robot of a channel is.
 #[derive(Clone, PartialEq, Default, Deserialize, Debug)]
 pub(super) struct Moves {
-    /// The line of the motion that is executed, or was last; 0: none yet.
+    /// The place of the motion that is executed, or was last; line 0: none yet.
+    pub(super) file: String,
     pub(super) line: u32,
+    /// x, y, z in mm, a, b, c in deg, in the world, once something has moved.
+    pub(super) base: Vec<f64>,
     /// deg, mm
     pub(super) axes: Vec<f64>,
 }

@@ -47,6 +47,24 @@ fn a_check_finds_collisions_before_anybody_looks() {
     folder.write("c.arl", "func void main()\n  movej\nendfunc\n");
     folder.arl2rs(&["check", "--collisions", "c.arl"]).is(1, "").says("ARL04");
     folder.arl2rs(&["check", "--clearance", "5", "a.arl"]).is(2, "").says("--collisions");
+    // A run that fails finds nothing, and does not say that there is nothing.
+    folder.write("arl.toml", "cell = \"cell.toml\"\nio = \"none.toml\"\n");
+    folder.arl2rs(&["check", "--collisions", "a.arl"]).is(2, "").says("its run failed").says("none.toml");
+    folder.write("island.toml", "[[island]]\naddress = \"127.0.0.1\"\ndi = [{ channel = 1, discrete_input = 0 }]\n");
+    folder.write("arl.toml", "");
+    let refused = folder.arl2rs(&["check", "--collisions", "--cell", "island.toml", "a.arl"]);
+    refused.is(2, "").says("a check runs no program whose cell has [[island]]");
+}
+
+#[test]
+fn programs_of_other_channels_run_beside_the_first_one() {
+    let folder = folder("collisions_channels");
+    folder.write("two.toml", &format!("{TABLE}[[channel]]\nprogram = \"b.arl\"\n"));
+    folder.write("b.arl", "func void main()\n  $BASE[0] = {{6000,0,0,0,0,0}}\n  movej j:{0,-90,90,0,0,0}\nendfunc\n");
+    let found = folder.arl2rs(&["check", "--collisions", "--cell", "two.toml", "a.arl", "b.arl"]);
+    found.is(1, "").says("the forearm of channel 1 touches table");
+    assert!(!found.err.contains("of channel 2"), "{}", found.err);
+    assert_eq!(found.err.matches("the forearm of channel 1 touches table").count(), 1, "{}", found.err);
 }
 
 #[test]
@@ -61,7 +79,6 @@ fn broken_bodies_are_refused_before_the_run() {
         let answer = folder.arl2rs(&["run", "a.arl", "--cell", "bad.toml"]);
         answer.is(2, "").says(words);
     }
-    // On the flange of a channel without a robot: told, and the program runs.
     folder.write("bad.toml", "[[body]]\nname = \"jig\"\nbox = [10, 10, 10]\non = \"flange\"\nchannel = 2\n");
-    folder.arl2rs(&["run", "a.arl", "--cell", "bad.toml"]).is(0, "done\n").says("which has no robot");
+    folder.arl2rs(&["run", "a.arl", "--cell", "bad.toml"]).is(2, "").says("from 1 to 1");
 }

@@ -41,6 +41,8 @@ fn whatever_ends_a_run_its_recording_is_whole() {
     // What does not begin is not recorded.
     folder.arl2rs(&["run", "alarm.arl", "--record", "none.mcap", "--robot", "none"]).is(2, "");
     assert!(!folder.has("none.mcap"));
+    folder.arl2rs(&["run", "alarm.arl", "--record", "none.mcap", "--io", "none.toml"]).is(2, "");
+    assert!(!folder.has("none.mcap"));
     folder.arl2rs(&["run", "alarm.arl", "--record", "no/folder.mcap"]).is(1, "").says("cannot write no/folder.mcap");
 }
 
@@ -57,6 +59,32 @@ fn a_program_goes_on_where_its_recording_cannot_be_written() {
     let said = String::from_utf8_lossy(&answer.stderr);
     assert_eq!((answer.status.code(), &*answer.stdout), (Some(0), &b"go\nthere\n"[..]), "{said}");
     assert!(said.contains("the recording full.mcap is not whole"), "{said}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_program_ends_when_who_records_it_is_killed() {
+    use std::io::Read;
+    let endless = "func void main()\n  loop\n    print \"round\"\n    waittime 0.01\n  endloop\nendfunc\n";
+    let folder = Folder::new("recording_killed").with("a.arl", endless);
+    folder.arl2rs(&["run", "a.arl", "--max-time", "0.1"]);
+    let mut command = folder.command(&["run", "a.arl", "--record", "a.mcap"]);
+    let mut recorder = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("the command starts");
+    // The program holds the other end, too.
+    let mut out = recorder.stdout.take().expect("its output");
+    let mut bytes = vec![0; 1 << 16];
+    out.read_exact(&mut bytes[..100]).expect("it runs");
+    recorder.kill().expect("it is killed");
+    recorder.wait().expect("it has ended");
+    let mut left = 0;
+    loop {
+        let count = out.read(&mut bytes).expect("the rest");
+        if count == 0 {
+            break;
+        }
+        left += count;
+        assert!(left < 500_000_000, "it goes on");
+    }
 }
 
 /// What a script of the peers says of a recording; nothing where the modules that it needs are not installed, and nobody requires them.

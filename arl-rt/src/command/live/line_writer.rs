@@ -1,8 +1,10 @@
 //! States, messages, warnings and alarms go out on a stream, a JSON object a line.
 
+use std::cell::Cell;
 use std::fmt::Write as _;
 use std::io::{BufWriter, Write, stdout};
-use std::sync::mpsc::{SyncSender, sync_channel};
+use std::rc::Rc;
+use std::sync::mpsc::{SyncSender, TrySendError, sync_channel};
 use std::thread::JoinHandle;
 
 use crate::command::json::{array, number, push_array, push_number, quoted};
@@ -26,7 +28,11 @@ pub(crate) struct LineWriter {
 struct Lines {
     /// The last thing sent is nothing: the end.
     waiting: SyncSender<Option<String>>,
-    if_full: IfFull,
+    if_full: Rc<Cell<IfFull>>,
+    /// How many lines were left out though nothing was to be.
+    lost: Rc<Cell<u64>>,
+    /// Whether nobody reads any more.
+    gone: Rc<Cell<bool>>,
 }
 
 /// What becomes of a line where nobody reads as fast.
@@ -36,25 +42,33 @@ pub(crate) enum IfFull {
     StatesAreLost,
     /// It waits.
     Waits,
-    /// It is left out, whatever it is.
+    /// It is left out, whatever it is, and counted.
     IsLost,
 }
 
 impl Lines {
     /// Something that is said once.
     fn say(&self, line: String) {
-        let _ = match self.if_full {
-            IfFull::IsLost => self.waiting.try_send(Some(line)).ok(),
-            IfFull::Waits | IfFull::StatesAreLost => self.waiting.send(Some(line)).ok(),
-        };
+        self.send(line, self.if_full.get() == IfFull::IsLost);
     }
 
     /// How something stands, which is said again and again.
     fn state(&self, line: String) {
-        let _ = match self.if_full {
-            IfFull::Waits => self.waiting.send(Some(line)).ok(),
-            IfFull::IsLost | IfFull::StatesAreLost => self.waiting.try_send(Some(line)).ok(),
+        self.send(line, self.if_full.get() != IfFull::Waits);
+    }
+
+    fn send(&self, line: String, may_be_lost: bool) {
+        let sent = if may_be_lost {
+            self.waiting.try_send(Some(line))
+        } else {
+            self.waiting.send(Some(line)).map_err(|unsent| TrySendError::Disconnected(unsent.0))
         };
+        match sent {
+            Ok(()) => {}
+            Err(TrySendError::Full(_)) if self.if_full.get() == IfFull::IsLost => self.lost.set(self.lost.get() + 1),
+            Err(TrySendError::Full(_)) => {}
+            Err(TrySendError::Disconnected(_)) => self.gone.set(true),
+        }
     }
 }
 
@@ -82,7 +96,26 @@ impl LineWriter {
                 }
             }
         });
-        Self { lines: Lines { waiting: lines, if_full }, writer: Some(writer) }
+        let if_full = Rc::new(Cell::new(if_full));
+        Self {
+            lines: Lines { waiting: lines, if_full, lost: Rc::default(), gone: Rc::default() },
+            writer: Some(writer),
+        }
+    }
+
+    /// Says what becomes of lines from now on where nobody reads as fast.
+    pub(super) fn if_full(&self, if_full: IfFull) {
+        self.lines.if_full.set(if_full);
+    }
+
+    /// How many lines were left out because they were not to wait.
+    pub(super) fn lost(&self) -> u64 {
+        self.lines.lost.get()
+    }
+
+    /// Whether nobody reads any more.
+    pub(super) fn is_gone(&self) -> bool {
+        self.lines.gone.get()
     }
 
     /// Takes the messages of a program.
@@ -99,7 +132,7 @@ impl LineWriter {
         self.lines.say(format!("{{\"hello\":{{\"channels\":{channels},\"names\":{{{names}}}}}}}\n"));
     }
 
-    /// How everything stands. It is left out where nobody reads as fast.
+    /// How everything stands.
     pub(super) fn state(&self, controller: &Controller) {
         let mut line = String::with_capacity(1024);
         push_state(&mut line, controller);
@@ -142,6 +175,11 @@ impl LineWriter {
     /// What a motion did, or a channel: an object of the report.
     pub(super) fn report(&self, object: &str) {
         self.lines.say(format!("{{\"report\":{object}}}\n"));
+    }
+
+    /// Nothing more comes.
+    pub(super) fn ended(&self) {
+        self.lines.say("{\"ended\":null}\n".into());
     }
 
     /// An order that could not be carried out.
@@ -208,9 +246,6 @@ fn axes(status: &RobotStatus) -> Vec<f64> {
 /// Adds a line that says how everything stands.
 pub(super) fn push_state(out: &mut String, controller: &Controller) {
     let status = controller.status();
-    let levels = |out: &mut String, levels: &[bool]| {
-        out.extend(levels.iter().map(|on| if *on { '1' } else { '0' }));
-    };
     out.push_str("{\"state\":{\"time\":");
     push_number(out, status.time);
     let _ = write!(out, ",\"mode\":\"{}\",\"override\":", status.mode.name());
@@ -218,9 +253,9 @@ pub(super) fn push_state(out: &mut String, controller: &Controller) {
     out.push_str(",\"channels\":");
     push_array(out, &status.channels, push_channel);
     out.push_str(",\"di\":\"");
-    levels(out, &status.di);
+    push_levels(out, &status.di);
     out.push_str("\",\"do\":\"");
-    levels(out, &status.dout);
+    push_levels(out, &status.dout);
     out.push_str("\",\"ai\":");
     push_array(out, status.ai.iter().copied(), push_number);
     out.push_str(",\"ao\":");
@@ -228,19 +263,35 @@ pub(super) fn push_state(out: &mut String, controller: &Controller) {
     out.push_str("}}\n");
 }
 
-/// Adds a line that says where the robots are: of each channel the line of its motion, and the axes.
+/// Adds a line that says where the robots are: of each channel the place of its motion, the base and the axes; with the inputs and outputs, as
+/// these say which bodies are there.
 pub(super) fn push_cycle(out: &mut String, controller: &Controller) {
     out.push_str("{\"cycle\":{\"time\":");
     push_number(out, controller.time());
     out.push_str(",\"channels\":[");
     let mut first = true;
-    controller.each_robot(|line, own, external| {
-        let _ = write!(out, "{}{{\"line\":{line},\"axes\":", if first { "" } else { "," });
+    controller.each_robot(|motion, base, own, external| {
+        let (file, line) = motion.map_or(("", 0), |(file, line)| (file.name(), line));
+        let comma = if first { "" } else { "," };
+        let _ = write!(out, "{comma}{{\"file\":{},\"line\":{line},\"base\":", quoted(file));
+        push_array(out, base.iter().copied(), push_number);
+        out.push_str(",\"axes\":");
         push_array(out, own.iter().chain(external).copied(), push_number);
         out.push('}');
         first = false;
     });
-    out.push_str("]}}\n");
+    out.push_str("],\"di\":\"");
+    controller.with_levels(|di, dout| {
+        push_levels(out, di);
+        out.push_str("\",\"do\":\"");
+        push_levels(out, dout);
+    });
+    out.push_str("\"}}\n");
+}
+
+/// Adds levels in a row.
+fn push_levels(out: &mut String, levels: &[bool]) {
+    out.extend(levels.iter().map(|on| if *on { '1' } else { '0' }));
 }
 
 fn push_channel(out: &mut String, status: &ChannelStatus) {

@@ -10,6 +10,9 @@
 //! The first line that goes out is `{"hello":...}`: the channels with their programs, robots, axes and links, and the names of
 //! signals. Then come `state` (20 times a second), `inside` (4 times a second), `message`, `warning`, `alarm`, and `refused`
 //! for an order that could not be carried out.
+//!
+//! Who only listens (`--listener`) hears the same, `cycle` where it asks for each cycle (where the robots are, and the levels of inputs and
+//! outputs), `report` where it asks for each motion (an object of `--report=FILE`), and `ended` at last.
 
 mod line_writer;
 mod orders;
@@ -21,7 +24,7 @@ use crate::controller::{Controller, Outcome};
 use orders::{Next, Orders};
 
 pub(crate) use line_writer::LineWriter;
-pub(crate) use recording::Recording;
+pub(crate) use recording::{Recording, Wishes};
 
 /// How often a state goes out, in s.
 const STATE_INTERVAL_S: f64 = 0.05;

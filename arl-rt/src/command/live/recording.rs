@@ -1,7 +1,8 @@
-//! A run that another program records: what `--live` says goes out to an address, in virtual time, too, and nothing comes in.
+//! A run that somebody listens to: what `--live` says goes out to an address, in virtual time, too, and nothing comes in.
 //!
-//! A state goes out every 4 ms of controller time; where the robots are, in each cycle, if that is asked for. On the virtual clock the run waits where the recorder is slower, so that nothing is lost;
-//! in real time no cycle waits, and what the recorder does not take in time is left out.
+//! A state goes out every 4 ms of controller time. Who asks for it hears in each cycle where the robots are, and at the end what the motions
+//! did. On the virtual clock the run waits where the listener is slower, so that nothing is lost; in real time no cycle waits, and what is not
+//! taken in time is left out and counted. When the listener is gone, the robot stops on its path.
 
 use std::cell::RefCell;
 use std::io;
@@ -15,26 +16,36 @@ use crate::fault::Alarm;
 
 /// How often a state goes out, in s.
 const STATE_INTERVAL_S: f64 = 0.004;
-/// So many bytes go out at once on the virtual clock.
+/// So many bytes go out at once on the virtual clock: a thread is woken less often then.
 const WAITING_BYTES: usize = 1 << 15;
 
-/// The connection to a recorder.
+/// What a listener wants to hear beside states, messages, warnings and alarms.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub(crate) struct Wishes {
+    /// In each cycle, where the robots are.
+    pub(crate) each_cycle: bool,
+    /// At the end, what each motion did.
+    pub(crate) each_motion: bool,
+}
+
+/// The connection to a listener.
 pub(crate) struct Recording {
     voice: LineWriter,
-    /// Whether it goes out in each cycle where the robots are.
-    each_cycle: bool,
-    /// What has not gone out yet, and how long it may get: a thread is woken less often then.
+    wishes: Wishes,
+    /// What has not gone out yet.
     waiting: RefCell<String>,
-    most: usize,
 }
 
 impl Recording {
-    /// Connects to the recorder that listens at an address.
-    pub(crate) fn connect(address: &str, each_cycle: bool, in_real_time: bool) -> io::Result<Self> {
+    /// Connects to the listener at an address.
+    pub(crate) fn connect(address: &str, wishes: Wishes) -> io::Result<Self> {
         let stream = TcpStream::connect(address)?;
-        let if_full = if in_real_time { IfFull::IsLost } else { IfFull::Waits };
-        let most = if in_real_time { 0 } else { WAITING_BYTES };
-        Ok(Self { voice: LineWriter::to(stream, if_full), each_cycle, waiting: RefCell::default(), most })
+        Ok(Self { voice: LineWriter::to(stream, IfFull::Waits), wishes, waiting: RefCell::default() })
+    }
+
+    /// What it wants to hear.
+    pub(crate) fn wishes(&self) -> Wishes {
+        self.wishes
     }
 
     /// The standard output, and the recording beside it.
@@ -42,20 +53,25 @@ impl Recording {
         Both { standard: Stream::standard(), recorded: self.voice.messages() }
     }
 
+    /// Whether nobody listens any more.
+    pub(crate) fn is_gone(&self) -> bool {
+        self.voice.is_gone()
+    }
+
     /// A warning.
     pub(crate) fn warning(&self, text: &str) {
-        self.empty();
+        self.flush();
         self.voice.warning(text);
     }
 
     /// An alarm.
     pub(crate) fn alarm(&self, alarm: &Alarm) {
-        self.empty();
+        self.flush();
         self.voice.alarm(alarm);
     }
 
     /// What waits goes out.
-    fn empty(&self) {
+    fn flush(&self) {
         let waiting = self.waiting.take();
         if !waiting.is_empty() {
             self.voice.states(waiting);
@@ -75,21 +91,30 @@ impl Recording {
         if controller.cycle().is_multiple_of(every) {
             push_state(&mut waiting, controller);
         }
-        if self.each_cycle {
+        if self.wishes.each_cycle {
             push_cycle(&mut waiting, controller);
         }
-        if waiting.len() > self.most {
-            let full = std::mem::replace(&mut *waiting, String::with_capacity(self.most + WAITING_BYTES / 8));
+        // A connection makes virtual time real.
+        let in_real_time = controller.is_real();
+        self.voice.if_full(if in_real_time { IfFull::IsLost } else { IfFull::Waits });
+        if waiting.len() > if in_real_time { 0 } else { WAITING_BYTES } {
+            let full = std::mem::replace(&mut *waiting, String::with_capacity(WAITING_BYTES + WAITING_BYTES / 8));
             self.voice.states(full);
         }
     }
 
-    /// The run has ended: how everything stands, and what the motions did.
-    pub(crate) fn run_ended(&self, controller: &Controller) {
-        self.empty();
+    /// The run has ended: how everything stands, and what the motions did. Returns how many lines were left out.
+    pub(crate) fn run_ended(&self, controller: &Controller) -> u64 {
+        // There is no cycle any more that could be late.
+        self.voice.if_full(IfFull::Waits);
+        self.flush();
         self.voice.state(controller);
-        let report = report::all_json(&controller.all_motions(), controller.time());
-        report.lines().for_each(|object| self.voice.report(object));
+        if self.wishes.each_motion {
+            let report = report::all_json(&controller.all_motions(), controller.time());
+            report.lines().for_each(|object| self.voice.report(object));
+        }
+        self.voice.ended();
+        self.voice.lost()
     }
 }
 

@@ -2,14 +2,16 @@
 
 use parry3d_f64::math::{Pose, Rotation, Vector};
 
-use super::super::said::{LinkJoint, Placed, Runs};
+use super::super::said::{LinkJoint, Moves, Placed, Runs};
 
 /// A robot's arm in its base, which stands in the world; lengths in mm.
 pub(super) struct Arm {
     joints: Vec<Joint>,
     flange: Pose,
+    /// x, y, z in mm, a, b, c in deg; empty as long as that is not known.
     base: Vec<f64>,
     base_pose: Pose,
+    based: u32,
     /// deg (mm)
     axes: Vec<f64>,
     /// From the base, 0, to the last link.
@@ -38,6 +40,7 @@ impl Arm {
             flange: pose(&runs.flange),
             base: Vec::new(),
             base_pose: Pose::IDENTITY,
+            based: 0,
             axes: vec![0.0; runs.links.len()],
             links: Vec::new(),
         };
@@ -45,25 +48,32 @@ impl Arm {
         arm
     }
 
-    /// Says where its base stands: x, y, z in mm, a, b, c in deg. Whether it stood elsewhere before.
-    pub(super) fn stands_on(&mut self, base: &[f64]) -> bool {
-        if self.base == base {
-            return false;
+    /// Takes in where it is. Where its base stands is known once it has moved.
+    pub(super) fn go_to(&mut self, moves: &Moves) {
+        let own = moves.axes.get(..self.joints.len()).unwrap_or(&moves.axes);
+        let is_based = moves.line > 0;
+        let base = if is_based { &moves.base[..] } else { &[] };
+        if own == self.axes && base == self.base {
+            return;
         }
-        base.clone_into(&mut self.base);
-        if let Ok(base) = <[f64; 6]>::try_from(base) {
-            self.base_pose = of_frame(&arl_robot::kinematics::frame(base));
+        own.clone_into(&mut self.axes);
+        if base != self.base {
+            base.clone_into(&mut self.base);
+            let frame = <[f64; 6]>::try_from(base).map(arl_robot::kinematics::frame).unwrap_or_default();
+            self.base_pose = of_frame(&frame);
+            self.based += 1;
         }
         self.place_links();
-        true
     }
 
-    pub(super) fn go_to(&mut self, axes: &[f64]) {
-        let own = axes.get(..self.joints.len()).unwrap_or(axes);
-        if own != self.axes {
-            own.clone_into(&mut self.axes);
-            self.place_links();
-        }
+    /// Whether it is known where its base stands.
+    pub(super) fn is_based(&self) -> bool {
+        !self.base.is_empty()
+    }
+
+    /// How often its base came to stand elsewhere.
+    pub(super) fn based(&self) -> u32 {
+        self.based
     }
 
     fn place_links(&mut self) {
@@ -104,8 +114,8 @@ impl Arm {
         &self.axes
     }
 
-    /// The most that a place of a link moves against another link before it, in mm, while the axes go from `before` to where they are now. The
-    /// place is no farther from the link's origin than `away`.
+    /// The most that a place of the last of these links moves against the link before the first one, in mm, while the axes go from `before`
+    /// to where they are now. The place is no farther from its link's origin than `away`.
     pub(super) fn moved(&self, before: &[f64], links: std::ops::Range<usize>, away: f64) -> f64 {
         // From the last joint on back, each one swings all that is behind it.
         let mut reach = away;

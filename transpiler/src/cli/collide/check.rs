@@ -16,7 +16,11 @@ use super::super::show;
 use super::Collisions;
 
 /// A run ends after so many controller seconds.
-const MOST_SECONDS: f64 = 3600.0;
+const MOST_SECONDS: f64 = 600.0;
+/// Exit codes of a program with which it has run.
+const ENDED: i32 = 0;
+const ALARM: i32 = 3;
+const OUT_OF_TIME: i32 = 4;
 /// The code of what is found, where diagnostics have theirs.
 const CODE: &str = "collision";
 
@@ -29,6 +33,9 @@ pub(in crate::cli) struct Look {
 }
 
 /// Runs a program, and tells what comes too near to each other; whether something does. The scenario is that of its `arl.toml`.
+///
+/// # Errors
+/// The program does not begin, or its cell speaks to the outside, which a check must not.
 pub(in crate::cli) fn check(file: &Path, checking: &Checking, look: Look) -> Result<bool, Failure> {
     let asked = RunOptions {
         robot: checking.robot.clone(),
@@ -41,21 +48,34 @@ pub(in crate::cli) fn check(file: &Path, checking: &Checking, look: Look) -> Res
     let options = RunOptions { state_dir: Some(state.clone()), ..asked.of_program(file)? };
     let cell = options.cell.as_deref().map(Cell::load).transpose();
     let cell = cell.map_err(|error| Failure::Usage(error.to_string()))?.unwrap_or_default();
+    if !cell.islands.is_empty() || cell.buses.modbus_tcp.is_some() {
+        let text = "a check runs no program whose cell has [[island]] or [modbus_tcp]; `run` tells of collisions, too";
+        return Err(Failure::Usage(format!("{}: {text}", file.display())));
+    }
     let (collisions, found) = Collisions::new(&cell, look.clearance, false)?;
     let ready = prepare(file, options.cell.as_deref(), &options.checking())?;
-    let ended = run(ready, &options, Listener::of(vec![Box::new(collisions)])?);
-    // What it kept goes with it.
+    // What another process of that number left there.
     let _ = std::fs::remove_dir_all(&state);
-    if let Some(early) = ended? {
-        show::warning(&format!("{}: {early}, so what would come behind that is not known", file.display()));
-    }
+    let ended = run(ready, &options, Listener::of(vec![Box::new(collisions)])?);
+    let _ = std::fs::remove_dir_all(&state);
+    let (code, why) = ended?;
     let found = found.borrow();
-    found.iter().try_for_each(|contact| tell(file, contact, look.format))?;
-    Ok(!found.is_empty())
+    match code {
+        Some(ENDED) => {}
+        Some(ALARM | OUT_OF_TIME) if found.begun => {
+            let text =
+                format!("{}: its run ended with `{why}`: what would come behind that is not known", file.display());
+            show::warning(&text);
+        }
+        _ => return Err(Failure::Usage(format!("{}: its run failed: {why}", file.display()))),
+    }
+    found.contacts.iter().try_for_each(|contact| tell(file, contact, look.format))?;
+    Ok(!found.contacts.is_empty())
 }
 
-/// Runs the program to its end; what kept it from there, in the words of the program.
-fn run(ready: Ready, options: &RunOptions, listener: Option<Listener>) -> Result<Option<String>, Failure> {
+/// Runs the program; its exit code, and the first words of it that are no warning.
+fn run(ready: Ready, options: &RunOptions, listener: Option<Listener>) -> Result<(Option<i32>, String), Failure> {
+    super::super::cargo::leave_interrupts_to_the_program();
     let mut command = Command::new(&ready.program);
     command.args(options.arguments()).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
     let fail = |error: std::io::Error| Failure::io("start", &ready.program, &error);
@@ -69,12 +89,9 @@ fn run(ready: Ready, options: &RunOptions, listener: Option<Listener>) -> Result
         None => child.wait(),
     };
     let said = reader.join().ok().flatten().unwrap_or_default();
-    if status.map_err(fail)?.success() {
-        return Ok(None);
-    }
     let words = |line: &&str| !line.starts_with("warning") && !line.trim().is_empty();
-    let why = said.lines().find(words).unwrap_or("it ended early");
-    Ok(Some(format!("its run ended with `{}`", why.trim())))
+    let why = said.lines().find(words).unwrap_or("it says no word").trim().to_owned();
+    Ok((status.map_err(fail)?.code(), why))
 }
 
 fn tell(file: &Path, contact: &Contact, format: Format) -> Result<(), Failure> {
@@ -83,7 +100,9 @@ fn tell(file: &Path, contact: &Contact, format: Format) -> Result<(), Failure> {
         Format::Json => {
             let Contact { time, line, one, other, distance, .. } = contact;
             let line = (*line).max(1);
-            let of = if contact.file.is_empty() { file.display().to_string() } else { contact.file.clone() };
+            // As diagnostics name it: from where the command runs.
+            let beside = file.with_file_name(&contact.file);
+            let of = if !contact.file.is_empty() && beside.is_file() { &beside } else { file }.display().to_string();
             let object = json!({
                 "code": CODE, "severity": "error", "message": contact.to_string(), "file": of,
                 "line": line, "column": 1, "end_line": line, "end_column": 1, "help": null,

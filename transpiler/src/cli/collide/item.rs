@@ -20,8 +20,10 @@ pub(super) struct Item {
     pub(super) limb: Option<[f64; 3]>,
     /// How far its places are from its holder's origin at most, in mm.
     pub(super) farthest: f64,
-    /// It is there only while this is on.
-    pub(super) when: Option<Signal>,
+    /// It is there only while this has this level.
+    pub(super) when: Option<(Signal, bool)>,
+    /// The names of what it may touch.
+    pub(super) may_touch: Vec<String>,
 }
 
 /// What an item is fixed to; channels count from 0.
@@ -61,6 +63,7 @@ pub(super) fn limbs(channel: usize, runs: &Runs, several: bool) -> Vec<Item> {
             limb: Some([at as f64, (to - from).length(), limb.radius]),
             farthest: from.length().max(to.length()) + limb.radius,
             when: None,
+            may_touch: Vec::new(),
         }
     };
     runs.limbs.iter().enumerate().map(limb).collect()
@@ -90,5 +93,6 @@ pub(super) fn of_body(body: &Body) -> Result<Item, String> {
         Some(channel) => Holder::Flange { channel: channel as usize - 1 },
     };
     let farthest = place.translation.length() + half;
-    Ok(Item { name: body.name.clone(), shape, holder, at, limb: None, farthest, when: body.when })
+    let (name, may_touch) = (body.name.clone(), body.may_touch.clone());
+    Ok(Item { name, shape, holder, at, limb: None, farthest, when: body.when, may_touch })
 }

@@ -1,7 +1,7 @@
 //! Collisions of a run: each cycle, robots with themselves, with each other, with the bodies of the cell and what they carry.
 //!
-//! The first contact of each pair is told with the time and the line of the motion. With a clearance, so is the nearest that a pair comes to
-//! each other, where that is nearer.
+//! The first contact of each pair is told with the time and the place of the motion. With a clearance, so is the nearest that a pair comes
+//! to each other, where that is nearer.
 
 mod arm;
 mod check;
@@ -15,20 +15,25 @@ use std::cell::RefCell;
 use std::error::Error;
 use std::rc::Rc;
 
-use arl_robot::cell::{Body, Cell, Signal, SignalKind};
+use arl_robot::cell::{Body, Cell, SignalKind};
 use parry3d_f64::math::Pose;
 
 use super::failure::Failure;
 use super::listen::Hears;
-use super::said::{Contact, Cycle, Hello, Line, State};
+use super::said::{Contact, Cycle, Hello, Line};
 use super::show;
 use arm::Arm;
 pub(super) use check::{Look, check};
 use item::{Holder, Item};
-use pair::{Pair, State as PairState};
+use pair::Pair;
 
-/// What was found, for who asked for it: contacts in the order of their times.
-pub(super) type Found = Rc<RefCell<Vec<Contact>>>;
+/// What was found, for who asked for it.
+#[derive(Default, Debug)]
+pub(super) struct Found {
+    /// Whether the program began, so that there was something to look at.
+    pub(super) begun: bool,
+    pub(super) contacts: Vec<Contact>,
+}
 
 /// Watches where robots and bodies are.
 pub(super) struct Collisions {
@@ -38,79 +43,46 @@ pub(super) struct Collisions {
     arms: Vec<Option<Arm>>,
     items: Vec<Item>,
     pairs: Vec<Pair>,
-    /// The file of the motion of each channel.
-    files: Vec<String>,
-    /// The levels of inputs and outputs.
-    levels: [String; 2],
-    found: Found,
+    found: Rc<RefCell<Found>>,
     /// Whether contacts are told as they come.
     tells: bool,
 }
 
 impl Collisions {
-    /// For the bodies of a cell. A mesh that cannot be read is an error.
-    pub(super) fn new(cell: &Cell, clearance: f64, tells: bool) -> Result<(Self, Found), Failure> {
+    /// For the bodies of a cell; what it finds can be asked for.
+    ///
+    /// # Errors
+    /// A mesh cannot be read.
+    pub(super) fn new(cell: &Cell, clearance: f64, tells: bool) -> Result<(Self, Rc<RefCell<Found>>), Failure> {
         let bodies = cell.bodies.iter().map(item_of).collect::<Result<Vec<Item>, Failure>>()?;
-        let found = Found::default();
-        let collisions = Self {
-            bodies,
-            clearance,
-            arms: Vec::new(),
-            items: Vec::new(),
-            pairs: Vec::new(),
-            files: Vec::new(),
-            levels: Default::default(),
-            found: Rc::clone(&found),
-            tells,
-        };
-        Ok((collisions, found))
+        let found = Rc::<RefCell<Found>>::default();
+        let (arms, items, pairs) = (Vec::new(), Vec::new(), Vec::new());
+        Ok((Self { bodies, clearance, arms, items, pairs, found: Rc::clone(&found), tells }, found))
     }
 
-    fn begin(&mut self, hello: &Hello) -> Result<(), String> {
+    fn begin(&mut self, hello: &Hello) {
         let several = hello.channels.iter().filter(|runs| !runs.links.is_empty()).count() > 1;
         self.arms = hello.channels.iter().map(|runs| (!runs.links.is_empty()).then(|| Arm::new(runs))).collect();
-        self.files = vec![String::new(); hello.channels.len()];
         self.items.clear();
         for (channel, runs) in hello.channels.iter().enumerate() {
             self.items.extend(item::limbs(channel, runs, several));
         }
-        for body in &self.bodies {
-            if let Holder::Flange { channel } = body.holder
-                && self.arms.get(channel).is_none_or(Option::is_none)
-            {
-                return Err(format!("`{}` is on the flange of channel {}, which has no robot", body.name, channel + 1));
-            }
-        }
         self.items.extend(self.bodies.iter().cloned());
         self.pairs = pair::pairs(&self.items, &self.arms);
-        Ok(())
-    }
-
-    fn state(&mut self, state: &State) {
-        self.levels = [state.di.clone(), state.dout.clone()];
-        for (at, channel) in state.channels.iter().enumerate() {
-            if let Some(file) = self.files.get_mut(at) {
-                file.clone_from(&channel.motion_file);
-            }
-            if let Some(Some(arm)) = self.arms.get_mut(at)
-                && arm.stands_on(&channel.base)
-            {
-                self.pairs.iter_mut().for_each(Pair::forget);
-            }
-        }
+        self.found.borrow_mut().begun = true;
     }
 
     /// Looks at all pairs that may have come near enough to each other to matter.
     fn cycle(&mut self, cycle: &Cycle) -> Vec<Contact> {
         for (arm, moves) in self.arms.iter_mut().zip(&cycle.channels) {
             if let Some(arm) = arm {
-                arm.go_to(&moves.axes);
+                arm.go_to(moves);
             }
         }
         let mut contacts = Vec::new();
         for pair in &mut self.pairs {
             let [Some(one), Some(other)] = pair.items.map(|at| self.items.get(at)) else { continue };
-            if !(is_there(one, &self.levels) && is_there(other, &self.levels)) {
+            if !(is_there(one, cycle) && is_there(other, cycle)) {
                 pair.forget();
                 continue;
             }
@@ -118,35 +90,36 @@ impl Collisions {
                 continue;
             }
             let [Some(here), Some(there)] = [one, other].map(|item| place(item, &self.arms)) else { continue };
-            // Both are of forms that the library knows.
-            let Ok(distance) = parry3d_f64::query::distance(&here, &*one.shape, &there, &*other.shape) else {
-                continue;
-            };
-            let channel = [one, other].iter().find_map(|item| item.holder.channel()).unwrap_or_default();
-            let line = cycle.channels.get(channel).map_or(0, |moves| moves.line);
+            let Some(distance) = distance((&here, one), (&there, other)) else { continue };
+            let channel = pair.mover(&self.arms);
+            let moves = channel.and_then(|channel| cycle.channels.get(channel));
             let contact = |distance| Contact {
                 time: cycle.time,
-                file: self.files.get(channel).cloned().unwrap_or_default(),
-                line,
+                file: moves.map_or_else(String::new, |moves| moves.file.clone()),
+                line: moves.map_or(0, |moves| moves.line),
                 one: one.name.clone(),
                 other: other.name.clone(),
                 distance,
             };
-            pair.note(distance.distance, self.clearance, &self.arms, contact);
-            if let PairState::Touched(contact) = &mut pair.state
-                && let Some(contact) = contact.take()
-            {
-                contacts.push(contact);
-            }
+            contacts.extend(pair.note(distance, self.clearance, &self.arms, contact));
         }
         contacts
     }
 
-    fn tell(&self, contact: &Contact) {
+    /// The nearest that each pair came to each other, of those nearer than the clearance that did not touch; once.
+    fn nearest(&mut self) -> Vec<Contact> {
+        let mut near: Vec<Contact> = self.pairs.iter_mut().filter_map(Pair::take_nearest).collect();
+        near.sort_by(|one, other| one.time.total_cmp(&other.time));
+        near
+    }
+
+    /// Tells contacts, and has them heard by those behind.
+    fn tell(&self, contacts: Vec<Contact>) -> Vec<Line> {
         if self.tells {
-            show::warning(&contact.to_string());
+            contacts.iter().for_each(|contact| show::warning(&contact.to_string()));
         }
-        self.found.borrow_mut().push(contact.clone());
+        self.found.borrow_mut().contacts.extend(contacts.iter().cloned());
+        contacts.into_iter().map(Line::Contact).collect()
     }
 }
 
@@ -156,23 +129,22 @@ impl Hears for Collisions {
     }
 
     fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
-        match line {
-            Line::Hello(hello) => self.begin(hello)?,
-            Line::State(state) => self.state(state),
-            Line::Cycle(cycle) => {
-                let contacts = self.cycle(cycle);
-                contacts.iter().for_each(|contact| self.tell(contact));
-                return Ok(contacts.into_iter().map(Line::Contact).collect());
+        let contacts = match line {
+            Line::Hello(hello) => {
+                self.begin(hello);
+                Vec::new()
             }
-            // The run has ended: reports come last.
-            Line::Report(_) => return Ok(self.nearest().into_iter().map(Line::Contact).collect()),
-            _ => {}
-        }
-        Ok(Vec::new())
+            Line::Cycle(cycle) => self.cycle(cycle),
+            Line::Ended(()) => self.nearest(),
+            _ => Vec::new(),
+        };
+        Ok(self.tell(contacts))
     }
 
     fn end(mut self: Box<Self>) -> Result<(), Box<dyn Error>> {
-        self.nearest();
+        // It may have ended without a word.
+        let near = self.nearest();
+        self.tell(near);
         Ok(())
     }
 
@@ -181,12 +153,15 @@ impl Hears for Collisions {
     }
 }
 
-impl Collisions {
-    /// The nearest that each pair came to each other, of those nearer than the clearance that did not touch; once.
-    fn nearest(&mut self) -> Vec<Contact> {
-        let near: Vec<Contact> = self.pairs.iter_mut().filter_map(Pair::take_nearest).collect();
-        near.iter().for_each(|contact| self.tell(contact));
-        near
+/// How far two items are apart, in mm; 0: they touch. `None` for forms that the library cannot measure, of which there are none.
+fn distance((here, one): (&Pose, &Item), (there, other): (&Pose, &Item)) -> Option<f64> {
+    let found = parry3d_f64::query::distance(here, &*one.shape, there, &*other.shape).ok()?.distance;
+    // Where its search does not settle, the library says 0.
+    let touches = || parry3d_f64::query::intersection_test(here, &*one.shape, there, &*other.shape);
+    if found <= 0.0 && touches().is_ok_and(|touches| !touches.intersecting) {
+        Some(f64::MIN_POSITIVE)
+    } else {
+        Some(found)
     }
 }
 
@@ -200,10 +175,10 @@ fn place(item: &Item, arms: &[Option<Arm>]) -> Option<Pose> {
 }
 
 /// Whether an item is there by the levels of inputs and outputs.
-fn is_there(item: &Item, [di, dout]: &[String; 2]) -> bool {
-    let Some(Signal { kind, channel }) = item.when else { return true };
-    let levels = if kind == SignalKind::DigitalInput { di } else { dout };
-    levels.as_bytes().get(channel as usize - 1) == Some(&b'1')
+fn is_there(item: &Item, cycle: &Cycle) -> bool {
+    let Some((signal, wanted)) = item.when else { return true };
+    let levels = if signal.kind == SignalKind::DigitalInput { &cycle.di } else { &cycle.dout };
+    (levels.as_bytes().get(signal.channel as usize - 1) == Some(&b'1')) == wanted
 }
 
 fn item_of(body: &Body) -> Result<Item, Failure> {

@@ -17,9 +17,11 @@ pub(super) struct Pair {
     pub(super) items: [usize; 2],
     /// What moves each of them.
     ends: [End; 2],
-    /// Whether they are parts of one robot: what touches before anything moves is built so.
+    /// Whether they are parts of one robot: that they are near each other is how it is built, and what touches before anything moves is, too.
     is_own: bool,
-    pub(super) state: State,
+    /// Whether they overlap since before anything moved.
+    overlap: bool,
+    state: State,
     /// Where the robots were when it was last looked at, and how far the items may move from there.
     known: Option<Known>,
 }
@@ -35,19 +37,19 @@ struct End {
 }
 
 /// What has come of a pair.
-pub(super) enum State {
+enum State {
     /// So far apart that there is nothing to tell.
     Apart,
     /// Nearer than the clearance: the nearest so far.
     Near(Contact),
-    /// It touched: what there is to tell, until it is taken.
-    Touched(Option<Contact>),
-    /// There is nothing to look for any more.
+    /// It touched, or all is told.
     Done,
 }
 
 struct Known {
     axes: [Vec<f64>; 2],
+    /// As [`Arm::based`].
+    based: [u32; 2],
     room: f64,
 }
 
@@ -59,7 +61,8 @@ pub(super) fn pairs(items: &[Item], arms: &[Option<Arm>]) -> Vec<Pair> {
             if counts(items, one, other) {
                 let ends = [one, other].map(|item| End::of(item, arms));
                 let is_own = one.holder.channel() == other.holder.channel();
-                pairs.push(Pair { items: [at, behind], ends, is_own, state: State::Apart, known: None });
+                let (state, known) = (State::Apart, None);
+                pairs.push(Pair { items: [at, behind], ends, is_own, overlap: false, state, known });
             }
         }
     }
@@ -68,7 +71,8 @@ pub(super) fn pairs(items: &[Item], arms: &[Option<Arm>]) -> Vec<Pair> {
 
 fn counts(items: &[Item], one: &Item, other: &Item) -> bool {
     let stands = |item: &Item| matches!(item.holder, Holder::World | Holder::Link { link: 0, .. });
-    if stands(one) && stands(other) {
+    let may_touch = |one: &Item, other: &Item| one.may_touch.contains(&other.name);
+    if (stands(one) && stands(other)) || may_touch(one, other) || may_touch(other, one) {
         return false;
     }
     if one.holder.channel() != other.holder.channel() {
@@ -94,6 +98,11 @@ fn counts(items: &[Item], one: &Item, other: &Item) -> bool {
 }
 
 impl End {
+    /// What moves it.
+    fn arm(self, arms: &[Option<Arm>]) -> Option<&Arm> {
+        arms.get(self.channel?)?.as_ref()
+    }
+
     fn of(item: &Item, arms: &[Option<Arm>]) -> Self {
         let arm = |channel: usize| arms.get(channel).and_then(Option::as_ref);
         let (link, beside) = match item.holder {
@@ -108,6 +117,11 @@ impl End {
 }
 
 impl Pair {
+    #[cfg(test)]
+    pub(super) fn is_own(&self) -> bool {
+        self.is_own
+    }
+
     /// Forgets where it was: it is looked at in the next cycle.
     pub(super) fn forget(&mut self) {
         self.known = None;
@@ -115,19 +129,33 @@ impl Pair {
 
     /// Whether it may have come near enough to matter.
     pub(super) fn is_due(&self, arms: &[Option<Arm>]) -> bool {
-        if matches!(self.state, State::Touched(_) | State::Done) {
+        let is_known = |end: &End| self.is_own || end.arm(arms).is_none_or(Arm::is_based);
+        if matches!(self.state, State::Done) || !self.ends.iter().all(is_known) {
             return false;
         }
         let Some(known) = &self.known else { return true };
-        self.moved(&known.axes, arms) >= known.room
+        let based = self.ends.map(|end| end.arm(arms).map_or(0, Arm::based));
+        (based != known.based && !self.is_own) || self.moved(&known.axes, arms) >= known.room
+    }
+
+    /// The channel of the robot that brought the two together: the one that has moved more since they were looked at; else one that has moved
+    /// at all.
+    pub(super) fn mover(&self, arms: &[Option<Arm>]) -> Option<usize> {
+        let [one, other] = &self.ends;
+        let [Some(first), Some(second)] = [one.channel, other.channel] else { return one.channel.or(other.channel) };
+        let moved =
+            |end: &End, before: &[f64]| end.arm(arms).map_or(0.0, |arm| arm.moved(before, 0..end.link, end.farthest));
+        match &self.known {
+            Some(Known { axes: [before, there], .. }) if moved(other, there) > moved(one, before) => Some(second),
+            _ => Some(first),
+        }
     }
 
     /// The most that the two have moved against each other since the axes were there, in mm.
     fn moved(&self, before: &[Vec<f64>; 2], arms: &[Option<Arm>]) -> f64 {
         let [one, other] = &self.ends;
         let moved = |end: &End, before: &[f64], from: usize| {
-            let arm = end.channel.and_then(|channel| arms.get(channel)).and_then(Option::as_ref);
-            arm.map_or(0.0, |arm| arm.moved(before, from..end.link, end.farthest))
+            end.arm(arms).map_or(0.0, |arm| arm.moved(before, from..end.link, end.farthest))
         };
         let [first, second] = before;
         if one.channel.is_some() && one.channel == other.channel {
@@ -138,43 +166,41 @@ impl Pair {
         moved(one, first, 0) + moved(other, second, 0)
     }
 
-    /// Notes how far apart the two are now.
+    /// Notes how far apart the two are now; the contact, if it is the first one.
     pub(super) fn note(
         &mut self,
         distance: f64,
         clearance: f64,
         arms: &[Option<Arm>],
         contact: impl Fn(f64) -> Contact,
-    ) {
-        if distance <= 0.0 {
-            let contact = contact(0.0);
-            self.state = if self.is_own && contact.line == 0 { State::Done } else { State::Touched(Some(contact)) };
-            return;
+    ) -> Option<Contact> {
+        let touches = distance <= 0.0;
+        let is_built_so = self.is_own && (self.overlap || contact(0.0).line == 0);
+        self.overlap = touches && is_built_so;
+        if touches && !is_built_so {
+            self.state = State::Done;
+            return Some(contact(0.0));
         }
+        let clearance = if self.is_own { 0.0 } else { clearance };
         let room = if distance < clearance {
             let nearest = if let State::Near(nearest) = &self.state { nearest.distance } else { f64::INFINITY };
             if distance < nearest {
                 self.state = State::Near(contact(distance));
             }
-            (distance - nearest).max(RESOLUTION_MM)
+            (distance - nearest).max(RESOLUTION_MM.min(distance))
         } else {
             distance - clearance
         };
-        let axes = self.ends.map(|end| {
-            let arm = end.channel.and_then(|channel| arms.get(channel)).and_then(Option::as_ref);
-            arm.map_or_else(Vec::new, |arm| arm.axes().to_vec())
-        });
-        self.known = Some(Known { axes, room: (room - ROUNDING_MM).max(0.0) });
+        let axes = self.ends.map(|end| end.arm(arms).map_or_else(Vec::new, |arm| arm.axes().to_vec()));
+        let based = self.ends.map(|end| end.arm(arms).map_or(0, Arm::based));
+        self.known = Some(Known { axes, based, room: (room - ROUNDING_MM).max(0.0) });
+        None
     }
 
     /// The nearest that the two came to each other, if that is to be told; once.
     pub(super) fn take_nearest(&mut self) -> Option<Contact> {
         match std::mem::replace(&mut self.state, State::Done) {
             State::Near(contact) => Some(contact),
-            State::Touched(contact) => {
-                self.state = State::Touched(contact);
-                None
-            }
             State::Apart | State::Done => None,
         }
     }

@@ -5,7 +5,7 @@ use arl_robot::kinematics::random::Random;
 use arl_robot::robot::Robot;
 use serde_json::json;
 
-use super::super::said::{Cycle, Hello, Moves, State};
+use super::super::said::{Cycle, Hello, Moves};
 use super::*;
 
 /// What a program says of its robots.
@@ -36,23 +36,24 @@ fn hello(robots: &[&str]) -> Hello {
     serde_json::from_value(json!({"channels": channels, "names": {}})).unwrap()
 }
 
-/// The inputs and outputs, with bases beside each other.
-fn state(bases: &[[f64; 6]], dout: &str) -> State {
-    let channel = |base: &[f64; 6]| {
-        json!({"state": "running", "file": "a.arl", "line": 1, "motion_file": "a.arl", "motion_line": 1, "axes": [], "tcp": [],
-               "base": base})
+const BASES: [[f64; 6]; 2] = [[0.0; 6], [900.0, 0.0, 0.0, 180.0, 0.0, 0.0]];
+
+/// A cycle in which robots are there, on bases beside each other.
+fn cycle(step: u32, axes: &[Vec<f64>]) -> Cycle {
+    let moves = |(axes, base): (&Vec<f64>, &[f64; 6])| Moves {
+        file: "a.arl".into(),
+        line: 1 + step / 500,
+        base: base.to_vec(),
+        axes: axes.clone(),
     };
-    let channels: Vec<_> = bases.iter().map(channel).collect();
-    serde_json::from_value(
-        json!({"time": 0.0, "mode": "AUTO", "override": 100.0, "channels": channels, "di": "", "do": dout,
-                                  "ai": [], "ao": []}),
-    )
-    .unwrap()
+    let channels = axes.iter().zip(&BASES).map(moves).collect();
+    Cycle { time: f64::from(step) * 0.001, channels, ..Cycle::default() }
 }
 
-fn cycle(step: u32, axes: &[Vec<f64>]) -> Cycle {
-    let channels = axes.iter().map(|axes| Moves { line: 1 + step / 500, axes: axes.clone() }).collect();
-    Cycle { time: f64::from(step) * 0.001, channels }
+fn begun(text: &str, clearance: f64, robots: &[&str]) -> Collisions {
+    let (mut collisions, _) = Collisions::new(&Cell::parse("cell.toml", text).unwrap(), clearance, false).unwrap();
+    collisions.begin(&hello(robots));
+    collisions
 }
 
 /// A smooth random motion within the ranges of a robot, as fast as robots are.
@@ -81,7 +82,7 @@ fn by_looking_always(collisions: &mut Collisions, cycles: &[Cycle]) -> Vec<(Stri
         .collect();
     for cycle in cycles {
         for (arm, moves) in collisions.arms.iter_mut().zip(&cycle.channels) {
-            arm.as_mut().unwrap().go_to(&moves.axes);
+            arm.as_mut().unwrap().go_to(moves);
         }
         for (pair, (.., touched, nearest)) in collisions.pairs.iter().zip(&mut found) {
             let [one, other] = pair.items.map(|at| &collisions.items[at]);
@@ -106,39 +107,27 @@ fn no_contact_is_missed_and_the_nearest_is_near() {
         let robots = if round % 3 == 2 { vec!["kr10-r1420", "hsr065"] } else { vec!["kr10-r1420"] };
         let mut text = String::new();
         for body in 0..6 {
-            let at: Vec<f64> = (0..3).map(|_| random.between(-1200.0, 1200.0)).collect();
+            let [x, y, z] = [0; 3].map(|_| random.between(-1200.0, 1200.0));
             let form = if body % 2 == 0 { "box = [120, 200, 300]" } else { "cylinder = [60, 250]" };
-            text += &format!(
-                "[[body]]\nname = \"body {body}\"\n{form}\nat = [{}, {}, {}, 10, 20, 30]\n",
-                at[0],
-                at[1],
-                at[2].abs()
-            );
+            text += &format!("[[body]]\nname = \"body {body}\"\n{form}\nat = [{x}, {y}, {}, 10, 20, 30]\n", z.abs());
         }
         text += "[[body]]\nname = \"tool\"\ncylinder = [25, 180]\nat = [0, 0, 120]\non = \"flange\"\n";
-        let cell = Cell::parse("cell.toml", &text).unwrap();
         let motions: Vec<_> = robots.iter().map(|name| motion(&Robot::load(name).unwrap(), &mut random)).collect();
-        let cycles: Vec<Cycle> =
-            (0..1500).map(|step| cycle(step, &motions.iter().map(|motion| motion(step)).collect::<Vec<_>>())).collect();
-        let bases = [[0.0; 6], [900.0, 0.0, 0.0, 180.0, 0.0, 0.0]];
-        let begun = || {
-            let (mut collisions, _) = Collisions::new(&cell, CLEARANCE, false).unwrap();
-            collisions.begin(&hello(&robots)).unwrap();
-            collisions.state(&state(&bases[..robots.len()], ""));
-            collisions
-        };
-        let expected = by_looking_always(&mut begun(), &cycles);
-        let mut collisions = begun();
+        let at = |step| cycle(step, &motions.iter().map(|motion| motion(step)).collect::<Vec<_>>());
+        let cycles: Vec<Cycle> = (0..1500).map(at).collect();
+        let expected = by_looking_always(&mut begun(&text, CLEARANCE, &robots), &cycles);
+        let mut collisions = begun(&text, CLEARANCE, &robots);
         let contacts: Vec<Contact> = cycles.iter().flat_map(|cycle| collisions.cycle(cycle)).collect();
+        let own: Vec<bool> = collisions.pairs.iter().map(Pair::is_own).collect();
         let nearest = collisions.nearest();
-        for (one, other, first, least) in expected {
+        for ((one, other, first, least), own) in expected.into_iter().zip(own) {
             let is_it = |contact: &&Contact| (&contact.one, &contact.other) == (&one, &other);
             let found = contacts.iter().find(is_it).map(|contact| contact.time);
             assert_eq!(found, first, "{one}, {other}");
             let found = nearest.iter().find(is_it).map(|contact| contact.distance);
             match found {
                 Some(found) => assert!(found - least < 0.06 && found >= least, "{one}, {other}: {found} {least}"),
-                None => assert!(first.is_some() || least >= CLEARANCE - 0.06, "{one}, {other}: {least}"),
+                None => assert!(own || first.is_some() || least >= CLEARANCE - 0.06, "{one}, {other}: {least}"),
             }
             touched += u32::from(first.is_some());
             near += u32::from(found.is_some());
@@ -149,18 +138,13 @@ fn no_contact_is_missed_and_the_nearest_is_near() {
 
 #[test]
 fn a_pair_is_looked_at_in_few_cycles() {
-    let cell =
-        Cell::parse("cell.toml", "[[body]]\nname = \"wall\"\nbox = [10, 2000, 2000]\nat = [2500, 0, 0]\n").unwrap();
-    let (mut collisions, _) = Collisions::new(&cell, 0.0, false).unwrap();
-    collisions.begin(&hello(&["kr10-r1420"])).unwrap();
-    collisions.state(&state(&[[0.0; 6]], ""));
+    let wall = "[[body]]\nname = \"wall\"\nbox = [10, 2000, 2000]\nat = [2500, 0, 0]\n";
+    let mut collisions = begun(wall, 0.0, &["kr10-r1420"]);
     let motion = motion(&Robot::load("kr10-r1420").unwrap(), &mut Random::new(3));
     let mut looked = 0;
     for step in 0..2000 {
         let cycle = cycle(step, &[motion(step)]);
-        for (arm, moves) in collisions.arms.iter_mut().zip(&cycle.channels) {
-            arm.as_mut().unwrap().go_to(&moves.axes);
-        }
+        collisions.arms[0].as_mut().unwrap().go_to(&cycle.channels[0]);
         looked += collisions.pairs.iter().filter(|pair| pair.is_due(&collisions.arms)).count();
         collisions.cycle(&cycle);
     }
@@ -169,35 +153,77 @@ fn a_pair_is_looked_at_in_few_cycles() {
 }
 
 #[test]
-fn what_is_carried_counts_while_its_signal_is_on() {
+fn what_is_carried_counts_while_its_signal_says_so() {
     let text = "[[body]]\nname = \"part\"\nbox = [50, 50, 200]\nat = [0, 0, 110]\non = \"flange\"\nwhen = \"do.2\"\n\
                 [[body]]\nname = \"post\"\ncylinder = [30, 3000]\nat = [1150, 0, 0]\n";
-    let cell = Cell::parse("cell.toml", text).unwrap();
     // Stretched out, the part reaches the post and the flange does not.
-    let reached = |dout: &str| {
-        let (mut collisions, found) = Collisions::new(&cell, 0.0, false).unwrap();
-        collisions.begin(&hello(&["kr10-r1420"])).unwrap();
-        collisions.state(&state(&[[0.0; 6]], dout));
+    let reached = |text: &str, dout: &str| {
+        let mut collisions = begun(text, 0.0, &["kr10-r1420"]);
+        let mut found = Vec::new();
         for step in 0..900 {
             let away = f64::from(900 - step) * 0.1;
-            let contacts = collisions.cycle(&cycle(step, &[vec![0.0, -60.0, 90.0 - 0.2 * away, 0.0, -30.0, 0.0]]));
-            contacts.iter().for_each(|contact| collisions.tell(contact));
+            let here = cycle(step, &[vec![0.0, -60.0, 90.0 - 0.2 * away, 0.0, -30.0, 0.0]]);
+            found.extend(collisions.cycle(&Cycle { dout: dout.into(), ..here }));
         }
-        let found = found.borrow();
-        found.iter().map(|contact| format!("{} {}", contact.one, contact.other)).collect::<Vec<_>>()
+        found.iter().any(|contact| (&*contact.one, &*contact.other) == ("part", "post"))
     };
-    let with = reached("01");
-    assert!(with.contains(&"part post".to_owned()), "{with:?}");
-    assert!(!reached("00").contains(&"part post".to_owned()));
+    assert!(reached(text, "01") && !reached(text, "00"));
+    let off = text.replace("do.2", "!do.2");
+    assert!(reached(&off, "00") && !reached(&off, "01"));
+    assert!(!reached(&text.replace("\"post\"", "\"post\"\nmay_touch = [\"part\"]"), "01"));
+}
+
+#[test]
+fn the_robot_that_moves_is_blamed_and_bases_count_once_they_are_known() {
+    let mut collisions = begun("", 0.0, &["kr10-r1420", "kr10-r1420"]);
+    // Neither has moved, and both seem to stand in the same place.
+    let home = [0.0, -90.0, 90.0, 0.0, 0.0, 0.0];
+    let standing = || Moves { axes: home.to_vec(), ..Moves::default() };
+    assert_eq!(collisions.cycle(&Cycle { channels: vec![standing(), standing()], ..Cycle::default() }), []);
+    let mut found = Vec::new();
+    for step in 0..2000 {
+        let at = f64::from(step);
+        let moves = |line: u32, base: [f64; 6], axes: Vec<f64>| Moves {
+            file: format!("{line}.arl"),
+            line,
+            base: base.to_vec(),
+            axes,
+        };
+        let reaching = vec![0.0, -90.0 + 0.04 * at, 90.0 - 0.04 * at, 0.0, 0.0, 0.0];
+        let there = moves(8, [1950.0, 0.0, 0.0, 180.0, 0.0, 0.0], reaching);
+        let channels = vec![moves(3, [0.0; 6], home.to_vec()), there];
+        found.extend(collisions.cycle(&Cycle { time: at * 0.001, channels, ..Cycle::default() }));
+    }
+    let first = found.first().expect("they touch");
+    assert_eq!((&*first.file, first.line), ("8.arl", 8), "{first:?}");
+}
+
+#[test]
+fn what_comes_to_rest_in_contact_touches_with_a_clearance_too() {
+    let robot = Robot::load("hsr065").unwrap();
+    let lift = &robot.axes[2];
+    let flange = robot.kinematics.forward(&[10.0, 20.0, lift.min, 0.0, 0.0, 0.0]).translation.vector;
+    // Where the lift is 0.02 mm above its lowest place, the finger is as far in the plate.
+    let top = flange.z - 100.0 + 0.04;
+    let text = format!(
+        "[[body]]\nname = \"plate\"\nbox = [2000, 2000, 10]\nat = [0, 0, {}]\n\
+         [[body]]\nname = \"finger\"\nbox = [10, 10, 100]\nat = [0, 0, -50]\non = \"flange\"\n",
+        top - 5.0
+    );
+    let mut collisions = begun(&text, 20.0, &["hsr065"]);
+    let mut found = Vec::new();
+    for step in 0..4000 {
+        let height = lift.min + 0.02 + 100.0 * (-0.004 * f64::from(step)).exp();
+        found.extend(collisions.cycle(&cycle(step, &[vec![10.0, 20.0, height, 0.0]])));
+    }
+    assert!(found.iter().any(|contact| contact.one == "plate" && contact.other == "finger"), "{found:?}");
 }
 
 #[test]
 fn robots_do_not_touch_themselves_where_they_stand_at_home() {
     for name in Robot::builtin_names() {
         let robot = Robot::load(name).unwrap();
-        let (mut collisions, _) = Collisions::new(&Cell::default(), 0.0, false).unwrap();
-        collisions.begin(&hello(&[name])).unwrap();
-        collisions.state(&state(&[[0.0; 6]], ""));
+        let mut collisions = begun("", 0.0, &[name]);
         let home = robot.home.get(..robot.own_axes().len()).unwrap().to_vec();
         assert_eq!(collisions.cycle(&cycle(0, &[home])), [], "{name}");
         assert!(!collisions.pairs.is_empty(), "{name}");
@@ -228,11 +254,6 @@ fn what_is_wrong_with_bodies_is_said() {
     std::fs::write(&file, triangle).unwrap();
     assert!(mesh::load(&file).is_ok_and(|(mesh, farthest)| mesh.indices().len() == 1 && farthest == 1.0));
     std::fs::remove_dir_all(&folder).unwrap();
-
-    let text = "[[body]]\nname = \"a\"\nbox = [1, 1, 1]\non = \"flange\"\nchannel = 2\n";
-    let (mut collisions, _) = Collisions::new(&Cell::parse("cell.toml", text).unwrap(), 0.0, false).unwrap();
-    let problem = collisions.begin(&hello(&["kr10-r1420"])).unwrap_err();
-    assert!(problem.contains("the flange of channel 2, which has no robot"), "{problem}");
 }
 
 /// A solid as the script of the peers takes it.
@@ -271,12 +292,11 @@ fn peers_distances_are_those_of_another_library() {
         let text = "[[body]]\nname = \"box\"\nbox = [300, 200, 500]\nat = [600, 200, 500, 20, 40, 60]\n\
                     [[body]]\nname = \"post\"\ncylinder = [50, 900]\nat = [-300, 500, 400, 0, 30, 0]\n\
                     [[body]]\nname = \"tool\"\ncylinder = [30, 200]\nat = [20, 0, 110, 0, 20, 0]\non = \"flange\"\n";
-        let (mut collisions, _) = Collisions::new(&Cell::parse("cell.toml", text).unwrap(), 0.0, false).unwrap();
-        collisions.begin(&hello(&[name])).unwrap();
+        let mut collisions = begun(text, 0.0, &[name]);
         let robot = Robot::load(name).unwrap();
         for _ in 0..60 {
             let axes = robot.own_axes().iter().map(|axis| random.between(axis.min, axis.max)).collect::<Vec<_>>();
-            collisions.arms[0].as_mut().unwrap().go_to(&axes);
+            collisions.arms[0].as_mut().unwrap().go_to(&cycle(0, &[axes]).channels[0]);
             for pair in &collisions.pairs {
                 let [one, other] = pair.items.map(|at| &collisions.items[at]);
                 let [here, there] = [one, other].map(|item| place(item, &collisions.arms).unwrap());

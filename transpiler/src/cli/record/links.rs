@@ -17,6 +17,8 @@ pub(super) struct Arm {
     pub(super) flange: Placed,
     /// Its shape.
     pub(super) limbs: Vec<Limb>,
+    /// Where its base stands in the world, as far as that is known.
+    pub(super) stands: Frame,
     pub(super) axes: Vec<Own>,
 }
 
@@ -39,8 +41,14 @@ impl Arm {
             links: runs.links.clone(),
             flange: runs.flange,
             limbs: runs.limbs.clone(),
+            stands: Frame::identity(),
             axes: runs.axes.iter().map(own).collect(),
         }
+    }
+
+    /// Takes in where its base stands: x, y, z in mm, a, b, c in deg.
+    pub(super) fn stands_on(&mut self, base: &[f64]) {
+        self.stands = components(base);
     }
 
     /// The frame of its base, of the link `number`, from 1, ...

@@ -17,6 +17,7 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use super::listen::Hears;
 use super::said::Line;
+use super::show;
 use arl_robot::cell::Body;
 use recorder::Recorder;
 
@@ -41,24 +42,41 @@ impl Recording {
     }
 }
 
+impl Recording {
+    /// Writes the description of the cell. A recording is whole without it.
+    fn describe(&self) {
+        let description = self.path.with_file_name(DESCRIPTION);
+        if let Err(error) = std::fs::write(&description, urdf::urdf(self.recorder.arms(), &self.bodies)) {
+            show::warning(&format!("cannot write {}: {error}", description.display()));
+        }
+    }
+}
+
 impl Hears for Recording {
+    fn wants_each_motion(&self) -> bool {
+        true
+    }
+
     fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
         self.recorder.hear(line)?;
         if matches!(line, Line::Hello(_)) {
-            let description = self.path.with_file_name(DESCRIPTION);
-            std::fs::write(&description, urdf::urdf(self.recorder.arms(), &self.bodies))
-                .map_err(|error| format!("cannot write {}: {error}", description.display()))?;
+            self.describe();
         }
         Ok(Vec::new())
     }
 
-    fn end(self: Box<Self>) -> Result<(), Box<dyn Error>> {
-        Ok(self.recorder.finish()?)
+    fn end(mut self: Box<Self>) -> Result<(), Box<dyn Error>> {
+        self.recorder.finish()?;
+        // Where robots stand is known once they have moved.
+        self.describe();
+        Ok(())
     }
 
     fn nothing_began(self: Box<Self>) {
-        // There may be none.
-        let _ = std::fs::remove_file(&self.path);
+        if self.path.is_file() {
+            // There may be none any more.
+            let _ = std::fs::remove_file(&self.path);
+        }
     }
 
     fn broken(&self) -> String {

@@ -33,6 +33,8 @@ pub(super) struct Recorder<W: Write + Seek> {
     time: f64,
     /// When frames are written next, in s.
     frames_due: f64,
+    /// The last state, if its frames were not written.
+    left_out: Option<State>,
 }
 
 struct Topic {
@@ -46,7 +48,8 @@ struct Last {
     channels: Vec<Channel>,
     controller: Controller,
     io: Option<Io>,
-    frames: Vec<(Vec<f64>, Vec<f64>)>,
+    /// Of each channel axes, TCP and base.
+    places: Vec<Vec<f64>>,
 }
 
 impl<W: Write + Seek> Recorder<W> {
@@ -61,6 +64,7 @@ impl<W: Write + Seek> Recorder<W> {
             last: Last::default(),
             time: 0.0,
             frames_due: 0.0,
+            left_out: None,
         })
     }
 
@@ -80,12 +84,15 @@ impl<W: Write + Seek> Recorder<W> {
             }
             Line::Report(object) => self.motion(object),
             Line::Contact(contact) => self.contact(contact),
-            Line::Cycle(_) | Line::Inside(_) | Line::Refused(_) | Line::Other(_) => Ok(()),
+            Line::Cycle(_) | Line::Ended(()) | Line::Inside(_) | Line::Refused(_) | Line::Other(_) => Ok(()),
         }
     }
 
     /// Writes the summary, by which readers find their way.
-    pub(super) fn finish(mut self) -> McapResult<()> {
+    pub(super) fn finish(&mut self) -> McapResult<()> {
+        if let Some(state) = self.left_out.take() {
+            self.frames(&state)?;
+        }
         self.writer.finish().map(drop)
     }
 
@@ -112,7 +119,6 @@ impl<W: Write + Seek> Recorder<W> {
         let cell =
             Cell { channels: hello.channels.iter().map(runs).collect(), names: hello.names.iter().map(name).collect() };
         self.last.channels = vec![Channel::default(); hello.channels.len()];
-        self.last.frames = vec![Default::default(); hello.channels.len()];
         self.hello = hello;
         self.write("/arl/cell", &schemas::CELL, 0.0, &cell)
     }
@@ -135,11 +141,13 @@ impl<W: Write + Seek> Recorder<W> {
         for (at, said) in state.channels.iter().enumerate() {
             self.channel(at, said, time)?;
         }
-        if time >= self.frames_due {
-            self.frames_due = time + FRAMES_INTERVAL_S - 1e-6;
-            self.frames(state)?;
+        if time < self.frames_due {
+            self.left_out = Some(state.clone());
+            return Ok(());
         }
-        Ok(())
+        self.frames_due = time + FRAMES_INTERVAL_S - 1e-6;
+        self.left_out = None;
+        self.frames(state)
     }
 
     fn channel(&mut self, at: usize, said: &said::Channel, time: f64) -> McapResult<()> {
@@ -163,20 +171,20 @@ impl<W: Write + Seek> Recorder<W> {
         self.write(&format!("/arl/channel_{}", at + 1), &schemas::CHANNEL, time, &channel)
     }
 
-    /// Frames and joints, of the robots that moved.
+    /// Frames and joints of all robots, where one has moved.
     fn frames(&mut self, state: &State) -> McapResult<()> {
         let time = state.time;
-        let mut transforms = Vec::new();
-        let mut joints = Vec::new();
-        for (at, (arm, said)) in self.arms.iter().zip(&state.channels).enumerate() {
-            let (Some(arm), Some(last)) = (arm, self.last.frames.get_mut(at)) else { continue };
-            let now = (said.axes.clone(), [&said.tcp[..], &said.base].concat());
-            if *last == now {
-                continue;
-            }
+        let places = state.channels.iter().map(|said| [&said.axes[..], &said.tcp, &said.base].concat()).collect();
+        if self.last.places == places {
+            return Ok(());
+        }
+        self.last.places = places;
+        let (mut transforms, mut joints) = (Vec::new(), Vec::new());
+        for (arm, said) in self.arms.iter_mut().zip(&state.channels) {
+            let Some(arm) = arm else { continue };
+            arm.stands_on(&said.base);
             transforms.extend(arm.transforms(said, timestamp(time)));
             joints.extend(arm.joints(&said.axes).map(|(name, position)| JointState { name, position: Some(position) }));
-            *last = now;
         }
         if transforms.is_empty() {
             return Ok(());

@@ -35,6 +35,7 @@ fn recorded(lines: &[String]) -> BTreeMap<String, Vec<(u64, Vec<u8>)>> {
         recorder.hear(&serde_json::from_str(line).unwrap()).unwrap();
     }
     recorder.finish().unwrap();
+    drop(recorder);
     let mut topics: BTreeMap<String, Vec<(u64, Vec<u8>)>> = BTreeMap::new();
     for message in mcap::MessageStream::new(&bytes).unwrap() {
         let message = message.unwrap();
@@ -115,11 +116,11 @@ fn the_description_has_the_frames_and_joints_of_the_recording() {
     let text = urdf(recorder.arms(), &bodies);
     let description = urdf_rs::read_from_string(&text).unwrap();
     let links: Vec<_> = description.links.iter().map(|link| link.name.as_str()).collect();
-    assert_eq!(links, ["world", "base_link", "link_1", "link_2", "flange", "table <1>", "tool", "jig"]);
+    assert_eq!(links, ["world", "base_link", "link_1", "link_2", "flange", "body/table <1>", "body/tool", "body/jig"]);
     assert_eq!(description.links[2].visual.len(), 3, "a tube with round ends");
-    let table = description.joints.iter().find(|joint| joint.child.link == "table <1>").unwrap();
+    let table = description.joints.iter().find(|joint| joint.child.link == "body/table <1>").unwrap();
     assert_eq!((table.parent.link.as_str(), table.origin.xyz.0), ("world", [0.9, 0.0, -0.02]));
-    let tool = description.joints.iter().find(|joint| joint.child.link == "tool").unwrap();
+    let tool = description.joints.iter().find(|joint| joint.child.link == "body/tool").unwrap();
     assert_eq!(tool.parent.link, "flange");
     let joint = &description.joints[1];
     assert_eq!((joint.name.as_str(), joint.axis.xyz.0, joint.origin.xyz.0), ("j1", [0.0, 0.0, -1.0], [0.0, 0.0, 0.4]));

@@ -38,7 +38,7 @@ fn add_arm(out: &mut String, arm: &Arm) {
     }
     let _ = writeln!(out, "  <link name=\"{}\"/>", arm.flange_frame());
     let base = arm.base();
-    joint(out, ("fixed", &format!("{base}_to_{WORLD}")), [WORLD, &base], &Isometry3::identity(), "");
+    joint(out, ("fixed", &format!("{base}_to_{WORLD}")), [WORLD, &base], &arm.stands, "");
     for (at, (joined, own)) in arm.links.iter().zip(&arm.axes).enumerate() {
         let before = if at == 0 { arm.base() } else { arm.link(at) };
         let [low, high] = own.range;
@@ -54,13 +54,16 @@ fn add_arm(out: &mut String, arm: &Arm) {
 }
 
 fn add_body(out: &mut String, body: &Body, holder: &str) {
-    let name = escaped(&body.name);
+    // No frame of a robot has such a name.
+    let name = format!("body/{}", escaped(&body.name));
     let form = match &body.solid {
         Solid::Box([x, y, z]) => format!("<box size=\"{} {} {}\"/>", x / 1000.0, y / 1000.0, z / 1000.0),
         Solid::Cylinder { radius, length } => cylinder(radius / 1000.0, length / 1000.0),
         Solid::Mesh(file) => {
             let file = std::path::absolute(file).unwrap_or_else(|_| file.clone());
-            format!("<mesh filename=\"file://{}\" scale=\"0.001 0.001 0.001\"/>", escaped(&file.display().to_string()))
+            let address =
+                escaped(&file.display().to_string().replace('%', "%25").replace(' ', "%20").replace('#', "%23"));
+            format!("<mesh filename=\"file://{address}\" scale=\"0.001 0.001 0.001\"/>")
         }
     };
     let _ = writeln!(out, "  <link name=\"{name}\"><visual><geometry>{form}</geometry></visual></link>");
