@@ -55,6 +55,8 @@ pub(super) struct Job<'a> {
     others: Vec<(Other, CheckOptions)>,
     /// Whether it is made for a debugger.
     watched: bool,
+    /// Whether its warnings have been shown.
+    is_checked: bool,
 }
 
 /// A job that was done: what was found out about the programs, the first one in front, and the Rust that they became.
@@ -76,6 +78,7 @@ impl<'a> Job<'a> {
             options: check_options(checking)?,
             others: others.into_iter().map(with_options).collect::<Result<_, _>>()?,
             watched: false,
+            is_checked: false,
         })
     }
 
@@ -111,7 +114,9 @@ impl<'a> Job<'a> {
         }
         let mut limit = show::Limit::default();
         let said: String = programs.iter().map(|compiled| show::rendered(compiled, &mut limit)).collect();
-        show::say(&said);
+        if !self.is_checked || programs.iter().any(|compiled| compiled.rust.is_none()) {
+            show::say(&said);
+        }
         let rust: Option<Vec<String>> = programs.iter_mut().map(|compiled| compiled.rust.take()).collect();
         let mut rust = rust.ok_or(Failure::Shown)?.into_iter();
         let first = rust.next().ok_or(Failure::Shown)?;
@@ -142,6 +147,11 @@ pub(super) fn prepare(file: &Path, cell: Option<&Path>, checking: &Checking) -> 
     prepare_job(&Job::new(file, cell, checking)?, checking)
 }
 
+/// The same for one of which a check has told all warnings.
+pub(super) fn prepare_checked(file: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Ready, Failure> {
+    prepare_job(&Job { is_checked: true, ..Job::new(file, cell, checking)? }, checking)
+}
+
 /// The same for a debugger.
 pub(super) fn prepare_watched(file: &Path, cell: Option<&Path>, checking: &Checking) -> Result<Ready, Failure> {
     prepare_job(&Job::new(file, cell, checking)?.watched(), checking)
@@ -154,13 +164,13 @@ fn prepare_job(job: &Job<'_>, checking: &Checking) -> Result<Ready, Failure> {
     let identity = job.identity(runtime);
     let lock = place.lock(true)?;
     if let (Freshness::Fresh, Some(stamp)) = state(&place, identity) {
-        return start_again(&place, &stamp, lock);
+        return start_again(&place, &stamp, lock, job.is_checked);
     }
     drop(lock);
     let lock = place.lock(false)?;
     let (freshness, stamp) = state(&place, identity);
     if let (Freshness::Fresh, Some(stamp)) = (freshness, &stamp) {
-        return start_again(&place, stamp, lock);
+        return start_again(&place, stamp, lock, job.is_checked);
     }
 
     let read = Recording::new(&FileSystem);
@@ -193,9 +203,11 @@ fn state(place: &Place, identity: u64) -> (Freshness, Option<Stamp>) {
     }
 }
 
-/// Shows the warnings again and leaves the rest as it is.
-fn start_again(place: &Place, stamp: &Stamp, lock: Lock) -> Result<Ready, Failure> {
-    show::say(&std::fs::read_to_string(place.folder.join("said")).unwrap_or_default());
+/// Shows the warnings again, but for what is checked, and leaves the rest as it is.
+fn start_again(place: &Place, stamp: &Stamp, lock: Lock, is_checked: bool) -> Result<Ready, Failure> {
+    if !is_checked {
+        show::say(&std::fs::read_to_string(place.folder.join("said")).unwrap_or_default());
+    }
     let (program, sources) = (place.folder.join(&stamp.program), sources(stamp));
     renew(&program, &sources);
     Ok(Ready { program, lock, sources })

@@ -2,7 +2,7 @@
 
 use super::Folder;
 
-const REACHES: &str = "func void main()\n  movej j:{0,-90,90,0,0,0}\n  movej j:{0,-20,60,0,0,0}\n  waittime 0\n  print \"done\"\nendfunc\n";
+const REACHES: &str = "func void main()\n  int unused = 1\n  movej j:{0,-90,90,0,0,0}\n  movej j:{0,-20,60,0,0,0}\n  waittime 0\n  print \"done\"\nendfunc\n";
 const TABLE: &str = "[[body]]\nname = \"table\"\nbox = [600, 600, 40]\nat = [1200, 0, 250]\n";
 
 fn folder(name: &str) -> Folder {
@@ -16,7 +16,7 @@ fn folder(name: &str) -> Folder {
 fn a_run_says_what_its_robot_touches_first() {
     let folder = folder("collisions_run");
     let answer = folder.arl2rs(&["run", "a.arl", "--cell", "cell.toml"]);
-    answer.is(0, "done\n").says("the forearm touches table after ").says("(a.arl:3)");
+    answer.is(0, "done\n").says("the forearm touches table after ").says("(a.arl:4)");
     assert_eq!(answer.err.matches("the forearm touches table").count(), 1, "{}", answer.err);
     let free = folder.arl2rs(&["run", "a.arl", "--cell", "free.toml"]);
     free.is(0, "done\n");
@@ -33,11 +33,13 @@ fn a_check_finds_collisions_before_anybody_looks() {
     let folder = folder("collisions_check").with("arl.toml", "cell = \"cell.toml\"\n");
     folder.arl2rs(&["check", "a.arl"]).is(0, "");
     let found = folder.arl2rs(&["check", "--collisions", "a.arl"]);
-    found.is(1, "").says("error").says("the forearm touches table").says("(a.arl:3)");
+    found.is(1, "").says("error").says("the forearm touches table").says("(a.arl:4)");
+    assert_eq!(found.err.matches("ARL0902").count(), 1, "a warning is told once: {}", found.err);
     let found = folder.arl2rs(&["check", "--collisions", "--format", "json", "a.arl"]);
     assert_eq!(found.code, Some(1));
-    let first: serde_json::Value = serde_json::from_str(found.out.lines().next().expect("a line")).expect("JSON");
-    assert_eq!((&first["code"], &first["severity"], &first["line"]), (&"collision".into(), &"error".into(), &3.into()));
+    let objects = found.out.lines().map(|line| serde_json::from_str::<serde_json::Value>(line).expect("JSON"));
+    let first = objects.into_iter().find(|object| object["code"] == "collision").expect("a collision");
+    assert_eq!((&first["severity"], &first["file"], &first["line"]), (&"error".into(), &"a.arl".into(), &4.into()));
     folder.arl2rs(&["check", "--collisions", "--cell", "free.toml", "a.arl"]).is(0, "");
     assert!(!folder.has(".arl-state"), "a check keeps nothing");
 

@@ -10,7 +10,7 @@ use super::super::answer;
 use super::super::args::{Checking, Format, RunOptions};
 use super::super::failure::Failure;
 use super::super::listen::Listener;
-use super::super::program::{Ready, prepare};
+use super::super::program::{Ready, prepare_checked};
 use super::super::said::Contact;
 use super::super::show;
 use super::Collisions;
@@ -53,7 +53,7 @@ pub(in crate::cli) fn check(file: &Path, checking: &Checking, look: Look) -> Res
         return Err(Failure::Usage(format!("{}: {text}", file.display())));
     }
     let (collisions, found) = Collisions::new(&cell, look.clearance, false)?;
-    let ready = prepare(file, options.cell.as_deref(), &options.checking())?;
+    let ready = prepare_checked(file, options.cell.as_deref(), &options.checking())?;
     // What another process of that number left there.
     let _ = std::fs::remove_dir_all(&state);
     let ended = run(ready, &options, Listener::of(vec![Box::new(collisions)])?);
