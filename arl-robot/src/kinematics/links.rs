@@ -6,7 +6,7 @@
 
 use nalgebra::{Translation3, Unit, UnitQuaternion, Vector3};
 
-use super::{Axes, Frame, Kinematics};
+use super::{Frame, Kinematics};
 
 /// The joint that moves a link against the one before, the first one against the base.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -89,21 +89,11 @@ impl Kinematics {
             }
         }
     }
-
-    /// The frames of its links in the base, from the first one on, translation in mm.
-    pub fn link_frames(&self, axes: &Axes) -> Vec<Frame> {
-        let (joints, _) = self.links();
-        let mut frame = Frame::identity();
-        let links = joints.iter().zip(axes).map(|(joint, axis)| {
-            frame *= joint.at(*axis);
-            frame
-        });
-        links.collect()
-    }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::Frame;
     use crate::kinematics::random::Random;
     use crate::robot::Robot;
 
@@ -117,8 +107,9 @@ mod tests {
                 for (value, axis) in axes.iter_mut().zip(robot.own_axes()) {
                     *value = random.between(axis.min, axis.max);
                 }
-                let (_, flange) = robot.kinematics.links();
-                let found = *robot.kinematics.link_frames(&axes).last().unwrap() * flange;
+                let (joints, flange) = robot.kinematics.links();
+                let links = joints.iter().zip(axes).map(|(joint, axis)| joint.at(axis));
+                let found = links.fold(Frame::identity(), |before, link| before * link) * flange;
                 let expected = robot.kinematics.forward(&axes);
                 assert!((found.translation.vector - expected.translation.vector).norm() < 1e-9, "{name}");
                 assert!(found.rotation.angle_to(&expected.rotation) < 1e-9, "{name}");

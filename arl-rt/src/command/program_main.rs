@@ -527,7 +527,7 @@ fn watch(
     say(controller, sources, recording.as_ref());
     let lost = recording.iter().map(|recording| recording.run_ended(controller)).sum::<u64>();
     if lost > 0 {
-        warn(&format!("who listens was too slow for real time: {lost} lines of what happened are left out"));
+        warn(&format!("who listens was too slow for real time: what happened is left out, {lost} times"));
     }
     between.into_iter().for_each(|mut between| between.run_ended(controller));
     match (code, controller.outcome()) {

@@ -91,25 +91,17 @@ impl Listener {
 /// The program's connection, or how it ended before.
 fn accept(listener: &TcpListener, program: &mut Child) -> std::io::Result<Result<TcpStream, ExitStatus>> {
     loop {
-        match listener.accept() {
-            Ok((stream, _)) => {
+        // Asked first: what it said before its end is there to be accepted then.
+        let ended = program.try_wait()?;
+        match (listener.accept(), ended) {
+            (Ok((stream, _)), _) => {
                 stream.set_nonblocking(false)?;
                 return Ok(Ok(stream));
             }
-            Err(error) if error.kind() == std::io::ErrorKind::WouldBlock => {}
-            Err(error) => return Err(error),
+            (Err(error), _) if error.kind() != std::io::ErrorKind::WouldBlock => return Err(error),
+            (Err(_), Some(ended)) => return Ok(Err(ended)),
+            (Err(_), None) => std::thread::sleep(LOOK_INTERVAL),
         }
-        if let Some(ended) = program.try_wait()? {
-            // It may have said all in the meantime.
-            return match listener.accept() {
-                Ok((stream, _)) => {
-                    stream.set_nonblocking(false)?;
-                    Ok(Ok(stream))
-                }
-                Err(_) => Ok(Err(ended)),
-            };
-        }
-        std::thread::sleep(LOOK_INTERVAL);
     }
 }
 

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use arl_robot::kinematics::{self, Frame};
+use nalgebra::{Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 use serde::Deserialize;
 
 /// A line of the program. `arl-rt` documents them in its module `live`.
@@ -11,7 +13,7 @@ use serde::Deserialize;
 pub(super) enum Line {
     /// The first line: what runs on which robots.
     Hello(Hello),
-    /// How everything stands, 20 times a second.
+    /// How everything stands, again and again.
     State(State),
     /// Where the robots are, in each cycle, where that is asked for.
     Cycle(Cycle),
@@ -108,6 +110,20 @@ pub(super) struct LinkJoint {
     /// What it turns about, or moves along, in the link's frame.
     pub(super) axis: [f64; 3],
     pub(super) linear: bool,
+}
+
+impl LinkJoint {
+    /// The joint of the robot's kinematics.
+    pub(super) fn joint(&self) -> kinematics::LinkJoint {
+        let axis = Unit::new_normalize(Vector3::from(self.axis));
+        kinematics::LinkJoint { origin: placed(&self.origin), axis, linear: self.linear }
+    }
+}
+
+/// The frame that is written so.
+pub(super) fn placed([x, y, z, i, j, k, w]: &Placed) -> Frame {
+    let turned = UnitQuaternion::from_quaternion(Quaternion::new(*w, *i, *j, *k));
+    Frame::from_parts(Translation3::new(*x, *y, *z), turned)
 }
 
 /// An axis and its range, in its unit.
@@ -239,7 +255,7 @@ pub(super) struct Refused {
 pub(super) struct Contact {
     /// Controller time in s.
     pub(super) time: f64,
-    /// The place of the motion that is executed; line 0: the robot has not moved yet.
+    /// The place of the motion that brought them together.
     pub(super) file: String,
     pub(super) line: u32,
     pub(super) one: String,
@@ -256,6 +272,6 @@ impl fmt::Display for Contact {
         } else {
             write!(f, "{one} touches {other}")?;
         }
-        if *line > 0 { write!(f, " after {time:.3} s ({file}:{line})") } else { f.write_str(" before anything moves") }
+        write!(f, " after {time:.3} s ({file}:{line})")
     }
 }

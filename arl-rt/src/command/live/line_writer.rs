@@ -29,7 +29,7 @@ struct Lines {
     /// The last thing sent is nothing: the end.
     waiting: SyncSender<Option<String>>,
     if_full: Rc<Cell<IfFull>>,
-    /// How many lines were left out though nothing was to be.
+    /// How often something was left out where that counts.
     lost: Rc<Cell<u64>>,
     /// Whether nobody reads any more.
     gone: Rc<Cell<bool>>,
@@ -108,7 +108,7 @@ impl LineWriter {
         self.lines.if_full.set(if_full);
     }
 
-    /// How many lines were left out because they were not to wait.
+    /// How often something was left out because no cycle was to wait.
     pub(super) fn lost(&self) -> u64 {
         self.lines.lost.get()
     }

@@ -103,7 +103,7 @@ impl Recording {
         }
     }
 
-    /// The run has ended: how everything stands, and what the motions did. Returns how many lines were left out.
+    /// The run has ended: how everything stands, and what the motions did. Returns how often something was left out.
     pub(crate) fn run_ended(&self, controller: &Controller) -> u64 {
         // There is no cycle any more that could be late.
         self.voice.if_full(IfFull::Waits);

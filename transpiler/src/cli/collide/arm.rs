@@ -1,8 +1,9 @@
 //! Where the links of a robot are.
 
+use arl_robot::kinematics::{Frame, LinkJoint, frame};
 use parry3d_f64::math::{Pose, Rotation, Vector};
 
-use super::super::said::{LinkJoint, Moves, Placed, Runs};
+use super::super::said::{self, Moves, Runs, placed};
 
 /// A robot's arm in its base, which stands in the world; lengths in mm.
 pub(super) struct Arm {
@@ -19,25 +20,21 @@ pub(super) struct Arm {
 }
 
 struct Joint {
-    origin: Pose,
-    axis: Vector,
-    linear: bool,
+    joint: LinkJoint,
     /// The farthest that the link's origin gets from that of the link before, in mm.
     length: f64,
 }
 
 impl Arm {
     pub(super) fn new(runs: &Runs) -> Self {
-        let joint = |(joint, axis): (&LinkJoint, &super::super::said::Axis)| {
-            let origin = pose(&joint.origin);
+        let joint = |(joint, axis): (&said::LinkJoint, &said::Axis)| {
+            let joint = joint.joint();
             let travel = if joint.linear { axis.min.abs().max(axis.max.abs()) } else { 0.0 };
-            let [x, y, z] = joint.axis;
-            let length = origin.translation.length() + travel;
-            Joint { origin, axis: Vector::new(x, y, z), linear: joint.linear, length }
+            Joint { joint, length: joint.origin.translation.vector.norm() + travel }
         };
         let mut arm = Self {
             joints: runs.links.iter().zip(&runs.axes).map(joint).collect(),
-            flange: pose(&runs.flange),
+            flange: of_frame(&placed(&runs.flange)),
             base: Vec::new(),
             base_pose: Pose::IDENTITY,
             based: 0,
@@ -59,7 +56,7 @@ impl Arm {
         own.clone_into(&mut self.axes);
         if base != self.base {
             base.clone_into(&mut self.base);
-            let frame = <[f64; 6]>::try_from(base).map(arl_robot::kinematics::frame).unwrap_or_default();
+            let frame = <[f64; 6]>::try_from(base).map(frame).unwrap_or_default();
             self.base_pose = of_frame(&frame);
             self.based += 1;
         }
@@ -80,13 +77,8 @@ impl Arm {
         self.links.clear();
         let mut place = self.base_pose;
         self.links.push(place);
-        for (joint, value) in self.joints.iter().zip(&self.axes) {
-            let moved = if joint.linear {
-                Pose::from_parts(joint.axis * *value, Rotation::IDENTITY)
-            } else {
-                Pose::from_parts(Vector::ZERO, Rotation::from_axis_angle(joint.axis, value.to_radians()))
-            };
-            place = place * joint.origin * moved;
+        for (Joint { joint, .. }, value) in self.joints.iter().zip(&self.axes) {
+            place *= of_frame(&joint.at(*value));
             self.links.push(place);
         }
     }
@@ -123,19 +115,15 @@ impl Arm {
         let all = self.joints.iter().zip(self.axes.iter().zip(before));
         for (joint, (now, before)) in all.take(links.end).skip(links.start).rev() {
             let change = (now - before).abs();
-            moved += if joint.linear { change } else { change.to_radians() * reach };
+            moved += if joint.joint.linear { change } else { change.to_radians() * reach };
             reach += joint.length;
         }
         moved
     }
 }
 
-fn pose([x, y, z, i, j, k, w]: &Placed) -> Pose {
-    Pose::from_parts(Vector::new(*x, *y, *z), Rotation::from_xyzw(*i, *j, *k, *w).normalize())
-}
-
 /// A frame of the robot's kinematics.
-pub(super) fn of_frame(frame: &arl_robot::kinematics::Frame) -> Pose {
+pub(super) fn of_frame(frame: &Frame) -> Pose {
     let (at, turned) = (frame.translation.vector, frame.rotation.coords);
     Pose::from_parts(Vector::new(at.x, at.y, at.z), Rotation::from_xyzw(turned.x, turned.y, turned.z, turned.w))
 }

@@ -99,7 +99,6 @@ fn tell(file: &Path, contact: &Contact, format: Format) -> Result<(), Failure> {
         Format::Human => show::error(&contact.to_string()),
         Format::Json => {
             let Contact { time, line, one, other, distance, .. } = contact;
-            let line = (*line).max(1);
             // As diagnostics name it: from where the command runs.
             let beside = file.with_file_name(&contact.file);
             let of = if !contact.file.is_empty() && beside.is_file() { &beside } else { file }.display().to_string();

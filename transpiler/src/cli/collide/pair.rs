@@ -138,8 +138,7 @@ impl Pair {
         (based != known.based && !self.is_own) || self.moved(&known.axes, arms) >= known.room
     }
 
-    /// The channel of the robot that brought the two together: the one that has moved more since they were looked at; else one that has moved
-    /// at all.
+    /// The channel of the robot that brought the two together: the one that has moved more since they were looked at.
     pub(super) fn mover(&self, arms: &[Option<Arm>]) -> Option<usize> {
         let [one, other] = &self.ends;
         let [Some(first), Some(second)] = [one.channel, other.channel] else { return one.channel.or(other.channel) };

@@ -2,7 +2,7 @@
 
 use arl_robot::kinematics::{Frame, frame};
 
-use super::super::said::{Channel, Limb, LinkJoint, Placed, Runs};
+use super::super::said::{Channel, Limb, LinkJoint, Placed, Runs, placed};
 use super::messages::{FrameTransform, Quaternion, Timestamp, Vector3};
 
 /// The frame that everything stands in.
@@ -82,7 +82,7 @@ impl Arm {
         let mut before = self.base();
         for (number, (link, value)) in (1..).zip(self.links.iter().zip(&said.axes)) {
             let name = self.link(number);
-            add(before, name.clone(), &at(link, *value));
+            add(before, name.clone(), &link.joint().at(*value));
             before = name;
         }
         add(before, self.flange_frame(), &placed(&self.flange));
@@ -96,26 +96,9 @@ fn si(value: f64, linear: bool) -> f64 {
     if linear { value / 1000.0 } else { value.to_radians() }
 }
 
-/// A frame from x, y, z in mm and a quaternion.
-pub(super) fn placed([x, y, z, i, j, k, w]: &Placed) -> Frame {
-    use nalgebra::{Quaternion, Translation3, UnitQuaternion};
-    Frame::from_parts(Translation3::new(*x, *y, *z), UnitQuaternion::from_quaternion(Quaternion::new(*w, *i, *j, *k)))
-}
-
 /// A frame from x, y, z, a, b, c; where there are none, that of the world.
 fn components(values: &[f64]) -> Frame {
     <[f64; 6]>::try_from(values).map_or_else(|_| Frame::identity(), frame)
-}
-
-/// A link's frame in the one before at a value of its axis, in deg (mm).
-fn at(link: &LinkJoint, value: f64) -> Frame {
-    let axis = nalgebra::Vector3::from(link.axis);
-    let moved = if link.linear {
-        Frame::from_parts((axis * value).into(), nalgebra::UnitQuaternion::identity())
-    } else {
-        Frame::rotation(axis * value.to_radians())
-    };
-    placed(&link.origin) * moved
 }
 
 fn transform(now: Timestamp, (parent_frame_id, child_frame_id): (String, String), frame: &Frame) -> FrameTransform {

@@ -273,7 +273,7 @@ pub(super) struct Closest {
 pub(super) struct Contact {
     #[prost(double, tag = "1")]
     pub(super) time: f64,
-    /// Where the motion stands in which they do.
+    /// Where the motion stands that brought them together.
     #[prost(string, tag = "2")]
     pub(super) file: String,
     #[prost(uint32, tag = "3")]

@@ -24,7 +24,6 @@ const CHUNK_BYTES: u64 = 1 << 20;
 pub(super) struct Recorder<W: Write + Seek> {
     writer: Writer<W>,
     topics: BTreeMap<String, Topic>,
-    hello: Hello,
     /// The arm of each channel, where it has one.
     arms: Vec<Option<Arm>>,
     /// What was written last of each topic: what stays the same is not written again.
@@ -59,7 +58,6 @@ impl<W: Write + Seek> Recorder<W> {
         Ok(Self {
             writer: options.create(stream)?,
             topics: BTreeMap::new(),
-            hello: Hello::default(),
             arms: Vec::new(),
             last: Last::default(),
             time: 0.0,
@@ -72,7 +70,7 @@ impl<W: Write + Seek> Recorder<W> {
     pub(super) fn hear(&mut self, line: &Line) -> McapResult<()> {
         let log = |level: Level, text: &str| Log { level: level.into(), message: text.into(), ..Log::default() };
         match line {
-            Line::Hello(hello) => self.begin(hello.clone()),
+            Line::Hello(hello) => self.begin(hello),
             Line::State(state) => self.state(state),
             Line::Message(said::Message { time, channel, text }) => {
                 let said = log(Level::Info, text.trim_end_matches('\n'));
@@ -101,7 +99,7 @@ impl<W: Write + Seek> Recorder<W> {
         &self.arms
     }
 
-    fn begin(&mut self, hello: Hello) -> McapResult<()> {
+    fn begin(&mut self, hello: &Hello) -> McapResult<()> {
         let robots = hello.channels.iter().filter(|runs| !runs.links.is_empty()).count();
         let arm = |(at, runs): (usize, &said::Runs)| {
             let prefix = if robots > 1 { format!("channel_{}/", at + 1) } else { String::new() };
@@ -119,7 +117,6 @@ impl<W: Write + Seek> Recorder<W> {
         let cell =
             Cell { channels: hello.channels.iter().map(runs).collect(), names: hello.names.iter().map(name).collect() };
         self.last.channels = vec![Channel::default(); hello.channels.len()];
-        self.hello = hello;
         self.write("/arl/cell", &schemas::CELL, 0.0, &cell)
     }
 

@@ -7,8 +7,8 @@ use std::fmt::Write;
 use arl_robot::cell::{Body, Solid};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
-use super::super::said::Limb;
-use super::links::{Arm, WORLD, placed};
+use super::super::said::{Limb, placed};
+use super::links::{Arm, WORLD};
 
 /// What a joint may do at most where only its range is known; a reader wants numbers.
 const EFFORT: f64 = 1000.0;
