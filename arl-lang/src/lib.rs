@@ -39,4 +39,4 @@ pub use parse::{
     parse_statements,
 };
 pub use tree::EXPRESSION_LEVELS;
-pub use words::{control_word, control_words, is_reserved};
+pub use words::{control_word, control_words, is_reserved, language_words};

@@ -75,6 +75,11 @@ pub fn is_reserved(name: &str) -> bool {
     all_words().any(|(word, kind)| kind != Word::OpenInstruction && word.eq_ignore_ascii_case(name))
 }
 
+/// All words of the language: of control structures, of constants, of types and of instructions.
+pub fn language_words() -> impl Iterator<Item = &'static str> {
+    all_words().map(|(word, _)| word)
+}
+
 /// The words of control structures and constants, sorted.
 pub fn control_words() -> impl Iterator<Item = &'static str> {
     FIXED.iter().map(|(word, _)| *word)

@@ -23,7 +23,7 @@ use crate::context::standard_error::tell;
 use crate::context::standstill::Standstill;
 use crate::controller::{Builder, Controller, Outcome, SetupError};
 use crate::cycle::clock_source::{RealClock, VirtualClock};
-use crate::io::Scenario;
+use crate::io::{Pendant, Scenario};
 use crate::storage::state::Directory;
 use crate::values::Controlmode;
 use arl_robot::cell::{Cell, Names};
@@ -60,12 +60,14 @@ Options:
                         or one JSON object a line into a file
   --live                be driven by lines on the standard input (di.5 = true), and
                         say what happens as JSON lines on the standard output
+  --paused              with --live: wait for the start button
   --debug ADDRESS       connect to a debugger there, which says when to run: for programs
                         that were made for one
   --listener ADDRESS    connect to a listener there (arl2rs run --record) and say what
                         happens, as --live does
-  --each-cycle          say to the listener in each cycle where the robots are
-  --each-motion         say to the listener at the end what each motion did
+  --each-cycle          with --live or --listener: say in each cycle where the robots are
+  --each-motion         with --live or --listener: say what each motion did
+  --state-interval S    with --live: how often to say how everything stands (0.05)
   --coverage FILE       write how often each statement ran: for programs that were made
                         for a debugger
   --loop                the loop running mode: a program that ends is reset and begins
@@ -89,6 +91,7 @@ struct Options {
     cell: Option<PathBuf>,
     clock: Option<Pace>,
     live: bool,
+    paused: bool,
     asked: Asked,
     repeats: bool,
     script_dir: PathBuf,
@@ -257,6 +260,7 @@ fn parse(
         cell: None,
         clock: None,
         live: false,
+        paused: false,
         asked: Asked::default(),
         repeats: false,
         script_dir: PathBuf::from(script_dir),
@@ -279,6 +283,7 @@ fn parse(
             Long("robot") => options.robot = Some(parser.value()?.string()?),
             Long("cell") => options.cell = Some(parser.value()?.into()),
             Long("live") => (options.live, options.clock) = (true, Some(Pace::Real)),
+            Long("paused") => options.paused = true,
             Long("debug") => options.asked.debug = Some(parser.value()?.string()?),
             Long("coverage") => options.asked.coverage = Some(parser.value()?.into()),
             Long("clock") => {
@@ -292,6 +297,9 @@ fn parse(
             Long("trace") => options.trace = Some(parser.value()?.into()),
             Long("each-cycle") => options.wishes.each_cycle = true,
             Long("each-motion") => options.wishes.each_motion = true,
+            Long("state-interval") => {
+                options.wishes.state_interval = number(&mut parser, "--state-interval", "seconds", f64::MAX)?;
+            }
             Long("listener") => options.listener = Some(parser.value()?.string()?),
             Long("report") => {
                 options.report = Some(parser.optional_value().map_or(Report::Table, |file| Report::File(file.into())));
@@ -365,6 +373,7 @@ fn run(
     };
     let repeats = options.repeats;
     let voice = options.live.then(LineWriter::standard);
+    let (wishes, paused) = (options.wishes, options.paused);
     let connect = |address: String| Recording::connect(&address, options.wishes).map_err(|error| (address, error));
     let recording = match options.listener.clone().filter(|_| voice.is_none()).map(connect).transpose() {
         Ok(recording) => recording,
@@ -376,12 +385,10 @@ fn run(
     let controller = set_up(options, others).and_then(|builder| {
         let builder = match (&voice, &recording) {
             (Some(voice), _) => builder.output(voice.messages()),
-            (None, Some(recording)) => {
-                let builder = builder.output(recording.output());
-                if recording.wishes().each_motion { builder.record_motions() } else { builder }
-            }
+            (None, Some(recording)) => builder.output(recording.output()),
             (None, None) => builder,
         };
+        let builder = if wishes.each_motion { builder.record_motions() } else { builder };
         builder.build(program).map_err(SetupFailure::from)
     });
     let mut controller = match controller {
@@ -401,8 +408,11 @@ fn run(
     };
     let code = match voice {
         Some(voice) => {
+            if paused {
+                controller.press(Pendant::Pause);
+            }
             let inside = watching.map(|watching| watching.inside);
-            code(live::drive(&mut controller, &voice, inside, max_time, interrupted))
+            code(live::drive(&mut controller, &voice, (inside, wishes), max_time, interrupted))
         }
         None => watch(&mut controller, max_time, interrupted, (between, recording), sources),
     };

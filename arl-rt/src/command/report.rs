@@ -82,32 +82,7 @@ fn summary(records: &[MotionRecord], time: f64) -> String {
 
 /// One JSON object a line: each motion of a channel that began, then the figures of its cycle time.
 fn json(channel: usize, records: &[MotionRecord], robot: &Robot, time: f64) -> String {
-    let mut text = String::new();
-    for record in executed(records) {
-        let MotionRecord { number, line, kind, programmed, reached, duration, way, .. } = record;
-        let kind = instruction(*kind);
-        let start = record.start.unwrap_or_default();
-        let _ = write!(
-            text,
-            "{{\"channel\":{channel},\"motion\":{number},\"line\":{line},\"kind\":\"{kind}\",\"unit\":\"{}\",\"programmed\":{:.6},\
-             \"reached\":{reached:.6},\"start\":{start:.6},\"duration\":{duration:.6},\"way\":{way:.6}",
-            programmed.unit, programmed.value
-        );
-        if let Some(blend) = record.blend {
-            let (unit, asked, used) = (blend.unit, blend.asked, blend.used);
-            let why = record.unblended.as_ref().map(|why| format!(",\"why\":{}", quoted(&why.to_string())));
-            let why = why.unwrap_or_default();
-            let _ = write!(text, ",\"blend\":{{\"unit\":\"{unit}\",\"asked\":{asked:.6},\"used\":{used:.6}{why}}}");
-        }
-        text.push_str(",\"closest\":{");
-        for (at, closest) in record.closest().into_iter().flatten().enumerate() {
-            let (comma, rate) = (if at > 0 { "," } else { "" }, rate(&closest));
-            let (of, percent) = (quoted(closest.name(robot)), 100.0 * closest.share);
-            let _ = write!(text, "{comma}\"{rate}\":{{\"of\":{of},\"percent\":{percent:.3}}}");
-        }
-        text.push('}');
-        text.push_str("}\n");
-    }
+    let mut text: String = executed(records).map(|record| motion_json(channel, record, robot)).collect();
     let moving = sum(records, |record| record.duration);
     let _ = writeln!(
         text,
@@ -115,6 +90,35 @@ fn json(channel: usize, records: &[MotionRecord], robot: &Robot, time: f64) -> S
         (time - moving).max(0.0),
         executed(records).count()
     );
+    text
+}
+
+/// A motion as a JSON object, and the end of its line.
+pub(super) fn motion_json(channel: usize, record: &MotionRecord, robot: &Robot) -> String {
+    let mut text = String::new();
+    let MotionRecord { number, line, kind, programmed, reached, duration, way, .. } = record;
+    let kind = instruction(*kind);
+    let start = record.start.unwrap_or_default();
+    let _ = write!(
+        text,
+        "{{\"channel\":{channel},\"motion\":{number},\"line\":{line},\"kind\":\"{kind}\",\"unit\":\"{}\",\"programmed\":{:.6},\
+         \"reached\":{reached:.6},\"start\":{start:.6},\"duration\":{duration:.6},\"way\":{way:.6}",
+        programmed.unit, programmed.value
+    );
+    if let Some(blend) = record.blend {
+        let (unit, asked, used) = (blend.unit, blend.asked, blend.used);
+        let why = record.unblended.as_ref().map(|why| format!(",\"why\":{}", quoted(&why.to_string())));
+        let why = why.unwrap_or_default();
+        let _ = write!(text, ",\"blend\":{{\"unit\":\"{unit}\",\"asked\":{asked:.6},\"used\":{used:.6}{why}}}");
+    }
+    text.push_str(",\"closest\":{");
+    for (at, closest) in record.closest().into_iter().flatten().enumerate() {
+        let (comma, rate) = (if at > 0 { "," } else { "" }, rate(&closest));
+        let (of, percent) = (quoted(closest.name(robot)), 100.0 * closest.share);
+        let _ = write!(text, "{comma}\"{rate}\":{{\"of\":{of},\"percent\":{percent:.3}}}");
+    }
+    text.push('}');
+    text.push_str("}\n");
     text
 }
 

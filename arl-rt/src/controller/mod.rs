@@ -417,6 +417,14 @@ impl Controller {
         self.channels.units().map(|unit| of_unit(&unit.borrow())).collect()
     }
 
+    /// Of the foreground channels by their numbers: the robot, what its motions did, and whether it executes one.
+    pub(crate) fn each_record(&self, mut each: impl FnMut(&Robot, &[MotionRecord], bool)) {
+        for unit in self.channels.units() {
+            let unit = unit.borrow();
+            each(unit.robot(), unit.records(), unit.executing().1 != 0);
+        }
+    }
+
     /// Where the Modbus TCP server listens, if there is one.
     pub fn modbus_tcp_address(&self) -> Option<SocketAddr> {
         self.shared.buses.modbus_tcp_address()

@@ -13,7 +13,6 @@ pub(super) struct Cli {
 }
 
 #[derive(Subcommand, Debug)]
-#[expect(clippy::large_enum_variant, reason = "there is one command line")]
 pub(super) enum Command {
     /// Make a folder with a program that runs, its points, a cell, a scenario and a test.
     New {
@@ -83,6 +82,17 @@ pub(super) enum Command {
         #[arg(long, value_name = "NAME|FILE")]
         robot: Option<String>,
     },
+    /// Show a run in the browser: robot, path, program and signals on one time line.
+    ///
+    /// Of a recording, or of a program that runs in real time, with the pendant's buttons in the page. The first line of the standard output
+    /// is the address of the page.
+    View {
+        /// A program, or a recording that `arl2rs run --record` made, or two recordings to be compared.
+        #[arg(required = true, num_args = 1..=2, value_name = "FILE.arl|RUN.mcap")]
+        files: Vec<PathBuf>,
+        #[command(flatten)]
+        options: ViewOptions,
+    },
     /// Run the cases in folders: every NAME.arl with a sidecar that says what is expected (.out, .err, .alarm).
     Test {
         /// Folders with cases, searched with their subfolders.
@@ -135,6 +145,49 @@ pub(super) enum Command {
         #[arg(long, value_name = "FILE.urdf", conflicts_with = "name")]
         import: Option<PathBuf>,
     },
+}
+
+/// Options of the view.
+#[derive(Args, Clone, Default, Debug)]
+pub(super) struct ViewOptions {
+    /// The port on this computer; a free one where there is none.
+    #[arg(long, value_name = "P", default_value_t = 0)]
+    pub(super) port: u16,
+    /// Do not open the browser.
+    #[arg(long)]
+    pub(super) no_open: bool,
+    /// The robot of a program: a built-in name or a robot file.
+    #[arg(long, value_name = "NAME|FILE")]
+    pub(super) robot: Option<String>,
+    /// The cell of a program.
+    #[arg(long, value_name = "FILE")]
+    pub(super) cell: Option<PathBuf>,
+    /// A scenario: what the outside does to the inputs of a program.
+    #[arg(long, value_name = "FILE")]
+    pub(super) io: Option<PathBuf>,
+    /// The folder that the program's files are in; the program's folder if absent.
+    #[arg(long, value_name = "DIR")]
+    pub(super) script_dir: Option<PathBuf>,
+    /// The folder that keeps state between runs.
+    #[arg(long, value_name = "DIR")]
+    pub(super) state_dir: Option<PathBuf>,
+    /// The mode of operation of a program.
+    #[arg(long, value_enum)]
+    pub(super) mode: Option<Mode>,
+}
+
+impl ViewOptions {
+    /// Whether there are options that only programs have.
+    pub(super) fn is_of_program(&self) -> bool {
+        let paths = [&self.cell, &self.io, &self.script_dir, &self.state_dir];
+        self.robot.is_some() || self.mode.is_some() || paths.iter().any(|path| path.is_some())
+    }
+
+    /// The options of a program that is shown.
+    pub(super) fn run(&self) -> RunOptions {
+        let Self { robot, cell, io, script_dir, state_dir, mode, .. } = self.clone();
+        RunOptions { robot, cell, io, script_dir, state_dir, mode, ..RunOptions::default() }
+    }
 }
 
 /// Options of a test run.

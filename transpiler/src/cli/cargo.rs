@@ -32,6 +32,8 @@ pub(super) struct RustError {
 
 /// Whether Ctrl-C is for the program that runs in front of this process.
 static LEFT_TO_PROGRAM: AtomicBool = AtomicBool::new(false);
+/// Whether Ctrl-C was pressed since.
+static WAS_PRESSED: AtomicBool = AtomicBool::new(false);
 
 /// Makes Ctrl-C end the command with its exit code. cargo is of the same group of processes, and ends by itself.
 pub(super) fn end_on_interrupt() {
@@ -40,12 +42,18 @@ pub(super) fn end_on_interrupt() {
         if !LEFT_TO_PROGRAM.load(Ordering::Relaxed) {
             std::process::exit(i32::from(INTERRUPTED));
         }
+        WAS_PRESSED.store(true, Ordering::Relaxed);
     });
 }
 
 /// From now on Ctrl-C is the running program's business.
 pub(super) fn leave_interrupts_to_the_program() {
     LEFT_TO_PROGRAM.store(true, Ordering::Relaxed);
+}
+
+/// Whether Ctrl-C was pressed while it was the program's business.
+pub(super) fn was_interrupted() -> bool {
+    WAS_PRESSED.load(Ordering::Relaxed)
 }
 
 /// Compiles the project in `folder`.

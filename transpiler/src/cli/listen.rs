@@ -135,7 +135,8 @@ fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) {
     }
 }
 
-fn pass_on(line: Line, hearers: &mut Vec<Box<dyn Hears>>) {
+/// Has all hear a line. Who cannot go on is told of, and hears no more.
+pub(super) fn pass_on(line: Line, hearers: &mut Vec<Box<dyn Hears>>) {
     let mut lines = vec![line];
     hearers.retain_mut(|hearer| {
         let mut more = Vec::new();

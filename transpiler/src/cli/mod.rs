@@ -16,6 +16,7 @@ mod explain;
 mod failure;
 mod fmt;
 mod framing;
+mod link;
 mod listen;
 mod lsp;
 mod new;
@@ -36,8 +37,10 @@ mod several;
 mod show;
 mod stamp;
 mod test;
+mod texts;
 mod trouble;
 mod urdf;
+mod view;
 
 use crate::compile::{guard, on_large_stack, remember_panics};
 use args::{Cli, Command};
@@ -74,6 +77,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Doc { name, search } => print(explain::doc(name.as_deref(), &search)),
         Command::New { folder } => done(new::new(&folder)),
         Command::Fmt { files, check } => fmt::fmt(&files, check),
+        Command::View { files, options } => view::view(&files, &options),
         Command::Lsp => lsp::lsp(),
         Command::Dap => dap::dap(),
         Command::Robots { import: Some(file), .. } => print(urdf::import(&file)),

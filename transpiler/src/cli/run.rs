@@ -27,7 +27,7 @@ pub(super) fn run(file: &Path, options: &RunOptions) -> Result<ExitCode, Failure
     if on_screen {
         return pendant::run(command, ready);
     }
-    let listener = listener(options)?;
+    let listener = listener(options, &ready.sources)?;
     match &options.plot {
         Some(picture) => run_and_plot((command, listener), ready, file, options, picture),
         None if listener.is_some() => wait(command, listener, ready),
@@ -36,7 +36,7 @@ pub(super) fn run(file: &Path, options: &RunOptions) -> Result<ExitCode, Failure
 }
 
 /// Who is to hear what the program does: collisions come first, so that they are recorded.
-fn listener(options: &RunOptions) -> Result<Option<Listener>, Failure> {
+fn listener(options: &RunOptions, sources: &[PathBuf]) -> Result<Option<Listener>, Failure> {
     let mut hearers: Vec<Box<dyn Hears>> = Vec::new();
     let cell = options.cell.as_deref().map(Cell::load).transpose();
     let cell = cell.map_err(|error| Failure::Usage(error.to_string()))?.unwrap_or_default();
@@ -45,7 +45,7 @@ fn listener(options: &RunOptions) -> Result<Option<Listener>, Failure> {
         hearers.push(Box::new(collisions));
     }
     if let Some(path) = &options.record {
-        hearers.push(Box::new(Recording::create(path, &cell.bodies)?));
+        hearers.push(Box::new(Recording::create(path, &cell.bodies, sources)?));
     }
     Listener::of(hearers)
 }

@@ -17,6 +17,7 @@ mod standstill;
 mod system_variables;
 mod telling;
 mod testing;
+mod view;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

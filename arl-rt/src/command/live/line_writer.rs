@@ -132,6 +132,13 @@ impl LineWriter {
         self.lines.say(format!("{{\"hello\":{{\"channels\":{channels},\"names\":{{{names}}}}}}}\n"));
     }
 
+    /// Where the robots are.
+    pub(super) fn cycle(&self, controller: &Controller) {
+        let mut line = String::new();
+        push_cycle(&mut line, controller);
+        self.lines.state(line);
+    }
+
     /// How everything stands.
     pub(super) fn state(&self, controller: &Controller) {
         let mut line = String::with_capacity(1024);

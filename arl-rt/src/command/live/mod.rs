@@ -11,23 +11,27 @@
 //! signals. Then come `state` (20 times a second), `inside` (4 times a second), `message`, `warning`, `alarm`, and `refused`
 //! for an order that could not be carried out.
 //!
-//! Who only listens (`--listener`) hears the same, `cycle` where it asks for each cycle (where the robots are, and the levels of inputs and
-//! outputs), `report` where it asks for each motion (an object of `--report=FILE`), and `ended` at last.
+//! `--state-interval S` has states come more often. With `--each-cycle`, `cycle` says in each cycle where the robots are, and the levels of inputs
+//! and outputs; with `--each-motion`, `report` says what a motion did, once it has ended.
+//!
+//! Who only listens (`--listener`) hears the same, reports at the end, and `ended` at last.
 
 mod line_writer;
+mod motions;
 mod orders;
 mod recording;
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::controller::{Controller, Outcome};
+use motions::EndedMotions;
 use orders::{Next, Orders};
 
 pub(crate) use line_writer::LineWriter;
 pub(crate) use recording::{Recording, Wishes};
 
-/// How often a state goes out, in s.
-const STATE_INTERVAL_S: f64 = 0.05;
+/// How often a state goes out where nobody asks for another interval, in s.
+pub(crate) const STATE_INTERVAL_S: f64 = 0.05;
 /// How often it goes out what is inside a program, in s.
 const INSIDE_INTERVAL_S: f64 = 0.25;
 
@@ -48,15 +52,16 @@ pub(crate) enum Cut {
 pub(crate) fn drive(
     controller: &mut Controller,
     voice: &LineWriter,
-    inside: Option<Inside>,
+    (inside, wishes): (Option<Inside>, Wishes),
     max_time: Option<f64>,
     interrupted: &AtomicBool,
 ) -> Result<Option<Outcome>, Cut> {
     let last = max_time.map_or(u64::MAX, |seconds| controller.cycles(seconds));
-    let every = controller.cycles(STATE_INTERVAL_S).max(1);
+    let every = controller.cycles(wishes.state_interval).max(1);
     let every_inside = controller.cycles(INSIDE_INTERVAL_S).max(1);
     let orders = Orders::from_standard_input();
     let mut look = Look { inside, channel: None };
+    let mut ended_motions = EndedMotions::default();
     let mut cut = None;
     voice.hello(controller);
     loop {
@@ -71,8 +76,12 @@ pub(crate) fn drive(
         }
         controller.step();
         voice.news(controller);
+        if wishes.each_cycle {
+            voice.cycle(controller);
+        }
         if controller.cycle().is_multiple_of(every) {
             voice.state(controller);
+            ended_motions.say(controller, voice);
         }
         if controller.cycle().is_multiple_of(every_inside) {
             look.say(controller, voice);

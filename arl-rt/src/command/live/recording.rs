@@ -19,13 +19,21 @@ const STATE_INTERVAL_S: f64 = 0.004;
 /// So many bytes go out at once on the virtual clock: a thread is woken less often then.
 const WAITING_BYTES: usize = 1 << 15;
 
-/// What a listener wants to hear beside states, messages, warnings and alarms.
-#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+/// What who listens wants to hear beside messages, warnings and alarms.
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) struct Wishes {
+    /// How often a state, in s, where orders are taken.
+    pub(crate) state_interval: f64,
     /// In each cycle, where the robots are.
     pub(crate) each_cycle: bool,
-    /// At the end, what each motion did.
+    /// What each motion did: at the end, or as they end where orders are taken.
     pub(crate) each_motion: bool,
+}
+
+impl Default for Wishes {
+    fn default() -> Self {
+        Self { state_interval: super::STATE_INTERVAL_S, each_cycle: false, each_motion: false }
+    }
 }
 
 /// The connection to a listener.
@@ -41,11 +49,6 @@ impl Recording {
     pub(crate) fn connect(address: &str, wishes: Wishes) -> io::Result<Self> {
         let stream = TcpStream::connect(address)?;
         Ok(Self { voice: LineWriter::to(stream, IfFull::Waits), wishes, waiting: RefCell::default() })
-    }
-
-    /// What it wants to hear.
-    pub(crate) fn wishes(&self) -> Wishes {
-        self.wishes
     }
 
     /// The standard output, and the recording beside it.

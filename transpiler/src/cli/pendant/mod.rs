@@ -1,11 +1,10 @@
 //! `arl2rs run --pendant`: a live screen of a program that runs.
 //!
-//! The program is a process of its own, driven by lines ([`link`]): a screen that hangs does not hold up a robot, and when
+//! The program is a process of its own, driven by lines ([`Link`]): a screen that hangs does not hold up a robot, and when
 //! the screen goes, the robot stops on its path.
 
 mod inside;
 mod keys;
-mod link;
 mod model;
 mod screen;
 mod sources;
@@ -16,10 +15,10 @@ use std::time::Duration;
 use ratatui::crossterm::event::{self, Event};
 
 use super::failure::{Failure, INTERRUPTED};
+use super::link::Link;
 use super::program::Ready;
 use super::show;
 use keys::Wish;
-use link::Link;
 use model::{Model, Weight};
 use sources::Sources;
 

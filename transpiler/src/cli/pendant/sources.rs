@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use super::super::texts::{self, Text, file_name};
+
 /// The lines of a file.
 struct Source {
     /// As alarms show it.
@@ -16,12 +18,8 @@ pub(super) struct Sources(Vec<Source>);
 impl Sources {
     /// Reads the files; what cannot be read is not shown.
     pub(super) fn read(files: &[PathBuf]) -> Self {
-        let read = |path: &PathBuf| {
-            let bytes = std::fs::read(path).ok()?;
-            let text = arl_lang::text::decode(&bytes).ok()?;
-            Some(Source { name: file_name(&path.to_string_lossy()).to_owned(), lines: lines(&text) })
-        };
-        Self(files.iter().filter_map(read).collect())
+        let source = |Text { name, text }| Source { name, lines: lines(&text) };
+        Self(texts::read(files).into_iter().map(source).collect())
     }
 
     #[cfg(test)]
@@ -43,10 +41,6 @@ impl Sources {
 /// Tabs would break the columns of the screen.
 fn lines(text: &str) -> Vec<String> {
     text.lines().map(|line| line.replace('\t', "    ")).collect()
-}
-
-fn file_name(path: &str) -> &str {
-    path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use arl_robot::kinematics::{Frame, frame};
 
 use super::super::said::{Channel, Limb, LinkJoint, Placed, Runs, placed};
-use super::messages::{FrameTransform, Quaternion, Timestamp, Vector3};
+use super::messages::{FrameTransform, Link, Quaternion, Timestamp, Vector3};
 
 /// The frame that everything stands in.
 pub(super) const WORLD: &str = "world";
@@ -69,6 +69,26 @@ impl Arm {
         format!("{}{name}", self.prefix)
     }
 
+    /// The frame of its TCP.
+    pub(super) fn tcp_frame(&self) -> String {
+        format!("{}tcp", self.prefix)
+    }
+
+    /// Its links from the base on, and its flange.
+    pub(super) fn chain(&self) -> Vec<Link> {
+        let mut before = self.base();
+        let mut chain = Vec::with_capacity(self.links.len() + 1);
+        for (number, link) in (1..).zip(&self.links) {
+            let frame = self.link(number);
+            let parent = std::mem::replace(&mut before, frame.clone());
+            let (origin, axis) = (link.origin.to_vec(), link.axis.to_vec());
+            chain.push(Link { frame, parent, origin, axis, linear: link.linear });
+        }
+        let (frame, origin) = (self.flange_frame(), self.flange.to_vec());
+        chain.push(Link { frame, parent: before, origin, ..Link::default() });
+        chain
+    }
+
     /// The axes' values in rad (m), each with its name.
     pub(super) fn joints(&self, axes: &[f64]) -> impl Iterator<Item = (String, f64)> {
         self.axes.iter().zip(axes).map(|(own, value)| (self.joint(&own.name), si(*value, own.linear)))
@@ -86,7 +106,7 @@ impl Arm {
             before = name;
         }
         add(before, self.flange_frame(), &placed(&self.flange));
-        add(WORLD.into(), format!("{}tcp", self.prefix), &components(&said.tcp));
+        add(WORLD.into(), self.tcp_frame(), &components(&said.tcp));
         all
     }
 }
@@ -102,13 +122,19 @@ fn components(values: &[f64]) -> Frame {
 }
 
 fn transform(now: Timestamp, (parent_frame_id, child_frame_id): (String, String), frame: &Frame) -> FrameTransform {
-    let at = frame.translation.vector / 1000.0;
-    let [x, y, z, w] = frame.rotation.coords.into();
+    let (translation, rotation) = parts(frame);
     FrameTransform {
         timestamp: Some(now),
         parent_frame_id,
         child_frame_id,
-        translation: Some(Vector3 { x: at.x, y: at.y, z: at.z }),
-        rotation: Some(Quaternion { x, y, z, w }),
+        translation: Some(translation),
+        rotation: Some(rotation),
     }
+}
+
+/// A frame as messages have it, in m.
+pub(super) fn parts(frame: &Frame) -> (Vector3, Quaternion) {
+    let at = frame.translation.vector / 1000.0;
+    let [x, y, z, w] = frame.rotation.coords.into();
+    (Vector3 { x: at.x, y: at.y, z: at.z }, Quaternion { x, y, z, w })
 }

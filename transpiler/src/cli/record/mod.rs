@@ -2,15 +2,16 @@
 //! beside it. What the recording holds stands in `docs/recordings.md`.
 
 mod links;
-mod messages;
+pub(super) mod messages;
 mod recorder;
+mod scene;
 mod schemas;
+mod sink;
 #[cfg(test)]
 mod tests;
 mod urdf;
 
 use std::error::Error;
-use std::fs::File;
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 
@@ -18,8 +19,11 @@ use super::failure::Failure;
 use super::listen::Hears;
 use super::said::Line;
 use super::show;
+use super::texts::{self, Text};
 use arl_robot::cell::Body;
-use recorder::Recorder;
+pub(super) use recorder::Recorder;
+pub(super) use schemas::Schema;
+pub(super) use sink::Sink;
 
 /// The description of the robots, beside a recording.
 const DESCRIPTION: &str = "cell.urdf";
@@ -29,15 +33,19 @@ pub(super) struct Recording {
     path: PathBuf,
     /// What stands in the cell, or is carried.
     bodies: Vec<Body>,
-    recorder: Recorder<BufWriter<File>>,
+    recorder: Recorder<sink::File<BufWriter<std::fs::File>>>,
 }
 
 impl Recording {
     /// Makes the file: better to fail now than after a long run.
-    pub(super) fn create(path: &Path, bodies: &[Body]) -> Result<Self, Failure> {
-        let file = File::create(path).map_err(|error| Failure::io("write", path, &error))?;
+    pub(super) fn create(path: &Path, bodies: &[Body], sources: &[PathBuf]) -> Result<Self, Failure> {
+        let file = std::fs::File::create(path).map_err(|error| Failure::io("write", path, &error))?;
         let cannot = |error| Failure::Usage(format!("cannot write {}: {error}", path.display()));
-        let recorder = Recorder::new(BufWriter::new(file)).map_err(cannot)?;
+        let mut file = sink::File::new(BufWriter::new(file)).map_err(cannot)?;
+        for Text { name, text } in texts::read(sources) {
+            file.source(&name, &text).map_err(cannot)?;
+        }
+        let recorder = Recorder::new(file, bodies);
         Ok(Self { path: path.to_owned(), bodies: bodies.to_vec(), recorder })
     }
 }

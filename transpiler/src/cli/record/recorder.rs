@@ -1,10 +1,7 @@
 //! Writes what a program says into a recording.
 
-use std::collections::BTreeMap;
-use std::io::{Seek, Write};
-
-use mcap::records::MessageHeader;
-use mcap::{McapResult, WriteOptions, Writer};
+use arl_robot::cell::Body;
+use mcap::McapResult;
 use serde_json::Value;
 
 use super::super::said::{self, Hello, Line, State};
@@ -13,19 +10,20 @@ use super::messages::{
     Axis, Blend, Cell, Channel, Closest, Contact, Controller, FrameTransforms, Io, JointState, JointStates, Level, Log,
     Motion, Name, Runs, Timestamp,
 };
+use super::scene::Scene;
 use super::schemas::{self, Schema};
+use super::sink::Sink;
 
 /// How often frames and joints are written for viewers, in s; our own messages have every state.
 const FRAMES_INTERVAL_S: f64 = 0.02;
-/// What a file gathers before it is written as one piece that readers can look up, in bytes: so much is lost where a run is cut off.
-const CHUNK_BYTES: u64 = 1 << 20;
 
-/// A recording that is being written.
-pub(super) struct Recorder<W: Write + Seek> {
-    writer: Writer<W>,
-    topics: BTreeMap<String, Topic>,
+/// Makes messages of lines.
+pub(crate) struct Recorder<S> {
+    sink: S,
     /// The arm of each channel, where it has one.
     arms: Vec<Option<Arm>>,
+    /// What stands in the cell, or is carried.
+    scene: Scene,
     /// What was written last of each topic: what stays the same is not written again.
     last: Last,
     /// The time of the last state, in s.
@@ -34,11 +32,6 @@ pub(super) struct Recorder<W: Write + Seek> {
     frames_due: f64,
     /// The last state, if its frames were not written.
     left_out: Option<State>,
-}
-
-struct Topic {
-    id: u16,
-    sequence: u32,
 }
 
 /// What was written last.
@@ -51,23 +44,22 @@ struct Last {
     places: Vec<Vec<f64>>,
 }
 
-impl<W: Write + Seek> Recorder<W> {
-    /// An empty recording.
-    pub(super) fn new(stream: W) -> McapResult<Self> {
-        let options = WriteOptions::new().compression(None).chunk_size(Some(CHUNK_BYTES)).library("arl2rs");
-        Ok(Self {
-            writer: options.create(stream)?,
-            topics: BTreeMap::new(),
+impl<S: Sink> Recorder<S> {
+    /// For the bodies of a cell.
+    pub(crate) fn new(sink: S, bodies: &[Body]) -> Self {
+        Self {
+            sink,
             arms: Vec::new(),
+            scene: Scene::new(bodies),
             last: Last::default(),
             time: 0.0,
             frames_due: 0.0,
             left_out: None,
-        })
+        }
     }
 
     /// Takes in what the program says.
-    pub(super) fn hear(&mut self, line: &Line) -> McapResult<()> {
+    pub(crate) fn hear(&mut self, line: &Line) -> McapResult<()> {
         let log = |level: Level, text: &str| Log { level: level.into(), message: text.into(), ..Log::default() };
         match line {
             Line::Hello(hello) => self.begin(hello),
@@ -87,11 +79,11 @@ impl<W: Write + Seek> Recorder<W> {
     }
 
     /// Writes the summary, by which readers find their way.
-    pub(super) fn finish(&mut self) -> McapResult<()> {
+    pub(crate) fn finish(&mut self) -> McapResult<()> {
         if let Some(state) = self.left_out.take() {
             self.frames(&state)?;
         }
-        self.writer.finish().map(drop)
+        self.sink.finish()
     }
 
     /// The robots' arms by channels, once the program has said them.
@@ -108,16 +100,20 @@ impl<W: Write + Seek> Recorder<W> {
         self.arms = hello.channels.iter().enumerate().map(arm).collect();
         let axis =
             |axis: &said::Axis| Axis { name: axis.name.clone(), unit: axis.unit.clone(), min: axis.min, max: axis.max };
-        let runs = |runs: &said::Runs| Runs {
+        let runs = |(runs, arm): (&said::Runs, &Option<Arm>)| Runs {
             program: runs.program.clone(),
             robot: runs.robot.clone().unwrap_or_default(),
             axes: runs.axes.iter().map(axis).collect(),
+            links: arm.iter().flat_map(Arm::chain).collect(),
+            tcp: arm.as_ref().map(Arm::tcp_frame).unwrap_or_default(),
         };
         let name = |(signal, name): (&String, &String)| Name { signal: signal.clone(), name: name.clone() };
-        let cell =
-            Cell { channels: hello.channels.iter().map(runs).collect(), names: hello.names.iter().map(name).collect() };
+        let channels = hello.channels.iter().zip(&self.arms).map(runs).collect();
+        let cell = Cell { channels, names: hello.names.iter().map(name).collect() };
         self.last.channels = vec![Channel::default(); hello.channels.len()];
-        self.write("/arl/cell", &schemas::CELL, 0.0, &cell)
+        self.write("/arl/cell", &schemas::CELL, 0.0, &cell)?;
+        let robots = self.scene.robots(&self.arms);
+        self.write("/scene", &schemas::SCENE_UPDATE, 0.0, &robots)
     }
 
     fn state(&mut self, state: &State) -> McapResult<()> {
@@ -133,6 +129,9 @@ impl<W: Write + Seek> Recorder<W> {
         let io = Io { time, di, r#do, ai: state.ai.clone(), ao: state.ao.clone() };
         if self.last.io.as_ref().is_none_or(|last| (Io { time: last.time, ..io.clone() }) != *last) {
             self.write("/arl/io", &schemas::IO, time, &io)?;
+            if let Some(update) = self.scene.bodies(&io, &self.arms, timestamp(time)) {
+                self.write("/scene", &schemas::SCENE_UPDATE, time, &update)?;
+            }
             self.last.io = Some(io);
         }
         for (at, said) in state.channels.iter().enumerate() {
@@ -159,6 +158,7 @@ impl<W: Write + Seek> Recorder<W> {
             motion: said.motion,
             axes: said.axes.clone(),
             tcp: said.tcp.clone(),
+            base: said.base.clone(),
         };
         let Some(last) = self.last.channels.get_mut(at) else { return Ok(()) };
         if (Channel { time: last.time, ..channel.clone() }) == *last {
@@ -248,16 +248,7 @@ impl<W: Write + Seek> Recorder<W> {
         time: f64,
         message: &impl prost::Message,
     ) -> McapResult<()> {
-        if !self.topics.contains_key(topic) {
-            let of = self.writer.add_schema(&schema.full_name(), "protobuf", &schema.descriptors())?;
-            let id = self.writer.add_channel(of, topic, "protobuf", &BTreeMap::new())?;
-            self.topics.insert(topic.to_owned(), Topic { id, sequence: 0 });
-        }
-        let Some(known) = self.topics.get_mut(topic) else { return Ok(()) };
-        known.sequence = known.sequence.wrapping_add(1);
-        let log_time = nanoseconds(time);
-        let header = MessageHeader { channel_id: known.id, sequence: known.sequence, log_time, publish_time: log_time };
-        self.writer.write_to_known_channel(&header, &message.encode_to_vec())
+        self.sink.message(topic, schema, nanoseconds(time), &message.encode_to_vec())
     }
 }
 

@@ -8,7 +8,7 @@ use prost_types::{
 };
 
 /// A message and its fields, by their numbers from 1 on.
-pub(super) struct Schema {
+pub(crate) struct Schema {
     package: &'static str,
     name: &'static str,
     fields: &'static [(&'static str, Kind)],
@@ -21,8 +21,10 @@ enum Kind {
     /// A double that may be absent.
     Maybe,
     Doubles,
+    Flag,
     Flags,
     Text,
+    Bytes,
     Int32,
     Int64,
     Uint32,
@@ -31,6 +33,8 @@ enum Kind {
     Level,
     One(&'static Schema),
     Many(&'static Schema),
+    /// A field of this number is there, but never written.
+    Unused,
 }
 
 const FOXGLOVE: &str = "foxglove";
@@ -67,7 +71,24 @@ static JOINT_STATE: Schema =
 static RUNS: Schema = Schema {
     package: OURS,
     name: "Runs",
-    fields: &[("program", Kind::Text), ("robot", Kind::Text), ("axes", Kind::Many(&AXIS))],
+    fields: &[
+        ("program", Kind::Text),
+        ("robot", Kind::Text),
+        ("axes", Kind::Many(&AXIS)),
+        ("links", Kind::Many(&LINK)),
+        ("tcp", Kind::Text),
+    ],
+};
+static LINK: Schema = Schema {
+    package: OURS,
+    name: "Link",
+    fields: &[
+        ("frame", Kind::Text),
+        ("parent", Kind::Text),
+        ("origin", Kind::Doubles),
+        ("axis", Kind::Doubles),
+        ("linear", Kind::Flag),
+    ],
 };
 static AXIS: Schema = Schema {
     package: OURS,
@@ -83,6 +104,75 @@ static BLEND: Schema = Schema {
 static CLOSEST: Schema =
     Schema { package: OURS, name: "Closest", fields: &[("of", Kind::Text), ("percent", Kind::Double)] };
 
+static POSE: Schema = Schema {
+    package: FOXGLOVE,
+    name: "Pose",
+    fields: &[("position", Kind::One(&VECTOR)), ("orientation", Kind::One(&QUATERNION))],
+};
+static COLOR: Schema = Schema {
+    package: FOXGLOVE,
+    name: "Color",
+    fields: &[("r", Kind::Double), ("g", Kind::Double), ("b", Kind::Double), ("a", Kind::Double)],
+};
+const SOLID: &[(&str, Kind)] =
+    &[("pose", Kind::One(&POSE)), ("size", Kind::One(&VECTOR)), ("color", Kind::One(&COLOR))];
+static CUBE: Schema = Schema { package: FOXGLOVE, name: "CubePrimitive", fields: SOLID };
+static SPHERE: Schema = Schema { package: FOXGLOVE, name: "SpherePrimitive", fields: SOLID };
+static CYLINDER: Schema = Schema {
+    package: FOXGLOVE,
+    name: "CylinderPrimitive",
+    fields: &[
+        ("pose", Kind::One(&POSE)),
+        ("size", Kind::One(&VECTOR)),
+        ("bottom_scale", Kind::Double),
+        ("top_scale", Kind::Double),
+        ("color", Kind::One(&COLOR)),
+    ],
+};
+static MODEL: Schema = Schema {
+    package: FOXGLOVE,
+    name: "ModelPrimitive",
+    fields: &[
+        ("pose", Kind::One(&POSE)),
+        ("scale", Kind::One(&VECTOR)),
+        ("color", Kind::One(&COLOR)),
+        ("override_color", Kind::Flag),
+        ("url", Kind::Unused),
+        ("media_type", Kind::Text),
+        ("data", Kind::Bytes),
+    ],
+};
+static SCENE_ENTITY: Schema = Schema {
+    package: FOXGLOVE,
+    name: "SceneEntity",
+    fields: &[
+        ("timestamp", Kind::One(&TIMESTAMP)),
+        ("frame_id", Kind::Text),
+        ("id", Kind::Text),
+        ("lifetime", Kind::Unused),
+        ("frame_locked", Kind::Flag),
+        ("metadata", Kind::Unused),
+        ("arrows", Kind::Unused),
+        ("cubes", Kind::Many(&CUBE)),
+        ("spheres", Kind::Many(&SPHERE)),
+        ("cylinders", Kind::Many(&CYLINDER)),
+        ("lines", Kind::Unused),
+        ("triangles", Kind::Unused),
+        ("texts", Kind::Unused),
+        ("models", Kind::Many(&MODEL)),
+    ],
+};
+static SCENE_ENTITY_DELETION: Schema = Schema {
+    package: FOXGLOVE,
+    name: "SceneEntityDeletion",
+    fields: &[("timestamp", Kind::One(&TIMESTAMP)), ("type", Kind::Unused), ("id", Kind::Text)],
+};
+
+pub(super) static SCENE_UPDATE: Schema = Schema {
+    package: FOXGLOVE,
+    name: "SceneUpdate",
+    fields: &[("deletions", Kind::Many(&SCENE_ENTITY_DELETION)), ("entities", Kind::Many(&SCENE_ENTITY))],
+};
 pub(super) static FRAME_TRANSFORMS: Schema =
     Schema { package: FOXGLOVE, name: "FrameTransforms", fields: &[("transforms", Kind::Many(&FRAME_TRANSFORM))] };
 pub(super) static JOINT_STATES: Schema = Schema {
@@ -117,6 +207,7 @@ pub(super) static CHANNEL: Schema = Schema {
         ("motion", Kind::Uint64),
         ("axes", Kind::Doubles),
         ("tcp", Kind::Doubles),
+        ("base", Kind::Doubles),
     ],
 };
 pub(super) static CONTROLLER: Schema = Schema {
@@ -214,7 +305,8 @@ impl Schema {
 
     fn message(&self) -> DescriptorProto {
         let mut message = DescriptorProto { name: Some(self.name.into()), ..DescriptorProto::default() };
-        for (number, (name, kind)) in (1..).zip(self.fields) {
+        let written = (1..).zip(self.fields).filter(|(_, (_, kind))| !matches!(kind, Kind::Unused));
+        for (number, (name, kind)) in written {
             let mut field = kind.field(name, number);
             if let Kind::Maybe = kind {
                 // What may be absent is the only one of its kind.
@@ -245,8 +337,10 @@ impl Kind {
         let (kind, label) = match self {
             Self::Double | Self::Maybe => (Type::Double, Label::Optional),
             Self::Doubles => (Type::Double, Label::Repeated),
+            Self::Flag => (Type::Bool, Label::Optional),
             Self::Flags => (Type::Bool, Label::Repeated),
             Self::Text => (Type::String, Label::Optional),
+            Self::Bytes => (Type::Bytes, Label::Optional),
             Self::Int32 => (Type::Int32, Label::Optional),
             Self::Int64 => (Type::Int64, Label::Optional),
             Self::Uint32 => (Type::Uint32, Label::Optional),
@@ -254,7 +348,7 @@ impl Kind {
             Self::Fixed32 => (Type::Fixed32, Label::Optional),
             Self::Level => (Type::Enum, Label::Optional),
             Self::One(_) => (Type::Message, Label::Optional),
-            Self::Many(_) => (Type::Message, Label::Repeated),
+            Self::Many(_) | Self::Unused => (Type::Message, Label::Repeated),
         };
         FieldDescriptorProto {
             name: Some(name.into()),

@@ -10,6 +10,7 @@ use prost_types::field_descriptor_proto::{Label, Type};
 use super::messages::*;
 use super::recorder::Recorder;
 use super::schemas::{self, Schema};
+use super::sink::File;
 use super::urdf::urdf;
 
 const HELLO: &str = r#"{"hello":{"channels":[{"program":"pick.arl","robot":"two-axes","axes":[
@@ -29,8 +30,12 @@ fn state(time: f64, j1: f64, di: &str, line: u32) -> String {
 
 /// The messages of a recording of these lines by their topics, each with its time in ns.
 fn recorded(lines: &[String]) -> BTreeMap<String, Vec<(u64, Vec<u8>)>> {
+    recorded_in(lines, &[])
+}
+
+fn recorded_in(lines: &[String], bodies: &[arl_robot::cell::Body]) -> BTreeMap<String, Vec<(u64, Vec<u8>)>> {
     let mut bytes = Vec::new();
-    let mut recorder = Recorder::new(Cursor::new(&mut bytes)).unwrap();
+    let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)).unwrap(), bodies);
     for line in lines {
         recorder.hear(&serde_json::from_str(line).unwrap()).unwrap();
     }
@@ -108,7 +113,7 @@ fn an_empty_run_is_a_whole_file() {
 #[test]
 fn the_description_has_the_frames_and_joints_of_the_recording() {
     let mut bytes = Vec::new();
-    let mut recorder = Recorder::new(Cursor::new(&mut bytes)).unwrap();
+    let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)).unwrap(), &[]);
     recorder.hear(&serde_json::from_str(HELLO).unwrap()).unwrap();
     let bodies = "[[body]]\nname = \"table <1>\"\nbox = [800, 600, 40]\nat = [900, 0, -20]\n\
                   [[body]]\nname = \"tool\"\ncylinder = [20, 100]\non = \"flange\"\n[[body]]\nname = \"jig\"\nmesh = \"jig.stl\"\n";
@@ -153,7 +158,28 @@ fn filled() -> Vec<(&'static Schema, Vec<u8>)> {
         motion: 1,
         axes: vec![1.0],
         tcp: vec![1.0],
+        base: vec![1.0],
     };
+    let links = vec![Link { frame: text(), parent: text(), origin: vec![1.0], axis: vec![1.0], linear: true }];
+    let runs = Runs { program: text(), robot: text(), axes, links, tcp: text() };
+    let pose = Some(Pose { position: Some(vector), orientation: Some(quaternion) });
+    let color = Some(Color { r: 1.0, g: 1.0, b: 1.0, a: 1.0 });
+    let (size, scale) = (Some(vector), Some(vector));
+    let solid = Solid { pose, size, color };
+    let cylinder = Cylinder { pose, size, bottom_scale: 1.0, top_scale: 1.0, color };
+    let model = Model { pose, scale, color, override_color: true, media_type: text(), data: vec![1] };
+    let entity = SceneEntity {
+        timestamp,
+        frame_id: text(),
+        id: text(),
+        frame_locked: true,
+        cubes: vec![solid],
+        spheres: vec![solid],
+        cylinders: vec![cylinder],
+        models: vec![model],
+    };
+    let deletions = vec![SceneEntityDeletion { timestamp, id: text() }];
+    let scene = SceneUpdate { deletions, entities: vec![entity] };
     let motion = Motion {
         channel: 1,
         motion: 1,
@@ -176,7 +202,8 @@ fn filled() -> Vec<(&'static Schema, Vec<u8>)> {
         (&schemas::FRAME_TRANSFORMS, FrameTransforms { transforms: vec![transform] }.encode_to_vec()),
         (&schemas::JOINT_STATES, JointStates { timestamp, joints }.encode_to_vec()),
         (&schemas::LOG, log.encode_to_vec()),
-        (&schemas::CELL, Cell { channels: vec![Runs { program: text(), robot: text(), axes }], names }.encode_to_vec()),
+        (&schemas::CELL, Cell { channels: vec![runs], names }.encode_to_vec()),
+        (&schemas::SCENE_UPDATE, scene.encode_to_vec()),
         (&schemas::CHANNEL, channel.encode_to_vec()),
         (&schemas::CONTROLLER, Controller { time: 1.0, mode: text(), speed_override: 1.0 }.encode_to_vec()),
         (&schemas::IO, io.encode_to_vec()),
@@ -205,7 +232,7 @@ fn read(files: &FileDescriptorSet, name: &str, mut bytes: &[u8]) {
             _ if packed => 2,
             Type::Double => 1,
             Type::Fixed32 => 5,
-            Type::String | Type::Message => 2,
+            Type::String | Type::Bytes | Type::Message => 2,
             _ => 0,
         };
         assert_eq!(key & 7, wire, "{name}: {}", field.name());

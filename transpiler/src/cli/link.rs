@@ -1,10 +1,10 @@
-//! The program behind the screen: what it says, line by line, and what it is told.
+//! A program that is driven: what it says, line by line, and what it is told.
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, Sender, channel};
 
-use super::super::said::Line;
+use super::said::Line;
 
 /// A program that runs, and is told what to do by lines.
 pub(super) struct Link {

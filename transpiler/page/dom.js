@@ -1,0 +1,44 @@
+// Elements of the page.
+
+/**
+ * An element with these properties and children.
+ * @param {string} tag
+ * @param {Record<string, any>} [properties]
+ * @param {...(Node | string)} children
+ * @returns {HTMLElement}
+ */
+export function element(tag, properties = {}, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (name in made) Object.assign(made, { [name]: value });
+    else made.setAttribute(name, String(value));
+  }
+  made.append(...children);
+  return made;
+}
+
+/**
+ * The element with this id, which the page has.
+ * @param {string} id
+ * @returns {any}
+ */
+export function byId(id) {
+  return document.getElementById(id);
+}
+
+/**
+ * A text that is written anew only where it is another one: reading it costs the browser nothing.
+ * @param {HTMLElement} of
+ * @param {string} text
+ */
+export function write(of, text) {
+  if (of.textContent !== text) of.textContent = text;
+}
+
+/**
+ * Seconds as people read them.
+ * @param {number} seconds
+ */
+export function seconds(seconds) {
+  return seconds.toFixed(3);
+}

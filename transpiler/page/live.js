@@ -1,0 +1,118 @@
+// A program that runs: its news, the buttons of the pendant, its inputs.
+
+import { byId, element, write } from "./dom.js";
+
+/** How often news are asked for, in ms. */
+const NEWS_MS = 50;
+/** How far the moment that is shown is behind what is known, in s: then there is always something to go to. */
+export const BEHIND_S = 0.06;
+
+/** The buttons, what they tell the program, and the states in which they do something. */
+const BUTTONS = [
+  ["▶ Start", 'pendant = "start"', "Let program and robot go on", ["paused", "standstill"]],
+  ["⏸ Pause", 'pendant = "pause"', "Stop on the path", ["running"]],
+  ["Step", 'pendant = "step"', "One motion or statement", ["paused"]],
+  ["Reset", 'pendant = "reset"', "Back to the begin of the program", ["paused", "ended", "alarm", "stopped"]],
+  ["Clear", 'pendant = "clear"', "Clear the alarm", ["alarm"]],
+];
+
+/** Tells the program something; what cannot be is told. @param {string} order */
+export async function tell(order) {
+  const answer = await fetch("/api/order", { method: "POST", body: order }).catch((problem) => ({
+    ok: false,
+    text: async () => String(problem),
+  }));
+  if (!answer.ok) trouble(await answer.text());
+  return answer.ok;
+}
+
+/** @param {string} text */
+export function trouble(text) {
+  Object.assign(byId("trouble"), { hidden: text === "", textContent: text });
+}
+
+export class Live {
+  /** @param {import('./run.js').Run} run @param {{begun: () => void, more: () => void, ended: () => void}} does */
+  constructor(run, does) {
+    this.run = run;
+    this.does = does;
+    this.buttons = BUTTONS.map(([name, order, title, states]) => {
+      const button = /** @type {HTMLButtonElement} */ (element("button", { title }, /** @type {string} */ (name)));
+      button.addEventListener("click", () => tell(/** @type {string} */ (order)));
+      return { button, states };
+    });
+    this.percent = element("output", { title: "The override" }, "100 %");
+    const by = (/** @type {number} */ step) => () => tell(`override = ${Math.min(Math.max(this.speed + step, 0), 100)}`);
+    const less = element("button", { title: "Slower", ariaLabel: "Override down" }, "−");
+    const more = element("button", { title: "Faster", ariaLabel: "Override up" }, "+");
+    less.addEventListener("click", by(-10));
+    more.addEventListener("click", by(10));
+    byId("buttons").replaceChildren(...this.buttons.map(({ button }) => button), less, this.percent, more);
+    byId("buttons").hidden = false;
+    this.show();
+    this.ask();
+  }
+
+  get speed() {
+    return this.run.told.controller.at(-1)?.override ?? 100;
+  }
+
+  async ask() {
+    try {
+      const news = await this.run.refresh();
+      if (news === "begun") return this.does.begun();
+      if (news === "more") this.does.more();
+      if (this.lost) trouble("");
+      this.lost = false;
+    } catch {
+      this.lost = true;
+      trouble("The command that shows this is gone, or does not answer. What was seen is still here.");
+    }
+    this.show();
+    if (!this.run.live) {
+      trouble("The program has ended. Start `arl2rs view` again to go on.");
+      return this.does.ended();
+    }
+    setTimeout(() => this.ask(), this.lost ? 1000 : NEWS_MS);
+  }
+
+  /** Which buttons do something now. */
+  show() {
+    const states = this.run.robots.map((/** @type {any} */ channel) => this.run.stateAt(channel.number, this.run.end));
+    for (const { button, states: own } of this.buttons) {
+      const acts = states.some((/** @type {string} */ state) => own.includes(state)) && this.run.live && !this.lost;
+      if (button.disabled === acts) button.disabled = !acts;
+    }
+    write(this.percent, `${Math.round(this.speed)} %`);
+  }
+
+  /** Inputs that can be set, and any other order. */
+  inputs() {
+    const { names, levels } = this.run.told;
+    const named = Object.keys(names ?? {}).filter((signal) => signal.startsWith("di."));
+    const used = [...this.run.lanes.keys()].filter((signal) => signal.startsWith("di."));
+    const signals = [...new Set([...named, ...used])].sort((one, other) => Number(one.slice(3)) - Number(other.slice(3)));
+    const rows = signals.map((signal) => {
+      const on = () => this.run.told.levels?.di[Number(signal.slice(3)) - 1] === "1";
+      const button = element("button", { className: on() ? "on" : "", ariaLabel: signal }, on() ? "on" : "off");
+      button.addEventListener("click", () => tell(`${signal} = ${!on()}`));
+      return element(
+        "tr",
+        {},
+        element("td", {}, signal),
+        element("td", { className: "text" }, names?.[signal] ?? ""),
+        element("td", {}, button),
+      );
+    });
+    const order = /** @type {HTMLInputElement} */ (
+      element("input", { placeholder: "di.5 = true", ariaLabel: "An order in the words of a scenario", size: 28, spellcheck: false })
+    );
+    const form = element("form", { className: "hint" }, order, " ", element("button", {}, "Tell"));
+    form.addEventListener("submit", async (event) => {
+      event.preventDefault();
+      if (order.value.trim() && (await tell(order.value.trim()))) order.value = "";
+    });
+    const table = element("table", { className: "list" }, element("tbody", {}, ...rows));
+    return element("div", {}, ...(levels ? [table] : []), form);
+  }
+}

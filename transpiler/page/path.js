@@ -1,0 +1,95 @@
+// The path of the TCP, coloured by what people ask of it.
+
+import { LineMaterial, LineSegments2, LineSegmentsGeometry } from "./three.js";
+import { kind, light, parts, scale, theme } from "./colors.js";
+
+/** What is farther apart than this within one step is another tool, not a motion, in mm. */
+const JUMP_MM = 120;
+
+/** What the colour tells, by its name, in the order of the keys 1 to 4. */
+export const COLORS = {
+  speed: "speed",
+  limit: "closest limit",
+  blend: "blend",
+  line: "line",
+};
+
+/** Which limit a motion comes closest to, and how much of it is used. @param {any} motion */
+export function closest(motion) {
+  const limits = [
+    ["speed", motion?.vel],
+    ["acceleration", motion?.acc],
+    ["jerk", motion?.jerk],
+  ];
+  const known = limits.filter(([, limit]) => limit).map(([of, limit]) => ({ of, axis: limit[0], percent: limit[1] }));
+  return known.sort((one, other) => other.percent - one.percent)[0];
+}
+
+/** How a motion ends. @param {any} motion */
+export function ending(motion) {
+  if (!motion?.blend) return "stops at the target";
+  const { asked, used } = motion.blend;
+  if (used <= 0) return "zone asked for, stops";
+  return used < asked * 0.999 ? "smaller zone than asked for" : "zone as asked for";
+}
+
+const ENDINGS = ["stops at the target", "zone as asked for", "smaller zone than asked for", "zone asked for, stops"];
+
+/** Colours of a path, and what they mean. */
+export class Paint {
+  /** @param {string} mode @param {import('./run.js').Run} run @param {any} channel @param {number} fastest in mm/s */
+  constructor(mode, run, channel, fastest) {
+    this.mode = mode;
+    this.fastest = fastest;
+    this.quiet = parts(theme("quiet").padEnd(7, "0"));
+    /** @type {Map<string, number[]>} */
+    this.known = new Map();
+    this.of = (/** @type {number} */ motion) => run.byNumber?.get(`${channel.number}/${motion}`);
+  }
+
+  /** @param {number} speed @param {number} motion @param {number} line */
+  color(speed, motion, line) {
+    if (this.mode === "speed") return scale(this.fastest > 0 ? speed / this.fastest : 0);
+    if (this.mode === "line") return this.kind(`line ${line}`);
+    const found = this.of(motion);
+    // What a motion did is known when the run has ended.
+    if (!found) return this.quiet;
+    if (this.mode === "blend") return this.kind(ending(found), ENDINGS);
+    return this.kind(closest(found)?.axis ?? "none");
+  }
+
+  /** @param {string} name @param {string[]} [fixed] */
+  kind(name, fixed) {
+    const color = this.known.get(name) ?? parts(kind(fixed ? fixed.indexOf(name) : this.known.size));
+    this.known.set(name, color);
+    return color;
+  }
+}
+
+/**
+ * The path of some rows.
+ * @param {import('./samples.js').Rows} rows
+ * @param {Paint} paint
+ * @param {{opacity: number}} look
+ */
+export function path(rows, paint, look) {
+  const positions = [];
+  const colors = [];
+  for (let row = 1; row < rows.count; row++) {
+    const [from, to] = [(row - 1) * 7, row * 7];
+    const way = Math.hypot(rows.tcp[to] - rows.tcp[from], rows.tcp[to + 1] - rows.tcp[from + 1], rows.tcp[to + 2] - rows.tcp[from + 2]);
+    if (way < 1e-3 || (way > JUMP_MM && rows.times[row] - rows.times[row - 1] < 0.06)) continue;
+    const [, line, motion] = rows.pointers.subarray(row * 4);
+    const color = light(paint.color(rows.speed[row], motion, line));
+    for (const at of [from, to]) {
+      for (let axis = 0; axis < 3; axis++) positions.push(rows.tcp[at + axis] / 1000);
+      colors.push(...color);
+    }
+  }
+  if (positions.length === 0) return undefined;
+  const geometry = new LineSegmentsGeometry();
+  geometry.setPositions(positions);
+  geometry.setColors(colors);
+  const material = new LineMaterial({ vertexColors: true, linewidth: 2.5, transparent: look.opacity < 1, opacity: look.opacity });
+  return new LineSegments2(geometry, material);
+}

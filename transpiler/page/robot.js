@@ -1,0 +1,168 @@
+// Frames of robots, and the bodies that are fixed to them.
+
+import {
+  AxesHelper,
+  BoxGeometry,
+  Color,
+  CylinderGeometry,
+  Group,
+  Mesh,
+  MeshStandardMaterial,
+  Object3D,
+  Quaternion,
+  SphereGeometry,
+  STLLoader,
+  Vector3,
+} from "./three.js";
+
+/** Frames are drawn so long, in m. */
+const AXES_M = 0.12;
+/** What stands for a tool: its radius in m, its colour. */
+const TOOL_M = 0.008;
+const TOOL = [0.7, 0.72, 0.75, 1];
+/** What is another run's is seen through. */
+const GHOST = new Color("#4da3e0");
+
+/** The frames of a run: those of its robots, and the world. */
+export class Frames {
+  /** @param {import('./run.js').Run} run @param {Group} world @param {boolean} ghost */
+  constructor(run, world, ghost) {
+    this.run = run;
+    this.world = world;
+    this.ghost = ghost;
+    /** @type {Map<string, Object3D>} */
+    this.all = new Map([["world", world]]);
+    this.arms = run.robots.map((/** @type {any} */ channel) => this.arm(channel));
+    /** @type {Map<string, {of: any, group: Group}>} */
+    this.entities = new Map();
+  }
+
+  /** @param {any} channel */
+  arm(channel) {
+    /** @param {string} name @param {Object3D} parent */
+    const frame = (name, parent) => {
+      const made = new Group();
+      parent.add(made);
+      this.all.set(name, made);
+      return made;
+    };
+    const base = frame(channel.links[0].parent, this.world);
+    const links = channel.links.map((/** @type {any} */ link) => {
+      const [x, y, z, ...turned] = link.origin;
+      const made = frame(link.frame, this.all.get(link.parent) ?? base);
+      const rest = new Quaternion(...turned);
+      const place = new Vector3(x, y, z).divideScalar(1000);
+      made.position.copy(place);
+      made.quaternion.copy(rest);
+      const axis = link.axis.length === 3 ? new Vector3(...link.axis).normalize() : undefined;
+      return { made, rest, place, axis, linear: link.linear };
+    });
+    const tcp = frame(channel.tcp, this.world);
+    if (!this.ghost) tcp.add(new AxesHelper(AXES_M));
+    // What is between the flange and the TCP is not known, but that there is something.
+    const tool = new Mesh(new CylinderGeometry(TOOL_M, TOOL_M, 1, 12).rotateX(Math.PI / 2), this.material(TOOL));
+    this.world.add(tool);
+    return { channel, base, links, tcp, tool };
+  }
+
+  /**
+   * Puts a robot where it is.
+   * @param {any} arm @param {number[]} axes in deg (mm) @param {number[]} base @param {number[]} tcp
+   */
+  pose(arm, axes, base, tcp) {
+    put(arm.base, base);
+    put(arm.tcp, tcp);
+    arm.links.forEach((/** @type {any} */ link, /** @type {number} */ at) => {
+      if (!link.axis) return;
+      const value = axes[at] ?? 0;
+      if (link.linear) {
+        const way = link.axis
+          .clone()
+          .applyQuaternion(link.rest)
+          .multiplyScalar(value / 1000);
+        link.made.position.copy(link.place).add(way);
+      } else {
+        const turned = new Quaternion().setFromAxisAngle(link.axis, (value * Math.PI) / 180);
+        link.made.quaternion.copy(link.rest).multiply(turned);
+      }
+    });
+    this.world.updateMatrixWorld(true);
+    const from = arm.links.at(-1).made.getWorldPosition(new Vector3());
+    const along = arm.tcp.position.clone().sub(from);
+    const length = along.length();
+    arm.tool.visible = length > 1e-3;
+    arm.tool.position.copy(from).addScaledVector(along, 0.5);
+    arm.tool.scale.z = length;
+    if (arm.tool.visible) arm.tool.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), along.divideScalar(length));
+  }
+
+  /** Shows the bodies that are there, and no others. @param {Map<string, any>} there */
+  show(there) {
+    for (const [id, { of, group }] of this.entities) {
+      if (there.get(id) === of) continue;
+      group.removeFromParent();
+      this.entities.delete(id);
+    }
+    for (const [id, of] of there) {
+      if (this.entities.has(id)) continue;
+      const group = new Group();
+      (this.all.get(of.frame) ?? this.world).add(group);
+      this.entities.set(id, { of, group });
+      this.fill(group, of);
+    }
+  }
+
+  /** @param {Group} group @param {any} entity */
+  fill(group, entity) {
+    /** @param {any} geometry @param {any} one */
+    const add = (geometry, one) => {
+      const [x, y, z, ...turned] = one.pose;
+      const mesh = new Mesh(geometry, this.material(one.color));
+      mesh.position.set(x, y, z);
+      mesh.quaternion.set(.../** @type {[number, number, number, number]} */ (turned));
+      group.add(mesh);
+      return mesh;
+    };
+    for (const one of entity.cubes) add(new BoxGeometry(...one.size), one);
+    for (const one of entity.spheres) add(new SphereGeometry(one.size[0] / 2, 28, 18), one);
+    for (const one of entity.cylinders) {
+      const [width, , length] = one.size;
+      add(new CylinderGeometry(width / 2, width / 2, length, 36).rotateX(Math.PI / 2), one);
+    }
+    for (const one of entity.models) {
+      fetch(`${this.run.address}/model/${one.model}`)
+        .then((answer) => answer.arrayBuffer())
+        .then((bytes) => {
+          add(new STLLoader().parse(bytes), one).scale.set(.../** @type {[number, number, number]} */ (one.scale));
+          this.run.changed();
+        })
+        .catch((problem) => console.warn(`${entity.id} cannot be drawn: ${problem}`));
+    }
+  }
+
+  /** @param {number[]} color */
+  material([r, g, b, a]) {
+    if (this.ghost) return new MeshStandardMaterial({ color: GHOST, transparent: true, opacity: 0.28, depthWrite: false });
+    const color = new Color().setRGB(r, g, b, "srgb");
+    return new MeshStandardMaterial({ color, roughness: 0.55, metalness: 0.1, transparent: a < 1, opacity: a });
+  }
+
+  /** Has some bodies stand out. @param {Set<string>} ids @param {string} color */
+  mark(ids, color) {
+    for (const [id, { group }] of this.entities) {
+      const marked = ids.has(id);
+      if (group.userData.marked === marked) continue;
+      group.userData.marked = marked;
+      for (const mesh of /** @type {any[]} */ (group.children)) {
+        mesh.material.emissive.set(marked ? color : "#000000");
+        mesh.material.emissiveIntensity = marked ? 0.8 : 0;
+      }
+    }
+  }
+}
+
+/** @param {Object3D} object @param {number[]} placed x, y, z in mm, and a quaternion */
+export function put(object, [x, y, z, i, j, k, w]) {
+  object.position.set(x / 1000, y / 1000, z / 1000);
+  object.quaternion.set(i, j, k, w);
+}

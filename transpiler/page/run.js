@@ -1,0 +1,172 @@
+// A run: what the server tells of it, and what is asked of it at a time.
+
+import { Samples, rowAt } from "./samples.js";
+
+/**
+ * A signal that changes: its name in files, what the cell calls it, and its times and values.
+ * @typedef {{signal: string, label: string, times: number[], values: number[]}} Lane
+ */
+
+export class Run {
+  /** @param {number} number @param {any} told @param {() => void} changed */
+  constructor(number, told, changed) {
+    this.address = `/api/run/${number}`;
+    this.changed = changed;
+    this.told = told;
+    this.name = told.name;
+    this.end = told.end;
+    this.trouble = told.trouble;
+    this.live = told.live;
+    /** @type {Map<string, Lane>} by the name of the signal */
+    this.lanes = new Map();
+    this.lanesFrom(told.signals);
+    this.channels = told.channels.map((/** @type {any} */ channel, /** @type {number} */ at) => ({
+      ...channel,
+      number: at + 1,
+      samples: new Samples(`${this.address}/samples?channel=${at + 1}`, changed),
+    }));
+    /** @type {Map<number, any[]>} by the number of the channel */
+    this.motions = new Map();
+    /** @type {Map<string, any>} by the numbers of channel and motion */
+    this.byNumber = new Map();
+    /** @type {Map<number, number[]>} */
+    this.starts = new Map();
+    this.sortMotions();
+  }
+
+  /** @param {number} number @param {() => void} changed */
+  static async load(number, changed) {
+    const answer = await fetch(`/api/run/${number}`);
+    if (!answer.ok) throw new Error(await answer.text());
+    return new Run(number, await answer.json(), changed);
+  }
+
+  /** Channels that have a robot. */
+  get robots() {
+    return this.channels.filter((/** @type {any} */ channel) => channel.links.length > 0);
+  }
+
+  /** @param {any[]} signals */
+  lanesFrom(signals) {
+    for (const { signal, changes } of signals) {
+      /** @type {Lane} */
+      const lane = this.lanes.get(signal) ?? { signal, label: this.told.names?.[signal] ?? signal, times: [], values: [] };
+      for (let at = 0; at < changes.length; at += 2) {
+        lane.times.push(changes[at]);
+        lane.values.push(changes[at + 1]);
+      }
+      this.lanes.set(signal, lane);
+    }
+  }
+
+  sortMotions() {
+    this.told.motions.sort((/** @type {any} */ one, /** @type {any} */ other) => one.start - other.start);
+    this.motions.clear();
+    this.byNumber.clear();
+    for (const motion of this.told.motions) {
+      const all = this.motions.get(motion.channel) ?? [];
+      all.push(motion);
+      this.motions.set(motion.channel, all);
+      this.byNumber.set(`${motion.channel}/${motion.motion}`, motion);
+    }
+    this.starts = new Map([...this.motions].map(([channel, all]) => [channel, all.map((motion) => motion.start)]));
+  }
+
+  /** Asks for what happened since, and takes it in. */
+  async refresh() {
+    const { scene, controller, log, contacts, motions, tracks } = this.told;
+    const known = {
+      scene: scene.length,
+      controller: controller.length,
+      log: log.length,
+      contacts: contacts.length,
+      motions: motions.length,
+    };
+    const [states, bases] = ["states", "bases"].map((list) =>
+      Math.min(...tracks.map((/** @type {any} */ track) => track[list].length), 1e9),
+    );
+    const query = new URLSearchParams(
+      Object.entries({ ...known, states, bases, signals: this.end }).map(([name, value]) => [name, String(value)]),
+    );
+    const answer = await fetch(`${this.address}/news?${query}`);
+    if (!answer.ok) throw new Error(await answer.text());
+    const news = await answer.json();
+    const isNew = news.version !== this.told.version;
+    // The program has begun since: what runs on which robots is known only now.
+    if (this.channels.length === 0 && isNew) return "begun";
+    for (const list of ["scene", "controller", "log", "contacts", "motions"]) this.told[list].push(...news[list]);
+    news.tracks.forEach((/** @type {any} */ track, /** @type {number} */ at) => {
+      const mine = (this.told.tracks[at] ??= { files: [], states: [], bases: [], lines: [] });
+      for (const [list, skip] of /** @type {[string, number][]} */ ([
+        ["states", states],
+        ["bases", bases],
+      ])) {
+        mine[list].splice(Math.min(skip, mine[list].length), Infinity, ...track[list]);
+      }
+      Object.assign(mine, { files: track.files, lines: track.lines, rows: track.rows });
+    });
+    this.lanesFrom(news.signals);
+    if (news.motions.length > 0) this.sortMotions();
+    Object.assign(this, { end: Math.max(this.end, news.end), live: news.live });
+    Object.assign(this.told, { version: news.version, live: news.live, levels: news.levels });
+    return isNew ? "more" : "nothing";
+  }
+
+  /** @param {number} channel from 1 */
+  track(channel) {
+    return this.told.tracks[channel - 1] ?? { files: [], states: [], bases: [], lines: [], rows: 0 };
+  }
+
+  /** Where a robot's base is at a time. @param {number} channel @param {number} time */
+  baseAt(channel, time) {
+    const { bases } = this.track(channel);
+    // Before the first motion nothing is known of it.
+    let base = bases[0]?.[1] ?? [0, 0, 0, 0, 0, 0, 1];
+    for (const [from, value] of bases) if (from <= time) base = value;
+    return base;
+  }
+
+  /** @param {number} channel @param {number} time */
+  stateAt(channel, time) {
+    let state = "";
+    for (const [from, value] of this.track(channel).states) if (from <= time + 1e-9) state = value;
+    return state;
+  }
+
+  /** The motion that a robot executes at a time, or the last one before. @param {number} channel @param {number} time */
+  motionAt(channel, time) {
+    return this.motions.get(channel)?.[rowAt(this.starts.get(channel) ?? [], time + 1e-9)];
+  }
+
+  /** @param {Lane} lane @param {number} time */
+  levelAt(lane, time) {
+    const at = rowAt(lane.times, time + 1e-9);
+    return at < 0 ? 0 : lane.values[at];
+  }
+
+  /** Inputs and outputs in the order in which people look for them: those with names first. @returns {Lane[]} */
+  get sortedLanes() {
+    const order = ["di", "do", "ai", "ao"];
+    /** @param {Lane} lane */
+    const key = ({ signal, label }) => {
+      const [kind, number] = signal.split(".");
+      return [label === signal ? 1 : 0, order.indexOf(kind), Number(number)];
+    };
+    return [...this.lanes.values()].sort((one, other) => {
+      const [a, b] = [key(one), key(other)];
+      return a[0] - b[0] || a[1] - b[1] || a[2] - b[2];
+    });
+  }
+
+  /** The entities of the scene at a time, by their names. @param {number} time */
+  sceneAt(time) {
+    /** @type {Map<string, any>} */
+    const there = new Map();
+    for (const update of this.told.scene) {
+      if (update.time > time + 1e-9) break;
+      for (const gone of update.gone) there.delete(gone);
+      for (const entity of update.entities) there.set(entity.id, entity);
+    }
+    return there;
+  }
+}

@@ -1,0 +1,25 @@
+//! The texts of a program, for who shows them.
+
+use std::path::PathBuf;
+
+/// A file of a program.
+pub(super) struct Text {
+    /// Its name without folders: so alarms and states call it.
+    pub(super) name: String,
+    pub(super) text: String,
+}
+
+/// Reads the files; what cannot be read is left out.
+pub(super) fn read(files: &[PathBuf]) -> Vec<Text> {
+    let read = |path: &PathBuf| {
+        let bytes = std::fs::read(path).ok()?;
+        let text = arl_lang::text::decode(&bytes).ok()?.into_owned();
+        Some(Text { name: file_name(&path.to_string_lossy()).to_owned(), text })
+    };
+    files.iter().filter_map(read).collect()
+}
+
+/// The last part of a path, whichever system wrote it.
+pub(super) fn file_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
+}

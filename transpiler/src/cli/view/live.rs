@@ -1,0 +1,121 @@
+//! A program that runs while it is shown: what it says becomes a run that grows, and it takes orders.
+
+use std::error::Error;
+use std::process::Command;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use arl_robot::cell::Cell;
+use mcap::McapResult;
+
+use super::super::cargo;
+use super::super::collide::Collisions;
+use super::super::failure::{Failure, INTERRUPTED};
+use super::super::link::Link;
+use super::super::listen::{Hears, pass_on};
+use super::super::record::{Recorder, Schema, Sink};
+use super::super::said::Line;
+use super::super::show;
+use super::store::Store;
+
+/// How often it is looked whether the program has said something.
+const LOOK_INTERVAL: Duration = Duration::from_millis(4);
+/// How often the program says how everything stands, in s: as in a recording.
+const STATE_INTERVAL: &str = "0.004";
+
+/// A program that runs.
+pub(super) struct Live {
+    link: Arc<Mutex<Link>>,
+}
+
+impl Live {
+    /// Starts a program, which waits for its start button.
+    pub(super) fn start(mut command: Command) -> std::io::Result<Self> {
+        command.args(["--live", "--paused", "--each-motion", "--each-cycle", "--state-interval", STATE_INTERVAL]);
+        Ok(Self { link: Arc::new(Mutex::new(Link::start(command)?)) })
+    }
+
+    /// Gives the program an order, a line.
+    ///
+    /// # Errors
+    /// It is no line.
+    pub(super) fn order(&self, order: &str) -> Result<(), String> {
+        if order.contains(char::is_control) {
+            return Err("an order is one line".to_owned());
+        }
+        self.link.lock().unwrap_or_else(PoisonError::into_inner).order(order);
+        Ok(())
+    }
+
+    /// Hears the program until it ends; its exit code.
+    pub(super) fn hear(&self, cell: &Cell, store: &Arc<Mutex<Store>>) -> Result<u8, Failure> {
+        let (collisions, _) = Collisions::new(cell, 0.0, true)?;
+        let recorder = Recorder::new(Shared(Arc::clone(store)), &cell.bodies);
+        let mut hearers: Vec<Box<dyn Hears>> = vec![Box::new(collisions), Box::new(Growing(recorder))];
+        loop {
+            let (ended, lines) = {
+                let mut link = self.link.lock().unwrap_or_else(PoisonError::into_inner);
+                // What it said before it ended comes before the end.
+                let ended = link.ended();
+                if cargo::was_interrupted() {
+                    // It may be for this command alone: the robot stops on its path all the same.
+                    link.leave();
+                }
+                (ended, std::iter::from_fn(|| link.line()).collect::<Vec<_>>())
+            };
+            lines.into_iter().for_each(|line| pass_on(told(line), &mut hearers));
+            if let Some(code) = ended {
+                store.lock().unwrap_or_else(PoisonError::into_inner).goes_on = false;
+                return Ok(code);
+            }
+            std::thread::sleep(LOOK_INTERVAL);
+        }
+    }
+}
+
+/// What concerns people who look at the page is a warning there, and also said where the command was started.
+fn told(line: Line) -> Line {
+    match line {
+        Line::Refused(refused) => Line::Warning(format!("{}: {}", refused.order, refused.why)),
+        Line::Other(text) => {
+            show::say(&format!("{text}\n"));
+            Line::Warning(text)
+        }
+        line => line,
+    }
+}
+
+/// A run that grows.
+struct Growing(Recorder<Shared>);
+
+impl Hears for Growing {
+    fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
+        self.0.hear(line)?;
+        Ok(Vec::new())
+    }
+
+    fn end(mut self: Box<Self>) -> Result<(), Box<dyn Error>> {
+        Ok(self.0.finish()?)
+    }
+
+    fn broken(&self) -> String {
+        format!("the view does not go on (exit code {INTERRUPTED})")
+    }
+}
+
+/// A store that the page looks at meanwhile.
+struct Shared(Arc<Mutex<Store>>);
+
+impl Sink for Shared {
+    fn message(&mut self, topic: &str, schema: &'static Schema, time: u64, message: &[u8]) -> McapResult<()> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).message(topic, schema, time, message)
+    }
+
+    fn source(&mut self, name: &str, text: &str) -> McapResult<()> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).source(name, text)
+    }
+
+    fn finish(&mut self) -> McapResult<()> {
+        Ok(())
+    }
+}

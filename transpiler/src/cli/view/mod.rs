@@ -1,0 +1,170 @@
+//! `arl2rs view`: a page in the browser that shows a run, of a recording or of a program that goes on.
+//!
+//! The page is in `transpiler/page/`. It asks this server for what it shows, and gives it orders where there is somebody to take them.
+
+mod answer;
+mod live;
+mod page;
+mod read;
+mod serve;
+mod store;
+#[cfg(test)]
+mod tests;
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use arl_robot::cell::Cell;
+use oxhttp::ListeningServer;
+use serde_json::Value;
+
+use super::args::ViewOptions;
+use super::failure::Failure;
+use super::program::prepare;
+use super::{show, texts};
+use answer::Known;
+use live::Live;
+use serve::{Answer, Asked};
+use store::Store;
+
+/// At most so many rows are told at once.
+const MOST_ROWS: usize = 400_000;
+
+/// What is shown: one run, or two beside each other.
+struct Shown {
+    runs: Vec<(String, Arc<Mutex<Store>>)>,
+    /// The program of the first one, where it runs.
+    live: Option<Live>,
+}
+
+/// Serves the page until the command is interrupted.
+pub(super) fn view(files: &[PathBuf], options: &ViewOptions) -> Result<ExitCode, Failure> {
+    let name = |file: &Path| file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let is_program = |file: &Path| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("arl"));
+    match files {
+        [program] if is_program(program) => run(program, name(program), options),
+        files => {
+            if let Some(program) = files.iter().find(|file| is_program(file)) {
+                let text = format!("{} is a program: what runs is shown alone", program.display());
+                return Err(Failure::Usage(text));
+            }
+            if options.is_of_program() {
+                let text = "a recording brings its robot, its cell and its program with it: leave these options out";
+                return Err(Failure::Usage(text.to_owned()));
+            }
+            let runs = files.iter().map(|file| Ok((name(file), Arc::new(Mutex::new(recording(file)?)))));
+            let shown = Shown { runs: runs.collect::<Result<_, Failure>>()?, live: None };
+            let server = serve(&Arc::new(shown), options)?;
+            server.join().map_err(|error| Failure::Other(format!("the server ended: {error}")))?;
+            Ok(ExitCode::SUCCESS)
+        }
+    }
+}
+
+/// Shows a program that runs, until it ends.
+fn run(program: &Path, name: String, options: &ViewOptions) -> Result<ExitCode, Failure> {
+    let options_of_run = options.run().of_program(program)?;
+    let cell = options_of_run.cell.as_deref().map(Cell::load).transpose();
+    let cell = cell.map_err(|error| Failure::Usage(error.to_string()))?.unwrap_or_default();
+    let ready = prepare(program, options_of_run.cell.as_deref(), &options_of_run.checking())?;
+    let mut store = Store { goes_on: true, ..Store::default() };
+    store.sources = texts::read(&ready.sources);
+    let mut command = Command::new(&ready.program);
+    command.args(options_of_run.arguments());
+    let live = Live::start(command).map_err(|error| Failure::io("start", &ready.program, &error))?;
+    drop(ready.lock);
+    // The program stops its robot, and this command ends with it.
+    super::cargo::leave_interrupts_to_the_program();
+    let store = Arc::new(Mutex::new(store));
+    let shown = Arc::new(Shown { runs: vec![(name, Arc::clone(&store))], live: Some(live) });
+    let _server = serve(&shown, options)?;
+    let code = shown.live.as_ref().map_or(Ok(0), |live| live.hear(&cell, &store))?;
+    Ok(ExitCode::from(code))
+}
+
+/// Serves the page, tells its address and opens it.
+fn serve(shown: &Arc<Shown>, options: &ViewOptions) -> Result<ListeningServer, Failure> {
+    let shown = Arc::clone(shown);
+    let (address, server) = serve::serve(options.port, move |asked: &Asked<'_>| shown.answer(asked))?;
+    let url = format!("http://{address}/");
+    let mut out = std::io::stdout();
+    // Nobody may read it.
+    let _ = writeln!(out, "{url}").and_then(|()| out.flush());
+    if !options.no_open && open::that_detached(&url).is_err() {
+        show::warning("no browser opens by itself: open the address above");
+    }
+    Ok(server)
+}
+
+fn recording(file: &Path) -> Result<Store, Failure> {
+    let store = read::read(file)?;
+    if let Some(trouble) = &store.trouble {
+        show::warning(&format!("{}: {trouble}", file.display()));
+    }
+    Ok(store)
+}
+
+impl Shown {
+    fn answer(&self, asked: &Asked<'_>) -> Answer {
+        if let Some((kind, bytes)) = page::file(asked.path) {
+            return Answer::Bytes(kind, bytes.to_vec());
+        }
+        match asked.path.strip_prefix("/api/").map(|path| path.split('/').collect::<Vec<_>>()).as_deref() {
+            Some(["runs"]) => Answer::Json(self.runs.iter().map(|(name, _)| name.clone()).collect()),
+            Some(["order"]) => match (&self.live, &asked.order) {
+                (Some(live), Some(order)) => {
+                    live.order(order).map_or_else(Answer::Refused, |()| Answer::Json(Value::Null))
+                }
+                (None, Some(_)) => {
+                    Answer::Refused("this is a recording: there is no program that takes orders".to_owned())
+                }
+                (_, None) => Answer::NotFound,
+            },
+            Some(["run", number, rest @ ..]) => {
+                let run = number.parse::<usize>().ok().and_then(|number| self.runs.get(number));
+                run.map_or(Answer::NotFound, |(name, store)| of_run(&lock(store), name, rest, asked))
+            }
+            _ => Answer::NotFound,
+        }
+    }
+}
+
+fn of_run(store: &Store, name: &str, path: &[&str], asked: &Asked<'_>) -> Answer {
+    match path {
+        [] => Answer::Json(answer::run(store, name)),
+        ["news"] => Answer::Json(answer::news(store, &known(asked))),
+        ["model", number] => match number.parse().ok().and_then(|number| answer::model(store, number)) {
+            Some(bytes) => Answer::Bytes("model/stl", bytes.to_vec()),
+            None => Answer::NotFound,
+        },
+        ["samples"] => match store.tracks.get(asked.count("channel").wrapping_sub(1)) {
+            Some(track) => {
+                let span = [asked.number("from").unwrap_or(0.0), asked.number("to").unwrap_or(f64::MAX)];
+                let most = asked.number("most").map_or(MOST_ROWS, |most| most as usize).min(MOST_ROWS);
+                Answer::Bytes("application/octet-stream", answer::samples(track, span, most))
+            }
+            None => Answer::NotFound,
+        },
+        _ => Answer::NotFound,
+    }
+}
+
+fn known(asked: &Asked<'_>) -> Known {
+    Known {
+        scene: asked.count("scene"),
+        controller: asked.count("controller"),
+        log: asked.count("log"),
+        contacts: asked.count("contacts"),
+        motions: asked.count("motions"),
+        states: asked.count("states"),
+        bases: asked.count("bases"),
+        signals: asked.number("signals").unwrap_or(-1.0),
+    }
+}
+
+/// What a store is worth does not depend on who looked at it last.
+fn lock(store: &Mutex<Store>) -> MutexGuard<'_, Store> {
+    store.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,79 @@
+//! Reads a recording. What is cut off is read as far as it goes.
+
+use std::collections::HashMap;
+use std::io::Read;
+use std::path::Path;
+
+use mcap::records::Record;
+use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
+
+use super::super::failure::Failure;
+use super::super::texts::Text;
+use super::store::Store;
+
+/// No record of a recording is longer, in bytes.
+const LONGEST_RECORD: usize = 1 << 30;
+
+/// The run of a recording.
+///
+/// # Errors
+/// There is no such file, or it is no recording of a run.
+pub(super) fn read(path: &Path) -> Result<Store, Failure> {
+    let mut file = std::fs::File::open(path).map_err(|error| Failure::io("read", path, &error))?;
+    let no_recording = |why: &str| Failure::Other(format!("{} is no recording of a run: {why}", path.display()));
+    let mut store = Store::default();
+    let mut reading = Reading { store: &mut store, topics: HashMap::new() };
+    let trouble = reading.read_all(&mut file).err();
+    if store.cell.channels.is_empty() {
+        let why = trouble.unwrap_or_else(|| "it says nothing of robots or programs (topic /arl/cell)".to_owned());
+        return Err(no_recording(&why));
+    }
+    store.trouble = trouble.map(|why| format!("the recording ends after {:.3} s: {why}", store.end));
+    Ok(store)
+}
+
+/// A file that is being read.
+struct Reading<'a> {
+    store: &'a mut Store,
+    topics: HashMap<u16, String>,
+}
+
+impl Reading<'_> {
+    fn read_all(&mut self, file: &mut std::fs::File) -> Result<(), String> {
+        let options = LinearReaderOptions::default().with_record_length_limit(LONGEST_RECORD);
+        let mut reader = LinearReader::new_with_options(options);
+        while let Some(event) = reader.next_event() {
+            match event.map_err(|error| error.to_string())? {
+                LinearReadEvent::ReadRequest(wanted) => {
+                    let read = file.read(reader.insert(wanted)).map_err(|error| error.to_string())?;
+                    reader.notify_read(read);
+                }
+                LinearReadEvent::Record { data, opcode } => {
+                    let record = mcap::parse_record(opcode, data).map_err(|error| error.to_string())?;
+                    self.record(record)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn record(&mut self, record: Record<'_>) -> Result<(), String> {
+        match record {
+            Record::Channel(channel) => {
+                self.topics.insert(channel.id, channel.topic);
+            }
+            Record::Message { header, data } => {
+                if let Some(topic) = self.topics.get(&header.channel_id) {
+                    let taken = self.store.take(topic, header.log_time, &data);
+                    taken.map_err(|error| format!("a message of {topic} is not understood ({error})"))?;
+                }
+            }
+            Record::Attachment { header, data, .. } if header.media_type.starts_with("text/") => {
+                let text = String::from_utf8_lossy(&data).into_owned();
+                self.store.sources.push(Text { name: header.name, text });
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,242 @@
+//! What a view knows of a run: the messages of its recording, laid out so that any stretch of time can be asked for.
+
+use std::collections::BTreeMap;
+
+use arl_robot::kinematics::frame;
+use mcap::McapResult;
+use prost::Message as _;
+
+use super::super::record::messages::{Cell, Channel, Contact, Controller, Io, Log, Motion, SceneUpdate};
+use super::super::record::{Schema, Sink};
+use super::super::texts::Text;
+
+/// The topics of channels: `/arl/channel_1`.
+const CHANNEL: &str = "/arl/channel_";
+/// No controller has more channels.
+const MOST_CHANNELS: usize = 64;
+/// What is farther apart in time was at rest between, in s: a robot that moves says so more often.
+pub(super) const GAP_S: f64 = 0.06;
+/// How far messages are apart while a robot moves, in s.
+const STEP_S: f64 = 0.004;
+
+/// A run as far as it is known.
+#[derive(Default)]
+pub(super) struct Store {
+    pub(super) cell: Cell,
+    pub(super) sources: Vec<Text>,
+    pub(super) scene: Vec<(f64, SceneUpdate)>,
+    pub(super) tracks: Vec<Track>,
+    /// Each signal's changes, by its name in files: `di.1`.
+    pub(super) signals: BTreeMap<Signal, Vec<(f64, f64)>>,
+    pub(super) controller: Vec<Controller>,
+    pub(super) log: Vec<(f64, Log)>,
+    pub(super) contacts: Vec<Contact>,
+    pub(super) motions: Vec<Motion>,
+    /// The time of the last message in s.
+    pub(super) end: f64,
+    /// Whether a program runs that adds to it.
+    pub(super) goes_on: bool,
+    /// What of the recording could not be read, and why.
+    pub(super) trouble: Option<String>,
+    /// Counts the messages that were taken in.
+    pub(super) version: u64,
+    /// The inputs and outputs as they are now.
+    pub(super) io: Io,
+}
+
+/// A signal: its kind and its number from 1 on.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) struct Signal {
+    pub(super) kind: &'static str,
+    pub(super) number: usize,
+}
+
+/// What a channel did, in columns.
+#[derive(Default)]
+pub(super) struct Track {
+    pub(super) times: Vec<f64>,
+    /// So many axes in a row.
+    pub(super) width: usize,
+    pub(super) axes: Vec<f32>,
+    /// x, y, z in mm, and a quaternion x, y, z, w.
+    pub(super) tcp: Vec<[f32; 7]>,
+    /// Of the TCP in mm/s.
+    pub(super) speed: Vec<f32>,
+    pub(super) pointers: Vec<Pointers>,
+    /// The names that pointers and states have numbers of.
+    pub(super) files: Vec<String>,
+    pub(super) states: Vec<(f64, String)>,
+    /// What each line took, by the number of its file.
+    pub(super) lines: BTreeMap<(u16, u32), Took>,
+    /// Where the base is, whenever that changes.
+    pub(super) bases: Vec<(f64, [f32; 7])>,
+}
+
+/// How long the robot moved for a line, and stood in it, in s.
+#[derive(Clone, Copy, Default, PartialEq, Debug)]
+pub(super) struct Took {
+    pub(super) moving: f64,
+    pub(super) standing: f64,
+}
+
+/// Where program and robot are: lines, numbers of files, and the number of the motion that is executed; 0: none.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub(super) struct Pointers {
+    pub(super) file: u16,
+    pub(super) line: u32,
+    pub(super) motion_file: u16,
+    pub(super) motion_line: u32,
+    pub(super) motion: u32,
+}
+
+impl Store {
+    /// Takes in a message; those of other people are passed over.
+    pub(super) fn take(&mut self, topic: &str, time: u64, message: &[u8]) -> Result<(), prost::DecodeError> {
+        let time = time as f64 / 1e9;
+        match topic {
+            "/arl/cell" => self.cell = Cell::decode(message)?,
+            "/scene" => self.scene.push((time, SceneUpdate::decode(message)?)),
+            "/arl/controller" => self.controller.push(Controller::decode(message)?),
+            "/arl/io" => self.io(Io::decode(message)?),
+            "/arl/motions" => self.motion(Motion::decode(message)?),
+            "/arl/contacts" => self.contacts.push(Contact::decode(message)?),
+            "/log" => self.log.push((time, Log::decode(message)?)),
+            _ => match topic.strip_prefix(CHANNEL).and_then(|number| number.parse::<usize>().ok()) {
+                Some(number @ 1..=MOST_CHANNELS) => self.channel(number - 1, &Channel::decode(message)?),
+                _ => return Ok(()),
+            },
+        }
+        self.end = self.end.max(time);
+        self.version += 1;
+        Ok(())
+    }
+
+    fn io(&mut self, io: Io) {
+        let flags = |flags: &[bool]| flags.iter().map(|flag| f64::from(*flag)).collect::<Vec<_>>();
+        let kinds = [
+            ("di", flags(&self.io.di), flags(&io.di)),
+            ("do", flags(&self.io.r#do), flags(&io.r#do)),
+            ("ai", self.io.ai.clone(), io.ai.clone()),
+            ("ao", self.io.ao.clone(), io.ao.clone()),
+        ];
+        for (kind, before, now) in kinds {
+            for (at, value) in now.into_iter().enumerate() {
+                // All begin at 0: a signal that never leaves it has no changes.
+                if before.get(at).copied().unwrap_or_default() != value {
+                    let signal = Signal { kind, number: at + 1 };
+                    self.signals.entry(signal).or_default().push((io.time, value));
+                }
+            }
+        }
+        self.io = io;
+    }
+
+    /// A motion that is told again has gone on since.
+    fn motion(&mut self, motion: Motion) {
+        let again =
+            self.motions.last_mut().filter(|last| (last.channel, last.motion) == (motion.channel, motion.motion));
+        match again {
+            Some(last) => *last = motion,
+            None => self.motions.push(motion),
+        }
+    }
+
+    fn channel(&mut self, at: usize, said: &Channel) {
+        if self.tracks.len() <= at {
+            self.tracks.resize_with(at + 1, Track::default);
+        }
+        if let Some(track) = self.tracks.get_mut(at) {
+            track.take(said);
+        }
+    }
+}
+
+impl Track {
+    fn take(&mut self, said: &Channel) {
+        if self.times.is_empty() {
+            self.width = said.axes.len();
+        }
+        if self.states.last().is_none_or(|(_, last)| *last != said.state) {
+            self.states.push((said.time, said.state.clone()));
+        }
+        let base = placed(&said.base);
+        if !said.base.is_empty() && self.bases.last().is_none_or(|(_, last)| *last != base) {
+            self.bases.push((said.time, base));
+        }
+        let tcp = placed(&said.tcp);
+        self.speed.push(self.speed_to(said.time, &tcp));
+        self.axes.extend((0..self.width).map(|axis| said.axes.get(axis).copied().unwrap_or_default() as f32));
+        self.tcp.push(tcp);
+        let pointers = Pointers {
+            file: self.file(&said.file),
+            line: said.line,
+            motion_file: self.file(&said.motion_file),
+            motion_line: said.motion_line,
+            motion: u32::try_from(said.motion).unwrap_or(u32::MAX),
+        };
+        self.count(said.time, pointers);
+        self.times.push(said.time);
+        self.pointers.push(pointers);
+    }
+
+    /// Adds the time since the last message to the lines: to that of the motion while one was executed, and to that of the program while the
+    /// robot stood.
+    fn count(&mut self, time: f64, now: Pointers) {
+        let (Some(since), Some(before)) = (self.times.last(), self.pointers.last()) else { return };
+        let apart = time - since;
+        let moving = match now.motion {
+            0 => 0.0,
+            _ if apart > GAP_S => STEP_S,
+            _ => apart,
+        };
+        if moving > 0.0 {
+            self.lines.entry((now.motion_file, now.motion_line)).or_default().moving += moving;
+        }
+        if apart > moving {
+            self.lines.entry((before.file, before.line)).or_default().standing += apart - moving;
+        }
+    }
+
+    /// How fast the TCP came from where it was last, in mm/s.
+    fn speed_to(&self, time: f64, tcp: &[f32; 7]) -> f32 {
+        let (Some(before), Some(last)) = (self.times.last(), self.tcp.last()) else { return 0.0 };
+        let way = (0..3).map(|at| f64::from(tcp[at] - last[at]).powi(2)).sum::<f64>().sqrt();
+        let apart = time - before;
+        // What stood is silent until its first step.
+        (way / if apart > GAP_S { STEP_S } else { apart.max(1e-6) }) as f32
+    }
+
+    /// The number of a file.
+    fn file(&mut self, name: &str) -> u16 {
+        let known = self.files.iter().position(|known| known == name);
+        let at = known.unwrap_or_else(|| {
+            self.files.push(name.to_owned());
+            self.files.len() - 1
+        });
+        u16::try_from(at).unwrap_or(u16::MAX)
+    }
+}
+
+/// A frame from x, y, z in mm, a, b, c in deg.
+fn placed(values: &[f64]) -> [f32; 7] {
+    let Ok(values) = <[f64; 6]>::try_from(values) else { return [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0] };
+    let placed = frame(values);
+    let ([x, y, z], [i, j, k, w]): ([f64; 3], [f64; 4]) =
+        (placed.translation.vector.into(), placed.rotation.coords.into());
+    [x, y, z, i, j, k, w].map(|value| value as f32)
+}
+
+impl Sink for Store {
+    fn message(&mut self, topic: &str, _schema: &'static Schema, time: u64, message: &[u8]) -> McapResult<()> {
+        self.take(topic, time, message).map_err(|error| std::io::Error::other(error).into())
+    }
+
+    fn source(&mut self, name: &str, text: &str) -> McapResult<()> {
+        self.sources.push(Text { name: name.to_owned(), text: text.to_owned() });
+        Ok(())
+    }
+
+    fn finish(&mut self) -> McapResult<()> {
+        Ok(())
+    }
+}
