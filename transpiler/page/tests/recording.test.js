@@ -155,3 +155,19 @@ test("a recording that is cut off is shown as far as it goes", { skip }, async (
   const { page } = await visit(test, url);
   assert.match(await page.locator("#trouble").innerText(), /the recording ends after/);
 });
+
+test("two recordings are in one cell, and what differs is a table", { skip }, async (test) => {
+  record(path, "b", PROGRAM.replace("waittime 0.5", "waittime 0.9"), { options: ["--cell", "cell.toml"] });
+  const { url } = await serve(test, path, "a.mcap", "b.mcap");
+  const { page, troubles } = await visit(test, url);
+  assert.equal(await page.evaluate(() => window.page.scene.frames.length), 2);
+  await page.getByRole("tab", { name: "Differences" }).click();
+  const panel = page.locator("#panel");
+  await panel.locator(".better, .worse").first().waitFor();
+  assert.match(await panel.innerText(), /program of channel 1: `a.arl` became `b.arl`/);
+  // The second one takes longer: at its end the first robot stands where it ended.
+  await page.keyboard.press("End");
+  const { time, end } = await state(page);
+  assert.ok(time === end && end > (await page.evaluate(() => window.page.run.end)) + 0.3);
+  assert.deepEqual(troubles, []);
+});

@@ -93,6 +93,18 @@ pub(super) enum Command {
         #[command(flatten)]
         options: ViewOptions,
     },
+    /// Tell what differs between two runs, line by line. The exit code is 1 where anything does.
+    Compare {
+        /// A recording, or a report of `arl2rs run --report=FILE --format json`.
+        #[arg(value_name = "A")]
+        one: PathBuf,
+        /// The one that it is compared with.
+        #[arg(value_name = "B")]
+        other: PathBuf,
+        /// How to tell it.
+        #[arg(long, value_enum, default_value_t = Format::Human)]
+        format: Format,
+    },
     /// Run the cases in folders: every NAME.arl with a sidecar that says what is expected (.out, .err, .alarm).
     Test {
         /// Folders with cases, searched with their subfolders.
@@ -312,6 +324,10 @@ pub(super) struct RunOptions {
     /// a JSON object in a line of the file.
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = "-")]
     pub(super) report: Option<PathBuf>,
+    /// The report of the whole run in another form: cycle time by line, moving and waiting, signals, contacts. Without --report=FILE it goes
+    /// to the standard error.
+    #[arg(long, value_enum, requires = "report", conflicts_with = "pendant")]
+    pub(super) format: Option<ReportFormat>,
     /// Draw the motion afterwards: the way of the TCP, its speed, the axes' speeds.
     #[arg(long, value_name = "FILE.svg")]
     pub(super) plot: Option<PathBuf>,
@@ -340,6 +356,17 @@ pub(super) struct RunOptions {
     /// Tell what came from the command line and what from an `arl.toml` beside the program or above it.
     #[arg(long)]
     pub(super) verbose: bool,
+}
+
+/// The forms of a report.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum, Debug)]
+pub(super) enum ReportFormat {
+    /// The table of motions, or with =FILE a JSON object for each of them.
+    Human,
+    /// One JSON object for the whole run.
+    Json,
+    /// A page for a browser.
+    Html,
 }
 
 /// A distance in mm.
@@ -391,7 +418,8 @@ impl RunOptions {
         if self.repeats {
             arguments.push("--loop".into());
         }
-        if let Some(file) = &self.report {
+        // Another form of the report is made of what the program says.
+        if let (Some(file), None | Some(ReportFormat::Human)) = (&self.report, self.format) {
             let mut report = std::ffi::OsString::from("--report");
             if file.as_os_str() != "-" {
                 report.push("=");

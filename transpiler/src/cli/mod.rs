@@ -27,7 +27,9 @@ mod program_path;
 mod progress;
 mod project;
 mod record;
+mod recorded;
 mod reference;
+mod report;
 mod robot;
 mod robots;
 mod run;
@@ -35,6 +37,7 @@ mod runtime;
 mod said;
 mod several;
 mod show;
+mod signals;
 mod stamp;
 mod test;
 mod texts;
@@ -71,6 +74,7 @@ fn dispatch(command: Command) -> Result<ExitCode, Failure> {
         Command::Build { file, out, release, checking } => done(emit::build(&file, out.as_deref(), release, &checking)),
         Command::Run { file, options } => run::run(&file, &options),
         Command::Plot { trace, plot, robot } => done(run::plot(&trace, &plot, robot.as_deref())),
+        Command::Compare { one, other, format } => report::compare(&one, &other, format),
         Command::Test { dirs, options } => test::test(&dirs, &options),
         Command::Clean { older } => done(clean::clean(older)),
         Command::Explain { code } => print(explain::explain(&code)),

@@ -1,16 +1,19 @@
 //! `arl2rs run` and `arl2rs plot`
 
-use super::args::RunOptions;
+use super::args::{ReportFormat, RunOptions};
 use super::arl_toml;
 use super::collide::Collisions;
 use super::failure::Failure;
 use super::listen::{Hears, Listener};
 use super::pendant;
-use super::plot::{self, Ran};
+use super::plot::{self, Lane, Ran};
 use super::program::{Ready, prepare, prepare_watched};
 use super::record::Recording;
+use super::report::Reporting;
 use super::show;
+use super::signals::Signals;
 use arl_robot::cell::Cell;
+use std::cell::RefCell;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
@@ -27,16 +30,21 @@ pub(super) fn run(file: &Path, options: &RunOptions) -> Result<ExitCode, Failure
     if on_screen {
         return pendant::run(command, ready);
     }
-    let listener = listener(options, &ready.sources)?;
-    match &options.plot {
-        Some(picture) => run_and_plot((command, listener), ready, file, options, picture),
-        None if listener.is_some() => wait(command, listener, ready),
+    let mut hearers = hearers(options, &ready.sources)?;
+    if let Some(picture) = &options.plot {
+        let (signals, lanes) = Signals::new();
+        hearers.push(Box::new(signals));
+        let listener = Listener::of(hearers)?;
+        return run_and_plot((command, listener), ready, file, options, (picture, &lanes));
+    }
+    match Listener::of(hearers)? {
+        Some(listener) => wait(command, Some(listener), ready),
         None => start(command, ready),
     }
 }
 
 /// Who is to hear what the program does: collisions come first, so that they are recorded.
-fn listener(options: &RunOptions, sources: &[PathBuf]) -> Result<Option<Listener>, Failure> {
+fn hearers(options: &RunOptions, sources: &[PathBuf]) -> Result<Vec<Box<dyn Hears>>, Failure> {
     let mut hearers: Vec<Box<dyn Hears>> = Vec::new();
     let cell = options.cell.as_deref().map(Cell::load).transpose();
     let cell = cell.map_err(|error| Failure::Usage(error.to_string()))?.unwrap_or_default();
@@ -47,7 +55,10 @@ fn listener(options: &RunOptions, sources: &[PathBuf]) -> Result<Option<Listener
     if let Some(path) = &options.record {
         hearers.push(Box::new(Recording::create(path, &cell.bodies, sources)?));
     }
-    Listener::of(hearers)
+    if let (Some(file), Some(format @ (ReportFormat::Json | ReportFormat::Html))) = (&options.report, options.format) {
+        hearers.push(Box::new(Reporting::create(file, format, &cell.bodies)?));
+    }
+    Ok(hearers)
 }
 
 /// Draws a trace that is there.
@@ -55,7 +66,7 @@ pub(super) fn plot(trace: &Path, picture: &Path, robot: Option<&str>) -> Result<
     let beside = arl_toml::of_program(trace)?.and_then(|file| file.robot);
     let robot = robot.or(beside.as_deref());
     let title = trace.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
-    draw(trace, picture, robot, &Ran { title, source: None })
+    draw(trace, picture, robot, &Ran { title, ..Ran::default() })
 }
 
 fn draw(trace: &Path, picture: &Path, robot: Option<&str>, ran: &Ran) -> Result<(), Failure> {
@@ -73,7 +84,7 @@ fn run_and_plot(
     ready: Ready,
     file: &Path,
     options: &RunOptions,
-    picture: &Path,
+    (picture, lanes): (&Path, &RefCell<Vec<Lane>>),
 ) -> Result<ExitCode, Failure> {
     // Better now than after a long run.
     std::fs::write(picture, "").map_err(|error| Failure::io("write", picture, &error))?;
@@ -87,6 +98,7 @@ fn run_and_plot(
     let _ = std::fs::remove_file(trace.path());
     let ran = ran(file, &ready.sources);
     let code = wait(command, listener, ready)?;
+    let ran = Ran { lanes: lanes.take(), ..ran };
     match trace.path().is_file() {
         true => draw(trace.path(), picture, options.robot.as_deref(), &ran)?,
         // The program did not even begin, and has said why.
@@ -125,7 +137,8 @@ fn ran(file: &Path, sources: &[PathBuf]) -> Ran {
     let stem = |path: &PathBuf| path.file_stem().map(|stem| stem.to_string_lossy().to_lowercase()).unwrap_or_default();
     let programs = sources.iter().filter(|path| !stem(path).ends_with("_data")).count();
     let bytes = (programs == 1).then(|| std::fs::read(file).ok()).flatten();
-    Ran { title, source: bytes.and_then(|bytes| Some(arl_lang::text::decode(&bytes).ok()?.into_owned())) }
+    let source = bytes.and_then(|bytes| Some(arl_lang::text::decode(&bytes).ok()?.into_owned()));
+    Ran { title, source, ..Ran::default() }
 }
 
 /// The program takes the place of this process: signals, streams and exit code are its own.

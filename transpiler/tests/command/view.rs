@@ -92,3 +92,52 @@ fn what_is_no_recording_is_refused() {
         .is(1, "")
         .says("ARL");
 }
+
+#[test]
+fn two_runs_are_compared_by_line() {
+    let slow = "func void main()\n  movej j:{0,-90,90,0,30,0}, vp:50%\n  waittime 0.5\n  print \"there\"\nendfunc\n";
+    let quick = slow.replace("0.5", "0.2").replace("there", "here");
+    let folder = Folder::new("compare").with("a.arl", slow);
+    folder.arl2rs(&["run", "a.arl", "--record", "a.mcap", "--report=a.json", "--format", "json"]).is(0, "there\n");
+    // A recording and the report of the same run say the same.
+    let same = folder.arl2rs(&["compare", "a.mcap", "a.json"]);
+    assert_eq!(same.code, Some(0), "{}", same.out);
+    assert!(same.out.starts_with("nothing differs: "), "{}", same.out);
+    let folder = folder.with("a.arl", &quick);
+    folder.arl2rs(&["run", "a.arl", "--report=b.json", "--format", "json"]).is(0, "here\n");
+    let differs = folder.arl2rs(&["compare", "a.mcap", "b.json"]);
+    assert_eq!(differs.code, Some(1));
+    for part in ["-0.300 s", "message 1: `there` became `here`", "a.arl:3"] {
+        assert!(differs.out.contains(part), "{part}: {}", differs.out);
+    }
+    assert!(!differs.out.contains("a.arl:2 "), "the motion is the same: {}", differs.out);
+    let told = folder.arl2rs(&["compare", "a.mcap", "b.json", "--format", "json"]);
+    let told: serde_json::Value = serde_json::from_str(&told.out).expect("an object");
+    assert_eq!(told["lines"][0]["line"], 3);
+    folder.arl2rs(&["compare", "a.json", "none.json"]).is(1, "").says("cannot read none.json");
+    let folder = folder.with("wrong.json", "{\"version\":1}").with("wrong.mcap", "nothing");
+    folder.arl2rs(&["compare", "a.json", "wrong.json"]).is(1, "").says("wrong.json is no report of a whole run");
+    folder.arl2rs(&["compare", "wrong.mcap", "a.json"]).is(1, "").says("wrong.mcap is no recording of a run");
+}
+
+#[test]
+fn a_report_has_other_forms() {
+    let program = "func void main()\n  setdo(3, true)\n  movej j:{0,-90,90,0,30,0}, vp:50%\n  waittime 0\n  print \"<there>\"\nendfunc\n";
+    let folder = Folder::new("report_forms").with("a.arl", program);
+    folder.arl2rs(&["run", "a.arl", "--report=a.html", "--format", "html"]).is(0, "<there>\n");
+    let page = folder.read("a.html");
+    for part in ["a.arl:3", "movej", "do.3", "&lt;there&gt;", "kr10-r1420"] {
+        assert!(page.contains(part), "{part}: {page}");
+    }
+    // Without a file it goes where the table goes.
+    let told = folder.arl2rs(&["run", "a.arl", "--report", "--format", "json"]);
+    told.is(0, "<there>\n").says("\"way\"");
+    folder.arl2rs(&["run", "a.arl", "--report", "--format", "human"]).is(0, "<there>\n").says("cycle time");
+    folder.arl2rs(&["run", "a.arl", "--format", "json"]).is(2, "");
+    folder.arl2rs(&["run", "a.arl", "--report=no/a.json", "--format", "json"]).is(1, "").says("cannot write no/a.json");
+    folder.arl2rs(&["run", "a.arl", "--robot", "none", "--report=c.json", "--format", "json"]).is(2, "");
+    assert!(!folder.has("c.json"));
+    // The plot shows what changes.
+    folder.arl2rs(&["run", "a.arl", "--plot", "a.svg"]).is(0, "<there>\n");
+    assert!(folder.read("a.svg").contains("do.3"));
+}

@@ -2,6 +2,7 @@
 //!
 //! It is made from the trace, so that the compiled program need not know of it.
 
+mod lanes;
 mod outline;
 mod scale;
 mod svg;
@@ -12,6 +13,7 @@ mod views;
 
 use super::failure::Failure;
 use super::robot::Robot;
+pub(super) use lanes::Lane;
 use outline::Outline;
 
 use std::path::Path;
@@ -35,6 +37,8 @@ pub(super) struct Ran {
     pub(super) title: String,
     /// The text of the program, where all lines of the trace are lines of it.
     pub(super) source: Option<String>,
+    /// The signals that changed.
+    pub(super) lanes: Vec<Lane>,
 }
 
 /// Draws the trace at `trace` to the file `plot`; says whether there was a motion to draw.
@@ -66,7 +70,9 @@ fn draw(outline: &Outline, robot: &Robot, ran: &Ran, rows: Rows) -> Result<Strin
     head(outline, robot, ran, &mut picture);
     ways.draw(outline, &mut picture);
     times.draw(&mut picture);
-    let height = lines(outline, ran, axes.bottom() + 60.0, &mut picture);
+    let signals = charts(axes.bottom() + 60.0, lanes::height(&ran.lanes));
+    lanes::draw(&ran.lanes, outline.time, &signals, &mut picture);
+    let height = lines(outline, ran, signals.bottom(), &mut picture);
     Ok(picture.finish(WIDTH, height, &ran.title))
 }
 

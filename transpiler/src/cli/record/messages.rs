@@ -94,7 +94,7 @@ pub(in super::super) struct Log {
 }
 
 /// `foxglove.Log.Level`
-#[derive(Clone, Copy, PartialEq, Eq, Debug, prost::Enumeration)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug, prost::Enumeration)]
 #[repr(i32)]
 pub(in super::super) enum Level {
     Unknown = 0,

@@ -86,6 +86,12 @@ impl<S: Sink> Recorder<S> {
         self.sink.finish()
     }
 
+    /// Ends, and gives back where the messages went.
+    pub(crate) fn ended(mut self) -> McapResult<S> {
+        self.finish()?;
+        Ok(self.sink)
+    }
+
     /// The robots' arms by channels, once the program has said them.
     pub(super) fn arms(&self) -> &[Option<Arm>] {
         &self.arms

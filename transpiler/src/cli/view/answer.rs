@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json};
 use super::super::record::messages::{
     Blend, Closest, Color, Level, Log, Motion, Pose, Quaternion, SceneUpdate, Vector3,
 };
-use super::store::{Signal, Store, Took, Track};
+use super::super::recorded::{Signal, Store, Took, Track};
 
 /// How much of a run the page knows already, by the numbers of what it has.
 #[derive(Clone, Copy, Default, Debug)]

@@ -14,9 +14,9 @@ use super::super::failure::{Failure, INTERRUPTED};
 use super::super::link::Link;
 use super::super::listen::{Hears, pass_on};
 use super::super::record::{Recorder, Schema, Sink};
+use super::super::recorded::Store;
 use super::super::said::Line;
 use super::super::show;
-use super::store::Store;
 
 /// How often it is looked whether the program has said something.
 const LOOK_INTERVAL: Duration = Duration::from_millis(4);

@@ -5,9 +5,7 @@
 mod answer;
 mod live;
 mod page;
-mod read;
 mod serve;
-mod store;
 #[cfg(test)]
 mod tests;
 
@@ -18,16 +16,17 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use arl_robot::cell::Cell;
 use oxhttp::ListeningServer;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::args::ViewOptions;
 use super::failure::Failure;
 use super::program::prepare;
+use super::recorded::{self, Store};
+use super::report::{Differences, Summary};
 use super::{show, texts};
 use answer::Known;
 use live::Live;
 use serve::{Answer, Asked};
-use store::Store;
 
 /// At most so many rows are told at once.
 const MOST_ROWS: usize = 400_000;
@@ -99,7 +98,7 @@ fn serve(shown: &Arc<Shown>, options: &ViewOptions) -> Result<ListeningServer, F
 }
 
 fn recording(file: &Path) -> Result<Store, Failure> {
-    let store = read::read(file)?;
+    let store = recorded::read(file)?;
     if let Some(trouble) = &store.trouble {
         show::warning(&format!("{}: {trouble}", file.display()));
     }
@@ -113,6 +112,13 @@ impl Shown {
         }
         match asked.path.strip_prefix("/api/").map(|path| path.split('/').collect::<Vec<_>>()).as_deref() {
             Some(["runs"]) => Answer::Json(self.runs.iter().map(|(name, _)| name.clone()).collect()),
+            Some(["differences"]) => match &self.runs[..] {
+                [(_, one), (_, other)] => {
+                    let [one, other] = [one, other].map(|store| Summary::of(&lock(store)));
+                    Answer::Json(json!(Differences::between(&one, &other)))
+                }
+                _ => Answer::NotFound,
+            },
             Some(["order"]) => match (&self.live, &asked.order) {
                 (Some(live), Some(order)) => {
                     live.order(order).map_or_else(Answer::Refused, |()| Answer::Json(Value::Null))

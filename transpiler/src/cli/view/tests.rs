@@ -3,8 +3,8 @@
 use prost::Message as _;
 
 use super::super::record::messages::{Channel, Io, Motion};
+use super::super::recorded::{Signal, Store, Took};
 use super::answer::{self, Known};
-use super::store::{Signal, Store, Took};
 
 fn channel(time: f64, line: u32, motion: u64, x: f64) -> Channel {
     Channel {

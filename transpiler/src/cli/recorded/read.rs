@@ -18,7 +18,7 @@ const LONGEST_RECORD: usize = 1 << 30;
 ///
 /// # Errors
 /// There is no such file, or it is no recording of a run.
-pub(super) fn read(path: &Path) -> Result<Store, Failure> {
+pub(in super::super) fn read(path: &Path) -> Result<Store, Failure> {
     let mut file = std::fs::File::open(path).map_err(|error| Failure::io("read", path, &error))?;
     let no_recording = |why: &str| Failure::Other(format!("{} is no recording of a run: {why}", path.display()));
     let mut store = Store::default();

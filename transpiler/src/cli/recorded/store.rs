@@ -1,4 +1,4 @@
-//! What a view knows of a run: the messages of its recording, laid out so that any stretch of time can be asked for.
+//! The messages of a run, in columns.
 
 use std::collections::BTreeMap;
 
@@ -15,83 +15,85 @@ const CHANNEL: &str = "/arl/channel_";
 /// No controller has more channels.
 const MOST_CHANNELS: usize = 64;
 /// What is farther apart in time was at rest between, in s: a robot that moves says so more often.
-pub(super) const GAP_S: f64 = 0.06;
+pub(in super::super) const GAP_S: f64 = 0.06;
 /// How far messages are apart while a robot moves, in s.
 const STEP_S: f64 = 0.004;
 
 /// A run as far as it is known.
 #[derive(Default)]
-pub(super) struct Store {
-    pub(super) cell: Cell,
-    pub(super) sources: Vec<Text>,
-    pub(super) scene: Vec<(f64, SceneUpdate)>,
-    pub(super) tracks: Vec<Track>,
+pub(in super::super) struct Store {
+    pub(in super::super) cell: Cell,
+    pub(in super::super) sources: Vec<Text>,
+    pub(in super::super) scene: Vec<(f64, SceneUpdate)>,
+    pub(in super::super) tracks: Vec<Track>,
     /// Each signal's changes, by its name in files: `di.1`.
-    pub(super) signals: BTreeMap<Signal, Vec<(f64, f64)>>,
-    pub(super) controller: Vec<Controller>,
-    pub(super) log: Vec<(f64, Log)>,
-    pub(super) contacts: Vec<Contact>,
-    pub(super) motions: Vec<Motion>,
+    pub(in super::super) signals: BTreeMap<Signal, Vec<(f64, f64)>>,
+    pub(in super::super) controller: Vec<Controller>,
+    pub(in super::super) log: Vec<(f64, Log)>,
+    pub(in super::super) contacts: Vec<Contact>,
+    pub(in super::super) motions: Vec<Motion>,
     /// The time of the last message in s.
-    pub(super) end: f64,
+    pub(in super::super) end: f64,
     /// Whether a program runs that adds to it.
-    pub(super) goes_on: bool,
+    pub(in super::super) goes_on: bool,
     /// What of the recording could not be read, and why.
-    pub(super) trouble: Option<String>,
+    pub(in super::super) trouble: Option<String>,
     /// Counts the messages that were taken in.
-    pub(super) version: u64,
+    pub(in super::super) version: u64,
     /// The inputs and outputs as they are now.
-    pub(super) io: Io,
+    pub(in super::super) io: Io,
 }
 
 /// A signal: its kind and its number from 1 on.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
-pub(super) struct Signal {
-    pub(super) kind: &'static str,
-    pub(super) number: usize,
+pub(in super::super) struct Signal {
+    pub(in super::super) kind: &'static str,
+    pub(in super::super) number: usize,
 }
 
 /// What a channel did, in columns.
 #[derive(Default)]
-pub(super) struct Track {
-    pub(super) times: Vec<f64>,
+pub(in super::super) struct Track {
+    pub(in super::super) times: Vec<f64>,
     /// So many axes in a row.
-    pub(super) width: usize,
-    pub(super) axes: Vec<f32>,
+    pub(in super::super) width: usize,
+    pub(in super::super) axes: Vec<f32>,
     /// x, y, z in mm, and a quaternion x, y, z, w.
-    pub(super) tcp: Vec<[f32; 7]>,
+    pub(in super::super) tcp: Vec<[f32; 7]>,
     /// Of the TCP in mm/s.
-    pub(super) speed: Vec<f32>,
-    pub(super) pointers: Vec<Pointers>,
+    pub(in super::super) speed: Vec<f32>,
+    pub(in super::super) pointers: Vec<Pointers>,
+    /// The numbers of the files in which motions stand, as far as a motion was seen.
+    pub(in super::super) motion_files: BTreeMap<u32, u16>,
     /// The names that pointers and states have numbers of.
-    pub(super) files: Vec<String>,
-    pub(super) states: Vec<(f64, String)>,
+    pub(in super::super) files: Vec<String>,
+    pub(in super::super) states: Vec<(f64, String)>,
     /// What each line took, by the number of its file.
-    pub(super) lines: BTreeMap<(u16, u32), Took>,
+    pub(in super::super) lines: BTreeMap<(u16, u32), Took>,
     /// Where the base is, whenever that changes.
-    pub(super) bases: Vec<(f64, [f32; 7])>,
+    pub(in super::super) bases: Vec<(f64, [f32; 7])>,
 }
 
 /// How long the robot moved for a line, and stood in it, in s.
 #[derive(Clone, Copy, Default, PartialEq, Debug)]
-pub(super) struct Took {
-    pub(super) moving: f64,
-    pub(super) standing: f64,
+pub(in super::super) struct Took {
+    pub(in super::super) moving: f64,
+    pub(in super::super) standing: f64,
 }
 
 /// Where program and robot are: lines, numbers of files, and the number of the motion that is executed; 0: none.
 #[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
-pub(super) struct Pointers {
-    pub(super) file: u16,
-    pub(super) line: u32,
-    pub(super) motion_file: u16,
-    pub(super) motion_line: u32,
-    pub(super) motion: u32,
+pub(in super::super) struct Pointers {
+    pub(in super::super) file: u16,
+    pub(in super::super) line: u32,
+    pub(in super::super) motion_file: u16,
+    pub(in super::super) motion_line: u32,
+    pub(in super::super) motion: u32,
 }
 
 impl Store {
     /// Takes in a message; those of other people are passed over.
-    pub(super) fn take(&mut self, topic: &str, time: u64, message: &[u8]) -> Result<(), prost::DecodeError> {
+    pub(in super::super) fn take(&mut self, topic: &str, time: u64, message: &[u8]) -> Result<(), prost::DecodeError> {
         let time = time as f64 / 1e9;
         match topic {
             "/arl/cell" => self.cell = Cell::decode(message)?,
@@ -175,6 +177,9 @@ impl Track {
             motion: u32::try_from(said.motion).unwrap_or(u32::MAX),
         };
         self.count(said.time, pointers);
+        if pointers.motion != 0 && self.pointers.last().is_none_or(|last| last.motion != pointers.motion) {
+            self.motion_files.insert(pointers.motion, pointers.motion_file);
+        }
         self.times.push(said.time);
         self.pointers.push(pointers);
     }

@@ -1,0 +1,103 @@
+//! What a run took and what happened in it: as JSON, as a page, and beside another run.
+
+mod compare;
+mod html;
+mod summary;
+#[cfg(test)]
+mod tests;
+
+use std::error::Error;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use arl_robot::cell::Body;
+
+use super::answer;
+use super::args::{Format, ReportFormat};
+use super::failure::Failure;
+use super::listen::Hears;
+use super::record::Recorder;
+use super::recorded::{self, Store};
+use super::said::Line;
+pub(super) use compare::Differences;
+pub(super) use summary::Summary;
+
+/// A file that stands for the standard error.
+const STANDARD_ERROR: &str = "-";
+
+/// A report that is being made while a program runs.
+pub(super) struct Reporting {
+    file: Option<PathBuf>,
+    format: ReportFormat,
+    recorder: Recorder<Store>,
+}
+
+impl Reporting {
+    /// Makes the file: better to fail now than after a long run.
+    pub(super) fn create(file: &Path, format: ReportFormat, bodies: &[Body]) -> Result<Self, Failure> {
+        let file = (file != Path::new(STANDARD_ERROR)).then(|| file.to_owned());
+        if let Some(file) = &file {
+            std::fs::write(file, "").map_err(|error| Failure::io("write", file, &error))?;
+        }
+        Ok(Self { file, format, recorder: Recorder::new(Store::default(), bodies) })
+    }
+}
+
+impl Hears for Reporting {
+    fn wants_each_motion(&self) -> bool {
+        true
+    }
+
+    fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
+        self.recorder.hear(line)?;
+        Ok(Vec::new())
+    }
+
+    fn end(self: Box<Self>) -> Result<(), Box<dyn Error>> {
+        let summary = Summary::of(&self.recorder.ended()?);
+        let text = match self.format {
+            ReportFormat::Html => html::page(&summary),
+            _ => format!("{}\n", serde_json::to_string_pretty(&summary)?),
+        };
+        match &self.file {
+            Some(file) => std::fs::write(file, text)?,
+            None => std::io::stderr().write_all(text.as_bytes())?,
+        }
+        Ok(())
+    }
+
+    fn nothing_began(self: Box<Self>) {
+        if let Some(file) = self.file {
+            // It is empty.
+            let _ = std::fs::remove_file(file);
+        }
+    }
+
+    fn broken(&self) -> String {
+        "there is no report".to_owned()
+    }
+}
+
+/// Tells what differs between two runs; the exit code is 1 where anything does.
+pub(super) fn compare(one: &Path, other: &Path, format: Format) -> Result<ExitCode, Failure> {
+    let differences = Differences::between(&summary(one)?, &summary(other)?);
+    let text = match format {
+        Format::Human => differences.to_string(),
+        Format::Json => format!("{}\n", serde_json::json!(differences)),
+    };
+    answer::write(&text)?;
+    Ok(ExitCode::from(u8::from(!differences.is_empty())))
+}
+
+/// The summary of a recording, or the one that a file holds.
+fn summary(file: &Path) -> Result<Summary, Failure> {
+    let bytes = std::fs::read(file).map_err(|error| Failure::io("read", file, &error))?;
+    if !bytes.trim_ascii_start().starts_with(b"{") {
+        return Ok(Summary::of(&recorded::read(file)?));
+    }
+    serde_json::from_slice(&bytes).map_err(|error| {
+        let what = "no report of a whole run, as `arl2rs run --report=FILE --format json` makes it";
+        Failure::Other(format!("{} is {what}: {error}", file.display()))
+    })
+}
