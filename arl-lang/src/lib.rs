@@ -5,6 +5,7 @@ pub mod ast;
 mod block_look_ahead;
 mod blocks;
 pub mod catalog;
+mod data_value;
 pub mod elsewhere;
 mod explain;
 mod followers;
@@ -34,6 +35,7 @@ mod tree;
 mod words;
 pub mod written;
 
+pub use data_value::with_value;
 pub use parse::{
     ParseOptions, Parsed, ParsedExpression, ParsedStatements, Splice, outline, parse, parse_expression,
     parse_statements,

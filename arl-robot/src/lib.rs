@@ -2,6 +2,7 @@
 //!
 //! The runtime moves robots with it, and the command tells before a program runs which targets a robot cannot reach.
 
+pub mod atomic_file;
 pub mod cell;
 pub mod channels;
 pub mod frames;

@@ -9,8 +9,8 @@ export const BEHIND_S = 0.06;
 
 /** The buttons, what they tell the program, and the states in which they do something. */
 const BUTTONS = [
-  ["▶ Start", 'pendant = "start"', "Let program and robot go on", ["paused", "standstill"]],
-  ["⏸ Pause", 'pendant = "pause"', "Stop on the path", ["running"]],
+  ["Start", 'pendant = "start"', "Let program and robot go on", ["paused", "standstill"]],
+  ["Pause", 'pendant = "pause"', "Stop on the path", ["running"]],
   ["Step", 'pendant = "step"', "One motion or statement", ["paused"]],
   ["Reset", 'pendant = "reset"', "Back to the begin of the program", ["paused", "ended", "alarm", "stopped"]],
   ["Clear", 'pendant = "clear"', "Clear the alarm", ["alarm"]],
@@ -29,6 +29,55 @@ export async function tell(order) {
 /** @param {string} text */
 export function trouble(text) {
   Object.assign(byId("trouble"), { hidden: text === "", textContent: text });
+}
+
+/** A button that is held says so that often, in ms: where nothing comes for a quarter of a second, the robot stops. */
+const HOLD_MS = 80;
+
+/**
+ * A button that moves the robot as long as it is held, by pointer or by key.
+ * @param {HTMLButtonElement} button @param {() => string | undefined} words what is moved, in the words of an order
+ */
+export function holds(button, words) {
+  /** @type {string | undefined} */
+  let order;
+  const say = () => {
+    if (order === undefined) return;
+    tell(order);
+    setTimeout(say, HOLD_MS);
+  };
+  const hold = () => {
+    const held = words();
+    if (order !== undefined || held === undefined || button.disabled) return;
+    order = held;
+    button.classList.add("on");
+    say();
+  };
+  const letGo = () => {
+    if (order === undefined) return;
+    const key = order.split("=")[0];
+    order = undefined;
+    button.classList.remove("on");
+    tell(`${key}= ""`);
+  };
+  button.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    button.setPointerCapture(event.pointerId);
+    hold();
+  });
+  for (const end of ["pointerup", "pointercancel", "lostpointercapture", "blur"]) button.addEventListener(end, letGo);
+  button.addEventListener("keydown", (event) => {
+    if ([" ", "Enter"].includes(event.key)) {
+      hold();
+      event.preventDefault();
+      event.stopPropagation();
+    }
+  });
+  button.addEventListener("keyup", letGo);
+  button.addEventListener("contextmenu", (event) => event.preventDefault());
+  window.addEventListener("blur", letGo);
+  window.addEventListener("pagehide", letGo);
+  document.addEventListener("visibilitychange", letGo);
 }
 
 export class Live {

@@ -7,6 +7,7 @@ import { COLORS } from "./path.js";
 import { Run } from "./run.js";
 import { CellScene } from "./scene.js";
 import { Source } from "./source.js";
+import { Teach } from "./teach.js";
 import { Tracks } from "./tracks.js";
 
 const RATES = [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10, 50];
@@ -49,6 +50,10 @@ class Page {
     this.now = new Now(byId("now"));
     this.controls();
     if (this.run.live) this.goLive();
+    if (this.run.told.teaches && this.channel) {
+      this.teach = new Teach(this);
+      this.scene?.renderer.domElement.addEventListener("dblclick", (event) => this.teach?.clicked(event));
+    }
     this.showTab(this.tab);
     requestAnimationFrame((now) => this.frame(now));
   }
@@ -60,7 +65,11 @@ class Page {
       begun: () => location.reload(),
       more: () => {
         this.stale = true;
-        if (this.tab !== "Source" && this.shownVersion !== this.run.told.version && !byId("panel").contains(document.activeElement))
+        if (
+          !["Source", "Teach"].includes(this.tab) &&
+          this.shownVersion !== this.run.told.version &&
+          !byId("panel").contains(document.activeElement)
+        )
           this.showTab(this.tab);
       },
       ended: () => (this.following = false),
@@ -108,7 +117,7 @@ class Page {
     if (on && this.time >= this.end - 1e-6 && !this.run.live) this.time = 0;
     this.playing = on;
     if (on) this.following = false;
-    Object.assign(byId("play"), { textContent: on ? "⏸" : "▶", ariaLabel: on ? "Pause" : "Play" });
+    Object.assign(byId("play"), { textContent: on ? "❙❙" : "▶", ariaLabel: on ? "Pause" : "Play" });
     this.stale = true;
   }
 
@@ -143,7 +152,14 @@ class Page {
     if (this.channel) byId("channel").value = String(this.channel.number);
     this.setRate(this.rate);
     this.setMode(this.mode);
-    const tabs = ["Source", "Lines", "Events", ...(this.run.live ? ["Inputs"] : []), ...(this.runs.length > 1 ? ["Differences"] : [])];
+    const tabs = [
+      "Source",
+      "Lines",
+      "Events",
+      ...(this.run.live ? ["Inputs"] : []),
+      ...(this.run.told.teaches ? ["Teach"] : []),
+      ...(this.runs.length > 1 ? ["Differences"] : []),
+    ];
     byId("tabs").append(
       ...tabs.map((name) => {
         const tab = element("button", { role: "tab" }, name);
@@ -247,6 +263,7 @@ class Page {
     if (name === "Source") panel.replaceChildren(this.source.holder);
     else if (name === "Lines") panel.replaceChildren(lines(this.run, channel, chosen));
     else if (name === "Events") panel.replaceChildren(events(this.run, (time) => this.seek(time)));
+    else if (name === "Teach") panel.replaceChildren(...(this.teach ? [this.teach.holder] : []));
     else if (name === "Inputs") panel.replaceChildren(...(this.live ? [this.live.inputs()] : []));
     else this.showDifferences(panel, chosen);
     this.shownVersion = this.run.told.version;

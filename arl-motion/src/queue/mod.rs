@@ -411,6 +411,11 @@ impl Queue {
     /// rest. Without a stop it goes on to the next target that it reaches exactly first.
     pub fn clear(&mut self) {
         self.suspension.clear();
+        self.drop_added();
+    }
+
+    /// Drops the motions that were added since others were set aside in the same way; what is set aside stays.
+    pub fn drop_added(&mut self) {
         self.layer.requests.clear();
         self.layer.path.keep_to_stop();
         self.layer.waiting.clear();

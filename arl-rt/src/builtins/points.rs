@@ -6,19 +6,16 @@ mod now;
 pub use now::{savejointnow, saveposenow};
 
 use std::fmt::Write as _;
-use std::ops::Range;
 use std::path::Path;
 
-use arl_lang::ast::{Item, Var};
-use arl_lang::symbol::Interner;
 use arl_robot::regular_file;
 
 use crate::builtins::channel::warn_of;
 use crate::builtins::storing::done;
 use crate::context::cx::Cx;
 use crate::fault::Fault;
-use crate::storage::atomic_file;
 use crate::values::{Joint, Pose, Str, UNSET};
+use arl_robot::atomic_file;
 
 /// Copies a program file in the script directory; whether it worked. A kill at any moment leaves the old or the new copy, whole.
 /// The work is done beside the cycle, and the program goes on when it is.
@@ -174,41 +171,8 @@ impl Components {
 /// the file has mistakes, and where it cannot be written.
 fn replace(path: &Path, ty: &str, variable: &str, value: &str) -> Result<(), Failure> {
     let content = regular_file::read(path).map_err(|error| problem(path, format_args!("cannot be read: {error}")))?;
-    let text =
-        arl_lang::text::decode(&content).map_err(|error| problem(path, format_args!("cannot be read: {error}")))?;
-    let (place, value) = match place(&text, ty, variable).map_err(|what| problem(path, what))? {
-        Place::Value(place) => (place, value.to_owned()),
-        Place::Behind(at) => (at..at, format!(" = {value}")),
-    };
-    let changed = arl_lang::text::splice(&content, place, &value);
-    write(path, &changed.ok_or_else(|| problem(path, "has an encoding that this value cannot be written in"))?)
-}
-
-/// Where a value goes in a text.
-enum Place {
-    /// In place of the one that is there.
-    Value(Range<usize>),
-    /// Behind the name: there is none.
-    Behind(usize),
-}
-
-/// The place of a variable's value, or what is wrong with the file.
-fn place(text: &str, ty: &str, variable: &str) -> Result<Place, String> {
-    let mut names = Interner::default();
-    let parsed = arl_lang::parse(text, &mut names, arl_lang::ParseOptions::default());
-    if !parsed.errors.is_empty() {
-        return Err("has mistakes".into());
-    }
-    let globals = parsed.file.items.iter().filter_map(|item| match item {
-        Item::Global(decl) if !decl.ty.system && names.name(decl.ty.name).eq_ignore_ascii_case(ty) => Some(&decl.vars),
-        _ => None,
-    });
-    let named = |var: &&Var| var.dims.is_empty() && names.name(var.name.symbol).eq_ignore_ascii_case(variable);
-    let var = globals.flatten().find(named).ok_or_else(|| format!("has no {ty} {variable}"))?;
-    Ok(match &var.init {
-        Some(init) => Place::Value(init.span.start as usize..init.span.end as usize),
-        None => Place::Behind(var.name.span.end as usize),
-    })
+    let changed = arl_lang::with_value(&content, ty, variable, value).map_err(|what| problem(path, what))?;
+    write(path, &changed)
 }
 
 #[cfg(test)]

@@ -4,6 +4,7 @@ use super::channel::Channel;
 use super::channels::Channels;
 use super::{Controller, Outcome, State};
 use crate::io::Pendant;
+use crate::unit::hold::Held;
 
 impl Controller {
     /// Presses a button of the teach pendant, for all channels. A button that cannot act now gives a warning
@@ -83,6 +84,19 @@ impl Controller {
         jog(self.channels.first(), axis, by);
     }
 
+    /// Begins to move a robot, of a foreground channel from 1 on, as long as somebody holds a button; where it has come to rest, it goes on.
+    pub(crate) fn hold(&mut self, channel: usize, held: &Held) -> Result<(), String> {
+        let found = self.channels.foreground().nth(channel.wrapping_sub(1));
+        hold(found.ok_or_else(|| format!("there is no channel {channel}"))?, held)
+    }
+
+    /// The button is let go: the robot stops on its path.
+    pub(crate) fn let_go(&mut self, channel: usize) {
+        if let Some(found) = self.channels.foreground().nth(channel.wrapping_sub(1)) {
+            let_go(found);
+        }
+    }
+
     /// Says that somebody has moved an axis of the first channel's robot by hand, by so many deg (mm), while its servo is off. With
     /// a real robot nobody has to say so: its driver reports it.
     pub fn move_by_hand(&mut self, axis: usize, by: f64) {
@@ -120,8 +134,17 @@ fn may_go_on(channel: &Channel, what: &str) -> bool {
     servo && channel.outcome().is_none()
 }
 
+/// Whether a button moves the robot beside its program; warns then.
+fn is_held(channel: &Channel, what: &str) -> bool {
+    let held = channel.channel_state().robot().is_some_and(|unit| unit.is_held());
+    if held {
+        refuse(channel, what, "a button moves the robot, or it has not come to rest since");
+    }
+    held
+}
+
 fn start(channel: &mut Channel) {
-    if may_go_on(channel, "start") {
+    if !is_held(channel, "start") && may_go_on(channel, "start") {
         channel.channel_state().stepping.on.set(false);
         channel.channel_state().stepping.until.set(None);
         go_on(channel);
@@ -150,7 +173,7 @@ fn pause(channel: &Channel) {
 
 fn step(channel: &mut Channel) {
     let under_way = channel.channel_state().stepping.on.get() && channel.state() == State::Running;
-    if under_way || !may_go_on(channel, "step") {
+    if under_way || is_held(channel, "step") || !may_go_on(channel, "step") {
         return;
     }
     let channel_state = channel.channel_state();
@@ -164,6 +187,9 @@ fn step(channel: &mut Channel) {
 
 /// Resets a program; `ended` says that those of all foreground channels have ended.
 fn reset(channel: &mut Channel, ended: bool) {
+    if is_held(channel, "reset") {
+        return;
+    }
     match channel.state() {
         // What runs in the background stays when the others begin again.
         State::Running if ended => {}
@@ -213,6 +239,22 @@ pub(super) fn jog(channel: &Channel, axis: usize, by: f64) {
     });
     if let Err(why) = jogged {
         refuse(channel, "jogging", &why);
+    }
+}
+
+/// Begins to move the robot of a channel as long as somebody holds a button, or goes on with it.
+pub(super) fn hold(channel: &Channel, held: &Held) -> Result<(), String> {
+    let state = channel.state();
+    if state == State::Running {
+        return Err("the program runs: pause it first".into());
+    }
+    channel.channel_state().robot_mut().map_or(Ok(()), |mut unit| unit.hold(held, state == State::Paused))
+}
+
+/// The button is let go.
+pub(super) fn let_go(channel: &Channel) {
+    if let Some(mut unit) = channel.channel_state().robot_mut() {
+        unit.let_go();
     }
 }
 

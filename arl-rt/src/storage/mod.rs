@@ -3,7 +3,6 @@
 //!
 //! It imports `cycle`, `fault` and `values`.
 
-pub(crate) mod atomic_file;
 pub mod data;
 pub(crate) mod disk;
 pub(crate) mod pointers;

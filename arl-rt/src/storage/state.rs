@@ -11,8 +11,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use arl_robot::regular_file;
 
-use crate::storage::atomic_file;
 use crate::storage::disk::{Disk, Stage, Work};
+use arl_robot::atomic_file;
 
 /// Where kept values live, by name.
 pub trait Storage {

@@ -3,6 +3,7 @@
 mod changes;
 pub mod dynamics;
 mod effort;
+pub(crate) mod hold;
 mod moving;
 mod refusal;
 pub mod robot_driver;
@@ -26,6 +27,7 @@ use arl_robot::robot::Robot;
 use changes::{Change, Changes};
 use effort::Effort;
 pub(crate) use effort::{Collision, Outside, SENSITIVITY};
+use hold::Button;
 pub(crate) use moving::Moving;
 use refusal::alarm;
 
@@ -74,6 +76,8 @@ pub(crate) struct Unit {
     /// Whether it is told to rest until somebody says to go on, and whether it was moved beside its path meanwhile.
     halted: bool,
     jogged: bool,
+    /// The button that moves it beside its program.
+    button: Button,
 }
 
 impl Unit {
@@ -96,6 +100,7 @@ impl Unit {
             servo: true,
             halted: false,
             jogged: false,
+            button: Button::Free,
             driver,
             planned: 0,
             finished: 0,

@@ -7,9 +7,9 @@ use crate::motion::{Command, Joints, Settings, Speed, Start, Stop, Target, Zone}
 use arl_robot::frames::Rig;
 
 /// The speed of jogging, in % of the axes' own.
-const JOGGING: f64 = 10.0;
+pub(super) const JOGGING: f64 = 10.0;
 /// The level of those who move the robot beside the program: above all of it.
-const BESIDE: u32 = u32::MAX;
+pub(super) const BESIDE: u32 = u32::MAX;
 
 impl Unit {
     /// Whether the motors hold the robot.
@@ -74,33 +74,37 @@ impl Unit {
         }
     }
 
-    /// Moves an axis, from 1, at manual speed. While it was paused, the robot goes back to its path before it goes on.
-    pub(crate) fn jog(&mut self, axis: usize, by: f64) -> Result<(), String> {
+    /// Whether the robot can be moved beside its program now.
+    pub(super) fn may_be_jogged(&self) -> Result<(), String> {
         if !self.servo {
             return Err("the servo is off".into());
         }
         if !self.queue.rests() {
             return Err("the robot has not come to rest yet".into());
         }
+        Ok(())
+    }
+
+    /// Moves an axis, from 1, at manual speed. While it was paused, the robot goes back to its path before it goes on.
+    pub(crate) fn jog(&mut self, axis: usize, by: f64) -> Result<(), String> {
+        self.may_be_jogged()?;
         let mut target = *self.target();
         if self.halted && !self.jogged {
             target = *self.setpoint();
         }
         *self.axis_of(&mut target, axis)? += by;
-        if self.halted {
-            self.step_beside();
-        }
         // External axes have speeds of their own in place of a share.
         let own = self.robot.axes.get(axis - 1).map_or(1.0, |axis| axis.vel * JOGGING / 100.0);
         let speed = Speed { percent: JOGGING, tcp: 1.0, ori: 1.0, exj: own, exl: own };
-        let command = Command {
-            target: Target::Joints(target),
-            rig: Rig { base: self.base, ..Rig::bare() },
-            speed,
-            duration: None,
-            zone: Zone::NONE,
-            line: 0,
-        };
+        self.go_beside(Target::Joints(target), Rig { base: self.base, ..Rig::bare() }, speed)
+    }
+
+    /// Goes somewhere beside the program, at manual speed.
+    pub(super) fn go_beside(&mut self, target: Target, rig: Rig, speed: Speed) -> Result<(), String> {
+        if self.halted {
+            self.step_beside();
+        }
+        let command = Command { target, rig, speed, duration: None, zone: Zone::NONE, line: 0 };
         self.queue.resume();
         let settings = Settings { manual: true, ..Settings::default() };
         let file = self.file;
@@ -121,7 +125,7 @@ impl Unit {
         Ok(())
     }
 
-    fn axis_of<'a>(&self, joints: &'a mut Joints, axis: usize) -> Result<&'a mut f64, String> {
+    pub(super) fn axis_of<'a>(&self, joints: &'a mut Joints, axis: usize) -> Result<&'a mut f64, String> {
         let own = self.robot.own_axes().len();
         let all = self.robot.axes.len();
         let at = axis.checked_sub(1).filter(|at| *at < all);

@@ -168,6 +168,9 @@ pub(super) struct ViewOptions {
     /// Do not open the browser.
     #[arg(long)]
     pub(super) no_open: bool,
+    /// Let the page write points of a program into its data files.
+    #[arg(long)]
+    pub(super) teach: bool,
     /// The robot of a program: a built-in name or a robot file.
     #[arg(long, value_name = "NAME|FILE")]
     pub(super) robot: Option<String>,
@@ -192,7 +195,7 @@ impl ViewOptions {
     /// Whether there are options that only programs have.
     pub(super) fn is_of_program(&self) -> bool {
         let paths = [&self.cell, &self.io, &self.script_dir, &self.state_dir];
-        self.robot.is_some() || self.mode.is_some() || paths.iter().any(|path| path.is_some())
+        self.teach || self.robot.is_some() || self.mode.is_some() || paths.iter().any(|path| path.is_some())
     }
 
     /// The options of a program that is shown.

@@ -7,6 +7,8 @@
 //! `inside = 1` lets lines with the functions and variables of channel 1 go out, where the program was made for a debugger;
 //! `inside = 0` ends that.
 //!
+//! `hold = "j1+"`, said again and again, moves an axis or the TCP as long as it is said (`holding.rs`).
+//!
 //! The first line that goes out is `{"hello":...}`: the channels with their programs, robots, axes and links, and the names of
 //! signals. Then come `state` (20 times a second), `inside` (4 times a second), `message`, `warning`, `alarm`, and `refused`
 //! for an order that could not be carried out.
@@ -16,6 +18,7 @@
 //!
 //! Who only listens (`--listener`) hears the same, reports at the end, and `ended` at last.
 
+mod holding;
 mod line_writer;
 mod motions;
 mod orders;
@@ -24,6 +27,7 @@ mod recording;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::controller::{Controller, Outcome};
+use holding::Holding;
 use motions::EndedMotions;
 use orders::{Next, Orders};
 
@@ -62,10 +66,12 @@ pub(crate) fn drive(
     let orders = Orders::from_standard_input();
     let mut look = Look { inside, channel: None };
     let mut ended_motions = EndedMotions::default();
+    let mut holding = Holding::default();
     let mut cut = None;
     voice.hello(controller);
     loop {
-        let gone = cut.is_none() && !obey(controller, voice, &orders, &mut look) || interrupted.load(Ordering::Relaxed);
+        let gone = cut.is_none() && !obey(controller, voice, &orders, (&mut look, &mut holding))
+            || interrupted.load(Ordering::Relaxed);
         let over = cut.is_some() || gone || controller.cycle() >= last;
         if over && controller.outcome().is_some() {
             break;
@@ -75,6 +81,7 @@ pub(crate) fn drive(
             controller.stop();
         }
         controller.step();
+        holding.cycle_ended(controller);
         voice.news(controller);
         if wishes.each_cycle {
             voice.cycle(controller);
@@ -126,13 +133,19 @@ impl Look {
 }
 
 /// Carries out what has come; whether more may come.
-fn obey(controller: &mut Controller, voice: &LineWriter, orders: &Orders, look: &mut Look) -> bool {
+fn obey(
+    controller: &mut Controller,
+    voice: &LineWriter,
+    orders: &Orders,
+    (look, holding): (&mut Look, &mut Holding),
+) -> bool {
     loop {
         match orders.next() {
             Next::Order(order) => {
-                let done = match Look::asked(&order) {
-                    Some(value) => look.set(controller, value).map(|()| look.say(controller, voice)),
-                    None => controller.order(&order),
+                let done = match (Look::asked(&order), Holding::asked(&order)) {
+                    (Some(value), _) => look.set(controller, value).map(|()| look.say(controller, voice)),
+                    (None, Some(button)) => holding.hold(controller, button),
+                    (None, None) => controller.order(&order),
                 };
                 if let Err(why) = done {
                     voice.refused(&order, &why);

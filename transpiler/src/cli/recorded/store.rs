@@ -36,6 +36,8 @@ pub(in super::super) struct Store {
     pub(in super::super) end: f64,
     /// Whether a program runs that adds to it.
     pub(in super::super) goes_on: bool,
+    /// Whether points of the program may be written.
+    pub(in super::super) teaches: bool,
     /// What of the recording could not be read, and why.
     pub(in super::super) trouble: Option<String>,
     /// Counts the messages that were taken in.

@@ -43,6 +43,7 @@ pub(super) fn run(store: &Store, name: &str) -> Value {
         ("names", names.collect::<Map<_, _>>().into()),
         ("sources", sources.collect()),
         ("keywords", arl_lang::language_words().collect()),
+        ("teaches", store.teaches.into()),
         ("trouble", store.trouble.clone().into()),
     ];
     if let Value::Object(fields) = &mut answer {

@@ -51,7 +51,8 @@ impl Live {
     pub(super) fn hear(&self, cell: &Cell, store: &Arc<Mutex<Store>>) -> Result<u8, Failure> {
         let (collisions, _) = Collisions::new(cell, 0.0, true)?;
         let recorder = Recorder::new(Shared(Arc::clone(store)), &cell.bodies);
-        let mut hearers: Vec<Box<dyn Hears>> = vec![Box::new(collisions), Box::new(Growing(recorder))];
+        let growing = Growing { recorder, store: Arc::clone(store) };
+        let mut hearers: Vec<Box<dyn Hears>> = vec![Box::new(collisions), Box::new(growing)];
         loop {
             let (ended, lines) = {
                 let mut link = self.link.lock().unwrap_or_else(PoisonError::into_inner);
@@ -86,16 +87,24 @@ fn told(line: Line) -> Line {
 }
 
 /// A run that grows.
-struct Growing(Recorder<Shared>);
+struct Growing {
+    recorder: Recorder<Shared>,
+    store: Arc<Mutex<Store>>,
+}
 
 impl Hears for Growing {
     fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
-        self.0.hear(line)?;
+        self.recorder.hear(line)?;
+        if let Line::State(state) = line {
+            // Time goes on while nothing changes.
+            let mut store = self.store.lock().unwrap_or_else(PoisonError::into_inner);
+            store.end = store.end.max(state.time);
+        }
         Ok(Vec::new())
     }
 
     fn end(mut self: Box<Self>) -> Result<(), Box<dyn Error>> {
-        Ok(self.0.finish()?)
+        Ok(self.recorder.finish()?)
     }
 
     fn broken(&self) -> String {

@@ -6,6 +6,7 @@ mod answer;
 mod live;
 mod page;
 mod serve;
+mod teach;
 #[cfg(test)]
 mod tests;
 
@@ -23,10 +24,11 @@ use super::failure::Failure;
 use super::program::prepare;
 use super::recorded::{self, Store};
 use super::report::{Differences, Summary};
-use super::{show, texts};
+use super::{robot, show, texts};
 use answer::Known;
 use live::Live;
 use serve::{Answer, Asked};
+use teach::Teacher;
 
 /// At most so many rows are told at once.
 const MOST_ROWS: usize = 400_000;
@@ -36,6 +38,8 @@ struct Shown {
     runs: Vec<(String, Arc<Mutex<Store>>)>,
     /// The program of the first one, where it runs.
     live: Option<Live>,
+    /// Who writes its points, where that is wanted.
+    teacher: Option<Teacher>,
 }
 
 /// Serves the page until the command is interrupted.
@@ -54,7 +58,7 @@ pub(super) fn view(files: &[PathBuf], options: &ViewOptions) -> Result<ExitCode,
                 return Err(Failure::Usage(text.to_owned()));
             }
             let runs = files.iter().map(|file| Ok((name(file), Arc::new(Mutex::new(recording(file)?)))));
-            let shown = Shown { runs: runs.collect::<Result<_, Failure>>()?, live: None };
+            let shown = Shown { runs: runs.collect::<Result<_, Failure>>()?, live: None, teacher: None };
             let server = serve(&Arc::new(shown), options)?;
             server.join().map_err(|error| Failure::Other(format!("the server ended: {error}")))?;
             Ok(ExitCode::SUCCESS)
@@ -68,7 +72,7 @@ fn run(program: &Path, name: String, options: &ViewOptions) -> Result<ExitCode, 
     let cell = options_of_run.cell.as_deref().map(Cell::load).transpose();
     let cell = cell.map_err(|error| Failure::Usage(error.to_string()))?.unwrap_or_default();
     let ready = prepare(program, options_of_run.cell.as_deref(), &options_of_run.checking())?;
-    let mut store = Store { goes_on: true, ..Store::default() };
+    let mut store = Store { goes_on: true, teaches: options.teach, ..Store::default() };
     store.sources = texts::read(&ready.sources);
     let mut command = Command::new(&ready.program);
     command.args(options_of_run.arguments());
@@ -77,7 +81,9 @@ fn run(program: &Path, name: String, options: &ViewOptions) -> Result<ExitCode, 
     // The program stops its robot, and this command ends with it.
     super::cargo::leave_interrupts_to_the_program();
     let store = Arc::new(Mutex::new(store));
-    let shown = Arc::new(Shown { runs: vec![(name, Arc::clone(&store))], live: Some(live) });
+    let teach = || robot::load(options_of_run.robot.as_deref()).map(|robot| Teacher::new(robot, &ready.sources));
+    let teacher = options.teach.then(teach).transpose()?;
+    let shown = Arc::new(Shown { runs: vec![(name, Arc::clone(&store))], live: Some(live), teacher });
     let _server = serve(&shown, options)?;
     let code = shown.live.as_ref().map_or(Ok(0), |live| live.hear(&cell, &store))?;
     Ok(ExitCode::from(code))
@@ -118,6 +124,12 @@ impl Shown {
                     Answer::Json(json!(Differences::between(&one, &other)))
                 }
                 _ => Answer::NotFound,
+            },
+            Some(["teach", rest @ ..]) => match &self.teacher {
+                Some(teacher) => teacher.answer(rest, asked.order.as_deref()),
+                None => {
+                    Answer::Refused("points are only written where the command was started with --teach".to_owned())
+                }
             },
             Some(["order"]) => match (&self.live, &asked.order) {
                 (Some(live), Some(order)) => {

@@ -25,6 +25,7 @@ const FILES: &[File] = page! {
     "tracks.js": SCRIPT,
     "rows.js": SCRIPT,
     "source.js": SCRIPT,
+    "teach.js": SCRIPT,
     "panels.js": SCRIPT,
     "colors.js": SCRIPT,
     "live.js": SCRIPT,

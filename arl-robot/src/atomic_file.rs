@@ -12,7 +12,7 @@ const BESIDE: &str = ".arl-new";
 ///
 /// # Errors
 /// What the file system says; the old content is still there.
-pub(crate) fn write(path: &Path, content: &[u8]) -> io::Result<()> {
+pub fn write(path: &Path, content: &[u8]) -> io::Result<()> {
     let mut beside = path.as_os_str().to_owned();
     beside.push(format!(".{}{BESIDE}", std::process::id()));
     let beside = PathBuf::from(beside);
@@ -35,7 +35,7 @@ pub(crate) fn write(path: &Path, content: &[u8]) -> io::Result<()> {
 }
 
 /// The directory that a file lies in.
-pub(crate) fn directory_of(path: &Path) -> &Path {
+pub fn directory_of(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
@@ -52,7 +52,7 @@ fn create_held(path: &Path) -> io::Result<fs::File> {
 }
 
 /// Removes from a directory what processes that were killed while they wrote have left there.
-pub(crate) fn remove_leftovers(directory: &Path) {
+pub fn remove_leftovers(directory: &Path) {
     // What cannot be looked at or removed stays: it does no harm.
     let Ok(entries) = fs::read_dir(directory) else { return };
     for entry in entries.filter_map(Result::ok) {
@@ -84,7 +84,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     fn folder(name: &str) -> PathBuf {
-        let path = std::env::temp_dir().join(format!("arl-rt-whole-{name}-{}", std::process::id()));
+        let path = std::env::temp_dir().join(format!("arl-robot-whole-{name}-{}", std::process::id()));
         fs::create_dir_all(&path).unwrap();
         path
     }

@@ -1,0 +1,255 @@
+//! Buttons that move a robot as long as they are held: `hold = "j1+"`, again and again while it is so.
+//!
+//! `hold.2` is the robot of channel 2. A direction is `j1+`, `x-` (in the world), `tool z+`, `rx+` (about x), `frame 0 0 90 x+` (in a frame turned by a, b, c in deg),
+//! or `to 0 -90 90 0 90 0` for all axes; nothing lets go. Where the order does not come again in time, the button counts as let go: a page
+//! that is lost, or a process, stops the robot on its path.
+
+use arl_robot::kinematics::frame;
+use nalgebra::Vector3;
+
+use crate::controller::Controller;
+use crate::unit::hold::{Held, Seen};
+
+/// So long a button counts as held after an order, in s.
+const HELD_S: f64 = 0.25;
+
+/// The button that is held.
+#[derive(Default)]
+pub(super) struct Holding {
+    held: Option<Button>,
+}
+
+struct Button {
+    channel: usize,
+    words: String,
+    held: Held,
+    /// The cycle in which it counts as let go.
+    until: u64,
+}
+
+impl Holding {
+    /// What an order says of a button, where it says something: the channel and the words.
+    pub(super) fn asked(order: &str) -> Option<(usize, &str)> {
+        let (key, value) = order.split_once('=')?;
+        let rest = key.trim().strip_prefix("hold")?;
+        let channel = if rest.is_empty() { 1 } else { rest.strip_prefix('.')?.parse().ok()? };
+        Some((channel, value.trim().trim_matches('"').trim()))
+    }
+
+    /// A button is held, or let go.
+    pub(super) fn hold(&mut self, controller: &mut Controller, (channel, words): (usize, &str)) -> Result<(), String> {
+        let until = controller.cycle() + controller.cycles(HELD_S);
+        if let Some(button) = &mut self.held {
+            if button.channel == channel && button.words == words {
+                button.until = until;
+                return Ok(());
+            }
+            self.let_go(controller);
+        }
+        if words.is_empty() {
+            return Ok(());
+        }
+        let held = parse(words)?;
+        controller.hold(channel, &held)?;
+        self.held = Some(Button { channel, words: words.to_owned(), held, until });
+        Ok(())
+    }
+
+    /// A cycle has ended: a button that is still held goes on where an end was reached.
+    pub(super) fn cycle_ended(&mut self, controller: &mut Controller) {
+        let Some(button) = &self.held else { return };
+        if controller.cycle() >= button.until {
+            self.let_go(controller);
+            return;
+        }
+        // Until it rests it goes where it was told to; where there is no way farther, it stays.
+        let _ = controller.hold(button.channel, &button.held);
+    }
+
+    fn let_go(&mut self, controller: &mut Controller) {
+        if let Some(button) = self.held.take() {
+            controller.let_go(button.channel);
+        }
+    }
+}
+
+/// What words say is to be moved.
+fn parse(words: &str) -> Result<Held, String> {
+    let wrong = || {
+        format!(
+            "`{words}` is no direction: expected one like `j1+`, `x-`, `tool z+`, `rx+`, `frame 0 0 90 x+` or `to 0 -90 90 0 90 0`"
+        )
+    };
+    let all: Vec<&str> = words.split_whitespace().collect();
+    let numbers = |of: &[&str]| -> Option<Vec<f64>> {
+        let all: Option<Vec<f64>> = of.iter().map(|word| word.parse().ok()).collect();
+        all.filter(|all| all.iter().all(|value| value.is_finite()))
+    };
+    let held = match &all[..] {
+        ["to", axes @ ..] if !axes.is_empty() => numbers(axes).map(Held::To),
+        ["tool", direction] => tcp(direction, Seen::Tool),
+        ["frame", a, b, c, direction] => numbers(&[a, b, c]).and_then(|angles| {
+            let [a, b, c] = <[f64; 3]>::try_from(angles).ok()?;
+            tcp(direction, Seen::Frame(frame([0.0, 0.0, 0.0, a, b, c]).rotation))
+        }),
+        [direction] => axis(direction).or_else(|| tcp(direction, Seen::Frame(nalgebra::UnitQuaternion::identity()))),
+        _ => None,
+    };
+    held.ok_or_else(wrong)
+}
+
+/// `j1+`, `ej2-`: external axes come behind the robot's own, which are six or four. `a7+` is the seventh of all.
+fn axis(direction: &str) -> Option<Held> {
+    let (name, up) = sign(direction)?;
+    let axis = name.strip_prefix(['j', 'a'])?.parse().ok()?;
+    Some(Held::Axis { axis, up })
+}
+
+fn tcp(direction: &str, of: Seen) -> Option<Held> {
+    let (name, up) = sign(direction)?;
+    let (name, turns) = name.strip_prefix('r').map_or((name, false), |name| (name, true));
+    let axis = match name {
+        "x" => Vector3::x(),
+        "y" => Vector3::y(),
+        "z" => Vector3::z(),
+        _ => return None,
+    };
+    Some(Held::Tcp { along: if up { axis } else { -axis }, turns, of })
+}
+
+fn sign(direction: &str) -> Option<(&str, bool)> {
+    let up = direction.strip_suffix('+').map(|name| (name, true));
+    up.or_else(|| direction.strip_suffix('-').map(|name| (name, false)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn orders_say_which_button_is_held() {
+        assert_eq!(Holding::asked("hold = \"j1+\""), Some((1, "j1+")));
+        assert_eq!(Holding::asked("hold.2=x-"), Some((2, "x-")));
+        assert_eq!(Holding::asked("hold = \"\""), Some((1, "")));
+        assert_eq!(
+            (Holding::asked("di.1 = true"), Holding::asked("holder = 1"), Holding::asked("hold")),
+            (None, None, None)
+        );
+    }
+
+    #[test]
+    fn words_say_what_is_moved() {
+        assert_eq!(parse("j3-"), Ok(Held::Axis { axis: 3, up: false }));
+        assert_eq!(parse("to 1 -2.5"), Ok(Held::To(vec![1.0, -2.5])));
+        let Ok(Held::Tcp { along, turns: false, of: Seen::Tool }) = parse("tool z-") else { panic!("the tool") };
+        assert_eq!(along, -Vector3::z());
+        assert!(matches!(parse("frame 0 0 90 rx+"), Ok(Held::Tcp { turns: true, of: Seen::Frame(_), .. })));
+        for wrong in
+            ["", "j+", "jx+", "x", "q+", "tool j1+", "frame 0 0 x+", "to", "to a", "to inf", "frame 0 0 nan x+"]
+        {
+            assert!(parse(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    /// A program with one long motion, paused in the middle of it.
+    fn paused() -> Controller {
+        use crate::emit::*;
+        struct Turn;
+        impl crate::Program for Turn {
+            fn file(&self) -> File {
+                File::new("turn.arl")
+            }
+            fn family(&self) -> Family {
+                Family::SixAxis
+            }
+            fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> {
+                Box::pin(async { Ok(()) })
+            }
+            fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+                let target = Joint { j1: 90.0, j2: -90.0, j3: 90.0, j4: 0.0, j5: 45.0, j6: 0.0, ..Joint::default() };
+                Box::pin(async move { motion::movej(target).run(cx).await.at(self.file(), 2) })
+            }
+        }
+        let mut controller = Controller::builder().build(Box::new(Turn)).unwrap();
+        controller.run_for(0.5);
+        controller.press(crate::io::Pendant::Pause);
+        controller.run_for(1.0);
+        controller
+    }
+
+    /// Holds a button for so many cycles, and then no more.
+    fn hold(controller: &mut Controller, words: &str, cycles: u64) -> Holding {
+        let mut holding = Holding::default();
+        for cycle in 0..cycles {
+            if cycle.is_multiple_of(100) {
+                holding.hold(controller, (1, words)).unwrap();
+            }
+            controller.step();
+            holding.cycle_ended(controller);
+        }
+        holding
+    }
+
+    fn tcp(controller: &Controller) -> Vec<f64> {
+        controller.status().channels[0].robot.as_ref().unwrap().tcp.to_vec()
+    }
+
+    #[test]
+    fn an_axis_moves_while_it_is_held_and_stops_when_nobody_says_so_any_more() {
+        let mut controller = paused();
+        let before = controller.joints().axes;
+        let mut holding = hold(&mut controller, "j1-", 700);
+        let held = controller.joints().axes;
+        assert!(held[0] < before[0] - 1.0 && held[1..] == before[1..], "{before:?} {held:?}");
+        // While it is held no program goes on.
+        controller.press(crate::io::Pendant::Start);
+        assert!(controller.take_warnings().iter().any(|warning| warning.contains("a button moves the robot")));
+        // A lost page says nothing more.
+        let mut last = controller.joints().axes;
+        for _ in 0..1500 {
+            controller.step();
+            holding.cycle_ended(&mut controller);
+            last = controller.joints().axes;
+        }
+        assert!(last[0] < held[0] && last[0] > held[0] - 20.0, "{held:?} {last:?}");
+        controller.run_for(0.5);
+        assert_eq!(controller.joints().axes, last);
+        // Then the program goes on from where it was.
+        controller.press(crate::io::Pendant::Start);
+        assert_eq!(controller.run(), crate::Outcome::Ended);
+        assert_eq!(controller.joints().axes[0], 90.0);
+    }
+
+    #[test]
+    fn the_tcp_moves_along_a_frame_and_turns_on_the_spot() {
+        let mut controller = paused();
+        let start = tcp(&controller);
+        hold(&mut controller, "z-", 800);
+        let mut holding = Holding::default();
+        holding.hold(&mut controller, (1, "")).unwrap();
+        controller.let_go(1);
+        controller.run_for(1.0);
+        let lower = tcp(&controller);
+        assert!(lower[2] < start[2] - 20.0, "{start:?} {lower:?}");
+        for at in [0, 1] {
+            assert!((lower[at] - start[at]).abs() < 1e-3, "{start:?} {lower:?}");
+        }
+        hold(&mut controller, "tool rz+", 500);
+        controller.let_go(1);
+        controller.run_for(1.0);
+        let turned = tcp(&controller);
+        assert!((0..3).all(|at| (turned[at] - lower[at]).abs() < 1e-3), "{lower:?} {turned:?}");
+        assert!((3..6).any(|at| (turned[at] - lower[at]).abs() > 1.0), "{lower:?} {turned:?}");
+    }
+
+    #[test]
+    fn all_axes_go_to_a_point_and_no_farther() {
+        let mut controller = paused();
+        hold(&mut controller, "to 10 -80 80 0 30 5", 20_000);
+        assert_eq!(controller.joints().axes, [10.0, -80.0, 80.0, 0.0, 30.0, 5.0]);
+        let mut holding = Holding::default();
+        assert!(holding.hold(&mut controller, (1, "j9+")).unwrap_err().contains("axes 1 to 6"));
+        assert!(holding.hold(&mut controller, (4, "j1+")).unwrap_err().contains("no channel 4"));
+        assert!(holding.hold(&mut controller, (1, "to 1000")).is_err(), "beyond its range");
+    }
+}

@@ -1,0 +1,58 @@
+//! Teaching: the points of a program's data files, where the robot would stand at them, and writing them.
+//!
+//! Nothing is written but data files of the program that is shown, by the code of `savefilepose`.
+
+mod place;
+mod points;
+#[cfg(test)]
+mod tests;
+
+use std::path::PathBuf;
+use std::sync::{Mutex, PoisonError};
+
+use arl_robot::Robot;
+use serde::de::DeserializeOwned;
+use serde_json::{Value, json};
+
+use super::serve::Answer;
+use place::{Asked, Map};
+use points::{Change, Files};
+
+/// Who teaches.
+pub(super) struct Teacher {
+    robot: Robot,
+    files: Mutex<Files>,
+}
+
+impl Teacher {
+    /// For the data files of a program and its robot.
+    pub(super) fn new(robot: Robot, sources: &[PathBuf]) -> Self {
+        Self { robot, files: Mutex::new(Files::of(sources)) }
+    }
+
+    /// What the page asks for; `order` is what it sends.
+    pub(super) fn answer(&self, path: &[&str], order: Option<&str>) -> Answer {
+        let mut files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
+        let answer = match (path, order) {
+            (["points"], None) => Ok(points::told(&files)),
+            (["place"], Some(order)) => {
+                read::<Asked>(order).and_then(|asked| place::place(&self.robot, &asked)).map(|place| json!(place))
+            }
+            (["map"], Some(order)) => {
+                read::<Map>(order).and_then(|map| place::map(&self.robot, &map)).map(|map| json!(map))
+            }
+            (["save"], Some(order)) => {
+                read::<Vec<Change>>(order).and_then(|changes| files.save(&changes)).map(|()| points::told(&files))
+            }
+            (["undo"], Some(_)) => files.undo().map(|()| points::told(&files)),
+            _ => return Answer::NotFound,
+        };
+        answer.map_or_else(Answer::Refused, Answer::Json)
+    }
+}
+
+fn read<T: DeserializeOwned>(order: &str) -> Result<T, String> {
+    serde_json::from_str::<Value>(order)
+        .and_then(serde_json::from_value)
+        .map_err(|error| format!("this is not understood: {error}"))
+}
