@@ -41,10 +41,14 @@ const HOLD_MS = 80;
 export function holds(button, words) {
   /** @type {string | undefined} */
   let order;
+  /** @type {Promise<unknown>} what was said is said in its order, however slow an answer is */
+  let said = Promise.resolve();
   const say = () => {
     if (order === undefined) return;
-    tell(order);
-    setTimeout(say, HOLD_MS);
+    // A button that nobody can see any more is not held, whoever has the finger where it was.
+    if (!button.isConnected) return letGo();
+    const now = order;
+    said = said.then(() => tell(now)).then(() => setTimeout(say, HOLD_MS));
   };
   const hold = () => {
     const held = words();
@@ -58,14 +62,21 @@ export function holds(button, words) {
     const key = order.split("=")[0];
     order = undefined;
     button.classList.remove("on");
-    tell(`${key}= ""`);
+    said = said.then(() => tell(`${key}= ""`));
   };
+  let pointer = -1;
   button.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;
-    button.setPointerCapture(event.pointerId);
+    pointer = event.pointerId;
+    button.setPointerCapture(pointer);
     hold();
   });
-  for (const end of ["pointerup", "pointercancel", "lostpointercapture", "blur"]) button.addEventListener(end, letGo);
+  /** @param {PointerEvent} event */
+  const lifted = (event) => {
+    if (event.pointerId === pointer) letGo();
+  };
+  for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) document.addEventListener(end, /** @type {any} */ (lifted), true);
+  button.addEventListener("blur", letGo);
   button.addEventListener("keydown", (event) => {
     if ([" ", "Enter"].includes(event.key)) {
       hold();

@@ -146,6 +146,7 @@ class Page {
     byId("channel").addEventListener("change", () => {
       this.channel = this.run.robots.find((/** @type {any} */ one) => one.number === Number(byId("channel").value));
       this.tracks.rebuild(this.channel);
+      this.teach?.changed();
       this.showTab(this.tab);
       this.stale = true;
     });

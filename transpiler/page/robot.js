@@ -25,16 +25,21 @@ const GHOST = new Color("#4da3e0");
 
 /** The frames of a run: those of its robots, and the world. */
 export class Frames {
-  /** @param {import('./run.js').Run} run @param {Group} world @param {boolean} ghost */
-  constructor(run, world, ghost) {
+  /**
+   * @param {import("./run.js").Run} run @param {Group} world @param {boolean} ghost
+   * @param {any[]} [channels] whose robots, where not all are
+   */
+  constructor(run, world, ghost, channels = run.robots) {
     this.run = run;
     this.world = world;
     this.ghost = ghost;
     /** @type {Map<string, Object3D>} */
     this.all = new Map([["world", world]]);
-    this.arms = run.robots.map((/** @type {any} */ channel) => this.arm(channel));
+    this.arms = channels.map((/** @type {any} */ channel) => this.arm(channel));
     /** @type {Map<string, {of: any, group: Group}>} */
     this.entities = new Map();
+    /** @type {Map<string, Group>} what was drawn, by how it is told */
+    this.drawn = new Map();
   }
 
   /** @param {any} channel */
@@ -96,7 +101,7 @@ export class Frames {
     if (arm.tool.visible) arm.tool.quaternion.setFromUnitVectors(new Vector3(0, 0, 1), along.divideScalar(length));
   }
 
-  /** Shows the bodies that are there, and no others. @param {Map<string, any>} there */
+  /** Shows the bodies that are there, and no others. What comes again is drawn once. @param {Map<string, any>} there */
   show(there) {
     for (const [id, { of, group }] of this.entities) {
       if (there.get(id) === of) continue;
@@ -104,11 +109,17 @@ export class Frames {
       this.entities.delete(id);
     }
     for (const [id, of] of there) {
-      if (this.entities.has(id)) continue;
-      const group = new Group();
-      (this.all.get(of.frame) ?? this.world).add(group);
+      const parent = this.all.get(of.frame);
+      if (this.entities.has(id) || !parent) continue;
+      const form = JSON.stringify(of);
+      let group = this.drawn.get(form);
+      if (!group) {
+        group = new Group();
+        this.fill(group, of);
+        this.drawn.set(form, group);
+      }
+      parent.add(group);
       this.entities.set(id, { of, group });
-      this.fill(group, of);
     }
   }
 

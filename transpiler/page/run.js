@@ -59,6 +59,26 @@ export class Run {
     }
   }
 
+  /** How many changes of signals are known. */
+  get changes() {
+    let count = 0;
+    for (const { times } of this.lanes.values()) count += times.length;
+    return count;
+  }
+
+  /** Motions that have ended, some of them told again since they had gone on. @param {any[]} motions */
+  takeMotions(motions) {
+    let news = false;
+    for (const motion of motions) {
+      const known = this.byNumber.get(`${motion.channel}/${motion.motion}`);
+      if (known?.duration === motion.duration) continue;
+      news = true;
+      if (known) Object.assign(known, motion);
+      else this.told.motions.push(motion);
+    }
+    if (news) this.sortMotions();
+  }
+
   sortMotions() {
     this.told.motions.sort((/** @type {any} */ one, /** @type {any} */ other) => one.start - other.start);
     this.motions.clear();
@@ -86,7 +106,7 @@ export class Run {
       Math.min(...tracks.map((/** @type {any} */ track) => track[list].length), 1e9),
     );
     const query = new URLSearchParams(
-      Object.entries({ ...known, states, bases, signals: this.end }).map(([name, value]) => [name, String(value)]),
+      Object.entries({ ...known, states, bases, signals: this.changes }).map(([name, value]) => [name, String(value)]),
     );
     const answer = await fetch(`${this.address}/news?${query}`);
     if (!answer.ok) throw new Error(await answer.text());
@@ -94,7 +114,7 @@ export class Run {
     const isNew = news.version !== this.told.version;
     // The program has begun since: what runs on which robots is known only now.
     if (this.channels.length === 0 && isNew) return "begun";
-    for (const list of ["scene", "controller", "log", "contacts", "motions"]) this.told[list].push(...news[list]);
+    for (const list of ["scene", "controller", "log", "contacts"]) this.told[list].push(...news[list]);
     news.tracks.forEach((/** @type {any} */ track, /** @type {number} */ at) => {
       const mine = (this.told.tracks[at] ??= { files: [], states: [], bases: [], lines: [] });
       for (const [list, skip] of /** @type {[string, number][]} */ ([
@@ -106,7 +126,7 @@ export class Run {
       Object.assign(mine, { files: track.files, lines: track.lines, rows: track.rows });
     });
     this.lanesFrom(news.signals);
-    if (news.motions.length > 0) this.sortMotions();
+    this.takeMotions(news.motions);
     Object.assign(this, { end: Math.max(this.end, news.end), live: news.live });
     Object.assign(this.told, { version: news.version, live: news.live, levels: news.levels });
     return isNew ? "more" : "nothing";

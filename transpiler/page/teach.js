@@ -34,6 +34,11 @@ async function ask(what, order) {
   return undefined;
 }
 
+/** What names a point, or a frame: its file and its name. @param {any} of */
+function key({ file, name }) {
+  return `${file}: ${name}`;
+}
+
 /** @param {string} name @param {string} title @param {() => void} does */
 function button(name, title, does) {
   const made = /** @type {HTMLButtonElement} */ (element("button", { title }, name));
@@ -47,7 +52,7 @@ export class Teach {
     this.page = page;
     /** @type {any} */
     this.told = { points: [], frames: [], undo: 0 };
-    /** @type {Set<string>} the points that are chosen, by their names */
+    /** @type {Set<string>} the points that are chosen, by their files and names */
     this.chosen = new Set();
     this.tool = "as now";
     this.wobj = "world";
@@ -55,6 +60,8 @@ export class Teach {
     this.place = undefined;
     /** @type {number[]} its axes */
     this.axes = [];
+    /** @type {number[]} the external axes with which the place was taken */
+    this.external = [];
     this.solution = 0;
     this.holder = element("div", { className: "teach" });
     this.tools = /** @type {HTMLSelectElement} */ (element("select", { ariaLabel: "Tool" }));
@@ -134,7 +141,7 @@ export class Teach {
       element("span", {}, ...["-", "+"].map((sign) => held(`${axis.name}${sign}`, `Hold: ${axis.name}`, () => `j${at + 1}${sign}`))),
     );
     const angles = () =>
-      this.told.frames.find((/** @type {any} */ one) => one.type === "wobj" && one.name === this.wobj)?.angles ?? [0, 0, 0];
+      this.told.frames.find((/** @type {any} */ one) => one.type === "wobj" && key(one) === this.wobj)?.angles ?? [0, 0, 0];
     const seen = () => ({ world: "", tool: "tool ", workpiece: `frame ${angles().join(" ")} ` })[this.frame.value] ?? "";
     const tcp = ["x", "y", "z", "rx", "ry", "rz"].map((name) =>
       element(
@@ -146,7 +153,8 @@ export class Teach {
       ),
     );
     const go = held("Go there", "Hold: the robot goes to where the dragged one is", () => {
-      if (this.place?.solutions[this.solution]?.axes) return `to ${this.axes.slice(0, this.channel.links.length - 1).join(" ")}`;
+      if (this.place?.solutions[this.solution]?.axes)
+        return `to ${[...this.axes.slice(0, this.channel.links.length - 1), ...this.external].join(" ")}`;
       trouble("Choose a point first, or drag the robot: it goes where that is.");
       return undefined;
     });
@@ -154,6 +162,18 @@ export class Teach {
       element("p", { className: "row" }, ...axes),
       element("p", { className: "row" }, element("label", {}, "TCP in ", this.frame), ...tcp, go),
     );
+  }
+
+  /** Another robot is shown. */
+  changed() {
+    [this.place, this.axes, this.external, this.solution] = [undefined, [], [], 0];
+    this.chosen.clear();
+    for (const old of [this.ghost?.world, this.handle, this.control?.getHelper(), this.mapped]) old?.removeFromParent();
+    this.control?.dispose();
+    [this.ghost, this.handle, this.control, this.mapped] = [undefined, undefined, undefined, undefined];
+    this.solutions.replaceChildren();
+    this.jogButtons();
+    this.take(this.told);
   }
 
   async refresh() {
@@ -165,26 +185,26 @@ export class Teach {
   take(told) {
     this.told = told;
     if (told.troubles.length > 0) trouble(told.troubles.join(" "));
-    const option = (/** @type {string} */ name) => element("option", { value: name }, name);
+    const option = (/** @type {string} */ name) => element("option", { value: name }, name.split(": ").at(-1) ?? name);
     const names = (/** @type {string} */ type) => told.frames.filter((/** @type {any} */ frame) => frame.type === type && !frame.other);
-    this.tools.replaceChildren(...["as now", "flange", ...names("tool").map((/** @type {any} */ one) => one.name)].map(option));
-    this.wobjs.replaceChildren(...["world", ...names("wobj").map((/** @type {any} */ one) => one.name)].map(option));
+    this.tools.replaceChildren(...["as now", "flange", ...names("tool").map(key)].map(option));
+    this.wobjs.replaceChildren(...["world", ...names("wobj").map(key)].map(option));
     this.tools.value = this.tool;
     this.wobjs.value = this.wobj;
     const rows = told.points.map((/** @type {any} */ point) => {
       const box = /** @type {HTMLInputElement} */ (
-        element("input", { type: "checkbox", checked: this.chosen.has(point.name), ariaLabel: point.name })
+        element("input", { type: "checkbox", checked: this.chosen.has(key(point)), ariaLabel: point.name })
       );
       const order = point.type === "pose" ? COMPONENTS : Object.keys(point.values).sort();
       const shown = order.filter((name) => name in point.values).slice(0, 6);
       const cells = [element("td", {}, box), element("td", {}, point.name), element("td", {}, point.type)];
       const values = element("td", { className: "text" }, shown.map((name) => `${name} ${point.values[name]}`).join(", "));
-      const row = element("tr", { className: this.chosen.has(point.name) ? "chosen" : "" }, ...cells, values);
+      const row = element("tr", { className: this.chosen.has(key(point)) ? "chosen" : "" }, ...cells, values);
       box.addEventListener("click", (event) => {
         event.stopPropagation();
-        this.choose(point.name, true);
+        this.choose(key(point), true);
       });
-      row.addEventListener("click", () => this.choose(point.name, false));
+      row.addEventListener("click", () => this.choose(key(point), false));
       return row;
     });
     this.list.replaceChildren(...rows);
@@ -204,13 +224,13 @@ export class Teach {
 
   /** @param {string} name */
   point(name) {
-    return this.told.points.find((/** @type {any} */ point) => point.name === name);
+    return this.told.points.find((/** @type {any} */ point) => key(point) === name);
   }
 
   /** Tool, workpiece and base, as the server wants them. */
   where() {
     const named = (/** @type {string} */ type, /** @type {string} */ name) =>
-      this.told.frames.find((/** @type {any} */ frame) => frame.type === type && frame.name === name)?.placed;
+      this.told.frames.find((/** @type {any} */ frame) => frame.type === type && key(frame) === name)?.placed;
     const tool = this.tool === "as now" ? this.toolNow() : (named("tool", this.tool) ?? NOWHERE);
     const base = this.channel ? this.page.run.baseAt(this.channel.number, this.page.time) : NOWHERE;
     return { tool, wobj: named("wobj", this.wobj) ?? NOWHERE, base };
@@ -241,10 +261,20 @@ export class Teach {
   }
 
   /** Where a point is. @param {any} point */
-  goTo({ type, values }) {
+  goTo({ type, values, plain }) {
     const own = this.channel.links.length - 1;
+    const missing = type === "pose" ? values.x === undefined : values.j1 === undefined;
+    if (!plain || missing) return write(this.word, "What this point is the program computes, or says later: it is not shown.");
+    this.external = this.externals((at) => values[`ej${at}`]);
     if (type === "joint") return this.ask({ axes: Array.from({ length: own }, (_, at) => values[`j${at + 1}`] ?? 0) });
-    return this.ask({ components: COMPONENTS.map((name) => values[name] ?? 0) }, values.cfg);
+    return this.ask({ components: COMPONENTS.map((name) => values[name] ?? 0) }, values.cfg ?? 0);
+  }
+
+  /** The external axes, from those that are known. @param {(number: number) => number | undefined} of */
+  externals(of) {
+    const own = this.channel.links.length - 1;
+    const now = this.moment?.axes ?? [];
+    return this.channel.axes.slice(own).map((/** @type {any} */ _, /** @type {number} */ at) => of(at + 1) ?? now[own + at] ?? 0);
   }
 
   /** Has the dragged robot go somewhere. @param {any} order @param {number} [cfg] the configuration that is wanted */
@@ -254,7 +284,13 @@ export class Teach {
       return;
     }
     this.asking = true;
-    const place = await ask("place", { ...order, setting: this.where(), near: this.near(), before: this.place?.components });
+    const place = await ask("place", {
+      ...order,
+      channel: this.channel.number,
+      setting: this.where(),
+      near: this.near(),
+      before: this.place?.components,
+    });
     this.asking = false;
     if (place) this.show(place, cfg, order.placed !== undefined);
     if (this.next) {
@@ -299,7 +335,7 @@ export class Teach {
     else if (solution.near)
       write(this.word, `Near the ${solution.near} singularity (clearance ${solution.clearance.toFixed(3)}): axes may turn quickly there.`);
     else write(this.word, "");
-    this.save.disabled = !solution?.axes || this.chosen.size !== 1;
+    this.save.disabled = !solution?.axes || this.chosen.size !== 1 || !this.point([...this.chosen][0])?.plain;
   }
 
   typed() {
@@ -309,7 +345,9 @@ export class Teach {
 
   fromRobot() {
     const moment = this.moment;
-    if (moment) this.ask({ axes: moment.axes.slice(0, this.channel.links.length - 1) });
+    if (!moment) return;
+    this.external = this.externals(() => undefined);
+    this.ask({ axes: moment.axes.slice(0, this.channel.links.length - 1) });
   }
 
   /** Writes, and takes in what is there then. @param {string} what @param {any} order */
@@ -321,13 +359,12 @@ export class Teach {
     write(this.word, "Written. It counts from the next reset of the program on.");
   }
 
-  /** The values of a point with these components. @param {any} point @param {number[]} components @param {number} [cfg] */
-  changed({ file, type, name, values }, components, cfg) {
-    const now = { ...values, ...Object.fromEntries(COMPONENTS.map((name, at) => [name, components[at]])) };
-    if (cfg !== undefined) now.cfg = cfg;
+  /** A point with these components. @param {any} point @param {number[]} components @param {Record<string, number>} [more] */
+  moved({ file, type, name, values }, components, more = {}) {
+    const now = { ...values, ...Object.fromEntries(COMPONENTS.map((name, at) => [name, components[at]])), ...more };
     // Which turns are meant goes with the axes of before.
     delete now.turn;
-    return { file, type, name, values: now };
+    return { file, type, name, values: now, before: values };
   }
 
   /** Writes the dragged place into the chosen point. */
@@ -335,16 +372,23 @@ export class Teach {
     const point = this.point([...this.chosen][0]);
     const solution = this.place?.solutions[this.solution];
     if (!point || !solution?.axes) return;
-    if (point.type === "pose") return this.write("save", [this.changed(point, this.place.components, solution.cfg)]);
+    const { file, type, name, values } = point;
+    const external = Object.fromEntries(this.external.map((axis, at) => [`ej${at + 1}`, axis]));
+    if (type === "pose") return this.write("save", [this.moved(point, this.place.components, { cfg: solution.cfg, ...external })]);
     const own = this.channel.links.length - 1;
     const joints = Object.fromEntries(this.axes.slice(0, own).map((axis, at) => [`j${at + 1}`, axis]));
-    return this.write("save", [{ ...point, values: { ...point.values, ...joints } }]);
+    return this.write("save", [{ file, type, name, values: { ...values, ...joints, ...external }, before: values }]);
   }
 
   /** The chosen poses. */
   poses() {
-    const points = [...this.chosen].map((name) => this.point(name)).filter((point) => point?.type === "pose");
-    if (points.length === 0) trouble("Choose poses first: those can be shifted and mirrored.");
+    const points = [...this.chosen]
+      .map((name) => this.point(name))
+      .filter((point) => point?.type === "pose" && point.plain && point.values.x !== undefined);
+    if (points.length === 0 || points.length < this.chosen.size) {
+      trouble("Choose poses that are plain numbers: those can be shifted and mirrored.");
+      return [];
+    }
     return points;
   }
 
@@ -355,7 +399,7 @@ export class Teach {
     if (points.length > 0)
       this.write(
         "save",
-        points.map((point) => this.changed(point, moved(point))),
+        points.map((point) => this.moved(point, moved(point))),
       );
   }
 
@@ -371,14 +415,14 @@ export class Teach {
       const near = this.near();
       const here = { tool: NOWHERE, wobj: NOWHERE, base: NOWHERE };
       const components = COMPONENTS.map((name) => point.values[name] ?? 0);
-      const place = await ask("place", { components, setting: here, near });
+      const place = await ask("place", { channel: this.channel.number, components, setting: here, near });
       if (!place) return;
       const placed = [...place.placed];
       placed[axis] = -placed[axis];
       for (const other of [0, 1, 2]) if (other !== axis) placed[3 + other] = -placed[3 + other];
-      const mirrored = await ask("place", { placed, setting: here, near, before: components });
+      const mirrored = await ask("place", { channel: this.channel.number, placed, setting: here, near, before: components });
       if (!mirrored) return;
-      changes.push(this.changed(point, mirrored.components));
+      changes.push(this.moved(point, mirrored.components));
     }
     if (changes.length > 0) await this.write("save", changes);
   }
@@ -388,12 +432,23 @@ export class Teach {
     const scene = this.page.scene;
     if (this.mapped) {
       this.mapped.removeFromParent();
+      for (const plane of /** @type {any[]} */ (this.mapped.children)) {
+        plane.material.map.dispose();
+        plane.material.dispose();
+        plane.geometry.dispose();
+      }
       this.mapped = undefined;
       this.page.stale = true;
       return;
     }
     if (!scene || !this.place) return trouble("Choose a point first, or take the place of the robot.");
-    const map = await ask("map", { components: this.place.components, setting: this.where(), near: this.near(), ...MAP });
+    const map = await ask("map", {
+      channel: this.channel.number,
+      components: this.place.components,
+      setting: this.where(),
+      near: this.near(),
+      ...MAP,
+    });
     if (!map) return;
     const canvas = /** @type {HTMLCanvasElement} */ (element("canvas", { width: map.side, height: map.side }));
     const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
@@ -420,18 +475,22 @@ export class Teach {
     const scene = this.page.scene;
     if (!scene) return;
     this.marks?.removeFromParent();
-    this.marks = new Group();
-    scene.scene.add(this.marks);
+    for (const old of /** @type {any[]} */ (this.marks?.children ?? [])) old.dispose();
+    const marks = new Group();
+    this.marks = marks;
+    scene.scene.add(marks);
     const setting = this.where();
-    for (const { type, name, values } of this.told.points) {
-      if (type !== "pose" || values.x === undefined) continue;
+    for (const point of this.told.points) {
+      const { type, values, plain } = point;
+      if (type !== "pose" || !plain || values.x === undefined) continue;
       const components = COMPONENTS.map((component) => values[component] ?? 0);
-      const place = await ask("place", { components, setting, near: this.near() });
-      if (!place || !this.marks) return;
-      const mark = new AxesHelper(this.chosen.has(name) ? POINT_M * 1.7 : POINT_M);
-      mark.userData.name = name;
+      const place = await ask("place", { channel: this.channel.number, components, setting, near: this.near() });
+      // Meanwhile they may be drawn anew.
+      if (!place || this.marks !== marks) return;
+      const mark = new AxesHelper(this.chosen.has(key(point)) ? POINT_M * 1.7 : POINT_M);
+      mark.userData.name = key(point);
       put(mark, place.placed);
-      this.marks.add(mark);
+      marks.add(mark);
     }
     scene.stale = true;
   }
@@ -443,7 +502,7 @@ export class Teach {
     if (!this.ghost) {
       const world = new Group();
       scene.scene.add(world);
-      this.ghost = new Frames(this.page.run, world, true);
+      this.ghost = new Frames(this.page.run, world, true, [this.channel]);
       this.ghost.show(new Map([...this.page.run.sceneAt(0)].filter(([id]) => !id.startsWith("body/"))));
       this.handle = new Object3D();
       scene.scene.add(this.handle);

@@ -4,7 +4,7 @@ use super::channel::Channel;
 use super::channels::Channels;
 use super::{Controller, Outcome, State};
 use crate::io::Pendant;
-use crate::unit::hold::Held;
+use crate::unit::hold::{Held, Pressed};
 
 impl Controller {
     /// Presses a button of the teach pendant, for all channels. A button that cannot act now gives a warning
@@ -84,10 +84,25 @@ impl Controller {
         jog(self.channels.first(), axis, by);
     }
 
-    /// Begins to move a robot, of a foreground channel from 1 on, as long as somebody holds a button; where it has come to rest, it goes on.
-    pub(crate) fn hold(&mut self, channel: usize, held: &Held) -> Result<(), String> {
+    /// A button that moves a robot, of a foreground channel from 1 on, is pressed.
+    pub(crate) fn hold(&mut self, channel: usize, held: &Held) -> Result<Pressed, String> {
         let found = self.channels.foreground().nth(channel.wrapping_sub(1));
         hold(found.ok_or_else(|| format!("there is no channel {channel}"))?, held)
+    }
+
+    /// It is still pressed.
+    ///
+    /// # Errors
+    /// It does not move the robot any more.
+    pub(crate) fn keep_on(&mut self, channel: usize, held: &Held) -> Result<(), String> {
+        let found = self.channels.foreground().nth(channel.wrapping_sub(1));
+        let unit = found.and_then(|channel| channel.channel_state().robot_mut());
+        unit.map_or(Ok(()), |mut unit| unit.keep_on(held))
+    }
+
+    /// Whether the set-points of all robots stand still.
+    pub(crate) fn all_stand(&self) -> bool {
+        self.channels.units().all(|unit| unit.borrow().stands())
     }
 
     /// The button is let go: the robot stops on its path.
@@ -106,6 +121,18 @@ impl Controller {
 
 /// Presses a button.
 pub(super) fn press(channels: &mut Channels, button: Pendant) {
+    // What one person holds keeps the programs of all channels from going on.
+    let goes_on = match button {
+        Pendant::Start => Some("start"),
+        Pendant::Step => Some("step"),
+        Pendant::Reset => Some("reset"),
+        _ => None,
+    };
+    if let Some(what) = goes_on
+        && channels.foreground().any(|channel| is_held(channel, what))
+    {
+        return;
+    }
     match button {
         Pendant::Override(percent) => super::set_override(channels, percent),
         Pendant::Start => channels.each(start),
@@ -144,7 +171,7 @@ fn is_held(channel: &Channel, what: &str) -> bool {
 }
 
 fn start(channel: &mut Channel) {
-    if !is_held(channel, "start") && may_go_on(channel, "start") {
+    if may_go_on(channel, "start") {
         channel.channel_state().stepping.on.set(false);
         channel.channel_state().stepping.until.set(None);
         go_on(channel);
@@ -173,7 +200,7 @@ fn pause(channel: &Channel) {
 
 fn step(channel: &mut Channel) {
     let under_way = channel.channel_state().stepping.on.get() && channel.state() == State::Running;
-    if under_way || is_held(channel, "step") || !may_go_on(channel, "step") {
+    if under_way || !may_go_on(channel, "step") {
         return;
     }
     let channel_state = channel.channel_state();
@@ -187,9 +214,6 @@ fn step(channel: &mut Channel) {
 
 /// Resets a program; `ended` says that those of all foreground channels have ended.
 fn reset(channel: &mut Channel, ended: bool) {
-    if is_held(channel, "reset") {
-        return;
-    }
     match channel.state() {
         // What runs in the background stays when the others begin again.
         State::Running if ended => {}
@@ -242,17 +266,18 @@ pub(super) fn jog(channel: &Channel, axis: usize, by: f64) {
     }
 }
 
-/// Begins to move the robot of a channel as long as somebody holds a button, or goes on with it.
-pub(super) fn hold(channel: &Channel, held: &Held) -> Result<(), String> {
+/// A button that moves the robot of a channel is pressed.
+fn hold(channel: &Channel, held: &Held) -> Result<Pressed, String> {
     let state = channel.state();
     if state == State::Running {
         return Err("the program runs: pause it first".into());
     }
-    channel.channel_state().robot_mut().map_or(Ok(()), |mut unit| unit.hold(held, state == State::Paused))
+    let unit = channel.channel_state().robot_mut();
+    unit.map_or(Ok(Pressed::Begun), |mut unit| unit.press(held, state == State::Paused))
 }
 
 /// The button is let go.
-pub(super) fn let_go(channel: &Channel) {
+fn let_go(channel: &Channel) {
     if let Some(mut unit) = channel.channel_state().robot_mut() {
         unit.let_go();
     }

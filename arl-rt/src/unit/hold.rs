@@ -50,34 +50,75 @@ pub(crate) enum Seen {
 /// What has become of the last button that moved the robot.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Button {
-    /// There is none, or the robot has come to rest since.
+    /// There is none.
     Free,
+    /// It moves the robot: motions above what was set aside, or those of no program at all.
     Held,
     /// The robot comes to rest.
     LetGo,
 }
 
+/// What pressing a button has led to.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Pressed {
+    /// The robot moves, or there was nothing to do.
+    Begun,
+    /// The robot comes to rest first.
+    Waits,
+}
+
 impl Unit {
     /// Whether a button moves the robot, or did and it has not come to rest yet: then no program goes on.
     pub(crate) fn is_held(&self) -> bool {
-        match self.button {
-            Button::Free => false,
-            Button::Held => true,
-            Button::LetGo => !self.queue.rests(),
-        }
+        self.button != Button::Free
     }
 
-    /// Begins to move, or goes on where an end was reached. Nothing happens where the robot can go no farther. `paused`: its program is.
-    pub(crate) fn hold(&mut self, held: &Held, paused: bool) -> Result<(), String> {
-        if self.button != Button::Free && !(self.queue.rests() && self.queue.idle_for(BESIDE)) {
-            // It goes where it was told to, or comes to rest first.
-            return Ok(());
+    /// A button is pressed. `paused`: the robot's program is.
+    pub(crate) fn press(&mut self, held: &Held, paused: bool) -> Result<Pressed, String> {
+        if self.button != Button::Free {
+            return Ok(Pressed::Waits);
         }
         if paused {
             self.pause();
         }
         self.may_be_jogged()?;
-        self.button = Button::Held;
+        self.begin(held)?;
+        Ok(Pressed::Begun)
+    }
+
+    /// The button is still pressed: where an end was reached the robot goes on.
+    ///
+    /// # Errors
+    /// Something else has stopped the robot, or there is no way farther: it takes another press.
+    pub(crate) fn keep_on(&mut self, held: &Held) -> Result<(), String> {
+        if self.button != Button::Held {
+            return Err("the robot was stopped".into());
+        }
+        if self.queue.rests() && self.queue.idle_for(BESIDE) { self.begin(held) } else { Ok(()) }
+    }
+
+    /// Stops on the path; what is left of the way is dropped. What the button has not added stays.
+    pub(crate) fn let_go(&mut self) {
+        if self.button == Button::Held {
+            self.button = Button::LetGo;
+            self.queue.stop_on_path(Stop::General);
+            self.queue.drop_added();
+        }
+    }
+
+    /// Whether its set-points stand still.
+    pub(crate) fn stands(&self) -> bool {
+        self.queue.rests()
+    }
+
+    /// A cycle has ended.
+    pub(super) fn note_rest(&mut self) {
+        if self.button == Button::LetGo && self.queue.rests() {
+            self.button = Button::Free;
+        }
+    }
+
+    fn begin(&mut self, held: &Held) -> Result<(), String> {
         match held {
             Held::Axis { axis, up } => {
                 let mut target = *self.setpoint();
@@ -98,13 +139,11 @@ impl Unit {
         }
     }
 
-    /// Stops on the path; what is left of the way is dropped.
-    pub(crate) fn let_go(&mut self) {
-        if self.button == Button::Held {
-            self.button = Button::LetGo;
-            self.queue.stop_on_path(Stop::General);
-            self.queue.drop_added();
-        }
+    /// Goes somewhere; from then on the button moves the robot.
+    fn go_held(&mut self, target: Target, rig: Rig, speed: Speed) -> Result<(), String> {
+        self.go_beside(target, rig, speed)?;
+        self.button = Button::Held;
+        Ok(())
     }
 
     fn hold_to(&mut self, target: Joints) -> Result<(), String> {
@@ -115,7 +154,7 @@ impl Unit {
         let slowest = self.robot.external_axes().iter().map(|axis| axis.vel * JOGGING / 100.0).fold(f64::MAX, f64::min);
         let own = if slowest < f64::MAX { slowest } else { 1.0 };
         let speed = Speed { percent: JOGGING, tcp: TCP_MM_S, ori: TCP_DEG_S, exj: own, exl: own };
-        self.go_beside(Target::Joints(target), Rig { base: self.base, ..Rig::bare() }, speed)
+        self.go_held(Target::Joints(target), Rig { base: self.base, ..Rig::bare() }, speed)
     }
 
     fn hold_tcp(&mut self, along: &Vector3<f64>, turns: bool, of: Seen) -> Result<(), String> {
@@ -141,7 +180,7 @@ impl Unit {
             };
             let pose = frame_components(&target);
             let line = Target::Line { pose, wobj: Frame::identity(), external: here.external };
-            if self.go_beside(line, rig, speed).is_ok() {
+            if self.go_held(line, rig, speed).is_ok() {
                 return Ok(());
             }
         }

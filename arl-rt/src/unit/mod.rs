@@ -450,6 +450,7 @@ impl Unit {
         self.tcp = step.tcp;
         self.executing = (step.line, step.motion);
         self.finished = step.finished;
+        self.note_rest();
         self.note_start();
         // The first half of a blend still counts as the motion before it there; to programs a blend is the next motion's.
         match self.queue.progress() {
@@ -495,6 +496,14 @@ impl Unit {
     pub(crate) fn stop(&mut self) {
         self.queue.stop_on_path(Stop::General);
         self.queue.clear();
+        self.stop_button();
+    }
+
+    /// Whoever holds a button has to press it anew.
+    fn stop_button(&mut self) {
+        if self.button == Button::Held {
+            self.button = Button::LetGo;
+        }
     }
 
     /// Lets motion be planned again after [`Unit::stop`], at rest.

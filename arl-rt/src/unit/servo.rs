@@ -44,6 +44,7 @@ impl Unit {
     /// Stops on the path; at rest the brakes close and the motors let go.
     pub(crate) fn servo_off(&mut self) {
         if std::mem::replace(&mut self.servo, false) {
+            self.let_go();
             self.pause();
             self.driver.switch(false);
         }

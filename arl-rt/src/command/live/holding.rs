@@ -8,7 +8,7 @@ use arl_robot::kinematics::frame;
 use nalgebra::Vector3;
 
 use crate::controller::Controller;
-use crate::unit::hold::{Held, Seen};
+use crate::unit::hold::{Held, Pressed, Seen};
 
 /// So long a button counts as held after an order, in s.
 const HELD_S: f64 = 0.25;
@@ -23,8 +23,19 @@ struct Button {
     channel: usize,
     words: String,
     held: Held,
+    stage: Stage,
     /// The cycle in which it counts as let go.
     until: u64,
+}
+
+/// What a button does.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Stage {
+    /// The robot comes to rest first.
+    Waits,
+    Moves,
+    /// Something has stopped the robot, or it could not begin: nothing moves before the button is pressed anew.
+    Spent,
 }
 
 impl Holding {
@@ -50,26 +61,38 @@ impl Holding {
             return Ok(());
         }
         let held = parse(words)?;
-        controller.hold(channel, &held)?;
-        self.held = Some(Button { channel, words: words.to_owned(), held, until });
-        Ok(())
+        let pressed = controller.hold(channel, &held);
+        let stage = pressed.as_ref().map_or(Stage::Spent, |pressed| stage(*pressed));
+        self.held = Some(Button { channel, words: words.to_owned(), held, stage, until });
+        pressed.map(drop)
     }
 
     /// A cycle has ended: a button that is still held goes on where an end was reached.
     pub(super) fn cycle_ended(&mut self, controller: &mut Controller) {
-        let Some(button) = &self.held else { return };
+        let Some(button) = &mut self.held else { return };
         if controller.cycle() >= button.until {
-            self.let_go(controller);
-            return;
+            return self.let_go(controller);
         }
-        // Until it rests it goes where it was told to; where there is no way farther, it stays.
-        let _ = controller.hold(button.channel, &button.held);
+        let (channel, held) = (button.channel, &button.held);
+        button.stage = match button.stage {
+            Stage::Spent => Stage::Spent,
+            Stage::Waits => controller.hold(channel, held).map_or(Stage::Spent, stage),
+            Stage::Moves => controller.keep_on(channel, held).map_or(Stage::Spent, |()| Stage::Moves),
+        };
     }
 
-    fn let_go(&mut self, controller: &mut Controller) {
+    /// Nobody holds anything any more.
+    pub(super) fn let_go(&mut self, controller: &mut Controller) {
         if let Some(button) = self.held.take() {
             controller.let_go(button.channel);
         }
+    }
+}
+
+fn stage(pressed: Pressed) -> Stage {
+    match pressed {
+        Pressed::Begun => Stage::Moves,
+        Pressed::Waits => Stage::Waits,
     }
 }
 
@@ -98,10 +121,10 @@ fn parse(words: &str) -> Result<Held, String> {
     held.ok_or_else(wrong)
 }
 
-/// `j1+`, `ej2-`: external axes come behind the robot's own, which are six or four. `a7+` is the seventh of all.
+/// `j1+`; external axes are counted on behind the robot's own: `j7-` is the first one of a robot with six.
 fn axis(direction: &str) -> Option<Held> {
     let (name, up) = sign(direction)?;
-    let axis = name.strip_prefix(['j', 'a'])?.parse().ok()?;
+    let axis = name.strip_prefix('j')?.parse().ok()?;
     Some(Held::Axis { axis, up })
 }
 
@@ -247,9 +270,64 @@ mod tests {
         let mut controller = paused();
         hold(&mut controller, "to 10 -80 80 0 30 5", 20_000);
         assert_eq!(controller.joints().axes, [10.0, -80.0, 80.0, 0.0, 30.0, 5.0]);
+        controller.let_go(1);
+        controller.run_for(1.0);
         let mut holding = Holding::default();
         assert!(holding.hold(&mut controller, (1, "j9+")).unwrap_err().contains("axes 1 to 6"));
         assert!(holding.hold(&mut controller, (4, "j1+")).unwrap_err().contains("no channel 4"));
         assert!(holding.hold(&mut controller, (1, "to 1000")).is_err(), "beyond its range");
+    }
+
+    #[test]
+    fn what_a_button_did_not_add_is_not_dropped() {
+        let mut controller = paused();
+        // There is nothing to do, and there is no such way: the program's own motion stays.
+        let here: Vec<String> = controller.joints().axes.iter().map(f64::to_string).collect();
+        hold(&mut controller, &format!("to {}", here.join(" ")), 50);
+        let mut holding = Holding::default();
+        assert!(holding.hold(&mut controller, (1, "to 1000")).is_err());
+        holding.let_go(&mut controller);
+        controller.let_go(1);
+        controller.run_for(0.1);
+        controller.press(crate::io::Pendant::Start);
+        controller.step();
+        assert!(controller.take_warnings().is_empty());
+        controller.run_for(0.05);
+        assert!(controller.joints().axes[0] < 45.0, "it goes on from where it was");
+        // In a second pause buttons act as in the first one.
+        controller.run_for(0.2);
+        controller.press(crate::io::Pendant::Pause);
+        controller.run_for(1.0);
+        for _ in 0..2 {
+            let before = controller.joints().axes[0];
+            let mut holding = hold(&mut controller, "j1-", 600);
+            assert!(controller.joints().axes[0] < before - 0.5);
+            holding.let_go(&mut controller);
+            controller.run_for(1.0);
+        }
+        controller.press(crate::io::Pendant::Start);
+        assert_eq!(controller.run(), crate::Outcome::Ended);
+        assert_eq!(controller.joints().axes[0], 90.0);
+    }
+
+    #[test]
+    fn a_robot_that_something_stopped_takes_another_press() {
+        let mut controller = paused();
+        let mut holding = hold(&mut controller, "j1-", 600);
+        controller.press(crate::io::Pendant::ServoOff);
+        controller.run_for(1.0);
+        controller.press(crate::io::Pendant::ServoOn);
+        let stopped = controller.joints().axes;
+        for cycle in 0..1000_u32 {
+            if cycle.is_multiple_of(100) {
+                holding.hold(&mut controller, (1, "j1-")).unwrap();
+            }
+            controller.step();
+            holding.cycle_ended(&mut controller);
+        }
+        assert_eq!(controller.joints().axes, stopped);
+        holding.hold(&mut controller, (1, "")).unwrap();
+        hold(&mut controller, "j1-", 600);
+        assert!(controller.joints().axes[0] < stopped[0] - 0.5);
     }
 }

@@ -73,7 +73,10 @@ pub(crate) fn drive(
         let gone = cut.is_none() && !obey(controller, voice, &orders, (&mut look, &mut holding))
             || interrupted.load(Ordering::Relaxed);
         let over = cut.is_some() || gone || controller.cycle() >= last;
-        if over && controller.outcome().is_some() {
+        if over {
+            holding.let_go(controller);
+        }
+        if over && controller.outcome().is_some() && controller.all_stand() {
             break;
         }
         if over && cut.is_none() {

@@ -4,4 +4,4 @@ mod read;
 mod store;
 
 pub(super) use read::read;
-pub(super) use store::{Signal, Store, Took, Track};
+pub(super) use store::{Signal, Store, TOLD_AGAIN, Took, Track};

@@ -16,6 +16,8 @@ const CHANNEL: &str = "/arl/channel_";
 const MOST_CHANNELS: usize = 64;
 /// What is farther apart in time was at rest between, in s: a robot that moves says so more often.
 pub(in super::super) const GAP_S: f64 = 0.06;
+/// A motion may be told again that is so far behind the last one.
+pub(in super::super) const TOLD_AGAIN: usize = 64;
 /// How far messages are apart while a robot moves, in s.
 const STEP_S: f64 = 0.004;
 
@@ -25,9 +27,14 @@ pub(in super::super) struct Store {
     pub(in super::super) cell: Cell,
     pub(in super::super) sources: Vec<Text>,
     pub(in super::super) scene: Vec<(f64, SceneUpdate)>,
+    /// The meshes of the scene, each once, and for each model of the scene in turn which one it is.
+    pub(in super::super) meshes: Vec<Vec<u8>>,
+    pub(in super::super) models: Vec<usize>,
     pub(in super::super) tracks: Vec<Track>,
     /// Each signal's changes, by its name in files: `di.1`.
     pub(in super::super) signals: BTreeMap<Signal, Vec<(f64, f64)>>,
+    /// The same changes in the order in which they came.
+    pub(in super::super) changes: Vec<(Signal, f64, f64)>,
     pub(in super::super) controller: Vec<Controller>,
     pub(in super::super) log: Vec<(f64, Log)>,
     pub(in super::super) contacts: Vec<Contact>,
@@ -99,7 +106,7 @@ impl Store {
         let time = time as f64 / 1e9;
         match topic {
             "/arl/cell" => self.cell = Cell::decode(message)?,
-            "/scene" => self.scene.push((time, SceneUpdate::decode(message)?)),
+            "/scene" => self.scene(time, SceneUpdate::decode(message)?),
             "/arl/controller" => self.controller.push(Controller::decode(message)?),
             "/arl/io" => self.io(Io::decode(message)?),
             "/arl/motions" => self.motion(Motion::decode(message)?),
@@ -113,6 +120,19 @@ impl Store {
         self.end = self.end.max(time);
         self.version += 1;
         Ok(())
+    }
+
+    /// A mesh that comes again is kept once.
+    fn scene(&mut self, time: f64, mut update: SceneUpdate) {
+        for model in update.entities.iter_mut().flat_map(|entity| &mut entity.models) {
+            let data = std::mem::take(&mut model.data);
+            let known = self.meshes.iter().position(|mesh| *mesh == data);
+            self.models.push(known.unwrap_or(self.meshes.len()));
+            if known.is_none() {
+                self.meshes.push(data);
+            }
+        }
+        self.scene.push((time, update));
     }
 
     fn io(&mut self, io: Io) {
@@ -129,6 +149,7 @@ impl Store {
                 if before.get(at).copied().unwrap_or_default() != value {
                     let signal = Signal { kind, number: at + 1 };
                     self.signals.entry(signal).or_default().push((io.time, value));
+                    self.changes.push((signal, io.time, value));
                 }
             }
         }
@@ -137,8 +158,8 @@ impl Store {
 
     /// A motion that is told again has gone on since.
     fn motion(&mut self, motion: Motion) {
-        let again =
-            self.motions.last_mut().filter(|last| (last.channel, last.motion) == (motion.channel, motion.motion));
+        let mut late = self.motions.iter_mut().rev().take(TOLD_AGAIN);
+        let again = late.find(|late| (late.channel, late.motion) == (motion.channel, motion.motion));
         match again {
             Some(last) => *last = motion,
             None => self.motions.push(motion),

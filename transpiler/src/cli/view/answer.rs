@@ -1,11 +1,13 @@
 //! What the page is told of a run: JSON for what there is little of, columns of numbers for where the robots were.
 
+use std::collections::BTreeMap;
+
 use serde_json::{Map, Value, json};
 
 use super::super::record::messages::{
     Blend, Closest, Color, Level, Log, Motion, Pose, Quaternion, SceneUpdate, Vector3,
 };
-use super::super::recorded::{Signal, Store, Took, Track};
+use super::super::recorded::{Signal, Store, TOLD_AGAIN, Took, Track};
 
 /// How much of a run the page knows already, by the numbers of what it has.
 #[derive(Clone, Copy, Default, Debug)]
@@ -17,13 +19,13 @@ pub(super) struct Known {
     pub(super) motions: usize,
     pub(super) states: usize,
     pub(super) bases: usize,
-    /// Changes of signals up to this time, in s.
-    pub(super) signals: f64,
+    /// Changes of signals.
+    pub(super) signals: usize,
 }
 
 /// All of a run but where the robots were.
 pub(super) fn run(store: &Store, name: &str) -> Value {
-    let mut answer = news(store, &Known { signals: -1.0, ..Known::default() });
+    let mut answer = news(store, &Known::default());
     let channels = store.cell.channels.iter().map(|runs| {
         let axes = runs.axes.iter();
         let axes = axes.map(|axis| json!({"name": axis.name, "unit": axis.unit, "min": axis.min, "max": axis.max}));
@@ -55,7 +57,7 @@ pub(super) fn run(store: &Store, name: &str) -> Value {
 /// What happened since.
 pub(super) fn news(store: &Store, known: &Known) -> Value {
     let mut models = store.scene.iter().take(known.scene).map(|(_, update)| models_of(update)).sum::<usize>();
-    let scene = store.scene.iter().skip(known.scene).map(|(time, update)| scene(*time, update, &mut models));
+    let scene = store.scene.iter().skip(known.scene).map(|(time, update)| scene(store, *time, update, &mut models));
     let scene: Value = scene.collect();
     let controller = store.controller.iter().skip(known.controller);
     let controller = controller.map(|one| json!({"time": one.time, "mode": one.mode, "override": one.speed_override}));
@@ -78,7 +80,7 @@ pub(super) fn news(store: &Store, known: &Known) -> Value {
         "controller": controller.collect::<Value>(),
         "log": store.log.iter().skip(known.log).map(|(time, log)| logged(*time, log)).collect::<Value>(),
         "contacts": contacts.collect::<Value>(),
-        "motions": store.motions.iter().skip(known.motions).map(motion).collect::<Value>(),
+        "motions": store.motions.iter().skip(known.motions.saturating_sub(TOLD_AGAIN)).map(motion).collect::<Value>(),
         "tracks": tracks.collect::<Value>(),
         "signals": signals(store, known.signals),
         "levels": levels(store),
@@ -91,17 +93,11 @@ fn lines(track: &Track) -> Value {
     track.lines.iter().map(line).collect()
 }
 
-/// The data of the model `number`, by the order in which scenes name them.
-pub(super) fn model(store: &Store, number: usize) -> Option<&[u8]> {
-    let entities = store.scene.iter().flat_map(|(_, update)| &update.entities);
-    entities.flat_map(|entity| &entity.models).nth(number).map(|model| &model.data[..])
-}
-
 fn models_of(update: &SceneUpdate) -> usize {
     update.entities.iter().map(|entity| entity.models.len()).sum()
 }
 
-fn scene(time: f64, update: &SceneUpdate, models: &mut usize) -> Value {
+fn scene(store: &Store, time: f64, update: &SceneUpdate, models: &mut usize) -> Value {
     let entities = update.entities.iter().map(|entity| {
         let solid = |one: &super::super::record::messages::Solid| {
             json!({"pose": pose(one.pose), "size": vector(one.size), "color": color(one.color)})
@@ -110,8 +106,9 @@ fn scene(time: f64, update: &SceneUpdate, models: &mut usize) -> Value {
         let cylinders = cylinders
             .map(|one| json!({"pose": pose(one.pose), "size": vector(one.size), "color": color(one.color)}));
         let drawn = entity.models.iter().map(|one| {
+            let mesh = store.models.get(*models);
             *models += 1;
-            json!({"pose": pose(one.pose), "scale": vector(one.scale), "color": color(one.color), "model": *models - 1})
+            json!({"pose": pose(one.pose), "scale": vector(one.scale), "color": color(one.color), "model": mesh})
         });
         json!({
             "id": entity.id, "frame": entity.frame_id,
@@ -170,14 +167,14 @@ fn levels(store: &Store) -> Value {
     json!({"di": row(&io.di), "do": row(&io.r#do), "ai": io.ai, "ao": io.ao})
 }
 
-/// The signals that changed after a time, each with its times and values in turn.
-fn signals(store: &Store, after: f64) -> Value {
-    let signals = store.signals.iter().filter_map(|(Signal { kind, number }, changes)| {
-        let from = changes.partition_point(|(time, _)| *time <= after);
-        let changes: Vec<f64> = changes.iter().skip(from).flat_map(|(time, value)| [*time, *value]).collect();
-        (!changes.is_empty()).then(|| json!({"signal": format!("{kind}.{number}"), "changes": changes}))
-    });
-    signals.collect()
+/// Changes of signals: each one's times and values in turn.
+fn signals(store: &Store, known: usize) -> Value {
+    let mut of: BTreeMap<Signal, Vec<f64>> = BTreeMap::new();
+    for (signal, time, value) in store.changes.iter().skip(known) {
+        of.entry(*signal).or_default().extend([*time, *value]);
+    }
+    let told = |(Signal { kind, number }, changes): (Signal, Vec<f64>)| json!({"signal": format!("{kind}.{number}"), "changes": changes});
+    of.into_iter().map(told).collect()
 }
 
 /// Where the robot of a channel was from one time to another, in at most so many rows, and the row before the first. Numbers are little-endian:

@@ -15,6 +15,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use arl_robot::Robot;
 use arl_robot::cell::Cell;
 use oxhttp::ListeningServer;
 use serde_json::{Value, json};
@@ -81,12 +82,19 @@ fn run(program: &Path, name: String, options: &ViewOptions) -> Result<ExitCode, 
     // The program stops its robot, and this command ends with it.
     super::cargo::leave_interrupts_to_the_program();
     let store = Arc::new(Mutex::new(store));
-    let teach = || robot::load(options_of_run.robot.as_deref()).map(|robot| Teacher::new(robot, &ready.sources));
+    let teach = || robots(&cell, options_of_run.robot.as_deref()).map(|robots| Teacher::new(robots, &ready.sources));
     let teacher = options.teach.then(teach).transpose()?;
     let shown = Arc::new(Shown { runs: vec![(name, Arc::clone(&store))], live: Some(live), teacher });
     let _server = serve(&shown, options)?;
     let code = shown.live.as_ref().map_or(Ok(0), |live| live.hear(&cell, &store))?;
     Ok(ExitCode::from(code))
+}
+
+/// The robots of the channels that have one, in the order of the channels.
+fn robots(cell: &Cell, first: Option<&str>) -> Result<Vec<Robot>, Failure> {
+    let beside = cell.programs.channels.iter().filter(|channel| !channel.background);
+    let named = beside.map(|channel| robot::load(channel.robot.as_deref()));
+    std::iter::once(robot::load(first)).chain(named).collect()
 }
 
 /// Serves the page, tells its address and opens it.
@@ -153,8 +161,8 @@ fn of_run(store: &Store, name: &str, path: &[&str], asked: &Asked<'_>) -> Answer
     match path {
         [] => Answer::Json(answer::run(store, name)),
         ["news"] => Answer::Json(answer::news(store, &known(asked))),
-        ["model", number] => match number.parse().ok().and_then(|number| answer::model(store, number)) {
-            Some(bytes) => Answer::Bytes("model/stl", bytes.to_vec()),
+        ["model", number] => match number.parse().ok().and_then(|number: usize| store.meshes.get(number)) {
+            Some(bytes) => Answer::Bytes("model/stl", bytes.clone()),
             None => Answer::NotFound,
         },
         ["samples"] => match store.tracks.get(asked.count("channel").wrapping_sub(1)) {
@@ -178,7 +186,7 @@ fn known(asked: &Asked<'_>) -> Known {
         motions: asked.count("motions"),
         states: asked.count("states"),
         bases: asked.count("bases"),
-        signals: asked.number("signals").unwrap_or(-1.0),
+        signals: asked.count("signals"),
     }
 }
 

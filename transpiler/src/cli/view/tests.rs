@@ -100,7 +100,8 @@ fn signals_are_told_from_where_they_changed() {
     }
     assert_eq!(store.signals[&Signal { kind: "di", number: 2 }], [(1.0, 1.0), (3.0, 0.0)]);
     assert!(!store.signals.contains_key(&Signal { kind: "di", number: 1 }));
-    let news = answer::news(&store, &Known { signals: 1.0, ..Known::default() });
+    // The first two changes are known: those of both signals after 1 s.
+    let news = answer::news(&store, &Known { signals: 2, ..Known::default() });
     let analog = serde_json::json!({"signal": "ai.1", "changes": [2.0, 2.0, 3.0, 3.0]});
     let digital = serde_json::json!({"signal": "di.2", "changes": [3.0, 0.0]});
     let told = news["signals"].as_array().unwrap();

@@ -10,7 +10,7 @@ mod tests;
 use std::path::PathBuf;
 use std::sync::{Mutex, PoisonError};
 
-use arl_robot::Robot;
+use arl_robot::{Family, Robot};
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
 
@@ -20,14 +20,21 @@ use points::{Change, Files};
 
 /// Who teaches.
 pub(super) struct Teacher {
-    robot: Robot,
+    /// By channels, from 1.
+    robots: Vec<Robot>,
     files: Mutex<Files>,
 }
 
 impl Teacher {
-    /// For the data files of a program and its robot.
-    pub(super) fn new(robot: Robot, sources: &[PathBuf]) -> Self {
-        Self { robot, files: Mutex::new(Files::of(sources)) }
+    /// For the data files of a program and the robots of its channels.
+    pub(super) fn new(robots: Vec<Robot>, sources: &[PathBuf]) -> Self {
+        let family = robots.first().map_or(Family::SixAxis, |robot| robot.family);
+        Self { robots, files: Mutex::new(Files::of(sources, family)) }
+    }
+
+    fn robot(&self, channel: usize) -> Result<&Robot, String> {
+        let robot = channel.checked_sub(1).and_then(|at| self.robots.get(at));
+        robot.ok_or_else(|| format!("channel {channel} has no robot"))
     }
 
     /// What the page asks for; `order` is what it sends.
@@ -35,11 +42,11 @@ impl Teacher {
         let mut files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
         let answer = match (path, order) {
             (["points"], None) => Ok(points::told(&files)),
-            (["place"], Some(order)) => {
-                read::<Asked>(order).and_then(|asked| place::place(&self.robot, &asked)).map(|place| json!(place))
-            }
+            (["place"], Some(order)) => read::<Asked>(order)
+                .and_then(|asked| place::place(self.robot(asked.channel)?, &asked))
+                .map(|place| json!(place)),
             (["map"], Some(order)) => {
-                read::<Map>(order).and_then(|map| place::map(&self.robot, &map)).map(|map| json!(map))
+                read::<Map>(order).and_then(|map| place::map(self.robot(map.channel)?, &map)).map(|map| json!(map))
             }
             (["save"], Some(order)) => {
                 read::<Vec<Change>>(order).and_then(|changes| files.save(&changes)).map(|()| points::told(&files))

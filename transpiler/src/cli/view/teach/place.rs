@@ -16,6 +16,8 @@ const MOST_PLACES: usize = 40_000;
 #[derive(Clone, PartialEq, Deserialize, Debug)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Asked {
+    /// Whose robot, from 1.
+    pub(super) channel: usize,
     #[serde(default)]
     components: Option<[f64; 6]>,
     #[serde(default)]
@@ -67,6 +69,8 @@ struct Solution {
 #[derive(Clone, PartialEq, Deserialize, Debug)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Map {
+    /// Whose robot, from 1.
+    pub(super) channel: usize,
     components: [f64; 6],
     setting: Where,
     near: Vec<f64>,

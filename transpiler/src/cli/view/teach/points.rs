@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use arl_lang::ast::{BraceItem, Expr, ExprKind, Item, UnaryOp, Var};
 use arl_lang::symbol::Interner;
+use arl_robot::Family;
 use arl_robot::kinematics::frame;
 use arl_robot::{atomic_file, regular_file};
 use serde::Deserialize;
@@ -16,6 +17,7 @@ use super::super::super::texts::file_name;
 const DATA: &str = "_data.arl";
 /// The components of points, in the order in which literals without names have them.
 const POSE: &[&str] = &["x", "y", "z", "a", "b", "c", "cfg", "turn", "ej1", "ej2", "ej3", "ej4", "ej5", "ej6"];
+const JOINT_SCARA: &[&str] = &["j1", "j2", "j3", "j4", "ej1", "ej2", "ej3", "ej4", "ej5", "ej6"];
 const JOINT: &[&str] = &["j1", "j2", "j3", "j4", "j5", "j6", "ej1", "ej2", "ej3", "ej4", "ej5", "ej6"];
 /// Those that are whole numbers.
 const WHOLE: &[&str] = &["cfg", "turn"];
@@ -25,6 +27,8 @@ const UNDONE: usize = 200;
 /// The data files of a program, and what was written into them.
 pub(super) struct Files {
     paths: Vec<PathBuf>,
+    /// What axes the joints have.
+    family: Family,
     /// Each step: what was in which file before, and what after.
     steps: Vec<Vec<Step>>,
 }
@@ -45,13 +49,15 @@ pub(super) struct Change {
     pub(super) name: String,
     /// By the names of the components, in mm and deg.
     pub(super) values: BTreeMap<String, f64>,
+    /// What the point had before, as far as who changes it knows.
+    pub(super) before: BTreeMap<String, f64>,
 }
 
 impl Files {
     /// The data files among the files of a program.
-    pub(super) fn of(sources: &[PathBuf]) -> Self {
+    pub(super) fn of(sources: &[PathBuf], family: Family) -> Self {
         let is_data = |path: &&PathBuf| path.to_string_lossy().to_ascii_lowercase().ends_with(DATA);
-        Self { paths: sources.iter().filter(is_data).cloned().collect(), steps: Vec::new() }
+        Self { paths: sources.iter().filter(is_data).cloned().collect(), family, steps: Vec::new() }
     }
 
     /// Writes points, all or none.
@@ -68,11 +74,13 @@ impl Files {
                 }
             };
             if let Some(one) = step.get_mut(at) {
-                let changed = arl_lang::with_value(&one.after, &change.r#type, &change.name, &literal(change)?);
+                expect_known(&one.after, change, self.family)?;
+                let changed =
+                    arl_lang::with_value(&one.after, &change.r#type, &change.name, &literal(change, self.family)?);
                 one.after = changed.map_err(|what| format!("{} {what}", change.file))?;
             }
         }
-        step.iter().try_for_each(|one| write(&one.path, &one.after))?;
+        write_all(step.iter().map(|one| (&one.path, &one.before, &one.after)))?;
         step.retain(|one| one.before != one.after);
         if !step.is_empty() {
             if self.steps.len() == UNDONE {
@@ -94,15 +102,37 @@ impl Files {
                 ));
             }
         }
-        step.iter().try_for_each(|one| write(&one.path, &one.before))?;
+        write_all(step.iter().map(|one| (&one.path, &one.after, &one.before)))?;
         self.steps.pop();
         Ok(())
     }
 
     fn path(&self, name: &str) -> Result<PathBuf, String> {
-        let found = self.paths.iter().find(|path| file_name(&path.to_string_lossy()) == name);
+        let found = self.paths.iter().find(|path| self.name(path) == name);
         found.cloned().ok_or_else(|| format!("{name} is no data file of this program"))
     }
+
+    /// What a file is called: its name alone, where no other one has that.
+    fn name(&self, path: &Path) -> String {
+        let of = |path: &Path| file_name(&path.to_string_lossy()).to_owned();
+        let name = of(path);
+        let alone = self.paths.iter().filter(|other| of(other) == name).count() < 2;
+        if alone { name } else { path.display().to_string() }
+    }
+}
+
+/// Writes files that hold something now, all or none.
+fn write_all<'a>(files: impl Iterator<Item = (&'a PathBuf, &'a Vec<u8>, &'a Vec<u8>)>) -> Result<(), String> {
+    let mut written = Vec::new();
+    for (path, now, then) in files {
+        if let Err(why) = write(path, then) {
+            // What cannot be written back is told as it is: the first reason counts.
+            written.iter().for_each(|(path, now): &(&PathBuf, &Vec<u8>)| drop(write(path, now)));
+            return Err(why);
+        }
+        written.push((path, now));
+    }
+    Ok(())
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, String> {
@@ -113,17 +143,39 @@ fn write(path: &Path, content: &[u8]) -> Result<(), String> {
     atomic_file::write(path, content).map_err(|error| format!("cannot write {}: {error}", path.display()))
 }
 
-fn components(ty: &str) -> Option<&'static [&'static str]> {
+/// What a program computes is not replaced by numbers, nor what somebody else has changed since it was looked at.
+fn expect_known(bytes: &[u8], change: &Change, family: Family) -> Result<(), String> {
+    let Ok(text) = arl_lang::text::decode(bytes) else { return Ok(()) };
+    let (name, file) = (&change.name, &change.file);
+    let mut points = Vec::new();
+    of_text(file, &text, family, &mut points, &mut Vec::new());
+    let same = |point: &&Value| {
+        let is = |key: &str, value: &str| point[key].as_str().is_some_and(|own| own.eq_ignore_ascii_case(value));
+        is("name", name) && is("type", &change.r#type)
+    };
+    match points.iter().find(same) {
+        Some(point) if point["plain"] == false => {
+            Err(format!("{name} is computed in {file}: only values that are plain numbers are replaced"))
+        }
+        Some(point) if point["values"] != json!(change.before) => {
+            Err(format!("{name} was changed in {file} by somebody else since: look at it again first"))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn components(ty: &str, family: Family) -> Option<&'static [&'static str]> {
     match ty {
         "pose" => Some(POSE),
+        "joint" if family == Family::Scara => Some(JOINT_SCARA),
         "joint" => Some(JOINT),
         _ => None,
     }
 }
 
 /// The literal of a point: to a thousandth of a mm or deg.
-fn literal(change: &Change) -> Result<String, String> {
-    let known = components(&change.r#type).ok_or("a point is a pose or a joint")?;
+fn literal(change: &Change, family: Family) -> Result<String, String> {
+    let known = components(&change.r#type, family).ok_or("a point is a pose or a joint")?;
     if let Some((name, _)) = change.values.iter().find(|(name, value)| {
         !known.contains(&name.as_str()) || !value.is_finite() || WHOLE.contains(&name.as_str()) && value.fract() != 0.0
     }) {
@@ -142,20 +194,20 @@ fn literal(change: &Change) -> Result<String, String> {
 pub(super) fn told(files: &Files) -> Value {
     let (mut points, mut frames, mut troubles) = (Vec::new(), Vec::new(), Vec::new());
     for path in &files.paths {
-        let name = file_name(&path.to_string_lossy()).to_owned();
+        let name = files.name(path);
         let text = read(path).and_then(|bytes| {
             arl_lang::text::decode(&bytes).map(std::borrow::Cow::into_owned).map_err(|error| format!("{name}: {error}"))
         });
         match text {
-            Ok(text) => of_text(&name, &text, &mut points, &mut frames),
+            Ok(text) => of_text(&name, &text, files.family, &mut points, &mut frames),
             Err(why) => troubles.push(why),
         }
     }
-    let files_names: Vec<_> = files.paths.iter().map(|path| file_name(&path.to_string_lossy()).to_owned()).collect();
-    json!({"points": points, "frames": frames, "files": files_names, "undo": files.steps.len(), "troubles": troubles})
+    let names: Vec<String> = files.paths.iter().map(|path| files.name(path)).collect();
+    json!({"points": points, "frames": frames, "files": names, "undo": files.steps.len(), "troubles": troubles})
 }
 
-fn of_text(file: &str, text: &str, points: &mut Vec<Value>, frames: &mut Vec<Value>) {
+fn of_text(file: &str, text: &str, family: Family, points: &mut Vec<Value>, frames: &mut Vec<Value>) {
     let mut names = Interner::default();
     let parsed = arl_lang::parse(text, &mut names, arl_lang::ParseOptions::default());
     for item in &parsed.file.items {
@@ -166,13 +218,15 @@ fn of_text(file: &str, text: &str, points: &mut Vec<Value>, frames: &mut Vec<Val
             let items = braced(var);
             match ty.as_str() {
                 "pose" | "joint" => {
-                    let values = values(items, components(&ty).unwrap_or_default(), &names);
-                    points.push(json!({"file": file, "type": ty, "name": name, "values": values}));
+                    let known = components(&ty, family).unwrap_or_default();
+                    let values = values(items, known, &names);
+                    let plain = values.len() == items.len() && var.init.is_some() == is_braced(var);
+                    points.push(json!({"file": file, "type": ty, "name": name, "values": values, "plain": plain}));
                 }
                 "tool" | "wobj" => {
                     if let Some((angles, placed, other)) = mount(items, &names) {
                         frames.push(
-                            json!({"type": ty, "name": name, "angles": angles, "placed": placed, "other": other}),
+                            json!({"file": file, "type": ty, "name": name, "angles": angles, "placed": placed, "other": other}),
                         );
                     }
                 }
@@ -180,6 +234,10 @@ fn of_text(file: &str, text: &str, points: &mut Vec<Value>, frames: &mut Vec<Val
             }
         }
     }
+}
+
+fn is_braced(var: &Var) -> bool {
+    var.init.as_ref().is_some_and(|init| matches!(init.kind, ExprKind::Brace(_)))
 }
 
 /// What stands between the braces of a variable's value.
@@ -215,6 +273,10 @@ fn number(expr: &Expr) -> Option<f64> {
 fn mount(items: &[BraceItem], names: &Interner) -> Option<([f64; 3], [f64; 7], bool)> {
     let ExprKind::Brace(inner) = &items.first()?.value.kind else { return None };
     let found = values(inner, POSE.get(..6)?, names);
+    if found.len() < inner.len() {
+        // What is computed is not known here.
+        return None;
+    }
     let component = |name: &str| found.get(name).copied().unwrap_or_default();
     let angles = ["a", "b", "c"].map(component);
     let [a, b, c] = angles;

@@ -25,7 +25,7 @@ impl Folder {
     }
 
     fn teacher(&self) -> Teacher {
-        Teacher::new(Robot::builtin("kr10-r1420").unwrap(), &[self.0.join("p.arl"), self.0.join("p_data.arl")])
+        Teacher::new(vec![Robot::builtin("kr10-r1420").unwrap()], &[self.0.join("p.arl"), self.0.join("p_data.arl")])
     }
 
     fn text(&self) -> String {
@@ -70,12 +70,17 @@ fn points_tools_and_workpieces_are_told() {
 fn a_point_is_written_where_it_stands_and_taken_back() {
     let folder = Folder::new("written");
     let teacher = folder.teacher();
-    let change =
-        |name: &str, values: Value| json!([{"file": "p_data.arl", "type": "pose", "name": name, "values": values}]);
-    ask(&teacher, "save", &change("feeder", json!({"x": 950.00049, "y": -500, "z": -0.0001, "cfg": 1}))).unwrap();
+    let change = |name: &str, before: Value, values: Value| json!([{"file": "p_data.arl", "type": "pose", "name": name, "before": before, "values": values}]);
+    let feeder = json!({"x": 900.0, "y": -500.0, "z": 400.0, "a": 0.0, "b": 180.0, "c": 0.0});
+    ask(
+        &teacher,
+        "save",
+        &change("feeder", feeder.clone(), json!({"x": 950.00049, "y": -500, "z": -0.0001, "cfg": 1})),
+    )
+    .unwrap();
     let moved = POINTS.replace("{x 900, y -500, z 400, a 0, b 180, c 0}", "{x 950, y -500, z 0, cfg 1}");
     assert_eq!(folder.text(), moved);
-    let told = ask(&teacher, "save", &change("LATER", json!({"x": 1.5}))).unwrap();
+    let told = ask(&teacher, "save", &change("LATER", json!({}), json!({"x": 1.5}))).unwrap();
     assert_eq!((folder.text(), told["undo"].as_u64()), (moved.replace("pose later", "pose later = {x 1.5}"), Some(2)));
     ask(&teacher, "undo", &json!({})).unwrap();
     assert_eq!(folder.text(), moved);
@@ -83,12 +88,15 @@ fn a_point_is_written_where_it_stands_and_taken_back() {
     assert_eq!(folder.text(), POINTS);
     assert!(ask(&teacher, "undo", &json!({})).unwrap_err().contains("nothing was written"));
     // Several at once, all or none.
-    let both = json!([{"file": "p_data.arl", "type": "pose", "name": "feeder", "values": {"x": 1}},
-                      {"file": "p_data.arl", "type": "pose", "name": "none", "values": {"x": 1}}]);
+    let both = json!([{"file": "p_data.arl", "type": "pose", "name": "feeder", "before": feeder, "values": {"x": 1}},
+                      {"file": "p_data.arl", "type": "pose", "name": "none", "before": {}, "values": {"x": 1}}]);
     assert!(ask(&teacher, "save", &both).unwrap_err().contains("has no pose none"));
     assert_eq!(folder.text(), POINTS);
     // What somebody else has written since is not taken back.
-    ask(&teacher, "save", &change("feeder", json!({"x": 1}))).unwrap();
+    assert!(
+        ask(&teacher, "save", &change("feeder", json!({}), json!({"x": 1}))).unwrap_err().contains("somebody else")
+    );
+    ask(&teacher, "save", &change("feeder", feeder, json!({"x": 1}))).unwrap();
     std::fs::write(folder.0.join("p_data.arl"), "pose feeder\n").unwrap();
     assert!(ask(&teacher, "undo", &json!({})).unwrap_err().contains("somebody else"));
 }
@@ -98,7 +106,8 @@ fn nothing_else_is_written() {
     let folder = Folder::new("else");
     let teacher = folder.teacher();
     let refused = |file: &str, ty: &str, name: &str, values: Value| {
-        let change = json!([{"file": file, "type": ty, "name": name, "values": values}]);
+        let before = json!({"x": 900.0, "y": -500.0, "z": 400.0, "a": 0.0, "b": 180.0, "c": 0.0});
+        let change = json!([{"file": file, "type": ty, "name": name, "before": before, "values": values}]);
         ask(&teacher, "save", &change).unwrap_err()
     };
     for file in ["p.arl", "../p_data.arl", "/etc/passwd", ""] {
@@ -109,6 +118,15 @@ fn nothing_else_is_written() {
     assert!(refused("p_data.arl", "pose", "feeder", json!({"cfg": 1.5})).contains("no number"));
     assert!(refused("p_data.arl", "pose", "feeder", json!({})).contains("no components"));
     assert!(ask(&teacher, "save", &json!({"x": 1})).unwrap_err().contains("not understood"));
+    // Nor what is computed.
+    std::fs::write(
+        folder.0.join("p_data.arl"),
+        "double high = 5\npose feeder = {x 1, z high + 2}\npose copy = feeder\n",
+    )
+    .unwrap();
+    assert!(refused("p_data.arl", "pose", "Feeder", json!({"x": 1})).contains("computed"));
+    assert!(refused("p_data.arl", "pose", "copy", json!({"x": 1})).contains("computed"));
+    std::fs::write(folder.0.join("p_data.arl"), POINTS).unwrap();
     assert_eq!(folder.text(), POINTS);
     assert!(Path::new(&folder.0).read_dir().unwrap().count() == 2, "nothing is left beside the file");
 }
@@ -120,7 +138,7 @@ fn a_place_has_all_its_solutions_and_each_leads_to_it() {
     let tool = [0.0, 0.0, 120.0, 0.0, 0.0, 0.0, 1.0];
     let setting = json!({"tool": tool, "wobj": [10, 20, 0, 0, 0, 0, 1], "base": NONE});
     let near = [0.0, -90.0, 90.0, 0.0, 90.0, 0.0];
-    let asked = json!({"components": [890, -520, 400, 0, 180, 0], "setting": setting, "near": near});
+    let asked = json!({"components": [890, -520, 400, 0, 180, 0], "channel": 1, "setting": setting, "near": near});
     let place = ask(&teacher, "place", &asked).unwrap();
     assert_eq!((place["placed"][0].as_f64(), place["placed"][1].as_f64()), (Some(900.0), Some(-500.0)));
     let solutions = place["solutions"].as_array().unwrap();
@@ -132,7 +150,7 @@ fn a_place_has_all_its_solutions_and_each_leads_to_it() {
             continue;
         }
         reached += 1;
-        let back = json!({"axes": solution["axes"], "setting": setting, "near": near});
+        let back = json!({"axes": solution["axes"], "channel": 1, "setting": setting, "near": near});
         let back = ask(&teacher, "place", &back).unwrap();
         for at in 0..3 {
             let (one, other) = (place["components"][at].as_f64().unwrap(), back["components"][at].as_f64().unwrap());
@@ -141,7 +159,7 @@ fn a_place_has_all_its_solutions_and_each_leads_to_it() {
     }
     // Dragged, it is written as people have it before them.
     assert_eq!(place["components"], json!([890.0, -520.0, 400.0, 0.0, 180.0, 0.0]));
-    let asked = json!({"placed": place["placed"], "setting": setting, "near": near, "before": place["components"]});
+    let asked = json!({"placed": place["placed"], "channel": 1, "setting": setting, "near": near, "before": place["components"]});
     let dragged = ask(&teacher, "place", &asked).unwrap();
     for at in 0..6 {
         let (one, other) = (place["components"][at].as_f64().unwrap(), dragged["components"][at].as_f64().unwrap());
@@ -149,14 +167,14 @@ fn a_place_has_all_its_solutions_and_each_leads_to_it() {
     }
     assert!(reached >= 2 && place["nearest"].is_u64(), "{place}");
     // Far away, and straight above at a singular point.
-    let far = json!({"components": [5000, 0, 400, 0, 180, 0], "setting": setting, "near": near});
+    let far = json!({"components": [5000, 0, 400, 0, 180, 0], "channel": 1, "setting": setting, "near": near});
     let far = ask(&teacher, "place", &far).unwrap();
     assert!(far["nearest"].is_null() && far["solutions"][0]["why"].as_str().unwrap().contains("out of reach"));
-    let straight = json!({"axes": [0, -90, 90, 0, 0, 0], "setting": setting, "near": near});
+    let straight = json!({"axes": [0, -90, 90, 0, 0, 0], "channel": 1, "setting": setting, "near": near});
     let straight = ask(&teacher, "place", &straight).unwrap();
     assert_eq!(straight["solutions"][0]["near"], "wrist");
-    assert!(ask(&teacher, "place", &json!({"setting": setting, "near": near})).is_err());
-    assert!(ask(&teacher, "place", &json!({"axes": [1], "setting": setting, "near": near})).is_err());
+    assert!(ask(&teacher, "place", &json!({"channel": 1, "setting": setting, "near": near})).is_err());
+    assert!(ask(&teacher, "place", &json!({"axes": [1], "channel": 1, "setting": setting, "near": near})).is_err());
 }
 
 #[test]
@@ -165,14 +183,13 @@ fn a_map_tells_where_a_plane_is_reached() {
     let teacher = folder.teacher();
     let setting = json!({"tool": NONE, "wobj": NONE, "base": NONE});
     let near = [0.0, -90.0, 90.0, 0.0, 90.0, 0.0];
-    let map =
-        json!({"components": [0, 0, 400, 0, 180, 0], "setting": setting, "near": near, "half": 1500, "step": 100});
+    let map = json!({"components": [0, 0, 400, 0, 180, 0], "channel": 1, "setting": setting, "near": near, "half": 1500, "step": 100});
     let map = ask(&teacher, "map", &map).unwrap();
     let (side, places) = (map["side"].as_u64().unwrap() as usize, map["places"].as_str().unwrap());
     assert_eq!((side, places.len()), (31, 31 * 31));
     // A corner is too far; 900 mm before the robot is not.
     let at = |x: i32, y: i32| places.as_bytes()[((y + 1500) / 100) as usize * side + ((x + 1500) / 100) as usize];
     assert!(at(-1500, -1500) == b'0' && at(900, 0) > b'1', "{places}");
-    let many = json!({"components": [0, 0, 400, 0, 180, 0], "setting": setting, "near": near, "half": 1e9, "step": 1});
+    let many = json!({"components": [0, 0, 400, 0, 180, 0], "channel": 1, "setting": setting, "near": near, "half": 1e9, "step": 1});
     assert!(ask(&teacher, "map", &many).unwrap_err().contains("at most"));
 }
