@@ -33,6 +33,8 @@ pub(super) struct Recording {
     path: PathBuf,
     /// What stands in the cell, or is carried.
     bodies: Vec<Body>,
+    /// The texts of the program, until they are written.
+    sources: Vec<Text>,
     recorder: Recorder<sink::File<BufWriter<std::fs::File>>>,
 }
 
@@ -41,12 +43,9 @@ impl Recording {
     pub(super) fn create(path: &Path, bodies: &[Body], sources: &[PathBuf]) -> Result<Self, Failure> {
         let file = std::fs::File::create(path).map_err(|error| Failure::io("write", path, &error))?;
         let cannot = |error| Failure::Usage(format!("cannot write {}: {error}", path.display()));
-        let mut file = sink::File::new(BufWriter::new(file)).map_err(cannot)?;
-        for Text { name, text } in texts::read(sources) {
-            file.source(&name, &text).map_err(cannot)?;
-        }
-        let recorder = Recorder::new(file, bodies);
-        Ok(Self { path: path.to_owned(), bodies: bodies.to_vec(), recorder })
+        let recorder = Recorder::new(sink::File::new(BufWriter::new(file)).map_err(cannot)?, bodies);
+        let sources = texts::read(sources);
+        Ok(Self { path: path.to_owned(), bodies: bodies.to_vec(), sources, recorder })
     }
 }
 
@@ -66,6 +65,9 @@ impl Hears for Recording {
     }
 
     fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
+        for Text { name, text } in std::mem::take(&mut self.sources) {
+            self.recorder.source(&name, &text)?;
+        }
         self.recorder.hear(line)?;
         if matches!(line, Line::Hello(_)) {
             self.describe();

@@ -58,6 +58,11 @@ impl<S: Sink> Recorder<S> {
         }
     }
 
+    /// Takes in a text of the program.
+    pub(crate) fn source(&mut self, name: &str, text: &str) -> McapResult<()> {
+        self.sink.source(name, text)
+    }
+
     /// Takes in what the program says.
     pub(crate) fn hear(&mut self, line: &Line) -> McapResult<()> {
         let log = |level: Level, text: &str| Log { level: level.into(), message: text.into(), ..Log::default() };
