@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use arl_benches::command::Place;
 use arl_benches::programs::Kind;
 use arl_benches::statistics::Times;
 
@@ -20,28 +21,22 @@ fn main() -> Result<(), String> {
 }
 
 /// The command and a cache of its own.
-struct Bench {
-    command: PathBuf,
-    folder: PathBuf,
-}
+struct Bench(Place);
 
 impl Bench {
     fn new() -> Result<Self, String> {
-        let command = arl_benches::command::build()?;
-        let folder = std::env::temp_dir().join("arl-benches-command");
-        std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
-        Ok(Self { command, folder })
+        Ok(Self(Place::new("command")?))
     }
 
     fn arl2rs(&self, words: &[&str], file: &Path) -> Command {
-        let mut command = Command::new(&self.command);
-        command.args(words).arg(file).env("ARL2RS_CACHE", self.folder.join("cache")).current_dir(&self.folder);
+        let mut command = self.0.arl2rs(words);
+        command.arg(file);
         command
     }
 
     /// One edited line of 500, run; against `cargo build` of what was emitted for such an edit.
     fn edit_and_run(&self, rounds: usize) -> Result<(), String> {
-        let file = self.folder.join("edited.arl");
+        let file = self.0.folder.join("edited.arl");
         let program = |number: usize| {
             let text = Kind::Typical.program(500);
             text.replacen("double total = limit * 2.5", &format!("double total = limit * {number}.5"), 1)
@@ -61,12 +56,12 @@ impl Bench {
             unchanged.push(timed(&mut self.arl2rs(&["run"], &file))?);
             write(&file, &program(2 * round + 1))?;
             run(self.arl2rs(&["emit", "-o", "emitted"], &file).stdout(Stdio::null()))?;
-            let emitted = std::fs::read(self.folder.join("emitted/edited.rs")).map_err(|error| error.to_string())?;
+            let emitted = std::fs::read(self.0.folder.join("emitted/edited.rs")).map_err(|error| error.to_string())?;
             std::fs::write(project.join("src/program.rs"), emitted).map_err(|error| error.to_string())?;
             let mut build = cargo();
             build
                 .args(["build", "--quiet", "--target-dir"])
-                .arg(self.folder.join("cache/target"))
+                .arg(self.0.folder.join("cache/target"))
                 .current_dir(&project);
             cargo_alone.push(timed(&mut build)?);
         }
@@ -96,7 +91,7 @@ impl Bench {
 
     /// The cargo project that the command made.
     fn project(&self) -> Result<PathBuf, String> {
-        let programs = std::fs::read_dir(self.folder.join("cache/programs")).map_err(|error| error.to_string())?;
+        let programs = std::fs::read_dir(self.0.folder.join("cache/programs")).map_err(|error| error.to_string())?;
         let mut found = programs.filter_map(Result::ok).map(|entry| entry.path());
         found.find(|path| path.to_string_lossy().contains("arl-edited-")).ok_or("no project in the cache".into())
     }
@@ -105,7 +100,7 @@ impl Bench {
     fn tables(&self) -> Result<(), String> {
         println!("compiling a table of points              arl2rs build  for 1000 points");
         for points in [1_000, 2_000, 5_000, 10_000] {
-            let file = self.folder.join(format!("points{points}.arl"));
+            let file = self.0.folder.join(format!("points{points}.arl"));
             let mut least = Duration::MAX;
             for round in 0..3 {
                 let text = Kind::Points.program(points).replace("x 0.138", &format!("x {round}.138"));

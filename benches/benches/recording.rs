@@ -6,10 +6,11 @@
 
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use arl_benches::command::Place;
 use arl_benches::statistics::Times;
 
 /// Motions of a run, rounded off, between inputs and outputs; and how many of them the shortest run has.
@@ -52,23 +53,17 @@ fn main() -> Result<(), String> {
     [1, 10, 100].into_iter().try_for_each(|times| bench.open(times))
 }
 
-struct Bench {
-    command: PathBuf,
-    folder: PathBuf,
-}
+struct Bench(Place);
 
 impl Bench {
     fn new() -> Result<Self, String> {
-        let command = arl_benches::command::build()?;
-        let folder = std::env::temp_dir().join("arl-benches-recording");
-        std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
-        write(&folder.join("cell.toml"), CELL)?;
-        Ok(Self { command, folder })
+        let place = Place::new("recording")?;
+        write(&place.folder.join("cell.toml"), CELL)?;
+        Ok(Self(place))
     }
 
     fn arl2rs(&self, words: &[&str]) -> Command {
-        let mut command = Command::new(&self.command);
-        command.args(words).env("ARL2RS_CACHE", self.folder.join("cache")).current_dir(&self.folder);
+        let mut command = self.0.arl2rs(words);
         command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
         command
     }
@@ -80,7 +75,7 @@ impl Bench {
         let text = format!(
             "func void main()\n  int i = 0\n  movej j:{{0, -90, 90, 0, 90, 0}}\n  while(i < {count})\n    i++\n{ROUND}  endwhile\nendfunc\n"
         );
-        write(&self.folder.join(&name), &text)?;
+        write(&self.0.folder.join(&name), &text)?;
         let recording = format!("run{times}.mcap");
         let kinds: [&[&str]; 3] =
             [&["run", &name], &["run", &name, "--record", &recording], &["run", &name, "--cell", "cell.toml"]];
@@ -98,7 +93,7 @@ impl Bench {
             count * MOTIONS_A_ROUND + 1,
             recorded / plain,
             collisions / plain,
-            size(&self.folder.join(&recording))?
+            size(&self.0.folder.join(&recording))?
         );
         Ok(())
     }
@@ -121,7 +116,7 @@ impl Bench {
         let memory = memory.lines().find_map(|line| line.strip_prefix("VmHWM:")).map_or("", str::trim);
         println!(
             "{:>6.1} MB {:>14.3} s {:>19.3} s   {memory}",
-            size(&self.folder.join(&recording))?,
+            size(&self.0.folder.join(&recording))?,
             knows.as_secs_f64(),
             has.as_secs_f64()
         );

@@ -3,6 +3,34 @@
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
+/// The command, and a folder with a build cache of its own.
+pub struct Place {
+    /// The command.
+    pub command: PathBuf,
+    /// The folder, which stays: what was compiled there is not compiled again.
+    pub folder: PathBuf,
+}
+
+impl Place {
+    /// Builds the command, and makes the folder for a bench of this name.
+    ///
+    /// # Errors
+    /// Cargo fails, or there is no such folder.
+    pub fn new(name: &str) -> Result<Self, String> {
+        let command = build()?;
+        let folder = std::env::temp_dir().join(format!("arl-benches-{name}"));
+        std::fs::create_dir_all(&folder).map_err(|error| error.to_string())?;
+        Ok(Self { command, folder })
+    }
+
+    /// The command with these words, in the folder.
+    pub fn arl2rs(&self, words: &[&str]) -> Command {
+        let mut command = Command::new(&self.command);
+        command.args(words).env("ARL2RS_CACHE", self.folder.join("cache")).current_dir(&self.folder);
+        command
+    }
+}
+
 /// Builds the command with optimisation, and gives its path.
 ///
 /// # Errors

@@ -37,8 +37,9 @@ const HOLD_MS = 80;
 /**
  * A button that moves the robot as long as it is held, by pointer or by key.
  * @param {HTMLButtonElement} button @param {() => string | undefined} words what is moved, in the words of an order
+ * @param {AbortSignal} signal when the button is there no more
  */
-export function holds(button, words) {
+export function holds(button, words, signal) {
   /** @type {string | undefined} */
   let order;
   /** @type {Promise<unknown>} what was said is said in its order, however slow an answer is */
@@ -75,7 +76,8 @@ export function holds(button, words) {
   const lifted = (event) => {
     if (event.pointerId === pointer) letGo();
   };
-  for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) document.addEventListener(end, /** @type {any} */ (lifted), true);
+  for (const end of ["pointerup", "pointercancel", "lostpointercapture"])
+    document.addEventListener(end, /** @type {any} */ (lifted), { capture: true, signal });
   button.addEventListener("blur", letGo);
   button.addEventListener("keydown", (event) => {
     if ([" ", "Enter"].includes(event.key)) {
@@ -86,9 +88,10 @@ export function holds(button, words) {
   });
   button.addEventListener("keyup", letGo);
   button.addEventListener("contextmenu", (event) => event.preventDefault());
-  window.addEventListener("blur", letGo);
-  window.addEventListener("pagehide", letGo);
-  document.addEventListener("visibilitychange", letGo);
+  window.addEventListener("blur", letGo, { signal });
+  window.addEventListener("pagehide", letGo, { signal });
+  document.addEventListener("visibilitychange", letGo, { signal });
+  signal.addEventListener("abort", letGo);
 }
 
 export class Live {

@@ -49,13 +49,7 @@ export function lines(run, channel, chosen) {
 
 /** Messages, warnings, alarms and contacts. @param {import('./run.js').Run} run @param {(time: number) => void} seek */
 export function events(run, seek) {
-  const told = run.told.log.map((/** @type {any} */ { time, level, text, file, line }) => ({
-    time,
-    level,
-    text: file ? `${text}` : text,
-    line,
-  }));
-  const rows = told
+  const rows = [...run.told.log]
     .sort((/** @type {any} */ one, /** @type {any} */ other) => one.time - other.time)
     .slice(-5000)
     .map((/** @type {any} */ { time, level, text }) => row([seconds(time), [text, `text ${level}`]], () => seek(time)));

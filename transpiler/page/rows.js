@@ -139,7 +139,7 @@ export function signal(run, lane) {
 
 /**
  * A value over time, from rows that were fetched for this stretch.
- * @param {{label: string, height: number, unit: string, color: string, range?: number[], rows: () => import('./samples.js').Rows | undefined, get: (rows: import('./samples.js').Rows, row: number) => number, value: (time: number) => string, holds: boolean}} of
+ * @param {{label: string, height: number, color: string, range?: number[], rows: () => import('./samples.js').Rows | undefined, get: (rows: import('./samples.js').Rows, row: number) => number, value: (time: number) => string, holds: boolean}} of
  * @returns {Row}
  */
 export function strip({ label, height, color, range, rows, get, value, holds }) {

@@ -78,6 +78,7 @@ export class Teach {
     this.save = button("Teach", "Write this place into the chosen point", () => this.teach());
     this.undoing = button("Undo", "Take the last writing back", () => this.write("undo", {}));
     this.jogs = element("div", { className: "jogs" });
+    this.holding = new AbortController();
     this.frame = /** @type {HTMLSelectElement} */ (element("select", { ariaLabel: "Directions" }));
     this.frame.append(...["world", "tool", "workpiece"].map((name) => element("option", { value: name }, name)));
     this.build();
@@ -128,13 +129,20 @@ export class Teach {
 
   /** Buttons that move the robot while they are held: its axes, its TCP, and all of it to the dragged one. */
   jogButtons() {
+    // Those of another robot are there no more.
+    this.holding.abort();
+    this.holding = new AbortController();
     /** @param {string} name @param {string} title @param {() => string | undefined} words */
     const held = (name, title, words) => {
       const made = /** @type {HTMLButtonElement} */ (element("button", { title, className: "hold" }, name));
-      holds(made, () => {
-        const said = words();
-        return said && this.holdOrder(said);
-      });
+      holds(
+        made,
+        () => {
+          const said = words();
+          return said && this.holdOrder(said);
+        },
+        this.holding.signal,
+      );
       return made;
     };
     const axes = this.channel.axes.map((/** @type {any} */ axis, /** @type {number} */ at) =>

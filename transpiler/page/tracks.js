@@ -63,7 +63,6 @@ export class Tracks {
         strip({
           label: "TCP speed",
           height: 44,
-          unit: "mm/s",
           color: kind(0),
           rows,
           get: (found, row) => found.speed[row],
@@ -78,7 +77,6 @@ export class Tracks {
         strip({
           label: axis.name,
           height: 40,
-          unit: axis.unit,
           color: kind(at + 1),
           range: [axis.min, axis.max],
           holds: true,

@@ -85,8 +85,8 @@ impl Controller {
     }
 
     /// A button that moves a robot, of a foreground channel from 1 on, is pressed.
-    pub(crate) fn hold(&mut self, channel: usize, held: &Held) -> Result<Pressed, String> {
-        let found = self.channels.foreground().nth(channel.wrapping_sub(1));
+    pub(crate) fn hold(&mut self, channel: u8, held: &Held) -> Result<Pressed, String> {
+        let found = self.channels.numbered(channel);
         hold(found.ok_or_else(|| format!("there is no channel {channel}"))?, held)
     }
 
@@ -94,9 +94,8 @@ impl Controller {
     ///
     /// # Errors
     /// It does not move the robot any more.
-    pub(crate) fn keep_on(&mut self, channel: usize, held: &Held) -> Result<(), String> {
-        let found = self.channels.foreground().nth(channel.wrapping_sub(1));
-        let unit = found.and_then(|channel| channel.channel_state().robot_mut());
+    pub(crate) fn keep_on(&mut self, channel: u8, held: &Held) -> Result<(), String> {
+        let unit = self.channels.numbered(channel).and_then(|channel| channel.channel_state().robot_mut());
         unit.map_or(Ok(()), |mut unit| unit.keep_on(held))
     }
 
@@ -106,9 +105,10 @@ impl Controller {
     }
 
     /// The button is let go: the robot stops on its path.
-    pub(crate) fn let_go(&mut self, channel: usize) {
-        if let Some(found) = self.channels.foreground().nth(channel.wrapping_sub(1)) {
-            let_go(found);
+    pub(crate) fn let_go(&mut self, channel: u8) {
+        let unit = self.channels.numbered(channel).and_then(|channel| channel.channel_state().robot_mut());
+        if let Some(mut unit) = unit {
+            unit.let_go();
         }
     }
 
@@ -274,13 +274,6 @@ fn hold(channel: &Channel, held: &Held) -> Result<Pressed, String> {
     }
     let unit = channel.channel_state().robot_mut();
     unit.map_or(Ok(Pressed::Begun), |mut unit| unit.press(held, state == State::Paused))
-}
-
-/// The button is let go.
-fn let_go(channel: &Channel) {
-    if let Some(mut unit) = channel.channel_state().robot_mut() {
-        unit.let_go();
-    }
 }
 
 /// Moves an axis, from 1, by hand.

@@ -5,7 +5,7 @@ use nalgebra::{Translation3, Unit as UnitVector, UnitQuaternion, Vector3};
 use super::Unit;
 use super::servo::{BESIDE, JOGGING};
 use crate::motion::{Joints, Speed, Stop, Target};
-use arl_robot::frames::{Carried, Rig};
+use arl_robot::frames::Carried;
 use arl_robot::kinematics::{Frame, frame_components};
 
 /// The speeds of the TCP while it is jogged, in mm/s and deg/s.
@@ -140,8 +140,8 @@ impl Unit {
     }
 
     /// Goes somewhere; from then on the button moves the robot.
-    fn go_held(&mut self, target: Target, rig: Rig, speed: Speed) -> Result<(), String> {
-        self.go_beside(target, rig, speed)?;
+    fn go_held(&mut self, target: Target, speed: Speed) -> Result<(), String> {
+        self.go_beside(target, speed)?;
         self.button = Button::Held;
         Ok(())
     }
@@ -154,11 +154,11 @@ impl Unit {
         let slowest = self.robot.external_axes().iter().map(|axis| axis.vel * JOGGING / 100.0).fold(f64::MAX, f64::min);
         let own = if slowest < f64::MAX { slowest } else { 1.0 };
         let speed = Speed { percent: JOGGING, tcp: TCP_MM_S, ori: TCP_DEG_S, exj: own, exl: own };
-        self.go_held(Target::Joints(target), Rig { base: self.base, ..Rig::bare() }, speed)
+        self.go_held(Target::Joints(target), speed)
     }
 
     fn hold_tcp(&mut self, along: &Vector3<f64>, turns: bool, of: Seen) -> Result<(), String> {
-        let rig = Rig { base: self.base, ..*self.queue.rig() };
+        let rig = self.rig_now();
         if let Carried::Workpiece(_) = rig.carried {
             return Err("the robot holds the workpiece and the tool stands: its axes can be moved".into());
         }
@@ -180,7 +180,7 @@ impl Unit {
             };
             let pose = frame_components(&target);
             let line = Target::Line { pose, wobj: Frame::identity(), external: here.external };
-            if self.go_held(line, rig, speed).is_ok() {
+            if self.go_held(line, speed).is_ok() {
                 return Ok(());
             }
         }

@@ -97,11 +97,17 @@ impl Unit {
         // External axes have speeds of their own in place of a share.
         let own = self.robot.axes.get(axis - 1).map_or(1.0, |axis| axis.vel * JOGGING / 100.0);
         let speed = Speed { percent: JOGGING, tcp: 1.0, ori: 1.0, exj: own, exl: own };
-        self.go_beside(Target::Joints(target), Rig { base: self.base, ..Rig::bare() }, speed)
+        self.go_beside(Target::Joints(target), speed)
     }
 
-    /// Goes somewhere beside the program, at manual speed.
-    pub(super) fn go_beside(&mut self, target: Target, rig: Rig, speed: Speed) -> Result<(), String> {
+    /// What the robot carries as it stands.
+    pub(super) fn rig_now(&self) -> Rig {
+        Rig { base: self.base, ..*self.queue.rig() }
+    }
+
+    /// Goes somewhere beside the program, at manual speed, with what the robot carries.
+    pub(super) fn go_beside(&mut self, target: Target, speed: Speed) -> Result<(), String> {
+        let rig = self.rig_now();
         if self.halted {
             self.step_beside();
         }

@@ -46,10 +46,8 @@ pub(super) fn run(file: &Path, options: &RunOptions) -> Result<ExitCode, Failure
 /// Who is to hear what the program does: collisions come first, so that they are recorded.
 fn hearers(options: &RunOptions, sources: &[PathBuf]) -> Result<Vec<Box<dyn Hears>>, Failure> {
     let mut hearers: Vec<Box<dyn Hears>> = Vec::new();
-    let cell = options.cell.as_deref().map(Cell::load).transpose();
-    let cell = cell.map_err(|error| Failure::Usage(error.to_string()))?.unwrap_or_default();
-    if options.clearance.is_some() || !cell.bodies.is_empty() {
-        let (collisions, _) = Collisions::new(&cell, options.clearance.unwrap_or_default(), true)?;
+    let cell = cell(options)?;
+    if let Some(collisions) = collisions(&cell, options.clearance)? {
         hearers.push(Box::new(collisions));
     }
     if let Some(path) = &options.record {
@@ -59,6 +57,21 @@ fn hearers(options: &RunOptions, sources: &[PathBuf]) -> Result<Vec<Box<dyn Hear
         hearers.push(Box::new(Reporting::create(file, format, &cell.bodies)?));
     }
     Ok(hearers)
+}
+
+/// The cell of a run; one with nothing in it where none is named.
+pub(super) fn cell(options: &RunOptions) -> Result<Cell, Failure> {
+    let cell = options.cell.as_deref().map(Cell::load).transpose();
+    Ok(cell.map_err(|error| Failure::Usage(error.to_string()))?.unwrap_or_default())
+}
+
+/// Who looks for collisions: where the cell has bodies, or somebody asks for a clearance.
+pub(super) fn collisions(cell: &Cell, clearance: Option<f64>) -> Result<Option<Collisions>, Failure> {
+    if clearance.is_none() && cell.bodies.is_empty() {
+        return Ok(None);
+    }
+    let (collisions, _) = Collisions::new(cell, clearance.unwrap_or_default(), true)?;
+    Ok(Some(collisions))
 }
 
 /// Draws a trace that is there.

@@ -126,6 +126,13 @@ pub(super) fn placed([x, y, z, i, j, k, w]: &Placed) -> Frame {
     Frame::from_parts(Translation3::new(*x, *y, *z), turned)
 }
 
+/// How a frame is written.
+pub(super) fn written(frame: &Frame) -> Placed {
+    let ([x, y, z], [i, j, k, w]): ([f64; 3], [f64; 4]) =
+        (frame.translation.vector.into(), frame.rotation.coords.into());
+    [x, y, z, i, j, k, w]
+}
+
 /// An axis and its range, in its unit.
 #[derive(Clone, PartialEq, Deserialize, Debug)]
 pub(super) struct Axis {

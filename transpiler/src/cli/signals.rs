@@ -4,15 +4,17 @@ use std::cell::RefCell;
 use std::error::Error;
 use std::rc::Rc;
 
+use mcap::McapResult;
+
 use super::listen::Hears;
 use super::plot::Lane;
-use super::record::Recorder;
+use super::record::{Recorder, Schema, Sink};
 use super::recorded::{Signal, Store};
 use super::said::Line;
 
 /// Hears which signals change.
 pub(super) struct Signals {
-    recorder: Recorder<Store>,
+    recorder: Recorder<Levels>,
     lanes: Rc<RefCell<Vec<Lane>>>,
 }
 
@@ -20,25 +22,21 @@ impl Signals {
     /// Together with what is there once the run has ended.
     pub(super) fn new() -> (Self, Rc<RefCell<Vec<Lane>>>) {
         let lanes = Rc::<RefCell<Vec<Lane>>>::default();
-        (Self { recorder: Recorder::new(Store::default(), &[]), lanes: Rc::clone(&lanes) }, lanes)
+        (Self { recorder: Recorder::new(Levels::default(), &[]), lanes: Rc::clone(&lanes) }, lanes)
     }
 }
 
 impl Hears for Signals {
     fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>> {
-        // Where the robots were is in the trace.
-        if let Line::Hello(_) | Line::State(_) = line {
-            self.recorder.hear(line)?;
-        }
+        self.recorder.hear(line)?;
         Ok(Vec::new())
     }
 
     fn end(self: Box<Self>) -> Result<(), Box<dyn Error>> {
-        let store = self.recorder.ended()?;
-        let lane = |(Signal { kind, number }, changes): (&Signal, &Vec<(f64, f64)>)| {
-            let signal = format!("{kind}.{number}");
-            let name = store.cell.names.iter().find(|name| name.signal == signal);
-            let label = name.map_or_else(|| signal.clone(), |name| format!("{} {signal}", name.name));
+        let Levels(store) = self.recorder.ended()?;
+        let lane = |(signal, changes): (&Signal, &Vec<(f64, f64)>)| {
+            let name = store.name_of(*signal);
+            let label = name.map_or_else(|| signal.to_string(), |name| format!("{name} {signal}"));
             Lane { label, changes: changes.clone() }
         };
         *self.lanes.borrow_mut() = store.signals.iter().map(lane).collect();
@@ -47,5 +45,26 @@ impl Hears for Signals {
 
     fn broken(&self) -> String {
         "the plot shows no signals".to_owned()
+    }
+}
+
+/// A store of levels and their names alone: where the robots were is in the trace.
+#[derive(Default)]
+struct Levels(Store);
+
+impl Sink for Levels {
+    fn message(&mut self, topic: &str, schema: &'static Schema, time: u64, message: &[u8]) -> McapResult<()> {
+        match topic {
+            "/arl/cell" | "/arl/io" => self.0.message(topic, schema, time, message),
+            _ => Ok(()),
+        }
+    }
+
+    fn source(&mut self, _name: &str, _text: &str) -> McapResult<()> {
+        Ok(())
+    }
+
+    fn finish(&mut self) -> McapResult<()> {
+        Ok(())
     }
 }

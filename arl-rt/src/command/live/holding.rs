@@ -20,7 +20,7 @@ pub(super) struct Holding {
 }
 
 struct Button {
-    channel: usize,
+    channel: u8,
     words: String,
     held: Held,
     stage: Stage,
@@ -40,7 +40,7 @@ enum Stage {
 
 impl Holding {
     /// What an order says of a button, where it says something: the channel and the words.
-    pub(super) fn asked(order: &str) -> Option<(usize, &str)> {
+    pub(super) fn asked(order: &str) -> Option<(u8, &str)> {
         let (key, value) = order.split_once('=')?;
         let rest = key.trim().strip_prefix("hold")?;
         let channel = if rest.is_empty() { 1 } else { rest.strip_prefix('.')?.parse().ok()? };
@@ -48,7 +48,7 @@ impl Holding {
     }
 
     /// A button is held, or let go.
-    pub(super) fn hold(&mut self, controller: &mut Controller, (channel, words): (usize, &str)) -> Result<(), String> {
+    pub(super) fn hold(&mut self, controller: &mut Controller, (channel, words): (u8, &str)) -> Result<(), String> {
         let until = controller.cycle() + controller.cycles(HELD_S);
         if let Some(button) = &mut self.held {
             if button.channel == channel && button.words == words {
@@ -190,7 +190,8 @@ mod tests {
             }
             fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
                 let target = Joint { j1: 90.0, j2: -90.0, j3: 90.0, j4: 0.0, j5: 45.0, j6: 0.0, ..Joint::default() };
-                Box::pin(async move { motion::movej(target).run(cx).await.at(self.file(), 2) })
+                let tool = Tool { t_frame: Frame { x: 30.0, z: 120.0, ..Frame::default() }, stationary: false };
+                Box::pin(async move { motion::movej(target).t(tool).run(cx).await.at(self.file(), 2) })
             }
         }
         let mut controller = Controller::builder().build(Box::new(Turn)).unwrap();
@@ -247,18 +248,18 @@ mod tests {
     fn the_tcp_moves_along_a_frame_and_turns_on_the_spot() {
         let mut controller = paused();
         let start = tcp(&controller);
-        hold(&mut controller, "z-", 800);
-        let mut holding = Holding::default();
-        holding.hold(&mut controller, (1, "")).unwrap();
-        controller.let_go(1);
+        hold(&mut controller, "z-", 800).let_go(&mut controller);
         controller.run_for(1.0);
         let lower = tcp(&controller);
         assert!(lower[2] < start[2] - 20.0, "{start:?} {lower:?}");
         for at in [0, 1] {
             assert!((lower[at] - start[at]).abs() < 1e-3, "{start:?} {lower:?}");
         }
-        hold(&mut controller, "tool rz+", 500);
-        controller.let_go(1);
+        // Axes are moved with the tool, too: behind them it is the same TCP.
+        hold(&mut controller, "j1-", 600).let_go(&mut controller);
+        controller.run_for(1.0);
+        let lower = tcp(&controller);
+        hold(&mut controller, "tool rx+", 500).let_go(&mut controller);
         controller.run_for(1.0);
         let turned = tcp(&controller);
         assert!((0..3).all(|at| (turned[at] - lower[at]).abs() < 1e-3), "{lower:?} {turned:?}");
@@ -268,11 +269,10 @@ mod tests {
     #[test]
     fn all_axes_go_to_a_point_and_no_farther() {
         let mut controller = paused();
-        hold(&mut controller, "to 10 -80 80 0 30 5", 20_000);
+        let mut holding = hold(&mut controller, "to 10 -80 80 0 30 5", 20_000);
         assert_eq!(controller.joints().axes, [10.0, -80.0, 80.0, 0.0, 30.0, 5.0]);
-        controller.let_go(1);
+        holding.let_go(&mut controller);
         controller.run_for(1.0);
-        let mut holding = Holding::default();
         assert!(holding.hold(&mut controller, (1, "j9+")).unwrap_err().contains("axes 1 to 6"));
         assert!(holding.hold(&mut controller, (4, "j1+")).unwrap_err().contains("no channel 4"));
         assert!(holding.hold(&mut controller, (1, "to 1000")).is_err(), "beyond its range");
@@ -287,7 +287,6 @@ mod tests {
         let mut holding = Holding::default();
         assert!(holding.hold(&mut controller, (1, "to 1000")).is_err());
         holding.let_go(&mut controller);
-        controller.let_go(1);
         controller.run_for(0.1);
         controller.press(crate::io::Pendant::Start);
         controller.step();

@@ -3,22 +3,23 @@
 use super::line_writer::LineWriter;
 use crate::command::report;
 use crate::controller::Controller;
-use crate::motion::MotionRecord;
 
 /// What was said of the motions of each robot. Where none are recorded, there is nothing to say.
 #[derive(Default)]
-pub(super) struct EndedMotions(Vec<Robot>);
+pub(super) struct EndedMotions(Vec<OfRobot>);
 
 #[derive(Default)]
-struct Robot {
+struct OfRobot {
     /// How many records were looked at.
     seen: usize,
     /// Those that were not said: some of them may never be executed.
     unsaid: Vec<usize>,
-    /// The last one that was said, and how long it had taken then: it may have gone on since.
-    last: Option<(usize, f64)>,
+    /// Those that were said last, and how long each had taken then: it may have gone on since.
+    last: Vec<(usize, f64)>,
 }
 
+/// So many of those that were said last are looked at again.
+const LOOKED_AT: usize = 8;
 /// So many motions that were never executed are kept in mind.
 const MOST_UNSAID: usize = 4096;
 
@@ -28,9 +29,10 @@ impl EndedMotions {
         let mut channel = 0;
         controller.each_record(|robot, records, moves| {
             channel += 1;
-            self.0.resize_with(self.0.len().max(channel), Robot::default);
+            self.0.resize_with(self.0.len().max(channel), OfRobot::default);
             let Some(of_robot) = self.0.get_mut(channel - 1) else { return };
-            for at in of_robot.ended(records, moves) {
+            let begin = |at: usize| records.get(at).map_or((None, 0.0), |record| (record.start, record.duration));
+            for at in of_robot.ended(records.len(), begin, moves) {
                 if let Some(record) = records.get(at) {
                     voice.report(report::motion_json(channel, record, robot).trim_end());
                 }
@@ -39,29 +41,30 @@ impl EndedMotions {
     }
 }
 
-impl Robot {
-    /// The motions that have ended and were not said, or have gone on since they were.
-    fn ended(&mut self, records: &[MotionRecord], moves: bool) -> Vec<usize> {
-        if records.len() < self.seen {
+impl OfRobot {
+    /// The motions that have ended and were not said, or have gone on since they were. There are `count`; `of` says when one began, if it has,
+    /// and how long it has taken so far.
+    fn ended(&mut self, count: usize, of: impl Fn(usize) -> (Option<f64>, f64), moves: bool) -> Vec<usize> {
+        if count < self.seen {
             *self = Self::default();
         }
-        self.unsaid.extend(self.seen..records.len());
-        self.seen = records.len();
-        let start = |at: &usize| records.get(*at).and_then(|record| record.start);
-        let last = self.last.map(|(at, _)| at);
-        let began = |at: &usize| start(at).unwrap_or(f64::NEG_INFINITY);
+        self.unsaid.extend(self.seen..count);
+        self.seen = count;
+        let began = |at: usize| of(at).0.unwrap_or(f64::NEG_INFINITY);
+        let latest = |all: &mut dyn Iterator<Item = usize>| {
+            let begun = all.filter(|at| of(*at).0.is_some());
+            begun.max_by(|one, other| began(*one).total_cmp(&began(*other)))
+        };
         // The one that began last goes on while the robot moves.
-        let executed = self.unsaid.iter().copied().chain(last).filter(|at| start(at).is_some());
-        let running = executed.max_by(|one, other| began(one).total_cmp(&began(other))).filter(|_| moves);
+        let last = self.last.iter().map(|(at, _)| *at);
+        let running = latest(&mut self.unsaid.iter().copied().chain(last)).filter(|_| moves);
         let mut ended = Vec::new();
-        if let Some((at, duration)) = self.last
-            && running != Some(at)
-            && records.get(at).is_some_and(|record| record.duration != duration)
-        {
-            ended.push(at);
+        if !moves {
+            ended.extend(self.last.iter().filter(|(at, duration)| of(*at).1 != *duration).map(|(at, _)| *at));
+            self.last.retain(|(at, _)| !ended.contains(at));
         }
         self.unsaid.retain(|at| {
-            let has_ended = start(at).is_some() && running != Some(*at);
+            let has_ended = of(*at).0.is_some() && running != Some(*at);
             if has_ended {
                 ended.push(*at);
             }
@@ -70,9 +73,41 @@ impl Robot {
         if self.unsaid.len() > MOST_UNSAID {
             self.unsaid.drain(..MOST_UNSAID / 2);
         }
-        if let Some(at) = ended.iter().copied().max_by(|one, other| began(one).total_cmp(&began(other))) {
-            self.last = records.get(at).map(|record| (at, record.duration));
-        }
+        self.last.extend(ended.iter().map(|at| (*at, of(*at).1)));
+        let old = self.last.len().saturating_sub(LOOKED_AT);
+        self.last.drain(..old);
         ended
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is said of motions, by when each began and how long it has taken.
+    fn ended(said: &mut OfRobot, motions: &[(Option<f64>, f64)], moves: bool) -> Vec<usize> {
+        said.ended(motions.len(), |at| motions[at], moves)
+    }
+
+    #[test]
+    fn motions_are_said_as_they_end_whatever_comes_between() {
+        let mut said = OfRobot::default();
+        // The first one runs, the second one waits.
+        let mut motions = vec![(Some(0.0), 0.2), (None, 0.0)];
+        assert_eq!(ended(&mut said, &motions, true), []);
+        // The program is paused within the first one, and the robot jogged.
+        assert_eq!(ended(&mut said, &motions, false), [0]);
+        motions.push((Some(1.0), 0.3));
+        assert_eq!(ended(&mut said, &motions, true), []);
+        assert_eq!(ended(&mut said, &motions, false), [2]);
+        // Then the first one goes on, which was said before its end, and the second one, which was there before the jogging.
+        motions[0].1 = 0.6;
+        assert_eq!(ended(&mut said, &motions, true), []);
+        motions[1] = (Some(2.0), 0.4);
+        assert_eq!(ended(&mut said, &motions, true), []);
+        assert_eq!(ended(&mut said, &motions, false), [0, 1]);
+        assert_eq!(ended(&mut said, &motions, false), []);
+        // Records that begin anew are said anew.
+        assert_eq!(ended(&mut said, &[(Some(0.0), 0.1)], false), [0]);
     }
 }

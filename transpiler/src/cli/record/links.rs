@@ -1,6 +1,7 @@
 //! A robot's arm as viewers see it: frames from the world to the flange and the TCP, in m and rad.
 
 use arl_robot::kinematics::{Frame, frame};
+use nalgebra::{Translation3, UnitQuaternion, Vector3 as Vector};
 
 use super::super::said::{Channel, Limb, LinkJoint, Placed, Runs, placed};
 use super::messages::{FrameTransform, Link, Quaternion, Timestamp, Vector3};
@@ -137,4 +138,17 @@ pub(super) fn parts(frame: &Frame) -> (Vector3, Quaternion) {
     let at = frame.translation.vector / 1000.0;
     let [x, y, z, w] = frame.rotation.coords.into();
     (Vector3 { x: at.x, y: at.y, z: at.z }, Quaternion { x, y, z, w })
+}
+
+/// The straight part of a limb: its middle, with z along it, and its length in mm. `None`: it is a ball.
+pub(super) fn straight(limb: &Limb) -> Option<(Frame, f64)> {
+    let [from, to] = limb.ends.map(Vector::from);
+    let along = to - from;
+    if along.norm() == 0.0 {
+        return None;
+    }
+    // Where it points straight down, any half turn will do.
+    let turned = UnitQuaternion::rotation_between(&Vector::z(), &along)
+        .unwrap_or_else(|| UnitQuaternion::from_scaled_axis(Vector::x() * std::f64::consts::PI));
+    Some((Frame::from_parts(Translation3::from(0.5 * (from + to)), turned), along.norm()))
 }

@@ -10,7 +10,7 @@ use super::messages::{
     Axis, Blend, Cell, Channel, Closest, Contact, Controller, FrameTransforms, Io, JointState, JointStates, Level, Log,
     Motion, Name, Runs, Timestamp,
 };
-use super::scene::Scene;
+use super::scene::{self, Scene};
 use super::schemas::{self, Schema};
 use super::sink::Sink;
 
@@ -123,7 +123,7 @@ impl<S: Sink> Recorder<S> {
         let cell = Cell { channels, names: hello.names.iter().map(name).collect() };
         self.last.channels = vec![Channel::default(); hello.channels.len()];
         self.write("/arl/cell", &schemas::CELL, 0.0, &cell)?;
-        let robots = self.scene.robots(&self.arms);
+        let robots = scene::robots(&self.arms);
         self.write("/scene", &schemas::SCENE_UPDATE, 0.0, &robots)
     }
 

@@ -3,11 +3,10 @@
 use arl_robot::cell::{Body, Signal, SignalKind, Solid};
 use arl_robot::kinematics::Frame;
 use arl_robot::regular_file;
-use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use super::super::said::Limb;
 use super::super::show;
-use super::links::{Arm, WORLD, parts};
+use super::links::{Arm, WORLD, parts, straight};
 use super::messages::{
     self, Color, Cylinder, Io, Model, Pose, SceneEntity, SceneEntityDeletion, SceneUpdate, Timestamp,
 };
@@ -27,20 +26,6 @@ pub(super) struct Scene {
 impl Scene {
     pub(super) fn new(bodies: &[Body]) -> Self {
         Self { bodies: bodies.iter().map(|body| (body.clone(), false)).collect() }
-    }
-
-    /// The limbs of all robots.
-    pub(super) fn robots(&self, arms: &[Option<Arm>]) -> SceneUpdate {
-        let of_arm = |arm: &Arm| {
-            let limb = |limb: &Limb| {
-                let frame_id = if limb.link == 0 { arm.base() } else { arm.link(limb.link) };
-                let id = arm.joint(&limb.name);
-                let (spheres, cylinders) = capsule(limb);
-                SceneEntity { frame_id, id, frame_locked: true, spheres, cylinders, ..timed(Timestamp::default()) }
-            };
-            arm.limbs.iter().map(limb).collect::<Vec<_>>()
-        };
-        SceneUpdate { deletions: Vec::new(), entities: arms.iter().flatten().flat_map(of_arm).collect() }
     }
 
     /// Bodies that are there from now on, and those that are not any more, by the levels of inputs and outputs.
@@ -63,6 +48,20 @@ impl Scene {
         }
         (!update.entities.is_empty() || !update.deletions.is_empty()).then_some(update)
     }
+}
+
+/// The limbs of all robots.
+pub(super) fn robots(arms: &[Option<Arm>]) -> SceneUpdate {
+    let of_arm = |arm: &Arm| {
+        let limb = |limb: &Limb| {
+            let frame_id = if limb.link == 0 { arm.base() } else { arm.link(limb.link) };
+            let id = arm.joint(&limb.name);
+            let (spheres, cylinders) = capsule(limb);
+            SceneEntity { frame_id, id, frame_locked: true, spheres, cylinders, ..timed(Timestamp::default()) }
+        };
+        arm.limbs.iter().map(limb).collect::<Vec<_>>()
+    };
+    SceneUpdate { deletions: Vec::new(), entities: arms.iter().flatten().flat_map(of_arm).collect() }
 }
 
 fn timed(now: Timestamp) -> SceneEntity {
@@ -104,18 +103,14 @@ fn drawn(body: &Body, color: Color, now: Timestamp) -> SceneEntity {
 fn capsule(limb: &Limb) -> (Vec<messages::Solid>, Vec<Cylinder>) {
     let color = Some(LIMB);
     let size = Some(metres([2.0 * limb.radius; 3]));
-    let place = |at: Vector3<f64>, turned| Some(pose(&Frame::from_parts(Translation3::from(at), turned)));
-    let ball = |at| messages::Solid { pose: place(at, UnitQuaternion::identity()), size, color };
-    let [from, to] = limb.ends.map(Vector3::from);
-    let along = to - from;
-    if along.norm() == 0.0 {
-        return (vec![ball(from)], Vec::new());
+    let ball = |[x, y, z]: [f64; 3]| messages::Solid { pose: Some(pose(&Frame::translation(x, y, z))), size, color };
+    let [from, to] = limb.ends;
+    match straight(limb) {
+        None => (vec![ball(from)], Vec::new()),
+        Some((middle, length)) => {
+            (vec![ball(from), ball(to)], vec![cylinder(Some(pose(&middle)), (limb.radius, length), color)])
+        }
     }
-    // Where it points straight down, any half turn will do.
-    let turned = UnitQuaternion::rotation_between(&Vector3::z(), &along)
-        .unwrap_or_else(|| UnitQuaternion::from_scaled_axis(Vector3::x() * std::f64::consts::PI));
-    let straight = cylinder(place(0.5 * (from + to), turned), (limb.radius, along.norm()), color);
-    (vec![ball(from), ball(to)], vec![straight])
 }
 
 fn cylinder(pose: Option<Pose>, (radius, length): (f64, f64), color: Option<Color>) -> Cylinder {

@@ -132,6 +132,28 @@ fn the_description_has_the_frames_and_joints_of_the_recording() {
     assert!((joint.limit.upper - std::f64::consts::PI).abs() < 1e-9);
 }
 
+#[test]
+fn bodies_come_and_go_with_their_signal() {
+    let cell = "[[body]]\nname = \"table\"\nbox = [800, 600, 40]\nat = [900, 0, -20]\n\
+                [[body]]\nname = \"part\"\ncylinder = [20, 100]\non = \"flange\"\nwhen = \"di.2\"\n";
+    let bodies = arl_robot::cell::Cell::parse("cell.toml", cell).unwrap().bodies;
+    let lines = [HELLO.to_owned(), state(0.0, 0.0, "10", 7), state(1.0, 0.0, "11", 7), state(2.0, 0.0, "00", 7)];
+    let topics = recorded_in(&lines, &bodies);
+    let updates: Vec<SceneUpdate> =
+        topics["/scene"].iter().map(|(_, data)| SceneUpdate::decode(&data[..]).unwrap()).collect();
+    let told = |update: &SceneUpdate| {
+        let there: Vec<_> = update.entities.iter().map(|one| (one.id.clone(), one.frame_id.clone())).collect();
+        (there, update.deletions.iter().map(|gone| gone.id.clone()).collect::<Vec<_>>())
+    };
+    let entity = |id: &str, frame: &str| vec![(id.to_owned(), frame.to_owned())];
+    assert_eq!(told(&updates[0]), (entity("arm 1", "link_1"), Vec::new()));
+    assert_eq!(told(&updates[1]), (entity("body/table", "world"), Vec::new()));
+    assert_eq!(told(&updates[2]), (entity("body/part", "flange"), Vec::new()));
+    assert_eq!(told(&updates[3]), (Vec::new(), vec!["body/part".to_owned()]));
+    let size = updates[1].entities[0].cubes[0].size.unwrap();
+    assert_eq!((size.x, size.y, size.z), (0.8, 0.6, 0.04));
+}
+
 /// A message with a value in each of its fields.
 fn filled() -> Vec<(&'static Schema, Vec<u8>)> {
     let timestamp = Some(Timestamp { seconds: 1, nanos: 2 });

@@ -8,7 +8,7 @@ use arl_robot::cell::{Body, Solid};
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use super::super::said::{Limb, placed};
-use super::links::{Arm, WORLD};
+use super::links::{Arm, WORLD, straight};
 
 /// What a joint may do at most where only its range is known; a reader wants numbers.
 const EFFORT: f64 = 1000.0;
@@ -72,19 +72,17 @@ fn add_body(out: &mut String, body: &Body, holder: &str) {
 
 /// A capsule: a cylinder with a ball at either end.
 fn tube(limb: &Limb) -> String {
-    let [from, to] = limb.ends.map(|end| Vector3::from(end) / 1000.0);
     let radius = limb.radius / 1000.0;
-    let ball = |at: &Vector3<f64>| {
-        let origin = origin(at, &UnitQuaternion::identity());
+    let ball = |at: [f64; 3]| {
+        let origin = origin(&(Vector3::from(at) / 1000.0), &UnitQuaternion::identity());
         format!("<visual>{origin}<geometry><sphere radius=\"{radius:.5}\"/></geometry></visual>")
     };
-    let along = to - from;
-    let turned = UnitQuaternion::rotation_between(&Vector3::z(), &along)
-        .unwrap_or_else(|| UnitQuaternion::from_scaled_axis(Vector3::x() * std::f64::consts::PI));
-    let middle = origin(&(0.5 * (from + to)), &turned);
-    let straight = format!("<visual>{middle}<geometry>{}</geometry></visual>", cylinder(radius, along.norm()));
-    let straight = if along.norm() > 0.0 { straight } else { String::new() };
-    format!("{}{}{straight}", ball(&from), ball(&to))
+    let straight = straight(limb).map_or_else(String::new, |(middle, length)| {
+        let middle = origin(&(middle.translation.vector / 1000.0), &middle.rotation);
+        format!("<visual>{middle}<geometry>{}</geometry></visual>", cylinder(radius, length / 1000.0))
+    });
+    let [from, to] = limb.ends;
+    format!("{}{}{straight}", ball(from), ball(to))
 }
 
 fn cylinder(radius: f64, length: f64) -> String {

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::io::Read;
 use std::path::Path;
 
+use arl_robot::regular_file;
 use mcap::records::Record;
 use mcap::sans_io::{LinearReadEvent, LinearReader, LinearReaderOptions};
 
@@ -19,7 +20,8 @@ const LONGEST_RECORD: usize = 1 << 30;
 /// # Errors
 /// There is no such file, or it is no recording of a run.
 pub(in super::super) fn read(path: &Path) -> Result<Store, Failure> {
-    let mut file = std::fs::File::open(path).map_err(|error| Failure::io("read", path, &error))?;
+    let opened = regular_file::expect(path).and_then(|()| std::fs::File::open(path));
+    let mut file = opened.map_err(|error| Failure::io("read", path, &error))?;
     let no_recording = |why: &str| Failure::Other(format!("{} is no recording of a run: {why}", path.display()));
     let mut store = Store::default();
     let mut reading = Reading { store: &mut store, topics: HashMap::new() };

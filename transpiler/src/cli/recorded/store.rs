@@ -1,6 +1,7 @@
 //! The messages of a run, in columns.
 
 use std::collections::BTreeMap;
+use std::fmt;
 
 use arl_robot::kinematics::frame;
 use mcap::McapResult;
@@ -8,6 +9,7 @@ use prost::Message as _;
 
 use super::super::record::messages::{Cell, Channel, Contact, Controller, Io, Log, Motion, SceneUpdate};
 use super::super::record::{Schema, Sink};
+use super::super::said::written;
 use super::super::texts::Text;
 
 /// The topics of channels: `/arl/channel_1`.
@@ -15,7 +17,7 @@ const CHANNEL: &str = "/arl/channel_";
 /// No controller has more channels.
 const MOST_CHANNELS: usize = 64;
 /// What is farther apart in time was at rest between, in s: a robot that moves says so more often.
-pub(in super::super) const GAP_S: f64 = 0.06;
+const GAP_S: f64 = 0.06;
 /// A motion may be told again that is so far behind the last one.
 pub(in super::super) const TOLD_AGAIN: usize = 64;
 /// How far messages are apart while a robot moves, in s.
@@ -43,8 +45,6 @@ pub(in super::super) struct Store {
     pub(in super::super) end: f64,
     /// Whether a program runs that adds to it.
     pub(in super::super) goes_on: bool,
-    /// Whether points of the program may be written.
-    pub(in super::super) teaches: bool,
     /// What of the recording could not be read, and why.
     pub(in super::super) trouble: Option<String>,
     /// Counts the messages that were taken in.
@@ -53,7 +53,7 @@ pub(in super::super) struct Store {
     pub(in super::super) io: Io,
 }
 
-/// A signal: its kind and its number from 1 on.
+/// A signal: its kind and its number from 1 on; files write it as `di.1`.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(in super::super) struct Signal {
     pub(in super::super) kind: &'static str,
@@ -100,7 +100,19 @@ pub(in super::super) struct Pointers {
     pub(in super::super) motion: u32,
 }
 
+impl fmt::Display for Signal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}", self.kind, self.number)
+    }
+}
+
 impl Store {
+    /// What the cell calls a signal, if it has a name for it.
+    pub(in super::super) fn name_of(&self, signal: Signal) -> Option<&str> {
+        let signal = signal.to_string();
+        self.cell.names.iter().find(|name| name.signal == signal).map(|name| name.name.as_str())
+    }
+
     /// Takes in a message; those of other people are passed over.
     pub(in super::super) fn take(&mut self, topic: &str, time: u64, message: &[u8]) -> Result<(), prost::DecodeError> {
         let time = time as f64 / 1e9;
@@ -248,10 +260,7 @@ impl Track {
 /// A frame from x, y, z in mm, a, b, c in deg.
 fn placed(values: &[f64]) -> [f32; 7] {
     let Ok(values) = <[f64; 6]>::try_from(values) else { return [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0] };
-    let placed = frame(values);
-    let ([x, y, z], [i, j, k, w]): ([f64; 3], [f64; 4]) =
-        (placed.translation.vector.into(), placed.rotation.coords.into());
-    [x, y, z, i, j, k, w].map(|value| value as f32)
+    written(&frame(values)).map(|value| value as f32)
 }
 
 impl Sink for Store {

@@ -7,11 +7,13 @@ mod summary;
 mod tests;
 
 use std::error::Error;
-use std::io::Write;
+use std::fs::File;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use arl_robot::cell::Body;
+use arl_robot::regular_file;
 
 use super::answer;
 use super::args::{Format, ReportFormat};
@@ -92,10 +94,15 @@ pub(super) fn compare(one: &Path, other: &Path, format: Format) -> Result<ExitCo
 
 /// The summary of a recording, or the one that a file holds.
 fn summary(file: &Path) -> Result<Summary, Failure> {
-    let bytes = std::fs::read(file).map_err(|error| Failure::io("read", file, &error))?;
-    if !bytes.trim_ascii_start().starts_with(b"{") {
+    let fail = |error| Failure::io("read", file, &error);
+    // A recording may be long: the first bytes tell what it is.
+    let mut first = [0; 64];
+    let opened = regular_file::expect(file).and_then(|()| File::open(file)).map_err(fail)?;
+    let length = (&opened).read(&mut first).map_err(fail)?;
+    if !first.get(..length).unwrap_or_default().trim_ascii_start().starts_with(b"{") {
         return Ok(Summary::of(&recorded::read(file)?));
     }
+    let bytes = regular_file::read(file).map_err(fail)?;
     serde_json::from_slice(&bytes).map_err(|error| {
         let what = "no report of a whole run, as `arl2rs run --report=FILE --format json` makes it";
         Failure::Other(format!("{} is {what}: {error}", file.display()))

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::super::record::messages::{Closest, Level, Motion};
-use super::super::recorded::{Store, Track};
+use super::super::recorded::{Signal, Store, Track};
 use super::super::texts::file_name;
 
 /// A run: times in s, ways in mm.
@@ -208,13 +208,11 @@ impl OfLine {
 }
 
 fn signals(store: &Store) -> Vec<OfSignal> {
-    let of = |(signal, changes): (&super::super::recorded::Signal, &Vec<(f64, f64)>)| {
-        let signal = format!("{}.{}", signal.kind, signal.number);
-        let name = store.cell.names.iter().find(|name| name.signal == signal);
+    let of = |(signal, changes): (&Signal, &Vec<(f64, f64)>)| {
         let ends = changes.iter().skip(1).map(|(time, _)| *time).chain([store.end]);
         let on = changes.iter().zip(ends).filter(|((_, value), _)| *value != 0.0).map(|((begin, _), end)| end - begin);
-        let name = name.map(|name| name.name.clone()).unwrap_or_default();
-        OfSignal { signal, name, changes: changes.len(), on: rounded(on.sum()) }
+        let name = store.name_of(*signal).unwrap_or_default().to_owned();
+        OfSignal { signal: signal.to_string(), name, changes: changes.len(), on: rounded(on.sum()) }
     };
     store.signals.iter().map(of).collect()
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde_json::{Map, Value, json};
 
 use super::super::record::messages::{
-    Blend, Closest, Color, Level, Log, Motion, Pose, Quaternion, SceneUpdate, Vector3,
+    Blend, Closest, Color, Level, Log, Motion, Pose, Quaternion, SceneUpdate, Solid, Vector3,
 };
 use super::super::recorded::{Signal, Store, TOLD_AGAIN, Took, Track};
 
@@ -23,8 +23,17 @@ pub(super) struct Known {
     pub(super) signals: usize,
 }
 
+/// What the page is told besides.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct About<'a> {
+    /// The file that is shown.
+    pub(super) name: &'a str,
+    /// Whether points of the program may be written.
+    pub(super) teaches: bool,
+}
+
 /// All of a run but where the robots were.
-pub(super) fn run(store: &Store, name: &str) -> Value {
+pub(super) fn run(store: &Store, about: About<'_>) -> Value {
     let mut answer = news(store, &Known::default());
     let channels = store.cell.channels.iter().map(|runs| {
         let axes = runs.axes.iter();
@@ -40,12 +49,12 @@ pub(super) fn run(store: &Store, name: &str) -> Value {
     let names = store.cell.names.iter().map(|name| (name.signal.clone(), Value::from(name.name.clone())));
     let sources = store.sources.iter().map(|source| json!({"name": source.name, "text": source.text}));
     let more = [
-        ("name", Value::from(name)),
+        ("name", Value::from(about.name)),
         ("channels", channels.collect()),
         ("names", names.collect::<Map<_, _>>().into()),
         ("sources", sources.collect()),
         ("keywords", arl_lang::language_words().collect()),
-        ("teaches", store.teaches.into()),
+        ("teaches", about.teaches.into()),
         ("trouble", store.trouble.clone().into()),
     ];
     if let Value::Object(fields) = &mut answer {
@@ -99,12 +108,10 @@ fn models_of(update: &SceneUpdate) -> usize {
 
 fn scene(store: &Store, time: f64, update: &SceneUpdate, models: &mut usize) -> Value {
     let entities = update.entities.iter().map(|entity| {
-        let solid = |one: &super::super::record::messages::Solid| {
-            json!({"pose": pose(one.pose), "size": vector(one.size), "color": color(one.color)})
-        };
+        let solid = |one: &Solid| json!({"pose": pose(one.pose), "size": vector(one.size), "color": color(one.color)});
         let cylinders = entity.cylinders.iter();
-        let cylinders = cylinders
-            .map(|one| json!({"pose": pose(one.pose), "size": vector(one.size), "color": color(one.color)}));
+        let cylinders =
+            cylinders.map(|one| json!({"pose": pose(one.pose), "size": vector(one.size), "color": color(one.color)}));
         let drawn = entity.models.iter().map(|one| {
             let mesh = store.models.get(*models);
             *models += 1;
@@ -173,7 +180,7 @@ fn signals(store: &Store, known: usize) -> Value {
     for (signal, time, value) in store.changes.iter().skip(known) {
         of.entry(*signal).or_default().extend([*time, *value]);
     }
-    let told = |(Signal { kind, number }, changes): (Signal, Vec<f64>)| json!({"signal": format!("{kind}.{number}"), "changes": changes});
+    let told = |(signal, changes): (Signal, Vec<f64>)| json!({"signal": signal.to_string(), "changes": changes});
     of.into_iter().map(told).collect()
 }
 
@@ -184,7 +191,7 @@ pub(super) fn samples(track: &Track, [from, to]: [f64; 2], most: usize) -> Vec<u
     let first = track.times.partition_point(|time| *time < from).saturating_sub(1);
     let end = track.times.partition_point(|time| *time <= to).max(first);
     let step = (end - first).div_ceil(most.max(2)).max(1);
-    // The last row is there whatever the step.
+    // Columns are as long as each other, and rows within them. The last row is there whatever the step.
     let last = (end > first).then(|| end - 1);
     let rows = || (first..end).step_by(step).chain(last.filter(|last| (last - first) % step != 0));
     let mut out = Vec::new();

@@ -5,12 +5,10 @@ use std::process::Command;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use arl_robot::cell::Cell;
+use arl_robot::cell::Body;
 use mcap::McapResult;
 
 use super::super::cargo;
-use super::super::collide::Collisions;
-use super::super::failure::{Failure, INTERRUPTED};
 use super::super::link::Link;
 use super::super::listen::{Hears, pass_on};
 use super::super::record::{Recorder, Schema, Sink};
@@ -29,9 +27,10 @@ pub(super) struct Live {
 }
 
 impl Live {
-    /// Starts a program, which waits for its start button.
-    pub(super) fn start(mut command: Command) -> std::io::Result<Self> {
-        command.args(["--live", "--paused", "--each-motion", "--each-cycle", "--state-interval", STATE_INTERVAL]);
+    /// Starts a program, which waits for its start button. `each_cycle`: somebody wants to hear in each cycle where the robots are.
+    pub(super) fn start(mut command: Command, each_cycle: bool) -> std::io::Result<Self> {
+        command.args(["--live", "--paused", "--each-motion", "--state-interval", STATE_INTERVAL]);
+        command.args(each_cycle.then_some("--each-cycle"));
         Ok(Self { link: Arc::new(Mutex::new(Link::start(command)?)) })
     }
 
@@ -47,12 +46,10 @@ impl Live {
         Ok(())
     }
 
-    /// Hears the program until it ends; its exit code.
-    pub(super) fn hear(&self, cell: &Cell, store: &Arc<Mutex<Store>>) -> Result<u8, Failure> {
-        let (collisions, _) = Collisions::new(cell, 0.0, true)?;
-        let recorder = Recorder::new(Shared(Arc::clone(store)), &cell.bodies);
-        let growing = Growing { recorder, store: Arc::clone(store) };
-        let mut hearers: Vec<Box<dyn Hears>> = vec![Box::new(collisions), Box::new(growing)];
+    /// Hears the program until it ends; its exit code. Who hears it first, `hearers`, may add to what the page is told.
+    pub(super) fn hear(&self, mut hearers: Vec<Box<dyn Hears>>, bodies: &[Body], store: &Arc<Mutex<Store>>) -> u8 {
+        let recorder = Recorder::new(Shared(Arc::clone(store)), bodies);
+        hearers.push(Box::new(Growing { recorder, store: Arc::clone(store) }));
         loop {
             let (ended, lines) = {
                 let mut link = self.link.lock().unwrap_or_else(PoisonError::into_inner);
@@ -67,7 +64,7 @@ impl Live {
             lines.into_iter().for_each(|line| pass_on(told(line), &mut hearers));
             if let Some(code) = ended {
                 store.lock().unwrap_or_else(PoisonError::into_inner).goes_on = false;
-                return Ok(code);
+                return code;
             }
             std::thread::sleep(LOOK_INTERVAL);
         }
@@ -108,7 +105,7 @@ impl Hears for Growing {
     }
 
     fn broken(&self) -> String {
-        format!("the view does not go on (exit code {INTERRUPTED})")
+        "the page shows nothing new".to_owned()
     }
 }
 

@@ -22,11 +22,12 @@ use serde_json::{Value, json};
 
 use super::args::ViewOptions;
 use super::failure::Failure;
+use super::listen::Hears;
 use super::program::prepare;
 use super::recorded::{self, Store};
 use super::report::{Differences, Summary};
-use super::{robot, show, texts};
-use answer::Known;
+use super::{robot, run, show, texts};
+use answer::{About, Known};
 use live::Live;
 use serve::{Answer, Asked};
 use teach::Teacher;
@@ -48,7 +49,7 @@ pub(super) fn view(files: &[PathBuf], options: &ViewOptions) -> Result<ExitCode,
     let name = |file: &Path| file.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let is_program = |file: &Path| file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("arl"));
     match files {
-        [program] if is_program(program) => run(program, name(program), options),
+        [program] if is_program(program) => view_live(program, name(program), options),
         files => {
             if let Some(program) = files.iter().find(|file| is_program(file)) {
                 let text = format!("{} is a program: what runs is shown alone", program.display());
@@ -68,25 +69,27 @@ pub(super) fn view(files: &[PathBuf], options: &ViewOptions) -> Result<ExitCode,
 }
 
 /// Shows a program that runs, until it ends.
-fn run(program: &Path, name: String, options: &ViewOptions) -> Result<ExitCode, Failure> {
+fn view_live(program: &Path, name: String, options: &ViewOptions) -> Result<ExitCode, Failure> {
     let options_of_run = options.run().of_program(program)?;
-    let cell = options_of_run.cell.as_deref().map(Cell::load).transpose();
-    let cell = cell.map_err(|error| Failure::Usage(error.to_string()))?.unwrap_or_default();
+    let cell = run::cell(&options_of_run)?;
     let ready = prepare(program, options_of_run.cell.as_deref(), &options_of_run.checking())?;
-    let mut store = Store { goes_on: true, teaches: options.teach, ..Store::default() };
-    store.sources = texts::read(&ready.sources);
+    // What is wrong is told before anything is started.
+    let teach = || robots(&cell, options_of_run.robot.as_deref()).map(|robots| Teacher::new(robots, &ready.sources));
+    let teacher = options.teach.then(teach).transpose()?;
+    let collisions = run::collisions(&cell, None)?;
+    let store = Store { goes_on: true, sources: texts::read(&ready.sources), ..Store::default() };
     let mut command = Command::new(&ready.program);
     command.args(options_of_run.arguments());
-    let live = Live::start(command).map_err(|error| Failure::io("start", &ready.program, &error))?;
+    let live =
+        Live::start(command, collisions.is_some()).map_err(|error| Failure::io("start", &ready.program, &error))?;
     drop(ready.lock);
     // The program stops its robot, and this command ends with it.
     super::cargo::leave_interrupts_to_the_program();
     let store = Arc::new(Mutex::new(store));
-    let teach = || robots(&cell, options_of_run.robot.as_deref()).map(|robots| Teacher::new(robots, &ready.sources));
-    let teacher = options.teach.then(teach).transpose()?;
     let shown = Arc::new(Shown { runs: vec![(name, Arc::clone(&store))], live: Some(live), teacher });
     let _server = serve(&shown, options)?;
-    let code = shown.live.as_ref().map_or(Ok(0), |live| live.hear(&cell, &store))?;
+    let hearers = collisions.into_iter().map(|collisions| Box::new(collisions) as Box<dyn Hears>).collect();
+    let code = shown.live.as_ref().map_or(0, |live| live.hear(hearers, &cell.bodies, &store));
     Ok(ExitCode::from(code))
 }
 
@@ -150,16 +153,17 @@ impl Shown {
             },
             Some(["run", number, rest @ ..]) => {
                 let run = number.parse::<usize>().ok().and_then(|number| self.runs.get(number));
-                run.map_or(Answer::NotFound, |(name, store)| of_run(&lock(store), name, rest, asked))
+                let about = |name| About { name, teaches: self.teacher.is_some() };
+                run.map_or(Answer::NotFound, |(name, store)| of_run(&lock(store), about(name), rest, asked))
             }
             _ => Answer::NotFound,
         }
     }
 }
 
-fn of_run(store: &Store, name: &str, path: &[&str], asked: &Asked<'_>) -> Answer {
+fn of_run(store: &Store, about: About<'_>, path: &[&str], asked: &Asked<'_>) -> Answer {
     match path {
-        [] => Answer::Json(answer::run(store, name)),
+        [] => Answer::Json(answer::run(store, about)),
         ["news"] => Answer::Json(answer::news(store, &known(asked))),
         ["model", number] => match number.parse().ok().and_then(|number: usize| store.meshes.get(number)) {
             Some(bytes) => Answer::Bytes("model/stl", bytes.clone()),

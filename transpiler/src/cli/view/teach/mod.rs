@@ -12,7 +12,7 @@ use std::sync::{Mutex, PoisonError};
 
 use arl_robot::{Family, Robot};
 use serde::de::DeserializeOwned;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::serve::Answer;
 use place::{Asked, Map};
@@ -41,17 +41,17 @@ impl Teacher {
     pub(super) fn answer(&self, path: &[&str], order: Option<&str>) -> Answer {
         let mut files = self.files.lock().unwrap_or_else(PoisonError::into_inner);
         let answer = match (path, order) {
-            (["points"], None) => Ok(points::told(&files)),
+            (["points"], None) => Ok(json!(points::told(&files))),
             (["place"], Some(order)) => read::<Asked>(order)
                 .and_then(|asked| place::place(self.robot(asked.channel)?, &asked))
                 .map(|place| json!(place)),
             (["map"], Some(order)) => {
                 read::<Map>(order).and_then(|map| place::map(self.robot(map.channel)?, &map)).map(|map| json!(map))
             }
-            (["save"], Some(order)) => {
-                read::<Vec<Change>>(order).and_then(|changes| files.save(&changes)).map(|()| points::told(&files))
-            }
-            (["undo"], Some(_)) => files.undo().map(|()| points::told(&files)),
+            (["save"], Some(order)) => read::<Vec<Change>>(order)
+                .and_then(|changes| files.save(&changes))
+                .map(|()| json!(points::told(&files))),
+            (["undo"], Some(_)) => files.undo().map(|()| json!(points::told(&files))),
             _ => return Answer::NotFound,
         };
         answer.map_or_else(Answer::Refused, Answer::Json)
@@ -59,7 +59,5 @@ impl Teacher {
 }
 
 fn read<T: DeserializeOwned>(order: &str) -> Result<T, String> {
-    serde_json::from_str::<Value>(order)
-        .and_then(serde_json::from_value)
-        .map_err(|error| format!("this is not understood: {error}"))
+    serde_json::from_str(order).map_err(|error| format!("this is not understood: {error}"))
 }

@@ -5,7 +5,7 @@ use arl_robot::frames::{Mount, Setting};
 use arl_robot::kinematics::{Axes, Frame, Refusal, Singularity, Wanted, frame, frame_components, wrap_degrees};
 use serde::{Deserialize, Serialize};
 
-use super::super::super::said::{Placed, placed};
+use super::super::super::said::{Placed, placed, written};
 
 /// Below that clearance of a singular point, people are told.
 const NEAR_SINGULAR: f64 = 0.08;
@@ -97,12 +97,6 @@ impl Where {
     }
 }
 
-fn of_frame(frame: &Frame) -> Placed {
-    let ([x, y, z], [i, j, k, w]): ([f64; 3], [f64; 4]) =
-        (frame.translation.vector.into(), frame.rotation.coords.into());
-    [x, y, z, i, j, k, w]
-}
-
 /// The robot's own axes.
 fn own(robot: &Robot, axes: &[f64]) -> Result<Axes, String> {
     let count = robot.own_axes().len();
@@ -131,8 +125,8 @@ pub(super) fn place(robot: &Robot, asked: &Asked) -> Result<Place, String> {
     let far = |axes: &Axes| axes.iter().zip(&near).map(|(one, other)| (one - other).abs()).fold(0.0, f64::max);
     let reached = solutions.iter().enumerate().filter_map(|(at, one)| Some((at, far(one.axes.as_ref()?))));
     let nearest = reached.min_by(|one, other| one.1.total_cmp(&other.1)).map(|(at, _)| at);
-    let written = asked.components.unwrap_or_else(|| components(&pose, asked.before.as_ref()));
-    Ok(Place { components: written, placed: of_frame(&(setting.workpiece() * pose)), solutions, nearest })
+    let shown = asked.components.unwrap_or_else(|| components(&pose, asked.before.as_ref()));
+    Ok(Place { components: shown, placed: written(&(setting.workpiece() * pose)), solutions, nearest })
 }
 
 /// The components of a pose: angles have another form, too, a and c turned half around and b beyond the quarter.
@@ -206,6 +200,6 @@ pub(super) fn map(robot: &Robot, map: &Map) -> Result<Mapped, String> {
             places.extend(char::from_digit(digit, 10));
         }
     }
-    let origin = of_frame(&(setting.workpiece() * frame([corner[0], corner[1], z, 0.0, 0.0, 0.0])));
+    let origin = written(&(setting.workpiece() * frame([corner[0], corner[1], z, 0.0, 0.0, 0.0])));
     Ok(Mapped { side, step: map.step, origin, places })
 }

@@ -8,9 +8,9 @@ use arl_lang::symbol::Interner;
 use arl_robot::Family;
 use arl_robot::kinematics::frame;
 use arl_robot::{atomic_file, regular_file};
-use serde::Deserialize;
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
 
+use super::super::super::said::{Placed, written};
 use super::super::super::texts::file_name;
 
 /// How the names of data files end.
@@ -145,23 +145,23 @@ fn write(path: &Path, content: &[u8]) -> Result<(), String> {
 
 /// What a program computes is not replaced by numbers, nor what somebody else has changed since it was looked at.
 fn expect_known(bytes: &[u8], change: &Change, family: Family) -> Result<(), String> {
+    // Whoever replaces the value tells of texts that cannot be read.
     let Ok(text) = arl_lang::text::decode(bytes) else { return Ok(()) };
     let (name, file) = (&change.name, &change.file);
-    let mut points = Vec::new();
-    of_text(file, &text, family, &mut points, &mut Vec::new());
-    let same = |point: &&Value| {
-        let is = |key: &str, value: &str| point[key].as_str().is_some_and(|own| own.eq_ignore_ascii_case(value));
-        is("name", name) && is("type", &change.r#type)
+    let mut told = Told::default();
+    told.read(file, &text, family);
+    let is = |own: &str, asked: &str| own.eq_ignore_ascii_case(asked);
+    let Some(point) = told.points.iter().find(|one| is(&one.name, name) && is(&one.r#type, &change.r#type)) else {
+        return Ok(());
     };
-    match points.iter().find(same) {
-        Some(point) if point["plain"] == false => {
-            Err(format!("{name} is computed in {file}: only values that are plain numbers are replaced"))
-        }
-        Some(point) if point["values"] != json!(change.before) => {
-            Err(format!("{name} was changed in {file} by somebody else since: look at it again first"))
-        }
-        _ => Ok(()),
+    if !point.plain {
+        return Err(format!("{name} is computed in {file}: only values that are plain numbers are replaced"));
     }
+    let before = change.before.iter().map(|(component, value)| (component.as_str(), *value));
+    if !point.values.iter().map(|(component, value)| (*component, *value)).eq(before) {
+        return Err(format!("{name} was changed in {file} by somebody else since: look at it again first"));
+    }
+    Ok(())
 }
 
 fn components(ty: &str, family: Family) -> Option<&'static [&'static str]> {
@@ -190,47 +190,76 @@ fn literal(change: &Change, family: Family) -> Result<String, String> {
     Ok(format!("{{{}}}", written.join(", ")))
 }
 
-/// The points, tools and workpieces of all files, for the page.
-pub(super) fn told(files: &Files) -> Value {
-    let (mut points, mut frames, mut troubles) = (Vec::new(), Vec::new(), Vec::new());
+/// What data files hold, for the page.
+#[derive(Default, Serialize, Debug)]
+pub(super) struct Told {
+    points: Vec<Point>,
+    frames: Vec<Mounted>,
+    /// How many steps can be taken back.
+    undo: usize,
+    /// What cannot be read, and why.
+    troubles: Vec<String>,
+}
+
+/// A point: its components that are plain numbers, in mm and deg.
+#[derive(Serialize, Debug)]
+struct Point {
+    file: String,
+    r#type: String,
+    name: String,
+    values: BTreeMap<&'static str, f64>,
+    /// Whether it has no others.
+    plain: bool,
+}
+
+/// A tool or workpiece.
+#[derive(Serialize, Debug)]
+struct Mounted {
+    file: String,
+    r#type: String,
+    name: String,
+    /// a, b, c in deg.
+    angles: [f64; 3],
+    placed: Placed,
+    /// Whether it is where such usually are not: a tool that stands, a workpiece that is held.
+    other: bool,
+}
+
+/// The points, tools and workpieces of all files.
+pub(super) fn told(files: &Files) -> Told {
+    let mut told = Told { undo: files.steps.len(), ..Told::default() };
     for path in &files.paths {
         let name = files.name(path);
         let text = read(path).and_then(|bytes| {
             arl_lang::text::decode(&bytes).map(std::borrow::Cow::into_owned).map_err(|error| format!("{name}: {error}"))
         });
         match text {
-            Ok(text) => of_text(&name, &text, files.family, &mut points, &mut frames),
-            Err(why) => troubles.push(why),
+            Ok(text) => told.read(&name, &text, files.family),
+            Err(why) => told.troubles.push(why),
         }
     }
-    let names: Vec<String> = files.paths.iter().map(|path| files.name(path)).collect();
-    json!({"points": points, "frames": frames, "files": names, "undo": files.steps.len(), "troubles": troubles})
+    told
 }
 
-fn of_text(file: &str, text: &str, family: Family, points: &mut Vec<Value>, frames: &mut Vec<Value>) {
-    let mut names = Interner::default();
-    let parsed = arl_lang::parse(text, &mut names, arl_lang::ParseOptions::default());
-    for item in &parsed.file.items {
-        let Item::Global(decl) = item else { continue };
-        let ty = names.name(decl.ty.name).to_ascii_lowercase();
-        for var in decl.vars.iter().filter(|var| var.dims.is_empty()) {
-            let name = names.name(var.name.symbol);
-            let items = braced(var);
-            match ty.as_str() {
-                "pose" | "joint" => {
-                    let known = components(&ty, family).unwrap_or_default();
+impl Told {
+    fn read(&mut self, file: &str, text: &str, family: Family) {
+        let mut names = Interner::default();
+        let parsed = arl_lang::parse(text, &mut names, arl_lang::ParseOptions::default());
+        for item in &parsed.file.items {
+            let Item::Global(decl) = item else { continue };
+            let r#type = names.name(decl.ty.name).to_ascii_lowercase();
+            for var in decl.vars.iter().filter(|var| var.dims.is_empty()) {
+                let (file, r#type, name) = (file.to_owned(), r#type.clone(), names.name(var.name.symbol).to_owned());
+                let items = braced(var);
+                if let Some(known) = components(&r#type, family) {
                     let values = values(items, known, &names);
                     let plain = values.len() == items.len() && var.init.is_some() == is_braced(var);
-                    points.push(json!({"file": file, "type": ty, "name": name, "values": values, "plain": plain}));
+                    self.points.push(Point { file, r#type, name, values, plain });
+                } else if matches!(r#type.as_str(), "tool" | "wobj")
+                    && let Some((angles, placed, other)) = mount(items, &names)
+                {
+                    self.frames.push(Mounted { file, r#type, name, angles, placed, other });
                 }
-                "tool" | "wobj" => {
-                    if let Some((angles, placed, other)) = mount(items, &names) {
-                        frames.push(
-                            json!({"file": file, "type": ty, "name": name, "angles": angles, "placed": placed, "other": other}),
-                        );
-                    }
-                }
-                _ => {}
             }
         }
     }
@@ -269,8 +298,8 @@ fn number(expr: &Expr) -> Option<f64> {
     }
 }
 
-/// The angles a, b, c of a tool or workpiece in deg, its frame, and whether it is where such usually are not: a tool that stands, a workpiece that is held.
-fn mount(items: &[BraceItem], names: &Interner) -> Option<([f64; 3], [f64; 7], bool)> {
+/// The angles of a tool or workpiece, its frame, and whether it is where such usually are not.
+fn mount(items: &[BraceItem], names: &Interner) -> Option<([f64; 3], Placed, bool)> {
     let ExprKind::Brace(inner) = &items.first()?.value.kind else { return None };
     let found = values(inner, POSE.get(..6)?, names);
     if found.len() < inner.len() {
@@ -281,8 +310,6 @@ fn mount(items: &[BraceItem], names: &Interner) -> Option<([f64; 3], [f64; 7], b
     let angles = ["a", "b", "c"].map(component);
     let [a, b, c] = angles;
     let placed = frame([component("x"), component("y"), component("z"), a, b, c]);
-    let ([x, y, z], [i, j, k, w]): ([f64; 3], [f64; 4]) =
-        (placed.translation.vector.into(), placed.rotation.coords.into());
     let other = matches!(items.get(1).map(|item| &item.value.kind), Some(ExprKind::Bool(true)));
-    Some((angles, [x, y, z, i, j, k, w], other))
+    Some((angles, written(&placed), other))
 }
