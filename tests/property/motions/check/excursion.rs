@@ -42,7 +42,7 @@ impl Account<'_> {
         for range in ways {
             let row = &rows[range.end - 1];
             let mut leg = if row.line == 0 {
-                let mut leg = Leg::at(robot, &row.axes, &jogging(robot));
+                let mut leg = Leg::at(robot, &row.axes, &jogging(robot, &program[excursion.stopped]));
                 let jogged = scenario.events.iter().filter_map(|event| match event.deed {
                     Deed::Jog(axis, by) => Some((axis, by)),
                     _ => None,
@@ -140,8 +140,8 @@ fn way(robot: &Robot, program: &[Leg], excursion: &Excursion, (stopped, line): (
     leg
 }
 
-/// Somebody moves the robot by hand.
-fn jogging(robot: &Robot) -> Leg {
+/// Somebody moves the robot by its buttons, with what it carries in the motion that was stopped.
+fn jogging(robot: &Robot, stopped: &Leg) -> Leg {
     let motion = Motion {
         line: 0,
         kind: Kind::Movej,
@@ -157,5 +157,5 @@ fn jogging(robot: &Robot) -> Leg {
         waits: true,
         manual: true,
     };
-    Leg::bare(robot, motion)
+    Leg { setting: stopped.setting, ..Leg::bare(robot, motion) }
 }
