@@ -24,6 +24,8 @@ pub struct Outline {
     pub modbus_tcp: bool,
     /// Whether other programs run beside the first one.
     pub others: bool,
+    /// Whether the cell says of robots where they stand in the world.
+    pub based: bool,
     /// How many programs with a robot run beside each other: foreground channels, from 1.
     pub foreground: u32,
 }
@@ -45,6 +47,10 @@ impl Outline {
             devicenet: cell.buses.devicenet as u32,
             modbus_tcp: cell.buses.modbus_tcp.is_some(),
             others: !cell.programs.channels.is_empty(),
+            based: {
+                let others = cell.programs.channels.iter().map(|channel| &channel.stands);
+                others.chain([&cell.stands]).any(|stands| stands.base.is_some())
+            },
             foreground: 1 + cell.programs.channels.iter().filter(|channel| !channel.background).count() as u32,
         }
     }

@@ -64,7 +64,7 @@ class Page {
     this.live = new Live(this.run, {
       begun: () => location.reload(),
       more: () => {
-        this.stale = true;
+        this.stale = this.tracks.stale = true;
         if (
           !["Source", "Teach"].includes(this.tab) &&
           this.shownVersion !== this.run.told.version &&

@@ -5,13 +5,14 @@ import {
   BoxGeometry,
   Color,
   CylinderGeometry,
+  DoubleSide,
   Group,
   Mesh,
   MeshStandardMaterial,
   Object3D,
   Quaternion,
-  SphereGeometry,
   STLLoader,
+  SphereGeometry,
   Vector3,
 } from "./three.js";
 
@@ -38,8 +39,10 @@ export class Frames {
     this.arms = channels.map((/** @type {any} */ channel) => this.arm(channel));
     /** @type {Map<string, {of: any, group: Group}>} */
     this.entities = new Map();
-    /** @type {Map<string, Group>} what was drawn, by how it is told */
+    /** @type {Map<string, {form: string, group: Group}>} what was drawn last of each body, and how that was told */
     this.drawn = new Map();
+    /** @type {Map<number, any>} triangles that were fetched */
+    this.meshes = new Map();
   }
 
   /** @param {any} channel */
@@ -112,14 +115,14 @@ export class Frames {
       const parent = this.all.get(of.frame);
       if (this.entities.has(id) || !parent) continue;
       const form = JSON.stringify(of);
-      let group = this.drawn.get(form);
-      if (!group) {
-        group = new Group();
-        this.fill(group, of);
-        this.drawn.set(form, group);
+      let drawn = this.drawn.get(id);
+      if (drawn?.form !== form) {
+        drawn = { form, group: new Group() };
+        this.fill(drawn.group, of);
+        this.drawn.set(id, drawn);
       }
-      parent.add(group);
-      this.entities.set(id, { of, group });
+      parent.add(drawn.group);
+      this.entities.set(id, { of, group: drawn.group });
     }
   }
 
@@ -141,14 +144,34 @@ export class Frames {
       add(new CylinderGeometry(width / 2, width / 2, length, 36).rotateX(Math.PI / 2), one);
     }
     for (const one of entity.models) {
-      fetch(`${this.run.address}/model/${one.model}`)
-        .then((answer) => answer.arrayBuffer())
-        .then((bytes) => {
-          add(new STLLoader().parse(bytes), one).scale.set(.../** @type {[number, number, number]} */ (one.scale));
+      /** @param {any} geometry */
+      const addMesh = (geometry) => {
+        const mesh = add(geometry, one);
+        mesh.material.side = DoubleSide;
+        mesh.scale.set(.../** @type {[number, number, number]} */ (one.scale));
+      };
+      const known = this.meshes.get(one.model);
+      if (known) {
+        addMesh(known);
+        continue;
+      }
+      this.mesh(one.model)
+        .then((geometry) => {
+          addMesh(geometry);
           this.run.changed();
         })
         .catch((problem) => console.warn(`${entity.id} cannot be drawn: ${problem}`));
     }
+  }
+
+  /** The triangles of a mesh of the recording. @param {number} model */
+  async mesh(model) {
+    const answer = await fetch(`${this.run.address}/model/${model}`);
+    const geometry = new STLLoader().parse(await answer.arrayBuffer());
+    // Files lie about normals, and about which side of a triangle is outside.
+    geometry.computeVertexNormals();
+    this.meshes.set(model, geometry);
+    return geometry;
   }
 
   /** @param {number[]} color */
@@ -161,7 +184,8 @@ export class Frames {
   /** Has some bodies stand out. @param {Set<string>} ids @param {string} color */
   mark(ids, color) {
     for (const [id, { group }] of this.entities) {
-      const marked = ids.has(id);
+      // Links that people call the same have their number behind the name.
+      const marked = ids.has(id) || (!id.startsWith("body/") && ids.has(id.replace(/\/\d+$/, "")));
       if (group.userData.marked === marked) continue;
       group.userData.marked = marked;
       for (const mesh of /** @type {any[]} */ (group.children)) {

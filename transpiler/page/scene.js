@@ -23,10 +23,10 @@ import { Frames } from "./robot.js";
 /** A contact is shown for so long, in s. */
 const CONTACT_S = 0.5;
 
-/** The name of a body in the scene, by what a contact calls it. @param {string} name @returns {string[]} */
+/** The names of a body in the scene, by what a contact calls it. @param {string} name @returns {string[]} */
 function idsOf(name) {
   const of = /^(.*) of channel (\d+)$/.exec(name);
-  return [name, `body/${name}`, of ? `channel_${of[2]}/${of[1]}` : name];
+  return [`body/${name}`, of ? `channel_${of[2]}/${of[1]}` : name];
 }
 
 export class CellScene {

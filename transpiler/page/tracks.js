@@ -7,6 +7,7 @@ import { marks, motions, signal, strip } from "./rows.js";
 
 const GUTTER = 132;
 const AXIS_HEIGHT = 24;
+const FONT = "11px system-ui, sans-serif";
 /** No stretch is shorter than that, in s. */
 const SHORTEST_S = 0.02;
 
@@ -22,6 +23,9 @@ export class Tracks {
     this.tall = element("div", { className: "tall" });
     holder.replaceChildren(this.canvas, this.tall);
     this.context = /** @type {CanvasRenderingContext2D} */ (this.canvas.getContext("2d"));
+    // What stays as it is while time goes on: the rows, without the moment.
+    this.still = /** @type {HTMLCanvasElement} */ (element("canvas"));
+    this.stillContext = /** @type {CanvasRenderingContext2D} */ (this.still.getContext("2d"));
     this.channel = channel;
     this.seek = seek;
     this.from = 0;
@@ -32,7 +36,9 @@ export class Tracks {
     this.height = holder.clientHeight;
     /** @type {import('./samples.js').Rows | undefined} */
     this.rows = undefined;
+    /** Whether the rows are to be drawn again, or only the moment. */
     this.stale = true;
+    this.moved = true;
     /** @type {import('./rows.js').Row[]} */
     this.list = [];
     this.rebuild();
@@ -47,6 +53,7 @@ export class Tracks {
 
   /** Another robot, or signals that were not there before. @param {any} [channel] */
   rebuild(channel = this.channel) {
+    if (channel !== this.channel) this.rows = undefined;
     this.channel = channel;
     const [run, other] = this.runs;
     const several = run.robots.length > 1;
@@ -88,6 +95,7 @@ export class Tracks {
     });
     this.lanes = run.lanes.size;
     this.list = list;
+    this.stale = true;
     this.tall.style.height = `${this.contentHeight}px`;
     this.fetch();
   }
@@ -101,7 +109,7 @@ export class Tracks {
     const ratio = window.devicePixelRatio || 1;
     this.width = clientWidth;
     this.height = clientHeight;
-    Object.assign(this.canvas, { width: clientWidth * ratio, height: clientHeight * ratio });
+    for (const canvas of [this.canvas, this.still]) Object.assign(canvas, { width: clientWidth * ratio, height: clientHeight * ratio });
     Object.assign(this.canvas.style, { width: `${clientWidth}px`, height: `${clientHeight}px` });
     // The canvas stays where it is while what is below it scrolls.
     this.tall.style.marginTop = `${-clientHeight}px`;
@@ -126,8 +134,12 @@ export class Tracks {
     if (!this.channel) return;
     this.due = setTimeout(async () => {
       const margin = (this.to - this.from) * 0.1;
+      const { channel } = this;
       try {
-        this.rows = await this.channel.samples.window(this.from - margin, this.to + margin, this.width * 2);
+        const rows = await channel.samples.window(this.from - margin, this.to + margin, this.width * 2);
+        // Another robot may have been chosen meanwhile.
+        if (channel !== this.channel) return;
+        this.rows = rows;
         this.stale = true;
       } catch {
         // A server that is gone is told of elsewhere.
@@ -188,6 +200,7 @@ export class Tracks {
   show(time) {
     if (this.follows && Math.abs(this.to - this.end) > 1e-6) {
       [this.from, this.to] = [0, this.end];
+      this.stale = true;
       if (!this.fetched || performance.now() - this.fetched > 400) {
         this.fetched = performance.now();
         this.fetch();
@@ -200,34 +213,56 @@ export class Tracks {
       this.zoom(time - length * 0.1, time + length * 0.9);
     }
     this.time = time;
-    this.stale = true;
+    this.moved = true;
   }
 
   draw() {
-    if (!this.stale) return;
-    this.stale = false;
-    const { context, width, height } = this;
+    // What has no size cannot be drawn.
+    if ((!this.stale && !this.moved) || !this.still.width || !this.still.height) return;
+    if (this.stale) this.drawStill();
+    this.stale = this.moved = false;
+    const { context, height } = this;
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.drawImage(this.still, 0, 0);
+    const ratio = window.devicePixelRatio || 1;
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.font = FONT;
+    context.textBaseline = "middle";
+    context.textAlign = "right";
+    context.fillStyle = theme("text");
+    for (const { row, top } of this.shown()) {
+      const value = row.value?.(this.time);
+      const y = top + Math.min(row.height / 2, 12);
+      if (value && y > AXIS_HEIGHT + 5) context.fillText(value, GUTTER - 6, y, 56 + (row.height > 30 ? 10 : 0));
+    }
+    context.textAlign = "left";
+    const here = this.x(this.time);
+    if (here >= GUTTER) context.fillRect(here - 0.5, 0, 1, height);
+  }
+
+  /** The rows that are not scrolled out of sight, and where. */
+  *shown() {
+    let top = AXIS_HEIGHT - this.holder.scrollTop;
+    for (const row of this.list) {
+      if (top + row.height > AXIS_HEIGHT && top < this.height) yield { row, top };
+      top += row.height;
+    }
+  }
+
+  drawStill() {
+    const { stillContext: context, width, height } = this;
     const ratio = window.devicePixelRatio || 1;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.fillStyle = theme("sunk");
     context.fillRect(0, 0, width, height);
-    context.font = "11px system-ui, sans-serif";
-    const here = this.x(this.time);
-    let top = AXIS_HEIGHT - this.holder.scrollTop;
-    for (const row of this.list) {
-      if (top + row.height > AXIS_HEIGHT && top < height) this.drawRow(row, top, here);
-      top += row.height;
-    }
+    context.font = FONT;
+    for (const { row, top } of this.shown()) this.drawRow(row, top);
     this.drawTimes();
-    if (here >= GUTTER) {
-      context.fillStyle = theme("text");
-      context.fillRect(here - 0.5, 0, 1, height);
-    }
   }
 
-  /** @param {import('./rows.js').Row} row @param {number} top @param {number} here */
-  drawRow(row, top, here) {
-    const { context, width } = this;
+  /** @param {import('./rows.js').Row} row @param {number} top */
+  drawRow(row, top) {
+    const { stillContext: context, width } = this;
     context.save();
     context.beginPath();
     context.rect(GUTTER, Math.max(top, AXIS_HEIGHT), width - GUTTER, row.height);
@@ -243,19 +278,12 @@ export class Tracks {
     context.textBaseline = "middle";
     context.fillStyle = theme("quiet");
     context.fillText(row.label, 8, top + Math.min(row.height / 2, 12), GUTTER - 62);
-    const value = row.value?.(this.time);
-    if (value) {
-      context.fillStyle = theme("text");
-      context.textAlign = "right";
-      context.fillText(value, GUTTER - 6, top + Math.min(row.height / 2, 12), 56 + (row.height > 30 ? 10 : 0));
-      context.textAlign = "left";
-    }
     context.restore();
   }
 
   /** The times above: ticks at round numbers. */
   drawTimes() {
-    const { context, width } = this;
+    const { stillContext: context, width } = this;
     context.fillStyle = theme("back");
     context.fillRect(0, 0, width, AXIS_HEIGHT);
     const wished = ((this.to - this.from) / Math.max(width - GUTTER, 1)) * 80;

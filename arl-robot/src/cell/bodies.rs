@@ -7,11 +7,33 @@ use crate::channels::Channels;
 use crate::kinematics::{Frame, frame};
 use crate::settings::{Section, SettingsError, Value, hint, kind, number, table};
 
-const BODY: &[&str] = &["name", "box", "cylinder", "mesh", "at", "on", "channel", "when", "may_touch"];
+const BODY: &[&str] = &[
+    "name",
+    "box",
+    "cylinder",
+    "sphere",
+    "mesh",
+    "scale",
+    "urdf",
+    "at",
+    "on",
+    "channel",
+    "when",
+    "gripped_by",
+    "within",
+    "count",
+    "may_touch",
+];
+/// The forms of which a body has one.
+const FORMS: [&str; 5] = ["box", "cylinder", "sphere", "mesh", "urdf"];
 /// What a body may be fixed to.
 const HOLDERS: &[&str] = &["world", "flange"];
 /// No cell is larger, in mm.
 const LARGEST_MM: f64 = 1e6;
+/// So many of a kind are enough for a cell.
+const MOST_OF_A_KIND: f64 = 1000.0;
+/// How near the TCP has to be to what it grips, in mm, where nobody says it.
+const WITHIN_MM: f64 = 5.0;
 
 /// A body.
 #[derive(Clone, PartialEq, Debug)]
@@ -19,18 +41,42 @@ pub struct Body {
     /// What people call it.
     pub name: String,
     /// Its form.
-    pub solid: Solid,
+    pub form: Form,
     /// Where its middle is (the origin of a mesh), in what it is fixed to: in the world or in the flange, translation in mm.
     pub at: Frame,
     /// The channel, from 1, whose robot carries it on its flange; `None`: it stands in the world.
     pub carried_by: Option<u32>,
-    /// It is there only while this digital input or output has this level.
+    /// It is there only while this digital input or output has this level; what a robot takes along, until it is taken for the first time.
     pub when: Option<(Signal, bool)>,
+    /// How it is taken along by a robot and put down again, if it is. It stands in the world at first.
+    pub grip: Option<Grip>,
     /// The names of bodies, and of parts of robots, that it may touch.
     pub may_touch: Vec<String>,
 }
 
-/// The form of a body, around its middle.
+/// When a robot takes a body along.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Grip {
+    /// The digital input or output of the gripper, and the level at which it holds.
+    pub by: (Signal, bool),
+    /// The channel, from 1, whose robot it is.
+    pub channel: u32,
+    /// How far its TCP is from the body at most when it takes it, in mm.
+    pub within: f64,
+    /// It is there once the body before it was taken.
+    pub follows: bool,
+}
+
+/// The form of a body.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Form {
+    /// One solid, around the body's middle.
+    Solid(Solid),
+    /// All links of a URDF file, with its joints at 0, from its root on.
+    Urdf(PathBuf),
+}
+
+/// A solid.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Solid {
     /// Its edges along x, y and z in mm.
@@ -42,8 +88,15 @@ pub enum Solid {
         /// Its length in mm.
         length: f64,
     },
-    /// The triangles of an STL file, in mm.
-    Mesh(PathBuf),
+    /// A ball: its radius in mm.
+    Sphere(f64),
+    /// The triangles of an STL file.
+    Mesh {
+        /// The file.
+        file: PathBuf,
+        /// How many mm its unit is, along x, y and z.
+        scale: [f64; 3],
+    },
 }
 
 impl Body {
@@ -58,10 +111,13 @@ impl Body {
         for value in tables {
             let section = table(top.source, value, "[[body]]", BODY)?;
             let body = Self::read(&section, value, (channels, names), (foreground, folder))?;
-            if bodies.iter().any(|other| other.name == body.name) {
-                return Err(top.source.error(value.span(), format!("there is another [[body]] named `{}`", body.name)));
+            for body in all_of_a_kind(body, count(&section)?) {
+                if bodies.iter().any(|other| other.name == body.name) {
+                    let text = format!("there is another [[body]] named `{}`", body.name);
+                    return Err(top.source.error(value.span(), text));
+                }
+                bodies.push(body);
             }
-            bodies.push(body);
         }
         Ok(bodies)
     }
@@ -96,68 +152,127 @@ impl Body {
                 }
             },
         };
-        if holder == "world" && section.find("channel").is_some() {
+        if let (Some(found), "world", None) = (section.find("channel"), holder, section.find("gripped_by")) {
             let text = "`channel` says whose flange carries a body; this one stands in the world";
-            return Err(section.source.error(section.find("channel").map_or(value.span(), |at| at.span()), text));
+            return Err(section.source.error(found.span(), text));
         }
         Ok(Self {
             name: name.to_owned(),
-            solid: solid(section, folder)?.ok_or_else(|| lacks("its form: `box`, `cylinder` or `mesh`"))?,
-            at: place(section)?,
+            form: form(section, folder)?.ok_or_else(|| lacks(&format!("its form: {}", forms())))?,
+            at: place(section, "at")?.map_or_else(Frame::identity, frame),
             carried_by: (holder == "flange").then_some(channel),
-            when: when(section, channels, names)?,
+            when: level(section, "when", (channels, names))?,
+            grip: grip(section, (channels, names), channel)?,
             may_touch: may_touch(section)?,
         })
     }
 }
 
-/// The form; one of the three.
-fn solid(section: &Section<'_>, folder: &Path) -> Result<Option<Solid>, SettingsError> {
+/// How many of a kind there are, if that is said.
+fn count(section: &Section<'_>) -> Result<Option<u32>, SettingsError> {
+    let count = section.number("count", "how many of these bodies come after each other", 1.0, MOST_OF_A_KIND)?;
+    let (Some(count), Some(found)) = (count, section.find("count")) else { return Ok(None) };
+    if count.fract() != 0.0 {
+        return Err(section.wrong("count", found, "a whole number of bodies that come after each other"));
+    }
+    if section.find("gripped_by").is_none() {
+        let text = "`count` bodies come after each other as they are taken; this one lacks `gripped_by`";
+        return Err(section.source.error(found.span(), text));
+    }
+    Ok(Some(count as u32))
+}
+
+/// A body, or so many of its kind with numbers behind their name.
+fn all_of_a_kind(body: Body, count: Option<u32>) -> Vec<Body> {
+    let Some(count) = count else { return vec![body] };
+    let numbered = |number: u32| Body {
+        name: format!("{} {number}", body.name),
+        grip: body.grip.map(|grip| Grip { follows: number > 1, ..grip }),
+        ..body.clone()
+    };
+    (1..=count).map(numbered).collect()
+}
+
+/// The forms, as a sentence has them.
+fn forms() -> String {
+    let [others @ .., last] = FORMS.map(|form| format!("`{form}`"));
+    format!("{} or {last}", others.join(", "))
+}
+
+/// The form: one of them.
+fn form(section: &Section<'_>, folder: &Path) -> Result<Option<Form>, SettingsError> {
     let mut found = None;
-    for key in ["box", "cylinder", "mesh"] {
+    for key in FORMS {
         let Some(value) = section.find(key) else { continue };
         if found.is_some() {
-            let text = "a [[body]] has one form: `box`, `cylinder` or `mesh`";
-            return Err(section.source.error(value.span(), text));
+            return Err(section.source.error(value.span(), format!("a [[body]] has one form: {}", forms())));
         }
         found = Some(match key {
             "box" => {
                 let expected = "its edges along x, y and z in mm, like [800, 600, 40]";
                 let edges = lengths(value).and_then(|edges| <[f64; 3]>::try_from(edges).ok());
-                Solid::Box(edges.ok_or_else(|| section.wrong(key, value, expected))?)
+                Form::Solid(Solid::Box(edges.ok_or_else(|| section.wrong(key, value, expected))?))
             }
             "cylinder" => {
                 let expected = "its radius and its length along z in mm, like [30, 200]";
                 let two = lengths(value).and_then(|two| <[f64; 2]>::try_from(two).ok());
                 let [radius, length] = two.ok_or_else(|| section.wrong(key, value, expected))?;
-                Solid::Cylinder { radius, length }
+                Form::Solid(Solid::Cylinder { radius, length })
+            }
+            "sphere" => {
+                let radius = number(value.get_ref()).filter(|radius| is_length(*radius));
+                Form::Solid(Solid::Sphere(
+                    radius.ok_or_else(|| section.wrong(key, value, "its radius in mm, like 30"))?,
+                ))
+            }
+            "mesh" => {
+                let file = section.text(key, "an STL file, like \"fixture.stl\"")?.unwrap_or_default();
+                let scale = match section.find("scale") {
+                    None => 1.0,
+                    Some(found) => {
+                        let scale = number(found.get_ref()).filter(|scale| is_length(*scale));
+                        scale
+                            .ok_or_else(|| section.wrong("scale", found, "how many mm the mesh's unit is, like 1000"))?
+                    }
+                };
+                Form::Solid(Solid::Mesh { file: folder.join(file), scale: [scale; 3] })
             }
             _ => {
-                let file = section.text(key, "an STL file, like \"fixture.stl\"")?.unwrap_or_default();
-                Solid::Mesh(folder.join(file))
+                let file = section.text(key, "a URDF file, like \"fixture.urdf\"")?.unwrap_or_default();
+                Form::Urdf(folder.join(file))
             }
         });
     }
+    if let (Some(scale), None) = (section.find("scale"), section.find("mesh")) {
+        return Err(section
+            .source
+            .error(scale.span(), "`scale` says in what a `mesh` is measured; this body has none"));
+    }
     Ok(found)
+}
+
+fn is_length(length: f64) -> bool {
+    length > 0.0 && length <= LARGEST_MM
 }
 
 /// Lengths above 0.
 fn lengths(value: &Value<'_>) -> Option<Vec<f64>> {
     let all = value.get_ref().as_array()?.iter().map(|one| number(one.get_ref())).collect::<Option<Vec<f64>>>()?;
-    all.iter().all(|length| *length > 0.0 && *length <= LARGEST_MM).then_some(all)
+    all.iter().all(|length| is_length(*length)).then_some(all)
 }
 
-fn place(section: &Section<'_>) -> Result<Frame, SettingsError> {
-    let Some(value) = section.find("at") else { return Ok(Frame::identity()) };
+/// Where something is: x, y, z in mm, a, b, c in deg.
+pub(super) fn place(section: &Section<'_>, key: &str) -> Result<Option<[f64; 6]>, SettingsError> {
+    let Some(value) = section.find(key) else { return Ok(None) };
     let all: Option<Vec<f64>> =
         value.get_ref().as_array().and_then(|all| all.iter().map(|one| number(one.get_ref())).collect());
     match all.as_deref() {
-        Some([x, y, z]) => Ok(frame([*x, *y, *z, 0.0, 0.0, 0.0])),
-        Some([x, y, z, a, b, c]) => Ok(frame([*x, *y, *z, *a, *b, *c])),
+        Some([x, y, z]) => Ok(Some([*x, *y, *z, 0.0, 0.0, 0.0])),
+        Some([x, y, z, a, b, c]) => Ok(Some([*x, *y, *z, *a, *b, *c])),
         _ => {
             let expected =
                 "x, y, z in mm, with a, b, c in deg if it is turned, like [800, 0, -20] or [800, 0, 0, 90, 0, 0]";
-            Err(section.wrong("at", value, expected))
+            Err(section.wrong(key, value, expected))
         }
     }
 }
@@ -170,14 +285,39 @@ fn may_touch(section: &Section<'_>) -> Result<Vec<String>, SettingsError> {
     Ok(names.ok_or_else(|| section.wrong("may_touch", value, expected))?.into_iter().map(str::to_owned).collect())
 }
 
-fn when(section: &Section<'_>, channels: &Channels, names: &Names) -> Result<Option<(Signal, bool)>, SettingsError> {
+/// How the robot of a channel takes it along, if it does.
+fn grip(section: &Section<'_>, io: (&Channels, &Names), channel: u32) -> Result<Option<Grip>, SettingsError> {
+    let within =
+        section.number("within", "how far the TCP is away at most when the body is taken, in mm,", 0.0, 1e4)?;
+    let Some(by) = level(section, "gripped_by", io)? else {
+        return match section.find("within") {
+            Some(found) => {
+                let text = "`within` says how near the TCP is when a body is taken; this one lacks `gripped_by`";
+                Err(section.source.error(found.span(), text))
+            }
+            None => Ok(None),
+        };
+    };
+    if let Some(found) = section.find("on") {
+        let text = "a body with `gripped_by` stands in the world until it is taken, and has no `on`";
+        return Err(section.source.error(found.span(), text));
+    }
+    Ok(Some(Grip { by, channel, within: within.unwrap_or(WITHIN_MM), follows: false }))
+}
+
+/// A digital input or output, and the level that it is to have.
+fn level(
+    section: &Section<'_>,
+    key: &str,
+    (channels, names): (&Channels, &Names),
+) -> Result<Option<(Signal, bool)>, SettingsError> {
     let expected = "a digital input or output, like \"do.1\", or \"!do.1\" where it is to be off";
-    let (Some(text), Some(value)) = (section.text("when", expected)?, section.find("when")) else { return Ok(None) };
+    let (Some(text), Some(value)) = (section.text(key, expected)?, section.find(key)) else { return Ok(None) };
     let (text, level) = text.strip_prefix('!').map_or((text, true), |text| (text, false));
     let signal = names.signal(text).or_else(|| Signal::parse(text));
     let is_digital = |signal: &Signal| matches!(signal.kind, SignalKind::DigitalInput | SignalKind::DigitalOutput);
     let Some(signal) = signal.filter(is_digital) else {
-        return Err(section.wrong("when", value, expected));
+        return Err(section.wrong(key, value, expected));
     };
     let most = signal.kind.count(channels);
     if signal.channel > most {
@@ -198,21 +338,30 @@ mod tests {
         let text = "[names]\n\"do.3\" = \"gripper\"\n\
                     [[body]]\nname = \"table\"\nbox = [800, 600, 40]\nat = [900, 0, -20]\n\
                     [[body]]\nname = \"part\"\ncylinder = [20, 50.5]\nat = [0, 0, 100, 90, 0, 0]\non = \"flange\"\nwhen = \"gripper\"\n\
-                    [[body]]\nname = \"fixture\"\nmesh = \"fixture.stl\"\nwhen = \"!di.1\"\nmay_touch = [\"part\"]\n\
-                    [[body]]\nname = \"tool\"\nbox = [1, 2, 3]\non = \"flange\"\nchannel = 2\n\
+                    [[body]]\nname = \"fixture\"\nmesh = \"fixture.stl\"\nscale = 1000\nwhen = \"!di.1\"\nmay_touch = [\"part\"]\n\
+                    [[body]]\nname = \"tool\"\nurdf = \"tool.urdf\"\non = \"flange\"\nchannel = 2\n\
+                    [[body]]\nname = \"ball\"\nsphere = 15\ngripped_by = \"gripper\"\nwithin = 20\nchannel = 2\nwhen = \"di.1\"\ncount = 2\n\
                     [[channel]]\nprogram = \"b.arl\"\n";
         let cell = Cell::parse("cells/a.toml", text).unwrap();
-        let [table, part, fixture, tool] = &cell.bodies[..] else { panic!("four") };
-        assert_eq!((&table.solid, table.carried_by, table.when), (&Solid::Box([800.0, 600.0, 40.0]), None, None));
+        let [table, part, fixture, tool, ball, next] = &cell.bodies[..] else { panic!("six") };
+        assert_eq!(
+            (&table.form, table.carried_by, table.when),
+            (&Form::Solid(Solid::Box([800.0, 600.0, 40.0])), None, None)
+        );
         assert_eq!(table.at, frame([900.0, 0.0, -20.0, 0.0, 0.0, 0.0]));
-        assert_eq!(part.solid, Solid::Cylinder { radius: 20.0, length: 50.5 });
+        assert_eq!(part.form, Form::Solid(Solid::Cylinder { radius: 20.0, length: 50.5 }));
         assert_eq!((part.carried_by, part.when), (Some(1), Signal::parse("do.3").map(|signal| (signal, true))));
         assert_eq!(
             (fixture.when, &fixture.may_touch[..]),
             (Signal::parse("di.1").map(|signal| (signal, false)), &["part".into()][..])
         );
-        assert_eq!(fixture.solid, Solid::Mesh(PathBuf::from("cells/fixture.stl")));
-        assert_eq!(tool.carried_by, Some(2));
+        let file = PathBuf::from("cells/fixture.stl");
+        assert_eq!(fixture.form, Form::Solid(Solid::Mesh { file, scale: [1000.0; 3] }));
+        assert_eq!((tool.carried_by, &tool.form), (Some(2), &Form::Urdf(PathBuf::from("cells/tool.urdf"))));
+        let grip = Grip { by: (Signal::parse("do.3").unwrap(), true), channel: 2, within: 20.0, follows: false };
+        assert_eq!((&ball.form, ball.carried_by, ball.grip), (&Form::Solid(Solid::Sphere(15.0)), None, Some(grip)));
+        assert_eq!((&*ball.name, &*next.name, next.grip), ("ball 1", "ball 2", Some(Grip { follows: true, ..grip })));
+        assert_eq!(next.when, Signal::parse("di.1").map(|signal| (signal, true)));
     }
 
     #[test]
@@ -220,7 +369,7 @@ mod tests {
         for (text, line, words) in [
             ("body = 3", 1, "tables that begin with [[body]]"),
             ("[[body]]\nbox = [1, 2, 3]", 1, "lacks `name`"),
-            ("[[body]]\nname = \"a\"", 1, "lacks its form: `box`, `cylinder` or `mesh`"),
+            ("[[body]]\nname = \"a\"", 1, "lacks its form: `box`, `cylinder`, `sphere`, `mesh` or `urdf`"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2]", 3, "its edges along x, y and z in mm"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 0]", 3, "its edges along x, y and z in mm"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nmesh = \"a.stl\"", 4, "a [[body]] has one form"),
@@ -229,6 +378,14 @@ mod tests {
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\non = \"flansh\"", 4, "did you mean `flange`?"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nchannel = 1", 4, "this one stands in the world"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\non = \"flange\"\nchannel = 2", 5, "from 1 to 1"),
+            ("[[body]]\nname = \"a\"\nsphere = 0", 3, "its radius in mm"),
+            ("[[body]]\nname = \"a\"\nmesh = \"a.stl\"\nscale = 0", 4, "how many mm the mesh's unit is"),
+            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nscale = 1", 4, "this body has none"),
+            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nwithin = 1", 4, "this one lacks `gripped_by`"),
+            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\ngripped_by = \"do.1\"\non = \"flange\"", 5, "and has no `on`"),
+            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\ngripped_by = \"ao.1\"", 4, "a digital input or output"),
+            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\ncount = 2", 4, "this one lacks `gripped_by`"),
+            ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\ngripped_by = \"do.1\"\ncount = 1.5", 5, "a whole number"),
             ("[[body]]\nname = \"\"\nbox = [1, 2, 3]", 2, "what it is called"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nmay_touch = \"b\"", 4, "the names of bodies"),
             ("[[body]]\nname = \"a\"\nbox = [1, 2, 3]\nwhen = \"ai.1\"", 4, "a digital input or output"),

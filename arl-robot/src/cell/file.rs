@@ -1,6 +1,9 @@
 //! The cell file: what stands around the robot. Everything has a sensible value where the file says nothing.
 //!
 //! ```toml
+//! urdf = "arm.urdf"            # how the robot looks: without it as capsules along its links
+//! base = [0, 0, 500]           # where it stands in the world, mm, with a, b, c in deg if it is turned: `$BASE[0]` at the start
+//!
 //! [controller]
 //! cycle = 1.0                  # ms, 0.1 to 100
 //!
@@ -46,7 +49,7 @@
 //!
 //! [[body]]                     # what the robots can run into, or carry
 //! name = "table"
-//! box = [800, 600, 40]         # edges in mm; or cylinder = [radius, length], or mesh = "FILE.stl"
+//! box = [800, 600, 40]         # edges in mm; or cylinder = [radius, length], sphere = radius, mesh = "FILE.stl", urdf = "FILE.urdf"
 //! at = [900, 0, -20]           # its middle in the world, mm, with a, b, c in deg behind if it is turned
 //!
 //! [[body]]
@@ -54,11 +57,12 @@
 //! cylinder = [20, 50]
 //! at = [0, 0, 120]             # in the flange
 //! on = "flange"                # of channel = 1
-//! when = "do.1"                # only while this is on
+//! when = "do.1"                # only while this is on; or, in the world at first: gripped_by = "do.1"
 //!
 //! [[channel]]                  # what runs beside the program of the command line: channel 2, 3, ..
 //! program = "feeder.arl"       # files count from the folder of the cell file
 //! robot = "hsr065"             # a built-in name or a robot file
+//! base = [900, 0, 0, 180, 0, 0]  # `urdf`, too
 //! home2 = [0, 45, 0, 0]        # [[channel.collision]] below it: conditions of startdetect
 //!
 //! [[channel]]
@@ -66,7 +70,9 @@
 //! background = true            # it has no robot
 //! ```
 
-use super::{Body, BusSettings, Homes, Names, NetworkSettings, Programs, Rate, Sensitivity, Wiring, collisions};
+use super::{
+    Body, BusSettings, Homes, Names, NetworkSettings, Programs, Rate, Sensitivity, Stands, Wiring, collisions,
+};
 use crate::channels::Channels;
 use crate::islands::Island;
 use crate::regular_file;
@@ -88,6 +94,8 @@ const TOP: &[&str] = &[
     "body",
     "channel",
     "load",
+    "urdf",
+    "base",
 ];
 const CONTROLLER: &[&str] = &["cycle"];
 
@@ -112,6 +120,8 @@ pub struct Cell {
     pub buses: BusSettings,
     /// The servers of Modbus TCP that have inputs and outputs of the cell.
     pub islands: Vec<Island>,
+    /// How the first channel's robot looks, and where it stands.
+    pub stands: Stands,
     /// What stands in the cell, or is carried.
     pub bodies: Vec<Body>,
     /// The channels beside the first one: what the command line of a program runs, too.
@@ -152,6 +162,7 @@ impl Cell {
         cell.islands = Island::read_all(source, top.find("island"), &cell.channels)?;
         let folder = Path::new(file).parent().unwrap_or(Path::new(""));
         cell.programs = Programs::read(&top, folder)?;
+        cell.stands = Stands::read(&top, folder)?;
         cell.bodies = {
             let others = cell.programs.channels.iter().filter(|channel| !channel.background).count();
             Body::read_all(&top, (&cell.channels, &cell.names), (1 + others as u32, folder))?

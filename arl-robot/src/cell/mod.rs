@@ -9,7 +9,7 @@ mod names;
 mod network;
 mod rate;
 
-pub use bodies::{Body, Solid};
+pub use bodies::{Body, Form, Grip, Solid};
 pub use buses::{BusSettings, ModbusTcpSettings};
 pub use external::Wiring;
 pub use file::Cell;
@@ -24,8 +24,20 @@ use toml::de::DeValue;
 
 use crate::settings::{Section, SettingsError, Source, Value, number, table};
 
-const CHANNEL: &[&str] =
-    &["program", "robot", "background", "load", "tolerance", "home2", "home3", "home4", "home5", "collision"];
+const CHANNEL: &[&str] = &[
+    "program",
+    "robot",
+    "urdf",
+    "base",
+    "background",
+    "load",
+    "tolerance",
+    "home2",
+    "home3",
+    "home4",
+    "home5",
+    "collision",
+];
 const HOME: &[&str] = &["tolerance", "home2", "home3", "home4", "home5"];
 const COLLISION: &[&str] = &["cid", "percent", "torque"];
 const HOMES: [&str; 4] = ["home2", "home3", "home4", "home5"];
@@ -54,6 +66,8 @@ pub struct CellChannel {
     pub program: String,
     /// The robot's name or file; none: the default one.
     pub robot: Option<String>,
+    /// How its robot looks and where it stands.
+    pub stands: Stands,
     /// Whether it has no robot.
     pub background: bool,
     /// The programs that `switcharl` can load here, as the cell file names them.
@@ -62,6 +76,26 @@ pub struct CellChannel {
     pub homes: Homes,
     /// The conditions of `startdetect` of its robot.
     pub collisions: Vec<(u8, Sensitivity)>,
+}
+
+/// How a robot looks, and where it stands.
+#[derive(Clone, PartialEq, Default, Debug)]
+pub struct Stands {
+    /// The URDF file that has its shape.
+    pub urdf: Option<PathBuf>,
+    /// Its base in the world, x, y, z in mm, a, b, c in deg: what `$BASE[0]` is at the start.
+    pub base: Option<[f64; 6]>,
+}
+
+impl Stands {
+    /// `urdf` and `base` of a cell file in `folder`, or of a channel.
+    ///
+    /// # Errors
+    /// What stands there is no file, or no place.
+    fn read(section: &Section<'_>, folder: &Path) -> Result<Self, SettingsError> {
+        let urdf = section.text("urdf", "a URDF file, like \"arm.urdf\"")?;
+        Ok(Self { urdf: urdf.map(|file| folder.join(file)), base: bodies::place(section, "base")? })
+    }
 }
 
 /// The home points of a robot beside the one in its own file.
@@ -164,6 +198,7 @@ fn channel(source: Source<'_>, value: &Value<'_>, folder: &Path) -> Result<CellC
         line: source.line(value.span().start),
         program: program.to_owned(),
         robot: robot.map(|robot| beside(folder, robot)),
+        stands: Stands::read(&section, folder)?,
         background,
         load: load(&section)?,
         homes: Homes::read(&section)?,

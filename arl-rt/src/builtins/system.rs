@@ -37,5 +37,8 @@ pub fn init(cx: &Cx) {
     channel_state.reset_system();
     system.cjoint.set(current);
     system::restore(system, &cx.shared().state.borrow());
+    if let Some(base) = channel_state.base {
+        system.stand_on(base);
+    }
     wiring::apply(&cx.shared().wiring, system);
 }

@@ -10,7 +10,7 @@ use crate::fault::{Alarm, Fault, File};
 use crate::motion::{NoBlend, Progress, UnblendedTarget};
 use crate::storage::pointers::StoredPointers;
 use crate::unit::{Collision, SENSITIVITY, Unit, joint};
-use crate::values::VelProfile;
+use crate::values::{self, VelProfile};
 use arl_robot::cell::Sensitivity;
 use arl_robot::robot::VelocityProfile;
 
@@ -41,6 +41,8 @@ pub(crate) struct ChannelState {
     home_tolerance: f64,
     /// The conditions of `startdetect` that the cell gives.
     collisions: Vec<(u8, Sensitivity)>,
+    /// Where the cell says that the robot stands in the world.
+    pub(crate) base: Option<values::Frame>,
 }
 
 /// Single steps.
@@ -61,6 +63,8 @@ pub(crate) struct Station {
     pub(crate) homes: [Option<Vec<f64>>; 4],
     pub(crate) home_tolerance: f64,
     pub(crate) collisions: Vec<(u8, Sensitivity)>,
+    /// Where the cell says that it stands in the world.
+    pub(crate) base: Option<values::Frame>,
     pub(crate) kept: StoredPointers,
 }
 
@@ -73,12 +77,13 @@ impl ChannelState {
         system: System,
         station: Station,
     ) -> Self {
-        let Station { unit, homes: [second, third, fourth, fifth], home_tolerance, collisions, kept } = station;
+        let Station { unit, homes: [second, third, fourth, fifth], home_tolerance, collisions, base, kept } = station;
         let homes = [Some(unit.borrow().robot().home.clone()), second, third, fourth, fifth];
         Self {
             homes,
             home_tolerance,
             collisions,
+            base,
             kept,
             unit: Some(unit),
             ..Self::background(shared, id, index, system)
@@ -103,6 +108,7 @@ impl ChannelState {
             homes: [const { None }; 5],
             home_tolerance: 0.0,
             collisions: Vec::new(),
+            base: None,
         }
     }
 

@@ -9,8 +9,8 @@ use crate::storage::disk::Disk;
 use crate::storage::state::{Saved, State, StateError};
 use crate::storage::state_format::StateFormat;
 use crate::values::{
-    Array, AsScara, Controlmode, Joint, Pose, Shared, Slip, SmallArray, Speed, Str, Teach, Tool, ToolInertiaPara,
-    VelProfile, Watched, Wobj,
+    Array, AsScara, Controlmode, Frame, Joint, Pose, Shared, Slip, SmallArray, Speed, Str, Teach, Tool,
+    ToolInertiaPara, VelProfile, Watched, Wobj,
 };
 
 /// Declares variables: field, type, default, name, and when the default comes back.
@@ -312,6 +312,17 @@ impl System {
     /// The variables as a SCARA robot's program sees them.
     pub fn scara(&self) -> ScaraSystem<'_> {
         ScaraSystem { j: AsScara::new(&self.j), dfslip: AsScara::new(&self.dfslip), cjoint: AsScara::new(&self.cjoint) }
+    }
+}
+
+impl System {
+    /// Writes to `$BASE` where the robot stands in the world.
+    pub(crate) fn stand_on(&self, base: Frame) {
+        self.base.update(|bases| {
+            if let Some(first) = bases.first_mut() {
+                first.w_frame = base;
+            }
+        });
     }
 }
 

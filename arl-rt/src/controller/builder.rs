@@ -36,7 +36,7 @@ use crate::storage::script_dir::ScriptDir;
 use crate::storage::state::{Memory, State, StateError, Storage};
 use crate::unit::Unit;
 use crate::unit::robot_driver::RobotDriver;
-use crate::values::Controlmode;
+use crate::values::{self, Controlmode};
 use arl_robot::atomic_file;
 use arl_robot::cell::{Cell, fit};
 use arl_robot::kinematics::frame;
@@ -321,7 +321,8 @@ impl Builder {
         common.ctl_mode.set(self.mode);
         let io = Image::new(&cell.channels).for_programs(count + background.len());
         let rate = cell.rate;
-        let body = Body { homes: cell.homes.clone(), collisions: cell.collisions.clone(), ..self.body };
+        let (homes, collisions) = (cell.homes.clone(), cell.collisions.clone());
+        let body = Body { homes, collisions, base: cell.stands.base.map(values::Frame::of_components), ..self.body };
         let robot = robot_of(&body, &*program)?;
         let others = self.foreground.into_iter().map(|it| Ok((robot_of(&it.body, &*it.program)?, it)));
         let others: Vec<(Robot, Foreground)> = others.collect::<Result<_, SetupError>>()?;
@@ -473,6 +474,9 @@ impl Site {
         if self.record {
             unit.record();
         }
+        if let Some(base) = body.base {
+            system.stand_on(base);
+        }
         let base = system.base.with(|base| base.first().map_or_else(Default::default, |base| base.w_frame));
         unit.set_base(frame(base.components()));
         unit.set_override(self.speed_override);
@@ -483,6 +487,7 @@ impl Site {
             homes: body.homes.points,
             home_tolerance: body.homes.tolerance.unwrap_or(self.home_tolerance),
             collisions: body.collisions,
+            base: body.base,
             kept: self.pointers.get(index).cloned().unwrap_or_default(),
         };
         let channel =

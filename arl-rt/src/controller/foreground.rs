@@ -5,6 +5,7 @@ use std::io::Write;
 
 use crate::context::program::Program;
 use crate::unit::robot_driver::{RobotDriver, SimulatedRobot};
+use crate::values;
 use arl_robot::cell::{Homes, Sensitivity};
 use arl_robot::robot::Robot;
 
@@ -24,6 +25,8 @@ pub(super) struct Body {
     pub(super) trace: Option<Box<dyn Write>>,
     pub(super) homes: Homes,
     pub(super) collisions: Vec<(u8, Sensitivity)>,
+    /// Where it stands in the world, where the cell says it.
+    pub(super) base: Option<values::Frame>,
 }
 
 impl Default for Body {
@@ -35,6 +38,7 @@ impl Default for Body {
             trace: None,
             homes: Homes::default(),
             collisions: Vec::new(),
+            base: None,
         }
     }
 }
@@ -73,6 +77,13 @@ impl Foreground {
     /// The conditions of `startdetect` of this robot by their numbers; of those that are not there, 20 %.
     pub fn collisions(mut self, conditions: Vec<(u8, Sensitivity)>) -> Self {
         self.body.collisions = conditions;
+        self
+    }
+
+    /// Where the robot's base stands in the world, in mm and deg: `$BASE[0]` from the start on, whatever was saved. Without it that is what was
+    /// saved, or the world's origin.
+    pub fn base(mut self, base: values::Frame) -> Self {
+        self.body.base = Some(base);
         self
     }
 }

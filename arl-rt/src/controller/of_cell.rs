@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::builder::{Builder, SetupError};
 use super::foreground::Foreground;
 use crate::context::program::{Elsewhere, Other, Program};
+use crate::values;
 use arl_robot::cell::{Cell, CellChannel};
 use arl_robot::robot::Robot;
 
@@ -16,7 +17,7 @@ impl Builder {
     /// The cell names a file that is not among them, or a robot that is not there.
     pub fn cell_with(mut self, cell: Cell, programs: &[Other]) -> Result<Self, SetupError> {
         for channel in &cell.programs.channels {
-            let CellChannel { program, robot, background, load, homes, collisions, line: _ } = channel;
+            let CellChannel { program, robot, background, load, homes, collisions, stands, line: _ } = channel;
             let program = find(programs, program)?.make();
             self = if *background {
                 self.background(program)
@@ -24,6 +25,9 @@ impl Builder {
                 let mut channel = Foreground::new(program).homes(homes.clone()).collisions(collisions.clone());
                 if let Some(robot) = robot {
                     channel = channel.robot(Robot::load(robot)?);
+                }
+                if let Some(base) = stands.base {
+                    channel = channel.base(values::Frame::of_components(base));
                 }
                 self.foreground(channel)
             };

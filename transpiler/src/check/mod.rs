@@ -145,7 +145,8 @@ fn check_loaded(loaded: Loaded, options: &CheckOptions) -> (Checked, Vec<Spliced
         #[cfg(feature = "cli")]
         if let Some(robot) = &options.robot {
             let alone = options.cell.as_ref().is_none_or(|cell| !cell.others);
-            diagnostics.extend(targets::check(&built, robot, alone, &locate));
+            let in_origin = options.cell.as_ref().is_none_or(|cell| !cell.based);
+            diagnostics.extend(targets::check(&built, robot, targets::Around { alone, in_origin }, &locate));
         }
         if late.is_empty() {
             program = Some(built);

@@ -35,6 +35,7 @@ mod robots;
 mod run;
 mod runtime;
 mod said;
+mod scenery;
 mod several;
 mod show;
 mod signals;

@@ -2,7 +2,7 @@
 
 use super::args::{ReportFormat, RunOptions};
 use super::arl_toml;
-use super::collide::Collisions;
+use super::collide::{Collisions, Parts};
 use super::failure::Failure;
 use super::listen::{Hears, Listener};
 use super::pendant;
@@ -10,6 +10,7 @@ use super::plot::{self, Lane, Ran};
 use super::program::{Ready, prepare, prepare_watched};
 use super::record::Recording;
 use super::report::Reporting;
+use super::scenery::Scenery;
 use super::show;
 use super::signals::Signals;
 use arl_robot::cell::Cell;
@@ -46,15 +47,13 @@ pub(super) fn run(file: &Path, options: &RunOptions) -> Result<ExitCode, Failure
 /// Who is to hear what the program does: collisions come first, so that they are recorded.
 fn hearers(options: &RunOptions, sources: &[PathBuf]) -> Result<Vec<Box<dyn Hears>>, Failure> {
     let mut hearers: Vec<Box<dyn Hears>> = Vec::new();
-    let cell = cell(options)?;
-    if let Some(collisions) = collisions(&cell, options.clearance)? {
-        hearers.push(Box::new(collisions));
-    }
+    let scenery = scenery(options)?;
+    hearers.extend(watchers(&scenery, options.clearance)?);
     if let Some(path) = &options.record {
-        hearers.push(Box::new(Recording::create(path, &cell.bodies, sources)?));
+        hearers.push(Box::new(Recording::create(path, &scenery, sources)?));
     }
     if let (Some(file), Some(format @ (ReportFormat::Json | ReportFormat::Html))) = (&options.report, options.format) {
-        hearers.push(Box::new(Reporting::create(file, format, &cell.bodies)?));
+        hearers.push(Box::new(Reporting::create(file, format, &scenery)?));
     }
     Ok(hearers)
 }
@@ -65,13 +64,22 @@ pub(super) fn cell(options: &RunOptions) -> Result<Cell, Failure> {
     Ok(cell.map_err(|error| Failure::Usage(error.to_string()))?.unwrap_or_default())
 }
 
-/// Who looks for collisions: where the cell has bodies, or somebody asks for a clearance.
-pub(super) fn collisions(cell: &Cell, clearance: Option<f64>) -> Result<Option<Collisions>, Failure> {
-    if clearance.is_none() && cell.bodies.is_empty() {
-        return Ok(None);
+/// What is around the robots of a run.
+pub(super) fn scenery(options: &RunOptions) -> Result<Scenery, Failure> {
+    Scenery::of(&cell(options)?, options.robot.as_deref())
+}
+
+/// Who watches bodies that robots take along, and who looks for collisions: where the cell has bodies, or somebody asks for a clearance.
+pub(super) fn watchers(scenery: &Scenery, clearance: Option<f64>) -> Result<Vec<Box<dyn Hears>>, Failure> {
+    let mut watchers: Vec<Box<dyn Hears>> = Vec::new();
+    if let Some(parts) = Parts::of(scenery)? {
+        watchers.push(Box::new(parts));
     }
-    let (collisions, _) = Collisions::new(cell, clearance.unwrap_or_default(), true)?;
-    Ok(Some(collisions))
+    if clearance.is_some() || scenery.has_bodies() {
+        let (collisions, _) = Collisions::new(scenery, clearance.unwrap_or_default(), true)?;
+        watchers.push(Box::new(collisions));
+    }
+    Ok(watchers)
 }
 
 /// Draws a trace that is there.

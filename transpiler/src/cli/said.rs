@@ -31,6 +31,9 @@ pub(super) enum Line {
     Report(serde_json::Value),
     /// Nothing more comes.
     Ended(()),
+    /// A body that a robot takes along came, was taken or put down: said by who watches them.
+    #[serde(skip)]
+    Placing(Placing),
     /// What came too near to each other: not the program says it, but who watches where robots are.
     #[serde(skip)]
     Contact(Contact),
@@ -66,6 +69,14 @@ pub(super) struct Runs {
     pub(super) limbs: Vec<Limb>,
 }
 
+impl Runs {
+    /// The flange in the base, in mm, while the axes have these values in deg and mm.
+    pub(super) fn flange_at(&self, axes: &[f64]) -> Frame {
+        let links = self.links.iter().zip(axes);
+        links.fold(Frame::identity(), |before, (link, axis)| before * link.joint().at(*axis)) * placed(&self.flange)
+    }
+}
+
 /// A capsule that belongs to a link, from 1, or to the base, 0: its ends in the frame of that, and its radius, in mm.
 #[derive(Clone, PartialEq, Deserialize, Debug)]
 pub(super) struct Limb {
@@ -73,6 +84,12 @@ pub(super) struct Limb {
     pub(super) link: usize,
     pub(super) ends: [[f64; 3]; 2],
     pub(super) radius: f64,
+}
+
+/// What people call a link of so many, 0 is the base: as the capsule in its place.
+pub(super) fn name_of_link(link: usize, of: usize, limbs: &[Limb]) -> &str {
+    let found = if link + 1 >= of { limbs.last() } else { limbs.iter().rfind(|limb| limb.link <= link) };
+    found.map_or("the robot", |limb| &limb.name)
 }
 
 /// Where the robots are.
@@ -255,6 +272,24 @@ pub(super) struct Alarm {
 pub(super) struct Refused {
     pub(super) order: String,
     pub(super) why: String,
+}
+
+/// Where a body of the cell is from now on.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Placing {
+    /// Which body of the cell.
+    pub(super) body: usize,
+    /// `None`: it is not there.
+    pub(super) place: Option<Place>,
+}
+
+/// Where a body is.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Place {
+    /// The channel, from 0, whose robot holds it; `None`: it stands in the world.
+    pub(super) held_by: Option<usize>,
+    /// Its frame in the flange or in the world, in mm.
+    pub(super) at: Frame,
 }
 
 /// Two bodies that touch for the first time, or come nearer to each other than asked for.

@@ -11,6 +11,7 @@ use super::plot::Lane;
 use super::record::{Recorder, Schema, Sink};
 use super::recorded::{Signal, Store};
 use super::said::Line;
+use super::scenery::Scenery;
 
 /// Hears which signals change.
 pub(super) struct Signals {
@@ -22,7 +23,7 @@ impl Signals {
     /// Together with what is there once the run has ended.
     pub(super) fn new() -> (Self, Rc<RefCell<Vec<Lane>>>) {
         let lanes = Rc::<RefCell<Vec<Lane>>>::default();
-        (Self { recorder: Recorder::new(Levels::default(), &[]), lanes: Rc::clone(&lanes) }, lanes)
+        (Self { recorder: Recorder::new(Levels::default(), &Scenery::default()), lanes: Rc::clone(&lanes) }, lanes)
     }
 }
 

@@ -157,11 +157,7 @@ pub fn getbase_3p(cx: &Cx, j1: Joint, j2: Joint, j3: Joint, t: Tool, index: i32)
         return Err(taught.refusal(problem));
     }
     let world_in_base = taught.through(taught.touched([j1, j2, j3], &t)?)?;
-    cx.system().base.update(|bases| {
-        if let Some(base) = bases.first_mut() {
-            base.w_frame = given(&world_in_base.inverse());
-        }
-    });
+    cx.system().stand_on(given(&world_in_base.inverse()));
     Ok(())
 }
 

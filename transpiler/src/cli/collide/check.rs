@@ -3,17 +3,17 @@
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use arl_robot::cell::Cell;
 use serde_json::json;
 
 use super::super::answer;
 use super::super::args::{Checking, Format, RunOptions};
 use super::super::failure::Failure;
-use super::super::listen::Listener;
+use super::super::listen::{Hears, Listener};
 use super::super::program::{Ready, prepare_checked};
 use super::super::said::Contact;
+use super::super::scenery::Scenery;
 use super::super::show;
-use super::Collisions;
+use super::{Collisions, Parts};
 
 /// A run ends after so many controller seconds.
 const MOST_SECONDS: f64 = 600.0;
@@ -46,17 +46,22 @@ pub(in crate::cli) fn check(file: &Path, checking: &Checking, look: Look) -> Res
     };
     let state = std::env::temp_dir().join(format!("arl2rs-state-{}", std::process::id()));
     let options = RunOptions { state_dir: Some(state.clone()), ..asked.of_program(file)? };
-    let cell = options.cell.as_deref().map(Cell::load).transpose();
-    let cell = cell.map_err(|error| Failure::Usage(error.to_string()))?.unwrap_or_default();
+    let cell = super::super::run::cell(&options)?;
     if !cell.islands.is_empty() || cell.buses.modbus_tcp.is_some() {
         let text = "a check runs no program whose cell has [[island]] or [modbus_tcp]; `run` tells of collisions, too";
         return Err(Failure::Usage(format!("{}: {text}", file.display())));
     }
-    let (collisions, found) = Collisions::new(&cell, look.clearance, false)?;
+    let scenery = Scenery::of(&cell, options.robot.as_deref())?;
+    let (collisions, found) = Collisions::new(&scenery, look.clearance, false)?;
+    let mut hearers: Vec<Box<dyn Hears>> = Vec::new();
+    if let Some(parts) = Parts::of(&scenery)? {
+        hearers.push(Box::new(parts));
+    }
+    hearers.push(Box::new(collisions));
     let ready = prepare_checked(file, options.cell.as_deref(), &options.checking())?;
     // What another process of that number left there.
     let _ = std::fs::remove_dir_all(&state);
-    let ended = run(ready, &options, Listener::of(vec![Box::new(collisions)])?);
+    let ended = run(ready, &options, Listener::of(hearers)?);
     let _ = std::fs::remove_dir_all(&state);
     let (code, why) = ended?;
     let found = found.borrow();

@@ -2,11 +2,12 @@
 
 use arl_robot::cell::{Body, Signal, Solid};
 use parry3d_f64::math::{Pose, Rotation, Vector};
-use parry3d_f64::shape::{Capsule, Cuboid, Cylinder, SharedShape};
+use parry3d_f64::shape::{Ball, Capsule, Cuboid, Cylinder, SharedShape};
 
-use super::super::said::Runs;
+use super::super::said::{self, Runs};
+use super::super::scenery::{Looks, Piece};
 use super::arm::of_frame;
-use super::mesh;
+use super::mesh::Mesh;
 
 /// A body, or a part of a robot.
 #[derive(Clone)]
@@ -16,14 +17,38 @@ pub(super) struct Item {
     pub(super) holder: Holder,
     /// Where the shape is in its holder.
     pub(super) at: Pose,
-    /// Of a limb: its place from the base on, its length and its radius in mm.
-    pub(super) limb: Option<[f64; 3]>,
-    /// How far its places are from its holder's origin at most, in mm.
-    pub(super) farthest: f64,
+    /// What it is of a robot, if it is.
+    pub(super) limb: Option<Limb>,
+    /// How far its places are from its shape's origin at most, in mm.
+    pub(super) radius: f64,
     /// It is there only while this has this level.
     pub(super) when: Option<(Signal, bool)>,
+    /// What it is of a body that a robot takes along, if it is.
+    pub(super) part: Option<Part>,
+    /// Such a body is not there, or it is held and this is how it stands, or the other way round.
+    pub(super) absent: bool,
     /// The names of what it may touch.
     pub(super) may_touch: Vec<String>,
+}
+
+/// A limb of a robot.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) enum Limb {
+    /// A capsule: its place from the base on, its length and its radius in mm.
+    Capsule { at: usize, length: f64, radius: f64 },
+    /// A form of a link, of so many links; the base is 0.
+    Link { link: usize, of: usize },
+}
+
+/// A form of a body that a robot takes along.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Part {
+    /// Which body of the cell.
+    pub(super) body: usize,
+    /// Where the form is in the body.
+    pub(super) piece: Pose,
+    /// The channel, from 0, whose robot takes it.
+    pub(super) by: usize,
 }
 
 /// What an item is fixed to; channels count from 0.
@@ -50,49 +75,104 @@ impl Holder {
     }
 }
 
-/// The limbs of the robot of a channel; with several robots their names tell whose they are.
-pub(super) fn limbs(channel: usize, runs: &Runs, several: bool) -> Vec<Item> {
-    let of = if several { format!(" of channel {}", channel + 1) } else { String::new() };
-    let limb = |(at, limb): (usize, &super::super::said::Limb)| {
+impl Item {
+    /// A shape that reaches so far, in mm, on something.
+    fn new(name: String, (shape, radius): (SharedShape, f64), holder: Holder, at: Pose) -> Self {
+        let (limb, when, part, absent, may_touch) = (None, None, None, false, Vec::new());
+        Self { name, shape, holder, at, limb, radius, when, part, absent, may_touch }
+    }
+
+    /// How far its places are from its holder's origin at most, in mm.
+    pub(super) fn farthest(&self) -> f64 {
+        self.at.translation.length() + self.radius
+    }
+}
+
+/// The limbs of a robot as capsules.
+pub(super) fn limbs(channel: usize, runs: &Runs) -> Vec<Item> {
+    let limb = |(at, limb): (usize, &said::Limb)| {
         let [from, to] = limb.ends.map(|[x, y, z]| Vector::new(x, y, z));
-        Item {
-            name: format!("{}{of}", limb.name),
-            shape: SharedShape::new(Capsule::new(from, to, limb.radius)),
-            holder: Holder::Link { channel, link: limb.link },
-            at: Pose::IDENTITY,
-            limb: Some([at as f64, (to - from).length(), limb.radius]),
-            farthest: from.length().max(to.length()) + limb.radius,
-            when: None,
-            may_touch: Vec::new(),
-        }
+        let shape = SharedShape::new(Capsule::new(from, to, limb.radius));
+        let radius = from.length().max(to.length()) + limb.radius;
+        let holder = Holder::Link { channel, link: limb.link };
+        let kind = Limb::Capsule { at, length: (to - from).length(), radius: limb.radius };
+        Item { limb: Some(kind), ..Item::new(limb.name.clone(), (shape, radius), holder, Pose::IDENTITY) }
     };
     runs.limbs.iter().enumerate().map(limb).collect()
 }
 
-/// A body of the cell.
-pub(super) fn of_body(body: &Body) -> Result<Item, String> {
-    let place = of_frame(&body.at);
-    let (shape, at, half) = match &body.solid {
-        Solid::Box(edges) => {
-            let half = Vector::from_array(*edges) * 0.5;
-            (SharedShape::new(Cuboid::new(half)), place, half.length())
-        }
-        Solid::Cylinder { radius, length } => {
-            // The library's stands along y.
-            let upright = Rotation::from_rotation_x(std::f64::consts::FRAC_PI_2);
-            let at = place * Pose::from_parts(Vector::ZERO, upright);
-            (SharedShape::new(Cylinder::new(0.5 * length, *radius)), at, radius.hypot(0.5 * length))
-        }
-        Solid::Mesh(file) => {
-            let (mesh, farthest) = mesh::load(file)?;
-            (SharedShape::new(mesh), place, farthest)
-        }
+/// A link of a robot by its forms: each mesh as its convex hull.
+pub(super) fn of_link(channel: usize, (link, of): (usize, usize), looks: &Looks) -> Result<Vec<Item>, String> {
+    let item = |piece: &Piece| {
+        let (shape, at, radius) = shape(&piece.solid, Meshes::Hulls)?;
+        let at = of_frame(&piece.at) * at;
+        let limb = Some(Limb::Link { link, of });
+        Ok(Item { limb, ..Item::new(String::new(), (shape, radius), Holder::Link { channel, link }, at) })
     };
+    looks.touched.iter().map(item).collect()
+}
+
+/// The forms of a body of the cell, which is number `number` of them. What a robot takes along is there twice, standing and held.
+pub(super) fn of_body(number: usize, body: &Body, looks: &Looks) -> Result<Vec<Item>, String> {
     let holder = match body.carried_by {
         None => Holder::World,
         Some(channel) => Holder::Flange { channel: channel as usize - 1 },
     };
-    let farthest = place.translation.length() + half;
-    let (name, may_touch) = (body.name.clone(), body.may_touch.clone());
-    Ok(Item { name, shape, holder, at, limb: None, farthest, when: body.when, may_touch })
+    let place = of_frame(&body.at);
+    let mut items = Vec::new();
+    for piece in &looks.touched {
+        let (shape, at, radius) = shape(&piece.solid, Meshes::Surfaces)?;
+        let piece = of_frame(&piece.at) * at;
+        let may_touch = body.may_touch.clone();
+        let item = Item { may_touch, ..Item::new(body.name.clone(), (shape, radius), holder, place * piece) };
+        let Some(grip) = body.grip else {
+            items.push(Item { when: body.when, ..item });
+            continue;
+        };
+        let by = grip.channel as usize - 1;
+        // Where it is will be said.
+        let standing = Item { part: Some(Part { body: number, piece, by }), absent: true, ..item };
+        items.push(Item { holder: Holder::Flange { channel: by }, ..standing.clone() });
+        items.push(standing);
+    }
+    Ok(items)
+}
+
+/// The forms of a body, each where it is in the body: each mesh as its convex hull, in which places are, too.
+pub(super) fn hulls(looks: &Looks) -> Result<Vec<(SharedShape, Pose)>, String> {
+    let hull = |piece: &Piece| {
+        let (shape, at, _) = shape(&piece.solid, Meshes::Hulls)?;
+        Ok((shape, of_frame(&piece.at) * at))
+    };
+    looks.touched.iter().map(hull).collect()
+}
+
+/// What of a mesh counts.
+#[derive(Clone, Copy, PartialEq)]
+enum Meshes {
+    Surfaces,
+    Hulls,
+}
+
+/// The shape of a solid, where it is, and how far it reaches from there, in mm.
+fn shape(solid: &Solid, meshes: Meshes) -> Result<(SharedShape, Pose, f64), String> {
+    Ok(match solid {
+        Solid::Box(edges) => {
+            let half = Vector::from_array(*edges) * 0.5;
+            (SharedShape::new(Cuboid::new(half)), Pose::IDENTITY, half.length())
+        }
+        Solid::Cylinder { radius, length } => {
+            // The library's stands along y.
+            let upright = Rotation::from_rotation_x(std::f64::consts::FRAC_PI_2);
+            let at = Pose::from_parts(Vector::ZERO, upright);
+            (SharedShape::new(Cylinder::new(0.5 * length, *radius)), at, radius.hypot(0.5 * length))
+        }
+        Solid::Sphere(radius) => (SharedShape::new(Ball::new(*radius)), Pose::IDENTITY, *radius),
+        Solid::Mesh { file, scale } => {
+            let mesh = Mesh::load(file, *scale)?;
+            let farthest = mesh.farthest();
+            let shape = if meshes == Meshes::Hulls { mesh.hull(file)? } else { mesh.surface(file)? };
+            (shape, Pose::IDENTITY, farthest)
+        }
+    })
 }

@@ -8,24 +8,28 @@ mod check;
 mod item;
 mod mesh;
 mod pair;
+mod parts;
 #[cfg(test)]
 mod tests;
 
 use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::error::Error;
 use std::rc::Rc;
 
-use arl_robot::cell::{Body, Cell, SignalKind};
+use arl_robot::cell::{MOST_FOREGROUND, SignalKind};
 use parry3d_f64::math::Pose;
 
 use super::failure::Failure;
 use super::listen::Hears;
-use super::said::{Contact, Cycle, Hello, Line};
+use super::said::{Contact, Cycle, Hello, Line, Placing, name_of_link};
+use super::scenery::Scenery;
 use super::show;
 use arm::Arm;
 pub(super) use check::{Look, check};
 use item::{Holder, Item};
 use pair::Pair;
+pub(super) use parts::Parts;
 
 /// What was found, for who asked for it.
 #[derive(Default, Debug)]
@@ -38,26 +42,30 @@ pub(super) struct Found {
 /// Watches where robots and bodies are.
 pub(super) struct Collisions {
     bodies: Vec<Item>,
+    /// By channels, the forms of the robot's links, where it has such.
+    links: Vec<Vec<Item>>,
     /// mm; 0: contacts only.
     clearance: f64,
     arms: Vec<Option<Arm>>,
     items: Vec<Item>,
     pairs: Vec<Pair>,
+    /// What has touched each other, by names: a body may have several forms.
+    touched: BTreeSet<[String; 2]>,
     found: Rc<RefCell<Found>>,
     /// Whether contacts are told as they come.
     tells: bool,
 }
 
 impl Collisions {
-    /// For the bodies of a cell; what it finds can be asked for.
+    /// In a scenery; what it finds can be asked for.
     ///
     /// # Errors
     /// A mesh cannot be read.
-    pub(super) fn new(cell: &Cell, clearance: f64, tells: bool) -> Result<(Self, Rc<RefCell<Found>>), Failure> {
-        let bodies = cell.bodies.iter().map(item_of).collect::<Result<Vec<Item>, Failure>>()?;
+    pub(super) fn new(scenery: &Scenery, clearance: f64, tells: bool) -> Result<(Self, Rc<RefCell<Found>>), Failure> {
         let found = Rc::<RefCell<Found>>::default();
-        let (arms, items, pairs) = (Vec::new(), Vec::new(), Vec::new());
-        Ok((Self { bodies, clearance, arms, items, pairs, found: Rc::clone(&found), tells }, found))
+        let (arms, items, pairs, touched) = (Vec::new(), Vec::new(), Vec::new(), BTreeSet::new());
+        let (bodies, links) = (bodies(scenery)?, links(scenery));
+        Ok((Self { bodies, links, clearance, arms, items, pairs, touched, found: Rc::clone(&found), tells }, found))
     }
 
     fn begin(&mut self, hello: &Hello) {
@@ -65,11 +73,41 @@ impl Collisions {
         self.arms = hello.channels.iter().map(|runs| (!runs.links.is_empty()).then(|| Arm::new(runs))).collect();
         self.items.clear();
         for (channel, runs) in hello.channels.iter().enumerate() {
-            self.items.extend(item::limbs(channel, runs, several));
+            let links = self.links.get(channel).filter(|links| !links.is_empty());
+            let named = |item: &Item| match item.holder {
+                Holder::Link { link, .. } => {
+                    Item { name: name_of_link(link, runs.links.len(), &runs.limbs).to_owned(), ..item.clone() }
+                }
+                _ => item.clone(),
+            };
+            let limbs = links.map(|links| links.iter().map(named).collect());
+            let mut limbs: Vec<Item> = limbs.unwrap_or_else(|| item::limbs(channel, runs));
+            if several {
+                limbs.iter_mut().for_each(|limb| limb.name = format!("{} of channel {}", limb.name, channel + 1));
+            }
+            self.items.extend(limbs);
         }
         self.items.extend(self.bodies.iter().cloned());
         self.pairs = pair::pairs(&self.items, &self.arms);
         self.found.borrow_mut().begun = true;
+    }
+
+    /// A body that robots take along is elsewhere.
+    fn place(&mut self, placing: &Placing) {
+        for item in &mut self.items {
+            let Some(part) = item.part.filter(|part| part.body == placing.body) else { continue };
+            let place = placing.place.filter(|place| place.held_by.is_none() == (item.holder == Holder::World));
+            item.absent = place.is_none();
+            if let Some(place) = place {
+                item.at = arm::of_frame(&place.at) * part.piece;
+            }
+        }
+        for pair in &mut self.pairs {
+            let [Some(one), Some(other)] = pair.items.map(|at| self.items.get(at)) else { continue };
+            if [one, other].iter().any(|item| item.part.is_some_and(|part| part.body == placing.body)) {
+                pair.place([one, other], &self.arms);
+            }
+        }
     }
 
     /// Looks at all pairs that may have come near enough to each other to matter.
@@ -101,7 +139,9 @@ impl Collisions {
                 other: other.name.clone(),
                 distance,
             };
-            contacts.extend(pair.note(distance, self.clearance, &self.arms, contact));
+            let contact = pair.note(distance, self.clearance, &self.arms, contact);
+            let touched = &mut self.touched;
+            contacts.extend(contact.filter(|contact| touched.insert([contact.one.clone(), contact.other.clone()])));
         }
         contacts
     }
@@ -109,6 +149,8 @@ impl Collisions {
     /// The nearest that each pair came to each other, of those nearer than the clearance that did not touch; once.
     fn nearest(&mut self) -> Vec<Contact> {
         let mut near: Vec<Contact> = self.pairs.iter_mut().filter_map(Pair::take_nearest).collect();
+        near.sort_by(|one, other| one.distance.total_cmp(&other.distance));
+        near.retain(|contact| self.touched.insert([contact.one.clone(), contact.other.clone()]));
         near.sort_by(|one, other| one.time.total_cmp(&other.time));
         near
     }
@@ -132,6 +174,10 @@ impl Hears for Collisions {
         let contacts = match line {
             Line::Hello(hello) => {
                 self.begin(hello);
+                Vec::new()
+            }
+            Line::Placing(placing) => {
+                self.place(placing);
                 Vec::new()
             }
             Line::Cycle(cycle) => self.cycle(cycle),
@@ -176,11 +222,38 @@ fn place(item: &Item, arms: &[Option<Arm>]) -> Option<Pose> {
 
 /// Whether an item is there by the levels of inputs and outputs.
 fn is_there(item: &Item, cycle: &Cycle) -> bool {
-    let Some((signal, wanted)) = item.when else { return true };
+    let Some((signal, wanted)) = item.when else { return !item.absent };
     let levels = if signal.kind == SignalKind::DigitalInput { &cycle.di } else { &cycle.dout };
     (levels.as_bytes().get(signal.channel as usize - 1) == Some(&b'1')) == wanted
 }
 
-fn item_of(body: &Body) -> Result<Item, Failure> {
-    item::of_body(body).map_err(|problem| Failure::Usage(format!("body `{}`: {problem}", body.name)))
+/// The forms of the bodies of a cell.
+fn bodies(scenery: &Scenery) -> Result<Vec<Item>, Failure> {
+    let mut items = Vec::new();
+    for (number, (body, looks)) in scenery.bodies.iter().enumerate() {
+        let wrong = |problem| Failure::Usage(format!("body `{}`: {problem}", body.name));
+        items.extend(item::of_body(number, body, looks).map_err(wrong)?);
+    }
+    Ok(items)
+}
+
+/// The forms of the links of robots, by channels: none where a robot has no shape of its own, or where that cannot be read, which is told.
+fn links(scenery: &Scenery) -> Vec<Vec<Item>> {
+    let of_channel = |channel: usize| {
+        let Some(shape) = scenery.shape(channel) else { return Vec::new() };
+        let mut items = Vec::new();
+        let last = shape.links().count().saturating_sub(1);
+        for (link, looks) in shape.links() {
+            match item::of_link(channel, (link, last), looks) {
+                Ok(forms) => items.extend(forms),
+                Err(problem) => {
+                    let text = format!("{problem}; the robot of channel {} touches as capsules do", channel + 1);
+                    show::warning(&text);
+                    return Vec::new();
+                }
+            }
+        }
+        items
+    };
+    (0..MOST_FOREGROUND).map(of_channel).collect()
 }

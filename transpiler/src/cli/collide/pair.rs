@@ -5,10 +5,12 @@
 
 use super::super::said::Contact;
 use super::arm::Arm;
-use super::item::{Holder, Item};
+use super::item::{Holder, Item, Limb};
 
 /// The nearest that a pair comes to each other is found to so many mm.
 const RESOLUTION_MM: f64 = 0.05;
+/// Links with fewer than so many others between them are too near to each other to be kept apart.
+const LINKS_BETWEEN: usize = 2;
 /// Rounding of distances and positions, in mm.
 const ROUNDING_MM: f64 = 1e-4;
 
@@ -19,8 +21,10 @@ pub(super) struct Pair {
     ends: [End; 2],
     /// Whether they are parts of one robot: that they are near each other is how it is built, and what touches before anything moves is, too.
     is_own: bool,
-    /// Whether they overlap since before anything moved.
+    /// Whether they overlap since before anything moved, or since one of them came or was taken there.
     overlap: bool,
+    /// Whether one of them has just come, or was taken or put there.
+    is_new: bool,
     state: State,
     /// Where the robots were when it was last looked at, and how far the items may move from there.
     known: Option<Known>,
@@ -62,7 +66,7 @@ pub(super) fn pairs(items: &[Item], arms: &[Option<Arm>]) -> Vec<Pair> {
                 let ends = [one, other].map(|item| End::of(item, arms));
                 let is_own = one.holder.channel() == other.holder.channel();
                 let (state, known) = (State::Apart, None);
-                pairs.push(Pair { items: [at, behind], ends, is_own, overlap: false, state, known });
+                pairs.push(Pair { items: [at, behind], ends, is_own, overlap: false, is_new: false, state, known });
             }
         }
     }
@@ -75,25 +79,60 @@ fn counts(items: &[Item], one: &Item, other: &Item) -> bool {
     if (stands(one) && stands(other)) || may_touch(one, other) || may_touch(other, one) {
         return false;
     }
+    if takes(items, one, other) || takes(items, other, one) || are_one(one, other) {
+        return false;
+    }
     if one.holder.channel() != other.holder.channel() {
         return true;
     }
-    let last = |item: &Item| {
-        let of_arm = |other: &&Item| other.limb.is_some() && other.holder.channel() == item.holder.channel();
-        items.iter().rfind(of_arm).and_then(|last| last.limb)
-    };
     match (one.limb, other.limb) {
-        // What is between them is too short to keep them apart.
-        (Some([at, _, radius]), Some([behind, _, other_radius])) => {
-            let (first, second) = (at.min(behind), at.max(behind));
-            let between = items.iter().filter(|item| item.holder.channel() == one.holder.channel());
-            let between = between.filter_map(|item| item.limb).filter(|[at, ..]| *at > first && *at < second);
-            between.map(|[_, length, _]| length).sum::<f64>() > radius + other_radius
-        }
+        (Some(limb), Some(behind)) => are_apart(items, one, (limb, behind)),
         // What is on the flange is fixed to the last limb.
-        (Some(limb), None) => Some(limb) != last(one),
-        (None, Some(limb)) => Some(limb) != last(other),
+        (Some(limb), None) | (None, Some(limb)) => !is_last(items, one, limb),
         (None, None) => false,
+    }
+}
+
+/// Whether the first one is taken along by the second one, what is on the flange or the last limb: that it touches it is what it is for.
+fn takes(items: &[Item], part: &Item, gripper: &Item) -> bool {
+    let holds = |by: usize| match gripper.limb {
+        Some(limb) => gripper.holder.channel() == Some(by) && is_last(items, gripper, limb),
+        None => gripper.holder == Holder::Flange { channel: by } && gripper.part.is_none(),
+    };
+    part.part.is_some_and(|part| holds(part.by))
+}
+
+/// Whether both are forms of one part, here or there.
+fn are_one(one: &Item, other: &Item) -> bool {
+    one.part.zip(other.part).is_some_and(|(one, other)| one.body == other.body)
+}
+
+/// Whether something keeps two limbs of the robot of an item apart.
+fn are_apart(items: &[Item], of: &Item, limbs: (Limb, Limb)) -> bool {
+    match limbs {
+        (Limb::Capsule { at, radius, .. }, Limb::Capsule { at: behind, radius: other_radius, .. }) => {
+            // What is between them may be too short to keep them apart.
+            let (first, second) = (at.min(behind), at.max(behind));
+            let between = items.iter().filter(|item| item.holder.channel() == of.holder.channel());
+            let length = |item: &Item| match item.limb {
+                Some(Limb::Capsule { at, length, .. }) if at > first && at < second => Some(length),
+                _ => None,
+            };
+            between.filter_map(length).sum::<f64>() > radius + other_radius
+        }
+        (Limb::Link { link, .. }, Limb::Link { link: behind, .. }) => link.abs_diff(behind) > LINKS_BETWEEN,
+        _ => false,
+    }
+}
+
+/// Whether a limb is the last one of the robot of an item; of links, what axes turn beside the flange is one limb.
+fn is_last(items: &[Item], of: &Item, limb: Limb) -> bool {
+    match limb {
+        Limb::Capsule { .. } => {
+            let of_arm = |other: &&Item| other.limb.is_some() && other.holder.channel() == of.holder.channel();
+            items.iter().rfind(of_arm).and_then(|last| last.limb) == Some(limb)
+        }
+        Limb::Link { link, of } => link + 1 >= of,
     }
 }
 
@@ -112,7 +151,7 @@ impl End {
                 (arm(channel).map_or(0, Arm::count), arm(channel).map_or(0.0, Arm::flange_length))
             }
         };
-        Self { channel: item.holder.channel(), link, farthest: item.farthest + beside }
+        Self { channel: item.holder.channel(), link, farthest: item.farthest() + beside }
     }
 }
 
@@ -120,6 +159,13 @@ impl Pair {
     #[cfg(test)]
     pub(super) fn is_own(&self) -> bool {
         self.is_own
+    }
+
+    /// Takes in that one of its items, which are these, is elsewhere.
+    pub(super) fn place(&mut self, items: [&Item; 2], arms: &[Option<Arm>]) {
+        self.ends = items.map(|item| End::of(item, arms));
+        self.is_new = true;
+        self.forget();
     }
 
     /// Forgets where it was: it is looked at in the next cycle.
@@ -174,8 +220,9 @@ impl Pair {
         contact: impl Fn(f64) -> Contact,
     ) -> Option<Contact> {
         let touches = distance <= 0.0;
-        let is_built_so = self.is_own && (self.overlap || contact(0.0).line == 0);
+        let is_built_so = self.overlap || self.is_new || (self.is_own && contact(0.0).line == 0);
         self.overlap = touches && is_built_so;
+        self.is_new = false;
         if touches && !is_built_so {
             self.state = State::Done;
             return Some(contact(0.0));

@@ -5,8 +5,9 @@ use arl_robot::kinematics::random::Random;
 use arl_robot::robot::Robot;
 use serde_json::json;
 
-use super::super::said::{Cycle, Hello, Moves};
+use super::super::said::{self, Cycle, Hello, Moves, State};
 use super::*;
+use crate::cli::scenery::tests::{BALL, Files, ROD, arm};
 
 /// What a program says of its robots.
 fn hello(robots: &[&str]) -> Hello {
@@ -50,8 +51,12 @@ fn cycle(step: u32, axes: &[Vec<f64>]) -> Cycle {
     Cycle { time: f64::from(step) * 0.001, channels, ..Cycle::default() }
 }
 
+fn scenery(text: &str) -> Scenery {
+    Scenery::of(&Cell::parse("cell.toml", text).unwrap(), None).unwrap()
+}
+
 fn begun(text: &str, clearance: f64, robots: &[&str]) -> Collisions {
-    let (mut collisions, _) = Collisions::new(&Cell::parse("cell.toml", text).unwrap(), clearance, false).unwrap();
+    let (mut collisions, _) = Collisions::new(&scenery(text), clearance, false).unwrap();
     collisions.begin(&hello(robots));
     collisions
 }
@@ -239,8 +244,7 @@ fn what_is_wrong_with_bodies_is_said() {
         let _ = std::fs::remove_file(&file);
         bytes.iter().for_each(|bytes| std::fs::write(&file, bytes).unwrap());
         let text = format!("[[body]]\nname = \"a\"\nmesh = {:?}\n", file.display().to_string());
-        let cell = Cell::parse("cell.toml", &text).unwrap();
-        match Collisions::new(&cell, 0.0, false) {
+        match Collisions::new(&scenery(&text), 0.0, false) {
             Err(Failure::Usage(text)) => text,
             _ => panic!("it was taken"),
         }
@@ -252,7 +256,9 @@ fn what_is_wrong_with_bodies_is_said() {
     assert!(refused(Some(&[0; 90])).contains("no triangles"));
     let triangle = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
     std::fs::write(&file, triangle).unwrap();
-    assert!(mesh::load(&file).is_ok_and(|(mesh, farthest)| mesh.indices().len() == 1 && farthest == 1.0));
+    let triangle = mesh::Mesh::load(&file, [1000.0, 1.0, 1.0]).unwrap();
+    assert_eq!(triangle.farthest(), 1000.0);
+    assert!(triangle.hull(&file).is_ok());
     std::fs::remove_dir_all(&folder).unwrap();
 }
 
@@ -320,4 +326,184 @@ fn peers_distances_are_those_of_another_library() {
         touching += u32::from(*ours == 0.0);
     }
     assert!(touching > 50 && ours.len() > 2000, "{touching} of {}", ours.len());
+}
+
+/// A state in which a robot is there, with its TCP in the flange.
+fn state(axes: [f64; 6], dout: &str) -> State {
+    let robot = Robot::load("kr10-r1420").unwrap();
+    let at = robot.kinematics.forward(&axes).translation.vector;
+    let (axes, tcp) = (axes.to_vec(), vec![at.x, at.y, at.z, 0.0, 0.0, 0.0]);
+    let channel = said::Channel { axes, tcp, base: vec![0.0; 6], ..said::Channel::default() };
+    State { channels: vec![channel], dout: dout.into(), ..State::default() }
+}
+
+fn heard(parts: &mut Parts, state: State) -> Vec<Placing> {
+    let lines = parts.hear(&Line::State(state)).unwrap();
+    lines.into_iter().filter_map(|line| if let Line::Placing(placing) = line { Some(placing) } else { None }).collect()
+}
+
+#[test]
+fn parts_go_along_with_the_robot_and_stay_where_they_are_put() {
+    let robot = Robot::load("kr10-r1420").unwrap();
+    let [here, there] = [[0.0, -70.0, 100.0, 0.0, 60.0, 0.0], [60.0, -70.0, 100.0, 0.0, 60.0, 0.0]];
+    let at = robot.kinematics.forward(&here).translation.vector;
+    let part = |name: &str, away: f64| {
+        format!(
+            "[[body]]\nname = \"{name}\"\nbox = [20, 20, 20]\nat = [{}, {}, {}]\ngripped_by = \"do.1\"\nwithin = 8\n",
+            at.x,
+            at.y,
+            at.z - away
+        )
+    };
+    let scenery = scenery(&format!("{}{}{}", part("far", 30.0), part("near", 12.0), part("farther", 17.0)));
+    let mut parts = Parts::of(&scenery).unwrap().unwrap();
+    parts.hear(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
+    let said = |placings: Vec<Placing>| -> Vec<(usize, Option<Option<usize>>)> {
+        placings.iter().map(|placing| (placing.body, placing.place.map(|place| place.held_by))).collect()
+    };
+    assert_eq!(said(heard(&mut parts, state(here, "0"))), [(0, Some(None)), (1, Some(None)), (2, Some(None))]);
+    // The nearest one alone: 12 mm away in the middle, 2 mm at its side.
+    assert_eq!(said(heard(&mut parts, state(here, "1"))), [(1, Some(Some(0)))]);
+    assert_eq!(said(heard(&mut parts, state(here, "1"))), []);
+    assert_eq!(said(heard(&mut parts, state(there, "1"))), []);
+    let put = heard(&mut parts, state(there, "0"));
+    assert_eq!(said(put.clone()), [(1, Some(None))]);
+    let wanted = robot.kinematics.forward(&there) * robot.kinematics.forward(&here).inverse() * scenery.bodies[1].0.at;
+    assert!((put[0].place.unwrap().at.translation.vector - wanted.translation.vector).norm() < 1e-9);
+    // On again where nothing is near: nothing; it is taken once it is near enough, not when the gripper goes on.
+    assert_eq!(said(heard(&mut parts, state([120.0, -70.0, 100.0, 0.0, 60.0, 0.0], "1"))), []);
+    assert_eq!(said(heard(&mut parts, state(there, "1"))), [(1, Some(Some(0)))]);
+}
+
+#[test]
+fn parts_of_a_kind_come_after_each_other_with_their_signal() {
+    let robot = Robot::load("kr10-r1420").unwrap();
+    let [here, there] = [[0.0, -70.0, 100.0, 0.0, 60.0, 0.0], [60.0, -70.0, 100.0, 0.0, 60.0, 0.0]];
+    let at = robot.kinematics.forward(&here).translation.vector;
+    let text = format!(
+        "[[body]]\nname = \"part\"\nsphere = 20\nat = [{}, {}, {}]\ngripped_by = \"do.1\"\nwhen = \"do.2\"\ncount = 2\n",
+        at.x, at.y, at.z
+    );
+    let mut parts = Parts::of(&scenery(&text)).unwrap().unwrap();
+    parts.hear(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
+    let mut there_are = |axes, dout| {
+        heard(&mut parts, state(axes, dout));
+        let places = parts.parts.iter().map(|part| part.said.as_ref().unwrap().place.map(|place| place.held_by));
+        places.collect::<Vec<_>>()
+    };
+    assert_eq!(there_are(here, "00"), [None, None]);
+    assert_eq!(there_are(here, "01"), [Some(None), None]);
+    assert_eq!(there_are(here, "00"), [None, None]);
+    assert_eq!(there_are(here, "10"), [None, None]);
+    // The next one is there as soon as the first one is taken, where the signal says so.
+    assert_eq!(there_are(here, "11"), [Some(Some(0)), Some(None)]);
+    assert_eq!(there_are(there, "10"), [Some(Some(0)), None]);
+    assert_eq!(there_are(there, "00"), [Some(None), None]);
+    assert_eq!(there_are(here, "11"), [Some(None), Some(Some(0))]);
+}
+
+#[test]
+fn a_part_that_is_held_runs_into_what_it_did_not_touch_where_it_stood() {
+    let robot = Robot::load("kr10-r1420").unwrap();
+    let here = [0.0, -70.0, 100.0, 0.0, 60.0, 0.0];
+    let at = robot.kinematics.forward(&here).translation.vector;
+    // The finger touches the part, which is what it is for.
+    let text = format!(
+        "[[body]]\nname = \"part\"\nbox = [20, 20, 300]\nat = [{}, {}, {}]\ngripped_by = \"do.1\"\n\
+         [[body]]\nname = \"finger\"\nbox = [10, 10, 20]\nat = [0, 0, 10]\non = \"flange\"\n\
+         [[body]]\nname = \"wall\"\nbox = [2000, 10, 2000]\nat = [0, -400, 0]\n",
+        at.x,
+        at.y,
+        at.z - 160.0
+    );
+    let run = |grips: bool| {
+        let mut collisions = begun(&text, 0.0, &["kr10-r1420"]);
+        let mut parts = Parts::of(&scenery(&text)).unwrap().unwrap();
+        parts.hear(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
+        let mut found = Vec::new();
+        for step in 0..400 {
+            let axes = [0.1 * f64::from(step), here[1], here[2], here[3], here[4], here[5]];
+            let dout = if grips { "1" } else { "0" };
+            let mut state = state(axes, dout);
+            state.channels[0].tcp[2] -= 10.0;
+            for placing in heard(&mut parts, state) {
+                collisions.place(&placing);
+            }
+            found.extend(collisions.cycle(&Cycle { dout: dout.into(), ..cycle(step, &[axes.to_vec()]) }));
+        }
+        found.into_iter().map(|contact| (contact.one, contact.other)).collect::<Vec<_>>()
+    };
+    assert!(run(true).contains(&("part".into(), "wall".into())), "{:?}", run(true));
+    assert!(!run(false).iter().any(|(one, other)| one == "part" || other == "part"), "{:?}", run(false));
+}
+
+#[test]
+fn a_robot_with_a_shape_of_its_own_touches_by_its_links() {
+    let files = Files::new("collide");
+    let corners = [[-60, -60, -60], [60, -60, -60], [0, 60, -60], [0, 0, 60]];
+    let mut solid = String::from("solid a\n");
+    for face in [[0, 1, 2], [0, 1, 3], [1, 2, 3], [2, 0, 3]] {
+        let [one, two, three] = face.map(|at: usize| corners[at].map(|value| value.to_string()).join(" "));
+        solid +=
+            &format!("facet normal 0 0 0\nouter loop\nvertex {one}\nvertex {two}\nvertex {three}\nendloop\nendfacet\n");
+    }
+    files.write("hand.stl", &(solid + "endsolid a\n"));
+    let hand = "<collision><geometry><mesh filename=\"hand.stl\" scale=\"0.001 0.001 0.001\"/></geometry></collision>";
+    let urdf = files.write("arm.urdf", &arm([BALL, BALL, ROD, BALL, "", "", hand]));
+    let text = |body: &str| format!("urdf = {:?}\n{body}", urdf.display().to_string());
+    let touched = |body: &str, to: [f64; 6]| {
+        let mut collisions = begun(&text(body), 0.0, &["kr10-r1420"]);
+        let mut found = Vec::new();
+        for step in 0..=500 {
+            let axes = [0.0, -90.0, 90.0, 0.0, 0.0, 0.0]
+                .iter()
+                .zip(to)
+                .map(|(from, to)| from + (to - from) * f64::from(step) / 500.0);
+            found.extend(collisions.cycle(&cycle(step, &[axes.collect()])));
+        }
+        found.into_iter().map(|contact| (contact.one, contact.other)).collect::<Vec<_>>()
+    };
+    // The upper arm comes down on a bar beside the shoulder, and the hand, by its hull, on a block in front of the robot.
+    let bar = "[[body]]\nname = \"bar\"\nbox = [20, 2000, 20]\nat = [500, 0, 600]\n";
+    assert_eq!(touched(bar, [0.0, -20.0, 90.0, 0.0, 0.0, 0.0]), [("the upper arm".to_owned(), "bar".to_owned())]);
+    let block = "[[body]]\nname = \"block\"\nbox = [50, 50, 50]\nat = [985, 0, 880]\n";
+    assert_eq!(touched(block, [0.0, -80.0, 90.0, 0.0, 0.0, 0.0]), [("the hand".to_owned(), "block".to_owned())]);
+    // Links that are neighbours do not count with each other; the hand, turned back on the upper arm, touches it.
+    assert_eq!(touched("", [0.0, -60.0, 60.0, 0.0, 0.0, 0.0]), []);
+    let long = "<collision><origin xyz=\"0.25 0 0\"/><geometry><box size=\"0.5 0.04 0.04\"/></geometry></collision>";
+    files.write("arm.urdf", &arm(["", "", ROD, "", "", "", long]));
+    let folded = touched("", [0.0, -90.0, 150.0, 0.0, 110.0, 0.0]);
+    assert_eq!(folded, [("the upper arm".to_owned(), "the hand".to_owned())]);
+    files.write("arm.urdf", &arm(["", "", "", "", ROD, "", long]));
+    assert_eq!(touched("", [0.0, -90.0, 150.0, 0.0, 110.0, 0.0]), []);
+}
+
+#[test]
+fn a_held_part_touches_others_but_not_where_it_is_taken() {
+    let robot = Robot::load("kr10-r1420").unwrap();
+    let here = [0.0, -70.0, 100.0, 0.0, 60.0, 0.0];
+    let [at, other] = [0.0, 30.0]
+        .map(|j1| robot.kinematics.forward(&[j1, here[1], here[2], here[3], here[4], here[5]]).translation.vector);
+    // Three parts of a kind at one place, one beside them, and one on the way.
+    let part = |name: &str, at: nalgebra::Vector3<f64>, more: &str| {
+        let at = [at.x, at.y, at.z - 25.0];
+        format!("[[body]]\nname = \"{name}\"\nbox = [60, 60, 40]\nat = {at:?}\ngripped_by = \"do.1\"\n{more}")
+    };
+    let beside = at + nalgebra::Vector3::new(0.0, 60.0, 0.0);
+    let text = [part("part", at, "count = 3\n"), part("neighbour", beside, ""), part("other", other, "")].concat();
+    let mut collisions = begun(&text, 0.0, &["kr10-r1420"]);
+    let mut parts = Parts::of(&scenery(&text)).unwrap().unwrap();
+    parts.hear(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
+    let mut found = Vec::new();
+    for step in 0..600 {
+        let on = if step < 100 { "0" } else { "1" };
+        let turned = f64::from(step.max(200) - 200) * 0.1;
+        let axes = [turned, here[1], here[2], here[3], here[4], here[5]];
+        for placing in heard(&mut parts, state(axes, on)) {
+            collisions.place(&placing);
+        }
+        found.extend(collisions.cycle(&Cycle { dout: on.into(), ..cycle(step, &[axes.to_vec()]) }));
+    }
+    let found: Vec<_> = found.into_iter().map(|contact| (contact.one, contact.other, contact.time > 0.3)).collect();
+    assert_eq!(found, [("part 1".into(), "other".into(), true)]);
 }

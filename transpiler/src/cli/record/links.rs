@@ -3,7 +3,7 @@
 use arl_robot::kinematics::{Frame, frame};
 use nalgebra::{Translation3, UnitQuaternion, Vector3 as Vector};
 
-use super::super::said::{Channel, Limb, LinkJoint, Placed, Runs, placed};
+use super::super::said::{self, Channel, Limb, LinkJoint, Placed, Runs, placed};
 use super::messages::{FrameTransform, Link, Quaternion, Timestamp, Vector3};
 
 /// The frame that everything stands in.
@@ -50,6 +50,11 @@ impl Arm {
     /// Takes in where its base stands: x, y, z in mm, a, b, c in deg.
     pub(super) fn stands_on(&mut self, base: &[f64]) {
         self.stands = components(base);
+    }
+
+    /// What people call a link; 0 is the base.
+    pub(super) fn name_of(&self, link: usize) -> &str {
+        said::name_of_link(link, self.links.len(), &self.limbs)
     }
 
     /// The frame of its base, of the link `number`, from 1, ...

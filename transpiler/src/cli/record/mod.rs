@@ -18,9 +18,9 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use super::listen::Hears;
 use super::said::Line;
+use super::scenery::Scenery;
 use super::show;
 use super::texts::{self, Text};
-use arl_robot::cell::Body;
 pub(super) use recorder::Recorder;
 pub(super) use schemas::Schema;
 pub(super) use sink::Sink;
@@ -31,8 +31,8 @@ const DESCRIPTION: &str = "cell.urdf";
 /// A recording that is being made.
 pub(super) struct Recording {
     path: PathBuf,
-    /// What stands in the cell, or is carried.
-    bodies: Vec<Body>,
+    /// What is around the robots.
+    scenery: Scenery,
     /// The texts of the program, until they are written.
     sources: Vec<Text>,
     recorder: Recorder<sink::File<BufWriter<std::fs::File>>>,
@@ -40,12 +40,12 @@ pub(super) struct Recording {
 
 impl Recording {
     /// Makes the file: better to fail now than after a long run.
-    pub(super) fn create(path: &Path, bodies: &[Body], sources: &[PathBuf]) -> Result<Self, Failure> {
+    pub(super) fn create(path: &Path, scenery: &Scenery, sources: &[PathBuf]) -> Result<Self, Failure> {
         let file = std::fs::File::create(path).map_err(|error| Failure::io("write", path, &error))?;
         let cannot = |error| Failure::Usage(format!("cannot write {}: {error}", path.display()));
-        let recorder = Recorder::new(sink::File::new(BufWriter::new(file)).map_err(cannot)?, bodies);
+        let recorder = Recorder::new(sink::File::new(BufWriter::new(file)).map_err(cannot)?, scenery);
         let sources = texts::read(sources);
-        Ok(Self { path: path.to_owned(), bodies: bodies.to_vec(), sources, recorder })
+        Ok(Self { path: path.to_owned(), scenery: scenery.clone(), sources, recorder })
     }
 }
 
@@ -53,7 +53,7 @@ impl Recording {
     /// Writes the description of the cell. A recording is whole without it.
     fn describe(&self) {
         let description = self.path.with_file_name(DESCRIPTION);
-        if let Err(error) = std::fs::write(&description, urdf::urdf(self.recorder.arms(), &self.bodies)) {
+        if let Err(error) = std::fs::write(&description, urdf::urdf(self.recorder.arms(), &self.scenery)) {
             show::warning(&format!("cannot write {}: {error}", description.display()));
         }
     }

@@ -1,16 +1,16 @@
 //! Writes what a program says into a recording.
 
-use arl_robot::cell::Body;
 use mcap::McapResult;
 use serde_json::Value;
 
-use super::super::said::{self, Hello, Line, State};
+use super::super::said::{self, Hello, Line, Placing, State};
+use super::super::scenery::Scenery;
 use super::links::Arm;
 use super::messages::{
     Axis, Blend, Cell, Channel, Closest, Contact, Controller, FrameTransforms, Io, JointState, JointStates, Level, Log,
     Motion, Name, Runs, Timestamp,
 };
-use super::scene::{self, Scene};
+use super::scene::Scene;
 use super::schemas::{self, Schema};
 use super::sink::Sink;
 
@@ -45,12 +45,12 @@ struct Last {
 }
 
 impl<S: Sink> Recorder<S> {
-    /// For the bodies of a cell.
-    pub(crate) fn new(sink: S, bodies: &[Body]) -> Self {
+    /// In a scenery.
+    pub(crate) fn new(sink: S, scenery: &Scenery) -> Self {
         Self {
             sink,
             arms: Vec::new(),
-            scene: Scene::new(bodies),
+            scene: Scene::new(scenery),
             last: Last::default(),
             time: 0.0,
             frames_due: 0.0,
@@ -79,6 +79,7 @@ impl<S: Sink> Recorder<S> {
             }
             Line::Report(object) => self.motion(object),
             Line::Contact(contact) => self.contact(contact),
+            Line::Placing(placing) => self.placing(placing),
             Line::Cycle(_) | Line::Ended(()) | Line::Inside(_) | Line::Refused(_) | Line::Other(_) => Ok(()),
         }
     }
@@ -123,7 +124,7 @@ impl<S: Sink> Recorder<S> {
         let cell = Cell { channels, names: hello.names.iter().map(name).collect() };
         self.last.channels = vec![Channel::default(); hello.channels.len()];
         self.write("/arl/cell", &schemas::CELL, 0.0, &cell)?;
-        let robots = scene::robots(&self.arms);
+        let robots = self.scene.robots(&self.arms);
         self.write("/scene", &schemas::SCENE_UPDATE, 0.0, &robots)
     }
 
@@ -250,6 +251,14 @@ impl<S: Sink> Recorder<S> {
         let log = Log { level, message: contact.to_string(), file: file.clone(), line, ..Log::default() };
         self.log(time, log)?;
         self.write("/arl/contacts", &schemas::CONTACT, time, &Contact { time, file, line, one, other, distance })
+    }
+
+    /// A body that robots take along is elsewhere.
+    fn placing(&mut self, placing: &Placing) -> McapResult<()> {
+        match self.scene.place(placing, &self.arms, timestamp(self.time)) {
+            Some(update) => self.write("/scene", &schemas::SCENE_UPDATE, self.time, &update),
+            None => Ok(()),
+        }
     }
 
     fn write(

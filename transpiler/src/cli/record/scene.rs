@@ -1,10 +1,14 @@
 //! What a viewer draws: limbs of robots, bodies of the cell, each in its frame.
 
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
 use arl_robot::cell::{Body, Signal, SignalKind, Solid};
 use arl_robot::kinematics::Frame;
 use arl_robot::regular_file;
 
-use super::super::said::Limb;
+use super::super::said::{Limb, Placing};
+use super::super::scenery::{Looks, Piece, Scenery, Shape};
 use super::super::show;
 use super::links::{Arm, WORLD, parts, straight};
 use super::messages::{
@@ -15,53 +19,138 @@ use super::messages::{
 const LIMB: Color = Color { r: 0.95, g: 0.55, b: 0.15, a: 1.0 };
 const STANDS: Color = Color { r: 0.55, g: 0.6, b: 0.65, a: 1.0 };
 const CARRIED: Color = Color { r: 0.25, g: 0.55, b: 0.85, a: 1.0 };
-/// A mesh is in mm.
-const MODEL_SCALE: messages::Vector3 = messages::Vector3 { x: 0.001, y: 0.001, z: 0.001 };
+/// Meshes have mm, viewers m.
+const METRES: f64 = 0.001;
 
-/// The bodies of a cell, and which of them are there.
+/// What is drawn around robots, and of them.
 pub(super) struct Scene {
-    bodies: Vec<(Body, bool)>,
+    scenery: Scenery,
+    /// Of each body, whether it is drawn.
+    shown: Vec<bool>,
+    meshes: Meshes,
+}
+
+/// The bytes of files that were read; `None`: one that cannot be, which is told of once.
+#[derive(Default)]
+struct Meshes(BTreeMap<PathBuf, Option<Vec<u8>>>);
+
+impl Meshes {
+    fn read(&mut self, file: &Path) -> Option<Vec<u8>> {
+        let read = || match regular_file::read(file) {
+            Ok(bytes) => Some(bytes),
+            Err(error) => {
+                show::warning(&format!("{} is not drawn: {error}", file.display()));
+                None
+            }
+        };
+        self.0.entry(file.to_owned()).or_insert_with(read).clone()
+    }
 }
 
 impl Scene {
-    pub(super) fn new(bodies: &[Body]) -> Self {
-        Self { bodies: bodies.iter().map(|body| (body.clone(), false)).collect() }
+    pub(super) fn new(scenery: &Scenery) -> Self {
+        Self { scenery: scenery.clone(), shown: vec![false; scenery.bodies.len()], meshes: Meshes::default() }
     }
 
     /// Bodies that are there from now on, and those that are not any more, by the levels of inputs and outputs.
     pub(super) fn bodies(&mut self, io: &Io, arms: &[Option<Arm>], now: Timestamp) -> Option<SceneUpdate> {
         let mut update = SceneUpdate::default();
-        for (body, shown) in &mut self.bodies {
+        for ((body, looks), shown) in self.scenery.bodies.iter().zip(&mut self.shown) {
+            if body.grip.is_some() {
+                // Where it is will be said.
+                continue;
+            }
             let there = body.when.is_none_or(|(signal, wanted)| level(io, signal) == wanted);
             if std::mem::replace(shown, there) == there {
                 continue;
             }
-            let id = format!("body/{}", body.name);
             if there {
-                let holder = body.carried_by.and_then(|channel| arms.get(channel as usize - 1)?.as_ref());
-                let frame_id = holder.map_or_else(|| WORLD.to_owned(), Arm::flange_frame);
-                let color = if holder.is_some() { CARRIED } else { STANDS };
-                update.entities.push(SceneEntity { id, frame_id, frame_locked: true, ..drawn(body, color, now) });
+                let holder = body.carried_by.map(|channel| channel as usize - 1);
+                update.entities.push(drawn((body, looks), holder, (&body.at, arms), &mut self.meshes, now));
             } else {
-                update.deletions.push(SceneEntityDeletion { timestamp: Some(now), id });
+                update.deletions.push(SceneEntityDeletion { timestamp: Some(now), id: id(body) });
             }
         }
         (!update.entities.is_empty() || !update.deletions.is_empty()).then_some(update)
     }
+
+    /// A body that robots take along is elsewhere.
+    pub(super) fn place(&mut self, placing: &Placing, arms: &[Option<Arm>], now: Timestamp) -> Option<SceneUpdate> {
+        let (body, looks) = self.scenery.bodies.get(placing.body)?;
+        let shown = self.shown.get_mut(placing.body)?;
+        let was_shown = std::mem::replace(shown, placing.place.is_some());
+        let mut update = SceneUpdate::default();
+        match placing.place {
+            Some(place) => {
+                update.entities.push(drawn((body, looks), place.held_by, (&place.at, arms), &mut self.meshes, now));
+            }
+            None if was_shown => update.deletions.push(SceneEntityDeletion { timestamp: Some(now), id: id(body) }),
+            None => return None,
+        }
+        Some(update)
+    }
+
+    /// The limbs of all robots.
+    pub(super) fn robots(&mut self, arms: &[Option<Arm>]) -> SceneUpdate {
+        let mut entities = Vec::new();
+        for (channel, arm) in arms.iter().enumerate() {
+            let Some(arm) = arm else { continue };
+            match self.scenery.shape(channel) {
+                Some(shape) => entities.extend(links(arm, shape, &mut self.meshes)),
+                None => entities.extend(arm.limbs.iter().map(|limb| capsules(arm, limb))),
+            }
+        }
+        SceneUpdate { deletions: Vec::new(), entities }
+    }
 }
 
-/// The limbs of all robots.
-pub(super) fn robots(arms: &[Option<Arm>]) -> SceneUpdate {
-    let of_arm = |arm: &Arm| {
-        let limb = |limb: &Limb| {
-            let frame_id = if limb.link == 0 { arm.base() } else { arm.link(limb.link) };
-            let id = arm.joint(&limb.name);
-            let (spheres, cylinders) = capsule(limb);
-            SceneEntity { frame_id, id, frame_locked: true, spheres, cylinders, ..timed(Timestamp::default()) }
-        };
-        arm.limbs.iter().map(limb).collect::<Vec<_>>()
-    };
-    SceneUpdate { deletions: Vec::new(), entities: arms.iter().flatten().flat_map(of_arm).collect() }
+/// What a body is called in a scene.
+fn id(body: &Body) -> String {
+    format!("body/{}", body.name)
+}
+
+/// A body in the flange of the robot of a channel, from 0, or in the world.
+fn drawn(
+    (body, looks): (&Body, &Looks),
+    holder: Option<usize>,
+    (at, arms): (&Frame, &[Option<Arm>]),
+    meshes: &mut Meshes,
+    now: Timestamp,
+) -> SceneEntity {
+    let arm = holder.and_then(|channel| arms.get(channel)?.as_ref());
+    let frame_id = arm.map_or_else(|| WORLD.to_owned(), Arm::flange_frame);
+    let color = if arm.is_some() || body.grip.is_some() { CARRIED } else { STANDS };
+    let mut entity = SceneEntity { id: id(body), frame_id, frame_locked: true, ..timed(now) };
+    for piece in &looks.seen {
+        draw(&mut entity, piece, (&(at * piece.at), color), meshes);
+    }
+    entity
+}
+
+/// A limb as a capsule.
+fn capsules(arm: &Arm, limb: &Limb) -> SceneEntity {
+    let frame_id = if limb.link == 0 { arm.base() } else { arm.link(limb.link) };
+    let (spheres, cylinders) = capsule(limb);
+    let id = arm.joint(&limb.name);
+    SceneEntity { frame_id, id, frame_locked: true, spheres, cylinders, ..timed(Timestamp::default()) }
+}
+
+/// The links of a robot that has a shape of its own. Links that people call the same are one thing to them: `the forearm`, and what axis 4
+/// turns of it; such a one has its link behind its name.
+fn links(arm: &Arm, shape: &Shape, meshes: &mut Meshes) -> Vec<SceneEntity> {
+    let mut entities: Vec<SceneEntity> = Vec::new();
+    for (link, looks) in shape.links().filter(|(_, looks)| !looks.seen.is_empty()) {
+        let frame_id = if link == 0 { arm.base() } else { arm.link(link) };
+        let name = arm.joint(arm.name_of(link));
+        let is_taken = entities.iter().any(|entity| entity.id == name);
+        let id = if is_taken { format!("{name}/{link}") } else { name };
+        let mut entity = SceneEntity { id, frame_id, frame_locked: true, ..timed(Timestamp::default()) };
+        for piece in &looks.seen {
+            draw(&mut entity, piece, (&piece.at, LIMB), meshes);
+        }
+        entities.push(entity);
+    }
+    entities
 }
 
 fn timed(now: Timestamp) -> SceneEntity {
@@ -73,30 +162,25 @@ fn level(io: &Io, signal: Signal) -> bool {
     levels.get(signal.channel as usize - 1) == Some(&true)
 }
 
-/// The form of a body.
-fn drawn(body: &Body, color: Color, now: Timestamp) -> SceneEntity {
-    let (pose, color) = (Some(pose(&body.at)), Some(color));
-    let mut entity = timed(now);
-    match &body.solid {
-        Solid::Box(edges) => {
-            entity.cubes.push(messages::Solid { pose, size: Some(metres(*edges)), color });
+/// Adds a piece. A mesh that cannot be read is told of, and left out.
+fn draw(entity: &mut SceneEntity, piece: &Piece, (at, color): (&Frame, Color), meshes: &mut Meshes) {
+    let color = Some(piece.color.map_or(color, |[r, g, b, a]| Color { r, g, b, a }));
+    let pose = Some(pose(at));
+    match &piece.solid {
+        Solid::Box(edges) => entity.cubes.push(messages::Solid { pose, size: Some(metres(*edges)), color }),
+        Solid::Cylinder { radius, length } => entity.cylinders.push(cylinder(pose, (*radius, *length), color)),
+        Solid::Sphere(radius) => {
+            entity.spheres.push(messages::Solid { pose, size: Some(metres([2.0 * radius; 3])), color });
         }
-        Solid::Cylinder { radius, length } => {
-            entity.cylinders.push(cylinder(pose, (*radius, *length), color));
-        }
-        Solid::Mesh(file) => match regular_file::read(file) {
-            Ok(data) => entity.models.push(Model {
-                pose,
-                scale: Some(MODEL_SCALE),
-                color,
-                override_color: true,
-                media_type: "model/stl".to_owned(),
-                data,
-            }),
-            Err(error) => show::warning(&format!("body `{}` is not drawn: {}: {error}", body.name, file.display())),
-        },
+        Solid::Mesh { file, scale: [x, y, z] } => entity.models.extend(meshes.read(file).map(|data| Model {
+            pose,
+            scale: Some(messages::Vector3 { x: x * METRES, y: y * METRES, z: z * METRES }),
+            color,
+            override_color: true,
+            media_type: "model/stl".to_owned(),
+            data,
+        })),
     }
-    entity
 }
 
 /// A cylinder with a ball at either end.

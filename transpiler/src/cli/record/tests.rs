@@ -12,6 +12,7 @@ use super::recorder::Recorder;
 use super::schemas::{self, Schema};
 use super::sink::File;
 use super::urdf::urdf;
+use crate::cli::scenery::Scenery;
 
 const HELLO: &str = r#"{"hello":{"channels":[{"program":"pick.arl","robot":"two-axes","axes":[
     {"name":"j1","unit":"deg","min":-180.0,"max":180.0},{"name":"j2","unit":"mm","min":0.0,"max":500.0}],
@@ -30,12 +31,16 @@ fn state(time: f64, j1: f64, di: &str, line: u32) -> String {
 
 /// The messages of a recording of these lines by their topics, each with its time in ns.
 fn recorded(lines: &[String]) -> BTreeMap<String, Vec<(u64, Vec<u8>)>> {
-    recorded_in(lines, &[])
+    recorded_in(lines, &Scenery::default())
 }
 
-fn recorded_in(lines: &[String], bodies: &[arl_robot::cell::Body]) -> BTreeMap<String, Vec<(u64, Vec<u8>)>> {
+fn scenery(cell: &str) -> Scenery {
+    Scenery::of(&arl_robot::cell::Cell::parse("cell.toml", cell).unwrap(), None).unwrap()
+}
+
+fn recorded_in(lines: &[String], scenery: &Scenery) -> BTreeMap<String, Vec<(u64, Vec<u8>)>> {
     let mut bytes = Vec::new();
-    let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)).unwrap(), bodies);
+    let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)).unwrap(), scenery);
     for line in lines {
         recorder.hear(&serde_json::from_str(line).unwrap()).unwrap();
     }
@@ -113,12 +118,11 @@ fn an_empty_run_is_a_whole_file() {
 #[test]
 fn the_description_has_the_frames_and_joints_of_the_recording() {
     let mut bytes = Vec::new();
-    let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)).unwrap(), &[]);
+    let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)).unwrap(), &Scenery::default());
     recorder.hear(&serde_json::from_str(HELLO).unwrap()).unwrap();
     let bodies = "[[body]]\nname = \"table <1>\"\nbox = [800, 600, 40]\nat = [900, 0, -20]\n\
                   [[body]]\nname = \"tool\"\ncylinder = [20, 100]\non = \"flange\"\n[[body]]\nname = \"jig\"\nmesh = \"jig.stl\"\n";
-    let bodies = arl_robot::cell::Cell::parse("cell.toml", bodies).unwrap().bodies;
-    let text = urdf(recorder.arms(), &bodies);
+    let text = urdf(recorder.arms(), &scenery(bodies));
     let description = urdf_rs::read_from_string(&text).unwrap();
     let links: Vec<_> = description.links.iter().map(|link| link.name.as_str()).collect();
     assert_eq!(links, ["world", "base_link", "link_1", "link_2", "flange", "body/table <1>", "body/tool", "body/jig"]);
@@ -136,9 +140,9 @@ fn the_description_has_the_frames_and_joints_of_the_recording() {
 fn bodies_come_and_go_with_their_signal() {
     let cell = "[[body]]\nname = \"table\"\nbox = [800, 600, 40]\nat = [900, 0, -20]\n\
                 [[body]]\nname = \"part\"\ncylinder = [20, 100]\non = \"flange\"\nwhen = \"di.2\"\n";
-    let bodies = arl_robot::cell::Cell::parse("cell.toml", cell).unwrap().bodies;
+    let scenery = scenery(cell);
     let lines = [HELLO.to_owned(), state(0.0, 0.0, "10", 7), state(1.0, 0.0, "11", 7), state(2.0, 0.0, "00", 7)];
-    let topics = recorded_in(&lines, &bodies);
+    let topics = recorded_in(&lines, &scenery);
     let updates: Vec<SceneUpdate> =
         topics["/scene"].iter().map(|(_, data)| SceneUpdate::decode(&data[..]).unwrap()).collect();
     let told = |update: &SceneUpdate| {

@@ -1,39 +1,50 @@
 //! The description of the cell that viewers draw: `cell.urdf`, with the names of the recording's frames and joints.
 //!
-//! Robots have the shape that collisions are looked for with.
+//! Robots and bodies look as they do in the recording; of parts that follow others only the first one is there.
 
 use std::fmt::Write;
 
 use arl_robot::cell::{Body, Solid};
+use arl_robot::kinematics::Frame;
 use nalgebra::{Isometry3, UnitQuaternion, Vector3};
+use percent_encoding::{AsciiSet, CONTROLS, utf8_percent_encode};
 
 use super::super::said::{Limb, placed};
+use super::super::scenery::{Looks, Piece, Scenery, Shape};
 use super::links::{Arm, WORLD, straight};
 
+/// What a path in an address has otherwise than as it is.
+const IN_ADDRESS: &AsciiSet = &CONTROLS.add(b' ').add(b'#').add(b'%').add(b'?');
 /// What a joint may do at most where only its range is known; a reader wants numbers.
 const EFFORT: f64 = 1000.0;
 const VELOCITY: f64 = 10.0;
 
-/// The description of these arms, by channels, and of the bodies around them.
-pub(super) fn urdf(arms: &[Option<Arm>], bodies: &[Body]) -> String {
+/// The description of these arms, by channels, and of what is around them.
+pub(super) fn urdf(arms: &[Option<Arm>], scenery: &Scenery) -> String {
     let mut out = String::from("<?xml version=\"1.0\"?>\n<robot name=\"cell\">\n");
     let _ = writeln!(out, "  <link name=\"{WORLD}\"/>");
-    arms.iter().flatten().for_each(|arm| add_arm(&mut out, arm));
-    for body in bodies {
+    for (channel, arm) in arms.iter().enumerate() {
+        if let Some(arm) = arm {
+            add_arm(&mut out, arm, scenery.shape(channel));
+        }
+    }
+    for (body, looks) in scenery.bodies.iter().filter(|(body, _)| body.grip.is_none_or(|grip| !grip.follows)) {
         let channel = body.carried_by.map(|channel| channel as usize - 1);
         let arm = channel.and_then(|channel| arms.get(channel)).and_then(Option::as_ref);
         let holder = arm.map_or_else(|| WORLD.to_owned(), Arm::flange_frame);
-        add_body(&mut out, body, &holder);
+        add_body(&mut out, (body, looks), &holder);
     }
     out.push_str("</robot>\n");
     out
 }
 
-fn add_arm(out: &mut String, arm: &Arm) {
+fn add_arm(out: &mut String, arm: &Arm, shape: Option<&Shape>) {
     let _ = writeln!(out, "  <!-- {} -->", escaped(&arm.robot).replace("--", "- -"));
     for number in 0..=arm.links.len() {
         let name = if number == 0 { arm.base() } else { arm.link(number) };
-        let limbs: String = arm.limbs.iter().filter(|limb| limb.link == number).map(tube).collect();
+        let tubes = || arm.limbs.iter().filter(|limb| limb.link == number).map(tube).collect();
+        let looks = shape.and_then(|shape| shape.links().find(|(link, _)| *link == number));
+        let limbs: String = looks.map_or_else(tubes, |(_, looks)| looks.seen.iter().map(visual).collect());
         let _ = writeln!(out, "  <link name=\"{name}\">{limbs}</link>");
     }
     let _ = writeln!(out, "  <link name=\"{}\"/>", arm.flange_frame());
@@ -53,21 +64,35 @@ fn add_arm(out: &mut String, arm: &Arm) {
     joint(out, ("fixed", &format!("{flange}_to_{last}")), [&last, &flange], &placed(&arm.flange), "");
 }
 
-fn add_body(out: &mut String, body: &Body, holder: &str) {
+fn add_body(out: &mut String, (body, looks): (&Body, &Looks), holder: &str) {
     // No frame of a robot has such a name.
     let name = format!("body/{}", escaped(&body.name));
-    let form = match &body.solid {
+    let forms: String = looks.seen.iter().map(visual).collect();
+    let _ = writeln!(out, "  <link name=\"{name}\">{forms}</link>");
+    joint(out, ("fixed", &format!("{name}_to_{holder}")), [holder, &name], &body.at, "");
+}
+
+fn visual(piece: &Piece) -> String {
+    let form = match &piece.solid {
         Solid::Box([x, y, z]) => format!("<box size=\"{} {} {}\"/>", x / 1000.0, y / 1000.0, z / 1000.0),
         Solid::Cylinder { radius, length } => cylinder(radius / 1000.0, length / 1000.0),
-        Solid::Mesh(file) => {
+        Solid::Sphere(radius) => format!("<sphere radius=\"{}\"/>", radius / 1000.0),
+        Solid::Mesh { file, scale: [x, y, z] } => {
             let file = std::path::absolute(file).unwrap_or_else(|_| file.clone());
-            let address =
-                escaped(&file.display().to_string().replace('%', "%25").replace(' ', "%20").replace('#', "%23"));
-            format!("<mesh filename=\"file://{address}\" scale=\"0.001 0.001 0.001\"/>")
+            let address = escaped(&utf8_percent_encode(&file.display().to_string(), IN_ADDRESS).to_string());
+            let scale = format!("{} {} {}", x / 1000.0, y / 1000.0, z / 1000.0);
+            format!("<mesh filename=\"file://{address}\" scale=\"{scale}\"/>")
         }
     };
-    let _ = writeln!(out, "  <link name=\"{name}\"><visual><geometry>{form}</geometry></visual></link>");
-    joint(out, ("fixed", &format!("{name}_to_{holder}")), [holder, &name], &body.at, "");
+    let origin = if piece.at == Frame::identity() {
+        String::new()
+    } else {
+        origin(&(piece.at.translation.vector / 1000.0), &piece.at.rotation)
+    };
+    let paint = piece.color.map_or_else(String::new, |[r, g, b, a]| {
+        format!("<material name=\"{r}_{g}_{b}_{a}\"><color rgba=\"{r} {g} {b} {a}\"/></material>")
+    });
+    format!("<visual>{origin}<geometry>{form}</geometry>{paint}</visual>")
 }
 
 /// A capsule: a cylinder with a ball at either end.

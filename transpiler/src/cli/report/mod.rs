@@ -12,7 +12,6 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use arl_robot::cell::Body;
 use arl_robot::regular_file;
 
 use super::answer;
@@ -22,6 +21,7 @@ use super::listen::Hears;
 use super::record::Recorder;
 use super::recorded::{self, Store};
 use super::said::Line;
+use super::scenery::Scenery;
 pub(super) use compare::Differences;
 pub(super) use summary::Summary;
 
@@ -37,12 +37,12 @@ pub(super) struct Reporting {
 
 impl Reporting {
     /// Makes the file: better to fail now than after a long run.
-    pub(super) fn create(file: &Path, format: ReportFormat, bodies: &[Body]) -> Result<Self, Failure> {
+    pub(super) fn create(file: &Path, format: ReportFormat, scenery: &Scenery) -> Result<Self, Failure> {
         let file = (file != Path::new(STANDARD_ERROR)).then(|| file.to_owned());
         if let Some(file) = &file {
             std::fs::write(file, "").map_err(|error| Failure::io("write", file, &error))?;
         }
-        Ok(Self { file, format, recorder: Recorder::new(Store::default(), bodies) })
+        Ok(Self { file, format, recorder: Recorder::new(Store::default(), scenery) })
     }
 }
 

@@ -5,8 +5,10 @@ use urdf_rs::{Joint, JointType, Robot};
 
 /// A moving joint.
 #[derive(Clone, Debug)]
-pub(super) struct Moving {
-    pub(super) name: String,
+pub(in crate::cli) struct Moving {
+    pub(in crate::cli) name: String,
+    /// The link that it moves.
+    pub(in crate::cli) child: String,
     /// Whether it slides instead of turning.
     pub(super) slides: bool,
     /// From the frame that the joint before moves to its own.
@@ -21,9 +23,11 @@ pub(super) struct Moving {
 
 /// A robot's joints, and the flange seen from the frame that the last one moves.
 #[derive(Clone, Debug)]
-pub(super) struct Chain {
+pub(in crate::cli) struct Chain {
     pub(super) name: String,
-    pub(super) joints: Vec<Moving>,
+    /// The link that is the base.
+    pub(in crate::cli) root: String,
+    pub(in crate::cli) joints: Vec<Moving>,
     pub(super) flange: Place,
 }
 
@@ -31,25 +35,15 @@ pub(super) struct Chain {
 const FLANGES: [&str; 2] = ["tool0", "flange"];
 
 impl Chain {
-    /// Reads the chain.
-    pub(super) fn read(text: &str) -> Result<Self, String> {
-        if text.contains("xacro:") {
-            return Err("this is a xacro file; make a URDF of it first: `xacro FILE.xacro > FILE.urdf`".to_owned());
-        }
-        let robot = urdf_rs::read_from_string(text).map_err(|error| format!("this is no URDF: {error}"))?;
-        let is_child = |link: &str| robot.joints.iter().any(|joint| joint.child.link == link);
-        let mut roots = robot.links.iter().filter(|link| !is_child(&link.name));
-        let Some(root) = roots.next() else {
-            return Err("no link is the base: the joints go round in a circle".to_owned());
-        };
-        if let Some(second) = roots.next() {
-            return Err(format!("two links have no joint to them: `{}` and `{}`", root.name, second.name));
-        }
-        let mut chain = Chain { name: robot.name.clone(), joints: Vec::new(), flange: Place::ORIGIN };
-        let (mut link, mut carried) = (root.name.as_str(), Place::ORIGIN);
+    /// The chain of a robot.
+    pub(in crate::cli) fn of(robot: &Robot) -> Result<Self, String> {
+        let root = root(robot)?;
+        let (name, root_name) = (robot.name.clone(), root.to_owned());
+        let mut chain = Chain { name, root: root_name, joints: Vec::new(), flange: Place::ORIGIN };
+        let (mut link, mut carried) = (root, Place::ORIGIN);
         for _ in &robot.joints {
             let next: Vec<&Joint> = robot.joints.iter().filter(|joint| joint.parent.link == link).collect();
-            let leading: Vec<&&Joint> = next.iter().filter(|joint| moves(&robot, joint)).collect();
+            let leading: Vec<&&Joint> = next.iter().filter(|joint| moves(robot, joint)).collect();
             let joint = match leading.as_slice() {
                 [] => break,
                 [joint] => joint,
@@ -70,12 +64,12 @@ impl Chain {
             };
             link = &joint.child.link;
         }
-        chain.flange = carried.then(&flange(&robot, link));
+        chain.flange = carried.then(&flange(robot, link));
         Ok(chain)
     }
 
     /// The frames that the joints move, then the flange, in the base, when the joints stand at these positions (rad, m).
-    pub(super) fn forward(&self, at: &[f64]) -> Vec<Place> {
+    pub(in crate::cli) fn forward(&self, at: &[f64]) -> Vec<Place> {
         let mut place = Place::ORIGIN;
         let mut all = Vec::new();
         for (joint, at) in self.joints.iter().zip(at) {
@@ -90,6 +84,44 @@ impl Chain {
         all.push(place.then(&self.flange));
         all
     }
+}
+
+/// Reads a URDF.
+pub(in crate::cli) fn parse(text: &str) -> Result<Robot, String> {
+    if text.contains("xacro:") {
+        return Err("this is a xacro file; make a URDF of it first: `xacro FILE.xacro > FILE.urdf`".to_owned());
+    }
+    urdf_rs::read_from_string(text).map_err(|error| format!("this is no URDF: {error}"))
+}
+
+/// The link that no joint leads to.
+pub(in crate::cli) fn root(robot: &Robot) -> Result<&str, String> {
+    let is_child = |link: &str| robot.joints.iter().any(|joint| joint.child.link == link);
+    let mut roots = robot.links.iter().filter(|link| !is_child(&link.name));
+    let Some(root) = roots.next() else {
+        return Err("no link is the base: the joints go round in a circle".to_owned());
+    };
+    match roots.next() {
+        None => Ok(&root.name),
+        Some(second) => Err(format!("two links have no joint to them: `{}` and `{}`", root.name, second.name)),
+    }
+}
+
+/// A link, and those behind it with joints at 0, each with its place. The joints `moving` are not gone over.
+pub(in crate::cli) fn fixed_to<'a>(robot: &'a Robot, link: &'a str, moving: &[&str]) -> Vec<(&'a str, Place)> {
+    let mut found: Vec<(&str, Place)> = vec![(link, Place::ORIGIN)];
+    let mut at = 0;
+    while let Some((link, place)) = found.get(at).copied() {
+        at += 1;
+        for joint in robot.joints.iter().filter(|joint| joint.parent.link == link) {
+            let known = found.iter().any(|(known, _)| *known == joint.child.link);
+            if !known && !moving.contains(&joint.name.as_str()) {
+                let own = Place::of_urdf(joint.origin.xyz.0, joint.origin.rpy.0);
+                found.push((&joint.child.link, place.then(&own)));
+            }
+        }
+    }
+    found
 }
 
 /// Whether a joint, or one behind it, moves.
@@ -131,22 +163,21 @@ fn moving(joint: &Joint, origin: Place) -> Result<Option<Moving>, String> {
     }
     let velocity = if joint.limit.velocity > 0.0 { joint.limit.velocity } else { std::f64::consts::PI };
     let axis = joint.axis.xyz.0.map(|component| component / size);
-    Ok(Some(Moving { name: name.clone(), slides, origin, axis, lower, upper, velocity }))
+    Ok(Some(Moving {
+        name: name.clone(),
+        child: joint.child.link.clone(),
+        slides,
+        origin,
+        axis,
+        lower,
+        upper,
+        velocity,
+    }))
 }
 
 /// The flange behind the last moving link: a link of a usual name that is fixed to it, or that link itself.
 fn flange(robot: &Robot, link: &str) -> Place {
-    let mut found: Vec<(&str, Place)> = vec![(link, Place::ORIGIN)];
-    let mut at = 0;
-    while let Some((link, place)) = found.get(at).copied() {
-        at += 1;
-        for joint in robot.joints.iter().filter(|joint| joint.parent.link == link) {
-            if !found.iter().any(|(known, _)| *known == joint.child.link) {
-                let own = Place::of_urdf(joint.origin.xyz.0, joint.origin.rpy.0);
-                found.push((&joint.child.link, place.then(&own)));
-            }
-        }
-    }
+    let found = fixed_to(robot, link, &[]);
     let named = FLANGES.iter().find_map(|name| found.iter().find(|(link, _)| link.ends_with(name)));
     named.map_or(Place::ORIGIN, |(_, place)| *place)
 }

@@ -6,8 +6,10 @@ mod place;
 
 use super::failure::Failure;
 use arl_robot::regular_file;
-use chain::{Chain, Moving};
+use chain::Moving;
+pub(super) use chain::{Chain, fixed_to, parse, root};
 use fit::{Scara, SixAxes};
+pub(super) use place::Place;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -31,7 +33,7 @@ pub(super) fn import(file: &Path) -> Result<String, Failure> {
 }
 
 fn robot_file(text: &str, from: &str) -> Result<String, String> {
-    let chain = Chain::read(text)?;
+    let chain = Chain::of(&parse(text)?)?;
     let (family, geometry, joints) = match chain.joints.len() {
         6 => {
             if let Some(joint) = chain.joints.iter().find(|joint| joint.slides) {
@@ -62,6 +64,11 @@ fn robot_file(text: &str, from: &str) -> Result<String, String> {
         axis(&mut out, at, joint);
     }
     Ok(out)
+}
+
+/// For each axis, its joint: that of a SCARA's axes may come in another order.
+pub(super) fn order(chain: &Chain) -> Result<Vec<usize>, String> {
+    if chain.joints.len() == 4 { Ok(fit::scara(chain)?.order.to_vec()) } else { Ok((0..chain.joints.len()).collect()) }
 }
 
 fn six_axes(fit: &SixAxes) -> String {

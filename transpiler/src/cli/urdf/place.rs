@@ -1,13 +1,13 @@
 //! Places and turns: what little geometry the import needs.
 
 /// A vector, m.
-pub(super) type Vector = [f64; 3];
+pub(in crate::cli) type Vector = [f64; 3];
 
 /// A rotation (rows of its matrix) and a translation in m.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Place {
-    pub(super) turn: [Vector; 3],
-    pub(super) at: Vector,
+pub(in crate::cli) struct Place {
+    pub(in crate::cli) turn: [Vector; 3],
+    pub(in crate::cli) at: Vector,
 }
 
 pub(super) fn dot([a, b, c]: Vector, [x, y, z]: Vector) -> f64 {
@@ -47,7 +47,7 @@ impl Place {
     }
 
     /// The origin of a URDF joint: a place, then roll, pitch and yaw about fixed axes.
-    pub(super) fn of_urdf(xyz: Vector, [roll, pitch, yaw]: Vector) -> Self {
+    pub(in crate::cli) fn of_urdf(xyz: Vector, [roll, pitch, yaw]: Vector) -> Self {
         let [x, y, z] = Self::ORIGIN.turn;
         Self::shift(xyz).then(&Self::about(z, yaw)).then(&Self::about(y, pitch)).then(&Self::about(x, roll))
     }

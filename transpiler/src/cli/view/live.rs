@@ -5,7 +5,6 @@ use std::process::Command;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
-use arl_robot::cell::Body;
 use mcap::McapResult;
 
 use super::super::cargo;
@@ -14,6 +13,7 @@ use super::super::listen::{Hears, pass_on};
 use super::super::record::{Recorder, Schema, Sink};
 use super::super::recorded::Store;
 use super::super::said::Line;
+use super::super::scenery::Scenery;
 use super::super::show;
 
 /// How often it is looked whether the program has said something.
@@ -47,8 +47,8 @@ impl Live {
     }
 
     /// Hears the program until it ends; its exit code. Who hears it first, `hearers`, may add to what the page is told.
-    pub(super) fn hear(&self, mut hearers: Vec<Box<dyn Hears>>, bodies: &[Body], store: &Arc<Mutex<Store>>) -> u8 {
-        let recorder = Recorder::new(Shared(Arc::clone(store)), bodies);
+    pub(super) fn hear(&self, mut hearers: Vec<Box<dyn Hears>>, scenery: &Scenery, store: &Arc<Mutex<Store>>) -> u8 {
+        let recorder = Recorder::new(Shared(Arc::clone(store)), scenery);
         hearers.push(Box::new(Growing { recorder, store: Arc::clone(store) }));
         loop {
             let (ended, lines) = {

@@ -16,13 +16,11 @@ use std::process::{Command, ExitCode};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use arl_robot::Robot;
-use arl_robot::cell::Cell;
 use oxhttp::ListeningServer;
 use serde_json::{Value, json};
 
-use super::args::ViewOptions;
+use super::args::{RunOptions, ViewOptions};
 use super::failure::Failure;
-use super::listen::Hears;
 use super::program::prepare;
 use super::recorded::{self, Store};
 use super::report::{Differences, Summary};
@@ -71,33 +69,33 @@ pub(super) fn view(files: &[PathBuf], options: &ViewOptions) -> Result<ExitCode,
 /// Shows a program that runs, until it ends.
 fn view_live(program: &Path, name: String, options: &ViewOptions) -> Result<ExitCode, Failure> {
     let options_of_run = options.run().of_program(program)?;
-    let cell = run::cell(&options_of_run)?;
+    let scenery = run::scenery(&options_of_run)?;
     let ready = prepare(program, options_of_run.cell.as_deref(), &options_of_run.checking())?;
     // What is wrong is told before anything is started.
-    let teach = || robots(&cell, options_of_run.robot.as_deref()).map(|robots| Teacher::new(robots, &ready.sources));
+    let teach = || robots(&options_of_run).map(|robots| Teacher::new(robots, &ready.sources));
     let teacher = options.teach.then(teach).transpose()?;
-    let collisions = run::collisions(&cell, None)?;
+    let hearers = run::watchers(&scenery, None)?;
     let store = Store { goes_on: true, sources: texts::read(&ready.sources), ..Store::default() };
     let mut command = Command::new(&ready.program);
     command.args(options_of_run.arguments());
-    let live =
-        Live::start(command, collisions.is_some()).map_err(|error| Failure::io("start", &ready.program, &error))?;
+    let live = Live::start(command, hearers.iter().any(|hearer| hearer.wants_each_cycle()))
+        .map_err(|error| Failure::io("start", &ready.program, &error))?;
     drop(ready.lock);
     // The program stops its robot, and this command ends with it.
     super::cargo::leave_interrupts_to_the_program();
     let store = Arc::new(Mutex::new(store));
     let shown = Arc::new(Shown { runs: vec![(name, Arc::clone(&store))], live: Some(live), teacher });
     let _server = serve(&shown, options)?;
-    let hearers = collisions.into_iter().map(|collisions| Box::new(collisions) as Box<dyn Hears>).collect();
-    let code = shown.live.as_ref().map_or(0, |live| live.hear(hearers, &cell.bodies, &store));
+    let code = shown.live.as_ref().map_or(0, |live| live.hear(hearers, &scenery, &store));
     Ok(ExitCode::from(code))
 }
 
 /// The robots of the channels that have one, in the order of the channels.
-fn robots(cell: &Cell, first: Option<&str>) -> Result<Vec<Robot>, Failure> {
+fn robots(options: &RunOptions) -> Result<Vec<Robot>, Failure> {
+    let cell = run::cell(options)?;
     let beside = cell.programs.channels.iter().filter(|channel| !channel.background);
     let named = beside.map(|channel| robot::load(channel.robot.as_deref()));
-    std::iter::once(robot::load(first)).chain(named).collect()
+    std::iter::once(robot::load(options.robot.as_deref())).chain(named).collect()
 }
 
 /// Serves the page, tells its address and opens it.

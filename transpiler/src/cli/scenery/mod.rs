@@ -1,0 +1,86 @@
+//! What stands in a cell or is carried, and the shapes of its robots: what viewers draw, and what robots can touch.
+
+mod description;
+mod fit;
+mod shape;
+#[cfg(test)]
+pub(super) mod tests;
+
+use arl_robot::cell::{Body, Cell, Form, Solid, Stands};
+use arl_robot::kinematics::Frame;
+
+use super::failure::Failure;
+use super::robot;
+use super::show;
+pub(super) use shape::Shape;
+
+/// The bodies of a cell and the shapes of its robots.
+#[derive(Clone, Default, Debug)]
+pub(super) struct Scenery {
+    pub(super) bodies: Vec<(Body, Looks)>,
+    /// By channels; `None`: capsules along its links.
+    shapes: Vec<Option<Shape>>,
+}
+
+/// How something looks, and what of it can be touched.
+#[derive(Clone, Default, PartialEq, Debug)]
+pub(super) struct Looks {
+    pub(super) seen: Vec<Piece>,
+    pub(super) touched: Vec<Piece>,
+}
+
+/// A solid in the frame of what it belongs to.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Piece {
+    pub(super) at: Frame,
+    pub(super) solid: Solid,
+    /// Red, green, blue and how solid it is, from 0 to 1, where somebody says it.
+    pub(super) color: Option<[f64; 4]>,
+}
+
+impl Scenery {
+    /// That of a cell in which `robot` is that of channel 1. A robot whose shape cannot be read is told of, and has capsules.
+    ///
+    /// # Errors
+    /// A URDF file of a body cannot be read, or a robot is none.
+    pub(super) fn of(cell: &Cell, robot: Option<&str>) -> Result<Self, Failure> {
+        let looks = |body: &Body| match &body.form {
+            Form::Solid(solid) => Ok((body.clone(), Looks::of(solid))),
+            Form::Urdf(file) => {
+                let wrong = |problem| Failure::Usage(format!("body `{}`: {}: {problem}", body.name, file.display()));
+                description::of_body(file).map(|looks| (body.clone(), looks)).map_err(wrong)
+            }
+        };
+        let bodies = cell.bodies.iter().map(looks).collect::<Result<_, Failure>>()?;
+        let others = cell.programs.channels.iter().filter(|channel| !channel.background);
+        let others = others.map(|channel| (channel.robot.as_deref(), &channel.stands));
+        let all = std::iter::once((robot, &cell.stands)).chain(others);
+        let shapes = all.map(|(robot, stands)| shape_of(robot, stands)).collect::<Result<_, Failure>>()?;
+        Ok(Self { bodies, shapes })
+    }
+
+    /// The shape of the robot of a channel, from 0.
+    pub(super) fn shape(&self, channel: usize) -> Option<&Shape> {
+        self.shapes.get(channel)?.as_ref()
+    }
+
+    /// Whether robots have something to run into.
+    pub(super) fn has_bodies(&self) -> bool {
+        !self.bodies.is_empty()
+    }
+}
+
+fn shape_of(robot: Option<&str>, stands: &Stands) -> Result<Option<Shape>, Failure> {
+    let Some(file) = &stands.urdf else { return Ok(None) };
+    let shape = Shape::read(file, &robot::load(robot)?);
+    let tell = |problem| show::warning(&format!("{}: {problem}; the robot has capsules in its place", file.display()));
+    Ok(shape.map_err(tell).ok())
+}
+
+impl Looks {
+    /// One solid.
+    fn of(solid: &Solid) -> Self {
+        let piece = Piece { at: Frame::identity(), solid: solid.clone(), color: None };
+        Self { seen: vec![piece.clone()], touched: vec![piece] }
+    }
+}

@@ -1,0 +1,59 @@
+//! The shape of a robot from its URDF.
+
+use std::path::Path;
+
+use arl_robot::robot::Robot;
+
+use super::super::urdf::{self, Chain};
+use super::description::Description;
+use super::fit::{fit, made_of};
+use super::{Looks, Piece};
+
+/// A robot's links, the base first.
+#[derive(Clone, PartialEq, Debug)]
+pub(in crate::cli) struct Shape {
+    links: Vec<Looks>,
+}
+
+impl Shape {
+    /// That of a robot, from a URDF file of it.
+    ///
+    /// # Errors
+    /// The file cannot be read, has forms that cannot, or is of another robot.
+    pub(super) fn read(file: &Path, robot: &Robot) -> Result<Self, String> {
+        let description = Description::read(file)?;
+        let chain = Chain::of(&description.robot)?;
+        let axes = robot.own_axes().len();
+        if chain.joints.len() != axes {
+            return Err(format!("its arm has {} moving joints, {} has {axes} axes", chain.joints.len(), robot.name));
+        }
+        let order = urdf::order(&chain)?;
+        let fitted = fit(&chain, robot, &order)?;
+        let moving: Vec<&str> = chain.joints.iter().map(|joint| joint.name.as_str()).collect();
+        let mut links = vec![Looks::default(); axes + 1];
+        let roots = std::iter::once(chain.root.as_str()).chain(chain.joints.iter().map(|joint| joint.child.as_str()));
+        for (root, fitted) in roots.zip(fitted) {
+            let looks = description.looks(&urdf::fixed_to(&description.robot, root, &moving))?;
+            if looks == Looks::default() {
+                continue;
+            }
+            let wrong =
+                || format!("its link `{root}` does not move as any link of {} does; {}", robot.name, made_of(robot));
+            let (link, there) = fitted.ok_or_else(wrong)?;
+            let moved = |piece: Piece| Piece { at: there * piece.at, ..piece };
+            if let Some(of_link) = links.get_mut(link) {
+                of_link.seen.extend(looks.seen.into_iter().map(moved));
+                of_link.touched.extend(looks.touched.into_iter().map(moved));
+            }
+        }
+        if links.iter().all(|link| link.touched.is_empty()) {
+            return Err("none of its links has a form".to_owned());
+        }
+        Ok(Self { links })
+    }
+
+    /// How each link looks in its frame, the base first.
+    pub(in crate::cli) fn links(&self) -> impl Iterator<Item = (usize, &Looks)> {
+        self.links.iter().enumerate()
+    }
+}
