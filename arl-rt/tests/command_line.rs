@@ -521,7 +521,8 @@ fn a_live_run_shows_what_is_inside() {
     live.order("inside = one");
     live.line(&["refused", "`one` is no channel"]);
     live.order("inside = 1");
-    let inside = live.line(&["\"inside\":{\"channel\":1,"]);
+    // It is told again and again, for the first time perhaps before the program has begun.
+    let inside = live.line(&["\"inside\":{\"channel\":1,", "\"name\":\"main\""]);
     for words in [
         r#"{"id":1,"name":"main","file":"t.arl","line":4,"event":false}"#,
         r#"{"name":"round","type":"int","value":""#,
