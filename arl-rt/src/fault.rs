@@ -99,6 +99,14 @@ pub enum Fault {
     Motion(Box<str>),
     /// The robot met something that it did not expect.
     Collision(Box<str>),
+    /// The robot is not where it shall be.
+    NotFollowing(Box<str>),
+    /// The robot does not say where it is.
+    NoFeedback(Box<str>),
+    /// The drives of the robot are off, or have a fault.
+    Drives(Box<str>),
+    /// The robot does not come to rest where it shall.
+    NotSettling(Box<str>),
     /// Torques or forces of a robot whose file has no masses.
     NoMasses {
         /// The function or instruction.
@@ -158,6 +166,10 @@ impl Fault {
             Fault::Channel(_) => 20010,
             Fault::Motion(_) => 20020,
             Fault::Collision(_) => 20021,
+            Fault::NotFollowing(_) => 20070,
+            Fault::NoFeedback(_) => 20071,
+            Fault::Drives(_) => 20072,
+            Fault::NotSettling(_) => 20073,
             Fault::NoMasses { .. } => 20022,
             Fault::Background { .. } => 20023,
             Fault::Data(_) => 20030,
@@ -211,6 +223,10 @@ impl fmt::Display for Fault {
             | Fault::GateHeight(text)
             | Fault::Motion(text)
             | Fault::Collision(text)
+            | Fault::NotFollowing(text)
+            | Fault::NoFeedback(text)
+            | Fault::Drives(text)
+            | Fault::NotSettling(text)
             | Fault::Data(text)
             | Fault::Event(text)
             | Fault::Connection(text)

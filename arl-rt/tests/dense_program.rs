@@ -11,7 +11,7 @@ use arl_rt::emit::*;
 use arl_rt::kinematics::Kinematics;
 use arl_rt::motion::Joints;
 use arl_rt::robot::Robot;
-use arl_rt::robot_driver::{RobotDriver, SimulatedRobot};
+use arl_rt::robot_driver::{Drives, Feedback, Power, RobotDriver, Setpoint, SimulatedRobot, Start};
 use common::*;
 use nalgebra::Vector3;
 
@@ -44,12 +44,17 @@ struct Watched {
 }
 
 impl RobotDriver for Watched {
-    fn start(&mut self, home: &Joints) -> Joints {
-        self.robot.start(&Joints { axes: START, ..*home })
+    fn start(&mut self, start: &Start<'_>) -> Result<Joints, String> {
+        self.robot.moved_by_hand(&Joints { axes: START, ..*start.home });
+        self.robot.start(start)
     }
 
-    fn exchange(&mut self, setpoint: &Joints, period: f64) -> Joints {
-        let at = self.kinematics.forward(&setpoint.axes).translation.vector;
+    fn switch(&mut self, power: Power) -> Drives {
+        self.robot.switch(power)
+    }
+
+    fn exchange(&mut self, setpoint: &Setpoint) -> Feedback {
+        let at = self.kinematics.forward(&setpoint.position.axes).translation.vector;
         let mut way = self.way.borrow_mut();
         let step = way.last.map_or(0.0, |last| (at - last).norm());
         way.last = Some(at);
@@ -60,7 +65,7 @@ impl RobotDriver for Watched {
             way.from.get_or_insert(here);
             way.to = Some(here);
         }
-        self.robot.exchange(setpoint, period)
+        self.robot.exchange(setpoint)
     }
 }
 

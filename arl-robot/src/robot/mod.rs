@@ -74,6 +74,17 @@ impl Axis {
     }
 }
 
+/// What the drives of a robot are held against while it moves.
+#[derive(Clone, PartialEq, Debug)]
+pub struct DriveLimits {
+    /// How far each axis, the external ones behind the robot's own, may be from its set-point, in deg (mm).
+    pub following: Vec<f64>,
+    /// For how long no position may come from the robot, in s.
+    pub feedback: f64,
+    /// How long it may take to come to rest on its set-point once that stands, in s.
+    pub settling: f64,
+}
+
 /// The limits of the tool centre point along a path.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct TcpLimits {
@@ -121,6 +132,8 @@ pub struct Robot {
     pub tcp: TcpLimits,
     /// The robot's own axes (six, or four), then the external ones (up to six).
     pub axes: Vec<Axis>,
+    /// What its drives are held against.
+    pub drives: DriveLimits,
     /// The links, where the file has them: as many as the robot has own axes, or none.
     pub links: Vec<Link>,
     /// Where the simulated robot starts: one position for each of `axes`, in deg (mm).

@@ -4,16 +4,23 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::section::{Section, Source};
-use super::{Axis, EXTERNAL_AXES, Family, Link, Robot, RobotError, TcpLimits, VelocityProfile, own_axes};
+use super::{Axis, DriveLimits, EXTERNAL_AXES, Family, Link, Robot, RobotError, TcpLimits, VelocityProfile, own_axes};
 use crate::kinematics::{Kinematics, Opw, OpwParameters, Scara};
 use crate::settings::kind;
 
-const TOP: &[&str] = &["name", "family", "profile", "geometry", "tcp", "axis", "link", "home"];
+const TOP: &[&str] = &["name", "family", "profile", "geometry", "tcp", "drives", "axis", "link", "home"];
 const OPW: &[&str] = &["a1", "a2", "b", "c1", "c2", "c3", "c4", "offsets", "signs"];
 const SCARA: &[&str] = &["l1", "l2", "z0"];
 const TCP: &[&str] = &["vel", "acc", "jerk", "ori_vel", "ori_acc", "ori_jerk"];
-const AXIS: &[&str] = &["name", "linear", "min", "max", "vel", "acc", "jerk"];
+const AXIS: &[&str] = &["name", "linear", "min", "max", "vel", "acc", "jerk", "following"];
+const DRIVES: &[&str] = &["feedback", "settling"];
 const LINK: &[&str] = &["mass", "com", "inertia", "gear", "torque_constant"];
+
+/// How far an axis may be from its set-point where nobody says it: as far as it goes at full speed in so many s.
+const FOLLOWING_S: f64 = 0.1;
+/// For how long no position may come where nobody says it, and how long settling may take, in ms.
+const FEEDBACK_MS: f64 = 20.0;
+const SETTLING_MS: f64 = 2000.0;
 
 const FAMILIES: [(&str, Family); 2] = [("six-axis", Family::SixAxis), ("scara", Family::Scara)];
 const PROFILES: [(&str, VelocityProfile); 3] =
@@ -34,9 +41,10 @@ pub(super) fn robot(file: &str, text: &str) -> Result<Robot, RobotError> {
     };
     let tcp = tcp(&table(&top, "tcp", "[tcp]", TCP)?)?;
     let axes = axes(&top, family)?;
+    let drives = drives(&top, &axes)?;
     let links = links(&top, family)?;
     let home = home(&top, family, &axes)?;
-    Ok(Robot { name, family, profile, kinematics, tcp, axes, links, home })
+    Ok(Robot { name, family, profile, kinematics, tcp, axes, drives, links, home })
 }
 
 /// One of a few words.
@@ -163,6 +171,23 @@ fn axis(table: &Section<'_>, at: usize, family: Family) -> Result<Axis, RobotErr
         acc: table.positive("acc", "an acceleration per second squared")?,
         jerk: table.positive("jerk", "a jerk per second cubed")?,
     })
+}
+
+/// What the drives are held against.
+fn drives(top: &Section<'_>, axes: &[Axis]) -> Result<DriveLimits, RobotError> {
+    let of_axis = |(table, axis): (&Section<'_>, &Axis)| match table.find("following") {
+        Some(_) => table.positive("following", "how far the axis may be from its set-point"),
+        None => Ok(axis.vel * FOLLOWING_S),
+    };
+    let following = tables(top, "axis", "[[axis]]", AXIS)?.iter().zip(axes).map(of_axis).collect::<Result<_, _>>()?;
+    let table = top.find("drives").map(|value| section(top, value, "[drives]", DRIVES)).transpose()?;
+    let seconds = |key: &str, what: &str, default: f64| match &table {
+        Some(table) if table.find(key).is_some() => table.positive(key, what).map(|ms| ms / 1000.0),
+        _ => Ok(default / 1000.0),
+    };
+    let feedback = seconds("feedback", "for how many ms no position may come", FEEDBACK_MS)?;
+    let settling = seconds("settling", "how many ms settling may take", SETTLING_MS)?;
+    Ok(DriveLimits { following, feedback, settling })
 }
 
 fn links(top: &Section<'_>, family: Family) -> Result<Vec<Link>, RobotError> {

@@ -198,6 +198,14 @@ impl ChannelState {
         Some(Alarm::new(Fault::Collision(text.into()), file, line))
     }
 
+    /// What is wrong with the robot, if that is new, as the alarm of the motion that it was in; where it stands, as that of the
+    /// instruction that the program is at.
+    pub(crate) fn trouble(&self, place: (File, u32)) -> Option<Alarm> {
+        let (fault, motion) = self.robot_mut()?.take_trouble()?;
+        let (file, line) = motion.unwrap_or(place);
+        Some(Alarm::new(fault, file, line))
+    }
+
     /// Brings the variables up to date that tell where the robot is.
     pub(crate) fn update_system(&self, unit: &Unit) {
         let system = &self.system;

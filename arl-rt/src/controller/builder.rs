@@ -382,7 +382,8 @@ impl Builder {
         let channels = Channels::new(first, channels);
         let effects = Vec::with_capacity(scenario.max_effects());
         let pointer_store = beside.map(|storage| start_pointer_store(storage, pointers)).transpose()?;
-        let (clock, io) = (self.clock, self.io);
+        let (clock, mut io) = (self.clock, self.io);
+        io.start().map_err(SetupError::Io)?;
         Ok(Controller {
             shared,
             channels,
@@ -469,7 +470,8 @@ impl Site {
         system::load(&system.kept_by_channel(), &mut self.shared.state.borrow_mut())?;
         let trace = body.trace.map(|writer| Trace::new(writer, robot.family)).transpose();
         let trace = trace.map_err(|error| SetupError::Trace(error.to_string()))?;
-        let mut unit = Unit::new(robot, body.driver);
+        let driver = |problem| SetupError::Driver { channel: number, problem };
+        let mut unit = Unit::new(robot, body.driver, self.shared.rate.period()).map_err(driver)?;
         unit.settings.manual = self.common.ctl_mode.get() == Controlmode::Manual;
         if self.record {
             unit.record();
@@ -575,6 +577,15 @@ pub enum SetupError {
     State(StateError),
     /// The trace cannot be written.
     Trace(String),
+    /// The robot of a channel cannot be had.
+    Driver {
+        /// The number of the channel, from 1.
+        channel: u8,
+        /// What its driver says.
+        problem: String,
+    },
+    /// The inputs and outputs of an io driver cannot be had; what it says.
+    Io(String),
 }
 
 impl fmt::Display for SetupError {
@@ -590,6 +601,10 @@ impl fmt::Display for SetupError {
             SetupError::Channels(text) | SetupError::Cell(text) | SetupError::Outside(text) => write!(f, "{text}"),
             SetupError::State(error) => write!(f, "{error}"),
             SetupError::Trace(text) => write!(f, "the trace cannot be written: {text}"),
+            SetupError::Driver { channel, problem } => {
+                write!(f, "the robot of channel {channel} cannot be started: {problem}")
+            }
+            SetupError::Io(problem) => write!(f, "the io driver cannot be started: {problem}"),
         }
     }
 }

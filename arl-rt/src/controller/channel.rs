@@ -15,6 +15,7 @@ use crate::controller::trace::Trace;
 use crate::fault::{Alarm, Fault, Reason, Stop};
 use crate::storage::data;
 use crate::storage::pointers::CurrentPointers;
+use crate::unit::Beat;
 
 /// How many bytes of stack a program may use in one poll where nobody says otherwise: half of what a thread gets.
 pub(super) const PROGRAM_STACK_BYTES: usize = 1 << 20;
@@ -244,11 +245,10 @@ impl Channel {
         matches!(self.phase, Phase::Running(_) | Phase::Concluding)
     }
 
-    /// One step of the robot and of its trace, at `time` seconds; `period` is the length of the cycle, which is that of the world where
-    /// it is `real`.
-    pub(super) fn step_robot(&mut self, time: f64, period: f64, real: bool) {
+    /// One step of the robot and of its trace, at `time` seconds.
+    pub(super) fn step_robot(&mut self, time: f64, beat: Beat) {
         let Some(mut unit) = self.channel_state.robot_mut() else { return };
-        unit.step(period, real);
+        unit.step(beat);
         let rests = unit.rests() && (self.channel_state.paused.get() || !unit.moves());
         self.rested = if rests { self.rested.saturating_add(1) } else { 0 };
         self.channel_state.update_system(&unit);
@@ -287,6 +287,18 @@ impl Channel {
     /// Ends the program where the robot has collided.
     pub(super) fn handle_collision(&mut self) {
         if let Some(alarm) = self.channel_state.collision(self.cx.place()) {
+            self.fail(alarm);
+        }
+    }
+
+    /// Ends the program where the robot does not do what it is asked for.
+    pub(super) fn handle_trouble(&mut self) {
+        let Some(alarm) = self.channel_state.trouble(self.cx.place()) else { return };
+        if matches!(self.phase, Phase::Ended(_) | Phase::RunningOut(Next::End(Outcome::Alarm(_)))) {
+            // What ended the program stays its outcome.
+            self.channel_state.alarmed.set(true);
+            self.channel_state.shared.alarm(Alarm { channel: self.channel_state.id, ..alarm }, false);
+        } else {
             self.fail(alarm);
         }
     }

@@ -36,7 +36,7 @@ use crate::fieldbus::islands::Islands;
 use crate::io::{AxisName, Digital, Effect, IoDriver, Pendant, Playing, Pwm, RobotEffect};
 use crate::motion::{Joints, MotionRecord};
 use crate::storage::state::StateError;
-use crate::unit::Unit;
+use crate::unit::{Beat, Unit};
 use arl_robot::cell::Names;
 use arl_robot::robot::Robot;
 use channel::Channel;
@@ -154,12 +154,13 @@ impl Controller {
         self.channels.each(Channel::scan_events);
         self.channels.each(Channel::poll);
         self.channels.each(Channel::handle_pending_alarm);
-        let real = self.clock.is_real();
-        self.channels.each(|channel| channel.step_robot(rate.time(cycle), rate.period(), real));
+        let (real, due) = (self.clock.is_real(), self.clock.due(cycle, rate.period()));
+        self.channels.each(|channel| channel.step_robot(rate.time(cycle), Beat { period: rate.period(), real, due }));
         self.write_external_outputs();
         self.islands.write(self.shared.io.borrow().outputs_all(cycle));
         self.io.write(self.shared.io.borrow().outputs_all(cycle));
         self.channels.each(Channel::handle_collision);
+        self.channels.each(Channel::handle_trouble);
         let shared = &self.shared;
         shared.flush();
         if shared.take_real_time_need()
@@ -521,6 +522,7 @@ impl Controller {
 impl Drop for Controller {
     fn drop(&mut self) {
         self.settle_state();
+        self.io.close();
     }
 }
 

@@ -112,6 +112,13 @@ impl Controller {
         }
     }
 
+    /// Switches the motors of all robots off at once, whatever they do: an emergency. The robots brake by themselves; programs are
+    /// paused. Motors come on again by [`Pendant::ServoOn`](crate::io::Pendant::ServoOn), and programs go on by the start button, the
+    /// robots back on their paths first.
+    pub fn emergency_stop(&mut self) {
+        self.press(Pendant::EmergencyStop);
+    }
+
     /// Says that somebody has moved an axis of the first channel's robot by hand, by so many deg (mm), while its servo is off. With
     /// a real robot nobody has to say so: its driver reports it.
     pub fn move_by_hand(&mut self, axis: usize, by: f64) {
@@ -145,6 +152,7 @@ pub(super) fn press(channels: &mut Channels, button: Pendant) {
         Pendant::Clear => channels.each(|channel| channel.channel_state().alarmed.set(false)),
         Pendant::ServoOn => channels.each(|channel| servo_on(channel)),
         Pendant::ServoOff => channels.each(|channel| servo_off(channel)),
+        Pendant::EmergencyStop => channels.each(|channel| emergency_stop(channel)),
     }
 }
 
@@ -236,15 +244,24 @@ fn servo_off(channel: &Channel) {
     }
 }
 
+fn emergency_stop(channel: &Channel) {
+    pause(channel);
+    if let Some(mut unit) = channel.channel_state().robot_mut() {
+        unit.cut_power();
+    }
+}
+
 fn servo_on(channel: &Channel) {
     let channel_state = channel.channel_state();
     let Some(mut unit) = channel_state.robot_mut() else { return };
     let keeps = channel_state.system.reset_pos_type.with(|kinds| kinds.first().is_some_and(|kind| *kind == "cmd"));
     let threshold = channel_state.system.reset_pos_threshold.with(|all| all.first().copied().unwrap_or_default());
-    if !unit.servo_on(keeps.then_some(threshold)) {
-        channel_state
+    match unit.servo_on(keeps.then_some(threshold)) {
+        Ok(true) => {}
+        Ok(false) => channel_state
             .shared
-            .warn("servo on: the robot was moved by more than $RESET_POS_THRESHOLD: it stays where it is now".into());
+            .warn("servo on: the robot was moved by more than $RESET_POS_THRESHOLD: it stays where it is now".into()),
+        Err(why) => refuse(channel, "servo on", why),
     }
 }
 

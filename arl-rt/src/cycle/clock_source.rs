@@ -7,6 +7,12 @@ pub trait Clock {
     /// Returns when the cycle with this running number (from 0) may begin. A cycle is `period` seconds long.
     fn wait_for(&mut self, cycle: u64, period: f64);
 
+    /// When that cycle ends, by the time of the world, if cycles take such. Asked after [`wait_for`](Clock::wait_for).
+    fn due(&self, cycle: u64, period: f64) -> Option<Instant> {
+        let _ = (cycle, period);
+        None
+    }
+
     /// The program begins to talk to the world: from the next cycle on its time counts. Returns what the user should know.
     fn follow_real_time(&mut self) -> Option<&'static str> {
         None
@@ -52,6 +58,10 @@ impl Clock for VirtualClock {
         }
     }
 
+    fn due(&self, cycle: u64, period: f64) -> Option<Instant> {
+        self.real.as_ref()?.due(cycle, period)
+    }
+
     fn follow_real_time(&mut self) -> Option<&'static str> {
         const WARNING: &str = "the run is connected to the outside: from here on its cycles take real time";
         let first = self.real.is_none();
@@ -86,9 +96,8 @@ impl RealClock {
 impl Clock for RealClock {
     fn wait_for(&mut self, cycle: u64, period: f64) {
         let now = Instant::now();
-        let since_start = |cycle: u64| Duration::from_secs_f64(cycle as f64 * period);
-        let start = *self.start.get_or_insert_with(|| now.checked_sub(since_start(cycle)).unwrap_or(now));
-        let Some(deadline) = start.checked_add(since_start(cycle)) else { return };
+        let start = *self.start.get_or_insert_with(|| now.checked_sub(since_start(cycle, period)).unwrap_or(now));
+        let Some(deadline) = start.checked_add(since_start(cycle, period)) else { return };
         match deadline.checked_duration_since(now) {
             Some(early) if !early.is_zero() => std::thread::sleep(early),
             _ => {
@@ -99,7 +108,16 @@ impl Clock for RealClock {
         }
     }
 
+    fn due(&self, cycle: u64, period: f64) -> Option<Instant> {
+        self.start?.checked_add(since_start(cycle + 1, period))
+    }
+
     fn overruns(&self) -> u64 {
         self.overruns
     }
+}
+
+/// How long after the first cycle this one begins.
+fn since_start(cycle: u64, period: f64) -> Duration {
+    Duration::from_secs_f64(cycle as f64 * period)
 }

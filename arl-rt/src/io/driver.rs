@@ -60,6 +60,14 @@ use super::image::{Inputs, Outputs};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait IoDriver {
+    /// Connects, once, before the first cycle. It may take its time.
+    ///
+    /// # Errors
+    /// Why there are no inputs and outputs: the controller is not built.
+    fn start(&mut self) -> Result<(), String> {
+        Ok(())
+    }
+
     /// Fills the inputs, at the start of a cycle. What it leaves alone keeps its level.
     fn read(&mut self, inputs: Inputs<'_>);
 
@@ -82,6 +90,9 @@ pub trait IoDriver {
     fn fault(&self) -> Option<&str> {
         None
     }
+
+    /// The controller ends; nothing is called any more. It may take its time.
+    fn close(&mut self) {}
 }
 
 /// Io without an outside: inputs keep what a scenario or the embedding program gave them.

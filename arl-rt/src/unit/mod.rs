@@ -8,31 +8,46 @@ mod moving;
 mod refusal;
 pub mod robot_driver;
 mod servo;
+mod supervision;
 
 use std::collections::{HashSet, VecDeque};
 use std::sync::Arc;
+use std::time::Instant;
 
-use crate::fault::{Alarm, File};
+use crate::fault::{Alarm, Fault, File};
 use crate::motion::{
     Command, Compensation, Joints, MotionRecord, NoBlend, Progress, Queue, Recorder, Settings, Start, Stop,
     UnblendedTarget, circle_steps,
 };
 use crate::unit::dynamics::{Dynamics, Load};
-use crate::unit::robot_driver::{RobotDriver, settled};
+use crate::unit::robot_driver::{Power, RobotDriver, Setpoint, settled};
 use crate::values::Joint;
 use arl_robot::cell::Sensitivity;
 use arl_robot::frames::Rig;
 use arl_robot::kinematics::{Axes, Frame, frame_components};
-use arl_robot::robot::Robot;
+use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES, Robot};
 use changes::{Change, Changes};
 use effort::Effort;
 pub(crate) use effort::{Collision, Outside, SENSITIVITY};
 use hold::Button;
 pub(crate) use moving::Moving;
 use refusal::alarm;
+use servo::Motors;
+use supervision::{Supervision, is_finite};
 
 /// For how many cycles a robot that never stands quite where it shall must be near enough to count as settled.
 const SETTLING: u32 = 8;
+
+/// A cycle, as a robot sees it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Beat {
+    /// Its length in s.
+    pub(crate) period: f64,
+    /// Whether it takes the time that it stands for.
+    pub(crate) real: bool,
+    /// When it ends, where time is that of the world.
+    pub(crate) due: Option<Instant>,
+}
 
 /// The robot with its planned motion and its driver.
 pub(crate) struct Unit {
@@ -71,8 +86,12 @@ pub(crate) struct Unit {
     compensations: u32,
     /// The file of the last `startmove`.
     start_file: File,
-    /// Whether the motors are on.
-    servo: bool,
+    motors: Motors,
+    /// For how many cycles the robot has not said where it is.
+    silent: u32,
+    supervision: Supervision,
+    /// What the supervision has found, and in which motion, until it is taken.
+    trouble: Option<(Fault, Option<(File, u32)>)>,
     /// Whether it is told to rest until somebody says to go on, and whether it was moved beside its path meanwhile.
     halted: bool,
     jogged: bool,
@@ -81,13 +100,23 @@ pub(crate) struct Unit {
 }
 
 impl Unit {
-    pub(crate) fn new(robot: Robot, mut driver: Box<dyn RobotDriver>) -> Self {
-        let start = driver.start(&Joints::home(&robot));
+    /// A robot at rest, in cycles of `period` s.
+    ///
+    /// # Errors
+    /// Its driver has none.
+    pub(crate) fn new(robot: Robot, mut driver: Box<dyn RobotDriver>, period: f64) -> Result<Self, String> {
+        let home = Joints::home(&robot);
+        let start = driver.start(&robot_driver::Start { home: &home, robot: &robot, period })?;
+        if !is_finite(&start, &robot) {
+            driver.close();
+            return Err("it says that the robot is at what is no number".to_owned());
+        }
+        let start = own_axes_of(&robot, start, &home);
         let robot = Arc::new(robot);
         let queue = Queue::new(Arc::clone(&robot), start);
         let tcp = queue.tcp();
         let effort = Effort::new(&robot);
-        Self {
+        Ok(Self {
             robot,
             queue,
             settings: Settings::default(),
@@ -97,7 +126,10 @@ impl Unit {
             effort,
             changes: Changes::new(),
             start_file: File::new(""),
-            servo: true,
+            motors: Motors::On,
+            silent: 0,
+            supervision: Supervision::default(),
+            trouble: None,
             halted: false,
             jogged: false,
             button: Button::Free,
@@ -114,7 +146,7 @@ impl Unit {
             file: File::new(""),
             base: Frame::identity(),
             compensations: 0,
-        }
+        })
     }
 
     /// Where the robot stands in the world.
@@ -427,7 +459,9 @@ impl Unit {
 
     /// Whether the robot stands where it shall, or was near enough for some cycles.
     pub(crate) fn is_settled(&self) -> bool {
-        self.settled >= SETTLING || self.commanded.at == self.reported.at
+        // One that is asked for nothing, or does not do what it is asked for, is not waited for.
+        let is_asked = self.motors != Motors::Off && !self.supervision.has_found();
+        !is_asked || self.settled >= SETTLING || self.commanded.at == self.reported.at
     }
 
     /// Whether the robot stands still, at the end of a motion or within one.
@@ -440,9 +474,10 @@ impl Unit {
         self.queue.found_late()
     }
 
-    /// One interpolation step, and the exchange with the driver. `real`: cycles take the time that they stand for.
-    pub(crate) fn step(&mut self, period: f64, real: bool) {
-        self.queue.follow_real_time(real);
+    /// One interpolation step, and the exchange with the driver.
+    pub(crate) fn step(&mut self, beat: Beat) {
+        let period = beat.period;
+        self.queue.follow_real_time(beat.real);
         let step = self.queue.step(period, self.override_percent);
         if let Some(recorder) = &mut self.recorder {
             recorder.step(&mut self.queue, &step, period);
@@ -462,13 +497,40 @@ impl Unit {
         }
         self.change_due();
         self.commanded.go_to(step.joints, period);
-        // Motors that are off are asked for nothing but to stay.
-        let rests = !self.servo && self.queue.rests();
-        let asked = if rests { self.reported.at } else { step.joints };
-        self.reported.go_to(self.driver.exchange(&asked, period), period);
-        self.effort.measured(self.driver.torques());
+        self.exchange(beat);
         let near = self.queue.rests() && settled(&self.commanded.at, &self.reported.at);
         self.settled = if near { self.settled.saturating_add(1) } else { 0 };
+        self.switch_off_at_rest();
+    }
+
+    /// Tells the driver where the robot shall be, and hears where it is.
+    fn exchange(&mut self, beat: Beat) {
+        let setpoint = self.setpoint_of(beat);
+        let feedback = self.driver.exchange(&setpoint);
+        let position = feedback.position.filter(|position| is_finite(position, &self.robot));
+        self.silent = self.silent.saturating_add(1);
+        if let Some(position) = position {
+            // It may be the first one for some cycles.
+            let since = f64::from(self.silent) * beat.period;
+            self.reported.go_to(own_axes_of(&self.robot, position, &self.commanded.at), since);
+            self.silent = 0;
+            self.effort.measured(feedback.torque);
+        }
+        self.supervise(&feedback, &setpoint);
+    }
+
+    fn setpoint_of(&self, beat: Beat) -> Setpoint {
+        let Beat { period, due: deadline, .. } = beat;
+        if matches!(self.motors, Motors::Off | Motors::ComingOn) {
+            // They are asked for nothing but to stay.
+            let velocity = Joints { axes: [0.0; ROBOT_AXES], external: [0.0; EXTERNAL_AXES] };
+            let (position, acceleration, torque) = (self.reported.at, [0.0; ROBOT_AXES], None);
+            return Setpoint { position, velocity, acceleration, torque, period, deadline };
+        }
+        let Moving { at: position, rates, external_rates, accelerations: acceleration, .. } = self.commanded;
+        let velocity = Joints { axes: rates, external: external_rates };
+        let torque = if self.driver.wants_torque() { self.effort.asked(&self.commanded) } else { None };
+        Setpoint { position, velocity, acceleration, torque, period, deadline }
     }
 
     /// Sets the motion pointer to the motion of a program that was executed, if there was one.
@@ -508,13 +570,34 @@ impl Unit {
 
     /// Lets motion be planned again after [`Unit::stop`], at rest.
     pub(crate) fn reset(&mut self) {
-        if self.servo {
+        if std::mem::take(&mut self.jogged) {
+            // Nobody goes back to what was set aside.
+            self.queue.drop_suspended();
+        }
+        if self.has_servo() {
             self.queue.resume();
         }
-        (self.halted, self.jogged) = (!self.servo, false);
+        (self.halted, self.jogged) = (!self.has_servo(), false);
         self.changes.clear(&mut self.effort);
         self.files.clear();
         self.settings = Settings { manual: self.settings.manual, ..Settings::default() };
+    }
+}
+
+/// These positions, and those of `others` for axes that the robot does not have.
+fn own_axes_of(robot: &Robot, mut joints: Joints, others: &Joints) -> Joints {
+    let (own, external) = (robot.own_axes().len(), robot.external_axes().len());
+    joints.axes.iter_mut().zip(others.axes).skip(own).for_each(|(axis, other)| *axis = other);
+    joints.external.iter_mut().zip(others.external).skip(external).for_each(|(axis, other)| *axis = other);
+    joints
+}
+
+impl Drop for Unit {
+    fn drop(&mut self) {
+        if self.motors != Motors::Off && !self.queue.rests() {
+            self.driver.switch(Power::Cut);
+        }
+        self.driver.close();
     }
 }
 

@@ -1,7 +1,11 @@
 //! The border to the robot: set-points out, feedback in, once a cycle.
+//!
+//! What the controller makes of what a driver says, and when it switches the motors on and off, stands in `docs/drivers.md`.
+
+use std::time::Instant;
 
 use crate::motion::Joints;
-use arl_robot::robot::ROBOT_AXES;
+use arl_robot::robot::{ROBOT_AXES, Robot};
 
 /// How long the simulated robot's set-points take to be followed, in s.
 const LAG: f64 = 0.008;
@@ -13,17 +17,139 @@ const KEPT: usize = 8;
 /// How near feedback must be to its set-point to count as settled, in deg (mm).
 pub const SETTLED: f64 = 0.001;
 
-/// Moves a robot. Calls must return at once.
+/// What a driver is told before anything moves.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct Start<'a> {
+    /// Where the robot file says that the robot begins, in deg (mm).
+    pub home: &'a Joints,
+    /// The robot: the ranges of its axes, their speeds, accelerations and jerks.
+    pub robot: &'a Robot,
+    /// The length of a cycle in s.
+    pub period: f64,
+}
+
+/// What a robot is asked for in a cycle.
+#[derive(Clone, Copy, PartialEq, Debug)]
+#[non_exhaustive]
+pub struct Setpoint {
+    /// Where its axes shall be at the end of the cycle, in deg (mm).
+    pub position: Joints,
+    /// Their speeds, in deg/s (mm/s): what the positions of this cycle and the one before make.
+    pub velocity: Joints,
+    /// The accelerations of its own axes, in deg/s2 (mm/s2), likewise.
+    pub acceleration: [f64; ROBOT_AXES],
+    /// The torques (Nm; N of linear axes) that the motion asks for by the masses of the robot file and the load: for feed-forward.
+    /// `None`: the file has no masses, or the driver does not [want](RobotDriver::wants_torque) them.
+    pub torque: Option<[f64; ROBOT_AXES]>,
+    /// The length of the cycle in s.
+    pub period: f64,
+    /// When the cycle ends, by which the drives should have the set-point; `None`: time is not that of the world.
+    pub deadline: Option<Instant>,
+}
+
+/// What a robot says in a cycle.
+#[derive(Clone, PartialEq, Debug)]
+#[non_exhaustive]
+pub struct Feedback {
+    /// Where its axes are, in deg (mm); `None`: nothing new has come since the last cycle.
+    pub position: Option<Joints>,
+    /// The torques (Nm; N of linear axes) that the motors of its own axes give at the axes; `None`: it does not measure them.
+    /// Then the controller takes what its model asks for the motion that the robot reports, and what a scenario does to it.
+    pub torque: Option<[f64; ROBOT_AXES]>,
+    /// How its drives are; `None`: nothing new has come.
+    pub drives: Option<Drives>,
+}
+
+/// How the drives of a robot are.
+#[derive(Clone, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub enum Drives {
+    /// They hold the robot, and follow set-points.
+    On,
+    /// They do not: brakes hold it.
+    Off,
+    /// They do not because of this, which a person has to clear.
+    Fault(Box<str>),
+}
+
+impl Feedback {
+    /// A robot whose drives are on, and that is there (deg, mm).
+    pub fn at(position: Joints) -> Self {
+        Self { position: Some(position), torque: None, drives: Some(Drives::On) }
+    }
+
+    /// Nothing new has come.
+    pub fn none() -> Self {
+        Self { position: None, torque: None, drives: None }
+    }
+
+    /// The same with measured torques, in Nm (N).
+    pub fn with_torque(self, torque: [f64; ROBOT_AXES]) -> Self {
+        Self { torque: Some(torque), ..self }
+    }
+
+    /// The same with other drives.
+    pub fn with_drives(self, drives: Drives) -> Self {
+        Self { drives: Some(drives), ..self }
+    }
+}
+
+/// What the motors are told.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Power {
+    /// To be on and to hold the robot where it is.
+    On,
+    /// To be off: the robot rests, brakes hold it from now on.
+    Off,
+    /// To be off now, whatever the robot does: an emergency. It brakes by itself.
+    Cut,
+}
+
+/// Moves a robot. All calls but [`start`](RobotDriver::start) and [`close`](RobotDriver::close) must return at once.
+///
+/// ```
+/// use arl_rt::robot_driver::{Drives, Feedback, Power, RobotDriver, Setpoint, Start};
+/// use arl_rt::motion::Joints;
+///
+/// /// A robot that is where it shall be.
+/// struct Perfect;
+///
+/// impl RobotDriver for Perfect {
+///     fn start(&mut self, start: &Start<'_>) -> Result<Joints, String> {
+///         Ok(*start.home)
+///     }
+///
+///     fn exchange(&mut self, setpoint: &Setpoint) -> Feedback {
+///         Feedback::at(setpoint.position)
+///     }
+///
+///     fn switch(&mut self, power: Power) -> Drives {
+///         if power == Power::On { Drives::On } else { Drives::Off }
+///     }
+/// }
+///
+/// let builder = arl_rt::Controller::builder().robot_driver(Perfect);
+/// # let _ = builder;
+/// ```
 pub trait RobotDriver {
-    /// Where the robot is when the controller starts, in deg (mm). `home` is what the robot file says.
-    fn start(&mut self, home: &Joints) -> Joints;
+    /// Connects to the robot and switches its motors on, once, before the first cycle. It may take its time. Says where the robot is,
+    /// in deg (mm).
+    ///
+    /// # Errors
+    /// Why there is no robot: the controller is not built.
+    fn start(&mut self, start: &Start<'_>) -> Result<Joints, String>;
 
-    /// Takes the set-point of a cycle of `period` seconds, in deg (mm); says where the robot is.
-    fn exchange(&mut self, setpoint: &Joints, period: f64) -> Joints;
+    /// Takes the set-point of a cycle; gives what the robot has said last.
+    fn exchange(&mut self, setpoint: &Setpoint) -> Feedback;
 
-    /// Switches the motors on or off. While they are off, the set-point is where the robot reports to be.
-    fn switch(&mut self, on: bool) {
-        let _ = on;
+    /// Switches the motors; says how the drives are now. While they are off, set-points are where the robot reports to be. Drives that
+    /// are not [on](Drives::On) at once are waited for after [`Power::On`], five seconds at most.
+    fn switch(&mut self, power: Power) -> Drives;
+
+    /// Whether set-points are to have torques: they take some time to compute.
+    fn wants_torque(&self) -> bool {
+        false
     }
 
     /// Says that somebody has moved the robot here while its motors are off: for simulated robots.
@@ -31,12 +157,9 @@ pub trait RobotDriver {
         let _ = to;
     }
 
-    /// The torques (Nm; N of linear axes) that the motors of the robot's own axes gave at the axes in the last
-    /// [`exchange`](RobotDriver::exchange). `None`: the robot does not measure them; then the controller takes what its
-    /// model asks for the motion that the robot reports, and what a scenario does to the robot.
-    fn torques(&self) -> Option<[f64; ROBOT_AXES]> {
-        None
-    }
+    /// The controller ends; nothing is called any more. It may take its time. A controller that ends while the robot moves has cut the
+    /// power before. It is not called after a start that failed.
+    fn close(&mut self) {}
 }
 
 /// A robot that follows its set-point with a lag: it is where the mean of its last set-points is, those of 8 ms and at
@@ -47,6 +170,10 @@ pub struct SimulatedRobot {
     last: Option<[Joints; KEPT]>,
     /// Which of `last` is the oldest.
     oldest: usize,
+    /// Where it was when it was switched off, if it is.
+    off: Option<Joints>,
+    /// Where it is.
+    position: Option<Joints>,
 }
 
 impl SimulatedRobot {
@@ -57,16 +184,31 @@ impl SimulatedRobot {
 }
 
 impl RobotDriver for SimulatedRobot {
-    fn start(&mut self, home: &Joints) -> Joints {
-        let [position, ..] = self.last.get_or_insert([*home; KEPT]);
-        *position
+    fn start(&mut self, start: &Start<'_>) -> Result<Joints, String> {
+        let [position, ..] = *self.last.get_or_insert([*start.home; KEPT]);
+        self.position = Some(position);
+        Ok(position)
+    }
+
+    fn switch(&mut self, power: Power) -> Drives {
+        self.off = if power == Power::On { None } else { self.position };
+        if let Some(position) = self.position {
+            self.last = Some([position; KEPT]);
+        }
+        if power == Power::On { Drives::On } else { Drives::Off }
     }
 
     fn moved_by_hand(&mut self, to: &Joints) {
-        self.last = Some([*to; KEPT]);
+        (self.last, self.position) = (Some([*to; KEPT]), Some(*to));
+        self.off = self.off.map(|_| *to);
     }
 
-    fn exchange(&mut self, setpoint: &Joints, period: f64) -> Joints {
+    fn exchange(&mut self, setpoint: &Setpoint) -> Feedback {
+        if let Some(position) = self.off {
+            self.position = Some(position);
+            return Feedback::at(position);
+        }
+        let Setpoint { position: setpoint, period, .. } = setpoint;
         let (least, most) = CYCLES;
         let count = (LAG / period).round().clamp(least, most);
         let last = self.last.get_or_insert([*setpoint; KEPT]);
@@ -86,7 +228,8 @@ impl RobotDriver for SimulatedRobot {
                 *position += (old - setpoint) / count;
             }
         }
-        position
+        self.position = Some(position);
+        Feedback::at(position)
     }
 }
 
@@ -99,19 +242,31 @@ pub(crate) fn settled(setpoint: &Joints, feedback: &Joints) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use arl_robot::robot::Robot;
+
+    /// What is asked for at rest there, and where the robot is then.
+    fn exchange(robot: &mut SimulatedRobot, position: &Joints, period: f64) -> Joints {
+        let velocity = Joints { axes: [0.0; 6], external: [0.0; 6] };
+        let (acceleration, torque, deadline) = ([0.0; ROBOT_AXES], None, None);
+        let setpoint = Setpoint { position: *position, velocity, acceleration, torque, period, deadline };
+        robot.exchange(&setpoint).position.unwrap()
+    }
+
+    fn start(robot: &mut SimulatedRobot, home: &Joints, period: f64) -> Joints {
+        let of = Robot::builtin("kr10-r1420").unwrap();
+        robot.start(&Start { home, robot: &of, period }).unwrap()
+    }
 
     #[test]
     fn the_simulated_robot_follows_and_settles_on_its_set_point() {
         let home = Joints::home(&Robot::builtin("kr10-r1420").unwrap());
         let mut robot = SimulatedRobot::new();
-        assert_eq!(robot.start(&home), home);
+        assert_eq!(start(&mut robot, &home, 0.001), home);
         let mut target = home;
         target.axes[0] += 1.0;
-        let first = robot.exchange(&target, 0.001);
+        let first = exchange(&mut robot, &target, 0.001);
         assert!(first.axes[0] > home.axes[0] && first.axes[0] < home.axes[0] + 0.5, "it lags: {first:?}");
         assert!(!settled(&target, &first));
-        let cycles = (0..100).position(|_| robot.exchange(&target, 0.001) == target).unwrap();
+        let cycles = (0..100).position(|_| exchange(&mut robot, &target, 0.001) == target).unwrap();
         assert_eq!(cycles + 2, 8);
     }
 
@@ -120,11 +275,11 @@ mod tests {
         let home = Joints::home(&Robot::builtin("kr10-r1420").unwrap());
         for (period, late) in [(0.001, 3.5), (0.004, 0.5), (0.02, 0.5)] {
             let mut robot = SimulatedRobot::new();
-            robot.start(&home);
+            start(&mut robot, &home, period);
             for cycle in 1..50 {
                 let mut target = home;
                 target.axes[1] += 0.25 * f64::from(cycle);
-                let found = robot.exchange(&target, period);
+                let found = exchange(&mut robot, &target, period);
                 if cycle > 8 {
                     assert!((found.axes[1] - (target.axes[1] - 0.25 * late)).abs() < 1e-9, "{period} {found:?}");
                 }

@@ -2,19 +2,35 @@
 
 use super::Unit;
 use super::moving::Moving;
-use crate::fault::File;
+use super::robot_driver::{Drives, Feedback, Power, Setpoint};
+use super::supervision::Now;
+use crate::fault::{Fault, File};
 use crate::motion::{Command, Joints, Settings, Speed, Start, Stop, Target, Zone};
 use arl_robot::frames::Rig;
 
 /// The speed of jogging, in % of the axes' own.
 pub(super) const JOGGING: f64 = 10.0;
+/// A robot whose axes are slower than that, in deg/s (mm/s), stands: what it measures of itself is never quite still.
+const STILL: f64 = 5.0;
 /// The level of those who move the robot beside the program: above all of it.
 pub(super) const BESIDE: u32 = u32::MAX;
 
+/// Whether the motors hold the robot.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Motors {
+    On,
+    /// They were told to, and have not said that they do.
+    ComingOn,
+    /// They go off once the robot rests.
+    GoingOff,
+    /// Set-points are where the robot is.
+    Off,
+}
+
 impl Unit {
-    /// Whether the motors hold the robot.
+    /// Whether the motors hold the robot, and are to go on doing so.
     pub(crate) fn has_servo(&self) -> bool {
-        self.servo
+        self.motors == Motors::On
     }
 
     /// Comes to rest on the path, until [`Unit::go_on`].
@@ -43,29 +59,132 @@ impl Unit {
 
     /// Stops on the path; at rest the brakes close and the motors let go.
     pub(crate) fn servo_off(&mut self) {
-        if std::mem::replace(&mut self.servo, false) {
+        match self.motors {
+            Motors::On => {
+                self.motors = Motors::GoingOff;
+                self.let_go();
+                self.pause();
+            }
+            // The robot stands.
+            Motors::ComingOn => self.switch_off(),
+            Motors::GoingOff | Motors::Off => {}
+        }
+    }
+
+    /// Switches the motors off at once: an emergency, in which the robot brakes by itself. Its motions stop where they are.
+    pub(crate) fn cut_power(&mut self) {
+        if self.motors != Motors::Off {
+            self.motors = Motors::Off;
             self.let_go();
             self.pause();
-            self.driver.switch(false);
+            self.driver.switch(Power::Cut);
         }
+    }
+
+    /// Switches motors off that are to go off, where the robot rests.
+    pub(super) fn switch_off_at_rest(&mut self) {
+        let stands = self.queue.rests() && self.commanded.at == self.commanded.before;
+        if self.motors == Motors::GoingOff && stands && self.is_settled() {
+            self.switch_off();
+        }
+    }
+
+    fn switch_off(&mut self) {
+        self.motors = Motors::Off;
+        self.driver.switch(Power::Off);
     }
 
     /// Switches the motors on. The set-point is where the robot reports to be; with a threshold, in deg (mm), it stays what it
     /// was where no axis is farther off than that. Returns whether that was so, where it was asked for.
-    pub(crate) fn servo_on(&mut self, threshold: Option<f64>) -> bool {
-        if std::mem::replace(&mut self.servo, true) {
-            return true;
+    ///
+    /// # Errors
+    /// The robot moves, or it is not known where it is.
+    pub(crate) fn servo_on(&mut self, threshold: Option<f64>) -> Result<bool, &'static str> {
+        match self.motors {
+            Motors::On | Motors::ComingOn => return Ok(true),
+            Motors::GoingOff if !self.supervision.has_found() => {
+                self.motors = Motors::On;
+                return Ok(true);
+            }
+            Motors::GoingOff => return Err("the robot has not come to rest yet"),
+            Motors::Off => {}
         }
-        self.driver.switch(true);
+        if self.silent > 0 {
+            return Err("the robot does not say where it is");
+        }
+        let moves = self.reported.rates.iter().chain(&self.reported.external_rates).any(|rate| rate.abs() > STILL);
+        if !self.queue.rests() || moves {
+            return Err("the robot has not come to rest yet");
+        }
         let here = self.reported.at;
         let near = threshold.is_some_and(|threshold| self.commanded.at.is_at(&here, threshold));
         if !near && here != self.commanded.at {
+            if self.jogged {
+                // What moved it beside its path when its motors went off is over.
+                self.queue.drop_added();
+            }
             self.step_beside();
-            if self.queue.place(here) {
-                (self.commanded, self.reported) = (Moving::resting(here), Moving::resting(here));
+            if !self.go_where_it_is() {
+                return Err("motions of it are still under way");
             }
         }
-        near || threshold.is_none()
+        self.supervision.begin();
+        let is_on = self.driver.switch(Power::On) == Drives::On;
+        self.motors = if is_on { Motors::On } else { Motors::ComingOn };
+        Ok(near || threshold.is_none())
+    }
+
+    /// Puts the set-point where the robot is; whether that could be done.
+    fn go_where_it_is(&mut self) -> bool {
+        let here = self.reported.at;
+        let placed = self.queue.place(here);
+        if placed {
+            (self.commanded, self.reported) = (Moving::resting(here), Moving::resting(here));
+        }
+        placed
+    }
+
+    /// Looks at what the robot has said. What is wrong with it stops it, by what is still possible.
+    pub(super) fn supervise(&mut self, feedback: &Feedback, setpoint: &Setpoint) {
+        if self.motors == Motors::Off {
+            return;
+        }
+        if self.motors == Motors::ComingOn && feedback.drives == Some(Drives::On) {
+            // It may have been moved since they were told to.
+            if self.jogged {
+                self.go_where_it_is();
+            }
+            self.motors = Motors::On;
+        }
+        let now = Now {
+            robot: &self.robot,
+            asked: &setpoint.position,
+            period: setpoint.period,
+            coming_on: self.motors == Motors::ComingOn,
+            rests: self.queue.rests(),
+            settled: self.is_settled(),
+        };
+        let is_first = !self.supervision.has_found();
+        let Some(fault) = self.supervision.look(feedback, now) else { return };
+        let place = self.pointer.filter(|_| self.executing.1 != 0);
+        match fault {
+            // Nobody follows set-points any more.
+            Fault::Drives(_) => self.cut_power(),
+            // Set-points lead to rest, and the motors go off there.
+            _ => {
+                self.motors = Motors::GoingOff;
+                self.let_go();
+            }
+        }
+        self.stop();
+        if is_first {
+            self.trouble = Some((fault, place));
+        }
+    }
+
+    /// What is wrong with the robot, and in which motion, once.
+    pub(crate) fn take_trouble(&mut self) -> Option<(Fault, Option<(File, u32)>)> {
+        self.trouble.take()
     }
 
     /// Sets the motions aside, so that the robot can be moved beside its path.
@@ -77,7 +196,7 @@ impl Unit {
 
     /// Whether the robot can be moved beside its program now.
     pub(super) fn may_be_jogged(&self) -> Result<(), String> {
-        if !self.servo {
+        if !self.has_servo() {
             return Err("the servo is off".into());
         }
         if !self.queue.rests() {
@@ -120,7 +239,7 @@ impl Unit {
 
     /// Moves an axis, from 1, while the servo is off.
     pub(crate) fn move_by_hand(&mut self, axis: usize, by: f64) -> Result<(), String> {
-        if self.servo {
+        if self.motors != Motors::Off {
             return Err("its servo is on, the motors hold it".into());
         }
         if !self.queue.rests() {

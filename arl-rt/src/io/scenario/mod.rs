@@ -61,6 +61,8 @@ pub enum Pendant {
     ServoOn,
     /// Stops the robot on its path and switches the motors off.
     ServoOff,
+    /// Switches the motors off at once, whatever the robot does.
+    EmergencyStop,
     /// The speed override in %.
     Override(f64),
 }

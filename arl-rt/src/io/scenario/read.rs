@@ -36,7 +36,7 @@ const CHANGES: &str = "`di.N`, `ai.N`, `internal.N`, `internal_do.N`, `pendant`,
                        or `hand.jN`";
 
 /// The words that a scenario may use.
-const WORDS: [(&str, Pendant); 7] = [
+const WORDS: [(&str, Pendant); 8] = [
     ("start", Pendant::Start),
     ("pause", Pendant::Pause),
     ("step", Pendant::Step),
@@ -44,6 +44,7 @@ const WORDS: [(&str, Pendant); 7] = [
     ("clear", Pendant::Clear),
     ("servo_on", Pendant::ServoOn),
     ("servo_off", Pendant::ServoOff),
+    ("emergency_stop", Pendant::EmergencyStop),
 ];
 
 /// The keys of a follower.

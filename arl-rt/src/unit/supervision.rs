@@ -1,0 +1,127 @@
+//! Whether a robot does what it is asked for.
+
+use crate::fault::Fault;
+use crate::motion::Joints;
+use crate::unit::robot_driver::{Drives, Feedback};
+use arl_robot::robot::{ROBOT_AXES, Robot};
+
+/// So many cycles without a position are no trouble yet, however long they are.
+const FEWEST_CYCLES: u32 = 4;
+/// A robot is told, and tells, some cycles late.
+const LATE_CYCLES: f64 = 3.0;
+/// How long drives may take to come on, in s.
+const COMING_ON_S: f64 = 5.0;
+
+/// What the controller knows when it looks.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Now<'a> {
+    pub(super) robot: &'a Robot,
+    pub(super) asked: &'a Joints,
+    /// The length of the cycle in s.
+    pub(super) period: f64,
+    /// The motors are told to come on, and have not said that they are.
+    pub(super) coming_on: bool,
+    /// The set-point stands.
+    pub(super) rests: bool,
+    /// The robot has settled on it.
+    pub(super) settled: bool,
+}
+
+/// What was found so far. It tells of one trouble, until it [begins anew](Supervision::begin).
+#[derive(Default, Debug)]
+pub(super) struct Supervision {
+    /// For how many cycles no position has come.
+    missing: u32,
+    /// How long the robot has not settled, and how long its motors have been coming on, in s.
+    unsettled: f64,
+    coming_on: f64,
+    found: bool,
+}
+
+impl Supervision {
+    /// The motors are switched on.
+    pub(super) fn begin(&mut self) {
+        *self = Self::default();
+    }
+
+    /// Whether something was found.
+    pub(super) fn has_found(&self) -> bool {
+        self.found
+    }
+
+    /// Looks at what a robot says whose motors are on, or should be: what is wrong. That is told once, but for drives that nobody is to
+    /// move against any more.
+    pub(super) fn look(&mut self, feedback: &Feedback, now: Now<'_>) -> Option<Fault> {
+        let fault = self.trouble(feedback, now)?;
+        let counts = !self.found || matches!(fault, Fault::Drives(_));
+        self.found = true;
+        counts.then_some(fault)
+    }
+
+    fn trouble(&mut self, feedback: &Feedback, now: Now<'_>) -> Option<Fault> {
+        let of_drives = self.drives(feedback.drives.as_ref(), now);
+        let of_position = self.position(feedback.position.as_ref(), now);
+        of_drives.or(of_position).or_else(|| self.settling(now))
+    }
+
+    fn drives(&mut self, drives: Option<&Drives>, now: Now<'_>) -> Option<Fault> {
+        self.coming_on = if now.coming_on { self.coming_on + now.period } else { 0.0 };
+        let text = match drives {
+            Some(Drives::Fault(why)) => format!("the drives of the robot have a fault: {why}"),
+            Some(Drives::Off) if !now.coming_on => {
+                "the drives of the robot are off, though nobody switched them off".to_owned()
+            }
+            _ if self.coming_on > COMING_ON_S => {
+                format!("the drives of the robot have not come on within {COMING_ON_S} s")
+            }
+            _ => return None,
+        };
+        Some(Fault::Drives(text.into()))
+    }
+
+    fn position(&mut self, position: Option<&Joints>, now: Now<'_>) -> Option<Fault> {
+        let Some(position) = position else {
+            self.missing = self.missing.saturating_add(1);
+            let lasts = f64::from(self.missing) * now.period;
+            let limit = now.robot.drives.feedback;
+            let is_lost = self.missing > FEWEST_CYCLES && lasts > limit + 0.5 * now.period;
+            let text = || format!("the robot has not said for {:.0} ms where it is", lasts * 1e3);
+            return is_lost.then(|| Fault::NoFeedback(text().into()));
+        };
+        self.missing = 0;
+        if !is_finite(position, now.robot) {
+            return Some(Fault::NoFeedback("the robot says that it is at what is no number".into()));
+        }
+        if now.coming_on {
+            return None;
+        }
+        let own = now.robot.own_axes().len();
+        let pairs = now.asked.axes.iter().zip(&position.axes).take(own);
+        let pairs = pairs.chain(now.asked.external.iter().zip(&position.external));
+        let off = pairs.zip(&now.robot.axes).zip(&now.robot.drives.following).map(|(((asked, is), axis), limit)| {
+            // What it says is of some cycles ago.
+            ((asked - is).abs(), axis, limit.max(axis.vel * LATE_CYCLES * now.period))
+        });
+        let (off, axis, limit) =
+            off.filter(|(off, _, limit)| off > limit).max_by(|(one, ..), (other, ..)| one.total_cmp(other))?;
+        let (name, unit) = (&axis.name, if axis.linear { "mm" } else { "deg" });
+        let text = format!(
+            "the robot does not follow: {name} is {off:.2} {unit} from its set-point, {limit:.2} {unit} are allowed"
+        );
+        Some(Fault::NotFollowing(text.into()))
+    }
+
+    fn settling(&mut self, now: Now<'_>) -> Option<Fault> {
+        let waits = now.rests && !now.settled && !now.coming_on;
+        self.unsettled = if waits { self.unsettled + now.period } else { 0.0 };
+        let limit = now.robot.drives.settling;
+        let text = || format!("the robot has not come to rest on its set-point within {limit} s");
+        (self.unsettled > limit).then(|| Fault::NotSettling(text().into()))
+    }
+}
+
+/// Whether all axes of a robot are at numbers.
+pub(super) fn is_finite(position: &Joints, robot: &Robot) -> bool {
+    let own = position.axes.iter().take(robot.own_axes().len().min(ROBOT_AXES));
+    own.chain(position.external.iter().take(robot.external_axes().len())).all(|at| at.is_finite())
+}

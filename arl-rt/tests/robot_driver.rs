@@ -1,0 +1,478 @@
+//! What the controller makes of what the driver of a robot says: every transition of its motors, and every trouble.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "these are tests")]
+
+mod common;
+
+use std::cell::RefCell;
+use std::rc::Rc;
+
+use arl_rt::clock_source::RealClock;
+use arl_rt::emit::*;
+use arl_rt::motion::Joints;
+use arl_rt::robot_driver::{Drives, Feedback, Power, RobotDriver, Setpoint, SimulatedRobot, Start};
+use arl_rt::{Controller, Outcome, Robot, State};
+use common::*;
+
+/// What the driver does to what the simulated robot says, by the cycle, from 1.
+type Script = fn(u64, Feedback) -> Feedback;
+
+/// What the driver has heard.
+#[derive(Default)]
+struct Heard {
+    cycle: u64,
+    setpoints: Vec<Setpoint>,
+    /// How the motors were switched, and the speed of axis 1 then, in deg/s.
+    switched: Vec<(Power, f64)>,
+    closed: u32,
+}
+
+/// A simulated robot whose word is changed on its way.
+struct Scripted {
+    robot: SimulatedRobot,
+    heard: Rc<RefCell<Heard>>,
+    script: Script,
+    torques: bool,
+}
+
+impl RobotDriver for Scripted {
+    fn start(&mut self, start: &Start<'_>) -> Result<Joints, String> {
+        assert_eq!((start.period, start.robot.axes.len()), (0.001, 6));
+        self.robot.start(start)
+    }
+
+    fn exchange(&mut self, setpoint: &Setpoint) -> Feedback {
+        let mut heard = self.heard.borrow_mut();
+        heard.cycle += 1;
+        heard.setpoints.push(*setpoint);
+        (self.script)(heard.cycle, self.robot.exchange(setpoint))
+    }
+
+    fn switch(&mut self, power: Power) -> Drives {
+        let mut heard = self.heard.borrow_mut();
+        let speed = heard.setpoints.last().map_or(0.0, |setpoint| setpoint.velocity.axes[0]);
+        heard.switched.push((power, speed));
+        self.robot.switch(power);
+        // They come on in the next cycle at the earliest.
+        Drives::Off
+    }
+
+    fn wants_torque(&self) -> bool {
+        self.torques
+    }
+
+    fn close(&mut self) {
+        self.heard.borrow_mut().closed += 1;
+    }
+}
+
+/// A controller whose program turns axis 1 by 90 deg, which takes some 0.7 s, and what its driver hears.
+fn turning(script: Script) -> (Controller, Rc<RefCell<Heard>>) {
+    let heard = Rc::<RefCell<Heard>>::default();
+    let driver = Scripted { robot: SimulatedRobot::new(), heard: Rc::clone(&heard), script, torques: false };
+    let builder = Controller::builder().robot_driver(driver);
+    let (controller, _) = controller(builder, |cx| {
+        Box::pin(async move {
+            motion::movej(bent(0.0)).vp(100.0).run(cx).await.at(FILE, 1)?;
+            cx.line(FILE, 2);
+            motion::movej(bent(90.0)).vp(100.0).run(cx).await.at(FILE, 2)?;
+            flow::waittime(0.0).run(cx).await.at(FILE, 3)?;
+            flow::waittime(5.0).run(cx).await.at(FILE, 4)
+        })
+    });
+    (controller, heard)
+}
+
+/// The cycle in which axis 1 is at full speed.
+const AT_SPEED: u64 = 1000;
+
+fn outcome(controller: &mut Controller) -> (u32, u32, String) {
+    match controller.run() {
+        Outcome::Alarm(alarm) => (alarm.fault.number(), alarm.line, alarm.fault.to_string()),
+        other => panic!("no alarm: {other}"),
+    }
+}
+
+/// Set-points keep the limits of axis 1, to the last one.
+fn keep_limits(heard: &Heard) {
+    let axis = &Robot::builtin("kr10-r1420").unwrap().axes[0];
+    for pair in heard.setpoints.windows(2) {
+        let [before, here] = pair else { continue };
+        let step = here.position.axes[0] - before.position.axes[0];
+        let speed = here.velocity.axes[0];
+        assert!((step / 0.001 - speed).abs() < 1e-6, "{step} {speed}");
+        assert!(speed.abs() <= axis.vel * 1.001, "{speed}");
+        let acceleration = (speed - before.velocity.axes[0]) / 0.001;
+        assert!(acceleration.abs() <= axis.acc * 1.01, "{acceleration}");
+        assert!((here.acceleration[0] - acceleration).abs() < 1e-3);
+    }
+}
+
+#[test]
+fn the_program_moves_at_speed_when_troubles_come() {
+    let (mut controller, heard) = turning(|_, feedback| feedback);
+    controller.run_for(AT_SPEED as f64 * 0.001);
+    assert!(heard.borrow().setpoints.last().unwrap().velocity.axes[0] > 100.0);
+    assert_eq!(controller.run(), Outcome::Ended);
+    drop(controller);
+    let heard = heard.borrow();
+    keep_limits(&heard);
+    // Nothing was switched: the motors were on from the start, and the program's end is not theirs.
+    assert_eq!((&heard.switched[..], heard.closed), (&[][..], 1));
+}
+
+#[test]
+fn a_robot_that_says_nothing_stops_and_is_switched_off_at_rest() {
+    let (mut controller, heard) = turning(|cycle, feedback| if cycle < AT_SPEED { feedback } else { Feedback::none() });
+    let (number, line, text) = outcome(&mut controller);
+    assert_eq!((number, line), (20071, 2), "{text}");
+    assert_eq!(text, "the robot has not said for 21 ms where it is");
+    let heard = heard.borrow();
+    keep_limits(&heard);
+    assert_eq!(heard.switched, [(Power::Off, 0.0)]);
+    // It is over once the set-point stands: nobody waits for a robot to settle that says nothing.
+    assert!(heard.cycle < AT_SPEED + 1000, "{}", heard.cycle);
+}
+
+#[test]
+fn a_few_cycles_without_a_word_are_no_trouble() {
+    let (mut controller, heard) = turning(|cycle, feedback| if cycle % 25 < 5 { feedback } else { Feedback::none() });
+    assert_eq!(controller.run(), Outcome::Ended);
+    assert_eq!(heard.borrow().switched, []);
+}
+
+#[test]
+fn no_numbers_are_no_positions() {
+    for value in [f64::NAN, f64::INFINITY] {
+        let script: Script = if value.is_nan() {
+            |cycle, feedback| changed(cycle, feedback, f64::NAN)
+        } else {
+            |cycle, feedback| changed(cycle, feedback, f64::INFINITY)
+        };
+        let (mut controller, heard) = turning(script);
+        let (number, line, text) = outcome(&mut controller);
+        assert_eq!((number, line), (20071, 2), "{text}");
+        assert!(controller.joints().axes.iter().all(|axis| axis.is_finite()));
+        keep_limits(&heard.borrow());
+        assert_eq!(heard.borrow().switched, [(Power::Off, 0.0)]);
+    }
+}
+
+/// Axis 3 is there from a cycle on.
+fn changed(cycle: u64, feedback: Feedback, value: f64) -> Feedback {
+    let mut position = feedback.position.unwrap();
+    if cycle >= AT_SPEED {
+        position.axes[2] = value;
+    }
+    Feedback::at(position)
+}
+
+#[test]
+fn a_robot_that_stays_behind_stops() {
+    // What it said last is said for ever.
+    let (mut controller, heard) = turning(|cycle, feedback| match cycle < AT_SPEED {
+        true => feedback,
+        false => Feedback::at(Joints { axes: bent(25.0).axes(), external: [0.0; 6] }),
+    });
+    let (number, line, text) = outcome(&mut controller);
+    assert_eq!((number, line), (20070, 2), "{text}");
+    let axis = &Robot::builtin("kr10-r1420").unwrap().axes[0];
+    assert!(text.starts_with("the robot does not follow: j1 is ") && text.contains("deg are allowed"), "{text}");
+    let allowed = axis.vel * 0.1;
+    assert!(text.contains(&format!("{allowed:.2} deg are allowed")), "{text}");
+    keep_limits(&heard.borrow());
+    assert_eq!(heard.borrow().switched, [(Power::Off, 0.0)]);
+}
+
+#[test]
+fn drives_with_a_fault_are_all_cut_off_at_once() {
+    let (mut controller, heard) = turning(|cycle, feedback| match cycle < AT_SPEED {
+        true => feedback,
+        false => feedback.with_drives(Drives::Fault("E07, over-current of axis 2".into())),
+    });
+    let (number, line, text) = outcome(&mut controller);
+    assert_eq!((number, line), (20072, 2), "{text}");
+    assert_eq!(text, "the drives of the robot have a fault: E07, over-current of axis 2");
+    let heard = heard.borrow();
+    let (power, speed) = heard.switched[0];
+    assert!(heard.switched.len() == 1 && power == Power::Cut && speed > 100.0, "{:?}", heard.switched);
+    // From then on it is asked for nothing but to stay.
+    let behind = &heard.setpoints[AT_SPEED as usize..];
+    assert!(!behind.is_empty() && behind.iter().all(|setpoint| setpoint.velocity.axes == [0.0; 6]));
+}
+
+#[test]
+fn drives_that_go_off_by_themselves_are_a_fault() {
+    let (mut controller, _) = turning(|cycle, feedback| match cycle < AT_SPEED {
+        true => feedback,
+        false => feedback.with_drives(Drives::Off),
+    });
+    let (number, _, text) = outcome(&mut controller);
+    assert_eq!((number, &*text), (20072, "the drives of the robot are off, though nobody switched them off"));
+}
+
+#[test]
+fn a_robot_that_never_settles_is_not_waited_for() {
+    let (mut controller, heard) = turning(|cycle, feedback| {
+        let mut position = feedback.position.unwrap();
+        position.axes[1] += if cycle % 2 == 0 { 0.01 } else { -0.01 };
+        Feedback::at(position)
+    });
+    let (number, _, text) = outcome(&mut controller);
+    assert_eq!((number, &*text), (20073, "the robot has not come to rest on its set-point within 2 s"));
+    assert_eq!(heard.borrow().switched, [(Power::Off, 0.0)]);
+}
+
+#[test]
+fn motors_go_off_at_rest_and_come_on_when_they_say_so() {
+    let (mut controller, heard) = turning(|cycle, feedback| {
+        // After they are switched on, the drives take 0.3 s.
+        if (3001..3300).contains(&cycle) { feedback.with_drives(Drives::Off) } else { feedback }
+    });
+    controller.run_for(AT_SPEED as f64 * 0.001);
+    controller.press(arl_rt::io::Pendant::ServoOff);
+    controller.step();
+    assert_eq!(heard.borrow().switched, [], "it moves still");
+    controller.run_for(1.999);
+    assert_eq!(heard.borrow().switched, [(Power::Off, 0.0)]);
+    assert_eq!(controller.state(), State::Paused);
+    keep_limits(&heard.borrow());
+    controller.press(arl_rt::io::Pendant::ServoOn);
+    controller.step();
+    controller.press(arl_rt::io::Pendant::Start);
+    controller.step();
+    assert_eq!(controller.state(), State::Paused, "the drives are not on yet");
+    controller.run_for(0.4);
+    controller.press(arl_rt::io::Pendant::Start);
+    assert_eq!(controller.run(), Outcome::Ended);
+    assert_eq!(heard.borrow().switched, [(Power::Off, 0.0), (Power::On, 0.0)]);
+    assert!((controller.joints().axes[0] - 90.0).abs() < 1e-6);
+}
+
+#[test]
+fn motors_that_do_not_come_on_are_a_fault() {
+    let (mut controller, _) =
+        turning(|cycle, feedback| if cycle > 3000 { feedback.with_drives(Drives::Off) } else { feedback });
+    controller.run_for(1.0);
+    controller.press(arl_rt::io::Pendant::ServoOff);
+    controller.run_for(2.0);
+    controller.press(arl_rt::io::Pendant::ServoOn);
+    let (number, _, text) = outcome(&mut controller);
+    assert_eq!((number, &*text), (20072, "the drives of the robot have not come on within 5 s"));
+}
+
+#[test]
+fn servo_on_before_rest_takes_servo_off_back() {
+    let (mut controller, heard) = turning(|_, feedback| feedback);
+    controller.run_for(AT_SPEED as f64 * 0.001);
+    controller.press(arl_rt::io::Pendant::ServoOff);
+    controller.run_for(0.02);
+    controller.press(arl_rt::io::Pendant::ServoOn);
+    controller.press(arl_rt::io::Pendant::Start);
+    assert_eq!(controller.run(), Outcome::Ended);
+    assert_eq!(heard.borrow().switched, []);
+    keep_limits(&heard.borrow());
+}
+
+#[test]
+fn an_emergency_stop_cuts_the_power_at_speed_and_the_program_goes_on_from_its_path() {
+    let (mut controller, heard) = turning(|_, feedback| feedback);
+    controller.run_for(AT_SPEED as f64 * 0.001);
+    controller.emergency_stop();
+    controller.step();
+    {
+        let heard = heard.borrow();
+        let (power, speed) = heard.switched[0];
+        assert!(heard.switched.len() == 1 && power == Power::Cut && speed > 100.0, "{:?}", heard.switched);
+        assert_eq!(heard.setpoints.last().unwrap().velocity.axes, [0.0; 6]);
+    }
+    // The motion behind it stops, too: only then the motors may come on.
+    controller.press(arl_rt::io::Pendant::ServoOn);
+    controller.step();
+    assert_eq!(heard.borrow().switched.len(), 1);
+    assert!(controller.take_warnings().iter().any(|warning| warning.contains("servo on is refused")));
+    controller.run_for(2.0);
+    let stopped = controller.joints().axes[0];
+    assert!(stopped > 5.0 && stopped < 85.0, "{stopped}");
+    assert_eq!(controller.state(), State::Paused);
+    controller.press(arl_rt::io::Pendant::ServoOn);
+    controller.step();
+    let first = heard.borrow().setpoints.last().unwrap().position.axes[0];
+    assert!((first - stopped).abs() < 1e-9, "no step: {first} and {stopped}");
+    controller.step();
+    controller.press(arl_rt::io::Pendant::Start);
+    assert_eq!(controller.run(), Outcome::Ended);
+    assert!((controller.joints().axes[0] - 90.0).abs() < 1e-6);
+}
+
+#[test]
+fn after_a_trouble_the_robot_is_switched_on_again_where_it_is() {
+    let (mut controller, heard) =
+        turning(|cycle, feedback| if (AT_SPEED..4000).contains(&cycle) { Feedback::none() } else { feedback });
+    controller.run();
+    controller.run_for(0.0);
+    while controller.time() < 4.5 {
+        controller.step();
+    }
+    controller.press(arl_rt::io::Pendant::Clear);
+    controller.press(arl_rt::io::Pendant::ServoOn);
+    controller.step();
+    controller.step();
+    controller.press(arl_rt::io::Pendant::Reset);
+    assert_eq!(controller.run(), Outcome::Ended);
+    assert_eq!(heard.borrow().switched, [(Power::Off, 0.0), (Power::On, 0.0)]);
+    assert!((controller.joints().axes[0] - 90.0).abs() < 1e-6);
+}
+
+#[test]
+fn axes_that_are_not_there_do_not_count() {
+    let (mut controller, _) = turning(|_, feedback| {
+        let position = feedback.position.unwrap();
+        Feedback::at(Joints { external: [0.0; 6], ..position })
+    });
+    assert_eq!(controller.run(), Outcome::Ended);
+}
+
+#[test]
+fn a_run_with_an_emergency_stop_ends() {
+    let run = |with: fn(&mut Controller)| {
+        let (mut controller, _) = controller(Controller::builder(), |cx| {
+            Box::pin(async move { motion::movej(bent(90.0)).vp(100.0).run(cx).await.at(FILE, 1) })
+        });
+        controller.run_for(0.5);
+        controller.emergency_stop();
+        controller.run_for(0.01);
+        with(&mut controller);
+        controller.run()
+    };
+    assert!(matches!(run(|_| {}), Outcome::Standstill(_)));
+    assert_eq!(run(Controller::stop), Outcome::Stopped);
+}
+
+#[test]
+fn drives_that_fail_after_another_trouble_are_cut_off_too() {
+    let (mut controller, heard) = turning(|cycle, feedback| match cycle {
+        0..AT_SPEED => feedback,
+        _ if cycle < AT_SPEED + 60 => Feedback::none(),
+        _ => Feedback::none().with_drives(Drives::Fault("E07".into())),
+    });
+    let (number, ..) = outcome(&mut controller);
+    assert_eq!(number, 20071);
+    let heard = heard.borrow();
+    let (power, speed) = heard.switched[0];
+    assert!(heard.switched.len() == 1 && power == Power::Cut && speed > 10.0, "{:?}", heard.switched);
+}
+
+#[test]
+fn motors_are_switched_off_while_they_come_on() {
+    let (mut controller, heard) =
+        turning(|cycle, feedback| if cycle > 3000 { feedback.with_drives(Drives::Off) } else { feedback });
+    controller.run_for(1.0);
+    controller.press(arl_rt::io::Pendant::ServoOff);
+    controller.run_for(2.0);
+    controller.press(arl_rt::io::Pendant::ServoOn);
+    controller.run_for(0.5);
+    controller.press(arl_rt::io::Pendant::ServoOff);
+    controller.run_for(6.0);
+    assert_eq!(heard.borrow().switched, [(Power::Off, 0.0), (Power::On, 0.0), (Power::Off, 0.0)]);
+    assert_eq!(controller.state(), State::Paused);
+}
+
+#[test]
+fn a_controller_that_is_dropped_at_speed_cuts_the_power() {
+    let (mut controller, heard) = turning(|_, feedback| feedback);
+    controller.run_for(AT_SPEED as f64 * 0.001);
+    drop(controller);
+    let heard = heard.borrow();
+    assert_eq!((heard.switched[0].0, heard.switched.len(), heard.closed), (Power::Cut, 1, 1));
+}
+
+#[test]
+fn motors_come_on_only_where_it_is_known_where_the_robot_is() {
+    let (mut controller, heard) =
+        turning(|cycle, feedback| if (AT_SPEED..4000).contains(&cycle) { Feedback::none() } else { feedback });
+    controller.run();
+    controller.press(arl_rt::io::Pendant::ServoOn);
+    controller.step();
+    assert!(controller.take_warnings().iter().any(|warning| warning.contains("does not say where it is")));
+    assert_eq!(heard.borrow().switched, [(Power::Off, 0.0)]);
+}
+
+/// A robot that cannot be had.
+struct Nowhere(Result<f64, &'static str>);
+
+impl RobotDriver for Nowhere {
+    fn start(&mut self, start: &Start<'_>) -> Result<Joints, String> {
+        let at = self.0?;
+        Ok(Joints { axes: [at; 6], ..*start.home })
+    }
+
+    fn exchange(&mut self, setpoint: &Setpoint) -> Feedback {
+        Feedback::at(setpoint.position)
+    }
+
+    fn switch(&mut self, _power: Power) -> Drives {
+        Drives::On
+    }
+}
+
+#[test]
+fn a_robot_that_does_not_start_is_no_controller() {
+    let refused = |driver: Nowhere| {
+        let script = script(|_| Box::pin(async { Ok(()) }));
+        Controller::builder().robot_driver(driver).build(Box::new(script)).err().unwrap().to_string()
+    };
+    let problem = refused(Nowhere(Err("no answer from 10.0.0.2:49152")));
+    assert_eq!(problem, "the robot of channel 1 cannot be started: no answer from 10.0.0.2:49152");
+    assert!(refused(Nowhere(Ok(f64::NAN))).contains("it says that the robot is at what is no number"));
+}
+
+#[test]
+fn set_points_have_torques_where_they_are_wanted_and_deadlines_where_time_is_real() {
+    let run = |torques: bool, real: bool| {
+        let heard = Rc::<RefCell<Heard>>::default();
+        let driver = Scripted {
+            robot: SimulatedRobot::new(),
+            heard: Rc::clone(&heard),
+            script: |_, feedback| feedback,
+            torques,
+        };
+        let mut builder = Controller::builder().robot_driver(driver);
+        if real {
+            builder = builder.clock(RealClock::new());
+        }
+        let (mut controller, _) = controller(builder, |cx| {
+            Box::pin(async move { motion::movej(bent(1.0)).vp(100.0).run(cx).await.at(FILE, 1) })
+        });
+        controller.run_for(0.02);
+        drop(controller);
+        let heard = Rc::try_unwrap(heard).ok().unwrap().into_inner();
+        heard.setpoints
+    };
+    let simulated = run(true, false);
+    assert!(simulated.iter().all(|setpoint| setpoint.deadline.is_none()));
+    // Axis 2 holds the arm.
+    assert!(simulated.iter().all(|setpoint| setpoint.torque.unwrap()[1].abs() > 10.0));
+    let real = run(false, true);
+    assert!(real.iter().all(|setpoint| setpoint.torque.is_none()));
+    let apart = |pair: &[Setpoint]| pair[1].deadline.unwrap().duration_since(pair[0].deadline.unwrap()).as_secs_f64();
+    assert!(real.windows(2).all(|pair| (apart(pair) - 0.001).abs() < 1e-6));
+}
+
+#[test]
+fn a_robot_file_says_how_far_behind_is_too_far() {
+    let text = Robot::text("kr10-r1420").unwrap();
+    let limits = |text: &str| Robot::parse("a.toml", text).unwrap().drives;
+    let default = limits(text);
+    assert_eq!((default.feedback, default.settling, default.following.len()), (0.02, 2.0, 6));
+    let given = text.replacen("[[axis]]", "[drives]\nfeedback = 50\nsettling = 500\n\n[[axis]]\nfollowing = 3.5", 1);
+    let given = limits(&given);
+    assert_eq!((given.feedback, given.settling, given.following[0]), (0.05, 0.5, 3.5));
+    assert_eq!(given.following[1..], default.following[1..]);
+    for (what, words) in
+        [("following = 0", "how far the axis may be"), ("following = \"a\"", "how far the axis may be")]
+    {
+        let error = Robot::parse("a.toml", &text.replacen("[[axis]]", &format!("[[axis]]\n{what}"), 1)).unwrap_err();
+        assert!(error.to_string().contains(words), "{error}");
+    }
+}
