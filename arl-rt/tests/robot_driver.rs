@@ -249,14 +249,20 @@ fn motors_go_off_at_rest_and_come_on_when_they_say_so() {
     assert!((controller.joints().axes[0] - 90.0).abs() < 1e-6);
 }
 
-#[test]
-fn motors_that_do_not_come_on_are_a_fault() {
-    let (mut controller, _) =
+/// A robot at rest within its motion whose motors were switched off and on, and do not come on.
+fn coming_on_for_ever() -> (Controller, Rc<RefCell<Heard>>) {
+    let (mut controller, heard) =
         turning(|cycle, feedback| if cycle > 3000 { feedback.with_drives(Drives::Off) } else { feedback });
     controller.run_for(1.0);
     controller.press(arl_rt::io::Pendant::ServoOff);
     controller.run_for(2.0);
     controller.press(arl_rt::io::Pendant::ServoOn);
+    (controller, heard)
+}
+
+#[test]
+fn motors_that_do_not_come_on_are_a_fault() {
+    let (mut controller, _) = coming_on_for_ever();
     let (number, _, text) = outcome(&mut controller);
     assert_eq!((number, &*text), (20072, "the drives of the robot have not come on within 5 s"));
 }
@@ -310,7 +316,6 @@ fn after_a_trouble_the_robot_is_switched_on_again_where_it_is() {
     let (mut controller, heard) =
         turning(|cycle, feedback| if (AT_SPEED..4000).contains(&cycle) { Feedback::none() } else { feedback });
     controller.run();
-    controller.run_for(0.0);
     while controller.time() < 4.5 {
         controller.step();
     }
@@ -365,12 +370,7 @@ fn drives_that_fail_after_another_trouble_are_cut_off_too() {
 
 #[test]
 fn motors_are_switched_off_while_they_come_on() {
-    let (mut controller, heard) =
-        turning(|cycle, feedback| if cycle > 3000 { feedback.with_drives(Drives::Off) } else { feedback });
-    controller.run_for(1.0);
-    controller.press(arl_rt::io::Pendant::ServoOff);
-    controller.run_for(2.0);
-    controller.press(arl_rt::io::Pendant::ServoOn);
+    let (mut controller, heard) = coming_on_for_ever();
     controller.run_for(0.5);
     controller.press(arl_rt::io::Pendant::ServoOff);
     controller.run_for(6.0);
@@ -469,9 +469,10 @@ fn a_robot_file_says_how_far_behind_is_too_far() {
     let given = limits(&given);
     assert_eq!((given.feedback, given.settling, given.following[0]), (0.05, 0.5, 3.5));
     assert_eq!(given.following[1..], default.following[1..]);
-    for (what, words) in
-        [("following = 0", "how far the axis may be"), ("following = \"a\"", "how far the axis may be")]
-    {
+    for (what, words) in [
+        ("following = 0", "a distance in deg (mm) from its set-point"),
+        ("following = \"a\"", "a distance in deg (mm) from its set-point"),
+    ] {
         let error = Robot::parse("a.toml", &text.replacen("[[axis]]", &format!("[[axis]]\n{what}"), 1)).unwrap_err();
         assert!(error.to_string().contains(words), "{error}");
     }

@@ -176,7 +176,7 @@ fn axis(table: &Section<'_>, at: usize, family: Family) -> Result<Axis, RobotErr
 /// What the drives are held against.
 fn drives(top: &Section<'_>, axes: &[Axis]) -> Result<DriveLimits, RobotError> {
     let of_axis = |(table, axis): (&Section<'_>, &Axis)| match table.find("following") {
-        Some(_) => table.positive("following", "how far the axis may be from its set-point"),
+        Some(_) => table.positive("following", "a distance in deg (mm) from its set-point"),
         None => Ok(axis.vel * FOLLOWING_S),
     };
     let following = tables(top, "axis", "[[axis]]", AXIS)?.iter().zip(axes).map(of_axis).collect::<Result<_, _>>()?;
@@ -185,8 +185,8 @@ fn drives(top: &Section<'_>, axes: &[Axis]) -> Result<DriveLimits, RobotError> {
         Some(table) if table.find(key).is_some() => table.positive(key, what).map(|ms| ms / 1000.0),
         _ => Ok(default / 1000.0),
     };
-    let feedback = seconds("feedback", "for how many ms no position may come", FEEDBACK_MS)?;
-    let settling = seconds("settling", "how many ms settling may take", SETTLING_MS)?;
+    let feedback = seconds("feedback", "a time without a position in ms", FEEDBACK_MS)?;
+    let settling = seconds("settling", "a time for settling in ms", SETTLING_MS)?;
     Ok(DriveLimits { following, feedback, settling })
 }
 

@@ -158,7 +158,7 @@ impl Unit {
     }
 
     fn hold_tcp(&mut self, along: &Vector3<f64>, turns: bool, of: Seen) -> Result<(), String> {
-        let rig = self.rig_now();
+        let rig = self.rig();
         if let Carried::Workpiece(_) = rig.carried {
             return Err("the robot holds the workpiece and the tool stands: its axes can be moved".into());
         }

@@ -103,7 +103,7 @@ impl Unit {
     /// A robot at rest, in cycles of `period` s.
     ///
     /// # Errors
-    /// Its driver has none.
+    /// Its driver cannot start it; why.
     pub(crate) fn new(robot: Robot, mut driver: Box<dyn RobotDriver>, period: f64) -> Result<Self, String> {
         let home = Joints::home(&robot);
         let start = driver.start(&robot_driver::Start { home: &home, robot: &robot, period })?;
@@ -251,6 +251,7 @@ impl Unit {
         self.effort.surplus(&self.reported, &self.robot, &self.rig())
     }
 
+    /// What it carries, and where it stands.
     fn rig(&self) -> Rig {
         Rig { base: self.base, ..*self.queue.rig() }
     }
@@ -586,10 +587,16 @@ impl Unit {
 
 /// These positions, and those of `others` for axes that the robot does not have.
 fn own_axes_of(robot: &Robot, mut joints: Joints, others: &Joints) -> Joints {
-    let (own, external) = (robot.own_axes().len(), robot.external_axes().len());
-    joints.axes.iter_mut().zip(others.axes).skip(own).for_each(|(axis, other)| *axis = other);
-    joints.external.iter_mut().zip(others.external).skip(external).for_each(|(axis, other)| *axis = other);
+    keep_to(robot.own_axes().len(), &mut joints.axes, &others.axes);
+    keep_to(robot.external_axes().len(), &mut joints.external, &others.external);
     joints
+}
+
+/// Puts others behind the first ones, so `many`.
+fn keep_to<const N: usize>(many: usize, axes: &mut [f64; N], others: &[f64; N]) {
+    if let (Some(axes), Some(others)) = (axes.get_mut(many..), others.get(many..)) {
+        axes.copy_from_slice(others);
+    }
 }
 
 impl Drop for Unit {

@@ -6,7 +6,6 @@ use super::robot_driver::{Drives, Feedback, Power, Setpoint};
 use super::supervision::Now;
 use crate::fault::{Fault, File};
 use crate::motion::{Command, Joints, Settings, Speed, Start, Stop, Target, Zone};
-use arl_robot::frames::Rig;
 
 /// The speed of jogging, in % of the axes' own.
 pub(super) const JOGGING: f64 = 10.0;
@@ -160,6 +159,7 @@ impl Unit {
             robot: &self.robot,
             asked: &setpoint.position,
             period: setpoint.period,
+            silent: self.silent,
             coming_on: self.motors == Motors::ComingOn,
             rests: self.queue.rests(),
             settled: self.is_settled(),
@@ -219,14 +219,9 @@ impl Unit {
         self.go_beside(Target::Joints(target), speed)
     }
 
-    /// What the robot carries as it stands.
-    pub(super) fn rig_now(&self) -> Rig {
-        Rig { base: self.base, ..*self.queue.rig() }
-    }
-
     /// Goes somewhere beside the program, at manual speed, with what the robot carries.
     pub(super) fn go_beside(&mut self, target: Target, speed: Speed) -> Result<(), String> {
-        let rig = self.rig_now();
+        let rig = self.rig();
         if self.halted {
             self.step_beside();
         }

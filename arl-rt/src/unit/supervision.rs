@@ -19,6 +19,8 @@ pub(super) struct Now<'a> {
     pub(super) asked: &'a Joints,
     /// The length of the cycle in s.
     pub(super) period: f64,
+    /// For how many cycles it has not said where it is.
+    pub(super) silent: u32,
     /// The motors are told to come on, and have not said that they are.
     pub(super) coming_on: bool,
     /// The set-point stands.
@@ -30,8 +32,6 @@ pub(super) struct Now<'a> {
 /// What was found so far. It tells of one trouble, until it [begins anew](Supervision::begin).
 #[derive(Default, Debug)]
 pub(super) struct Supervision {
-    /// For how many cycles no position has come.
-    missing: u32,
     /// How long the robot has not settled, and how long its motors have been coming on, in s.
     unsettled: f64,
     coming_on: f64,
@@ -60,7 +60,7 @@ impl Supervision {
 
     fn trouble(&mut self, feedback: &Feedback, now: Now<'_>) -> Option<Fault> {
         let of_drives = self.drives(feedback.drives.as_ref(), now);
-        let of_position = self.position(feedback.position.as_ref(), now);
+        let of_position = position(feedback.position.as_ref(), now);
         of_drives.or(of_position).or_else(|| self.settling(now))
     }
 
@@ -79,38 +79,6 @@ impl Supervision {
         Some(Fault::Drives(text.into()))
     }
 
-    fn position(&mut self, position: Option<&Joints>, now: Now<'_>) -> Option<Fault> {
-        let Some(position) = position else {
-            self.missing = self.missing.saturating_add(1);
-            let lasts = f64::from(self.missing) * now.period;
-            let limit = now.robot.drives.feedback;
-            let is_lost = self.missing > FEWEST_CYCLES && lasts > limit + 0.5 * now.period;
-            let text = || format!("the robot has not said for {:.0} ms where it is", lasts * 1e3);
-            return is_lost.then(|| Fault::NoFeedback(text().into()));
-        };
-        self.missing = 0;
-        if !is_finite(position, now.robot) {
-            return Some(Fault::NoFeedback("the robot says that it is at what is no number".into()));
-        }
-        if now.coming_on {
-            return None;
-        }
-        let own = now.robot.own_axes().len();
-        let pairs = now.asked.axes.iter().zip(&position.axes).take(own);
-        let pairs = pairs.chain(now.asked.external.iter().zip(&position.external));
-        let off = pairs.zip(&now.robot.axes).zip(&now.robot.drives.following).map(|(((asked, is), axis), limit)| {
-            // What it says is of some cycles ago.
-            ((asked - is).abs(), axis, limit.max(axis.vel * LATE_CYCLES * now.period))
-        });
-        let (off, axis, limit) =
-            off.filter(|(off, _, limit)| off > limit).max_by(|(one, ..), (other, ..)| one.total_cmp(other))?;
-        let (name, unit) = (&axis.name, if axis.linear { "mm" } else { "deg" });
-        let text = format!(
-            "the robot does not follow: {name} is {off:.2} {unit} from its set-point, {limit:.2} {unit} are allowed"
-        );
-        Some(Fault::NotFollowing(text.into()))
-    }
-
     fn settling(&mut self, now: Now<'_>) -> Option<Fault> {
         let waits = now.rests && !now.settled && !now.coming_on;
         self.unsettled = if waits { self.unsettled + now.period } else { 0.0 };
@@ -118,6 +86,36 @@ impl Supervision {
         let text = || format!("the robot has not come to rest on its set-point within {limit} s");
         (self.unsettled > limit).then(|| Fault::NotSettling(text().into()))
     }
+}
+
+/// What is wrong with where it is, or with not knowing it.
+fn position(position: Option<&Joints>, now: Now<'_>) -> Option<Fault> {
+    let Some(position) = position else {
+        let lasts = f64::from(now.silent) * now.period;
+        let is_lost = now.silent > FEWEST_CYCLES && lasts > now.robot.drives.feedback + 0.5 * now.period;
+        let text = || format!("the robot has not said for {:.0} ms where it is", lasts * 1e3);
+        return is_lost.then(|| Fault::NoFeedback(text().into()));
+    };
+    if now.silent > 0 {
+        return Some(Fault::NoFeedback("the robot says that it is at what is no number".into()));
+    }
+    if now.coming_on {
+        return None;
+    }
+    let own = now.robot.own_axes().len();
+    let pairs = now.asked.axes.iter().zip(&position.axes).take(own);
+    let pairs = pairs.chain(now.asked.external.iter().zip(&position.external));
+    let off = pairs.zip(&now.robot.axes).zip(&now.robot.drives.following).map(|(((asked, is), axis), limit)| {
+        // What it says is of some cycles ago.
+        ((asked - is).abs(), axis, limit.max(axis.vel * LATE_CYCLES * now.period))
+    });
+    let (off, axis, limit) =
+        off.filter(|(off, _, limit)| off > limit).max_by(|(one, ..), (other, ..)| one.total_cmp(other))?;
+    let (name, unit) = (&axis.name, if axis.linear { "mm" } else { "deg" });
+    let text = format!(
+        "the robot does not follow: {name} is {off:.2} {unit} from its set-point, {limit:.2} {unit} are allowed"
+    );
+    Some(Fault::NotFollowing(text.into()))
 }
 
 /// Whether all axes of a robot are at numbers.

@@ -2,7 +2,7 @@
 
 use super::args::{ReportFormat, RunOptions};
 use super::arl_toml;
-use super::collide::{Collisions, Parts};
+use super::collide;
 use super::failure::Failure;
 use super::listen::{Hears, Listener};
 use super::pendant;
@@ -46,9 +46,8 @@ pub(super) fn run(file: &Path, options: &RunOptions) -> Result<ExitCode, Failure
 
 /// Who is to hear what the program does: collisions come first, so that they are recorded.
 fn hearers(options: &RunOptions, sources: &[PathBuf]) -> Result<Vec<Box<dyn Hears>>, Failure> {
-    let mut hearers: Vec<Box<dyn Hears>> = Vec::new();
-    let scenery = scenery(options)?;
-    hearers.extend(watchers(&scenery, options.clearance)?);
+    let scenery = Scenery::of(&cell(options)?, options.robot.as_deref())?;
+    let mut hearers = watchers(&scenery, options.clearance)?;
     if let Some(path) = &options.record {
         hearers.push(Box::new(Recording::create(path, &scenery, sources)?));
     }
@@ -64,21 +63,12 @@ pub(super) fn cell(options: &RunOptions) -> Result<Cell, Failure> {
     Ok(cell.map_err(|error| Failure::Usage(error.to_string()))?.unwrap_or_default())
 }
 
-/// What is around the robots of a run.
-pub(super) fn scenery(options: &RunOptions) -> Result<Scenery, Failure> {
-    Scenery::of(&cell(options)?, options.robot.as_deref())
-}
-
-/// Who watches bodies that robots take along, and who looks for collisions: where the cell has bodies, or somebody asks for a clearance.
+/// Who watches what robots touch, and what they take along: where the cell has bodies, or somebody asks for a clearance.
 pub(super) fn watchers(scenery: &Scenery, clearance: Option<f64>) -> Result<Vec<Box<dyn Hears>>, Failure> {
-    let mut watchers: Vec<Box<dyn Hears>> = Vec::new();
-    if let Some(parts) = Parts::of(scenery)? {
-        watchers.push(Box::new(parts));
+    if clearance.is_none() && scenery.bodies.is_empty() {
+        return Ok(Vec::new());
     }
-    if clearance.is_some() || scenery.has_bodies() {
-        let (collisions, _) = Collisions::new(scenery, clearance.unwrap_or_default(), true)?;
-        watchers.push(Box::new(collisions));
-    }
+    let (watchers, _) = collide::watch(scenery, clearance.unwrap_or_default(), true)?;
     Ok(watchers)
 }
 

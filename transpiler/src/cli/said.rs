@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use arl_robot::cell::{Signal, SignalKind};
 use arl_robot::kinematics::{self, Frame};
 use nalgebra::{Quaternion, Translation3, Unit, UnitQuaternion, Vector3};
 use serde::Deserialize;
@@ -102,6 +103,26 @@ pub(super) struct Cycle {
     pub(super) di: String,
     #[serde(rename = "do")]
     pub(super) dout: String,
+}
+
+impl Cycle {
+    /// Whether an input or output has a level.
+    pub(super) fn has(&self, level: (Signal, bool)) -> bool {
+        has([&self.di, &self.dout], level)
+    }
+}
+
+impl State {
+    /// Whether an input or output has a level.
+    pub(super) fn has(&self, level: (Signal, bool)) -> bool {
+        has([&self.di, &self.dout], level)
+    }
+}
+
+/// Whether an input or output, of those that are told in a row, has a level.
+fn has([di, dout]: [&str; 2], (signal, wanted): (Signal, bool)) -> bool {
+    let levels = if signal.kind == SignalKind::DigitalInput { di } else { dout };
+    (levels.as_bytes().get(signal.channel as usize - 1) == Some(&b'1')) == wanted
 }
 
 /// Where the robot of a channel is.

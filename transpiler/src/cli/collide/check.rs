@@ -8,12 +8,12 @@ use serde_json::json;
 use super::super::answer;
 use super::super::args::{Checking, Format, RunOptions};
 use super::super::failure::Failure;
-use super::super::listen::{Hears, Listener};
+use super::super::listen::Listener;
 use super::super::program::{Ready, prepare_checked};
 use super::super::said::Contact;
 use super::super::scenery::Scenery;
 use super::super::show;
-use super::{Collisions, Parts};
+use super::watch;
 
 /// A run ends after so many controller seconds.
 const MOST_SECONDS: f64 = 600.0;
@@ -52,16 +52,11 @@ pub(in crate::cli) fn check(file: &Path, checking: &Checking, look: Look) -> Res
         return Err(Failure::Usage(format!("{}: {text}", file.display())));
     }
     let scenery = Scenery::of(&cell, options.robot.as_deref())?;
-    let (collisions, found) = Collisions::new(&scenery, look.clearance, false)?;
-    let mut hearers: Vec<Box<dyn Hears>> = Vec::new();
-    if let Some(parts) = Parts::of(&scenery)? {
-        hearers.push(Box::new(parts));
-    }
-    hearers.push(Box::new(collisions));
+    let (watchers, found) = watch(&scenery, look.clearance, false)?;
     let ready = prepare_checked(file, options.cell.as_deref(), &options.checking())?;
     // What another process of that number left there.
     let _ = std::fs::remove_dir_all(&state);
-    let ended = run(ready, &options, Listener::of(hearers)?);
+    let ended = run(ready, &options, Listener::of(watchers)?);
     let _ = std::fs::remove_dir_all(&state);
     let (code, why) = ended?;
     let found = found.borrow();

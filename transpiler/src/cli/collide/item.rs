@@ -104,8 +104,7 @@ pub(super) fn limbs(channel: usize, runs: &Runs) -> Vec<Item> {
 /// A link of a robot by its forms: each mesh as its convex hull.
 pub(super) fn of_link(channel: usize, (link, of): (usize, usize), looks: &Looks) -> Result<Vec<Item>, String> {
     let item = |piece: &Piece| {
-        let (shape, at, radius) = shape(&piece.solid, Meshes::Hulls)?;
-        let at = of_frame(&piece.at) * at;
+        let (shape, at, radius) = form(piece, Meshes::Hulls)?;
         let limb = Some(Limb::Link { link, of });
         Ok(Item { limb, ..Item::new(String::new(), (shape, radius), Holder::Link { channel, link }, at) })
     };
@@ -121,8 +120,7 @@ pub(super) fn of_body(number: usize, body: &Body, looks: &Looks) -> Result<Vec<I
     let place = of_frame(&body.at);
     let mut items = Vec::new();
     for piece in &looks.touched {
-        let (shape, at, radius) = shape(&piece.solid, Meshes::Surfaces)?;
-        let piece = of_frame(&piece.at) * at;
+        let (shape, piece, radius) = form(piece, Meshes::Surfaces)?;
         let may_touch = body.may_touch.clone();
         let item = Item { may_touch, ..Item::new(body.name.clone(), (shape, radius), holder, place * piece) };
         let Some(grip) = body.grip else {
@@ -140,10 +138,7 @@ pub(super) fn of_body(number: usize, body: &Body, looks: &Looks) -> Result<Vec<I
 
 /// The forms of a body, each where it is in the body: each mesh as its convex hull, in which places are, too.
 pub(super) fn hulls(looks: &Looks) -> Result<Vec<(SharedShape, Pose)>, String> {
-    let hull = |piece: &Piece| {
-        let (shape, at, _) = shape(&piece.solid, Meshes::Hulls)?;
-        Ok((shape, of_frame(&piece.at) * at))
-    };
+    let hull = |piece: &Piece| form(piece, Meshes::Hulls).map(|(shape, at, _)| (shape, at));
     looks.touched.iter().map(hull).collect()
 }
 
@@ -154,25 +149,26 @@ enum Meshes {
     Hulls,
 }
 
-/// The shape of a solid, where it is, and how far it reaches from there, in mm.
-fn shape(solid: &Solid, meshes: Meshes) -> Result<(SharedShape, Pose, f64), String> {
-    Ok(match solid {
+/// The shape of a piece, where that is in what the piece belongs to, and how far it reaches from there, in mm.
+fn form(piece: &Piece, meshes: Meshes) -> Result<(SharedShape, Pose, f64), String> {
+    let at = of_frame(&piece.at);
+    Ok(match &piece.solid {
         Solid::Box(edges) => {
             let half = Vector::from_array(*edges) * 0.5;
-            (SharedShape::new(Cuboid::new(half)), Pose::IDENTITY, half.length())
+            (SharedShape::new(Cuboid::new(half)), at, half.length())
         }
         Solid::Cylinder { radius, length } => {
             // The library's stands along y.
             let upright = Rotation::from_rotation_x(std::f64::consts::FRAC_PI_2);
-            let at = Pose::from_parts(Vector::ZERO, upright);
+            let at = at * Pose::from_parts(Vector::ZERO, upright);
             (SharedShape::new(Cylinder::new(0.5 * length, *radius)), at, radius.hypot(0.5 * length))
         }
-        Solid::Sphere(radius) => (SharedShape::new(Ball::new(*radius)), Pose::IDENTITY, *radius),
+        Solid::Sphere(radius) => (SharedShape::new(Ball::new(*radius)), at, *radius),
         Solid::Mesh { file, scale } => {
             let mesh = Mesh::load(file, *scale)?;
             let farthest = mesh.farthest();
             let shape = if meshes == Meshes::Hulls { mesh.hull(file)? } else { mesh.surface(file)? };
-            (shape, Pose::IDENTITY, farthest)
+            (shape, at, farthest)
         }
     })
 }

@@ -17,7 +17,7 @@ use std::collections::BTreeSet;
 use std::error::Error;
 use std::rc::Rc;
 
-use arl_robot::cell::{MOST_FOREGROUND, SignalKind};
+use arl_robot::cell::MOST_FOREGROUND;
 use parry3d_f64::math::Pose;
 
 use super::failure::Failure;
@@ -29,7 +29,7 @@ use arm::Arm;
 pub(super) use check::{Look, check};
 use item::{Holder, Item};
 use pair::Pair;
-pub(super) use parts::Parts;
+use parts::Parts;
 
 /// What was found, for who asked for it.
 #[derive(Default, Debug)]
@@ -39,8 +39,25 @@ pub(super) struct Found {
     pub(super) contacts: Vec<Contact>,
 }
 
+/// Who watches bodies that robots take along, and who looks for collisions, in this order, and what that will have found. With a clearance
+/// above 0, in mm, what comes nearer is told, too; whether as it comes, `tells` says.
+///
+/// # Errors
+/// A mesh cannot be read.
+pub(super) fn watch(scenery: &Scenery, clearance: f64, tells: bool) -> Result<(Watchers, Rc<RefCell<Found>>), Failure> {
+    let mut watchers = Watchers::new();
+    if let Some(parts) = Parts::of(scenery)? {
+        watchers.push(Box::new(parts));
+    }
+    let (collisions, found) = Collisions::new(scenery, clearance, tells)?;
+    watchers.push(Box::new(collisions));
+    Ok((watchers, found))
+}
+
+type Watchers = Vec<Box<dyn Hears>>;
+
 /// Watches where robots and bodies are.
-pub(super) struct Collisions {
+struct Collisions {
     bodies: Vec<Item>,
     /// By channels, the forms of the robot's links, where it has such.
     links: Vec<Vec<Item>>,
@@ -61,7 +78,7 @@ impl Collisions {
     ///
     /// # Errors
     /// A mesh cannot be read.
-    pub(super) fn new(scenery: &Scenery, clearance: f64, tells: bool) -> Result<(Self, Rc<RefCell<Found>>), Failure> {
+    fn new(scenery: &Scenery, clearance: f64, tells: bool) -> Result<(Self, Rc<RefCell<Found>>), Failure> {
         let found = Rc::<RefCell<Found>>::default();
         let (arms, items, pairs, touched) = (Vec::new(), Vec::new(), Vec::new(), BTreeSet::new());
         let (bodies, links) = (bodies(scenery)?, links(scenery));
@@ -222,9 +239,7 @@ fn place(item: &Item, arms: &[Option<Arm>]) -> Option<Pose> {
 
 /// Whether an item is there by the levels of inputs and outputs.
 fn is_there(item: &Item, cycle: &Cycle) -> bool {
-    let Some((signal, wanted)) = item.when else { return !item.absent };
-    let levels = if signal.kind == SignalKind::DigitalInput { &cycle.di } else { &cycle.dout };
-    (levels.as_bytes().get(signal.channel as usize - 1) == Some(&b'1')) == wanted
+    item.when.map_or(!item.absent, |level| cycle.has(level))
 }
 
 /// The forms of the bodies of a cell.

@@ -25,6 +25,8 @@ pub(super) struct Pair {
     overlap: bool,
     /// Whether one of them has just come, or was taken or put there.
     is_new: bool,
+    /// Whether they are nearer to each other than the clearance since then.
+    stays_near: bool,
     state: State,
     /// Where the robots were when it was last looked at, and how far the items may move from there.
     known: Option<Known>,
@@ -66,7 +68,16 @@ pub(super) fn pairs(items: &[Item], arms: &[Option<Arm>]) -> Vec<Pair> {
                 let ends = [one, other].map(|item| End::of(item, arms));
                 let is_own = one.holder.channel() == other.holder.channel();
                 let (state, known) = (State::Apart, None);
-                pairs.push(Pair { items: [at, behind], ends, is_own, overlap: false, is_new: false, state, known });
+                pairs.push(Pair {
+                    items: [at, behind],
+                    ends,
+                    is_own,
+                    overlap: false,
+                    is_new: false,
+                    stays_near: false,
+                    state,
+                    known,
+                });
             }
         }
     }
@@ -222,6 +233,7 @@ impl Pair {
         let touches = distance <= 0.0;
         let is_built_so = self.overlap || self.is_new || (self.is_own && contact(0.0).line == 0);
         self.overlap = touches && is_built_so;
+        self.stays_near = (self.is_new || self.stays_near) && distance < clearance;
         self.is_new = false;
         if touches && !is_built_so {
             self.state = State::Done;
@@ -230,7 +242,7 @@ impl Pair {
         let clearance = if self.is_own { 0.0 } else { clearance };
         let room = if distance < clearance {
             let nearest = if let State::Near(nearest) = &self.state { nearest.distance } else { f64::INFINITY };
-            if distance < nearest {
+            if distance < nearest && !self.stays_near {
                 self.state = State::Near(contact(distance));
             }
             (distance - nearest).max(RESOLUTION_MM.min(distance))

@@ -2,7 +2,7 @@
 
 use std::error::Error;
 
-use arl_robot::cell::{Grip, Signal, SignalKind};
+use arl_robot::cell::{Grip, Signal};
 use arl_robot::kinematics::{Frame, frame};
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::shape::SharedShape;
@@ -15,7 +15,7 @@ use super::arm::of_frame;
 use super::item;
 
 /// The bodies with a grip. While its gripper is on and holds nothing, a robot takes the nearest one that its TCP is near to.
-pub(in crate::cli) struct Parts {
+pub(super) struct Parts {
     pub(super) parts: Vec<Part>,
     /// What each channel runs.
     runs: Vec<Runs>,
@@ -40,7 +40,7 @@ impl Parts {
     ///
     /// # Errors
     /// A mesh cannot be read.
-    pub(in crate::cli) fn of(scenery: &Scenery) -> Result<Option<Self>, Failure> {
+    pub(super) fn of(scenery: &Scenery) -> Result<Option<Self>, Failure> {
         let mut parts = Vec::new();
         for (number, (body, looks)) in scenery.bodies.iter().enumerate() {
             let Some(grip) = body.grip else { continue };
@@ -58,7 +58,7 @@ impl Parts {
         let flanges: Vec<Frame> = flanges.map(|(runs, channel)| flange(runs, channel)).collect();
         for part in &mut self.parts {
             let flange = part.place.held_by.and_then(|channel| flanges.get(channel));
-            if let Some(flange) = flange.filter(|_| !is_on(state, part.grip.by)) {
+            if let Some(flange) = flange.filter(|_| !state.has(part.grip.by)) {
                 part.place = Place { held_by: None, at: flange * part.place.at };
             }
         }
@@ -82,7 +82,7 @@ impl Parts {
     fn there(&self, state: &State) -> Vec<bool> {
         let mut before_was_taken = true;
         let mut is_there = |part: &Part| {
-            let came = (before_was_taken || !part.grip.follows) && part.when.is_none_or(|when| is_on(state, when));
+            let came = (before_was_taken || !part.grip.follows) && part.when.is_none_or(|when| state.has(when));
             before_was_taken = part.was_taken;
             part.was_taken || came
         };
@@ -96,7 +96,7 @@ impl Parts {
         loop {
             let is_free = |part: &Part| {
                 let own = part.grip.channel as usize == channel + 1 && part.place.held_by.is_none();
-                own && is_on(state, part.grip.by) && !busy.contains(&part.grip.by)
+                own && state.has(part.grip.by) && !busy.contains(&part.grip.by)
             };
             let all = self.parts.iter_mut().zip(there).filter(|(part, there)| **there && is_free(part));
             let near = all.map(|(part, _)| (part.distance(tcp), part));
@@ -141,9 +141,4 @@ impl Hears for Parts {
 fn flange(runs: &Runs, channel: &Channel) -> Frame {
     let base = <[f64; 6]>::try_from(&channel.base[..]).map(frame).unwrap_or_default();
     base * runs.flange_at(&channel.axes)
-}
-
-fn is_on(state: &State, (signal, wanted): (Signal, bool)) -> bool {
-    let levels = if signal.kind == SignalKind::DigitalInput { &state.di } else { &state.dout };
-    (levels.as_bytes().get(signal.channel as usize - 1) == Some(&b'1')) == wanted
 }

@@ -507,3 +507,38 @@ fn a_held_part_touches_others_but_not_where_it_is_taken() {
     let found: Vec<_> = found.into_iter().map(|contact| (contact.one, contact.other, contact.time > 0.3)).collect();
     assert_eq!(found, [("part 1".into(), "other".into(), true)]);
 }
+
+#[test]
+fn a_part_may_be_near_what_it_lay_on_until_it_has_left_it() {
+    let robot = Robot::load("kr10-r1420").unwrap();
+    let here = [0.0, -70.0, 100.0, 0.0, 60.0, 0.0];
+    let at = robot.kinematics.forward(&here).translation.vector;
+    let text = format!(
+        "[[body]]\nname = \"part\"\nbox = [60, 60, 40]\nat = [{x}, {y}, {}]\ngripped_by = \"do.1\"\n\
+         [[body]]\nname = \"table\"\nbox = [100, 100, 40]\nat = [{x}, {y}, {}]\n",
+        at.z - 24.0,
+        at.z - 64.0,
+        x = at.x,
+        y = at.y
+    );
+    // Up by 10 deg, and down again onto the table where that is asked for.
+    let told = |comes_back: bool| {
+        let mut collisions = begun(&text, 20.0, &["kr10-r1420"]);
+        let mut parts = Parts::of(&scenery(&text)).unwrap().unwrap();
+        parts.hear(&Line::Hello(hello(&["kr10-r1420"]))).unwrap();
+        let mut found = Vec::new();
+        for step in 0..=400 {
+            let lifted = f64::from(if comes_back { step.min(400 - step) } else { step.min(200) }) * -0.05;
+            let axes = [here[0], here[1] + lifted, here[2], here[3], here[4], here[5]];
+            for placing in heard(&mut parts, state(axes, "1")) {
+                collisions.place(&placing);
+            }
+            found.extend(collisions.cycle(&Cycle { dout: "1".into(), ..cycle(step, &[axes.to_vec()]) }));
+        }
+        found.extend(collisions.nearest());
+        let of_part = found.into_iter().filter(|contact| contact.one == "part" || contact.other == "part");
+        of_part.map(|contact| contact.distance).collect::<Vec<_>>()
+    };
+    assert_eq!(told(false), [0.0; 0]);
+    assert!(matches!(told(true)[..], [distance] if distance < 0.1), "{:?}", told(true));
+}

@@ -31,8 +31,6 @@ const DESCRIPTION: &str = "cell.urdf";
 /// A recording that is being made.
 pub(super) struct Recording {
     path: PathBuf,
-    /// What is around the robots.
-    scenery: Scenery,
     /// The texts of the program, until they are written.
     sources: Vec<Text>,
     recorder: Recorder<sink::File<BufWriter<std::fs::File>>>,
@@ -45,7 +43,7 @@ impl Recording {
         let cannot = |error| Failure::Usage(format!("cannot write {}: {error}", path.display()));
         let recorder = Recorder::new(sink::File::new(BufWriter::new(file)).map_err(cannot)?, scenery);
         let sources = texts::read(sources);
-        Ok(Self { path: path.to_owned(), scenery: scenery.clone(), sources, recorder })
+        Ok(Self { path: path.to_owned(), sources, recorder })
     }
 }
 
@@ -53,7 +51,7 @@ impl Recording {
     /// Writes the description of the cell. A recording is whole without it.
     fn describe(&self) {
         let description = self.path.with_file_name(DESCRIPTION);
-        if let Err(error) = std::fs::write(&description, urdf::urdf(self.recorder.arms(), &self.scenery)) {
+        if let Err(error) = std::fs::write(&description, urdf::urdf(self.recorder.arms(), self.recorder.scenery())) {
             show::warning(&format!("cannot write {}: {error}", description.display()));
         }
     }

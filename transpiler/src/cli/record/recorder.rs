@@ -103,6 +103,11 @@ impl<S: Sink> Recorder<S> {
         &self.arms
     }
 
+    /// What is around them.
+    pub(super) fn scenery(&self) -> &Scenery {
+        self.scene.scenery()
+    }
+
     fn begin(&mut self, hello: &Hello) -> McapResult<()> {
         let robots = hello.channels.iter().filter(|runs| !runs.links.is_empty()).count();
         let arm = |(at, runs): (usize, &said::Runs)| {
@@ -141,7 +146,7 @@ impl<S: Sink> Recorder<S> {
         let io = Io { time, di, r#do, ai: state.ai.clone(), ao: state.ao.clone() };
         if self.last.io.as_ref().is_none_or(|last| (Io { time: last.time, ..io.clone() }) != *last) {
             self.write("/arl/io", &schemas::IO, time, &io)?;
-            if let Some(update) = self.scene.bodies(&io, &self.arms, timestamp(time)) {
+            if let Some(update) = self.scene.bodies(state, &self.arms, timestamp(time)) {
                 self.write("/scene", &schemas::SCENE_UPDATE, time, &update)?;
             }
             self.last.io = Some(io);

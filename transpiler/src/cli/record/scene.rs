@@ -3,17 +3,15 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use arl_robot::cell::{Body, Signal, SignalKind, Solid};
+use arl_robot::cell::{Body, Solid};
 use arl_robot::kinematics::Frame;
 use arl_robot::regular_file;
 
-use super::super::said::{Limb, Placing};
+use super::super::said::{Limb, Placing, State};
 use super::super::scenery::{Looks, Piece, Scenery, Shape};
 use super::super::show;
 use super::links::{Arm, WORLD, parts, straight};
-use super::messages::{
-    self, Color, Cylinder, Io, Model, Pose, SceneEntity, SceneEntityDeletion, SceneUpdate, Timestamp,
-};
+use super::messages::{self, Color, Cylinder, Model, Pose, SceneEntity, SceneEntityDeletion, SceneUpdate, Timestamp};
 
 /// Robots, what stands, and what they carry.
 const LIMB: Color = Color { r: 0.95, g: 0.55, b: 0.15, a: 1.0 };
@@ -52,15 +50,20 @@ impl Scene {
         Self { scenery: scenery.clone(), shown: vec![false; scenery.bodies.len()], meshes: Meshes::default() }
     }
 
+    /// What is around robots.
+    pub(super) fn scenery(&self) -> &Scenery {
+        &self.scenery
+    }
+
     /// Bodies that are there from now on, and those that are not any more, by the levels of inputs and outputs.
-    pub(super) fn bodies(&mut self, io: &Io, arms: &[Option<Arm>], now: Timestamp) -> Option<SceneUpdate> {
+    pub(super) fn bodies(&mut self, state: &State, arms: &[Option<Arm>], now: Timestamp) -> Option<SceneUpdate> {
         let mut update = SceneUpdate::default();
         for ((body, looks), shown) in self.scenery.bodies.iter().zip(&mut self.shown) {
             if body.grip.is_some() {
                 // Where it is will be said.
                 continue;
             }
-            let there = body.when.is_none_or(|(signal, wanted)| level(io, signal) == wanted);
+            let there = body.when.is_none_or(|level| state.has(level));
             if std::mem::replace(shown, there) == there {
                 continue;
             }
@@ -155,11 +158,6 @@ fn links(arm: &Arm, shape: &Shape, meshes: &mut Meshes) -> Vec<SceneEntity> {
 
 fn timed(now: Timestamp) -> SceneEntity {
     SceneEntity { timestamp: Some(now), ..SceneEntity::default() }
-}
-
-fn level(io: &Io, signal: Signal) -> bool {
-    let levels = if signal.kind == SignalKind::DigitalInput { &io.di } else { &io.r#do };
-    levels.get(signal.channel as usize - 1) == Some(&true)
 }
 
 /// Adds a piece. A mesh that cannot be read is told of, and left out.

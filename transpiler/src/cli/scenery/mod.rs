@@ -63,11 +63,6 @@ impl Scenery {
     pub(super) fn shape(&self, channel: usize) -> Option<&Shape> {
         self.shapes.get(channel)?.as_ref()
     }
-
-    /// Whether robots have something to run into.
-    pub(super) fn has_bodies(&self) -> bool {
-        !self.bodies.is_empty()
-    }
 }
 
 fn shape_of(robot: Option<&str>, stands: &Stands) -> Result<Option<Shape>, Failure> {

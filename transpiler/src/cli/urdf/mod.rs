@@ -1,4 +1,4 @@
-//! `arl2rs robots --import FILE.urdf`: a robot file for a robot whose geometry fits one.
+//! URDF files: the chain of their joints, and `arl2rs robots --import FILE.urdf`, which makes a robot file of one whose geometry fits.
 
 mod chain;
 mod fit;

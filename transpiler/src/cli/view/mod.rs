@@ -16,14 +16,16 @@ use std::process::{Command, ExitCode};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use arl_robot::Robot;
+use arl_robot::cell::Cell;
 use oxhttp::ListeningServer;
 use serde_json::{Value, json};
 
-use super::args::{RunOptions, ViewOptions};
+use super::args::ViewOptions;
 use super::failure::Failure;
 use super::program::prepare;
 use super::recorded::{self, Store};
 use super::report::{Differences, Summary};
+use super::scenery::Scenery;
 use super::{robot, run, show, texts};
 use answer::{About, Known};
 use live::Live;
@@ -69,10 +71,12 @@ pub(super) fn view(files: &[PathBuf], options: &ViewOptions) -> Result<ExitCode,
 /// Shows a program that runs, until it ends.
 fn view_live(program: &Path, name: String, options: &ViewOptions) -> Result<ExitCode, Failure> {
     let options_of_run = options.run().of_program(program)?;
-    let scenery = run::scenery(&options_of_run)?;
+    let cell = run::cell(&options_of_run)?;
+    let first = options_of_run.robot.as_deref();
+    let scenery = Scenery::of(&cell, first)?;
     let ready = prepare(program, options_of_run.cell.as_deref(), &options_of_run.checking())?;
     // What is wrong is told before anything is started.
-    let teach = || robots(&options_of_run).map(|robots| Teacher::new(robots, &ready.sources));
+    let teach = || robots(&cell, first).map(|robots| Teacher::new(robots, &ready.sources));
     let teacher = options.teach.then(teach).transpose()?;
     let hearers = run::watchers(&scenery, None)?;
     let store = Store { goes_on: true, sources: texts::read(&ready.sources), ..Store::default() };
@@ -91,11 +95,10 @@ fn view_live(program: &Path, name: String, options: &ViewOptions) -> Result<Exit
 }
 
 /// The robots of the channels that have one, in the order of the channels.
-fn robots(options: &RunOptions) -> Result<Vec<Robot>, Failure> {
-    let cell = run::cell(options)?;
+fn robots(cell: &Cell, first: Option<&str>) -> Result<Vec<Robot>, Failure> {
     let beside = cell.programs.channels.iter().filter(|channel| !channel.background);
     let named = beside.map(|channel| robot::load(channel.robot.as_deref()));
-    std::iter::once(robot::load(options.robot.as_deref())).chain(named).collect()
+    std::iter::once(robot::load(first)).chain(named).collect()
 }
 
 /// Serves the page, tells its address and opens it.
