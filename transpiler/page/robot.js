@@ -55,22 +55,30 @@ export class Frames {
       return made;
     };
     const base = frame(channel.links[0].parent, this.world);
-    const links = channel.links.map((/** @type {any} */ link) => {
+    /** @param {any} link @param {Object3D} parent @param {number} moves which of the axes moves it */
+    const joint = (link, parent, moves) => {
       const [x, y, z, ...turned] = link.origin;
-      const made = frame(link.frame, this.all.get(link.parent) ?? base);
+      const made = frame(link.frame, parent);
       const rest = new Quaternion(...turned);
       const place = new Vector3(x, y, z).divideScalar(1000);
       made.position.copy(place);
       made.quaternion.copy(rest);
       const axis = link.axis.length === 3 ? new Vector3(...link.axis).normalize() : undefined;
-      return { made, rest, place, axis, linear: link.linear };
+      return { made, rest, place, axis, linear: link.linear, moves };
+    };
+    const links = channel.links.map((/** @type {any} */ link, /** @type {number} */ at) =>
+      joint(link, this.all.get(link.parent) ?? base, at),
+    );
+    const carriers = (channel.carriers ?? []).map((/** @type {any} */ carrier) => {
+      const moves = channel.axes.findIndex((/** @type {any} */ axis) => axis.name === carrier.moved_by);
+      return joint(carrier, this.all.get(carrier.parent) ?? this.world, moves);
     });
     const tcp = frame(channel.tcp, this.world);
     if (!this.ghost) tcp.add(new AxesHelper(AXES_M));
     // What is between the flange and the TCP is not known, but that there is something.
     const tool = new Mesh(new CylinderGeometry(TOOL_M, TOOL_M, 1, 12).rotateX(Math.PI / 2), this.material(TOOL));
     this.world.add(tool);
-    return { channel, base, links, tcp, tool };
+    return { channel, base, links, carriers, tcp, tool };
   }
 
   /**
@@ -80,9 +88,9 @@ export class Frames {
   pose(arm, axes, base, tcp) {
     put(arm.base, base);
     put(arm.tcp, tcp);
-    arm.links.forEach((/** @type {any} */ link, /** @type {number} */ at) => {
-      if (!link.axis) return;
-      const value = axes[at] ?? 0;
+    for (const link of [...arm.links, ...arm.carriers]) {
+      if (!link.axis) continue;
+      const value = axes[link.moves] ?? 0;
       if (link.linear) {
         const way = link.axis
           .clone()
@@ -93,7 +101,7 @@ export class Frames {
         const turned = new Quaternion().setFromAxisAngle(link.axis, (value * Math.PI) / 180);
         link.made.quaternion.copy(link.rest).multiply(turned);
       }
-    });
+    }
     this.world.updateMatrixWorld(true);
     const from = arm.links.at(-1).made.getWorldPosition(new Vector3());
     const along = arm.tcp.position.clone().sub(from);

@@ -6,7 +6,8 @@ use crate::tests::*;
 fn held_line(robot: &Robot, start: &Joints, part: &Frame, travel: [f64; 3], turn: [f64; 3]) -> Command {
     // The tool stands where the part is now, a little turned.
     let tool = robot.kinematics.forward(&start.axes) * part * frame([5.0, -3.0, 8.0, 20.0, 10.0, -15.0]);
-    let rig = Rig { carried: Carried::Workpiece(tool), base: frame([100.0, 200.0, 300.0, 40.0, 0.0, 180.0]) };
+    let rig =
+        Rig { carried: Carried::Workpiece(tool), base: frame([100.0, 200.0, 300.0, 40.0, 0.0, 180.0]), ..Rig::bare() };
     let from = part.inverse() * rig.carried.way_at(&robot.kinematics.forward(&start.axes));
     let [x, y, z, ..] = frame_components(&from);
     let to = frame([0.0, 0.0, 0.0, turn[0], turn[1], turn[2]]).rotation * from.rotation;

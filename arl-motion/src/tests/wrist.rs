@@ -160,7 +160,7 @@ fn a_held_workpiece_passes_it_with_the_tcp_exact() {
     let part = frame([0.0, 0.0, 150.0, 0.0, 20.0, 0.0]);
     let middle = [10.0, -70.0, 80.0, 25.0, 0.02, 15.0];
     let tool = robot.kinematics.forward(&middle) * part;
-    let rig = Rig { carried: Carried::Workpiece(tool), base: Frame::identity() };
+    let rig = Rig { carried: Carried::Workpiece(tool), ..Rig::bare() };
     let at = |y: f64| part * frame([0.0, y, 30.0 + 0.2 * y, 0.0, 0.0, 0.0]);
     let kinematics = &robot.kinematics;
     let start = kinematics.inverse(&rig.carried.flange_at(&at(-150.0)), kinematics.cfg(&middle), &middle).unwrap();

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Names, Signal, SignalKind};
+use super::{Carrier, Names, Signal, SignalKind};
 use crate::channels::Channels;
 use crate::kinematics::{Frame, frame};
 use crate::settings::{Section, SettingsError, Value, hint, kind, number, table};
@@ -26,7 +26,7 @@ const BODY: &[&str] = &[
 ];
 /// The forms of which a body has one.
 const FORMS: [&str; 5] = ["box", "cylinder", "sphere", "mesh", "urdf"];
-/// What a body may be fixed to.
+/// What a body may be fixed to, besides carriers.
 const HOLDERS: &[&str] = &["world", "flange"];
 /// No cell is larger, in mm.
 const LARGEST_MM: f64 = 1e6;
@@ -42,16 +42,27 @@ pub struct Body {
     pub name: String,
     /// Its form.
     pub form: Form,
-    /// Where its middle is (the origin of a mesh), in what it is fixed to: in the world or in the flange, translation in mm.
+    /// Where its middle is (the origin of a mesh), in what it is fixed to, translation in mm.
     pub at: Frame,
-    /// The channel, from 1, whose robot carries it on its flange; `None`: it stands in the world.
-    pub carried_by: Option<u32>,
+    /// What it is fixed to.
+    pub holder: Holder,
     /// It is there only while this digital input or output has this level; what a robot takes along, until it is taken for the first time.
     pub when: Option<(Signal, bool)>,
     /// How it is taken along by a robot and put down again, if it is. It stands in the world at first.
     pub grip: Option<Grip>,
     /// The names of bodies, and of parts of robots, that it may touch.
     pub may_touch: Vec<String>,
+}
+
+/// What a body is fixed to.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Holder {
+    /// It stands in the world.
+    World,
+    /// The flange of the robot of a channel, from 1.
+    Flange(u32),
+    /// One of the cell's carriers, by its place in their list.
+    Carrier(usize),
 }
 
 /// When a robot takes a body along.
@@ -104,13 +115,14 @@ impl Body {
     pub(super) fn read_all(
         top: &Section<'_>,
         (channels, names): (&Channels, &Names),
-        (foreground, folder): (u32, &Path),
+        (foreground, carriers): (u32, &[Carrier]),
+        folder: &Path,
     ) -> Result<Vec<Self>, SettingsError> {
         let tables = super::tables(top, "body", "tables that begin with [[body]]")?;
         let mut bodies: Vec<Self> = Vec::new();
         for value in tables {
             let section = table(top.source, value, "[[body]]", BODY)?;
-            let body = Self::read(&section, value, (channels, names), (foreground, folder))?;
+            let body = Self::read(&section, value, (channels, names), (foreground, carriers), folder)?;
             for body in all_of_a_kind(body, count(&section)?) {
                 if bodies.iter().any(|other| other.name == body.name) {
                     let text = format!("there is another [[body]] named `{}`", body.name);
@@ -126,7 +138,8 @@ impl Body {
         section: &Section<'_>,
         value: &Value<'_>,
         (channels, names): (&Channels, &Names),
-        (foreground, folder): (u32, &Path),
+        (foreground, carriers): (u32, &[Carrier]),
+        folder: &Path,
     ) -> Result<Self, SettingsError> {
         let lacks = |what: &str| section.source.error(value.span(), format!("this [[body]] lacks {what}"));
         let what = "what it is called, like \"table\"";
@@ -134,37 +147,48 @@ impl Body {
         if let (Some(found), true) = (section.find("name"), name.is_empty() || name.contains(char::is_control)) {
             return Err(section.wrong("name", found, what));
         }
-        let holder = section.text("on", "\"world\" or \"flange\"")?.unwrap_or("world");
-        if !HOLDERS.contains(&holder) {
-            let text =
-                format!("a body is on \"world\" or on \"flange\", not on \"{holder}\"; {}", hint(holder, HOLDERS));
-            return Err(section.source.error(section.find("on").map_or(value.span(), |on| on.span()), text));
-        }
-        let channel = match section.find("channel") {
-            None => 1,
-            Some(found) => match number(found.get_ref()) {
-                Some(channel) if channel.fract() == 0.0 && (1.0..=f64::from(foreground)).contains(&channel) => {
-                    channel as u32
-                }
-                _ => {
-                    let expected = format!("the channel of the robot that carries it, from 1 to {foreground}");
-                    return Err(section.wrong("channel", found, &expected));
-                }
-            },
-        };
-        if let (Some(found), "world", None) = (section.find("channel"), holder, section.find("gripped_by")) {
-            let text = "`channel` says whose flange carries a body; this one stands in the world";
+        let channel = channel(section, foreground, "the channel of the robot that carries it")?;
+        let holder = holder(section, channel, carriers)?;
+        if let (Some(found), Holder::World, None) = (section.find("channel"), holder, section.find("gripped_by")) {
+            let text = "`channel` says whose robot carries a body; this one stands in the world";
             return Err(section.source.error(found.span(), text));
         }
         Ok(Self {
             name: name.to_owned(),
             form: form(section, folder)?.ok_or_else(|| lacks(&format!("its form: {}", forms())))?,
             at: place(section, "at")?.map_or_else(Frame::identity, frame),
-            carried_by: (holder == "flange").then_some(channel),
+            holder,
             when: level(section, "when", (channels, names))?,
             grip: grip(section, (channels, names), channel)?,
             may_touch: may_touch(section)?,
         })
+    }
+}
+
+/// The channel of a robot: the first one where nobody says it.
+pub(super) fn channel(section: &Section<'_>, foreground: u32, what: &str) -> Result<u32, SettingsError> {
+    let Some(found) = section.find("channel") else { return Ok(1) };
+    let is_one = |channel: &f64| channel.fract() == 0.0 && (1.0..=f64::from(foreground)).contains(channel);
+    match number(found.get_ref()).filter(is_one) {
+        Some(channel) => Ok(channel as u32),
+        None => Err(section.wrong("channel", found, &format!("{what}, from 1 to {foreground}"))),
+    }
+}
+
+/// What a body is fixed to.
+fn holder(section: &Section<'_>, channel: u32, carriers: &[Carrier]) -> Result<Holder, SettingsError> {
+    let expected = "\"world\", \"flange\", or the axis of a [[carrier]]";
+    let (Some(on), Some(found)) = (section.text("on", expected)?, section.find("on")) else { return Ok(Holder::World) };
+    match (on, Carrier::find(carriers, on, channel)) {
+        ("world", _) => Ok(Holder::World),
+        ("flange", _) => Ok(Holder::Flange(channel)),
+        (_, Some(carrier)) => Ok(Holder::Carrier(carrier)),
+        _ => {
+            let known: Vec<&str> = HOLDERS.iter().copied().chain(Carrier::axes_of(carriers, channel)).collect();
+            let of = if on.starts_with("ej") { format!(" of channel {channel}") } else { String::new() };
+            let text = format!("a body is on {expected}, not on \"{on}\"{of}; {}", hint(on, &known));
+            Err(section.source.error(found.span(), text))
+        }
     }
 }
 
@@ -345,21 +369,24 @@ mod tests {
         let cell = Cell::parse("cells/a.toml", text).unwrap();
         let [table, part, fixture, tool, ball, next] = &cell.bodies[..] else { panic!("six") };
         assert_eq!(
-            (&table.form, table.carried_by, table.when),
-            (&Form::Solid(Solid::Box([800.0, 600.0, 40.0])), None, None)
+            (&table.form, table.holder, table.when),
+            (&Form::Solid(Solid::Box([800.0, 600.0, 40.0])), Holder::World, None)
         );
         assert_eq!(table.at, frame([900.0, 0.0, -20.0, 0.0, 0.0, 0.0]));
         assert_eq!(part.form, Form::Solid(Solid::Cylinder { radius: 20.0, length: 50.5 }));
-        assert_eq!((part.carried_by, part.when), (Some(1), Signal::parse("do.3").map(|signal| (signal, true))));
+        assert_eq!((part.holder, part.when), (Holder::Flange(1), Signal::parse("do.3").map(|signal| (signal, true))));
         assert_eq!(
             (fixture.when, &fixture.may_touch[..]),
             (Signal::parse("di.1").map(|signal| (signal, false)), &["part".into()][..])
         );
         let file = PathBuf::from("cells/fixture.stl");
         assert_eq!(fixture.form, Form::Solid(Solid::Mesh { file, scale: [1000.0; 3] }));
-        assert_eq!((tool.carried_by, &tool.form), (Some(2), &Form::Urdf(PathBuf::from("cells/tool.urdf"))));
+        assert_eq!((tool.holder, &tool.form), (Holder::Flange(2), &Form::Urdf(PathBuf::from("cells/tool.urdf"))));
         let grip = Grip { by: (Signal::parse("do.3").unwrap(), true), channel: 2, within: 20.0, follows: false };
-        assert_eq!((&ball.form, ball.carried_by, ball.grip), (&Form::Solid(Solid::Sphere(15.0)), None, Some(grip)));
+        assert_eq!(
+            (&ball.form, ball.holder, ball.grip),
+            (&Form::Solid(Solid::Sphere(15.0)), Holder::World, Some(grip))
+        );
         assert_eq!((&*ball.name, &*next.name, next.grip), ("ball 1", "ball 2", Some(Grip { follows: true, ..grip })));
         assert_eq!(next.when, Signal::parse("di.1").map(|signal| (signal, true)));
     }

@@ -47,6 +47,10 @@
 //! address = "192.168.0.20"
 //! di = [{ channel = 1, count = 8, discrete_input = 0 }]
 //!
+//! [[carrier]]                  # what an external axis of a robot moves: a turntable, a slide
+//! axis = "ej1"                 # it turns about z, slides along z where the axis is linear; `channel`: whose axis, without it 1
+//! at = [1200, 0, 400]          # where it is while the axis is at 0; `on = "ej2"`: on the carrier of that axis
+//!
 //! [[body]]                     # what the robots can run into, or carry
 //! name = "table"
 //! box = [800, 600, 40]         # edges in mm; or cylinder = [radius, length], sphere = radius, mesh = "FILE.stl", urdf = "FILE.urdf"
@@ -71,7 +75,7 @@
 //! ```
 
 use super::{
-    Body, BusSettings, Homes, Names, NetworkSettings, Programs, Rate, Sensitivity, Stands, Wiring, collisions,
+    Body, BusSettings, Carrier, Homes, Names, NetworkSettings, Programs, Rate, Sensitivity, Stands, Wiring, collisions,
 };
 use crate::channels::Channels;
 use crate::islands::Island;
@@ -92,6 +96,7 @@ const TOP: &[&str] = &[
     "island",
     "devicenet",
     "body",
+    "carrier",
     "channel",
     "load",
     "urdf",
@@ -122,6 +127,8 @@ pub struct Cell {
     pub islands: Vec<Island>,
     /// How the first channel's robot looks, and where it stands.
     pub stands: Stands,
+    /// What external axes of its robots move.
+    pub carriers: Vec<Carrier>,
     /// What stands in the cell, or is carried.
     pub bodies: Vec<Body>,
     /// The channels beside the first one: what the command line of a program runs, too.
@@ -163,10 +170,10 @@ impl Cell {
         let folder = Path::new(file).parent().unwrap_or(Path::new(""));
         cell.programs = Programs::read(&top, folder)?;
         cell.stands = Stands::read(&top, folder)?;
-        cell.bodies = {
-            let others = cell.programs.channels.iter().filter(|channel| !channel.background).count();
-            Body::read_all(&top, (&cell.channels, &cell.names), (1 + others as u32, folder))?
-        };
+        let others = cell.programs.channels.iter().filter(|channel| !channel.background).count();
+        let foreground = 1 + others as u32;
+        cell.carriers = Carrier::read_all(&top, foreground)?;
+        cell.bodies = Body::read_all(&top, (&cell.channels, &cell.names), (foreground, &cell.carriers), folder)?;
         cell.external = Wiring::read(&top, &cell.channels)?;
         cell.homes = Homes::of_cell(&top)?;
         cell.collisions = collisions(&top)?;

@@ -2,6 +2,7 @@
 
 mod bodies;
 mod buses;
+mod carriers;
 mod external;
 mod file;
 mod fit;
@@ -9,8 +10,9 @@ mod names;
 mod network;
 mod rate;
 
-pub use bodies::{Body, Form, Grip, Solid};
+pub use bodies::{Body, Form, Grip, Holder, Solid};
 pub use buses::{BusSettings, ModbusTcpSettings};
+pub use carriers::Carrier;
 pub use external::Wiring;
 pub use file::Cell;
 pub use fit::fit;

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use super::setting::Mount;
 use crate::kinematics::{Frame, Twist};
 
 /// What is on the flange and meets the other: the tool, or the workpiece that is held to a tool that stands.
@@ -69,6 +70,8 @@ pub struct Rig {
     pub carried: Carried,
     /// The robot's base in the world, translation in mm.
     pub base: Frame,
+    /// The workpiece.
+    pub workpiece: Mount,
 }
 
 impl Rig {
@@ -79,7 +82,11 @@ impl Rig {
 
     /// A tool at this frame of the flange of a robot that stands at the origin of the world.
     pub fn with_tool(tool: Frame) -> Self {
-        Self { carried: Carried::Tool(tool), base: Frame::identity() }
+        Self {
+            carried: Carried::Tool(tool),
+            base: Frame::identity(),
+            workpiece: Mount { frame: Frame::identity(), on_flange: false },
+        }
     }
 
     /// The TCP's frame in the world when the flange is at `flange` of the robot's base.
@@ -88,5 +95,11 @@ impl Rig {
             Carried::Tool(tool) => self.base * flange * tool,
             Carried::Workpiece(tool) => self.base * tool,
         }
+    }
+
+    /// The workpiece's frame in the world when the flange is at `flange` of the robot's base.
+    pub fn workpiece_at(&self, flange: &Frame) -> Frame {
+        let Mount { frame, on_flange } = self.workpiece;
+        if on_flange { self.base * flange * frame } else { frame }
     }
 }

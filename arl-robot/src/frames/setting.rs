@@ -91,7 +91,7 @@ impl Setting {
         let base = self.base;
         let carried =
             if self.stationary { Carried::Workpiece(base.inverse() * self.tool) } else { Carried::Tool(self.tool) };
-        Rig { carried, base }
+        Rig { carried, base, workpiece: Mount { frame: self.wobj, on_flange: self.held } }
     }
 
     /// The workpiece frame seen from what ways of the TCP are seen from (see [`Carried`]).
@@ -134,6 +134,20 @@ mod tests {
 
     fn base(components: [f64; 6]) -> Frame {
         frame(components)
+    }
+
+    #[test]
+    fn a_rig_knows_where_the_workpiece_is() {
+        let flange = frame([700.0, 20.0, 400.0, 10.0, 170.0, 5.0]);
+        let (stand, part) = (base([100.0, 200.0, 0.0, 30.0, 0.0, 0.0]), [50.0, 0.0, 10.0, 0.0, 0.0, 45.0]);
+        // Where tool and workpiece do not fit each other, too: a motion of the axes does not care.
+        for stationary in [false, true] {
+            let setting =
+                |held| Setting::new(tool([0.0, 0.0, 90.0, 0.0, 0.0, 0.0], stationary), wobj(part, held), stand);
+            close(&setting(false).rig().workpiece_at(&flange), part);
+            let held = setting(true).rig().workpiece_at(&flange);
+            close(&((stand * flange).inverse() * held), part);
+        }
     }
 
     fn close(found: &Frame, expected: [f64; 6]) {

@@ -66,6 +66,8 @@ pub struct RobotStatus {
     pub tcp: [f64; 6],
     /// The robot's base in the world: x, y, z in mm, a, b, c in deg.
     pub base: [f64; 6],
+    /// The workpiece of its motion in the world, in the same way.
+    pub workpiece: [f64; 6],
 }
 
 impl Controller {
@@ -126,6 +128,7 @@ fn of_channel(channel: &Channel) -> ChannelStatus {
             joints: *unit.setpoint(),
             tcp: unit.commanded_tcp(),
             base: unit.base_in_world(),
+            workpiece: unit.workpiece_in_world(),
         }),
     }
 }

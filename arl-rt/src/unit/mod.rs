@@ -330,6 +330,11 @@ impl Unit {
         frame_components(&self.tcp)
     }
 
+    /// The workpiece of its motion in the world: x, y, z in mm, a, b, c in deg.
+    pub(crate) fn workpiece_in_world(&self) -> [f64; 6] {
+        frame_components(&self.rig().workpiece_at(&self.robot.kinematics.forward(&self.setpoint().axes)))
+    }
+
     /// The robot's base in the world: x, y, z in mm, a, b, c in deg.
     pub(crate) fn base_in_world(&self) -> [f64; 6] {
         frame_components(&self.base)

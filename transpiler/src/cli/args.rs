@@ -329,14 +329,14 @@ pub(super) struct RunOptions {
     pub(super) report: Option<PathBuf>,
     /// The report of the whole run in another form: cycle time by line, moving and waiting, signals, contacts. Without --report=FILE it goes
     /// to the standard error.
-    #[arg(long, value_enum, requires = "report", conflicts_with = "pendant")]
+    #[arg(long, value_enum, requires = "report")]
     pub(super) format: Option<ReportFormat>,
     /// Draw the motion afterwards: the way of the TCP, its speed, the axes' speeds.
     #[arg(long, value_name = "FILE.svg")]
     pub(super) plot: Option<PathBuf>,
     /// Show a live screen with the program, the robot and io, and keys for start, pause, step, reset, override and inputs.
     /// The program runs in real time. Where the standard output is no terminal, it runs as without this option.
-    #[arg(long, conflicts_with_all = ["plot", "clock", "record", "clearance"])]
+    #[arg(long, conflicts_with_all = ["plot", "clock"])]
     pub(super) pendant: bool,
     /// The loop running mode: a program that ends is reset and begins again.
     #[arg(long = "loop")]

@@ -3,8 +3,12 @@
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::Duration;
 
 use super::said::Line;
+
+/// How long a line of a program that has ended may still take: its streams may be open in a process of its own making.
+const LAST_LINES: Duration = Duration::from_secs(1);
 
 /// A program that runs, and is told what to do by lines.
 pub(super) struct Link {
@@ -29,6 +33,11 @@ impl Link {
     /// The next line that has come.
     pub(super) fn line(&self) -> Option<Line> {
         self.lines.try_recv().ok()
+    }
+
+    /// What a program that has ended said at last: all that was on its way.
+    pub(super) fn last_lines(&self) -> impl Iterator<Item = Line> {
+        std::iter::from_fn(|| self.lines.recv_timeout(LAST_LINES).ok())
     }
 
     /// Tells the program something. One that has ended does not hear it, which shows by itself.

@@ -63,12 +63,7 @@ impl Listener {
     /// Has the program say what happens.
     pub(super) fn ask(&self, command: &mut Command) -> std::io::Result<()> {
         command.arg("--listener").arg(self.listener.local_addr()?.to_string());
-        if self.hearers.iter().any(|hearer| hearer.wants_each_cycle()) {
-            command.arg("--each-cycle");
-        }
-        if self.hearers.iter().any(|hearer| hearer.wants_each_motion()) {
-            command.arg("--each-motion");
-        }
+        command.args(wishes(&self.hearers));
         Ok(())
     }
 
@@ -124,9 +119,23 @@ fn hear(stream: TcpStream, mut hearers: Vec<Box<dyn Hears>>) {
         }
         bytes.clear();
     }
+    end(hearers, begun);
+}
+
+/// What a program is to say for those who hear it.
+pub(super) fn wishes(hearers: &[Box<dyn Hears>]) -> impl Iterator<Item = &'static str> {
+    let each_cycle = hearers.iter().any(|hearer| hearer.wants_each_cycle()).then_some("--each-cycle");
+    let each_motion = hearers.iter().any(|hearer| hearer.wants_each_motion()).then_some("--each-motion");
+    each_cycle.into_iter().chain(each_motion)
+}
+
+/// Nothing more will come. Who cannot end well is told of.
+pub(super) fn end(mut hearers: Vec<Box<dyn Hears>>, begun: bool) {
     if !begun {
         return hearers.into_iter().for_each(Hears::nothing_began);
     }
+    // The program may have ended without a word.
+    pass_on(Line::Ended(()), &mut hearers);
     for hearer in hearers {
         let broken = hearer.broken();
         if let Err(error) = hearer.end() {

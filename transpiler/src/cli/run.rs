@@ -28,10 +28,10 @@ pub(super) fn run(file: &Path, options: &RunOptions) -> Result<ExitCode, Failure
     let ready = prepare(file, options.cell.as_deref(), &options.checking())?;
     let mut command = Command::new(&ready.program);
     command.args(options.arguments());
-    if on_screen {
-        return pendant::run(command, ready);
-    }
     let mut hearers = hearers(options, &ready.sources)?;
+    if on_screen {
+        return pendant::run(command, ready, hearers);
+    }
     if let Some(picture) = &options.plot {
         let (signals, lanes) = Signals::new();
         hearers.push(Box::new(signals));

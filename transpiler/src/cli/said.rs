@@ -71,6 +71,18 @@ pub(super) struct Runs {
 }
 
 impl Runs {
+    /// Which of its axes an external one is, and what is known of it.
+    pub(super) fn external(&self, number: usize) -> Option<(usize, &Axis)> {
+        let at = self.links.len() + number;
+        self.axes.get(at).map(|axis| (at, axis))
+    }
+
+    /// The flange in the world.
+    pub(super) fn flange_in_world(&self, channel: &Channel) -> Frame {
+        let base = <[f64; 6]>::try_from(&channel.base[..]).map(kinematics::frame).unwrap_or_default();
+        base * self.flange_at(&channel.axes)
+    }
+
     /// The flange in the base, in mm, while the axes have these values in deg and mm.
     pub(super) fn flange_at(&self, axes: &[f64]) -> Frame {
         let links = self.links.iter().zip(axes);
@@ -180,6 +192,12 @@ pub(super) struct Axis {
     pub(super) max: f64,
 }
 
+impl Axis {
+    pub(super) fn is_linear(&self) -> bool {
+        self.unit == "mm"
+    }
+}
+
 /// How everything stands.
 #[derive(Clone, PartialEq, Default, Deserialize, Debug)]
 pub(super) struct State {
@@ -217,6 +235,9 @@ pub(super) struct Channel {
     /// The robot's base, as the TCP.
     #[serde(default)]
     pub(super) base: Vec<f64>,
+    /// The workpiece, as the TCP.
+    #[serde(default)]
+    pub(super) workpiece: Vec<f64>,
 }
 
 /// The functions and variables of a channel.

@@ -304,7 +304,7 @@ fn push_levels(out: &mut String, levels: &[bool]) {
 fn push_channel(out: &mut String, status: &ChannelStatus) {
     let (robot, (file, line)) = (status.robot.as_ref(), status.place);
     let (motion_file, motion_line) = robot.and_then(|robot| robot.motion).unwrap_or((file, 0));
-    let (tcp, base) = robot.map_or((&[][..], &[][..]), |robot| (&robot.tcp, &robot.base));
+    let frame = |of: fn(&RobotStatus) -> &[f64; 6]| robot.map_or(&[][..], |robot| of(robot));
     let motion = robot.map_or(0, |robot| robot.motion_number);
     let (file, motion_file) = (quoted(file.name()), quoted(motion_file.name()));
     let _ = write!(
@@ -315,9 +315,11 @@ fn push_channel(out: &mut String, status: &ChannelStatus) {
     );
     push_array(out, robot.map(axes).unwrap_or_default(), push_number);
     out.push_str(",\"tcp\":");
-    push_array(out, tcp.iter().copied(), push_number);
+    push_array(out, frame(|robot| &robot.tcp).iter().copied(), push_number);
     out.push_str(",\"base\":");
-    push_array(out, base.iter().copied(), push_number);
+    push_array(out, frame(|robot| &robot.base).iter().copied(), push_number);
+    out.push_str(",\"workpiece\":");
+    push_array(out, frame(|robot| &robot.workpiece).iter().copied(), push_number);
     out.push('}');
 }
 

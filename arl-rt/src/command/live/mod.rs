@@ -100,6 +100,7 @@ pub(crate) fn drive(
     controller.settle_state();
     voice.news(controller);
     voice.state(controller);
+    ended_motions.say(controller, voice);
     cut.map_or_else(|| Ok(controller.outcome().cloned()), Err)
 }
 

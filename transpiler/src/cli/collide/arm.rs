@@ -1,13 +1,20 @@
-//! Where the links of a robot are.
+//! Where the links of a robot are, and what external axes move.
 
+use arl_robot::cell::Carrier;
 use arl_robot::kinematics::{Frame, LinkJoint, frame};
 use parry3d_f64::math::{Pose, Rotation, Vector};
 
 use super::super::said::{self, Moves, Runs, placed};
 
-/// A robot's arm in its base, which stands in the world; lengths in mm.
+/// A robot's arm in its base, which stands in the world; or a carrier, with those that it is on as links. Lengths are mm.
 pub(super) struct Arm {
+    /// The channel of the robot, from 0.
+    channel: usize,
     joints: Vec<Joint>,
+    /// Which of the robot's axes are its own, in the order of its joints.
+    own: Vec<usize>,
+    /// What external axes move stands where it is built, whatever `$BASE` is.
+    is_carrier: bool,
     flange: Pose,
     /// x, y, z in mm, a, b, c in deg; empty as long as that is not known.
     base: Vec<f64>,
@@ -25,35 +32,61 @@ struct Joint {
     length: f64,
 }
 
+impl Joint {
+    fn new(joint: LinkJoint, axis: &said::Axis) -> Self {
+        let travel = if joint.linear { axis.min.abs().max(axis.max.abs()) } else { 0.0 };
+        Self { joint, length: joint.origin.translation.vector.norm() + travel }
+    }
+}
+
 impl Arm {
-    pub(super) fn new(runs: &Runs) -> Self {
-        let joint = |(joint, axis): (&said::LinkJoint, &said::Axis)| {
-            let joint = joint.joint();
-            let travel = if joint.linear { axis.min.abs().max(axis.max.abs()) } else { 0.0 };
-            Joint { joint, length: joint.origin.translation.vector.norm() + travel }
-        };
-        let mut arm = Self {
-            joints: runs.links.iter().zip(&runs.axes).map(joint).collect(),
-            flange: of_frame(&placed(&runs.flange)),
-            base: Vec::new(),
-            base_pose: Pose::IDENTITY,
-            based: 0,
-            axes: vec![0.0; runs.links.len()],
-            links: Vec::new(),
-        };
+    /// The robot of a channel, from 0.
+    pub(super) fn new(channel: usize, runs: &Runs) -> Self {
+        let joint = |(joint, axis): (&said::LinkJoint, &said::Axis)| Joint::new(joint.joint(), axis);
+        let joints: Vec<Joint> = runs.links.iter().zip(&runs.axes).map(joint).collect();
+        let own = (0..joints.len()).collect();
+        Self::of(channel, (joints, own), of_frame(&placed(&runs.flange)), false)
+    }
+
+    /// What an external axis of the robot of a channel moves, with what that is on; `None`: the robot has no such axis.
+    pub(super) fn carrier(carriers: &[Carrier], at: usize, all: &[Runs]) -> Option<Self> {
+        let channel = carriers.get(at)?.channel as usize - 1;
+        let runs = all.get(channel)?;
+        let (mut joints, mut own) = (Vec::new(), Vec::new());
+        for carrier in Carrier::chain(carriers, at) {
+            let (number, axis) = runs.external(carrier.number())?;
+            joints.push(Joint::new(carrier.joint(axis.is_linear()), axis));
+            own.push(number);
+        }
+        Some(Self::of(channel, (joints, own), Pose::IDENTITY, true))
+    }
+
+    fn of(channel: usize, (joints, own): (Vec<Joint>, Vec<usize>), flange: Pose, is_carrier: bool) -> Self {
+        let (base, axes) = (Vec::new(), vec![0.0; joints.len()]);
+        let (base_pose, links) = (Pose::IDENTITY, Vec::new());
+        let mut arm = Self { channel, joints, own, is_carrier, flange, base, base_pose, based: 0, axes, links };
         arm.place_links();
         arm
     }
 
+    /// The channel of the robot that it is, or whose axes move it, from 0.
+    pub(super) fn channel(&self) -> usize {
+        self.channel
+    }
+
     /// Takes in where it is. Where its base stands is known once it has moved.
     pub(super) fn go_to(&mut self, moves: &Moves) {
-        let own = moves.axes.get(..self.joints.len()).unwrap_or(&moves.axes);
-        let is_based = moves.line > 0;
+        let is_based = moves.line > 0 && !self.is_carrier;
         let base = if is_based { &moves.base[..] } else { &[] };
-        if own == self.axes && base == self.base {
+        let mut stays = base == self.base;
+        for (axis, at) in self.axes.iter_mut().zip(&self.own) {
+            let Some(now) = moves.axes.get(*at) else { continue };
+            stays &= axis == now;
+            *axis = *now;
+        }
+        if stays {
             return;
         }
-        own.clone_into(&mut self.axes);
         if base != self.base {
             base.clone_into(&mut self.base);
             let frame = <[f64; 6]>::try_from(base).map(frame).unwrap_or_default();
@@ -63,9 +96,22 @@ impl Arm {
         self.place_links();
     }
 
+    /// Whether it is a robot, no carrier.
+    pub(super) fn is_robot(&self) -> bool {
+        !self.is_carrier
+    }
+
+    /// How many of its joints are those of another arm, from the world or the base on.
+    pub(super) fn shared_with(&self, other: &Arm) -> usize {
+        if (self.channel, self.is_carrier) != (other.channel, other.is_carrier) {
+            return 0;
+        }
+        self.own.iter().zip(&other.own).take_while(|(one, other)| one == other).count()
+    }
+
     /// Whether it is known where its base stands.
     pub(super) fn is_based(&self) -> bool {
-        !self.base.is_empty()
+        self.is_carrier || !self.base.is_empty()
     }
 
     /// How often its base came to stand elsewhere.

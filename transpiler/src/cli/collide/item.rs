@@ -1,12 +1,12 @@
 //! What can touch something else: limbs of robots, bodies of the cell.
 
-use arl_robot::cell::{Body, Signal, Solid};
+use arl_robot::cell::{self, Body, Signal, Solid};
 use parry3d_f64::math::{Pose, Rotation, Vector};
 use parry3d_f64::shape::{Ball, Capsule, Cuboid, Cylinder, SharedShape};
 
 use super::super::said::{self, Runs};
 use super::super::scenery::{Looks, Piece};
-use super::arm::of_frame;
+use super::arm::{Arm, of_frame};
 use super::mesh::Mesh;
 
 /// A body, or a part of a robot.
@@ -51,27 +51,37 @@ pub(super) struct Part {
     pub(super) by: usize,
 }
 
-/// What an item is fixed to; channels count from 0.
+/// What an item is fixed to. Arms are the robots of the channels, from 0, and behind them what carriers are.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Holder {
     World,
     /// A link, from 1, or the base, 0.
     Link {
-        channel: usize,
+        arm: usize,
         link: usize,
     },
     Flange {
-        channel: usize,
+        arm: usize,
     },
+    /// A carrier of the cell, as long as the robots are not known.
+    Carrier(usize),
 }
 
 impl Holder {
-    /// The channel whose robot moves it.
-    pub(super) fn channel(self) -> Option<usize> {
+    /// The arm that moves it.
+    pub(super) fn arm(self) -> Option<usize> {
         match self {
-            Self::World => None,
-            Self::Link { channel, .. } | Self::Flange { channel } => Some(channel),
+            Self::World | Self::Carrier(_) => None,
+            Self::Link { arm, .. } | Self::Flange { arm } => Some(arm),
         }
+    }
+
+    /// The same, once robots are known: a carrier is the last link of an arm behind those of so many channels.
+    pub(super) fn in_arms(self, channels: usize, arms: &[Option<Arm>]) -> Self {
+        let Self::Carrier(number) = self else { return self };
+        let arm = channels + number;
+        let links = arms.get(arm).and_then(Option::as_ref).map_or(0, Arm::count);
+        Self::Link { arm, link: links }
     }
 }
 
@@ -94,7 +104,7 @@ pub(super) fn limbs(channel: usize, runs: &Runs) -> Vec<Item> {
         let [from, to] = limb.ends.map(|[x, y, z]| Vector::new(x, y, z));
         let shape = SharedShape::new(Capsule::new(from, to, limb.radius));
         let radius = from.length().max(to.length()) + limb.radius;
-        let holder = Holder::Link { channel, link: limb.link };
+        let holder = Holder::Link { arm: channel, link: limb.link };
         let kind = Limb::Capsule { at, length: (to - from).length(), radius: limb.radius };
         Item { limb: Some(kind), ..Item::new(limb.name.clone(), (shape, radius), holder, Pose::IDENTITY) }
     };
@@ -106,16 +116,17 @@ pub(super) fn of_link(channel: usize, (link, of): (usize, usize), looks: &Looks)
     let item = |piece: &Piece| {
         let (shape, at, radius) = form(piece, Meshes::Hulls)?;
         let limb = Some(Limb::Link { link, of });
-        Ok(Item { limb, ..Item::new(String::new(), (shape, radius), Holder::Link { channel, link }, at) })
+        Ok(Item { limb, ..Item::new(String::new(), (shape, radius), Holder::Link { arm: channel, link }, at) })
     };
     looks.touched.iter().map(item).collect()
 }
 
 /// The forms of a body of the cell, which is number `number` of them. What a robot takes along is there twice, standing and held.
 pub(super) fn of_body(number: usize, body: &Body, looks: &Looks) -> Result<Vec<Item>, String> {
-    let holder = match body.carried_by {
-        None => Holder::World,
-        Some(channel) => Holder::Flange { channel: channel as usize - 1 },
+    let holder = match body.holder {
+        cell::Holder::World => Holder::World,
+        cell::Holder::Flange(channel) => Holder::Flange { arm: channel as usize - 1 },
+        cell::Holder::Carrier(carrier) => Holder::Carrier(carrier),
     };
     let place = of_frame(&body.at);
     let mut items = Vec::new();
@@ -130,7 +141,7 @@ pub(super) fn of_body(number: usize, body: &Body, looks: &Looks) -> Result<Vec<I
         let by = grip.channel as usize - 1;
         // Where it is will be said.
         let standing = Item { part: Some(Part { body: number, piece, by }), absent: true, ..item };
-        items.push(Item { holder: Holder::Flange { channel: by }, ..standing.clone() });
+        items.push(Item { holder: Holder::Flange { arm: by }, ..standing.clone() });
         items.push(standing);
     }
     Ok(items)

@@ -1,4 +1,5 @@
-//! Collisions of a run: each cycle, robots with themselves, with each other, with the bodies of the cell and what they carry.
+//! Collisions of a run: each cycle, robots with themselves, with each other, with the bodies of the cell, what they carry and what their
+//! external axes move.
 //!
 //! The first contact of each pair is told with the time and the place of the motion. With a clearance, so is the nearest that a pair comes
 //! to each other, where that is nearer.
@@ -17,12 +18,12 @@ use std::collections::BTreeSet;
 use std::error::Error;
 use std::rc::Rc;
 
-use arl_robot::cell::MOST_FOREGROUND;
+use arl_robot::cell::{Carrier, MOST_FOREGROUND};
 use parry3d_f64::math::Pose;
 
 use super::failure::Failure;
 use super::listen::Hears;
-use super::said::{Contact, Cycle, Hello, Line, Placing, name_of_link};
+use super::said::{Contact, Cycle, Hello, Line, Placing, Runs, name_of_link};
 use super::scenery::Scenery;
 use super::show;
 use arm::Arm;
@@ -61,8 +62,10 @@ struct Collisions {
     bodies: Vec<Item>,
     /// By channels, the forms of the robot's links, where it has such.
     links: Vec<Vec<Item>>,
+    carriers: Vec<Carrier>,
     /// mm; 0: contacts only.
     clearance: f64,
+    /// Those of the channels' robots, then what each carrier is to the bodies on it.
     arms: Vec<Option<Arm>>,
     items: Vec<Item>,
     pairs: Vec<Pair>,
@@ -81,13 +84,18 @@ impl Collisions {
     fn new(scenery: &Scenery, clearance: f64, tells: bool) -> Result<(Self, Rc<RefCell<Found>>), Failure> {
         let found = Rc::<RefCell<Found>>::default();
         let (arms, items, pairs, touched) = (Vec::new(), Vec::new(), Vec::new(), BTreeSet::new());
-        let (bodies, links) = (bodies(scenery)?, links(scenery));
-        Ok((Self { bodies, links, clearance, arms, items, pairs, touched, found: Rc::clone(&found), tells }, found))
+        let (bodies, links, carriers) = (bodies(scenery)?, links(scenery), scenery.carriers.clone());
+        let watched = Rc::clone(&found);
+        let this = Self { bodies, links, carriers, clearance, arms, items, pairs, touched, found: watched, tells };
+        Ok((this, found))
     }
 
     fn begin(&mut self, hello: &Hello) {
         let several = hello.channels.iter().filter(|runs| !runs.links.is_empty()).count() > 1;
-        self.arms = hello.channels.iter().map(|runs| (!runs.links.is_empty()).then(|| Arm::new(runs))).collect();
+        let robot = |(channel, runs): (usize, &Runs)| (!runs.links.is_empty()).then(|| Arm::new(channel, runs));
+        self.arms = hello.channels.iter().enumerate().map(robot).collect();
+        let carrier = |at| Arm::carrier(&self.carriers, at, &hello.channels);
+        self.arms.extend((0..self.carriers.len()).map(carrier));
         self.items.clear();
         for (channel, runs) in hello.channels.iter().enumerate() {
             let links = self.links.get(channel).filter(|links| !links.is_empty());
@@ -104,7 +112,8 @@ impl Collisions {
             }
             self.items.extend(limbs);
         }
-        self.items.extend(self.bodies.iter().cloned());
+        let held = |body: &Item| Item { holder: body.holder.in_arms(hello.channels.len(), &self.arms), ..body.clone() };
+        self.items.extend(self.bodies.iter().map(held));
         self.pairs = pair::pairs(&self.items, &self.arms);
         self.found.borrow_mut().begun = true;
     }
@@ -127,13 +136,18 @@ impl Collisions {
         }
     }
 
-    /// Looks at all pairs that may have come near enough to each other to matter.
-    fn cycle(&mut self, cycle: &Cycle) -> Vec<Contact> {
-        for (arm, moves) in self.arms.iter_mut().zip(&cycle.channels) {
-            if let Some(arm) = arm {
+    /// Takes in where all robots are.
+    fn go_to(&mut self, cycle: &Cycle) {
+        for arm in self.arms.iter_mut().flatten() {
+            if let Some(moves) = cycle.channels.get(arm.channel()) {
                 arm.go_to(moves);
             }
         }
+    }
+
+    /// Looks at all pairs that may have come near enough to each other to matter.
+    fn cycle(&mut self, cycle: &Cycle) -> Vec<Contact> {
+        self.go_to(cycle);
         let mut contacts = Vec::new();
         for pair in &mut self.pairs {
             let [Some(one), Some(other)] = pair.items.map(|at| self.items.get(at)) else { continue };
@@ -146,8 +160,7 @@ impl Collisions {
             }
             let [Some(here), Some(there)] = [one, other].map(|item| place(item, &self.arms)) else { continue };
             let Some(distance) = distance((&here, one), (&there, other)) else { continue };
-            let channel = pair.mover(&self.arms);
-            let moves = channel.and_then(|channel| cycle.channels.get(channel));
+            let moves = pair.mover(&self.arms).and_then(|arm| cycle.channels.get(arm.channel()));
             let contact = |distance| Contact {
                 time: cycle.time,
                 file: moves.map_or_else(String::new, |moves| moves.file.clone()),
@@ -204,10 +217,7 @@ impl Hears for Collisions {
         Ok(self.tell(contacts))
     }
 
-    fn end(mut self: Box<Self>) -> Result<(), Box<dyn Error>> {
-        // It may have ended without a word.
-        let near = self.nearest();
-        self.tell(near);
+    fn end(self: Box<Self>) -> Result<(), Box<dyn Error>> {
         Ok(())
     }
 
@@ -231,9 +241,10 @@ fn distance((here, one): (&Pose, &Item), (there, other): (&Pose, &Item)) -> Opti
 /// Where an item is in the world.
 fn place(item: &Item, arms: &[Option<Arm>]) -> Option<Pose> {
     match item.holder {
-        Holder::World => Some(item.at),
-        Holder::Link { channel, link } => Some(arms.get(channel)?.as_ref()?.link(link)? * item.at),
-        Holder::Flange { channel } => Some(arms.get(channel)?.as_ref()?.flange() * item.at),
+        // The axis of a carrier is there once the program has begun.
+        Holder::World | Holder::Carrier(_) => Some(item.at),
+        Holder::Link { arm, link } => Some(arms.get(arm)?.as_ref()?.link(link)? * item.at),
+        Holder::Flange { arm } => Some(arms.get(arm)?.as_ref()?.flange() * item.at),
     }
 }
 

@@ -21,6 +21,10 @@ pub(super) struct Pair {
     ends: [End; 2],
     /// Whether they are parts of one robot: that they are near each other is how it is built, and what touches before anything moves is, too.
     is_own: bool,
+    /// Whether both were where they are before any robot moved: parts of one robot, or neither of them of any.
+    is_built: bool,
+    /// How many of the joints that move each of them are the same ones, from the world or the base on.
+    shared: usize,
     /// Whether they overlap since before anything moved, or since one of them came or was taken there.
     overlap: bool,
     /// Whether one of them has just come, or was taken or put there.
@@ -35,7 +39,7 @@ pub(super) struct Pair {
 /// An item, as far as its motion goes.
 #[derive(Clone, Copy)]
 struct End {
-    channel: Option<usize>,
+    arm: Option<usize>,
     /// The link that it is on.
     link: usize,
     /// How far its places are from the link's origin at most.
@@ -66,12 +70,19 @@ pub(super) fn pairs(items: &[Item], arms: &[Option<Arm>]) -> Vec<Pair> {
         for (behind, other) in items.iter().enumerate().skip(at + 1) {
             if counts(items, one, other) {
                 let ends = [one, other].map(|item| End::of(item, arms));
-                let is_own = one.holder.channel() == other.holder.channel();
+                let is_own = one.holder.arm() == other.holder.arm();
+                let is_built = is_own || !ends.iter().any(|end| end.arm(arms).is_some_and(Arm::is_robot));
+                let shared = match (ends[0].arm(arms), ends[1].arm(arms)) {
+                    (Some(one), Some(other)) => one.shared_with(other).min(ends[0].link).min(ends[1].link),
+                    _ => 0,
+                };
                 let (state, known) = (State::Apart, None);
                 pairs.push(Pair {
                     items: [at, behind],
                     ends,
                     is_own,
+                    is_built,
+                    shared,
                     overlap: false,
                     is_new: false,
                     stays_near: false,
@@ -93,7 +104,7 @@ fn counts(items: &[Item], one: &Item, other: &Item) -> bool {
     if takes(items, one, other) || takes(items, other, one) || are_one(one, other) {
         return false;
     }
-    if one.holder.channel() != other.holder.channel() {
+    if one.holder.arm() != other.holder.arm() {
         return true;
     }
     match (one.limb, other.limb) {
@@ -107,8 +118,8 @@ fn counts(items: &[Item], one: &Item, other: &Item) -> bool {
 /// Whether the first one is taken along by the second one, what is on the flange or the last limb: that it touches it is what it is for.
 fn takes(items: &[Item], part: &Item, gripper: &Item) -> bool {
     let holds = |by: usize| match gripper.limb {
-        Some(limb) => gripper.holder.channel() == Some(by) && is_last(items, gripper, limb),
-        None => gripper.holder == Holder::Flange { channel: by } && gripper.part.is_none(),
+        Some(limb) => gripper.holder.arm() == Some(by) && is_last(items, gripper, limb),
+        None => gripper.holder == Holder::Flange { arm: by } && gripper.part.is_none(),
     };
     part.part.is_some_and(|part| holds(part.by))
 }
@@ -124,7 +135,7 @@ fn are_apart(items: &[Item], of: &Item, limbs: (Limb, Limb)) -> bool {
         (Limb::Capsule { at, radius, .. }, Limb::Capsule { at: behind, radius: other_radius, .. }) => {
             // What is between them may be too short to keep them apart.
             let (first, second) = (at.min(behind), at.max(behind));
-            let between = items.iter().filter(|item| item.holder.channel() == of.holder.channel());
+            let between = items.iter().filter(|item| item.holder.arm() == of.holder.arm());
             let length = |item: &Item| match item.limb {
                 Some(Limb::Capsule { at, length, .. }) if at > first && at < second => Some(length),
                 _ => None,
@@ -140,7 +151,7 @@ fn are_apart(items: &[Item], of: &Item, limbs: (Limb, Limb)) -> bool {
 fn is_last(items: &[Item], of: &Item, limb: Limb) -> bool {
     match limb {
         Limb::Capsule { .. } => {
-            let of_arm = |other: &&Item| other.limb.is_some() && other.holder.channel() == of.holder.channel();
+            let of_arm = |other: &&Item| other.limb.is_some() && other.holder.arm() == of.holder.arm();
             items.iter().rfind(of_arm).and_then(|last| last.limb) == Some(limb)
         }
         Limb::Link { link, of } => link + 1 >= of,
@@ -150,19 +161,17 @@ fn is_last(items: &[Item], of: &Item, limb: Limb) -> bool {
 impl End {
     /// What moves it.
     fn arm(self, arms: &[Option<Arm>]) -> Option<&Arm> {
-        arms.get(self.channel?)?.as_ref()
+        arms.get(self.arm?)?.as_ref()
     }
 
     fn of(item: &Item, arms: &[Option<Arm>]) -> Self {
-        let arm = |channel: usize| arms.get(channel).and_then(Option::as_ref);
+        let arm = |at: usize| arms.get(at).and_then(Option::as_ref);
         let (link, beside) = match item.holder {
-            Holder::World => (0, 0.0),
+            Holder::World | Holder::Carrier(_) => (0, 0.0),
             Holder::Link { link, .. } => (link, 0.0),
-            Holder::Flange { channel } => {
-                (arm(channel).map_or(0, Arm::count), arm(channel).map_or(0.0, Arm::flange_length))
-            }
+            Holder::Flange { arm: at } => (arm(at).map_or(0, Arm::count), arm(at).map_or(0.0, Arm::flange_length)),
         };
-        Self { channel: item.holder.channel(), link, farthest: item.farthest() + beside }
+        Self { arm: item.holder.arm(), link, farthest: item.farthest() + beside }
     }
 }
 
@@ -195,31 +204,28 @@ impl Pair {
         (based != known.based && !self.is_own) || self.moved(&known.axes, arms) >= known.room
     }
 
-    /// The channel of the robot that brought the two together: the one that has moved more since they were looked at.
-    pub(super) fn mover(&self, arms: &[Option<Arm>]) -> Option<usize> {
+    /// The arm that brought the two together: the one that has moved more since they were looked at.
+    pub(super) fn mover<'a>(&self, arms: &'a [Option<Arm>]) -> Option<&'a Arm> {
         let [one, other] = &self.ends;
-        let [Some(first), Some(second)] = [one.channel, other.channel] else { return one.channel.or(other.channel) };
-        let moved =
-            |end: &End, before: &[f64]| end.arm(arms).map_or(0.0, |arm| arm.moved(before, 0..end.link, end.farthest));
+        let (Some(first), Some(second)) = (one.arm(arms), other.arm(arms)) else {
+            return one.arm(arms).or(other.arm(arms));
+        };
+        let moved = |end: &End, arm: &Arm, before: &[f64]| arm.moved(before, 0..end.link, end.farthest);
         match &self.known {
-            Some(Known { axes: [before, there], .. }) if moved(other, there) > moved(one, before) => Some(second),
+            Some(Known { axes: [here, there], .. }) if moved(other, second, there) > moved(one, first, here) => {
+                Some(second)
+            }
             _ => Some(first),
         }
     }
 
-    /// The most that the two have moved against each other since the axes were there, in mm.
+    /// The most that the two have moved against each other since the axes were there, in mm: by what does not move both.
     fn moved(&self, before: &[Vec<f64>; 2], arms: &[Option<Arm>]) -> f64 {
-        let [one, other] = &self.ends;
-        let moved = |end: &End, before: &[f64], from: usize| {
-            end.arm(arms).map_or(0.0, |arm| arm.moved(before, from..end.link, end.farthest))
+        let moved = |end: &End, before: &[f64]| {
+            end.arm(arms).map_or(0.0, |arm| arm.moved(before, self.shared..end.link, end.farthest))
         };
-        let [first, second] = before;
-        if one.channel.is_some() && one.channel == other.channel {
-            // Only what is between them moves them against each other.
-            let (near, far) = if one.link <= other.link { (one, other) } else { (other, one) };
-            return moved(far, first, near.link);
-        }
-        moved(one, first, 0) + moved(other, second, 0)
+        let ([one, other], [here, there]) = (&self.ends, before);
+        moved(one, here) + moved(other, there)
     }
 
     /// Notes how far apart the two are now; the contact, if it is the first one.
@@ -231,9 +237,10 @@ impl Pair {
         contact: impl Fn(f64) -> Contact,
     ) -> Option<Contact> {
         let touches = distance <= 0.0;
-        let is_built_so = self.overlap || self.is_new || (self.is_own && contact(0.0).line == 0);
+        let is_first = self.is_new || (self.is_built && contact(0.0).line == 0);
+        let is_built_so = self.overlap || is_first;
         self.overlap = touches && is_built_so;
-        self.stays_near = (self.is_new || self.stays_near) && distance < clearance;
+        self.stays_near = (is_first || self.stays_near) && distance < clearance;
         self.is_new = false;
         if touches && !is_built_so {
             self.state = State::Done;

@@ -3,13 +3,13 @@
 use std::error::Error;
 
 use arl_robot::cell::{Grip, Signal};
-use arl_robot::kinematics::{Frame, frame};
+use arl_robot::kinematics::Frame;
 use parry3d_f64::math::{Pose, Vector};
 use parry3d_f64::shape::SharedShape;
 
 use super::super::failure::Failure;
 use super::super::listen::Hears;
-use super::super::said::{Channel, Line, Place, Placing, Runs, State};
+use super::super::said::{Line, Place, Placing, Runs, State};
 use super::super::scenery::Scenery;
 use super::arm::of_frame;
 use super::item;
@@ -55,7 +55,7 @@ impl Parts {
     /// What comes, what is taken, and what is put down.
     fn state(&mut self, state: &State) -> Vec<Placing> {
         let flanges = self.runs.iter().zip(&state.channels);
-        let flanges: Vec<Frame> = flanges.map(|(runs, channel)| flange(runs, channel)).collect();
+        let flanges: Vec<Frame> = flanges.map(|(runs, channel)| runs.flange_in_world(channel)).collect();
         for part in &mut self.parts {
             let flange = part.place.held_by.and_then(|channel| flanges.get(channel));
             if let Some(flange) = flange.filter(|_| !state.has(part.grip.by)) {
@@ -135,10 +135,4 @@ impl Hears for Parts {
     fn broken(&self) -> String {
         "bodies stay where they are".into()
     }
-}
-
-/// The flange of a robot in the world.
-fn flange(runs: &Runs, channel: &Channel) -> Frame {
-    let base = <[f64; 6]>::try_from(&channel.base[..]).map(frame).unwrap_or_default();
-    base * runs.flange_at(&channel.axes)
 }

@@ -86,9 +86,7 @@ fn by_looking_always(collisions: &mut Collisions, cycles: &[Cycle]) -> Vec<(Stri
         })
         .collect();
     for cycle in cycles {
-        for (arm, moves) in collisions.arms.iter_mut().zip(&cycle.channels) {
-            arm.as_mut().unwrap().go_to(moves);
-        }
+        collisions.go_to(cycle);
         for (pair, (.., touched, nearest)) in collisions.pairs.iter().zip(&mut found) {
             let [one, other] = pair.items.map(|at| &collisions.items[at]);
             let [here, there] = [one, other].map(|item| place(item, &collisions.arms).unwrap());
@@ -139,6 +137,97 @@ fn no_contact_is_missed_and_the_nearest_is_near() {
         }
     }
     assert!(touched > 5 && near > 5, "{touched} {near}");
+}
+
+/// A tilting table of the second robot with a turning disc on it, and a slide.
+const TABLE: &str = "[[carrier]]\naxis = \"ej1\"\nchannel = 2\nat = [700, 0, 500, 0, 0, 90]\n\
+                     [[carrier]]\naxis = \"ej2\"\nchannel = 2\non = \"ej1\"\nat = [0, 150, 0, 0, 0, -90]\n\
+                     [[carrier]]\naxis = \"ej3\"\nchannel = 2\nat = [-600, -150, 300, 0, 90, 0]\n\
+                     [[body]]\nname = \"frame\"\nbox = [500, 100, 40]\non = \"ej1\"\nchannel = 2\n\
+                     [[body]]\nname = \"part\"\nbox = [300, 60, 120]\nat = [40, 0, 100]\non = \"ej2\"\nchannel = 2\n\
+                     [[body]]\nname = \"clamp\"\nbox = [80, 80, 80]\nat = [40, 0, 100]\non = \"ej2\"\nchannel = 2\n\
+                     [[body]]\nname = \"drawer\"\nbox = [200, 200, 100]\non = \"ej3\"\nchannel = 2\n\
+                     [[body]]\nname = \"post\"\nbox = [60, 60, 300]\nat = [700, 0, 150]\n\
+                     [[channel]]\nprogram = \"b.arl\"\n";
+
+fn begun_with_table(clearance: f64) -> Collisions {
+    let cell = Cell::parse("cell.toml", TABLE).unwrap();
+    let mut scenery = Scenery::of(&Cell { carriers: Vec::new(), ..cell.clone() }, None).unwrap();
+    scenery.carriers = cell.carriers;
+    let mut hello = hello(&["kr10-r1420", "kr10-r1420"]);
+    for (name, unit, most) in [("ej1", "deg", 120.0), ("ej2", "deg", 360.0), ("ej3", "mm", 800.0)] {
+        hello.channels[1].axes.push(said::Axis { name: name.into(), unit: unit.into(), min: -most, max: most });
+    }
+    let (mut collisions, _) = Collisions::new(&scenery, clearance, false).unwrap();
+    collisions.begin(&hello);
+    collisions
+}
+
+/// A cycle with the table; the second robot stands still.
+fn cycle_with_table(step: u32, robot: Vec<f64>, external: [f64; 3]) -> Cycle {
+    let standing = [&[0.0, -90.0, 90.0, 0.0, 0.0, 0.0], &external[..]].concat();
+    let mut cycle = cycle(step, &[robot, standing]);
+    cycle.channels[1].base = vec![0.0, 2500.0, 0.0, 0.0, 0.0, 0.0];
+    cycle.channels[1].file = "b.arl".into();
+    cycle
+}
+
+#[test]
+fn what_external_axes_move_counts_in_each_cycle() {
+    const CLEARANCE: f64 = 60.0;
+    let robot = motion(&Robot::load("kr10-r1420").unwrap(), &mut Random::new(41));
+    let at = |step: u32| {
+        let time = f64::from(step) * 0.001;
+        let external = [100.0 * (1.3 * time).sin(), 180.0 * (0.9 * time).cos(), 700.0 * (0.7 * time).sin()];
+        cycle_with_table(step, robot(step), external)
+    };
+    let cycles: Vec<Cycle> = (0..4000).map(at).collect();
+    let expected = by_looking_always(&mut begun_with_table(CLEARANCE), &cycles);
+    let mut collisions = begun_with_table(CLEARANCE);
+    let contacts: Vec<Contact> = cycles.iter().flat_map(|cycle| collisions.cycle(cycle)).collect();
+    let nearest = collisions.nearest();
+    let of_table = |name: &String| ["frame", "part", "clamp", "drawer"].contains(&&**name);
+    let expected: Vec<_> = expected.into_iter().filter(|(one, other, ..)| of_table(one) || of_table(other)).collect();
+    // What stands on one carrier does not count with what stands there, too; on another one it does.
+    let pair = |names: [&str; 2]| expected.iter().any(|(one, other, ..)| names == [&**one, &**other]);
+    assert!(pair(["part", "post"]) && pair(["frame", "part"]) && pair(["frame", "drawer"]) && !pair(["part", "clamp"]));
+    let (mut touched, mut near) = (0, 0);
+    for (one, other, first, least) in &expected {
+        let is_it = |contact: &&Contact| (&contact.one, &contact.other) == (one, other);
+        let found = contacts.iter().find(is_it);
+        assert_eq!(found.map(|contact| contact.time), *first, "{one}, {other}");
+        // It is told with the place in the program whose axes move the carrier, where no robot does.
+        let by_carrier = of_table(one) && (of_table(other) || other == "post");
+        assert!(found.is_none_or(|contact| contact.line > 0 && (!by_carrier || contact.file == "b.arl")), "{found:?}");
+        touched += u32::from(found.is_some());
+        match nearest.iter().find(is_it).map(|contact| contact.distance) {
+            Some(found) => {
+                assert!(found - least < 0.06 && found >= *least, "{one}, {other}: {found} {least}");
+                near += 1;
+            }
+            None => assert!(first.is_some() || *least >= CLEARANCE - 0.06, "{one}, {other}: {least}"),
+        }
+    }
+    assert!(touched >= 2 && near >= 1, "{touched} {near}: {contacts:?}");
+}
+
+#[test]
+fn what_lies_on_carriers_touches_rightly_until_it_comes_apart() {
+    let mut collisions = begun_with_table(0.0);
+    let mut found = Vec::new();
+    // Before anything moves, the frame reaches into the post; it leaves it, and comes back.
+    for step in 0..3000_u32 {
+        let time = f64::from(step) * 0.001;
+        let mut here =
+            cycle_with_table(step, vec![0.0, -90.0, 90.0, 0.0, 0.0, 0.0], [90.0 * (2.0 * time).cos(), 0.0, 0.0]);
+        if step < 10 {
+            here.channels.iter_mut().for_each(|moves| (moves.line, moves.file) = (0, String::new()));
+        }
+        found.extend(collisions.cycle(&here));
+    }
+    let post: Vec<_> = found.iter().filter(|contact| contact.other == "post" && contact.one == "frame").collect();
+    let [contact] = &post[..] else { panic!("{post:?}") };
+    assert!(contact.time > 1.0 && contact.line > 0, "{contact:?}");
 }
 
 #[test]

@@ -127,6 +127,7 @@ fn change_override(percent: f64, model: &mut Model) -> Wish {
 
 #[cfg(test)]
 mod tests {
+    use super::super::super::said::{Line, State};
     use super::*;
 
     fn type_in(model: &mut Model, text: &str) -> Option<Wish> {
@@ -165,6 +166,16 @@ mod tests {
         model.state.speed_override = 100.0;
         assert_eq!(type_in(&mut model, "---"), Some(Wish::Order("override = 70".into())));
         assert_eq!(type_in(&mut model, "+"), Some(Wish::Order("override = 80".into())));
+        // States that were on their way say nothing of it, however many they are.
+        let state = |time: f64, speed_override: f64| State { time, speed_override, ..State::default() };
+        (1..60).for_each(|step| model.hear(Line::State(state(f64::from(step) * 0.004, 100.0))));
+        assert_eq!(type_in(&mut model, "+"), Some(Wish::Order("override = 90".into())));
+        model.hear(Line::State(state(0.25, 90.0)));
+        assert_eq!(model.asked_override, None);
+        // One that was refused is forgotten.
+        type_in(&mut model, "-");
+        model.hear(Line::State(state(0.6, 90.0)));
+        assert_eq!(type_in(&mut model, "-"), Some(Wish::Order("override = 80".into())));
     }
 
     #[test]

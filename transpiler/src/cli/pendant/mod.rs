@@ -10,48 +10,73 @@ mod screen;
 mod sources;
 
 use std::process::{Command, ExitCode};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use ratatui::crossterm::event::{self, Event};
 
 use super::failure::{Failure, INTERRUPTED};
 use super::link::Link;
+use super::listen::{self, Hears};
 use super::program::Ready;
 use super::show;
 use keys::Wish;
-use model::{Model, Weight};
+use model::Model;
 use sources::Sources;
 
 /// How long the screen waits for a key before it looks for news.
 const WAIT: Duration = Duration::from_millis(50);
 
-/// Runs the program behind a screen; its exit code.
-pub(super) fn run(mut command: Command, ready: Ready) -> Result<ExitCode, Failure> {
-    command.arg("--live");
+/// How often the program says how everything stands where others than the screen want to know, in s: as in every recording.
+const STATE_INTERVAL: &str = "0.004";
+
+/// Runs the program behind a screen; its exit code. Others may hear what it does.
+pub(super) fn run(mut command: Command, ready: Ready, mut hearers: Vec<Box<dyn Hears>>) -> Result<ExitCode, Failure> {
+    command.arg("--live").args(listen::wishes(&hearers));
+    if !hearers.is_empty() {
+        command.args(["--state-interval", STATE_INTERVAL]);
+    }
     let mut link = Link::start(command).map_err(|error| Failure::io("start", &ready.program, &error))?;
     let mut model = Model::new(Sources::read(&ready.sources));
     drop(ready.lock);
     let shown = ratatui::try_init().and_then(|mut terminal| {
-        let shown = show(&mut terminal, &mut link, &mut model);
+        show::keep_warnings();
+        let shown = show(&mut terminal, &mut link, &mut model, &mut hearers);
         ratatui::try_restore()?;
         shown
     });
+    // A program that was left at once ends now.
+    drop(link);
+    // What the screen took with it.
+    model.lasting.iter().for_each(|text| show::say(&format!("{text}\n")));
+    show::say_warnings();
+    listen::end(hearers, !model.hello.channels.is_empty());
     let code = shown.map_err(|error| Failure::Other(format!("the terminal cannot be used: {error}")))?;
-    // What the screen took with it, and somebody may want to copy.
-    for (_, text) in model.log.iter().filter(|(weight, _)| *weight == Weight::Alarm) {
-        show::say(&format!("{text}\n"));
-    }
     Ok(ExitCode::from(code))
 }
 
 /// Shows the program until it has ended.
-fn show(terminal: &mut ratatui::DefaultTerminal, link: &mut Link, model: &mut Model) -> std::io::Result<u8> {
+fn show(
+    terminal: &mut ratatui::DefaultTerminal,
+    link: &mut Link,
+    model: &mut Model,
+    hearers: &mut Vec<Box<dyn Hears>>,
+) -> std::io::Result<u8> {
     loop {
         // What it said before it ended comes before the end.
         let ended = link.ended();
-        while let Some(line) = link.line() {
+        // Who hears slowly does not keep people from leaving.
+        let until = Instant::now() + WAIT;
+        let next = || match ended {
+            Some(_) => link.last_lines().next(),
+            None => link.line().filter(|_| Instant::now() < until),
+        };
+        while let Some(line) = next() {
+            if !hearers.is_empty() {
+                listen::pass_on(line.clone(), hearers);
+            }
             model.hear(line);
         }
+        show::take_warnings().iter().for_each(|text| model.warn(text));
         if let Some(code) = ended {
             return Ok(code);
         }

@@ -8,8 +8,10 @@ use super::sources::Sources;
 /// How many lines of the log are kept.
 const LOG: usize = 500;
 
-/// After so many states an order has been carried out or refused.
-const STATES_FOR_AN_ORDER: u32 = 5;
+/// After so many s an order has been carried out or refused.
+const ORDER_S: f64 = 0.25;
+/// So many lines are said again once the screen is gone.
+const MOST_LASTING: usize = 10_000;
 
 /// How much a line of the log matters.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -27,14 +29,17 @@ pub(super) struct Model {
     pub(super) sources: Sources,
     /// Messages, warnings and alarms, the newest last.
     pub(super) log: VecDeque<(Weight, String)>,
+    /// What the screen takes with it, and somebody may want to read or copy: alarms, what was said on the standard error, and by those who
+    /// hear the program, too.
+    pub(super) lasting: Vec<String>,
     /// The channel that is shown, from 0.
     pub(super) shown: usize,
     /// What is being typed, where something is.
     pub(super) typed: Option<String>,
     /// The override that was asked for last, until a state tells of it: keys come faster than states.
     pub(super) asked_override: Option<f64>,
-    /// How many states came since.
-    states_since: u32,
+    /// The controller time at which it was asked for.
+    asked_at: f64,
     /// What is inside the program, where somebody looks; nothing is known of it at first.
     pub(super) inside: Option<Inside>,
     /// How many of its lines are scrolled out of sight.
@@ -54,9 +59,8 @@ impl Model {
         match line {
             Line::Hello(hello) => self.hello = hello,
             Line::State(state) => {
-                self.states_since += 1;
                 let arrived = self.asked_override == Some(state.speed_override);
-                if arrived || self.states_since > STATES_FOR_AN_ORDER {
+                if arrived || state.time > self.asked_at + ORDER_S {
                     self.asked_override = None;
                 }
                 self.state = state;
@@ -74,11 +78,24 @@ impl Model {
                 }
             }
             Line::Warning(text) => self.note(Weight::Warning, format!("warning: {text}")),
-            Line::Alarm(alarm) => self.note(Weight::Alarm, alarm.text),
+            Line::Alarm(alarm) => self.note_lasting(Weight::Alarm, alarm.text),
             Line::Refused(refused) => self.note(Weight::Warning, format!("{}: {}", refused.order, refused.why)),
             Line::Report(_) | Line::Cycle(_) | Line::Contact(_) | Line::Placing(_) | Line::Ended(()) => {}
-            Line::Other(text) => self.note(Weight::Warning, text),
+            Line::Other(text) => self.note_lasting(Weight::Warning, text),
         }
+    }
+
+    /// Takes in a warning of those who hear the program, too.
+    pub(super) fn warn(&mut self, text: &str) {
+        self.note_lasting(Weight::Warning, format!("warning: {text}"));
+    }
+
+    /// Notes what is said again once the screen is gone.
+    fn note_lasting(&mut self, weight: Weight, text: String) {
+        if self.lasting.len() < MOST_LASTING {
+            self.lasting.push(text.clone());
+        }
+        self.note(weight, text);
     }
 
     /// The override as it is, or will be by what was asked for.
@@ -89,7 +106,7 @@ impl Model {
     /// Notes an override that was asked for.
     pub(super) fn ask_for_override(&mut self, percent: f64) {
         self.asked_override = Some(percent);
-        self.states_since = 0;
+        self.asked_at = self.state.time;
     }
 
     fn note(&mut self, weight: Weight, text: String) {

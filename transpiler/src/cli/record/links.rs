@@ -1,6 +1,7 @@
-//! A robot's arm as viewers see it: frames from the world to the flange and the TCP, in m and rad.
+//! A robot's arm as viewers see it: frames from the world to the flange and the TCP, and of what its external axes move, in m and rad.
 
-use arl_robot::kinematics::{Frame, frame};
+use arl_robot::cell::Carrier;
+use arl_robot::kinematics::{self, Frame, frame};
 use nalgebra::{Translation3, UnitQuaternion, Vector3 as Vector};
 
 use super::super::said::{self, Channel, Limb, LinkJoint, Placed, Runs, placed};
@@ -21,6 +22,18 @@ pub(super) struct Arm {
     /// Where its base stands in the world, as far as that is known.
     pub(super) stands: Frame,
     pub(super) axes: Vec<Own>,
+    /// What its external axes move.
+    pub(super) carriers: Vec<Moved>,
+}
+
+/// What an external axis moves.
+pub(super) struct Moved {
+    pub(super) frame: String,
+    /// The frame that it is on.
+    pub(super) parent: String,
+    pub(super) joint: kinematics::LinkJoint,
+    /// Which of the axes it is.
+    pub(super) axis: usize,
 }
 
 /// An axis: its name, its range in rad (m), and whether it is linear.
@@ -31,12 +44,21 @@ pub(super) struct Own {
 }
 
 impl Arm {
-    pub(super) fn new(prefix: String, runs: &Runs) -> Self {
+    /// The robot of a channel, from 0.
+    pub(super) fn new(prefix: String, runs: &Runs, channel: usize, carriers: &[Carrier]) -> Self {
         let own = |axis: &super::super::said::Axis| {
-            let linear = axis.unit == "mm";
+            let linear = axis.is_linear();
             Own { name: axis.name.clone(), range: [axis.min, axis.max].map(|value| si(value, linear)), linear }
         };
+        let named = |carrier: &Carrier| format!("{prefix}{}", carrier.axis);
+        let moved = |carrier: &Carrier| {
+            let (axis, about) = runs.external(carrier.number())?;
+            let below = carrier.on.and_then(|on| carriers.get(on)).map_or_else(|| WORLD.to_owned(), named);
+            Some(Moved { frame: named(carrier), parent: below, joint: carrier.joint(about.is_linear()), axis })
+        };
+        let its_own = carriers.iter().filter(|carrier| carrier.channel as usize == channel + 1);
         Self {
+            carriers: its_own.filter_map(moved).collect(),
             prefix,
             robot: runs.robot.clone().unwrap_or_default(),
             links: runs.links.clone(),
@@ -80,6 +102,32 @@ impl Arm {
         format!("{}tcp", self.prefix)
     }
 
+    /// The frame of the workpiece of its motion.
+    fn workpiece_frame(&self) -> String {
+        format!("{}workpiece", self.prefix)
+    }
+
+    /// The frame of what an external axis moves.
+    pub(super) fn carrier_frame(&self, axis: &str) -> String {
+        format!("{}{axis}", self.prefix)
+    }
+
+    /// What its external axes move, as [`chain`](Self::chain).
+    pub(super) fn carried(&self) -> impl Iterator<Item = Link> {
+        self.carriers.iter().map(|Moved { frame, parent, joint, axis }| Link {
+            frame: frame.clone(),
+            parent: parent.clone(),
+            origin: said::written(&joint.origin).to_vec(),
+            axis: joint.axis.iter().copied().collect(),
+            linear: joint.linear,
+            moved_by: self.axis_name(*axis),
+        })
+    }
+
+    fn axis_name(&self, at: usize) -> String {
+        self.axes.get(at).map(|own| own.name.clone()).unwrap_or_default()
+    }
+
     /// Its links from the base on, and its flange.
     pub(super) fn chain(&self) -> Vec<Link> {
         let mut before = self.base();
@@ -88,7 +136,8 @@ impl Arm {
             let frame = self.link(number);
             let parent = std::mem::replace(&mut before, frame.clone());
             let (origin, axis) = (link.origin.to_vec(), link.axis.to_vec());
-            chain.push(Link { frame, parent, origin, axis, linear: link.linear });
+            let moved_by = self.axis_name(number - 1);
+            chain.push(Link { frame, parent, origin, axis, linear: link.linear, moved_by });
         }
         let (frame, origin) = (self.flange_frame(), self.flange.to_vec());
         chain.push(Link { frame, parent: before, origin, ..Link::default() });
@@ -113,6 +162,10 @@ impl Arm {
         }
         add(before, self.flange_frame(), &placed(&self.flange));
         add(WORLD.into(), self.tcp_frame(), &components(&said.tcp));
+        add(WORLD.into(), self.workpiece_frame(), &components(&said.workpiece));
+        for Moved { frame, parent, joint, axis } in &self.carriers {
+            add(parent.clone(), frame.clone(), &joint.at(said.axes.get(*axis).copied().unwrap_or_default()));
+        }
         all
     }
 }
@@ -127,7 +180,11 @@ fn components(values: &[f64]) -> Frame {
     <[f64; 6]>::try_from(values).map_or_else(|_| Frame::identity(), frame)
 }
 
-fn transform(now: Timestamp, (parent_frame_id, child_frame_id): (String, String), frame: &Frame) -> FrameTransform {
+pub(super) fn transform(
+    now: Timestamp,
+    (parent_frame_id, child_frame_id): (String, String),
+    frame: &Frame,
+) -> FrameTransform {
     let (translation, rotation) = parts(frame);
     FrameTransform {
         timestamp: Some(now),

@@ -129,6 +129,9 @@ pub(in super::super) struct Runs {
     /// The frame of its TCP.
     #[prost(string, tag = "5")]
     pub(in super::super) tcp: String,
+    /// What its external axes move.
+    #[prost(message, repeated, tag = "6")]
+    pub(in super::super) carriers: Vec<Link>,
 }
 
 /// `arl2rs.v1.Link`: a frame of a robot, by the frame that it is fixed to or moves against.
@@ -146,6 +149,9 @@ pub(in super::super) struct Link {
     pub(in super::super) axis: Vec<f64>,
     #[prost(bool, tag = "5")]
     pub(in super::super) linear: bool,
+    /// The name of the axis that moves it; empty: none does.
+    #[prost(string, tag = "6")]
+    pub(in super::super) moved_by: String,
 }
 
 /// `arl2rs.v1.Axis`: its range, and its unit: `deg` or `mm`.

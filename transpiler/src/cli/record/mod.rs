@@ -3,6 +3,7 @@
 
 mod links;
 pub(super) mod messages;
+mod parts;
 mod recorder;
 mod scene;
 mod schemas;

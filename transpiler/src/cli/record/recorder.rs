@@ -10,6 +10,7 @@ use super::messages::{
     Axis, Blend, Cell, Channel, Closest, Contact, Controller, FrameTransforms, Io, JointState, JointStates, Level, Log,
     Motion, Name, Runs, Timestamp,
 };
+use super::parts::Parts;
 use super::scene::Scene;
 use super::schemas::{self, Schema};
 use super::sink::Sink;
@@ -24,6 +25,8 @@ pub(crate) struct Recorder<S> {
     arms: Vec<Option<Arm>>,
     /// What stands in the cell, or is carried.
     scene: Scene,
+    /// The frames of what robots take along.
+    parts: Parts,
     /// What was written last of each topic: what stays the same is not written again.
     last: Last,
     /// The time of the last state, in s.
@@ -40,7 +43,7 @@ struct Last {
     channels: Vec<Channel>,
     controller: Controller,
     io: Option<Io>,
-    /// Of each channel axes, TCP and base.
+    /// Of each channel axes, TCP, base and workpiece.
     places: Vec<Vec<f64>>,
 }
 
@@ -51,6 +54,7 @@ impl<S: Sink> Recorder<S> {
             sink,
             arms: Vec::new(),
             scene: Scene::new(scenery),
+            parts: Parts::of(scenery),
             last: Last::default(),
             time: 0.0,
             frames_due: 0.0,
@@ -112,7 +116,7 @@ impl<S: Sink> Recorder<S> {
         let robots = hello.channels.iter().filter(|runs| !runs.links.is_empty()).count();
         let arm = |(at, runs): (usize, &said::Runs)| {
             let prefix = if robots > 1 { format!("channel_{}/", at + 1) } else { String::new() };
-            (!runs.links.is_empty()).then(|| Arm::new(prefix, runs))
+            (!runs.links.is_empty()).then(|| Arm::new(prefix, runs, at, &self.scene.scenery().carriers))
         };
         self.arms = hello.channels.iter().enumerate().map(arm).collect();
         let axis =
@@ -123,11 +127,13 @@ impl<S: Sink> Recorder<S> {
             axes: runs.axes.iter().map(axis).collect(),
             links: arm.iter().flat_map(Arm::chain).collect(),
             tcp: arm.as_ref().map(Arm::tcp_frame).unwrap_or_default(),
+            carriers: arm.iter().flat_map(Arm::carried).collect(),
         };
         let name = |(signal, name): (&String, &String)| Name { signal: signal.clone(), name: name.clone() };
         let channels = hello.channels.iter().zip(&self.arms).map(runs).collect();
         let cell = Cell { channels, names: hello.names.iter().map(name).collect() };
         self.last.channels = vec![Channel::default(); hello.channels.len()];
+        self.parts.begin(&hello.channels);
         self.write("/arl/cell", &schemas::CELL, 0.0, &cell)?;
         let robots = self.scene.robots(&self.arms);
         self.write("/scene", &schemas::SCENE_UPDATE, 0.0, &robots)
@@ -154,6 +160,7 @@ impl<S: Sink> Recorder<S> {
         for (at, said) in state.channels.iter().enumerate() {
             self.channel(at, said, time)?;
         }
+        self.parts.robots_are(&state.channels);
         if time < self.frames_due {
             self.left_out = Some(state.clone());
             return Ok(());
@@ -188,7 +195,8 @@ impl<S: Sink> Recorder<S> {
     /// Frames and joints of all robots, where one has moved.
     fn frames(&mut self, state: &State) -> McapResult<()> {
         let time = state.time;
-        let places = state.channels.iter().map(|said| [&said.axes[..], &said.tcp, &said.base].concat()).collect();
+        let places = state.channels.iter();
+        let places = places.map(|said| [&said.axes[..], &said.tcp, &said.base, &said.workpiece].concat()).collect();
         if self.last.places == places {
             return Ok(());
         }
@@ -200,6 +208,7 @@ impl<S: Sink> Recorder<S> {
             transforms.extend(arm.transforms(said, timestamp(time)));
             joints.extend(arm.joints(&said.axes).map(|(name, position)| JointState { name, position: Some(position) }));
         }
+        transforms.extend(self.parts.held(timestamp(time)));
         if transforms.is_empty() {
             return Ok(());
         }
@@ -260,6 +269,12 @@ impl<S: Sink> Recorder<S> {
 
     /// A body that robots take along is elsewhere.
     fn placing(&mut self, placing: &Placing) -> McapResult<()> {
+        let body = self.scene.scenery().bodies.get(placing.body);
+        let frame = body.map(|(body, _)| format!("part/{}", body.name)).unwrap_or_default();
+        if let Some(transform) = self.parts.place(placing, frame, timestamp(self.time)) {
+            let transforms = FrameTransforms { transforms: vec![transform] };
+            self.write("/tf", &schemas::FRAME_TRANSFORMS, self.time, &transforms)?;
+        }
         match self.scene.place(placing, &self.arms, timestamp(self.time)) {
             Some(update) => self.write("/scene", &schemas::SCENE_UPDATE, self.time, &update),
             None => Ok(()),

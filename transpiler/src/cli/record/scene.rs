@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use arl_robot::cell::{Body, Solid};
+use arl_robot::cell::{Body, Holder, Solid};
 use arl_robot::kinematics::Frame;
 use arl_robot::regular_file;
 
@@ -68,8 +68,9 @@ impl Scene {
                 continue;
             }
             if there {
-                let holder = body.carried_by.map(|channel| channel as usize - 1);
-                update.entities.push(drawn((body, looks), holder, (&body.at, arms), &mut self.meshes, now));
+                let frame = frame_of(body.holder, arms, &self.scenery);
+                let color = if matches!(body.holder, Holder::Flange(_)) { CARRIED } else { STANDS };
+                update.entities.push(drawn((body, looks), (frame, &body.at), color, &mut self.meshes, now));
             } else {
                 update.deletions.push(SceneEntityDeletion { timestamp: Some(now), id: id(body) });
             }
@@ -85,7 +86,9 @@ impl Scene {
         let mut update = SceneUpdate::default();
         match placing.place {
             Some(place) => {
-                update.entities.push(drawn((body, looks), place.held_by, (&place.at, arms), &mut self.meshes, now));
+                let arm = place.held_by.and_then(|channel| arms.get(channel)?.as_ref());
+                let frame = arm.map_or_else(|| WORLD.to_owned(), Arm::flange_frame);
+                update.entities.push(drawn((body, looks), (frame, &place.at), CARRIED, &mut self.meshes, now));
             }
             None if was_shown => update.deletions.push(SceneEntityDeletion { timestamp: Some(now), id: id(body) }),
             None => return None,
@@ -107,22 +110,33 @@ impl Scene {
     }
 }
 
+/// The frame of what a body is fixed to.
+pub(super) fn frame_of(holder: Holder, arms: &[Option<Arm>], scenery: &Scenery) -> String {
+    let arm = |channel: u32| arms.get(channel as usize - 1)?.as_ref();
+    let frame = match holder {
+        Holder::World => None,
+        Holder::Flange(channel) => arm(channel).map(Arm::flange_frame),
+        Holder::Carrier(at) => {
+            let carrier = scenery.carriers.get(at);
+            carrier.and_then(|carrier| Some(arm(carrier.channel)?.carrier_frame(&carrier.axis)))
+        }
+    };
+    frame.unwrap_or_else(|| WORLD.to_owned())
+}
+
 /// What a body is called in a scene.
 fn id(body: &Body) -> String {
     format!("body/{}", body.name)
 }
 
-/// A body in the flange of the robot of a channel, from 0, or in the world.
+/// A body at a place in a frame.
 fn drawn(
     (body, looks): (&Body, &Looks),
-    holder: Option<usize>,
-    (at, arms): (&Frame, &[Option<Arm>]),
+    (frame_id, at): (String, &Frame),
+    color: Color,
     meshes: &mut Meshes,
     now: Timestamp,
 ) -> SceneEntity {
-    let arm = holder.and_then(|channel| arms.get(channel)?.as_ref());
-    let frame_id = arm.map_or_else(|| WORLD.to_owned(), Arm::flange_frame);
-    let color = if arm.is_some() || body.grip.is_some() { CARRIED } else { STANDS };
     let mut entity = SceneEntity { id: id(body), frame_id, frame_locked: true, ..timed(now) };
     for piece in &looks.seen {
         draw(&mut entity, piece, (&(at * piece.at), color), meshes);

@@ -77,6 +77,7 @@ static RUNS: Schema = Schema {
         ("axes", Kind::Many(&AXIS)),
         ("links", Kind::Many(&LINK)),
         ("tcp", Kind::Text),
+        ("carriers", Kind::Many(&LINK)),
     ],
 };
 static LINK: Schema = Schema {
@@ -88,6 +89,7 @@ static LINK: Schema = Schema {
         ("origin", Kind::Doubles),
         ("axis", Kind::Doubles),
         ("linear", Kind::Flag),
+        ("moved_by", Kind::Text),
     ],
 };
 static AXIS: Schema = Schema {

@@ -12,6 +12,7 @@ use super::recorder::Recorder;
 use super::schemas::{self, Schema};
 use super::sink::File;
 use super::urdf::urdf;
+use crate::cli::said::{Line, Place, Placing};
 use crate::cli::scenery::Scenery;
 
 const HELLO: &str = r#"{"hello":{"channels":[{"program":"pick.arl","robot":"two-axes","axes":[
@@ -46,8 +47,12 @@ fn recorded_in(lines: &[String], scenery: &Scenery) -> BTreeMap<String, Vec<(u64
     }
     recorder.finish().unwrap();
     drop(recorder);
+    topics(&bytes)
+}
+
+fn topics(bytes: &[u8]) -> BTreeMap<String, Vec<(u64, Vec<u8>)>> {
     let mut topics: BTreeMap<String, Vec<(u64, Vec<u8>)>> = BTreeMap::new();
-    for message in mcap::MessageStream::new(&bytes).unwrap() {
+    for message in mcap::MessageStream::new(bytes).unwrap() {
         let message = message.unwrap();
         topics.entry(message.channel.topic.clone()).or_default().push((message.log_time, message.data.to_vec()));
     }
@@ -76,7 +81,14 @@ fn frames_lead_from_the_world_to_the_flange_in_metres() {
         transforms.iter().map(|one| (one.parent_frame_id.as_str(), one.child_frame_id.as_str())).collect();
     assert_eq!(
         names,
-        [("world", "base_link"), ("base_link", "link_1"), ("link_1", "link_2"), ("link_2", "flange"), ("world", "tcp")]
+        [
+            ("world", "base_link"),
+            ("base_link", "link_1"),
+            ("link_1", "link_2"),
+            ("link_2", "flange"),
+            ("world", "tcp"),
+            ("world", "workpiece"),
+        ]
     );
     let (first, second) = (transforms[1].rotation.unwrap(), transforms[2].translation.unwrap());
     // Axis 1 turns the other way.
@@ -108,6 +120,76 @@ fn what_is_said_and_what_motions_did_is_there() {
     let motion = Motion::decode(&motion[..]).unwrap();
     assert_eq!((*time, motion.kind.as_str(), motion.closest_acc.unwrap().of.as_str()), (500_000_000, "lin", "j2"));
     assert_eq!((motion.blend.unwrap().used, motion.closest_jerk), (4.0, None));
+}
+
+/// The frame of this name in the last message that has it: its parent, and where it is in m.
+fn last_frame(topics: &BTreeMap<String, Vec<(u64, Vec<u8>)>>, name: &str) -> Option<(String, [f64; 3])> {
+    let frames = |(_, data): &(u64, Vec<u8>)| FrameTransforms::decode(&data[..]).unwrap().transforms;
+    let found = topics["/tf"].iter().flat_map(frames).rfind(|one| one.child_frame_id == name)?;
+    let at = found.translation.unwrap();
+    Some((found.parent_frame_id, [at.x, at.y, at.z].map(|value| (value * 1e6).round() / 1e6)))
+}
+
+#[test]
+fn what_external_axes_move_is_a_frame_with_its_bodies() {
+    let text = "[[carrier]]\naxis = \"ej1\"\nat = [1000, 0, 500, 0, 0, 0]\n\
+                [[carrier]]\naxis = \"ej2\"\non = \"ej1\"\nat = [200, 0, 0, 0, 0, 0]\n\
+                [[body]]\nname = \"disc\"\ncylinder = [100, 10]\nat = [0, 0, 5]\non = \"ej2\"\n";
+    let cell = arl_robot::cell::Cell::parse("cell.toml", text).unwrap();
+    let mut scenery = Scenery::of(&arl_robot::cell::Cell { carriers: Vec::new(), ..cell.clone() }, None).unwrap();
+    scenery.carriers = cell.carriers;
+    let more = ",{\"name\":\"ej1\",\"unit\":\"deg\",\"min\":-90,\"max\":90},\
+                {\"name\":\"ej2\",\"unit\":\"mm\",\"min\":0,\"max\":300}],\n    \"links\"";
+    let hello = HELLO.replace("],\n    \"links\"", more);
+    let moved = state(0.0, 90.0, "10", 7).replace("\"axes\":[90,250]", "\"axes\":[90,250,90,30]");
+    let topics = recorded_in(&[hello.clone(), moved], &scenery);
+    assert_eq!(last_frame(&topics, "ej1"), Some(("world".into(), [1.0, 0.0, 0.5])));
+    // It slides along its z.
+    assert_eq!(last_frame(&topics, "ej2"), Some(("ej1".into(), [0.2, 0.0, 0.03])));
+    let bodies = SceneUpdate::decode(&topics["/scene"][1].1[..]).unwrap();
+    assert_eq!((bodies.entities[0].id.as_str(), bodies.entities[0].frame_id.as_str()), ("body/disc", "ej2"));
+    let runs = Cell::decode(&topics["/arl/cell"][0].1[..]).unwrap().channels.remove(0);
+    let told = runs.carriers.iter().map(|link| (link.frame.as_str(), link.moved_by.as_str(), link.linear));
+    assert_eq!(told.collect::<Vec<_>>(), [("ej1", "ej1", false), ("ej2", "ej2", true)]);
+    assert_eq!(runs.links.iter().map(|link| &*link.moved_by).collect::<Vec<_>>(), ["j1", "j2", ""]);
+    let mut bytes = Vec::new();
+    let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)).unwrap(), &scenery);
+    recorder.hear(&serde_json::from_str(&hello).unwrap()).unwrap();
+    let description = urdf_rs::read_from_string(&urdf(recorder.arms(), &scenery)).unwrap();
+    let joint = |child: &str| description.joints.iter().find(|joint| joint.child.link == child).unwrap();
+    assert_eq!((joint("ej1").name.as_str(), joint("ej1").parent.link.as_str()), ("ej1", "world"));
+    assert_eq!(
+        (&joint("ej2").joint_type, joint("body/disc").parent.link.as_str()),
+        (&urdf_rs::JointType::Prismatic, "ej2")
+    );
+}
+
+#[test]
+fn workpieces_and_parts_have_frames_in_the_world() {
+    let scenery = scenery("[[body]]\nname = \"part\"\nbox = [10, 10, 10]\nat = [500, 0, 100]\ngripped_by = \"do.1\"\n");
+    let mut bytes = Vec::new();
+    let mut recorder = Recorder::new(File::new(Cursor::new(&mut bytes)).unwrap(), &scenery);
+    let standing = Place { held_by: None, at: arl_robot::kinematics::frame([500.0, 0.0, 100.0, 0.0, 0.0, 0.0]) };
+    let held = Place { held_by: Some(0), at: arl_robot::kinematics::frame([0.0, 0.0, 50.0, 0.0, 0.0, 0.0]) };
+    let with_workpiece =
+        |j1: f64, time: f64| state(time, j1, "10", 7).replace("\"base\"", "\"workpiece\":[800,100,0,0,0,0],\"base\"");
+    let mut hear = |line: Line| recorder.hear(&line).unwrap();
+    hear(serde_json::from_str(HELLO).unwrap());
+    hear(serde_json::from_str(&with_workpiece(0.0, 0.0)).unwrap());
+    hear(Line::Placing(Placing { body: 0, place: Some(standing) }));
+    hear(serde_json::from_str(&with_workpiece(0.0, 0.004)).unwrap());
+    hear(Line::Placing(Placing { body: 0, place: Some(held) }));
+    hear(serde_json::from_str(&with_workpiece(90.0, 0.1)).unwrap());
+    recorder.finish().unwrap();
+    drop(recorder);
+    let topics = topics(&bytes);
+    assert_eq!(last_frame(&topics, "workpiece"), Some(("world".into(), [0.8, 0.1, 0.0])));
+    // Axis 1 turns the other way; the flange is 300 mm from it and 750 mm high.
+    assert_eq!(last_frame(&topics, "part/part"), Some(("world".into(), [0.0, -0.3, 0.8])));
+    let frames = |(_, data): &(u64, Vec<u8>)| FrameTransforms::decode(&data[..]).unwrap().transforms;
+    let parts: Vec<_> = topics["/tf"].iter().flat_map(frames).filter(|one| one.child_frame_id == "part/part").collect();
+    let places = parts.iter().map(|one| one.translation.unwrap().x);
+    assert_eq!(places.map(|x| (x * 1e6).round() / 1e6).collect::<Vec<_>>(), [0.5, 0.3, 0.0]);
 }
 
 #[test]
@@ -186,8 +268,11 @@ fn filled() -> Vec<(&'static Schema, Vec<u8>)> {
         tcp: vec![1.0],
         base: vec![1.0],
     };
-    let links = vec![Link { frame: text(), parent: text(), origin: vec![1.0], axis: vec![1.0], linear: true }];
-    let runs = Runs { program: text(), robot: text(), axes, links, tcp: text() };
+    let moved_by = text();
+    let links =
+        vec![Link { frame: text(), parent: text(), origin: vec![1.0], axis: vec![1.0], linear: true, moved_by }];
+    let carriers = links.clone();
+    let runs = Runs { program: text(), robot: text(), axes, links, tcp: text(), carriers };
     let pose = Some(Pose { position: Some(vector), orientation: Some(quaternion) });
     let color = Some(Color { r: 1.0, g: 1.0, b: 1.0, a: 1.0 });
     let (size, scale) = (Some(vector), Some(vector));

@@ -11,7 +11,8 @@ use percent_encoding::{AsciiSet, CONTROLS, utf8_percent_encode};
 
 use super::super::said::{Limb, placed};
 use super::super::scenery::{Looks, Piece, Scenery, Shape};
-use super::links::{Arm, WORLD, straight};
+use super::links::{Arm, Moved, Own, WORLD, straight};
+use super::scene::frame_of;
 
 /// What a path in an address has otherwise than as it is.
 const IN_ADDRESS: &AsciiSet = &CONTROLS.add(b' ').add(b'#').add(b'%').add(b'?');
@@ -29,10 +30,7 @@ pub(super) fn urdf(arms: &[Option<Arm>], scenery: &Scenery) -> String {
         }
     }
     for (body, looks) in scenery.bodies.iter().filter(|(body, _)| body.grip.is_none_or(|grip| !grip.follows)) {
-        let channel = body.carried_by.map(|channel| channel as usize - 1);
-        let arm = channel.and_then(|channel| arms.get(channel)).and_then(Option::as_ref);
-        let holder = arm.map_or_else(|| WORLD.to_owned(), Arm::flange_frame);
-        add_body(&mut out, (body, looks), &holder);
+        add_body(&mut out, (body, looks), &frame_of(body.holder, arms, scenery));
     }
     out.push_str("</robot>\n");
     out
@@ -52,16 +50,35 @@ fn add_arm(out: &mut String, arm: &Arm, shape: Option<&Shape>) {
     joint(out, ("fixed", &format!("{base}_to_{WORLD}")), [WORLD, &base], &arm.stands, "");
     for (at, (joined, own)) in arm.links.iter().zip(&arm.axes).enumerate() {
         let before = if at == 0 { arm.base() } else { arm.link(at) };
-        let [low, high] = own.range;
-        let [x, y, z] = joined.axis;
-        let moves = format!(
-            "<axis xyz=\"{x} {y} {z}\"/><limit lower=\"{low}\" upper=\"{high}\" effort=\"{EFFORT}\" velocity=\"{VELOCITY}\"/>"
+        let place = placed(&joined.origin);
+        let moves = moves(own, joined.axis);
+        joint(out, (kind(own), &arm.joint(&own.name)), [&before, &arm.link(at + 1)], &place, &moves);
+    }
+    for Moved { frame, parent, joint: moved, axis } in &arm.carriers {
+        let Some(own) = arm.axes.get(*axis) else { continue };
+        let _ = writeln!(out, "  <link name=\"{frame}\"/>");
+        joint(
+            out,
+            (kind(own), &arm.joint(&own.name)),
+            [parent, frame],
+            &moved.origin,
+            &moves(own, moved.axis.into_inner().into()),
         );
-        let kind = if own.linear { "prismatic" } else { "revolute" };
-        joint(out, (kind, &arm.joint(&own.name)), [&before, &arm.link(at + 1)], &placed(&joined.origin), &moves);
     }
     let (last, flange) = (arm.link(arm.links.len()), arm.flange_frame());
     joint(out, ("fixed", &format!("{flange}_to_{last}")), [&last, &flange], &placed(&arm.flange), "");
+}
+
+/// What a joint moves along or about, and its range.
+fn moves(own: &Own, [x, y, z]: [f64; 3]) -> String {
+    let [low, high] = own.range;
+    format!(
+        "<axis xyz=\"{x} {y} {z}\"/><limit lower=\"{low}\" upper=\"{high}\" effort=\"{EFFORT}\" velocity=\"{VELOCITY}\"/>"
+    )
+}
+
+fn kind(own: &Own) -> &'static str {
+    if own.linear { "prismatic" } else { "revolute" }
 }
 
 fn add_body(out: &mut String, (body, looks): (&Body, &Looks), holder: &str) {

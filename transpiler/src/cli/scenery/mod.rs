@@ -6,7 +6,7 @@ mod shape;
 #[cfg(test)]
 pub(super) mod tests;
 
-use arl_robot::cell::{Body, Cell, Form, Solid, Stands};
+use arl_robot::cell::{Body, Carrier, Cell, Form, Solid, Stands};
 use arl_robot::kinematics::Frame;
 
 use super::failure::Failure;
@@ -18,6 +18,7 @@ pub(super) use shape::Shape;
 #[derive(Clone, Default, Debug)]
 pub(super) struct Scenery {
     pub(super) bodies: Vec<(Body, Looks)>,
+    pub(super) carriers: Vec<Carrier>,
     /// By channels; `None`: capsules along its links.
     shapes: Vec<Option<Shape>>,
 }
@@ -42,7 +43,7 @@ impl Scenery {
     /// That of a cell in which `robot` is that of channel 1. A robot whose shape cannot be read is told of, and has capsules.
     ///
     /// # Errors
-    /// A URDF file of a body cannot be read, or a robot is none.
+    /// A URDF file of a body cannot be read, or a robot is none, or has not the axis of a carrier.
     pub(super) fn of(cell: &Cell, robot: Option<&str>) -> Result<Self, Failure> {
         let looks = |body: &Body| match &body.form {
             Form::Solid(solid) => Ok((body.clone(), Looks::of(solid))),
@@ -55,14 +56,34 @@ impl Scenery {
         let others = cell.programs.channels.iter().filter(|channel| !channel.background);
         let others = others.map(|channel| (channel.robot.as_deref(), &channel.stands));
         let all = std::iter::once((robot, &cell.stands)).chain(others);
-        let shapes = all.map(|(robot, stands)| shape_of(robot, stands)).collect::<Result<_, Failure>>()?;
-        Ok(Self { bodies, shapes })
+        let all: Vec<_> = all.collect();
+        for carrier in &cell.carriers {
+            let Some((robot, _)) = all.get(carrier.channel as usize - 1) else { continue };
+            has_axis(*robot, carrier)?;
+        }
+        let shapes = all.iter().map(|(robot, stands)| shape_of(*robot, stands)).collect::<Result<_, Failure>>()?;
+        Ok(Self { bodies, carriers: cell.carriers.clone(), shapes })
     }
 
     /// The shape of the robot of a channel, from 0.
     pub(super) fn shape(&self, channel: usize) -> Option<&Shape> {
         self.shapes.get(channel)?.as_ref()
     }
+}
+
+/// That a robot has the axis of a carrier.
+fn has_axis(robot: Option<&str>, Carrier { axis, channel, .. }: &Carrier) -> Result<(), Failure> {
+    let robot = robot::load(robot)?;
+    if robot.external_axes().iter().any(|external| external.name == *axis) {
+        return Ok(());
+    }
+    let known: Vec<&str> = robot.external_axes().iter().map(|external| &*external.name).collect();
+    let has = if known.is_empty() { "no external axes".to_owned() } else { format!("only {}", known.join(", ")) };
+    let text = format!(
+        "the cell has a [[carrier]] of the axis `{axis}`: the robot {} of channel {channel} has {has}",
+        robot.name
+    );
+    Err(Failure::Usage(text))
 }
 
 fn shape_of(robot: Option<&str>, stands: &Stands) -> Result<Option<Shape>, Failure> {

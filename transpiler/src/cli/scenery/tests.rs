@@ -220,6 +220,26 @@ fn a_body_has_all_links_of_its_urdf() {
 }
 
 #[test]
+fn a_carrier_has_an_axis_of_its_robot() {
+    let files = Files::new("carrier");
+    let axis = "[[axis]]\nname = \"ej1\"\nmin = -90\nmax = 90\nvel = 90\nacc = 400\njerk = 4000\n";
+    let built = arl_robot::Robot::text("kr10-r1420").unwrap();
+    let (before, links) = built.split_at(built.find("\n[[link]]").unwrap() + 1);
+    let file = files.write("arm.toml", &format!("{before}{axis}\n{links}"));
+    let cell = |axis: &str| Cell::parse("cell.toml", &format!("[[carrier]]\naxis = \"{axis}\"\n")).unwrap();
+    let of = |axis: &str, robot: Option<&str>| Scenery::of(&cell(axis), robot);
+    let arm = file.display().to_string();
+    assert_eq!(of("ej1", Some(&arm)).unwrap().carriers.len(), 1);
+    for (axis, robot, words) in [
+        ("ej2", Some(&*arm), "`ej2`: the robot kr10-r1420 of channel 1 has only ej1"),
+        ("ej1", None, "`ej1`: the robot kr10-r1420 of channel 1 has no external axes"),
+    ] {
+        let Failure::Usage(text) = of(axis, robot).unwrap_err() else { panic!("a usage failure") };
+        assert!(text.contains(words), "{text}");
+    }
+}
+
+#[test]
 fn a_robot_whose_urdf_is_wrong_has_capsules() {
     let cell = Cell::parse("cell.toml", "urdf = \"/no/such/arm.urdf\"\n").unwrap();
     let scenery = Scenery::of(&cell, None).unwrap();

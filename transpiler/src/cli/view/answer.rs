@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde_json::{Map, Value, json};
 
 use super::super::record::messages::{
-    Blend, Closest, Color, Level, Log, Motion, Pose, Quaternion, SceneUpdate, Solid, Vector3,
+    Blend, Closest, Color, Level, Link, Log, Motion, Pose, Quaternion, SceneUpdate, Solid, Vector3,
 };
 use super::super::recorded::{Signal, Store, TOLD_AGAIN, Took, Track};
 
@@ -38,12 +38,14 @@ pub(super) fn run(store: &Store, about: About<'_>) -> Value {
     let channels = store.cell.channels.iter().map(|runs| {
         let axes = runs.axes.iter();
         let axes = axes.map(|axis| json!({"name": axis.name, "unit": axis.unit, "min": axis.min, "max": axis.max}));
-        let links = runs.links.iter().map(|link| {
-            json!({"frame": link.frame, "parent": link.parent, "origin": link.origin, "axis": link.axis, "linear": link.linear})
-        });
+        let link = |link: &Link| {
+            json!({"frame": link.frame, "parent": link.parent, "origin": link.origin, "axis": link.axis, "linear": link.linear,
+                   "moved_by": link.moved_by})
+        };
         json!({
             "program": runs.program, "robot": runs.robot, "tcp": runs.tcp,
-            "axes": axes.collect::<Value>(), "links": links.collect::<Value>(),
+            "axes": axes.collect::<Value>(), "links": runs.links.iter().map(link).collect::<Value>(),
+            "carriers": runs.carriers.iter().map(link).collect::<Value>(),
         })
     });
     let names = store.cell.names.iter().map(|name| (name.signal.clone(), Value::from(name.name.clone())));

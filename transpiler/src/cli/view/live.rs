@@ -59,10 +59,15 @@ impl Live {
                     // It may be for this command alone: the robot stops on its path all the same.
                     link.leave();
                 }
-                (ended, std::iter::from_fn(|| link.line()).collect::<Vec<_>>())
+                let lines: Vec<Line> = match ended {
+                    Some(_) => link.last_lines().collect(),
+                    None => std::iter::from_fn(|| link.line()).collect(),
+                };
+                (ended, lines)
             };
             lines.into_iter().for_each(|line| pass_on(told(line), &mut hearers));
             if let Some(code) = ended {
+                pass_on(Line::Ended(()), &mut hearers);
                 store.lock().unwrap_or_else(PoisonError::into_inner).goes_on = false;
                 return code;
             }
