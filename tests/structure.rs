@@ -9,8 +9,19 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 /// The folders of arl-motion, from the ground up.
-const MOTION: &[&str] =
-    &["command", "geometry", "limits", "overlay", "plan", "blend", "follow", "time_optimal", "junction", "queue"];
+const MOTION: &[&str] = &[
+    "beside",
+    "command",
+    "geometry",
+    "limits",
+    "overlay",
+    "plan",
+    "blend",
+    "follow",
+    "time_optimal",
+    "junction",
+    "queue",
+];
 
 /// The folders of arl-rt, from the ground up.
 const RUNTIME: &[&str] = &[

@@ -54,6 +54,7 @@
 //! The folders are the stages: `command`, `geometry`, `limits`, `overlay`, `plan`, `blend`, `follow`, `time_optimal`, `junction`,
 //! `queue`. Each imports from those before it only.
 
+pub mod beside;
 mod blend;
 mod command;
 mod follow;

@@ -107,6 +107,8 @@ pub enum Fault {
     Drives(Box<str>),
     /// The robot does not come to rest where it shall.
     NotSettling(Box<str>),
+    /// Too many control cycles were lost.
+    Late(Box<str>),
     /// Torques or forces of a robot whose file has no masses.
     NoMasses {
         /// The function or instruction.
@@ -177,6 +179,7 @@ impl Fault {
             Fault::NoFeedback(_) => 20071,
             Fault::Drives(_) => 20072,
             Fault::NotSettling(_) => 20073,
+            Fault::Late(_) => 20074,
             Fault::Condition { fault, .. } => fault.number(),
             Fault::Other { number, .. } => *number,
         }
@@ -227,6 +230,7 @@ impl fmt::Display for Fault {
             | Fault::NoFeedback(text)
             | Fault::Drives(text)
             | Fault::NotSettling(text)
+            | Fault::Late(text)
             | Fault::Data(text)
             | Fault::Event(text)
             | Fault::Connection(text)

@@ -42,6 +42,8 @@ pub mod settings {
 
 /// Commands of motion in, a set-point each cycle out: the planner that moves robots.
 pub use arl_motion as motion;
+/// Threads beside the cycle: those of drivers, too.
+pub use arl_motion::beside;
 pub use arl_robot::cell::{self, Cell, Rate};
 pub use arl_robot::{Family, Robot, islands, kinematics, robot};
 pub use builtins::{frames, ops, text};
@@ -58,6 +60,7 @@ pub use controller::{
 };
 pub use cycle::channel_id::ChannelId;
 pub use cycle::clock_source;
+pub use cycle::realtime::Realtime;
 pub use fault::{Alarm, Calls, Fault, Reason, Stop};
 pub use storage::data::{DataFile, DataVar};
 pub use storage::{data, state};

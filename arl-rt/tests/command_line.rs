@@ -146,6 +146,7 @@ const TESTS: &[(&str, fn())] = &[
     ("damaged_state_is_refused", damaged_state_is_refused),
     ("state_survives_a_kill", state_survives_a_kill),
     ("pointers_survive_a_kill", pointers_survive_a_kill),
+    ("a_process_that_was_stopped_stops_its_robot", a_process_that_was_stopped_stops_its_robot),
     ("pointers_that_cannot_be_kept_are_a_warning", pointers_that_cannot_be_kept_are_a_warning),
     ("the_time_is_over", the_time_is_over),
     ("virtual_time_is_the_same_every_time", virtual_time_is_the_same_every_time),
@@ -329,6 +330,36 @@ fn pointers_survive_a_kill() {
     check(&run("where", &["--state-dir", folder.text()]), 0, &last, "");
     assert_eq!(std::fs::read_to_string(&file).unwrap().lines().next(), Some("program 1 \"t.arl\" 0"));
 }
+
+/// Between two set-points of a process that was stopped its robot had to do without.
+#[cfg(target_os = "linux")]
+fn a_process_that_was_stopped_stops_its_robot() {
+    let folder = Folder::new("stopped");
+    let cell = folder.path().join("cell.toml");
+    std::fs::write(&cell, "[controller]\nlate_limit = 50\n").unwrap();
+    let words = ["--state-dir", folder.text(), "--clock", "real", "--cell", cell.to_str().unwrap(), "--report"];
+    let mut child = command("swing", &words).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let id = child.id().to_string();
+    let signal = |name: &str| {
+        let sent = Command::new("kill").args([name, &id]).status().unwrap();
+        assert!(sent.success(), "{name}");
+    };
+    while !folder.path().join("POINTERS.state").exists() {
+        assert_eq!(child.try_wait().unwrap(), None, "it runs until it is stopped");
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    signal("-STOP");
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    signal("-CONT");
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("alarm 20074: the computer was too busy: "), "{said}");
+    assert!(said.contains("cycles: ") && said.contains(" us late at most: "), "{said}");
+}
+
+#[cfg(not(target_os = "linux"))]
+fn a_process_that_was_stopped_stops_its_robot() {}
 
 #[cfg(unix)]
 fn pointers_that_cannot_be_kept_are_a_warning() {

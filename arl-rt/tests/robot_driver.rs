@@ -7,11 +7,12 @@ mod common;
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use arl_rt::clock_source::RealClock;
+use arl_rt::cell::{Cell, LateCycles};
+use arl_rt::clock_source::{Clock, Lateness, RealClock};
 use arl_rt::emit::*;
 use arl_rt::motion::Joints;
 use arl_rt::robot_driver::{Drives, Feedback, Power, RobotDriver, Setpoint, SimulatedRobot, Start};
-use arl_rt::{Controller, Outcome, Robot, State};
+use arl_rt::{Builder, Controller, Outcome, Robot, State};
 use common::*;
 
 /// What the driver does to what the simulated robot says, by the cycle, from 1.
@@ -68,9 +69,14 @@ impl RobotDriver for Scripted {
 
 /// A controller whose program turns axis 1 by 90 deg, which takes some 0.7 s, and what its driver hears.
 fn turning(script: Script) -> (Controller, Rc<RefCell<Heard>>) {
+    turning_with(script, |builder| builder)
+}
+
+/// The same with more.
+fn turning_with(script: Script, more: impl FnOnce(Builder) -> Builder) -> (Controller, Rc<RefCell<Heard>>) {
     let heard = Rc::<RefCell<Heard>>::default();
     let driver = Scripted { robot: SimulatedRobot::new(), heard: Rc::clone(&heard), script, torques: false };
-    let builder = Controller::builder().robot_driver(driver);
+    let builder = more(Controller::builder().robot_driver(driver));
     let (controller, _) = controller(builder, |cx| {
         Box::pin(async move {
             motion::movej(bent(0.0)).vp(100.0).run(cx).await.at(FILE, 1)?;
@@ -456,7 +462,72 @@ fn set_points_have_torques_where_they_are_wanted_and_deadlines_where_time_is_rea
     let real = run(false, true);
     assert!(real.iter().all(|setpoint| setpoint.torque.is_none()));
     let apart = |pair: &[Setpoint]| pair[1].deadline.unwrap().duration_since(pair[0].deadline.unwrap()).as_secs_f64();
-    assert!(real.windows(2).all(|pair| (apart(pair) - 0.001).abs() < 1e-6));
+    // A busy computer may lose some.
+    let is_on_grid = |apart: f64| apart > 0.0009 && (apart / 0.001 - (apart / 0.001).round()).abs() < 1e-3;
+    assert!(real.windows(2).all(|pair| is_on_grid(apart(pair))));
+}
+
+/// A clock that loses so many cycles at speed, in two that are some cycles apart.
+#[derive(Default)]
+struct Losing {
+    each: u64,
+    apart: u64,
+    lateness: Lateness,
+}
+
+impl Clock for Losing {
+    fn wait_for(&mut self, cycle: u64, _period: f64) {
+        if cycle == AT_SPEED || cycle == AT_SPEED + self.apart {
+            self.lateness.note_lost(self.each);
+        }
+    }
+
+    fn is_real(&self) -> bool {
+        false
+    }
+
+    fn lateness(&self) -> Option<&Lateness> {
+        Some(&self.lateness)
+    }
+}
+
+fn losing(each: u64, apart: u64) -> Losing {
+    Losing { each, apart, ..Losing::default() }
+}
+
+#[test]
+fn a_computer_that_loses_cycles_stops_its_robot() {
+    let (mut controller, heard) = turning_with(|_, feedback| feedback, |builder| builder.clock(losing(11, 40)));
+    let (number, line, text) = outcome(&mut controller);
+    assert_eq!((number, line), (20074, 2), "{text}");
+    assert_eq!(text, "the computer was too busy: 22 control cycles were lost within a second");
+    assert_eq!(controller.lateness().map(|lateness| (lateness.late(), lateness.lost())), Some((2, 22)));
+    let heard = heard.borrow();
+    keep_limits(&heard);
+    let last = heard.setpoints.last().unwrap();
+    // It stands on its path, with its motors on.
+    assert!(last.velocity.axes[0] == 0.0 && last.position.axes[0] < 89.0, "{last:?}");
+    assert!(heard.switched.is_empty());
+}
+
+#[test]
+fn few_cycles_that_are_lost_are_no_trouble_and_a_cell_says_how_many() {
+    let lost = |each, limit| {
+        let cell = Cell { late: LateCycles { limit, ..LateCycles::default() }, ..Cell::default() };
+        turning_with(|_, feedback| feedback, |builder| builder.clock(losing(each, 40)).cell(cell)).0
+    };
+    assert_eq!(lost(10, None).run(), Outcome::Ended);
+    assert_eq!(lost(50, Some(100)).run(), Outcome::Ended);
+    assert_eq!(outcome(&mut lost(2, Some(3))).0, 20074);
+    // A robot that is simulated does not mind, unless somebody asks for it.
+    let simulated = |limit| {
+        let cell = Cell { late: LateCycles { limit, ..LateCycles::default() }, ..Cell::default() };
+        let builder = Controller::builder().clock(losing(500, 1)).cell(cell);
+        controller(builder, |cx| Box::pin(async move { motion::movej(bent(90.0)).vp(20.0).run(cx).await.at(FILE, 1) }))
+            .0
+    };
+    assert_eq!(simulated(None).run(), Outcome::Ended);
+    assert_eq!(outcome(&mut simulated(Some(20))).0, 20074);
 }
 
 #[test]

@@ -10,6 +10,7 @@ use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, OnceLock};
 use std::thread;
 
+use crate::beside;
 use crate::junction::junction_memory::JunctionMemory;
 use crate::junction::{Before, Junction, Meeting};
 use crate::plan::motion::Motion;
@@ -146,7 +147,7 @@ fn begin() -> Option<Channels> {
             let _ = does.try_send(task);
         }
     };
-    thread::Builder::new().name("blends".into()).spawn(work).ok().map(|_| Channels { tasks, done })
+    beside::spawn(thread::Builder::new().name("blends".into()), work).ok().map(|_| Channels { tasks, done })
 }
 
 impl Task {

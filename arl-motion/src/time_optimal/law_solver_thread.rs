@@ -10,6 +10,7 @@ use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, OnceLock};
 use std::thread;
 
+use crate::beside;
 use crate::time_optimal::constraint_sampler::{ConstraintSampler, Prospect};
 use crate::time_optimal::law_memory::{LawMemory, RequestMemory, key};
 use crate::time_optimal::limit_check::{LimitCheck, MOST_USED_SHARE, law_keeps, used_by_law};
@@ -222,7 +223,7 @@ fn begin() -> Option<Sender<Task>> {
         let mut memory = Memory::default();
         asked.iter().for_each(|task| task.run(&mut memory));
     };
-    thread::Builder::new().name("laws".into()).spawn(work).ok().map(|_| tasks)
+    beside::spawn(thread::Builder::new().name("laws".into()), work).ok().map(|_| tasks)
 }
 
 /// What the thread remembers.

@@ -6,6 +6,8 @@
 //!
 //! [controller]
 //! cycle = 1.0                  # ms, 0.1 to 100
+//! late = "grid"                # where cycles are late, their points of time stay a grid; "skip": it begins anew there
+//! late_limit = 20              # so many cycles may be lost within a second, before robots stop
 //!
 //! [io]                         # numbers of channels
 //! di = 64
@@ -75,7 +77,8 @@
 //! ```
 
 use super::{
-    Body, BusSettings, Carrier, Homes, Names, NetworkSettings, Programs, Rate, Sensitivity, Stands, Wiring, collisions,
+    Body, BusSettings, Carrier, Homes, LateCycles, Names, NetworkSettings, Programs, Rate, Sensitivity, Stands, Wiring,
+    collisions,
 };
 use crate::channels::Channels;
 use crate::islands::Island;
@@ -102,13 +105,15 @@ const TOP: &[&str] = &[
     "urdf",
     "base",
 ];
-const CONTROLLER: &[&str] = &["cycle"];
+const CONTROLLER: &[&str] = &["cycle", "late", "late_limit"];
 
 /// What stands around the robot.
 #[derive(Clone, PartialEq, Default, Debug)]
 pub struct Cell {
     /// The length of the control cycle.
     pub rate: Rate,
+    /// What becomes of cycles that are late.
+    pub late: LateCycles,
     /// The channels of io.
     pub channels: Channels,
     /// What signals are called.
@@ -161,6 +166,7 @@ impl Cell {
             if let Some(cycle) = controller.number("cycle", "the control cycle in ms", low, high)? {
                 cell.rate = Rate::from_micros((cycle * 1e3).round() as u32);
             }
+            cell.late = LateCycles::read(&controller)?;
         }
         cell.channels = Channels::read(&top)?;
         cell.names = Names::read(&top, &cell.channels)?;
@@ -184,7 +190,7 @@ impl Cell {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cell::Listen;
+    use crate::cell::{Late, Listen};
     use crate::channels::AnalogType;
 
     #[test]
@@ -199,11 +205,12 @@ mod tests {
 
     #[test]
     fn everything_is_read() {
-        let text = "[controller]\ncycle = 4\n[io]\ndi = 16\ndo = 8\nai = [\"V\", \"ma\"]\nao = 2\ninternal = 0\n\
+        let text = "[controller]\ncycle = 4\nlate = \"skip\"\nlate_limit = 5\n[io]\ndi = 16\ndo = 8\nai = [\"V\", \"ma\"]\nao = 2\ninternal = 0\n\
                     [home]\ntolerance = 0.5\nhome3 = [0, 1.5, 2, 3, 4, 5]\n\
                     [[collision]]\ncid = 2\npercent = 10\n[[collision]]\ncid = 3\ntorque = [1, 2.5]\n";
         let cell = Cell::parse("cell.toml", text).unwrap();
         assert_eq!(cell.rate.micros(), 4000);
+        assert_eq!(cell.late, LateCycles { late: Some(Late::Skip), limit: Some(5) });
         assert_eq!((cell.channels.di, cell.channels.dout, cell.channels.internal), (16, 8, 0));
         assert_eq!(cell.channels.ai, [AnalogType::Volt, AnalogType::Milliampere]);
         assert_eq!(cell.channels.ao, [AnalogType::Volt; 2]);
@@ -258,6 +265,9 @@ mod tests {
             ("[io]\ndi = -1", 2, "expected a number of channels from 0 to 10000, found the number -1"),
             ("[io]\ndi = \"many\"", 2, "found the text \"many\""),
             ("[io]\nai = [\"V\",\n \"A\"]", 3, "expected \"V\" or \"mA\""),
+            ("[controller]\nlate = \"never\"", 2, "expected \"grid\" or \"skip\", found the text \"never\""),
+            ("[controller]\nlate_limit = 2.5", 2, "a whole number: how many cycles may be lost within a second"),
+            ("[controller]\nlate_limit = -1", 2, "how many cycles may be lost within a second from 0"),
             ("[controller]\ncycle = 0", 2, "the control cycle in ms from 0.1 to 100"),
             ("[home]\nhome2 = 3", 2, "expected axis positions"),
             ("[home]\nhome2 = [0,", 2, "this is not TOML"),

@@ -23,6 +23,8 @@ use crate::context::standard_error::tell;
 use crate::context::standstill::Standstill;
 use crate::controller::{Builder, Controller, Outcome, SetupError};
 use crate::cycle::clock_source::{RealClock, VirtualClock};
+use crate::cycle::lateness;
+use crate::cycle::realtime::Realtime;
 use crate::io::{Pendant, Scenario};
 use crate::storage::state::Directory;
 use crate::values::Controlmode;
@@ -51,6 +53,8 @@ Options:
   --cell FILE           the cell: io, home points, control cycle
   --clock virtual|real  run as fast as possible (default), or in real time; from the
                         first connection that a program opens it is real time
+  --realtime[=CORE]     --clock real, and what the system gives the cycle: priority, its
+                        memory locked, a core of its own (the last one)
   --script-dir DIR      the folder of the program's files
   --state-dir DIR       the folder that keeps system variables, and where
                         the programs stood, between runs
@@ -90,6 +94,7 @@ struct Options {
     robot: Option<String>,
     cell: Option<PathBuf>,
     clock: Option<Pace>,
+    realtime: Option<Realtime>,
     live: bool,
     paused: bool,
     asked: Asked,
@@ -259,6 +264,7 @@ fn parse(
         robot: None,
         cell: None,
         clock: None,
+        realtime: None,
         live: false,
         paused: false,
         asked: Asked::default(),
@@ -289,6 +295,10 @@ fn parse(
             Long("clock") => {
                 let paces = [("virtual", Pace::Virtual), ("real", Pace::Real)];
                 options.clock = Some(word(&mut parser, "--clock", &paces)?);
+            }
+            Long("realtime") => {
+                let core = parser.optional_value().map(|core| core.parse()).transpose()?;
+                options.realtime = Some(core.map_or_else(Realtime::new, |core| Realtime::new().core(core)));
             }
             Long("loop") => options.repeats = true,
             Long("script-dir") => options.script_dir = parser.value()?.into(),
@@ -321,6 +331,12 @@ fn parse(
             Short('h') | Long("help") => return Ok(None),
             other => return Err(other.unexpected()),
         }
+    }
+    if options.realtime.is_some() {
+        if options.clock == Some(Pace::Virtual) {
+            return Err("--realtime is for --clock real: on the virtual clock cycles do not wait".into());
+        }
+        options.clock = Some(Pace::Real);
     }
     Ok(Some(options))
 }
@@ -360,6 +376,10 @@ fn run(
     if let (Some((option, command)), None) = (asked.needs(), watching) {
         tell(format_args!("error: this program was not made for {option}: `{command}` makes such programs"));
         return EXIT_USAGE;
+    }
+    // Before anything begins to work beside the cycle.
+    for problem in options.realtime.map(Realtime::begin).unwrap_or_default() {
+        warn(&format!("not as --realtime asks: {problem}"));
     }
     let max_time = options.max_time;
     let cycle_time = options.cycle_time.clone();
@@ -426,8 +446,11 @@ fn run(
     {
         warn(&format!("cannot write {}: {error}", file.display()));
     }
-    if real && controller.overruns() > 0 {
-        warn(&format!("{} control cycles began late: the computer was too busy", controller.overruns()));
+    if let Some(lateness) = controller.lateness().filter(|lateness| real && lateness.late() > 0) {
+        let (late, lost, longest) = (lateness.late(), lateness.lost(), lateness.longest().as_secs_f64() * 1e3);
+        warn(&format!(
+            "the computer was too busy: {late} control cycles began late, the latest by {longest:.1} ms; {lost} were lost"
+        ));
     }
     if real && controller.found_late() > 0 {
         let advice = if cfg!(debug_assertions) { "; `arl2rs build --release` makes a quicker program" } else { "" };
@@ -472,13 +495,16 @@ fn report_to(report: Report) -> Result<WriteReport, String> {
     Ok(match report {
         Report::Table => Box::new(|controller| {
             let text = report::tables(&controller.all_motions(), controller.time());
-            std::io::stderr().write_all(text.as_bytes())
+            let lateness = controller.lateness().map(ToString::to_string).unwrap_or_default();
+            std::io::stderr().write_all((text + &lateness).as_bytes())
         }),
         Report::File(path) => {
             let mut file = File::create(&path).map_err(|error| format!("{}: {error}", path.display()))?;
             Box::new(move |controller| {
                 let text = report::all_json(&controller.all_motions(), controller.time());
-                file.write_all(text.as_bytes())
+                let clock = controller.lateness().map(lateness::json);
+                let clock = clock.map(|clock| format!("{{\"clock\":{clock}}}\n")).unwrap_or_default();
+                file.write_all((text + &clock).as_bytes())
             })
         }
     })
@@ -623,6 +649,8 @@ mod tests {
         assert_eq!(options.robot.as_deref(), Some("six-10"));
         assert_eq!((options.clock, options.max_time, options.mode), (Some(Pace::Real), Some(2.5), Controlmode::Manual));
         assert_eq!(options.script_dir, Path::new("scripts"));
+        let realtime = parsed(&["--realtime=1"]).unwrap().unwrap();
+        assert_eq!((realtime.clock, realtime.realtime), (Some(Pace::Real), Some(Realtime::new().core(1))));
         assert_eq!(parsed(&["--help"]), Ok(None));
         let report = |arguments: &[&str]| parsed(arguments).unwrap().unwrap().report;
         assert_eq!(report(&["--report", "--seed", "1"]), Some(Report::Table));
@@ -637,6 +665,8 @@ mod tests {
             (&["--override", "120"], "percent from 0 to 100"),
             (&["--mode", "t1"], "auto or manual or manufast"),
             (&["--start-time", "then"], "2000-01-01T00:00:00"),
+            (&["--realtime=first"], "invalid digit"),
+            (&["--realtime", "--clock", "virtual"], "--realtime is for --clock real"),
             (&["--speed"], "--speed"),
             (&["--seed"], "--seed"),
             (&["file"], "file"),

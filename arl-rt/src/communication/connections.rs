@@ -6,6 +6,8 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::Builder;
 
+use arl_motion::beside;
+
 use mio::{Poll, Waker};
 
 use super::opening::Opening;
@@ -44,10 +46,8 @@ impl Opener {
         let mut opener = self.0.borrow_mut();
         if opener.is_none() {
             let (sender, orders) = channel();
-            Builder::new()
-                .name("connections".into())
-                .stack_size(worker::STACK_BYTES)
-                .spawn(move || carry_out(&orders))?;
+            let thread = Builder::new().name("connections".into()).stack_size(worker::STACK_BYTES);
+            beside::spawn(thread, move || carry_out(&orders))?;
             *opener = Some(sender);
         }
         Ok(())
@@ -116,6 +116,6 @@ fn start(shared: &Arc<Shared>, opening: Opening) -> io::Result<()> {
     shared.wakes_by(Waker::new(poll.registry(), WAKE)?);
     let served = Arc::clone(shared);
     let thread = Builder::new().name("connection".into()).stack_size(worker::STACK_BYTES);
-    thread.spawn(move || worker::serve(&served, poll, &opening))?;
+    beside::spawn(thread, move || worker::serve(&served, poll, &opening))?;
     Ok(())
 }

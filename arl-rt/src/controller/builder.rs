@@ -12,6 +12,7 @@ use super::channel::{Channel, PROGRAM_STACK_BYTES};
 use super::channels::Channels;
 use super::external::External;
 use super::foreground::{Body, Foreground};
+use super::late_limit::LateLimit;
 use super::pointer_store::PointerStore;
 use crate::builtins::time;
 use crate::communication::NetworkDriver;
@@ -41,6 +42,9 @@ use arl_robot::atomic_file;
 use arl_robot::cell::{Cell, fit};
 use arl_robot::kinematics::frame;
 use arl_robot::robot::{Family, Robot, RobotError};
+
+/// So many cycles may be lost within a second where robots are driven, and nobody says otherwise.
+const LATE_LIMIT: u32 = 20;
 
 /// What a controller can be given before it starts. Without anything it has the default robot, simulated, the default
 /// cell, and the virtual clock; messages go to the standard output, system variables are kept in memory only.
@@ -140,6 +144,7 @@ impl Builder {
     /// What moves the robot of the first channel.
     pub fn robot_driver(mut self, driver: impl RobotDriver + 'static) -> Self {
         self.body.driver = Box::new(driver);
+        self.body.has_driver = true;
         self.has_outside = true;
         self
     }
@@ -322,6 +327,7 @@ impl Builder {
         let io = Image::new(&cell.channels).for_programs(count + background.len());
         let rate = cell.rate;
         let (homes, collisions) = (cell.homes.clone(), cell.collisions.clone());
+        let has_driver = self.body.has_driver;
         let body = Body { homes, collisions, base: cell.stands.base.map(values::Frame::of_components), ..self.body };
         let robot = robot_of(&body, &*program)?;
         let others = self.foreground.into_iter().map(|it| Ok((robot_of(&it.body, &*it.program)?, it)));
@@ -338,6 +344,8 @@ impl Builder {
         let islands = Islands::start(&cell.islands).map_err(SetupError::Outside)?;
         let outside = buses.is_outside() || !islands.is_empty();
         let has_outside = self.has_outside || others.iter().any(|(_, it)| it.body.has_driver);
+        let drives = has_driver || others.iter().any(|(_, it)| it.body.has_driver);
+        let late_limit = LateLimit::new(cell.late.limit.or(drives.then_some(LATE_LIMIT)));
         let external = External::new(cell.external.enabled);
         let shared = Rc::new(SharedState::new(Parts {
             rate,
@@ -382,13 +390,19 @@ impl Builder {
         let channels = Channels::new(first, channels);
         let effects = Vec::with_capacity(scenario.max_effects());
         let pointer_store = beside.map(|storage| start_pointer_store(storage, pointers)).transpose()?;
-        let (clock, mut io) = (self.clock, self.io);
+        let (mut clock, mut io) = (self.clock, self.io);
+        if let Some(late) = cell.late.late {
+            clock.set_late(late);
+        }
         io.start().map_err(SetupError::Io)?;
         Ok(Controller {
             shared,
             channels,
             unit,
             clock,
+            late_limit,
+            // The first cycle begins when somebody steps.
+            had_ended: true,
             islands,
             io,
             scenario,

@@ -8,6 +8,7 @@ mod channel;
 mod channels;
 mod external;
 mod foreground;
+mod late_limit;
 mod of_cell;
 mod order;
 mod outcome;
@@ -30,7 +31,7 @@ pub use status::{ChannelStatus, RobotStatus, Status};
 
 use crate::context::shared_state::SharedState;
 use crate::context::system::{self, System};
-use crate::cycle::clock_source::Clock;
+use crate::cycle::clock_source::{Clock, Lateness};
 use crate::fault::{Alarm, Fault, File};
 use crate::fieldbus::islands::Islands;
 use crate::io::{AxisName, Digital, Effect, IoDriver, Pendant, Playing, Pwm, RobotEffect};
@@ -42,6 +43,7 @@ use arl_robot::robot::Robot;
 use channel::Channel;
 use channels::Channels;
 use external::External;
+use late_limit::LateLimit;
 use pointer_store::PointerStore;
 
 /// How often changes of system variables are stored of which every one is kept, in s: what a kill may cost.
@@ -106,6 +108,9 @@ pub struct Controller {
     /// The robot of the first channel.
     unit: Rc<RefCell<Unit>>,
     clock: Box<dyn Clock>,
+    late_limit: LateLimit,
+    /// Whether all programs had ended before this cycle: time in which nobody steps is no loss then.
+    had_ended: bool,
     /// What the cell file has of real inputs and outputs.
     islands: Islands,
     io: Box<dyn IoDriver>,
@@ -151,6 +156,7 @@ impl Controller {
         }
         self.read_external_control();
         self.report_io_problems();
+        self.look_for_lost_cycles(cycle);
         self.channels.each(Channel::scan_events);
         self.channels.each(Channel::poll);
         self.channels.each(Channel::handle_pending_alarm);
@@ -172,6 +178,7 @@ impl Controller {
         self.store_changed_variables();
         self.note_pointers();
         self.shared.now.set(cycle + 1);
+        self.had_ended = self.channels.outcome().is_some();
         self.state()
     }
 
@@ -274,7 +281,20 @@ impl Controller {
             self.shared.warn(warning);
         }
         if let Some(why) = self.islands.fault().or_else(|| self.io.fault()) {
-            self.channels.each(|channel| channel.fail_for_lost_io(why));
+            self.channels.each(|channel| channel.fail_for(Fault::IoLost(why.into())));
+        }
+    }
+
+    /// Stops robots where too many cycles were lost: between two set-points they had to do without.
+    fn look_for_lost_cycles(&mut self, cycle: u64) {
+        let rate = self.shared.rate;
+        let lost = self.clock.lateness().map_or(0, Lateness::lost);
+        if self.had_ended {
+            return self.late_limit.forget(lost);
+        }
+        if let Some(lost) = self.late_limit.look(lost, cycle, |seconds| rate.cycles(seconds)) {
+            let why = format!("the computer was too busy: {lost} control cycles were lost within a second");
+            self.channels.each(|channel| channel.stop_for(Fault::Late(why.as_str().into())));
         }
     }
 
@@ -374,9 +394,9 @@ impl Controller {
         self.shared.rate.cycles(seconds)
     }
 
-    /// How many cycles began late, on the real clock.
-    pub fn overruns(&self) -> u64 {
-        self.clock.overruns()
+    /// How late cycles began, where the clock knows that: the real one does.
+    pub fn lateness(&self) -> Option<&Lateness> {
+        self.clock.lateness()
     }
 
     /// How many parts of the motion ahead (time laws, blends) were found too late, on the real clock: the robot then goes on with what

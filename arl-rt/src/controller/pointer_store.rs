@@ -4,6 +4,8 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+use arl_motion::beside;
+
 use crate::cycle::catch_panic::catch_panic;
 use crate::cycle::channel_id::MOST_FOREGROUND;
 use crate::cycle::try_lock::try_lock;
@@ -102,7 +104,7 @@ impl PointerStore {
         let exchange = Arc::new(Exchange { pending: Mutex::default(), changed: Condvar::new() });
         let shared = Arc::clone(&exchange);
         let thread = std::thread::Builder::new().name("arl-pointers".into());
-        let thread = thread.spawn(move || shared.run(&mut *storage, &kept))?;
+        let thread = beside::spawn(thread, move || shared.run(&mut *storage, &kept))?;
         let noted = Default::default();
         Ok(Self { exchange, thread: Some(thread), noted, news: false, hurried: false })
     }

@@ -4,6 +4,8 @@ use std::cell::{Cell, RefCell};
 use std::sync::mpsc::{Receiver, Sender, TryRecvError, channel, sync_channel};
 use std::thread::JoinHandle;
 
+use arl_motion::beside;
+
 use crate::cycle::catch_panic::catch_panic;
 
 type Job = Box<dyn FnOnce() + Send>;
@@ -88,7 +90,7 @@ impl Thread {
     fn start() -> std::io::Result<Self> {
         let (sender, receiver) = channel::<Job>();
         let thread = std::thread::Builder::new().name("arl-disk".into());
-        let handle = thread.spawn(move || receiver.iter().for_each(|job| job()))?;
+        let handle = beside::spawn(thread, move || receiver.iter().for_each(|job| job()))?;
         Ok(Self { jobs: Some(sender), handle: Some(handle) })
     }
 }

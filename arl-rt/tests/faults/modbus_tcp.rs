@@ -118,7 +118,7 @@ fn clients_that_find_no_place_leave_nothing() {
             let mut rest = Vec::new();
             // A reset is an end, too.
             let _ = client(address).read_to_end(&mut rest);
-            assert_eq!(rest, []);
+            assert!(rest.is_empty());
         }
         served.iter_mut().for_each(is_answered);
     });
@@ -136,7 +136,7 @@ fn a_server_goes_with_its_clients_time_after_time() {
             for stream in [&mut served, &mut silent] {
                 let mut rest = Vec::new();
                 let _ = stream.read_to_end(&mut rest);
-                assert_eq!(rest, []);
+                assert!(rest.is_empty());
             }
         }
     });

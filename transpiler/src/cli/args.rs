@@ -68,7 +68,7 @@ pub(super) enum Command {
         /// The file that has `main`.
         file: PathBuf,
         #[command(flatten)]
-        options: RunOptions,
+        options: Box<RunOptions>,
     },
     /// Draw a trace that a run wrote.
     Plot {
@@ -303,6 +303,10 @@ pub(super) struct RunOptions {
     /// Run as fast as possible, or in real time.
     #[arg(long, value_enum)]
     pub(super) clock: Option<Clock>,
+    /// Run in real time, with what the system gives the control cycle: the highest priority, its memory locked, a core of its own (the last
+    /// one, or this). What it does not allow is told.
+    #[arg(long, value_name = "CORE", num_args = 0..=1, require_equals = true, default_missing_value = "")]
+    pub(super) realtime: Option<String>,
     /// The folder that the program's files are in; the program's folder if absent.
     #[arg(long, value_name = "DIR")]
     pub(super) script_dir: Option<PathBuf>,
@@ -421,6 +425,10 @@ impl RunOptions {
         if self.repeats {
             arguments.push("--loop".into());
         }
+        arguments.extend(self.realtime.as_deref().map(|core| match core {
+            "" => "--realtime".into(),
+            core => format!("--realtime={core}").into(),
+        }));
         // Another form of the report is made of what the program says.
         if let (Some(file), None | Some(ReportFormat::Human)) = (&self.report, self.format) {
             let mut report = std::ffi::OsString::from("--report");

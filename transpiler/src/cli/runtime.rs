@@ -80,7 +80,7 @@ impl Runtime {
     pub(super) fn unpack(self, cache: &Cache) -> Result<Unpacked, Failure> {
         let folder = cache.runtime(&self.name());
         let lock = Lock::take(&folder, true, "waiting for another arl2rs that removes this runtime")?;
-        let options = "default-features = false, features = [\"serial\"]";
+        let options = "default-features = false, features = [\"serial\", \"realtime\"]";
         let below =
             |workspace: &Path| format!("{{ path = {:?}, {options} }}", workspace.join("arl-rt").display().to_string());
         let (dependency, lock_file) = match self.0 {

@@ -5,7 +5,9 @@ use std::net::{Shutdown, TcpStream};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::thread::JoinHandle;
+use std::thread::{Builder, JoinHandle};
+
+use arl_motion::beside;
 
 /// What a debugger wants: a number, a word, and what the word takes.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -55,7 +57,7 @@ impl Link {
         let (lines, outgoing) = channel::<String>();
         let waiting = Arc::new(AtomicUsize::new(0));
         let (counter, incoming) = (Arc::clone(&waiting), BufReader::new(stream.try_clone()?));
-        std::thread::spawn(move || {
+        beside::spawn(Builder::new().name("debugger".into()), move || {
             for line in incoming.lines() {
                 let Ok(line) = line else { break };
                 if let Some(request) = Request::parse(&line) {
@@ -66,15 +68,15 @@ impl Link {
                 }
             }
             counter.fetch_add(GONE, Ordering::Release);
-        });
+        })?;
         let mut out = stream.try_clone()?;
-        let writer = std::thread::spawn(move || {
+        let writer = beside::spawn(Builder::new().name("debugged".into()), move || {
             for line in outgoing {
                 if out.write_all(line.as_bytes()).is_err() {
                     return;
                 }
             }
-        });
+        })?;
         Ok(Self { requests, waiting, lines: Some(lines), writer: Some(writer), stream })
     }
 

@@ -7,6 +7,8 @@ use std::rc::Rc;
 use std::sync::mpsc::{SyncSender, TrySendError, sync_channel};
 use std::thread::JoinHandle;
 
+use arl_motion::beside;
+
 use crate::command::json::{array, number, push_array, push_number, quoted};
 use crate::context::output::{Message, Output};
 use crate::controller::{ChannelStatus, Controller, Outcome, RobotStatus, State};
@@ -81,7 +83,8 @@ impl LineWriter {
     /// A stream.
     pub(crate) fn to(stream: impl Write + Send + 'static, if_full: IfFull) -> Self {
         let (lines, waiting) = sync_channel::<Option<String>>(MAX_WAITING_LINES);
-        let writer = std::thread::spawn(move || {
+        let thread = std::thread::Builder::new().name("said".into());
+        let writer = beside::spawn(thread, move || {
             let mut out = BufWriter::new(stream);
             while let Ok(Some(line)) = waiting.recv() {
                 let mut next = Ok(Some(line));
@@ -97,10 +100,7 @@ impl LineWriter {
             }
         });
         let if_full = Rc::new(Cell::new(if_full));
-        Self {
-            lines: Lines { waiting: lines, if_full, lost: Rc::default(), gone: Rc::default() },
-            writer: Some(writer),
-        }
+        Self { lines: Lines { waiting: lines, if_full, lost: Rc::default(), gone: Rc::default() }, writer: writer.ok() }
     }
 
     /// Says what becomes of lines from now on where nobody reads as fast.

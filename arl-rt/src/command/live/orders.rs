@@ -3,6 +3,8 @@
 use std::io::{BufRead, Read, stdin};
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
 
+use arl_motion::beside;
+
 /// How many orders may wait for their cycle; whoever sends more waits.
 const MAX_WAITING_ORDERS: usize = 256;
 /// The longest line in bytes; what is longer falls apart into several.
@@ -26,7 +28,9 @@ impl Orders {
     /// Reads the standard input on a thread of its own, so that no cycle waits for it.
     pub(super) fn from_standard_input() -> Self {
         let (sender, orders) = sync_channel(MAX_WAITING_ORDERS);
-        std::thread::spawn(move || {
+        let thread = std::thread::Builder::new().name("orders".into());
+        // Without a thread there are no orders, as where they end.
+        let _ = beside::spawn(thread, move || {
             let mut input = stdin().lock();
             let mut line = Vec::new();
             while matches!(input.by_ref().take(MAX_ORDER_BYTES).read_until(b'\n', &mut line), Ok(1..)) {

@@ -9,6 +9,8 @@ mod shared;
 use std::sync::Arc;
 use std::thread::JoinHandle;
 
+use arl_motion::beside;
+
 use arl_robot::islands::{Island, Lost, Rest};
 
 use self::plan::Signals;
@@ -114,7 +116,7 @@ impl Port {
         let outputs = Signals::at_rest(points.dout.len(), &values(&points.ao));
         let shared = Arc::new(Shared::new(inputs.clone(), outputs.clone()));
         let poller = Poller::new(island.clone(), Arc::clone(&shared), [inputs.clone(), outputs]);
-        let thread = std::thread::Builder::new().name("island".into()).spawn(move || poller.run());
+        let thread = beside::spawn(std::thread::Builder::new().name("island".into()), move || poller.run());
         let thread = thread.map_err(|error| format!("{} has no thread: {error}", title(island)))?;
         Ok(Self {
             island: island.clone(),

@@ -12,6 +12,8 @@ use std::sync::{Arc, Weak};
 use std::thread::{Builder, JoinHandle};
 use std::time::Duration;
 
+use arl_motion::beside;
+
 use mio::net::{TcpListener, TcpStream};
 use mio::{Events, Interest, Poll, Token, Waker};
 
@@ -74,7 +76,7 @@ impl Server {
             tables,
             stop: Arc::clone(&stop),
         };
-        let thread = Builder::new().name(NAME.into()).spawn(move || door.run())?;
+        let thread = beside::spawn(Builder::new().name(NAME.into()), move || door.run())?;
         Ok(Self { address, stop, waker, thread: Some(thread) })
     }
 
@@ -160,7 +162,8 @@ impl Door {
         let Ok(connection) = Connection::new(stream) else { return };
         let (connection, tables) = (Arc::new(connection), self.tables.clone());
         let known = Arc::downgrade(&connection);
-        let thread = Builder::new().name(NAME.into()).stack_size(STACK_BYTES).spawn(move || connection.serve(&tables));
+        let thread = Builder::new().name(NAME.into()).stack_size(STACK_BYTES);
+        let thread = beside::spawn(thread, move || connection.serve(&tables));
         self.clients.extend(thread.map(|thread| Client { connection: known, thread }));
     }
 

@@ -36,7 +36,7 @@ fn expect_end(stream: &mut TcpStream) {
     let mut rest = Vec::new();
     // A reset is an end, too.
     let _ = stream.read_to_end(&mut rest);
-    assert_eq!(rest, []);
+    assert!(rest.is_empty());
 }
 
 fn expect_answer(stream: &mut TcpStream, transaction: u16) {
