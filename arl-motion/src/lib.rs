@@ -52,7 +52,7 @@
 //! weave laid over it, every place has limits of its own, and the whole of the way ahead is timed at once.
 //!
 //! The folders are the stages: `command`, `geometry`, `limits`, `overlay`, `plan`, `blend`, `follow`, `time_optimal`, `junction`,
-//! `queue`. Each imports from those before it only.
+//! `queue`. Each imports from those before it only. [`beside`] starts the threads that find blends and time laws.
 
 pub mod beside;
 mod blend;

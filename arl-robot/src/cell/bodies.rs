@@ -185,8 +185,12 @@ fn holder(section: &Section<'_>, channel: u32, carriers: &[Carrier]) -> Result<H
         (_, Some(carrier)) => Ok(Holder::Carrier(carrier)),
         _ => {
             let known: Vec<&str> = HOLDERS.iter().copied().chain(Carrier::axes_of(carriers, channel)).collect();
-            let of = if on.starts_with("ej") { format!(" of channel {channel}") } else { String::new() };
-            let text = format!("a body is on {expected}, not on \"{on}\"{of}; {}", hint(on, &known));
+            let text = match carriers.iter().find(|carrier| carrier.axis == on) {
+                Some(other) => {
+                    format!("the [[carrier]] of `{on}` is of channel {}, this body of channel {channel}", other.channel)
+                }
+                None => format!("a body is on {expected}, not on \"{on}\"; {}", hint(on, &known)),
+            };
             Err(section.source.error(found.span(), text))
         }
     }

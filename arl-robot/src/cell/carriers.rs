@@ -12,6 +12,8 @@ const CARRIER: &[&str] = &["axis", "channel", "at", "on"];
 pub struct Carrier {
     /// The name of the axis: `ej1` and so on.
     pub axis: String,
+    /// Which of the external axes that is, from 0.
+    pub number: usize,
     /// The channel, from 1, of the robot that has the axis.
     pub channel: u32,
     /// Where it is while the axis is at 0, in the world or in what it is on, translation in mm. It turns about z, or slides along z where the
@@ -22,11 +24,6 @@ pub struct Carrier {
 }
 
 impl Carrier {
-    /// Which of the external axes moves it, from 0.
-    pub fn number(&self) -> usize {
-        axes().position(|axis| axis == self.axis).unwrap_or_default()
-    }
-
     /// How the axis moves it in what it is on.
     pub fn joint(&self, linear: bool) -> LinkJoint {
         LinkJoint { origin: self.at, axis: nalgebra::Vector3::z_axis(), linear }
@@ -67,9 +64,8 @@ impl Carrier {
         let wrong = |key: &str, text: String| {
             section.source.error(section.find(key).map_or(value.span(), |found| found.span()), text)
         };
-        if !axes().any(|known| known == axis) {
-            return Err(wrong("axis", format!("expected {expected}, found \"{axis}\"")));
-        }
+        let number = (0..EXTERNAL_AXES).find(|number| axis == format!("ej{}", number + 1));
+        let number = number.ok_or_else(|| wrong("axis", format!("expected {expected}, found \"{axis}\"")))?;
         let channel = channel(section, foreground, "the channel of the robot that has the axis")?;
         if Self::find(all, &axis, channel).is_some() {
             return Err(wrong("axis", format!("there is another [[carrier]] of `{axis}`")));
@@ -82,13 +78,8 @@ impl Carrier {
                 wrong("on", format!("no [[carrier]] above it has the axis `{below}` of channel {channel}; {hint}"))
             })?),
         };
-        Ok(Self { axis, channel, at: place(section, "at")?.map_or_else(Frame::identity, frame), on })
+        Ok(Self { axis, number, channel, at: place(section, "at")?.map_or_else(Frame::identity, frame), on })
     }
-}
-
-/// The names of all external axes that a robot can have.
-fn axes() -> impl Iterator<Item = String> {
-    (1..=EXTERNAL_AXES).map(|number| format!("ej{number}"))
 }
 
 #[cfg(test)]
@@ -102,7 +93,7 @@ mod tests {
                     [[body]]\nname = \"disc\"\ncylinder = [200, 20]\non = \"ej2\"\n";
         let cell = Cell::parse("cell.toml", text).unwrap();
         assert_eq!(
-            cell.carriers.iter().map(|carrier| (carrier.number(), carrier.on)).collect::<Vec<_>>(),
+            cell.carriers.iter().map(|carrier| (carrier.number, carrier.on)).collect::<Vec<_>>(),
             [(0, None), (1, Some(0))]
         );
         assert_eq!(cell.bodies[0].holder, Holder::Carrier(1));
@@ -129,7 +120,7 @@ mod tests {
                 &format!(
                     "{known}[[body]]\nname = \"a\"\nsphere = 2\non = \"ej1\"\nchannel = 2\n[[channel]]\nprogram = \"b.arl\""
                 ),
-                "not on \"ej1\" of channel 2; known are: world, flange",
+                "the [[carrier]] of `ej1` is of channel 1, this body of channel 2",
             ),
         ] {
             let error = Cell::parse("cell.toml", text).unwrap_err();

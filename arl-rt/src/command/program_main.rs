@@ -23,7 +23,6 @@ use crate::context::standard_error::tell;
 use crate::context::standstill::Standstill;
 use crate::controller::{Builder, Controller, Outcome, SetupError};
 use crate::cycle::clock_source::{RealClock, VirtualClock};
-use crate::cycle::lateness;
 use crate::cycle::realtime::Realtime;
 use crate::io::{Pendant, Scenario};
 use crate::storage::state::Directory;
@@ -502,8 +501,7 @@ fn report_to(report: Report) -> Result<WriteReport, String> {
             let mut file = File::create(&path).map_err(|error| format!("{}: {error}", path.display()))?;
             Box::new(move |controller| {
                 let text = report::all_json(&controller.all_motions(), controller.time());
-                let clock = controller.lateness().map(lateness::json);
-                let clock = clock.map(|clock| format!("{{\"clock\":{clock}}}\n")).unwrap_or_default();
+                let clock = controller.lateness().map(report::clock_json).unwrap_or_default();
                 file.write_all((text + &clock).as_bytes())
             })
         }

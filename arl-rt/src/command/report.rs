@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use crate::command::json::quoted;
+use crate::cycle::clock_source::Lateness;
 use crate::motion::{Closest, MotionKind, MotionRecord, Rate};
 use arl_robot::robot::Robot;
 
@@ -91,6 +92,20 @@ fn json(channel: usize, records: &[MotionRecord], robot: &Robot, time: f64) -> S
         executed(records).count()
     );
     text
+}
+
+/// How late cycles began, as a JSON object a line; times are s.
+pub(crate) fn clock_json(lateness: &Lateness) -> String {
+    let mut steps = String::new();
+    for (within, count) in lateness.histogram() {
+        let comma = if steps.is_empty() { "" } else { "," };
+        let _ = write!(steps, "{comma}[{:.6},{count}]", within.as_secs_f64());
+    }
+    let (cycles, late, lost) = (lateness.cycles(), lateness.late(), lateness.lost());
+    let longest = lateness.longest().as_secs_f64();
+    format!(
+        "{{\"clock\":{{\"cycles\":{cycles},\"late\":{late},\"lost\":{lost},\"longest\":{longest:.6},\"histogram\":[{steps}]}}}}\n"
+    )
 }
 
 /// A motion as a JSON object, and the end of its line.

@@ -71,7 +71,7 @@ pub struct Builder {
     seed: u64,
     start_date: i64,
     stack: usize,
-    /// Whether somebody outside may change something: drivers that are not ours.
+    /// Whether somebody outside may change something: drivers that are not ours, beside those of robots.
     has_outside: bool,
 }
 
@@ -143,9 +143,7 @@ impl Builder {
 
     /// What moves the robot of the first channel.
     pub fn robot_driver(mut self, driver: impl RobotDriver + 'static) -> Self {
-        self.body.driver = Box::new(driver);
-        self.body.has_driver = true;
-        self.has_outside = true;
+        self.body.drive(driver);
         self
     }
 
@@ -343,9 +341,9 @@ impl Builder {
         let note = buses.start(uses.modbus_tcp && self.clock.is_real()).map_err(SetupError::Outside)?;
         let islands = Islands::start(&cell.islands).map_err(SetupError::Outside)?;
         let outside = buses.is_outside() || !islands.is_empty();
-        let has_outside = self.has_outside || others.iter().any(|(_, it)| it.body.has_driver);
         let drives = has_driver || others.iter().any(|(_, it)| it.body.has_driver);
-        let late_limit = LateLimit::new(cell.late.limit.or(drives.then_some(LATE_LIMIT)));
+        let has_outside = self.has_outside || drives;
+        let late_limit = LateLimit::new(cell.late.limit.or(drives.then_some(LATE_LIMIT)), rate.cycles(1.0));
         let external = External::new(cell.external.enabled);
         let shared = Rc::new(SharedState::new(Parts {
             rate,

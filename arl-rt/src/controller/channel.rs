@@ -276,11 +276,11 @@ impl Channel {
         }
     }
 
-    /// Ends the program by what no robot may go on with, before it does. One without a robot goes on.
-    pub(super) fn fail_for(&mut self, fault: Fault) {
+    /// Ends the program before it acts on inputs that are lost. One without a robot goes on.
+    pub(super) fn fail_for_lost_io(&mut self, why: &str) {
         if self.channel_state.robot().is_some() && self.has_statements() {
             let (file, line) = self.cx.place();
-            self.fail(Alarm::new(fault, file, line));
+            self.fail(Alarm::new(Fault::IoLost(why.into()), file, line));
         }
     }
 
@@ -291,11 +291,11 @@ impl Channel {
         }
     }
 
-    /// Ends the program by what no robot may go on with, whatever it does at the moment. One without a robot goes on.
-    pub(super) fn stop_for(&mut self, fault: Fault) {
+    /// Ends the program where its robot had to do without set-points. One without a robot goes on.
+    pub(super) fn fail_for_lost_cycles(&mut self, why: &str) {
         if self.channel_state.robot().is_some() && !matches!(self.phase, Phase::Ended(_)) {
             let (file, line) = self.cx.place();
-            self.alarm(Alarm::new(fault, file, line));
+            self.alarm(Alarm::new(Fault::Late(why.into()), file, line));
         }
     }
 
@@ -306,7 +306,7 @@ impl Channel {
         }
     }
 
-    /// Ends the program by an alarm, which is told also where it has ended by another one.
+    /// Ends the program by an alarm, which is told where that has ended already, too.
     fn alarm(&mut self, alarm: Alarm) {
         if matches!(self.phase, Phase::Ended(_) | Phase::RunningOut(Next::End(Outcome::Alarm(_)))) {
             // What ended the program stays its outcome.

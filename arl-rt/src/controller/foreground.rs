@@ -43,6 +43,13 @@ impl Default for Body {
     }
 }
 
+impl Body {
+    /// Its robot is moved by this.
+    pub(super) fn drive(&mut self, driver: impl RobotDriver + 'static) {
+        (self.driver, self.has_driver) = (Box::new(driver), true);
+    }
+}
+
 impl Foreground {
     /// A channel that runs this program.
     pub fn new(program: Box<dyn Program>) -> Self {
@@ -57,8 +64,7 @@ impl Foreground {
 
     /// What moves the robot.
     pub fn robot_driver(mut self, driver: impl RobotDriver + 'static) -> Self {
-        self.body.driver = Box::new(driver);
-        self.body.has_driver = true;
+        self.body.drive(driver);
         self
     }
 

@@ -56,7 +56,7 @@ const STORE_INTERVAL_S: f64 = 1.0;
 /// 1. the clock says when the cycle begins;
 /// 2. inputs are read, pulses that are over end, the scenario plays;
 /// 3. the pendant's buttons count, then what a PLC says (external auto control); programs with robots end with an alarm
-///    where inputs are lost that they need;
+///    where inputs are lost that they need, or too many cycles;
 /// 4. the conditions of interrupts, timers and triggers are looked at; then the program runs until it waits, the action of
 ///    an event on top of what it interrupts;
 /// 5. the motion goes one step: set-point to the robot's driver, feedback back, variables like `$TRAJ_LEFT_DIS`;
@@ -281,20 +281,19 @@ impl Controller {
             self.shared.warn(warning);
         }
         if let Some(why) = self.islands.fault().or_else(|| self.io.fault()) {
-            self.channels.each(|channel| channel.fail_for(Fault::IoLost(why.into())));
+            self.channels.each(|channel| channel.fail_for_lost_io(why));
         }
     }
 
     /// Stops robots where too many cycles were lost: between two set-points they had to do without.
     fn look_for_lost_cycles(&mut self, cycle: u64) {
-        let rate = self.shared.rate;
         let lost = self.clock.lateness().map_or(0, Lateness::lost);
         if self.had_ended {
             return self.late_limit.forget(lost);
         }
-        if let Some(lost) = self.late_limit.look(lost, cycle, |seconds| rate.cycles(seconds)) {
+        if let Some(lost) = self.late_limit.look(lost, cycle) {
             let why = format!("the computer was too busy: {lost} control cycles were lost within a second");
-            self.channels.each(|channel| channel.stop_for(Fault::Late(why.as_str().into())));
+            self.channels.each(|channel| channel.fail_for_lost_cycles(&why));
         }
     }
 

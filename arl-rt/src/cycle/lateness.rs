@@ -1,6 +1,6 @@
 //! How late cycles begin.
 
-use std::fmt::{self, Write};
+use std::fmt;
 use std::time::Duration;
 
 /// The upper ends of the steps of the histogram, in us.
@@ -44,7 +44,7 @@ impl Lateness {
     /// That cycle was too late: so many were lost by that.
     pub fn note_lost(&mut self, cycles: u64) {
         self.late += 1;
-        self.lost += cycles;
+        self.lost = self.lost.saturating_add(cycles);
     }
 
     /// How many cycles began.
@@ -84,16 +84,4 @@ impl fmt::Display for Lateness {
         }
         Ok(())
     }
-}
-
-/// The same as an object of JSON.
-pub(crate) fn json(lateness: &Lateness) -> String {
-    let mut steps = String::new();
-    for (within, count) in lateness.histogram() {
-        let comma = if steps.is_empty() { "" } else { "," };
-        let _ = write!(steps, "{comma}[{:.6},{count}]", within.as_secs_f64());
-    }
-    let (cycles, late, lost) = (lateness.cycles(), lateness.late, lateness.lost);
-    let longest = lateness.longest.as_secs_f64();
-    format!("{{\"cycles\":{cycles},\"late\":{late},\"lost\":{lost},\"longest\":{longest:.6},\"histogram\":[{steps}]}}")
 }

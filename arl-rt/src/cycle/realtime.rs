@@ -106,7 +106,10 @@ mod system {
         let all = *ALL.get_or_init(|| now);
         let ours: Vec<usize> = (0..CpuSet::MAX_CPU).filter(|core| all.is_set(*core)).collect();
         let core = match core {
-            Core::Any => return sched_setaffinity(None, &all).map_err(|error| error.to_string()),
+            Core::Any => {
+                *OTHERS.lock().unwrap_or_else(PoisonError::into_inner) = Some(all);
+                return sched_setaffinity(None, &all).map_err(|error| error.to_string());
+            }
             // One that is kept from other programs is none of those that we have, and can be had all the same.
             Core::Number(core) if core < CpuSet::MAX_CPU => core,
             Core::Number(core) => return Err(format!("no computer has a core {core}")),

@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use super::said::Line;
 
@@ -33,6 +33,12 @@ impl Link {
     /// The next line that has come.
     pub(super) fn line(&self) -> Option<Line> {
         self.lines.try_recv().ok()
+    }
+
+    /// The same, but none any more from a moment on.
+    pub(super) fn line_before(&self, moment: Instant) -> Option<Line> {
+        // What is taken is heard.
+        (Instant::now() < moment).then(|| self.line())?
     }
 
     /// What a program that has ended said at last: all that was on its way.
@@ -84,4 +90,23 @@ fn read(stream: Option<impl Read + Send + 'static>, sender: Sender<Line>, line: 
             bytes.clear();
         }
     });
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_line_is_lost_where_time_is_over_and_the_last_ones_come_behind_the_end() {
+        let mut command = Command::new("sh");
+        command.args(["-c", "echo one; echo two; echo three >&2"]);
+        let mut link = Link::start(command).unwrap();
+        while link.ended().is_none() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        assert_eq!(link.line_before(Instant::now()), None);
+        let mut lines: Vec<Line> = link.last_lines().collect();
+        lines.sort_by_key(|line| format!("{line:?}"));
+        assert_eq!(lines, ["one", "three", "two"].map(|text| Line::Other(text.into())));
+    }
 }

@@ -12,6 +12,8 @@ use super::failure::Failure;
 use super::said::Line;
 use super::show;
 
+/// How often a program says how everything stands to those who keep it, in s: as in every recording.
+pub(super) const STATE_INTERVAL: &str = "0.004";
 /// How often it is looked whether the program has connected, or has ended before it did.
 const LOOK_INTERVAL: Duration = Duration::from_millis(2);
 
@@ -31,7 +33,9 @@ pub(super) trait Hears {
     fn hear(&mut self, line: &Line) -> Result<Vec<Line>, Box<dyn Error>>;
 
     /// Nothing more will come.
-    fn end(self: Box<Self>) -> Result<(), Box<dyn Error>>;
+    fn end(self: Box<Self>) -> Result<(), Box<dyn Error>> {
+        Ok(())
+    }
 
     /// The program did not even begin, and has said why.
     fn nothing_began(self: Box<Self>) {}

@@ -87,6 +87,25 @@ fn an_interrupt_ends_with_130() {
     assert_eq!(child.wait().expect("it ends").code(), Some(130));
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn real_time_is_asked_for_and_the_report_says_how_late_cycles_began() {
+    let folder = Folder::new("realtime").with("a.arl", "func void main()\n    waittime 0.05\n    print 7\nendfunc\n");
+    let answer = folder.arl2rs(&["run", "a.arl", "--realtime=1023", "--report=r.jsonl"]);
+    answer.is(0, "7\n").says("not as --realtime asks: no core of its own: core 1023: ");
+    let report = std::fs::read_to_string(folder.path.join("r.jsonl")).expect("a report");
+    let said = report.lines().filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
+    let clock = said.map(|object| object["clock"].clone()).find(|clock| !clock.is_null()).expect("the clock");
+    let cycles = clock["cycles"].as_u64().expect("a number");
+    let steps = clock["histogram"].as_array().expect("steps").iter().filter_map(|step| step[1].as_u64());
+    assert!(cycles >= 50 && steps.sum::<u64>() == cycles, "{clock}");
+    assert!(clock["longest"].as_f64().is_some_and(|longest| longest > 0.0) && clock["lost"].is_u64(), "{clock}");
+    folder
+        .arl2rs(&["run", "a.arl", "--realtime", "--clock", "virtual"])
+        .is(2, "")
+        .says("--realtime is for --clock real");
+}
+
 #[test]
 fn two_at_once_do_not_disturb_each_other() {
     let folder = Folder::new("both").with("a.arl", "func void main()\n    print 7\nendfunc\n");

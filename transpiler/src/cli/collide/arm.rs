@@ -54,7 +54,7 @@ impl Arm {
         let runs = all.get(channel)?;
         let (mut joints, mut own) = (Vec::new(), Vec::new());
         for carrier in Carrier::chain(carriers, at) {
-            let (number, axis) = runs.external(carrier.number())?;
+            let (number, axis) = runs.external(carrier.number)?;
             joints.push(Joint::new(carrier.joint(axis.is_linear()), axis));
             own.push(number);
         }

@@ -217,10 +217,6 @@ impl Hears for Collisions {
         Ok(self.tell(contacts))
     }
 
-    fn end(self: Box<Self>) -> Result<(), Box<dyn Error>> {
-        Ok(())
-    }
-
     fn broken(&self) -> String {
         "collisions are not looked for".into()
     }
@@ -241,7 +237,7 @@ fn distance((here, one): (&Pose, &Item), (there, other): (&Pose, &Item)) -> Opti
 /// Where an item is in the world.
 fn place(item: &Item, arms: &[Option<Arm>]) -> Option<Pose> {
     match item.holder {
-        // The axis of a carrier is there once the program has begun.
+        // Of carriers nothing is left once the robots are known.
         Holder::World | Holder::Carrier(_) => Some(item.at),
         Holder::Link { arm, link } => Some(arms.get(arm)?.as_ref()?.link(link)? * item.at),
         Holder::Flange { arm } => Some(arms.get(arm)?.as_ref()?.flange() * item.at),

@@ -19,9 +19,9 @@ pub(super) struct Pair {
     pub(super) items: [usize; 2],
     /// What moves each of them.
     ends: [End; 2],
-    /// Whether they are parts of one robot: that they are near each other is how it is built, and what touches before anything moves is, too.
+    /// Whether they are parts of one robot: that they are near each other is how it is built.
     is_own: bool,
-    /// Whether both were where they are before any robot moved: parts of one robot, or neither of them of any.
+    /// Whether what touches before anything moves is built so: both are parts of one robot, or neither is of any.
     is_built: bool,
     /// How many of the joints that move each of them are the same ones, from the world or the base on.
     shared: usize,

@@ -128,10 +128,6 @@ impl Hears for Parts {
         Ok(Vec::new())
     }
 
-    fn end(self: Box<Self>) -> Result<(), Box<dyn Error>> {
-        Ok(())
-    }
-
     fn broken(&self) -> String {
         "bodies stay where they are".into()
     }

@@ -26,14 +26,11 @@ use sources::Sources;
 /// How long the screen waits for a key before it looks for news.
 const WAIT: Duration = Duration::from_millis(50);
 
-/// How often the program says how everything stands where others than the screen want to know, in s: as in every recording.
-const STATE_INTERVAL: &str = "0.004";
-
 /// Runs the program behind a screen; its exit code. Others may hear what it does.
 pub(super) fn run(mut command: Command, ready: Ready, mut hearers: Vec<Box<dyn Hears>>) -> Result<ExitCode, Failure> {
     command.arg("--live").args(listen::wishes(&hearers));
     if !hearers.is_empty() {
-        command.args(["--state-interval", STATE_INTERVAL]);
+        command.args(["--state-interval", listen::STATE_INTERVAL]);
     }
     let mut link = Link::start(command).map_err(|error| Failure::io("start", &ready.program, &error))?;
     let mut model = Model::new(Sources::read(&ready.sources));
@@ -68,7 +65,7 @@ fn show(
         let until = Instant::now() + WAIT;
         let next = || match ended {
             Some(_) => link.last_lines().next(),
-            None => link.line().filter(|_| Instant::now() < until),
+            None => link.line_before(until),
         };
         while let Some(line) = next() {
             if !hearers.is_empty() {

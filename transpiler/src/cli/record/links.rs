@@ -50,9 +50,9 @@ impl Arm {
             let linear = axis.is_linear();
             Own { name: axis.name.clone(), range: [axis.min, axis.max].map(|value| si(value, linear)), linear }
         };
-        let named = |carrier: &Carrier| format!("{prefix}{}", carrier.axis);
+        let named = |carrier: &Carrier| carrier_frame(&prefix, &carrier.axis);
         let moved = |carrier: &Carrier| {
-            let (axis, about) = runs.external(carrier.number())?;
+            let (axis, about) = runs.external(carrier.number)?;
             let below = carrier.on.and_then(|on| carriers.get(on)).map_or_else(|| WORLD.to_owned(), named);
             Some(Moved { frame: named(carrier), parent: below, joint: carrier.joint(about.is_linear()), axis })
         };
@@ -109,7 +109,7 @@ impl Arm {
 
     /// The frame of what an external axis moves.
     pub(super) fn carrier_frame(&self, axis: &str) -> String {
-        format!("{}{axis}", self.prefix)
+        carrier_frame(&self.prefix, axis)
     }
 
     /// What its external axes move, as [`chain`](Self::chain).
@@ -168,6 +168,11 @@ impl Arm {
         }
         all
     }
+}
+
+/// What an external axis moves has its name.
+fn carrier_frame(prefix: &str, axis: &str) -> String {
+    format!("{prefix}{axis}")
 }
 
 /// deg to rad, mm to m.

@@ -86,8 +86,8 @@ impl Scene {
         let mut update = SceneUpdate::default();
         match placing.place {
             Some(place) => {
-                let arm = place.held_by.and_then(|channel| arms.get(channel)?.as_ref());
-                let frame = arm.map_or_else(|| WORLD.to_owned(), Arm::flange_frame);
+                let holder = place.held_by.map_or(Holder::World, |channel| Holder::Flange(channel as u32 + 1));
+                let frame = frame_of(holder, arms, &self.scenery);
                 update.entities.push(drawn((body, looks), (frame, &place.at), CARRIED, &mut self.meshes, now));
             }
             None if was_shown => update.deletions.push(SceneEntityDeletion { timestamp: Some(now), id: id(body) }),

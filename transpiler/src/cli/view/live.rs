@@ -9,7 +9,7 @@ use mcap::McapResult;
 
 use super::super::cargo;
 use super::super::link::Link;
-use super::super::listen::{Hears, pass_on};
+use super::super::listen::{self, Hears};
 use super::super::record::{Recorder, Schema, Sink};
 use super::super::recorded::Store;
 use super::super::said::Line;
@@ -18,8 +18,6 @@ use super::super::show;
 
 /// How often it is looked whether the program has said something.
 const LOOK_INTERVAL: Duration = Duration::from_millis(4);
-/// How often the program says how everything stands, in s: as in a recording.
-const STATE_INTERVAL: &str = "0.004";
 
 /// A program that runs.
 pub(super) struct Live {
@@ -27,10 +25,10 @@ pub(super) struct Live {
 }
 
 impl Live {
-    /// Starts a program, which waits for its start button. `each_cycle`: somebody wants to hear in each cycle where the robots are.
-    pub(super) fn start(mut command: Command, each_cycle: bool) -> std::io::Result<Self> {
-        command.args(["--live", "--paused", "--each-motion", "--state-interval", STATE_INTERVAL]);
-        command.args(each_cycle.then_some("--each-cycle"));
+    /// Starts a program, which waits for its start button. Others than the page want to hear it, too.
+    pub(super) fn start(mut command: Command, hearers: &[Box<dyn Hears>]) -> std::io::Result<Self> {
+        command.args(["--live", "--paused", "--each-motion", "--state-interval", listen::STATE_INTERVAL]);
+        command.args(listen::wishes(hearers));
         Ok(Self { link: Arc::new(Mutex::new(Link::start(command)?)) })
     }
 
@@ -65,9 +63,9 @@ impl Live {
                 };
                 (ended, lines)
             };
-            lines.into_iter().for_each(|line| pass_on(told(line), &mut hearers));
+            lines.into_iter().for_each(|line| listen::pass_on(told(line), &mut hearers));
             if let Some(code) = ended {
-                pass_on(Line::Ended(()), &mut hearers);
+                listen::end(hearers, true);
                 store.lock().unwrap_or_else(PoisonError::into_inner).goes_on = false;
                 return code;
             }

@@ -82,8 +82,7 @@ fn view_live(program: &Path, name: String, options: &ViewOptions) -> Result<Exit
     let store = Store { goes_on: true, sources: texts::read(&ready.sources), ..Store::default() };
     let mut command = Command::new(&ready.program);
     command.args(options_of_run.arguments());
-    let live = Live::start(command, hearers.iter().any(|hearer| hearer.wants_each_cycle()))
-        .map_err(|error| Failure::io("start", &ready.program, &error))?;
+    let live = Live::start(command, &hearers).map_err(|error| Failure::io("start", &ready.program, &error))?;
     drop(ready.lock);
     // The program stops its robot, and this command ends with it.
     super::cargo::leave_interrupts_to_the_program();
