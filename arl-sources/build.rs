@@ -6,7 +6,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 /// What programs are compiled with.
-const PACKAGES: [&str; 4] = ["arl-lang", "arl-robot", "arl-motion", "arl-rt"];
+const PACKAGES: [&str; 5] = ["arl-lang", "arl-robot", "arl-motion", "arl-rt", "drivers"];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new(""));
@@ -84,7 +84,8 @@ fn workspace(text: &str) -> Result<String, Box<dyn Error>> {
     workspace.remove("exclude");
     workspace.remove("lints");
     if let Some(dependencies) = workspace.get_mut("dependencies").and_then(toml::Value::as_table_mut) {
-        dependencies.retain(|name, value| value.get("path").is_none() || PACKAGES.contains(&name));
+        let is_kept = |path: &toml::Value| path.as_str().is_some_and(|path| PACKAGES.contains(&path));
+        dependencies.retain(|_, value| value.get("path").is_none_or(is_kept));
     }
     Ok(manifest.to_string())
 }

@@ -225,8 +225,62 @@ fn a_robot_that_never_settles_is_not_waited_for() {
         Feedback::at(position)
     });
     let (number, _, text) = outcome(&mut controller);
-    assert_eq!((number, &*text), (20073, "the robot has not come to rest on its set-point within 2 s"));
+    assert_eq!(
+        (number, &*text),
+        (
+            20073,
+            "the robot has not come to rest on its set-point within 2 s: j2 is 0.0100 deg away, 0.001 deg count as settled"
+        )
+    );
     assert_eq!(heard.borrow().switched, [(Power::Off, 0.0)]);
+}
+
+#[test]
+fn how_near_is_near_enough_says_the_robot_file() {
+    let text = format!("[drives]\nsettled = 0.02\n{}", Robot::text("kr10-r1420").unwrap());
+    // Tables stand behind the keys of the file.
+    let (head, tables) = text.split_at(text.find("name =").unwrap());
+    let (keys, rest) = tables.split_at(tables.find("[geometry]").unwrap());
+    let robot = Robot::parse("robot.toml", &format!("{keys}{head}{rest}")).unwrap();
+    let restless: Script = |cycle, feedback| {
+        let mut position = feedback.position.unwrap();
+        position.axes[1] += if cycle % 2 == 0 { 0.01 } else { -0.01 };
+        Feedback::at(position)
+    };
+    let (mut controller, _) = turning_with(restless, |builder| builder.robot(robot));
+    assert_eq!(controller.run(), Outcome::Ended);
+}
+
+#[test]
+fn torques_that_are_no_numbers_are_no_feedback() {
+    let (mut controller, heard) = turning(|cycle, feedback| {
+        let second = if cycle < AT_SPEED { 100.0 } else { f64::NAN };
+        feedback.with_torque([0.0, second, 0.0, 0.0, 0.0, 0.0])
+    });
+    let (number, _, text) = outcome(&mut controller);
+    assert_eq!((number, &*text), (20071, "the robot says that its motors give what is no number"));
+    assert_eq!(heard.borrow().switched, [(Power::Off, 0.0)]);
+    keep_limits(&heard.borrow());
+}
+
+#[test]
+fn measured_speeds_count_in_place_of_differences() {
+    // It says that it turns, though it stays: whoever switches it on again waits until it says that it rests.
+    let (mut controller, heard) = turning(|cycle, feedback| {
+        let mut speed = Joints { axes: [0.0; 6], external: [0.0; 6] };
+        speed.axes[0] = if (3000..3500).contains(&cycle) { 50.0 } else { 0.0 };
+        feedback.with_velocity(speed)
+    });
+    controller.run_for(1.0);
+    controller.press(arl_rt::io::Pendant::ServoOff);
+    controller.run_for(2.2);
+    controller.press(arl_rt::io::Pendant::ServoOn);
+    controller.step();
+    assert_eq!(heard.borrow().switched, [(Power::Off, 0.0)]);
+    controller.run_for(0.5);
+    controller.press(arl_rt::io::Pendant::ServoOn);
+    controller.step();
+    assert_eq!(heard.borrow().switched, [(Power::Off, 0.0), (Power::On, 0.0)]);
 }
 
 #[test]

@@ -9,6 +9,11 @@
 //! late = "grid"                # where cycles are late, their points of time stay a grid; "skip": it begins anew there
 //! late_limit = 20              # so many cycles may be lost within a second, before robots stop
 //!
+//! [driver]                     # what moves the robot where a run drives it; of a channel: [channel.driver]
+//! protocol = "udp"             # or "rsi", with `listen` in place of `address`
+//! address = "192.168.0.30:7447"  # where the arm listens
+//! time = "world"               # "robot": that of a simulated one
+//!
 //! [io]                         # numbers of channels
 //! di = 64
 //! do = 64
@@ -77,8 +82,8 @@
 //! ```
 
 use super::{
-    Body, BusSettings, Carrier, Homes, LateCycles, Names, NetworkSettings, Programs, Rate, Sensitivity, Stands, Wiring,
-    collisions,
+    Body, BusSettings, Carrier, DriverSettings, Homes, LateCycles, Names, NetworkSettings, Programs, Rate, Sensitivity,
+    Stands, Wiring, collisions,
 };
 use crate::channels::Channels;
 use crate::islands::Island;
@@ -104,6 +109,7 @@ const TOP: &[&str] = &[
     "load",
     "urdf",
     "base",
+    "driver",
 ];
 const CONTROLLER: &[&str] = &["cycle", "late", "late_limit"];
 
@@ -132,6 +138,8 @@ pub struct Cell {
     pub islands: Vec<Island>,
     /// How the first channel's robot looks, and where it stands.
     pub stands: Stands,
+    /// What moves the first channel's robot; none: it is simulated.
+    pub driver: Option<DriverSettings>,
     /// What external axes of its robots move.
     pub carriers: Vec<Carrier>,
     /// What stands in the cell, or is carried.
@@ -176,6 +184,7 @@ impl Cell {
         let folder = Path::new(file).parent().unwrap_or(Path::new(""));
         cell.programs = Programs::read(&top, folder)?;
         cell.stands = Stands::read(&top, folder)?;
+        cell.driver = DriverSettings::read(&top, "[driver]")?;
         let others = cell.programs.channels.iter().filter(|channel| !channel.background).count();
         let foreground = 1 + others as u32;
         cell.carriers = Carrier::read_all(&top, foreground)?;

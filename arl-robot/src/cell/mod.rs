@@ -3,6 +3,7 @@
 mod bodies;
 mod buses;
 mod carriers;
+mod driver;
 mod external;
 mod file;
 mod fit;
@@ -14,6 +15,7 @@ mod rate;
 pub use bodies::{Body, Form, Grip, Holder, Solid};
 pub use buses::{BusSettings, ModbusTcpSettings};
 pub use carriers::Carrier;
+pub use driver::{DriverSettings, DriverTime, Protocol};
 pub use external::Wiring;
 pub use file::Cell;
 pub use fit::fit;
@@ -41,6 +43,7 @@ const CHANNEL: &[&str] = &[
     "home4",
     "home5",
     "collision",
+    "driver",
 ];
 const HOME: &[&str] = &["tolerance", "home2", "home3", "home4", "home5"];
 const COLLISION: &[&str] = &["cid", "percent", "torque"];
@@ -72,6 +75,8 @@ pub struct CellChannel {
     pub robot: Option<String>,
     /// How its robot looks and where it stands.
     pub stands: Stands,
+    /// What moves its robot; none: it is simulated.
+    pub driver: Option<DriverSettings>,
     /// Whether it has no robot.
     pub background: bool,
     /// The programs that `switcharl` can load here, as the cell file names them.
@@ -203,6 +208,7 @@ fn channel(source: Source<'_>, value: &Value<'_>, folder: &Path) -> Result<CellC
         program: program.to_owned(),
         robot: robot.map(|robot| beside(folder, robot)),
         stands: Stands::read(&section, folder)?,
+        driver: DriverSettings::read(&section, "[channel.driver]")?,
         background,
         load: load(&section)?,
         homes: Homes::read(&section)?,

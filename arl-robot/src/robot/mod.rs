@@ -83,6 +83,8 @@ pub struct DriveLimits {
     pub feedback: f64,
     /// How long it may take to come to rest on its set-point once that stands, in s.
     pub settling: f64,
+    /// How near to its set-point an axis must be to count as settled, in deg (mm).
+    pub settled: f64,
 }
 
 /// The limits of the tool centre point along a path.

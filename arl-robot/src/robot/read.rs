@@ -13,7 +13,7 @@ const OPW: &[&str] = &["a1", "a2", "b", "c1", "c2", "c3", "c4", "offsets", "sign
 const SCARA: &[&str] = &["l1", "l2", "z0"];
 const TCP: &[&str] = &["vel", "acc", "jerk", "ori_vel", "ori_acc", "ori_jerk"];
 const AXIS: &[&str] = &["name", "linear", "min", "max", "vel", "acc", "jerk", "following"];
-const DRIVES: &[&str] = &["feedback", "settling"];
+const DRIVES: &[&str] = &["feedback", "settled", "settling"];
 const LINK: &[&str] = &["mass", "com", "inertia", "gear", "torque_constant"];
 
 /// How far an axis may be from its set-point where nobody says it: as far as it goes at full speed in so many s.
@@ -21,6 +21,8 @@ const FOLLOWING_S: f64 = 0.1;
 /// For how long no position may come where nobody says it, and how long settling may take, in ms.
 const FEEDBACK_MS: f64 = 20.0;
 const SETTLING_MS: f64 = 2000.0;
+/// How near to its set-point an axis has settled where nobody says it, in deg (mm).
+const SETTLED: f64 = 0.001;
 
 const FAMILIES: [(&str, Family); 2] = [("six-axis", Family::SixAxis), ("scara", Family::Scara)];
 const PROFILES: [(&str, VelocityProfile); 3] =
@@ -187,7 +189,13 @@ fn drives(top: &Section<'_>, axes: &[Axis]) -> Result<DriveLimits, RobotError> {
     };
     let feedback = seconds("feedback", "a time without a position in ms", FEEDBACK_MS)?;
     let settling = seconds("settling", "a time for settling in ms", SETTLING_MS)?;
-    Ok(DriveLimits { following, feedback, settling })
+    let settled = match &table {
+        Some(table) if table.find("settled").is_some() => {
+            table.positive("settled", "a distance in deg (mm) from its set-point")?
+        }
+        _ => SETTLED,
+    };
+    Ok(DriveLimits { following, feedback, settling, settled })
 }
 
 fn links(top: &Section<'_>, family: Family) -> Result<Vec<Link>, RobotError> {

@@ -7,8 +7,8 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use crate::builtins::time;
 use crate::command::between::{Beat, Between};
@@ -26,6 +26,7 @@ use crate::cycle::clock_source::{RealClock, VirtualClock};
 use crate::cycle::realtime::Realtime;
 use crate::io::{Pendant, Scenario};
 use crate::storage::state::Directory;
+use crate::unit::robot_driver::Connect;
 use crate::values::Controlmode;
 use arl_robot::cell::{Cell, Names};
 use arl_robot::robot::Robot;
@@ -50,6 +51,8 @@ Runs a robot program on a simulated robot.
 Options:
   --robot NAME|FILE     the robot: a built-in name or a robot file
   --cell FILE           the cell: io, home points, control cycle
+  --drive               move the robots that the cell has a [driver] for; without it all are
+                        simulated
   --clock virtual|real  run as fast as possible (default), or in real time; from the
                         first connection that a program opens it is real time
   --realtime[=CORE]     --clock real, and what the system gives the cycle: priority, its
@@ -92,6 +95,7 @@ any more, 130 interrupted.
 struct Options {
     robot: Option<String>,
     cell: Option<PathBuf>,
+    drive: bool,
     clock: Option<Pace>,
     realtime: Option<Realtime>,
     live: bool,
@@ -127,6 +131,15 @@ enum Report {
     Table,
     /// As JSON in a file.
     File(PathBuf),
+}
+
+/// What makes drivers for `--drive`.
+static CONNECT: OnceLock<Connect> = OnceLock::new();
+
+/// Says what makes the drivers that a cell file asks for, before `main` runs a program: `arl_drivers::connect`. Without it
+/// `--drive` is refused.
+pub fn drivers(connect: Connect) {
+    let _ = CONNECT.set(connect);
 }
 
 /// Runs a program as its command line says: the `main` of every compiled program.
@@ -262,6 +275,7 @@ fn parse(
     let mut options = Options {
         robot: None,
         cell: None,
+        drive: false,
         clock: None,
         realtime: None,
         live: false,
@@ -287,6 +301,7 @@ fn parse(
         match argument {
             Long("robot") => options.robot = Some(parser.value()?.string()?),
             Long("cell") => options.cell = Some(parser.value()?.into()),
+            Long("drive") => options.drive = true,
             Long("live") => (options.live, options.clock) = (true, Some(Pace::Real)),
             Long("paused") => options.paused = true,
             Long("debug") => options.asked.debug = Some(parser.value()?.string()?),
@@ -557,6 +572,7 @@ fn watch(
             controller.stop();
         }
     }
+    controller.close_robots();
     controller.settle_state();
     say(controller, sources, recording.as_ref());
     let lost = recording.iter().map(|recording| recording.run_ended(controller)).sum::<u64>();
@@ -602,6 +618,10 @@ fn set_up(options: Options, others: &[Other]) -> Result<Builder, SetupFailure> {
         names = cell.names.clone();
         builder = builder.cell_with(cell, others)?;
         builder = several::trace(builder, options.trace.as_deref())?;
+    }
+    if options.drive {
+        let connect = CONNECT.get().ok_or_else(|| SetupFailure::usage("--drive: this program has no drivers"))?;
+        builder = builder.drivers(*connect);
     }
     if let Some(io) = &options.io {
         builder = builder.scenario(Scenario::load_with(io, &names).map_err(SetupFailure::usage)?);

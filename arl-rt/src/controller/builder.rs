@@ -10,6 +10,7 @@ use std::rc::Rc;
 use super::Controller;
 use super::channel::{Channel, PROGRAM_STACK_BYTES};
 use super::channels::Channels;
+use super::drive::{self, Time};
 use super::external::External;
 use super::foreground::{Body, Foreground};
 use super::late_limit::LateLimit;
@@ -36,7 +37,7 @@ use crate::storage::pointers::{self, Table};
 use crate::storage::script_dir::ScriptDir;
 use crate::storage::state::{Memory, State, StateError, Storage};
 use crate::unit::Unit;
-use crate::unit::robot_driver::RobotDriver;
+use crate::unit::robot_driver::{Connect, RobotDriver};
 use crate::values::{self, Controlmode};
 use arl_robot::atomic_file;
 use arl_robot::cell::{Cell, fit};
@@ -57,6 +58,7 @@ pub struct Builder {
     programs: Loadable,
     cell: Cell,
     clock: Box<dyn Clock>,
+    connect: Option<Connect>,
     io: Box<dyn IoDriver>,
     devicenet: Option<Box<dyn DeviceNet>>,
     network: Option<Box<dyn NetworkDriver>>,
@@ -84,6 +86,7 @@ impl Default for Builder {
             programs: Loadable::default(),
             cell: Cell::default(),
             clock: Box::new(VirtualClock::new()),
+            connect: None,
             io: Box::new(SimulatedIo),
             devicenet: None,
             network: None,
@@ -144,6 +147,13 @@ impl Builder {
     /// What moves the robot of the first channel.
     pub fn robot_driver(mut self, driver: impl RobotDriver + 'static) -> Self {
         self.body.drive(driver);
+        self
+    }
+
+    /// Drives the robots that the cell has a `[driver]` for, with what this makes of it: `arl_drivers::connect`. Without it the cell's
+    /// drivers do not count, and its robots are simulated. A [driver](Builder::robot_driver) of one's own goes before that of the cell.
+    pub fn drivers(mut self, connect: Connect) -> Self {
+        self.connect = Some(connect);
         self
     }
 
@@ -306,7 +316,13 @@ impl Builder {
     ///
     /// # Errors
     /// The parts do not fit each other, or what was kept is damaged.
-    pub fn build(self, program: Box<dyn Program>) -> Result<Controller, SetupError> {
+    pub fn build(mut self, program: Box<dyn Program>) -> Result<Controller, SetupError> {
+        self.body.settings = self.cell.driver.take();
+        let bodies = std::iter::once(&mut self.body).chain(self.foreground.iter_mut().map(|it| &mut it.body));
+        let driven = self.connect.map_or_else(|| Ok(Time::default()), |connect| drive::drive(bodies, connect))?;
+        if let Some(beat) = driven.beat {
+            self.clock = beat;
+        }
         let Builder { cell, background, .. } = self;
         let count = 1 + self.foreground.len();
         check_channels(count, background.len())?;
@@ -359,7 +375,7 @@ impl Builder {
             buses,
             network_driver: self.network,
         }));
-        if outside {
+        if outside || driven.is_of_the_world {
             shared.need_real_time();
         }
         if let Some(note) = note {

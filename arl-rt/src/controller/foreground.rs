@@ -6,7 +6,7 @@ use std::io::Write;
 use crate::context::program::Program;
 use crate::unit::robot_driver::{RobotDriver, SimulatedRobot};
 use crate::values;
-use arl_robot::cell::{Homes, Sensitivity};
+use arl_robot::cell::{DriverSettings, Homes, Sensitivity};
 use arl_robot::robot::Robot;
 
 /// A foreground channel: a program and its own robot. Without more it is the default robot of the program's family,
@@ -22,6 +22,8 @@ pub(super) struct Body {
     pub(super) driver: Box<dyn RobotDriver>,
     /// Whether the driver is not ours.
     pub(super) has_driver: bool,
+    /// What the cell says of the driver, which counts where robots are driven and none was given.
+    pub(super) settings: Option<DriverSettings>,
     pub(super) trace: Option<Box<dyn Write>>,
     pub(super) homes: Homes,
     pub(super) collisions: Vec<(u8, Sensitivity)>,
@@ -35,6 +37,7 @@ impl Default for Body {
             robot: None,
             driver: Box::new(SimulatedRobot::new()),
             has_driver: false,
+            settings: None,
             trace: None,
             homes: Homes::default(),
             collisions: Vec::new(),
@@ -65,6 +68,12 @@ impl Foreground {
     /// What moves the robot.
     pub fn robot_driver(mut self, driver: impl RobotDriver + 'static) -> Self {
         self.body.drive(driver);
+        self
+    }
+
+    /// What moves the robot where [`Builder::drivers`](super::Builder::drivers) says so.
+    pub fn driver_settings(mut self, settings: DriverSettings) -> Self {
+        self.body.settings = Some(settings);
         self
     }
 

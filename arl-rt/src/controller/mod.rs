@@ -6,6 +6,7 @@ mod actions;
 mod builder;
 mod channel;
 mod channels;
+mod drive;
 mod external;
 mod foreground;
 mod late_limit;
@@ -536,10 +537,16 @@ impl Controller {
     pub fn internal(&self, channel: i32) -> Result<bool, Fault> {
         self.shared.io.borrow().digital(Digital::InternalOut, channel)
     }
+
+    /// The last cycle was: no robot waits while files are written.
+    pub(crate) fn close_robots(&mut self) {
+        self.channels.units().for_each(|unit| unit.borrow_mut().close());
+    }
 }
 
 impl Drop for Controller {
     fn drop(&mut self) {
+        self.close_robots();
         self.settle_state();
         self.io.close();
     }

@@ -17,7 +17,7 @@ impl Builder {
     /// The cell names a file that is not among them, or a robot that is not there.
     pub fn cell_with(mut self, cell: Cell, programs: &[Other]) -> Result<Self, SetupError> {
         for channel in &cell.programs.channels {
-            let CellChannel { program, robot, background, load, homes, collisions, stands, line: _ } = channel;
+            let CellChannel { program, robot, background, load, homes, collisions, stands, driver, line: _ } = channel;
             let program = find(programs, program)?.make();
             self = if *background {
                 self.background(program)
@@ -28,6 +28,9 @@ impl Builder {
                 }
                 if let Some(base) = stands.base {
                     channel = channel.base(values::Frame::of_components(base));
+                }
+                if let Some(driver) = driver {
+                    channel = channel.driver_settings(driver.clone());
                 }
                 self.foreground(channel)
             };

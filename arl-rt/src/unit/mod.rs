@@ -33,10 +33,13 @@ use hold::Button;
 pub(crate) use moving::Moving;
 use refusal::alarm;
 use servo::Motors;
-use supervision::{Supervision, is_finite};
+use supervision::{Supervision, is_all_finite, is_finite};
 
 /// For how many cycles a robot that never stands quite where it shall must be near enough to count as settled.
 const SETTLING: u32 = 8;
+
+/// The speeds of a robot that stands, or of axes that are not there.
+const REST: Joints = Joints { axes: [0.0; ROBOT_AXES], external: [0.0; EXTERNAL_AXES] };
 
 /// A cycle, as a robot sees it.
 #[derive(Clone, Copy, Debug)]
@@ -62,6 +65,8 @@ pub(crate) struct Unit {
     /// What changes with motions that are planned.
     changes: Changes,
     driver: Box<dyn RobotDriver>,
+    /// Nothing is asked of it any more.
+    closed: bool,
     /// The running number of the motion planned last, and of the one that has ended last.
     planned: u64,
     finished: u64,
@@ -134,6 +139,7 @@ impl Unit {
             jogged: false,
             button: Button::Free,
             driver,
+            closed: false,
             planned: 0,
             finished: 0,
             executing: (0, 0),
@@ -504,7 +510,7 @@ impl Unit {
         self.change_due();
         self.commanded.go_to(step.joints, period);
         self.exchange(beat);
-        let near = self.queue.rests() && settled(&self.commanded.at, &self.reported.at);
+        let near = self.queue.rests() && settled(&self.commanded.at, &self.reported.at, self.robot.drives.settled);
         self.settled = if near { self.settled.saturating_add(1) } else { 0 };
         self.switch_off_at_rest();
     }
@@ -519,8 +525,11 @@ impl Unit {
             // It may be the first one for some cycles.
             let since = f64::from(self.silent) * beat.period;
             self.reported.go_to(own_axes_of(&self.robot, position, &self.commanded.at), since);
+            if let Some(velocity) = feedback.velocity.filter(|velocity| is_finite(velocity, &self.robot)) {
+                self.reported.measured(&own_axes_of(&self.robot, velocity, &REST));
+            }
             self.silent = 0;
-            self.effort.measured(feedback.torque);
+            self.effort.measured(feedback.torque.filter(is_all_finite));
         }
         self.supervise(&feedback, &setpoint);
     }
@@ -529,9 +538,8 @@ impl Unit {
         let Beat { period, due: deadline, .. } = beat;
         if matches!(self.motors, Motors::Off | Motors::ComingOn) {
             // They are asked for nothing but to stay.
-            let velocity = Joints { axes: [0.0; ROBOT_AXES], external: [0.0; EXTERNAL_AXES] };
             let (position, acceleration, torque) = (self.reported.at, [0.0; ROBOT_AXES], None);
-            return Setpoint { position, velocity, acceleration, torque, period, deadline };
+            return Setpoint { position, velocity: REST, acceleration, torque, period, deadline };
         }
         let Moving { at: position, rates, external_rates, accelerations: acceleration, .. } = self.commanded;
         let velocity = Joints { axes: rates, external: external_rates };
@@ -604,12 +612,22 @@ fn keep_to<const N: usize>(many: usize, axes: &mut [f64; N], others: &[f64; N]) 
     }
 }
 
-impl Drop for Unit {
-    fn drop(&mut self) {
+impl Unit {
+    /// Lets go of the robot, once. One that moves is cut off.
+    pub(crate) fn close(&mut self) {
+        if std::mem::replace(&mut self.closed, true) {
+            return;
+        }
         if self.motors != Motors::Off && !self.queue.rests() {
             self.driver.switch(Power::Cut);
         }
         self.driver.close();
+    }
+}
+
+impl Drop for Unit {
+    fn drop(&mut self) {
+        self.close();
     }
 }
 

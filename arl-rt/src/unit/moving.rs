@@ -3,7 +3,7 @@
 use crate::motion::Joints;
 use arl_robot::robot::{EXTERNAL_AXES, ROBOT_AXES};
 
-/// Where the axes are, in deg (mm), and how they move: differences of the last cycles, per s and s2.
+/// Where the axes are, in deg (mm), and how they move: differences of the last cycles, per s and s2, where nobody measures it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moving {
     pub(crate) at: Joints,
@@ -12,6 +12,7 @@ pub(crate) struct Moving {
     pub(crate) rates: [f64; ROBOT_AXES],
     pub(crate) external_rates: [f64; EXTERNAL_AXES],
     pub(crate) accelerations: [f64; ROBOT_AXES],
+    rates_before: [f64; ROBOT_AXES],
     /// The length of the last cycle in s.
     pub(crate) period: f64,
 }
@@ -25,13 +26,14 @@ impl Moving {
             rates: [0.0; ROBOT_AXES],
             external_rates: [0.0; EXTERNAL_AXES],
             accelerations: [0.0; ROBOT_AXES],
+            rates_before: [0.0; ROBOT_AXES],
             period: 1.0,
         }
     }
 
     /// A cycle of `period` s later.
     pub(super) fn go_to(&mut self, at: Joints, period: f64) {
-        self.before = std::mem::replace(&mut self.at, at);
+        (self.before, self.rates_before) = (std::mem::replace(&mut self.at, at), self.rates);
         self.period = period;
         let axes = self.at.axes.iter().zip(&self.before.axes);
         let rates = self.rates.iter_mut().zip(&mut self.accelerations);
@@ -43,6 +45,14 @@ impl Moving {
         let external = self.at.external.iter().zip(&self.before.external);
         for (rate, (at, before)) in self.external_rates.iter_mut().zip(external) {
             *rate = (at - before) / period;
+        }
+    }
+    /// The speeds of this cycle are measured, in deg/s (mm/s): that is better than what positions make.
+    pub(super) fn measured(&mut self, velocity: &Joints) {
+        (self.rates, self.external_rates) = (velocity.axes, velocity.external);
+        let rates = self.rates.iter().zip(&self.rates_before);
+        for (acceleration, (rate, before)) in self.accelerations.iter_mut().zip(rates) {
+            *acceleration = (rate - before) / self.period;
         }
     }
 }

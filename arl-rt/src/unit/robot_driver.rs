@@ -5,7 +5,10 @@
 use std::time::Instant;
 
 use crate::motion::Joints;
+use arl_robot::cell::DriverSettings;
 use arl_robot::robot::{ROBOT_AXES, Robot};
+
+use crate::cycle::clock_source::Clock;
 
 /// How long the simulated robot's set-points take to be followed, in s.
 const LAG: f64 = 0.008;
@@ -13,9 +16,6 @@ const LAG: f64 = 0.008;
 const CYCLES: (f64, f64) = (2.0, KEPT as f64);
 /// How many set-points the simulated robot keeps.
 const KEPT: usize = 8;
-
-/// How near feedback must be to its set-point to count as settled, in deg (mm).
-pub const SETTLED: f64 = 0.001;
 
 /// What a driver is told before anything moves.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +27,13 @@ pub struct Start<'a> {
     pub robot: &'a Robot,
     /// The length of a cycle in s.
     pub period: f64,
+}
+
+impl<'a> Start<'a> {
+    /// What a driver is told by whoever tries it without a controller: deg (mm), s.
+    pub fn new(home: &'a Joints, robot: &'a Robot, period: f64) -> Self {
+        Self { home, robot, period }
+    }
 }
 
 /// What a robot is asked for in a cycle.
@@ -54,6 +61,8 @@ pub struct Setpoint {
 pub struct Feedback {
     /// Where its axes are, in deg (mm); `None`: nothing new has come since the last cycle.
     pub position: Option<Joints>,
+    /// How fast they move, in deg/s (mm/s); `None`: it does not measure that. Then it is what the positions make.
+    pub velocity: Option<Joints>,
     /// The torques (Nm; N of linear axes) that the motors of its own axes give at the axes; `None`: it does not measure them.
     /// Then the controller takes what its model asks for the motion that the robot reports, and what a scenario does to it.
     pub torque: Option<[f64; ROBOT_AXES]>,
@@ -73,15 +82,28 @@ pub enum Drives {
     Fault(Box<str>),
 }
 
+impl Setpoint {
+    /// To stay there (deg, mm), for a cycle of `period` s: what a driver has before it gets the first one.
+    pub fn resting(position: Joints, period: f64) -> Self {
+        let velocity = Joints { axes: [0.0; 6], external: [0.0; 6] };
+        Self { position, velocity, acceleration: [0.0; ROBOT_AXES], torque: None, period, deadline: None }
+    }
+}
+
 impl Feedback {
     /// A robot whose drives are on, and that is there (deg, mm).
     pub fn at(position: Joints) -> Self {
-        Self { position: Some(position), torque: None, drives: Some(Drives::On) }
+        Self { position: Some(position), velocity: None, torque: None, drives: Some(Drives::On) }
     }
 
     /// Nothing new has come.
     pub fn none() -> Self {
-        Self { position: None, torque: None, drives: None }
+        Self { position: None, velocity: None, torque: None, drives: None }
+    }
+
+    /// The same with measured speeds, in deg/s (mm/s).
+    pub fn with_velocity(self, velocity: Joints) -> Self {
+        Self { velocity: Some(velocity), ..self }
     }
 
     /// The same with measured torques, in Nm (N).
@@ -162,6 +184,28 @@ pub trait RobotDriver {
     fn close(&mut self) {}
 }
 
+/// A robot that a cell file says how to drive.
+pub struct Driven {
+    /// What moves it.
+    pub driver: Box<dyn RobotDriver>,
+    /// Whose time counts.
+    pub time: DrivenTime,
+}
+
+/// Whose time counts while a robot is driven.
+#[non_exhaustive]
+pub enum DrivenTime {
+    /// That of the world: cycles take the time that they stand for.
+    World,
+    /// That of the robot, which is simulated: an exchange waits for it.
+    Robot,
+    /// The robot gives the beat: a cycle begins whenever this says so.
+    Beat(Box<dyn Clock>),
+}
+
+/// Makes the driver that the settings of a cell file describe; it is not started yet. The error says why there is none.
+pub type Connect = fn(&DriverSettings) -> Result<Driven, String>;
+
 /// A robot that follows its set-point with a lag: it is where the mean of its last set-points is, those of 8 ms and at
 /// least two. So it moves no more jerkily than it is told to, half of that time late, and stands exactly on its set-point
 /// when that has rested for as long.
@@ -233,9 +277,9 @@ impl RobotDriver for SimulatedRobot {
     }
 }
 
-/// Whether feedback is where it shall be.
-pub(crate) fn settled(setpoint: &Joints, feedback: &Joints) -> bool {
-    let near = |(a, b): (&f64, &f64)| (a - b).abs() <= SETTLED;
+/// Whether feedback is where it shall be, within a distance in deg (mm).
+pub(crate) fn settled(setpoint: &Joints, feedback: &Joints, within: f64) -> bool {
+    let near = |(a, b): (&f64, &f64)| (a - b).abs() <= within;
     setpoint.axes.iter().zip(&feedback.axes).all(near) && setpoint.external.iter().zip(&feedback.external).all(near)
 }
 
@@ -265,7 +309,7 @@ mod tests {
         target.axes[0] += 1.0;
         let first = exchange(&mut robot, &target, 0.001);
         assert!(first.axes[0] > home.axes[0] && first.axes[0] < home.axes[0] + 0.5, "it lags: {first:?}");
-        assert!(!settled(&target, &first));
+        assert!(!settled(&target, &first, 0.001));
         let cycles = (0..100).position(|_| exchange(&mut robot, &target, 0.001) == target).unwrap();
         assert_eq!(cycles + 2, 8);
     }

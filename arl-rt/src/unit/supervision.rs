@@ -3,7 +3,7 @@
 use crate::fault::Fault;
 use crate::motion::Joints;
 use crate::unit::robot_driver::{Drives, Feedback};
-use arl_robot::robot::{ROBOT_AXES, Robot};
+use arl_robot::robot::{Axis, ROBOT_AXES, Robot};
 
 /// So many cycles without a position are no trouble yet, however long they are.
 const FEWEST_CYCLES: u32 = 4;
@@ -60,8 +60,8 @@ impl Supervision {
 
     fn trouble(&mut self, feedback: &Feedback, now: Now<'_>) -> Option<Fault> {
         let of_drives = self.drives(feedback.drives.as_ref(), now);
-        let of_position = position(feedback.position.as_ref(), now);
-        of_drives.or(of_position).or_else(|| self.settling(now))
+        let of_position = position(feedback.position.as_ref(), now).or_else(|| torque(feedback));
+        of_drives.or(of_position).or_else(|| self.settling(feedback.position.as_ref(), now))
     }
 
     fn drives(&mut self, drives: Option<&Drives>, now: Now<'_>) -> Option<Fault> {
@@ -79,12 +79,26 @@ impl Supervision {
         Some(Fault::Drives(text.into()))
     }
 
-    fn settling(&mut self, now: Now<'_>) -> Option<Fault> {
+    fn settling(&mut self, position: Option<&Joints>, now: Now<'_>) -> Option<Fault> {
         let waits = now.rests && !now.settled && !now.coming_on;
         self.unsettled = if waits { self.unsettled + now.period } else { 0.0 };
         let limit = now.robot.drives.settling;
-        let text = || format!("the robot has not come to rest on its set-point within {limit} s");
-        (self.unsettled > limit).then(|| Fault::NotSettling(text().into()))
+        if self.unsettled <= limit {
+            return None;
+        }
+        let near = now.robot.drives.settled;
+        let farthest =
+            position.and_then(|position| axes_off(position, now).max_by(|(one, _), (other, _)| one.total_cmp(other)));
+        let text = match farthest {
+            Some((off, axis)) => {
+                let (name, unit) = (&axis.name, unit(axis));
+                format!(
+                    "the robot has not come to rest on its set-point within {limit} s: {name} is {off:.4} {unit} away, {near} {unit} count as settled"
+                )
+            }
+            None => format!("the robot has not come to rest on its set-point within {limit} s"),
+        };
+        Some(Fault::NotSettling(text.into()))
     }
 }
 
@@ -102,20 +116,41 @@ fn position(position: Option<&Joints>, now: Now<'_>) -> Option<Fault> {
     if now.coming_on {
         return None;
     }
-    let own = now.robot.own_axes().len();
-    let pairs = now.asked.axes.iter().zip(&position.axes).take(own);
-    let pairs = pairs.chain(now.asked.external.iter().zip(&position.external));
-    let off = pairs.zip(&now.robot.axes).zip(&now.robot.drives.following).map(|(((asked, is), axis), limit)| {
+    let off = axes_off(position, now).zip(&now.robot.drives.following).map(|((off, axis), limit)| {
         // What it says is of some cycles ago.
-        ((asked - is).abs(), axis, limit.max(axis.vel * LATE_CYCLES * now.period))
+        (off, axis, limit.max(axis.vel * LATE_CYCLES * now.period))
     });
     let (off, axis, limit) =
         off.filter(|(off, _, limit)| off > limit).max_by(|(one, ..), (other, ..)| one.total_cmp(other))?;
-    let (name, unit) = (&axis.name, if axis.linear { "mm" } else { "deg" });
+    let (name, unit) = (&axis.name, unit(axis));
     let text = format!(
         "the robot does not follow: {name} is {off:.2} {unit} from its set-point, {limit:.2} {unit} are allowed"
     );
     Some(Fault::NotFollowing(text.into()))
+}
+
+/// What is wrong with the torques that it measures: nobody would find a collision by them.
+fn torque(feedback: &Feedback) -> Option<Fault> {
+    let torque = feedback.torque.as_ref()?;
+    let text = "the robot says that its motors give what is no number";
+    (!is_all_finite(torque)).then(|| Fault::NoFeedback(text.into()))
+}
+
+/// Whether all of these are numbers.
+pub(super) fn is_all_finite(values: &[f64; ROBOT_AXES]) -> bool {
+    values.iter().all(|value| value.is_finite())
+}
+
+/// How far each axis is from its set-point, in deg (mm).
+fn axes_off<'a>(position: &'a Joints, now: Now<'a>) -> impl Iterator<Item = (f64, &'a Axis)> {
+    let own = now.robot.own_axes().len();
+    let pairs = now.asked.axes.iter().zip(&position.axes).take(own);
+    let pairs = pairs.chain(now.asked.external.iter().zip(&position.external));
+    pairs.zip(&now.robot.axes).map(|((asked, is), axis)| ((asked - is).abs(), axis))
+}
+
+fn unit(axis: &Axis) -> &'static str {
+    if axis.linear { "mm" } else { "deg" }
 }
 
 /// Whether all axes of a robot are at numbers.

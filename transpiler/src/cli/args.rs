@@ -300,6 +300,9 @@ pub(super) struct RunOptions {
     /// The cell: io, buses, home points.
     #[arg(long, value_name = "FILE")]
     pub(super) cell: Option<PathBuf>,
+    /// Move the robots that the cell has a `[driver]` for. Without this all robots are simulated, whatever the cell says.
+    #[arg(long)]
+    pub(super) drive: bool,
     /// Run as fast as possible, or in real time.
     #[arg(long, value_enum)]
     pub(super) clock: Option<Clock>,
@@ -424,6 +427,9 @@ impl RunOptions {
             all.into_iter().filter_map(|(name, value)| value.map(|value| [name.into(), value])).flatten().collect();
         if self.repeats {
             arguments.push("--loop".into());
+        }
+        if self.drive {
+            arguments.push("--drive".into());
         }
         arguments.extend(self.realtime.as_deref().map(|core| match core {
             "" => "--realtime".into(),

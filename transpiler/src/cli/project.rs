@@ -43,6 +43,7 @@ pub(super) fn write(place: &Place, runtime: &Unpacked, rust: &Emitted, folder: &
     let main = format!(
         "// Written by arl2rs.\n\n{modules}\n\
          fn main() -> std::process::ExitCode {{\n    \
+         arl_rt::program_main::drivers(arl_drivers::connect);\n    \
          arl_rt::program_main::{start}(program::Globals::new, &[\n{others}    ], {:?})\n}}\n",
         folder.display().to_string()
     );
@@ -68,10 +69,12 @@ arl-lang = { opt-level = 1, codegen-units = 2 }
 arl-motion = { opt-level = 2, codegen-units = 8 }
 arl-robot = { opt-level = 2, codegen-units = 4 }
 arl-rt = { opt-level = \"s\", codegen-units = 8 }
+arl-drivers = { opt-level = \"s\" }
 encoding_rs = { opt-level = 0 }
 libc = { opt-level = 0 }
 libm = { opt-level = 0 }
 nalgebra = { opt-level = 0 }
+quick-xml = { opt-level = \"s\" }
 rustix = { opt-level = 0 }
 simba = { opt-level = 0 }
 toml = { opt-level = 0 }
@@ -86,13 +89,13 @@ pub(super) fn manifest(folder: &Path, name: &str, runtime: &Unpacked, level: u8)
         "# Written by arl2rs.\n\
          [package]\nname = \"{name}\"\nversion = \"0.0.0\"\nedition = \"2024\"\npublish = false\n\n\
          [workspace]\n\n\
-         [dependencies]\narl-rt = {}\n\n\
+         [dependencies]\narl-rt = {}\narl-drivers = {}\n\n\
          [profile.dev]\nopt-level = 3\ndebug = false\nincremental = false\nlto = \"off\"\n\
          overflow-checks = false\ndebug-assertions = false\n\n\
          [profile.dev.package]\n\"{name}\" = {{ opt-level = {level}, incremental = true }}\n\
          {RUNTIME}\n\
          [profile.release]\nlto = \"thin\"\n",
-        runtime.dependency
+        runtime.dependency, runtime.drivers
     );
     write_if_changed(&folder.join("Cargo.toml"), text.as_bytes())?;
     let Some(lock) = runtime.lock_file.as_ref().and_then(|path| std::fs::read(path).ok()) else { return Ok(()) };

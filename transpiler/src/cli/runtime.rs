@@ -17,6 +17,8 @@ pub(super) struct Unpacked {
     pub(super) folder: PathBuf,
     /// The value of `arl-rt` under `[dependencies]`.
     pub(super) dependency: String,
+    /// The value of `arl-drivers` there.
+    pub(super) drivers: String,
     /// The lock file that says which versions of other packages to take.
     pub(super) lock_file: Option<PathBuf>,
     _lock: Lock,
@@ -47,7 +49,7 @@ impl Runtime {
         match self.0 {
             Origin::Checkout(folder) => {
                 let folder = Path::new(folder);
-                for part in ["arl-rt", "arl-motion", "arl-robot", "arl-lang"] {
+                for part in ["arl-rt", "arl-motion", "arl-robot", "arl-lang", "drivers"] {
                     hash_state(&folder.join(part).join("Cargo.toml"), &mut hasher);
                     hash_tree(&folder.join(part).join("src"), &mut hasher);
                 }
@@ -81,9 +83,11 @@ impl Runtime {
         let folder = cache.runtime(&self.name());
         let lock = Lock::take(&folder, true, "waiting for another arl2rs that removes this runtime")?;
         let options = "default-features = false, features = [\"serial\", \"realtime\"]";
-        let below =
-            |workspace: &Path| format!("{{ path = {:?}, {options} }}", workspace.join("arl-rt").display().to_string());
-        let (dependency, lock_file) = match self.0 {
+        let below = |workspace: &Path| {
+            let path = |package: &str| workspace.join(package).display().to_string();
+            (format!("{{ path = {:?}, {options} }}", path("arl-rt")), format!("{{ path = {:?} }}", path("drivers")))
+        };
+        let ((dependency, drivers), lock_file) = match self.0 {
             Origin::Checkout(workspace) => {
                 let workspace = Path::new(workspace);
                 if !workspace.join("arl-rt/Cargo.toml").is_file() {
@@ -96,9 +100,12 @@ impl Runtime {
                 write(carried, &workspace)?;
                 (below(&workspace), Some(workspace.join("Cargo.lock")))
             }
-            Origin::Registry => (format!("{{ version = \"={}\", {options} }}", env!("CARGO_PKG_VERSION")), None),
+            Origin::Registry => {
+                let version = format!("version = \"={}\"", env!("CARGO_PKG_VERSION"));
+                ((format!("{{ {version}, {options} }}"), format!("{{ {version} }}")), None)
+            }
         };
-        Ok(Unpacked { folder, dependency, lock_file, _lock: lock })
+        Ok(Unpacked { folder, dependency, drivers, lock_file, _lock: lock })
     }
 }
 

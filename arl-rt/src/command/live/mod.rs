@@ -97,6 +97,7 @@ pub(crate) fn drive(
             look.say(controller, voice);
         }
     }
+    controller.close_robots();
     controller.settle_state();
     voice.news(controller);
     voice.state(controller);

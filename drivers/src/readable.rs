@@ -1,0 +1,32 @@
+//! Waiting for a packet, to the microsecond. The time limit of sockets would count in ticks of the kernel: 4 ms or more.
+
+use std::net::UdpSocket;
+use std::time::Instant;
+
+/// Waits until there is something to receive, or the time is over; whether there is. A socket with an error has something, too.
+#[cfg(unix)]
+pub(crate) fn wait_until(socket: &UdpSocket, until: Instant) -> bool {
+    use rustix::event::{PollFd, PollFlags, Timespec, poll};
+    use rustix::io::Errno;
+    loop {
+        let left = until.saturating_duration_since(Instant::now());
+        let Ok(left) = Timespec::try_from(left) else { return false };
+        match poll(&mut [PollFd::new(socket, PollFlags::IN)], Some(&left)) {
+            Ok(count) => return count > 0,
+            Err(Errno::INTR) => {}
+            Err(_) => return false,
+        }
+    }
+}
+
+/// The same with the time limit of sockets.
+#[cfg(not(unix))]
+pub(crate) fn wait_until(socket: &UdpSocket, until: Instant) -> bool {
+    let left = until.saturating_duration_since(Instant::now());
+    let limit = left.max(std::time::Duration::from_micros(1));
+    let is_there = socket.set_nonblocking(false).is_ok()
+        && socket.set_read_timeout(Some(limit)).is_ok()
+        // A packet that is larger than nothing is an error there, but one that is there.
+        && !matches!(socket.peek(&mut [0; 1]), Err(error) if error.kind() == std::io::ErrorKind::TimedOut);
+    socket.set_nonblocking(true).is_ok() && is_there
+}

@@ -1,0 +1,83 @@
+//! The robot's messages as the clock of the controller.
+
+use std::cell::RefCell;
+use std::fmt;
+use std::rc::Rc;
+use std::time::{Duration, Instant};
+
+use arl_rt::clock_source::{Clock, Lateness};
+
+use super::link::Link;
+
+/// For so many cycles the controller stands still where no message comes. A robot gives up after about as many answers that are missing.
+const PATIENT_CYCLES: f64 = 10.0;
+
+/// Cycles begin when the robot sends. A message that is missing is a cycle that is lost: the motion does not go on without it. Where none
+/// comes for ten cycles, they go on at their own pace: then the controller finds that no position comes, and the run ends.
+pub struct RsiBeat {
+    link: Rc<RefCell<Link>>,
+    /// When the last message should have come, or came.
+    point: Option<Instant>,
+    silent: bool,
+    lateness: Lateness,
+}
+
+impl RsiBeat {
+    pub(super) fn new(link: Rc<RefCell<Link>>) -> Self {
+        Self { link, point: None, silent: false, lateness: Lateness::default() }
+    }
+}
+
+impl Clock for RsiBeat {
+    fn wait_for(&mut self, _cycle: u64, period: f64) {
+        let mut link = self.link.borrow_mut();
+        let now = Instant::now();
+        let due = self.point.map_or(now, |point| point + Duration::from_secs_f64(period));
+        let is_simulated = link.patience.is_some();
+        let until = match &link.patience {
+            Some(patience) => now + patience.limit(),
+            None if self.silent => due.max(now),
+            None => due + Duration::from_secs_f64(period * PATIENT_CYCLES),
+        };
+        let received = link.receive(until);
+        self.silent = !received.any;
+        if let Some(patience) = &mut link.patience {
+            patience.answered(received.any);
+        }
+        if self.silent {
+            link.note_silence();
+        }
+        let came = Instant::now();
+        // One that was there already came at its point, as far as anybody knows.
+        self.point = Some(if received.was_there { due.min(came) } else { came });
+        if is_simulated || !received.any {
+            return;
+        }
+        self.lateness.note(if received.was_there { came.saturating_duration_since(due) } else { Duration::ZERO });
+        let lost = (received.step as f64 / (period * 1e3)).round() - 1.0;
+        if lost >= 1.0 {
+            self.lateness.note_lost(lost as u64);
+        }
+    }
+
+    fn due(&self, _cycle: u64, period: f64) -> Option<Instant> {
+        if self.link.borrow().patience.is_some() {
+            return None;
+        }
+        Some(self.point? + Duration::from_secs_f64(period))
+    }
+
+    fn is_real(&self) -> bool {
+        self.link.borrow().patience.is_none()
+    }
+
+    fn lateness(&self) -> Option<&Lateness> {
+        Some(&self.lateness).filter(|_| self.is_real())
+    }
+}
+
+impl fmt::Debug for RsiBeat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("RsiBeat").finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,159 @@
+//! The socket that the robot's controller sends to.
+
+use std::io::ErrorKind;
+use std::net::{SocketAddr, UdpSocket};
+use std::time::{Duration, Instant};
+
+use arl_rt::motion::Joints;
+
+use super::message::{Answer, LONGEST, Message};
+use crate::patience::Patience;
+use crate::readable;
+
+/// Where the robot's time goes on by more, or nothing has come for as long, RSI has begun anew: corrections count from another place.
+const ANEW: Duration = Duration::from_millis(500);
+/// So many packets are looked at in a cycle: whoever sends more does not keep it from ending.
+const MOST: usize = 64;
+
+/// What the driver and the beat share.
+#[derive(Debug)]
+pub(super) struct Link {
+    listen: String,
+    socket: Option<UdpSocket>,
+    newest: Option<Newest>,
+    /// The message of this cycle, until it is taken.
+    message: Option<Message>,
+    /// RSI has begun anew, or cycles went on without its messages: what it was asked for does not hold any more.
+    interrupted: bool,
+    /// Where the robot's time counts: for how long to wait for it.
+    pub(super) patience: Option<Patience>,
+}
+
+/// The newest message that has come.
+#[derive(Clone, Copy, Debug)]
+struct Newest {
+    from: SocketAddr,
+    at: Instant,
+    ipoc: u64,
+    ready: bool,
+}
+
+/// What there was when a cycle waited.
+#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+pub(super) struct Received {
+    /// Whether a message has come.
+    pub(super) any: bool,
+    /// By how many ms the robot's time has gone on since the message before.
+    pub(super) step: u64,
+    /// Whether it had come before somebody waited.
+    pub(super) was_there: bool,
+}
+
+impl Link {
+    pub(super) fn new(listen: String) -> Self {
+        Self { listen, socket: None, newest: None, message: None, interrupted: false, patience: None }
+    }
+
+    pub(super) fn open(&mut self) -> Result<(), String> {
+        let failed = |error: std::io::Error| format!("{}: {error}", self.listen);
+        let socket = UdpSocket::bind(&self.listen).map_err(failed)?;
+        socket.set_nonblocking(true).map_err(failed)?;
+        self.socket = Some(socket);
+        Ok(())
+    }
+
+    /// Waits for a message, before or after all cycles.
+    pub(super) fn wait(&mut self, limit: Duration) -> Result<Message, String> {
+        self.message = None;
+        self.receive(Instant::now() + limit);
+        let seconds = limit.as_secs();
+        self.message.ok_or_else(|| {
+            format!("no robot has sent anything to {} within {seconds} s: start RSI on its pendant", self.listen)
+        })
+    }
+
+    /// Waits for the message of the next cycle. Of several that have come the newest counts.
+    pub(super) fn receive(&mut self, until: Instant) -> Received {
+        let mut received = Received { any: self.message.is_some(), was_there: true, step: 0 };
+        for _ in 0..MOST {
+            match self.take_packet() {
+                Some(step) => {
+                    received.any |= step > 0;
+                    received.step += step;
+                }
+                None if received.any => break,
+                None => {
+                    received.was_there = false;
+                    let Some(socket) = &self.socket else { break };
+                    if !readable::wait_until(socket, until) {
+                        break;
+                    }
+                }
+            }
+        }
+        received
+    }
+
+    /// Takes what has come: by how much the robot's time has gone on, 0 where it does not count; `None`: nothing has come.
+    fn take_packet(&mut self) -> Option<u64> {
+        let mut bytes = [0; LONGEST];
+        let (length, from) = match self.socket.as_ref()?.recv_from(&mut bytes) {
+            Ok(found) => found,
+            Err(error) if matches!(error.kind(), ErrorKind::Interrupted | ErrorKind::ConnectionRefused) => {
+                return Some(0);
+            }
+            Err(_) => return None,
+        };
+        let Some(message) = bytes.get(..length).and_then(Message::parse) else { return Some(0) };
+        let at = Instant::now();
+        let step = match self.newest {
+            None => 1,
+            Some(before) => {
+                let goes_on = from == before.from && message.ipoc > before.ipoc;
+                let is_silent = at.saturating_duration_since(before.at) > ANEW && self.patience.is_none();
+                if !goes_on && !is_silent {
+                    return Some(0);
+                }
+                let step = message.ipoc.saturating_sub(before.ipoc).max(1);
+                self.interrupted |= is_silent || u128::from(step) > ANEW.as_millis();
+                step
+            }
+        };
+        self.newest = Some(Newest { from, at, ipoc: message.ipoc, ready: message.ready != Some(false) });
+        self.message = Some(message);
+        Some(step)
+    }
+
+    /// Puts a message back that the next cycle is to have.
+    pub(super) fn give_back(&mut self, message: Message) {
+        self.message = Some(message);
+    }
+
+    /// The message of this cycle.
+    pub(super) fn take(&mut self) -> Option<Message> {
+        self.message.take()
+    }
+
+    /// A cycle went on without a message.
+    pub(super) fn note_silence(&mut self) {
+        self.interrupted = true;
+    }
+
+    /// Whether messages were interrupted since this was asked last.
+    pub(super) fn take_interruption(&mut self) -> bool {
+        std::mem::take(&mut self.interrupted)
+    }
+
+    /// Whether the robot has said last that its drives are on, or does not say that.
+    pub(super) fn is_ready(&self) -> bool {
+        self.newest.is_some_and(|newest| newest.ready)
+    }
+
+    /// Answers the newest message.
+    pub(super) fn answer(&self, correction: &Joints, external: usize, stop: bool) {
+        let (Some(socket), Some(Newest { from, ipoc, .. })) = (&self.socket, self.newest) else { return };
+        let answer = Answer { ipoc, correction: *correction, external, stop }.to_bytes();
+        // What cannot be sent is late for the robot, which counts that.
+        let _ = socket.send_to(answer.as_bytes(), from);
+    }
+}

@@ -1,0 +1,170 @@
+//! A KUKA robot whose controller runs RobotSensorInterface (RSI): it sends where the axes are in each of its cycles, 4 ms or 12 ms long, and
+//! takes corrections of the axes in the answer. So it gives the beat: our cycles are its own.
+
+mod beat;
+mod link;
+pub mod message;
+
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::time::Duration;
+
+use arl_rt::motion::Joints;
+use arl_rt::robot_driver::{Drives, Feedback, Power, RobotDriver, Setpoint, Start};
+
+pub use beat::RsiBeat;
+use link::Link;
+use message::Message;
+
+use crate::patience::Patience;
+
+/// How long to wait at the start: somebody has to start RSI on the robot's pendant.
+const BEGIN: Duration = Duration::from_secs(30);
+/// How long to wait for another message at the end, so that the robot is told to stop.
+const END: Duration = Duration::from_millis(50);
+
+/// A robot that speaks RSI. Its [beat](RsiArm::beat) has to be the clock of the controller, whose cycles are as long as those of the robot.
+///
+/// ```no_run
+/// use arl_drivers::rsi::RsiArm;
+///
+/// let arm = RsiArm::new("0.0.0.0:49152");
+/// let builder = arl_rt::Controller::builder().clock(arm.beat()).robot_driver(arm);
+/// # let _ = builder;
+/// ```
+#[derive(Debug)]
+pub struct RsiArm {
+    link: Rc<RefCell<Link>>,
+    /// Where the axes were when RSI began: what corrections count from.
+    origin: Joints,
+    /// The correction that was sent last.
+    correction: Joints,
+    external: usize,
+    power: Power,
+    /// Messages were interrupted: nothing is answered any more.
+    ended: bool,
+}
+
+impl RsiArm {
+    /// The robot that sends to this address and port of the computer.
+    pub fn new(listen: impl Into<String>) -> Self {
+        let origin = Joints { axes: [0.0; 6], external: [0.0; 6] };
+        let link = Rc::new(RefCell::new(Link::new(listen.into())));
+        Self { link, origin, correction: origin, external: 0, power: Power::On, ended: false }
+    }
+
+    /// A robot that is simulated, and whose time counts: each cycle waits for it, two seconds at most.
+    pub fn in_its_own_time(self) -> Self {
+        self.link.borrow_mut().patience = Some(Patience::default());
+        self
+    }
+
+    /// The clock whose cycles begin when a message comes.
+    pub fn beat(&self) -> RsiBeat {
+        RsiBeat::new(Rc::clone(&self.link))
+    }
+
+    /// Says what its message tells.
+    fn feedback(&self, message: &Message) -> Feedback {
+        let drives = match message.ready {
+            _ if self.ended => Drives::Fault("RSI was interrupted: start it and the run again".into()),
+            Some(false) => Drives::Off,
+            _ => Drives::On,
+        };
+        let feedback = Feedback::at(message.position).with_drives(drives);
+        message.torque.map_or(feedback.clone(), |torque| feedback.with_torque(torque))
+    }
+
+    fn answer(&self, stop: bool) {
+        self.link.borrow_mut().answer(&self.correction, self.external, stop);
+    }
+}
+
+impl RobotDriver for RsiArm {
+    fn start(&mut self, start: &Start<'_>) -> Result<Joints, String> {
+        self.external = start.robot.external_axes().len();
+        let mut link = self.link.borrow_mut();
+        link.open()?;
+        let first = link.wait(BEGIN)?;
+        if first.delay > 0 {
+            return Err(
+                "RSI runs already, and may hold a correction of a run before: start it again, after arl2rs".to_owned()
+            );
+        }
+        let (mut last, mut steps) = (first, [0; FIRST]);
+        self.origin = first.position;
+        for step in &mut steps {
+            link.answer(&self.correction, self.external, false);
+            let next = link.wait(BEGIN)?;
+            *step = next.ipoc.saturating_sub(last.ipoc);
+            last = next;
+        }
+        fits(&steps, start.period)?;
+        if last.external < self.external {
+            let (has, needs) = (last.external, self.external);
+            return Err(format!("its messages have {has} external axes in `EIPos`, the robot file {needs}"));
+        }
+        if last.ready == Some(false) {
+            return Err("its drives are off: switch them on, and start RSI again".to_owned());
+        }
+        let own = first.position.axes.iter().chain(&first.position.external);
+        if !own.chain(&last.position.axes).all(|axis| axis.is_finite()) {
+            return Err("it says that the robot is at what is no number".to_owned());
+        }
+        link.take_interruption();
+        // The first cycle answers.
+        link.give_back(last);
+        Ok(last.position)
+    }
+
+    fn exchange(&mut self, setpoint: &Setpoint) -> Feedback {
+        let Some(message) = self.link.borrow_mut().take() else { return Feedback::none() };
+        self.ended |= self.link.borrow_mut().take_interruption();
+        if self.ended {
+            // Nobody knows any more where corrections count from: without an answer the robot ends RSI.
+            return self.feedback(&message);
+        }
+        // While it is off, the robot's own controller holds it where it was told to be.
+        if self.power == Power::On {
+            self.correction = difference(&setpoint.position, &self.origin);
+        }
+        self.answer(self.power == Power::Cut);
+        self.feedback(&message)
+    }
+
+    fn switch(&mut self, power: Power) -> Drives {
+        self.power = power;
+        // On they are where the robot says so, or says nothing of it.
+        let is_on = power == Power::On && !self.ended && self.link.borrow().is_ready();
+        if is_on { Drives::On } else { Drives::Off }
+    }
+
+    fn close(&mut self) {
+        // Messages of some cycles are there where the run took long to end: the newest one is answered.
+        let has_message = self.link.borrow_mut().wait(END).is_ok();
+        self.ended |= self.link.borrow_mut().take_interruption();
+        if has_message && !self.ended {
+            self.answer(true);
+        }
+    }
+}
+
+/// How many messages are looked at before cycles begin.
+const FIRST: usize = 4;
+
+/// The cycles of the robot, whose time counts in ms, have to be as long as ours. Messages may be lost: then a step is longer.
+fn fits(steps: &[u64], period: f64) -> Result<(), String> {
+    let step = steps.iter().min().copied().unwrap_or_default();
+    let own = period * 1e3;
+    if (step as f64 - own).abs() < 1e-6 {
+        return Ok(());
+    }
+    Err(format!("the robot has cycles of {step} ms, the cell of {own} ms: `cycle = {step}` of [controller] is right"))
+}
+
+fn difference(one: &Joints, other: &Joints) -> Joints {
+    let mut result = *one;
+    result.axes.iter_mut().zip(&other.axes).for_each(|(axis, other)| *axis -= other);
+    result.external.iter_mut().zip(&other.external).for_each(|(axis, other)| *axis -= other);
+    result
+}

@@ -1,0 +1,282 @@
+//! An arm that takes packets of set-points over UDP.
+
+pub mod packet;
+
+use std::io::ErrorKind;
+use std::net::{ToSocketAddrs, UdpSocket};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+use arl_rt::motion::Joints;
+use arl_rt::robot_driver::{Drives, Feedback, Power, RobotDriver, Setpoint, Start};
+
+use crate::patience::Patience;
+use crate::readable;
+use packet::{Command, STATE_LENGTH, State};
+
+/// How long the arm may take to answer at the start, and to switch its drives on.
+const ANSWER: Duration = Duration::from_secs(3);
+const COMING_ON: Duration = Duration::from_secs(5);
+/// How often it is told at the start.
+const AGAIN: Duration = Duration::from_millis(20);
+/// How often it is told at the end: a packet may be lost.
+const FAREWELLS: usize = 5;
+/// An arm that does not hear any more, in time and in cycles at least.
+const DEAF: Duration = Duration::from_millis(50);
+const DEAF_CYCLES: f64 = 8.0;
+/// So many packets are taken in a cycle: whoever sends more does not keep it from ending.
+const MOST: usize = 64;
+
+/// An arm behind an address. It has to answer each packet with its state.
+///
+/// ```no_run
+/// use arl_drivers::udp::UdpArm;
+///
+/// let builder = arl_rt::Controller::builder()
+///     .robot_driver(UdpArm::new("192.168.0.30:7447"))
+///     .clock(arl_rt::clock_source::RealClock::new());
+/// # let _ = builder;
+/// ```
+#[derive(Debug)]
+pub struct UdpArm {
+    address: String,
+    link: Option<Link>,
+    /// Where the robot's time counts: for how long to wait for it.
+    patience: Option<Patience>,
+}
+
+impl UdpArm {
+    /// The arm that listens at an address: host and port.
+    pub fn new(address: impl Into<String>) -> Self {
+        Self { address: address.into(), link: None, patience: None }
+    }
+
+    /// An arm that is simulated, and whose time counts: each exchange waits for its answer, two seconds at most. So a run is the same
+    /// each time, if the simulator is.
+    pub fn in_its_own_time(self) -> Self {
+        Self { patience: Some(Patience::default()), ..self }
+    }
+}
+
+impl RobotDriver for UdpArm {
+    fn start(&mut self, start: &Start<'_>) -> Result<Joints, String> {
+        let mut link = Link::open(&self.address, start)?;
+        let state = link.meet(&self.address)?;
+        let position = link.switch_on(state.position)?;
+        self.link = Some(link);
+        Ok(position)
+    }
+
+    fn exchange(&mut self, setpoint: &Setpoint) -> Feedback {
+        let Some(link) = &mut self.link else { return Feedback::none() };
+        link.send(setpoint, true);
+        let heard = match &mut self.patience {
+            None => link.newest().filter(|state| link.is_of_now(state)),
+            Some(patience) => {
+                let sent = link.sent;
+                let answer = link.answer(Instant::now() + patience.limit(), sent);
+                patience.answered(answer.is_some());
+                answer
+            }
+        };
+        let Some(state) = heard else { return Feedback::none() };
+        let drives = link.drives(&state);
+        let feedback = Feedback::at(state.position).with_drives(drives);
+        let feedback = state.velocity.map_or(feedback.clone(), |velocity| feedback.with_velocity(velocity));
+        state.torque.map_or(feedback.clone(), |torque| feedback.with_torque(torque))
+    }
+
+    fn switch(&mut self, power: Power) -> Drives {
+        if let Some(link) = &mut self.link {
+            link.switch(power);
+        }
+        // Whether they are on says the arm.
+        Drives::Off
+    }
+
+    fn wants_torque(&self) -> bool {
+        true
+    }
+
+    fn close(&mut self) {
+        let Some(mut link) = self.link.take() else { return };
+        if link.power == Power::On {
+            link.power = Power::Off;
+        }
+        link.let_go();
+    }
+}
+
+/// What is between us and the arm.
+#[derive(Debug)]
+struct Link {
+    socket: UdpSocket,
+    session: u32,
+    axes: (u8, u8),
+    power: Power,
+    /// The number of the first command with this power.
+    powered: u64,
+    sent: u64,
+    /// The number of the newest state.
+    heard: u64,
+    /// What was sent last.
+    last: Setpoint,
+}
+
+impl Link {
+    fn open(address: &str, start: &Start<'_>) -> Result<Self, String> {
+        let failed = |error: std::io::Error| format!("{address}: {error}");
+        let to = address.to_socket_addrs().map_err(failed)?.next().ok_or_else(|| format!("{address}: no address"))?;
+        let any = if to.is_ipv4() { "0.0.0.0:0" } else { "[::]:0" };
+        let socket = UdpSocket::bind(any).map_err(failed)?;
+        socket.connect(to).map_err(failed)?;
+        socket.set_nonblocking(true).map_err(failed)?;
+        let count = |axes: usize| u8::try_from(axes).unwrap_or(u8::MAX);
+        let axes = (count(start.robot.own_axes().len()), count(start.robot.external_axes().len()));
+        let last = Setpoint::resting(*start.home, start.period);
+        Ok(Self { socket, session: session(), axes, power: Power::Off, powered: 0, sent: 0, heard: 0, last })
+    }
+
+    /// Says hello until the arm answers.
+    fn meet(&mut self, address: &str) -> Result<State, String> {
+        let until = Instant::now() + ANSWER;
+        let hello = self.last;
+        while Instant::now() < until {
+            self.send(&hello, false);
+            let Some(state) = self.answer(Instant::now() + AGAIN, 1) else { continue };
+            if state.axes != self.axes {
+                let said = |(own, external): (u8, u8)| format!("{own} axes and {external} external ones");
+                return Err(format!(
+                    "the arm at {address} has {}, the robot file {}",
+                    said(state.axes),
+                    said(self.axes)
+                ));
+            }
+            return Ok(state);
+        }
+        Err(format!("no arm answers at {address}: nothing came within {} s", ANSWER.as_secs()))
+    }
+
+    /// Switches the motors on, and waits until they are; where the arm is then. Until that it is asked to stay where it is.
+    fn switch_on(&mut self, position: Joints) -> Result<Joints, String> {
+        let mut here = is_numbers(position)?;
+        self.switch(Power::On);
+        let until = Instant::now() + COMING_ON;
+        let mut problem = format!("its drives have not come on within {} s", COMING_ON.as_secs());
+        while Instant::now() < until {
+            self.send(&Setpoint::resting(here, self.last.period), false);
+            let Some(state) = self.answer(Instant::now() + AGAIN, self.powered) else { continue };
+            here = match is_numbers(state.position) {
+                Ok(here) => here,
+                Err(no_number) => {
+                    problem = no_number;
+                    break;
+                }
+            };
+            match state.drives {
+                Drives::On => return Ok(here),
+                Drives::Fault(why) => problem = format!("its drives have a fault: {why}"),
+                _ => {}
+            }
+            std::thread::sleep(AGAIN / 4);
+        }
+        self.switch(Power::Off);
+        self.let_go();
+        Err(problem)
+    }
+
+    /// Tells the arm that it is on its own, until it has heard that, or does not answer.
+    fn let_go(&mut self) {
+        self.powered = self.sent + 1;
+        let rest = self.last;
+        for _ in 0..FAREWELLS {
+            self.send(&rest, false);
+            if self.answer(Instant::now() + AGAIN, self.powered).is_some_and(|state| state.drives != Drives::On) {
+                return;
+            }
+        }
+    }
+
+    fn switch(&mut self, power: Power) {
+        self.power = power;
+        self.powered = self.sent + 1;
+    }
+
+    /// How the drives are. That they are on counts only where the arm knew that they should be.
+    fn drives(&self, state: &State) -> Drives {
+        match &state.drives {
+            Drives::On if state.answers < self.powered => Drives::Off,
+            drives => drives.clone(),
+        }
+    }
+
+    /// Whether the arm has had what was sent lately: one that says only where it is, and hears nothing, is as good as lost.
+    fn is_of_now(&self, state: &State) -> bool {
+        let late = (DEAF.as_secs_f64() / self.last.period).max(DEAF_CYCLES) as u64;
+        state.answers.saturating_add(late) >= self.sent
+    }
+
+    fn send(&mut self, setpoint: &Setpoint, is_cyclic: bool) {
+        self.sent += 1;
+        self.last = *setpoint;
+        let Self { session, sent: sequence, axes, power, .. } = *self;
+        let command = Command { session, sequence, axes, power, is_cyclic, setpoint: *setpoint };
+        // What cannot be sent is lost as on the way: the arm brakes, and says nothing new.
+        let _ = self.socket.send(&command.to_bytes());
+    }
+
+    /// The newest state that has come.
+    fn newest(&mut self) -> Option<State> {
+        let mut newest = None;
+        for _ in 0..MOST {
+            match self.receive() {
+                Ok(state) => newest = state.or(newest),
+                Err(Empty) => break,
+            }
+        }
+        newest
+    }
+
+    /// Waits for the answer to this command, or one behind it.
+    fn answer(&mut self, until: Instant, command: u64) -> Option<State> {
+        loop {
+            match self.receive() {
+                Ok(Some(state)) if state.answers >= command => return Some(state),
+                Ok(_) => {}
+                Err(Empty) if readable::wait_until(&self.socket, until) => {}
+                Err(Empty) => return None,
+            }
+        }
+    }
+
+    /// Takes a packet: a state that is newer than all before it, or something that does not count.
+    fn receive(&mut self) -> Result<Option<State>, Empty> {
+        let mut bytes = [0; STATE_LENGTH + 1];
+        match self.socket.recv(&mut bytes) {
+            Ok(length) => {
+                let state = bytes.get(..length).and_then(State::from_bytes);
+                let state = state.filter(|state| state.session == self.session && state.sequence > self.heard);
+                self.heard = state.as_ref().map_or(self.heard, |state| state.sequence);
+                Ok(state)
+            }
+            // Nobody listens there (any more), as the system has heard: the next one may come.
+            Err(error) if matches!(error.kind(), ErrorKind::ConnectionRefused | ErrorKind::Interrupted) => Ok(None),
+            Err(_) => Err(Empty),
+        }
+    }
+}
+
+/// Where an arm is that may be switched on.
+fn is_numbers(position: Joints) -> Result<Joints, String> {
+    let all = position.axes.iter().chain(&position.external).all(|axis| axis.is_finite());
+    if all { Ok(position) } else { Err("it says that the robot is at what is no number".to_owned()) }
+}
+
+/// Nothing is there to receive.
+struct Empty;
+
+/// A number that no other run has.
+fn session() -> u32 {
+    let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or_default();
+    let mixed = now.as_nanos() as u64 ^ (u64::from(std::process::id()) << 32);
+    ((mixed.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32) as u32).max(1)
+}

@@ -1,0 +1,178 @@
+//! The driver over RSI against a robot that sends and waits as the documentation says. What an arm with masses does stands in
+//! `tests/peers/arms`.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "these are tests")]
+
+mod common;
+
+use std::net::UdpSocket;
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use arl_drivers::rsi::RsiArm;
+use arl_rt::robot_driver::{Drives, Power, RobotDriver, Setpoint};
+use arl_rt::{Cell, Controller, Outcome};
+use common::{joints, program, start};
+
+fn message(ipoc: u64, axis: f64, ready: u8) -> String {
+    format!(
+        "<Rob Type=\"KUKA\"><AIPos A1=\"{axis:.6}\" A2=\"0\" A3=\"0\" A4=\"0\" A5=\"0\" A6=\"0\"/>\
+         <Ready>{ready}</Ready><IPOC>{ipoc}</IPOC></Rob>"
+    )
+}
+
+/// What an answer says: correction of axis 1, whether to stop, the time.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct Answered {
+    correction: f64,
+    stop: bool,
+    ipoc: u64,
+}
+
+fn answered(text: &str) -> Answered {
+    let between = |from: &str, to: &str| {
+        let rest = &text[text.find(from).unwrap() + from.len()..];
+        rest[..rest.find(to).unwrap()].to_owned()
+    };
+    let correction = between("<AK A1=\"", "\"").parse().unwrap();
+    Answered { correction, stop: between("<Stop>", "<") == "1", ipoc: between("<IPOC>", "<").parse().unwrap() }
+}
+
+/// A port that nobody listens at.
+fn free() -> String {
+    UdpSocket::bind("127.0.0.1:0").unwrap().local_addr().unwrap().to_string()
+}
+
+/// Sends a message, again until somebody listens; the answer, unless none comes.
+fn ask(socket: &UdpSocket, to: &str, text: &str) -> Option<Answered> {
+    socket.send_to(text.as_bytes(), to).ok()?;
+    let mut bytes = [0; 1000];
+    let length = socket.recv(&mut bytes).ok()?;
+    Some(answered(std::str::from_utf8(&bytes[..length]).unwrap()))
+}
+
+/// A robot that begins at 20 deg, is where it was told to be, and sends every `step` ms of its time until it is told to stop.
+fn robot(to: String, step: u64, ready: u8) -> JoinHandle<Vec<Answered>> {
+    std::thread::spawn(move || {
+        let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+        socket.set_read_timeout(Some(Duration::from_millis(300))).unwrap();
+        let (mut ipoc, mut got) = (1000, Vec::<Answered>::new());
+        // Nobody listens at first; who listens no more has gone.
+        let mut unanswered = 0;
+        while unanswered < 10 {
+            ipoc += step;
+            let axis = 20.0 + got.last().map_or(0.0, |answer| answer.correction);
+            match ask(&socket, &to, &message(ipoc, axis, ready)) {
+                Some(answer) => (unanswered, _) = (0, got.push(answer)),
+                None => unanswered += 1,
+            }
+            if got.last().is_some_and(|answer| answer.stop) {
+                break;
+            }
+            assert!(got.last().is_none_or(|answer| answer.ipoc <= ipoc));
+        }
+        got
+    })
+}
+
+#[test]
+fn a_cell_file_drives_a_robot() {
+    let listen = free();
+    let robot = robot(listen.clone(), 4, 1);
+    let text =
+        format!("[controller]\ncycle = 4\n[driver]\nprotocol = \"rsi\"\nlisten = \"{listen}\"\ntime = \"robot\"\n");
+    let cell = Cell::parse("cell.toml", &text).unwrap();
+    let mut controller = Controller::builder().cell(cell).drivers(arl_drivers::connect).build(program()).unwrap();
+    // It begins where the robot is.
+    assert_eq!(controller.joints().axes[0], 20.0);
+    assert_eq!(controller.run(), Outcome::Ended);
+    assert!((controller.joints().axes[0] - 10.0).abs() < 1e-6);
+    drop(controller);
+    let got = robot.join().unwrap();
+    assert_eq!((got[0].correction, got[0].stop), (0.0, false));
+    // From 20 to 10 deg; the last answer tells to stop.
+    let last = got.last().unwrap();
+    assert!((last.correction + 10.0).abs() < 1e-5 && last.stop, "{last:?}");
+    assert!(got.windows(2).all(|pair| pair[0].ipoc < pair[1].ipoc));
+    assert_eq!(got.iter().filter(|answer| answer.stop).count(), 1);
+    assert!(got.len() > 50, "{}", got.len());
+}
+
+#[test]
+fn what_does_not_fit_is_refused() {
+    let listen = free();
+    let _robot = robot(listen.clone(), 12, 1);
+    let error = start(&mut RsiArm::new(&listen)).unwrap_err();
+    assert_eq!(error, "the robot has cycles of 12 ms, the cell of 4 ms: `cycle = 12` of [controller] is right");
+    let listen = free();
+    let _robot = robot(listen.clone(), 4, 0);
+    let error = start(&mut RsiArm::new(&listen)).unwrap_err();
+    assert_eq!(error, "its drives are off: switch them on, and start RSI again");
+    let error = start(&mut RsiArm::new("192.0.2.1:49152")).unwrap_err();
+    assert!(error.starts_with("192.0.2.1:49152: "), "{error}");
+}
+
+#[test]
+fn only_new_messages_are_answered_and_count() {
+    let listen = free();
+    let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+    let mut driver = RsiArm::new(&listen).in_its_own_time();
+    let mut beat = driver.beat();
+    let mut cycle = |driver: &mut RsiArm, target: f64| {
+        arl_rt::clock_source::Clock::wait_for(&mut beat, 0, 0.004);
+        driver.exchange(&Setpoint::resting(joints(target), 0.004))
+    };
+    let (sender, to) = (socket.try_clone().unwrap(), listen.clone());
+    let begin = std::thread::spawn(move || {
+        sender.set_read_timeout(Some(Duration::from_millis(300))).unwrap();
+        let mut ipoc = 0;
+        let mut next = || {
+            ipoc += 4;
+            message(ipoc, 20.0, 1)
+        };
+        // Until somebody listens, and what the start looks at; the last one is for the first cycle.
+        while ask(&sender, &to, &next()).is_none() {}
+        (0..3).for_each(|_| assert_eq!(ask(&sender, &to, &next()).unwrap().correction, 0.0));
+        sender.send_to(next().as_bytes(), &to).unwrap();
+    });
+    assert_eq!(start(&mut driver).unwrap(), joints(20.0));
+    begin.join().unwrap();
+    assert_eq!(cycle(&mut driver, 20.0).position, Some(joints(20.0)));
+    let send = |text: &str| socket.send_to(text.as_bytes(), &listen).unwrap();
+    // Three at once: the newest counts. One that is older, or none, or somebody else's, does not.
+    send(&message(404, 1.0, 1));
+    send(&message(412, 3.0, 1));
+    send(&message(408, 2.0, 1));
+    let other = UdpSocket::bind("127.0.0.1:0").unwrap();
+    other.send_to(message(416, 9.0, 1).as_bytes(), &listen).unwrap();
+    send("<Rob>");
+    assert_eq!(cycle(&mut driver, 21.0).position, Some(joints(3.0)));
+    send(&message(412, 4.0, 1));
+    send(&message(416, 5.0, 0));
+    let feedback = cycle(&mut driver, 22.0);
+    assert_eq!((feedback.position, feedback.drives), (Some(joints(5.0)), Some(Drives::Off)));
+    // While it is not told to be on, the correction stays.
+    assert_eq!(driver.switch(Power::Off), Drives::Off);
+    send(&message(420, 6.0, 1));
+    cycle(&mut driver, 50.0);
+    driver.switch(Power::Cut);
+    send(&message(424, 6.0, 1));
+    cycle(&mut driver, 50.0);
+    // Nothing comes: no position. What comes behind that is heard, but answered no more.
+    assert_eq!(cycle(&mut driver, 50.0).position, None);
+    send(&message(428, 7.0, 1));
+    let feedback = cycle(&mut driver, 50.0);
+    let fault = Drives::Fault("RSI was interrupted: start it and the run again".into());
+    assert_eq!((feedback.position, feedback.drives), (Some(joints(7.0)), Some(fault)));
+    assert_eq!(driver.switch(Power::On), Drives::Off);
+    send(&message(432, 7.0, 1));
+    cycle(&mut driver, 50.0);
+    socket.set_read_timeout(Some(Duration::from_millis(200))).unwrap();
+    let mut bytes = [0; 1000];
+    let mut got = Vec::new();
+    while let Ok(length) = socket.recv(&mut bytes) {
+        got.push(answered(std::str::from_utf8(&bytes[..length]).unwrap()));
+    }
+    let tail: Vec<_> = got[got.len() - 4..].iter().map(|it| (it.ipoc, it.correction, it.stop)).collect();
+    assert_eq!(tail, [(412, 1.0, false), (416, 2.0, false), (420, 2.0, false), (424, 2.0, true)]);
+}
