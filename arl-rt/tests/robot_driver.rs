@@ -284,6 +284,17 @@ fn measured_speeds_count_in_place_of_differences() {
 }
 
 #[test]
+fn an_emergency_stop_reaches_a_robot_that_is_off() {
+    let (mut controller, heard) = turning(|_, feedback| feedback);
+    controller.run_for(1.0);
+    controller.press(arl_rt::io::Pendant::ServoOff);
+    controller.run_for(2.0);
+    controller.emergency_stop();
+    controller.step();
+    assert_eq!(heard.borrow().switched, [(Power::Off, 0.0), (Power::Cut, 0.0)]);
+}
+
+#[test]
 fn motors_go_off_at_rest_and_come_on_when_they_say_so() {
     let (mut controller, heard) = turning(|cycle, feedback| {
         // After they are switched on, the drives take 0.3 s.

@@ -113,6 +113,34 @@ fn what_does_not_fit_is_refused() {
 }
 
 #[test]
+fn who_waits_in_vain_hears_why() {
+    let listen = free();
+    let to = listen.clone();
+    let sends = std::thread::spawn(move || {
+        let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
+        // A robot that runs already, and has not been answered.
+        let late = message(8, 20.0, 1).replace("<Ready>", "<Delay D=\"7\"/><Ready>");
+        for _ in 0..1000 {
+            let _ = socket.send_to(late.as_bytes(), &to);
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    });
+    let error = start(&mut RsiArm::new(&listen)).unwrap_err();
+    assert!(error.starts_with("RSI runs already"), "{error}");
+    drop(sends);
+    let two = "[driver]\nprotocol = \"rsi\"\nlisten = \"127.0.0.1:0\"\n";
+    let cell = || Cell::parse("cell.toml", two).unwrap();
+    let second = arl_rt::Foreground::new(program()).driver_settings(cell().driver.unwrap());
+    let error = Controller::builder().cell(cell()).drivers(arl_drivers::connect).foreground(second).build(program());
+    let error = error.unwrap_err().to_string();
+    assert!(error.contains("needs a controller of its own"), "{error}");
+    let text = two.to_owned() + "time = \"robot\"\n";
+    let builder = Controller::builder().cell(Cell::parse("cell.toml", &text).unwrap()).drivers(arl_drivers::connect);
+    let error = builder.clock(arl_rt::clock_source::RealClock::new()).build(program()).unwrap_err();
+    assert!(error.to_string().contains("cannot be driven in real time"), "{error}");
+}
+
+#[test]
 fn only_new_messages_are_answered_and_count() {
     let listen = free();
     let socket = UdpSocket::bind("127.0.0.1:0").unwrap();
@@ -125,7 +153,7 @@ fn only_new_messages_are_answered_and_count() {
     let (sender, to) = (socket.try_clone().unwrap(), listen.clone());
     let begin = std::thread::spawn(move || {
         sender.set_read_timeout(Some(Duration::from_millis(300))).unwrap();
-        let mut ipoc = 0;
+        let mut ipoc = 1000;
         let mut next = || {
             ipoc += 4;
             message(ipoc, 20.0, 1)
@@ -134,38 +162,39 @@ fn only_new_messages_are_answered_and_count() {
         while ask(&sender, &to, &next()).is_none() {}
         (0..3).for_each(|_| assert_eq!(ask(&sender, &to, &next()).unwrap().correction, 0.0));
         sender.send_to(next().as_bytes(), &to).unwrap();
+        ipoc
     });
     assert_eq!(start(&mut driver).unwrap(), joints(20.0));
-    begin.join().unwrap();
+    let base = begin.join().unwrap() - 400;
     assert_eq!(cycle(&mut driver, 20.0).position, Some(joints(20.0)));
     let send = |text: &str| socket.send_to(text.as_bytes(), &listen).unwrap();
     // Three at once: the newest counts. One that is older, or none, or somebody else's, does not.
-    send(&message(404, 1.0, 1));
-    send(&message(412, 3.0, 1));
-    send(&message(408, 2.0, 1));
+    send(&message(base + 404, 1.0, 1));
+    send(&message(base + 412, 3.0, 1));
+    send(&message(base + 408, 2.0, 1));
     let other = UdpSocket::bind("127.0.0.1:0").unwrap();
-    other.send_to(message(416, 9.0, 1).as_bytes(), &listen).unwrap();
+    other.send_to(message(base + 416, 9.0, 1).as_bytes(), &listen).unwrap();
     send("<Rob>");
     assert_eq!(cycle(&mut driver, 21.0).position, Some(joints(3.0)));
-    send(&message(412, 4.0, 1));
-    send(&message(416, 5.0, 0));
+    send(&message(base + 412, 4.0, 1));
+    send(&message(base + 416, 5.0, 0));
     let feedback = cycle(&mut driver, 22.0);
     assert_eq!((feedback.position, feedback.drives), (Some(joints(5.0)), Some(Drives::Off)));
     // While it is not told to be on, the correction stays.
     assert_eq!(driver.switch(Power::Off), Drives::Off);
-    send(&message(420, 6.0, 1));
+    send(&message(base + 420, 6.0, 1));
     cycle(&mut driver, 50.0);
     driver.switch(Power::Cut);
-    send(&message(424, 6.0, 1));
+    send(&message(base + 424, 6.0, 1));
     cycle(&mut driver, 50.0);
     // Nothing comes: no position. What comes behind that is heard, but answered no more.
     assert_eq!(cycle(&mut driver, 50.0).position, None);
-    send(&message(428, 7.0, 1));
+    send(&message(base + 428, 7.0, 1));
     let feedback = cycle(&mut driver, 50.0);
     let fault = Drives::Fault("RSI was interrupted: start it and the run again".into());
     assert_eq!((feedback.position, feedback.drives), (Some(joints(7.0)), Some(fault)));
     assert_eq!(driver.switch(Power::On), Drives::Off);
-    send(&message(432, 7.0, 1));
+    send(&message(base + 432, 7.0, 1));
     cycle(&mut driver, 50.0);
     socket.set_read_timeout(Some(Duration::from_millis(200))).unwrap();
     let mut bytes = [0; 1000];
@@ -173,6 +202,6 @@ fn only_new_messages_are_answered_and_count() {
     while let Ok(length) = socket.recv(&mut bytes) {
         got.push(answered(std::str::from_utf8(&bytes[..length]).unwrap()));
     }
-    let tail: Vec<_> = got[got.len() - 4..].iter().map(|it| (it.ipoc, it.correction, it.stop)).collect();
+    let tail: Vec<_> = got[got.len() - 4..].iter().map(|it| (it.ipoc - base, it.correction, it.stop)).collect();
     assert_eq!(tail, [(412, 1.0, false), (416, 2.0, false), (420, 2.0, false), (424, 2.0, true)]);
 }

@@ -125,11 +125,12 @@ fn without_being_told_to_nothing_is_driven() {
 
 #[test]
 fn no_robot_is_driven_in_the_time_of_another_one() {
-    let udp = "[driver]\nprotocol = \"udp\"\naddress = \"127.0.0.1:9\"\ntime = \"robot\"\n";
-    let rsi = "[driver]\nprotocol = \"rsi\"\nlisten = \"127.0.0.1:9\"\n";
-    let cell = |text: &str| Cell::parse("cell.toml", text).unwrap();
-    let second = Foreground::new(program()).driver_settings(cell(rsi).driver.unwrap());
-    let builder = Controller::builder().cell(cell(udp)).drivers(arl_drivers::connect).foreground(second);
+    let cell = |time: &str| {
+        let text = format!("[driver]\nprotocol = \"udp\"\naddress = \"127.0.0.1:9\"\ntime = \"{time}\"\n");
+        Cell::parse("cell.toml", &text).unwrap()
+    };
+    let second = Foreground::new(program()).driver_settings(cell("world").driver.unwrap());
+    let builder = Controller::builder().cell(cell("robot")).drivers(arl_drivers::connect).foreground(second);
     let error = builder.build(program()).unwrap_err();
     assert!(error.to_string().contains("no time suits both"), "{error}");
 }

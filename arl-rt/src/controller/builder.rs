@@ -320,6 +320,10 @@ impl Builder {
         self.body.settings = self.cell.driver.take();
         let bodies = std::iter::once(&mut self.body).chain(self.foreground.iter_mut().map(|it| &mut it.body));
         let driven = self.connect.map_or_else(|| Ok(Time::default()), |connect| drive::drive(bodies, connect))?;
+        if driven.is_of_a_robot && self.clock.is_real() {
+            let text = "a robot with `time = \"robot\"` cannot be driven in real time: its own time is what counts";
+            return Err(SetupError::Cell(text.to_owned()));
+        }
         if let Some(beat) = driven.beat {
             self.clock = beat;
         }

@@ -538,8 +538,9 @@ impl Controller {
         self.shared.io.borrow().digital(Digital::InternalOut, channel)
     }
 
-    /// The last cycle was: no robot waits while files are written.
-    pub(crate) fn close_robots(&mut self) {
+    /// Lets go of the robots: the last cycle was. One that moves is cut off. Whoever drives a real one and does something slow after its last
+    /// cycle calls this before; otherwise it comes when the controller is dropped.
+    pub fn close_robots(&mut self) {
         self.channels.units().for_each(|unit| unit.borrow_mut().close());
     }
 }

@@ -76,8 +76,9 @@ impl Unit {
             self.motors = Motors::Off;
             self.let_go();
             self.pause();
-            self.driver.switch(Power::Cut);
         }
+        // Also one that is off: there are robots whose power is somebody else's, and which hold where they stand.
+        self.driver.switch(Power::Cut);
     }
 
     /// Switches motors off that are to go off, where the robot rests.

@@ -9,11 +9,18 @@ use arl_rt::clock_source::{Clock, Lateness};
 
 use super::link::Link;
 
-/// For so many cycles the controller stands still where no message comes. A robot gives up after about as many answers that are missing.
-const PATIENT_CYCLES: f64 = 10.0;
+/// For so long the controller stands still where no message comes, and for so many cycles at least. A robot gives up soon after that, and
+/// the inputs and the pendant want to be heard.
+const PATIENT: Duration = Duration::from_millis(30);
+const PATIENT_CYCLES: f64 = 3.0;
+
+/// How long to wait for a message, where cycles are `period` s long.
+pub(super) fn patience(period: f64) -> Duration {
+    PATIENT.max(Duration::from_secs_f64(period * PATIENT_CYCLES))
+}
 
 /// Cycles begin when the robot sends. A message that is missing is a cycle that is lost: the motion does not go on without it. Where none
-/// comes for ten cycles, they go on at their own pace: then the controller finds that no position comes, and the run ends.
+/// comes for 30 ms and three cycles, they go on at their own pace: then the controller finds that no position comes, and the run ends.
 pub struct RsiBeat {
     link: Rc<RefCell<Link>>,
     /// When the last message should have come, or came.
@@ -37,7 +44,7 @@ impl Clock for RsiBeat {
         let until = match &link.patience {
             Some(patience) => now + patience.limit(),
             None if self.silent => due.max(now),
-            None => due + Duration::from_secs_f64(period * PATIENT_CYCLES),
+            None => due.max(now) + patience(period),
         };
         let received = link.receive(until);
         self.silent = !received.any;
@@ -48,6 +55,8 @@ impl Clock for RsiBeat {
             link.note_silence();
         }
         let came = Instant::now();
+        // Those that were lost had points, too.
+        let due = due + Duration::from_millis(received.step).saturating_sub(Duration::from_secs_f64(period));
         // One that was there already came at its point, as far as anybody knows.
         self.point = Some(if received.was_there { due.min(came) } else { came });
         if is_simulated || !received.any {

@@ -10,7 +10,7 @@ use super::message::{Answer, LONGEST, Message};
 use crate::patience::Patience;
 use crate::readable;
 
-/// Where the robot's time goes on by more, or nothing has come for as long, RSI has begun anew: corrections count from another place.
+/// Where nothing has come for so long, RSI may begin anew: with another time, from another port.
 const ANEW: Duration = Duration::from_millis(500);
 /// So many packets are looked at in a cycle: whoever sends more does not keep it from ending.
 const MOST: usize = 64;
@@ -25,6 +25,12 @@ pub(super) struct Link {
     message: Option<Message>,
     /// RSI has begun anew, or cycles went on without its messages: what it was asked for does not hold any more.
     interrupted: bool,
+    /// The time of the message that was answered last, and by how many ms the next one may be later: a robot that had no answer for longer
+    /// has given up.
+    answered: Option<u64>,
+    pub(super) patient: u64,
+    /// Whether something has come that is no message.
+    odd: bool,
     /// Where the robot's time counts: for how long to wait for it.
     pub(super) patience: Option<Patience>,
 }
@@ -51,7 +57,17 @@ pub(super) struct Received {
 
 impl Link {
     pub(super) fn new(listen: String) -> Self {
-        Self { listen, socket: None, newest: None, message: None, interrupted: false, patience: None }
+        Self {
+            listen,
+            socket: None,
+            newest: None,
+            message: None,
+            interrupted: false,
+            answered: None,
+            patient: u64::MAX,
+            odd: false,
+            patience: None,
+        }
     }
 
     pub(super) fn open(&mut self) -> Result<(), String> {
@@ -68,18 +84,26 @@ impl Link {
         self.receive(Instant::now() + limit);
         let seconds = limit.as_secs();
         self.message.ok_or_else(|| {
-            format!("no robot has sent anything to {} within {seconds} s: start RSI on its pendant", self.listen)
+            let to = &self.listen;
+            match self.odd {
+                true => format!("what comes to {to} is no message of RSI, or it lacks AIPos or IPOC"),
+                false => format!("no robot has sent anything to {to} within {seconds} s: start RSI on its pendant"),
+            }
         })
     }
 
     /// Waits for the message of the next cycle. Of several that have come the newest counts.
     pub(super) fn receive(&mut self, until: Instant) -> Received {
         let mut received = Received { any: self.message.is_some(), was_there: true, step: 0 };
-        for _ in 0..MOST {
+        for packet in 0.. {
             match self.take_packet() {
                 Some(step) => {
                     received.any |= step > 0;
-                    received.step += step;
+                    received.step = received.step.saturating_add(step);
+                    // Whoever sends what does not count gets no more time than the robot.
+                    if packet >= MOST && (received.any || Instant::now() >= until) {
+                        break;
+                    }
                 }
                 None if received.any => break,
                 None => {
@@ -104,7 +128,10 @@ impl Link {
             }
             Err(_) => return None,
         };
-        let Some(message) = bytes.get(..length).and_then(Message::parse) else { return Some(0) };
+        let Some(message) = bytes.get(..length).and_then(Message::parse) else {
+            self.odd = true;
+            return Some(0);
+        };
         let at = Instant::now();
         let step = match self.newest {
             None => 1,
@@ -115,7 +142,8 @@ impl Link {
                     return Some(0);
                 }
                 let step = message.ipoc.saturating_sub(before.ipoc).max(1);
-                self.interrupted |= is_silent || u128::from(step) > ANEW.as_millis();
+                let unanswered = self.answered.map_or(0, |answered| message.ipoc.saturating_sub(answered));
+                self.interrupted |= is_silent || unanswered > self.patient;
                 step
             }
         };
@@ -150,8 +178,9 @@ impl Link {
     }
 
     /// Answers the newest message.
-    pub(super) fn answer(&self, correction: &Joints, external: usize, stop: bool) {
+    pub(super) fn answer(&mut self, correction: &Joints, external: usize, stop: bool) {
         let (Some(socket), Some(Newest { from, ipoc, .. })) = (&self.socket, self.newest) else { return };
+        self.answered = Some(ipoc);
         let answer = Answer { ipoc, correction: *correction, external, stop }.to_bytes();
         // What cannot be sent is late for the robot, which counts that.
         let _ = socket.send_to(answer.as_bytes(), from);

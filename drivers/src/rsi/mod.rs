@@ -41,7 +41,9 @@ pub struct RsiArm {
     correction: Joints,
     external: usize,
     power: Power,
-    /// Messages were interrupted: nothing is answered any more.
+    /// How many answers have told the robot to stop.
+    stops: u32,
+    /// Messages were interrupted, or the robot was told to stop: nothing is answered any more.
     ended: bool,
 }
 
@@ -50,7 +52,7 @@ impl RsiArm {
     pub fn new(listen: impl Into<String>) -> Self {
         let origin = Joints { axes: [0.0; 6], external: [0.0; 6] };
         let link = Rc::new(RefCell::new(Link::new(listen.into())));
-        Self { link, origin, correction: origin, external: 0, power: Power::On, ended: false }
+        Self { link, origin, correction: origin, external: 0, power: Power::On, stops: 0, ended: false }
     }
 
     /// A robot that is simulated, and whose time counts: each cycle waits for it, two seconds at most.
@@ -67,7 +69,9 @@ impl RsiArm {
     /// Says what its message tells.
     fn feedback(&self, message: &Message) -> Feedback {
         let drives = match message.ready {
-            _ if self.ended => Drives::Fault("RSI was interrupted: start it and the run again".into()),
+            _ if self.ended || self.stops > 0 => {
+                Drives::Fault("RSI was interrupted: start it and the run again".into())
+            }
             Some(false) => Drives::Off,
             _ => Drives::On,
         };
@@ -93,9 +97,13 @@ impl RobotDriver for RsiArm {
         }
         let (mut last, mut steps) = (first, [0; FIRST]);
         self.origin = first.position;
+        link.patient = patient_ms(start.period);
         for step in &mut steps {
             link.answer(&self.correction, self.external, false);
             let next = link.wait(BEGIN)?;
+            if link.take_interruption() {
+                return Err("RSI was interrupted while the run began: start both again".to_owned());
+            }
             *step = next.ipoc.saturating_sub(last.ipoc);
             last = next;
         }
@@ -111,7 +119,10 @@ impl RobotDriver for RsiArm {
         if !own.chain(&last.position.axes).all(|axis| axis.is_finite()) {
             return Err("it says that the robot is at what is no number".to_owned());
         }
-        link.take_interruption();
+        let moved = difference(&last.position, &first.position);
+        if moved.axes.iter().chain(&moved.external).any(|by| by.abs() > STANDS) {
+            return Err("the robot moves, though nobody has asked it to".to_owned());
+        }
         // The first cycle answers.
         link.give_back(last);
         Ok(last.position)
@@ -128,14 +139,21 @@ impl RobotDriver for RsiArm {
         if self.power == Power::On {
             self.correction = difference(&setpoint.position, &self.origin);
         }
-        self.answer(self.power == Power::Cut);
+        let stops = self.power == Power::Cut;
+        self.answer(stops);
+        // A packet may be lost. Behind some of them whoever sends has not been told to stop, but has begun anew.
+        self.stops += u32::from(stops);
+        self.ended = self.stops >= STOPS;
         self.feedback(&message)
     }
 
     fn switch(&mut self, power: Power) -> Drives {
-        self.power = power;
+        // What was told to stop ends RSI.
+        if self.power != Power::Cut {
+            self.power = power;
+        }
         // On they are where the robot says so, or says nothing of it.
-        let is_on = power == Power::On && !self.ended && self.link.borrow().is_ready();
+        let is_on = self.power == Power::On && !self.ended && self.link.borrow().is_ready();
         if is_on { Drives::On } else { Drives::Off }
     }
 
@@ -147,6 +165,17 @@ impl RobotDriver for RsiArm {
             self.answer(true);
         }
     }
+}
+
+/// How many answers tell a robot to stop.
+const STOPS: u32 = 5;
+
+/// A robot whose axes moved by no more than that (deg, mm) from message to message stands.
+const STANDS: f64 = 0.1;
+
+/// For how long messages may be missing before a robot has given up, in ms of its time.
+fn patient_ms(period: f64) -> u64 {
+    ((beat::patience(period).as_secs_f64() + period) * 1e3).ceil() as u64
 }
 
 /// How many messages are looked at before cycles begin.

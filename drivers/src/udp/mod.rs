@@ -70,7 +70,14 @@ impl RobotDriver for UdpArm {
         let Some(link) = &mut self.link else { return Feedback::none() };
         link.send(setpoint, true);
         let heard = match &mut self.patience {
-            None => link.newest().filter(|state| link.is_of_now(state)),
+            None => match link.newest() {
+                // What is wrong with it is worth hearing, whatever it has heard.
+                Some(state) if !link.is_of_now(&state) => {
+                    let fault = Some(state.drives).filter(|drives| matches!(drives, Drives::Fault(_)));
+                    return fault.map_or_else(Feedback::none, |fault| Feedback::none().with_drives(fault));
+                }
+                state => state,
+            },
             Some(patience) => {
                 let sent = link.sent;
                 let answer = link.answer(Instant::now() + patience.limit(), sent);

@@ -68,6 +68,12 @@ class RsiPeer:
         return False
 
     def cycle(self, limit):
+        if self.stopped:
+            # RSI has ended.
+            self.arm.switch(False)
+            self.arm.rest(self.period)
+            time.sleep(0.001)
+            return
         self.send()
         answered = self.answer(limit)
         self.in_a_row = 0 if answered else self.in_a_row + 1
