@@ -175,6 +175,19 @@ impl<'a> Section<'a> {
         value.get_ref().as_str().map(Some).ok_or_else(|| self.wrong(key, value, what))
     }
 
+    /// What one of a few words means, if it is there.
+    ///
+    /// # Errors
+    /// The value is none of them.
+    pub fn word<T: Copy>(&self, key: &str, words: &[(&str, T)]) -> Result<Option<T>, SettingsError> {
+        let Some(value) = self.find(key) else { return Ok(None) };
+        let found = value.get_ref().as_str().and_then(|text| words.iter().find(|(word, _)| *word == text));
+        found.map(|(_, meaning)| Some(*meaning)).ok_or_else(|| {
+            let known: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
+            self.wrong(key, value, &known.join(" or "))
+        })
+    }
+
     /// The error for a value that is not what it should be.
     pub fn wrong(&self, key: &str, value: &Value<'_>, expected: &str) -> SettingsError {
         let found = kind(value.get_ref());

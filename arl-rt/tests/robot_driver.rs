@@ -237,11 +237,8 @@ fn a_robot_that_never_settles_is_not_waited_for() {
 
 #[test]
 fn how_near_is_near_enough_says_the_robot_file() {
-    let text = format!("[drives]\nsettled = 0.02\n{}", Robot::text("kr10-r1420").unwrap());
-    // Tables stand behind the keys of the file.
-    let (head, tables) = text.split_at(text.find("name =").unwrap());
-    let (keys, rest) = tables.split_at(tables.find("[geometry]").unwrap());
-    let robot = Robot::parse("robot.toml", &format!("{keys}{head}{rest}")).unwrap();
+    let text = Robot::text("kr10-r1420").unwrap().to_owned() + "\n[drives]\nsettled = 0.02\n";
+    let robot = Robot::parse("robot.toml", &text).unwrap();
     let restless: Script = |cycle, feedback| {
         let mut position = feedback.position.unwrap();
         position.axes[1] += if cycle % 2 == 0 { 0.01 } else { -0.01 };
@@ -292,6 +289,21 @@ fn an_emergency_stop_reaches_a_robot_that_is_off() {
     controller.emergency_stop();
     controller.step();
     assert_eq!(heard.borrow().switched, [(Power::Off, 0.0), (Power::Cut, 0.0)]);
+}
+
+#[test]
+fn a_robot_that_was_let_go_is_called_no_more() {
+    let (mut controller, heard) = turning(|_, feedback| feedback);
+    controller.run_for(AT_SPEED as f64 * 0.001);
+    controller.close_robots();
+    let before = heard.borrow().cycle;
+    controller.emergency_stop();
+    controller.run_for(0.1);
+    drop(controller);
+    let heard = heard.borrow();
+    // It moved: it was cut off, once, and closed, once.
+    assert!(matches!(heard.switched[..], [(Power::Cut, speed)] if speed > 100.0), "{:?}", heard.switched);
+    assert_eq!((heard.cycle, heard.closed), (before, 1));
 }
 
 #[test]

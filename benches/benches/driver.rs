@@ -29,16 +29,16 @@ fn main() -> Result<(), Box<dyn Error>> {
         [("simulated", vec![]), ("bare exchange", vec![]), ("UDP", vec![]), ("RSI", vec![])];
     for _ in 0..TURNS {
         let [simulated, bare, udp, rsi] = &mut all;
-        simulated.1.push(controlled(cycles, Ok)?);
+        simulated.1.push(controlled(cycles, |builder| builder)?);
         bare.1.push(with_echo(|address| exchanged(cycles, address))?);
         udp.1.push(with_echo(|address| {
-            controlled(cycles, |builder| Ok(builder.robot_driver(UdpArm::new(address).in_its_own_time())))
+            controlled(cycles, |builder| builder.robot_driver(UdpArm::new(address).in_its_own_time()))
         })?);
         rsi.1.push(with_robot(|listen| {
             let arm = RsiArm::new(listen).in_its_own_time();
             controlled(cycles, |builder| {
                 let cell = arl_rt::Cell { rate: Rate::from_micros(4000), ..arl_rt::Cell::default() };
-                Ok(builder.cell(cell).clock(arm.beat()).robot_driver(arm))
+                builder.cell(cell).clock(arm.beat()).robot_driver(arm)
             })
         })?);
     }
@@ -78,12 +78,9 @@ fn measured(cycles: usize, mut cycle: impl FnMut()) -> Cost {
 }
 
 /// Cycles of a controller whose robot moves.
-fn controlled(
-    cycles: usize,
-    driven: impl FnOnce(Builder) -> Result<Builder, Box<dyn Error>>,
-) -> Result<Cost, Box<dyn Error>> {
+fn controlled(cycles: usize, driven: impl FnOnce(Builder) -> Builder) -> Result<Cost, Box<dyn Error>> {
     let program = Robot::new(1, 0, i32::MAX, 50.0);
-    let mut controller = driven(Controller::builder())?.build(Box::new(program))?;
+    let mut controller = driven(Controller::builder()).build(Box::new(program))?;
     let cost = measured(cycles, || {
         controller.step();
     });

@@ -137,7 +137,7 @@ fn who_waits_in_vain_hears_why() {
     let text = two.to_owned() + "time = \"robot\"\n";
     let builder = Controller::builder().cell(Cell::parse("cell.toml", &text).unwrap()).drivers(arl_drivers::connect);
     let error = builder.clock(arl_rt::clock_source::RealClock::new()).build(program()).unwrap_err();
-    assert!(error.to_string().contains("cannot be driven in real time"), "{error}");
+    assert!(error.to_string().contains("neither in real time"), "{error}");
 }
 
 #[test]
@@ -191,7 +191,7 @@ fn only_new_messages_are_answered_and_count() {
     assert_eq!(cycle(&mut driver, 50.0).position, None);
     send(&message(base + 428, 7.0, 1));
     let feedback = cycle(&mut driver, 50.0);
-    let fault = Drives::Fault("RSI was interrupted: start it and the run again".into());
+    let fault = Drives::Fault("RSI has ended: start it and the run again".into());
     assert_eq!((feedback.position, feedback.drives), (Some(joints(7.0)), Some(fault)));
     assert_eq!(driver.switch(Power::On), Drives::Off);
     send(&message(base + 432, 7.0, 1));

@@ -132,7 +132,7 @@ fn no_robot_is_driven_in_the_time_of_another_one() {
     let second = Foreground::new(program()).driver_settings(cell("world").driver.unwrap());
     let builder = Controller::builder().cell(cell("robot")).drivers(arl_drivers::connect).foreground(second);
     let error = builder.build(program()).unwrap_err();
-    assert!(error.to_string().contains("no time suits both"), "{error}");
+    assert!(error.to_string().contains("beside one in the time of the world"), "{error}");
 }
 
 #[test]

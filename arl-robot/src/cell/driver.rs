@@ -5,15 +5,10 @@ use crate::settings::{Section, SettingsError};
 
 const KEYS: &[&str] = &["protocol", "address", "listen", "time"];
 
-const PROTOCOL: &str = "\"udp\" or \"rsi\"";
-const TIME: &str = "\"world\" or \"robot\"";
-
 /// How a robot is reached.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub struct DriverSettings {
-    /// Where its table begins in the cell file: the line, from 1.
-    pub line: u32,
     /// What is spoken.
     pub protocol: Protocol,
     /// Whose time counts.
@@ -53,47 +48,55 @@ impl DriverSettings {
             return Ok(None);
         };
         let lacks = |key: &str, what: &str| section.source.error(value.span(), format!("{name} lacks `{key}`: {what}"));
-        let protocol = section.text("protocol", PROTOCOL)?.ok_or_else(|| lacks("protocol", PROTOCOL))?;
-        let (own, other) = match protocol {
-            "udp" => (ADDRESS, LISTEN),
-            "rsi" => (LISTEN, ADDRESS),
-            _ => return Err(wrong(&section, "protocol", PROTOCOL)),
-        };
-        if let Some(found) = section.find(other.0) {
-            let text = format!("{name} has `{}`, which a driver over {protocol} has not; it has `{}`", other.0, own.0);
+        let spoken = section.word("protocol", SPOKEN)?.ok_or_else(|| lacks("protocol", "\"udp\" or \"rsi\""))?;
+        if let Some(found) = section.find(spoken.other) {
+            let Spoken { key, other, .. } = spoken;
+            let text = format!("{name} has `{other}`, which goes with another protocol: this one has `{key}`");
             return Err(section.source.error(found.span(), text));
         }
-        let place = section.text(own.0, own.1)?.ok_or_else(|| lacks(own.0, own.1))?;
-        if !is_place(place) {
-            return Err(wrong(&section, own.0, own.1));
+        let place = section.text(spoken.key, spoken.place)?.ok_or_else(|| lacks(spoken.key, spoken.place))?;
+        if let (false, Some(found)) = (is_place(place), section.find(spoken.key)) {
+            return Err(section.wrong(spoken.key, found, spoken.place));
         }
-        let place = place.to_owned();
-        let protocol =
-            if protocol == "udp" { Protocol::Udp { address: place } } else { Protocol::Rsi { listen: place } };
-        let time = match section.text("time", TIME)? {
-            None | Some("world") => DriverTime::World,
-            Some("robot") => DriverTime::Robot,
-            Some(_) => return Err(wrong(&section, "time", TIME)),
-        };
-        Ok(Some(Self { line: section.source.line(value.span().start), protocol, time }))
+        let times = [("world", DriverTime::World), ("robot", DriverTime::Robot)];
+        let time = section.word("time", &times)?.unwrap_or_default();
+        Ok(Some(Self { protocol: (spoken.protocol)(place.to_owned()), time }))
     }
 }
 
-/// Where something listens: the key, and what stands there.
-const ADDRESS: (&str, &str) = ("address", "where the arm listens, like \"192.168.0.30:7447\"");
-const LISTEN: (&str, &str) = ("listen", "what the robot sends to, like \"0.0.0.0:49152\"");
+/// A protocol in a cell file: the key of the place where somebody listens, what stands there, and the key that others have.
+#[derive(Clone, Copy)]
+struct Spoken {
+    key: &'static str,
+    place: &'static str,
+    other: &'static str,
+    protocol: fn(String) -> Protocol,
+}
+
+const SPOKEN: &[(&str, Spoken)] = &[
+    (
+        "udp",
+        Spoken {
+            key: "address",
+            place: "where the arm listens, like \"192.168.0.30:7447\"",
+            other: "listen",
+            protocol: |address| Protocol::Udp { address },
+        },
+    ),
+    (
+        "rsi",
+        Spoken {
+            key: "listen",
+            place: "what the robot sends to, like \"0.0.0.0:49152\"",
+            other: "address",
+            protocol: |listen| Protocol::Rsi { listen },
+        },
+    ),
+];
 
 /// Whether it is a host with a port.
 fn is_place(text: &str) -> bool {
     text.rsplit_once(':').is_some_and(|(host, port)| !host.is_empty() && port.parse::<u16>().is_ok())
-}
-
-fn wrong(section: &Section<'_>, key: &str, expected: &str) -> SettingsError {
-    let place = section.find(key).map_or(0..0, |value| value.span());
-    section.find(key).map_or_else(
-        || section.source.error(place, format!("`{key}`: expected {expected}")),
-        |value| section.wrong(key, value, expected),
-    )
 }
 
 #[cfg(test)]
@@ -108,10 +111,10 @@ mod tests {
                     driver = { protocol = \"rsi\", listen = \"0.0.0.0:49152\", time = \"robot\" }\n";
         let cell = Cell::parse("cell.toml", text).unwrap();
         let udp = Protocol::Udp { address: "arm.local:7447".into() };
-        assert_eq!(cell.driver, Some(DriverSettings { line: 1, protocol: udp, time: DriverTime::World }));
+        assert_eq!(cell.driver, Some(DriverSettings { protocol: udp, time: DriverTime::World }));
         let rsi = Protocol::Rsi { listen: "0.0.0.0:49152".into() };
         let second = cell.programs.channels[0].driver.as_ref();
-        assert_eq!(second, Some(&DriverSettings { line: 6, protocol: rsi, time: DriverTime::Robot }));
+        assert_eq!(second, Some(&DriverSettings { protocol: rsi, time: DriverTime::Robot }));
     }
 
     #[test]
@@ -122,7 +125,7 @@ mod tests {
             ("[driver]\nprotocol = \"tcp\"", 2, "expected \"udp\" or \"rsi\", found the text \"tcp\""),
             ("[driver]\nprotocol = \"udp\"", 1, "[driver] lacks `address`: where the arm listens"),
             ("[driver]\nprotocol = \"udp\"\naddress = \"10.0.0.1\"", 3, "like \"192.168.0.30:7447\""),
-            ("[driver]\nprotocol = \"rsi\"\naddress = \"10.0.0.1:1\"", 3, "it has `listen`"),
+            ("[driver]\nprotocol = \"rsi\"\naddress = \"10.0.0.1:1\"", 3, "this one has `listen`"),
             ("[driver]\nprotocol = \"rsi\"\nlisten = \"0.0.0.0:1\"\ntime = \"fast\"", 4, "\"world\" or \"robot\""),
             ("[driver]\nprotocol = \"udp\"\nadress = \"10.0.0.1:1\"", 3, "did you mean `address`?"),
             ("[[channel]]\nprogram = \"a\"\nbackground = true\ndriver = {}", 4, "both `background` and `driver`"),

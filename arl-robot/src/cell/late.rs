@@ -30,16 +30,7 @@ const MOST: f64 = 1e6;
 
 impl LateCycles {
     pub(super) fn read(controller: &Section<'_>) -> Result<Self, SettingsError> {
-        let expected = "\"grid\" or \"skip\"";
-        let late = match controller.text("late", expected)? {
-            None => None,
-            Some("grid") => Some(Late::HoldGrid),
-            Some("skip") => Some(Late::Skip),
-            Some(_) => {
-                let Some(found) = controller.find("late") else { return Ok(Self::default()) };
-                return Err(controller.wrong("late", found, expected));
-            }
-        };
+        let late = controller.word("late", &[("grid", Late::HoldGrid), ("skip", Late::Skip)])?;
         let what = "how many cycles may be lost within a second";
         let limit = controller.number("late_limit", what, 0.0, MOST)?;
         if let (Some(limit), Some(found)) = (limit, controller.find("late_limit"))

@@ -99,9 +99,9 @@ fn island(
     let unit = section.count("unit", "a unit number", 255)?.unwrap_or(1) as u8;
     let poll = section.number("poll", "ms from one exchange to the next", 1.0, 10_000.0)?.unwrap_or(10.0);
     let timeout = section.number("timeout", "ms that an answer may take", 10.0, 10_000.0)?.unwrap_or(500.0);
-    let lost = word(&section, "lost", &[("alarm", Lost::Alarm), ("warning", Lost::Warning)])?;
-    let inputs = word(&section, "inputs", RESTS)?.unwrap_or(Rest::Zero);
-    let end = word(&section, "end", RESTS)?.unwrap_or(Rest::Zero);
+    let lost = section.word("lost", &[("alarm", Lost::Alarm), ("warning", Lost::Warning)])?;
+    let inputs = section.word("inputs", RESTS)?.unwrap_or(Rest::Zero);
+    let end = section.word("end", RESTS)?.unwrap_or(Rest::Zero);
     taken.written.clear();
     let points = Points {
         di: bits(&section, &DI, channels.di, taken)?,
@@ -126,16 +126,6 @@ fn address(section: &Section<'_>) -> Result<Option<IpAddr>, SettingsError> {
     let Some(value) = section.find("address") else { return Ok(None) };
     let address = value.get_ref().as_str().and_then(|text| text.parse().ok());
     address.map(Some).ok_or_else(|| section.wrong("address", value, ADDRESS))
-}
-
-/// One of a few words, if it is there.
-fn word<T: Copy>(section: &Section<'_>, key: &str, words: &[(&str, T)]) -> Result<Option<T>, SettingsError> {
-    let Some(value) = section.find(key) else { return Ok(None) };
-    let found = value.get_ref().as_str().and_then(|text| words.iter().find(|(word, _)| *word == text));
-    found.map(|(_, meaning)| Some(*meaning)).ok_or_else(|| {
-        let known: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
-        section.wrong(key, value, &known.join(" or "))
-    })
 }
 
 /// The entries under a direction's key.

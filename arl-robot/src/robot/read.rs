@@ -183,18 +183,13 @@ fn drives(top: &Section<'_>, axes: &[Axis]) -> Result<DriveLimits, RobotError> {
     };
     let following = tables(top, "axis", "[[axis]]", AXIS)?.iter().zip(axes).map(of_axis).collect::<Result<_, _>>()?;
     let table = top.find("drives").map(|value| section(top, value, "[drives]", DRIVES)).transpose()?;
-    let seconds = |key: &str, what: &str, default: f64| match &table {
-        Some(table) if table.find(key).is_some() => table.positive(key, what).map(|ms| ms / 1000.0),
-        _ => Ok(default / 1000.0),
+    let limit = |key: &str, what: &str, default: f64| match &table {
+        Some(table) if table.find(key).is_some() => table.positive(key, what),
+        _ => Ok(default),
     };
-    let feedback = seconds("feedback", "a time without a position in ms", FEEDBACK_MS)?;
-    let settling = seconds("settling", "a time for settling in ms", SETTLING_MS)?;
-    let settled = match &table {
-        Some(table) if table.find("settled").is_some() => {
-            table.positive("settled", "a distance in deg (mm) from its set-point")?
-        }
-        _ => SETTLED,
-    };
+    let feedback = limit("feedback", "a time without a position in ms", FEEDBACK_MS)? / 1000.0;
+    let settling = limit("settling", "a time for settling in ms", SETTLING_MS)? / 1000.0;
+    let settled = limit("settled", "a distance in deg (mm) from its set-point", SETTLED)?;
     Ok(DriveLimits { following, feedback, settling, settled })
 }
 

@@ -10,7 +10,7 @@ use std::rc::Rc;
 use super::Controller;
 use super::channel::{Channel, PROGRAM_STACK_BYTES};
 use super::channels::Channels;
-use super::drive::{self, Time};
+use super::drive::drive;
 use super::external::External;
 use super::foreground::{Body, Foreground};
 use super::late_limit::LateLimit;
@@ -319,14 +319,7 @@ impl Builder {
     pub fn build(mut self, program: Box<dyn Program>) -> Result<Controller, SetupError> {
         self.body.settings = self.cell.driver.take();
         let bodies = std::iter::once(&mut self.body).chain(self.foreground.iter_mut().map(|it| &mut it.body));
-        let driven = self.connect.map_or_else(|| Ok(Time::default()), |connect| drive::drive(bodies, connect))?;
-        if driven.is_of_a_robot && self.clock.is_real() {
-            let text = "a robot with `time = \"robot\"` cannot be driven in real time: its own time is what counts";
-            return Err(SetupError::Cell(text.to_owned()));
-        }
-        if let Some(beat) = driven.beat {
-            self.clock = beat;
-        }
+        let needs_the_world = self.connect.map_or(Ok(false), |connect| drive(bodies, connect, &mut self.clock))?;
         let Builder { cell, background, .. } = self;
         let count = 1 + self.foreground.len();
         check_channels(count, background.len())?;
@@ -379,7 +372,7 @@ impl Builder {
             buses,
             network_driver: self.network,
         }));
-        if outside || driven.is_of_the_world {
+        if outside || needs_the_world {
             shared.need_real_time();
         }
         if let Some(note) = note {

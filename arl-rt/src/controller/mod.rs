@@ -538,8 +538,8 @@ impl Controller {
         self.shared.io.borrow().digital(Digital::InternalOut, channel)
     }
 
-    /// Lets go of the robots: the last cycle was. One that moves is cut off. Whoever drives a real one and does something slow after its last
-    /// cycle calls this before; otherwise it comes when the controller is dropped.
+    /// Lets go of the robots: the last cycle was. One that moves is cut off; from then on none of them says anything. Whoever drives a real one
+    /// and does something slow after its last cycle calls this before; otherwise it comes when the controller is dropped.
     pub fn close_robots(&mut self) {
         self.channels.units().for_each(|unit| unit.borrow_mut().close());
     }

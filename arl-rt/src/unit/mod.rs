@@ -20,7 +20,7 @@ use crate::motion::{
     UnblendedTarget, circle_steps,
 };
 use crate::unit::dynamics::{Dynamics, Load};
-use crate::unit::robot_driver::{Power, RobotDriver, Setpoint, settled};
+use crate::unit::robot_driver::{Drives, Feedback, Power, RobotDriver, Setpoint, settled};
 use crate::values::Joint;
 use arl_robot::cell::Sensitivity;
 use arl_robot::frames::Rig;
@@ -518,7 +518,7 @@ impl Unit {
     /// Tells the driver where the robot shall be, and hears where it is.
     fn exchange(&mut self, beat: Beat) {
         let setpoint = self.setpoint_of(beat);
-        let feedback = self.driver.exchange(&setpoint);
+        let feedback = if self.closed { Feedback::none() } else { self.driver.exchange(&setpoint) };
         let position = feedback.position.filter(|position| is_finite(position, &self.robot));
         self.silent = self.silent.saturating_add(1);
         if let Some(position) = position {
@@ -538,8 +538,7 @@ impl Unit {
         let Beat { period, due: deadline, .. } = beat;
         if matches!(self.motors, Motors::Off | Motors::ComingOn) {
             // They are asked for nothing but to stay.
-            let (position, acceleration, torque) = (self.reported.at, [0.0; ROBOT_AXES], None);
-            return Setpoint { position, velocity: REST, acceleration, torque, period, deadline };
+            return Setpoint { deadline, ..Setpoint::resting(self.reported.at, period) };
         }
         let Moving { at: position, rates, external_rates, accelerations: acceleration, .. } = self.commanded;
         let velocity = Joints { axes: rates, external: external_rates };
@@ -613,7 +612,12 @@ fn keep_to<const N: usize>(many: usize, axes: &mut [f64; N], others: &[f64; N]) 
 }
 
 impl Unit {
-    /// Lets go of the robot, once. One that moves is cut off.
+    /// Switches the motors of a robot that is not let go yet; how its drives are now.
+    fn switch(&mut self, power: Power) -> Drives {
+        if self.closed { Drives::Off } else { self.driver.switch(power) }
+    }
+
+    /// Lets go of the robot, once. One that moves is cut off. Nothing is called of its driver any more.
     pub(crate) fn close(&mut self) {
         if std::mem::replace(&mut self.closed, true) {
             return;

@@ -289,10 +289,7 @@ mod tests {
 
     /// What is asked for at rest there, and where the robot is then.
     fn exchange(robot: &mut SimulatedRobot, position: &Joints, period: f64) -> Joints {
-        let velocity = Joints { axes: [0.0; 6], external: [0.0; 6] };
-        let (acceleration, torque, deadline) = ([0.0; ROBOT_AXES], None, None);
-        let setpoint = Setpoint { position: *position, velocity, acceleration, torque, period, deadline };
-        robot.exchange(&setpoint).position.unwrap()
+        robot.exchange(&Setpoint::resting(*position, period)).position.unwrap()
     }
 
     fn start(robot: &mut SimulatedRobot, home: &Joints, period: f64) -> Joints {

@@ -78,7 +78,7 @@ impl Unit {
             self.pause();
         }
         // Also one that is off: there are robots whose power is somebody else's, and which hold where they stand.
-        self.driver.switch(Power::Cut);
+        self.switch(Power::Cut);
     }
 
     /// Switches motors off that are to go off, where the robot rests.
@@ -91,7 +91,7 @@ impl Unit {
 
     fn switch_off(&mut self) {
         self.motors = Motors::Off;
-        self.driver.switch(Power::Off);
+        self.switch(Power::Off);
     }
 
     /// Switches the motors on. The set-point is where the robot reports to be; with a threshold, in deg (mm), it stays what it
@@ -129,7 +129,7 @@ impl Unit {
             }
         }
         self.supervision.begin();
-        let is_on = self.driver.switch(Power::On) == Drives::On;
+        let is_on = self.switch(Power::On) == Drives::On;
         self.motors = if is_on { Motors::On } else { Motors::ComingOn };
         Ok(near || threshold.is_none())
     }

@@ -14,8 +14,8 @@ use super::link::Link;
 const PATIENT: Duration = Duration::from_millis(30);
 const PATIENT_CYCLES: f64 = 3.0;
 
-/// How long to wait for a message, where cycles are `period` s long.
-pub(super) fn patience(period: f64) -> Duration {
+/// How long to wait for a message in the time of the world, where cycles are `period` s long.
+pub(super) fn longest_wait(period: f64) -> Duration {
     PATIENT.max(Duration::from_secs_f64(period * PATIENT_CYCLES))
 }
 
@@ -44,7 +44,7 @@ impl Clock for RsiBeat {
         let until = match &link.patience {
             Some(patience) => now + patience.limit(),
             None if self.silent => due.max(now),
-            None => due.max(now) + patience(period),
+            None => due.max(now) + longest_wait(period),
         };
         let received = link.receive(until);
         self.silent = !received.any;

@@ -25,10 +25,10 @@ pub(super) struct Link {
     message: Option<Message>,
     /// RSI has begun anew, or cycles went on without its messages: what it was asked for does not hold any more.
     interrupted: bool,
-    /// The time of the message that was answered last, and by how many ms the next one may be later: a robot that had no answer for longer
-    /// has given up.
+    /// The time of the message that was answered last, in ms.
     answered: Option<u64>,
-    pub(super) patient: u64,
+    /// A robot that had no answer for more ms of its time has given up.
+    pub(super) given_up_ms: u64,
     /// Whether something has come that is no message.
     odd: bool,
     /// Where the robot's time counts: for how long to wait for it.
@@ -45,7 +45,7 @@ struct Newest {
 }
 
 /// What there was when a cycle waited.
-#[derive(Clone, Copy, PartialEq, Eq, Default, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Received {
     /// Whether a message has come.
     pub(super) any: bool,
@@ -64,7 +64,7 @@ impl Link {
             message: None,
             interrupted: false,
             answered: None,
-            patient: u64::MAX,
+            given_up_ms: u64::MAX,
             odd: false,
             patience: None,
         }
@@ -143,7 +143,7 @@ impl Link {
                 }
                 let step = message.ipoc.saturating_sub(before.ipoc).max(1);
                 let unanswered = self.answered.map_or(0, |answered| message.ipoc.saturating_sub(answered));
-                self.interrupted |= is_silent || unanswered > self.patient;
+                self.interrupted |= is_silent || unanswered > self.given_up_ms;
                 step
             }
         };

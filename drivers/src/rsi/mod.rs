@@ -17,11 +17,18 @@ use link::Link;
 use message::Message;
 
 use crate::patience::Patience;
+use crate::position::{begin_at, difference};
 
 /// How long to wait at the start: somebody has to start RSI on the robot's pendant.
 const BEGIN: Duration = Duration::from_secs(30);
 /// How long to wait for another message at the end, so that the robot is told to stop.
 const END: Duration = Duration::from_millis(50);
+/// How many messages are looked at before cycles begin, behind the first one.
+const FIRST: usize = 4;
+/// A robot stands whose axes have moved by no more than that meanwhile, in deg (mm).
+const STANDS: f64 = 0.1;
+/// How many answers tell a robot to stop: a packet may be lost.
+const STOPS: u32 = 5;
 
 /// A robot that speaks RSI. Its [beat](RsiArm::beat) has to be the clock of the controller, whose cycles are as long as those of the robot.
 ///
@@ -66,17 +73,16 @@ impl RsiArm {
         RsiBeat::new(Rc::clone(&self.link))
     }
 
-    /// Says what its message tells.
+    /// What its message tells.
     fn feedback(&self, message: &Message) -> Feedback {
         let drives = match message.ready {
-            _ if self.ended || self.stops > 0 => {
-                Drives::Fault("RSI was interrupted: start it and the run again".into())
-            }
+            _ if self.ended || self.stops > 0 => Drives::Fault("RSI has ended: start it and the run again".into()),
             Some(false) => Drives::Off,
             _ => Drives::On,
         };
-        let feedback = Feedback::at(message.position).with_drives(drives);
-        message.torque.map_or(feedback.clone(), |torque| feedback.with_torque(torque))
+        let mut feedback = Feedback::at(message.position).with_drives(drives);
+        feedback.torque = message.torque;
+        feedback
     }
 
     fn answer(&self, stop: bool) {
@@ -96,8 +102,8 @@ impl RobotDriver for RsiArm {
             );
         }
         let (mut last, mut steps) = (first, [0; FIRST]);
-        self.origin = first.position;
-        link.patient = patient_ms(start.period);
+        self.origin = begin_at(first.position)?;
+        link.given_up_ms = given_up_ms(start.period);
         for step in &mut steps {
             link.answer(&self.correction, self.external, false);
             let next = link.wait(BEGIN)?;
@@ -115,11 +121,7 @@ impl RobotDriver for RsiArm {
         if last.ready == Some(false) {
             return Err("its drives are off: switch them on, and start RSI again".to_owned());
         }
-        let own = first.position.axes.iter().chain(&first.position.external);
-        if !own.chain(&last.position.axes).all(|axis| axis.is_finite()) {
-            return Err("it says that the robot is at what is no number".to_owned());
-        }
-        let moved = difference(&last.position, &first.position);
+        let moved = difference(&begin_at(last.position)?, &self.origin);
         if moved.axes.iter().chain(&moved.external).any(|by| by.abs() > STANDS) {
             return Err("the robot moves, though nobody has asked it to".to_owned());
         }
@@ -141,14 +143,14 @@ impl RobotDriver for RsiArm {
         }
         let stops = self.power == Power::Cut;
         self.answer(stops);
-        // A packet may be lost. Behind some of them whoever sends has not been told to stop, but has begun anew.
+        // Whoever goes on sending behind that has begun anew.
         self.stops += u32::from(stops);
         self.ended = self.stops >= STOPS;
         self.feedback(&message)
     }
 
     fn switch(&mut self, power: Power) -> Drives {
-        // What was told to stop ends RSI.
+        // A robot that was told to stop ends RSI.
         if self.power != Power::Cut {
             self.power = power;
         }
@@ -167,19 +169,11 @@ impl RobotDriver for RsiArm {
     }
 }
 
-/// How many answers tell a robot to stop.
-const STOPS: u32 = 5;
-
-/// A robot whose axes moved by no more than that (deg, mm) from message to message stands.
-const STANDS: f64 = 0.1;
-
-/// For how long messages may be missing before a robot has given up, in ms of its time.
-fn patient_ms(period: f64) -> u64 {
-    ((beat::patience(period).as_secs_f64() + period) * 1e3).ceil() as u64
+/// By how many ms a message may come behind the one that was answered last. A robot has given up that had no answer for longer than the beat
+/// waits for a message.
+fn given_up_ms(period: f64) -> u64 {
+    ((beat::longest_wait(period).as_secs_f64() + period) * 1e3).ceil() as u64
 }
-
-/// How many messages are looked at before cycles begin.
-const FIRST: usize = 4;
 
 /// The cycles of the robot, whose time counts in ms, have to be as long as ours. Messages may be lost: then a step is longer.
 fn fits(steps: &[u64], period: f64) -> Result<(), String> {
@@ -189,11 +183,4 @@ fn fits(steps: &[u64], period: f64) -> Result<(), String> {
         return Ok(());
     }
     Err(format!("the robot has cycles of {step} ms, the cell of {own} ms: `cycle = {step}` of [controller] is right"))
-}
-
-fn difference(one: &Joints, other: &Joints) -> Joints {
-    let mut result = *one;
-    result.axes.iter_mut().zip(&other.axes).for_each(|(axis, other)| *axis -= other);
-    result.external.iter_mut().zip(&other.external).for_each(|(axis, other)| *axis -= other);
-    result
 }

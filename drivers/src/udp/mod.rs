@@ -10,6 +10,7 @@ use arl_rt::motion::Joints;
 use arl_rt::robot_driver::{Drives, Feedback, Power, RobotDriver, Setpoint, Start};
 
 use crate::patience::Patience;
+use crate::position::begin_at;
 use crate::readable;
 use packet::{Command, STATE_LENGTH, State};
 
@@ -86,10 +87,11 @@ impl RobotDriver for UdpArm {
             }
         };
         let Some(state) = heard else { return Feedback::none() };
-        let drives = link.drives(&state);
-        let feedback = Feedback::at(state.position).with_drives(drives);
-        let feedback = state.velocity.map_or(feedback.clone(), |velocity| feedback.with_velocity(velocity));
-        state.torque.map_or(feedback.clone(), |torque| feedback.with_torque(torque))
+        let mut feedback = Feedback::at(state.position);
+        (feedback.velocity, feedback.torque) = (state.velocity, state.torque);
+        // That they are on counts only where the arm knew that they should be.
+        let is_early = state.drives == Drives::On && state.answers < link.powered;
+        feedback.with_drives(if is_early { Drives::Off } else { state.drives })
     }
 
     fn switch(&mut self, power: Power) -> Drives {
@@ -105,11 +107,9 @@ impl RobotDriver for UdpArm {
     }
 
     fn close(&mut self) {
-        let Some(mut link) = self.link.take() else { return };
-        if link.power == Power::On {
-            link.power = Power::Off;
+        if let Some(mut link) = self.link.take() {
+            link.let_go();
         }
-        link.let_go();
     }
 }
 
@@ -165,14 +165,14 @@ impl Link {
 
     /// Switches the motors on, and waits until they are; where the arm is then. Until that it is asked to stay where it is.
     fn switch_on(&mut self, position: Joints) -> Result<Joints, String> {
-        let mut here = is_numbers(position)?;
+        let mut here = begin_at(position)?;
         self.switch(Power::On);
         let until = Instant::now() + COMING_ON;
         let mut problem = format!("its drives have not come on within {} s", COMING_ON.as_secs());
         while Instant::now() < until {
             self.send(&Setpoint::resting(here, self.last.period), false);
             let Some(state) = self.answer(Instant::now() + AGAIN, self.powered) else { continue };
-            here = match is_numbers(state.position) {
+            here = match begin_at(state.position) {
                 Ok(here) => here,
                 Err(no_number) => {
                     problem = no_number;
@@ -186,13 +186,15 @@ impl Link {
             }
             std::thread::sleep(AGAIN / 4);
         }
-        self.switch(Power::Off);
         self.let_go();
         Err(problem)
     }
 
-    /// Tells the arm that it is on its own, until it has heard that, or does not answer.
+    /// Tells the arm that it is on its own, with its motors off, until it has heard that, or does not answer.
     fn let_go(&mut self) {
+        if self.power == Power::On {
+            self.power = Power::Off;
+        }
         self.powered = self.sent + 1;
         let rest = self.last;
         for _ in 0..FAREWELLS {
@@ -206,14 +208,6 @@ impl Link {
     fn switch(&mut self, power: Power) {
         self.power = power;
         self.powered = self.sent + 1;
-    }
-
-    /// How the drives are. That they are on counts only where the arm knew that they should be.
-    fn drives(&self, state: &State) -> Drives {
-        match &state.drives {
-            Drives::On if state.answers < self.powered => Drives::Off,
-            drives => drives.clone(),
-        }
     }
 
     /// Whether the arm has had what was sent lately: one that says only where it is, and hears nothing, is as good as lost.
@@ -270,12 +264,6 @@ impl Link {
             Err(_) => Err(Empty),
         }
     }
-}
-
-/// Where an arm is that may be switched on.
-fn is_numbers(position: Joints) -> Result<Joints, String> {
-    let all = position.axes.iter().chain(&position.external).all(|axis| axis.is_finite());
-    if all { Ok(position) } else { Err("it says that the robot is at what is no number".to_owned()) }
 }
 
 /// Nothing is there to receive.

@@ -187,9 +187,6 @@ class Arm:
         self.fault = why
         self._brake()
 
-    def clear(self):
-        self.fault = ""
-
     def _brake(self):
         self.power = False
         self.torque[:] = 0.0

@@ -25,7 +25,6 @@ class RsiPeer:
         self.ipoc = 1000
         self.late, self.in_a_row = 0, 0
         self.cycles = 0
-        self.ended = False
         self.setpoints, self.actual, self.motor = [[]], [], []
         self.stopped, self.stopped_at_speed = False, False
         self.on_cycle = None

@@ -11,7 +11,8 @@ import time
 import numpy as np
 import pytest
 
-from conftest import POWER_CUT, PROGRAMS, RsiPeer, keep_limits, streamed
+from conftest import PROGRAMS, RsiPeer, keep_limits, streamed
+from udp_peer import POWER_CUT
 
 TURN = PROGRAMS / "turn.arl"
 NO_POSITION, NOT_FOLLOWING, DRIVES, LATE = 20071, 20070, 20072, 20074
@@ -62,9 +63,8 @@ def test_the_arm_is_not_heard_any_more(bench, driver):
     alarms(run, NO_POSITION)
 
 
-def test_states_come_late(bench, driver):
-    if driver == "rsi":
-        pytest.skip("each message waits for its answer: a late one is a missing one")
+def test_states_come_late(bench):
+    """Over UDP: a message of RSI waits for its answer, so that a late one is a missing one."""
     waiting = []
 
     def later(peer, state):
@@ -74,7 +74,7 @@ def test_states_come_late(bench, driver):
         return [waiting.pop(0)] if len(waiting) > 10 else []
 
     # In the time of the robot a state that is late is none; here all are, by ten cycles.
-    run = bench.run(peer_of(bench, driver, in_its_own_time=False, tamper=later), TURN)
+    run = bench.run(bench.udp(bench.arm(), in_its_own_time=False, tamper=later), TURN)
     ends_well(run)
     assert run.out == "done\n"
 
@@ -150,7 +150,7 @@ def test_an_emergency_stop(bench, driver, tmp_path):
 
 
 def test_motors_that_are_too_weak(bench, driver):
-    # Half of what the accelerations ask for, and a limit for the distance that drives of their kind have.
+    # They give less than half of what the accelerations of all axes ask for. And a limit for the distance that drives of their kind have.
     bench.text = bench.text.replace('name = "j1"', 'name = "j1"\nfollowing = 2.0')
     alarm = bench.run(peer_of(bench, driver, bench.arm(torque_share=0.35)), TURN)
     assert alarm.code == 3 and f"alarm {NOT_FOLLOWING}" in alarm.err, alarm.err
@@ -219,10 +219,9 @@ def test_the_controller_is_killed(bench, driver):
     keep_limits(*streamed(run.peer))
 
 
-def test_no_arm_is_there(bench, driver):
-    peer = peer_of(bench, driver)
-    if driver == "rsi":
-        pytest.skip("that takes 30 s")
+def test_no_arm_is_there(bench):
+    """Over UDP: for RSI a run waits 30 s."""
+    peer = bench.udp(bench.arm())
     peer.take = lambda *_: None
     run = bench.run(peer, TURN)
     assert run.code == 2 and re.search(r"no arm answers at 127.0.0.1:\d+: nothing came within 3 s", run.err), run.err

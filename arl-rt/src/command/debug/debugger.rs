@@ -104,10 +104,8 @@ impl Debugger {
         if !self.real || !self.halted.get() {
             let motion = |at: usize| self.context(at).map_or(0, |cx| answers::motion(&cx));
             let cycle = self.context(0).map_or(0, |cx| cx.cycle());
-            let why = self.plan.borrow().halts_between(cycle, motion);
-            // A pause before the first statement halts there: before it there is no place to show.
-            let has_begun = self.statements.get() > 0 || self.plan.borrow().way() != Way::Pause;
-            if let Some(why) = why.filter(|_| has_begun) {
+            let why = self.plan.borrow().halts_between(cycle, self.statements.get(), motion);
+            if let Some(why) = why {
                 let at = match self.plan.borrow().way() {
                     Way::Motion(channel, _) => channel,
                     _ => 0,

@@ -126,10 +126,11 @@ impl Plan {
         if breaks() { Some(("breakpoint", other)) } else { other.map(|why| (why, None)) }
     }
 
-    /// Whether it halts before a cycle, where the robot of the channel executes this motion.
-    pub(super) fn halts_between(&self, cycle: u64, motion_of: impl Fn(usize) -> u64) -> Option<Why> {
+    /// Whether it halts before a cycle, behind so many statements, where the robot of the channel executes this motion. A pause before the first
+    /// statement halts there: before it there is no place to show.
+    pub(super) fn halts_between(&self, cycle: u64, statements: u64, motion_of: impl Fn(usize) -> u64) -> Option<Why> {
         match self.way() {
-            Way::Pause => Some("pause"),
+            Way::Pause => (statements > 0).then_some("pause"),
             Way::Until(end) | Way::Search(end) if cycle >= end.cycle => Some("step"),
             Way::Motion(channel, from) => {
                 let motion = motion_of(channel);
@@ -195,11 +196,19 @@ mod tests {
         assert_eq!(going(Way::Over(0, 2)).halts_at(&here()), Some(("step", None)));
         assert_eq!(going(Way::Until(to(6))).halts_at(&here()), None);
         assert_eq!(going(Way::Until(to(5))).halts_at(&here()), Some(("step", None)));
-        assert_eq!(going(Way::Motion(0, 3)).halts_between(9, |_| 3), None);
-        assert_eq!(going(Way::Motion(0, 3)).halts_between(9, |_| 4), Some("step"));
-        assert_eq!(going(Way::Motion(0, 3)).halts_between(9, |_| 0), None, "no motion begins");
-        assert_eq!(going(Way::Search(Point { cycle: 9, ..to(6) })).halts_between(8, |_| 3), None);
-        assert_eq!(going(Way::Search(Point { cycle: 9, ..to(6) })).halts_between(9, |_| 3), Some("step"));
+        assert_eq!(going(Way::Motion(0, 3)).halts_between(9, 5, |_| 3), None);
+        assert_eq!(going(Way::Motion(0, 3)).halts_between(9, 5, |_| 4), Some("step"));
+        assert_eq!(going(Way::Motion(0, 3)).halts_between(9, 5, |_| 0), None, "no motion begins");
+        assert_eq!(going(Way::Search(Point { cycle: 9, ..to(6) })).halts_between(8, 5, |_| 3), None);
+        assert_eq!(going(Way::Search(Point { cycle: 9, ..to(6) })).halts_between(9, 5, |_| 3), Some("step"));
+    }
+
+    #[test]
+    fn a_pause_halts_where_there_is_something_to_show() {
+        let plan = going(Way::Pause);
+        assert_eq!(plan.halts_between(0, 0, |_| 0), None, "nothing has begun");
+        assert_eq!(plan.halts_at(&here()), Some(("pause", None)));
+        assert_eq!(plan.halts_between(9, 5, |_| 0), Some("pause"));
     }
 
     #[test]
