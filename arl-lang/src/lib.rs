@@ -42,3 +42,8 @@ pub use parse::{
 };
 pub use tree::EXPRESSION_LEVELS;
 pub use words::{control_word, control_words, is_reserved, language_words};
+
+/// The examples of the README run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

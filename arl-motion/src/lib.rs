@@ -68,7 +68,7 @@ mod queue;
 mod tests;
 pub mod time_optimal;
 
-pub use arl_robot::{frames, kinematics, robot};
+pub use arl_robot::{frames, kinematics, nalgebra, robot};
 pub use blend::no_blend::NoBlend;
 pub use blend::zone::Rounding;
 pub use command::{
@@ -82,3 +82,8 @@ pub use queue::{
     Closest, Figure, LOOK_AHEAD, Limited, MotionRecord, Progress, Queue, Rate, Recorder, Start, Step, Stop,
     UnblendedTarget,
 };
+
+/// The examples of the README run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -13,4 +13,10 @@ pub mod regular_file;
 pub mod robot;
 pub mod settings;
 
+pub use nalgebra;
 pub use robot::{Family, Robot};
+
+/// The examples of the README run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

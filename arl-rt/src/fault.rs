@@ -333,6 +333,7 @@ pub struct Stop(PhantomData<*const ()>);
 
 /// Why a program does not go on.
 #[derive(Clone, PartialEq, Debug)]
+#[non_exhaustive]
 pub enum Reason {
     /// An alarm.
     Alarm(Alarm),
@@ -391,6 +392,18 @@ impl Stop {
         REASON.replace(Reason::Exit)
     }
 }
+
+impl fmt::Display for Stop {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        REASON.with_borrow(|reason| match reason {
+            Reason::Alarm(alarm) => write!(f, "{alarm}"),
+            Reason::Exit => write!(f, "the program exits"),
+            Reason::Restart => write!(f, "the program starts again"),
+        })
+    }
+}
+
+impl std::error::Error for Stop {}
 
 impl fmt::Debug for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

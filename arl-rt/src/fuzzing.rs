@@ -4,6 +4,7 @@ use crate::builtins::communication::melsec_answer;
 use crate::communication::Inbox;
 use crate::fieldbus::modbus::rtu::ReceiveBuffer;
 use crate::fieldbus::modbus::{Tables, client, mbap, pdu};
+use crate::storage::data::{DataFile, teach_file};
 use arl_robot::islands::Table;
 
 /// What a client sends to the Modbus TCP server: each frame is served, its answer fits into a frame.
@@ -73,4 +74,11 @@ pub fn read_until(mark: &[u8], pieces: &[&[u8]]) {
     }
     taken.extend_from_slice(inbox.waiting());
     assert_eq!(taken, came);
+}
+
+/// What somebody made of a data file.
+pub fn data_file(data: &DataFile<'_>, content: &[u8]) {
+    for alarm in teach_file(data, content) {
+        assert!(!alarm.to_string().is_empty());
+    }
 }

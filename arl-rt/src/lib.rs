@@ -1,70 +1,83 @@
 //! What robot programs in ARL run on: the cycle, motion, io, system variables and a simulated robot.
 //!
-//! The compiler turns an ARL program into an implementation of [`Program`]; a [`Controller`] runs it. Emitted code names
-//! everything through the prelude [`emit`].
+//! The compiler turns an ARL program into an implementation of [`Program`]; a [`Controller`] runs it, cycle by cycle. Whoever
+//! embeds one needs little more than what stands here at the top:
 //!
-//! The rooms, from the ground up; each imports only those before it:
+//! - [`Builder`] takes what a controller has: [`Robot`], [`Cell`], clock, drivers, more programs ([`Foreground`])
+//! - [`Controller::step`] and [`Controller::run`] run it; [`Outcome`], [`State`] and [`Status`] say how it stands, [`Captured`]
+//!   keeps what it prints, and an [`Alarm`] says what went wrong
+//! - [`Handle`] is a controller as other threads have it, [`Running`] one on a thread of its own
+//! - [`Cx`] is what a running program sees of its controller
 //!
-//! - `cycle`: the control cycle, its length and its clock, and what it shares with threads beside it
-//! - [`fault`]: what goes wrong in a program, and the alarms that it becomes
-//! - [`values`]: the values of ARL, and how they are printed and read
-//! - `storage`: what outlives a run, and the thread that writes it
-//! - [`io`]: the image of inputs and outputs, the driver, and the scenario
-//! - [`fieldbus`]: DeviceNet, Modbus and io islands
-//! - [`communication`]: sockets and serial lines, with a thread for each
-//! - [`motion`]: commands become set-points
-//! - `unit`: the robot with its motion, its driver and its dynamics
-//! - `context`: what a running program sees of the controller
-//! - `builtins`: the functions and instructions that programs call
-//! - `controller`: runs programs cycle by cycle
-//! - `command`: a compiled program as a command
+//! The modules are for those who drive a real arm ([`robot_driver`], [`io`], [`clock`], [`devicenet`], [`network`]), who keep
+//! what outlives a run ([`storage`]), who write programs in Rust ([`program`], [`fault`], [`values`]), or who want to know more
+//! of a run ([`status`], [`output`], [`system`]). What is below is there, too: [`motion`], [`robot`], [`kinematics`], [`cell`],
+//! [`dynamics`].
+//!
+//! The features: `macros` has `arl!` and `arl_file!`; `serial` (a default one) has serial lines; `realtime` has
+//! [`clock::Realtime`] on Linux.
 
 mod builtins;
 mod command;
-pub mod communication;
+mod communication;
 mod context;
 mod controller;
 mod cycle;
+#[doc(hidden)]
 pub mod emit;
 pub mod fault;
-pub mod fieldbus;
+mod fieldbus;
 #[cfg(feature = "fuzzing")]
+#[doc(hidden)]
 pub mod fuzzing;
 pub mod io;
-mod storage;
+pub mod storage;
 mod unit;
 pub mod values;
 
-/// What can be wrong with a file that users write.
-pub mod settings {
-    pub use arl_robot::settings::SettingsError;
+pub use arl_motion as motion;
+pub use arl_motion::beside;
+pub use arl_robot::cell::Cell;
+pub use arl_robot::{Family, Robot, cell, kinematics, nalgebra, robot};
+pub use context::cx::Cx;
+pub use context::output::{Captured, Message};
+pub use context::program::Program;
+pub use context::system;
+pub use controller::{Builder, Controller, Foreground, Handle, Outcome, Running, SetupError, State, Status};
+pub use fault::Alarm;
+pub use fieldbus::devicenet;
+pub use unit::{dynamics, robot_driver};
+
+/// Where the time of cycles comes from: clocks, how late cycles began, and what the system gives the cycle.
+pub mod clock {
+    pub use crate::cycle::clock_source::{Clock, Late, Lateness, RealClock, VirtualClock};
+    pub use crate::cycle::realtime::Realtime;
+    pub use arl_robot::cell::Rate;
 }
 
-/// Commands of motion in, a set-point each cycle out: the planner that moves robots.
-pub use arl_motion as motion;
-/// Threads beside the cycle: those of drivers, too.
-pub use arl_motion::beside;
-pub use arl_robot::cell::{self, Cell, Rate};
-pub use arl_robot::{Family, Robot, islands, kinematics, robot};
-pub use builtins::{frames, ops, text};
-pub use command::program_main;
-pub use context::cx::Cx;
-pub use context::function_frame::{Frame as FunctionFrame, Runs};
-pub use context::output::{Captured, Message, Output, Stream};
-pub use context::program::{BoxFuture, Elsewhere, Program};
-pub use context::shown::{Shown, ShownHandle};
-pub use context::standstill::{Standstill, WaitsFor};
-pub use context::{program, system};
-pub use controller::{
-    Builder, ChannelStatus, Controller, Foreground, Outcome, RobotStatus, SetupError, State, Status, StillRunning,
-};
-pub use cycle::channel_id::ChannelId;
-pub use cycle::clock_source;
-pub use cycle::realtime::Realtime;
-pub use fault::{Alarm, Calls, Fault, Reason, Stop};
-pub use storage::data::{DataFile, DataVar};
-pub use storage::{data, state};
-pub use unit::{dynamics, robot_driver};
+/// The network ports of the host, which programs may set up.
+pub mod network {
+    pub use crate::communication::{NetworkDriver, PortSettings};
+}
+
+/// Where the messages of programs go.
+pub mod output {
+    pub use crate::context::output::{Captured, Event, Message, Output, Stream};
+}
+
+/// Programs: what the compiler emits, and what Rust programmers write themselves.
+pub mod program {
+    pub use crate::context::program::{AsAny, Beside, BoxFuture, Elsewhere, Make, Other, Program};
+    pub use crate::fault::{At, Called, Done, File};
+    pub use crate::storage::data::{DataFile, DataVar};
+}
+
+/// How a controller, its channels and its robots stand.
+pub mod status {
+    pub use crate::context::standstill::{Standstill, WaitsFor};
+    pub use crate::controller::{ChannelStatus, HandleError, Outcome, RobotStatus, State, Status, StillRunning};
+    pub use crate::cycle::channel_id::ChannelId;
+}
 
 #[cfg(feature = "macros")]
 pub use arl_macros::{arl, arl_file};

@@ -15,7 +15,7 @@ fn raised() -> Vec<u32> {
 
 /// The rows of the table, cells without blanks around them.
 fn rows() -> Vec<Vec<String>> {
-    let page = include_str!("../../docs/alarms.md");
+    let page = include_str!("../../transpiler/docs/alarms.md");
     let lines = page.lines().filter(|line| line.starts_with("| ") && !line.starts_with("| number"));
     lines.map(|line| line.trim_matches('|').split('|').map(|cell| cell.trim().to_string()).collect()).collect()
 }
@@ -41,5 +41,5 @@ fn every_alarm_has_a_cause_and_a_remedy() {
 fn the_example_is_what_the_runtime_says() {
     let fault = arl_rt::fault::Fault::Index { index: 5, size: 5 };
     let alarm = arl_rt::fault::Alarm::new(fault, arl_rt::fault::File::new("stack.arl"), 12);
-    assert!(include_str!("../../docs/alarms.md").contains(&format!("\n{alarm}\n")));
+    assert!(include_str!("../../transpiler/docs/alarms.md").contains(&format!("\n{alarm}\n")));
 }

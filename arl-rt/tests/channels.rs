@@ -4,7 +4,8 @@
 mod common;
 
 use arl_rt::emit::*;
-use arl_rt::{Builder, Captured, ChannelId, Controller, Foreground, Outcome, SetupError, State};
+use arl_rt::status::ChannelId;
+use arl_rt::{Builder, Captured, Controller, Foreground, Outcome, SetupError, State};
 use common::*;
 
 /// A channel for a closure.
@@ -21,7 +22,7 @@ fn with_channels(builder: Builder, first: impl Program + 'static) -> (Controller
     let mut out = said.clone();
     let output = move |message: &arl_rt::Message<'_>| {
         let text = format!("{}: {}", message.channel, String::from_utf8_lossy(message.text));
-        arl_rt::Output::message(&mut out, &arl_rt::Message { text: text.as_bytes(), ..*message });
+        arl_rt::output::Output::message(&mut out, &arl_rt::Message { text: text.as_bytes(), ..*message });
     };
     (builder.output(output).build(Box::new(first)).unwrap(), said)
 }

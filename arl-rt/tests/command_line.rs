@@ -125,9 +125,9 @@ fn deeper(cx: &Cx, level: i32) -> Done<i32> {
 
 fn main() -> ExitCode {
     match std::env::var(PROGRAM) {
-        Ok(name) if name == "pick" => arl_rt::program_main::main(pick_program::Globals::new, "."),
-        Ok(name) if name == "watched" => arl_rt::program_main::main_watched(move || Small(name), &[], "."),
-        Ok(name) => arl_rt::program_main::main(move || Small(name), "."),
+        Ok(name) if name == "pick" => arl_rt::emit::program_main::main(pick_program::Globals::new, "."),
+        Ok(name) if name == "watched" => arl_rt::emit::program_main::main_watched(move || Small(name), &[], "."),
+        Ok(name) => arl_rt::emit::program_main::main(move || Small(name), "."),
         Err(_) => {
             for (name, test) in TESTS {
                 test();

@@ -233,7 +233,7 @@ fn a_reset_starts_from_the_beginning() {
 
 #[test]
 fn the_real_clock_keeps_its_pace() {
-    let builder = Controller::builder().clock(arl_rt::clock_source::RealClock::new());
+    let builder = Controller::builder().clock(arl_rt::clock::RealClock::new());
     let (mut controller, _) =
         controller(builder, |cx| Box::pin(async move { flow::waittime(0.05).run(cx).await.at(FILE, 1) }));
     let start = std::time::Instant::now();

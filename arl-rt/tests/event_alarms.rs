@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use arl_rt::emit::*;
-use arl_rt::state::{Memory, Storage};
+use arl_rt::storage::{Memory, Storage};
 use arl_rt::{Controller, Outcome};
 use common::*;
 

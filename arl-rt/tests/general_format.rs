@@ -1,6 +1,6 @@
 //! Doubles print as C prints them: against a table that another implementation made (`data/general_format.py`).
 
-use arl_rt::text::{Print, Style};
+use arl_rt::values::text::{Print, Style};
 
 #[test]
 fn doubles_print_as_in_c() {

@@ -8,9 +8,9 @@ use std::io;
 use std::sync::{Arc, Condvar, Mutex};
 use std::time::Duration;
 
-use arl_rt::clock_source::Clock;
+use arl_rt::clock::Clock;
 use arl_rt::emit::*;
-use arl_rt::state::Storage;
+use arl_rt::storage::Storage;
 use arl_rt::{Controller, Outcome};
 use common::*;
 

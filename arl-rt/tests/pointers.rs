@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use std::rc::Rc;
 
 use arl_rt::emit::*;
-use arl_rt::state::{Directory, Storage};
+use arl_rt::storage::{Directory, Storage};
 use arl_rt::{Controller, Foreground, Outcome};
 use common::*;
 

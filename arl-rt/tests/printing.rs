@@ -157,7 +157,7 @@ fn text_files_are_read_renamed_and_removed() {
 #[test]
 fn saved_variables_come_back_at_the_next_start_and_with_init() {
     let folder = Folder::new("savesv");
-    let start = || Controller::builder().storage(arl_rt::state::Directory::new(folder.0.join("state")));
+    let start = || Controller::builder().storage(arl_rt::storage::Directory::new(folder.0.join("state")));
     let (mut first, messages) = controller(start(), |cx| {
         Box::pin(async move {
             let system = cx.system();

@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::rc::Rc;
 
 use arl_rt::cell::{Cell, LateCycles};
-use arl_rt::clock_source::{Clock, Lateness, RealClock};
+use arl_rt::clock::{Clock, Lateness, RealClock};
 use arl_rt::emit::*;
 use arl_rt::motion::Joints;
 use arl_rt::robot_driver::{Drives, Feedback, Power, RobotDriver, Setpoint, SimulatedRobot, Start};

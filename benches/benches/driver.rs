@@ -14,7 +14,8 @@ use arl_benches::cell::Robot;
 use arl_drivers::rsi::RsiArm;
 use arl_drivers::udp::UdpArm;
 use arl_drivers::udp::packet::{COMMAND_LENGTH, STATE_LENGTH};
-use arl_rt::{Builder, Controller, Rate};
+use arl_rt::clock::Rate;
+use arl_rt::{Builder, Controller};
 use rustix::thread::ClockId;
 use rustix::time::clock_gettime;
 

@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 use arl_benches::script::script;
 use arl_benches::statistics::{median, processor_time};
-use arl_rt::clock_source::Clock;
+use arl_rt::clock::Clock;
 use arl_rt::emit::*;
 use arl_rt::{Builder, Controller};
 

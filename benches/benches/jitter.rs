@@ -11,8 +11,9 @@ use std::thread::{available_parallelism, scope};
 use std::time::{Duration, Instant};
 
 use arl_benches::cell::Robot;
-use arl_rt::clock_source::{Clock, RealClock};
-use arl_rt::{Controller, Realtime};
+use arl_rt::Controller;
+use arl_rt::clock::Realtime;
+use arl_rt::clock::{Clock, RealClock};
 use rustix::thread::{ClockId, clock_nanosleep_absolute};
 use rustix::time::{Timespec, clock_gettime};
 
@@ -123,7 +124,7 @@ impl Clock for Watched {
         self.clock.due(cycle, period)
     }
 
-    fn lateness(&self) -> Option<&arl_rt::clock_source::Lateness> {
+    fn lateness(&self) -> Option<&arl_rt::clock::Lateness> {
         self.clock.lateness()
     }
 }

@@ -8,8 +8,8 @@ use std::time::{Duration, Instant};
 
 use arl_benches::chains::{CHAINS, Chain};
 use arl_benches::statistics::processor_time;
-use arl_rt::frames::Rig;
 use arl_rt::kinematics::{Frame, frame_components};
+use arl_rt::motion::frames::Rig;
 use arl_rt::motion::{Command, Joints, Queue, Settings, Speed, Target, UNSET, Zone};
 use arl_rt::robot::Robot;
 

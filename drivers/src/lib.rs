@@ -23,3 +23,8 @@ pub mod rsi;
 pub mod udp;
 
 pub use connect::connect;
+
+/// The examples of the README run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -136,7 +136,7 @@ fn who_waits_in_vain_hears_why() {
     assert!(error.contains("needs a controller of its own"), "{error}");
     let text = two.to_owned() + "time = \"robot\"\n";
     let builder = Controller::builder().cell(Cell::parse("cell.toml", &text).unwrap()).drivers(arl_drivers::connect);
-    let error = builder.clock(arl_rt::clock_source::RealClock::new()).build(program()).unwrap_err();
+    let error = builder.clock(arl_rt::clock::RealClock::new()).build(program()).unwrap_err();
     assert!(error.to_string().contains("neither in real time"), "{error}");
 }
 
@@ -147,7 +147,7 @@ fn only_new_messages_are_answered_and_count() {
     let mut driver = RsiArm::new(&listen).in_its_own_time();
     let mut beat = driver.beat();
     let mut cycle = |driver: &mut RsiArm, target: f64| {
-        arl_rt::clock_source::Clock::wait_for(&mut beat, 0, 0.004);
+        arl_rt::clock::Clock::wait_for(&mut beat, 0, 0.004);
         driver.exchange(&Setpoint::resting(joints(target), 0.004))
     };
     let (sender, to) = (socket.try_clone().unwrap(), listen.clone());

@@ -1,7 +1,7 @@
 //! `scan` reads any bytes with any delimiter.
 #![no_main]
 
-use arl_rt::text::scan;
+use arl_rt::emit::text::scan;
 use arl_rt::values::Str;
 use libfuzzer_sys::fuzz_target;
 

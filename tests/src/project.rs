@@ -244,7 +244,7 @@ const OPTIMISED: &str = "ARL_PROPERTY_OPTIMISED";
 const CHOICE: &str = "ARL_TEST_PROGRAM";
 
 /// Runs one program as its command line says.
-const CHOOSING: &str = r#"use arl_rt::program_main::main as run;
+const CHOOSING: &str = r#"use arl_rt::emit::program_main::main as run;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {

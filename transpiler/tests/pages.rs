@@ -34,7 +34,7 @@ a program that raises nothing
 const NOT_EXECUTED: usize = 6;
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/diagnostics")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/diagnostics")
 }
 
 /// Files in memory, and nothing else.

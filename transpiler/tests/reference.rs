@@ -13,7 +13,7 @@ use std::process::Command;
 const AREAS: [&str; 4] = ["statements", "types", "operators", "rules"];
 
 fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/reference")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/reference")
 }
 
 /// The pages about the language: AREA/NAME and text.

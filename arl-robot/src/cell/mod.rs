@@ -24,11 +24,13 @@ pub use names::{Names, Signal, SignalKind};
 pub use network::{Listen, NetworkSettings};
 pub use rate::Rate;
 
+pub use crate::settings::SettingsError;
+
 use std::path::{Path, PathBuf};
 
 use toml::de::DeValue;
 
-use crate::settings::{Section, SettingsError, Source, Value, number, table};
+use crate::settings::{Section, Source, Value, number, table};
 
 const CHANNEL: &[&str] = &[
     "program",

@@ -18,7 +18,7 @@ pub mod io;
 pub mod math;
 pub mod modbus_tcp;
 pub mod motion;
-pub mod ops;
+pub(crate) mod ops;
 pub(crate) mod part;
 pub mod points;
 pub mod pose;

@@ -15,7 +15,7 @@ pub(crate) mod slave;
 mod stream;
 mod worker;
 
-pub use arl_robot::cell::{Listen, NetworkSettings};
+pub(crate) use arl_robot::cell::NetworkSettings;
 pub(crate) use connections::{Connections, Opener};
 #[cfg(feature = "fuzzing")]
 pub(crate) use inbox::Inbox;

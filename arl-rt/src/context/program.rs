@@ -154,6 +154,10 @@ impl<P: Program + 'static> Program for Elsewhere<P> {
         self.program.variables()
     }
 
+    fn handles(&self) -> Vec<ShownHandle<'_>> {
+        self.program.handles()
+    }
+
     fn folder(&self) -> &Path {
         &self.folder
     }

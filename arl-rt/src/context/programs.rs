@@ -1,5 +1,6 @@
 //! The programs of a controller: those that run in its foreground channels, and those that `switcharl` can load there.
 
+use std::any::Any;
 use std::cell::RefCell;
 use std::ops::BitOr;
 use std::rc::{Rc, Weak};
@@ -9,6 +10,9 @@ use crate::context::program::{Beside, Program};
 
 /// What makes a program.
 type Make = Box<dyn Fn() -> Box<dyn Program>>;
+
+/// Somebody who sets global variables once they have their first values, where they are his.
+pub(crate) type Initialised = Box<dyn Fn(&dyn Any)>;
 
 /// The programs that a controller can load while it runs, by the names of their files.
 #[derive(Default)]
@@ -35,13 +39,19 @@ impl Loadable {
 pub(crate) struct Programs {
     /// Those that `switcharl` can load.
     pub(crate) loadable: Loadable,
+    initialised: Vec<Initialised>,
     /// The foreground channels, in order, as the functions see them that ask about channels by number.
     foreground: RefCell<Vec<Weak<Cx>>>,
 }
 
 impl Programs {
-    pub(crate) fn new(loadable: Loadable) -> Self {
-        Self { loadable, foreground: RefCell::default() }
+    pub(crate) fn new(loadable: Loadable, initialised: Vec<Initialised>) -> Self {
+        Self { loadable, initialised, foreground: RefCell::default() }
+    }
+
+    /// A program's global variables have their first values.
+    pub(crate) fn were_initialised(&self, globals: &dyn Any) {
+        self.initialised.iter().for_each(|set| set(globals));
     }
 
     /// Adds the next foreground channel.

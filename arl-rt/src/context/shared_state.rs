@@ -3,9 +3,10 @@
 use std::cell::{Cell, RefCell};
 use std::fmt;
 use std::rc::Rc;
+use std::sync::mpsc::Sender;
 
 use crate::communication::{NetworkDriver, NetworkSettings, Opener};
-use crate::context::output::{Message, Output};
+use crate::context::output::{Event, Message, Output};
 use crate::context::random::Random;
 use crate::context::watcher::Watcher;
 use crate::cycle::channel_id::ChannelId;
@@ -38,6 +39,8 @@ pub(crate) struct SharedState {
     warnings: RefCell<Vec<String>>,
     /// Who wants to hear of alarms and warnings at once.
     listeners: RefCell<Listeners>,
+    /// Threads that hear of everything.
+    hearers: RefCell<Vec<Sender<Event>>>,
     pub(crate) state: RefCell<State>,
     /// What writes files, beside the cycle.
     pub(crate) disk: Disk,
@@ -103,6 +106,7 @@ impl SharedState {
             alarms: RefCell::default(),
             listeners: RefCell::new(parts.listeners),
             warnings: RefCell::default(),
+            hearers: RefCell::default(),
             state: RefCell::new(parts.state),
             disk: Disk::default(),
         }
@@ -113,6 +117,18 @@ impl SharedState {
         let time = self.rate.time(self.now.get());
         self.output.borrow_mut().message(&Message { time, channel, hmi, console, text });
         self.spoken.set(true);
+        self.tell(|| Event::Message { time, channel, text: String::from_utf8_lossy(text).into_owned() });
+    }
+
+    /// Lets a thread hear of everything from now on.
+    pub(crate) fn tell_events(&self, hearer: Sender<Event>) {
+        self.hearers.borrow_mut().push(hearer);
+    }
+
+    /// Says what happened to those who want to hear it; whoever is gone is forgotten.
+    #[inline]
+    pub(crate) fn tell(&self, event: impl Fn() -> Event) {
+        self.hearers.borrow_mut().retain(|hearer| hearer.send(event()).is_ok());
     }
 
     /// Ends a cycle's messages.
@@ -138,6 +154,7 @@ impl SharedState {
         if let Some(listener) = &mut self.listeners.borrow_mut().alarm {
             listener(&alarm);
         }
+        self.tell(|| Event::Alarm(alarm.clone()));
         let mut alarms = self.alarms.borrow_mut();
         let place = if ends { 0 } else { alarms.len() };
         alarms.insert(place, alarm);
@@ -163,6 +180,7 @@ impl SharedState {
         if let Some(listener) = &mut self.listeners.borrow_mut().warning {
             listener(&text);
         }
+        self.tell(|| Event::Warning(text.clone()));
         self.warnings.borrow_mut().push(text);
     }
 

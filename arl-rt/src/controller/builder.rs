@@ -13,6 +13,7 @@ use super::channels::Channels;
 use super::drive::drive;
 use super::external::External;
 use super::foreground::{Body, Foreground};
+use super::handle::Calls;
 use super::late_limit::LateLimit;
 use super::pointer_store::PointerStore;
 use crate::builtins::time;
@@ -20,7 +21,7 @@ use crate::communication::NetworkDriver;
 use crate::context::channel_state::{ChannelState, Station};
 use crate::context::output::{Output, Stream};
 use crate::context::program::{Beside, Program};
-use crate::context::programs::{Loadable, Programs};
+use crate::context::programs::{Initialised, Loadable, Programs};
 use crate::context::random::{self, Random};
 use crate::context::shared_state::{Listeners, Parts, SharedState};
 use crate::context::system::{self, Common, System};
@@ -56,6 +57,7 @@ pub struct Builder {
     foreground: Vec<Foreground>,
     background: Vec<Box<dyn Program>>,
     programs: Loadable,
+    initialised: Vec<Initialised>,
     cell: Cell,
     clock: Box<dyn Clock>,
     connect: Option<Connect>,
@@ -84,6 +86,7 @@ impl Default for Builder {
             foreground: Vec::new(),
             background: Vec::new(),
             programs: Loadable::default(),
+            initialised: Vec::new(),
             cell: Cell::default(),
             clock: Box::new(VirtualClock::new()),
             connect: None,
@@ -123,6 +126,15 @@ impl Builder {
     /// A program that `switcharl` can load into a foreground channel, by the name of its file.
     pub fn loadable(mut self, name: impl Into<String>, make: impl Fn() -> Box<dyn Program> + 'static) -> Self {
         self.programs.add(name.into(), Box::new(make));
+        self
+    }
+
+    /// What sets global variables: it is called each time that a program with globals of this type has given them their first values
+    /// and those of its data files, at its start and after a reset, before `main` runs. It runs within a cycle and must be quick.
+    ///
+    /// `docs/embedding.md` has an example.
+    pub fn on_init<G: 'static>(mut self, set: impl Fn(&G) + 'static) -> Self {
+        self.initialised.push(Box::new(move |globals| globals.downcast_ref().map_or((), &set)));
         self
     }
 
@@ -194,7 +206,8 @@ impl Builder {
     ///
     /// ```
     /// use arl_rt::emit::*;
-    /// use arl_rt::{Captured, ChannelId, Controller, Foreground, Outcome};
+    /// use arl_rt::{Captured, Controller, Foreground, Outcome};
+    /// use arl_rt::status::ChannelId;
     ///
     /// /// Divides by a number, by hand what the compiler emits.
     /// struct Divide(i32);
@@ -212,7 +225,7 @@ impl Builder {
     ///     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
     ///         Box::pin(async move {
     ///             flow::waittime(0.5).run(cx).await.at(self.file(), 2)?;
-    ///             let parts = arl_rt::ops::div(12, self.0).at(self.file(), 3)?;
+    ///             let parts = arl_rt::emit::div(12, self.0).at(self.file(), 3)?;
     ///             text::print().argtoprint(&parts).run(cx).at(self.file(), 4)
     ///         })
     ///     }
@@ -387,7 +400,7 @@ impl Builder {
             record: self.record,
             stack: self.stack,
             pointers: pointers.clone(),
-            programs: Rc::new(Programs::new(self.programs)),
+            programs: Rc::new(Programs::new(self.programs, self.initialised)),
         };
         let (first, unit) = site.foreground(1, program, robot, body)?;
         let mut channels = Vec::new();
@@ -421,6 +434,8 @@ impl Builder {
             effects,
             external,
             has_outside,
+            calls: Calls::new(),
+            told: super::State::Running,
             pointer_store,
             stores_from: 0,
         })

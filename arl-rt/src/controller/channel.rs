@@ -121,6 +121,11 @@ impl Channel {
         &self.cx
     }
 
+    /// The global variables of its program, where they are of this type.
+    pub(super) fn globals<G: 'static>(&self) -> Option<&G> {
+        self.program.globals().downcast_ref()
+    }
+
     pub(super) fn channel_state(&self) -> &ChannelState {
         &self.channel_state
     }
@@ -449,6 +454,7 @@ fn load(program: Rc<dyn Program>, cx: Rc<Cx>) -> Running {
             alarms.for_each(|alarm| shared.alarm(Alarm { channel, ..alarm }, false));
             return Err(Stop::alarm(first));
         }
+        cx.programs().were_initialised(program.globals());
         program.main(&cx).await
     })
 }

@@ -9,12 +9,14 @@ mod channels;
 mod drive;
 mod external;
 mod foreground;
+mod handle;
 mod late_limit;
 mod of_cell;
 mod order;
 mod outcome;
 mod pendant;
 mod pointer_store;
+mod running;
 mod standstill;
 mod status;
 mod trace;
@@ -25,13 +27,18 @@ use std::net::SocketAddr;
 use std::rc::Rc;
 use std::sync::Arc;
 
+pub use crate::context::run_state::State;
 pub use builder::{Builder, SetupError};
 pub use foreground::Foreground;
-pub use outcome::{Outcome, State};
+pub use handle::{Handle, HandleError};
+pub use outcome::Outcome;
+pub use running::Running;
 pub use status::{ChannelStatus, RobotStatus, Status};
 
+use crate::context::output::Event;
 use crate::context::shared_state::SharedState;
 use crate::context::system::{self, System};
+use crate::cycle::channel_id::ChannelId;
 use crate::cycle::clock_source::{Clock, Lateness};
 use crate::fault::{Alarm, Fault, File};
 use crate::fieldbus::islands::Islands;
@@ -44,6 +51,7 @@ use arl_robot::robot::Robot;
 use channel::Channel;
 use channels::Channels;
 use external::External;
+use handle::Calls;
 use late_limit::LateLimit;
 use pointer_store::PointerStore;
 
@@ -55,7 +63,7 @@ const STORE_INTERVAL_S: f64 = 1.0;
 /// One [`step`](Controller::step) is one control cycle. In it, always in this order:
 ///
 /// 1. the clock says when the cycle begins;
-/// 2. inputs are read, pulses that are over end, the scenario plays;
+/// 2. what other threads ask for is done ([`Handle`]); inputs are read, pulses that are over end, the scenario plays;
 /// 3. the pendant's buttons count, then what a PLC says (external auto control); programs with robots end with an alarm
 ///    where inputs are lost that they need, or too many cycles;
 /// 4. the conditions of interrupts, timers and triggers are looked at; then the program runs until it waits, the action of
@@ -121,6 +129,10 @@ pub struct Controller {
     /// What a scenario does in this cycle, inputs aside; empty between cycles, with room for all that can come at once.
     effects: Vec<Effect>,
     external: External,
+    /// What other threads ask for.
+    calls: Calls,
+    /// The state that those were told last who hear of events.
+    told: State,
     /// What stores where the programs stand, if it is stored at all.
     pointer_store: Option<PointerStore>,
     /// Whether somebody outside may change something: drivers that are not ours.
@@ -141,6 +153,7 @@ impl Controller {
         let (cycle, rate) = (shared.now.get(), shared.rate);
         self.clock.wait_for(cycle, rate.period());
         self.finish_disk_work();
+        self.answer_handles();
         let shared = &self.shared;
         {
             let mut image = shared.io.borrow_mut();
@@ -180,7 +193,11 @@ impl Controller {
         self.note_pointers();
         self.shared.now.set(cycle + 1);
         self.had_ended = self.channels.outcome().is_some();
-        self.state()
+        let state = self.state();
+        if std::mem::replace(&mut self.told, state) != state {
+            self.shared.tell(|| Event::State(state));
+        }
+        state
     }
 
     /// Takes note of what was stored beside the cycles. Where cycles take no time of the world, what programs wait for is
@@ -413,6 +430,20 @@ impl Controller {
     /// The file that has the program's `main`.
     pub fn program(&self) -> File {
         self.channels.first().cx().program()
+    }
+
+    /// The global variables of the first channel's program, where they are of this type: the `Globals` of an emitted program. They can be
+    /// read at any time, and set between two cycles. A program sets them itself when it starts or is reset:
+    /// [`Builder::on_init`] comes after that.
+    ///
+    /// `docs/embedding.md` has an example.
+    pub fn globals<G: 'static>(&self) -> Option<&G> {
+        self.channels.first().globals()
+    }
+
+    /// The same of any channel; `None`, too, where there is no such channel.
+    pub fn globals_of<G: 'static>(&self, channel: ChannelId) -> Option<&G> {
+        self.channels.iter().find(|it| it.channel_state().id == channel)?.globals()
     }
 
     /// The system variables.

@@ -7,6 +7,7 @@ use crate::fault::Alarm;
 
 /// How a program ended.
 #[derive(Clone, PartialEq, Debug)]
+#[non_exhaustive]
 pub enum Outcome {
     /// It came to its end, or to `exit`.
     Ended,
@@ -31,15 +32,4 @@ impl fmt::Display for Outcome {
             }
         }
     }
-}
-
-/// What the controller does at the moment.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum State {
-    /// The program runs, or its last motion does.
-    Running,
-    /// The program waits for the start button.
-    Paused,
-    /// The program has ended; [`Controller::outcome`](super::Controller::outcome) says how.
-    Ended,
 }

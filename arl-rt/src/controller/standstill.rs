@@ -10,7 +10,7 @@ const PLC_DELAY_S: f64 = 1.0;
 impl Controller {
     /// The programs that wait in vain, if nothing can change any more: all programs wait for conditions, for the start button
     /// or for stopped motion, nothing moves, no timer runs, no pulse is on, no event of the scenario is left, and there is no
-    /// outside: no driver of your own, no bus, no connection, and no real clock. `None` where something may still happen, and
+    /// outside: no driver of your own, no bus, no connection, no real clock, and no [`Handle`](super::Handle). `None` where something may still happen, and
     /// when the programs have ended.
     ///
     /// Whoever holds the controller can still change an input or press a button; then it goes on.
@@ -18,7 +18,7 @@ impl Controller {
         let cycle = self.shared.now.get().checked_sub(1)?;
         // What runs mostly runs: that is found out first.
         let first = self.channels.first().repose(cycle)?;
-        if self.has_outside || self.clock.is_real() || self.is_busy() {
+        if self.has_outside || self.calls.is_open() || self.clock.is_real() || self.is_busy() {
             return None;
         }
         let mut waiting = Vec::new();

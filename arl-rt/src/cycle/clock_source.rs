@@ -8,7 +8,7 @@ pub use arl_robot::cell::Late;
 /// Says when the next cycle may begin: [`VirtualClock`], [`RealClock`], or what a bus gives, whose beat the cycles then follow.
 ///
 /// ```
-/// use arl_rt::clock_source::{Clock, Lateness};
+/// use arl_rt::clock::{Clock, Lateness};
 /// use std::sync::mpsc::Receiver;
 /// use std::time::{Duration, Instant};
 ///

@@ -10,7 +10,7 @@ const STEPS_US: [u64; 18] =
 /// How late the cycles of a run began, by the time of the world.
 ///
 /// ```
-/// use arl_rt::clock_source::Lateness;
+/// use arl_rt::clock::Lateness;
 /// use std::time::Duration;
 ///
 /// let mut lateness = Lateness::default();

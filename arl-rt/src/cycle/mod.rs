@@ -5,7 +5,7 @@
 
 pub(crate) mod catch_panic;
 pub(crate) mod channel_id;
-pub mod clock_source;
+pub(crate) mod clock_source;
 pub(crate) mod lateness;
 pub(crate) mod realtime;
 pub(crate) mod try_lock;

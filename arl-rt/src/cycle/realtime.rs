@@ -7,7 +7,7 @@
 /// disk, connections) begins after it, and takes second place.
 ///
 /// ```
-/// use arl_rt::Realtime;
+/// use arl_rt::clock::Realtime;
 ///
 /// // What could not be done is told, and nothing is worse for it.
 /// for problem in Realtime::new().priority(60).without_core().begin() {

@@ -11,5 +11,5 @@ mod modbus_tcp;
 #[cfg(test)]
 pub(crate) mod noise;
 
-pub use arl_robot::cell::{BusSettings, ModbusTcpSettings};
+pub(crate) use arl_robot::cell::{BusSettings, ModbusTcpSettings};
 pub(crate) use buses::Buses;

@@ -1,6 +1,6 @@
 //! Data files: `_data.arl` files with points that were taught again are read once more when a program is loaded.
 
-pub use crate::values::Teach;
+pub(crate) use crate::values::Teach;
 
 use std::collections::HashMap;
 use std::io::ErrorKind;
@@ -50,7 +50,7 @@ fn file(data: &DataFile<'_>, folder: &Path) -> Vec<Alarm> {
 
 /// Gives the variables of a data file the values that stand in `content`. What is wrong comes back as alarms; variables that
 /// it concerns stay as they were.
-pub fn teach_file(data: &DataFile<'_>, content: &[u8]) -> Vec<Alarm> {
+pub(crate) fn teach_file(data: &DataFile<'_>, content: &[u8]) -> Vec<Alarm> {
     let alarm = |line: u32, text: String| Alarm::new(Fault::Data(text.into()), File::new(data.file), line);
     let text = match arl_lang::text::decode(content) {
         Ok(text) => text,

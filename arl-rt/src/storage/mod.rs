@@ -3,10 +3,12 @@
 //!
 //! It imports `cycle`, `fault` and `values`.
 
-pub mod data;
+pub(crate) mod data;
 pub(crate) mod disk;
 pub(crate) mod pointers;
 pub(crate) mod script_dir;
 pub(crate) mod slots;
-pub mod state;
+pub(crate) mod state;
 pub(crate) mod state_format;
+
+pub use state::{Directory, Memory, StateError, Storage};

@@ -79,7 +79,7 @@ pub fn alarm(outcome: Outcome) -> String {
 }
 
 /// `print` of one value.
-pub fn say(cx: &Cx, value: &dyn arl_rt::text::Print) -> Done<()> {
+pub fn say(cx: &Cx, value: &dyn arl_rt::values::text::Print) -> Done<()> {
     text::print().argtoprint(value).run(cx).at(FILE, 99)
 }
 

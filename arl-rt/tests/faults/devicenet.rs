@@ -4,8 +4,8 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use arl_rt::Controller;
+use arl_rt::devicenet::{DeviceNet, ErrorCode};
 use arl_rt::emit::*;
-use arl_rt::fieldbus::devicenet::{DeviceNet, ErrorCode};
 
 use crate::common::{FILE, say};
 use crate::watch::{Robot, watched};

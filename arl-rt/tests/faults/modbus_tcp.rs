@@ -279,7 +279,7 @@ fn without_a_port_by_default_the_program_goes_on_with_a_warning() {
     watched(|| {
         // Where that is not allowed to us, it is not to the server either.
         let _taken = TcpListener::bind("127.0.0.1:502");
-        let builder = Builder::default().clock(arl_rt::clock_source::RealClock::new());
+        let builder = Builder::default().clock(arl_rt::clock::RealClock::new());
         let mut robot = Robot::of(builder, Box::new(Registers));
         // No cycle tries to start it.
         let warnings = robot.warnings();

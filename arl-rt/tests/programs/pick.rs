@@ -172,14 +172,14 @@ impl arl_rt::Program for Globals {
         arl_rt::Family::SixAxis
     }
 
-    fn init<'a>(&'a self, _cx: &'a arl_rt::Cx) -> arl_rt::BoxFuture<'a> {
+    fn init<'a>(&'a self, _cx: &'a arl_rt::Cx) -> arl_rt::program::BoxFuture<'a> {
         Box::pin(async {
             self.pick.init();
             Ok(())
         })
     }
 
-    fn main<'a>(&'a self, cx: &'a arl_rt::Cx) -> arl_rt::BoxFuture<'a> {
+    fn main<'a>(&'a self, cx: &'a arl_rt::Cx) -> arl_rt::program::BoxFuture<'a> {
         Box::pin(pick::main(cx, self))
     }
 }

@@ -3,8 +3,8 @@
 use std::error::Error;
 use std::sync::Arc;
 
-use arl_rt::frames::Rig;
 use arl_rt::kinematics::{Axes, Frame, frame_components};
+use arl_rt::motion::frames::Rig;
 use arl_rt::motion::{Command, Joints, Queue, Settings, Speed, Target, UNSET, Zone};
 use arl_rt::robot::{Axis, Robot};
 use nalgebra::Vector3;

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 use std::sync::Arc;
 
 use arl_benches::random::Random;
-use arl_rt::frames::Rig;
 use arl_rt::kinematics::{Axes, Frame, Wanted, frame_components};
+use arl_rt::motion::frames::Rig;
 use arl_rt::motion::{Command, Joints, Speed, Target, UNSET, Zone};
 use arl_rt::robot::{Family, Robot, RobotError};
 

@@ -5,7 +5,7 @@ use std::fmt;
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use arl_rt::clock_source::{Clock, Lateness};
+use arl_rt::clock::{Clock, Lateness};
 
 use super::link::Link;
 

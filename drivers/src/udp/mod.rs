@@ -34,7 +34,7 @@ const MOST: usize = 64;
 ///
 /// let builder = arl_rt::Controller::builder()
 ///     .robot_driver(UdpArm::new("192.168.0.30:7447"))
-///     .clock(arl_rt::clock_source::RealClock::new());
+///     .clock(arl_rt::clock::RealClock::new());
 /// # let _ = builder;
 /// ```
 #[derive(Debug)]

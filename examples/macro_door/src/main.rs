@@ -1,7 +1,7 @@
 //! ARL in Rust: a whole program, statements with Rust values in them, and a program in a file.
 
-use arl_rt::emit::{BoxFuture, Done, Family, File};
-use arl_rt::{Captured, Controller, Cx, Program, arl};
+use arl_rt::program::{BoxFuture, Done, File};
+use arl_rt::{Captured, Controller, Cx, Family, Program, arl};
 
 /// A whole program.
 mod count {

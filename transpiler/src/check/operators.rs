@@ -23,7 +23,8 @@ impl Checker<'_> {
         }
         match op {
             BinaryOp::And | BinaryOp::Or => {
-                let what = format_args!("an operand of `{}`", op.text());
+                let text = op.text();
+                let what = format_args!("an operand of `{text}`");
                 let left = self.coerce(body, left, BOOL, what);
                 let right = self.coerce(body, right, BOOL, what);
                 self.finish(body, op, left?, right?, Base::Bool, span)

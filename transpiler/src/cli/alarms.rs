@@ -1,6 +1,6 @@
-//! The alarms, as `docs/alarms.md` lists them.
+//! The alarms, as `transpiler/docs/alarms.md` lists them.
 
-const PAGE: &str = include_str!("../../../docs/alarms.md");
+const PAGE: &str = include_str!("../../docs/alarms.md");
 
 /// An alarm of the list.
 #[derive(Clone, Copy, Debug)]

@@ -43,8 +43,8 @@ pub(super) fn write(place: &Place, runtime: &Unpacked, rust: &Emitted, folder: &
     let main = format!(
         "// Written by arl2rs.\n\n{modules}\n\
          fn main() -> std::process::ExitCode {{\n    \
-         arl_rt::program_main::drivers(arl_drivers::connect);\n    \
-         arl_rt::program_main::{start}(program::Globals::new, &[\n{others}    ], {:?})\n}}\n",
+         arl_rt::emit::program_main::drivers(arl_drivers::connect);\n    \
+         arl_rt::emit::program_main::{start}(program::Globals::new, &[\n{others}    ], {:?})\n}}\n",
         folder.display().to_string()
     );
     write_if_changed(&source("main.rs"), main.as_bytes())?;
@@ -55,7 +55,7 @@ pub(super) fn write(place: &Place, runtime: &Unpacked, rust: &Emitted, folder: &
 pub(super) fn other(other: &EmittedOther, module: &str) -> String {
     let EmittedOther { file, folder, .. } = other;
     let make = format!("|| Box::new({module}::Globals::new())");
-    format!("arl_rt::program_main::Other {{ file: {file:?}, folder: {folder:?}, make: {make} }},")
+    format!("arl_rt::emit::program_main::Other {{ file: {file:?}, folder: {folder:?}, make: {make} }},")
 }
 
 /// How far programs are optimised: far enough for loops, and soon done.

@@ -31,7 +31,7 @@ macro_rules! code_info {
             severity: $crate::diagnostics::Severity::$severity,
             title: $title,
             #[cfg(feature = "cli")]
-            page: include_str!(concat!("../../../docs/diagnostics/ARL0", $number, ".md")),
+            page: include_str!(concat!("../../docs/diagnostics/ARL0", $number, ".md")),
         }
     };
 }

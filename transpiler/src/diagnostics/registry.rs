@@ -1,7 +1,7 @@
 //! The table of all diagnostics: code, severity, title and page of each kind.
 //!
 //! Each area declares its own with `problems!`. The mistakes of the syntax are declared in `arl-lang`. This file only
-//! joins them. The page of a code is `docs/diagnostics/ARLnnnn.md`. The compiler embeds it for `arl2rs explain`, so a
+//! joins them. The page of a code is `transpiler/docs/diagnostics/ARLnnnn.md`. The compiler embeds it for `arl2rs explain`, so a
 //! code without a page does not compile: "couldn't read ... ARLnnnn.md" asks for that file. Its parts are
 //!
 //! ```text

@@ -244,7 +244,7 @@ impl Scenario {
     /// let text = "[[event]]\nat = 1\npart_present = true\n";
     /// assert!(Scenario::parse_with("s.toml", text, &cell.names).is_ok());
     /// assert!(Scenario::parse("s.toml", text).is_err());
-    /// # Ok::<(), arl_rt::settings::SettingsError>(())
+    /// # Ok::<(), arl_rt::cell::SettingsError>(())
     /// ```
     ///
     /// # Errors

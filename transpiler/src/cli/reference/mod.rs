@@ -1,7 +1,7 @@
-//! The reference: pages about the language, written by hand in `docs/reference/`, and pages of everything built in,
+//! The reference: pages about the language, written by hand in `transpiler/docs/reference/`, and pages of everything built in,
 //! written from the catalog.
 //!
-//! A page of the language is `docs/reference/AREA/NAME.md`: its title, a paragraph whose first sentence stands in lists,
+//! A page of the language is `transpiler/docs/reference/AREA/NAME.md`: its title, a paragraph whose first sentence stands in lists,
 //! rules, examples, and at its end the lines `Words:` (the names by which it is found), `See:` and `Manual:`.
 //! `cargo test -p arl2rs --test reference` runs the examples.
 

@@ -24,7 +24,7 @@ macro_rules! areas {
             title: $title,
             topics: &[$(Topic {
                 name: $name,
-                text: include_str!(concat!("../../../../docs/reference/", $folder, "/", $name, ".md")),
+                text: include_str!(concat!("../../../docs/reference/", $folder, "/", $name, ".md")),
             }),+],
         }),+];
     };

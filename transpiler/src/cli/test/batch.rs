@@ -138,7 +138,7 @@ fn write(
     for (part, (modules, arms)) in &programs {
         let text = format!(
             "// Written by arl2rs.\n#![allow(warnings)]\n\n{modules}\n\
-             use arl_rt::program_main::{{Make, Other, {start}}};\n\n\
+             use arl_rt::emit::program_main::{{Make, Other, {start}}};\n\n\
              fn main() -> std::process::ExitCode {{\n    let case = std::env::var(\"{CASE}\").unwrap_or_default();\n    \
              let (make, others, folder): (Make, &[Other], &str) = match case.as_str() {{\n{arms}        \
              _ => return std::process::ExitCode::from(2),\n    }};\n    {start}(make, others, folder)\n}}\n"

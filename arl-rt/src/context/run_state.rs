@@ -1,0 +1,13 @@
+//! What a controller does.
+
+/// What the controller does at the moment.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[non_exhaustive]
+pub enum State {
+    /// The program runs, or its last motion does.
+    Running,
+    /// The program waits for the start button.
+    Paused,
+    /// The program has ended; [`Controller::outcome`](crate::Controller::outcome) says how.
+    Ended,
+}

@@ -1,0 +1,256 @@
+//! The door for other threads: a controller stays on its own, and does between two cycles what they ask.
+
+use std::fmt;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::time::Duration;
+
+use super::{Controller, Status};
+use crate::context::output::Event;
+use crate::fault::Fault;
+use crate::io::Pendant;
+
+/// How long a thread waits for a controller that nobody steps, where it does not say otherwise.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// What somebody wants done between two cycles.
+type Call = Box<dyn FnOnce(&mut Controller) + Send>;
+
+/// A controller as other threads have it: buttons, inputs and outputs, how everything stands, what happens.
+///
+/// It can be cloned and sent. All that it does is done by the thread of the controller, at the beginning of its next cycle,
+/// in the order in which it was asked. So two threads never disturb each other, and a program sees inputs change between its
+/// cycles only. As long as a handle is there, a program that waits is no [standstill](Controller::standstill).
+///
+/// ```
+/// use arl_rt::clock::RealClock;
+/// use arl_rt::{Controller, Outcome};
+/// # use arl_rt::emit::*;
+/// # struct Fill;
+/// # impl arl_rt::Program for Fill {
+/// #     fn file(&self) -> File { File::new("fill.arl") }
+/// #     fn family(&self) -> Family { Family::SixAxis }
+/// #     fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> { Box::pin(async { Ok(()) }) }
+/// #     fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+/// #         Box::pin(async move {
+/// #             while !io::getdi(cx, 1).await.at(self.file(), 2)? { flow::waittime(0.001).run(cx).await.at(self.file(), 2)?; }
+/// #             io::setdo(cx, 1, true).await.at(self.file(), 3)
+/// #         })
+/// #     }
+/// # }
+///
+/// // A controller in a thread of its own, which waits for input 1.
+/// let running = Controller::spawn(|| Controller::builder().clock(RealClock::new()).build(Box::new(Fill)))?;
+/// let handle = running.handle();
+/// assert!(!handle.dout(1)?);
+/// handle.set_di(1, true)?;
+/// assert_eq!(running.join(), Outcome::Ended);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone)]
+pub struct Handle {
+    calls: Sender<Call>,
+    /// How many calls wait. The controller knows by it, too, whether there are handles.
+    waiting: Arc<AtomicUsize>,
+    patience: Duration,
+}
+
+impl Handle {
+    /// The same handle, which waits so long for a controller that nobody steps; without it 1 s.
+    pub fn patience(mut self, patience: Duration) -> Self {
+        self.patience = patience;
+        self
+    }
+
+    /// Lets the controller's thread do something between two cycles, and waits for what comes of it. The cycle waits, too: it
+    /// has to be quick, and must not step the controller.
+    ///
+    /// # Errors
+    /// The controller is gone, or was not stepped in time; then nothing was done.
+    pub fn ask<R: Send + 'static>(
+        &self,
+        question: impl FnOnce(&mut Controller) -> R + Send + 'static,
+    ) -> Result<R, HandleError> {
+        let (answer, answered) = mpsc::sync_channel(1);
+        // Whoever sets it first decides: it is done, or nobody waits for it any more.
+        let decided = Arc::new(AtomicBool::new(false));
+        let in_time = Arc::clone(&decided);
+        let call: Call = Box::new(move |controller| {
+            if !in_time.swap(true, Ordering::AcqRel) {
+                let _ = answer.send(question(controller));
+            }
+        });
+        self.calls.send(call).map_err(|_| HandleError::Gone)?;
+        self.waiting.fetch_add(1, Ordering::Release);
+        match answered.recv_timeout(self.patience) {
+            Ok(answer) => Ok(answer),
+            Err(RecvTimeoutError::Disconnected) => Err(HandleError::Gone),
+            Err(RecvTimeoutError::Timeout) if !decided.swap(true, Ordering::AcqRel) => Err(HandleError::NotStepped),
+            Err(RecvTimeoutError::Timeout) => answered.recv().map_err(|_| HandleError::Gone),
+        }
+    }
+
+    /// Presses a button.
+    ///
+    /// # Errors
+    /// As [`ask`](Handle::ask).
+    pub fn press(&self, button: Pendant) -> Result<(), HandleError> {
+        self.ask(move |controller| controller.press(button))
+    }
+
+    /// Does what an event of a scenario does, as [`Controller::order`]: `di.5 = true`, `pendant = "pause"`.
+    ///
+    /// # Errors
+    /// As [`ask`](Handle::ask); or the text is no order, and nothing was done.
+    pub fn order(&self, text: impl Into<String>) -> Result<(), HandleError> {
+        let text = text.into();
+        self.ask(move |controller| controller.order(&text))?.map_err(HandleError::Order)
+    }
+
+    /// Sets a digital input, from 1.
+    ///
+    /// # Errors
+    /// As [`ask`](Handle::ask); or there is no such channel.
+    pub fn set_di(&self, channel: i32, level: bool) -> Result<(), HandleError> {
+        Ok(self.ask(move |controller| controller.set_di(channel, level))??)
+    }
+
+    /// Sets an analog input, from 1, in V or mA.
+    ///
+    /// # Errors
+    /// As [`ask`](Handle::ask); or there is no such channel, or its type cannot carry the value.
+    pub fn set_ai(&self, channel: i32, value: f64) -> Result<(), HandleError> {
+        Ok(self.ask(move |controller| controller.set_ai(channel, value))??)
+    }
+
+    /// The level of a digital output, from 1.
+    ///
+    /// # Errors
+    /// As [`ask`](Handle::ask); or there is no such channel.
+    pub fn dout(&self, channel: i32) -> Result<bool, HandleError> {
+        Ok(self.ask(move |controller| controller.dout(channel))??)
+    }
+
+    /// The value of an analog output, from 1, in V or mA.
+    ///
+    /// # Errors
+    /// As [`ask`](Handle::ask); or there is no such channel.
+    pub fn ao(&self, channel: i32) -> Result<f64, HandleError> {
+        Ok(self.ask(move |controller| controller.ao(channel))??)
+    }
+
+    /// How everything stands.
+    ///
+    /// # Errors
+    /// As [`ask`](Handle::ask).
+    pub fn status(&self) -> Result<Status, HandleError> {
+        self.ask(|controller| controller.status())
+    }
+
+    /// Ends the programs; the robots stop on their paths.
+    ///
+    /// # Errors
+    /// As [`ask`](Handle::ask).
+    pub fn stop(&self) -> Result<(), HandleError> {
+        self.ask(Controller::stop)
+    }
+
+    /// Cuts the power of all robots, as [`Controller::emergency_stop`].
+    ///
+    /// # Errors
+    /// As [`ask`](Handle::ask): then nothing was cut. A real cell has a button for this that needs no program.
+    pub fn emergency_stop(&self) -> Result<(), HandleError> {
+        self.ask(Controller::emergency_stop)
+    }
+
+    /// What happens from now on: messages, warnings, alarms, and each change of the state. They are kept until somebody takes
+    /// them; dropping the receiver ends it.
+    ///
+    /// # Errors
+    /// As [`ask`](Handle::ask).
+    pub fn events(&self) -> Result<Receiver<Event>, HandleError> {
+        let (tell, told) = mpsc::channel();
+        self.ask(move |controller| controller.shared.tell_events(tell))?;
+        Ok(told)
+    }
+}
+
+impl fmt::Debug for Handle {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Handle").field("patience", &self.patience).finish_non_exhaustive()
+    }
+}
+
+/// Why a [`Handle`] could not do something.
+#[derive(Clone, PartialEq, Debug)]
+#[non_exhaustive]
+pub enum HandleError {
+    /// There is no controller any more, or it panicked over this.
+    Gone,
+    /// Nobody stepped the controller in time. Nothing was done, and nothing of it will be.
+    NotStepped,
+    /// It is no order; why.
+    Order(String),
+    /// There is no such input or output, or it cannot carry the value.
+    Fault(Fault),
+}
+
+impl fmt::Display for HandleError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            HandleError::Gone => write!(f, "the controller is gone"),
+            HandleError::NotStepped => write!(f, "nobody steps the controller: nothing was done"),
+            HandleError::Order(why) => write!(f, "{why}"),
+            HandleError::Fault(fault) => write!(f, "{fault}"),
+        }
+    }
+}
+
+impl std::error::Error for HandleError {}
+
+impl From<Fault> for HandleError {
+    fn from(fault: Fault) -> Self {
+        HandleError::Fault(fault)
+    }
+}
+
+/// What the handles of a controller ask of it.
+pub(super) struct Calls {
+    asked: Receiver<Call>,
+    calls: Sender<Call>,
+    waiting: Arc<AtomicUsize>,
+}
+
+impl Calls {
+    pub(super) fn new() -> Self {
+        let (calls, asked) = mpsc::channel();
+        Self { asked, calls, waiting: Arc::default() }
+    }
+
+    fn handle(&self) -> Handle {
+        Handle { calls: self.calls.clone(), waiting: Arc::clone(&self.waiting), patience: PATIENCE }
+    }
+
+    /// Whether anybody can ask.
+    pub(super) fn is_open(&self) -> bool {
+        Arc::strong_count(&self.waiting) > 1
+    }
+}
+
+impl Controller {
+    /// A handle for other threads.
+    pub fn handle(&self) -> Handle {
+        self.calls.handle()
+    }
+
+    /// Does what handles have asked for until now. What they ask next, having an answer, waits for the next cycle: a thread that asks
+    /// without end does not hold up this one.
+    pub(super) fn answer_handles(&mut self) {
+        for _ in 0..self.calls.waiting.load(Ordering::Acquire) {
+            self.calls.waiting.fetch_sub(1, Ordering::Relaxed);
+            let Ok(call) = self.calls.asked.try_recv() else { break };
+            call(self);
+        }
+    }
+}
