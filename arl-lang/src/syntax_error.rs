@@ -1,6 +1,7 @@
 //! What can be wrong with the form of a program, and the words for it.
 
 use crate::span::Span;
+use std::fmt;
 
 /// A mistake in the form of a program.
 #[derive(Clone, PartialEq, Debug)]
@@ -26,6 +27,14 @@ impl SyntaxError {
         self
     }
 }
+
+impl fmt::Display for SyntaxError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.kind.message())
+    }
+}
+
+impl std::error::Error for SyntaxError {}
 
 /// A pair of brackets.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -393,6 +393,7 @@ impl Stop {
     }
 }
 
+/// In the words of the last reason on this thread: ask for [`reason`](Stop::reason) at once where it is to be kept.
 impl fmt::Display for Stop {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         REASON.with_borrow(|reason| match reason {

@@ -77,6 +77,7 @@ pub mod status {
     pub use crate::context::standstill::{Standstill, WaitsFor};
     pub use crate::controller::{ChannelStatus, HandleError, Outcome, RobotStatus, State, Status, StillRunning};
     pub use crate::cycle::channel_id::ChannelId;
+    pub use crate::unit::Motors;
 }
 
 #[cfg(feature = "macros")]

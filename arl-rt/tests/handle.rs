@@ -4,6 +4,8 @@
 
 mod common;
 
+use std::cell::RefCell;
+use std::rc::Rc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, mpsc};
 use std::thread;
@@ -17,7 +19,7 @@ use arl_rt::motion::Joints;
 use arl_rt::output::Event;
 use arl_rt::robot_driver::{Drives, Feedback, Power, RobotDriver, Setpoint, Start};
 use arl_rt::status::{HandleError, Status};
-use arl_rt::{Alarm, Controller, Handle, Outcome, Robot, Running, SetupError, State};
+use arl_rt::{Alarm, Controller, Foreground, Handle, Message, Outcome, Robot, Running, SetupError, State};
 use common::{FILE, bent, plain, say, script};
 
 /// Waits for an input, says so, and divides by what the analog input has.
@@ -100,6 +102,177 @@ fn wrong_questions_are_answered_with_why() {
     let Err(HandleError::Order(why)) = handle.order("di.1 = maybe") else { panic!("it was taken") };
     assert!(why.contains("maybe") || why.contains("true"), "{why}");
     assert_eq!(running.stop(), Outcome::Stopped);
+}
+
+#[test]
+fn a_thread_that_is_the_controllers_own_does_not_wait_for_itself() {
+    let answers = Rc::new(RefCell::new(Vec::new()));
+    let (kept, handle) = (Rc::clone(&answers), Rc::new(RefCell::new(None::<Handle>)));
+    let asking = Rc::clone(&handle);
+    let builder = Controller::builder().output(move |_: &Message<'_>| {
+        let answer = asking.borrow().as_ref().map(|handle| handle.dout(2));
+        kept.borrow_mut().extend(answer);
+    });
+    let mut controller = plain(builder, wait_and_divide);
+    *handle.borrow_mut() = Some(controller.handle());
+    controller.set_di(1, true).unwrap();
+    controller.run_for(0.1);
+    assert_eq!(answers.borrow().first(), Some(&Err(HandleError::OwnThread)));
+}
+
+#[test]
+fn a_question_that_panics_costs_who_asked_alone() {
+    let running = spawned();
+    let handle = running.handle();
+    assert_eq!(handle.ask(|_| panic!("as it is meant to")), Err::<(), _>(HandleError::Panicked));
+    handle.set_ai(1, 4.0).unwrap();
+    handle.set_di(1, true).unwrap();
+    assert_eq!(running.join(), Outcome::Ended);
+}
+
+#[test]
+fn a_question_may_step_and_time_goes_on() {
+    let mut controller = plain(Controller::builder(), wait_and_divide);
+    let handle = controller.handle();
+    let asking = thread::spawn(move || {
+        let inside = handle.ask(|controller| {
+            controller.run_for(0.5);
+            controller.time()
+        });
+        (inside, handle.ask(|controller| controller.time()))
+    });
+    while !asking.is_finished() {
+        controller.step();
+    }
+    let (inside, after) = asking.join().unwrap();
+    assert!(after.unwrap() > inside.unwrap());
+}
+
+fn divide_by_zero(cx: &Cx) -> BoxFuture<'_> {
+    Box::pin(async move { say(cx, &div(12, 0).at(FILE, 1)?) })
+}
+
+#[test]
+fn events_come_from_the_very_start() {
+    let (tell, events) = mpsc::channel();
+    let make = move || Controller::builder().events(tell).build(Box::new(script(divide_by_zero)));
+    let outcome = Controller::spawn(make).unwrap().join();
+    let Outcome::Alarm(alarm) = outcome else { panic!("{outcome}") };
+    let events: Vec<Event> = events.iter().collect();
+    assert_eq!(events, [Event::Alarm(alarm), Event::State(State::Ended)]);
+}
+
+#[test]
+fn a_program_that_begins_anew_is_told_even_if_it_ends_at_once() {
+    let (tell, events) = mpsc::channel();
+    let mut controller = plain(Controller::builder().events(tell), |_| Box::pin(async { Ok(()) }));
+    controller.run();
+    controller.reset().unwrap();
+    controller.run();
+    let states: Vec<Event> = events.try_iter().collect();
+    assert_eq!(states, [State::Ended, State::Running, State::Ended].map(Event::State));
+}
+
+#[test]
+fn a_program_that_has_ended_begins_anew_until_somebody_waits_for_its_end() {
+    let running = spawned();
+    let handle = running.handle();
+    let events = handle.events().unwrap();
+    let ended = || events.iter().any(|event| event == Event::State(State::Ended));
+    handle.set_ai(1, 4.0).unwrap();
+    handle.set_di(1, true).unwrap();
+    assert!(ended());
+    handle.press(Pendant::Reset).unwrap();
+    assert!(ended());
+    assert_eq!(running.join(), Outcome::Ended);
+}
+
+#[test]
+fn who_waits_for_the_end_of_what_waits_in_vain_is_told_so() {
+    let make = || Controller::builder().build(Box::new(script(wait_forever)));
+    let outcome = Controller::spawn(make).unwrap().join();
+    assert!(matches!(&outcome, Outcome::Standstill(waiting) if waiting.len() == 1), "{outcome}");
+}
+
+/// Pauses itself: nobody presses start.
+fn wait_forever(cx: &Cx) -> BoxFuture<'_> {
+    Box::pin(async move { flow::pause().run(cx).await.at(FILE, 1) })
+}
+
+/// Goes on swinging where another one ends.
+struct Other;
+
+impl Program for Other {
+    fn file(&self) -> File {
+        File::new("other.arl")
+    }
+
+    fn family(&self) -> Family {
+        Family::SixAxis
+    }
+
+    fn init<'a>(&'a self, _cx: &'a Cx) -> BoxFuture<'a> {
+        Box::pin(async { Ok(()) })
+    }
+
+    fn main<'a>(&'a self, cx: &'a Cx) -> BoxFuture<'a> {
+        swing(cx)
+    }
+}
+
+/// Loads the other program into channel 1 after half a second.
+fn switch(cx: &Cx) -> BoxFuture<'_> {
+    Box::pin(async move {
+        flow::waittime(0.5).run(cx).await.at(FILE, 1)?;
+        channel::switcharl(cx, 1, &Str::literal("other.arl")).await.at(FILE, 2).map(drop)
+    })
+}
+
+#[test]
+fn what_is_stopped_ends_also_while_another_program_is_loaded() {
+    for cycle in 495..530 {
+        let builder = Controller::builder().background(Box::new(script(switch)));
+        let mut controller = plain(builder.loadable("other.arl", || Box::new(Other)), swing);
+        controller.run_for(f64::from(cycle) * 0.001);
+        controller.stop();
+        controller.run_for(5.0);
+        assert_eq!(controller.outcome(), Some(&Outcome::Stopped), "stopped in cycle {cycle}");
+    }
+}
+
+#[test]
+fn what_is_stopped_ends_also_where_somebody_resets_programs_that_have_ended() {
+    let running = Controller::spawn(|| {
+        let second = Foreground::new(Box::new(script(wait_and_divide)));
+        let builder = Controller::builder().clock(RealClock::new()).foreground(second);
+        builder.build(Box::new(script(swing)))
+    });
+    let running = running.unwrap();
+    let handle = running.handle();
+    // Channel 2 has ended while channel 1 comes to rest: a reset lets it begin anew.
+    let resetting = thread::spawn(move || while handle.press(Pendant::Reset).is_ok() {});
+    thread::sleep(Duration::from_millis(100));
+    assert_eq!(running.stop(), Outcome::Stopped);
+    resetting.join().unwrap();
+}
+
+#[test]
+fn an_alarm_stays_the_outcome_of_what_is_stopped_after_it() {
+    let mut controller = plain(Controller::builder(), |cx| {
+        Box::pin(async move {
+            motion::movej(bent(80.0)).run(cx).await.at(FILE, 1)?;
+            // The robot is under way then.
+            for _ in 0..100 {
+                cx.next_cycle().await;
+            }
+            say(cx, &div(12, 0).at(FILE, 3)?)
+        })
+    });
+    controller.run_for(0.11);
+    assert_eq!((controller.take_alarms().len(), controller.outcome()), (1, None));
+    controller.stop();
+    let outcome = controller.run();
+    assert!(matches!(outcome, Outcome::Alarm(_)), "{outcome}");
 }
 
 #[test]

@@ -123,8 +123,8 @@ fn the_program_moves_at_speed_when_troubles_come() {
     drop(controller);
     let heard = heard.borrow();
     keep_limits(&heard);
-    // Nothing was switched: the motors were on from the start, and the program's end is not theirs.
-    assert_eq!((&heard.switched[..], heard.closed), (&[][..], 1));
+    // The motors were on from the start, and were switched off when the robot was let go.
+    assert_eq!((&heard.switched[..], heard.closed), (&[(Power::Off, 0.0)][..], 1));
 }
 
 #[test]

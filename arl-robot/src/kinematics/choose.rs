@@ -1,5 +1,7 @@
 //! Which of several joint vectors for one pose is meant: `cfg`, `turn`, axis limits, nearness.
 
+use std::fmt;
+
 use super::frame::Frame;
 use super::{Axes, Kinematics, wrap_degrees};
 use crate::robot::Axis;
@@ -43,6 +45,22 @@ pub enum Refusal {
         value: f64,
     },
 }
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refusal::NoSuchCfg { cfg } => write!(f, "the robot has no configuration {cfg}: {CONFIGURATIONS}"),
+            Refusal::Unreachable { beyond } if *beyond > 0.0 => write!(f, "the arm falls short by {beyond:.1} mm"),
+            Refusal::Unreachable { .. } => write!(f, "the configuration does not reach the pose"),
+            Refusal::Tilted { by } => write!(f, "the flange would have to tilt by {by:.1} deg"),
+            Refusal::AxisLimit { axis, value } => {
+                write!(f, "axis {} would have to stand at {value:.3} deg (mm), outside its range", axis + 1)
+            }
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}
 
 impl Kinematics {
     /// The joint vector for `flange` that is wanted, within the ranges of `axes`, the robot's own.

@@ -78,6 +78,7 @@ pub(crate) struct Parts {
     pub(crate) start_date: i64,
     pub(crate) output: Box<dyn Output>,
     pub(crate) listeners: Listeners,
+    pub(crate) hearers: Vec<Sender<Event>>,
     pub(crate) state: State,
     pub(crate) network: NetworkSettings,
     pub(crate) wiring: Wiring,
@@ -106,7 +107,7 @@ impl SharedState {
             alarms: RefCell::default(),
             listeners: RefCell::new(parts.listeners),
             warnings: RefCell::default(),
-            hearers: RefCell::default(),
+            hearers: RefCell::new(parts.hearers),
             state: RefCell::new(parts.state),
             disk: Disk::default(),
         }

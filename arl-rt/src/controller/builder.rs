@@ -6,6 +6,7 @@ use std::io::Write;
 use std::ops::BitOr;
 use std::path::PathBuf;
 use std::rc::Rc;
+use std::sync::mpsc::Sender;
 
 use super::Controller;
 use super::channel::{Channel, PROGRAM_STACK_BYTES};
@@ -19,7 +20,7 @@ use super::pointer_store::PointerStore;
 use crate::builtins::time;
 use crate::communication::NetworkDriver;
 use crate::context::channel_state::{ChannelState, Station};
-use crate::context::output::{Output, Stream};
+use crate::context::output::{Event, Output, Stream};
 use crate::context::program::{Beside, Program};
 use crate::context::programs::{Initialised, Loadable, Programs};
 use crate::context::random::{self, Random};
@@ -41,7 +42,7 @@ use crate::unit::Unit;
 use crate::unit::robot_driver::{Connect, RobotDriver};
 use crate::values::{self, Controlmode};
 use arl_robot::atomic_file;
-use arl_robot::cell::{Cell, fit};
+use arl_robot::cell::{Cell, SettingsError, fit};
 use arl_robot::kinematics::frame;
 use arl_robot::robot::{Family, Robot, RobotError};
 
@@ -67,6 +68,7 @@ pub struct Builder {
     scenario: Scenario,
     output: Option<Box<dyn Output>>,
     listeners: Listeners,
+    hearers: Vec<Sender<Event>>,
     storage: Box<dyn Storage>,
     script_dir: PathBuf,
     record: bool,
@@ -96,6 +98,7 @@ impl Default for Builder {
             scenario: Scenario::default(),
             output: None,
             listeners: Listeners::default(),
+            hearers: Vec::new(),
             storage: Box::new(Memory::default()),
             script_dir: PathBuf::from("."),
             record: false,
@@ -253,6 +256,13 @@ impl Builder {
         self
     }
 
+    /// Where all that happens goes, for other threads, from the very start: messages, warnings, alarms, and each change of the state. They
+    /// wait in the channel until somebody takes them.
+    pub fn events(mut self, tell: Sender<Event>) -> Self {
+        self.hearers.push(tell);
+        self
+    }
+
     /// What is told every warning when it comes up: what is no alarm but worth a word, such as a button that cannot act
     /// now. [`Controller::take_warnings`] gives them as well.
     pub fn on_warning(mut self, listener: impl FnMut(&str) + 'static) -> Self {
@@ -308,8 +318,8 @@ impl Builder {
         self
     }
 
-    /// How many bytes of stack the program's functions may fill. The thread must have some 256 KiB more. Without it
-    /// 1 MiB.
+    /// How many bytes of stack the program's functions may fill. The thread must have some 256 KiB more: that of
+    /// [`Controller::spawn`] has room for 1 MiB, which is what holds without this.
     pub fn stack(mut self, bytes: usize) -> Self {
         self.stack = bytes;
         self
@@ -379,6 +389,7 @@ impl Builder {
             start_date: self.start_date,
             output: self.output.unwrap_or_else(|| Box::new(Stream::standard())),
             listeners: self.listeners,
+            hearers: self.hearers,
             state,
             network: cell.network,
             wiring: cell.external,
@@ -434,7 +445,7 @@ impl Builder {
             effects,
             external,
             has_outside,
-            calls: Calls::new(),
+            calls: Calls::default(),
             told: super::State::Running,
             pointer_store,
             stores_from: 0,
@@ -626,6 +637,8 @@ pub enum SetupError {
     },
     /// The inputs and outputs of an io driver cannot be had; what it says.
     Io(String),
+    /// Whoever sets it up says why not.
+    Other(String),
 }
 
 impl fmt::Display for SetupError {
@@ -638,7 +651,12 @@ impl fmt::Display for SetupError {
                 word(*program),
                 word(*family)
             ),
-            SetupError::Channels(text) | SetupError::Cell(text) | SetupError::Outside(text) => write!(f, "{text}"),
+            SetupError::Channels(text)
+            | SetupError::Cell(text)
+            | SetupError::Outside(text)
+            | SetupError::Other(text) => {
+                write!(f, "{text}")
+            }
             SetupError::State(error) => write!(f, "{error}"),
             SetupError::Trace(text) => write!(f, "the trace cannot be written: {text}"),
             SetupError::Driver { channel, problem } => {
@@ -654,6 +672,18 @@ impl std::error::Error for SetupError {}
 impl From<RobotError> for SetupError {
     fn from(error: RobotError) -> Self {
         SetupError::Robot(error)
+    }
+}
+
+impl From<SettingsError> for SetupError {
+    fn from(error: SettingsError) -> Self {
+        SetupError::Cell(error.to_string())
+    }
+}
+
+impl From<String> for SetupError {
+    fn from(why: String) -> Self {
+        SetupError::Other(why)
     }
 }
 

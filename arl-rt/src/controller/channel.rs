@@ -432,8 +432,18 @@ impl Channel {
         }
     }
 
-    /// Ends the program where it is and stops its motion on the path.
+    /// Ends the program from outside, and forgets the one that was to run next.
+    pub(super) fn stop(&mut self) {
+        drop(self.cx.take_next());
+        self.end(Outcome::Stopped);
+    }
+
+    /// Ends the program where it is and stops its motion on the path. An alarm that ends it already stays its outcome.
     pub(super) fn end(&mut self, outcome: Outcome) {
+        let outcome = match &self.phase {
+            Phase::RunningOut(Next::End(alarm @ Outcome::Alarm(_))) => alarm.clone(),
+            _ => outcome,
+        };
         if !matches!(self.phase, Phase::Ended(_)) {
             self.channel_state.stop_motion();
             self.channel_state.paused.set(false);

@@ -1,13 +1,16 @@
 //! The door for other threads: a controller stays on its own, and does between two cycles what they ask.
 
 use std::fmt;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::thread::{self, ThreadId};
 use std::time::Duration;
 
 use super::{Controller, Status};
 use crate::context::output::Event;
+use crate::cycle::catch_panic::catch_panic;
+use crate::cycle::try_lock::try_lock;
 use crate::fault::Fault;
 use crate::io::Pendant;
 
@@ -50,9 +53,9 @@ type Call = Box<dyn FnOnce(&mut Controller) + Send>;
 /// ```
 #[derive(Clone)]
 pub struct Handle {
-    calls: Sender<Call>,
-    /// How many calls wait. The controller knows by it, too, whether there are handles.
-    waiting: Arc<AtomicUsize>,
+    /// The controller's: gone when that is.
+    desk: Weak<Desk>,
+    thread: ThreadId,
     patience: Duration,
 }
 
@@ -63,32 +66,49 @@ impl Handle {
         self
     }
 
-    /// Lets the controller's thread do something between two cycles, and waits for what comes of it. The cycle waits, too: it
-    /// has to be quick, and must not step the controller.
+    /// Lets the controller's thread do something between two cycles, and waits for what comes of it. The cycle waits, too, so it
+    /// has to be quick. A panic in it is this thread's loss only.
     ///
     /// # Errors
-    /// The controller is gone, or was not stepped in time; then nothing was done.
+    /// The controller is gone, or was not stepped in time; or this is its own thread, as in a closure that it calls. Then nothing
+    /// was done. Or the question panicked.
     pub fn ask<R: Send + 'static>(
         &self,
         question: impl FnOnce(&mut Controller) -> R + Send + 'static,
     ) -> Result<R, HandleError> {
+        if self.is_own_thread() {
+            return Err(HandleError::OwnThread);
+        }
         let (answer, answered) = mpsc::sync_channel(1);
         // Whoever sets it first decides: it is done, or nobody waits for it any more.
         let decided = Arc::new(AtomicBool::new(false));
         let in_time = Arc::clone(&decided);
-        let call: Call = Box::new(move |controller| {
+        let call = Box::new(move |controller: &mut Controller| {
             if !in_time.swap(true, Ordering::AcqRel) {
-                let _ = answer.send(question(controller));
+                let _ = answer.send(catch_panic(|| question(controller)));
             }
         });
-        self.calls.send(call).map_err(|_| HandleError::Gone)?;
-        self.waiting.fetch_add(1, Ordering::Release);
-        match answered.recv_timeout(self.patience) {
-            Ok(answer) => Ok(answer),
-            Err(RecvTimeoutError::Disconnected) => Err(HandleError::Gone),
-            Err(RecvTimeoutError::Timeout) if !decided.swap(true, Ordering::AcqRel) => Err(HandleError::NotStepped),
-            Err(RecvTimeoutError::Timeout) => answered.recv().map_err(|_| HandleError::Gone),
-        }
+        self.desk.upgrade().ok_or(HandleError::Gone)?.add(call);
+        let answer = match answered.recv_timeout(self.patience) {
+            Err(RecvTimeoutError::Timeout) if !decided.swap(true, Ordering::AcqRel) => {
+                return Err(HandleError::NotStepped);
+            }
+            // It is being done right now.
+            Err(RecvTimeoutError::Timeout) => answered.recv().map_err(|_| HandleError::Gone)?,
+            Err(RecvTimeoutError::Disconnected) => return Err(HandleError::Gone),
+            Ok(answer) => answer,
+        };
+        answer.ok_or(HandleError::Panicked)
+    }
+
+    /// Whether this is the thread of the controller itself.
+    pub(super) fn is_own_thread(&self) -> bool {
+        thread::current().id() == self.thread
+    }
+
+    /// It is nobody's any more.
+    pub(super) fn forget(&mut self) {
+        self.desk = Weak::new();
     }
 
     /// Presses a button.
@@ -165,7 +185,7 @@ impl Handle {
     }
 
     /// What happens from now on: messages, warnings, alarms, and each change of the state. They are kept until somebody takes
-    /// them; dropping the receiver ends it.
+    /// them; dropping the receiver ends it. [`Builder::events`](super::Builder::events) has all from the start.
     ///
     /// # Errors
     /// As [`ask`](Handle::ask).
@@ -186,8 +206,12 @@ impl fmt::Debug for Handle {
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum HandleError {
-    /// There is no controller any more, or it panicked over this.
+    /// There is no controller any more.
     Gone,
+    /// This is the thread of the controller itself, which would wait for itself.
+    OwnThread,
+    /// What was asked has panicked.
+    Panicked,
     /// Nobody stepped the controller in time. Nothing was done, and nothing of it will be.
     NotStepped,
     /// It is no order; why.
@@ -200,6 +224,8 @@ impl fmt::Display for HandleError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             HandleError::Gone => write!(f, "the controller is gone"),
+            HandleError::OwnThread => write!(f, "a handle is for other threads than that of its controller"),
+            HandleError::Panicked => write!(f, "what the controller was asked for has panicked"),
             HandleError::NotStepped => write!(f, "nobody steps the controller: nothing was done"),
             HandleError::Order(why) => write!(f, "{why}"),
             HandleError::Fault(fault) => write!(f, "{fault}"),
@@ -215,42 +241,54 @@ impl From<Fault> for HandleError {
     }
 }
 
-/// What the handles of a controller ask of it.
-pub(super) struct Calls {
-    asked: Receiver<Call>,
-    calls: Sender<Call>,
-    waiting: Arc<AtomicUsize>,
+/// Where questions wait for the next cycle. What nobody answers any more goes with it, and then whoever waits knows.
+#[derive(Default)]
+struct Desk {
+    /// Locked for moving a pointer only; `any` changes under the lock.
+    calls: Mutex<Vec<Call>>,
+    /// Whether there are some: what the cycle looks at.
+    any: AtomicBool,
 }
 
+impl Desk {
+    fn add(&self, call: Call) {
+        let mut calls = self.calls.lock().unwrap_or_else(PoisonError::into_inner);
+        calls.push(call);
+        self.any.store(true, Ordering::Release);
+    }
+}
+
+/// What the handles of a controller ask of it.
+#[derive(Default)]
+pub(super) struct Calls(Arc<Desk>);
+
 impl Calls {
-    pub(super) fn new() -> Self {
-        let (calls, asked) = mpsc::channel();
-        Self { asked, calls, waiting: Arc::default() }
-    }
-
-    fn handle(&self) -> Handle {
-        Handle { calls: self.calls.clone(), waiting: Arc::clone(&self.waiting), patience: PATIENCE }
-    }
-
     /// Whether anybody can ask.
     pub(super) fn is_open(&self) -> bool {
-        Arc::strong_count(&self.waiting) > 1
+        Arc::weak_count(&self.0) > 0
+    }
+
+    /// All that was asked until now.
+    fn take(&self) -> Vec<Call> {
+        if !self.0.any.load(Ordering::Acquire) {
+            return Vec::new();
+        }
+        // Where the lock is held just now, it is the next cycle's business.
+        let Some(mut calls) = try_lock(&self.0.calls) else { return Vec::new() };
+        self.0.any.store(false, Ordering::Relaxed);
+        std::mem::take(&mut calls)
     }
 }
 
 impl Controller {
     /// A handle for other threads.
     pub fn handle(&self) -> Handle {
-        self.calls.handle()
+        Handle { desk: Arc::downgrade(&self.calls.0), thread: thread::current().id(), patience: PATIENCE }
     }
 
     /// Does what handles have asked for until now. What they ask next, having an answer, waits for the next cycle: a thread that asks
     /// without end does not hold up this one.
     pub(super) fn answer_handles(&mut self) {
-        for _ in 0..self.calls.waiting.load(Ordering::Acquire) {
-            self.calls.waiting.fetch_sub(1, Ordering::Relaxed);
-            let Ok(call) = self.calls.asked.try_recv() else { break };
-            call(self);
-        }
+        self.calls.take().into_iter().for_each(|call| call(self));
     }
 }

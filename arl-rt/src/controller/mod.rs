@@ -149,12 +149,11 @@ impl Controller {
 
     /// Runs one cycle.
     pub fn step(&mut self) -> State {
-        let shared = &self.shared;
-        let (cycle, rate) = (shared.now.get(), shared.rate);
-        self.clock.wait_for(cycle, rate.period());
+        self.clock.wait_for(self.shared.now.get(), self.shared.rate.period());
         self.finish_disk_work();
         self.answer_handles();
         let shared = &self.shared;
+        let (cycle, rate) = (shared.now.get(), shared.rate);
         {
             let mut image = shared.io.borrow_mut();
             self.islands.read(image.inputs_mut());
@@ -169,6 +168,8 @@ impl Controller {
             act(&mut self.channels, effect);
         }
         self.read_external_control();
+        // What has begun may have ended when the cycle is over.
+        self.tell_state();
         self.report_io_problems();
         self.look_for_lost_cycles(cycle);
         self.channels.each(Channel::scan_events);
@@ -193,6 +194,11 @@ impl Controller {
         self.note_pointers();
         self.shared.now.set(cycle + 1);
         self.had_ended = self.channels.outcome().is_some();
+        self.tell_state()
+    }
+
+    /// Tells those who hear of events what the controller does, where it does something else than before.
+    fn tell_state(&mut self) -> State {
         let state = self.state();
         if std::mem::replace(&mut self.told, state) != state {
             self.shared.tell(|| Event::State(state));
@@ -373,9 +379,9 @@ impl Controller {
         self.channels.outcome()
     }
 
-    /// Ends the program: the robot stops on its path within the cycles that follow.
+    /// Ends the programs, also those that wait to be loaded: the robots stop on their paths within the cycles that follow.
     pub fn stop(&mut self) {
-        self.channels.each(|channel| channel.end(Outcome::Stopped));
+        self.channels.each(Channel::stop);
     }
 
     /// Presses the start button: a program that is paused goes on.

@@ -2,20 +2,31 @@
 
 use std::panic::resume_unwind;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::mpsc;
 use std::thread::{self, JoinHandle};
+use std::time::Duration;
 
 use super::{Controller, Handle, Outcome, SetupError};
 
+/// What the thread is told. It goes on: programs that have ended can begin anew.
+const GO_ON: u8 = 0;
+/// It ends with the programs.
+const END_WITH_PROGRAMS: u8 = 1;
+/// It stops the programs.
+const STOP: u8 = 2;
+
+/// How long the thread waits between two cycles where the programs have ended and cycles take no time of the world.
+const IDLE: Duration = Duration::from_millis(1);
+
 /// A controller that runs in a thread of its own, from [`Controller::spawn`].
 ///
+/// It holds its robots when the programs have ended, until somebody [joins](Running::join) it: a handle can let them begin anew.
 /// Dropping it stops the programs, and waits until the robots have come to rest on their paths.
 #[derive(Debug)]
 pub struct Running {
     handle: Handle,
-    stops: Arc<AtomicBool>,
-    /// `None` once somebody waits for its end.
+    told: Arc<AtomicU8>,
     thread: Option<JoinHandle<Outcome>>,
 }
 
@@ -25,57 +36,62 @@ impl Running {
         self.handle.clone()
     }
 
-    /// Waits until the programs have ended.
+    /// Waits until the programs have ended, or, where no handle is left, can never go on.
     ///
     /// # Panics
     /// What the controller runs has panicked: with the same words.
     pub fn join(mut self) -> Outcome {
-        let outcome = self.thread.take().map(JoinHandle::join);
-        match outcome {
-            Some(Ok(outcome)) => outcome,
-            Some(Err(panic)) => resume_unwind(panic),
-            None => Outcome::Stopped,
-        }
+        self.wait(END_WITH_PROGRAMS).unwrap_or_else(|panic| resume_unwind(panic))
     }
 
     /// Stops the programs, and waits until the robots have come to rest on their paths.
     ///
     /// # Panics
     /// As [`join`](Running::join).
-    pub fn stop(self) -> Outcome {
-        self.stops.store(true, Ordering::Relaxed);
-        self.join()
+    pub fn stop(mut self) -> Outcome {
+        self.wait(STOP).unwrap_or_else(|panic| resume_unwind(panic))
+    }
+
+    /// Tells the thread how to end, and waits for it, unless this is that thread.
+    fn wait(&mut self, how: u8) -> thread::Result<Outcome> {
+        self.told.store(how, Ordering::Relaxed);
+        // Who waits for the end asks nothing more: programs that wait for others then wait in vain.
+        self.handle.forget();
+        match self.thread.take() {
+            Some(thread) if !self.handle.is_own_thread() => thread.join(),
+            _ => Ok(Outcome::Stopped),
+        }
     }
 }
 
 impl Drop for Running {
     fn drop(&mut self) {
-        self.stops.store(true, Ordering::Relaxed);
-        if let Some(thread) = self.thread.take() {
-            let _ = thread.join();
+        if self.thread.is_some() {
+            let _ = self.wait(STOP);
         }
     }
 }
 
 impl Controller {
     /// Makes a controller in a thread of its own, and runs it there: on the real clock as a rule, since on the virtual one
-    /// cycles follow each other as fast as they can. Ends when the programs have ended, like [`run`](Controller::run). A program
-    /// that waits does not end it, as somebody has a [`Handle`].
+    /// cycles follow each other as fast as they can. [`Handle`] has an example.
     ///
-    /// The thread has the usual stack, of 2 MiB. [`Handle`] has an example.
+    /// The thread has the usual stack, of 2 MiB, which is too little for more than the usual [`Builder::stack`](super::Builder::stack).
     ///
     /// # Errors
     /// The controller cannot be made, or there is no thread for it.
     pub fn spawn(
         make: impl FnOnce() -> Result<Controller, SetupError> + Send + 'static,
     ) -> Result<Running, SetupError> {
-        let (tell, told) = mpsc::sync_channel(1);
-        let stops = Arc::new(AtomicBool::new(false));
-        let stopped = Arc::clone(&stops);
+        let (tell, made) = mpsc::sync_channel(1);
+        let told = Arc::new(AtomicU8::new(GO_ON));
+        let telling = Arc::clone(&told);
         let run = move || match make() {
             Ok(mut controller) => {
                 let _ = tell.send(Ok(controller.handle()));
-                controller.run_until_told(&stopped)
+                // The handle in the channel would count as somebody's.
+                drop(tell);
+                controller.run_as_told(&telling)
             }
             Err(error) => {
                 let _ = tell.send(Err(error));
@@ -83,35 +99,46 @@ impl Controller {
             }
         };
         let spawned = thread::Builder::new().name("arl-controller".into()).spawn(run);
-        let thread = spawned.map_err(|error| SetupError::Outside(format!("there is no thread for it: {error}")))?;
-        match told.recv() {
-            Ok(handle) => Ok(Running { handle: handle?, stops, thread: Some(thread) }),
+        let thread = spawned
+            .map_err(|error| SetupError::Other(format!("the controller's thread cannot be started: {error}")))?;
+        match made.recv() {
+            Ok(handle) => Ok(Running { handle: handle?, told, thread: Some(thread) }),
+            // It has said neither.
             Err(_) => match thread.join() {
                 Err(panic) => resume_unwind(panic),
-                // It always says one or the other.
-                Ok(_) => Err(SetupError::Outside("the thread of the controller ended".into())),
+                Ok(outcome) => Err(SetupError::Other(format!("there is no controller: {outcome}"))),
             },
         }
     }
 
-    fn run_until_told(&mut self, stops: &AtomicBool) -> Outcome {
-        while !stops.load(Ordering::Relaxed) {
-            if self.is_over() {
-                return self.concluded();
+    fn run_as_told(&mut self, told: &AtomicU8) -> Outcome {
+        loop {
+            match told.load(Ordering::Relaxed) {
+                STOP => break,
+                END_WITH_PROGRAMS if self.is_over() => break,
+                END_WITH_PROGRAMS => {
+                    if let Some(waiting) = self.standstill() {
+                        return self.close_with(Outcome::Standstill(waiting));
+                    }
+                }
+                _ if self.is_over() && !self.clock.is_real() => thread::sleep(IDLE),
+                _ => {}
             }
             self.step();
         }
-        self.stop();
+        // Again and again: a scenario, a PLC or somebody else may let a program begin anew.
         while self.outcome().is_none() {
+            self.stop();
             self.step();
         }
-        self.concluded()
+        let outcome = self.outcome().cloned().unwrap_or(Outcome::Stopped);
+        self.close_with(outcome)
     }
 
-    /// The outcome of programs that have ended, with all stored.
-    fn concluded(&mut self) -> Outcome {
+    /// Lets go of the robots, and stores what is to be stored.
+    fn close_with(&mut self, outcome: Outcome) -> Outcome {
         self.close_robots();
         self.settle_state();
-        self.outcome().cloned().unwrap_or(Outcome::Stopped)
+        outcome
     }
 }

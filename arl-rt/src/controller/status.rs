@@ -7,6 +7,7 @@ use super::{Controller, Outcome, State};
 use crate::cycle::channel_id::ChannelId;
 use crate::fault::File;
 use crate::motion::Joints;
+use crate::unit::Motors;
 use crate::values::Controlmode;
 use arl_robot::robot::Robot;
 
@@ -60,8 +61,12 @@ pub struct RobotStatus {
     pub motion: Option<(File, u32)>,
     /// The running number of the motion that was executed in the last cycle; 0 where there was none.
     pub motion_number: u64,
+    /// Whether the motors hold the robot.
+    pub motors: Motors,
     /// The axes as commanded, in deg (mm).
     pub joints: Joints,
+    /// The axes as the robot reports them, in deg (mm).
+    pub reported: Joints,
     /// The TCP as commanded, in the world, with the tool of its motion: x, y, z in mm, a, b, c in deg.
     pub tcp: [f64; 6],
     /// The robot's base in the world: x, y, z in mm, a, b, c in deg.
@@ -125,7 +130,9 @@ fn of_channel(channel: &Channel) -> ChannelStatus {
             robot: unit.shared_robot(),
             motion: unit.motion_pointer(),
             motion_number: unit.executing().1,
+            motors: unit.motors(),
             joints: *unit.setpoint(),
+            reported: *unit.feedback(),
             tcp: unit.commanded_tcp(),
             base: unit.base_in_world(),
             workpiece: unit.workpiece_in_world(),

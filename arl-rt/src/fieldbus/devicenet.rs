@@ -39,6 +39,14 @@ impl ErrorCode {
     }
 }
 
+impl fmt::Display for ErrorCode {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "code {} of the bus", self.0)
+    }
+}
+
+impl std::error::Error for ErrorCode {}
+
 /// A bus without devices: what is written can be read again. All bytes are 0 at first.
 #[derive(Clone)]
 pub struct SimulatedDeviceNet(Box<[u8]>);

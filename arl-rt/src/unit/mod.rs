@@ -32,7 +32,7 @@ pub(crate) use effort::{Collision, Outside, SENSITIVITY};
 use hold::Button;
 pub(crate) use moving::Moving;
 use refusal::alarm;
-use servo::Motors;
+pub use servo::Motors;
 use supervision::{Supervision, is_all_finite, is_finite};
 
 /// For how many cycles a robot that never stands quite where it shall must be near enough to count as settled.
@@ -617,13 +617,14 @@ impl Unit {
         if self.closed { Drives::Off } else { self.driver.switch(power) }
     }
 
-    /// Lets go of the robot, once. One that moves is cut off. Nothing is called of its driver any more.
+    /// Lets go of the robot, once, with its motors off: one that moves is cut off. Nothing is called of its driver any more.
     pub(crate) fn close(&mut self) {
         if std::mem::replace(&mut self.closed, true) {
             return;
         }
-        if self.motors != Motors::Off && !self.queue.rests() {
-            self.driver.switch(Power::Cut);
+        if self.motors != Motors::Off {
+            let power = if self.queue.rests() { Power::Off } else { Power::Cut };
+            self.driver.switch(power);
         }
         self.driver.close();
     }

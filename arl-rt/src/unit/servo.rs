@@ -14,19 +14,26 @@ const STILL: f64 = 5.0;
 /// The level of those who move the robot beside the program: above all of it.
 pub(super) const BESIDE: u32 = u32::MAX;
 
-/// Whether the motors hold the robot.
+/// Whether the motors of a robot hold it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) enum Motors {
+#[non_exhaustive]
+pub enum Motors {
+    /// They do, and set-points are the motion.
     On,
     /// They were told to, and have not said that they do.
     ComingOn,
     /// They go off once the robot rests.
     GoingOff,
-    /// Set-points are where the robot is.
+    /// They do not. Set-points are where the robot is.
     Off,
 }
 
 impl Unit {
+    /// What the motors do.
+    pub(crate) fn motors(&self) -> Motors {
+        self.motors
+    }
+
     /// Whether the motors hold the robot, and are to go on doing so.
     pub(crate) fn has_servo(&self) -> bool {
         self.motors == Motors::On

@@ -1,5 +1,7 @@
 //! Runs ARL programs that the build script compiled, and plays the outside from Rust.
 
+use std::sync::mpsc;
+
 use arl_rt::clock::RealClock;
 use arl_rt::output::Event;
 use arl_rt::{Captured, Controller, Outcome, Program};
@@ -62,15 +64,15 @@ fn fill_at(rate: f64) -> Result<String, Failure> {
 
 /// Fills in real time, on a thread of its own, while this one plays the sensor; the last message of the program.
 fn fill_from_outside() -> Result<String, Failure> {
-    let running = Controller::spawn(|| {
-        let builder = Controller::builder().clock(RealClock::new()).output(|_: &arl_rt::Message<'_>| ());
+    let (tell, events) = mpsc::channel();
+    let running = Controller::spawn(move || {
+        let builder = Controller::builder().clock(RealClock::new()).events(tell);
         builder.build(Box::new(filling::Globals::new()))
     })?;
     let handle = running.handle();
-    let events = handle.events()?;
     while !handle.dout(1)? {} // asks once a cycle
     handle.set_di(1, true)?;
-    running.join();
+    println!("fill: {}", running.join());
     let texts = events.iter().filter_map(|event| match event {
         Event::Message { text, .. } => Some(text),
         _ => None,
